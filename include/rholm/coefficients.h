@@ -1,0 +1,89 @@
+// Coefficients of a real function on the sphere. Layer: harmonic.
+//
+// Inside the library all coefficients are those of the real orthonormal harmonics without
+// Condon-Shortley phase (method 1):
+//   f(u) = sum_{l=0}^{L} sum_{m=0}^{l} [ C_lm cos(m phi) + S_lm sin(m phi) ] N_m P_lm(cos theta),
+// with N_m P_lm such that the square of each term's function integrates to 1 over the sphere.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "rholm/vec3.h"
+
+namespace rholm {
+
+inline constexpr int kMaxDegree = 16384;  // 4 GiB of coefficients: chosen as the sanity limit
+
+class Coefficients {
+ public:
+  Coefficients() : Coefficients(0) {}
+  // Zeros up to degree L >= 0. Throws InvalidInput for L < 0 or L > kMaxDegree.
+  explicit Coefficients(int degree);
+
+  int degree() const { return degree_; }
+  // 0 <= m <= l <= degree(); not checked. S_l0 exists and is zero.
+  double& c(int l, int m) { return values_[index(l, m)]; }
+  double c(int l, int m) const { return values_[index(l, m)]; }
+  double& s(int l, int m) { return values_[plane() + index(l, m)]; }
+  double s(int l, int m) const { return values_[plane() + index(l, m)]; }
+  // The array [2][L+1][L+1], row-major: cosine plane, sine plane; zeros for m > l.
+  std::span<const double> values() const { return values_; }
+  std::span<double> values() { return values_; }
+
+  // A copy with degree L: cut off or filled with zeros.
+  Coefficients resized(int degree) const;
+
+ private:
+  std::size_t plane() const { return (degree_ + std::size_t{1}) * (degree_ + std::size_t{1}); }
+  std::size_t index(int l, int m) const {
+    return static_cast<std::size_t>(l) * (degree_ + std::size_t{1}) + m;
+  }
+  int degree_ = 0;
+  std::vector<double> values_;
+};
+
+// What the function is in terms of the surface x = center + r(u) u.
+enum class RadialFunction { kRadius, kGauge };                  // r, or q = 1/r
+const char* to_string(RadialFunction function);                 // "radius", "gauge"
+RadialFunction parse_radial_function(const std::string& name);  // throws InvalidInput
+
+// A surface as coefficients: what a model file holds.
+struct Expansion {
+  Coefficients coefficients;
+  RadialFunction function = RadialFunction::kRadius;
+  Vec3 center;         // of the expansion, in the coordinates of the original shape
+  std::string unit;    // of lengths, free text; empty if unknown
+  std::string method;  // how the coefficients were found: "edge", "area", ...; empty if unknown
+  // int f^2 dOmega of the expanded function itself, not only of its first degrees: by Parseval
+  // ||f - f_L||^2 = norm_squared - sum |c_lm|^2, (M7).
+  std::optional<double> norm_squared;
+  // S of the predicted tail E_l ~ S / (pi l^4), method 5.
+  std::optional<double> tail_strength;
+};
+
+// How numbers of a file are scaled. Factors are relative to the orthonormal basis: 4-pi
+// normalised functions have mean square 1, Schmidt semi-normalised ones 1/(2l+1).
+enum class Normalization { kOrthonormal, kFourPi, kSchmidt };
+const char* to_string(Normalization normalization);          // "orthonormal", "4pi", "schmidt"
+Normalization parse_normalization(const std::string& name);  // throws InvalidInput
+
+struct Convention {
+  Normalization normalization = Normalization::kFourPi;
+  int csphase = 1;  // 1: without Condon-Shortley phase, -1: with the factor (-1)^m
+  friend bool operator==(const Convention&, const Convention&) = default;
+};
+
+// Coefficients as numbers of another convention, and back. Both throw InvalidInput for a csphase
+// other than 1 or -1.
+Coefficients to_convention(const Coefficients& internal, const Convention& convention);
+Coefficients from_convention(const Coefficients& external, const Convention& convention);
+
+// Energy per degree, l = 0 ... L: sum over m of C_lm^2 + S_lm^2. Its sum over l is int f_L^2
+// dOmega.
+std::vector<double> power_spectrum(const Coefficients& coefficients);
+
+}  // namespace rholm

@@ -1,0 +1,61 @@
+// Coefficients from and to text, JSON and NumPy files. Layer: io. (The model file, HDF5, is in
+// model.h.)
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "rholm/coefficients.h"
+#include "rholm/context.h"
+
+namespace rholm {
+
+enum class CoefficientsFormat {
+  kShtools,  // text, a line `l m C S` per pair; comment lines "# key: value" say the rest
+  kIcgem,    // text with ICGEM-like header and lines `gfc l m C S`
+  kJson,     // {"format": "rholm-coefficients", ...}
+  kNpy       // NumPy array [2][L+1][L+1] of float64, C order, little endian; nothing else
+};
+const char* to_string(CoefficientsFormat format);  // "shtools", "icgem", "json", "npy"
+CoefficientsFormat parse_coefficients_format(const std::string& name);  // throws Unsupported
+// By extension: .sh .txt .shtools; .gfc .icgem; .json; .npy. None if unknown.
+std::optional<CoefficientsFormat> coefficients_format_of(const std::filesystem::path& path);
+
+// What a file that does not say it (bare text, .npy) is taken to mean; what it does say wins unless
+// `override_file` is set.
+struct CoefficientsReadOptions {
+  Convention convention = {};
+  bool override_file = false;
+};
+
+struct CoefficientsFile {
+  Expansion expansion;
+  CoefficientsFormat format = CoefficientsFormat::kShtools;
+  Convention convention;             // in which the numbers stood
+  std::vector<std::string> assumed;  // what the file did not say: "normalization 4pi", ...
+};
+
+// "-" is standard input; the content decides the format. Throws Io, InvalidInput (malformed,
+// truncated, m > l, not finite, a degree above kMaxDegree), Unsupported.
+CoefficientsFile read_coefficients(const std::filesystem::path& path,
+                                   const CoefficientsReadOptions& options = {},
+                                   const Context& context = {});
+CoefficientsFile parse_coefficients(std::span<const char> bytes, const std::string& name,
+                                    const CoefficientsReadOptions& options = {});
+
+// True if the bytes begin like one of the formats above (not for bare text, which is only told
+// from points by its lines).
+bool looks_like_coefficients(std::span<const char> bytes);
+
+struct CoefficientsWriteOptions {
+  std::optional<CoefficientsFormat> format = {};  // by default from the extension
+  Convention convention = {};
+};
+// Numbers are written with the shortest digits that read back the same. "-" is standard output.
+void write_coefficients(const Expansion& expansion, const std::filesystem::path& path,
+                        const CoefficientsWriteOptions& options = {});
+
+}  // namespace rholm

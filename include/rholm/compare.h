@@ -1,0 +1,51 @@
+// Two-sided distance between surfaces. Layer: surface.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "rholm/context.h"
+#include "rholm/mesh.h"
+
+namespace rholm {
+
+struct CompareOptions {
+  std::size_t samples = 200000;  // on each surface, area-weighted
+  std::uint64_t seed = 1;
+  double threshold = 0.01;  // of the F-score, as a fraction of A's bounding-box diagonal
+};
+
+struct Distances {
+  double rms = 0;
+  double mean = 0;
+  double max = 0;
+};
+
+struct Comparison {
+  std::size_t samples = 0;
+  std::uint64_t seed = 0;
+  double diagonal = 0;  // of A's bounding box
+  Distances a_to_b;     // from samples of A to their exact closest points on B; shape's unit
+  Distances b_to_a;
+  double hausdorff = 0;  // the larger of the two max: a lower bound of the Hausdorff distance
+  double threshold = 0;  // shape's unit
+  double precision = 0;  // share of B's samples within the threshold of A
+  double recall = 0;     // share of A's samples within the threshold of B
+  double f_score = 0;    // harmonic mean of the two
+  // Angle between the oriented normal at a sample and that at its closest point, both
+  // directions together, degrees 0 ... 180.
+  double normal_median_degrees = 0;
+  double normal_mean_degrees = 0;
+};
+
+// Closest points are exact (double precision) on the triangles of the other mesh. Throws
+// InvalidInput for a mesh without area, zero samples or a threshold that is not positive.
+Comparison compare(const Mesh& a, const Mesh& b, const CompareOptions& options = {},
+                   const Context& context = {});
+
+// Distance from each point to the surface: exact closest points.
+std::vector<double> distances_to_surface(const std::vector<Vec3>& points, const Mesh& surface,
+                                         const Context& context = {});
+
+}  // namespace rholm

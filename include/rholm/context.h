@@ -1,0 +1,20 @@
+// How a long computation runs: threads, progress, cancellation. Layer: base.
+#pragma once
+
+#include <functional>
+#include <string_view>
+
+namespace rholm {
+
+// Called from time to time, never from two threads at once, with the name of the running stage
+// and the part of it that is done, 0 ... 1. Return false to cancel: the computation then throws
+// Error{kCancelled} and leaves its outputs untouched.
+using ProgressCallback = std::function<bool(std::string_view stage, double fraction)>;
+
+// Results are the same bits for every number of threads.
+struct Context {
+  int threads = 0;  // worker threads; 0 means one per processor
+  ProgressCallback progress = {};
+};
+
+}  // namespace rholm

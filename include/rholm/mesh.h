@@ -1,0 +1,56 @@
+// Triangle meshes and point clouds. Layer: shape.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "rholm/vec3.h"
+
+namespace rholm {
+
+// The type a scalar had in its file; kept so that a writer can give it back.
+enum class ScalarType : std::uint8_t {
+  kInt8,
+  kUint8,
+  kInt16,
+  kUint16,
+  kInt32,
+  kUint32,
+  kFloat32,
+  kFloat64
+};
+
+// One named scalar per vertex or point: "red", "nx", "quality", ... Colours are red, green, blue
+// (and alpha), normals nx, ny, nz, texture coordinates u, v, as in PLY files. Every type above
+// is exact in a double.
+struct Attribute {
+  std::string name;
+  ScalarType type = ScalarType::kFloat32;
+  std::vector<double> values;  // one per vertex or point
+};
+
+using Triangle = std::array<std::uint32_t, 3>;  // vertex indices, counter-clockwise from outside
+
+struct Mesh {
+  std::vector<Vec3> vertices;
+  std::vector<Triangle> triangles;
+  std::vector<Attribute> attributes;  // per vertex, each of vertices.size() values
+};
+
+struct PointCloud {
+  std::vector<Vec3> points;
+  std::vector<Vec3> normals;          // empty, or one per point (as in the file, not normalised)
+  std::vector<Attribute> attributes;  // per point; normals are not repeated here
+};
+
+// The attribute of that name, or nullptr.
+const Attribute* find_attribute(const std::vector<Attribute>& attributes, const std::string& name);
+
+// Throws InvalidInput unless every coordinate is finite, every index is below the number of
+// vertices and every attribute has one value per vertex. An empty mesh is valid.
+void validate(const Mesh& mesh);
+void validate(const PointCloud& cloud);
+
+}  // namespace rholm

@@ -1,0 +1,59 @@
+// The whole way from a mesh to a model, and the model file. Layer: model.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "rholm/analyze.h"
+#include "rholm/coefficients.h"
+#include "rholm/coefficients_io.h"
+#include "rholm/context.h"
+#include "rholm/mesh.h"
+#include "rholm/star.h"
+#include "rholm/topology.h"
+
+namespace rholm {
+
+struct EncodeOptions {
+  AnalyzeOptions analyze;
+  ChartOptions chart;
+  double weld_tolerance = 0;  // in the shape's unit; 0 welds bit-identical vertices
+};
+
+// Wall and processor time of a stage, seconds.
+struct StageTime {
+  double wall = 0;
+  double cpu = 0;
+};
+
+struct Encoded {
+  Analysis analysis;
+  StarReport star;
+  std::size_t vertices = 0;  // after welding
+  std::size_t faces = 0;
+  std::size_t edges = 0;
+  std::size_t merged_vertices = 0;
+  std::size_t collapsed_triangles = 0;
+  bool flipped = false;                    // the mesh was inside out
+  std::map<std::string, StageTime> times;  // "topology", "center", "transform"
+};
+
+// Welds, turns right side out, checks, finds the centre, transforms. Throws what its stages throw.
+Encoded encode(const Mesh& mesh, const EncodeOptions& options = {}, const Context& context = {});
+
+// The model file: HDF5, layout in docs/model-file.md. Written to a temporary file that replaces
+// `path` when complete; "-" is not supported (HDF5 seeks). Throws Io, InvalidInput, Unsupported
+// (a newer major version).
+void write_model(const Expansion& expansion, const std::filesystem::path& path);
+Expansion read_model(const std::filesystem::path& path);
+bool is_model_file(const std::filesystem::path& path);  // by its first bytes
+
+// Any file of coefficients: a model file, or what read_coefficients() reads.
+CoefficientsFile read_any_coefficients(const std::filesystem::path& path,
+                                       const CoefficientsReadOptions& options = {},
+                                       const Context& context = {});
+
+}  // namespace rholm

@@ -1,0 +1,46 @@
+// Pictures of meshes and plots of spectra. Layer: surface.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "rholm/coefficients.h"
+#include "rholm/context.h"
+#include "rholm/image.h"
+#include "rholm/mesh.h"
+
+namespace rholm {
+
+// One thing in the picture. Panels stand side by side, all at the same scale.
+struct Panel {
+  const Mesh* mesh = nullptr;
+  std::string label;            // below the panel; may be empty
+  std::vector<double> scalars;  // per vertex, coloured by the colour map; empty: plain
+  bool smooth = false;          // shade with vertex normals nx, ny, nz if the mesh has them
+};
+
+struct RenderOptions {
+  int width = 1024;  // of the whole picture, pixels, 16 ... 16384
+  int height = 768;
+  bool perspective = false;
+  Vec3 view_direction = {-0.55, 0.75, -0.4};  // from the eye into the scene
+  Vec3 up = {0, 0, 1};
+  int samples = 4;          // per pixel side: samples^2 rays a pixel
+  int occlusion_rays = 16;  // per sample; 0 switches ambient occlusion off
+  // Range of the colour map; by default the range of all scalars. Drawn as a scale bar.
+  std::optional<double> scale_min;
+  std::optional<double> scale_max;
+  std::string scale_label;
+};
+
+// Throws InvalidInput for no panel, an empty mesh, or sizes out of range.
+Image render(std::span<const Panel> panels, const RenderOptions& options = {},
+             const Context& context = {});
+
+// Energy per degree on logarithmic scales as an SVG document, with the predicted tail
+// S / (pi l^4) if the expansion knows it.
+std::string spectrum_svg(const Expansion& expansion, const std::string& title);
+
+}  // namespace rholm

@@ -1,0 +1,75 @@
+// Is a mesh star-shaped, and from where? Layer: chart. Source: method 6.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "rholm/context.h"
+#include "rholm/mesh.h"
+#include "rholm/topology.h"
+
+namespace rholm {
+
+enum class CenterKind {
+  kAuto,      // Chebyshev centre of the kernel: maximises the smallest d_T
+  kCosine,    // maximises the smallest cos gamma = n . (v - c) / |v - c| over all corners
+  kNone,      // the file's own origin
+  kCentroid,  // area-weighted centroid of the surface
+  kVolume,    // centroid of the solid
+  kGiven      // CenterOptions::point
+};
+
+struct CenterOptions {
+  CenterKind kind = CenterKind::kAuto;
+  Vec3 point;         // for kGiven
+  int rays = 100000;  // directions tried by check_star; 0 leaves them out
+};
+
+// "auto", "cosine", "none", "centroid", "volume" or "X,Y,Z". Throws InvalidInput.
+CenterOptions parse_center(const std::string& text);
+const char* to_string(CenterKind kind);
+
+struct StarReport {
+  Vec3 center;
+  // min over triangles of d_T = n_T . (v - c): the distance of the nearest face plane, negative if
+  // some face turns its back to the centre. For kAuto this is the radius of the kernel's
+  // inscribed ball. In the shape's unit.
+  double min_d = 0;
+  double min_cos_gamma = 0;       // over all corners of all triangles
+  std::size_t bad_triangles = 0;  // with d_T <= 0 (beyond rounding)
+  bool star_shaped = false;       // bad_triangles == 0
+  int rays = 0;                   // directions tried: a Fibonacci lattice
+  double once_share = 0;          // part of them that meet the surface exactly once
+  double multiple_share = 0;      // part that meet it more than once
+  double missed_share = 0;        // part that never meet it
+  bool center_fell_back = false;  // the kernel is empty: the centre is the better of the
+                                  // LP's point and the volume centroid, by once_share
+};
+
+// Finds the centre and checks. `mesh` welded, closed, outward; degenerate triangles (zero area)
+// are passed over. Throws InvalidInput for a mesh without a triangle of positive area.
+StarReport find_center(const Mesh& mesh, const CenterOptions& options, const Context& context = {});
+
+// The check alone, from a given centre.
+StarReport check_star(const Mesh& mesh, const Vec3& center, int rays, const Context& context = {});
+
+// A mesh seen from a centre: what the transforms work on. Vertices are relative to the centre.
+struct StarChart {
+  Mesh mesh;  // welded, closed, outward, vertices relative to report.center; no attributes
+  std::vector<Edge> edges;
+  StarReport report;
+};
+
+struct ChartOptions {
+  CenterOptions center;
+  bool allow_signed = false;  // accept a surface that is not star-shaped: the alternating sum
+};
+
+// Pairs the edges, finds the centre, checks, and moves the centre to the origin. `mesh` welded and
+// outward. Throws InvalidInput if it is not closed and consistently oriented, NotStarShaped with
+// the figures of the report if it is not star-shaped and that is not allowed.
+StarChart make_star_chart(const Mesh& mesh, const ChartOptions& options = {},
+                          const Context& context = {});
+
+}  // namespace rholm

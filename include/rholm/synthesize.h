@@ -1,0 +1,37 @@
+// From coefficients to surfaces. Layer: surface.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "rholm/coefficients.h"
+#include "rholm/context.h"
+#include "rholm/mesh.h"
+
+namespace rholm {
+
+// The surface x = center + r(u) u of the expansion cut off at each of `degrees`, on the vertices of
+// `sphere` (unit vectors; icosphere(), latitude_longitude_sphere(), or directions_of()), with
+// its connectivity; one mesh per degree, in the order given. Each has the exact unit normals
+// of the harmonic surface as attributes nx, ny, nz. Degrees above the expansion's are cut to it.
+// A truncated series may cross the centre: r <= 0 is kept as it is for a radius; for a gauge
+// q <= 0 has no surface and throws InvalidInput with the direction.
+std::vector<Mesh> synthesize(const Expansion& expansion, const Mesh& sphere,
+                             std::span<const int> degrees, const Context& context = {});
+Mesh synthesize(const Expansion& expansion, const Mesh& sphere, const Context& context = {});
+
+// The directions of a shape's vertices from `center`, with its connectivity. Throws InvalidInput if
+// a vertex lies on the centre.
+Mesh directions_of(const Mesh& mesh, const Vec3& center);
+
+// Of the solid bounded by the surface of an expansion, by quadrature on a grid: exact for
+// volume and centroid of a radius, converged to about 1e-12 for area (smooth, star-shaped).
+struct SurfaceMeasures {
+  double volume = 0;
+  double area = 0;
+  Vec3 centroid;
+};
+SurfaceMeasures measure(const Expansion& expansion, const Context& context = {});
+
+}  // namespace rholm

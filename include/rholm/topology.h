@@ -1,0 +1,79 @@
+// Welding, pairing of edges and inspection of triangle meshes. Layer: shape.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "rholm/mesh.h"
+
+namespace rholm {
+
+struct Welded {
+  Mesh mesh;
+  std::size_t merged_vertices = 0;      // vertices that became one with another
+  std::size_t collapsed_triangles = 0;  // triangles dropped because two corners became one
+};
+
+// Makes vertices that coincide one: bit-identical ones (0 and -0 are the same) for tolerance 0,
+// else all whose distance is at most `tolerance` (same unit as the vertices; the relation is closed
+// transitively, the first vertex in file order stays). Vertices keep their order; unused ones
+// are dropped. Attributes are those of the vertex that stays. Triangles with two equal corners
+// are dropped and counted.
+Welded weld(const Mesh& mesh, double tolerance = 0);
+
+// An edge between two triangles. `left` has the half-edge a -> b, `right` has b -> a.
+struct Edge {
+  std::uint32_t a = 0;
+  std::uint32_t b = 0;
+  std::uint32_t left = 0;   // triangle index
+  std::uint32_t right = 0;  // triangle index
+};
+
+// All edges of a closed, consistently oriented mesh, each once, ordered by (min, max) vertex.
+// Where 2k triangles meet in one edge, half-edges of opposite sense are paired in file order.
+// Throws InvalidInput, with the number of offending edges, if some half-edge has no partner.
+std::vector<Edge> pair_edges(const Mesh& mesh);
+
+struct Bounds {
+  Vec3 min;
+  Vec3 max;
+  double diagonal() const { return norm(max - min); }
+};
+Bounds bounds(const std::vector<Vec3>& points);  // {0,0,0} twice for no points
+
+// What a mesh is. Counts are those of the mesh given: weld first to close seams.
+struct Inspection {
+  std::size_t vertices = 0;
+  std::size_t triangles = 0;
+  std::size_t edges = 0;
+  std::size_t boundary_edges = 0;         // in one triangle only
+  std::size_t non_manifold_edges = 0;     // in three or more
+  std::size_t misoriented_edges = 0;      // in two triangles that run through it in the same sense
+  std::size_t non_manifold_vertices = 0;  // whose triangles do not form one fan
+  std::size_t isolated_vertices = 0;      // in no triangle
+  std::size_t degenerate_triangles = 0;   // zero area (or not distinguishable from it)
+  std::size_t duplicate_triangles = 0;    // same three vertices as an earlier one
+  std::size_t components = 0;             // of triangles connected through edges
+  long long euler_characteristic = 0;     // used vertices - edges + triangles
+  std::size_t genus = 0;    // summed over the components; meaningful if closed and manifold
+  bool closed = false;      // no boundary edge, at least one triangle
+  bool manifold = false;    // no non-manifold edge or vertex
+  bool oriented = false;    // no misoriented edge
+  bool inside_out = false;  // closed and oriented, but the enclosed volume is negative
+  Bounds bounds;
+  double area = 0;
+  double volume = 0;     // signed; meaningful if closed and oriented
+  Vec3 vertex_centroid;  // mean of the used vertices
+  Vec3 volume_centroid;  // of the solid; meaningful if closed and the volume is not zero
+};
+Inspection inspect(const Mesh& mesh);
+
+// Reverses every triangle. Normals nx, ny, nz among the attributes change sign.
+void flip(Mesh& mesh);
+
+double surface_area(const Mesh& mesh);
+// Signed volume of a closed mesh (positive if triangles are counter-clockwise from outside).
+double enclosed_volume(const Mesh& mesh);
+
+}  // namespace rholm

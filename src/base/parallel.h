@@ -1,0 +1,32 @@
+// Parallel loops with progress and cancellation. The one user of oneTBB.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string_view>
+
+#include "rholm/context.h"
+
+namespace rholm {
+
+// Calls body(begin, end) for the chunks [0, grain), [grain, 2 grain), ... of [0, n), on several
+// threads. Chunks do not depend on the number of threads, so a body that writes only what belongs
+// to its chunk gives the same bits for any number. Progress is reported under `stage`, from
+// `from` to `to`; an empty stage reports nothing but still asks whether to cancel (with the
+// name "" and the fraction `from`). Throws Error{kCancelled}, or the first exception of a body.
+struct ParallelStage {
+  std::string_view name = {};
+  double from = 0;
+  double to = 1;
+};
+void parallel_for(std::size_t n, std::size_t grain, const Context& context,
+                  const ParallelStage& stage,
+                  const std::function<void(std::size_t begin, std::size_t end)>& body);
+
+// Reports progress between serial steps; throws Error{kCancelled} if the callback says so.
+void report_progress(const Context& context, std::string_view stage, double fraction);
+
+// The number of threads `context` asks for: at least 1.
+int thread_count(const Context& context);
+
+}  // namespace rholm

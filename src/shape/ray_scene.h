@@ -1,0 +1,53 @@
+// Rays and closest points on a triangle mesh: the one user of Embree.
+//
+// The tree is built on float boxes around coordinates shifted to the mesh's centre; closest
+// points are then found exactly, in double, on the mesh's own vertices. Rays are float.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "rholm/mesh.h"
+
+namespace rholm {
+
+struct ClosestPoint {
+  Vec3 point;
+  std::uint32_t triangle = 0;
+  double distance = 0;
+};
+
+struct RayHit {
+  bool hit = false;
+  std::uint32_t triangle = 0;
+  float u = 0;  // barycentric weight of the second corner
+  float v = 0;  // and of the third
+  double distance = 0;
+};
+
+// Keeps a reference to `mesh`, which must outlive it. All queries may be called from several
+// threads at once.
+class RayScene {
+ public:
+  explicit RayScene(const Mesh& mesh);
+  ~RayScene();
+  RayScene(const RayScene&) = delete;
+  RayScene& operator=(const RayScene&) = delete;
+
+  // Exact closest point of the surface; the mesh must have a triangle. Ties go to the triangle
+  // with the smaller index.
+  ClosestPoint closest(const Vec3& point) const;
+  // First hit along origin + t direction, near < t < far; direction of unit length.
+  RayHit first_hit(const Vec3& origin, const Vec3& direction, double near, double far) const;
+  bool occluded(const Vec3& origin, const Vec3& direction, double near, double far) const;
+  // How often the half line from `origin` meets the surface: hits closer to each other than
+  // 1e-6 of the distance count once (edges and vertices are shared).
+  int count_hits(const Vec3& origin, const Vec3& direction) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace rholm

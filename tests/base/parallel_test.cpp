@@ -1,0 +1,76 @@
+#include "base/parallel.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <stdexcept>
+#include <vector>
+
+#include "base/compensated_sum.h"
+#include "rholm/error.h"
+
+namespace rholm {
+namespace {
+
+TEST(parallel_for, visits_every_index_once_for_any_number_of_threads) {
+  for (const int threads : {1, 2, 4}) {
+    for (const std::size_t n : {0u, 1u, 7u, 1000u}) {
+      std::vector<std::atomic<int>> visits(n);
+      parallel_for(n, 3, {.threads = threads}, {}, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) ++visits[i];
+      });
+      for (const auto& count : visits) EXPECT_EQ(count, 1);
+    }
+  }
+}
+
+TEST(parallel_for, callback_that_says_no_cancels) {
+  for (const int threads : {1, 2}) {
+    Context context{.threads = threads};
+    context.progress = [](std::string_view, double fraction) { return fraction < 0.5; };
+    std::atomic<int> chunks = 0;
+    try {
+      parallel_for(10000, 1, context, {.name = "test"},
+                   [&](std::size_t, std::size_t) { ++chunks; });
+      FAIL() << "not cancelled";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::kCancelled);
+    }
+    EXPECT_LT(chunks, 10000);
+  }
+}
+
+TEST(parallel_for, progress_runs_from_and_to_the_ends_given) {
+  Context context{.threads = 2};
+  double last = 0;
+  bool rises = true;
+  context.progress = [&](std::string_view stage, double fraction) {
+    EXPECT_EQ(stage, "test");
+    rises = rises && fraction > last;
+    last = fraction;
+    return true;
+  };
+  parallel_for(100, 1, context, {.name = "test", .from = 0.25, .to = 0.75},
+               [](std::size_t, std::size_t) {});
+  EXPECT_TRUE(rises);
+  EXPECT_DOUBLE_EQ(last, 0.75);
+}
+
+TEST(parallel_for, exceptions_of_the_body_reach_the_caller) {
+  EXPECT_THROW(parallel_for(100, 1, {.threads = 2}, {},
+                            [](std::size_t begin, std::size_t) {
+                              if (begin == 50) throw std::runtime_error("50");
+                            }),
+               std::runtime_error);
+}
+
+TEST(compensated_sum, keeps_what_plain_addition_loses) {
+  CompensatedSum sum;
+  sum.add(1);
+  for (int i = 0; i < 1000; ++i) sum.add(1e-17);
+  sum.add(-1);
+  EXPECT_NEAR(sum.value(), 1e-14, 1e-27);
+}
+
+}  // namespace
+}  // namespace rholm
