@@ -1,0 +1,68 @@
+#include "rholm/coefficients.h"
+
+#include <algorithm>
+#include <string>
+
+#include "rholm/error.h"
+
+namespace rholm {
+namespace {
+
+std::size_t array_size(int degree) {
+  if (degree < 0 || degree > kMaxDegree) {
+    throw Error(ErrorCode::kInvalidInput, "degree " + std::to_string(degree) +
+                                              " is out of range: choose one from 0 to " +
+                                              std::to_string(kMaxDegree));
+  }
+  const auto side = static_cast<std::size_t>(degree) + 1;
+  return 2 * side * side;
+}
+
+}  // namespace
+
+Coefficients::Coefficients(int degree) : degree_(degree), values_(array_size(degree)) {}
+
+Coefficients Coefficients::resized(int degree) const {
+  Coefficients result(degree);
+  const int common = std::min(degree, degree_);
+  for (int l = 0; l <= common; ++l) {
+    for (int m = 0; m <= l; ++m) {
+      result.c(l, m) = c(l, m);
+      result.s(l, m) = s(l, m);
+    }
+  }
+  return result;
+}
+
+const char* to_string(RadialFunction function) {
+  return function == RadialFunction::kGauge ? "gauge" : "radius";
+}
+
+RadialFunction parse_radial_function(const std::string& name) {
+  if (name == "radius") return RadialFunction::kRadius;
+  if (name == "gauge") return RadialFunction::kGauge;
+  throw Error(ErrorCode::kInvalidInput,
+              "unknown function '" + name + "': it must be 'radius' or 'gauge'");
+}
+
+const char* to_string(Normalization normalization) {
+  switch (normalization) {
+    case Normalization::kOrthonormal:
+      return "orthonormal";
+    case Normalization::kFourPi:
+      return "4pi";
+    case Normalization::kSchmidt:
+      return "schmidt";
+  }
+  return "unknown";
+}
+
+Normalization parse_normalization(const std::string& name) {
+  if (name == "orthonormal") return Normalization::kOrthonormal;
+  if (name == "4pi") return Normalization::kFourPi;
+  if (name == "schmidt") return Normalization::kSchmidt;
+  throw Error(ErrorCode::kInvalidInput,
+              "unknown normalization '" + name + "': it must be '4pi', 'orthonormal' or 'schmidt'");
+}
+
+}  // namespace rholm

@@ -1,0 +1,284 @@
+#include "harmonic/legendre_kernels.h"
+
+#include <hwy/aligned_allocator.h>
+
+#include <cmath>
+#include <numbers>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "harmonic/legendre_kernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace rholm {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::CappedTag<double, 8>;
+using V = hn::Vec<D>;
+using M = hn::Mask<D>;
+
+// Values are kept within 2^-480 ... 2^480 and scaled by 2^960 when they leave: products of two
+// never overflow, and what carries k < 0 is below 2^-480 and adds nothing to a sum.
+constexpr double kBig = 0x1p480;
+constexpr double kSmall = 0x1p-480;
+constexpr double kUp = 0x1p960;
+constexpr double kDown = 0x1p-960;
+
+// p 2^(960 k), lane by lane.
+struct Scaled {
+  V p;
+  V k;
+};
+
+HWY_INLINE Scaled normalise(D d, Scaled v) {
+  const V size = hn::Abs(v.p);
+  const M low = hn::And(hn::Lt(size, hn::Set(d, kSmall)), hn::Gt(size, hn::Zero(d)));
+  v.p = hn::IfThenElse(low, hn::Mul(v.p, hn::Set(d, kUp)), v.p);
+  v.k = hn::IfThenElse(low, hn::Sub(v.k, hn::Set(d, 1.0)), v.k);
+  return v;
+}
+
+HWY_INLINE Scaled multiply(D d, Scaled a, Scaled b) {
+  return normalise(d, {hn::Mul(a.p, b.p), hn::Add(a.k, b.k)});
+}
+
+// mu s^m by repeated squaring; s in [0, 1].
+HWY_INLINE Scaled start_value(D d, V s, int m, double mu) {
+  Scaled result{hn::Set(d, mu), hn::Zero(d)};
+  Scaled square = normalise(d, {s, hn::Zero(d)});
+  for (int bits = m; bits > 0; bits >>= 1) {
+    if (bits & 1) result = multiply(d, result, square);
+    if (bits > 1) square = multiply(d, square, square);
+  }
+  return result;
+}
+
+// The recurrence for a block of kVectors vectors of sources.
+constexpr int kVectors = 4;
+
+struct Block {
+  V x_minus_1[kVectors];  // of |x|
+  V sign[kVectors];       // of x
+  V d[kVectors];          // d_l
+  V p[kVectors];          // Pt_lm(|x|)
+  V k[kVectors];
+  bool scaled;  // some lane has k < 0
+};
+
+HWY_INLINE void start(D d, const LegendreOrder& order, const double* x, const double* s, Block& b) {
+  b.scaled = false;
+  for (int v = 0; v < kVectors; ++v) {
+    const size_t at = static_cast<size_t>(v) * hn::Lanes(d);
+    const V one = hn::Set(d, 1.0);
+    const V xv = hn::LoadU(d, x + at), sv = hn::LoadU(d, s + at);
+    b.x_minus_1[v] = hn::Neg(hn::Div(hn::Mul(sv, sv), hn::Add(one, hn::Abs(xv))));
+    b.sign[v] = hn::CopySign(one, xv);
+    const Scaled first = start_value(d, sv, order.m, order.mu);
+    b.d[v] = hn::Zero(d);
+    b.p[v] = first.p;
+    b.k[v] = first.k;
+    b.scaled = b.scaled || !hn::AllTrue(d, hn::Ge(first.k, hn::Zero(d)));
+  }
+}
+
+HWY_INLINE void advance(D d, const LegendreOrder& order, int l, Block& b) {
+  const V rho = hn::Set(d, order.rho[l - order.m]);
+  const V of_difference = hn::Set(d, order.of_difference[l - order.m]);
+  const V of_value = hn::Set(d, order.of_value[l - order.m]);
+  for (int v = 0; v < kVectors; ++v) {
+    b.d[v] = hn::MulAdd(hn::Mul(of_value, b.x_minus_1[v]), b.p[v], hn::Mul(of_difference, b.d[v]));
+    b.p[v] = hn::MulAdd(rho, b.p[v], b.d[v]);
+  }
+}
+
+// After advance(), while some lane has k < 0: rescales lanes that have grown.
+HWY_INLINE void rescale(D d, Block& b) {
+  b.scaled = false;
+  for (int v = 0; v < kVectors; ++v) {
+    const M grown = hn::And(hn::Gt(hn::Abs(b.p[v]), hn::Set(d, kBig)), hn::Lt(b.k[v], hn::Zero(d)));
+    b.d[v] = hn::IfThenElse(grown, hn::Mul(b.d[v], hn::Set(d, kDown)), b.d[v]);
+    b.p[v] = hn::IfThenElse(grown, hn::Mul(b.p[v], hn::Set(d, kDown)), b.p[v]);
+    b.k[v] = hn::IfThenElse(grown, hn::Add(b.k[v], hn::Set(d, 1.0)), b.k[v]);
+    b.scaled = b.scaled || !hn::AllTrue(d, hn::Ge(b.k[v], hn::Zero(d)));
+  }
+}
+
+// Pt_lm, or 0 in lanes that are still below 2^-480.
+HWY_INLINE V visible(D d, const Block& b, int v) {
+  return hn::IfThenElseZero(hn::Ge(b.k[v], hn::Zero(d)), b.p[v]);
+}
+
+HWY_INLINE bool any_visible(D d, const Block& b) {
+  bool any = false;
+  for (int v = 0; v < kVectors; ++v) any = any || !hn::AllFalse(d, hn::Ge(b.k[v], hn::Zero(d)));
+  return any;
+}
+
+void Adjoint(const LegendreOrder& order, const double* x, const double* s, size_t n,
+             const double* re, const double* im, double* c_out, double* s_out) {
+  const D d;
+  const size_t lanes = hn::Lanes(d);
+  const size_t rows = static_cast<size_t>(order.degree - order.m) + 1;
+  // Sums stay in lanes until the end: [row][cos, sin][lane].
+  auto sums = hwy::AllocateAligned<double>(rows * 2 * lanes);
+  for (size_t i = 0; i < rows * 2 * lanes; i += lanes) hn::Store(hn::Zero(d), d, sums.get() + i);
+  for (size_t j = 0; j < n; j += kVectors * lanes) {
+    Block b;
+    start(d, order, x + j, s + j, b);
+    V wr[2][kVectors], wi[2][kVectors];  // for even and odd l - m
+    for (int v = 0; v < kVectors; ++v) {
+      wr[0][v] = hn::LoadU(d, re + j + static_cast<size_t>(v) * lanes);
+      wi[0][v] = hn::LoadU(d, im + j + static_cast<size_t>(v) * lanes);
+      wr[1][v] = hn::Mul(wr[0][v], b.sign[v]);
+      wi[1][v] = hn::Mul(wi[0][v], b.sign[v]);
+    }
+    const auto add = [&](int l, auto value) HWY_ATTR {
+      const int odd = (l - order.m) & 1;
+      double* row = sums.get() + static_cast<size_t>(l - order.m) * 2 * lanes;
+      V sum_c = hn::Load(d, row), sum_s = hn::Load(d, row + lanes);
+      for (int v = 0; v < kVectors; ++v) {
+        const V p = value(v);
+        sum_c = hn::MulAdd(p, wr[odd][v], sum_c);
+        sum_s = hn::MulAdd(p, wi[odd][v], sum_s);
+      }
+      hn::Store(sum_c, d, row);
+      hn::Store(sum_s, d, row + lanes);
+    };
+    int l = order.m;
+    for (; l <= order.degree && b.scaled; ++l) {
+      if (any_visible(d, b)) add(l, [&](int v) HWY_ATTR { return visible(d, b, v); });
+      if (l == order.degree) continue;
+      advance(d, order, l, b);
+      rescale(d, b);
+    }
+    for (; l <= order.degree; ++l) {
+      add(l, [&](int v) HWY_ATTR { return b.p[v]; });
+      if (l < order.degree) advance(d, order, l, b);
+    }
+  }
+  for (size_t row = 0; row < rows; ++row) {
+    const double* at = sums.get() + row * 2 * lanes;
+    c_out[row] += hn::GetLane(hn::SumOfLanes(d, hn::Load(d, at)));
+    s_out[row] += hn::GetLane(hn::SumOfLanes(d, hn::Load(d, at + lanes)));
+  }
+}
+
+template <int kSets>
+void ForwardSets(const LegendreOrder& order, const double* x, const double* s, size_t n,
+                 const double* const* c, const double* const* sn, double* const* re,
+                 double* const* im) {
+  const D d;
+  const size_t lanes = hn::Lanes(d);
+  for (size_t j = 0; j < n; j += kVectors * lanes) {
+    Block b;
+    start(d, order, x + j, s + j, b);
+    // Sums over even l - m first; the sign of x comes to those over odd l - m at the end.
+    V sum_re[kSets][2][kVectors], sum_im[kSets][2][kVectors];
+    for (int set = 0; set < kSets; ++set) {
+      for (int v = 0; v < kVectors; ++v) {
+        sum_re[set][0][v] = sum_re[set][1][v] = sum_im[set][0][v] = sum_im[set][1][v] = hn::Zero(d);
+      }
+    }
+    const auto add = [&](int l, auto value) HWY_ATTR {
+      const int row = l - order.m, odd = row & 1;
+      for (int v = 0; v < kVectors; ++v) {
+        const V p = value(v);
+        for (int set = 0; set < kSets; ++set) {
+          sum_re[set][odd][v] = hn::MulAdd(p, hn::Set(d, c[set][row]), sum_re[set][odd][v]);
+          sum_im[set][odd][v] = hn::MulAdd(p, hn::Set(d, sn[set][row]), sum_im[set][odd][v]);
+        }
+      }
+    };
+    int l = order.m;
+    for (; l <= order.degree && b.scaled; ++l) {
+      if (any_visible(d, b)) add(l, [&](int v) HWY_ATTR { return visible(d, b, v); });
+      if (l == order.degree) continue;
+      advance(d, order, l, b);
+      rescale(d, b);
+    }
+    for (; l <= order.degree; ++l) {
+      add(l, [&](int v) HWY_ATTR { return b.p[v]; });
+      if (l < order.degree) advance(d, order, l, b);
+    }
+    for (int set = 0; set < kSets; ++set) {
+      for (int v = 0; v < kVectors; ++v) {
+        const size_t at = j + static_cast<size_t>(v) * lanes;
+        hn::StoreU(hn::MulAdd(sum_re[set][1][v], b.sign[v], sum_re[set][0][v]), d, re[set] + at);
+        hn::StoreU(hn::MulAdd(sum_im[set][1][v], b.sign[v], sum_im[set][0][v]), d, im[set] + at);
+      }
+    }
+  }
+}
+
+void Forward(const LegendreOrder& order, const double* x, const double* s, size_t n, int n_sets,
+             const double* const* c, const double* const* sn, double* const* re,
+             double* const* im) {
+  if (n_sets == 1) {
+    ForwardSets<1>(order, x, s, n, c, sn, re, im);
+  } else {
+    ForwardSets<4>(order, x, s, n, c, sn, re, im);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace rholm
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace rholm {
+
+HWY_EXPORT(Adjoint);
+HWY_EXPORT(Forward);
+
+void legendre_adjoint(const LegendreOrder& order, const double* x, const double* s, std::size_t n,
+                      const double* re, const double* im, double* c_out, double* s_out) {
+  HWY_DYNAMIC_DISPATCH(Adjoint)(order, x, s, n, re, im, c_out, s_out);
+}
+
+void legendre_forward(const LegendreOrder& order, const double* x, const double* s, std::size_t n,
+                      int n_sets, const double* const* c, const double* const* sn,
+                      double* const* re, double* const* im) {
+  HWY_DYNAMIC_DISPATCH(Forward)(order, x, s, n, n_sets, c, sn, re, im);
+}
+
+LegendreOrder legendre_order(int m, int degree, double mu) {
+  LegendreOrder order{
+      .m = m, .degree = degree, .mu = mu, .rho = {}, .of_difference = {}, .of_value = {}};
+  for (int l = m; l < degree; ++l) {
+    const double ll = l, mm = m;
+    const double rho = std::sqrt((2 * ll + 3) * (ll + 1 + mm) / ((2 * ll + 1) * (ll + 1 - mm)));
+    order.rho.push_back(rho);
+    order.of_difference.push_back(rho * (ll - mm) / (ll + mm + 1));
+    order.of_value.push_back(rho * (2 * ll + 1) / (ll + mm + 1));
+  }
+  return order;
+}
+
+std::vector<double> legendre_mu(int degree) {
+  std::vector<double> mu(degree + std::size_t{1});
+  double square = 1 / (4 * std::numbers::pi);
+  mu[0] = std::sqrt(square);
+  for (int m = 1; m <= degree; ++m) {
+    square *= (2.0 * m + 1) / (2.0 * m);
+    mu[m] = std::sqrt(2 * square);
+  }
+  return mu;
+}
+
+std::vector<double> legendre_row(const LegendreOrder& order, double x, double s) {
+  const std::size_t rows = static_cast<std::size_t>(order.degree - order.m) + 1;
+  std::vector<double> xs(kLegendreLanes, 0.0), ss(kLegendreLanes, 1.0), w(kLegendreLanes, 0.0);
+  const std::vector<double> zero(kLegendreLanes, 0.0);
+  std::vector<double> row(rows, 0.0), unused(rows, 0.0);
+  xs[0] = x;
+  ss[0] = s;
+  w[0] = 1;
+  legendre_adjoint(order, xs.data(), ss.data(), kLegendreLanes, w.data(), zero.data(), row.data(),
+                   unused.data());
+  return row;
+}
+
+}  // namespace rholm
+#endif  // HWY_ONCE

@@ -1,0 +1,150 @@
+// Direct transforms at scattered directions: phases e^{i m phi} times the sums over l of
+// order_sums.h.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "harmonic/order_sums.h"
+#include "harmonic/solid_gradient.h"
+#include "rholm/error.h"
+#include "rholm/harmonic.h"
+
+namespace rholm {
+namespace {
+
+constexpr std::size_t kDirectionsPerTask = 256;  // chosen: well above the cost of a task
+
+// Calls visit(m, j, cos(m phi_j), sin(m phi_j)) for every order and the directions [begin, end).
+// The powers of e^{i phi} grow an error of at most m rounding units, that of the direction itself.
+template <typename Visit>
+void visit_phases(const DirectionBlock& block, int degree, std::size_t begin, std::size_t end,
+                  const Visit& visit) {
+  std::array<double, kDirectionsPerTask> c, s;
+  std::fill(c.begin(), c.end(), 1.0);
+  std::fill(s.begin(), s.end(), 0.0);
+  for (int m = 0; m <= degree; ++m) {
+    for (std::size_t j = begin; j < end; ++j) {
+      const std::size_t i = j - begin;
+      visit(m, j, c[i], s[i]);
+      const double next = c[i] * block.cos_phi[j] - s[i] * block.sin_phi[j];
+      s[i] = s[i] * block.cos_phi[j] + c[i] * block.sin_phi[j];
+      c[i] = next;
+    }
+  }
+}
+
+// For each chunk of directions calls work(first, count, its part of the progress).
+template <typename Work>
+void for_each_chunk(std::size_t n, int degree, const Work& work) {
+  const std::size_t chunk = chunk_size(degree);
+  for (std::size_t first = 0; first < n; first += chunk) {
+    const std::size_t count = std::min(chunk, n - first);
+    const double total = static_cast<double>(n);
+    work(first, count,
+         ParallelStage{"transform", static_cast<double>(first) / total,
+                       static_cast<double>(first + count) / total});
+  }
+}
+
+// values[set][j] += sum_m re cos(m phi_j) + im sin(m phi_j)
+void sum_orders(const DirectionBlock& block, int degree, std::span<const OrderTable> tables,
+                std::span<double* const> values, const Context& context) {
+  const Context silent{.threads = context.threads};
+  parallel_for(block.size, kDirectionsPerTask, silent, {}, [&](std::size_t begin, std::size_t end) {
+    visit_phases(block, degree, begin, end, [&](int m, std::size_t j, double c, double s) {
+      for (std::size_t set = 0; set < tables.size(); ++set) {
+        values[set][j] += tables[set].re_row(m)[j] * c + tables[set].im_row(m)[j] * s;
+      }
+    });
+  });
+}
+
+// values[set] = the function of sets[set] at every direction.
+std::vector<std::vector<double>> evaluate_sets(std::span<const Coefficients> sets,
+                                               std::span<const Vec3> directions,
+                                               const Context& context) {
+  const int degree = sets.front().degree();
+  std::vector<std::vector<double>> values(sets.size(), std::vector<double>(directions.size(), 0.0));
+  for_each_chunk(directions.size(), degree,
+                 [&](std::size_t first, std::size_t count, const ParallelStage& stage) {
+                   const DirectionBlock block(directions.subspan(first, count));
+                   std::vector<OrderTable> tables(sets.size(), OrderTable(degree, block.padded));
+                   evaluate_orders(block, sets, tables, context, stage);
+                   std::vector<double*> at;
+                   for (auto& v : values) at.push_back(v.data() + first);
+                   sum_orders(block, degree, tables, at, context);
+                 });
+  return values;
+}
+
+void add_phases(const DirectionBlock& block, std::span<const double> weights, OrderTable& table,
+                int degree, const Context& context) {
+  const Context silent{.threads = context.threads};
+  parallel_for(block.size, kDirectionsPerTask, silent, {}, [&](std::size_t begin, std::size_t end) {
+    visit_phases(block, degree, begin, end, [&](int m, std::size_t j, double c, double s) {
+      table.re_row(m)[j] = weights[j] * c;
+      table.im_row(m)[j] = weights[j] * s;
+    });
+  });
+}
+
+void check_sizes(std::size_t directions, std::size_t values, const char* what) {
+  if (directions != values) {
+    throw Error(ErrorCode::kInvalidInput, "there are " + std::to_string(directions) +
+                                              " directions but " + std::to_string(values) + " " +
+                                              what);
+  }
+}
+
+}  // namespace
+
+std::vector<double> evaluate(const Coefficients& coefficients, std::span<const Vec3> directions,
+                             const Context& context) {
+  return std::move(evaluate_sets({&coefficients, 1}, directions, context).front());
+}
+
+ValuesAndGradients evaluate_with_gradient(const Coefficients& coefficients,
+                                          std::span<const Vec3> directions,
+                                          const Context& context) {
+  auto [dx, dy, dz] = solid_gradient(coefficients);
+  const std::array<Coefficients, 4> sets = {coefficients, std::move(dx), std::move(dy),
+                                            std::move(dz)};
+  std::vector<std::vector<double>> sums = evaluate_sets(sets, directions, context);
+  ValuesAndGradients result;
+  result.values = std::move(sums[0]);
+  result.gradients.resize(directions.size());
+  for (std::size_t j = 0; j < directions.size(); ++j) {
+    const Vec3 g = {sums[1][j], sums[2][j], sums[3][j]};
+    result.gradients[j] = g - dot(g, directions[j]) * directions[j];
+  }
+  return result;
+}
+
+void add_adjoint(std::span<const Vec3> directions, std::span<const double> weights,
+                 Coefficients& sum, const Context& context) {
+  check_sizes(directions.size(), weights.size(), "weights");
+  for_each_chunk(directions.size(), sum.degree(),
+                 [&](std::size_t first, std::size_t count, const ParallelStage& stage) {
+                   const DirectionBlock block(directions.subspan(first, count));
+                   OrderTable table(sum.degree(), block.padded);
+                   add_phases(block, weights.subspan(first, count), table, sum.degree(), context);
+                   add_order_sums(block, table, sum, context, stage);
+                 });
+}
+
+void add_adjoint_gradient(std::span<const Vec3> directions, std::span<const Vec3> vectors,
+                          Coefficients& sum, const Context& context) {
+  check_sizes(directions.size(), vectors.size(), "vectors");
+  std::array<Coefficients, 3> g = {Coefficients(sum.degree()), Coefficients(sum.degree()),
+                                   Coefficients(sum.degree())};
+  std::vector<double> component(vectors.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    for (std::size_t j = 0; j < vectors.size(); ++j) {
+      component[j] = axis == 0 ? vectors[j].x : axis == 1 ? vectors[j].y : vectors[j].z;
+    }
+    add_adjoint(directions, component, g[axis], context);
+  }
+  add_solid_gradient_transpose(g, sum);
+}
+
+}  // namespace rholm
