@@ -60,7 +60,7 @@ constexpr int kVectors = 4;
 
 struct Block {
   V x_minus_1[kVectors];  // of |x|
-  V sign[kVectors];       // of x
+  V sign[kVectors];       // sign bit of x: 0 or -0
   V d[kVectors];          // d_l
   V p[kVectors];          // Pt_lm(|x|)
   V k[kVectors];
@@ -74,7 +74,7 @@ HWY_INLINE void start(D d, const LegendreOrder& order, const double* x, const do
     const V one = hn::Set(d, 1.0);
     const V xv = hn::LoadU(d, x + at), sv = hn::LoadU(d, s + at);
     b.x_minus_1[v] = hn::Neg(hn::Div(hn::Mul(sv, sv), hn::Add(one, hn::Abs(xv))));
-    b.sign[v] = hn::CopySign(one, xv);
+    b.sign[v] = hn::CopySign(hn::Zero(d), xv);
     const Scaled first = start_value(d, sv, order.m, order.mu);
     b.d[v] = hn::Zero(d);
     b.p[v] = first.p;
@@ -83,10 +83,11 @@ HWY_INLINE void start(D d, const LegendreOrder& order, const double* x, const do
   }
 }
 
-HWY_INLINE void advance(D d, const LegendreOrder& order, int l, Block& b) {
-  const V rho = hn::Set(d, order.rho[l - order.m]);
-  const V of_difference = hn::Set(d, order.of_difference[l - order.m]);
-  const V of_value = hn::Set(d, order.of_value[l - order.m]);
+// From degree m + row to the next.
+HWY_INLINE void advance(D d, const LegendreOrder& order, int row, Block& b) {
+  const V rho = hn::Set(d, order.rho[row]);
+  const V of_difference = hn::Set(d, order.of_difference[row]);
+  const V of_value = hn::Set(d, order.of_value[row]);
   for (int v = 0; v < kVectors; ++v) {
     b.d[v] = hn::MulAdd(hn::Mul(of_value, b.x_minus_1[v]), b.p[v], hn::Mul(of_difference, b.d[v]));
     b.p[v] = hn::MulAdd(rho, b.p[v], b.d[v]);
@@ -106,8 +107,10 @@ HWY_INLINE void rescale(D d, Block& b) {
 }
 
 // Pt_lm, or 0 in lanes that are still below 2^-480.
-HWY_INLINE V visible(D d, const Block& b, int v) {
-  return hn::IfThenElseZero(hn::Ge(b.k[v], hn::Zero(d)), b.p[v]);
+HWY_INLINE void visible(D d, const Block& b, V* values) {
+  for (int v = 0; v < kVectors; ++v) {
+    values[v] = hn::IfThenElseZero(hn::Ge(b.k[v], hn::Zero(d)), b.p[v]);
+  }
 }
 
 HWY_INLINE bool any_visible(D d, const Block& b) {
@@ -127,36 +130,49 @@ void Adjoint(const LegendreOrder& order, const double* x, const double* s, size_
   for (size_t j = 0; j < n; j += kVectors * lanes) {
     Block b;
     start(d, order, x + j, s + j, b);
-    V wr[2][kVectors], wi[2][kVectors];  // for even and odd l - m
+    V wr[kVectors], wi[kVectors];
     for (int v = 0; v < kVectors; ++v) {
-      wr[0][v] = hn::LoadU(d, re + j + static_cast<size_t>(v) * lanes);
-      wi[0][v] = hn::LoadU(d, im + j + static_cast<size_t>(v) * lanes);
-      wr[1][v] = hn::Mul(wr[0][v], b.sign[v]);
-      wi[1][v] = hn::Mul(wi[0][v], b.sign[v]);
+      wr[v] = hn::LoadU(d, re + j + static_cast<size_t>(v) * lanes);
+      wi[v] = hn::LoadU(d, im + j + static_cast<size_t>(v) * lanes);
     }
-    const auto add = [&](int l, auto value) HWY_ATTR {
-      const int odd = (l - order.m) & 1;
-      double* row = sums.get() + static_cast<size_t>(l - order.m) * 2 * lanes;
+    double* row = sums.get();
+    // Adds the values of one degree; every second one has the sign of x.
+    const auto add = [&](const V* values, bool odd) HWY_ATTR {
       V sum_c = hn::Load(d, row), sum_s = hn::Load(d, row + lanes);
       for (int v = 0; v < kVectors; ++v) {
-        const V p = value(v);
-        sum_c = hn::MulAdd(p, wr[odd][v], sum_c);
-        sum_s = hn::MulAdd(p, wi[odd][v], sum_s);
+        const V p = odd ? hn::Xor(values[v], b.sign[v]) : values[v];
+        sum_c = hn::MulAdd(p, wr[v], sum_c);
+        sum_s = hn::MulAdd(p, wi[v], sum_s);
       }
       hn::Store(sum_c, d, row);
       hn::Store(sum_s, d, row + lanes);
     };
     int l = order.m;
-    for (; l <= order.degree && b.scaled; ++l) {
-      if (any_visible(d, b)) add(l, [&](int v) HWY_ATTR { return visible(d, b, v); });
-      if (l == order.degree) continue;
-      advance(d, order, l, b);
+    while (b.scaled && l <= order.degree) {
+      if (any_visible(d, b)) {
+        V values[kVectors];
+        visible(d, b, values);
+        add(values, (l - order.m) & 1);
+      }
+      row += 2 * lanes;
+      if (l++ == order.degree) break;
+      advance(d, order, l - 1 - order.m, b);
       rescale(d, b);
     }
-    for (; l <= order.degree; ++l) {
-      add(l, [&](int v) HWY_ATTR { return b.p[v]; });
-      if (l < order.degree) advance(d, order, l, b);
+    if (l <= order.degree && ((l - order.m) & 1)) {
+      add(b.p, true);
+      row += 2 * lanes;
+      if (l++ < order.degree) advance(d, order, l - 1 - order.m, b);
     }
+    for (; l < order.degree; l += 2) {
+      add(b.p, false);
+      row += 2 * lanes;
+      advance(d, order, l - order.m, b);
+      add(b.p, true);
+      row += 2 * lanes;
+      if (l + 1 < order.degree) advance(d, order, l + 1 - order.m, b);
+    }
+    if (l == order.degree) add(b.p, false);
   }
   for (size_t row = 0; row < rows; ++row) {
     const double* at = sums.get() + row * 2 * lanes;
@@ -181,32 +197,49 @@ void ForwardSets(const LegendreOrder& order, const double* x, const double* s, s
         sum_re[set][0][v] = sum_re[set][1][v] = sum_im[set][0][v] = sum_im[set][1][v] = hn::Zero(d);
       }
     }
-    const auto add = [&](int l, auto value) HWY_ATTR {
-      const int row = l - order.m, odd = row & 1;
-      for (int v = 0; v < kVectors; ++v) {
-        const V p = value(v);
-        for (int set = 0; set < kSets; ++set) {
-          sum_re[set][odd][v] = hn::MulAdd(p, hn::Set(d, c[set][row]), sum_re[set][odd][v]);
-          sum_im[set][odd][v] = hn::MulAdd(p, hn::Set(d, sn[set][row]), sum_im[set][odd][v]);
+    const auto add = [&](const V* values, int row, int odd) HWY_ATTR {
+      for (int set = 0; set < kSets; ++set) {
+        const V cv = hn::Set(d, c[set][row]), sv = hn::Set(d, sn[set][row]);
+        for (int v = 0; v < kVectors; ++v) {
+          sum_re[set][odd][v] = hn::MulAdd(values[v], cv, sum_re[set][odd][v]);
+          sum_im[set][odd][v] = hn::MulAdd(values[v], sv, sum_im[set][odd][v]);
         }
       }
     };
-    int l = order.m;
-    for (; l <= order.degree && b.scaled; ++l) {
-      if (any_visible(d, b)) add(l, [&](int v) HWY_ATTR { return visible(d, b, v); });
-      if (l == order.degree) continue;
-      advance(d, order, l, b);
+    const int last = order.degree - order.m;
+    int row = 0;
+    while (b.scaled && row <= last) {
+      if (any_visible(d, b)) {
+        V values[kVectors];
+        visible(d, b, values);
+        if (row & 1) {
+          add(values, row, 1);
+        } else {
+          add(values, row, 0);
+        }
+      }
+      if (row++ == last) break;
+      advance(d, order, row - 1, b);
       rescale(d, b);
     }
-    for (; l <= order.degree; ++l) {
-      add(l, [&](int v) HWY_ATTR { return b.p[v]; });
-      if (l < order.degree) advance(d, order, l, b);
+    if (row <= last && (row & 1)) {
+      add(b.p, row, 1);
+      if (row++ < last) advance(d, order, row - 1, b);
     }
+    for (; row < last; row += 2) {
+      add(b.p, row, 0);
+      advance(d, order, row, b);
+      add(b.p, row + 1, 1);
+      if (row + 1 < last) advance(d, order, row + 1, b);
+    }
+    if (row == last) add(b.p, row, 0);
     for (int set = 0; set < kSets; ++set) {
       for (int v = 0; v < kVectors; ++v) {
         const size_t at = j + static_cast<size_t>(v) * lanes;
-        hn::StoreU(hn::MulAdd(sum_re[set][1][v], b.sign[v], sum_re[set][0][v]), d, re[set] + at);
-        hn::StoreU(hn::MulAdd(sum_im[set][1][v], b.sign[v], sum_im[set][0][v]), d, im[set] + at);
+        hn::StoreU(hn::Add(hn::Xor(sum_re[set][1][v], b.sign[v]), sum_re[set][0][v]), d,
+                   re[set] + at);
+        hn::StoreU(hn::Add(hn::Xor(sum_im[set][1][v], b.sign[v]), sum_im[set][0][v]), d,
+                   im[set] + at);
       }
     }
   }

@@ -47,6 +47,16 @@ DirectionBlock::DirectionBlock(std::span<const double> colatitudes)
   }
 }
 
+void OrderTable::reset(int degree, const DirectionBlock& block) {
+  padded = block.padded;
+  re.resize((degree + std::size_t{1}) * padded);
+  im.resize(re.size());
+  for (int m = 0; m <= degree; ++m) {
+    std::fill(re_row(m) + block.size, re_row(m) + padded, 0.0);
+    std::fill(im_row(m) + block.size, im_row(m) + padded, 0.0);
+  }
+}
+
 std::size_t chunk_size(int degree) {
   const std::size_t bytes_per_direction = sizeof(double) * (degree + std::size_t{1});
   return std::clamp<std::size_t>(pad((4u << 20) / bytes_per_direction), 256, 16384);

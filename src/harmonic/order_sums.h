@@ -24,12 +24,10 @@ struct DirectionBlock {
   std::vector<double> cos_theta, sin_theta, cos_phi, sin_phi;
 };
 
-// One complex number per order and direction, [m][padded]: zero beyond block.size.
+// One complex number per order and direction, [m][padded]: zero beyond the block's size.
 struct OrderTable {
-  OrderTable(int degree, std::size_t padded_size)
-      : padded(padded_size),
-        re((degree + std::size_t{1}) * padded_size, 0.0),
-        im((degree + std::size_t{1}) * padded_size, 0.0) {}
+  // Fits the table to a block; entries of its directions are left as they are, to be overwritten.
+  void reset(int degree, const DirectionBlock& block);
   double* re_row(int m) { return re.data() + static_cast<std::size_t>(m) * padded; }
   double* im_row(int m) { return im.data() + static_cast<std::size_t>(m) * padded; }
   const double* re_row(int m) const { return re.data() + static_cast<std::size_t>(m) * padded; }

@@ -25,7 +25,8 @@ std::vector<double> evaluate_rings(const Coefficients& coefficients,
     sine[k] = std::sin(phi);
   }
   const DirectionBlock block(colatitudes);
-  std::vector<OrderTable> tables(1, OrderTable(degree, block.padded));
+  std::vector<OrderTable> tables(1);
+  tables[0].reset(degree, block);
   evaluate_orders(block, {&coefficients, 1}, tables, context, {"transform", 0, 0.5});
   std::vector<double> values(colatitudes.size() * columns, 0.0);
   parallel_for(colatitudes.size(), 1, context, {"transform", 0.5, 1},

@@ -65,10 +65,11 @@ std::vector<std::vector<double>> evaluate_sets(std::span<const Coefficients> set
                                                const Context& context) {
   const int degree = sets.front().degree();
   std::vector<std::vector<double>> values(sets.size(), std::vector<double>(directions.size(), 0.0));
+  std::vector<OrderTable> tables(sets.size());
   for_each_chunk(directions.size(), degree,
                  [&](std::size_t first, std::size_t count, const ParallelStage& stage) {
                    const DirectionBlock block(directions.subspan(first, count));
-                   std::vector<OrderTable> tables(sets.size(), OrderTable(degree, block.padded));
+                   for (OrderTable& table : tables) table.reset(degree, block);
                    evaluate_orders(block, sets, tables, context, stage);
                    std::vector<double*> at;
                    for (auto& v : values) at.push_back(v.data() + first);
@@ -123,10 +124,11 @@ ValuesAndGradients evaluate_with_gradient(const Coefficients& coefficients,
 void add_adjoint(std::span<const Vec3> directions, std::span<const double> weights,
                  Coefficients& sum, const Context& context) {
   check_sizes(directions.size(), weights.size(), "weights");
+  OrderTable table;
   for_each_chunk(directions.size(), sum.degree(),
                  [&](std::size_t first, std::size_t count, const ParallelStage& stage) {
                    const DirectionBlock block(directions.subspan(first, count));
-                   OrderTable table(sum.degree(), block.padded);
+                   table.reset(sum.degree(), block);
                    add_phases(block, weights.subspan(first, count), table, sum.degree(), context);
                    add_order_sums(block, table, sum, context, stage);
                  });
