@@ -10,8 +10,10 @@
 
 namespace rholm {
 
+inline constexpr std::size_t kMaxSamples = 100000000;  // some 8 GB of memory: the sanity limit
+
 struct CompareOptions {
-  std::size_t samples = 200000;  // on each surface, area-weighted
+  std::size_t samples = 200000;  // on each surface, area-weighted, 1 ... kMaxSamples
   std::uint64_t seed = 1;
   double threshold = 0.01;  // of the F-score, as a fraction of A's bounding-box diagonal
 };
@@ -40,7 +42,7 @@ struct Comparison {
 };
 
 // Closest points are exact (double precision) on the triangles of the other mesh. Throws
-// InvalidInput for a mesh without area, zero samples or a threshold that is not positive.
+// InvalidInput for a mesh without area, samples out of range or a threshold that is not positive.
 Comparison compare(const Mesh& a, const Mesh& b, const CompareOptions& options = {},
                    const Context& context = {});
 

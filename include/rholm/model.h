@@ -18,8 +18,8 @@
 namespace rholm {
 
 struct EncodeOptions {
-  AnalyzeOptions analyze;
-  ChartOptions chart;
+  AnalyzeOptions analyze = {};
+  ChartOptions chart = {};
   double weld_tolerance = 0;  // in the shape's unit; 0 welds bit-identical vertices
 };
 

@@ -27,8 +27,8 @@ struct RenderOptions {
   bool perspective = false;
   Vec3 view_direction = {-0.55, 0.75, -0.4};  // from the eye into the scene
   Vec3 up = {0, 0, 1};
-  int samples = 4;          // per pixel side: samples^2 rays a pixel
-  int occlusion_rays = 16;  // per sample; 0 switches ambient occlusion off
+  int samples = 3;         // per pixel side: samples^2 rays a pixel, 1 ... 16
+  int occlusion_rays = 4;  // per sample, 0 ... 256; 0 switches ambient occlusion off
   // Range of the colour map; by default the range of all scalars. Drawn as a scale bar.
   std::optional<double> scale_min;
   std::optional<double> scale_max;

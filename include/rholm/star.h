@@ -22,7 +22,7 @@ enum class CenterKind {
 
 struct CenterOptions {
   CenterKind kind = CenterKind::kAuto;
-  Vec3 point;         // for kGiven
+  Vec3 point = {};    // for kGiven
   int rays = 100000;  // directions tried by check_star; 0 leaves them out
 };
 
@@ -38,7 +38,7 @@ struct StarReport {
   double min_d = 0;
   double min_cos_gamma = 0;       // over all corners of all triangles
   std::size_t bad_triangles = 0;  // with d_T <= 0 (beyond rounding)
-  bool star_shaped = false;       // bad_triangles == 0
+  bool star_shaped = false;       // bad_triangles == 0 and every direction covered once
   int rays = 0;                   // directions tried: a Fibonacci lattice
   double once_share = 0;          // part of them that meet the surface exactly once
   double multiple_share = 0;      // part that meet it more than once
@@ -62,7 +62,7 @@ struct StarChart {
 };
 
 struct ChartOptions {
-  CenterOptions center;
+  CenterOptions center = {};
   bool allow_signed = false;  // accept a surface that is not star-shaped: the alternating sum
 };
 

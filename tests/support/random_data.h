@@ -27,8 +27,12 @@ inline Vec3 random_direction(std::uint64_t seed, std::uint64_t counter) {
 
 // Random directions, the first of them the poles and points very near to them.
 inline std::vector<Vec3> random_directions(std::size_t n, std::uint64_t seed) {
-  std::vector<Vec3> directions = {{0, 0, 1},    {0, 0, -1},        {1e-9, 0, 1},
-                                  {1, 0, 0},    {0, 1e-160, -1},   {0, -1, 0},
+  std::vector<Vec3> directions = {{0, 0, 1},
+                                  {0, 0, -1},
+                                  {1e-9, 0, 1},
+                                  {1, 0, 0},
+                                  {0, 1e-160, -1},
+                                  {0, -1, 0},
                                   {-1e-4, 1e-4, std::sqrt(1 - 2e-8)}};
   while (directions.size() < n) directions.push_back(random_direction(seed, directions.size()));
   directions.resize(n);

@@ -1,0 +1,53 @@
+// The half-edges of a mesh, grouped by edge.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rholm/mesh.h"
+
+namespace rholm {
+
+// A half-edge of the group it stands in: corner k of triangle t, running from corner k to the next.
+// Sorts by the edge's larger vertex, then by the place in the file.
+struct HalfEdge {
+  std::uint64_t key = 0;  // larger vertex << 32 | (3 t + k) << 1 | (runs from larger to smaller)
+
+  std::uint32_t larger() const { return static_cast<std::uint32_t>(key >> 32); }
+  std::uint32_t corner() const { return static_cast<std::uint32_t>(key) >> 1; }  // 3 t + k
+  std::uint32_t triangle() const { return corner() / 3; }
+  bool rises() const { return (key & 1) == 0; }  // from the smaller vertex to the larger
+  friend bool operator<(const HalfEdge& a, const HalfEdge& b) { return a.key < b.key; }
+};
+
+// All half-edges: those of edges whose smaller vertex is v stand at begin[v] ... begin[v + 1],
+// sorted. Triangles with a repeated corner have none.
+struct HalfEdges {
+  std::vector<std::uint32_t> begin;  // n_vertices + 1
+  std::vector<HalfEdge> sorted;
+
+  // Calls visit(smaller vertex, half-edges of one edge) for every edge by (smaller, larger).
+  template <typename Visit>
+  void for_each_edge(Visit visit) const {
+    for (std::size_t v = 0; v + 1 < begin.size(); ++v) {
+      std::size_t i = begin[v];
+      while (i < begin[v + 1]) {
+        std::size_t j = i + 1;
+        while (j < begin[v + 1] && sorted[j].larger() == sorted[i].larger()) ++j;
+        visit(static_cast<std::uint32_t>(v), std::span(sorted).subspan(i, j - i));
+        i = j;
+      }
+    }
+  }
+};
+
+// Indices must be in range (see validate). Throws Unsupported for more than 2^31 / 3 triangles.
+HalfEdges sort_half_edges(std::size_t n_vertices, const std::vector<Triangle>& triangles);
+
+inline bool has_repeated_corner(const Triangle& t) {
+  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+}
+
+}  // namespace rholm

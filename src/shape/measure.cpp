@@ -1,0 +1,82 @@
+#include "shape/measure.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/compensated_sum.h"
+
+namespace rholm {
+namespace {
+
+class VectorSum {
+ public:
+  void add(const Vec3& v) {
+    x_.add(v.x);
+    y_.add(v.y);
+    z_.add(v.z);
+  }
+  Vec3 value() const { return {x_.value(), y_.value(), z_.value()}; }
+
+ private:
+  CompensatedSum x_, y_, z_;
+};
+
+}  // namespace
+
+Measures measure(const Mesh& mesh, const UnitFrame& frame) {
+  CompensatedSum twice_area, six_volumes, moduli;
+  VectorSum area_moment, volume_moment;
+  for (const Triangle& t : mesh.triangles) {
+    const std::array<Vec3, 3> corners = scaled_corners(mesh, t, frame.scale);
+    const Vec3 normal = face_normal(corners).twice_area;
+    const Vec3 a = corners[0] - frame.center;
+    const Vec3 sum = a + (corners[1] - frame.center) + (corners[2] - frame.center);
+    const double length = norm(normal), volume = dot(normal, a);
+    twice_area.add(length);
+    area_moment.add(length * sum);
+    six_volumes.add(volume);
+    moduli.add(std::abs(volume));
+    volume_moment.add(volume * sum);
+  }
+  Measures result;
+  result.area = std::ldexp(0.5 * twice_area.value(), -2 * frame.exponent);
+  result.volume = std::ldexp(six_volumes.value() / 6, -3 * frame.exponent);
+  result.area_centroid = result.volume_centroid = frame.to_shape({});
+  // A triangle's centroid is a third of the sum of its corners, a tetrahedron's a quarter.
+  if (twice_area.value() > 0) {
+    result.area_centroid = frame.to_shape(area_moment.value() / (3 * twice_area.value()));
+  }
+  // Each volume has a relative rounding of a few 2^-53; 16 of them (chosen) leave no digit.
+  if (std::abs(six_volumes.value()) > 0x1p-49 * moduli.value()) {
+    result.volume_centroid = frame.to_shape(volume_moment.value() / (4 * six_volumes.value()));
+  }
+  return result;
+}
+
+Bounds bounds(const std::vector<Vec3>& points) {
+  if (points.empty()) return {};
+  Bounds box{.min = points[0], .max = points[0]};
+  for (const Vec3& p : points) {
+    box.min = {std::min(box.min.x, p.x), std::min(box.min.y, p.y), std::min(box.min.z, p.z)};
+    box.max = {std::max(box.max.x, p.x), std::max(box.max.y, p.y), std::max(box.max.z, p.z)};
+  }
+  return box;
+}
+
+double surface_area(const Mesh& mesh) {
+  return measure(mesh, unit_frame(bounds(mesh.vertices))).area;
+}
+
+double enclosed_volume(const Mesh& mesh) {
+  return measure(mesh, unit_frame(bounds(mesh.vertices))).volume;
+}
+
+void flip(Mesh& mesh) {
+  for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+  for (Attribute& attribute : mesh.attributes) {
+    if (attribute.name != "nx" && attribute.name != "ny" && attribute.name != "nz") continue;
+    for (double& value : attribute.values) value = -value;
+  }
+}
+
+}  // namespace rholm

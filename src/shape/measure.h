@@ -1,0 +1,19 @@
+// Sums over the triangles of a mesh: area, volume, centroids.
+#pragma once
+
+#include "rholm/mesh.h"
+#include "shape/face.h"
+
+namespace rholm {
+
+// Compensated sums about the middle of the bounding box: relative errors of a few ulp, also far
+// from the origin. Results outside 1e-308 ... 1e308 become 0 or infinite.
+struct Measures {
+  double area = 0;
+  double volume = 0;     // signed
+  Vec3 area_centroid;    // middle of the bounding box if the area is zero
+  Vec3 volume_centroid;  // middle of the bounding box if the volume is zero up to rounding
+};
+Measures measure(const Mesh& mesh, const UnitFrame& frame);
+
+}  // namespace rholm

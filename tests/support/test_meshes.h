@@ -1,0 +1,101 @@
+// Small meshes drawn by hand, and ways to move them.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "rholm/mesh.h"
+
+namespace rholm::test {
+
+// Corners at the origin and on the axes at 1: volume 1/6, area 3/2 + sqrt(3)/2.
+inline Mesh tetrahedron() {
+  return {.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+          .triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}},
+          .attributes = {}};
+}
+
+struct Point2 {
+  double x = 0;
+  double y = 0;
+};
+
+// Prism over a polygon (counter-clockwise) of which `apex` sees every edge, -height/2 <= z <=
+// height/2. Vertices: bottom, top, apex of the bottom, apex of the top.
+inline Mesh prism(const std::vector<Point2>& polygon, const Point2& apex, double height) {
+  Mesh mesh;
+  const auto n = static_cast<std::uint32_t>(polygon.size());
+  for (const double z : {-height / 2, height / 2}) {
+    for (const Point2& p : polygon) mesh.vertices.push_back({p.x, p.y, z});
+  }
+  mesh.vertices.push_back({apex.x, apex.y, -height / 2});
+  mesh.vertices.push_back({apex.x, apex.y, height / 2});
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::uint32_t j = (i + 1) % n;
+    mesh.triangles.push_back({i, j, n + j});
+    mesh.triangles.push_back({i, n + j, n + i});
+    mesh.triangles.push_back({2 * n, j, i});
+    mesh.triangles.push_back({2 * n + 1, n + i, n + j});
+  }
+  return mesh;
+}
+
+// An L with arms of length 4 and width 1; its kernel is [0, 1] x [0, 1] x [-height/2, height/2].
+inline Mesh l_prism(double height) {
+  return prism({{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 4}, {0, 4}}, {0.5, 0.5}, height);
+}
+
+// Each triangle with three vertices of its own.
+inline Mesh exploded(const Mesh& mesh) {
+  Mesh soup;
+  for (const Triangle& t : mesh.triangles) {
+    const auto first = static_cast<std::uint32_t>(soup.vertices.size());
+    for (const std::uint32_t v : t) soup.vertices.push_back(mesh.vertices[v]);
+    soup.triangles.push_back({first, first + 1, first + 2});
+  }
+  return soup;
+}
+
+// Both meshes in one, not connected.
+inline Mesh joined(const Mesh& a, const Mesh& b) {
+  Mesh both = a;
+  const auto first = static_cast<std::uint32_t>(a.vertices.size());
+  both.vertices.insert(both.vertices.end(), b.vertices.begin(), b.vertices.end());
+  for (const Triangle& t : b.triangles) {
+    both.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  }
+  return both;
+}
+
+// x -> scale * rotation(x) + shift.
+struct Motion {
+  double scale = 1;
+  std::array<Vec3, 3> rows = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
+  Vec3 shift;
+
+  Vec3 operator()(const Vec3& x) const {
+    return scale * Vec3{dot(rows[0], x), dot(rows[1], x), dot(rows[2], x)} + shift;
+  }
+};
+
+// The rotation by `angle` about an axis (Rodrigues).
+inline Motion rotation(const Vec3& axis, double angle) {
+  const Vec3 k = normalized(axis);
+  const double c = std::cos(angle), s = std::sin(angle);
+  const auto image = [&](const Vec3& x) {
+    return c * x + s * cross(k, x) + (1 - c) * dot(k, x) * k;
+  };
+  const Vec3 a = image({1, 0, 0}), b = image({0, 1, 0}), d = image({0, 0, 1});
+  Motion motion;
+  motion.rows = {Vec3{a.x, b.x, d.x}, Vec3{a.y, b.y, d.y}, Vec3{a.z, b.z, d.z}};
+  return motion;
+}
+
+inline Mesh moved(Mesh mesh, const Motion& motion) {
+  for (Vec3& v : mesh.vertices) v = motion(v);
+  return mesh;
+}
+
+}  // namespace rholm::test
