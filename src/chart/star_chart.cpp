@@ -1,0 +1,65 @@
+#include <fmt/format.h>
+
+#include "rholm/error.h"
+#include "rholm/star.h"
+
+namespace rholm {
+namespace {
+
+std::string describe(const StarReport& report, double diagonal) {
+  std::string text = fmt::format(
+      "from the centre ({:.9g}, {:.9g}, {:.9g}) the smallest d_T is {:.3g} ({:.2g} of the "
+      "diagonal), "
+      "the smallest cos gamma {:.3g}, and {} triangles turn their back",
+      report.center.x, report.center.y, report.center.z, report.min_d, report.min_d / diagonal,
+      report.min_cos_gamma, report.bad_triangles);
+  if (report.rays > 0) {
+    text +=
+        fmt::format("; {:.3g} % of {} directions meet the surface more than once, {:.3g} % never",
+                    100 * report.multiple_share, report.rays, 100 * report.missed_share);
+  }
+  return text;
+}
+
+void refuse(const Mesh& mesh, const StarReport& report, bool allow_signed) {
+  const Inspection shape = inspect(mesh);
+  if (shape.volume < 0) {
+    throw Error(
+        ErrorCode::kInvalidInput,
+        fmt::format("the mesh is inside out (its volume is {:.6g}): flip its triangles first",
+                    shape.volume));
+  }
+  if (allow_signed) return;
+  std::string why = "the surface is not star-shaped";
+  if (shape.components > 1) {
+    why += fmt::format(" (it has {} components that are not connected)", shape.components);
+  }
+  throw Error(ErrorCode::kNotStarShaped,
+              why + ": " + describe(report, shape.bounds.diagonal()) +
+                  "; try --center auto, or accept the alternating sum of the radii with --signed "
+                  "(allow_signed)");
+}
+
+}  // namespace
+
+StarChart make_star_chart(const Mesh& mesh, const ChartOptions& options, const Context& context) {
+  validate(mesh);
+  StarChart chart;
+  chart.edges = pair_edges(mesh);
+  CenterOptions without_rays = options.center;
+  without_rays.rays = 0;
+  // Star-shaped meshes meet every direction once, which needs no rays to be known.
+  chart.report = find_center(mesh, without_rays, context);
+  if (chart.report.star_shaped) {
+    chart.report.once_share = 1;
+  } else {
+    chart.report = find_center(mesh, options.center, context);
+    refuse(mesh, chart.report, options.allow_signed);
+  }
+  chart.mesh.triangles = mesh.triangles;
+  chart.mesh.vertices.reserve(mesh.vertices.size());
+  for (const Vec3& v : mesh.vertices) chart.mesh.vertices.push_back(v - chart.report.center);
+  return chart;
+}
+
+}  // namespace rholm
