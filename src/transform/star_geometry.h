@@ -1,0 +1,61 @@
+// What the transforms need to know of each face and edge, in coordinates scaled to about 1.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "rholm/coefficients.h"
+#include "rholm/star.h"
+
+namespace rholm {
+
+struct FaceGeometry {
+  Vec3 twice_area;          // normal of length 2 |T|
+  double d = 0;             // d_T
+  double solid_angle = 0;   // signed
+  bool degenerate = false;  // no area: seen as nothing from everywhere
+};
+
+struct StarGeometry {
+  const StarChart* chart = nullptr;
+  double scale = 1;  // a power of two: lengths here = scale * lengths of the chart
+  std::vector<Vec3> vertices;
+  std::vector<FaceGeometry> faces;
+
+  std::array<Vec3, 3> corners(std::size_t t) const {
+    const Triangle& triangle = chart->mesh.triangles[t];
+    return {vertices[triangle[0]], vertices[triangle[1]], vertices[triangle[2]]};
+  }
+};
+
+StarGeometry star_geometry(const StarChart& chart);
+
+// Solid angle of a triangle seen from the origin (Van Oosterom and Strackee 1983), signed.
+double solid_angle(const std::array<Vec3, 3>& corners);
+
+// M_T v = int_T u (u . v) dOmega
+//       = (Omega/3) v - (1/6) sum_edges (nu (w.v) + w (nu.v)), (M5), nu = -N.
+Vec3 second_moment(const std::array<Vec3, 3>& corners, double omega, const Vec3& v);
+
+// The jump s_e = (a_left - a_right) . N of an edge, a = n_T/d_T, N = a x b / |a x b|, and its arc.
+// A face without area, or seen exactly edge on, takes no part: its a counts as zero.
+struct EdgeJump {
+  double jump = 0;
+  double angle = 0;  // of the arc
+  Vec3 normal;       // N; zero if the ends lie in one direction
+};
+EdgeJump edge_jump(const StarGeometry& geometry, const Edge& edge);
+
+// |sum_e s_e int_arc u ds| / sum_e |s_e| int_arc ds, (M5).
+double closure_residual(const StarGeometry& geometry);
+
+// Mean over directions and sqrt(int (f - mean)^2 dOmega) for f = r or 1/r, by a rule of four
+// points a triangle (degree 1: corners and centroid): the scale of a wanted precision, not a
+// result.
+struct MeanAndNorm {
+  double mean = 0;
+  double norm = 0;
+};
+MeanAndNorm mean_and_norm(const StarGeometry& geometry, RadialFunction function);
+
+}  // namespace rholm
