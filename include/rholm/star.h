@@ -71,5 +71,8 @@ struct ChartOptions {
 // the figures of the report if it is not star-shaped and that is not allowed.
 StarChart make_star_chart(const Mesh& mesh, const ChartOptions& options = {},
                           const Context& context = {});
+// The same with the edges of pair_edges(mesh) at hand.
+StarChart make_star_chart(const Mesh& mesh, std::vector<Edge> edges, const ChartOptions& options,
+                          const Context& context = {});
 
 }  // namespace rholm

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "rholm/error.h"
 #include "rholm/star.h"
 
@@ -44,8 +46,13 @@ void refuse(const Mesh& mesh, const StarReport& report, bool allow_signed) {
 
 StarChart make_star_chart(const Mesh& mesh, const ChartOptions& options, const Context& context) {
   validate(mesh);
+  return make_star_chart(mesh, pair_edges(mesh), options, context);
+}
+
+StarChart make_star_chart(const Mesh& mesh, std::vector<Edge> edges, const ChartOptions& options,
+                          const Context& context) {
   StarChart chart;
-  chart.edges = pair_edges(mesh);
+  chart.edges = std::move(edges);
   CenterOptions without_rays = options.center;
   without_rays.rays = 0;
   // Star-shaped meshes meet every direction once, which needs no rays to be known.

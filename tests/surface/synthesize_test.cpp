@@ -1,0 +1,216 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "rholm/analyze.h"
+#include "rholm/error.h"
+#include "rholm/harmonic.h"
+#include "rholm/primitives.h"
+#include "rholm/synthesize.h"
+#include "rholm/topology.h"
+#include "support/random_data.h"
+
+namespace rholm {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+const double kY00 = 1 / std::sqrt(4 * kPi);
+
+// r = a + (b - a) P_2-like terms: r(u) = 1 + 0.2 u_z^2, of degree 2 exactly.
+Expansion bulged_sphere() {
+  Expansion e;
+  e.coefficients = Coefficients(2);
+  // z^2 = 1/3 + (2/3) P_2, P_2 = sqrt(4 pi/5) Y_20.
+  e.coefficients.c(0, 0) = (1 + 0.2 / 3) / kY00;
+  e.coefficients.c(2, 0) = 0.2 * 2.0 / 3 * std::sqrt(4 * kPi / 5);
+  return e;
+}
+
+TEST(synthesize, puts_vertices_and_normals_where_the_closed_form_has_them) {
+  Expansion e = bulged_sphere();
+  e.center = {1, -2, 3};
+  const Mesh sphere = latitude_longitude_sphere(12, 20);
+  const Mesh mesh = synthesize(e, sphere);
+  ASSERT_EQ(mesh.triangles, sphere.triangles);
+  const auto& nx = find_attribute(mesh.attributes, "nx")->values;
+  const auto& ny = find_attribute(mesh.attributes, "ny")->values;
+  const auto& nz = find_attribute(mesh.attributes, "nz")->values;
+  for (std::size_t i = 0; i < sphere.vertices.size(); ++i) {
+    const Vec3 u = sphere.vertices[i];
+    const double r = 1 + 0.2 * u.z * u.z;
+    EXPECT_LT(norm(mesh.vertices[i] - e.center - r * u), 1e-14);
+    // The surface is F = |x| - 1 - 0.2 z^2/|x|^2 = 0; its normal is along grad F.
+    const Vec3 gradient = u - (0.4 * u.z / r) * (Vec3{0, 0, 1} - u.z * u);
+    EXPECT_LT(norm(Vec3{nx[i], ny[i], nz[i]} - normalized(gradient)), 1e-14);
+  }
+}
+
+TEST(synthesize, gauge_of_an_offset_plane_polyhedron_is_the_reciprocal_surface) {
+  Expansion e;
+  e.function = RadialFunction::kGauge;
+  e.coefficients = Coefficients(1);
+  e.coefficients.c(0, 0) = 2 / kY00;
+  e.coefficients.c(1, 0) = 0.5 * std::sqrt(4 * kPi / 3);  // q = 2 + z/2
+  const Mesh sphere = icosphere(2);
+  const Mesh mesh = synthesize(e, sphere);
+  const auto& nz = find_attribute(mesh.attributes, "nz")->values;
+  for (std::size_t i = 0; i < sphere.vertices.size(); ++i) {
+    const Vec3 u = sphere.vertices[i];
+    EXPECT_LT(norm(mesh.vertices[i] - u / (2 + u.z / 2)), 1e-14);
+    // |x| q(x/|x|) = 2|x| + z/2 = 1 on the surface: normal along 2u + e_z/2.
+    EXPECT_NEAR(nz[i], normalized(2.0 * u + Vec3{0, 0, 0.5}).z, 1e-14);
+  }
+}
+
+TEST(synthesize, several_degrees_in_one_call_are_the_truncated_expansions) {
+  Expansion e;
+  e.coefficients = test::random_coefficients(9, 1);
+  e.coefficients.c(0, 0) = 40;
+  const Mesh sphere = icosphere(2);
+  const std::array degrees = {4, 0, 9, 50};
+  const std::vector<Mesh> meshes = synthesize(e, sphere, degrees);
+  ASSERT_EQ(meshes.size(), 4u);
+  EXPECT_EQ(meshes[2].vertices, meshes[3].vertices);
+  EXPECT_EQ(meshes[2].vertices, synthesize(e, sphere).vertices);
+  for (const Vec3& v : meshes[1].vertices) EXPECT_NEAR(norm(v), 40 * kY00, 1e-13);
+  Expansion cut = e;
+  cut.coefficients = e.coefficients.resized(4);
+  EXPECT_EQ(meshes[0].vertices, synthesize(cut, sphere).vertices);
+}
+
+TEST(synthesize, refuses_a_gauge_that_is_not_positive_and_negative_degrees) {
+  Expansion e;
+  e.function = RadialFunction::kGauge;
+  e.coefficients = Coefficients(1);
+  e.coefficients.c(0, 0) = 1;
+  e.coefficients.c(1, 0) = 5;
+  EXPECT_THROW(synthesize(e, icosphere(1)), Error);
+  const std::array degrees = {-1};
+  EXPECT_THROW(synthesize(bulged_sphere(), icosphere(1), degrees), Error);
+}
+
+TEST(synthesize, gives_the_same_bits_for_any_number_of_threads) {
+  Expansion e;
+  e.coefficients = test::random_coefficients(30, 2);
+  e.coefficients.c(0, 0) = 100;
+  const Mesh one = synthesize(e, icosphere(4), {.threads = 1});
+  EXPECT_EQ(one.vertices, synthesize(e, icosphere(4), {.threads = 2}).vertices);
+}
+
+TEST(directions_of, keep_connectivity_and_refuse_the_centre) {
+  const Mesh mesh = box({2, 4, 6});
+  const Mesh sphere = directions_of(mesh, {0.5, 0, 0});
+  EXPECT_EQ(sphere.triangles, mesh.triangles);
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    EXPECT_NEAR(norm(sphere.vertices[i]), 1, 1e-15);
+    EXPECT_LT(norm(cross(sphere.vertices[i], mesh.vertices[i] - Vec3{0.5, 0, 0})), 1e-14);
+  }
+  EXPECT_THROW(directions_of(mesh, {1, 2, 3}), Error);
+  Mesh huge = mesh;
+  for (Vec3& v : huge.vertices) v *= 1e200;
+  for (const Vec3& u : directions_of(huge, {0, 0, 0}).vertices) EXPECT_NEAR(norm(u), 1, 1e-15);
+}
+
+// r = 1 + b z: V = 4 pi/3 (1 + b^2), V c_z = int (1 + b z)^4 z/4 = 4 pi (b/3 + b^3/5).
+TEST(measure, volume_and_centroid_of_a_limacon_are_exact) {
+  const double b = 0.4;
+  Expansion e;
+  e.coefficients = Coefficients(1);
+  e.coefficients.c(0, 0) = 1 / kY00;
+  e.coefficients.c(1, 0) = b * std::sqrt(4 * kPi / 3);
+  e.center = {10, 0, -5};
+  const SurfaceMeasures m = measure(e);
+  const double volume = 4 * kPi / 3 * (1 + b * b);
+  EXPECT_NEAR(m.volume, volume, 1e-13);
+  const double z = 4 * kPi * (b / 3 + b * b * b / 5) / volume;
+  EXPECT_LT(norm(m.centroid - Vec3{10, 0, -5 + z}), 1e-13);
+  // Area by its integral over z: 2 pi int r sqrt(r^2 + r'^2 (1 - z^2)) dz.
+  double area = 0;
+  const GaussRule rule = gauss_legendre(200);
+  for (std::size_t i = 0; i < 200; ++i) {
+    const double t = rule.nodes[i], r = 1 + b * t;
+    area += rule.weights[i] * 2 * kPi * r * std::sqrt(r * r + b * b * (1 - t * t));
+  }
+  EXPECT_NEAR(m.area, area, 1e-12);
+}
+
+// A sphere about a point that is not its centre has a radius of infinite degree; its gauge too.
+TEST(measure, sphere_expanded_off_its_centre_keeps_volume_area_and_centroid) {
+  constexpr double shift = 0.3;
+  constexpr int L = 40;  // the tail falls like shift^l
+  const GaussRule rule = gauss_legendre(400);
+  for (const RadialFunction function : {RadialFunction::kRadius, RadialFunction::kGauge}) {
+    // About (0, 0, shift): r = -shift z + sqrt(1 - shift^2 (1 - z^2)); zonal coefficients.
+    Expansion e;
+    e.function = function;
+    e.center = {0, 0, shift};
+    e.coefficients = Coefficients(L);
+    for (std::size_t i = 0; i < 400; ++i) {
+      const double z = rule.nodes[i];
+      const double r = -shift * z + std::sqrt(1 - shift * shift * (1 - z * z));
+      const double f = function == RadialFunction::kRadius ? r : 1 / r;
+      for (int l = 0; l <= L; ++l) {
+        e.coefficients.c(l, 0) += 2 * kPi * rule.weights[i] * f *
+                                  std::sqrt((2 * l + 1) / (4 * kPi)) *
+                                  std::legendre(static_cast<unsigned>(l), z);
+      }
+    }
+    const SurfaceMeasures m = measure(e);
+    EXPECT_NEAR(m.volume, 4 * kPi / 3, 1e-11);
+    EXPECT_NEAR(m.area, 4 * kPi, 1e-11);
+    EXPECT_LT(norm(m.centroid), 1e-11);
+  }
+}
+
+// Scales far from 1, and a solid without mean.
+TEST(measure, scales_and_refuses_an_expansion_without_mean) {
+  for (const double scale : {1e-90, 1e90}) {
+    Expansion e = bulged_sphere();
+    const double volume = measure(e).volume;
+    for (double& value : e.coefficients.values()) value *= scale;
+    EXPECT_NEAR(measure(e).volume / scale / scale / scale / volume, 1, 1e-13);
+  }
+  EXPECT_THROW(measure(Expansion{}), Error);
+}
+
+// From a mesh to coefficients and back: the rms difference over directions, at 100 points of every
+// face weighted by solid angle, is that of (M7).
+TEST(synthesize, misses_the_mesh_by_the_truncation_error_known_from_its_norm) {
+  const Mesh mesh = bumpy_sphere(3, 0.2);
+  const StarChart chart = make_star_chart(mesh);
+  Mesh samples;  // points on the faces, no triangles
+  std::vector<double> weights;
+  for (const Triangle& t : chart.mesh.triangles) {
+    const Vec3 &a = chart.mesh.vertices[t[0]], &b = chart.mesh.vertices[t[1]],
+               &c = chart.mesh.vertices[t[2]];
+    const double volume = dot(a, cross(b, c));
+    const GaussRule rule = gauss_legendre(10);
+    for (int i = 0; i < 10; ++i) {
+      for (int k = 0; k < 10; ++k) {
+        const double s = (1 + rule.nodes[i]) / 2, v = (1 + rule.nodes[k]) / 2;
+        const Vec3 x = (1 - s) * a + s * ((1 - v) * b + v * c);
+        samples.vertices.push_back(x);
+        weights.push_back(rule.weights[i] * rule.weights[k] / 4 * s * volume /
+                          std::pow(norm(x), 3));
+      }
+    }
+  }
+  const Mesh sphere = directions_of(samples, {0, 0, 0});
+  for (const int degree : {2, 4, 8, 16, 32, 64}) {
+    const Analysis analysis = analyze(chart, {.degree = degree, .precision = 1e-8});
+    Expansion expansion = analysis.expansion;
+    expansion.center = {0, 0, 0};
+    const Mesh surface = synthesize(expansion, sphere);
+    double square = 0;
+    for (std::size_t i = 0; i < samples.vertices.size(); ++i) {
+      const Vec3 difference = surface.vertices[i] - samples.vertices[i];
+      square += weights[i] * dot(difference, difference);
+    }
+    EXPECT_NEAR(std::sqrt(square / (4 * kPi)) / *analysis.truncation_rms, 1, 0.01) << degree;
+  }
+}
+
+}  // namespace
+}  // namespace rholm
