@@ -34,6 +34,10 @@ MethodOptions method_options(const StarGeometry& geometry, const AnalyzeOptions&
   const double c00 = std::abs(scale.mean) * std::sqrt(4 * std::numbers::pi);
   // Below the rounding of c_00 there is nothing to gain.
   constexpr double kRounding = 1e-16;
+  if (!std::isfinite(scale.norm) || !(c00 > 0)) {
+    throw Error(ErrorCode::kInvalidInput,
+                "no direction sees the surface from the centre: its faces have no area");
+  }
   return {.degree = options.degree,
           .error = std::max(options.precision * scale.norm, kRounding * c00),
           .mean_error = std::max(options.precision, kRounding) * c00};
@@ -59,7 +63,7 @@ void check_finite(const Coefficients& c) {
     if (!std::isfinite(value)) {
       throw Error(ErrorCode::kInvalidInput,
                   "the coefficients are not finite numbers: the surface comes too near to the "
-                  "centre, or its size is beyond 1e-150 ... 1e150");
+                  "centre");
     }
   }
 }

@@ -1,9 +1,12 @@
 #include "transform/star_geometry.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "base/compensated_sum.h"
+#include "rholm/error.h"
 #include "shape/face.h"
 
 namespace rholm {
@@ -44,7 +47,14 @@ StarGeometry star_geometry(const StarChart& chart) {
   for (const Vec3& v : chart.mesh.vertices) {
     largest = std::max({largest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   }
-  if (largest > 0) geometry.scale = std::exp2(-std::ilogb(largest));
+  // Between these the scale, its square and what is scaled back stay normal numbers.
+  if (!(largest > 1e-150 && largest < 1e150)) {
+    throw Error(ErrorCode::kInvalidInput,
+                fmt::format("the largest coordinate from the centre is {:g}, outside 1e-150 ... "
+                            "1e150: choose another unit of length",
+                            largest));
+  }
+  geometry.scale = std::exp2(-std::ilogb(largest));
   geometry.vertices.reserve(chart.mesh.vertices.size());
   for (const Vec3& v : chart.mesh.vertices) geometry.vertices.push_back(geometry.scale * v);
   geometry.faces.resize(chart.mesh.triangles.size());

@@ -28,6 +28,7 @@ struct StarGeometry {
   }
 };
 
+// Throws InvalidInput for a chart whose size is outside 1e-150 ... 1e150.
 StarGeometry star_geometry(const StarChart& chart);
 
 // Solid angle of a triangle seen from the origin (Van Oosterom and Strackee 1983), signed.

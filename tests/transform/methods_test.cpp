@@ -164,7 +164,7 @@ TEST(analyze, gives_the_same_bits_for_any_number_of_threads) {
 TEST(analyze, scales_exactly_with_powers_of_two) {
   const Mesh mesh = bumpy_sphere(1);
   const StarChart chart = chart_about(mesh, {0, 0, 0});
-  for (const double scale : {0x1p-300, 0x1p-20, 0x1p400}) {
+  for (const double scale : {0x1p-300, 0x1p-20, 0x1p300}) {
     Mesh scaled = mesh;
     for (Vec3& v : scaled.vertices) v *= scale;
     const StarChart large = chart_about(scaled, {0, 0, 0});
@@ -176,6 +176,16 @@ TEST(analyze, scales_exactly_with_powers_of_two) {
         EXPECT_EQ(a.expansion.coefficients.values()[i] * factor,
                   b.expansion.coefficients.values()[i]);
       }
+    }
+  }
+}
+
+TEST(analyze, refuses_sizes_beyond_what_squares_can_hold) {
+  for (const double scale : {1e-310, 1e-200, 1e200}) {
+    Mesh mesh = bumpy_sphere(1);
+    for (Vec3& v : mesh.vertices) v *= scale;
+    for (const Method method : kMethods) {
+      EXPECT_THROW(analyze(chart_about(mesh, {0, 0, 0}), {.degree = 3, .method = method}), Error);
     }
   }
 }
