@@ -1,9 +1,11 @@
 #include <time.h>
 
 #include <chrono>
+#include <string>
 #include <utility>
 
 #include "base/parallel.h"
+#include "rholm/error.h"
 #include "rholm/model.h"
 
 namespace rholm {
@@ -45,6 +47,18 @@ Topology topology_of(const Mesh& mesh, double weld_tolerance) {
   return topology;
 }
 
+// Says that the mesh was turned even where it is refused afterwards.
+StarChart chart_of(Topology& topology, const ChartOptions& options, const Context& context) {
+  try {
+    return make_star_chart(topology.welded.mesh, std::move(topology.edges), options, context);
+  } catch (const Error& error) {
+    if (!topology.flipped || error.code() == ErrorCode::kCancelled) throw;
+    throw Error(error.code(), std::string("the mesh was inside out and has been turned right side "
+                                          "out; then: ") +
+                                  error.what());
+  }
+}
+
 }  // namespace
 
 Encoded encode(const Mesh& mesh, const EncodeOptions& options, const Context& context) {
@@ -53,9 +67,8 @@ Encoded encode(const Mesh& mesh, const EncodeOptions& options, const Context& co
   Topology topology =
       timed(encoded.times["topology"], [&] { return topology_of(mesh, options.weld_tolerance); });
   report_progress(context, "center", 0);
-  const StarChart chart = timed(encoded.times["center"], [&] {
-    return make_star_chart(topology.welded.mesh, std::move(topology.edges), options.chart, context);
-  });
+  const StarChart chart =
+      timed(encoded.times["center"], [&] { return chart_of(topology, options.chart, context); });
   encoded.star = chart.report;
   encoded.vertices = chart.mesh.vertices.size();
   encoded.faces = chart.mesh.triangles.size();
