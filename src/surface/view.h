@@ -1,0 +1,47 @@
+// From where a picture is seen, and where a point falls in it.
+#pragma once
+
+#include <span>
+
+#include "rholm/mesh.h"
+#include "rholm/render.h"
+
+namespace rholm {
+
+struct PlanePoint {
+  double x = 0;  // to the right
+  double y = 0;  // up
+};
+
+struct PlaneBox {
+  PlanePoint min;
+  PlanePoint max;
+  double width() const { return max.x - min.x; }
+  double height() const { return max.y - min.y; }
+};
+
+struct ViewRay {
+  Vec3 origin;
+  Vec3 direction;
+};
+
+// The eye looks along `forward` at the origin; the picture plane goes through the origin.
+struct View {
+  Vec3 right;
+  Vec3 up;
+  Vec3 forward;
+  double distance = 0;  // of the eye
+  bool perspective = false;
+
+  PlanePoint project(const Vec3& p) const;
+  ViewRay ray(const PlanePoint& p) const;
+};
+
+// `radius`: of a ball about the origin that holds everything. Throws InvalidInput for a direction
+// that is zero or not finite.
+View make_view(const RenderOptions& options, double radius);
+
+// Of all corners of triangles; a point at the origin for no triangle.
+PlaneBox projected_box(const View& view, const Mesh& mesh);
+
+}  // namespace rholm
