@@ -18,6 +18,15 @@ std::size_t array_size(int degree) {
   return 2 * side * side;
 }
 
+// For messages: names may come from a file, with any bytes and of any length.
+std::string in_quotes(const std::string& name) {
+  std::string shown = name.substr(0, 40);
+  for (char& c : shown) {
+    if (c < 0x20 || c > 0x7e) c = '?';
+  }
+  return "'" + shown + "'";
+}
+
 }  // namespace
 
 Coefficients::Coefficients(int degree) : degree_(degree), values_(array_size(degree)) {}
@@ -42,7 +51,7 @@ RadialFunction parse_radial_function(const std::string& name) {
   if (name == "radius") return RadialFunction::kRadius;
   if (name == "gauge") return RadialFunction::kGauge;
   throw Error(ErrorCode::kInvalidInput,
-              "unknown function '" + name + "': it must be 'radius' or 'gauge'");
+              "unknown function " + in_quotes(name) + ": it must be 'radius' or 'gauge'");
 }
 
 const char* to_string(Normalization normalization) {
@@ -61,8 +70,8 @@ Normalization parse_normalization(const std::string& name) {
   if (name == "orthonormal") return Normalization::kOrthonormal;
   if (name == "4pi") return Normalization::kFourPi;
   if (name == "schmidt") return Normalization::kSchmidt;
-  throw Error(ErrorCode::kInvalidInput,
-              "unknown normalization '" + name + "': it must be '4pi', 'orthonormal' or 'schmidt'");
+  throw Error(ErrorCode::kInvalidInput, "unknown normalization " + in_quotes(name) +
+                                            ": it must be '4pi', 'orthonormal' or 'schmidt'");
 }
 
 }  // namespace rholm

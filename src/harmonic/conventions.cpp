@@ -14,16 +14,17 @@
 namespace rholm {
 namespace {
 
-// One factor per degree by which orthonormal coefficients are multiplied, rounded once. Going back
-// divides by the same number, so that a round trip is right to one unit in the last place.
-double external_factor(Normalization normalization, int l) {
+// One divisor per degree that takes orthonormal coefficients to the others, rounded once. Going
+// back multiplies by the same number, so that a round trip is right to one unit in the last place,
+// and the constant 1, sqrt(4 pi) inside, is exactly 1 outside.
+double external_divisor(Normalization normalization, int l) {
   switch (normalization) {
     case Normalization::kOrthonormal:
       return 1;
     case Normalization::kFourPi:
-      return 1 / std::sqrt(4 * std::numbers::pi);
+      return std::sqrt(4 * std::numbers::pi);
     case Normalization::kSchmidt:
-      return std::sqrt((2.0 * l + 1) / (4 * std::numbers::pi));
+      return std::sqrt(4 * std::numbers::pi / (2.0 * l + 1));
   }
   return 1;
 }
@@ -38,11 +39,13 @@ Coefficients convert(const Coefficients& from, const Convention& convention, Way
   Coefficients result = from;
   if (convention == Convention{Normalization::kOrthonormal, 1}) return result;
   for (int l = 0; l <= from.degree(); ++l) {
-    const double factor = external_factor(convention.normalization, l);
+    const double divisor = external_divisor(convention.normalization, l);
     for (int m = 0; m <= l; ++m) {
-      const double signed_factor = m % 2 == 1 ? convention.csphase * factor : factor;
+      const double signed_divisor = m % 2 == 1 ? convention.csphase * divisor : divisor;
       for (double* value : {&result.c(l, m), &result.s(l, m)}) {
-        *value = way == Way::kToExternal ? *value * signed_factor : *value / signed_factor;
+        const double other =
+            way == Way::kToExternal ? *value / signed_divisor : *value * signed_divisor;
+        *value = other + 0.0;  // 0, not -0
       }
     }
   }

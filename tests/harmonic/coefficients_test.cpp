@@ -126,8 +126,9 @@ TEST(conventions, phase_turns_the_sign_of_odd_orders_only) {
   }
 }
 
-// x k / k with both results rounded: the product is off by a factor 1 +- 2^-53, less than one unit
-// in the last place of x, so that the rounded quotient is x or one of its neighbours.
+// x / k * k with both results rounded: the quotient is off by a factor 1 +- 2^-53, its product with
+// k by less than one unit in the last place of x, so that the rounded product is x or one of its
+// neighbours.
 TEST(conventions, there_and_back_is_within_one_unit_in_the_last_place) {
   const Coefficients f = random_coefficients(40);
   for (const Convention& convention : kAllConventions) {
@@ -140,6 +141,13 @@ TEST(conventions, there_and_back_is_within_one_unit_in_the_last_place) {
       }
     }
   }
+}
+
+TEST(conventions, unit_sphere_is_exactly_one) {
+  Coefficients f(0);
+  f.c(0, 0) = std::sqrt(4 * kPi);
+  EXPECT_EQ(to_convention(f, {Normalization::kFourPi, 1}).c(0, 0), 1);
+  EXPECT_EQ(to_convention(f, {Normalization::kSchmidt, -1}).c(0, 0), 1);
 }
 
 TEST(conventions, other_phases_are_refused) {
