@@ -1,0 +1,70 @@
+// What must hold for any bytes given to a reader of shapes.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "io/output_buffer.h"
+#include "io/shape_writers.h"
+#include "rholm/error.h"
+#include "rholm/shape_io.h"
+
+namespace rholm::fuzzing {
+
+inline void require(bool condition) {
+  if (!condition) std::abort();
+}
+
+inline std::vector<char> formatted(const ShapeView& shape, ShapeFormat format) {
+  OutputBuffer out(nullptr);
+  format_shape(shape, format, false, "fuzz", out);
+  return out.take();
+}
+
+inline ShapeView view_of(const ShapeFile& file) {
+  return std::visit([](const auto& shape) { return rholm::view_of(shape); }, file.shape);
+}
+
+// What was written reads back with the same bits of positions, normals of points and triangles.
+// (A mesh all of whose faces were skipped becomes points.)
+inline void check_round_trip(const ShapeView& shape, ShapeFormat format) {
+  const std::vector<char> bytes = formatted(shape, format);
+  const ShapeFile again = parse_shape(bytes, to_string(format));
+  const ShapeView read = view_of(again);
+  require(
+      std::equal(shape.points.begin(), shape.points.end(), read.points.begin(), read.points.end()));
+  require(std::equal(shape.triangles.begin(), shape.triangles.end(), read.triangles.begin(),
+                     read.triangles.end()));
+  if (!shape.is_mesh) {
+    require(std::equal(shape.normals.begin(), shape.normals.end(), read.normals.begin(),
+                       read.normals.end()));
+  }
+}
+
+// `extension` chooses the reader where the content does not. Either an Error is thrown, or the
+// shape is valid and survives writing in the same format and as PLY.
+inline void check_reader(const std::uint8_t* data, std::size_t size, const std::string& extension) {
+  const std::span<const char> bytes(reinterpret_cast<const char*>(data), size);
+  ShapeFile file;
+  try {
+    file = parse_shape(bytes, "fuzz." + extension);
+  } catch (const Error&) {
+    return;
+  }
+  std::visit([](const auto& shape) { validate(shape); }, file.shape);
+  // Memory within a small multiple of the file: no number takes less than a byte of it.
+  const ShapeView shape = view_of(file);
+  require(shape.points.size() <= size && shape.triangles.size() <= size);
+  check_round_trip(shape, ShapeFormat::kPly);
+  // STL rounds to float and XYZ has no triangles: their own round trips are tests.
+  const bool exact = file.format != ShapeFormat::kStl && file.format != ShapeFormat::kXyz;
+  if (exact || !shape.is_mesh) check_round_trip(shape, file.format);
+}
+
+}  // namespace rholm::fuzzing

@@ -1,0 +1,59 @@
+#include "io/shape_writers.h"
+
+#include "rholm/error.h"
+
+namespace rholm {
+
+ShapeView view_of(const Mesh& mesh) {
+  return {.points = mesh.vertices,
+          .normals = {},
+          .triangles = mesh.triangles,
+          .attributes = mesh.attributes,
+          .is_mesh = true};
+}
+
+ShapeView view_of(const PointCloud& cloud) {
+  return {.points = cloud.points,
+          .normals = cloud.normals,
+          .triangles = {},
+          .attributes = cloud.attributes,
+          .is_mesh = false};
+}
+
+std::vector<Vec3> normals_of(const ShapeView& shape) {
+  std::vector<Vec3> normals(shape.normals.begin(), shape.normals.end());
+  const auto group = find_group<3>(shape.attributes, {"nx", "ny", "nz"});
+  if (!normals.empty() || !group) return normals;
+  normals.reserve(shape.points.size());
+  const auto& [x, y, z] = *group;
+  for (std::size_t i = 0; i < shape.points.size(); ++i) {
+    normals.push_back({x->values[i], y->values[i], z->values[i]});
+  }
+  return normals;
+}
+
+void format_shape(const ShapeView& shape, ShapeFormat format, bool ascii, const std::string& name,
+                  OutputBuffer& out) {
+  if (format == ShapeFormat::kStl && !shape.is_mesh) {
+    throw Error(ErrorCode::kUnsupported,
+                name + ": STL holds facets, not points; write PLY, OBJ, OFF or XYZ");
+  }
+  if (format == ShapeFormat::kXyz && !shape.triangles.empty()) {
+    throw Error(ErrorCode::kUnsupported,
+                name + ": XYZ holds points, not triangles; write PLY, OBJ, OFF or STL");
+  }
+  switch (format) {
+    case ShapeFormat::kPly:
+      return format_ply(shape, ascii, out);
+    case ShapeFormat::kObj:
+      return format_obj(shape, out);
+    case ShapeFormat::kOff:
+      return format_off(shape, out);
+    case ShapeFormat::kStl:
+      return format_stl(shape, ascii, name, out);
+    case ShapeFormat::kXyz:
+      return format_xyz(shape, out);
+  }
+}
+
+}  // namespace rholm
