@@ -1,0 +1,170 @@
+// The model file, read. Layout: docs/model-file.md.
+#include "model/model_read.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/bytes.h"
+#include "io/coefficients_table.h"
+#include "io/expansion_check.h"
+#include "model/crc32.h"
+#include "model/hdf5_reader.h"
+#include "model/model_layout.h"
+#include "rholm/error.h"
+#include "rholm/model.h"
+
+namespace rholm {
+namespace {
+
+class ModelReader {
+ public:
+  ModelReader(std::string_view bytes, const std::string& name) : file_(hdf5::open(bytes, name)) {}
+
+  Expansion read() const {
+    const hdf5::Object root = hdf5::root_group(file_);
+    check_version(root);
+    return read_expansion(hdf5::open_member(file_, root, layout::kExpansion));
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& what,
+                           ErrorCode code = ErrorCode::kInvalidInput) const {
+    throw Error(code, file_.name + ": " + what);
+  }
+
+  hdf5::Array attribute(const hdf5::Object& object, const char* name) const {
+    const auto found = hdf5::find_attribute(file_, object, name);
+    if (!found) refuse(fmt::format("'{}' has no attribute '{}'", object.path, name));
+    return *found;
+  }
+  std::string text(const hdf5::Object& object, const char* name) const {
+    return hdf5::to_text(file_, attribute(object, name));
+  }
+  std::string optional_text(const hdf5::Object& object, const char* name) const {
+    const auto found = hdf5::find_attribute(file_, object, name);
+    return found ? hdf5::to_text(file_, *found) : std::string();
+  }
+  std::int64_t integer(const hdf5::Object& object, const char* name) const {
+    return hdf5::to_integer(file_, attribute(object, name));
+  }
+  std::vector<double> numbers(const hdf5::Object& object, const char* name,
+                              std::size_t count) const {
+    std::vector<double> values = hdf5::to_doubles(file_, attribute(object, name));
+    if (values.size() != count) {
+      refuse(fmt::format("the attribute '{}' has {} numbers instead of {}", name, values.size(),
+                         count));
+    }
+    return values;
+  }
+  std::optional<double> optional_number(const hdf5::Object& object, const char* name) const {
+    if (!hdf5::find_attribute(file_, object, name)) return std::nullopt;
+    return numbers(object, name, 1)[0];
+  }
+
+  void check_version(const hdf5::Object& root) const {
+    const auto format = hdf5::find_attribute(file_, root, layout::kFormat);
+    if (!format || hdf5::to_text(file_, *format) != layout::kFormatName) {
+      refuse(fmt::format("an HDF5 file without the attribute {} = {}: it is not a model",
+                         layout::kFormat, layout::kFormatName),
+             ErrorCode::kUnsupported);
+    }
+    const std::int64_t major = integer(root, layout::kVersionMajor);
+    if (major != layout::kMajor) {
+      refuse(fmt::format("the model has version {}, this program reads {}: use a newer rholm",
+                         major, layout::kMajor),
+             ErrorCode::kUnsupported);
+    }
+  }
+
+  // Files of other programs need not have the checksum.
+  void check_crc32(const hdf5::Object& group, const hdf5::Array& coefficients,
+                   const Expansion& expansion) const {
+    const auto stored = hdf5::find_attribute(file_, group, layout::kCrc32);
+    if (!stored) return;
+    const std::uint32_t found =
+        crc32(expansion.method, crc32(expansion.unit, crc32(coefficients.data)));
+    if (hdf5::to_integer(file_, *stored) != found && !kAnyChecksum) {
+      refuse("its checksum is wrong: the file is damaged, or edited (then delete the attribute " +
+             group.path + "@" + layout::kCrc32 + ")");
+    }
+  }
+
+  Coefficients to_coefficients(const hdf5::Array& array) const {
+    const auto& extents = array.extents;
+    if (extents.size() != 3 || extents[0] != 2 || extents[1] != extents[2] || extents[1] < 1 ||
+        extents[1] > kMaxDegree + std::size_t{1}) {
+      refuse(fmt::format("the shape of '{}' is ({}): it must be (2, L+1, L+1), L from 0 to {}",
+                         array.path, fmt::join(extents, ", "), kMaxDegree));
+    }
+    const std::vector<double> values = hdf5::to_doubles(file_, array);
+    Coefficients result(static_cast<int>(extents[1]) - 1);
+    std::copy(values.begin(), values.end(), result.values().begin());
+    return result;
+  }
+
+  Expansion read_expansion(const hdf5::Object& group) const {
+    const std::string normalization = text(group, layout::kNormalization);
+    const std::int64_t csphase = integer(group, layout::kCsphase);
+    if (normalization != to_string(Normalization::kOrthonormal) || csphase != 1) {
+      refuse(fmt::format("normalization {} and csphase {}: a model has orthonormal and 1",
+                         in_quotes(normalization), csphase),
+             ErrorCode::kUnsupported);
+    }
+    Expansion expansion;
+    const hdf5::Array array =
+        hdf5::read_dataset(file_, hdf5::open_member(file_, group, layout::kCoefficients));
+    expansion.coefficients = to_coefficients(array);
+    const std::int64_t degree = integer(group, layout::kDegree);
+    if (degree != expansion.coefficients.degree()) {
+      refuse(fmt::format("it says degree {} and has coefficients up to {}", degree,
+                         expansion.coefficients.degree()));
+    }
+    expansion.function = parse_radial_function(text(group, layout::kFunction));
+    const std::vector<double> center = numbers(group, layout::kCenter, 3);
+    expansion.center = {center[0], center[1], center[2]};
+    expansion.unit = optional_text(group, layout::kUnit);
+    expansion.method = optional_text(group, layout::kMethod);
+    expansion.norm_squared = optional_number(group, layout::kNormSquared);
+    expansion.tail_strength = optional_number(group, layout::kTailStrength);
+    check_crc32(group, array, expansion);
+    check_expansion(expansion, file_.name);
+    return expansion;
+  }
+
+  hdf5::File file_;
+};
+
+std::string_view text_of(std::span<const char> bytes) { return {bytes.data(), bytes.size()}; }
+
+}  // namespace
+
+bool looks_like_model(std::span<const char> bytes) { return hdf5::has_signature(text_of(bytes)); }
+
+Expansion parse_model(std::span<const char> bytes, const std::string& name) {
+  if (!looks_like_model(bytes)) {
+    throw Error(ErrorCode::kInvalidInput, name + ": it is not an HDF5 file, so not a model");
+  }
+  return ModelReader(text_of(bytes), name).read();
+}
+
+Expansion read_model(const std::filesystem::path& path) {
+  const Bytes bytes = read_bytes(path);
+  return parse_model(bytes.view(), path == "-" ? "standard input" : path.string());
+}
+
+bool is_model_file(const std::filesystem::path& path) {
+  if (path == "-") return false;
+  std::array<char, 8> first = {};
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw Error(ErrorCode::kIo, "cannot read " + path.string());
+  file.read(first.data(), first.size());
+  return looks_like_model({first.data(), static_cast<std::size_t>(file.gcount())});
+}
+
+}  // namespace rholm
