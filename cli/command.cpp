@@ -1,0 +1,23 @@
+#include "cli/command.h"
+
+namespace rholm::cli {
+
+std::vector<Option> common_options(CommonOptions& values) {
+  return {
+      {.name = "threads",
+       .value = "N",
+       .help = "worker threads; 0 (the default) is one per processor; results do not depend on it",
+       .target = &values.threads,
+       .min = 0,
+       .max = 4096},
+      {.name = "quiet", .help = "errors only: no notes, no progress", .target = &values.quiet},
+  };
+}
+
+std::vector<Command> all_commands() {
+  return {info_command(),     center_command(),     analyze_command(), synthesize_command(),
+          spectrum_command(), compare_command(),    convert_command(), render_command(),
+          make_command(),     completion_command(), man_page_command()};
+}
+
+}  // namespace rholm::cli

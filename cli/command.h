@@ -1,0 +1,74 @@
+// What a command line may hold, as data. The parser, --help, the manual page and the completions
+// are all made from this one description, so that they cannot disagree. Layer: cli.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace rholm::cli {
+
+class Session;
+
+// Where the value of an option goes. A bool is a switch.
+using Target =
+    std::variant<std::monostate, bool*, int*, std::optional<int>*, double*, std::optional<double>*,
+                 std::uint64_t*, std::string*, std::vector<std::string>*>;
+
+// What a shell offers for a value.
+enum class Offer { kNothing, kAnyFile, kShapes, kCoefficients, kShapesAndCoefficients };
+
+struct Option {
+  std::string name;        // "degree" means --degree; an operand is in capitals: "SHAPE"
+  char letter = 0;         // 'o' means -o
+  std::string value = {};  // how help calls the value, "L"; empty for switches and operands
+  std::string help;        // one sentence without a full stop
+  Target target = {};      // outlives the parser
+  bool required = false;
+  std::vector<std::string> choices = {};  // the only values allowed, if any
+  std::optional<double> min = {};         // bounds of a number, inclusive
+  std::optional<double> max = {};
+  Offer offer = Offer::kNothing;
+
+  bool is_operand() const { return name.front() >= 'A' && name.front() <= 'Z'; }
+  bool is_switch() const { return std::holds_alternative<bool*>(target); }
+  // As it is typed: "--degree", or "SHAPE".
+  std::string typed() const { return is_operand() ? name : "--" + name; }
+};
+
+struct Command {
+  std::string name;
+  std::string summary;      // one line, without a full stop
+  std::string description;  // paragraphs separated by empty lines
+  std::vector<Option> options;
+  std::vector<std::string> examples;      // whole command lines
+  std::function<int(Session&)> run = {};  // returns the exit code
+  bool hidden = false;                    // not in the list of commands
+};
+
+// --threads and --quiet, which every command has.
+struct CommonOptions {
+  int threads = 0;
+  bool quiet = false;
+};
+std::vector<Option> common_options(CommonOptions& values);
+
+// The commands in the order of the pipeline, one file each.
+Command info_command();
+Command center_command();
+Command analyze_command();
+Command synthesize_command();
+Command spectrum_command();
+Command compare_command();
+Command convert_command();
+Command render_command();
+Command make_command();
+Command completion_command();
+Command man_page_command();
+
+std::vector<Command> all_commands();
+
+}  // namespace rholm::cli

@@ -1,0 +1,18 @@
+// Ctrl-C and its kin. Layer: cli.
+//
+// The first SIGINT or SIGTERM asks the library to stop at its next look (the progress callback);
+// the second removes unfinished files and leaves at once. Blocking calls return with EINTR.
+#pragma once
+
+namespace rholm::cli {
+
+void install_signal_handlers();
+
+// The signal that asked to stop, 0 if none did.
+int interrupting_signal();
+
+// Throws Error{kCancelled} if one did: asked between the steps of a command, so that an output
+// is not begun any more.
+void stop_if_interrupted();
+
+}  // namespace rholm::cli

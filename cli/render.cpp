@@ -1,0 +1,219 @@
+// rholm render: a picture of shapes and models.
+#include "rholm/render.h"
+
+#include <algorithm>
+#include <deque>
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/inputs.h"
+#include "cli/interrupt.h"
+#include "cli/outputs.h"
+#include "cli/parse.h"
+#include "cli/session.h"
+#include "cli/surfaces.h"
+#include "cli/values.h"
+#include "rholm/compare.h"
+#include "rholm/file.h"
+
+namespace rholm::cli {
+namespace {
+
+struct Options {
+  std::vector<std::string> inputs;
+  std::string degrees;
+  std::string size;
+  std::string color;
+  std::string against;
+  std::optional<double> scale_max;
+  bool perspective = false;
+  std::string view;
+  std::string up;
+  std::string labels;
+  std::optional<int> subdivisions;
+  std::string output;
+  std::string format;
+};
+
+// Panels point to their meshes: a deque keeps them where they are.
+struct Scene {
+  std::deque<Mesh> meshes;
+  std::vector<Panel> panels;
+};
+
+// Pixels: one panel is a picture of its own, several share the width.
+constexpr int kMinSize = 16, kMaxSize = 16384;
+constexpr int kSingleWidth = 1024, kSingleHeight = 768, kPanelWidth = 400, kPanelHeight = 460;
+
+void check_options(const Options& options) {
+  if (options.output == "-" && options.format.empty()) {
+    throw UsageError("standard output has no extension: say --format png");
+  }
+  if (options.output != "-" && options.format.empty() && extension_of(options.output) != ".png") {
+    throw UsageError(
+        fmt::format("'{}' must end in .png, the one format of pictures", options.output));
+  }
+  if (options.color == "error" && options.against.empty()) {
+    throw UsageError("--color error needs --against SHAPE, the surface to measure from");
+  }
+  if (!options.against.empty() && options.color != "error") {
+    throw UsageError("--against is the surface of --color error, which is missing");
+  }
+}
+
+RenderOptions render_options(const Options& options, std::size_t panels) {
+  RenderOptions wanted;
+  const int n = static_cast<int>(std::min<std::size_t>(panels, 40));
+  wanted.width = n == 1 ? kSingleWidth : kPanelWidth * n;
+  wanted.height = n == 1 ? kSingleHeight : kPanelHeight;
+  if (!options.size.empty()) {
+    const auto size = parse_size("--size", options.size, kMinSize, kMaxSize);
+    wanted.width = size[0];
+    wanted.height = size[1];
+  }
+  wanted.perspective = options.perspective;
+  if (!options.view.empty()) wanted.view_direction = parse_vector("--view", options.view);
+  if (!options.up.empty()) wanted.up = parse_vector("--up", options.up);
+  if (norm(cross(wanted.view_direction, wanted.up)) == 0) {
+    throw UsageError("--view and --up must be two different directions");
+  }
+  return wanted;
+}
+
+void add_panel(Mesh mesh, const std::string& label, bool smooth, Scene& scene) {
+  scene.meshes.push_back(std::move(mesh));
+  scene.panels.push_back(
+      {.mesh = &scene.meshes.back(), .label = label, .scalars = {}, .smooth = smooth});
+}
+
+// A shape is one panel, a model one for each degree asked for.
+void add_input(const Options& options, const std::string& path, Session& session, Scene& scene) {
+  const Input input = read_input(path, session);
+  const std::string name = path == "-" ? "input" : std::filesystem::path(path).stem().string();
+  const auto* file = std::get_if<CoefficientsFile>(&input);
+  if (!file || options.degrees.empty()) {
+    const std::string label =
+        file ? fmt::format("{}, L = {}", name, file->expansion.coefficients.degree()) : name;
+    add_panel(surface_of(input, path, {}, options.subdivisions, session), label, file, scene);
+    return;
+  }
+  for (const int degree : parse_degrees("--degree", options.degrees)) {
+    add_panel(surface_of(input, path, degree, options.subdivisions, session),
+              fmt::format("L = {}", degree), true, scene);
+  }
+}
+
+void color_by_error(const Options& options, Session& session, Scene& scene, RenderOptions& wanted) {
+  const Input other = read_input(options.against, session);
+  const Mesh surface = surface_of(other, options.against, {}, options.subdivisions, session);
+  for (Panel& panel : scene.panels) {
+    panel.scalars = distances_to_surface(panel.mesh->vertices, surface, session.context());
+  }
+  wanted.scale_min = 0;
+  wanted.scale_max = options.scale_max;
+  wanted.scale_label =
+      fmt::format("distance to {}", std::filesystem::path(options.against).filename().string());
+}
+
+void set_labels(const Options& options, Scene& scene) {
+  if (options.labels.empty()) {
+    if (scene.panels.size() == 1) scene.panels.front().label.clear();
+    return;
+  }
+  const std::vector<std::string> labels = split(options.labels, ',');
+  if (labels.size() != scene.panels.size()) {
+    throw UsageError(
+        fmt::format("--labels has {} names for {} panels", labels.size(), scene.panels.size()));
+  }
+  for (std::size_t i = 0; i < labels.size(); ++i) scene.panels[i].label = labels[i];
+}
+
+int run(const Options& options, Session& session) {
+  check_options(options);
+  render_options(options, 1);  // refuses wrong values before anything is read
+  if (!options.degrees.empty()) parse_degrees("--degree", options.degrees);
+  check_writable(options.output);
+  Scene scene;
+  for (const std::string& path : options.inputs) add_input(options, path, session, scene);
+  set_labels(options, scene);
+  RenderOptions wanted = render_options(options, scene.panels.size());
+  if (options.color == "error") color_by_error(options, session, scene, wanted);
+  const Image image = render(scene.panels, wanted, session.context());
+  stop_if_interrupted();
+  write_png(options.output, image);
+  return 0;
+}
+
+std::vector<Option> option_list(Options& o) {
+  return {{.name = "INPUT",
+           .help = "files of meshes or coefficients; several stand side by side at one scale",
+           .target = &o.inputs,
+           .required = true,
+           .offer = Offer::kShapesAndCoefficients},
+          {.name = "size",
+           .value = "WxH",
+           .help = "pixels of the whole picture; 1024x768 by default, 400x460 for each of several",
+           .target = &o.size},
+          {.name = "color",
+           .help = "error: colour by the distance to the surface of --against, with a scale bar",
+           .target = &o.color,
+           .choices = {"none", "error"}},
+          {.name = "against",
+           .value = "SHAPE",
+           .help = "mesh or coefficients to measure the error from",
+           .target = &o.against,
+           .offer = Offer::kShapesAndCoefficients},
+          {.name = "scale-max",
+           .value = "D",
+           .help = "distance at the top of the scale bar; by default the largest there is",
+           .target = &o.scale_max,
+           .min = 1e-300},
+          {.name = "degree",
+           .value = "L[,L...]",
+           .help = "cut coefficients off at these degrees, one picture for each",
+           .target = &o.degrees},
+          {.name = "labels",
+           .value = "TEXT[,TEXT...]",
+           .help = "what stands below each picture, instead of file and degree",
+           .target = &o.labels},
+          {.name = "view",
+           .value = "X,Y,Z",
+           .help = "direction of sight, from the eye into the scene; -0.55,0.75,-0.4 by default",
+           .target = &o.view},
+          {.name = "up",
+           .value = "X,Y,Z",
+           .help = "direction that points up in the picture; 0,0,1 by default",
+           .target = &o.up},
+          {.name = "perspective",
+           .help = "as a camera sees it, instead of parallel lines of sight",
+           .target = &o.perspective},
+          {.name = "subdivisions",
+           .value = "N",
+           .help = "icosphere on which coefficients are sampled; by default the smallest N of 5 "
+                   "... 8 with 16 (L+1)^2 vertices",
+           .target = &o.subdivisions,
+           .min = 0,
+           .max = 12},
+          output_option(o.output, "picture to write: .png; - for standard output"),
+          format_option(o.format, {"png"})};
+}
+
+}  // namespace
+
+Command render_command() {
+  auto options = std::make_shared<Options>();
+  return {.name = "render",
+          .summary = "A picture of meshes and models",
+          .description =
+              "Draws meshes, and the surfaces of coefficients, as a shaded PNG picture. Several "
+              "inputs, or several degrees of one, stand side by side at equal scale.",
+          .options = option_list(*options),
+          .examples = {"rholm render bumpy.h5 --degree 2,8,32 -o levels.png",
+                       "rholm render bumpy.h5 --color error --against bumpy.ply -o error.png"},
+          .run = [options](Session& session) { return run(*options, session); }};
+}
+
+}  // namespace rholm::cli

@@ -1,0 +1,53 @@
+// What the reports of several commands share: JSON of our types, tables of text. The one user of
+// the JSON library in the program. Layer: cli.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "rholm/coefficients.h"
+#include "rholm/mesh.h"
+#include "rholm/star.h"
+#include "rholm/topology.h"
+
+namespace rholm::cli {
+
+// Keys in the order they are added. A number that is not finite is written as null.
+using Json = nlohmann::ordered_json;
+
+Json json_of(const Vec3& v);  // [x, y, z]
+Json json_of(const Bounds& bounds);
+Json json_of(const std::vector<Attribute>& attributes);
+template <typename T>
+Json json_of(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+// "--json" itself.
+struct Option;
+Option json_option(bool& json);
+
+// Writes a report to standard output.
+void print_json(const Json& json);
+void print_text(const std::string& text);
+
+// A line "  name            value\n" of a report in text.
+std::string line(const std::string& name, const std::string& value);
+
+// "yes", or "no, WHY".
+std::string yes_or(bool yes, const std::string& otherwise);
+
+// Seven significant digits.
+std::string text_of(double value);
+std::string text_of(const Vec3& v);                             // "(x, y, z)"
+std::string text_of(const std::vector<Attribute>& attributes);  // "red (uint8), ..."
+
+// "1 vertex", "2 vertices"; `many` by default with an s.
+std::string counted(std::size_t n, const std::string& one, const std::string& many = {});
+
+// The figures of the star check, common to center, analyze.
+void add_star_report(const StarReport& report, Json& json);
+std::string star_report_text(const StarReport& report, double diagonal);
+
+}  // namespace rholm::cli

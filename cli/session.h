@@ -1,0 +1,53 @@
+// One run of a command: how it talks to the user and to the library. Layer: cli.
+#pragma once
+
+#include <chrono>
+#include <ctime>
+#include <string>
+#include <string_view>
+
+#include "cli/command.h"
+#include "rholm/context.h"
+#include "rholm/model.h"
+
+namespace rholm::cli {
+
+// Text on standard error. Colours only on a terminal and without NO_COLOR.
+void print_error(const std::string& message);
+
+class Session {
+ public:
+  explicit Session(const CommonOptions& options);
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  // Threads, the progress bar, and the question whether to stop.
+  const Context& context() const { return context_; }
+
+  // Standard error, unless --quiet: what the user may want to know, and what they should know.
+  void note(const std::string& message);
+  void warn(const std::string& message);
+
+ private:
+  bool on_progress(std::string_view stage, double fraction);
+  void erase_bar();
+
+  CommonOptions options_;
+  Context context_;
+  bool bar_wanted_ = false;
+  std::size_t bar_width_ = 0;  // letters of the bar on the screen now
+  std::chrono::steady_clock::time_point bar_due_;
+};
+
+// Wall and processor time since it was made.
+class Stopwatch {
+ public:
+  StageTime elapsed() const;
+
+ private:
+  std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
+  std::clock_t cpu_ = std::clock();
+};
+
+}  // namespace rholm::cli

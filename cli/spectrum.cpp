@@ -1,0 +1,144 @@
+// rholm spectrum: energy per degree.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/inputs.h"
+#include "cli/interrupt.h"
+#include "cli/outputs.h"
+#include "cli/parse.h"
+#include "cli/report.h"
+#include "cli/session.h"
+#include "rholm/file.h"
+#include "rholm/render.h"
+
+namespace rholm::cli {
+namespace {
+
+struct Options {
+  std::string input;
+  std::string output;
+  std::string format;
+  bool json = false;
+};
+
+struct Spectrum {
+  std::vector<double> energy;      // per degree
+  std::vector<double> cumulative;  // of degrees 0 ... l
+  std::vector<double> rms_beyond;  // over solid angle, of what degrees above l hold
+  bool includes_tail = false;      // what lies above L is known and in rms_beyond
+};
+
+// Summed from the top, so that small remainders are not lost against the large first degrees.
+Spectrum spectrum_of(const Expansion& expansion) {
+  Spectrum s;
+  s.energy = power_spectrum(expansion.coefficients);
+  const std::size_t n = s.energy.size();
+  s.cumulative.resize(n);
+  s.rms_beyond.resize(n);
+  double sum = 0;
+  for (std::size_t l = 0; l < n; ++l) s.cumulative[l] = sum += s.energy[l];
+  s.includes_tail = expansion.norm_squared.has_value();
+  double beyond = s.includes_tail ? std::max(0.0, *expansion.norm_squared - sum) : 0.0;
+  for (std::size_t l = n; l-- > 0;) {
+    s.rms_beyond[l] = std::sqrt(beyond / (4 * std::numbers::pi));
+    beyond += s.energy[l];
+  }
+  return s;
+}
+
+std::string table(const Spectrum& s, const std::string& format, const std::string& heading) {
+  std::string text = heading;
+  for (std::size_t l = 0; l < s.energy.size(); ++l) {
+    text += fmt::format(fmt::runtime(format), l, s.energy[l], s.cumulative[l], s.rms_beyond[l]);
+  }
+  return text;
+}
+
+std::string csv(const Spectrum& s) {
+  return table(s, "{},{},{},{}\n", "degree,energy,cumulative,rms_beyond\n");
+}
+
+Json report_json(const Options& options, const Expansion& expansion, const Spectrum& s) {
+  Json json;
+  json["file"] = options.input;
+  json["degree"] = expansion.coefficients.degree();
+  json["function"] = to_string(expansion.function);
+  json["energy"] = s.energy;
+  json["cumulative"] = s.cumulative;
+  json["rms_beyond"] = s.rms_beyond;
+  json["rms_beyond_includes_tail"] = s.includes_tail;
+  json["norm_squared"] = json_of(expansion.norm_squared);
+  json["tail_strength"] = json_of(expansion.tail_strength);
+  return json;
+}
+
+std::string plot_format(const Options& options) {
+  if (options.output.empty()) return "";
+  check_not_shared(options.output, options.json);
+  std::string format = options.format;
+  if (format.empty() && options.output != "-") format = extension_of(options.output);
+  if (format.starts_with(".")) format.erase(0, 1);
+  if (format == "svg" || format == "csv") return format;
+  throw UsageError(fmt::format(
+      "'{}' does not say what the plot is to be: .svg or .csv, or --format", options.output));
+}
+
+int run(const Options& options, Session& session) {
+  const std::string format = plot_format(options);
+  check_writable(options.output);
+  const Expansion expansion = read_coefficients_input(options.input, session).expansion;
+  const Spectrum spectrum = spectrum_of(expansion);
+  if (!format.empty()) {
+    const std::string title = std::filesystem::path(options.input).filename().string();
+    const std::string text = format == "svg" ? spectrum_svg(expansion, title) : csv(spectrum);
+    stop_if_interrupted();
+    write_file(options.output, text);
+  }
+  if (options.json) {
+    print_json(report_json(options, expansion, spectrum));
+  } else if (options.output.empty()) {
+    const std::string heading = fmt::format(
+        "# {}, per degree of the {}; rms beyond over solid angle{}\n"
+        "{:>6} {:>14} {:>14} {:>14}\n",
+        display_name(options.input), to_string(expansion.function),
+        spectrum.includes_tail ? "" : ", within the file's own degrees", "degree", "energy",
+        "cumulative", "rms beyond");
+    print_text(table(spectrum, "{:>6} {:>14.7g} {:>14.7g} {:>14.7g}\n", heading));
+  }
+  return 0;
+}
+
+}  // namespace
+
+Command spectrum_command() {
+  auto options = std::make_shared<Options>();
+  return {.name = "spectrum",
+          .summary = "Energy per degree, as a table or a plot",
+          .description =
+              "Energy of a degree is the sum of its squared orthonormal coefficients; rms beyond "
+              "is the root mean square, over all directions, of what the degrees above hold. "
+              "For a model file of a star-shaped mesh this includes what lies above the file's "
+              "last degree, exactly.\n\nWith -o the plot is written and the table is not; --json "
+              "reports in either case.",
+          .options = {{.name = "MODEL",
+                       .help = "file of coefficients",
+                       .target = &options->input,
+                       .required = true,
+                       .offer = Offer::kCoefficients},
+                      output_option(options->output,
+                                    "plot to write: .svg, or a table as .csv; - for standard "
+                                    "output",
+                                    false),
+                      format_option(options->format, {"svg", "csv"}),
+                      json_option(options->json)},
+          .examples = {"rholm spectrum bumpy.h5", "rholm spectrum bumpy.h5 -o spectrum.svg"},
+          .run = [options](Session& session) { return run(*options, session); }};
+}
+
+}  // namespace rholm::cli

@@ -1,0 +1,152 @@
+// rholm synthesize: from coefficients to meshes.
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/inputs.h"
+#include "cli/interrupt.h"
+#include "cli/outputs.h"
+#include "cli/parse.h"
+#include "cli/report.h"
+#include "cli/session.h"
+#include "cli/surfaces.h"
+#include "cli/values.h"
+#include "rholm/primitives.h"
+#include "rholm/synthesize.h"
+
+namespace rholm::cli {
+namespace {
+
+struct Options {
+  std::string input;
+  std::string degrees;
+  std::optional<int> subdivisions;
+  std::string grid;
+  std::string like;
+  std::string output;
+  std::string format;
+  bool ascii = false;
+  bool json = false;
+};
+
+// One degree writes to the output itself, several to names with the degree in them:
+// out.ply becomes out-L16.ply.
+std::string output_for(const std::string& output, int degree, bool several) {
+  if (!several) return output;
+  std::filesystem::path path(output);
+  const std::string name =
+      fmt::format("{}-L{}{}", path.stem().string(), degree, path.extension().string());
+  return path.replace_filename(name).string();
+}
+
+void check_options(const Options& options, bool several) {
+  const int samplings =
+      options.subdivisions.has_value() + !options.grid.empty() + !options.like.empty();
+  if (samplings > 1) {
+    throw UsageError("--subdivisions, --grid and --like exclude one another: give one of them");
+  }
+  if (several && options.output == "-") {
+    throw UsageError("several degrees make several files: -o must be a name, not -");
+  }
+}
+
+// The sphere whose directions the surface is computed at.
+Mesh sphere_of(const Options& options, int degree, const Expansion& expansion, Session& session) {
+  if (!options.grid.empty()) {
+    const auto [n_theta, n_phi] = parse_size("--grid", options.grid, 1, 32768);
+    if (n_phi < 3) throw UsageError("--grid needs at least 3 directions per ring, as in 90x180");
+    return latitude_longitude_sphere(n_theta, n_phi);
+  }
+  if (!options.like.empty()) {
+    return directions_of(read_mesh(options.like, session), expansion.center);
+  }
+  return icosphere(options.subdivisions.value_or(subdivisions_for(degree, kForFiles)));
+}
+
+int run(const Options& options, Session& session) {
+  const ShapeFormat format = shape_output(options.output, options.format, options.json);
+  std::vector<int> degrees;
+  if (!options.degrees.empty()) degrees = parse_degrees("--degree", options.degrees);
+  const bool several = degrees.size() > 1;
+  check_options(options, several);
+  check_writable(options.output);
+
+  const Expansion expansion = read_coefficients_input(options.input, session).expansion;
+  const int highest = expansion.coefficients.degree();
+  if (degrees.empty()) degrees.push_back(highest);
+  for (const int degree : degrees) {
+    if (degree <= highest) continue;
+    session.warn(fmt::format("{} has coefficients up to degree {} only: {} is cut to it",
+                             display_name(options.input), highest, degree));
+  }
+  const int needed = std::min(highest, *std::max_element(degrees.begin(), degrees.end()));
+  const Mesh sphere = sphere_of(options, needed, expansion, session);
+  const std::vector<Mesh> surfaces = synthesize(expansion, sphere, degrees, session.context());
+
+  Json json;
+  json["file"] = options.input;
+  json["counts"] = {{"vertices", sphere.vertices.size()}, {"faces", sphere.triangles.size()}};
+  json["outputs"] = Json::array();
+  for (std::size_t i = 0; i < degrees.size(); ++i) {
+    const std::string path = output_for(options.output, degrees[i], several);
+    warn_of_crossings(surfaces[i], sphere, expansion.center, path, session);
+    stop_if_interrupted();
+    write_shape(surfaces[i], path, {format, options.ascii}, session.context());
+    json["outputs"].push_back({{"degree", std::min(degrees[i], highest)}, {"file", path}});
+    if (several) session.note(fmt::format("degree {} is in {}", degrees[i], path));
+  }
+  if (options.json) print_json(json);
+  return 0;
+}
+
+std::vector<Option> option_list(Options& o) {
+  return {{.name = "MODEL",
+           .help = "file of coefficients",
+           .target = &o.input,
+           .required = true,
+           .offer = Offer::kCoefficients},
+          {.name = "degree",
+           .value = "L[,L...]",
+           .help = "degrees at which the series is cut off; by default its own. Several degrees "
+                   "make several files: OUT-L4.ply, OUT-L16.ply",
+           .target = &o.degrees},
+          {.name = "subdivisions",
+           .value = "N",
+           .help = "sample on an icosphere of 10 4^N + 2 vertices; by default the smallest N of 4 "
+                   "... 7 with 2 (L+1)^2 vertices",
+           .target = &o.subdivisions,
+           .min = 0,
+           .max = 12},
+          {.name = "grid",
+           .value = "NTHETAxNPHI",
+           .help = "sample on rings of equal latitude and the poles instead",
+           .target = &o.grid},
+          {.name = "like",
+           .value = "SHAPE",
+           .help = "sample in the directions of this mesh's vertices, and keep its connectivity",
+           .target = &o.like,
+           .offer = Offer::kShapes},
+          output_option(o.output, "mesh to write: .ply, .obj, .off, .stl; - for standard output"),
+          format_option(o.format, {"ply", "obj", "off", "stl", "xyz"}),
+          {.name = "ascii", .help = "PLY and STL as text", .target = &o.ascii},
+          json_option(o.json)};
+}
+
+}  // namespace
+
+Command synthesize_command() {
+  auto options = std::make_shared<Options>();
+  return {.name = "synthesize",
+          .summary = "From coefficients to a mesh",
+          .description =
+              "Computes the surface of the coefficients, at one degree or at several in one "
+              "run (levels of detail). The mesh has the exact normals of the smooth surface.",
+          .options = option_list(*options),
+          .examples = {"rholm synthesize bumpy.h5 -o smooth.ply",
+                       "rholm synthesize bumpy.h5 --degree 4,8,16 --grid 90x180 -o level.obj"},
+          .run = [options](Session& session) { return run(*options, session); }};
+}
+
+}  // namespace rholm::cli

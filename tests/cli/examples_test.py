@@ -1,0 +1,56 @@
+"""What the documents and the help texts tell people to type works as it stands.
+
+Runs every ```sh block of README.md and docs/*.md, block after block of one document in one folder,
+and the examples of every --help. Blocks that install, build or run scripts/ are for a clone of
+the project and are recognised by the words below."""
+
+import os
+import re
+import subprocess
+import sys
+
+sys.path.insert(0, os.path.dirname(__file__))
+from harness import CliTest, RHOLM, SOURCE, TIMEOUT, main
+
+FOR_A_CLONE = ("scripts/", "cmake ", "git ", "ninja", "ctest", "sudo ", "man rholm")
+
+
+class Examples(CliTest):
+    def setUp(self):
+        super().setUp()
+        self.environment = {**os.environ, "PATH": os.path.dirname(os.path.abspath(RHOLM)) + ":" +
+                            os.environ["PATH"]}
+
+    def shell(self, text, where):
+        process = subprocess.run(["bash", "-eu", "-o", "pipefail", "-c", text], cwd=self.folder,
+                                 env=self.environment, capture_output=True, text=True,
+                                 timeout=TIMEOUT, stdin=subprocess.DEVNULL)
+        self.assertEqual(process.returncode, 0, f"{where}:\n{text}\n{process.stderr}")
+
+    def test_documents(self):
+        ran = 0
+        for document in [SOURCE / "README.md", *sorted((SOURCE / "docs").glob("*.md"))]:
+            if not document.exists():
+                continue
+            for path in self.folder.iterdir():
+                path.unlink()
+            self.shell("rholm make bumpy --quiet -o shape.ply", "preparation")
+            for block in re.findall(r"^```sh\n(.*?)^```", document.read_text(), re.M | re.S):
+                if not any(word in block for word in FOR_A_CLONE):
+                    with self.subTest(f"{document.name}: {block.splitlines()[0]}"):
+                        self.shell(block, document.name)
+                        ran += 1
+        self.assertGreater(ran, 0, "no document has an example")
+
+    def test_help_texts(self):
+        # The examples of one command may use what those of earlier ones made.
+        for command in ("make", "info", "center", "analyze", "synthesize", "spectrum", "compare",
+                        "convert", "render", "completion"):
+            text = self.rholm(command, "--help").out
+            for line in re.split(r"\nExamples?:\n", text)[1].splitlines():
+                with self.subTest(line):
+                    self.shell(line, command)
+
+
+if __name__ == "__main__":
+    main()

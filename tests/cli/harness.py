@@ -1,0 +1,150 @@
+"""Runs the program rholm as a user does: real processes, real files, a folder of its own."""
+
+import json
+import os
+import pty
+import re
+import select
+import shutil
+import struct
+import subprocess
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+RHOLM = os.environ.get("RHOLM", "rholm")
+SOURCE = Path(__file__).resolve().parents[2]
+
+# Sanitizers make everything several times slower; nothing below should come near this.
+TIMEOUT = 120
+
+
+class Result:
+    """Exit code, standard output and standard error (text) of a finished run."""
+
+    def __init__(self, process, words):
+        self.words = ["rholm", *words]
+        self.code = process.returncode
+        self.bytes = process.stdout
+        self.out = process.stdout.decode("utf-8", "replace")
+        self.err = process.stderr.decode("utf-8", "replace")
+
+    def json(self):
+        # NaN and Infinity are not JSON, though Python would take them.
+        def refuse(name):
+            raise ValueError(f"{name} in the report of {self}")
+        return json.loads(self.out, parse_constant=refuse)
+
+    def __str__(self):
+        return f"{' '.join(self.words)}\n-> {self.code}\n{self.out[-2000:]}\n{self.err[-2000:]}"
+
+
+class CliTest(unittest.TestCase):
+    """Each test has an empty folder, self.folder, in which rholm runs."""
+
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp(prefix="rholm-test-"))
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def run_rholm(self, *words, stdin=b"", environment=None):
+        words = [str(word) for word in words]
+        process = subprocess.run([RHOLM, *words], input=stdin, capture_output=True,
+                                 cwd=self.folder, timeout=TIMEOUT,
+                                 env={**os.environ, **(environment or {})})
+        return Result(process, words)
+
+    def rholm(self, *words, code=0, **options):
+        """Runs and insists on the exit code, and on one clear message if it is not 0."""
+        result = self.run_rholm(*words, **options)
+        self.assertEqual(result.code, code, f"wanted exit code {code}:\n{result}")
+        self.check_decent(result)
+        return result
+
+    def check_decent(self, result):
+        """What holds for every run: no NaN, no crash, one error and a clear one."""
+        # An error may quote the NaN of the input; nothing else may have one.
+        said = result.out + (result.err if result.code == 0 else "")
+        self.assertNotRegex(said, re.compile(r"\bnan\b", re.I), str(result))
+        self.assertGreaterEqual(result.code, 0, f"died of a signal: {result}")
+        errors = [line for line in result.err.splitlines() if line.startswith("rholm: error:")]
+        if result.code in (1, 2, 4):
+            self.assertEqual(len(errors), 1, str(result))
+        self.assertLessEqual(len(errors), 1, str(result))
+        self.assertNotIn("terminate called", result.err, str(result))
+        self.assertNotIn("runtime error:", result.err, str(result))
+
+    def write(self, name, content):
+        path = self.folder / name
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
+        return path
+
+    def files(self):
+        return sorted(path.name for path in self.folder.iterdir())
+
+
+class Terminal:
+    """An interactive program on a pseudo-terminal."""
+
+    def __init__(self, words, folder, environment):
+        self.pid, self.master = pty.fork()
+        if self.pid == 0:
+            os.chdir(folder)
+            os.execvpe(words[0], words, {**os.environ, "TERM": "xterm", **environment})
+
+    def send(self, text):
+        os.write(self.master, text.encode())
+
+    def read_raw(self, wanted=("\0",), seconds=20):
+        """Output until it holds all of `wanted`, the program ends, or the time is over."""
+        text, end = "", time.monotonic() + seconds
+        while time.monotonic() < end and not all(word in plain(text) for word in wanted):
+            if select.select([self.master], [], [], 0.1)[0]:
+                try:
+                    text += os.read(self.master, 65536).decode("utf-8", "replace")
+                except OSError:  # its end has been closed
+                    break
+        return text
+
+    def read(self, wanted, seconds=20):
+        return plain(self.read_raw(wanted, seconds))
+
+    def close(self):
+        os.close(self.master)
+        os.kill(self.pid, 9)
+        os.waitpid(self.pid, 0)
+
+
+def plain(text):
+    """Without the escape sequences of a terminal."""
+    return re.sub(r"\x1b\[[0-9;?]*[A-Za-z]|\x07|\x08", "", text)
+
+
+def off(vertices, faces):
+    """An OFF file."""
+    lines = ["OFF", f"{len(vertices)} {len(faces)} 0"]
+    lines += [" ".join(str(x) for x in v) for v in vertices]
+    lines += [f"{len(f)} " + " ".join(str(i) for i in f) for f in faces]
+    return "\n".join(lines) + "\n"
+
+
+OCTAHEDRON = ([(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)],
+              [(0, 2, 4), (2, 1, 4), (1, 3, 4), (3, 0, 4), (2, 0, 5), (1, 2, 5), (3, 1, 5),
+               (0, 3, 5)])
+
+
+def scaled(mesh, factor):
+    return [tuple(factor * x for x in v) for v in mesh[0]], mesh[1]
+
+
+def binary_stl(mesh):
+    """Every triangle has its own corners: nothing is shared until it is welded."""
+    vertices, faces = mesh
+    text = b"\0" * 80 + struct.pack("<I", len(faces))
+    for face in faces:
+        text += struct.pack("<12fH", 0, 0, 0, *[x for i in face for x in vertices[i]], 0)
+    return text
+
+
+def main():
+    unittest.main(verbosity=2)

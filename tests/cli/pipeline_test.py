@@ -1,0 +1,358 @@
+"""The commands one after the other, on shapes whose answer is known."""
+
+import json
+import math
+import os
+import sys
+import unittest
+
+sys.path.insert(0, os.path.dirname(__file__))
+from harness import CliTest, OCTAHEDRON, binary_stl, main, off
+
+try:
+    import numpy
+except ImportError:
+    numpy = None
+
+
+class Info(CliTest):
+    def test_octahedron_has_its_counts_area_and_volume(self):
+        self.write("a.off", off(*OCTAHEDRON))
+        report = self.rholm("info", "a.off", "--json").json()
+        self.assertEqual(report["kind"], "mesh")
+        self.assertEqual(report["format"], "off")
+        self.assertEqual(report["counts"], {"vertices": 6, "faces": 8, "edges": 12})
+        self.assertTrue(report["closed"] and report["manifold"] and report["oriented"])
+        self.assertFalse(report["inside_out"])
+        self.assertEqual((report["components"], report["genus"]), (1, 0))
+        self.assertAlmostEqual(report["volume"], 4 / 3, 14)
+        self.assertAlmostEqual(report["area"], 4 * math.sqrt(3), 14)
+        self.assertEqual(report["bounds"]["min"], [-1, -1, -1])
+
+    def test_soup_is_closed_after_welding(self):
+        self.write("a.stl", binary_stl(OCTAHEDRON))
+        report = self.rholm("info", "a.stl", "--json").json()
+        self.assertEqual(report["as_read"]["vertices"], 24)
+        self.assertEqual(report["weld"]["merged_vertices"], 18)
+        self.assertTrue(report["closed"])
+
+    def test_torus_has_genus_one(self):
+        self.rholm("make", "torus", "-o", "t.obj")
+        self.assertEqual(self.rholm("info", "t.obj", "--json").json()["genus"], 1)
+
+    def test_open_mesh_is_told_in_words(self):
+        self.write("a.off", off(OCTAHEDRON[0], OCTAHEDRON[1][:-1]))
+        self.assertRegex(self.rholm("info", "a.off").out, r"closed +no, 3 boundary edges")
+
+    def test_mesh_inside_out_is_told_in_words(self):
+        self.write("a.off", off(OCTAHEDRON[0], [f[::-1] for f in OCTAHEDRON[1]]))
+        self.assertRegex(self.rholm("info", "a.off").out, r"inside out +yes")
+
+    def test_points_are_points(self):
+        self.write("p.xyz", "0 0 0 0 0 1\n1 0 0 0 0 1\n1 2 3 0 0 1\n")
+        report = self.rholm("info", "p.xyz", "--json").json()
+        self.assertEqual((report["kind"], report["counts"]["points"]), ("points", 3))
+        self.assertTrue(report["normals"])
+        self.assertEqual(report["bounds"]["max"], [1, 2, 3])
+
+    def test_bare_text_is_told_from_points_by_its_lines(self):
+        self.write("a.txt", "0 0 1 0\n1 0 0.5 0\n1 1 0 0.25\n")
+        self.assertEqual(self.rholm("info", "a.txt", "--json").json()["kind"], "coefficients")
+        self.write("b.txt", "0.5 0 1\n1 0 0.5\n1 1 0\n")
+        self.assertEqual(self.rholm("info", "b.txt", "--json").json()["kind"], "points")
+
+
+class Center(CliTest):
+    def test_kernel_of_a_box_is_the_box(self):
+        self.rholm("make", "box", "--size", "2,4,6", "--translate", "10,20,30", "-o", "b.ply")
+        report = self.rholm("center", "b.ply", "--json").json()
+        # The largest ball inside has radius 1; its centre is fixed along x only.
+        self.assertAlmostEqual(report["center"][0], 10, 9)
+        self.assertAlmostEqual(report["min_d"], 1, 9)
+        self.assertTrue(report["star_shaped"])
+        self.assertEqual(report["once_share"], 1)
+
+    def test_torus_is_not_star_shaped_and_says_so(self):
+        self.rholm("make", "torus", "-o", "t.ply")
+        result = self.rholm("center", "t.ply", "--rays", "1000", "--json", code=3)
+        report = result.json()
+        self.assertFalse(report["star_shaped"])
+        self.assertLess(report["min_d"], 0)
+        self.assertEqual(report["rays"], 1000)
+        self.assertIn("not star-shaped", self.rholm("center", "t.ply", code=3).out)
+
+    def test_open_mesh_is_refused(self):
+        self.write("a.off", off(OCTAHEDRON[0], OCTAHEDRON[1][:-1]))
+        self.assertIn("3", self.rholm("center", "a.off", code=3).err)
+
+
+class Analyze(CliTest):
+    def setUp(self):
+        super().setUp()
+        self.write("a.off", off(*OCTAHEDRON))
+
+    def numbers(self, name):
+        """All C and S of an SHTOOLS text."""
+        rows = [line.split() for line in (self.folder / name).read_text().splitlines()
+                if line[:1] != "#"]
+        return [float(x) for row in rows for x in row[2:4]]
+
+    def test_report_has_the_promised_keys(self):
+        report = self.rholm("analyze", "a.off", "--degree", "4", "-o", "a.h5", "--json").json()
+        stages = {"read", "topology", "center", "transform", "write"}
+        self.assertEqual(set(report["seconds"]), stages)
+        self.assertEqual(set(report["cpu_seconds"]), stages)
+        self.assertEqual(report["degree"], 4)
+        self.assertEqual(report["method"], "edge")
+        self.assertEqual({k: report["counts"][k] for k in ("vertices", "faces", "edges")},
+                         {"vertices": 6, "faces": 8, "edges": 12})
+        self.assertGreater(report["counts"]["nodes"], 0)
+        self.assertGreater(report["peak_memory_bytes"], 1e6)
+        self.assertLess(report["closure_residual"], 1e-14)
+        self.assertEqual([round(x, 9) for x in report["center"]], [0, 0, 0])
+        # Distance of the origin from x + y + z = 1; a corner is seen at the angle of the normal.
+        self.assertAlmostEqual(report["min_d"], 1 / math.sqrt(3), 9)
+        self.assertAlmostEqual(report["min_cos_gamma"], 1 / math.sqrt(3), 9)
+
+    def test_methods_of_the_radius_agree(self):
+        values = []
+        for method in ("edge", "curl", "area"):
+            out = f"{method}.json"
+            self.rholm("analyze", "a.off", "--degree", "8", "--method", method, "--center", "none",
+                       "-o", out)
+            self.rholm("convert", out, f"{method}.sh")
+            values.append(self.numbers(f"{method}.sh"))
+        for other in values[1:]:
+            self.assertLess(max(abs(a - b) for a, b in zip(values[0], other)), 1e-9)
+
+    def test_four_pi_normalised_c00_is_the_mean_radius(self):
+        # Every point of an icosphere lies between the sphere and its deepest face centre.
+        self.rholm("make", "sphere", "--subdivisions", "5", "-o", "s.ply")
+        self.rholm("analyze", "s.ply", "--degree", "2", "-o", "s.sh")
+        first = [line for line in (self.folder / "s.sh").read_text().splitlines()
+                 if line[:1] != "#"][0].split()
+        self.assertEqual(first[:2], ["0", "0"])
+        # An edge of the icosahedron spans 1.107, a part of it about 1.107 / 2^5, certainly less
+        # than twice that; a face centre is at most edge / sqrt 3 from its corners.
+        self.assertLess(float(first[2]), 1)
+        self.assertGreater(float(first[2]), math.cos(2 * 1.107 / 32 / math.sqrt(3)))
+
+    def test_points_are_refused_with_words(self):
+        self.write("p.xyz", "0 0 0\n1 0 0\n0 1 0\n")
+        result = self.rholm("analyze", "p.xyz", "--degree", "2", "-o", "p.h5", code=3)
+        self.assertIn("3 points without faces", result.err)
+
+    def test_coefficients_are_refused_with_words(self):
+        self.rholm("analyze", "a.off", "--degree", "2", "-o", "a.h5")
+        result = self.rholm("analyze", "a.h5", "--degree", "2", "-o", "b.h5", code=3)
+        self.assertIn("rholm synthesize", result.err)
+
+    def test_inside_out_is_turned_and_said(self):
+        self.write("b.off", off(OCTAHEDRON[0], [f[::-1] for f in OCTAHEDRON[1]]))
+        result = self.rholm("analyze", "b.off", "--degree", "2", "-o", "b.sh", "--json")
+        self.assertTrue(result.json()["flipped"])
+        self.assertIn("inside out", result.err)
+        self.rholm("analyze", "a.off", "--degree", "2", "-o", "a.sh")
+        for a, b in zip(self.numbers("a.sh"), self.numbers("b.sh"), strict=True):
+            self.assertAlmostEqual(a, b, 14)  # corners in another order: other roundings
+
+    def test_not_star_shaped_is_refused_unless_signed(self):
+        self.rholm("make", "torus", "--segments", "24x12", "-o", "t.ply")
+        words = ["analyze", "t.ply", "--degree", "4", "-o", "t.h5"]
+        self.assertIn("star", self.rholm(*words, code=3).err)
+        self.assertNotIn("t.h5", self.files())
+        # The torus's best centre lies in the hole, off the surface.
+        result = self.rholm(*words, "--signed", "--center", "none", "--json")
+        self.assertFalse(result.json()["star_shaped"])
+        self.assertIn("alternating", result.err)
+
+    def test_threads_do_not_change_a_bit(self):
+        self.rholm("make", "bumpy", "--subdivisions", "4", "-o", "m.ply")
+        for method in ("edge", "gauge", "area"):
+            for threads in (1, 2, 3):
+                self.rholm("analyze", "m.ply", "--degree", "24", "--method", method, "--threads",
+                           threads, "-o", f"{threads}.npy")
+            contents = {(self.folder / f"{t}.npy").read_bytes() for t in (1, 2, 3)}
+            self.assertEqual(len(contents), 1, method)
+
+    def test_streams_work_at_both_ends(self):
+        piped = self.rholm("analyze", "-", "--degree", "3", "--format", "shtools", "-o", "-",
+                           stdin=(self.folder / "a.off").read_bytes())
+        self.rholm("analyze", "a.off", "--degree", "3", "-o", "a.sh")
+        self.assertEqual(piped.out, (self.folder / "a.sh").read_text())
+
+
+class Synthesize(CliTest):
+    def setUp(self):
+        super().setUp()
+        self.rholm("make", "bumpy", "--subdivisions", "4", "-o", "b.ply")
+        self.rholm("analyze", "b.ply", "--degree", "24", "-o", "b.h5")
+
+    def vertices(self, name):
+        return self.rholm("info", name, "--json").json()["counts"]["vertices"]
+
+    def test_sampling_has_the_asked_number_of_vertices(self):
+        self.rholm("synthesize", "b.h5", "--subdivisions", "3", "-o", "o.ply")
+        self.assertEqual(self.vertices("o.ply"), 10 * 4**3 + 2)
+        self.rholm("synthesize", "b.h5", "--grid", "10x20", "-o", "o.ply")
+        self.assertEqual(self.vertices("o.ply"), 10 * 20 + 2)
+        self.rholm("synthesize", "b.h5", "--like", "b.ply", "-o", "o.ply")
+        self.assertEqual(self.vertices("o.ply"), 10 * 4**4 + 2)
+        # 2 (24 + 1)^2 = 1250 vertices are enough for 4 subdivisions, the least there is.
+        self.rholm("synthesize", "b.h5", "-o", "o.ply")
+        self.assertEqual(self.vertices("o.ply"), 10 * 4**4 + 2)
+
+    def test_several_degrees_make_several_files(self):
+        report = self.rholm("synthesize", "b.h5", "--degree", "2,8,24", "-o", "lod.obj",
+                            "--json").json()
+        names = ["lod-L2.obj", "lod-L8.obj", "lod-L24.obj"]
+        self.assertEqual([o["file"] for o in report["outputs"]], names)
+        errors = [self.rholm("compare", "b.ply", n, "--samples", "20000", "--json").json()
+                  ["a_to_b"]["rms"] for n in names]
+        self.assertGreater(errors[0], errors[1])
+        self.assertGreater(errors[1], errors[2])
+
+    def test_a_degree_beyond_the_model_is_cut_and_said(self):
+        self.assertIn("24", self.rholm("synthesize", "b.h5", "--degree", "99", "-o", "o.ply").err)
+
+    def test_all_formats_hold_the_same_mesh(self):
+        for name in ("o.ply", "o.obj", "o.off", "o.stl"):
+            self.rholm("synthesize", "b.h5", "-o", name)
+            report = self.rholm("info", name, "--json").json()
+            self.assertTrue(report["closed"], name)
+            self.assertEqual(report["counts"]["faces"], 20 * 4**4, name)
+
+    def test_standard_output_is_the_file(self):
+        self.rholm("synthesize", "b.h5", "-o", "o.ply")
+        piped = self.rholm("synthesize", "b.h5", "--format", "ply", "-o", "-")
+        self.assertEqual(piped.bytes, (self.folder / "o.ply").read_bytes())
+
+    def test_the_model_returns_to_the_mesh(self):
+        report = self.rholm("compare", "b.ply", "b.h5", "--json").json()
+        self.assertLess(report["relative"]["a_to_b"]["rms"], 1e-3)
+
+
+class Compare(CliTest):
+    def test_cube_in_a_cube_is_half_the_difference_away(self):
+        self.rholm("make", "box", "--size", "2,2,2", "-o", "a.ply")
+        self.rholm("make", "box", "--size", "4,4,4", "-o", "b.ply")
+        report = self.rholm("compare", "a.ply", "b.ply", "--samples", "5000", "--seed", "3",
+                            "--json").json()
+        diagonal = math.sqrt(12)
+        self.assertEqual((report["samples"], report["seed"]), (5000, 3))
+        for key in ("rms", "mean", "max"):
+            self.assertAlmostEqual(report["a_to_b"][key], 1, 12)
+            self.assertAlmostEqual(report["relative"]["a_to_b"][key], 1 / diagonal, 12)
+        # Back: faces are 1 away in the middle, sqrt 3 at the corners.
+        self.assertLessEqual(report["b_to_a"]["max"], math.sqrt(3))
+        self.assertAlmostEqual(report["hausdorff"], report["b_to_a"]["max"], 15)
+        self.assertAlmostEqual(report["relative"]["hausdorff"], report["hausdorff"] / diagonal, 15)
+        self.assertIn("normal_median_degrees", report)
+
+    def test_same_mesh_is_at_distance_zero(self):
+        self.write("a.off", off(*OCTAHEDRON))
+        report = self.rholm("compare", "a.off", "a.off", "--samples", "1000", "--json").json()
+        self.assertLess(report["hausdorff"], 1e-14)
+        self.assertEqual(report["f_score"], 1)
+
+
+class Spectrum(CliTest):
+    def test_sums_up_to_the_norm(self):
+        self.write("a.off", off(*OCTAHEDRON))
+        self.rholm("analyze", "a.off", "--degree", "16", "-o", "a.h5")
+        report = self.rholm("spectrum", "a.h5", "--json").json()
+        self.assertEqual(len(report["energy"]), 17)
+        self.assertTrue(report["rms_beyond_includes_tail"])
+        beyond = report["norm_squared"] - report["cumulative"][16]
+        self.assertAlmostEqual(report["rms_beyond"][16], math.sqrt(beyond / (4 * math.pi)), 12)
+        # Point symmetric: no odd degree.
+        self.assertLess(max(report["energy"][1::2]), 1e-20)
+
+    def test_plots_are_written(self):
+        self.write("a.off", off(*OCTAHEDRON))
+        self.rholm("analyze", "a.off", "--degree", "16", "-o", "a.h5")
+        self.rholm("spectrum", "a.h5", "-o", "a.svg")
+        self.assertTrue((self.folder / "a.svg").read_text().rstrip().endswith("</svg>"))
+        self.rholm("spectrum", "a.h5", "-o", "a.csv")
+        self.assertEqual(len((self.folder / "a.csv").read_text().splitlines()), 18)
+        self.assertIn("rms beyond", self.rholm("spectrum", "a.h5").out)
+
+
+class Convert(CliTest):
+    def setUp(self):
+        super().setUp()
+        self.write("a.off", off(*OCTAHEDRON))
+        self.rholm("analyze", "a.off", "--degree", "5", "--center", "0.1,0.2,0.05", "--unit", "km",
+                   "-o", "a.h5")
+
+    def orthonormal(self, name):
+        """The coefficients of a file through JSON."""
+        self.rholm("convert", name, "probe.json", "--normalization", "orthonormal")
+        return json.loads((self.folder / "probe.json").read_text())
+
+    def test_every_format_and_convention_returns(self):
+        first = self.orthonormal("a.h5")
+        for name in ("b.sh", "b.gfc", "b.json"):
+            for normalization in ("4pi", "orthonormal", "schmidt"):
+                for csphase in ("1", "-1"):
+                    self.rholm("convert", "a.h5", name, "--normalization", normalization,
+                               "--csphase", csphase)
+                    again = self.orthonormal(name)
+                    self.assert_close(first, again, f"{name} {normalization} {csphase}")
+
+    def assert_close(self, a, b, what):
+        if isinstance(a, dict):
+            for key in a:
+                if key in b:
+                    self.assert_close(a[key], b[key], what)
+        elif isinstance(a, list):
+            for x, y in zip(a, b):
+                self.assert_close(x, y, what)
+        elif isinstance(a, float) and isinstance(b, (int, float)):
+            self.assertAlmostEqual(a, b, 14, what)
+
+    def test_numpy_file_says_what_was_assumed(self):
+        result = self.rholm("convert", "a.h5", "a.npy", "--normalization", "schmidt")
+        self.assertIn("schmidt", result.err)
+        self.assertIn("assumed", self.rholm("convert", "a.npy", "b.sh").err)
+
+    @unittest.skipIf(numpy is None, "NumPy is not installed")
+    def test_numpy_reads_the_array(self):
+        self.rholm("convert", "a.h5", "a.npy")
+        array = numpy.load(self.folder / "a.npy")
+        self.assertEqual(array.shape, (2, 6, 6))
+        self.assertEqual(array.dtype, numpy.float64)
+        rows = [line.split() for line in self.rholm("convert", "a.h5", "-", "--format", "shtools")
+                .out.splitlines() if line[:1] != "#"]
+        for l, m, c, s in rows:
+            self.assertEqual(array[0, int(l), int(m)], float(c))
+            self.assertEqual(array[1, int(l), int(m)], float(s))
+
+    def test_shapes_become_shapes(self):
+        self.rholm("convert", "a.off", "a.ply")
+        self.rholm("convert", "a.ply", "a.obj")
+        self.rholm("convert", "a.obj", "b.off")
+        self.assertAlmostEqual(self.rholm("info", "b.off", "--json").json()["volume"], 4 / 3, 14)
+        self.rholm("convert", "a.off", "a.h5", code=2)
+        self.rholm("convert", "a.h5", "a.ply", code=2)
+
+
+class Render(CliTest):
+    def png_size(self, name):
+        data = (self.folder / name).read_bytes()
+        self.assertEqual(data[:8], b"\x89PNG\r\n\x1a\n")
+        return int.from_bytes(data[16:20], "big"), int.from_bytes(data[20:24], "big")
+
+    def test_pictures_have_the_asked_size_and_do_not_depend_on_threads(self):
+        self.rholm("make", "bumpy", "--subdivisions", "3", "-o", "b.ply")
+        self.rholm("analyze", "b.ply", "--degree", "8", "-o", "b.h5")
+        for threads in (1, 2):
+            self.rholm("render", "b.h5", "b.ply", "--degree", "2,8", "--size", "300x120",
+                       "--color", "error", "--against", "b.ply", "--threads", threads,
+                       "-o", f"{threads}.png")
+        self.assertEqual(self.png_size("1.png"), (300, 120))
+        self.assertEqual((self.folder / "1.png").read_bytes(), (self.folder / "2.png").read_bytes())
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,180 @@
+"""The command line itself: help, versions, wrong words, exit codes, where output goes."""
+
+import os
+import re
+import sys
+
+sys.path.insert(0, os.path.dirname(__file__))
+from harness import CliTest, OCTAHEDRON, RHOLM, SOURCE, Terminal, main, off
+
+COMMANDS = ["info", "center", "analyze", "synthesize", "spectrum", "compare", "convert", "render",
+            "make", "completion"]
+
+
+class Help(CliTest):
+    def test_version_is_that_of_the_header(self):
+        header = (SOURCE / "include/rholm/rholm.h").read_text()
+        version = re.search(r'kVersion = "([^"]+)"', header)[1]
+        self.assertEqual(self.rholm("--version").out, f"rholm {version}\n")
+
+    def test_help_lists_every_command(self):
+        for words in (["help"], ["--help"], ["-h"]):
+            text = self.rholm(*words).out
+            for command in COMMANDS:
+                self.assertRegex(text, rf"\n  {command} +\w")
+            self.assertLessEqual(max(map(len, text.splitlines())), 80)
+
+    def test_help_of_each_command_has_usage_options_and_an_example(self):
+        for command in COMMANDS:
+            text = self.rholm(command, "--help").out
+            self.assertEqual(text, self.rholm("help", command).out)
+            self.assertIn(f"\nUsage: rholm {command} ", text)
+            self.assertIn("--threads N", text)
+            self.assertRegex(text, rf"\nExamples?:\n  rholm {command} ")
+            for line in text.splitlines():
+                if not line.startswith("  rholm "):  # an example may be longer
+                    self.assertLessEqual(len(line), 80, line)
+
+    def test_help_wins_over_wrong_options(self):
+        self.rholm("analyze", "--nonsense", "--help")
+
+    def test_no_command_is_a_usage_error_that_shows_the_help(self):
+        result = self.run_rholm()
+        self.assertEqual(result.code, 2)
+        self.assertIn("Commands:", result.err)
+        self.assertEqual(result.out, "")
+
+
+class WrongUsage(CliTest):
+    def setUp(self):
+        super().setUp()
+        self.write("a.off", off(*OCTAHEDRON))
+
+    def refused(self, *words, saying=None):
+        before = self.files()
+        result = self.rholm(*words, code=2)
+        self.assertEqual(result.out, "")
+        self.assertEqual(self.files(), before, "a refused command wrote a file")
+        if saying:
+            self.assertIn(saying, result.err)
+
+    def test_unknown_words_are_named(self):
+        self.refused("anlyze", saying="anlyze")
+        self.refused("help", "anlyze", saying="anlyze")
+        self.refused("--threads", "2", "info", "a.off", saying="command comes first")
+        self.refused("info", "a.off", "--jsno", saying="--jsno")
+        self.refused("info", "a.off", "b.off", saying="b.off")
+
+    def test_missing_words_are_named(self):
+        self.refused("info", saying="SHAPE")
+        self.refused("analyze", "a.off", "-o", "a.h5", saying="--degree")
+        self.refused("analyze", "a.off", "--degree", "4", saying="--output")
+        self.refused("analyze", "a.off", "-o", "a.h5", "--degree")
+
+    def test_values_out_of_range_are_answered_with_the_limit(self):
+        def analyze(*words, saying):
+            self.refused("analyze", "a.off", "-o", "a.h5", *words, saying=saying)
+        analyze("--degree", "16385", saying="0 ... 16384")
+        analyze("--degree", "2000000000", saying="0 ... 16384")
+        analyze("--degree", "99999999999999999999", saying="--degree")
+        analyze("--degree", "-1", saying="0 ... 16384")
+        analyze("--degree", "four", saying="--degree")
+        analyze("--degree", "4", "--precision", "0", saying="1e-14")
+        analyze("--degree", "4", "--precision", "tiny", saying="--precision")
+        analyze("--degree", "4", "--method", "magic", saying="edge, gauge, curl, area")
+        analyze("--degree", "4", "--center", "left", saying="--center")
+        analyze("--degree", "4", "--center", "1,2", saying="--center")
+        analyze("--degree", "4", "--weld", "-1", saying="--weld")
+        analyze("--degree", "4", "--csphase", "0", saying="1 or -1")
+        analyze("--degree", "4", "--threads", "-2", saying="--threads")
+
+    def test_a_value_that_is_not_a_number_is_refused_as_such(self):
+        result = self.run_rholm("analyze", "a.off", "-o", "a.h5", "--degree", "4", "--weld", "nan")
+        self.assertEqual(result.code, 2, str(result))
+        self.assertIn("finite number", result.err)
+
+    def test_outputs_without_a_format_are_refused_before_any_work(self):
+        for words in (["analyze", "missing.off", "--degree", "4"], ["synthesize", "missing.h5"],
+                      ["make", "sphere"], ["spectrum", "missing.h5"], ["render", "missing.off"]):
+            self.refused(*words, "-o", "out.xyzzy", saying="out.xyzzy")
+            self.refused(*words, "-o", "-", saying="--format")
+        self.refused("convert", "a.off", "out.xyzzy", saying="out.xyzzy")
+        self.refused("convert", "a.off", "-", saying="--format")
+
+    def test_report_and_data_cannot_share_standard_output(self):
+        self.refused("analyze", "a.off", "--degree", "4", "--format", "shtools", "-o", "-",
+                     "--json", saying="--json")
+        self.refused("analyze", "a.off", "--degree", "4", "--format", "h5", "-o", "-",
+                     saying="HDF5")
+
+    def test_options_that_exclude_one_another_are_refused(self):
+        self.refused("synthesize", "a.h5", "--grid", "9x18", "--subdivisions", "3", "-o", "o.ply",
+                     saying="exclude")
+        self.refused("synthesize", "a.h5", "--degree", "1,2", "--format", "ply", "-o", "-",
+                     saying="several")
+        self.refused("make", "box", "--amplitude", "0.1", "-o", "b.ply", saying="--amplitude")
+        self.refused("render", "a.off", "--color", "error", "-o", "a.png", saying="--against")
+        self.refused("render", "a.off", "--size", "0x5", "-o", "a.png", saying="--size")
+        self.refused("render", "a.off", "--view", "0,0,1", "-o", "a.png", saying="--up")
+
+
+class Failures(CliTest):
+    def test_a_file_that_is_not_there_is_a_failure(self):
+        for words in (["info", "none.ply"], ["center", "none.ply"], ["spectrum", "none.h5"],
+                      ["analyze", "none.ply", "--degree", "2", "-o", "o.h5"],
+                      ["compare", "none.ply", "none.ply"], ["convert", "none.ply", "o.obj"],
+                      ["render", "none.ply", "-o", "o.png"]):
+            result = self.rholm(*words, code=1)
+            self.assertIn("none.", result.err)
+            self.assertEqual(self.files(), [])
+
+    def test_an_output_that_cannot_be_written_is_a_failure(self):
+        self.write("a.off", off(*OCTAHEDRON))
+        (self.folder / "folder.ply").mkdir()
+        for target in ("missing/out.ply", "folder.ply", "/proc/out.ply"):
+            result = self.rholm("convert", "a.off", target, code=1)
+            self.assertIn(target, result.err)
+        self.assertEqual(self.files(), ["a.off", "folder.ply"])
+
+    def test_a_full_disk_is_a_failure(self):
+        for command in (["--help"], ["completion", "bash"],
+                        ["make", "sphere", "--format", "ply", "-o", "-"]):
+            code = os.spawnlp(os.P_WAIT, "sh", "sh", "-c",
+                              '"$RHOLM" ' + " ".join(command) + " >/dev/full 2>/dev/null")
+            self.assertEqual(code, 1, command)
+
+    def test_a_folder_is_not_a_shape(self):
+        self.assertIn("directory", self.rholm("info", ".", code=1).err)
+
+
+class Talk(CliTest):
+    def test_quiet_says_nothing(self):
+        self.rholm("make", "sphere", "--subdivisions", "2", "-o", "s.ply")
+        result = self.rholm("analyze", "s.ply", "--degree", "2", "-o", "s.h5", "--quiet")
+        self.assertEqual(result.out + result.err, "")
+
+    def test_no_escape_sequences_without_a_terminal(self):
+        self.assertNotIn("\x1b", self.rholm("info", "none.ply", code=1).err)
+
+    def on_terminal(self, *words, environment=None, **reading):
+        terminal = Terminal([RHOLM, *words], self.folder, environment or {})
+        try:
+            return terminal.read_raw(**reading)
+        finally:
+            terminal.close()
+
+    def test_colours_on_a_terminal_unless_told_otherwise(self):
+        self.assertIn("\x1b[", self.on_terminal("info", "none.ply"))
+        for environment in ({"NO_COLOR": "1"}, {"TERM": "dumb"}):
+            self.assertNotIn("\x1b", self.on_terminal("info", "none.ply", environment=environment))
+
+    def test_progress_on_a_terminal_unless_told_otherwise(self):
+        self.write("b.sh", "0 0 1 0\n1000 3 1e-6 0\n")
+        words = ["synthesize", "b.sh", "--subdivisions", "8", "-o", "b.ply"]
+        self.assertRegex(self.on_terminal(*words, wanted=[" %"]), r"\w+ +\[#* *\] +\d+ %")
+        quiet = self.on_terminal(*words, "--quiet", wanted=[" %"], seconds=1.5)
+        self.assertEqual(quiet, "")
+
+
+if __name__ == "__main__":
+    main()
