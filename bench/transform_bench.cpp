@@ -1,0 +1,98 @@
+// Direct sums: nanoseconds per source and coefficient, and whole transforms of a bumpy sphere, on
+// one thread.
+#include <benchmark/benchmark.h>
+
+#include <vector>
+
+#include "rholm/analyze.h"
+#include "rholm/harmonic.h"
+#include "rholm/primitives.h"
+
+namespace rholm {
+namespace {
+
+const Context kOneThread = {.threads = 1, .progress = {}};
+
+Coefficients some_coefficients(int degree) {
+  Coefficients f(degree);
+  for (int l = 0; l <= degree; ++l) {
+    for (int m = 0; m <= l; ++m) f.c(l, m) = 1.0 / (1 + l + m);
+  }
+  return f;
+}
+
+// 40 962 directions in the order of a mesh, the order that sources of edges and faces have.
+const std::vector<Vec3>& directions() {
+  static const std::vector<Vec3> vertices = icosphere(6).vertices;
+  return vertices;
+}
+
+void count_sources(benchmark::State& state, int degree) {
+  const double sources =
+      static_cast<double>(state.iterations()) * static_cast<double>(directions().size());
+  const double terms = sources * (degree + 1.0) * (degree + 2.0) / 2;
+  state.counters["s/source"] =
+      benchmark::Counter(sources, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["s/term"] =
+      benchmark::Counter(terms, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+void adjoint(benchmark::State& state) {
+  const int degree = static_cast<int>(state.range(0));
+  const std::vector<double> weights(directions().size(), 1.0);
+  for (auto _ : state) {
+    Coefficients sum(degree);
+    add_adjoint(directions(), weights, sum, kOneThread);
+    benchmark::DoNotOptimize(sum.values().data());
+  }
+  count_sources(state, degree);
+}
+BENCHMARK(adjoint)->Arg(64)->Arg(180)->Arg(256)->Unit(benchmark::kMillisecond);
+
+void values(benchmark::State& state) {
+  const Coefficients f = some_coefficients(static_cast<int>(state.range(0)));
+  for (auto _ : state) benchmark::DoNotOptimize(evaluate(f, directions(), kOneThread));
+  count_sources(state, f.degree());
+}
+BENCHMARK(values)->Arg(64)->Arg(180)->Arg(256)->Unit(benchmark::kMillisecond);
+
+void values_and_gradients(benchmark::State& state) {
+  const Coefficients f = some_coefficients(static_cast<int>(state.range(0)));
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(evaluate_with_gradient(f, directions(), kOneThread));
+  }
+  count_sources(state, f.degree());
+}
+BENCHMARK(values_and_gradients)->Arg(64)->Arg(180)->Unit(benchmark::kMillisecond);
+
+// A mesh of 5 120 triangles to degree 64 with the default precision.
+void analyze_by(benchmark::State& state, Method method) {
+  const StarChart chart = make_star_chart(bumpy_sphere(4));
+  std::size_t nodes = 0;
+  for (auto _ : state) {
+    const Analysis analysis = analyze(chart, {.degree = 64, .method = method}, kOneThread);
+    nodes = analysis.edge_nodes + analysis.face_nodes;
+  }
+  state.counters["nodes"] = static_cast<double>(nodes);
+}
+BENCHMARK_CAPTURE(analyze_by, edge, Method::kEdge)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(analyze_by, gauge, Method::kGauge)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(analyze_by, curl, Method::kCurl)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(analyze_by, area, Method::kArea)->Unit(benchmark::kMillisecond);
+
+void center_of(benchmark::State& state, CenterKind kind) {
+  const Mesh mesh = bumpy_sphere(6);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(find_center(mesh, {.kind = kind, .rays = 0}, kOneThread));
+  }
+  state.counters["s/triangle"] =
+      benchmark::Counter(static_cast<double>(state.iterations() * mesh.triangles.size()),
+                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+BENCHMARK_CAPTURE(center_of, kernel, CenterKind::kAuto)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(center_of, cosine, CenterKind::kCosine)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace rholm
+
+BENCHMARK_MAIN();
