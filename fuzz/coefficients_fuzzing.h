@@ -1,0 +1,64 @@
+// What must hold for any bytes given to a reader of coefficients.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <span>
+#include <string>
+
+#include "io/coefficients_codec.h"
+#include "io/expansion_check.h"
+#include "rholm/coefficients_io.h"
+#include "rholm/error.h"
+
+namespace rholm::fuzzing {
+
+inline void require(bool condition) {
+  if (!condition) std::abort();
+}
+
+inline bool same(const Coefficients& a, const Coefficients& b) {
+  if (a.degree() != b.degree()) return false;
+  for (std::size_t i = 0; i < a.values().size(); ++i) {
+    if (a.values()[i] != b.values()[i]) return false;
+  }
+  return true;
+}
+
+inline bool same(const Expansion& a, const Expansion& b) {
+  return same(a.coefficients, b.coefficients) && a.function == b.function && a.center == b.center &&
+         a.unit == b.unit && a.method == b.method && a.norm_squared == b.norm_squared &&
+         a.tail_strength == b.tail_strength;
+}
+
+// A sound expansion survives every format.
+inline void check_expansion_survives(const Expansion& expansion) {
+  check_expansion(expansion, "fuzz");
+  constexpr int kEnough = 64;  // larger ones only cost time
+  if (expansion.coefficients.degree() > kEnough) return;
+  const Convention orthonormal{Normalization::kOrthonormal, 1};
+  for (const auto format : {format_shtools, format_icgem, format_json}) {
+    const std::string bytes = format(expansion, expansion.coefficients, orthonormal);
+    require(same(parse_coefficients(bytes, "again").expansion, expansion));
+  }
+  const CoefficientsFile npy =
+      parse_coefficients(format_npy(expansion.coefficients), "again", {.convention = orthonormal});
+  require(same(npy.expansion.coefficients, expansion.coefficients));
+}
+
+// Either an Error is thrown, or the expansion is sound.
+inline void check_coefficients_reader(const std::uint8_t* data, std::size_t size) {
+  const std::span<const char> bytes(reinterpret_cast<const char*>(data), size);
+  looks_like_coefficients(bytes);
+  CoefficientsFile file;
+  try {
+    file = parse_coefficients(bytes, "fuzz");
+  } catch (const Error&) {
+    return;
+  }
+  check_expansion_survives(file.expansion);
+}
+
+}  // namespace rholm::fuzzing
