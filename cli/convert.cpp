@@ -54,7 +54,8 @@ void convert_coefficients(const Options& options, const CoefficientsFile& file,
   write_coefficients_output(file.expansion, output, convention);
   // A NumPy file has no room to say it.
   if (output.format == CoefficientsFormat::kNpy) {
-    session.note(fmt::format("{} is written with {}, which the file cannot say", options.output,
+    session.note(fmt::format("{} is written with {}, which the file cannot say",
+                             options.output == "-" ? "standard output" : options.output,
                              text_of(convention)));
   }
 }

@@ -127,12 +127,12 @@ class HeaderParser {
 
 template <typename Unsigned>
 Unsigned load(const char* bytes, bool big_endian) {
-  Unsigned value = 0;
+  std::uint64_t value = 0;
   for (std::size_t i = 0; i < sizeof(Unsigned); ++i) {
     const std::size_t place = big_endian ? sizeof(Unsigned) - 1 - i : i;
-    value |= static_cast<Unsigned>(static_cast<unsigned char>(bytes[i])) << (8 * place);
+    value |= static_cast<std::uint64_t>(static_cast<unsigned char>(bytes[i])) << (8 * place);
   }
-  return value;
+  return static_cast<Unsigned>(value);
 }
 
 // The header's text; takes it and what stands before it off `bytes`.

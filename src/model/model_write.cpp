@@ -38,8 +38,9 @@ class Writer {
     // The format of HDF5 1.8: every block of metadata has a checksum.
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     checked(H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18), "choose its version");
+    const Handle creation = quiet_creation(H5P_FILE_CREATE);  // of the root group, too
     return Handle(
-        checked(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), "create the file"),
+        checked(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, access), "create the file"),
         H5Fclose);
   }
 

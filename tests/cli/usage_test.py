@@ -2,7 +2,10 @@
 
 import os
 import re
+import resource
+import subprocess
 import sys
+import unittest
 
 sys.path.insert(0, os.path.dirname(__file__))
 from harness import CliTest, OCTAHEDRON, RHOLM, SOURCE, Terminal, main, off
@@ -142,6 +145,19 @@ class Failures(CliTest):
             code = os.spawnlp(os.P_WAIT, "sh", "sh", "-c",
                               '"$RHOLM" ' + " ".join(command) + " >/dev/full 2>/dev/null")
             self.assertEqual(code, 1, command)
+
+    @unittest.skipIf("ASAN_OPTIONS" in os.environ, "AddressSanitizer needs all of address space")
+    def test_memory_refused_is_a_failure(self):
+        self.write("a.off", off(*OCTAHEDRON))
+        # 2 (16384 + 1)^2 doubles are 4 GiB.
+        limit = 2 << 30
+        process = subprocess.run(
+            [RHOLM, "analyze", "a.off", "--degree", "16384", "--method", "gauge", "-o", "a.h5"],
+            cwd=self.folder, capture_output=True, text=True,
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+        self.assertEqual(process.returncode, 1, process.stderr)
+        self.assertIn("memory", process.stderr)
+        self.assertEqual(self.files(), ["a.off"])
 
     def test_a_folder_is_not_a_shape(self):
         self.assertIn("directory", self.rholm("info", ".", code=1).err)

@@ -93,6 +93,16 @@ TEST(atomic_file, places_that_cannot_be_written_are_named) {
   chmod(folder.path().c_str(), 0755);
 }
 
+TEST(atomic_file, commit_that_fails_says_so_and_cleans_up) {
+  const TemporaryFolder folder;
+  {
+    AtomicFile file(folder / "a");
+    std::filesystem::create_directory(folder / "a");
+    expect_error([&] { file.commit(); }, ErrorCode::kIo, {"Is a directory"});
+  }
+  EXPECT_EQ(folder.n_files(), 1u);
+}
+
 TEST(atomic_file, devices_and_pipes_are_written_directly) {
   const TemporaryFolder folder;
   write_text("/dev/null", "x");
@@ -135,36 +145,28 @@ TEST(atomic_file, symbolic_links_stay_links) {
   EXPECT_EQ(read_all(folder / "sub/fresh"), "first");
 }
 
-TEST(atomic_file, unfinished_files_are_removed_on_demand) {
+// In a child: the names given up to the handler are not freed, as the process is about to end.
+TEST(atomic_file, signal_handler_may_discard_unfinished_files) {
   const TemporaryFolder folder;
   write_all(folder / "a", "old");
-  AtomicFile one(folder / "a");
-  AtomicFile two(folder / "b");
-  two.write(std::string_view("new"));
-  EXPECT_EQ(folder.n_files(), 3u);
-  discard_unfinished_files();
-  EXPECT_EQ(folder.n_files(), 1u);
-  EXPECT_EQ(read_all(folder / "a"), "old");
-  discard_unfinished_files();
-}
-
-TEST(atomic_file, signal_handler_may_discard) {
-  const TemporaryFolder folder;
   const pid_t child = fork();
   if (child == 0) {
     signal(SIGTERM, [](int) {
       discard_unfinished_files();
+      discard_unfinished_files();  // there is nothing left to do
       _exit(0);
     });
-    AtomicFile file(folder / "a");
-    file.write(std::string_view("half"));
-    raise(SIGTERM);
+    AtomicFile one(folder / "a");
+    AtomicFile two(folder / "b");
+    two.write(std::string_view("half"));
+    if (folder.n_files() == 3) raise(SIGTERM);
     _exit(1);
   }
   int status = 0;
   waitpid(child, &status, 0);
   EXPECT_EQ(status, 0);
-  EXPECT_EQ(folder.n_files(), 0u);
+  EXPECT_EQ(folder.n_files(), 1u);
+  EXPECT_EQ(read_all(folder / "a"), "old");
 }
 
 TEST(atomic_file, more_files_at_once_than_are_kept_in_mind_still_work) {

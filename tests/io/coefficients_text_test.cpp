@@ -183,7 +183,9 @@ TEST(shtools, comments_with_known_keys_must_make_sense) {
 }
 
 constexpr const char* kPublishedStyle =
-    "A model of something, as published: radius of nothing, norm of no one\n"
+    "A model of something, as published. The free text may have the words of the header:\n"
+    "norm of no one\n"
+    "max_degree of nothing\n"
     "begin_of_head ==============================================\n"
     "product_type              gravity_field\n"
     "modelname                 TEST\n"

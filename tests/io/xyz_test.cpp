@@ -65,6 +65,17 @@ TEST(xyz, other_columns_are_numbered_scalars) {
   expect_attribute(three, "scalar_3", ScalarType::kFloat64, {10, 20});
 }
 
+TEST(xyz, lengths_within_a_percent_of_one_are_normals) {
+  EXPECT_EQ(parse_points("1 2 3 0 0 1.009\n").normals.size(), 1u);
+  EXPECT_EQ(parse_points("1 2 3 0 0 0.991\n").normals.size(), 1u);
+  for (const char* text :
+       {"1 2 3 0 0 1.011\n", "1 2 3 0 0 0.989\n", "1 2 3 0 0 1\n4 5 6 0 0 .5\n"}) {
+    const PointCloud cloud = parse_points(text);
+    EXPECT_TRUE(cloud.normals.empty()) << text;
+    EXPECT_EQ(cloud.attributes.size(), 3u) << text;
+  }
+}
+
 TEST(xyz, column_names_are_followed) {
   for (const std::string head :
        {"id,X,Y,Z,NX,NY,NZ,Red,Green,Blue,weight\n", "\"id\" x y z nx ny nz r g b weight\n",

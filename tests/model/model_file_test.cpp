@@ -57,7 +57,15 @@ TEST(model_file, round_trip_keeps_every_bit) {
 }
 
 TEST(model_file, same_expansion_gives_the_same_bytes) {
-  EXPECT_EQ(model_bytes(random_expansion(7)), model_bytes(random_expansion(7)));
+  const std::string bytes = model_bytes(random_expansion(7));
+  EXPECT_EQ(bytes, model_bytes(random_expansion(7)));
+  // Bit 5 of the flags of an object header: it has times.
+  std::size_t n_headers = 0;
+  for (std::size_t at = 0; (at = bytes.find("OHDR\2", at)) != std::string::npos;
+       ++at, ++n_headers) {
+    EXPECT_EQ(bytes[at + 5] & 0x20, 0);
+  }
+  EXPECT_EQ(n_headers, 3u);
 }
 
 // Values by formula: C_lm = 1/(1 + l + m), S_lm = m/(l + 1).
@@ -220,13 +228,41 @@ TEST(model_file, hostile_addresses_and_sizes_are_answered_safely) {
   EXPECT_GT(refused, 1000u);
 }
 
-// A continuation of an object header that leads back to itself, and a tree whose child it is.
-TEST(model_file, circles_end) {
+void put(std::string& bytes, std::size_t at, std::uint64_t word, std::size_t size = 8) {
+  for (std::size_t i = 0; i < size; ++i) bytes[at + i] = static_cast<char>(word >> (8 * i));
+}
+
+TEST(model_file, sizes_that_do_not_fit_are_named) {
   const std::string whole =
       read_all(std::filesystem::path(RHOLM_TEST_DATA) / "degree4-h5py-default.h5");
-  const auto put = [](std::string& bytes, std::size_t at, std::uint64_t word) {
-    for (std::size_t i = 0; i < 8; ++i) bytes[at + i] = static_cast<char>(word >> (8 * i));
-  };
+  expect_model_refused(whole.substr(0, whole.size() - 1), ErrorCode::kInvalidInput, "cut off");
+
+  // The extents 2, 5, 5 of the coefficients become 2, 2^32, 2^32: their product is 0 in 64 bits.
+  std::string extents(24, '\0');
+  put(extents, 0, 2), put(extents, 8, 5), put(extents, 16, 5);
+  const std::size_t extents_at = whole.find(extents);
+  ASSERT_NE(extents_at, std::string::npos);
+  std::string bytes = whole;
+  put(bytes, extents_at + 8, std::uint64_t{1} << 32);
+  put(bytes, extents_at + 16, std::uint64_t{1} << 32);
+  expect_model_refused(bytes, ErrorCode::kInvalidInput, "larger than the file");
+
+  // The unit has 3 bytes in the heap of strings and says 300.
+  std::string reference(12, '\0');
+  put(reference, 0, 3, 4), put(reference, 4, whole.find("GCOL"));
+  const std::size_t reference_at = whole.find(reference);
+  ASSERT_NE(reference_at, std::string::npos);
+  bytes = whole;
+  put(bytes, reference_at, 300, 4);
+  expect_model_refused(bytes, ErrorCode::kInvalidInput, "not whole");
+}
+
+// A continuation of an object header that leads back to itself, and a tree whose child it is. The
+// zeros at the end make room for deep recursion, were there no limit on it.
+TEST(model_file, circles_end) {
+  const std::filesystem::path folder = RHOLM_TEST_DATA;
+  const std::string whole =
+      read_all(folder / "degree4-h5py-default.h5") + std::string(std::size_t{1} << 26, '\0');
   std::size_t n_circles = 0;
   // Type 16, 16 bytes, no flags: then the address and the size of the block.
   const std::string continuation("\x10\0\x10\0\0\0\0\0", 8);
@@ -247,6 +283,19 @@ TEST(model_file, circles_end) {
     }
   }
   EXPECT_GE(n_circles, 1u + 2 * 4);
+
+  // The newer object header: signature, message of 16 bytes, filler message, checksum.
+  std::string bytes = read_all(folder / "degree4.h5");
+  const std::size_t at = bytes.find("OCHK");
+  const std::size_t end = bytes.find("OHDR", at);
+  ASSERT_NE(end, std::string::npos);
+  const std::size_t filler = at + 4 + 4 + 16;
+  put(bytes, at + 4, 0x10 | 16 << 8, 4);
+  put(bytes, at + 8, at);
+  put(bytes, at + 16, end - at);
+  put(bytes, filler, (end - 4 - filler - 4) << 8, 4);
+  put(bytes, end - 4, hdf5::lookup3(std::string_view(bytes).substr(at, end - 4 - at)), 4);
+  expect_model_refused(bytes, ErrorCode::kInvalidInput, "no end");
 }
 
 TEST(model_file, writing_refuses_what_cannot_be_read_and_leaves_the_old_file) {
