@@ -44,7 +44,8 @@ struct Analysis {
   std::optional<double> truncation_rms;
 };
 
-// Throws InvalidInput for a degree or precision out of range, or a centre on the surface.
+// Throws InvalidInput for a degree or precision out of range, a centre on a vertex, or (gauge) a
+// face seen edge on.
 Analysis analyze(const StarChart& chart, const AnalyzeOptions& options = {},
                  const Context& context = {});
 

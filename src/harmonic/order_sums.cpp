@@ -15,13 +15,16 @@ std::size_t pad(std::size_t n) {
 
 }  // namespace
 
-DirectionBlock::DirectionBlock(std::span<const Vec3> directions)
-    : size(directions.size()),
-      padded(pad(size)),
+DirectionBlock::DirectionBlock(std::size_t n)
+    : size(n),
+      padded(pad(n)),
       cos_theta(padded, 0.0),
       sin_theta(padded, 1.0),
       cos_phi(padded, 1.0),
-      sin_phi(padded, 0.0) {
+      sin_phi(padded, 0.0) {}
+
+DirectionBlock::DirectionBlock(std::span<const Vec3> directions)
+    : DirectionBlock(directions.size()) {
   for (std::size_t j = 0; j < size; ++j) {
     const Vec3& u = directions[j];
     const double s = std::hypot(u.x, u.y);
@@ -35,12 +38,7 @@ DirectionBlock::DirectionBlock(std::span<const Vec3> directions)
 }
 
 DirectionBlock::DirectionBlock(std::span<const double> colatitudes)
-    : size(colatitudes.size()),
-      padded(pad(size)),
-      cos_theta(padded, 0.0),
-      sin_theta(padded, 1.0),
-      cos_phi(padded, 1.0),
-      sin_phi(padded, 0.0) {
+    : DirectionBlock(colatitudes.size()) {
   for (std::size_t j = 0; j < size; ++j) {
     cos_theta[j] = std::cos(colatitudes[j]);
     sin_theta[j] = std::sin(colatitudes[j]);

@@ -22,6 +22,9 @@ struct DirectionBlock {
   std::size_t size = 0;    // directions
   std::size_t padded = 0;  // array lengths
   std::vector<double> cos_theta, sin_theta, cos_phi, sin_phi;
+
+ private:
+  explicit DirectionBlock(std::size_t n);  // n directions along x, padding set
 };
 
 // One complex number per order and direction, [m][padded]: zero beyond the block's size.

@@ -85,22 +85,31 @@ TEST(add_adjoint_gradient, is_the_transpose_of_the_gradient) {
   }
 }
 
+// Directions and weights of a Gauss grid that integrates degree 2L exactly.
+struct Grid {
+  std::vector<Vec3> directions;
+  std::vector<double> weights;
+};
+Grid gauss_grid(int L) {
+  const GaussRule rule = gauss_legendre(L + 1);
+  const int n_phi = 2 * L + 1;
+  Grid grid;
+  for (int i = 0; i <= L; ++i) {
+    const double z = rule.nodes[i], s = std::sqrt(1 - z * z);
+    for (int k = 0; k < n_phi; ++k) {
+      const double phi = 2 * kPi * k / n_phi;
+      grid.directions.push_back({s * std::cos(phi), s * std::sin(phi), z});
+      grid.weights.push_back(rule.weights[i] * 2 * kPi / n_phi);
+    }
+  }
+  return grid;
+}
+
 // On a Gauss grid that is exact to degree 2L, weights times values give the coefficients back.
 TEST(add_adjoint, recovers_the_coefficients_from_a_gauss_grid) {
   for (const int L : {0, 3, 30, 150}) {
     const Coefficients f = random_coefficients(L, 8);
-    const GaussRule rule = gauss_legendre(L + 1);
-    const int n_phi = 2 * L + 1;
-    std::vector<Vec3> directions;
-    std::vector<double> weights;
-    for (int i = 0; i <= L; ++i) {
-      const double z = rule.nodes[i], s = std::sqrt(1 - z * z);
-      for (int k = 0; k < n_phi; ++k) {
-        const double phi = 2 * kPi * k / n_phi;
-        directions.push_back({s * std::cos(phi), s * std::sin(phi), z});
-        weights.push_back(rule.weights[i] * 2 * kPi / n_phi);
-      }
-    }
+    const auto [directions, weights] = gauss_grid(L);
     std::vector<double> values = evaluate(f, directions);
     for (std::size_t j = 0; j < values.size(); ++j) values[j] *= weights[j];
     Coefficients back(L);
@@ -186,19 +195,9 @@ TEST(power_spectrum, does_not_change_under_rotation) {
                     u.z};
     return Vec3{v.x, std::cos(b) * v.y - std::sin(b) * v.z, std::sin(b) * v.y + std::cos(b) * v.z};
   };
-  const GaussRule rule = gauss_legendre(L + 1);
-  const int n_phi = 2 * L + 1;
-  std::vector<Vec3> directions, rotated;
-  std::vector<double> weights;
-  for (int i = 0; i <= L; ++i) {
-    const double z = rule.nodes[i], s = std::sqrt(1 - z * z);
-    for (int k = 0; k < n_phi; ++k) {
-      const double phi = 2 * kPi * k / n_phi;
-      directions.push_back({s * std::cos(phi), s * std::sin(phi), z});
-      rotated.push_back(rotate(directions.back()));
-      weights.push_back(rule.weights[i] * 2 * kPi / n_phi);
-    }
-  }
+  const auto [directions, weights] = gauss_grid(L);
+  std::vector<Vec3> rotated;
+  for (const Vec3& u : directions) rotated.push_back(rotate(u));
   std::vector<double> values = evaluate(f, rotated);
   for (std::size_t j = 0; j < values.size(); ++j) values[j] *= weights[j];
   Coefficients turned(L);

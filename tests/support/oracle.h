@@ -12,10 +12,10 @@
 
 namespace rholm::test {
 
-// Calls visit(u, f dOmega) for n x n Gauss nodes per face in coordinates collapsed at the face's
-// first corner; f = r or 1/r.
+// Calls visit(x, dOmega) for n x n Gauss nodes x per face in coordinates collapsed at the face's
+// first corner.
 template <typename Visit>
-void visit_oracle_nodes(const Mesh& mesh, RadialFunction function, int n, const Visit& visit) {
+void visit_oracle_nodes(const Mesh& mesh, int n, const Visit& visit) {
   const GaussRule rule = gauss_legendre(n);
   for (const Triangle& t : mesh.triangles) {
     const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
@@ -26,12 +26,15 @@ void visit_oracle_nodes(const Mesh& mesh, RadialFunction function, int n, const 
         const Vec3 x = a + s * (across - a);
         const double r = norm(x);
         // dOmega = x . (dx/ds x dx/dv) / r^3 ds dv
-        const double solid = dot(x, cross(across - a, s * (c - b))) / (r * r * r) *
-                             rule.weights[i] * rule.weights[k] / 4;
-        visit(x / r, (function == RadialFunction::kRadius ? r : 1 / r) * solid);
+        visit(x, dot(x, cross(across - a, s * (c - b))) / (r * r * r) * rule.weights[i] *
+                     rule.weights[k] / 4);
       }
     }
   }
+}
+
+inline double value_at(const Vec3& x, RadialFunction function) {
+  return function == RadialFunction::kRadius ? norm(x) : 1 / norm(x);
 }
 
 // int f conj(Y) dOmega.
@@ -40,9 +43,9 @@ inline Coefficients oracle_coefficients(const Mesh& mesh, int degree, RadialFunc
   Coefficients sum(degree);
   std::vector<Vec3> directions;
   std::vector<double> weights;
-  visit_oracle_nodes(mesh, function, n, [&](const Vec3& u, double w) {
-    directions.push_back(u);
-    weights.push_back(w);
+  visit_oracle_nodes(mesh, n, [&](const Vec3& x, double solid) {
+    directions.push_back(x / norm(x));
+    weights.push_back(value_at(x, function) * solid);
   });
   add_adjoint(directions, weights, sum);
   return sum;
@@ -52,7 +55,9 @@ inline Coefficients oracle_coefficients(const Mesh& mesh, int degree, RadialFunc
 inline void add_oracle_order(const Mesh& mesh, int m, RadialFunction function, int n,
                              Coefficients& sum) {
   std::vector<double> x, s, re, im;
-  visit_oracle_nodes(mesh, function, n, [&](const Vec3& u, double w) {
+  visit_oracle_nodes(mesh, n, [&](const Vec3& point, double solid) {
+    const Vec3 u = point / norm(point);
+    const double w = value_at(point, function) * solid;
     const double phi = std::atan2(u.y, u.x);
     x.push_back(u.z);
     s.push_back(std::hypot(u.x, u.y));

@@ -10,6 +10,7 @@
 #include "rholm/primitives.h"
 #include "rholm/synthesize.h"
 #include "rholm/topology.h"
+#include "support/oracle.h"
 #include "support/random_data.h"
 
 namespace rholm {
@@ -182,21 +183,10 @@ TEST(synthesize, misses_the_mesh_by_the_truncation_error_known_from_its_norm) {
   const StarChart chart = make_star_chart(mesh);
   Mesh samples;  // points on the faces, no triangles
   std::vector<double> weights;
-  for (const Triangle& t : chart.mesh.triangles) {
-    const Vec3 &a = chart.mesh.vertices[t[0]], &b = chart.mesh.vertices[t[1]],
-               &c = chart.mesh.vertices[t[2]];
-    const double volume = dot(a, cross(b, c));
-    const GaussRule rule = gauss_legendre(10);
-    for (int i = 0; i < 10; ++i) {
-      for (int k = 0; k < 10; ++k) {
-        const double s = (1 + rule.nodes[i]) / 2, v = (1 + rule.nodes[k]) / 2;
-        const Vec3 x = (1 - s) * a + s * ((1 - v) * b + v * c);
-        samples.vertices.push_back(x);
-        weights.push_back(rule.weights[i] * rule.weights[k] / 4 * s * volume /
-                          std::pow(norm(x), 3));
-      }
-    }
-  }
+  test::visit_oracle_nodes(chart.mesh, 10, [&](const Vec3& x, double solid) {
+    samples.vertices.push_back(x);
+    weights.push_back(solid);
+  });
   const Mesh sphere = directions_of(samples, {0, 0, 0});
   for (const int degree : {2, 4, 8, 16, 32, 64}) {
     const Analysis analysis = analyze(chart, {.degree = degree, .precision = 1e-8});

@@ -232,23 +232,10 @@ TEST(norm_squared, closed_forms_agree_with_cubature) {
         std::pair{box({2, 1, 3}), Vec3{0.2, 0.1, -0.5}}}) {
     const StarChart chart = chart_about(mesh, center);
     double radius = 0, gauge = 0;
-    const GaussRule rule = gauss_legendre(60);
-    for (const Triangle& t : chart.mesh.triangles) {
-      const Vec3 &a = chart.mesh.vertices[t[0]], &b = chart.mesh.vertices[t[1]],
-                 &c = chart.mesh.vertices[t[2]];
-      for (std::size_t i = 0; i < 60; ++i) {
-        for (std::size_t k = 0; k < 60; ++k) {
-          const double s = (1 + rule.nodes[i]) / 2, v = (1 + rule.nodes[k]) / 2;
-          const Vec3 across = (1 - v) * b + v * c;
-          const Vec3 x = a + s * (across - a);
-          const double r = norm(x);
-          const double solid = dot(x, cross(across - a, s * (c - b))) / (r * r * r) *
-                               rule.weights[i] * rule.weights[k] / 4;
-          radius += r * r * solid;
-          gauge += solid / (r * r);
-        }
-      }
-    }
+    test::visit_oracle_nodes(chart.mesh, 60, [&](const Vec3& x, double solid) {
+      radius += dot(x, x) * solid;
+      gauge += solid / dot(x, x);
+    });
     EXPECT_NEAR(radius_norm_squared(chart) / radius, 1, 1e-11);
     EXPECT_NEAR(gauge_norm_squared(chart) / gauge, 1, 1e-11);
   }
