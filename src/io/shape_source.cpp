@@ -30,8 +30,9 @@ bool is_float(double value) {
          static_cast<double>(static_cast<float>(value)) == value;
 }
 
-// The nearest float, or the value itself where that is infinite. Through a volatile, because GCC 12 drops double -> float -> double from
-// pairs of such statements when it makes vectors of them (-ftree-slp-vectorize).
+// The nearest float, or the value itself where that is infinite. Through a volatile, because GCC 12
+// drops double -> float -> double from pairs of such statements when it makes vectors of them
+// (-ftree-slp-vectorize).
 double nearest_float(double value) {
   if (!(std::abs(value) < kInfiniteAsFloat)) return value;
   const volatile float rounded = static_cast<float>(value);

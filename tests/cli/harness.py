@@ -87,7 +87,10 @@ class Terminal:
     """An interactive program on a pseudo-terminal."""
 
     def __init__(self, words, folder, environment):
-        self.pid, self.master = pty.fork()
+        try:
+            self.pid, self.master = pty.fork()
+        except OSError as error:
+            raise unittest.SkipTest(f"no pseudo-terminal on this machine: {error}") from error
         if self.pid == 0:
             os.chdir(folder)
             os.execvpe(words[0], words, {**os.environ, "TERM": "xterm", **environment})
