@@ -38,6 +38,8 @@ class Writer {
     // The format of HDF5 1.8: every block of metadata has a checksum.
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     checked(H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18), "choose its version");
+    // The file is temporary and ours alone; some network file systems have no locks.
+    checked(H5Pset_file_locking(access, false, true), "switch off locks");
     const Handle creation = quiet_creation(H5P_FILE_CREATE);  // of the root group, too
     return Handle(
         checked(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, access), "create the file"),
