@@ -217,7 +217,8 @@ TEST(model_file, hostile_addresses_and_sizes_are_answered_safely) {
       std::string bytes = whole;
       for (std::size_t i = 0; i < 8; ++i) bytes[at + i] = static_cast<char>(word >> (8 * i));
       try {
-        for (const double value : parse_model(bytes, "test").coefficients.values()) {
+        const Expansion expansion = parse_model(bytes, "test");
+        for (const double value : expansion.coefficients.values()) {
           ASSERT_TRUE(std::isfinite(value)) << at << " " << word;
         }
       } catch (const Error&) {
