@@ -45,8 +45,8 @@ struct Encoded {
 Encoded encode(const Mesh& mesh, const EncodeOptions& options = {}, const Context& context = {});
 
 // The model file: HDF5, layout in docs/model-file.md. Written to a temporary file that replaces
-// `path` when complete; "-" can be read but not written (HDF5 seeks). Throws Io, InvalidInput, Unsupported
-// (a newer major version).
+// `path` when complete; "-" can be read but not written (HDF5 seeks). Throws Io, InvalidInput,
+// Unsupported (a newer major version).
 void write_model(const Expansion& expansion, const std::filesystem::path& path);
 Expansion read_model(const std::filesystem::path& path);
 bool is_model_file(const std::filesystem::path& path);  // by its first bytes
