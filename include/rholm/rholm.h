@@ -12,6 +12,7 @@
 #include "rholm/harmonic.h"
 #include "rholm/image.h"
 #include "rholm/mesh.h"
+#include "rholm/mesh_view.h"
 #include "rholm/model.h"
 #include "rholm/primitives.h"
 #include "rholm/render.h"

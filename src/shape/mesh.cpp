@@ -3,17 +3,20 @@
 #include <cmath>
 
 #include "rholm/error.h"
+#include "rholm/mesh_view.h"
 
 namespace rholm {
 namespace {
 
-void check_points(const std::vector<Vec3>& points, const char* what) {
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!is_finite(points[i])) {
-      throw Error(ErrorCode::kInvalidInput, std::string(what) + " " + std::to_string(i) +
-                                                " has a coordinate that is not a finite number");
-    }
+void check_point(const Vec3& point, std::size_t i, const char* what) {
+  if (!is_finite(point)) {
+    throw Error(ErrorCode::kInvalidInput, std::string(what) + " " + std::to_string(i) +
+                                              " has a coordinate that is not a finite number");
   }
+}
+
+void check_points(const std::vector<Vec3>& points, const char* what) {
+  for (std::size_t i = 0; i < points.size(); ++i) check_point(points[i], i, what);
 }
 
 void check_attributes(const std::vector<Attribute>& attributes, std::size_t n) {
@@ -35,17 +38,31 @@ const Attribute* find_attribute(const std::vector<Attribute>& attributes, const 
   return nullptr;
 }
 
-void validate(const Mesh& mesh) {
-  check_points(mesh.vertices, "vertex");
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (const std::uint32_t index : mesh.triangles[t]) {
-      if (index >= mesh.vertices.size()) {
+MeshView view_of(const Mesh& mesh) {
+  return {.vertices = reinterpret_cast<const std::byte*>(mesh.vertices.data()),
+          .n_vertices = mesh.vertices.size(),
+          .vertex_stride = sizeof(Vec3),
+          .coordinate = ScalarType::kFloat64,
+          .triangles = reinterpret_cast<const std::byte*>(mesh.triangles.data()),
+          .n_triangles = mesh.triangles.size(),
+          .triangle_stride = sizeof(Triangle)};
+}
+
+void validate(const MeshView& mesh) {
+  for (std::size_t i = 0; i < mesh.n_vertices; ++i) check_point(mesh.vertex(i), i, "vertex");
+  for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
+    for (const std::uint32_t index : mesh.triangle(t)) {
+      if (index >= mesh.n_vertices) {
         throw Error(ErrorCode::kInvalidInput, "triangle " + std::to_string(t) + " names vertex " +
                                                   std::to_string(index) + ", but there are only " +
-                                                  std::to_string(mesh.vertices.size()));
+                                                  std::to_string(mesh.n_vertices));
       }
     }
   }
+}
+
+void validate(const Mesh& mesh) {
+  validate(view_of(mesh));
   check_attributes(mesh.attributes, mesh.vertices.size());
 }
 
