@@ -1,8 +1,10 @@
 // The program rholm. Layer: cli.
+#include "cli/bus_error.h"
 #include "cli/interrupt.h"
 #include "cli/program.h"
 
 int main(int argc, char** argv) {
   rholm::cli::install_signal_handlers();
+  rholm::cli::install_bus_error_handler();
   return rholm::cli::run_program({argv + 1, argv + argc});
 }

@@ -7,6 +7,7 @@
 
 #include "rholm/context.h"
 #include "rholm/mesh.h"
+#include "rholm/mesh_view.h"
 #include "rholm/topology.h"
 
 namespace rholm {
@@ -50,9 +51,14 @@ struct StarReport {
 // Finds the centre and checks. `mesh` welded, closed, outward; degenerate triangles (zero area)
 // are passed over. Throws InvalidInput for a mesh without a triangle of positive area.
 StarReport find_center(const Mesh& mesh, const CenterOptions& options, const Context& context = {});
+// The same for a mesh where it lies; nothing is copied but for rays.
+StarReport find_center(const MeshView& mesh, const CenterOptions& options,
+                       const Context& context = {});
 
 // The check alone, from a given centre.
 StarReport check_star(const Mesh& mesh, const Vec3& center, int rays, const Context& context = {});
+StarReport check_star(const MeshView& mesh, const Vec3& center, int rays,
+                      const Context& context = {});
 
 // A mesh seen from a centre: what the transforms work on. Vertices are relative to the centre.
 struct StarChart {

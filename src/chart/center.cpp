@@ -3,8 +3,8 @@
 #include <string>
 #include <string_view>
 
-#include "chart/face_planes.h"
 #include "chart/kernel.h"
+#include "chart/view_center.h"
 #include "rholm/error.h"
 #include "rholm/star.h"
 #include "shape/measure.h"
@@ -74,32 +74,46 @@ const char* to_string(CenterKind kind) {
   return "given";
 }
 
-StarReport find_center(const Mesh& mesh, const CenterOptions& options, const Context& context) {
-  const FacePlanes faces = face_planes(mesh, context);
-  const auto check = [&](const Vec3& center) {
-    return check_star(mesh, center, options.rays, context);
+FoundCenter search_center(const LocalView& view, const CenterOptions& options,
+                          const Context& context) {
+  const auto measured = [&] {
+    validate(view.mesh);
+    return measure(view.mesh, view.frame);
   };
   switch (options.kind) {
     case CenterKind::kNone:
-      return check({});
+      return {};
     case CenterKind::kGiven:
-      return check(options.point);
+      return {.point = options.point};
     case CenterKind::kCentroid:
-      return check(measure(mesh, faces.frame).area_centroid);
+      return {.point = measured().area_centroid};
     case CenterKind::kVolume:
-      return check(measure(mesh, faces.frame).volume_centroid);
+      return {.point = measured().volume_centroid};
     case CenterKind::kAuto:
     case CenterKind::kCosine:
       break;
   }
-  KernelCenter kernel = chebyshev_center(faces, context);
-  if (options.kind == CenterKind::kCosine && kernel.value > 0) {
-    kernel = cosine_center(mesh, faces, kernel.point, context);
+  KernelCenter kernel = chebyshev_center(view, context);
+  const bool empty = !(kernel.value > 0);
+  if (options.kind == CenterKind::kCosine && !empty) {
+    kernel = cosine_center(view, kernel.point, context);
   }
-  const StarReport report = check(faces.frame.to_shape(kernel.point));
-  return report.star_shaped
-             ? report
-             : better_fallback(report, check(measure(mesh, faces.frame).volume_centroid));
+  return {.point = view.frame.to_shape(kernel.point), .kernel_empty = empty, .scans = kernel.scans};
+}
+
+StarReport find_center(const MeshView& mesh, const CenterOptions& options, const Context& context) {
+  const LocalView view = local_view(mesh, context);
+  const FoundCenter found = search_center(view, options, context);
+  const StarReport report = check_star(view, found.point, options.rays, context);
+  const bool may_fall_back =
+      options.kind == CenterKind::kAuto || options.kind == CenterKind::kCosine;
+  if (report.star_shaped || !may_fall_back) return report;
+  const FoundCenter volume = search_center(view, {.kind = CenterKind::kVolume}, context);
+  return better_fallback(report, check_star(view, volume.point, options.rays, context));
+}
+
+StarReport find_center(const Mesh& mesh, const CenterOptions& options, const Context& context) {
+  return find_center(view_of(mesh), options, context);
 }
 
 }  // namespace rholm

@@ -6,11 +6,14 @@
 // (Dinkelbach 1967, with Kelley's cutting planes inside; the cuts hold for every s, so that both
 // loops are one). Rows are divided by |v - c| of that candidate: t then is a gain in cos gamma.
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <vector>
 
 #include "base/parallel.h"
 #include "chart/kernel.h"
 #include "chart/linear_program.h"
+#include "chart/view_scan.h"
 
 namespace rholm {
 namespace {
@@ -33,25 +36,33 @@ struct Cut {
   double distance;
 };
 
-std::vector<Corner> steepest_corners(const Mesh& mesh, const FacePlanes& faces, const Vec3& center,
+// The steepest corner of a triangle, if it is steeper than `best`.
+void take_steepest(const LocalView& view, std::size_t triangle, const Vec3& center, Corner& best) {
+  const std::array<Vec3, 3> corners = view.corners(triangle);
+  const Vec3 normal = unit_normal(corners);
+  if (normal == Vec3{}) return;
+  for (const Vec3& corner : corners) {
+    const Vec3 position = corner - view.frame.center;
+    const double distance = norm(position - center);
+    if (!(distance > 0)) continue;
+    const double cos_gamma = dot(normal, corners[0] - view.frame.center - center) / distance;
+    if (cos_gamma < best.cos_gamma) best = {cos_gamma, normal, position};
+  }
+}
+
+// The steepest corner of every chunk.
+std::vector<Corner> steepest_corners(const LocalView& view, const Vec3& center,
                                      const Context& context) {
-  const std::size_t n = mesh.triangles.size(), grain = triangle_grain(n);
+  // Chosen: some hundred cuts a pass.
+  const std::size_t n = view.mesh.n_triangles, grain = std::max<std::size_t>(256, n / 256);
   std::vector<Corner> chunks((n + grain - 1) / grain);
   parallel_for(n, grain, context, {}, [&](std::size_t begin, std::size_t end) {
-    Corner best;
-    for (std::size_t t = begin; t < end; ++t) {
-      const FacePlane& plane = faces.planes[t];
-      if (!plane.exists()) continue;
-      const double d = plane.offset - dot(plane.normal, center);
-      for (const std::uint32_t v : mesh.triangles[t]) {
-        const Vec3 position = faces.frame.to_local(mesh.vertices[v]);
-        const double distance = norm(position - center);
-        if (distance > 0 && d < best.cos_gamma * distance) {
-          best = {d / distance, plane.normal, position};
-        }
-      }
-    }
-    chunks[begin / grain] = best;
+    Corner& best = chunks[begin / grain];
+    ScanLimits limits{.cosine = best.cos_gamma};
+    scan_below(view, begin, end, center, limits, [&](std::size_t triangle) {
+      take_steepest(view, triangle, center, best);
+      limits.cosine = best.cos_gamma;
+    });
   });
   return chunks;
 }
@@ -67,21 +78,20 @@ LinearProgram program_for(const std::vector<Cut>& cuts, double s) {
 
 }  // namespace
 
-KernelCenter cosine_center(const Mesh& mesh, const FacePlanes& faces, const Vec3& start,
-                           const Context& context) {
+KernelCenter cosine_center(const LocalView& view, const Vec3& start, const Context& context) {
   KernelCenter best{.point = start, .value = -std::numeric_limits<double>::infinity(), .scans = 0};
   std::vector<Cut> cuts;
   Vec3 candidate = start;
   double bound = 1;
-  while (best.scans < kMaxScans) {
+  for (int scan = 0; scan < kMaxScans; ++scan) {
     double lowest = std::numeric_limits<double>::infinity();
-    for (const Corner& corner : steepest_corners(mesh, faces, candidate, context)) {
+    for (const Corner& corner : steepest_corners(view, candidate, context)) {
       lowest = std::min(lowest, corner.cos_gamma);
       if (!(corner.cos_gamma < bound)) continue;
       const Vec3 ray = corner.position - candidate;
       cuts.push_back({corner.normal, corner.position, normalized(ray), norm(ray)});
     }
-    ++best.scans;
+    best.scans += 1;
     if (lowest > best.value) {
       best.value = lowest;
       best.point = candidate;

@@ -11,9 +11,9 @@
 #include <numbers>
 
 #include "base/parallel.h"
-#include "chart/face_planes.h"
+#include "chart/view_center.h"
+#include "chart/view_scan.h"
 #include "rholm/error.h"
-#include "rholm/star.h"
 #include "shape/ray_scene.h"
 
 namespace rholm {
@@ -53,19 +53,28 @@ void add_face(const std::array<Vec3, 3>& corners, const Vec3& normal, FaceFigure
   figures.min_cos_gamma = std::min(figures.min_cos_gamma, distance > 0 ? d / distance : 0.0);
 }
 
-FaceFigures check_faces(const Mesh& mesh, const UnitFrame& frame, const Vec3& center,
-                        const Context& context) {
-  const std::size_t n = mesh.triangles.size(), grain = triangle_grain(n);
+// Corners of a triangle relative to a centre in the shape's coordinates.
+std::array<Vec3, 3> rays_to(const LocalView& view, std::size_t triangle, const Vec3& center) {
+  std::array<Vec3, 3> corners = view.corners(triangle);
+  for (Vec3& corner : corners) corner -= view.frame.scale * center;
+  return corners;
+}
+
+FaceFigures check_faces(const LocalView& view, const Vec3& center, const Context& context) {
+  const std::size_t n = view.mesh.n_triangles, grain = triangle_grain(n);
+  const Vec3 local = view.frame.to_local(center);
+  // What rounding may make bad, from any corner of the unit frame; twice, for it is a bound.
+  const double unclear = 2 * kDistanceRounding * (norm(local) + 2);
   std::vector<FaceFigures> parts((n + grain - 1) / grain);
   parallel_for(n, grain, context, {}, [&](std::size_t begin, std::size_t end) {
     FaceFigures& figures = parts[begin / grain];
-    for (std::size_t t = begin; t < end; ++t) {
-      std::array<Vec3, 3> corners = scaled_corners(mesh, mesh.triangles[t], frame.scale);
-      const Vec3 normal = unit_normal(corners);
-      if (normal == Vec3{}) continue;
-      for (Vec3& corner : corners) corner -= frame.scale * center;
-      add_face(corners, normal, figures);
-    }
+    ScanLimits limits{.distance = figures.min_d, .cosine = figures.min_cos_gamma};
+    scan_below(view, begin, end, local, limits, [&](std::size_t triangle) {
+      const Vec3 normal = unit_normal(view.corners(triangle));
+      if (normal == Vec3{}) return;
+      add_face(rays_to(view, triangle, center), normal, figures);
+      limits = {.distance = std::max(figures.min_d, unclear), .cosine = figures.min_cos_gamma};
+    });
   });
   FaceFigures total;
   for (const FaceFigures& part : parts) total.merge(part);
@@ -88,18 +97,29 @@ int cone_contains(const std::array<Vec3, 3>& corners, const Vec3& direction) {
 }
 
 // How often the faces, all with d_T > 0, cover the direction; -1 if it meets an edge.
-long long cover_of(const Mesh& mesh, const UnitFrame& frame, const Vec3& center,
-                   const Vec3& direction) {
-  long long cover = 0;
-  for (const Triangle& t : mesh.triangles) {
-    std::array<Vec3, 3> corners = scaled_corners(mesh, t, frame.scale);
-    if (unit_normal(corners) == Vec3{}) continue;
-    for (Vec3& corner : corners) corner -= frame.scale * center;
-    const int contains = cone_contains(corners, direction);
-    if (contains < 0) return -1;
-    cover += contains;
+long long cover_of(const LocalView& view, const Vec3& center, const Vec3& direction,
+                   const Context& context) {
+  const std::size_t n = view.mesh.n_triangles, grain = triangle_grain(n);
+  struct Cover {
+    long long times = 0;
+    bool unclear = false;
+  };
+  std::vector<Cover> parts((n + grain - 1) / grain);
+  parallel_for(n, grain, context, {}, [&](std::size_t begin, std::size_t end) {
+    Cover& cover = parts[begin / grain];
+    scan_cones(view, begin, end, view.frame.to_local(center), direction, [&](std::size_t triangle) {
+      if (unit_normal(view.corners(triangle)) == Vec3{}) return;
+      const int contains = cone_contains(rays_to(view, triangle, center), direction);
+      cover.unclear = cover.unclear || contains < 0;
+      cover.times += contains;
+    });
+  });
+  long long times = 0;
+  for (const Cover& cover : parts) {
+    if (cover.unclear) return -1;
+    times += cover.times;
   }
-  return cover;
+  return times;
 }
 
 // Direction i of n, spread evenly: a Fibonacci lattice.
@@ -111,29 +131,30 @@ Vec3 lattice_direction(std::size_t i, std::size_t n) {
   return {s * std::cos(phi), s * std::sin(phi), z};
 }
 
-bool covers_once(const Mesh& mesh, const UnitFrame& frame, const Vec3& center) {
-  // Eight directions in general position (chosen): all of them on edges would be a coincidence
-  // that only a mesh finer than rounding brings about.
-  for (std::size_t i = 0; i < 8; ++i) {
-    const long long cover = cover_of(mesh, frame, center, lattice_direction(i, 8));
-    if (cover >= 0) return cover == 1;
-  }
-  return false;
-}
-
 struct RayCounts {
   std::size_t once = 0;
   std::size_t multiple = 0;
 };
 
-void shoot_rays(const Mesh& mesh, const UnitFrame& frame, const Vec3& center,
-                const Context& context, StarReport& report) {
-  Mesh local;  // Embree works in single precision: give it coordinates near 1
-  local.triangles = mesh.triangles;
-  local.vertices.reserve(mesh.vertices.size());
-  for (const Vec3& v : mesh.vertices) local.vertices.push_back(frame.to_local(v));
+// Embree works in single precision: it is given coordinates near 1.
+Mesh local_copy(const LocalView& view) {
+  Mesh local;
+  local.vertices.reserve(view.mesh.n_vertices);
+  for (std::size_t i = 0; i < view.mesh.n_vertices; ++i) {
+    local.vertices.push_back(view.frame.to_local(view.mesh.vertex(i)));
+  }
+  local.triangles.reserve(view.mesh.n_triangles);
+  for (std::size_t t = 0; t < view.mesh.n_triangles; ++t) {
+    local.triangles.push_back(view.mesh.triangle(t));
+  }
+  return local;
+}
+
+void shoot_rays(const LocalView& view, const Vec3& center, const Context& context,
+                StarReport& report) {
+  const Mesh local = local_copy(view);  // which the scene refers to
   const RayScene scene(local);
-  const Vec3 origin = frame.to_local(center);
+  const Vec3 origin = view.frame.to_local(center);
   const auto n = static_cast<std::size_t>(report.rays);
   constexpr std::size_t kGrain = 1024;  // chosen: about a millisecond
   std::vector<RayCounts> parts((n + kGrain - 1) / kGrain);
@@ -167,20 +188,36 @@ void require_center_near(const UnitFrame& frame, const Vec3& center) {
 
 }  // namespace
 
-StarReport check_star(const Mesh& mesh, const Vec3& center, int rays, const Context& context) {
-  validate(mesh);
-  const UnitFrame frame = unit_frame(bounds(mesh.vertices));
-  require_center_near(frame, center);
-  const FaceFigures figures = check_faces(mesh, frame, center, context);
+bool covers_once(const LocalView& view, const Vec3& center, const Context& context) {
+  // Eight directions in general position (chosen): all of them on edges would be a coincidence
+  // that only a mesh finer than rounding brings about.
+  for (std::size_t i = 0; i < 8; ++i) {
+    const long long cover = cover_of(view, center, lattice_direction(i, 8), context);
+    if (cover >= 0) return cover == 1;
+  }
+  return false;
+}
+
+StarReport check_star(const LocalView& view, const Vec3& center, int rays, const Context& context) {
+  require_center_near(view.frame, center);
+  const FaceFigures figures = check_faces(view, center, context);
   StarReport report;
   report.center = center;
-  report.min_d = figures.min_d / frame.scale;
+  report.min_d = figures.min_d / view.frame.scale;
   report.min_cos_gamma = figures.min_cos_gamma;
   report.bad_triangles = figures.bad;
-  report.star_shaped = figures.bad == 0 && covers_once(mesh, frame, center);
+  report.star_shaped = figures.bad == 0 && covers_once(view, center, context);
   report.rays = std::max(0, rays);
-  if (report.rays > 0) shoot_rays(mesh, frame, center, context, report);
+  if (report.rays > 0) shoot_rays(view, center, context, report);
   return report;
+}
+
+StarReport check_star(const MeshView& mesh, const Vec3& center, int rays, const Context& context) {
+  return check_star(local_view(mesh, context), center, rays, context);
+}
+
+StarReport check_star(const Mesh& mesh, const Vec3& center, int rays, const Context& context) {
+  return check_star(view_of(mesh), center, rays, context);
 }
 
 }  // namespace rholm

@@ -125,7 +125,7 @@ void write(const Shape& shape, const std::filesystem::path& path, const ShapeWri
                     ": the extension names no format; ply, obj, off, stl and xyz can be "
                     "written");
   }
-  const ShapeView view = view_of(shape);
+  const ShapeView view = shape_view_of(shape);
   AtomicFile file(path, context);
   OutputBuffer out(&file, view.points.size() + view.triangles.size(), context);
   format_shape(view, *format, options.ascii, path.string(), out);

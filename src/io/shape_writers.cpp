@@ -4,7 +4,7 @@
 
 namespace rholm {
 
-ShapeView view_of(const Mesh& mesh) {
+ShapeView shape_view_of(const Mesh& mesh) {
   return {.points = mesh.vertices,
           .normals = {},
           .triangles = mesh.triangles,
@@ -12,7 +12,7 @@ ShapeView view_of(const Mesh& mesh) {
           .is_mesh = true};
 }
 
-ShapeView view_of(const PointCloud& cloud) {
+ShapeView shape_view_of(const PointCloud& cloud) {
   return {.points = cloud.points,
           .normals = cloud.normals,
           .triangles = {},

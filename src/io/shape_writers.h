@@ -21,8 +21,8 @@ struct ShapeView {
   std::span<const Attribute> attributes;
   bool is_mesh = false;
 };
-ShapeView view_of(const Mesh& mesh);
-ShapeView view_of(const PointCloud& cloud);
+ShapeView shape_view_of(const Mesh& mesh);
+ShapeView shape_view_of(const PointCloud& cloud);
 
 // Writes a valid shape. Throws Unsupported if the format cannot hold it, InvalidInput if a
 // coordinate does not fit; `name` serves messages.

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "rholm/mesh.h"
+#include "rholm/mesh_view.h"
 #include "rholm/topology.h"
 
 namespace rholm {
@@ -33,6 +33,9 @@ FaceNormal face_normal(const std::array<Vec3, 3>& corners);
 // Corners of a triangle, scaled, but not moved.
 inline std::array<Vec3, 3> scaled_corners(const Mesh& mesh, const Triangle& t, double scale) {
   return {scale * mesh.vertices[t[0]], scale * mesh.vertices[t[1]], scale * mesh.vertices[t[2]]};
+}
+inline std::array<Vec3, 3> scaled_corners(const MeshView& mesh, const Triangle& t, double scale) {
+  return {scale * mesh.vertex(t[0]), scale * mesh.vertex(t[1]), scale * mesh.vertex(t[2])};
 }
 
 }  // namespace rholm

@@ -126,7 +126,7 @@ Inspection inspect(const Mesh& mesh) {
   result.bounds = bounds(mesh.vertices);
   const UnitFrame frame = unit_frame(result.bounds);
   count_degenerate(mesh, frame.scale, result);
-  const Measures measures = measure(mesh, frame);
+  const Measures measures = measure(view_of(mesh), frame);
   result.area = measures.area;
   result.volume = measures.volume;
   result.inside_out = result.closed && result.oriented && measures.volume < 0;

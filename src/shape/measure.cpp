@@ -23,11 +23,11 @@ class VectorSum {
 
 }  // namespace
 
-Measures measure(const Mesh& mesh, const UnitFrame& frame) {
+Measures measure(const MeshView& mesh, const UnitFrame& frame) {
   CompensatedSum twice_area, six_volumes, moduli;
   VectorSum area_moment, volume_moment;
-  for (const Triangle& t : mesh.triangles) {
-    const std::array<Vec3, 3> corners = scaled_corners(mesh, t, frame.scale);
+  for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
+    const std::array<Vec3, 3> corners = scaled_corners(mesh, mesh.triangle(t), frame.scale);
     const Vec3 normal = face_normal(corners).twice_area;
     const Vec3 a = corners[0] - frame.center;
     const Vec3 sum = a + (corners[1] - frame.center) + (corners[2] - frame.center);
@@ -64,11 +64,11 @@ Bounds bounds(const std::vector<Vec3>& points) {
 }
 
 double surface_area(const Mesh& mesh) {
-  return measure(mesh, unit_frame(bounds(mesh.vertices))).area;
+  return measure(view_of(mesh), unit_frame(bounds(mesh.vertices))).area;
 }
 
 double enclosed_volume(const Mesh& mesh) {
-  return measure(mesh, unit_frame(bounds(mesh.vertices))).volume;
+  return measure(view_of(mesh), unit_frame(bounds(mesh.vertices))).volume;
 }
 
 void flip(Mesh& mesh) {

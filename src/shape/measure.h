@@ -1,7 +1,7 @@
 // Sums over the triangles of a mesh: area, volume, centroids.
 #pragma once
 
-#include "rholm/mesh.h"
+#include "rholm/mesh_view.h"
 #include "shape/face.h"
 
 namespace rholm {
@@ -14,6 +14,6 @@ struct Measures {
   Vec3 area_centroid;    // middle of the bounding box if the area is zero
   Vec3 volume_centroid;  // middle of the bounding box if the volume is zero up to rounding
 };
-Measures measure(const Mesh& mesh, const UnitFrame& frame);
+Measures measure(const MeshView& mesh, const UnitFrame& frame);
 
 }  // namespace rholm

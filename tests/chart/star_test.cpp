@@ -108,7 +108,7 @@ TEST(find_center, refuses_meshes_without_a_surface) {
                   .triangles = {{0, 1, 2}, {2, 1, 0}},
                   .attributes = {}};
   EXPECT_THROW(find_center(flat, {}), Error);
-  EXPECT_THROW(find_center({}, {}), Error);
+  EXPECT_THROW(find_center(Mesh{}, {}), Error);
   Mesh bad = tetrahedron();
   bad.vertices[0].x = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(find_center(bad, {}), Error);

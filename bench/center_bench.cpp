@@ -1,0 +1,117 @@
+// The centre of the kernel on one thread: ns per triangle of a mesh that lies as in a binary PLY
+// file (float coordinates, 13 bytes a face). Beside it what one pass costs, and a plain copy of the
+// same bytes.
+#include <benchmark/benchmark.h>
+
+#include <cstring>
+#include <memory>
+#include <vector>
+
+#include "chart/kernel.h"
+#include "chart/view_scan.h"
+#include "rholm/primitives.h"
+
+namespace rholm {
+namespace {
+
+const Context kOneThread{.threads = 1, .progress = {}};
+
+// Float vertices and 13-byte faces, owned.
+struct PackedMesh {
+  std::vector<std::byte> vertices, triangles;
+  MeshView view;
+};
+
+PackedMesh packed(const Mesh& mesh) {
+  constexpr std::size_t kVertex = 12, kFace = 13;
+  PackedMesh result;
+  result.vertices.resize(kVertex * mesh.vertices.size());
+  result.triangles.resize(kFace * mesh.triangles.size());
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    const Vec3& v = mesh.vertices[i];
+    const float row[3] = {static_cast<float>(v.x), static_cast<float>(v.y),
+                          static_cast<float>(v.z)};
+    std::memcpy(&result.vertices[kVertex * i], row, kVertex);
+  }
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    result.triangles[kFace * t] = std::byte{3};
+    std::memcpy(&result.triangles[kFace * t + 1], mesh.triangles[t].data(), 12);
+  }
+  result.view = {.vertices = result.vertices.data(),
+                 .n_vertices = mesh.vertices.size(),
+                 .vertex_stride = kVertex,
+                 .coordinate = ScalarType::kFloat32,
+                 .triangles = result.triangles.data() + 1,
+                 .n_triangles = mesh.triangles.size(),
+                 .triangle_stride = kFace};
+  return result;
+}
+
+// 20 * 4^subdivisions triangles; made once for all benchmarks of a size.
+const PackedMesh& bumpy(std::int64_t subdivisions) {
+  static std::int64_t size = -1;
+  static std::unique_ptr<const PackedMesh> mesh;
+  if (size != subdivisions) {
+    mesh = nullptr;
+    mesh = std::make_unique<PackedMesh>(packed(bumpy_sphere(static_cast<int>(subdivisions), 0.3)));
+    size = subdivisions;
+  }
+  return *mesh;
+}
+
+// Seconds per triangle, printed with a unit: "8.1n".
+void report_per_triangle(benchmark::State& state, std::size_t triangles) {
+  state.counters["per_triangle"] = benchmark::Counter(
+      static_cast<double>(triangles),
+      benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+void copy(benchmark::State& state) {
+  const PackedMesh& mesh = bumpy(state.range(0));
+  std::vector<std::byte> vertices = mesh.vertices, triangles = mesh.triangles;
+  for (auto _ : state) {
+    std::memcpy(vertices.data(), mesh.vertices.data(), vertices.size());
+    std::memcpy(triangles.data(), mesh.triangles.data(), triangles.size());
+    benchmark::DoNotOptimize(triangles[triangles.size() / 2]);
+  }
+  report_per_triangle(state, mesh.view.n_triangles);
+}
+
+void frame(benchmark::State& state) {
+  const MeshView& mesh = bumpy(state.range(0)).view;
+  for (auto _ : state) benchmark::DoNotOptimize(local_view(mesh, kOneThread));
+  report_per_triangle(state, mesh.n_triangles);
+}
+
+// A pass that finds nothing.
+void pass(benchmark::State& state) {
+  const LocalView view = local_view(bumpy(state.range(0)).view, kOneThread);
+  for (auto _ : state) {
+    ScanLimits limits{.distance = 0};
+    scan_below(view, 0, view.mesh.n_triangles, {}, limits, [](std::size_t) {});
+  }
+  report_per_triangle(state, view.mesh.n_triangles);
+}
+
+// All of it, from bytes to the point.
+void center(benchmark::State& state) {
+  const MeshView& mesh = bumpy(state.range(0)).view;
+  KernelCenter found;
+  for (auto _ : state) {
+    found = chebyshev_center(local_view(mesh, kOneThread), kOneThread);
+    benchmark::DoNotOptimize(found);
+  }
+  report_per_triangle(state, mesh.n_triangles);
+  state.counters["scans"] = found.scans;
+}
+
+#define RHOLM_SIZES ->Arg(5)->Arg(6)->Arg(8)->Arg(9)->Unit(benchmark::kMillisecond)
+BENCHMARK(copy) RHOLM_SIZES;
+BENCHMARK(frame) RHOLM_SIZES;
+BENCHMARK(pass) RHOLM_SIZES;
+BENCHMARK(center) RHOLM_SIZES;
+
+}  // namespace
+}  // namespace rholm
+
+BENCHMARK_MAIN();

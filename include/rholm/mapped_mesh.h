@@ -1,0 +1,57 @@
+// The mesh of a binary PLY file where it lies in the file. Layer: io.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include "rholm/context.h"
+#include "rholm/mesh_view.h"
+
+namespace rholm {
+
+// A memory map of a file, for reading. Nothing of it is in memory before it is used, and the system
+// may drop what has been.
+//
+// A file that another program makes shorter while it is mapped raises SIGBUS in whoever reads the
+// missing part; the library cannot turn this into an exception. A program that must not die of it
+// handles the signal, or reads the file with read_shape().
+class MappedMesh {
+ public:
+  MappedMesh(MappedMesh&& other) noexcept { *this = std::move(other); }
+  MappedMesh& operator=(MappedMesh&& other) noexcept;
+  MappedMesh(const MappedMesh&) = delete;
+  MappedMesh& operator=(const MappedMesh&) = delete;
+  ~MappedMesh();
+
+  // Vertices and faces as they lie; not checked: neither that coordinates are finite nor that
+  // indices are in range. Good as long as this object.
+  const MeshView& view() const { return view_; }
+
+  // Whether each of n faces from `first` on is a triangle; what the view shows of others has no
+  // meaning, and the file must be read with read_shape(). Meant for blocks of faces that are in the
+  // cache anyway: some 0.5 ns each.
+  bool counts_are_three(std::size_t first, std::size_t n) const;
+
+  // Takes the pages of these faces out of the program's memory; they come back when they are used
+  // again. With one call behind each block of a pass, a file larger than the memory is no burden.
+  void release(std::size_t first, std::size_t n) const;
+
+ private:
+  friend std::optional<MappedMesh> map_mesh(const std::filesystem::path&, const Context&);
+  MappedMesh(void* map, std::size_t size) : map_(map), size_(size) {}
+
+  void* map_ = nullptr;
+  std::size_t size_ = 0;
+  MeshView view_;
+};
+
+// Maps a PLY file in the machine's own byte order that holds vertices with x, y, z side by side,
+// all float or all double, with or without further scalars, and then faces as lists of 32-bit
+// indices with a length of one byte, no other properties, all of three corners as far as the file's
+// size tells, and no more. None for every other file, or none at all: read_shape() reads it, or
+// says what is wrong. Throws InvalidInput for a PLY file with a malformed header.
+std::optional<MappedMesh> map_mesh(const std::filesystem::path& path, const Context& context = {});
+
+}  // namespace rholm
