@@ -42,7 +42,8 @@ void adjoint(benchmark::State& state) {
   const std::vector<double> weights(directions().size(), 1.0);
   for (auto _ : state) {
     Coefficients sum(degree);
-    add_adjoint(directions(), weights, sum, kOneThread);
+    add_adjoint({.directions = directions(), .weights = weights}, sum, {.engine = Engine::kDirect},
+                kOneThread);
     benchmark::DoNotOptimize(sum.values().data());
   }
   count_sources(state, degree);
@@ -51,7 +52,8 @@ BENCHMARK(adjoint)->Arg(64)->Arg(180)->Arg(256)->Unit(benchmark::kMillisecond);
 
 void values(benchmark::State& state) {
   const Coefficients f = some_coefficients(static_cast<int>(state.range(0)));
-  for (auto _ : state) benchmark::DoNotOptimize(evaluate(f, directions(), kOneThread));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(evaluate(f, directions(), {.engine = Engine::kDirect}, kOneThread));
   count_sources(state, f.degree());
 }
 BENCHMARK(values)->Arg(64)->Arg(180)->Arg(256)->Unit(benchmark::kMillisecond);
@@ -59,7 +61,8 @@ BENCHMARK(values)->Arg(64)->Arg(180)->Arg(256)->Unit(benchmark::kMillisecond);
 void values_and_gradients(benchmark::State& state) {
   const Coefficients f = some_coefficients(static_cast<int>(state.range(0)));
   for (auto _ : state) {
-    benchmark::DoNotOptimize(evaluate_with_gradient(f, directions(), kOneThread));
+    benchmark::DoNotOptimize(
+        evaluate_with_gradient(f, directions(), {.engine = Engine::kDirect}, kOneThread));
   }
   count_sources(state, f.degree());
 }

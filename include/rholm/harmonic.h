@@ -1,11 +1,16 @@
 // Sums of spherical harmonics at scattered directions, and their transpose. Layer: harmonic.
 //
 // Directions are unit vectors; lengths are not checked, a deviation of eps changes the results
-// by L eps. All sums are direct, O(N L^2), vectorised, and stable at every colatitude to degree
-// kMaxDegree. Results are the same bits for every number of threads.
+// by L eps. Results are the same bits for every number of threads.
+//
+// The fast engine works on an oversampled grid of colatitude and longitude: O(N + L^3), with an
+// error that is chosen. Where direct sums, O(N L^2), are cheaper (few directions, low degree) it
+// takes those. Direct sums are exact to rounding at every colatitude, to degree kMaxDegree.
 #pragma once
 
+#include <array>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "rholm/coefficients.h"
@@ -14,9 +19,22 @@
 
 namespace rholm {
 
+enum class Engine { kFast, kDirect };
+const char* to_string(Engine engine);          // "fast", "direct"
+Engine parse_engine(const std::string& name);  // throws InvalidInput
+
+struct SumOptions {
+  Engine engine = Engine::kFast;
+  // Of the fast engine, 1e-14 ... 1e-1. The l2 norm of the error of all values (coefficients) is at
+  // most about this part of that of sums with random signs: sqrt(n_values sum C^2 / 4 pi) for
+  // evaluate(), sqrt((L+1)^2 sum w^2 / 4 pi) for add_adjoint(). Gradients relative to
+  // L times as much.
+  double precision = 1e-12;
+};
+
 // f(u_j) for every direction.
 std::vector<double> evaluate(const Coefficients& coefficients, std::span<const Vec3> directions,
-                             const Context& context = {});
+                             const SumOptions& options = {}, const Context& context = {});
 
 struct ValuesAndGradients {
   std::vector<double> values;
@@ -24,17 +42,24 @@ struct ValuesAndGradients {
 };
 ValuesAndGradients evaluate_with_gradient(const Coefficients& coefficients,
                                           std::span<const Vec3> directions,
+                                          const SumOptions& options = {},
                                           const Context& context = {});
 
-// The transpose of evaluate(): C_lm = sum_j w_j Y^c_lm(u_j), S_lm likewise. weights.size() ==
-// directions.size(). Added to `sum`, whose degree says up to which L.
-void add_adjoint(std::span<const Vec3> directions, std::span<const double> weights,
-                 Coefficients& sum, const Context& context = {});
+// Weights of the values, gradients and Hessians of Y(x/|x|) at x = u_j: each empty, or as long as
+// `directions`.
+struct ScatteredSources {
+  std::span<const Vec3> directions;
+  std::span<const double> weights = {};
+  std::span<const Vec3> gradients = {};  // contracted with the gradient in space
+  // Symmetric matrices xx, xy, xz, yy, yz, zz.
+  std::span<const std::array<double, 6>> hessians = {};
+};
 
-// The transpose of the gradient: C_lm = sum_j g_j . grad_S Y^c_lm(u_j). Each g_j must be
-// tangential, g_j . u_j = 0.
-void add_adjoint_gradient(std::span<const Vec3> directions, std::span<const Vec3> vectors,
-                          Coefficients& sum, const Context& context = {});
+// C_lm += sum_j (w_j + g_j . grad + h_j : Hess) Y^c_lm (u_j), S_lm likewise, up to the degree of
+// `sum`. With weights alone the transpose of evaluate(), with gradients alone that of the gradient.
+// Throws InvalidInput for spans of other lengths.
+void add_adjoint(const ScatteredSources& sources, Coefficients& sum, const SumOptions& options = {},
+                 const Context& context = {});
 
 // Values on rings: f(theta_i, phi_k), phi_k = 2 pi k / n_phi, row-major [thetas][n_phi].
 // O(L^2) per ring.

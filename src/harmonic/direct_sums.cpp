@@ -4,10 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "harmonic/direct_sums.h"
 #include "harmonic/order_sums.h"
 #include "harmonic/solid_gradient.h"
-#include "rholm/error.h"
-#include "rholm/harmonic.h"
 
 namespace rholm {
 namespace {
@@ -89,41 +88,8 @@ void add_phases(const DirectionBlock& block, std::span<const double> weights, Or
   });
 }
 
-void check_sizes(std::size_t directions, std::size_t values, const char* what) {
-  if (directions != values) {
-    throw Error(ErrorCode::kInvalidInput, "there are " + std::to_string(directions) +
-                                              " directions but " + std::to_string(values) + " " +
-                                              what);
-  }
-}
-
-}  // namespace
-
-std::vector<double> evaluate(const Coefficients& coefficients, std::span<const Vec3> directions,
-                             const Context& context) {
-  return std::move(evaluate_sets({&coefficients, 1}, directions, context).front());
-}
-
-ValuesAndGradients evaluate_with_gradient(const Coefficients& coefficients,
-                                          std::span<const Vec3> directions,
-                                          const Context& context) {
-  auto [dx, dy, dz] = solid_gradient(coefficients);
-  const std::array<Coefficients, 4> sets = {coefficients, std::move(dx), std::move(dy),
-                                            std::move(dz)};
-  std::vector<std::vector<double>> sums = evaluate_sets(sets, directions, context);
-  ValuesAndGradients result;
-  result.values = std::move(sums[0]);
-  result.gradients.resize(directions.size());
-  for (std::size_t j = 0; j < directions.size(); ++j) {
-    const Vec3 g = {sums[1][j], sums[2][j], sums[3][j]};
-    result.gradients[j] = g - dot(g, directions[j]) * directions[j];
-  }
-  return result;
-}
-
-void add_adjoint(std::span<const Vec3> directions, std::span<const double> weights,
-                 Coefficients& sum, const Context& context) {
-  check_sizes(directions.size(), weights.size(), "weights");
+void add_values(std::span<const Vec3> directions, std::span<const double> weights,
+                Coefficients& sum, const Context& context) {
   OrderTable table;
   for_each_chunk(directions.size(), sum.degree(),
                  [&](std::size_t first, std::size_t count, const ParallelStage& stage) {
@@ -134,19 +100,99 @@ void add_adjoint(std::span<const Vec3> directions, std::span<const double> weigh
                  });
 }
 
-void add_adjoint_gradient(std::span<const Vec3> directions, std::span<const Vec3> vectors,
-                          Coefficients& sum, const Context& context) {
-  check_sizes(directions.size(), vectors.size(), "vectors");
+// sum_j g_j . grad of the solid harmonics: one sum per component, of degree L.
+void add_solid_gradients(std::span<const Vec3> directions, std::span<const Vec3> vectors,
+                         Coefficients& sum, const Context& context) {
   std::array<Coefficients, 3> g = {Coefficients(sum.degree()), Coefficients(sum.degree()),
                                    Coefficients(sum.degree())};
+  constexpr std::array<double Vec3::*, 3> kComponents = {&Vec3::x, &Vec3::y, &Vec3::z};
   std::vector<double> component(vectors.size());
   for (int axis = 0; axis < 3; ++axis) {
-    for (std::size_t j = 0; j < vectors.size(); ++j) {
-      component[j] = axis == 0 ? vectors[j].x : axis == 1 ? vectors[j].y : vectors[j].z;
-    }
-    add_adjoint(directions, component, g[axis], context);
+    for (std::size_t j = 0; j < vectors.size(); ++j) component[j] = vectors[j].*kComponents[axis];
+    add_values(directions, component, g[axis], context);
   }
   add_solid_gradient_transpose(g, sum);
+}
+
+Vec3 times(const std::array<double, 6>& h, const Vec3& v) {
+  return {h[0] * v.x + h[1] * v.y + h[2] * v.z, h[1] * v.x + h[3] * v.y + h[4] * v.z,
+          h[2] * v.x + h[4] * v.y + h[5] * v.z};
+}
+
+Vec3 tangential(const Vec3& v, const Vec3& u) { return v - dot(v, u) * u; }
+
+// Second derivatives of f(x/|x|) at |x| = 1, contracted with h. With R = r^l Y, P the projection on
+// the tangent plane and f of degree 0:
+//   h : Hess f = P h P : Hess R - l R tr(P h P) - 2 (P h u) . grad f.
+// The first term by two gradients in a row, the second by weights that are multiplied by l.
+void add_hessians(std::span<const Vec3> directions, std::span<const std::array<double, 6>> hessians,
+                  Coefficients& sum, const Context& context) {
+  const std::size_t n = directions.size();
+  std::array<std::vector<Vec3>, 3> rows;  // of P h P
+  std::vector<Vec3> slope(n);
+  std::vector<double> trace(n);
+  for (auto& row : rows) row.resize(n);
+  const std::array<Vec3, 3> axes = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
+  for (std::size_t j = 0; j < n; ++j) {
+    const Vec3& u = directions[j];
+    for (int axis = 0; axis < 3; ++axis) {
+      rows[axis][j] = tangential(times(hessians[j], tangential(axes[axis], u)), u);
+    }
+    trace[j] = rows[0][j].x + rows[1][j].y + rows[2][j].z;
+    slope[j] = -2.0 * tangential(times(hessians[j], u), u);
+  }
+  std::array<Coefficients, 3> g = {Coefficients(sum.degree()), Coefficients(sum.degree()),
+                                   Coefficients(sum.degree())};
+  for (int axis = 0; axis < 3; ++axis)
+    add_solid_gradients(directions, rows[axis], g[axis], context);
+  add_solid_gradient_transpose(g, sum);
+  Coefficients traces(sum.degree());
+  add_values(directions, trace, traces, context);
+  for (int l = 1; l <= sum.degree(); ++l) {
+    for (int m = 0; m <= l; ++m) {
+      sum.c(l, m) -= l * traces.c(l, m);
+      sum.s(l, m) -= l * traces.s(l, m);
+    }
+  }
+  add_solid_gradients(directions, slope, sum, context);
+}
+
+}  // namespace
+
+std::vector<double> direct_evaluate(const Coefficients& coefficients,
+                                    std::span<const Vec3> directions, const Context& context) {
+  return std::move(evaluate_sets({&coefficients, 1}, directions, context).front());
+}
+
+ValuesAndGradients direct_evaluate_with_gradient(const Coefficients& coefficients,
+                                                 std::span<const Vec3> directions,
+                                                 const Context& context) {
+  auto [dx, dy, dz] = solid_gradient(coefficients);
+  const std::array<Coefficients, 4> sets = {coefficients, std::move(dx), std::move(dy),
+                                            std::move(dz)};
+  std::vector<std::vector<double>> sums = evaluate_sets(sets, directions, context);
+  ValuesAndGradients result;
+  result.values = std::move(sums[0]);
+  result.gradients.resize(directions.size());
+  for (std::size_t j = 0; j < directions.size(); ++j) {
+    result.gradients[j] = tangential({sums[1][j], sums[2][j], sums[3][j]}, directions[j]);
+  }
+  return result;
+}
+
+void direct_add_adjoint(const ScatteredSources& sources, Coefficients& sum,
+                        const Context& context) {
+  if (!sources.weights.empty()) add_values(sources.directions, sources.weights, sum, context);
+  if (!sources.gradients.empty()) {
+    std::vector<Vec3> vectors(sources.gradients.begin(), sources.gradients.end());
+    for (std::size_t j = 0; j < vectors.size(); ++j) {
+      vectors[j] = tangential(vectors[j], sources.directions[j]);
+    }
+    add_solid_gradients(sources.directions, vectors, sum, context);
+  }
+  if (!sources.hessians.empty()) {
+    add_hessians(sources.directions, sources.hessians, sum, context);
+  }
 }
 
 }  // namespace rholm

@@ -1,7 +1,9 @@
-// Values on rings of constant colatitude: Legendre sums per ring, then a Fourier sum in phi.
-#include <cmath>
-#include <numbers>
+// Values on rings of constant colatitude: Legendre sums per ring, then a Fourier transform in phi.
+#include <algorithm>
+#include <complex>
+#include <string>
 
+#include "harmonic/fft.h"
 #include "harmonic/order_sums.h"
 #include "rholm/error.h"
 #include "rholm/harmonic.h"
@@ -17,31 +19,26 @@ std::vector<double> evaluate_rings(const Coefficients& coefficients,
   }
   const int degree = coefficients.degree();
   const std::size_t columns = static_cast<std::size_t>(n_phi);
-  // cos and sin of 2 pi k / n_phi; the index m k is taken modulo n_phi, exactly.
-  std::vector<double> cosine(columns), sine(columns);
-  for (std::size_t k = 0; k < columns; ++k) {
-    const double phi = 2 * std::numbers::pi * static_cast<double>(k) / n_phi;
-    cosine[k] = std::cos(phi);
-    sine[k] = std::sin(phi);
-  }
   const DirectionBlock block(colatitudes);
   std::vector<OrderTable> tables(1);
   tables[0].reset(degree, block);
-  evaluate_orders(block, {&coefficients, 1}, tables, context, {"transform", 0, 0.5});
-  std::vector<double> values(colatitudes.size() * columns, 0.0);
-  parallel_for(colatitudes.size(), 1, context, {"transform", 0.5, 1},
+  evaluate_orders(block, {&coefficients, 1}, tables, context, {"transform", 0, 0.8});
+  std::vector<double> values(colatitudes.size() * columns);
+  const ComplexFft<double> fft(columns);
+  // re cos + im sin is the real part of (re + i im) e^{-i m phi}; orders that agree modulo n_phi
+  // are one on the ring.
+  parallel_for(colatitudes.size(), 1, context, {"transform", 0.8, 1},
                [&](std::size_t begin, std::size_t end) {
+                 AlignedArray<std::complex<double>> in(columns), out(columns);
                  for (std::size_t i = begin; i < end; ++i) {
-                   double* row = values.data() + i * columns;
+                   std::fill(in.begin(), in.end(), 0.0);
                    for (int m = 0; m <= degree; ++m) {
-                     const double re = tables[0].re_row(m)[i], im = tables[0].im_row(m)[i];
-                     const std::size_t step = static_cast<std::size_t>(m) % columns;
-                     for (std::size_t k = 0, at = 0; k < columns; ++k) {
-                       row[k] += re * cosine[at] + im * sine[at];
-                       at += step;
-                       if (at >= columns) at -= columns;
-                     }
+                     in[static_cast<std::size_t>(m) % columns] +=
+                         std::complex<double>(tables[0].re_row(m)[i], tables[0].im_row(m)[i]);
                    }
+                   fft.forward(in.data(), out.data());
+                   for (std::size_t k = 0; k < columns; ++k)
+                     values[i * columns + k] = out[k].real();
                  }
                });
   return values;

@@ -11,6 +11,8 @@
 namespace rholm {
 namespace {
 
+const SumOptions kDirect{.engine = Engine::kDirect};
+
 using test::inner;
 using test::norm_of;
 using test::random_coefficients;
@@ -39,7 +41,7 @@ TEST(evaluate, each_harmonic_agrees_with_the_standard_library) {
         if (sine && m == 0) continue;
         Coefficients f(12);
         (sine ? f.s(l, m) : f.c(l, m)) = 1;
-        const auto values = evaluate(f, directions);
+        const auto values = evaluate(f, directions, kDirect);
         for (std::size_t j = 0; j < directions.size(); ++j) {
           EXPECT_NEAR(values[j], slow_harmonic(l, m, sine, directions[j]), 2e-14);
         }
@@ -55,8 +57,8 @@ TEST(add_adjoint, is_the_transpose_of_evaluate) {
       const auto weights = random_values(n, 3);
       const Coefficients f = random_coefficients(L, 4);
       Coefficients adjoint(L);
-      add_adjoint(directions, weights, adjoint);
-      const auto values = evaluate(f, directions);
+      add_adjoint({.directions = directions, .weights = weights}, adjoint, kDirect);
+      const auto values = evaluate(f, directions, kDirect);
       const double scale = norm_of(values) * norm_of(weights);
       EXPECT_NEAR(inner(values, weights), inner(f.values(), adjoint.values()),
                   1e-15 * (10 + L) * scale)
@@ -74,8 +76,8 @@ TEST(add_adjoint_gradient, is_the_transpose_of_the_gradient) {
     }
     const Coefficients f = random_coefficients(L, 7);
     Coefficients adjoint(L);
-    add_adjoint_gradient(directions, vectors, adjoint);
-    const ValuesAndGradients g = evaluate_with_gradient(f, directions);
+    add_adjoint({.directions = directions, .gradients = vectors}, adjoint, kDirect);
+    const ValuesAndGradients g = evaluate_with_gradient(f, directions, kDirect);
     double product = 0, scale = 1;
     for (std::size_t j = 0; j < vectors.size(); ++j) {
       product += dot(g.gradients[j], vectors[j]);
@@ -110,10 +112,10 @@ TEST(add_adjoint, recovers_the_coefficients_from_a_gauss_grid) {
   for (const int L : {0, 3, 30, 150}) {
     const Coefficients f = random_coefficients(L, 8);
     const auto [directions, weights] = gauss_grid(L);
-    std::vector<double> values = evaluate(f, directions);
+    std::vector<double> values = evaluate(f, directions, kDirect);
     for (std::size_t j = 0; j < values.size(); ++j) values[j] *= weights[j];
     Coefficients back(L);
-    add_adjoint(directions, values, back);
+    add_adjoint({.directions = directions, .weights = values}, back, kDirect);
     EXPECT_LT(relative_difference(back, f), 1e-15 * (10 + L)) << L;
   }
 }
@@ -122,7 +124,7 @@ TEST(evaluate_with_gradient, of_z_is_its_tangential_part_poles_included) {
   Coefficients f(1);
   f.c(1, 0) = std::sqrt(4 * kPi / 3);  // f = z
   const auto directions = random_directions(50, 9);
-  const ValuesAndGradients g = evaluate_with_gradient(f, directions);
+  const ValuesAndGradients g = evaluate_with_gradient(f, directions, kDirect);
   for (std::size_t j = 0; j < directions.size(); ++j) {
     const Vec3 expected = Vec3{0, 0, 1} - directions[j].z * directions[j];
     EXPECT_NEAR(g.values[j], directions[j].z, 1e-15);
@@ -137,14 +139,14 @@ TEST(evaluate_with_gradient, agrees_with_central_differences) {
   constexpr double h = 1e-5;
   const Coefficients f = random_coefficients(L, 10);
   const auto directions = random_directions(60, 11);
-  const ValuesAndGradients g = evaluate_with_gradient(f, directions);
+  const ValuesAndGradients g = evaluate_with_gradient(f, directions, kDirect);
   for (std::size_t j = 0; j < directions.size(); ++j) {
     const Vec3 u = directions[j];
     const Vec3 t = normalized(cross(u, std::abs(u.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
     EXPECT_NEAR(dot(g.gradients[j], u), 0, 1e-12);
     for (const Vec3& tangent : {t, cross(u, t)}) {
       const std::array<Vec3, 2> ends = {normalized(u + h * tangent), normalized(u - h * tangent)};
-      const auto values = evaluate(f, ends);
+      const auto values = evaluate(f, ends, kDirect);
       EXPECT_NEAR(dot(g.gradients[j], tangent), (values[0] - values[1]) / (2 * h), 2e-6);
     }
   }
@@ -163,7 +165,7 @@ TEST(evaluate_rings, agrees_with_scattered_directions) {
             {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});
       }
     }
-    const auto expected = evaluate(f, directions);
+    const auto expected = evaluate(f, directions, kDirect);
     ASSERT_EQ(values.size(), expected.size());
     for (std::size_t j = 0; j < values.size(); ++j) EXPECT_NEAR(values[j], expected[j], 2e-13);
   }
@@ -173,13 +175,14 @@ TEST(transforms, give_the_same_bits_for_any_number_of_threads) {
   const auto directions = random_directions(3000, 13);
   const auto weights = random_values(3000, 14);
   const Coefficients f = random_coefficients(70, 15);
-  const auto values = evaluate(f, directions, {.threads = 1});
+  const auto values = evaluate(f, directions, kDirect, {.threads = 1});
   Coefficients adjoint(70);
-  add_adjoint(directions, weights, adjoint, {.threads = 1});
+  add_adjoint({.directions = directions, .weights = weights}, adjoint, kDirect, {.threads = 1});
   for (const int threads : {2, 4}) {
-    EXPECT_EQ(values, evaluate(f, directions, {.threads = threads}));
+    EXPECT_EQ(values, evaluate(f, directions, kDirect, {.threads = threads}));
     Coefficients again(70);
-    add_adjoint(directions, weights, again, {.threads = threads});
+    add_adjoint({.directions = directions, .weights = weights}, again, kDirect,
+                {.threads = threads});
     EXPECT_TRUE(
         std::equal(adjoint.values().begin(), adjoint.values().end(), again.values().begin()));
   }
@@ -198,10 +201,10 @@ TEST(power_spectrum, does_not_change_under_rotation) {
   const auto [directions, weights] = gauss_grid(L);
   std::vector<Vec3> rotated;
   for (const Vec3& u : directions) rotated.push_back(rotate(u));
-  std::vector<double> values = evaluate(f, rotated);
+  std::vector<double> values = evaluate(f, rotated, kDirect);
   for (std::size_t j = 0; j < values.size(); ++j) values[j] *= weights[j];
   Coefficients turned(L);
-  add_adjoint(directions, values, turned);
+  add_adjoint({.directions = directions, .weights = values}, turned, kDirect);
   EXPECT_GT(relative_difference(turned, f), 0.5);
   const auto before = power_spectrum(f), after = power_spectrum(turned);
   for (int l = 0; l <= L; ++l) EXPECT_NEAR(after[l], before[l], 1e-13 * (1 + before[l])) << l;
@@ -210,13 +213,18 @@ TEST(power_spectrum, does_not_change_under_rotation) {
 TEST(transforms, can_be_cancelled) {
   const Context context{.threads = 1, .progress = [](std::string_view, double) { return false; }};
   const auto directions = random_directions(100, 17);
-  EXPECT_THROW(evaluate(random_coefficients(10, 1), directions, context), Error);
+  EXPECT_THROW(evaluate(random_coefficients(10, 1), directions, kDirect, context), Error);
 }
 
 TEST(transforms, refuse_weights_that_do_not_match_the_directions) {
   Coefficients sum(3);
-  EXPECT_THROW(add_adjoint(random_directions(10, 1), random_values(9, 1), sum), Error);
-  EXPECT_THROW(add_adjoint_gradient(random_directions(10, 1), std::vector<Vec3>(11), sum), Error);
+  EXPECT_THROW(add_adjoint({.directions = random_directions(10, 1), .weights = random_values(9, 1)},
+                           sum, kDirect),
+               Error);
+  EXPECT_THROW(
+      add_adjoint({.directions = random_directions(10, 1), .gradients = std::vector<Vec3>(11)}, sum,
+                  kDirect),
+      Error);
   EXPECT_THROW(evaluate_rings(sum, std::vector<double>{1.0}, 0), Error);
   EXPECT_THROW(gauss_legendre(0), Error);
 }

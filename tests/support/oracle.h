@@ -47,7 +47,7 @@ inline Coefficients oracle_coefficients(const Mesh& mesh, int degree, RadialFunc
     directions.push_back(x / norm(x));
     weights.push_back(value_at(x, function) * solid);
   });
-  add_adjoint(directions, weights, sum);
+  add_adjoint({.directions = directions, .weights = weights}, sum, {.engine = Engine::kDirect});
   return sum;
 }
 
