@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -25,6 +26,7 @@ struct Options {
   std::string input;
   int degree = 0;
   std::string method = "edge";
+  std::string engine = "fast";
   std::string center = "auto";
   bool allow_signed = false;
   double precision = AnalyzeOptions{}.precision;
@@ -41,7 +43,7 @@ struct Options {
 struct Run {
   Encoded encoded;
   double diagonal = 0;
-  std::map<std::string, StageTime> times;
+  StageTimes times;
 };
 
 std::uint64_t peak_memory_bytes() {
@@ -54,6 +56,7 @@ EncodeOptions encode_options(const Options& options) {
   EncodeOptions wanted;
   wanted.analyze = {.degree = options.degree,
                     .method = parse_method(options.method),
+                    .engine = parse_engine(options.engine),
                     .precision = options.precision};
   wanted.chart.center = parse_center_option(options.center);
   wanted.chart.center.rays = options.rays;
@@ -64,7 +67,8 @@ EncodeOptions encode_options(const Options& options) {
 
 Json times_json(const Run& run, double StageTime::*clock) {
   Json json;
-  for (const char* stage : {"read", "topology", "center", "transform", "write"}) {
+  for (const char* stage : {"read", "topology", "center", "transform", "triangles", "spread",
+                            "fourier", "norms", "write"}) {
     const auto found = run.times.find(stage);
     json[stage] = found == run.times.end() ? 0.0 : found->second.*clock;
   }
@@ -73,6 +77,24 @@ Json times_json(const Run& run, double StageTime::*clock) {
 
 Json relative(double length, double diagonal) {
   return diagonal > 0 ? Json(length / diagonal) : Json(nullptr);
+}
+
+// Points of the sphere that are summed over.
+std::size_t sources_of(const Analysis& analysis) {
+  return analysis.fast ? analysis.fast->vertices + analysis.fast->nodes
+                       : analysis.edge_nodes + analysis.face_nodes;
+}
+
+Json fast_json(const FastReport& fast) {
+  return {{"precision", fast.single ? "single" : "double"},
+          {"window_width", fast.width},
+          {"oversampling", fast.oversampling},
+          {"lumped_faces", fast.lumped_triangles},
+          {"vertices", fast.vertices},
+          {"nodes", fast.nodes},
+          {"passes", fast.passes},
+          {"estimated_error", fast.error},
+          {"estimated_error_of_top_quarter", fast.band_error}};
 }
 
 Json report_json(const Options& options, const Run& run) {
@@ -90,13 +112,18 @@ Json report_json(const Options& options, const Run& run) {
   json["counts"] = {{"vertices", encoded.vertices},
                     {"faces", encoded.faces},
                     {"edges", encoded.edges},
-                    {"nodes", analysis.edge_nodes + analysis.face_nodes}};
-  json["edge_nodes"] = analysis.edge_nodes;
-  json["face_nodes"] = analysis.face_nodes;
+                    {"nodes", sources_of(analysis)}};
+  json["engine"] = analysis.fast ? "fast" : options.engine;
+  if (analysis.fast) {
+    json["fast"] = fast_json(*analysis.fast);
+  } else {
+    json["edge_nodes"] = analysis.edge_nodes;
+    json["face_nodes"] = analysis.face_nodes;
+  }
   json["merged_vertices"] = encoded.merged_vertices;
   json["collapsed_faces"] = encoded.collapsed_triangles;
   json["flipped"] = encoded.flipped;
-  json["closure_residual"] = analysis.closure_residual;
+  json["closure_residual"] = json_of(analysis.closure_residual);
   json["norm_squared"] = json_of(analysis.expansion.norm_squared);
   json["tail_strength"] = json_of(analysis.expansion.tail_strength);
   json["truncation_rms"] = json_of(analysis.truncation_rms);
@@ -115,16 +142,37 @@ std::string report_text(const Options& options, const Run& run) {
   const Encoded& encoded = run.encoded;
   const Analysis& analysis = encoded.analysis;
   double seconds = 0;
-  for (const auto& [stage, time] : run.times) seconds += time.wall;
+  for (const char* stage : {"read", "topology", "center", "transform", "norms", "write"}) {
+    const auto found = run.times.find(stage);
+    if (found != run.times.end()) seconds += found->second.wall;
+  }
   std::string text = fmt::format("{}: degree {} by {}, {} vertices, {} faces, {} nodes in {:.2f} s",
                                  options.output, options.degree, options.method, encoded.vertices,
-                                 encoded.faces, analysis.edge_nodes + analysis.face_nodes, seconds);
+                                 encoded.faces, sources_of(analysis), seconds);
   text += fmt::format("; centre {}, min d {}", text_of(encoded.star.center),
                       text_of(encoded.star.min_d));
   if (analysis.truncation_rms) {
     text += fmt::format("; the degrees beyond hold {} rms", text_of(*analysis.truncation_rms));
   }
   return text;
+}
+
+// A mesh that can stay where it lies in its file is not read.
+Encoded encode_input(const std::string& path, const EncodeOptions& wanted, Session& session,
+                     StageTimes& times) {
+  const Stopwatch reading;
+  if (path != "-") {
+    const std::optional<MappedMesh> mapped = map_mesh(path, session.context());
+    times["read"] = reading.elapsed();
+    if (mapped) {
+      if (auto encoded = encode_mapped(*mapped, wanted, session.context())) {
+        return std::move(*encoded);
+      }
+    }
+  }
+  const Mesh mesh = read_mesh(path, session);
+  times["read"] = reading.elapsed();
+  return encode(mesh, wanted, session.context());
 }
 
 int run(const Options& options, Session& session) {
@@ -135,13 +183,11 @@ int run(const Options& options, Session& session) {
   check_writable(options.output);
 
   Run run;
-  const Stopwatch reading;
-  const Mesh mesh = read_mesh(options.input, session);
-  run.times["read"] = reading.elapsed();
-  run.diagonal = bounds(mesh.vertices).diagonal();
-  run.encoded = encode(mesh, wanted, session.context());
+  run.encoded = encode_input(options.input, wanted, session, run.times);
+  run.diagonal = run.encoded.diagonal;
   run.encoded.analysis.expansion.unit = options.unit;
   run.times.insert(run.encoded.times.begin(), run.encoded.times.end());
+  run.times.insert(run.encoded.analysis.times.begin(), run.encoded.analysis.times.end());
   if (run.encoded.flipped) session.note(kFlipped);
   if (!run.encoded.star.star_shaped) {
     session.warn(
@@ -179,13 +225,18 @@ std::vector<Option> option_list(Options& o) {
                    "plain cubature, for comparison",
            .target = &o.method,
            .choices = {"edge", "gauge", "curl", "area"}},
+          {.name = "engine",
+           .help = "fast (the default): sums on an oversampled grid, as exact as --precision says; "
+                   "direct: term by term, slow; curl and area are always direct",
+           .target = &o.engine,
+           .choices = {"fast", "direct"}},
           center_option(o.center),
           {.name = "signed",
            .help = "accept a surface that is not star-shaped: the alternating sum of its radii",
            .target = &o.allow_signed},
           {.name = "precision",
            .value = "P",
-           .help = "wanted relative error of the coefficients, 1e-14 ... 1e-1; 1e-10 by default",
+           .help = "wanted relative error of the coefficients, 1e-14 ... 1e-1; 1e-8 by default",
            .target = &o.precision,
            .min = 1e-14,
            .max = 1e-1},

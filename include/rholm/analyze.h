@@ -10,6 +10,8 @@
 
 #include "rholm/coefficients.h"
 #include "rholm/context.h"
+#include "rholm/harmonic.h"
+#include "rholm/mesh_view.h"
 #include "rholm/star.h"
 
 namespace rholm {
@@ -23,13 +25,31 @@ enum class Method {
 const char* to_string(Method method);          // "edge", "gauge", "curl", "area"
 Method parse_method(const std::string& name);  // throws InvalidInput
 
+// How the fast engine did it.
+struct FastReport {
+  bool single = false;      // sources spread in single precision
+  int width = 0;            // grid points of the window
+  double oversampling = 0;  // of the grid
+  std::size_t lumped_triangles = 0;
+  std::size_t nodes = 0;     // sources of their own
+  std::size_t vertices = 0;  // sources at vertices
+  // Estimates of the error: l2 over 1 <= l <= L, relative to the norm of the function without its
+  // mean; and of the degrees above 3L/4 relative to that band's own norm.
+  double error = 0;
+  double band_error = 0;
+  int passes = 0;  // over the triangles: more than one if the estimate from a sample was too low
+};
+
 struct AnalyzeOptions {
   int degree = 64;  // L, 0 ... kMaxDegree
   Method method = Method::kEdge;
+  // How sums are done: fast ones keep the wanted precision, direct ones are the oracle. The methods
+  // curl and area are always direct.
+  Engine engine = Engine::kFast;
   // Wanted error of the coefficients 1 <= l <= L: l2 norm of the error / norm of the function
   // without its mean; for c_00 relative to c_00. 1e-14 ... 1e-1. Rounding adds about 1e-15 c_00
   // times the largest r / d_T.
-  double precision = 1e-10;
+  double precision = 1e-8;
 };
 
 struct Analysis {
@@ -37,8 +57,11 @@ struct Analysis {
   std::size_t edge_nodes = 0;  // quadrature nodes on edges
   std::size_t face_nodes = 0;  // and on faces
   // |sum_e s_e int_arc u ds| / sum_e |s_e| int_arc ds: zero for a closed, consistently
-  // oriented mesh, whatever its shape; free check of mesh and orientation, (M5).
-  double closure_residual = 0;
+  // oriented mesh, whatever its shape; check of mesh and orientation, (M5). None with the fast
+  // engine, which checks both by a hash over all half-edges.
+  std::optional<double> closure_residual;
+  std::optional<FastReport> fast;  // of the fast engine with the method edge
+  StageTimes times;                // "triangles", "spread", "fourier", "norms": where known
   // Exact truncation error over solid angle, sqrt(||f - f_L||^2 / 4 pi), in the unit of f;
   // none if the surface is not star-shaped, for there (M7) is not the norm.
   std::optional<double> truncation_rms;
@@ -52,9 +75,13 @@ Analysis analyze(const StarChart& chart, const AnalyzeOptions& options = {},
 // int r^2 dOmega and int q^2 dOmega of a star-shaped surface in closed form, (M7).
 double radius_norm_squared(const StarChart& chart);
 double gauge_norm_squared(const StarChart& chart);
+double radius_norm_squared(const MeshView& mesh, const Vec3& center, const Context& context = {});
 
 // S = sum_e int_e (r^2 s_e)^2 ds for the radius, sum_e int_e s_e^2 ds for the gauge: the energy
 // per degree is about S / (pi l^4) beyond the mesh's own resolution, method 5.
 double tail_strength(const StarChart& chart, RadialFunction function);
+// Of the radius, for a closed mesh where it lies: identical vertices count as one. 40 bytes of
+// memory per triangle.
+double tail_strength(const MeshView& mesh, const Vec3& center);
 
 }  // namespace rholm

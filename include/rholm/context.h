@@ -2,6 +2,8 @@
 #pragma once
 
 #include <functional>
+#include <map>
+#include <string>
 #include <string_view>
 
 namespace rholm {
@@ -16,5 +18,12 @@ struct Context {
   int threads = 0;  // worker threads; 0 means one per processor
   ProgressCallback progress = {};
 };
+
+// Wall and processor time of a stage, seconds, and those of all stages by their names.
+struct StageTime {
+  double wall = 0;
+  double cpu = 0;
+};
+using StageTimes = std::map<std::string, StageTime>;
 
 }  // namespace rholm

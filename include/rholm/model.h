@@ -3,7 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +11,7 @@
 #include "rholm/coefficients.h"
 #include "rholm/coefficients_io.h"
 #include "rholm/context.h"
+#include "rholm/mapped_mesh.h"
 #include "rholm/mesh.h"
 #include "rholm/star.h"
 #include "rholm/topology.h"
@@ -23,26 +24,31 @@ struct EncodeOptions {
   double weld_tolerance = 0;  // in the shape's unit; 0 welds bit-identical vertices
 };
 
-// Wall and processor time of a stage, seconds.
-struct StageTime {
-  double wall = 0;
-  double cpu = 0;
-};
-
 struct Encoded {
   Analysis analysis;
   StarReport star;
-  std::size_t vertices = 0;  // after welding
+  double diagonal = 0;       // of the bounding box
+  std::size_t vertices = 0;  // after welding, where that was needed
   std::size_t faces = 0;
   std::size_t edges = 0;
   std::size_t merged_vertices = 0;
   std::size_t collapsed_triangles = 0;
-  bool flipped = false;                    // the mesh was inside out
-  std::map<std::string, StageTime> times;  // "topology", "center", "transform"
+  bool flipped = false;  // the mesh was inside out
+  StageTimes times;      // "read", "topology", "center", "transform", and parts of the last
 };
 
 // Welds, turns right side out, checks, finds the centre, transforms. Throws what its stages throw.
 Encoded encode(const Mesh& mesh, const EncodeOptions& options = {}, const Context& context = {});
+// The same for a mesh in a mapped file, worked through where it lies; none if it must be read
+// and changed first: not closed and oriented outwards as it is, not star-shaped, other methods than
+// edge by the fast engine, or welding asked for.
+std::optional<Encoded> encode_mapped(const MappedMesh& mesh, const EncodeOptions& options = {},
+                                     const Context& context = {});
+// The same for a file. A large binary PLY file is mapped, not read, and worked through where it
+// lies (see mapped_mesh.h), if nothing has to be changed: its triangles closed and oriented
+// outwards, no welding asked for. `warnings` of the reader are appended.
+Encoded encode_file(const std::filesystem::path& path, const EncodeOptions& options = {},
+                    const Context& context = {}, std::vector<std::string>* warnings = nullptr);
 
 // The model file: HDF5, layout in docs/model-file.md. Written to a temporary file that replaces
 // `path` when complete; "-" can be read but not written (HDF5 seeks). Throws Io, InvalidInput,

@@ -11,6 +11,7 @@
 #include "rholm/file.h"
 #include "rholm/harmonic.h"
 #include "rholm/image.h"
+#include "rholm/mapped_mesh.h"
 #include "rholm/mesh.h"
 #include "rholm/mesh_view.h"
 #include "rholm/model.h"

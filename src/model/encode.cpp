@@ -1,32 +1,19 @@
-#include <time.h>
-
-#include <chrono>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include "base/parallel.h"
+#include "base/stopwatch.h"
+#include "chart/view_center.h"
+#include "chart/view_scan.h"
 #include "rholm/error.h"
+#include "rholm/mapped_mesh.h"
 #include "rholm/model.h"
+#include "rholm/shape_io.h"
+#include "transform/mesh_pass.h"
 
 namespace rholm {
 namespace {
-
-double cpu_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-// Runs a stage and notes its times.
-template <typename Stage>
-auto timed(StageTime& time, const Stage& stage) {
-  const auto wall = std::chrono::steady_clock::now();
-  const double cpu = cpu_seconds();
-  auto result = stage();
-  time.wall += std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
-  time.cpu += cpu_seconds() - cpu;
-  return result;
-}
 
 struct Topology {
   Welded welded;
@@ -59,16 +46,128 @@ StarChart chart_of(Topology& topology, const ChartOptions& options, const Contex
   }
 }
 
+double diagonal_of(const MeshView& mesh) {
+  const VertexRange range = vertex_range(mesh, 0, mesh.n_vertices);
+  return norm(
+      {range.max[0] - range.min[0], range.max[1] - range.min[1], range.max[2] - range.min[2]});
+}
+
+StarReport star_report(const MeshPassResult& pass, const Vec3& center) {
+  StarReport report;
+  report.center = center;
+  report.min_d = pass.min_d;
+  report.min_cos_gamma = pass.min_cos_gamma;
+  report.star_shaped = true;
+  report.once_share = 1;
+  return report;
+}
+
+// Everything from the mesh as it lies; none if it is not a closed, outward, star-shaped mesh of
+// triangles: then it must be looked at more closely.
+std::optional<Encoded> encode_as_it_lies(const MeshView& mesh, const EncodeOptions& options,
+                                         const MeshPassOptions& hooks, const Context& context) {
+  if (!uses_mesh_pass(options.analyze) || options.weld_tolerance != 0 || mesh.n_triangles == 0) {
+    return std::nullopt;
+  }
+  check(options.analyze);
+  Encoded encoded;
+  report_progress(context, "center", 0);
+  const std::optional<Vec3> center = timed(encoded.times, "center", [&]() -> std::optional<Vec3> {
+    if (options.chart.center.kind == CenterKind::kNone) return Vec3{};
+    if (options.chart.center.kind == CenterKind::kGiven) return options.chart.center.point;
+    const FoundCenter found =
+        search_center(local_view(mesh, context), options.chart.center, context);
+    return found.kernel_empty ? std::nullopt : std::optional(found.point);
+  });
+  if (!center) return std::nullopt;
+  MeshPassOptions wanted = hooks;
+  wanted.degree = options.analyze.degree;
+  wanted.precision = options.analyze.precision;
+  wanted.center = *center;
+  MeshPassResult pass =
+      timed(encoded.times, "transform", [&] { return mesh_pass(mesh, wanted, context); });
+  // Faces that all turn outwards cover every direction equally often.
+  if (!pass.closed || !(pass.volume > 0) || pass.bad_triangles > 0) return std::nullopt;
+  constexpr double kClear = 0.3;  // the pass knows the solid angle far better, but for huge faces
+  if (std::abs(pass.covers - 1) > kClear &&
+      !covers_once(local_view(mesh, context), *center, context)) {
+    return std::nullopt;
+  }
+  encoded.star = star_report(pass, *center);
+  Analysis& analysis = encoded.analysis;
+  set_pass(pass, analysis);
+  analysis.expansion.norm_squared =
+      timed(analysis.times, "norms", [&] { return radius_norm_squared(mesh, *center, context); });
+  // Beyond, edges are too many to be kept waiting, and as a rule so short that their jumps say
+  // nothing of the tail (method 5).
+  constexpr std::size_t kMostPaired = std::size_t{1} << 18;
+  if (mesh.n_triangles <= kMostPaired) {
+    analysis.expansion.tail_strength =
+        timed(analysis.times, "norms", [&] { return tail_strength(mesh, *center); });
+  }
+  finish_analysis(options.analyze, *center, analysis);
+  encoded.diagonal = diagonal_of(mesh);
+  encoded.vertices = mesh.n_vertices;
+  encoded.faces = mesh.n_triangles;
+  encoded.edges = mesh.n_triangles / 2 * 3;
+  return encoded;
+}
+
+std::optional<Encoded> encode_valid(const Mesh& mesh, const EncodeOptions& options,
+                                    const Context& context) {
+  validate(mesh);
+  return encode_as_it_lies(view_of(mesh), options, {}, context);
+}
+
 }  // namespace
 
+std::optional<Encoded> encode_mapped(const MappedMesh& mesh, const EncodeOptions& options,
+                                     const Context& context) {
+  MeshPassOptions hooks;
+  hooks.check = [&](std::size_t first, std::size_t n) { return mesh.counts_are_three(first, n); };
+  hooks.release = [&](std::size_t first, std::size_t n) { mesh.release(first, n); };
+  try {
+    return encode_as_it_lies(mesh.view(), options, hooks, context);
+  } catch (const Error& error) {
+    // Whatever is wrong with it, the slow way says it best.
+    if (error.code() == ErrorCode::kCancelled) throw;
+    return std::nullopt;
+  }
+}
+
+Encoded encode_file(const std::filesystem::path& path, const EncodeOptions& options,
+                    const Context& context, std::vector<std::string>* warnings) {
+  if (const std::optional<MappedMesh> mapped = map_mesh(path, context)) {
+    if (std::optional<Encoded> encoded = encode_mapped(*mapped, options, context)) {
+      return std::move(*encoded);
+    }
+  }
+  StageTimes times;
+  ShapeFile file = timed(times, "read", [&] { return read_shape(path, {}, context); });
+  if (warnings != nullptr) {
+    warnings->insert(warnings->end(), file.warnings.begin(), file.warnings.end());
+  }
+  const Mesh* mesh = std::get_if<Mesh>(&file.shape);
+  if (mesh == nullptr) {
+    throw Error(ErrorCode::kInvalidInput, path.string() + " holds points, not a mesh");
+  }
+  Encoded encoded = encode(*mesh, options, context);
+  encoded.times.merge(times);
+  return encoded;
+}
+
 Encoded encode(const Mesh& mesh, const EncodeOptions& options, const Context& context) {
+  if (std::optional<Encoded> encoded = encode_valid(mesh, options, context)) {
+    return std::move(*encoded);
+  }
   Encoded encoded;
+  encoded.diagonal = bounds(mesh.vertices).diagonal();
   report_progress(context, "topology", 0);
   Topology topology =
-      timed(encoded.times["topology"], [&] { return topology_of(mesh, options.weld_tolerance); });
+      timed(encoded.times, "topology", [&] { return topology_of(mesh, options.weld_tolerance); });
   report_progress(context, "center", 0);
   const StarChart chart =
-      timed(encoded.times["center"], [&] { return chart_of(topology, options.chart, context); });
+      timed(encoded.times, "center", [&] { return chart_of(topology, options.chart, context); });
   encoded.star = chart.report;
   encoded.vertices = chart.mesh.vertices.size();
   encoded.faces = chart.mesh.triangles.size();
@@ -77,7 +176,7 @@ Encoded encode(const Mesh& mesh, const EncodeOptions& options, const Context& co
   encoded.collapsed_triangles = topology.welded.collapsed_triangles;
   encoded.flipped = topology.flipped;
   encoded.analysis =
-      timed(encoded.times["transform"], [&] { return analyze(chart, options.analyze, context); });
+      timed(encoded.times, "transform", [&] { return analyze(chart, options.analyze, context); });
   return encoded;
 }
 

@@ -35,7 +35,7 @@ Mesh surface_of_degree(const Expansion& expansion, const Mesh& sphere, int degre
                        const Context& context) {
   const bool gauge = expansion.function == RadialFunction::kGauge;
   const ValuesAndGradients f =
-      evaluate_with_gradient(expansion.coefficients.resized(degree), sphere.vertices, context);
+      evaluate_with_gradient(expansion.coefficients.resized(degree), sphere.vertices, {}, context);
   Mesh mesh;
   mesh.triangles = sphere.triangles;
   mesh.vertices.reserve(sphere.vertices.size());

@@ -6,24 +6,14 @@
 
 #include "base/compensated_sum.h"
 #include "base/parallel.h"
+#include "base/stopwatch.h"
 #include "rholm/error.h"
+#include "transform/mesh_pass.h"
 #include "transform/methods.h"
 #include "transform/star_geometry.h"
 
 namespace rholm {
 namespace {
-
-void check_options(const AnalyzeOptions& options) {
-  if (options.degree < 0 || options.degree > kMaxDegree) {
-    throw Error(ErrorCode::kInvalidInput, "the degree must be between 0 and " +
-                                              std::to_string(kMaxDegree) + ", not " +
-                                              std::to_string(options.degree));
-  }
-  if (!(options.precision >= 1e-14 && options.precision <= 0.1)) {
-    throw Error(ErrorCode::kInvalidInput, "the precision must be between 1e-14 and 0.1, not " +
-                                              std::to_string(options.precision));
-  }
-}
 
 RadialFunction function_of(Method method) {
   return method == Method::kGauge ? RadialFunction::kGauge : RadialFunction::kRadius;
@@ -39,21 +29,23 @@ MethodOptions method_options(const StarGeometry& geometry, const AnalyzeOptions&
                 "no direction sees the surface from the centre: its faces have no area");
   }
   return {.degree = options.degree,
+          .engine = options.engine,
           .error = std::max(options.precision * scale.norm, kRounding * c00),
           .mean_error = std::max(options.precision, kRounding) * c00};
 }
 
-MethodResult run(const StarGeometry& geometry, Method method, const MethodOptions& options,
-                 const Context& context) {
-  switch (method) {
+MethodResult run_method(const StarGeometry& geometry, const AnalyzeOptions& options,
+                        const Context& context) {
+  const MethodOptions wanted = method_options(geometry, options);
+  switch (options.method) {
     case Method::kEdge:
-      return edge_method(geometry, options, context);
+      return edge_method(geometry, wanted, context);
     case Method::kGauge:
-      return gauge_method(geometry, options, context);
+      return gauge_method(geometry, wanted, context);
     case Method::kCurl:
-      return curl_method(geometry, options, context);
+      return curl_method(geometry, wanted, context);
     case Method::kArea:
-      return area_method(geometry, options, context);
+      return area_method(geometry, wanted, context);
   }
   throw Error(ErrorCode::kInvalidInput, "unknown method");
 }
@@ -98,31 +90,81 @@ Method parse_method(const std::string& name) {
   throw Error(ErrorCode::kInvalidInput, "unknown method '" + name + "': edge, gauge, curl or area");
 }
 
-Analysis analyze(const StarChart& chart, const AnalyzeOptions& options, const Context& context) {
-  check_options(options);
-  report_progress(context, "transform", 0);
-  const StarGeometry geometry = star_geometry(chart);
-  const RadialFunction function = function_of(options.method);
-  MethodResult sums = run(geometry, options.method, method_options(geometry, options), context);
-  const double unscale = function == RadialFunction::kGauge ? geometry.scale : 1 / geometry.scale;
-  for (double& value : sums.coefficients.values()) value *= unscale;
-  check_finite(sums.coefficients);
+namespace {
 
-  Analysis analysis;
+// Coefficients by a method of its own (direct sums, or the gauge's fast ones).
+void by_method(const StarChart& chart, const AnalyzeOptions& options, const Context& context,
+               Analysis& analysis) {
+  const StarGeometry geometry = star_geometry(chart);
+  MethodResult sums = run_method(geometry, options, context);
+  const bool gauge = options.method == Method::kGauge;
+  const double unscale = gauge ? geometry.scale : 1 / geometry.scale;
+  for (double& value : sums.coefficients.values()) value *= unscale;
   analysis.edge_nodes = sums.edge_nodes;
   analysis.face_nodes = sums.face_nodes;
   analysis.closure_residual = closure_residual(geometry);
+  analysis.expansion.coefficients = std::move(sums.coefficients);
+}
+
+void by_mesh_pass(const StarChart& chart, const AnalyzeOptions& options, const Context& context,
+                  Analysis& analysis) {
+  MeshPassResult pass = mesh_pass(
+      view_of(chart.mesh), {.degree = options.degree, .precision = options.precision}, context);
+  set_pass(pass, analysis);
+}
+
+}  // namespace
+
+void check(const AnalyzeOptions& options) {
+  if (options.degree < 0 || options.degree > kMaxDegree) {
+    throw Error(ErrorCode::kInvalidInput, "the degree must be between 0 and " +
+                                              std::to_string(kMaxDegree) + ", not " +
+                                              std::to_string(options.degree));
+  }
+  if (!(options.precision >= 1e-14 && options.precision <= 0.1)) {
+    throw Error(ErrorCode::kInvalidInput, "the precision must be between 1e-14 and 0.1, not " +
+                                              std::to_string(options.precision));
+  }
+}
+
+bool uses_mesh_pass(const AnalyzeOptions& options) {
+  return options.engine == Engine::kFast && options.method == Method::kEdge;
+}
+
+void set_pass(MeshPassResult& pass, Analysis& analysis) {
+  analysis.fast = pass.report;
+  analysis.times.insert(pass.times.begin(), pass.times.end());
+  analysis.expansion.coefficients = std::move(pass.coefficients);
+}
+
+void finish_analysis(const AnalyzeOptions& options, const Vec3& center, Analysis& analysis) {
   Expansion& expansion = analysis.expansion;
-  expansion.coefficients = std::move(sums.coefficients);
-  expansion.function = function;
-  expansion.center = chart.report.center;
+  check_finite(expansion.coefficients);
+  expansion.function = function_of(options.method);
+  expansion.center = center;
   expansion.method = to_string(options.method);
-  if (chart.report.star_shaped) {
-    expansion.norm_squared =
-        function == RadialFunction::kGauge ? gauge_norm_squared(chart) : radius_norm_squared(chart);
-    expansion.tail_strength = tail_strength(chart, function);
+  if (expansion.norm_squared) {
     analysis.truncation_rms = truncation_rms(*expansion.norm_squared, expansion.coefficients);
   }
+}
+
+Analysis analyze(const StarChart& chart, const AnalyzeOptions& options, const Context& context) {
+  check(options);
+  report_progress(context, "transform", 0);
+  Analysis analysis;
+  if (uses_mesh_pass(options)) {
+    by_mesh_pass(chart, options, context, analysis);
+  } else {
+    by_method(chart, options, context, analysis);
+  }
+  if (chart.report.star_shaped) {
+    const StageTimer timer(analysis.times, "norms");
+    const bool gauge = options.method == Method::kGauge;
+    analysis.expansion.norm_squared =
+        gauge ? gauge_norm_squared(chart) : radius_norm_squared(chart);
+    analysis.expansion.tail_strength = tail_strength(chart, function_of(options.method));
+  }
+  finish_analysis(options, chart.report.center, analysis);
   return analysis;
 }
 

@@ -110,7 +110,9 @@ Coefficients gradient_terms(const StarGeometry& geometry, const Weights& w,
   }
   Coefficients sum(options.degree);
   const Context silent{.threads = context.threads};
-  if (!directions.empty()) add_adjoint_gradient(directions, vectors, sum, silent);
+  if (!directions.empty())
+    add_adjoint({.directions = directions, .gradients = vectors}, sum, {.engine = Engine::kDirect},
+                silent);
   nodes += directions.size();
   return sum;
 }

@@ -5,6 +5,7 @@
 
 #include "rholm/coefficients.h"
 #include "rholm/context.h"
+#include "rholm/harmonic.h"
 #include "transform/quadrature.h"
 #include "transform/star_geometry.h"
 
@@ -12,8 +13,9 @@ namespace rholm {
 
 struct MethodOptions {
   int degree = 0;
-  double error = 0;       // allowed l2 norm of the error over 1 <= l <= L
-  double mean_error = 0;  // allowed error of c_00
+  Engine engine = Engine::kDirect;  // of the gauge's sums; the others are direct
+  double error = 0;                 // allowed l2 norm of the error over 1 <= l <= L
+  double mean_error = 0;            // allowed error of c_00
 };
 
 struct MethodResult {

@@ -84,7 +84,8 @@ void Sources::flush() {
       return context_.progress(stage, reported_ + fraction * (part_ - reported_));
     };
   }
-  add_adjoint(directions_, weights_, sum_, block);
+  add_adjoint({.directions = directions_, .weights = weights_}, sum_, {.engine = Engine::kDirect},
+              block);
   reported_ = part_;
   directions_.clear();
   weights_.clear();

@@ -40,11 +40,10 @@ Vec3 second_moment(const std::array<Vec3, 3>& corners, double omega, const Vec3&
   return result;
 }
 
-StarGeometry star_geometry(const StarChart& chart) {
-  StarGeometry geometry;
-  geometry.chart = &chart;
+double unit_scale(const MeshView& mesh, const Vec3& center) {
   double largest = 0;
-  for (const Vec3& v : chart.mesh.vertices) {
+  for (std::size_t i = 0; i < mesh.n_vertices; ++i) {
+    const Vec3 v = mesh.vertex(i) - center;
     largest = std::max({largest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   }
   // Between these the scale, its square and what is scaled back stay normal numbers.
@@ -54,7 +53,13 @@ StarGeometry star_geometry(const StarChart& chart) {
                             "1e150: choose another unit of length",
                             largest));
   }
-  geometry.scale = std::exp2(-std::ilogb(largest));
+  return std::exp2(-std::ilogb(largest));
+}
+
+StarGeometry star_geometry(const StarChart& chart) {
+  StarGeometry geometry;
+  geometry.chart = &chart;
+  geometry.scale = unit_scale(view_of(chart.mesh), {});
   geometry.vertices.reserve(chart.mesh.vertices.size());
   for (const Vec3& v : chart.mesh.vertices) geometry.vertices.push_back(geometry.scale * v);
   geometry.faces.resize(chart.mesh.triangles.size());

@@ -93,7 +93,7 @@ TEST(quadrature_error, bounds_the_error_on_random_segments_and_triangles) {
         Coefficients sum(l);
         std::vector<Vec3> u;
         for (const Vec3& v : x) u.push_back(normalized(v));
-        add_adjoint(u, w, sum);
+        add_adjoint({.directions = u, .weights = w}, sum, {.engine = Engine::kDirect});
         return sum;
       };
       const auto error_of = [&](const Coefficients& a, const Coefficients& b) {
@@ -203,7 +203,7 @@ TEST(analyze, sampled_inverse_distance_converges_to_its_closed_form) {
   Coefficients expected(L);
   const std::array<Vec3, 1> direction = {normalized(d)};
   const std::array<double, 1> one = {1};
-  add_adjoint(direction, one, expected);
+  add_adjoint({.directions = direction, .weights = one}, expected, {.engine = Engine::kDirect});
   for (int l = 0; l <= L; ++l) {
     for (int m = 0; m <= l; ++m) {
       expected.c(l, m) *= 4 * kPi / (2 * l + 1) * std::pow(norm(d), l);

@@ -1,0 +1,92 @@
+// The mesh pass (M8), a block of triangles at a time: the inner loops.
+//
+// Notation of method 3e: corners p_0, p_1, p_2 relative to the centre, e_ij = p_j - p_i,
+//   n = e_01 x e_02,  d2 = n . p_0,  W_ij = n . (p_i x p_j) / d2,  F = -n . n / d2.
+// Lumped at the vertices by Hermite's rule (VG): the weight 1/2 (W of both half-edges) + F/3 and
+// the gradient (W/12 + F/24) e for both edge vectors e that leave the vertex.
+//
+// Lumps are rounded to whole multiples of a quantum, so that their sums are exact: the same in any
+// order and for any number of threads.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "rholm/mesh_view.h"
+
+namespace rholm {
+
+inline constexpr std::size_t kTrianglesPerBlock = 128;  // chosen: 30 kB of work arrays
+
+// Weight and gradient of a vertex, in quanta.
+template <typename T>  // std::int32_t or double
+struct alignas(4 * sizeof(T)) VertexLump {
+  T value[4];  // weight, gradient x, y, z
+};
+
+struct BlockParameters {
+  Vec3 center;              // in the mesh's coordinates
+  double scale = 1;         // a power of two that brings lengths to about 1
+  double degree = 0;        // L
+  double grazing2 = 0;      // square of the slope d_T / r below which a triangle is grazing
+  double tolerance2 = 0;    // the largest square of a triangle's error (in weight) that is lumped
+  double mean_reach2 = 0;   // the largest (edge / radius)^2 for which lumps serve for c_00
+  double per_weight = 0;    // quanta per unit of weight,
+  double per_gradient = 0;  // and of gradient
+  double largest = 0;       // of a weight, in quanta
+};
+
+enum TriangleFlag : std::uint8_t {
+  kLumped = 0,
+  kNodes = 1,     // needs nodes of its own: large, steep, grazing, or all but degenerate
+  kMeanNodes = 2  // needs nodes for c_00
+};
+
+template <typename T>
+struct TriangleBlock {
+  static constexpr std::size_t kSize = kTrianglesPerBlock;
+  alignas(64) std::uint32_t index[3][kSize];
+  alignas(64) std::uint32_t hash[3][kSize];
+  alignas(64) double corner[3][3][kSize];  // [corner][x, y, z], relative to the centre, scaled
+  alignas(64) double error2[kSize];        // square of the error of lumping, see node_rules.h
+  alignas(64) double weight2[kSize];       // W^2 of the half-edges + F^2
+  alignas(64) std::uint8_t flag[kSize];
+  alignas(64) VertexLump<T> lump[3][kSize];
+};
+
+// What a block adds to the whole; lengths scaled.
+struct BlockSums {
+  double volume6 = 0;      // sum of d2: six times the enclosed volume
+  double solid_angle = 0;  // roughly
+  double mean = 0;         // sum of d2/2 <1/|x|^2> over triangles without kMeanNodes: int r dOmega
+  double error2 = 0;       // of lumped triangles
+  double weight2 = 0;      // sum of squares of W and F of lumped triangles
+  double min_d2 = 0;       // smallest d_T |d_T|
+  double min_cos2 = 0;     // smallest cos gamma |cos gamma|
+  double max_edge2 = 0;    // largest (edge / radius)^2
+  double probe = 0;        // not a number if a coordinate is not finite
+  std::size_t bad = 0;     // triangles with d_T <= 0 beyond rounding
+  std::size_t nodes = 0;   // flagged kNodes
+  // Sums over half-edges of odd functions of the ends' coordinates: zero if every edge is run
+  // through as often one way as the other, and by chance about once in 2^60.
+  std::uint32_t hash1 = 0, hash2 = 0;
+
+  void add(const BlockSums& other);
+};
+BlockSums no_triangles();
+
+// Reads n triangles from `first` on and works them out. All indices must be valid: see
+// largest_index().
+template <typename T>
+void work_block(const MeshView& mesh, std::size_t first, std::size_t n,
+                const BlockParameters& parameters, TriangleBlock<T>& block, BlockSums& sums);
+
+// The largest vertex index of n triangles from `first` on.
+std::uint32_t largest_index(const MeshView& mesh, std::size_t first, std::size_t n);
+
+// Adds the lumps of the block's first n triangles that are lumped.
+template <typename T>
+void scatter_lumps(const TriangleBlock<T>& block, std::size_t n, VertexLump<T>* vertices);
+
+}  // namespace rholm

@@ -1,0 +1,205 @@
+#include "transform/mesh_nodes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rholm/error.h"
+#include "shape/face.h"
+#include "transform/quadrature.h"
+
+namespace rholm {
+namespace {
+
+constexpr std::size_t kWaiting = 4096;  // chosen: 350 kB
+// Elements longer than half their distance are halved: beyond, x/|x| bends so much that rules
+// for plane waves say little.
+constexpr double kLongest = 0.5;
+// The part of the extent that stands for bending: at kLongest it makes rules for L = 1 exact to
+// 1e-12 with 10 nodes, where the geometric rate (2 distance / edge)^-2n needs 10 (see
+// quadrature.h).
+constexpr double kBending = 4;
+constexpr int kMaxDepth = 100;  // after so many halvings doubles resolve nothing
+
+[[noreturn]] void throw_on_surface() {
+  throw Error(ErrorCode::kInvalidInput,
+              "the surface passes through the centre of the expansion: choose a centre inside it");
+}
+
+// Angle and bending of a straight piece seen from the centre.
+double extent(const Vec3& a, const Vec3& b, double distance, int degree) {
+  const double angle = norm(cross(a, b)) / (distance * distance);
+  const double bending = norm(b - a) / distance;
+  return std::sqrt(std::pow(degree * angle, 2) + std::pow(kBending * bending, 2));
+}
+
+double extent(const std::array<Vec3, 3>& p, double distance, int degree) {
+  return std::max({extent(p[0], p[1], distance, degree), extent(p[1], p[2], distance, degree),
+                   extent(p[2], p[0], distance, degree)});
+}
+
+int longest_edge(const std::array<Vec3, 3>& p) {
+  const std::array<double, 3> e = {norm(p[1] - p[0]), norm(p[2] - p[1]), norm(p[0] - p[2])};
+  return static_cast<int>(std::max_element(e.begin(), e.end()) - e.begin());
+}
+
+// Calls visit on both halves of a triangle, cut through its longest edge.
+template <typename Visit>
+void halve(const std::array<Vec3, 3>& p, const Visit& visit) {
+  const int k = longest_edge(p);
+  const Vec3 &from = p[k], &to = p[(k + 1) % 3], &opposite = p[(k + 2) % 3];
+  const Vec3 middle = 0.5 * (from + to);
+  visit(std::array<Vec3, 3>{from, middle, opposite});
+  visit(std::array<Vec3, 3>{middle, to, opposite});
+}
+
+bool is_long(const std::array<Vec3, 3>& p, double distance) {
+  const int k = longest_edge(p);
+  return !(norm(p[(k + 1) % 3] - p[k]) <= kLongest * distance);
+}
+
+// Nodes of r dOmega = d_T dS / |x|^2; `factor`: d_T times the area.
+template <typename Visit>
+void visit_radius(const std::array<Vec3, 3>& p, double factor, const NodeAllowance& allowance,
+                  int depth, const Visit& visit) {
+  if (factor == 0) return;
+  const double distance = triangle_distance(p);
+  std::span<const FaceNode> rule;
+  if (!is_long(p, distance)) {
+    // 1/|x|^2 bends as much again.
+    rule = face_rule(allowance, extent(p, distance, allowance.degree) + kBending * kLongest,
+                     factor / (distance * distance));
+  }
+  if (rule.empty()) {
+    if (depth == kMaxDepth) throw_on_surface();
+    halve(p, [&](const std::array<Vec3, 3>& half) {
+      visit_radius(half, factor / 2, allowance, depth + 1, visit);
+    });
+    return;
+  }
+  for (const FaceNode& node : rule) {
+    const Vec3 x = node.at[0] * p[0] + node.at[1] * p[1] + node.at[2] * p[2];
+    visit(x, node.weight * factor / dot(x, x));
+  }
+}
+
+}  // namespace
+
+double grazing_slope(int degree) { return std::min(0.25, 1.0 / (8 * std::max(degree, 1))); }
+
+NodeWriter::NodeWriter(const NodeOptions& options, NodeSink& sink)
+    : options_(options), sink_(sink), waiting_(kWaiting) {}
+
+void NodeWriter::add_triangle(const std::array<Vec3, 3>& p,
+                              const std::array<std::uint32_t, 3>& vertices) {
+  const FaceNormal normal = face_normal(p);
+  if (normal.degenerate) return;
+  const Vec3& n = normal.twice_area;
+  // The corner nearest to the centre loses least.
+  const Vec3& nearest = *std::min_element(
+      p.begin(), p.end(), [](const Vec3& a, const Vec3& b) { return dot(a, a) < dot(b, b); });
+  const double d2 = dot(n, nearest);
+  const bool grazing =
+      std::abs(d2) < grazing_slope(options_.divided.degree) * norm(n) * norm(nearest);
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    const double weight = grazing ? 0 : dot(n, cross(p[i], p[j])) / d2;
+    add_edge(vertices[i], vertices[j], p[i], p[j], weight, grazing ? 1 : 0);
+  }
+  if (grazing) {
+    visit_radius(p, d2 / 2, options_.undivided, 0,
+                 [&](const Vec3& x, double weight) { sink_.add_undivided(x, weight); });
+  } else {
+    write_face(p, -dot(n, n) / d2, 0);
+  }
+}
+
+void NodeWriter::add_edge(std::uint32_t i, std::uint32_t j, const Vec3& a, const Vec3& b,
+                          double weight, double gradient) {
+  // The edge as seen from its lower vertex: a weight knows no direction, a gradient changes sign.
+  const bool swapped = j < i;
+  const std::uint64_t low = std::min(i, j), high = std::max(i, j);
+  const std::uint64_t name = (low << 32 | high) + 1;
+  HalfEdge edge{.name = name,
+                .a = swapped ? b : a,
+                .b = swapped ? a : b,
+                .weight = weight,
+                .gradient = swapped ? -gradient : gradient};
+  HalfEdge& slot = waiting_[(name * 0x9E3779B97F4A7C15U) >> 52];
+  if (slot.name == name) {
+    edge.weight += slot.weight;
+    edge.gradient += slot.gradient;
+    slot.name = 0;
+    write_edge(edge);
+    return;
+  }
+  if (slot.name != 0) write_edge(slot);
+  slot = edge;
+}
+
+void NodeWriter::flush() {
+  for (HalfEdge& edge : waiting_) {
+    if (edge.name != 0) write_edge(edge);
+    edge.name = 0;
+  }
+}
+
+void NodeWriter::write_edge(const HalfEdge& edge) {
+  if (edge.weight != 0 || edge.gradient != 0) write_piece(edge, edge.a, edge.b, 1);
+}
+
+void NodeWriter::write_piece(const HalfEdge& edge, const Vec3& a, const Vec3& b, double share) {
+  const double distance = segment_distance(a, b);
+  const double length = norm(b - a);
+  const Vec3 across = -edge.gradient * cross(edge.a, edge.b);
+  EdgeRule rule;
+  if (length <= kLongest * distance) {
+    // A gradient is up to L / |x| times the harmonic.
+    const double slope = norm(across) * options_.divided.degree / distance;
+    rule = edge_rule(options_.divided, extent(a, b, distance, options_.divided.degree),
+                     share * (std::abs(edge.weight) + slope));
+  }
+  if (rule.nodes.empty()) {
+    if (!(share > std::exp2(-kMaxDepth))) throw_on_surface();
+    const Vec3 middle = 0.5 * (a + b);
+    write_piece(edge, a, middle, share / 2);
+    write_piece(edge, middle, b, share / 2);
+    return;
+  }
+  for (std::size_t k = 0; k < rule.nodes.size(); ++k) {
+    const Vec3 x = a + rule.nodes[k] * (b - a);
+    const double weight = share * rule.weights[k];
+    if (edge.weight != 0) sink_.add(x, weight * edge.weight);
+    if (edge.gradient != 0) sink_.add_gradient(x, weight * across);
+  }
+}
+
+void NodeWriter::write_face(const std::array<Vec3, 3>& p, double weight, int depth) {
+  const double distance = triangle_distance(p);
+  std::span<const FaceNode> rule;
+  if (!is_long(p, distance)) {
+    rule = face_rule(options_.divided, extent(p, distance, options_.divided.degree), weight);
+  }
+  if (rule.empty()) {
+    if (depth == kMaxDepth) throw_on_surface();
+    halve(p, [&](const std::array<Vec3, 3>& half) { write_face(half, weight / 2, depth + 1); });
+    return;
+  }
+  for (const FaceNode& node : rule) {
+    sink_.add(node.at[0] * p[0] + node.at[1] * p[1] + node.at[2] * p[2], node.weight * weight);
+  }
+}
+
+double radius_integral(const std::array<Vec3, 3>& corners, double relative_error) {
+  const FaceNormal normal = face_normal(corners);
+  if (normal.degenerate) return 0;
+  const double factor = dot(normal.twice_area, corners[0]) / 2;
+  const double distance = triangle_distance(corners);
+  const NodeAllowance allowance{.degree = 0,
+                                .error = relative_error * std::abs(factor) / (distance * distance),
+                                .divided = false};
+  double sum = 0;
+  visit_radius(corners, factor, allowance, 0, [&](const Vec3&, double weight) { sum += weight; });
+  return sum;
+}
+
+}  // namespace rholm

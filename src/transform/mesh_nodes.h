@@ -1,0 +1,67 @@
+// Nodes of the triangles that are not lumped, for the mesh pass.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "rholm/vec3.h"
+#include "transform/node_rules.h"
+
+namespace rholm {
+
+// Point sources as they are found. Positions relative to the centre, scaled, of any length.
+class NodeSink {
+ public:
+  virtual ~NodeSink() = default;
+  virtual void add(const Vec3& x, double weight) = 0;
+  // weight . grad of Y(x/|x|) with respect to x.
+  virtual void add_gradient(const Vec3& x, const Vec3& weight) = 0;
+  // Into the sum that is not divided by l(l+1).
+  virtual void add_undivided(const Vec3& x, double weight) = 0;
+};
+
+// Below this d_T / r a triangle is taken out of (M6) and summed by bounded terms (method 3e). Those
+// have gradients, whose error in the windows of the fast sums is some 9 L times that of weights
+// (measured): that much larger the terms of (M6), about r / d_T, may well be.
+double grazing_slope(int degree);
+
+struct NodeOptions {
+  NodeAllowance divided;
+  NodeAllowance undivided;
+};
+
+// Half-edges that have met their twins are summed: an edge of two triangles gets its nodes once.
+// A half-edge whose twin is not among the last few thousand gets nodes of its own: the same sum,
+// at the price of more nodes.
+class NodeWriter {
+ public:
+  NodeWriter(const NodeOptions& options, NodeSink& sink);
+  // `vertices` name the corners: equal names, equal points.
+  void add_triangle(const std::array<Vec3, 3>& corners,
+                    const std::array<std::uint32_t, 3>& vertices);
+  // Half-edges that are left.
+  void flush();
+
+ private:
+  struct HalfEdge {
+    std::uint64_t name = 0;  // of both ends, 0: none
+    Vec3 a, b;
+    double weight = 0;    // W
+    double gradient = 0;  // of -(a x b) . grad
+  };
+  void add_edge(std::uint32_t i, std::uint32_t j, const Vec3& a, const Vec3& b, double weight,
+                double gradient);
+  void write_edge(const HalfEdge& edge);
+  void write_piece(const HalfEdge& edge, const Vec3& a, const Vec3& b, double share);
+  void write_face(const std::array<Vec3, 3>& p, double weight, int depth);
+
+  NodeOptions options_;
+  NodeSink& sink_;
+  std::vector<HalfEdge> waiting_;
+};
+
+// d_T int_T dS/|x|^2 of a triangle, its part of int r dOmega, to the relative error wanted.
+double radius_integral(const std::array<Vec3, 3>& corners, double relative_error);
+
+}  // namespace rholm

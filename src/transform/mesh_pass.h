@@ -1,0 +1,47 @@
+// From a mesh where it lies to the coefficients of its radius: (M8), vertices lumped, fast sums.
+#pragma once
+
+#include <functional>
+
+#include "rholm/analyze.h"
+#include "rholm/coefficients.h"
+#include "rholm/context.h"
+#include "rholm/mesh_view.h"
+
+namespace rholm {
+
+struct MeshPassOptions {
+  int degree = 0;
+  double precision = 1e-6;
+  Vec3 center = {};
+  // Called with blocks of triangles, in order within a thread, before and after they are used:
+  // the first returns false if they are not triangles after all.
+  std::function<bool(std::size_t first, std::size_t n)> check = {};
+  std::function<void(std::size_t first, std::size_t n)> release = {};
+};
+
+struct MeshPassResult {
+  Coefficients coefficients;  // of the radius; of the alternating sum where it is not star-shaped
+  double volume = 0;          // enclosed; negative if inside out
+  bool closed = false;        // every edge run through as often one way as the other, by a hash
+  double covers = 0;          // solid angle / 4 pi, roughly
+  double min_d = 0;
+  double min_cos_gamma = 0;
+  std::size_t bad_triangles = 0;
+  FastReport report;
+  StageTimes times;  // "triangles", "spread", "fourier"
+};
+
+// Throws InvalidInput for coordinates that are not finite, indices out of range, `check` that
+// fails, a surface through the centre; Cancelled.
+MeshPassResult mesh_pass(const MeshView& mesh, const MeshPassOptions& options,
+                         const Context& context);
+
+// The parts of analyze() for those who have no chart.
+void check(const AnalyzeOptions& options);
+bool uses_mesh_pass(const AnalyzeOptions& options);
+void set_pass(MeshPassResult& pass, Analysis& analysis);
+// All else that is known of the expansion but its norms.
+void finish_analysis(const AnalyzeOptions& options, const Vec3& center, Analysis& analysis);
+
+}  // namespace rholm

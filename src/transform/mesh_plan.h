@@ -1,0 +1,52 @@
+// What a mesh pass decides before it starts, from a sample of the triangles.
+#pragma once
+
+#include <vector>
+
+#include "rholm/mesh_view.h"
+#include "transform/mesh_block.h"
+#include "transform/node_rules.h"
+
+namespace rholm {
+
+// Triangles spread over the mesh, in scaled lengths.
+struct MeshSample {
+  struct Entry {
+    double error2;   // of lumping, in units of lumping_error(L)^2
+    double weight2;  // W^2 of the half-edges + F^2
+  };
+  std::vector<Entry> entries;  // error2 ascending
+  double scale = 1;            // a power of two that brings lengths to about 1
+  double mean = 0;             // of r over directions
+  double norm = 0;             // sqrt(int (r - mean)^2 dOmega)
+  double share = 1;            // triangles of the mesh per triangle of the sample
+};
+MeshSample sample_mesh(const MeshView& mesh, const Vec3& center, int degree);
+
+struct MeshPlan {
+  BlockParameters block;
+  NodeAllowance divided, undivided;
+  double rules = 0;       // error the rules may leave, l2, scaled length
+  double window = 0;      // and the windows of the transform
+  double node_share = 0;  // part of the triangles that get nodes, as the sample has it
+  double source2 = 0;     // sum of squares of the nodes' weights, as the sample has it
+  bool single = false;    // single precision will do
+  double mean_error = 0;  // relative, of c_00
+  double rounding = 0;    // what double precision leaves at best, in the mesh's unit
+};
+// `tighten` divides what is allowed: more than 1 for a second try.
+MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& center, int degree,
+                   double precision, double tighten);
+
+// l2 error of the rules, scaled length, for a sum of squares over lumped triangles in units of
+// lumping_error(L)^2 and a number of triangles with nodes.
+double rule_error(const MeshPlan& plan, double lumped2, double noded);
+
+// What rounding of directions and windows to single precision leaves of sources of unit sum of
+// squares / 4 pi, divided by l(l+1) (measured).
+inline constexpr double kSingleNoise = 4e-7;
+
+// The window error that keeps the plan's share for sources whose squared weights have that sum.
+double window_error(const MeshPlan& plan, double source2);
+
+}  // namespace rholm
