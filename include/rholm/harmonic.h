@@ -28,7 +28,7 @@ struct SumOptions {
   // Of the fast engine, 1e-14 ... 1e-1. The l2 norm of the error of all values (coefficients) is at
   // most about this part of that of sums with random signs: sqrt(n_values sum C^2 / 4 pi) for
   // evaluate(), sqrt((L+1)^2 sum w^2 / 4 pi) for add_adjoint(). Gradients relative to
-  // L times as much.
+  // L times as much, Hessians to L^2 times.
   double precision = 1e-12;
 };
 

@@ -1,7 +1,3 @@
-// Corners are loaded row by row, x, y, z of a vertex at a time, and turned into vectors of x, of y
-// and of z in registers: a third of the loads of a gather, and where gathers are slow (measured on
-// a Cascade Lake with the mitigation of gather data sampling: 13 ns a triangle) a quarter of their
-// time.
 #include "chart/view_scan.h"
 
 #include <algorithm>
@@ -16,13 +12,13 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "shape/corner_rows-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace rholm {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using D = hn::CappedTag<double, 8>;
-using V = hn::Vec<D>;
 using M = hn::Mask<D>;
 
 // Triangles whose indices are checked, and corners asked for, ahead of use; measured: 32 to 256 are
@@ -36,9 +32,6 @@ constexpr double kSmallestSquare = 1e-280;
 // visitor's exact one. Edges between floats are exact in double, and so are their products.
 constexpr double kIllConditioned = 0x1p-14;
 
-struct Vector3 {
-  V x, y, z;
-};
 HWY_INLINE Vector3 Minus(const Vector3& a, const Vector3& b) {
   return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
 }
@@ -52,95 +45,6 @@ HWY_INLINE Vector3 Cross(const Vector3& a, const Vector3& b) {
 HWY_INLINE Vector3 Same(D d, const Vec3& v) {
   return {hn::Set(d, v.x), hn::Set(d, v.y), hn::Set(d, v.z)};
 }
-
-// Corner k of triangles lies at `indices + triangle * mesh.triangle_stride`, indices =
-// mesh.triangles + 4 k.
-HWY_INLINE const std::byte* Row(const MeshView& mesh, const std::byte* index) {
-  std::uint32_t i;
-  std::memcpy(&i, index, sizeof i);
-  return mesh.vertices + i * mesh.vertex_stride;
-}
-
-// For any number of triangles up to a vector's; missing ones repeat the last.
-template <class T>
-HWY_INLINE Vector3 LoadFew(D d, const MeshView& mesh, const std::byte* indices, std::size_t n) {
-  alignas(64) double rows[3][hn::MaxLanes(d)];
-  for (std::size_t i = 0; i < hn::Lanes(d); ++i) {
-    T row[3];
-    std::memcpy(row, Row(mesh, indices + std::min(i, n - 1) * mesh.triangle_stride), sizeof row);
-    for (std::size_t k = 0; k < 3; ++k) rows[k][i] = row[k];
-  }
-  return {hn::Load(d, rows[0]), hn::Load(d, rows[1]), hn::Load(d, rows[2])};
-}
-
-#if HWY_MAX_BYTES >= 32 && !HWY_HAVE_SCALABLE
-constexpr bool kWholeVectors = true;
-
-// The rows of triangles i and, in vectors of eight, i + 4; of floats 4 bytes more than the row.
-HWY_INLINE auto LoadRows(const MeshView& mesh, const std::byte* indices, std::size_t i, float) {
-  const hn::FixedTag<float, 4> d4;
-  const auto load = [&](std::size_t j) HWY_ATTR {
-    return hn::LoadU(d4,
-                     reinterpret_cast<const float*>(Row(mesh, indices + j * mesh.triangle_stride)));
-  };
-#if HWY_MAX_BYTES >= 64
-  return hn::Combine(hn::FixedTag<float, 8>(), load(i + 4), load(i));
-#else
-  return load(i);
-#endif
-}
-
-HWY_INLINE Vector3 LoadWhole(D d, const MeshView& mesh, const std::byte* indices, float tag) {
-  const hn::Rebind<float, D> df;
-  const auto row0 = LoadRows(mesh, indices, 0, tag), row1 = LoadRows(mesh, indices, 1, tag);
-  const auto row2 = LoadRows(mesh, indices, 2, tag), row3 = LoadRows(mesh, indices, 3, tag);
-  const auto even = hn::InterleaveLower(df, row0, row2);  // x0 x2 y0 y2
-  const auto odd = hn::InterleaveLower(df, row1, row3);   // x1 x3 y1 y3
-  const auto z = hn::InterleaveLower(df, hn::InterleaveUpper(df, row0, row2),
-                                     hn::InterleaveUpper(df, row1, row3));
-  return {hn::PromoteTo(d, hn::InterleaveLower(df, even, odd)),
-          hn::PromoteTo(d, hn::InterleaveUpper(df, even, odd)), hn::PromoteTo(d, z)};
-}
-
-// Four triangles.
-HWY_INLINE void LoadFour(const MeshView& mesh, const std::byte* indices,
-                         hn::Vec<hn::FixedTag<double, 4>>* xyz) {
-  const hn::FixedTag<double, 2> d2;
-  const hn::FixedTag<double, 4> d4;
-  const auto row = [&](std::size_t j) HWY_ATTR {  // x y y z
-    const auto* at = reinterpret_cast<const double*>(Row(mesh, indices + j * mesh.triangle_stride));
-    return hn::Combine(d4, hn::LoadU(d2, at + 1), hn::LoadU(d2, at));
-  };
-  const auto row0 = row(0), row1 = row(1), row2 = row(2), row3 = row(3);
-  const auto lower = hn::InterleaveLower(d4, row0, row1);  // x0 x1 y0 y1
-  const auto lower2 = hn::InterleaveLower(d4, row2, row3);
-  const auto upper = hn::InterleaveUpper(d4, row0, row1);  // y0 y1 z0 z1
-  const auto upper2 = hn::InterleaveUpper(d4, row2, row3);
-  xyz[0] = hn::ConcatLowerLower(d4, lower2, lower);
-  xyz[1] = hn::ConcatUpperUpper(d4, lower2, lower);
-  xyz[2] = hn::ConcatUpperUpper(d4, upper2, upper);
-}
-
-HWY_INLINE Vector3 LoadWhole(D d, const MeshView& mesh, const std::byte* indices, double) {
-  hn::Vec<hn::FixedTag<double, 4>> first[3];
-  LoadFour(mesh, indices, first);
-#if HWY_MAX_BYTES >= 64
-  hn::Vec<hn::FixedTag<double, 4>> second[3];
-  LoadFour(mesh, indices + 4 * mesh.triangle_stride, second);
-  return {hn::Combine(d, second[0], first[0]), hn::Combine(d, second[1], first[1]),
-          hn::Combine(d, second[2], first[2])};
-#else
-  (void)d;
-  return {first[0], first[1], first[2]};
-#endif
-}
-#else
-constexpr bool kWholeVectors = false;
-template <class T>
-HWY_INLINE Vector3 LoadWhole(D d, const MeshView& mesh, const std::byte* indices, T) {
-  return LoadFew<T>(d, mesh, indices, hn::Lanes(d));
-}
-#endif
 
 // Returns the largest index of [begin, end), and asks for one corner of each triangle: neighbours
 // bring the others.

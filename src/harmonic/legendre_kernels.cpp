@@ -37,6 +37,10 @@ HWY_INLINE Scaled normalise(D d, Scaled v) {
   const M low = hn::And(hn::Lt(size, hn::Set(d, kSmall)), hn::Gt(size, hn::Zero(d)));
   v.p = hn::IfThenElse(low, hn::Mul(v.p, hn::Set(d, kUp)), v.p);
   v.k = hn::IfThenElse(low, hn::Sub(v.k, hn::Set(d, 1.0)), v.k);
+  // Squares of squares would leave the range of double otherwise.
+  const M high = hn::Gt(size, hn::Set(d, kBig));
+  v.p = hn::IfThenElse(high, hn::Mul(v.p, hn::Set(d, kDown)), v.p);
+  v.k = hn::IfThenElse(high, hn::Add(v.k, hn::Set(d, 1.0)), v.k);
   return v;
 }
 

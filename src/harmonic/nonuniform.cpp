@@ -67,6 +67,28 @@ void add_sources(const NonuniformPlan& plan, const ScatteredSources& sources, in
   finish_adjoint<T>(plan, spreaders, sum, context, {"transform", 0.6, 1});
 }
 
+// The gradient at a direction next to a pole. Overwrites the batch.
+template <typename T>
+Vec3 polar_gradient(const NonuniformPlan& plan, const GridKernel<T>& kernel, const T* grid,
+                    const Vec3& u, SourceBatch<T>& batch) {
+  const double step = difference_step<T>(plan.fourier.degree);
+  const std::array<Vec3, 2> axes = tangents(u);
+  std::vector<PolarNode> nodes;
+  for (const Vec3& axis : axes) {
+    // Half of these stand for the other axis, with weight 0.
+    add_gradient_nodes(u, axis, step, nodes);
+  }
+  std::vector<Vec3> directions;
+  for (const PolarNode& node : nodes) directions.push_back(node.u);
+  load_positions(directions, batch);
+  PolarSources none;
+  interpolate(kernel, grid, nodes.size(), 0, 0, batch, none);
+  std::array<double, 2> slopes = {};
+  const std::size_t half = nodes.size() / 2;
+  for (std::size_t k = 0; k < nodes.size(); ++k) slopes[k / half] += nodes[k].weight * batch.value[k];
+  return slopes[0] * axes[0] + slopes[1] * axes[1];
+}
+
 template <typename T>
 ValuesAndGradients evaluate_on_grid(const NonuniformPlan& plan, const Coefficients& coefficients,
                                     std::span<const Vec3> directions, bool with_gradient,
@@ -80,7 +102,6 @@ ValuesAndGradients evaluate_on_grid(const NonuniformPlan& plan, const Coefficien
   constexpr std::size_t kSize = SourceBatch<T>::kSize;
   constexpr std::size_t kBatches = 16;  // chosen: tasks of about 100 us
   const std::size_t grain = kBatches * kSize;
-  std::vector<std::vector<std::size_t>> polar((directions.size() + grain - 1) / grain);
   parallel_for(directions.size(), grain, context, {"interpolate", 0.4, 1},
                [&](std::size_t begin, std::size_t end) {
                  auto batch = std::make_unique<SourceBatch<T>>();
@@ -97,37 +118,16 @@ ValuesAndGradients evaluate_on_grid(const NonuniformPlan& plan, const Coefficien
                                                     batch->gradient[2][j]};
                    }
                    for (std::size_t i = 0; i < near.count; ++i) {
-                     polar[begin / grain].push_back(first + near.index[i]);
+                     const std::size_t j = first + near.index[i];
+                     result.gradients[j] =
+                         polar_gradient(plan, kernel, grid.data(), directions[j], *batch);
                    }
                  }
                });
-  std::vector<std::size_t> indices;
-  std::vector<Vec3> poles;
-  for (const auto& part : polar) {
-    for (const std::size_t j : part) {
-      indices.push_back(j);
-      poles.push_back(directions[j]);
-    }
-  }
-  if (!indices.empty()) {
-    const Context silent{.threads = context.threads};
-    const ValuesAndGradients exact = direct_evaluate_with_gradient(coefficients, poles, silent);
-    for (std::size_t i = 0; i < indices.size(); ++i) {
-      result.values[indices[i]] = exact.values[i];
-      result.gradients[indices[i]] = exact.gradients[i];
-    }
-  }
   return result;
 }
 
 }  // namespace
-
-void DirectList::append(const DirectList& other) {
-  directions.insert(directions.end(), other.directions.begin(), other.directions.end());
-  weights.insert(weights.end(), other.weights.begin(), other.weights.end());
-  gradients.insert(gradients.end(), other.gradients.begin(), other.gradients.end());
-  hessians.insert(hessians.end(), other.hessians.begin(), other.hessians.end());
-}
 
 template <typename T>
 GridSpreader<T>::GridSpreader(const NonuniformPlan& plan, const GridKernel<T>& kernel)
@@ -140,17 +140,38 @@ void GridSpreader<T>::add(SourceBatch<T>& batch, std::size_t n, int derivatives)
   pad(batch, n);
   PolarSources polar;
   spread(kernel_, batch, n, derivatives, plan_.polar_sine, grid_.data(), polar);
+  if (polar.count > 0) add_polar(batch, polar, derivatives);
+}
+
+template <typename T>
+void GridSpreader<T>::add_polar(const SourceBatch<T>& batch, const PolarSources& polar,
+                                int derivatives) {
+  const double step = difference_step<T>(plan_.fourier.degree);
+  auto values = std::make_unique<SourceBatch<T>>();
   for (std::size_t i = 0; i < polar.count; ++i) {
     const std::uint32_t j = polar.index[i];
     const Vec3 x = {batch.x[0][j], batch.x[1][j], batch.x[2][j]};
     // Derivatives of a function of direction alone fall with the distance.
     const double r = norm(x);
-    polar_.directions.push_back(x / r);
-    polar_.weights.push_back(batch.value[j]);
-    polar_.gradients.push_back(
-        Vec3{batch.gradient[0][j], batch.gradient[1][j], batch.gradient[2][j]} / r);
-    auto& h = polar_.hessians.emplace_back();
-    for (int k = 0; k < 6; ++k) h[k] = derivatives > 1 ? batch.hessian[k][j] / (r * r) : 0.0;
+    const Vec3 u = x / r;
+    polar_.clear();
+    polar_.push_back({u, batch.value[j]});
+    add_gradient_nodes(
+        u, Vec3{batch.gradient[0][j], batch.gradient[1][j], batch.gradient[2][j]} / r, step,
+        polar_);
+    if (derivatives > 1) {
+      std::array<double, 6> h;
+      for (int k = 0; k < 6; ++k) h[k] = batch.hessian[k][j] / (r * r);
+      add_hessian_nodes(u, h, step, polar_);
+    }
+    std::size_t n = 0;
+    for (const PolarNode& node : polar_) {
+      values->x[0][n] = static_cast<T>(node.u.x);
+      values->x[1][n] = static_cast<T>(node.u.y);
+      values->x[2][n] = static_cast<T>(node.u.z);
+      values->value[n++] = static_cast<T>(node.weight);
+    }
+    add(*values, n, 0);
   }
 }
 
@@ -166,14 +187,8 @@ template <typename T>
 void finish_adjoint(const NonuniformPlan& plan, std::span<GridSpreader<T>> spreaders,
                     Coefficients& sum, const Context& context, const ParallelStage& stage) {
   std::vector<T*> grids;
-  DirectList polar;
-  for (GridSpreader<T>& spreader : spreaders) {
-    grids.push_back(spreader.grid());
-    polar.append(spreader.polar());
-  }
+  for (GridSpreader<T>& spreader : spreaders) grids.push_back(spreader.grid());
   grid_to_coefficients<T>(plan.fourier, grids, sum, context, stage);
-  const Context silent{.threads = context.threads};
-  if (!polar.directions.empty()) direct_add_adjoint(polar.view(), sum, silent);
 }
 
 template class GridSpreader<float>;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "harmonic/polar_nodes.h"
 #include "harmonic/sphere_fourier.h"
 #include "harmonic/spread.h"
 #include "rholm/harmonic.h"
@@ -16,8 +17,8 @@ struct NonuniformPlan {
   SphereFourier fourier;
   bool single = false;  // spread and transformed along phi in single precision
   double cost = 0;      // predicted, nanoseconds on the machine the model was measured on
-  // Sources with derivatives nearer to a pole are to be summed directly: longitudes there multiply
-  // the window's error by 1 / (L sin theta).
+  // Derivatives nearer to a pole are taken from values around them (polar_nodes.h): longitudes there
+  // multiply the window's error by 1 / (L sin theta).
   double polar_sine = 0;
 };
 
@@ -28,26 +29,21 @@ struct NonuniformNeeds {
   std::size_t sources = 0;
   int derivatives = 0;
   bool forbid_single = false;
+  // L |g| and L^2 |h| beside |w|, root mean square over sources: the error is relative to the
+  // largest of the three. Smaller ones ask less of the windows.
+  double gradient_size = 1;
+  double hessian_size = 1;
 };
 // The cheapest plan by the cost model (docs/performance.md).
 NonuniformPlan plan_nonuniform(const NonuniformNeeds& needs);
 // The predicted cost of direct sums, in the same unit.
 double direct_cost(const NonuniformNeeds& needs);
 
-// Least error that single precision is good for: rounding of directions and of the window's values
-// leaves 2e-7 of generic sums (measured), three times that is kept as a margin.
-inline constexpr double kLeastSingleError = 6e-7;
-
-// Sources that are summed directly at the end.
-struct DirectList {
-  std::vector<Vec3> directions;
-  std::vector<double> weights;
-  std::vector<Vec3> gradients;
-  std::vector<std::array<double, 6>> hessians;
-
-  ScatteredSources view() const { return {directions, weights, gradients, hessians}; }
-  void append(const DirectList& other);
-};
+// What single precision adds to the error of generic sums: rounding of directions to 24 bits,
+// which grows with the degree, and of windows (measured for L = 16 ... 800).
+double single_rounding(int degree, int derivatives = 0);
+// Least error that single precision is taken for.
+double least_single_error(int degree, int derivatives = 0);
 
 // One grid that batches of sources are added to, in the order of the calls.
 template <typename T>
@@ -57,20 +53,21 @@ class GridSpreader {
   // The first n sources of the batch, whose positions beyond n are overwritten.
   void add(SourceBatch<T>& batch, std::size_t n, int derivatives);
   T* grid() { return grid_.data(); }
-  const DirectList& polar() const { return polar_; }
 
  private:
+  void add_polar(const SourceBatch<T>& batch, const PolarSources& polar, int derivatives);
+
   const NonuniformPlan& plan_;
   const GridKernel<T>& kernel_;
   AlignedArray<T> grid_;
-  DirectList polar_;
+  std::vector<PolarNode> polar_;  // of the batch in work
 };
 
 // Grids that sources are split over, one thread each: as many as pay for the summing of grids,
 // whatever the number of threads.
 std::size_t grid_count(const NonuniformPlan& plan, std::size_t sources);
 
-// sum += the transform of all grids and of the polar sources.
+// sum += the transform of all grids.
 template <typename T>
 void finish_adjoint(const NonuniformPlan& plan, std::span<GridSpreader<T>> spreaders,
                     Coefficients& sum, const Context& context, const ParallelStage& stage);

@@ -46,7 +46,7 @@ struct SourceBatch {
 };
 
 // Sources with derivatives so near to a pole that longitudes there lose digits: left out, their
-// indices returned. No more than a few of many sources; see kPolarSine.
+// indices returned. No more than a few of many sources; see NonuniformPlan.
 struct PolarSources {
   std::size_t count = 0;
   std::uint32_t index[SourceBatch<double>::kSize];

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <type_traits>
 #include <vector>
 
 namespace rholm {
@@ -12,44 +13,59 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 // I_0(x) = sum (x/2)^2k / k!^2: all terms positive, so nothing is lost.
-double bessel_i0(double x) {
-  const double quarter = x * x / 4;
-  double term = 1, sum = 1;
-  for (int k = 1; term > 1e-17 * sum; ++k) {
-    term *= quarter / (static_cast<double>(k) * k);
+template <typename R>
+R bessel_i0(R x) {
+  const R quarter = x * x / 4;
+  R term = 1, sum = 1;
+  for (int k = 1; term > std::numeric_limits<R>::epsilon() / 8 * sum; ++k) {
+    term *= quarter / (static_cast<R>(k) * static_cast<R>(k));
     sum += term;
   }
   return sum;
 }
 
-double window_value(const SpreadWindow& window, double z) {
-  return bessel_i0(window.beta * std::sqrt(std::max(0.0, 1 - z * z))) / window.scale;
-}
-
-// Coefficients in powers of u of the polynomial through f at the Chebyshev nodes of degree p.
-template <typename F>
-std::vector<double> fit(int p, const F& f) {
-  const int n = p + 1;
-  std::vector<double> chebyshev(n, 0.0);
-  for (int j = 0; j < n; ++j) {
-    const double angle = kPi * (j + 0.5) / n;
-    const double value = f(std::cos(angle));
-    for (int k = 0; k < n; ++k)
-      chebyshev[k] += (k == 0 ? 1.0 : 2.0) / n * value * std::cos(k * angle);
-  }
-  // T_k in powers of u: T_{k+1} = 2 u T_k - T_{k-1}.
-  std::vector<double> powers(n, 0.0), now(n, 0.0), before(n, 0.0), next(n);
-  now[0] = 1;
-  for (int k = 0; k < n; ++k) {
-    for (int q = 0; q <= k; ++q) powers[q] += chebyshev[k] * now[q];
-    for (int q = 0; q < n; ++q) {
-      next[q] = (k == 0 ? 1.0 : 2.0) * (q > 0 ? now[q - 1] : 0.0) - (k == 0 ? 0.0 : before[q]);
+// Polynomials through functions at the n Chebyshev nodes.
+template <typename R>
+class ChebyshevFit {
+ public:
+  explicit ChebyshevFit(int n) : n_(n), cosines_(n * n) {
+    for (int j = 0; j < n; ++j) {
+      for (int k = 0; k < n; ++k) {
+        const R angle = std::numbers::pi_v<R> * (static_cast<R>(j) + R(0.5)) / static_cast<R>(n);
+        cosines_[j * n + k] = std::cos(static_cast<R>(k) * angle);
+      }
     }
-    before = now;
-    now = next;
   }
-  return powers;
-}
+
+  // Coefficients in powers of u.
+  template <typename F>
+  std::vector<R> powers(const F& f) const {
+    std::vector<R> chebyshev(n_, R(0)), result(n_, R(0));
+    for (int j = 0; j < n_; ++j) {
+      const R value = f(cosines_[j * n_ + 1]);
+      for (int k = 0; k < n_; ++k) {
+        chebyshev[k] += R(k == 0 ? 1 : 2) / static_cast<R>(n_) * value * cosines_[j * n_ + k];
+      }
+    }
+    // T_k in powers of u: T_{k+1} = 2 u T_k - T_{k-1}.
+    std::vector<R> now(n_, R(0)), before(n_, R(0)), next(n_);
+    now[0] = 1;
+    for (int k = 0; k < n_; ++k) {
+      for (int q = 0; q <= k; ++q) result[q] += chebyshev[k] * now[q];
+      for (int q = 0; q < n_; ++q) {
+        const R raised = q > 0 ? now[q - 1] : R(0);
+        next[q] = k == 0 ? raised : 2 * raised - before[q];
+      }
+      before = now;
+      now = next;
+    }
+    return result;
+  }
+
+ private:
+  int n_;
+  std::vector<R> cosines_;  // [node][k]
+};
 
 }  // namespace
 
@@ -73,16 +89,6 @@ double spread_error(int width, double sigma) {
   return (2.1 * sigma - 1.2) * std::exp(-kPi * width * std::sqrt(1 - 1 / sigma));
 }
 
-double oversampling_for(int width, double error) {
-  double low = 1, high = 8;
-  if (spread_error(width, high) > error) return std::numeric_limits<double>::infinity();
-  for (int step = 0; step < 40; ++step) {
-    const double middle = (low + high) / 2;
-    (spread_error(width, middle) > error ? low : high) = middle;
-  }
-  return high;
-}
-
 int spread_terms(int width) {
   // A tap spans 2/w of the window, so that powers fall fast. Measured, for oversampling 1.25 ... 3:
   // fewer would add more than a tenth to the error of values or derivatives.
@@ -95,22 +101,25 @@ SpreadTable<T> spread_table(const SpreadWindow& window) {
   SpreadTable<T> table;
   table.width = window.width;
   table.terms = spread_terms(window.width);
+  // Powers lose a few digits, derivatives more: those of double are computed in extended precision.
+  using R = std::conditional_t<sizeof(T) == sizeof(double), long double, double>;
+  const R beta = window.beta, scale = bessel_i0(beta);
+  const ChebyshevFit<R> fit(table.terms);
   const int taps = (window.width + 1) / 2;
   table.coefficients = AlignedArray<T>(static_cast<std::size_t>(3) * taps * table.terms);
   T* out = table.coefficients.data();
-  std::vector<std::vector<double>> powers(taps);
+  std::vector<std::vector<R>> powers;
   for (int i = 0; i < taps; ++i) {
-    powers[i] = fit(table.terms - 1, [&](double u) {
-      return window_value(window, (2 * i + 1 + u) / window.width - 1);
-    });
+    powers.push_back(fit.powers([&](R u) {
+      const R z = (static_cast<R>(2 * i + 1) + u) / static_cast<R>(window.width) - 1;
+      return bessel_i0(beta * std::sqrt(std::max(R(0), 1 - z * z))) / scale;
+    }));
   }
   for (int derivative = 0; derivative < 3; ++derivative) {
-    for (std::vector<double>& p : powers) {
-      for (const double c : p) *out++ = static_cast<T>(c);
+    for (std::vector<R>& p : powers) {
+      for (const R c : p) *out++ = static_cast<T>(c);
       // d/dx = -2 d/du.
-      for (std::size_t q = 0; q + 1 < p.size(); ++q) {
-        p[q] = -2 * static_cast<double>(q + 1) * p[q + 1];
-      }
+      for (std::size_t q = 0; q + 1 < p.size(); ++q) p[q] = -2 * static_cast<R>(q + 1) * p[q + 1];
       p.back() = 0;
     }
   }

@@ -39,7 +39,7 @@ double radius_mean_coefficient(const StarGeometry& geometry, double error) {
 
 MethodResult area_method(const StarGeometry& geometry, const MethodOptions& options,
                          const Context& context) {
-  Sources sources(options.degree, context);
+  Sources sources({.degree = options.degree}, context);
   const Allowance allowance =
       undivided_allowance(options.error, total_weight(geometry), options.degree);
   for (std::size_t t = 0; t < geometry.faces.size(); ++t) {

@@ -164,7 +164,7 @@ MethodResult curl_method(const StarGeometry& geometry, const MethodOptions& opti
   flush(n);
   if (area > 0) {
     const Allowance cubature = undivided_allowance(options.error / 2, area, options.degree);
-    Sources sources(options.degree, Context{.threads = context.threads});
+    Sources sources({.degree = options.degree}, Context{.threads = context.threads});
     for (std::size_t t = 0; t < n; ++t) {
       if (!by_area[t]) continue;
       visit_radius(geometry, t, cubature, [&](const Vec3& x, double w) { sources.add(x, w); });

@@ -141,7 +141,7 @@ Coefficients grazing_faces(const StarGeometry& geometry, const Weights& w,
     if (w.kind[t] == FaceKind::kGrazing) weight += radius_weight(geometry, t);
   }
   const Context silent{.threads = context.threads};
-  Sources sources(options.degree, silent);
+  Sources sources({.degree = options.degree}, silent);
   if (weight > 0) {
     const Allowance allowance = undivided_allowance(options.error / 4, weight, options.degree);
     for (std::size_t t = 0; t < geometry.faces.size(); ++t) {
@@ -163,7 +163,7 @@ MethodResult edge_method(const StarGeometry& geometry, const MethodOptions& opti
   const auto& edges = geometry.chart->edges;
   const double work = static_cast<double>(edges.size() + geometry.faces.size());
   MethodResult result;
-  Sources sources(options.degree, context);
+  Sources sources({.degree = options.degree}, context);
   for (std::size_t e = 0; e < edges.size(); ++e) {
     if (w.of_edge[e] == 0) continue;
     sources.set_progress(static_cast<double>(e) / work);

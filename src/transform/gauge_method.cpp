@@ -64,7 +64,16 @@ MethodResult gauge_method(const StarGeometry& geometry, const MethodOptions& opt
                             .last = 1.5 / (root * std::max(options.degree, 1)),
                             .degree = options.degree,
                             .growth = Growth::kArc};
-  Sources sources(options.degree, context);
+  // Half of the error may come from the sums: the others' rule is generous. Sums of squares as if
+  // each edge had one node; dividing by l(l+1) - 2 brings generic sums down to 1 / sqrt(4 pi).
+  double square = 0;
+  for (const EdgeJump& jump : jumps) square += std::pow(jump.jump * jump.angle, 2);
+  const double generic = 1.5 * std::sqrt(std::max(square, 1e-300)) / root;
+  Sources sources({.degree = options.degree,
+                   .engine = options.engine,
+                   .error = 0.5 * options.error / generic,
+                   .sources = 4 * edges.size()},
+                  context);
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const EdgeJump& jump = jumps[e];
     if (jump.jump == 0) continue;

@@ -12,6 +12,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "rholm/mesh_view.h"
 
@@ -35,6 +36,10 @@ struct BlockParameters {
   double per_weight = 0;    // quanta per unit of weight,
   double per_gradient = 0;  // and of gradient
   double largest = 0;       // of a weight, in quanta
+  // Half-edges with a name below this are kept: one in 2^32 / sampled_names of all edges, both
+  // sides.
+  std::uint32_t sampled_names = 0;
+  std::uint32_t largest_index = 0;  // of the block, or more
 };
 
 enum TriangleFlag : std::uint8_t {
@@ -43,24 +48,36 @@ enum TriangleFlag : std::uint8_t {
   kMeanNodes = 2  // needs nodes for c_00
 };
 
+// W z^4 of a half-edge: that of an edge is the sum of its two, which all but cancel on smooth
+// surfaces.
+struct SampledHalfEdge {
+  std::uint64_t name = 0;  // of the edge, by the coordinates of its ends
+  double error = 0;
+  bool lumped = false;
+};
+
 template <typename T>
 struct TriangleBlock {
   static constexpr std::size_t kSize = kTrianglesPerBlock;
-  alignas(64) std::uint32_t index[3][kSize];
   alignas(64) std::uint32_t hash[3][kSize];
   alignas(64) double corner[3][3][kSize];  // [corner][x, y, z], relative to the centre, scaled
-  alignas(64) double error2[kSize];        // square of the error of lumping, see node_rules.h
-  alignas(64) double weight2[kSize];       // W^2 of the half-edges + F^2
+  // Of lumping, see lumping_error() in node_rules.h: W z^4 of the half-edges, F z^4, and the sum of
+  // their squares.
+  alignas(64) double edge_error[3][kSize];
+  alignas(64) double face_error[kSize];
+  alignas(64) double error2[kSize];
+  alignas(64) double edge_weight[3][kSize];  // W
+  alignas(64) double face_weight[kSize];     // F
   alignas(64) std::uint8_t flag[kSize];
+  alignas(64) std::uint8_t sampled[3][kSize / 8];  // bits: half-edges of the sample
   alignas(64) VertexLump<T> lump[3][kSize];
 };
 
 // What a block adds to the whole; lengths scaled.
 struct BlockSums {
   double volume6 = 0;      // sum of d2: six times the enclosed volume
-  double solid_angle = 0;  // roughly
   double mean = 0;         // sum of d2/2 <1/|x|^2> over triangles without kMeanNodes: int r dOmega
-  double error2 = 0;       // of lumped triangles
+  double face_error2 = 0;  // of lumped triangles: sum of (F z^4)^2
   double weight2 = 0;      // sum of squares of W and F of lumped triangles
   double min_d2 = 0;       // smallest d_T |d_T|
   double min_cos2 = 0;     // smallest cos gamma |cos gamma|
@@ -82,11 +99,17 @@ template <typename T>
 void work_block(const MeshView& mesh, std::size_t first, std::size_t n,
                 const BlockParameters& parameters, TriangleBlock<T>& block, BlockSums& sums);
 
+// Appends the sampled half-edges of the block's first n triangles.
+template <typename T>
+void sample_half_edges(const TriangleBlock<T>& block, std::size_t n,
+                       std::vector<SampledHalfEdge>& sample);
+
 // The largest vertex index of n triangles from `first` on.
 std::uint32_t largest_index(const MeshView& mesh, std::size_t first, std::size_t n);
 
 // Adds the lumps of the block's first n triangles that are lumped.
 template <typename T>
-void scatter_lumps(const TriangleBlock<T>& block, std::size_t n, VertexLump<T>* vertices);
+void scatter_lumps(const MeshView& mesh, std::size_t first, std::size_t n,
+                   const TriangleBlock<T>& block, VertexLump<T>* vertices);
 
 }  // namespace rholm

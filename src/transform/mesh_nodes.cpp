@@ -27,9 +27,10 @@ constexpr int kMaxDepth = 100;  // after so many halvings doubles resolve nothin
 
 // Angle and bending of a straight piece seen from the centre.
 double extent(const Vec3& a, const Vec3& b, double distance, int degree) {
-  const double angle = norm(cross(a, b)) / (distance * distance);
-  const double bending = norm(b - a) / distance;
-  return std::sqrt(std::pow(degree * angle, 2) + std::pow(kBending * bending, 2));
+  const Vec3 across = cross(a, b), e = b - a;
+  const double over = 1 / (distance * distance);
+  const double l = degree * over;
+  return std::sqrt(l * l * dot(across, across) + kBending * kBending * over * dot(e, e));
 }
 
 double extent(const std::array<Vec3, 3>& p, double distance, int degree) {
@@ -52,6 +53,22 @@ void halve(const std::array<Vec3, 3>& p, const Visit& visit) {
   visit(std::array<Vec3, 3>{middle, to, opposite});
 }
 
+// A lower bound of the distance from the centre, close where edges are short.
+double distance_of(const Vec3& a, const Vec3& b) {
+  const double nearest = std::sqrt(std::min(dot(a, a), dot(b, b)));
+  const Vec3 e = b - a;
+  const double half = 0.5 * std::sqrt(dot(e, e));
+  return half < 0.1 * nearest ? nearest - half : segment_distance(a, b);
+}
+
+double distance_of(const std::array<Vec3, 3>& p) {
+  const double nearest = std::sqrt(std::min({dot(p[0], p[0]), dot(p[1], p[1]), dot(p[2], p[2])}));
+  const Vec3 a = p[1] - p[0], b = p[2] - p[1], c = p[0] - p[2];
+  // No point is farther from its nearest corner than 1/sqrt(3) of the longest edge.
+  const double reach = 0.58 * std::sqrt(std::max({dot(a, a), dot(b, b), dot(c, c)}));
+  return reach < 0.1 * nearest ? nearest - reach : triangle_distance(p);
+}
+
 bool is_long(const std::array<Vec3, 3>& p, double distance) {
   const int k = longest_edge(p);
   return !(norm(p[(k + 1) % 3] - p[k]) <= kLongest * distance);
@@ -62,7 +79,7 @@ template <typename Visit>
 void visit_radius(const std::array<Vec3, 3>& p, double factor, const NodeAllowance& allowance,
                   int depth, const Visit& visit) {
   if (factor == 0) return;
-  const double distance = triangle_distance(p);
+  const double distance = distance_of(p);
   std::span<const FaceNode> rule;
   if (!is_long(p, distance)) {
     // 1/|x|^2 bends as much again.
@@ -148,7 +165,7 @@ void NodeWriter::write_edge(const HalfEdge& edge) {
 }
 
 void NodeWriter::write_piece(const HalfEdge& edge, const Vec3& a, const Vec3& b, double share) {
-  const double distance = segment_distance(a, b);
+  const double distance = distance_of(a, b);
   const double length = norm(b - a);
   const Vec3 across = -edge.gradient * cross(edge.a, edge.b);
   EdgeRule rule;
@@ -174,7 +191,7 @@ void NodeWriter::write_piece(const HalfEdge& edge, const Vec3& a, const Vec3& b,
 }
 
 void NodeWriter::write_face(const std::array<Vec3, 3>& p, double weight, int depth) {
-  const double distance = triangle_distance(p);
+  const double distance = distance_of(p);
   std::span<const FaceNode> rule;
   if (!is_long(p, distance)) {
     rule = face_rule(options_.divided, extent(p, distance, options_.divided.degree), weight);

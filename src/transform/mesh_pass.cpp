@@ -78,16 +78,25 @@ class LumpArrays {
     free_.push_back(std::move(array));
   }
   std::size_t size() const { return free_.size(); }
-  // The lump of vertex i, in quanta.
-  void get(std::size_t i, double (&lump)[4]) const {
-    VertexLump<T> sum = (*free_[0])[i];
-    for (std::size_t a = 1; a < free_.size(); ++a) {
-      for (int k = 0; k < 4; ++k) sum.value[k] += (*free_[a])[i].value[k];
+  // Calls visit(i, lump of vertex i, in quanta) for the vertices [begin, end).
+  template <typename Visit>
+  void visit(std::size_t begin, std::size_t end, const Visit& visit) const {
+    const VertexLump<T>* first = free_[0]->data();
+    for (std::size_t i = begin; i < end; ++i) {
+      VertexLump<T> sum = first[i];
+      for (std::size_t a = 1; a < free_.size(); ++a) {
+        for (int k = 0; k < 4; ++k) sum.value[k] = sum_of(sum.value[k], (*free_[a])[i].value[k]);
+      }
+      visit(i, sum.value);
     }
-    for (int k = 0; k < 4; ++k) lump[k] = static_cast<double>(sum.value[k]);
   }
 
  private:
+  static std::int32_t sum_of(std::int32_t a, std::int32_t b) {  // modulo 2^32
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
+  }
+  static double sum_of(double a, double b) { return a + b; }
+
   std::size_t n_vertices_;
   std::vector<std::unique_ptr<Array>> free_;
   std::mutex mutex_;
@@ -164,6 +173,7 @@ struct Part {
   double source2 = 0;
   std::size_t nodes = 0;
   bool overflow = false;
+  std::vector<SampledHalfEdge> half_edges;
   std::vector<KeptNode> kept;
   std::vector<KeptSlope> slopes;
   std::vector<Vec3> undivided;
@@ -315,7 +325,9 @@ class Pass {
                           .error = std::clamp(window_error(plan_, source2), 1e-15, 1e-2),
                           .sources = sources,
                           .derivatives = 1,
-                          .forbid_single = sizeof(T) == 8};
+                          .forbid_single = sizeof(T) == 8,
+                          // The sum of squares has gradients in it already.
+                          .gradient_size = 0};
     transform_ = plan_nonuniform(needs);
     transform_.single = sizeof(T) == 4;
     kernel_ = grid_kernel<T>(transform_.fourier);
@@ -339,6 +351,7 @@ class Pass {
 
   void work_part(std::size_t p, std::size_t begin, std::size_t end, SharedProgress& progress) {
     Part& part = parts_[p];
+    BlockParameters parameters = plan_.block;
     auto lumps = arrays_.take();
     auto block = std::make_unique<TriangleBlock<Lump>>();
     PartSink<T> sink(part, grids_.empty() ? nullptr : grids_[p].get(), plan_);
@@ -349,12 +362,14 @@ class Pass {
       if (options_.check && !options_.check(first, n)) {
         throw Error(ErrorCode::kUnsupported, "a face is not a triangle");
       }
-      if (largest_index(mesh_, first, n) >= mesh_.n_vertices) throw_index(mesh_, first, n);
+      parameters.largest_index = largest_index(mesh_, first, n);
+      if (parameters.largest_index >= mesh_.n_vertices) throw_index(mesh_, first, n);
       const std::size_t before = part.sums.nodes;
-      work_block(mesh_, first, n, plan_.block, *block, part.sums);
-      scatter_lumps(*block, n, lumps->data());
+      work_block(mesh_, first, n, parameters, *block, part.sums);
+      scatter_lumps(mesh_, first, n, *block, lumps->data());
+      sample_half_edges(*block, n, part.half_edges);
       if (part.sums.nodes != before || part.sums.max_edge2 > plan_.block.mean_reach2) {
-        write_nodes(*block, n, writer, part);
+        write_nodes(*block, first, n, writer, part);
       }
       if ((b - begin) % kBlocksPerStep == kBlocksPerStep - 1) {
         if (options_.release) {
@@ -368,8 +383,8 @@ class Pass {
     arrays_.give_back(std::move(lumps));
   }
 
-  void write_nodes(const TriangleBlock<Lump>& block, std::size_t n, NodeWriter& writer,
-                   Part& part) {
+  void write_nodes(const TriangleBlock<Lump>& block, std::size_t first, std::size_t n,
+                   NodeWriter& writer, Part& part) {
     for (std::size_t t = 0; t < n; ++t) {
       if (block.flag[t] == kLumped) continue;
       std::array<Vec3, 3> p;
@@ -377,7 +392,7 @@ class Pass {
         p[i] = {block.corner[i][0][t], block.corner[i][1][t], block.corner[i][2][t]};
       }
       if ((block.flag[t] & kNodes) != 0) {
-        writer.add_triangle(p, {block.index[0][t], block.index[1][t], block.index[2][t]});
+        writer.add_triangle(p, mesh_.triangle(first + t));
       }
       if ((block.flag[t] & kMeanNodes) != 0) part.mean += radius_integral(p, plan_.mean_error);
     }
@@ -395,16 +410,16 @@ class Pass {
 
   // Sum of squares of the lumps, with gradients as much as they count in a window's error.
   double lump_squares() const {
-    double sum = 0;
     const double weight = 1 / plan_.block.per_weight,
                  slope = gradient_cost(plan_) / plan_.block.per_gradient;
-    for (std::size_t i = 0; i < mesh_.n_vertices; ++i) {
-      double lump[4];
-      arrays_.get(i, lump);
-      const double g = lump[1] * lump[1] + lump[2] * lump[2] + lump[3] * lump[3];
-      sum += weight * weight * lump[0] * lump[0] + slope * slope * g;
-    }
-    return sum;
+    double values = 0, slopes = 0;
+    arrays_.visit(0, mesh_.n_vertices, [&](std::size_t, const auto& lump) {
+      const double w = static_cast<double>(lump[0]), x = static_cast<double>(lump[1]);
+      const double y = static_cast<double>(lump[2]), z = static_cast<double>(lump[3]);
+      values += w * w;
+      slopes += x * x + y * y + z * z;
+    });
+    return weight * weight * values + slope * slope * slopes;
   }
 
   void spread_vertices() {
@@ -419,12 +434,16 @@ class Pass {
         for (const KeptSlope& node : parts_[p].slopes) spreading.add(node.x, 0, node.weight);
       }
       const double weight = 1 / plan_.block.per_weight, slope = 1 / plan_.block.per_gradient;
-      for (std::size_t i = begin; i < end; ++i) {
-        double lump[4];
-        arrays_.get(i, lump);
-        if (lump[0] == 0 && lump[1] == 0 && lump[2] == 0 && lump[3] == 0) continue;
-        spreading.add(position(i), weight * lump[0], slope * Vec3{lump[1], lump[2], lump[3]});
-        if ((i - begin) % (1 << 16) == 0) progress.add(1 << 16);
+      constexpr std::size_t kStep = 1 << 16;
+      for (std::size_t first = begin; first < end; first += kStep) {
+        const std::size_t last = std::min(end, first + kStep);
+        arrays_.visit(first, last, [&](std::size_t i, const auto& lump) {
+          if (lump[0] == 0 && lump[1] == 0 && lump[2] == 0 && lump[3] == 0) return;
+          const Vec3 gradient = {static_cast<double>(lump[1]), static_cast<double>(lump[2]),
+                                 static_cast<double>(lump[3])};
+          spreading.add(position(i), weight * static_cast<double>(lump[0]), slope * gradient);
+        });
+        progress.add(last - first);
       }
       spreading.flush();
     });
@@ -459,7 +478,6 @@ class Pass {
     for (double& value : c.values()) value *= unscale;
     result.volume = sums.volume6 / 6 * unscale * unscale * unscale;
     result.closed = sums.hash1 == 0 && sums.hash2 == 0;
-    result.covers = sums.solid_angle / (4 * kPi);
     const auto root = [](double x) { return std::copysign(std::sqrt(std::abs(x)), x); };
     result.min_d = root(sums.min_d2) * unscale;
     result.min_cos_gamma = root(sums.min_cos2);
@@ -477,7 +495,12 @@ class Pass {
   // that are known by now.
   void report_error(const BlockSums& sums, MeshPassResult& result) const {
     const int degree = plan_.divided.degree;
-    const double rules = rule_error(plan_, sums.error2, static_cast<double>(sums.nodes));
+    std::vector<SampledHalfEdge> sample;
+    for (const Part& part : parts_) {
+      sample.insert(sample.end(), part.half_edges.begin(), part.half_edges.end());
+    }
+    const double lumped2 = sums.face_error2 + sampled_error2(sample, plan_.block.sampled_names);
+    const double rules = rule_error(plan_, lumped2, static_cast<double>(sums.nodes));
     const double spread = std::sqrt(source2_ / (4 * kPi));
     const double window =
         spread * (spread_error(transform_.fourier.layout.width, result.report.oversampling) +
@@ -543,6 +566,7 @@ MeshPassResult mesh_pass(const MeshView& mesh, const MeshPassOptions& options,
   }
   const MeshSample sample = sample_mesh(mesh, options.center, options.degree);
   MeshPassResult result;
+  result.covers = sample.covers;
   double tighten = 1;
   for (int pass = 1; pass <= kMostPasses; ++pass) {
     const MeshPlan plan =

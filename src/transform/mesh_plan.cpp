@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <numbers>
@@ -19,7 +20,7 @@ constexpr double kPi = std::numbers::pi;
 // Shares of the wanted error; they add up in squares.
 constexpr double kRuleShare = 0.5;
 constexpr double kWindowShare = 0.5;
-constexpr double kQuantumShare = 0.1;
+constexpr double kQuantumShare = 0.2;
 
 // Rounding of the double sums against c_00, as in the direct engine.
 constexpr double kRounding = 1e-15;
@@ -31,9 +32,10 @@ constexpr double kElements = 2.5;
 
 // Moments of r over the directions of triangles: corners and centroid, exact solid angles.
 struct Moments {
-  double solid = 0, sum = 0, square = 0;
+  double solid = 0, signed_solid = 0, sum = 0, square = 0;
   void add(const std::array<Vec3, 3>& p) {
-    const double omega = std::abs(solid_angle(p));
+    const double signed_omega = solid_angle(p), omega = std::abs(signed_omega);
+    if (std::isfinite(omega)) signed_solid += signed_omega;
     if (!(omega > 0)) return;
     const auto at = [&](const Vec3& x, double weight) {
       const double r = norm(x);
@@ -46,41 +48,122 @@ struct Moments {
   }
 };
 
-// The largest tolerance (squared, in units of lumping) that keeps the sum of squares allowed.
-double tolerance_of(const MeshSample& sample, double allowed2) {
-  double kept = 0, best = 0;
-  const auto& entries = sample.entries;
-  const std::size_t n = entries.size();
-  const double noded = kElements * kTypicalShare * kTypicalShare;
-  for (std::size_t i = 0; i <= n; ++i) {
-    // Lump the first i; the others get rules that leave up to the tolerance.
-    const double rest = static_cast<double>(n - i) * noded;
-    const double room = allowed2 / sample.share - kept;
-    if (room <= 0) break;
-    const double top = i < n ? entries[i].error2 : std::numeric_limits<double>::infinity();
-    const double tolerance = std::min(rest > 0 ? room / rest : room, top);
-    if (i > 0 && tolerance < entries[i - 1].error2) break;
-    best = std::max(best, tolerance);
-    if (i < n) kept += entries[i].error2;
+// Half-edges of a block by the vertices at their ends.
+void add_edges(const TriangleBlock<double>& block, std::size_t n,
+               std::vector<MeshSample::Edge>& edges) {
+  struct Half {
+    std::uint64_t name;
+    double error, error2, weight;
+  };
+  std::vector<Half> halves;
+  for (std::size_t t = 0; t < n; ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t a = block.hash[i][t], b = block.hash[(i + 1) % 3][t];
+      halves.push_back({std::uint64_t{std::min(a, b)} << 32 | std::max(a, b),
+                        block.edge_error[i][t], block.error2[t], block.edge_weight[i][t]});
+    }
   }
-  // No single triangle may take more than a tenth of it all: the sample does not know the worst.
-  return std::min(best, allowed2 / 100);
+  std::sort(halves.begin(), halves.end(),
+            [](const Half& a, const Half& b) { return a.name < b.name; });
+  for (std::size_t i = 0; i + 1 < halves.size(); ++i) {
+    const Half &a = halves[i], &b = halves[i + 1];
+    if (a.name != b.name || !std::isfinite(a.error2 + b.error2)) continue;
+    const bool in_order = a.error2 <= b.error2;
+    const Half &lower = in_order ? a : b, &upper = in_order ? b : a;
+    edges.push_back(
+        {lower.error2, upper.error2, lower.error, upper.error, lower.weight + upper.weight});
+    ++i;
+  }
+}
+
+// Sum of squares of what lumping leaves if triangles up to a tolerance are lumped: of an edge the
+// sum of its half-edges, or the one that is lumped.
+double lumped_error2(const MeshSample& sample, double tolerance2) {
+  double faces = 0, edges = 0;
+  for (const MeshSample::Entry& entry : sample.entries) {
+    if (entry.error2 > tolerance2) break;
+    // Where no neighbours are known, edges are taken for as smooth as faces: the sample of
+    // half-edges the pass takes will tell.
+    faces += sample.edge_share > 0 ? entry.face_error2 : 4 * entry.face_error2;
+  }
+  for (const MeshSample::Edge& edge : sample.edges) {
+    if (edge.lower2 > tolerance2) continue;
+    const double error = edge.upper2 > tolerance2 ? edge.lower : edge.lower + edge.upper;
+    edges += error * error;
+  }
+  return sample.share * faces + sample.edge_share * edges;
+}
+
+// The largest tolerance (squared, in units of lumping) of some two dozen that keeps the sum of
+// squares allowed; 0 if none does.
+double tolerance_of(const MeshSample& sample, double allowed2) {
+  // No single triangle may take more than a thirtieth of it all: the sample does not know the
+  // worst.
+  const double most = allowed2 / 1000;
+  const std::size_t n = sample.entries.size();
+  constexpr std::size_t kSteps = 24;
+  for (std::size_t k = kSteps; k > 0 && n > 0; --k) {
+    const bool all = k == kSteps;
+    const double tolerance2 = all ? most : sample.entries[(n - 1) * k / kSteps].error2;
+    if (tolerance2 <= most && lumped_error2(sample, tolerance2) <= allowed2) return tolerance2;
+  }
+  return 0;
+}
+
+// Sum of squares of what is spread, roughly: edges in some three nodes or two lumps, faces in some
+// six or three, with gradients that count about as much again.
+double source2_of(const MeshSample& sample) {
+  double faces = 0, halves = 0, edges = 0;
+  for (const MeshSample::Entry& entry : sample.entries) {
+    faces += entry.face_weight2;
+    halves += entry.edge_weight2;
+  }
+  for (const MeshSample::Edge& edge : sample.edges) edges += edge.weight * edge.weight;
+  const double whole = sample.edge_share > 0 ? sample.edge_share * edges : sample.share * halves;
+  return whole / 2 + sample.share * faces / 3;
+}
+
+// Some twenty thousand edges.
+std::uint32_t sampled_names(std::size_t n_triangles) {
+  const double part = 20000 / (1.5 * static_cast<double>(n_triangles));
+  return static_cast<std::uint32_t>(std::min(1.0, part) * 4294967295.0);
 }
 
 }  // namespace
 
+double sampled_error2(std::vector<SampledHalfEdge>& sample, std::uint32_t sampled_names) {
+  std::sort(sample.begin(), sample.end(), [](const SampledHalfEdge& a, const SampledHalfEdge& b) {
+    return a.name != b.name ? a.name < b.name : a.error < b.error;
+  });
+  double sum = 0;
+  for (std::size_t i = 0; i < sample.size();) {
+    double error = 0;
+    const std::uint64_t name = sample[i].name;
+    for (; i < sample.size() && sample[i].name == name; ++i) {
+      if (sample[i].lumped) error += sample[i].error;
+    }
+    sum += error * error;
+  }
+  return sum * 4294967296.0 / std::max(1.0, static_cast<double>(sampled_names));
+}
+
 MeshSample sample_mesh(const MeshView& mesh, const Vec3& center, int degree) {
   MeshSample sample;
-  sample.scale = unit_scale(mesh, center);
-  const BlockParameters parameters{.center = center,
-                                   .scale = sample.scale,
-                                   .degree = static_cast<double>(degree),
-                                   .grazing2 = 0,
-                                   .tolerance2 = std::numeric_limits<double>::infinity(),
-                                   .mean_reach2 = 1,
-                                   .per_weight = 1,
-                                   .per_gradient = 1,
-                                   .largest = std::numeric_limits<double>::infinity()};
+  // Some of the vertices are enough to bring lengths near 1.
+  MeshView few = mesh;
+  const std::size_t step = std::max<std::size_t>(1, mesh.n_vertices / 1024);
+  few.vertex_stride *= step;
+  few.n_vertices = (mesh.n_vertices + step - 1) / step;
+  sample.scale = unit_scale(few, center);
+  BlockParameters parameters{.center = center,
+                             .scale = sample.scale,
+                             .degree = static_cast<double>(degree),
+                             .grazing2 = 0,
+                             .tolerance2 = std::numeric_limits<double>::infinity(),
+                             .mean_reach2 = 1,
+                             .per_weight = 1,
+                             .per_gradient = 1,
+                             .largest = std::numeric_limits<double>::infinity()};
   constexpr std::size_t kSize = TriangleBlock<double>::kSize;
   const std::size_t blocks = (mesh.n_triangles + kSize - 1) / kSize;
   const std::size_t taken = std::min(blocks, kSampleBlocks);
@@ -89,7 +172,8 @@ MeshSample sample_mesh(const MeshView& mesh, const Vec3& center, int degree) {
   for (std::size_t k = 0; k < taken; ++k) {
     const std::size_t first = k * blocks / taken * kSize;
     const std::size_t n = std::min(kSize, mesh.n_triangles - first);
-    if (largest_index(mesh, first, n) >= mesh.n_vertices) continue;  // the pass will say so
+    parameters.largest_index = largest_index(mesh, first, n);
+    if (parameters.largest_index >= mesh.n_vertices) continue;  // the pass will say so
     BlockSums sums = no_triangles();
     work_block(mesh, first, n, parameters, *block, sums);
     for (std::size_t t = 0; t < n; ++t) {
@@ -99,9 +183,13 @@ MeshSample sample_mesh(const MeshView& mesh, const Vec3& center, int degree) {
       }
       moments.add(p);
       if (std::isfinite(block->error2[t])) {
-        sample.entries.push_back({block->error2[t], block->weight2[t]});
+        double edges = 0;
+        for (int i = 0; i < 3; ++i) edges += std::pow(block->edge_weight[i][t], 2);
+        sample.entries.push_back({block->error2[t], std::pow(block->face_error[t], 2),
+                                  std::pow(block->face_weight[t], 2), edges});
       }
     }
+    add_edges(*block, n, sample.edges);
   }
   std::sort(sample.entries.begin(), sample.entries.end(),
             [](const auto& a, const auto& b) { return a.error2 < b.error2; });
@@ -112,6 +200,12 @@ MeshSample sample_mesh(const MeshView& mesh, const Vec3& center, int degree) {
   }
   const double n = static_cast<double>(std::max<std::size_t>(sample.entries.size(), 1));
   sample.share = static_cast<double>(mesh.n_triangles) / n;
+  sample.covers = sample.share * moments.signed_solid / (4 * kPi);
+  // A tenth of the edges should meet; in a mesh of random order none does.
+  if (static_cast<double>(sample.edges.size()) > 0.1 * n) {
+    sample.edge_share =
+        1.5 * static_cast<double>(mesh.n_triangles) / static_cast<double>(sample.edges.size());
+  }
   return sample;
 }
 
@@ -125,18 +219,12 @@ MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& c
   plan.mean_error = std::max(precision, kRounding);
   plan.rounding = 4 * kRounding * c00 / sample.scale;
   const double unit = lumping_error(degree);
-  const double tolerance2 = tolerance_of(sample, plan.rules * plan.rules / (unit * unit));
-  double nodes = 0, lumped2 = 0;
-  for (const MeshSample::Entry& entry : sample.entries) {
-    if (entry.error2 > tolerance2) {
-      nodes += 1;
-      // Some three nodes to an edge, six to a face.
-      plan.source2 += sample.share * entry.weight2 / 4;
-    } else {
-      lumped2 += sample.share * entry.weight2 / 8;
-    }
-  }
-  plan.source2 += lumped2;
+  // Half of the squares for lumps, half for nodes.
+  const double lumps = plan.rules * std::sqrt(0.5) / unit;
+  const double tolerance2 = tolerance_of(sample, lumps * lumps);
+  double nodes = 0;
+  for (const MeshSample::Entry& entry : sample.entries) nodes += entry.error2 > tolerance2;
+  plan.source2 = source2_of(sample);
   plan.node_share = nodes / static_cast<double>(std::max<std::size_t>(sample.entries.size(), 1));
   const double vertices = static_cast<double>(mesh.n_vertices);
   plan.single = kSingleNoise * std::sqrt(plan.source2 / (4 * kPi)) < 0.3 * plan.window;
@@ -152,9 +240,13 @@ MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& c
                 .mean_reach2 = std::sqrt(6 * plan.mean_error),
                 .per_weight = 1 / quantum,
                 .per_gradient = std::max(degree, 1) / quantum,
-                // A weight in single precision: 31 bits less a valence of 128.
-                .largest = std::exp2(plan.single ? 24 : 44)};
-  const double element = std::sqrt(tolerance2) * unit;
+                // Sums wrap around: only those of whole vertices must fit into 31 bits, where the
+                // weights of neighbours cancel.
+                .largest = std::exp2(plan.single ? 28 : 48),
+                .sampled_names = sampled_names(mesh.n_triangles)};
+  const double noded = std::max(plan.node_share * static_cast<double>(mesh.n_triangles), 10.0);
+  const double element =
+      plan.rules * std::sqrt(0.5) / (kTypicalShare * std::sqrt(kElements * noded));
   plan.divided = {.degree = degree, .error = element, .divided = true};
   plan.undivided = {.degree = degree, .error = element, .divided = false};
   return plan;

@@ -9,17 +9,30 @@
 
 namespace rholm {
 
-// Triangles spread over the mesh, in scaled lengths.
+// Triangles spread over the mesh, in runs of neighbours in the file's order; scaled lengths.
 struct MeshSample {
+  // In units of lumping_error(L): see TriangleBlock.
   struct Entry {
-    double error2;   // of lumping, in units of lumping_error(L)^2
-    double weight2;  // W^2 of the half-edges + F^2
+    double error2;        // of the triangle by itself: what the pass decides by
+    double face_error2;   // (F z^4)^2
+    double face_weight2;  // F^2
+    double edge_weight2;  // sum of W^2 of the half-edges
+  };
+  // An edge whose triangles both are in the sample: error2 of the triangles, the lower first, and
+  // W z^4 of the half-edges in the same order; W of both together.
+  struct Edge {
+    double lower2, upper2;
+    double lower, upper;
+    double weight;
   };
   std::vector<Entry> entries;  // error2 ascending
-  double scale = 1;            // a power of two that brings lengths to about 1
-  double mean = 0;             // of r over directions
-  double norm = 0;             // sqrt(int (r - mean)^2 dOmega)
-  double share = 1;            // triangles of the mesh per triangle of the sample
+  std::vector<Edge> edges;
+  double edge_share = 0;  // edges of the mesh per edge of the sample; 0: none is known
+  double scale = 1;       // a power of two that brings lengths to about 1
+  double mean = 0;        // of r over directions
+  double norm = 0;        // sqrt(int (r - mean)^2 dOmega)
+  double share = 1;       // triangles of the mesh per triangle of the sample
+  double covers = 0;      // solid angle of the whole mesh / 4 pi, to some per cent
 };
 MeshSample sample_mesh(const MeshView& mesh, const Vec3& center, int degree);
 
@@ -37,6 +50,10 @@ struct MeshPlan {
 // `tighten` divides what is allowed: more than 1 for a second try.
 MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& center, int degree,
                    double precision, double tighten);
+
+// Sum of squares of W z^4 over all edges between lumped triangles, from the sample of half-edges
+// the pass took. Sorts it.
+double sampled_error2(std::vector<SampledHalfEdge>& sample, std::uint32_t sampled_names);
 
 // l2 error of the rules, scaled length, for a sum of squares over lumped triangles in units of
 // lumping_error(L)^2 and a number of triangles with nodes.

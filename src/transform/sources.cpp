@@ -65,7 +65,8 @@ void visit_piece(const std::array<Vec3, 3>& p, double weight, int depth, const A
 
 }  // namespace
 
-Sources::Sources(int degree, const Context& context) : sum_(degree), context_(context) {
+Sources::Sources(const AdjointNeeds& needs, const Context& context)
+    : sum_(needs), context_(context) {
   directions_.reserve(kBlock);
   weights_.reserve(kBlock);
 }
@@ -84,8 +85,7 @@ void Sources::flush() {
       return context_.progress(stage, reported_ + fraction * (part_ - reported_));
     };
   }
-  add_adjoint({.directions = directions_, .weights = weights_}, sum_, {.engine = Engine::kDirect},
-              block);
+  sum_.add(directions_, weights_, block);
   reported_ = part_;
   directions_.clear();
   weights_.clear();
@@ -94,7 +94,7 @@ void Sources::flush() {
 Coefficients Sources::finish() {
   part_ = 1;
   flush();
-  return std::move(sum_);
+  return sum_.finish(context_);
 }
 
 void visit_segment(const Vec3& a, const Vec3& b, const Allowance& allowance,

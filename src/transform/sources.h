@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "harmonic/adjoint_blocks.h"
 #include "rholm/coefficients.h"
 #include "rholm/context.h"
 #include "rholm/vec3.h"
@@ -14,7 +15,7 @@ namespace rholm {
 
 class Sources {
  public:
-  Sources(int degree, const Context& context);
+  Sources(const AdjointNeeds& needs, const Context& context);
 
   // The source w conj(Y)(x/|x|); `part` of the work is done (for the progress).
   void add(const Vec3& x, double w);
@@ -29,7 +30,7 @@ class Sources {
 
   std::vector<Vec3> directions_;
   std::vector<double> weights_;
-  Coefficients sum_;
+  AdjointBlocks sum_;
   Context context_;
   double part_ = 0;
   double reported_ = 0;
