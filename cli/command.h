@@ -66,6 +66,7 @@ Command compare_command();
 Command convert_command();
 Command render_command();
 Command make_command();
+Command bench_command();
 Command completion_command();
 Command man_page_command();
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "rholm/analyze.h"
+#include "rholm/bench.h"
 #include "rholm/coefficients.h"
 #include "rholm/coefficients_io.h"
 #include "rholm/compare.h"

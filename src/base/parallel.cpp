@@ -18,7 +18,7 @@ int thread_count(const Context& context) {
 
 void report_progress(const Context& context, std::string_view stage, double fraction) {
   if (context.progress && !context.progress(stage, fraction)) {
-    throw Error(ErrorCode::kCancelled, "cancelled");
+    throw Error(ErrorCode::kCancelled, "the computation was cancelled");
   }
 }
 

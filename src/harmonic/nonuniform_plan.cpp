@@ -65,10 +65,10 @@ double polar_sine(int degree, int derivatives) {
 // How much larger than that of values the error of derivatives is, measured on even directions,
 // relative to L for gradients and L^2 for Hessians. Aliases have wave numbers around n - L, and
 // longitudes near the poles count 1 / sin(theta) times: the l2 norm of 1 / sin^2 down to a polar
-// sine is 0.7 times its inverse.
+// sine is 0.7 times its inverse, and three times that where few sources are so near.
 double gradient_factor(double sigma) { return 2.6 * sigma * sigma; }
 double hessian_factor(double sigma, int degree) {
-  return 4 + 20 * std::pow(sigma - 1, 1.8) / polar_sine(degree, 2);
+  return 4 + 70 * std::pow(sigma - 1, 1.8) / polar_sine(degree, 2);
 }
 
 double predicted_error(const NonuniformNeeds& needs, int width, double sigma) {

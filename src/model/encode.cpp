@@ -113,10 +113,15 @@ std::optional<Encoded> encode_as_it_lies(const MeshView& mesh, const EncodeOptio
   return encoded;
 }
 
-std::optional<Encoded> encode_valid(const Mesh& mesh, const EncodeOptions& options,
-                                    const Context& context) {
-  validate(mesh);
-  return encode_as_it_lies(view_of(mesh), options, {}, context);
+// Whatever is wrong with a mesh, the slow way says it best.
+std::optional<Encoded> encode_if_possible(const MeshView& mesh, const EncodeOptions& options,
+                                          const MeshPassOptions& hooks, const Context& context) {
+  try {
+    return encode_as_it_lies(mesh, options, hooks, context);
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::kCancelled) throw;
+    return std::nullopt;
+  }
 }
 
 }  // namespace
@@ -126,13 +131,7 @@ std::optional<Encoded> encode_mapped(const MappedMesh& mesh, const EncodeOptions
   MeshPassOptions hooks;
   hooks.check = [&](std::size_t first, std::size_t n) { return mesh.counts_are_three(first, n); };
   hooks.release = [&](std::size_t first, std::size_t n) { mesh.release(first, n); };
-  try {
-    return encode_as_it_lies(mesh.view(), options, hooks, context);
-  } catch (const Error& error) {
-    // Whatever is wrong with it, the slow way says it best.
-    if (error.code() == ErrorCode::kCancelled) throw;
-    return std::nullopt;
-  }
+  return encode_if_possible(mesh.view(), options, hooks, context);
 }
 
 Encoded encode_file(const std::filesystem::path& path, const EncodeOptions& options,
@@ -157,7 +156,8 @@ Encoded encode_file(const std::filesystem::path& path, const EncodeOptions& opti
 }
 
 Encoded encode(const Mesh& mesh, const EncodeOptions& options, const Context& context) {
-  if (std::optional<Encoded> encoded = encode_valid(mesh, options, context)) {
+  validate(mesh);
+  if (std::optional<Encoded> encoded = encode_if_possible(view_of(mesh), options, {}, context)) {
     return std::move(*encoded);
   }
   Encoded encoded;

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "rholm/vec3.h"
@@ -10,11 +12,16 @@
 
 namespace rholm {
 
-// Point sources as they are found. Positions relative to the centre, scaled, of any length.
+struct Node {
+  Vec3 x;  // relative to the centre, scaled, of any length
+  double weight;
+};
+
+// Point sources as they are found, weights alone many at a time.
 class NodeSink {
  public:
   virtual ~NodeSink() = default;
-  virtual void add(const Vec3& x, double weight) = 0;
+  virtual void add(std::span<const Node> nodes) = 0;
   // weight . grad of Y(x/|x|) with respect to x.
   virtual void add_gradient(const Vec3& x, const Vec3& weight) = 0;
   // Into the sum that is not divided by l(l+1).
@@ -40,7 +47,7 @@ class NodeWriter {
   // `vertices` name the corners: equal names, equal points.
   void add_triangle(const std::array<Vec3, 3>& corners,
                     const std::array<std::uint32_t, 3>& vertices);
-  // Half-edges that are left.
+  // Half-edges and nodes that are left.
   void flush();
 
  private:
@@ -56,8 +63,17 @@ class NodeWriter {
   void write_piece(const HalfEdge& edge, const Vec3& a, const Vec3& b, double share);
   void write_face(const std::array<Vec3, 3>& p, double weight, int depth);
 
+  void write(const Vec3& x, double weight) {
+    nodes_[n_nodes_++] = {x, weight};
+    if (n_nodes_ == nodes_.size()) write_nodes();
+  }
+  void write_nodes();
+
   NodeOptions options_;
+  double grazing_;  // d_T / r
   NodeSink& sink_;
+  std::array<Node, 256> nodes_;
+  std::size_t n_nodes_ = 0;
   std::vector<HalfEdge> waiting_;
 };
 

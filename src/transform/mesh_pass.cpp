@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include "base/parallel.h"
@@ -23,6 +24,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr std::size_t kBlockSize = kTrianglesPerBlock;
 // Blocks between two reports of progress: about 1 ms.
 constexpr std::size_t kBlocksPerStep = 512;
+constexpr std::size_t kVerticesPerStep = 1 << 16;
 // Below this part of triangles with nodes these are kept until the sums of squares are known
 // exactly; above, they are spread as they come, to a window chosen from the sample.
 constexpr double kFewNodes = 0.01;
@@ -110,10 +112,12 @@ class Spreading {
   Spreading(const NonuniformPlan& plan, const GridKernel<T>& kernel, double slope)
       : spreader_(plan, kernel), slope2_(slope * slope) {}
 
-  void add(const Vec3& x, double weight) {
-    put(values_, n_values_, x, weight);
-    source2_ += weight * weight;
-    if (n_values_ == kSize) flush_values();
+  void add(std::span<const Node> nodes) {
+    for (const Node& node : nodes) {
+      put(values_, n_values_, node.x, node.weight);
+      source2_ += node.weight * node.weight;
+      if (n_values_ == kSize) flush_values();
+    }
   }
   void add(const Vec3& x, double weight, const Vec3& gradient) {
     put(slopes_, n_slopes_, x, weight);
@@ -123,6 +127,22 @@ class Spreading {
     source2_ += weight * weight + slope2_ * dot(gradient, gradient);
     if (n_slopes_ == kSize) flush_slopes();
   }
+  // A vertex with its lump in quanta. Without one its position may be anything.
+  template <typename Lump>
+  void add_vertex(const Vec3& x, double weight, double slope, const Lump (&lump)[4]) {
+    const bool nothing = lump[0] == 0 && lump[1] == 0 && lump[2] == 0 && lump[3] == 0;
+    const std::size_t n = n_slopes_++;
+    slopes_.x[0][n] = static_cast<T>(nothing ? 1.0 : x.x);
+    slopes_.x[1][n] = static_cast<T>(nothing ? 0.0 : x.y);
+    slopes_.x[2][n] = static_cast<T>(nothing ? 0.0 : x.z);
+    slopes_.value[n] = static_cast<T>(weight * static_cast<double>(lump[0]));
+    for (int k = 0; k < 3; ++k) {
+      slopes_.gradient[k][n] = static_cast<T>(slope * static_cast<double>(lump[k + 1]));
+    }
+    if (n_slopes_ == kSize) flush_slopes();
+  }
+  // Sources that were added by other ways than add().
+  void count(double source2) { source2_ += source2; }
   void flush() {
     flush_values();
     flush_slopes();
@@ -158,10 +178,6 @@ class Spreading {
 // oversampling).
 double gradient_cost(const MeshPlan& plan) { return 9.0 * std::max(plan.divided.degree, 1); }
 
-struct KeptNode {
-  Vec3 x;
-  double weight;
-};
 struct KeptSlope {
   Vec3 x, weight;
 };
@@ -174,7 +190,7 @@ struct Part {
   std::size_t nodes = 0;
   bool overflow = false;
   std::vector<SampledHalfEdge> half_edges;
-  std::vector<KeptNode> kept;
+  std::vector<Node> kept;
   std::vector<KeptSlope> slopes;
   std::vector<Vec3> undivided;
   std::vector<double> undivided_weights;
@@ -187,12 +203,12 @@ class PartSink : public NodeSink {
  public:
   PartSink(Part& part, Spreading<T>* spreading, const MeshPlan& plan)
       : part_(part), spreading_(spreading), plan_(plan) {}
-  void add(const Vec3& x, double weight) override {
-    ++part_.nodes;
-    if (spreading_ != nullptr) return spreading_->add(x, weight);
-    part_.source2 += weight * weight;
-    part_.overflow = part_.overflow || part_.kept.size() >= kMostKept;
-    if (!part_.overflow) part_.kept.push_back({x, weight});
+  void add(std::span<const Node> nodes) override {
+    part_.nodes += nodes.size();
+    for (const Node& node : nodes) part_.source2 += node.weight * node.weight;
+    if (spreading_ != nullptr) return spreading_->add(nodes);
+    part_.overflow = part_.overflow || part_.kept.size() + nodes.size() > kMostKept;
+    if (!part_.overflow) part_.kept.insert(part_.kept.end(), nodes.begin(), nodes.end());
   }
   void add_gradient(const Vec3& x, const Vec3& weight) override {
     ++part_.nodes;
@@ -281,15 +297,21 @@ class Pass {
       result.report.nodes += part.nodes;
     }
     check_sums(sums);
+    sum_lumps();
+    if (wrapped_) {
+      result.wrapped = true;
+      return;
+    }
     if (!upfront) {
       std::size_t kept = 0;
       for (const Part& part : parts_) kept += part.kept.size() + part.slopes.size();
-      source2 += lump_squares();
+      source2 += lumps2_;
       choose_window(source2, mesh_.n_vertices + kept);
       make_grids();
     }
     {
       const StageTimer timer(result.times, "spread");
+      grids_[0]->count(lumps2_);
       spread_vertices();
     }
     {
@@ -408,18 +430,22 @@ class Pass {
     return plan_.block.scale * (mesh_.vertex(i) - plan_.block.center);
   }
 
-  // Sum of squares of the lumps, with gradients as much as they count in a window's error.
-  double lump_squares() const {
+  // Sum of squares of the lumps, with gradients as much as they count in a window's error. The
+  // weights of each triangle add up to 0, all but rounding to quanta: where the sum of all is far
+  // from it, a vertex has left the range of its integers.
+  void sum_lumps() {
     const double weight = 1 / plan_.block.per_weight,
                  slope = gradient_cost(plan_) / plan_.block.per_gradient;
-    double values = 0, slopes = 0;
+    double sum = 0, values = 0, slopes = 0;
     arrays_.visit(0, mesh_.n_vertices, [&](std::size_t, const auto& lump) {
       const double w = static_cast<double>(lump[0]), x = static_cast<double>(lump[1]);
       const double y = static_cast<double>(lump[2]), z = static_cast<double>(lump[3]);
+      sum += w;
       values += w * w;
       slopes += x * x + y * y + z * z;
     });
-    return weight * weight * values + slope * slope * slopes;
+    lumps2_ = weight * weight * values + slope * slope * slopes;
+    wrapped_ = sizeof(T) == 4 && std::abs(sum) > 0x1p31;
   }
 
   void spread_vertices() {
@@ -430,18 +456,14 @@ class Pass {
       const std::size_t g = begin / size;
       Spreading<T>& spreading = *grids_[g];
       for (std::size_t p = g; p < parts_.size(); p += n) {
-        for (const KeptNode& node : parts_[p].kept) spreading.add(node.x, node.weight);
+        spreading.add(parts_[p].kept);
         for (const KeptSlope& node : parts_[p].slopes) spreading.add(node.x, 0, node.weight);
       }
       const double weight = 1 / plan_.block.per_weight, slope = 1 / plan_.block.per_gradient;
-      constexpr std::size_t kStep = 1 << 16;
-      for (std::size_t first = begin; first < end; first += kStep) {
-        const std::size_t last = std::min(end, first + kStep);
+      for (std::size_t first = begin; first < end; first += kVerticesPerStep) {
+        const std::size_t last = std::min(end, first + kVerticesPerStep);
         arrays_.visit(first, last, [&](std::size_t i, const auto& lump) {
-          if (lump[0] == 0 && lump[1] == 0 && lump[2] == 0 && lump[3] == 0) return;
-          const Vec3 gradient = {static_cast<double>(lump[1]), static_cast<double>(lump[2]),
-                                 static_cast<double>(lump[3])};
-          spreading.add(position(i), weight * static_cast<double>(lump[0]), slope * gradient);
+          spreading.add_vertex(position(i), weight, slope, lump);
         });
         progress.add(last - first);
       }
@@ -499,12 +521,14 @@ class Pass {
     for (const Part& part : parts_) {
       sample.insert(sample.end(), part.half_edges.begin(), part.half_edges.end());
     }
-    const double lumped2 = sums.face_error2 + sampled_error2(sample, plan_.block.sampled_names);
+    const double edges2 = sampled_error2(sample, plan_.block.sampled_names);
+    const double lumped2 =
+        plan_.coherence > 0 ? plan_.coherence * sums.face_error2 : sums.face_error2 + edges2;
     const double rules = rule_error(plan_, lumped2, static_cast<double>(sums.nodes));
     const double spread = std::sqrt(source2_ / (4 * kPi));
-    const double window =
-        spread * (spread_error(transform_.fourier.layout.width, result.report.oversampling) +
-                  (sizeof(T) == 4 ? kSingleNoise : 0.0));
+    const double relative_window =
+        spread_error(transform_.fourier.layout.width, result.report.oversampling);
+    const double window = spread * (relative_window + (sizeof(T) == 4 ? kSingleNoise : 0.0));
     double whole2 = 0, band2 = 0;
     for (int l = 1; l <= degree; ++l) {
       double energy = 0;
@@ -519,7 +543,11 @@ class Pass {
     const auto relative = [&](double error, double square) {
       return square > 0 ? error / (scale * std::sqrt(square)) : 0.0;
     };
-    result.report.error = relative(std::hypot(rules, window), whole2);
+    // Vertices in step with the grid leave the window's error of the whole, see
+    // MeshPlan::most_window.
+    const double in_step = 0.5 * relative_window * scale * std::sqrt(whole2);
+    result.report.error =
+        relative(std::hypot(rules, window, std::hypot(in_step, quantum_error(plan_))), whole2);
     // Of l^6, as the error of lumping grows, 0.82 lies above 3L/4; of (2l+1)/(l(l+1))^2, as that of
     // windows falls, 0.78 / L^2.
     result.report.band_error =
@@ -546,7 +574,8 @@ class Pass {
   NonuniformPlan transform_;
   GridKernel<T> kernel_;
   std::vector<std::unique_ptr<Spreading<T>>> grids_;
-  double source2_ = 0;
+  double source2_ = 0, lumps2_ = 0;
+  bool wrapped_ = false;
 };
 
 // l2 norm of the coefficients but c_00.
@@ -560,20 +589,34 @@ double result_norm(const MeshPassResult& result) {
 }  // namespace
 
 MeshPassResult mesh_pass(const MeshView& mesh, const MeshPassOptions& options,
-                         const Context& context) {
+                         const Context& caller) {
   if (mesh.n_triangles == 0) {
     throw Error(ErrorCode::kInvalidInput, "the mesh has no triangles");
   }
-  const MeshSample sample = sample_mesh(mesh, options.center, options.degree);
+  MeshSample sample = sample_mesh(mesh, options.center, options.degree);
+  // A second pass does not go back.
+  double furthest = 0;
+  Context context = caller;
+  if (caller.progress) {
+    context.progress = [&](std::string_view stage, double fraction) {
+      furthest = std::max(furthest, fraction);
+      return caller.progress(stage, furthest);
+    };
+  }
   MeshPassResult result;
   result.covers = sample.covers;
   double tighten = 1;
+  bool wide = false;
   for (int pass = 1; pass <= kMostPasses; ++pass) {
     const MeshPlan plan =
         plan_mesh(mesh, sample, options.center, options.degree, options.precision, tighten);
     result.report = {.passes = pass};
-    if (plan.single) {
+    if (plan.single && !wide) {
       Pass<float>(mesh, options, plan, context).run(result);
+      if (result.wrapped) {
+        wide = true;
+        continue;
+      }
     } else {
       Pass<double>(mesh, options, plan, context).run(result);
     }
@@ -581,6 +624,7 @@ MeshPassResult mesh_pass(const MeshView& mesh, const MeshPassOptions& options,
     const double wish = std::max(options.precision, plan.rounding / result_norm(result));
     if (!(result.report.error > wish)) break;
     tighten *= 1.5 * result.report.error / wish;
+    sample.edge_ratio = std::max(sample.edge_ratio, result.edge_ratio);
   }
   return result;
 }

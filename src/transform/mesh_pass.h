@@ -29,7 +29,9 @@ struct MeshPassResult {
   double min_cos_gamma = 0;
   std::size_t bad_triangles = 0;
   FastReport report;
-  StageTimes times;  // "triangles", "spread", "fourier"
+  double edge_ratio = 0;  // energy of the errors of lumped edges in units of that of lumped faces
+  bool wrapped = false;   // not in single precision: a vertex left the range of its integers
+  StageTimes times;       // "triangles", "spread", "fourier"
 };
 
 // Throws InvalidInput for coordinates that are not finite, indices out of range, `check` that

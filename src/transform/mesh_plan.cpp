@@ -8,6 +8,8 @@
 #include <memory>
 #include <numbers>
 
+#include "rholm/error.h"
+#include "transform/mesh_coherence.h"
 #include "transform/mesh_nodes.h"
 #include "transform/star_geometry.h"
 
@@ -18,15 +20,19 @@ constexpr std::size_t kSampleBlocks = 24;  // 3072 triangles: some 0.3 ms
 constexpr double kPi = std::numbers::pi;
 
 // Shares of the wanted error; they add up in squares.
-constexpr double kRuleShare = 0.5;
-constexpr double kWindowShare = 0.5;
+constexpr double kRuleShare = 0.46;
+constexpr double kWindowShare = 0.4;
 constexpr double kQuantumShare = 0.2;
+// A cube-sphere of a million triangles left 0.5 times the window's error of the norm (measured).
+constexpr double kInStep = 0.4;
 
 // Rounding of the double sums against c_00, as in the direct engine.
 constexpr double kRounding = 1e-15;
 
 // A rule chosen as just good enough leaves, in the mean, this part of what it may.
 constexpr double kTypicalShare = 0.35;
+// What the measured coherence is multiplied by: eight packets scatter by a third.
+constexpr double kScatter = 2;
 // Elements (edges and faces) per triangle.
 constexpr double kElements = 2.5;
 
@@ -82,9 +88,8 @@ double lumped_error2(const MeshSample& sample, double tolerance2) {
   double faces = 0, edges = 0;
   for (const MeshSample::Entry& entry : sample.entries) {
     if (entry.error2 > tolerance2) break;
-    // Where no neighbours are known, edges are taken for as smooth as faces: the sample of
-    // half-edges the pass takes will tell.
-    faces += sample.edge_share > 0 ? entry.face_error2 : 4 * entry.face_error2;
+    // Where no neighbours are known, the edges' part is a guess until a pass has told it.
+    faces += (sample.edge_share > 0 ? 1 : 1 + sample.edge_ratio) * entry.face_error2;
   }
   for (const MeshSample::Edge& edge : sample.edges) {
     if (edge.lower2 > tolerance2) continue;
@@ -94,12 +99,22 @@ double lumped_error2(const MeshSample& sample, double tolerance2) {
   return sample.share * faces + sample.edge_share * edges;
 }
 
+// No single triangle may take more than a thirtieth of it all: the sample does not know the worst.
+double largest_tolerance(double allowed2) { return allowed2 / 1000; }
+
+// Sum of squares of all faces.
+double face_error2(const MeshSample& sample) {
+  double faces = 0;
+  for (const MeshSample::Entry& entry : sample.entries) faces += entry.face_error2;
+  return sample.share * faces;
+}
+
 // The largest tolerance (squared, in units of lumping) of some two dozen that keeps the sum of
 // squares allowed; 0 if none does.
 double tolerance_of(const MeshSample& sample, double allowed2) {
   // No single triangle may take more than a thirtieth of it all: the sample does not know the
   // worst.
-  const double most = allowed2 / 1000;
+  const double most = largest_tolerance(allowed2);
   const std::size_t n = sample.entries.size();
   constexpr std::size_t kSteps = 24;
   for (std::size_t k = kSteps; k > 0 && n > 0; --k) {
@@ -113,19 +128,17 @@ double tolerance_of(const MeshSample& sample, double allowed2) {
 // Sum of squares of what is spread, roughly: edges in some three nodes or two lumps, faces in some
 // six or three, with gradients that count about as much again.
 double source2_of(const MeshSample& sample) {
-  double faces = 0, halves = 0, edges = 0;
-  for (const MeshSample::Entry& entry : sample.entries) {
-    faces += entry.face_weight2;
-    halves += entry.edge_weight2;
-  }
+  double faces = 0, edges = 0;
+  for (const MeshSample::Entry& entry : sample.entries) faces += entry.face_weight2;
   for (const MeshSample::Edge& edge : sample.edges) edges += edge.weight * edge.weight;
-  const double whole = sample.edge_share > 0 ? sample.edge_share * edges : sample.share * halves;
+  // Edges nobody knows are taken for as smooth as faces.
+  const double whole = sample.edge_share > 0 ? sample.edge_share * edges : sample.share * faces;
   return whole / 2 + sample.share * faces / 3;
 }
 
-// Some twenty thousand edges.
+// Some four thousand edges: the sum of squares to a few per cent, if none outweighs the others.
 std::uint32_t sampled_names(std::size_t n_triangles) {
-  const double part = 20000 / (1.5 * static_cast<double>(n_triangles));
+  const double part = 4000 / (1.5 * static_cast<double>(n_triangles));
   return static_cast<std::uint32_t>(std::min(1.0, part) * 4294967295.0);
 }
 
@@ -183,10 +196,8 @@ MeshSample sample_mesh(const MeshView& mesh, const Vec3& center, int degree) {
       }
       moments.add(p);
       if (std::isfinite(block->error2[t])) {
-        double edges = 0;
-        for (int i = 0; i < 3; ++i) edges += std::pow(block->edge_weight[i][t], 2);
         sample.entries.push_back({block->error2[t], std::pow(block->face_error[t], 2),
-                                  std::pow(block->face_weight[t], 2), edges});
+                                  std::pow(block->face_weight[t], 2)});
       }
     }
     add_edges(*block, n, sample.edges);
@@ -200,6 +211,7 @@ MeshSample sample_mesh(const MeshView& mesh, const Vec3& center, int degree) {
   }
   const double n = static_cast<double>(std::max<std::size_t>(sample.entries.size(), 1));
   sample.share = static_cast<double>(mesh.n_triangles) / n;
+  sample.overlaps = moments.solid > 1.01 * std::abs(moments.signed_solid);
   sample.covers = sample.share * moments.signed_solid / (4 * kPi);
   // A tenth of the edges should meet; in a mesh of random order none does.
   if (static_cast<double>(sample.edges.size()) > 0.1 * n) {
@@ -212,16 +224,36 @@ MeshSample sample_mesh(const MeshView& mesh, const Vec3& center, int degree) {
 MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& center, int degree,
                    double precision, double tighten) {
   MeshPlan plan;
+  if (!(sample.mean > 0)) {
+    throw Error(ErrorCode::kInvalidInput,
+                "no direction sees the surface from the centre: its faces have no area");
+  }
   const double c00 = sample.mean * std::sqrt(4 * kPi);
   const double budget = std::max(precision * sample.norm, kRounding * c00) / tighten;
-  plan.rules = kRuleShare * budget;
+  // Few elements do not average out, and few degrees are no plane waves (measured on octahedra, L =
+  // 1, 2, 3).
+  plan.few = 1 + 8 / std::sqrt(kElements * static_cast<double>(mesh.n_triangles)) +
+             0.6 / std::max(degree, 1);
+  // Where sheets overlap the norm of their alternating sum is below what the sample says.
+  if (sample.overlaps) plan.few *= 1.5;
+  plan.rules = kRuleShare * budget / plan.few;
   plan.window = kWindowShare * budget;
+  plan.most_window = kInStep * precision / tighten;
   plan.mean_error = std::max(precision, kRounding);
   plan.rounding = 4 * kRounding * c00 / sample.scale;
   const double unit = lumping_error(degree);
   // Half of the squares for lumps, half for nodes.
   const double lumps = plan.rules * std::sqrt(0.5) / unit;
-  const double tolerance2 = tolerance_of(sample, lumps * lumps);
+  double tolerance2 = tolerance_of(sample, lumps * lumps);
+  if (!sample.entries.empty() && tolerance2 < sample.entries.back().error2) {
+    // The measured energy may be too low by its scatter. What is four times as bad as all of the
+    // sample gets nodes.
+    const double coherence = kScatter * error_coherence(mesh, center, sample.scale, degree);
+    if (coherence * face_error2(sample) <= lumps * lumps) {
+      plan.coherence = coherence;
+      tolerance2 = 16 * sample.entries.back().error2;
+    }
+  }
   double nodes = 0;
   for (const MeshSample::Entry& entry : sample.entries) nodes += entry.error2 > tolerance2;
   plan.source2 = source2_of(sample);
@@ -255,11 +287,13 @@ MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& c
 double rule_error(const MeshPlan& plan, double lumped2, double noded) {
   const double unit = lumping_error(plan.divided.degree);
   const double element = kTypicalShare * plan.divided.error;
-  return std::sqrt(unit * unit * lumped2 + kElements * noded * element * element);
+  return plan.few * std::sqrt(unit * unit * lumped2 + kElements * noded * element * element);
 }
 
+double quantum_error(const MeshPlan& plan) { return plan.rules * kQuantumShare / kRuleShare; }
+
 double window_error(const MeshPlan& plan, double source2) {
-  return plan.window / std::sqrt(std::max(source2, 1e-300) / (4 * kPi));
+  return std::min(plan.most_window, plan.window / std::sqrt(std::max(source2, 1e-300) / (4 * kPi)));
 }
 
 }  // namespace rholm

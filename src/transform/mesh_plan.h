@@ -16,7 +16,6 @@ struct MeshSample {
     double error2;        // of the triangle by itself: what the pass decides by
     double face_error2;   // (F z^4)^2
     double face_weight2;  // F^2
-    double edge_weight2;  // sum of W^2 of the half-edges
   };
   // An edge whose triangles both are in the sample: error2 of the triangles, the lower first, and
   // W z^4 of the half-edges in the same order; W of both together.
@@ -28,24 +27,35 @@ struct MeshSample {
   std::vector<Entry> entries;  // error2 ascending
   std::vector<Edge> edges;
   double edge_share = 0;  // edges of the mesh per edge of the sample; 0: none is known
+  // Where no edge is known: energy of the edges' errors in units of the faces'. As on smooth
+  // meshes, until a pass has measured it.
+  double edge_ratio = 3;
   double scale = 1;       // a power of two that brings lengths to about 1
   double mean = 0;        // of r over directions
   double norm = 0;        // sqrt(int (r - mean)^2 dOmega)
   double share = 1;       // triangles of the mesh per triangle of the sample
   double covers = 0;      // solid angle of the whole mesh / 4 pi, to some per cent
+  bool overlaps = false;  // some faces turn their back
 };
 MeshSample sample_mesh(const MeshView& mesh, const Vec3& center, int degree);
 
 struct MeshPlan {
   BlockParameters block;
   NodeAllowance divided, undivided;
-  double rules = 0;       // error the rules may leave, l2, scaled length
-  double window = 0;      // and the windows of the transform
+  double rules = 0;   // error the rules may leave, l2, scaled length
+  double few = 1;     // what the errors of few elements, or few degrees, may exceed the model by
+  double window = 0;  // and the windows of the transform
+  // Their error in any case: a mesh whose vertices lie in lattice lines may be in step with the
+  // grid, then the error is of the size of the low degrees themselves, not of random sums.
+  double most_window = 0;
   double node_share = 0;  // part of the triangles that get nodes, as the sample has it
   double source2 = 0;     // sum of squares of the nodes' weights, as the sample has it
   bool single = false;    // single precision will do
   double mean_error = 0;  // relative, of c_00
-  double rounding = 0;    // what double precision leaves at best, in the mesh's unit
+  // Energy of the whole error of lumping in units of that of the faces on their own, if all is
+  // lumped because neighbours cancel; 0 where triangles are judged on their own.
+  double coherence = 0;
+  double rounding = 0;  // what double precision leaves at best, in the mesh's unit
 };
 // `tighten` divides what is allowed: more than 1 for a second try.
 MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& center, int degree,
@@ -58,6 +68,9 @@ double sampled_error2(std::vector<SampledHalfEdge>& sample, std::uint32_t sample
 // l2 error of the rules, scaled length, for a sum of squares over lumped triangles in units of
 // lumping_error(L)^2 and a number of triangles with nodes.
 double rule_error(const MeshPlan& plan, double lumped2, double noded);
+
+// What rounding of lumps to quanta leaves, l2, scaled length.
+double quantum_error(const MeshPlan& plan);
 
 // What rounding of directions and windows to single precision leaves of sources of unit sum of
 // squares / 4 pi, divided by l(l+1) (measured).

@@ -11,7 +11,7 @@ sys.path.insert(0, os.path.dirname(__file__))
 from harness import CliTest, OCTAHEDRON, RHOLM, SOURCE, Terminal, main, off
 
 COMMANDS = ["info", "center", "analyze", "synthesize", "spectrum", "compare", "convert", "render",
-            "make", "completion"]
+            "make", "bench", "completion"]
 
 
 class Help(CliTest):
@@ -185,8 +185,8 @@ class Talk(CliTest):
             self.assertNotIn("\x1b", self.on_terminal("info", "none.ply", environment=environment))
 
     def test_progress_on_a_terminal_unless_told_otherwise(self):
-        self.write("b.sh", "0 0 1 0\n1000 3 1e-6 0\n")
-        words = ["synthesize", "b.sh", "--subdivisions", "8", "-o", "b.ply"]
+        self.rholm("make", "box", "-o", "b.off")
+        words = ["analyze", "b.off", "--degree", "700", "--engine", "direct", "-o", "b.h5"]
         self.assertRegex(self.on_terminal(*words, wanted=[" %"]), r"\w+ +\[#* *\] +\d+ %")
         quiet = self.on_terminal(*words, "--quiet", wanted=[" %"], seconds=1.5)
         self.assertEqual(quiet, "")

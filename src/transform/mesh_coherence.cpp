@@ -1,0 +1,197 @@
+#include "transform/mesh_coherence.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "base/random.h"
+#include "shape/face.h"
+#include "transform/node_rules.h"
+
+namespace rholm {
+namespace {
+
+using Complex = std::complex<double>;
+
+// Packets: the energy to some 35 % with eight, 60 % with three; fewer where each has many
+// triangles.
+constexpr int kMostPackets = 8, kFewestPackets = 3;
+constexpr double kEnough = 4000;      // triangles in all packets together
+constexpr double kWidth = 6;          // s in units of 1/L: about one wave length
+constexpr double kReach = 4;          // of a packet, in units of s: exp(-8) beyond
+constexpr std::size_t kFewest = 200;  // triangles in all packets together
+constexpr double kFarthestRun = 0.3;  // radians: beyond, neighbours are not together in the file
+// At most so many triangles are worked out, some 1.5 us each.
+constexpr double kMost = 20000;
+
+struct Packet {
+  Vec3 middle, wave;
+};
+
+struct Looker {
+  const MeshView& mesh;
+  Vec3 center;
+  double scale;
+  std::array<Vec3, 3> corners(std::size_t t) const {
+    std::array<Vec3, 3> p;
+    const Triangle triangle = mesh.triangle(t);
+    for (int i = 0; i < 3; ++i) {
+      p[i] = triangle[i] < mesh.n_vertices ? scale * (mesh.vertex(triangle[i]) - center) : Vec3{};
+    }
+    return p;
+  }
+  Vec3 direction(std::size_t t) const {
+    const std::array<Vec3, 3> p = corners(t);
+    return normalized(p[0] + p[1] + p[2]);
+  }
+};
+
+// The wave at x, and its gradient.
+struct Wave {
+  Vec3 k;  // L times a unit vector
+  Complex value(const Vec3& x) const {
+    const double phase = dot(k, x) / norm(x);
+    return {std::cos(phase), std::sin(phase)};
+  }
+  // Along e.
+  Complex slope(const Vec3& x, const Vec3& e) const {
+    const double r = norm(x);
+    const Vec3 u = x / r;
+    return Complex(0, (dot(k, e) - dot(k, u) * dot(u, e)) / r) * value(x);
+  }
+};
+
+struct TriangleError {
+  Complex error;
+  double face = 0;  // (F z^4)^2
+};
+
+// Lumping less nodes that leave nothing worth mentioning.
+TriangleError error_of(const std::array<Vec3, 3>& p, const Wave& wave, int degree) {
+  TriangleError result;
+  const FaceNormal normal = face_normal(p);
+  const double d2 = dot(normal.twice_area, p[0]);
+  if (normal.degenerate || d2 == 0) return result;
+  const Vec3& n = normal.twice_area;
+  const double face = -dot(n, n) / d2;
+  // Good for waves across some 4 radians.
+  static const NodeAllowance kFine{.degree = 1, .error = 1e-5, .divided = false};
+  static const EdgeRule edge_nodes = edge_rule(kFine, 3, 1);
+  static const std::span<const FaceNode> face_nodes = face_rule(kFine, 3, 1);
+  std::array<Complex, 3> values;
+  for (int i = 0; i < 3; ++i) values[i] = wave.value(p[i]);
+  double z2 = 0;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 &a = p[i], &b = p[(i + 1) % 3], &c = p[(i + 2) % 3];
+    const Vec3 e = b - a, across = cross(a, b);
+    const double weight = dot(n, across) / d2;
+    Complex mean = 0;
+    for (std::size_t k = 0; k < edge_nodes.nodes.size(); ++k) {
+      mean += edge_nodes.weights[k] * wave.value(a + edge_nodes.nodes[k] * e);
+    }
+    const Complex lumped =
+        0.5 * (values[i] + values[(i + 1) % 3]) + (wave.slope(a, e) - wave.slope(b, e)) / 12.0;
+    result.error += weight * (lumped - mean);
+    result.error += face * (values[i] / 3.0 + (wave.slope(a, e) + wave.slope(a, c - a)) / 24.0);
+    const double r2 = std::min(dot(a, a), dot(b, b));
+    z2 = std::max(z2, degree * static_cast<double>(degree) * dot(across, across) / (r2 * r2) +
+                          16 * dot(e, e) / r2);
+  }
+  Complex mean = 0;
+  for (const FaceNode& node : face_nodes) {
+    mean += node.weight * wave.value(node.at[0] * p[0] + node.at[1] * p[1] + node.at[2] * p[2]);
+  }
+  result.error -= face * mean;
+  result.face = std::pow(face * z2 * z2, 2);
+  return result;
+}
+
+std::vector<Packet> packets_on(const Looker& look, int count) {
+  std::vector<Packet> packets;
+  for (int k = 0; k < count; ++k) {
+    const auto at = static_cast<std::uint64_t>(k);
+    const double n = static_cast<double>(look.mesh.n_triangles);
+    // One in each part of the file.
+    const double place = (k + random_uniform(1, at)) / count;
+    const Vec3 middle =
+        look.direction(std::min(look.mesh.n_triangles - 1, static_cast<std::size_t>(place * n)));
+    const double turn = 6.283185307179586 * random_uniform(2, at);
+    const Vec3 axis = std::abs(middle.z) < 0.9 ? Vec3{0, 0, 1} : Vec3{1, 0, 0};
+    const Vec3 a = normalized(cross(axis, middle)), b = cross(middle, a);
+    packets.push_back({middle, std::cos(turn) * a + std::sin(turn) * b});
+  }
+  return packets;
+}
+
+}  // namespace
+
+double error_coherence(const MeshView& mesh, const Vec3& center, double scale, int degree) {
+  constexpr double kUnknown = std::numeric_limits<double>::infinity();
+  const Looker look{mesh, center, scale};
+  const double width = kWidth / std::max(degree, 1), reach = kReach * width;
+  // Runs of neighbours in the file, of each one triangle is looked at; powers of 4, as subdivision
+  // makes groups of neighbours.
+  const std::size_t length = mesh.n_triangles < 1'500'000 ? 16 : 64;
+  if (reach > 0.5 || mesh.n_triangles < 100 * length) return kUnknown;
+  // Directions of one triangle in each run, and how far a run goes.
+  std::vector<Vec3> runs;
+  std::vector<double> extents;
+  for (std::size_t t = 0; t < mesh.n_triangles; t += length) {
+    runs.push_back(look.direction(t));
+    if (runs.size() % 16 == 1) {
+      const std::size_t end = std::min(t + length, mesh.n_triangles);
+      double extent = 0;
+      for (std::size_t other = t; other < end; other += 7) {
+        extent = std::max(extent, norm(look.direction(other) - runs.back()));
+      }
+      extents.push_back(extent);
+    }
+  }
+  // A run in five may jump from one part of the mesh to another: it is taken for its own place or
+  // that of the next one.
+  const auto usual =
+      extents.begin() + static_cast<std::ptrdiff_t>(0.8 * static_cast<double>(extents.size()));
+  std::nth_element(extents.begin(), usual, extents.end());
+  if (*usual > kFarthestRun) return kUnknown;
+  const double around = std::pow(reach + 1.2 * *usual, 2);
+  // A packet covers this part of the sphere.
+  const double expected = static_cast<double>(mesh.n_triangles) * reach * reach / 4;
+  const int packets =
+      std::clamp(static_cast<int>(kEnough / expected), kFewestPackets, kMostPackets);
+  if (packets * expected > kMost) return kUnknown;
+  double energy = 0, faces = 0;
+  std::size_t used = 0;
+  for (const Packet& packet : packets_on(look, packets)) {
+    const Wave wave{static_cast<double>(degree) * packet.wave};
+    const auto near = [&](const Vec3& u) {
+      const Vec3 away = u - packet.middle;
+      return dot(away, away) < around;
+    };
+    Complex sum = 0;
+    for (std::size_t run = 0; run < runs.size(); ++run) {
+      if (!near(runs[run]) && !(run + 1 < runs.size() && near(runs[run + 1]))) continue;
+      const std::size_t end = std::min((run + 1) * length, mesh.n_triangles);
+      for (std::size_t t = run * length; t < end; ++t) {
+        const std::array<Vec3, 3> p = look.corners(t);
+        const Vec3 from = normalized(p[0] + p[1] + p[2]) - packet.middle;
+        const double distance2 = dot(from, from);
+        if (!(distance2 < reach * reach)) continue;
+        if (static_cast<double>(++used) > 3 * kMost) return kUnknown;
+        const TriangleError error = error_of(p, wave, degree);
+        const double window = std::exp(-distance2 / (2 * width * width));
+        sum += window * error.error;
+        faces += window * window * error.face;
+      }
+    }
+    energy += std::norm(sum);
+  }
+  if (used < kFewest || !(faces > 0) || !std::isfinite(energy)) return kUnknown;
+  // As lumping_error() has it: sqrt(35/128) / 720 of weight and z^4.
+  return energy / (faces * (35.0 / 128) / (720.0 * 720.0));
+}
+
+}  // namespace rholm
