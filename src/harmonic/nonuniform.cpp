@@ -85,7 +85,8 @@ Vec3 polar_gradient(const NonuniformPlan& plan, const GridKernel<T>& kernel, con
   interpolate(kernel, grid, nodes.size(), 0, 0, batch, none);
   std::array<double, 2> slopes = {};
   const std::size_t half = nodes.size() / 2;
-  for (std::size_t k = 0; k < nodes.size(); ++k) slopes[k / half] += nodes[k].weight * batch.value[k];
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    slopes[k / half] += nodes[k].weight * batch.value[k];
   return slopes[0] * axes[0] + slopes[1] * axes[1];
 }
 
@@ -102,28 +103,27 @@ ValuesAndGradients evaluate_on_grid(const NonuniformPlan& plan, const Coefficien
   constexpr std::size_t kSize = SourceBatch<T>::kSize;
   constexpr std::size_t kBatches = 16;  // chosen: tasks of about 100 us
   const std::size_t grain = kBatches * kSize;
-  parallel_for(directions.size(), grain, context, {"interpolate", 0.4, 1},
-               [&](std::size_t begin, std::size_t end) {
-                 auto batch = std::make_unique<SourceBatch<T>>();
-                 PolarSources near;
-                 for (std::size_t first = begin; first < end; first += kSize) {
-                   const std::size_t n = std::min(kSize, end - first);
-                   load_positions(directions.subspan(first, n), *batch);
-                   interpolate(kernel, grid.data(), n, with_gradient ? 1 : 0, plan.polar_sine,
-                               *batch, near);
-                   for (std::size_t j = 0; j < n; ++j) {
-                     result.values[first + j] = batch->value[j];
-                     if (!with_gradient) continue;
-                     result.gradients[first + j] = {batch->gradient[0][j], batch->gradient[1][j],
-                                                    batch->gradient[2][j]};
-                   }
-                   for (std::size_t i = 0; i < near.count; ++i) {
-                     const std::size_t j = first + near.index[i];
-                     result.gradients[j] =
-                         polar_gradient(plan, kernel, grid.data(), directions[j], *batch);
-                   }
-                 }
-               });
+  parallel_for(
+      directions.size(), grain, context, {"interpolate", 0.4, 1},
+      [&](std::size_t begin, std::size_t end) {
+        auto batch = std::make_unique<SourceBatch<T>>();
+        PolarSources near;
+        for (std::size_t first = begin; first < end; first += kSize) {
+          const std::size_t n = std::min(kSize, end - first);
+          load_positions(directions.subspan(first, n), *batch);
+          interpolate(kernel, grid.data(), n, with_gradient ? 1 : 0, plan.polar_sine, *batch, near);
+          for (std::size_t j = 0; j < n; ++j) {
+            result.values[first + j] = batch->value[j];
+            if (!with_gradient) continue;
+            result.gradients[first + j] = {batch->gradient[0][j], batch->gradient[1][j],
+                                           batch->gradient[2][j]};
+          }
+          for (std::size_t i = 0; i < near.count; ++i) {
+            const std::size_t j = first + near.index[i];
+            result.gradients[j] = polar_gradient(plan, kernel, grid.data(), directions[j], *batch);
+          }
+        }
+      });
   return result;
 }
 
@@ -156,9 +156,9 @@ void GridSpreader<T>::add_polar(const SourceBatch<T>& batch, const PolarSources&
     const Vec3 u = x / r;
     polar_.clear();
     polar_.push_back({u, batch.value[j]});
-    add_gradient_nodes(
-        u, Vec3{batch.gradient[0][j], batch.gradient[1][j], batch.gradient[2][j]} / r, step,
-        polar_);
+    add_gradient_nodes(u,
+                       Vec3{batch.gradient[0][j], batch.gradient[1][j], batch.gradient[2][j]} / r,
+                       step, polar_);
     if (derivatives > 1) {
       std::array<double, 6> h;
       for (int k = 0; k < 6; ++k) h[k] = batch.hessian[k][j] / (r * r);
