@@ -17,8 +17,8 @@ struct NonuniformPlan {
   SphereFourier fourier;
   bool single = false;  // spread and transformed along phi in single precision
   double cost = 0;      // predicted, nanoseconds on the machine the model was measured on
-  // Derivatives nearer to a pole are taken from values around them (polar_nodes.h): longitudes there
-  // multiply the window's error by 1 / (L sin theta).
+  // Derivatives nearer to a pole are taken from values around them (polar_nodes.h): longitudes
+  // there multiply the window's error by 1 / (L sin theta).
   double polar_sine = 0;
 };
 

@@ -53,8 +53,8 @@ inline void add_gradient_nodes(const Vec3& u, const Vec3& g, double step,
   }
 }
 
-// The same for h : Hess f(x/|x|) at |x| = 1, h = xx, xy, xz, yy, yz, zz: second derivatives along the
-// principal directions of its tangential part, and -2 (h u) . grad f.
+// The same for h : Hess f(x/|x|) at |x| = 1, h = xx, xy, xz, yy, yz, zz: second derivatives along
+// the principal directions of its tangential part, and -2 (h u) . grad f.
 inline void add_hessian_nodes(const Vec3& u, const std::array<double, 6>& h, double step,
                               std::vector<PolarNode>& nodes) {
   const auto times = [&](const Vec3& v) {
