@@ -1,6 +1,7 @@
 #include "harmonic/nonuniform.h"
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 
 #include "harmonic/direct_sums.h"
@@ -138,9 +139,34 @@ GridSpreader<T>::GridSpreader(const NonuniformPlan& plan, const GridKernel<T>& k
 template <typename T>
 void GridSpreader<T>::add(SourceBatch<T>& batch, std::size_t n, int derivatives) {
   pad(batch, n);
+  const double taps = std::pow(plan_.fourier.layout.width, 2);
+  additions_ += static_cast<double>(n) * taps / static_cast<double>(grid_.size());
+  if (sizeof(T) == 4 && additions_ > plan_.most_additions) set_aside();
   PolarSources polar;
   spread(kernel_, batch, n, derivatives, plan_.polar_sine, grid_.data(), polar);
   if (polar.count > 0) add_polar(batch, polar, derivatives);
+}
+
+template <typename T>
+void GridSpreader<T>::set_aside() {
+  if (total_.size() == 0) {
+    total_ = AlignedArray<double>(grid_.size());
+    std::fill(total_.begin(), total_.end(), 0.0);
+  }
+  for (std::size_t i = 0; i < grid_.size(); ++i) {
+    total_[i] += static_cast<double>(grid_[i]);
+    grid_[i] = 0;
+  }
+  additions_ = 0;
+}
+
+template <typename T>
+T* GridSpreader<T>::grid() {
+  if (total_.size() > 0) {
+    set_aside();
+    for (std::size_t i = 0; i < grid_.size(); ++i) grid_[i] = static_cast<T>(total_[i]);
+  }
+  return grid_.data();
 }
 
 template <typename T>

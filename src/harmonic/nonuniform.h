@@ -20,7 +20,14 @@ struct NonuniformPlan {
   // Derivatives nearer to a pole are taken from values around them (polar_nodes.h): longitudes
   // there multiply the window's error by 1 / (L sin theta).
   double polar_sine = 0;
+  // In single precision: additions to a cell after which the error may have grown to a fifth of
+  // what is wanted.
+  double most_additions = 0;
 };
+
+// Relative error of a sum in single precision per addition (measured on regular meshes, where it
+// grows with the number, not with its root).
+inline constexpr double kDriftPerAddition = 5e-9;
 
 struct NonuniformNeeds {
   int degree = 0;
@@ -52,14 +59,20 @@ class GridSpreader {
   GridSpreader(const NonuniformPlan& plan, const GridKernel<T>& kernel);
   // The first n sources of the batch, whose positions beyond n are overwritten.
   void add(SourceBatch<T>& batch, std::size_t n, int derivatives);
-  T* grid() { return grid_.data(); }
+  // All that was added; no more may be.
+  T* grid();
 
  private:
   void add_polar(const SourceBatch<T>& batch, const PolarSources& polar, int derivatives);
 
+  void set_aside();
+
   const NonuniformPlan& plan_;
   const GridKernel<T>& kernel_;
   AlignedArray<T> grid_;
+  // In single precision sums of very many terms drift: the grid is emptied into this one in time.
+  AlignedArray<double> total_;
+  double additions_ = 0;          // to a cell, on average, since then
   std::vector<PolarNode> polar_;  // of the batch in work
 };
 

@@ -152,6 +152,7 @@ NonuniformPlan plan_nonuniform(const NonuniformNeeds& needs) {
     best.fourier =
         sphere_fourier(needs.degree, grid_layout(kMaxSpreadWidth, points, points, element));
   }
+  best.most_additions = std::clamp(0.2 * needs.error / kDriftPerAddition, 20.0, 1e5);
   return best;
 }
 

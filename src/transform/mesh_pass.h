@@ -30,8 +30,8 @@ struct MeshPassResult {
   std::size_t bad_triangles = 0;
   FastReport report;
   double edge_ratio = 0;  // energy of the errors of lumped edges in units of that of lumped faces
-  bool wrapped = false;   // not in single precision: a vertex left the range of its integers
-  StageTimes times;       // "triangles", "spread", "fourier"
+  bool needs_double = false;  // not in single precision: sums out of range, or rounding too large
+  StageTimes times;           // "triangles", "spread", "fourier"
 };
 
 // Throws InvalidInput for coordinates that are not finite, indices out of range, `check` that

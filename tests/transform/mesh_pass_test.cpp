@@ -127,14 +127,12 @@ void sweep(const Case& c, Sweep& totals) {
     ++totals.reports;
     totals.close += reported > 0.8 * error && reported < 5 * error;
   }
-  std::printf("%-24s L %d n %d mean %g\n", c.name, c.degree, n, std::exp(logarithm / n));
   EXPECT_LT(std::exp(logarithm / n), 30) << c.name << ", L " << c.degree;
 }
 
 TEST(mesh_pass, keeps_wanted_precisions_and_wastes_no_more_than_a_factor_of_thirty) {
   Sweep totals;
   for (const Case& c : cases()) sweep(c, totals);
-  std::printf("%d of %d\n", totals.close, totals.reports);
   EXPECT_GT(totals.close, 0.5 * totals.reports);
 }
 
@@ -258,7 +256,7 @@ TEST(mesh_pass, tells_whether_the_mesh_is_closed_and_how_it_lies) {
   EXPECT_FALSE(mesh_pass(view_of(misoriented), options, {}).closed);
 }
 
-TEST(mesh_pass, works_on_a_single_triangle_and_on_none_of_any_area) {
+TEST(mesh_pass, works_on_a_single_triangle) {
   Mesh mesh;
   mesh.vertices = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   mesh.triangles = {{0, 1, 2}};
@@ -272,7 +270,7 @@ TEST(mesh_pass, works_on_a_single_triangle_and_on_none_of_any_area) {
   EXPECT_NEAR(one.coefficients.c(0, 0), expected.c(0, 0), 1e-10);
 }
 
-TEST(mesh_pass, refuses_meshes_without_numbers_triangles_or_order) {
+TEST(mesh_pass, refuses_meshes_without_triangles_numbers_or_area) {
   const MeshPassOptions options{.degree = 8};
   EXPECT_EQ(code_of(view_of(Mesh{}), options), ErrorCode::kInvalidInput);
   for (const double bad :
@@ -334,8 +332,9 @@ TEST(mesh_pass, asks_the_hooks_about_every_triangle_and_stops_when_one_is_none) 
 }
 
 TEST(mesh_pass, can_be_cancelled_at_every_report_of_progress) {
-  const Mesh mesh = rough_sphere(6);
   for (const double precision : {1e-2, 1e-8}) {
+    // Lumped, or with nodes for all.
+    const Mesh mesh = rough_sphere(precision > 1e-5 ? 6 : 5);
     const MeshPassOptions options{.degree = 20, .precision = precision};
     int calls = 0;
     double last = 0;
