@@ -233,7 +233,7 @@ MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& c
   // Few elements do not average out, and few degrees are no plane waves (measured on octahedra, L =
   // 1, 2, 3).
   plan.few = 1 + 8 / std::sqrt(kElements * static_cast<double>(mesh.n_triangles)) +
-             0.6 / std::max(degree, 1);
+             0.5 / std::max(degree, 1);
   // Where sheets overlap the norm of their alternating sum is below what the sample says.
   if (sample.overlaps) plan.few *= 1.5;
   plan.rules = kRuleShare * budget / plan.few;
