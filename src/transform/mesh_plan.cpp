@@ -21,7 +21,7 @@ constexpr double kPi = std::numbers::pi;
 
 // Shares of the wanted error; they add up in squares.
 constexpr double kRuleShare = 0.46;
-constexpr double kWindowShare = 0.4;
+constexpr double kWindowShare = 0.45;
 constexpr double kQuantumShare = 0.2;
 // A cube-sphere of a million triangles left 0.5 times the window's error of the norm (measured).
 constexpr double kInStep = 0.4;
