@@ -86,13 +86,9 @@ std::optional<Encoded> encode_as_it_lies(const MeshView& mesh, const EncodeOptio
   wanted.center = *center;
   MeshPassResult pass =
       timed(encoded.times, "transform", [&] { return mesh_pass(mesh, wanted, context); });
-  // Faces that all turn outwards cover every direction equally often.
   if (!pass.closed || !(pass.volume > 0) || pass.bad_triangles > 0) return std::nullopt;
-  constexpr double kClear = 0.3;  // the pass knows the solid angle far better, but for huge faces
-  if (std::abs(pass.covers - 1) > kClear &&
-      !covers_once(local_view(mesh, context), *center, context)) {
-    return std::nullopt;
-  }
+  // Faces that all turn outwards cover every direction equally often: a second sheet may have few.
+  if (!covers_once(local_view(mesh, context), *center, context)) return std::nullopt;
   encoded.star = star_report(pass, *center);
   Analysis& analysis = encoded.analysis;
   set_pass(pass, analysis);
