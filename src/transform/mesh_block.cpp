@@ -211,8 +211,14 @@ HWY_INLINE void add_hashes(size_t n, uint32_t sampled_names, TriangleBlock<T>& b
       }
     }
   }
-  sums.hash1 += hn::GetLane(hn::SumOfLanes(d, sum1));
-  sums.hash2 += hn::GetLane(hn::SumOfLanes(d, sum2));
+  // Modulo 2^32, lane by lane: GCC's own sum of lanes is one of signed integers.
+  alignas(64) uint32_t lanes1[kLanes], lanes2[kLanes];
+  hn::Store(sum1, d, lanes1);
+  hn::Store(sum2, d, lanes2);
+  for (size_t i = 0; i < kLanes; ++i) {
+    sums.hash1 += lanes1[i];
+    sums.hash2 += lanes2[i];
+  }
 }
 
 // Three coordinates to 32 bits (multiplicative hashing, Knuth; the constants are odd random
