@@ -69,7 +69,7 @@ std::vector<SourceBatch<T>> some_batches() {
     for (std::size_t j = 0; j < kSize; ++j) {
       const Vec3 u = directions[first + j];
       const double x[3] = {u.x, u.y, u.z};
-      for (int i = 0; i < 3; ++i) batch.x[i][j] = static_cast<T>(x[i]);
+      for (int i = 0; i < 3; ++i) batch.x[i][j] = x[i];
       batch.value[j] = T(0.5);
       for (int i = 0; i < 3; ++i) batch.gradient[i][j] = static_cast<T>(0.01 * x[i] + 0.01);
       for (int i = 0; i < 6; ++i) batch.hessian[i][j] = T(0.001);
@@ -83,7 +83,7 @@ constexpr int kDegree = 256;
 template <typename T>
 SphereFourier fourier_of(int width, int degree, double sigma) {
   const auto points = smooth_length(static_cast<std::size_t>(2 * sigma * degree), 4);
-  return sphere_fourier(degree, grid_layout(width, points, points, sizeof(T)));
+  return sphere_fourier(degree, grid_layout(width, points, points));
 }
 
 // Arguments: width, derivatives.
@@ -92,13 +92,14 @@ void sources(benchmark::State& state) {
   const SphereFourier fourier = fourier_of<T>(static_cast<int>(state.range(0)), kDegree, 1.5);
   const int derivatives = static_cast<int>(state.range(1));
   const GridKernel<T> kernel = grid_kernel<T>(fourier);
-  AlignedArray<T> grid(fourier.layout.cells());
-  std::fill(grid.begin(), grid.end(), T{0});
+  using Cell = std::conditional_t<kSpread, double, T>;
+  AlignedArray<Cell> grid(fourier.layout.cells());
+  std::fill(grid.begin(), grid.end(), Cell{0});
   auto batches = some_batches<T>();
   PolarSources polar;
   for (auto _ : state) {
     for (SourceBatch<T>& batch : batches) {
-      if (kSpread) {
+      if constexpr (kSpread) {
         spread(kernel, batch, batch.kSize, derivatives, 0.0, grid.data(), polar);
       } else {
         interpolate(kernel, grid.data(), batch.kSize, derivatives, 0.0, batch, polar);
@@ -149,42 +150,33 @@ Placement placement_of(const GridLayout& layout) {
 #else
 #define RHOLM_CLONES
 #endif
-RHOLM_CLONES void update_rows(const Placement& placement, int width, const float* __restrict window,
-                              float* __restrict grid) {
-  for (const std::size_t cell : placement.cell) {
-    float* row = grid + cell;
-    for (int i = 0; i < width; ++i, row += placement.stride) {
-      for (int k = 0; k < 8; ++k) row[k] += window[16 + i] * window[k];
-    }
-  }
-}
-RHOLM_CLONES void update_rows(const Placement& placement, int width,
+RHOLM_CLONES void update_rows(const Placement& placement, int width, int taps,
                               const double* __restrict window, double* __restrict grid) {
   for (const std::size_t cell : placement.cell) {
     double* row = grid + cell;
     for (int i = 0; i < width; ++i, row += placement.stride) {
-      for (int k = 0; k < 16; ++k) row[k] += window[16 + i] * window[k];
+      for (int k = 0; k < taps; k += 8) {
+        for (int lane = k; lane < k + 8; ++lane) row[lane] += window[16 + i] * window[lane];
+      }
     }
   }
 }
 
-// Argument: width; eight taps a row in single, sixteen in double precision.
-template <typename T>
+// Argument: width; eight taps a row up to that width, sixteen beyond.
 void rows(benchmark::State& state) {
   const int width = static_cast<int>(state.range(0));
-  const GridLayout layout = fourier_of<T>(width, kDegree, 1.5).layout;
-  const Placement placement = placement_of<T>(layout);
-  AlignedArray<T> grid(layout.cells()), window(32);
-  std::fill(grid.begin(), grid.end(), T{0});
-  std::fill(window.begin(), window.end(), T(0.001));
+  const GridLayout layout = fourier_of<double>(width, kDegree, 1.5).layout;
+  const Placement placement = placement_of<double>(layout);
+  AlignedArray<double> grid(layout.cells()), window(32);
+  std::fill(grid.begin(), grid.end(), 0.0);
+  std::fill(window.begin(), window.end(), 0.001);
   for (auto _ : state) {
-    update_rows(placement, width, window.data(), grid.data());
+    update_rows(placement, width, width <= 8 ? 8 : 16, window.data(), grid.data());
     benchmark::ClobberMemory();
   }
   count(state, "s/source", static_cast<double>(placement.cell.size()));
 }
-BENCHMARK(rows<float>)->Name("rows/single")->Arg(6)->Arg(8);
-BENCHMARK(rows<double>)->Name("rows/double")->Arg(12)->Arg(16);
+BENCHMARK(rows)->Arg(6)->Arg(8)->Arg(12)->Arg(16);
 
 void copy(benchmark::State& state) {
   const std::size_t bytes = std::size_t{1} << 26;
@@ -207,24 +199,29 @@ Coefficients some_coefficients(int degree) {
 }
 
 // The stage between grid and coefficients. Argument: degree.
-template <typename T, bool kAdjoint>
-void fourier(benchmark::State& state) {
+void fourier_adjoint(benchmark::State& state) {
+  const int degree = static_cast<int>(state.range(0));
+  const SphereFourier stage = fourier_of<double>(6, degree, 1.4);
+  AlignedArray<double> grid(stage.layout.cells());
+  std::fill(grid.begin(), grid.end(), 0.5);
+  Coefficients sum = some_coefficients(degree);
+  double* const grids[] = {grid.data()};
+  for (auto _ : state) {
+    grid_to_coefficients(stage, grids, sum, kOneThread, {});
+    state.PauseTiming();
+    std::fill(grid.begin(), grid.end(), 0.5);
+    state.ResumeTiming();
+  }
+  count(state, "s/cell", static_cast<double>(stage.layout.cells()));
+  state.counters["points"] = static_cast<double>(stage.layout.n_phi);
+}
+template <typename T>
+void fourier_forward(benchmark::State& state) {
   const int degree = static_cast<int>(state.range(0));
   const SphereFourier stage = fourier_of<T>(6, degree, 1.4);
   AlignedArray<T> grid(stage.layout.cells());
-  std::fill(grid.begin(), grid.end(), T(0.5));
-  Coefficients sum = some_coefficients(degree);
-  T* const grids[] = {grid.data()};
-  for (auto _ : state) {
-    if (kAdjoint) {
-      grid_to_coefficients<T>(stage, grids, sum, kOneThread, {});
-      state.PauseTiming();
-      std::fill(grid.begin(), grid.end(), T(0.5));
-      state.ResumeTiming();
-    } else {
-      coefficients_to_grid(stage, sum, grid.data(), kOneThread, {});
-    }
-  }
+  const Coefficients sum = some_coefficients(degree);
+  for (auto _ : state) coefficients_to_grid(stage, sum, grid.data(), kOneThread, {});
   count(state, "s/cell", static_cast<double>(stage.layout.cells()));
   state.counters["points"] = static_cast<double>(stage.layout.n_phi);
 }
@@ -232,10 +229,9 @@ void degrees(benchmark::internal::Benchmark* benchmark) {
   for (const int degree : {64, 180, 256, 480, 1000}) benchmark->Arg(degree);
   benchmark->Unit(benchmark::kMillisecond);
 }
-BENCHMARK(fourier<float, true>)->Name("fourier_adjoint/single")->Apply(degrees);
-BENCHMARK(fourier<double, true>)->Name("fourier_adjoint/double")->Apply(degrees);
-BENCHMARK(fourier<float, false>)->Name("fourier_forward/single")->Apply(degrees);
-BENCHMARK(fourier<double, false>)->Name("fourier_forward/double")->Apply(degrees);
+BENCHMARK(fourier_adjoint)->Apply(degrees);
+BENCHMARK(fourier_forward<float>)->Name("fourier_forward/single")->Apply(degrees);
+BENCHMARK(fourier_forward<double>)->Name("fourier_forward/double")->Apply(degrees);
 
 // Whole transforms by the library's own plan. Arguments: points along a cube's edge, degree,
 // decimal digits wanted, derivatives.

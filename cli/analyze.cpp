@@ -14,6 +14,7 @@
 #include "cli/outputs.h"
 #include "cli/parse.h"
 #include "cli/prepare.h"
+#include "cli/program.h"
 #include "cli/report.h"
 #include "cli/session.h"
 #include "rholm/error.h"
@@ -93,6 +94,7 @@ Json fast_json(const FastReport& fast) {
           {"vertices", fast.vertices},
           {"nodes", fast.nodes},
           {"passes", fast.passes},
+          {"precision_reached", fast.reached},
           {"estimated_error", fast.error},
           {"estimated_error_of_top_quarter", fast.band_error}};
 }
@@ -203,7 +205,13 @@ int run(const Options& options, Session& session) {
   } else {
     session.note(report_text(options, run));
   }
-  return 0;
+  const std::optional<FastReport>& fast = run.encoded.analysis.fast;
+  if (!fast || fast->reached) return 0;
+  session.warn(
+      fmt::format("the wanted precision of {} was not reached: the estimated error is {}; "
+                  "--engine direct is slower and exact",
+                  text_of(options.precision), text_of(fast->error)));
+  return kNotConverged;
 }
 
 std::vector<Option> option_list(Options& o) {

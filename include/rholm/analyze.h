@@ -38,6 +38,8 @@ struct FastReport {
   double error = 0;
   double band_error = 0;
   int passes = 0;  // over the triangles: more than one if the estimate from a sample was too low
+  // Whether the estimate is within the wanted precision, or within what rounding leaves at best.
+  bool reached = true;
 };
 
 struct AnalyzeOptions {

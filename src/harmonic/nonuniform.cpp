@@ -24,9 +24,9 @@ void pad(SourceBatch<T>& batch, std::size_t n) {
 template <typename T>
 void load_positions(std::span<const Vec3> directions, SourceBatch<T>& batch) {
   for (std::size_t j = 0; j < directions.size(); ++j) {
-    batch.x[0][j] = static_cast<T>(directions[j].x);
-    batch.x[1][j] = static_cast<T>(directions[j].y);
-    batch.x[2][j] = static_cast<T>(directions[j].z);
+    batch.x[0][j] = directions[j].x;
+    batch.x[1][j] = directions[j].y;
+    batch.x[2][j] = directions[j].z;
   }
   pad(batch, directions.size());
 }
@@ -133,40 +133,15 @@ ValuesAndGradients evaluate_on_grid(const NonuniformPlan& plan, const Coefficien
 template <typename T>
 GridSpreader<T>::GridSpreader(const NonuniformPlan& plan, const GridKernel<T>& kernel)
     : plan_(plan), kernel_(kernel), grid_(plan.fourier.layout.cells()) {
-  std::fill(grid_.begin(), grid_.end(), T{0});
+  std::fill(grid_.begin(), grid_.end(), 0.0);
 }
 
 template <typename T>
 void GridSpreader<T>::add(SourceBatch<T>& batch, std::size_t n, int derivatives) {
   pad(batch, n);
-  const double taps = std::pow(plan_.fourier.layout.width, 2);
-  additions_ += static_cast<double>(n) * taps / static_cast<double>(grid_.size());
-  if (sizeof(T) == 4 && additions_ > plan_.most_additions) set_aside();
   PolarSources polar;
   spread(kernel_, batch, n, derivatives, plan_.polar_sine, grid_.data(), polar);
   if (polar.count > 0) add_polar(batch, polar, derivatives);
-}
-
-template <typename T>
-void GridSpreader<T>::set_aside() {
-  if (total_.size() == 0) {
-    total_ = AlignedArray<double>(grid_.size());
-    std::fill(total_.begin(), total_.end(), 0.0);
-  }
-  for (std::size_t i = 0; i < grid_.size(); ++i) {
-    total_[i] += static_cast<double>(grid_[i]);
-    grid_[i] = 0;
-  }
-  additions_ = 0;
-}
-
-template <typename T>
-T* GridSpreader<T>::grid() {
-  if (total_.size() > 0) {
-    set_aside();
-    for (std::size_t i = 0; i < grid_.size(); ++i) grid_[i] = static_cast<T>(total_[i]);
-  }
-  return grid_.data();
 }
 
 template <typename T>
@@ -192,9 +167,9 @@ void GridSpreader<T>::add_polar(const SourceBatch<T>& batch, const PolarSources&
     }
     std::size_t n = 0;
     for (const PolarNode& node : polar_) {
-      values->x[0][n] = static_cast<T>(node.u.x);
-      values->x[1][n] = static_cast<T>(node.u.y);
-      values->x[2][n] = static_cast<T>(node.u.z);
+      values->x[0][n] = node.u.x;
+      values->x[1][n] = node.u.y;
+      values->x[2][n] = node.u.z;
       values->value[n++] = static_cast<T>(node.weight);
     }
     add(*values, n, 0);
@@ -212,9 +187,9 @@ std::size_t grid_count(const NonuniformPlan& plan, std::size_t sources) {
 template <typename T>
 void finish_adjoint(const NonuniformPlan& plan, std::span<GridSpreader<T>> spreaders,
                     Coefficients& sum, const Context& context, const ParallelStage& stage) {
-  std::vector<T*> grids;
+  std::vector<double*> grids;
   for (GridSpreader<T>& spreader : spreaders) grids.push_back(spreader.grid());
-  grid_to_coefficients<T>(plan.fourier, grids, sum, context, stage);
+  grid_to_coefficients(plan.fourier, grids, sum, context, stage);
 }
 
 template class GridSpreader<float>;

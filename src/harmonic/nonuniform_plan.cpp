@@ -110,8 +110,8 @@ void visit_grids(const NonuniformNeeds& needs, int width, double error, const Vi
 
 // Second differences near the poles divide the rounding of values by the square of their step.
 double single_rounding(int degree, int derivatives) {
-  const double values = 2.2e-8 * degree + 1e-7;
-  return derivatives > 1 ? values + 3.5e-6 * polar_sine(degree, derivatives) : values;
+  constexpr double kValues = 2.5e-7;
+  return derivatives > 1 ? kValues + 3.5e-6 * polar_sine(degree, derivatives) : kValues;
 }
 double least_single_error(int degree, int derivatives) {
   return 1.4 * single_rounding(degree, derivatives);
@@ -133,11 +133,14 @@ NonuniformPlan plan_nonuniform(const NonuniformNeeds& needs) {
   const double error =
       best.single ? window_share(needs.error, single_rounding(needs.degree, needs.derivatives))
                   : needs.error;
-  const std::size_t element = best.single ? sizeof(float) : sizeof(double);
-  for (int width = kMinSpreadWidth; width <= kMaxSpreadWidth; ++width) {
+  // Wide windows on coarse grids range over so many powers of ten that single precision loses
+  // another digit.
+  constexpr int kMaxSingleWidth = 10;
+  const int widest = best.single ? kMaxSingleWidth : kMaxSpreadWidth;
+  for (int width = kMinSpreadWidth; width <= widest; ++width) {
     visit_grids(needs, width, error, [&](std::size_t points) {
       NonuniformPlan plan = best;
-      plan.fourier = sphere_fourier(needs.degree, grid_layout(width, points, points, element));
+      plan.fourier = sphere_fourier(needs.degree, grid_layout(width, points, points));
       const std::size_t grids = grid_count(plan, needs.sources);
       plan.cost =
           stage_cost(plan.fourier, plan.single, grids) +
@@ -149,10 +152,8 @@ NonuniformPlan plan_nonuniform(const NonuniformNeeds& needs) {
     // Beyond what windows can do: the best there is, at a price that lets direct sums be taken.
     const std::size_t points = smooth_length(
         std::max<std::size_t>(32, 5 * static_cast<std::size_t>(std::max(needs.degree, 1))), 4);
-    best.fourier =
-        sphere_fourier(needs.degree, grid_layout(kMaxSpreadWidth, points, points, element));
+    best.fourier = sphere_fourier(needs.degree, grid_layout(kMaxSpreadWidth, points, points));
   }
-  best.most_additions = std::clamp(0.2 * needs.error / kDriftPerAddition, 20.0, 1e5);
   return best;
 }
 

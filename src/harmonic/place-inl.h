@@ -28,6 +28,7 @@ constexpr size_t kBlock = 512 / sizeof(T);
 // Where sources lie on the grid, and the factors of the function and its derivatives by grid steps.
 template <typename T>
 struct Placed {
+  alignas(64) T x[3][kBlock<T>];
   alignas(64) int32_t row[kBlock<T>];
   alignas(64) int32_t column[kBlock<T>];
   alignas(64) T u_theta[kBlock<T>];  // 2 (c0 - x) - 1
@@ -40,11 +41,13 @@ struct Placed {
   alignas(64) T phi_phi[kBlock<T>];
 };
 
-// atan(x) / x as a polynomial in x^2, |x| <= tan(pi/8), through its values at Chebyshev nodes:
-// relative error 2^-30 and 2^-59 (computed in extended precision).
-constexpr float kAtanSingle[] = {0.9999999994F,  -0.3333330689F, 0.1999818304F,
-                                 -0.1423953267F, 0.1056982881F,  -0.06026305228F};
-constexpr double kAtanDouble[] = {
+// atan(x) / x as a polynomial in x^2, |x| <= tan(pi/8), through its values at Chebyshev nodes
+// (computed in extended precision): relative error 2^-40, which is enough for windows in single
+// precision, and 2^-59.
+constexpr double kAtanForSingle[] = {
+    0.9999999999992447616, -0.3333333327692249070, 0.1999999305355568210, -0.1428538655374759761,
+    0.1110345690887282952, -0.0899255290552062902, 0.0697419768394907185, -0.0376551059691399053};
+constexpr double kAtanForDouble[] = {
     0.9999999999999999987,   -0.3333333333333312116,  0.1999999999994089146,
     -0.1428571427925024494,  0.1111111074491965824,   -0.09090896809064027076,
     0.07692045330902224952,  -0.06662951813629190088, 0.0584687829733087252,
@@ -52,14 +55,13 @@ constexpr double kAtanDouble[] = {
 template <typename T>
 constexpr auto& atan_powers() {
   if constexpr (sizeof(T) == sizeof(float)) {
-    return kAtanSingle;
+    return kAtanForSingle;
   } else {
-    return kAtanDouble;
+    return kAtanForDouble;
   }
 }
-template <class D, class V = hn::Vec<D>>
+template <typename T, class D, class V = hn::Vec<D>>
 HWY_INLINE V short_atan(D d, V x) {
-  using T = hn::TFromD<D>;
   const V xx = hn::Mul(x, x);
   constexpr auto& c = atan_powers<T>();
   constexpr int n = static_cast<int>(std::size(c));
@@ -79,17 +81,16 @@ struct Angle {
   V eighth, rest;
 };
 
-// Of the direction (x, y), in [0, 2 pi].
-template <class D, class V = hn::Vec<D>>
+// Of the direction (x, y), in [0, 2 pi], for windows in T.
+template <typename T, class D, class V = hn::Vec<D>>
 HWY_INLINE Angle<V> angle_of(D d, V y, V x) {
-  using T = hn::TFromD<D>;
   const V zero = hn::Zero(d);
   const auto steep = hn::Gt(hn::Abs(y), hn::Abs(x));
   // Quarters: 0 or, just before a whole turn, 4 around +x; 1 around +y; 2 around -x; 3 around -y.
   const auto negative_y = hn::Lt(y, zero);
-  const V near_x = hn::IfThenElse(hn::Lt(x, zero), hn::Set(d, T{4}),
-                                  hn::IfThenElseZero(negative_y, hn::Set(d, T{8})));
-  const V near_y = hn::IfThenElse(negative_y, hn::Set(d, T{6}), hn::Set(d, T{2}));
+  const V near_x = hn::IfThenElse(hn::Lt(x, zero), hn::Set(d, 4.0),
+                                  hn::IfThenElseZero(negative_y, hn::Set(d, 8.0)));
+  const V near_y = hn::IfThenElse(negative_y, hn::Set(d, 6.0), hn::Set(d, 2.0));
   const V quarter = hn::IfThenElse(steep, near_y, near_x);
   // The tangent from the middle of the quarter, its denominator made positive.
   const V base = hn::IfThenElse(steep, y, x);
@@ -99,28 +100,31 @@ HWY_INLINE Angle<V> angle_of(D d, V y, V x) {
   // From the quarter's ends where that is nearer.
   const V sign = hn::And(num, hn::SignBit(d));
   const V size = hn::Abs(num);
-  const auto outer = hn::Gt(size, hn::Mul(den, hn::Set(d, static_cast<T>(0.41421356237309503))));
+  const auto outer = hn::Gt(size, hn::Mul(den, hn::Set(d, 0.41421356237309503)));
   const V from_end = hn::Xor(hn::Sub(size, den), sign);
   const V top = hn::IfThenElse(outer, from_end, num);
   const V bottom = hn::IfThenElse(outer, hn::Add(den, size), den);
-  const V step = hn::IfThenElseZero(outer, hn::Or(hn::Set(d, T{1}), sign));
+  const V step = hn::IfThenElseZero(outer, hn::Or(hn::Set(d, 1.0), sign));
   const V tangent = hn::IfThenZeroElse(hn::Eq(bottom, zero), hn::Div(top, bottom));
-  return {hn::Add(quarter, step), short_atan(d, tangent)};
+  return {hn::Add(quarter, step), short_atan<T>(d, tangent)};
 }
 
 // Limited to 0 ... last, whatever the input was.
 template <class D>
 HWY_INLINE void store_integers(D, hn::Vec<D> v, size_t last, int32_t* to) {
   const hn::Rebind<int32_t, D> di;
-  const auto store = [&](hn::Vec<decltype(di)> i) HWY_ATTR {
-    const auto most = hn::Set(di, static_cast<int32_t>(last));
-    hn::Store(hn::Min(hn::Max(i, hn::Zero(di)), most), di, to);
-  };
-  if constexpr (sizeof(hn::TFromD<D>) == sizeof(float)) {
-    store(hn::ConvertTo(di, v));
-  } else {
-    store(hn::DemoteTo(di, v));
-  }
+  const auto most = hn::Set(di, static_cast<int32_t>(last));
+  hn::Store(hn::Min(hn::Max(hn::DemoteTo(di, v), hn::Zero(di)), most), di, to);
+}
+
+template <class D>
+HWY_INLINE void store_as(D d, hn::Vec<D> v, double* to) {
+  hn::Store(v, d, to);
+}
+template <class D>
+HWY_INLINE void store_as(D, hn::Vec<D> v, float* to) {
+  const hn::Rebind<float, D> df;
+  hn::Store(hn::DemoteTo(df, v), df, to);
 }
 
 // Grid steps per radian.
@@ -129,30 +133,37 @@ T steps(size_t n) {
   return static_cast<T>(static_cast<double>(n) / (2 * std::numbers::pi));
 }
 
-// First tap and distance from it, for an angle of at most `last` steps on a circle of n points. The
-// position is eighth * n/8 + rest * n/(2 pi), the first part exact: single precision keeps the
-// digits of the second.
-template <class D, typename T = hn::TFromD<D>>
+// First tap and distance from it, for an angle of at most `last` steps on a circle of n points.
+template <class D, typename T>
 HWY_INLINE void store_place(D d, const Angle<hn::Vec<D>>& angle, size_t n, size_t last,
                             int32_t* first, T* u) {
-  const auto base = hn::Mul(angle.eighth, hn::Set(d, static_cast<T>(n) / 8));
-  const auto rest = hn::Mul(angle.rest, hn::Set(d, steps<T>(n)));
+  const auto base = hn::Mul(angle.eighth, hn::Set(d, static_cast<double>(n) / 8));
+  const auto rest = hn::Mul(angle.rest, hn::Set(d, steps<double>(n)));
   const auto cell = hn::Ceil(hn::Add(base, rest));
   const auto distance = hn::Sub(hn::Sub(cell, base), rest);
-  hn::Store(hn::MulAdd(hn::Set(d, T{2}), distance, hn::Set(d, T{-1})), d, u);
+  store_as(d, hn::MulAdd(hn::Set(d, 2.0), distance, hn::Set(d, -1.0)), u);
   store_integers(d, cell, last, first);
 }
 
-template <class D, typename T = hn::TFromD<D>>
-HWY_INLINE void place(D d, const GridLayout& layout, const SourceBatch<T>& batch, size_t from,
-                      size_t at, Placed<T>& out) {
-  using V = hn::Vec<D>;
-  const V x = hn::Load(d, batch.x[0] + from + at), y = hn::Load(d, batch.x[1] + from + at);
-  const V z = hn::Load(d, batch.x[2] + from + at);
-  const V s = hn::Sqrt(hn::MulAdd(x, x, hn::Mul(y, y)));
-  store_place(d, angle_of(d, s, z), layout.n_theta, layout.n_theta / 2, out.row + at,
-              out.u_theta + at);
-  store_place(d, angle_of(d, y, x), layout.n_phi, layout.n_phi, out.column + at, out.u_phi + at);
+// Angles are found in double precision for windows in single as well: rounding a direction is a
+// shift of L 2^-25 wave lengths, alike for neighbours, that does not average out.
+template <typename T>
+HWY_INLINE void place(const GridLayout& layout, const SourceBatch<T>& batch, size_t from,
+                      size_t count, Placed<T>& out) {
+  const hn::CappedTag<double, 16> d;
+  const size_t padded = (count + 15) / 16 * 16;  // lanes of T are read in full
+  for (size_t at = 0; at < padded; at += hn::MaxLanes(d)) {
+    const auto x = hn::Load(d, batch.x[0] + from + at), y = hn::Load(d, batch.x[1] + from + at);
+    const auto z = hn::Load(d, batch.x[2] + from + at);
+    const auto s = hn::Sqrt(hn::MulAdd(x, x, hn::Mul(y, y)));
+    store_as(d, x, out.x[0] + at);
+    store_as(d, y, out.x[1] + at);
+    store_as(d, z, out.x[2] + at);
+    store_place(d, angle_of<T>(d, s, z), layout.n_theta, layout.n_theta / 2, out.row + at,
+                out.u_theta + at);
+    store_place(d, angle_of<T>(d, y, x), layout.n_phi, layout.n_phi, out.column + at,
+                out.u_phi + at);
+  }
 }
 
 // The local frame of a source, and what turns derivatives into grid steps.
@@ -162,10 +173,10 @@ struct Frame {
 };
 
 template <class D, typename T = hn::TFromD<D>>
-HWY_INLINE Frame<hn::Vec<D>> frame_of(D d, const SourceBatch<T>& batch, size_t at) {
+HWY_INLINE Frame<hn::Vec<D>> frame_of(D d, const Placed<T>& placed, size_t at) {
   using V = hn::Vec<D>;
-  const V x = hn::Load(d, batch.x[0] + at), y = hn::Load(d, batch.x[1] + at);
-  const V z = hn::Load(d, batch.x[2] + at);
+  const V x = hn::Load(d, placed.x[0] + at), y = hn::Load(d, placed.x[1] + at);
+  const V z = hn::Load(d, placed.x[2] + at);
   const V ss = hn::MulAdd(x, x, hn::Mul(y, y));
   const V s = hn::Sqrt(ss), r = hn::Sqrt(hn::MulAdd(z, z, ss));
   const V one = hn::Set(d, T{1});

@@ -241,21 +241,20 @@ GridKernel<T> grid_kernel(const SphereFourier& fourier) {
           .phi = spread_table<T>(fourier.phi)};
 }
 
-template <typename T>
-void grid_to_coefficients(const SphereFourier& fourier, std::span<T* const> grids,
+void grid_to_coefficients(const SphereFourier& fourier, std::span<double* const> grids,
                           Coefficients& sum, const Context& context, const ParallelStage& stage) {
   const GridLayout& layout = fourier.layout;
-  const RealFft<T> fft(layout.n_phi);
+  const RealFft<double> fft(layout.n_phi);
   const std::size_t used = fourier.degree + std::size_t{1};
   const std::size_t whole = (used + kOrderBlock - 1) / kOrderBlock * kOrderBlock;
   const double middle = stage.from + 0.3 * (stage.to - stage.from);  // measured share
   parallel_for(layout.rows, kRowsPerTask, context, {stage.name, stage.from, middle},
                [&](std::size_t begin, std::size_t end) {
-                 AlignedArray<T> work(layout.stride);
+                 AlignedArray<double> work(layout.stride);
                  for (std::size_t row = begin; row < end; ++row) {
-                   T* values = grids[0] + row * layout.stride;
+                   double* values = grids[0] + row * layout.stride;
                    for (std::size_t g = 1; g < grids.size(); ++g) {
-                     const T* more = grids[g] + row * layout.stride;
+                     const double* more = grids[g] + row * layout.stride;
                      for (std::size_t c = 0; c < layout.stride; ++c) values[c] += more[c];
                    }
                    // Columns of the next turn.
@@ -264,13 +263,13 @@ void grid_to_coefficients(const SphereFourier& fourier, std::span<T* const> grid
                    }
                    fft.forward(values, used, work.data());
                    // Up to whole blocks of orders.
-                   std::fill(values + 2 * used, values + 2 * whole, T{0});
+                   std::fill(values + 2 * used, values + 2 * whole, 0.0);
                  }
                });
-  for_each_block<T>(fourier, context, {stage.name, middle, stage.to},
-                    [&](Orders<T>& orders, int first, int count) {
-                      orders.adjoint(grids[0], first, count, sum);
-                    });
+  for_each_block<double>(fourier, context, {stage.name, middle, stage.to},
+                         [&](Orders<double>& orders, int first, int count) {
+                           orders.adjoint(grids[0], first, count, sum);
+                         });
 }
 
 template <typename T>
@@ -299,10 +298,6 @@ void coefficients_to_grid(const SphereFourier& fourier, const Coefficients& coef
 
 template GridKernel<float> grid_kernel(const SphereFourier&);
 template GridKernel<double> grid_kernel(const SphereFourier&);
-template void grid_to_coefficients(const SphereFourier&, std::span<float* const>, Coefficients&,
-                                   const Context&, const ParallelStage&);
-template void grid_to_coefficients(const SphereFourier&, std::span<double* const>, Coefficients&,
-                                   const Context&, const ParallelStage&);
 template void coefficients_to_grid(const SphereFourier&, const Coefficients&, float*,
                                    const Context&, const ParallelStage&);
 template void coefficients_to_grid(const SphereFourier&, const Coefficients&, double*,

@@ -33,8 +33,7 @@ GridKernel<T> grid_kernel(const SphereFourier& fourier);
 
 // sum += the transpose of coefficients_to_grid() applied to the sum of the grids, which are
 // destroyed.
-template <typename T>
-void grid_to_coefficients(const SphereFourier& fourier, std::span<T* const> grids,
+void grid_to_coefficients(const SphereFourier& fourier, std::span<double* const> grids,
                           Coefficients& sum, const Context& context, const ParallelStage& stage);
 
 // Fills the whole grid, all rows and columns that taps can reach.

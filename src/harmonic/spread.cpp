@@ -30,31 +30,50 @@ HWY_INLINE void visit_apart(size_t n, const Visit& visit) {
   }
 }
 
+// cells + sum over orders of factor times taps, the products in T.
+template <int kOrders, class DD, class D, typename T = hn::TFromD<D>>
+HWY_INLINE hn::Vec<DD> add_products(DD dd, D d, hn::Vec<DD> cells, const T* const* factor,
+                                    const hn::Vec<D>* taps, size_t step) {
+  if constexpr (sizeof(T) == sizeof(double)) {
+    for (int order = 0; order < kOrders; ++order) {
+      cells = hn::MulAdd(hn::Set(d, *factor[order]), taps[order * step], cells);
+    }
+    return cells;
+  } else {
+    auto sum = hn::Mul(hn::Set(d, *factor[0]), taps[0]);
+    for (int order = 1; order < kOrders; ++order) {
+      sum = hn::MulAdd(hn::Set(d, *factor[order]), taps[order * step], sum);
+    }
+    return hn::Add(cells, hn::PromoteTo(dd, sum));
+  }
+}
+
 template <int kPadded, int kOrders, typename T>
 void spread_rows(const GridLayout& layout, const Placed<T>& p, const Windows<T>& w, size_t n,
-                 T* HWY_RESTRICT grid) {
-  using D = hn::CappedTag<T, kPadded>;
-  using V = hn::Vec<D>;
+                 double* HWY_RESTRICT grid) {
+  using DD = hn::CappedTag<double, kPadded>;
+  using D = hn::Rebind<T, DD>;
+  const DD dd;
   const D d;
-  constexpr size_t kLanes = hn::MaxLanes(D());
+  constexpr size_t kLanes = hn::MaxLanes(DD());
   constexpr size_t kVectors = kPadded / kLanes;
   const size_t stride = layout.stride;
   const int width = layout.width;
   visit_apart<T>(n, [&](size_t j) HWY_ATTR {
-    V q[kOrders * kVectors];
+    hn::Vec<D> q[kOrders * kVectors];
     for (int order = 0; order < kOrders; ++order) {
       for (size_t v = 0; v < kVectors; ++v) {
         q[order * kVectors + v] = load_taps(d, w.phi[order], j, v * kLanes);
       }
     }
-    T* HWY_RESTRICT row = grid + static_cast<size_t>(p.row[j]) * stride + p.column[j];
+    double* HWY_RESTRICT row = grid + static_cast<size_t>(p.row[j]) * stride + p.column[j];
     for (int i = 0; i < width; ++i, row += stride) {
+      const T* factor[kOrders];
+      for (int order = 0; order < kOrders; ++order) factor[order] = &w.theta[order][i][j];
       for (size_t v = 0; v < kVectors; ++v) {
-        V sum = hn::LoadU(d, row + v * kLanes);
-        for (int order = 0; order < kOrders; ++order) {
-          sum = hn::MulAdd(hn::Set(d, w.theta[order][i][j]), q[order * kVectors + v], sum);
-        }
-        hn::StoreU(sum, d, row + v * kLanes);
+        const auto cells = hn::LoadU(dd, row + v * kLanes);
+        hn::StoreU(add_products<kOrders>(dd, d, cells, factor, q + v, kVectors), dd,
+                   row + v * kLanes);
       }
     }
   });
@@ -161,11 +180,11 @@ HWY_INLINE void place_block(const GridKernel<T>& kernel, const SourceBatch<T>& b
   const hn::CappedTag<T, 16> d;
   const GridLayout& layout = kernel.layout;
   const size_t already = polar.count;
+  place(layout, batch, from, count, placed);
   for (size_t at = 0; at < count; at += hn::MaxLanes(d)) {
-    place(d, layout, batch, from, at, placed);
     hn::Store(hn::Load(d, batch.value + from + at), d, placed.value + at);
     if constexpr (kOrders > 1) {
-      const auto frame = frame_of(d, batch, from + at);
+      const auto frame = frame_of(d, placed, at);
       place_gradient(d, layout, batch, from, at, frame, placed);
       if constexpr (kOrders > 2) place_hessian(d, layout, batch, from, at, frame, placed);
       list_polar(d, frame, polar_sine, from + at, n, polar);
@@ -180,7 +199,7 @@ HWY_INLINE void place_block(const GridKernel<T>& kernel, const SourceBatch<T>& b
 
 template <int kOrders, typename T>
 void spread_batch(const GridKernel<T>& kernel, const SourceBatch<T>& batch, size_t n,
-                  double polar_sine, T* grid, PolarSources& polar) {
+                  double polar_sine, double* grid, PolarSources& polar) {
   Placed<T> placed;
   Windows<T> windows;
   const GridLayout& layout = kernel.layout;
@@ -199,7 +218,7 @@ template <class D, typename T = hn::TFromD<D>>
 HWY_INLINE void store_gradient(D d, const GridLayout& layout, const Placed<T>& placed, size_t at,
                                size_t from, SourceBatch<T>& batch) {
   using V = hn::Vec<D>;
-  const auto frame = frame_of(d, batch, from + at);
+  const auto frame = frame_of(d, placed, at);
   const V by_theta = hn::Mul(hn::Load(d, placed.theta + at),
                              hn::Mul(frame.inverse_r, hn::Set(d, steps<T>(layout.n_theta))));
   const V by_phi = hn::Mul(
@@ -222,8 +241,7 @@ void interpolate_batch(const GridKernel<T>& kernel, const T* grid, size_t n, dou
   Windows<T> windows;
   for (size_t from = 0; from < n; from += kBlock<T>) {
     const size_t count = HWY_MIN(kBlock<T>, n - from);
-    for (size_t at = 0; at < count; at += hn::MaxLanes(d))
-      place(d, layout, batch, from, at, placed);
+    place(layout, batch, from, count, placed);
     evaluate_windows<kOrders, false>(kernel, placed, count, windows);
     with_padded_width(layout.width, [&](auto padded) {
       interpolate_rows<padded.value, kOrders>(layout, placed, windows, count, grid);
@@ -232,8 +250,7 @@ void interpolate_batch(const GridKernel<T>& kernel, const T* grid, size_t n, dou
       hn::Store(hn::Load(d, placed.value + at), d, batch.value + from + at);
       if constexpr (kOrders > 1) {
         store_gradient(d, layout, placed, at, from, batch);
-        list_polar(d, frame_of(d, batch, from + at), static_cast<T>(polar_sine), from + at, n,
-                   polar);
+        list_polar(d, frame_of(d, placed, at), static_cast<T>(polar_sine), from + at, n, polar);
       }
     }
   }
@@ -241,7 +258,7 @@ void interpolate_batch(const GridKernel<T>& kernel, const T* grid, size_t n, dou
 
 template <typename T>
 HWY_INLINE void SpreadAny(const GridKernel<T>& kernel, const SourceBatch<T>& batch, size_t n,
-                          int derivatives, double polar_sine, T* grid, PolarSources& polar) {
+                          int derivatives, double polar_sine, double* grid, PolarSources& polar) {
   polar.count = 0;
   if (derivatives == 0) return spread_batch<1>(kernel, batch, n, polar_sine, grid, polar);
   if (derivatives == 1) return spread_batch<2>(kernel, batch, n, polar_sine, grid, polar);
@@ -258,7 +275,7 @@ HWY_INLINE void InterpolateAny(const GridKernel<T>& kernel, const T* grid, size_
 }
 
 void SpreadFloat(const GridKernel<float>& kernel, const SourceBatch<float>& batch, size_t n,
-                 int derivatives, double polar_sine, float* grid, PolarSources& polar) {
+                 int derivatives, double polar_sine, double* grid, PolarSources& polar) {
   SpreadAny(kernel, batch, n, derivatives, polar_sine, grid, polar);
 }
 void SpreadDouble(const GridKernel<double>& kernel, const SourceBatch<double>& batch, size_t n,
@@ -287,21 +304,20 @@ HWY_EXPORT(SpreadDouble);
 HWY_EXPORT(InterpolateFloat);
 HWY_EXPORT(InterpolateDouble);
 
-GridLayout grid_layout(int width, std::size_t n_phi, std::size_t n_theta,
-                       std::size_t element_size) {
+GridLayout grid_layout(int width, std::size_t n_phi, std::size_t n_theta) {
   GridLayout layout{
       .width = width, .n_phi = n_phi, .n_theta = n_theta, .rows = n_theta / 2 + width, .stride = 0};
-  const std::size_t line = 64 / element_size;
+  constexpr std::size_t line = 16;  // a cache line of floats, two of doubles
   // Sources reach to column n_phi + 16 at most; the transform needs n_phi + 2.
   layout.stride = (n_phi + 17 + line - 1) / line * line;
   // Rows a multiple of 4 KiB apart would fall into the same sets of the cache.
-  if (layout.stride * element_size % 4096 == 0) layout.stride += line;
+  if (layout.stride * sizeof(float) % 2048 == 0) layout.stride += line;
   return layout;
 }
 
 template <>
 void spread(const GridKernel<float>& kernel, const SourceBatch<float>& batch, std::size_t n,
-            int derivatives, double polar_sine, float* grid, PolarSources& polar) {
+            int derivatives, double polar_sine, double* grid, PolarSources& polar) {
   HWY_DYNAMIC_DISPATCH(SpreadFloat)(kernel, batch, n, derivatives, polar_sine, grid, polar);
 }
 template <>

@@ -20,11 +20,11 @@ struct GridLayout {
   std::size_t n_phi = 0;    // points a turn, a multiple of 4
   std::size_t n_theta = 0;  // points of the great circle, a multiple of 4
   std::size_t rows = 0;     // n_theta / 2 + w
-  std::size_t stride = 0;   // elements from row to row, at least n_phi + padded width + 1
+  std::size_t stride = 0;   // from row to row, at least n_phi + padded width + 1
 
   std::size_t cells() const { return rows * stride; }
 };
-GridLayout grid_layout(int width, std::size_t n_phi, std::size_t n_theta, std::size_t element_size);
+GridLayout grid_layout(int width, std::size_t n_phi, std::size_t n_theta);
 
 // Both windows and their polynomials.
 template <typename T>
@@ -33,13 +33,14 @@ struct GridKernel {
   SpreadTable<T> theta, phi;
 };
 
-// Up to kSize sources, structure of arrays: positions x (any length but 0), and the factors of
+// Up to kSize sources, structure of arrays: positions x (any length but 0; in double precision for
+// grids in single as well), and the factors of
 // f(x/|x|), of its gradient and of its Hessian (six numbers: xx, xy, xz, yy, yz, zz; an
 // off-diagonal one counts twice in the contraction) with respect to x.
 template <typename T>
 struct SourceBatch {
   static constexpr std::size_t kSize = 256;
-  alignas(64) T x[3][kSize];
+  alignas(64) double x[3][kSize];
   alignas(64) T value[kSize];
   alignas(64) T gradient[3][kSize];
   alignas(64) T hessian[6][kSize];
@@ -52,11 +53,13 @@ struct PolarSources {
   std::uint32_t index[SourceBatch<double>::kSize];
 };
 
-// Adds the first n sources to the grid; derivatives 0, 1 or 2 says how much of them is used.
-// `polar_sine`: sources with derivatives and sin theta below it are left out and listed.
+// Adds the first n sources to the grid; derivatives 0, 1 or 2 says how much of them is used. Sums
+// are in double precision whatever the windows are in: in single, those of many terms of one sign
+// lose the small ones, and boxes of a million faces were off by 5e-6. `polar_sine`: sources with
+// derivatives and sin theta below it are left out and listed.
 template <typename T>
 void spread(const GridKernel<T>& kernel, const SourceBatch<T>& batch, std::size_t n,
-            int derivatives, double polar_sine, T* grid, PolarSources& polar);
+            int derivatives, double polar_sine, double* grid, PolarSources& polar);
 
 // The transpose: value[j] = the grid's function at x_j; with `derivatives` 1 also gradient[.][j],
 // by x. Writes into the batch; polar sources get the value alone.

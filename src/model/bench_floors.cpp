@@ -80,14 +80,13 @@ std::vector<std::uint32_t> first_cells(const GridLayout& layout, const Mesh& mes
   return cells;
 }
 
-template <typename T>
 Timing time_rows(const GridLayout& layout, const Mesh& mesh, const Vec3& center, int repeat,
                  const Context& context) {
   const std::vector<std::uint32_t> cells = first_cells(layout, mesh, center);
-  AlignedArray<T> grid(layout.cells()), taps(3 * 16);
-  std::fill(grid.begin(), grid.end(), T{0});
-  std::fill(taps.begin(), taps.end(), static_cast<T>(0.001));
-  const auto update = [&] { update_rows<T>(layout, cells, taps.data(), grid.data()); };
+  AlignedArray<double> grid(layout.cells()), taps(3 * 16);
+  std::fill(grid.begin(), grid.end(), 0.0);
+  std::fill(taps.begin(), taps.end(), 0.001);
+  const auto update = [&] { update_rows(layout, cells, taps.data(), grid.data()); };
   update();
   return time_repeated(repeat, context, update);
 }
@@ -119,8 +118,7 @@ Timing time_legendre(const SphereFourier& fourier, int repeat, const Context& co
 SphereFourier fourier_of(const FastReport& fast, int degree) {
   const double points = fast.oversampling * 2 * std::max(degree, 1);
   const auto n = static_cast<std::size_t>(std::lround(points));
-  return sphere_fourier(
-      degree, grid_layout(fast.width, n, n, fast.single ? sizeof(float) : sizeof(double)));
+  return sphere_fourier(degree, grid_layout(fast.width, n, n));
 }
 
 }  // namespace
@@ -132,12 +130,10 @@ FloorsBench bench_floors(const std::filesystem::path& path, const Mesh& mesh,
   const SphereFourier fourier = fourier_of(fast, expansion.coefficients.degree());
   const GridLayout& layout = fourier.layout;
   FloorsBench floors;
-  floors.grid_bytes = layout.cells() * (fast.single ? sizeof(float) : sizeof(double));
+  floors.grid_bytes = layout.cells() * sizeof(double);
   floors.file_read = time_file_read(path, options.repeat, context);
   floors.copy = time_copy(std::filesystem::file_size(path), options.repeat, context);
-  floors.row_updates =
-      fast.single ? time_rows<float>(layout, mesh, expansion.center, options.repeat, context)
-                  : time_rows<double>(layout, mesh, expansion.center, options.repeat, context);
+  floors.row_updates = time_rows(layout, mesh, expansion.center, options.repeat, context);
   floors.legendre = time_legendre(fourier, options.repeat, context);
   return floors;
 }

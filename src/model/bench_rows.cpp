@@ -11,15 +11,15 @@ namespace rholm {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-template <std::size_t kPadded, typename T>
+template <std::size_t kPadded>
 HWY_INLINE void update_padded(const GridLayout& layout, std::span<const std::uint32_t> first_cells,
-                              const T* HWY_RESTRICT taps, T* HWY_RESTRICT grid) {
-  const hn::CappedTag<T, kPadded> d;
+                              const double* HWY_RESTRICT taps, double* HWY_RESTRICT grid) {
+  const hn::CappedTag<double, kPadded> d;
   constexpr std::size_t kLanes = hn::MaxLanes(d);
-  const T* const value = taps + kPadded;
-  const T* const slope = value + layout.width;
+  const double* const value = taps + kPadded;
+  const double* const slope = value + layout.width;
   for (const std::uint32_t cell : first_cells) {
-    T* HWY_RESTRICT row = grid + cell;
+    double* HWY_RESTRICT row = grid + cell;
     for (int i = 0; i < layout.width; ++i, row += layout.stride) {
       for (std::size_t v = 0; v < kPadded; v += kLanes) {
         const auto columns = hn::Load(d, taps + v);
@@ -32,22 +32,12 @@ HWY_INLINE void update_padded(const GridLayout& layout, std::span<const std::uin
   }
 }
 
-template <typename T>
-HWY_INLINE void update_any(const GridLayout& layout, std::span<const std::uint32_t> first_cells,
-                           const T* taps, T* grid) {
+void UpdateRows(const GridLayout& layout, std::span<const std::uint32_t> first_cells,
+                const double* taps, double* grid) {
   const int padded = padded_width(layout.width);
   if (padded == 4) return update_padded<4>(layout, first_cells, taps, grid);
   if (padded == 8) return update_padded<8>(layout, first_cells, taps, grid);
   update_padded<16>(layout, first_cells, taps, grid);
-}
-
-void UpdateFloat(const GridLayout& layout, std::span<const std::uint32_t> first_cells,
-                 const float* taps, float* grid) {
-  update_any(layout, first_cells, taps, grid);
-}
-void UpdateDouble(const GridLayout& layout, std::span<const std::uint32_t> first_cells,
-                  const double* taps, double* grid) {
-  update_any(layout, first_cells, taps, grid);
 }
 const char* TargetName() { return hwy::TargetName(HWY_TARGET); }
 
@@ -58,19 +48,12 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace rholm {
 
-HWY_EXPORT(UpdateFloat);
-HWY_EXPORT(UpdateDouble);
+HWY_EXPORT(UpdateRows);
 HWY_EXPORT(TargetName);
 
-template <>
-void update_rows(const GridLayout& layout, std::span<const std::uint32_t> first_cells,
-                 const float* taps, float* grid) {
-  HWY_DYNAMIC_DISPATCH(UpdateFloat)(layout, first_cells, taps, grid);
-}
-template <>
 void update_rows(const GridLayout& layout, std::span<const std::uint32_t> first_cells,
                  const double* taps, double* grid) {
-  HWY_DYNAMIC_DISPATCH(UpdateDouble)(layout, first_cells, taps, grid);
+  HWY_DYNAMIC_DISPATCH(UpdateRows)(layout, first_cells, taps, grid);
 }
 
 const char* vector_target() { return HWY_DYNAMIC_DISPATCH(TargetName)(); }

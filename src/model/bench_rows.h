@@ -12,9 +12,8 @@ namespace rholm {
 // Adds to the cells from each of `first_cells` on, `layout.width` rows of padded_width() cells,
 // what a value and a gradient in theta add. `taps`: padded_width() columns, then two windows of
 // `layout.width` rows.
-template <typename T>
 void update_rows(const GridLayout& layout, std::span<const std::uint32_t> first_cells,
-                 const T* taps, T* grid);
+                 const double* taps, double* grid);
 
 const char* vector_target();
 

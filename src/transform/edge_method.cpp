@@ -117,17 +117,6 @@ Coefficients gradient_terms(const StarGeometry& geometry, const Weights& w,
   return sum;
 }
 
-void divide_by_eigenvalue(Coefficients& c) {
-  c.c(0, 0) = 0;
-  for (int l = 1; l <= c.degree(); ++l) {
-    const double factor = 1.0 / (static_cast<double>(l) * (l + 1));
-    for (int m = 0; m <= l; ++m) {
-      c.c(l, m) *= factor;
-      c.s(l, m) *= factor;
-    }
-  }
-}
-
 void add(Coefficients& to, const Coefficients& from) {
   for (std::size_t i = 0; i < to.values().size(); ++i) to.values()[i] += from.values()[i];
 }

@@ -36,19 +36,34 @@ struct LaneSums {
   V volume6, mean, face_error2, weight2, min_d2, min_cos2, max_edge2, probe;
 };
 
-template <typename T>
-HWY_INLINE void store_lumps(D d, V weight, const V3& gradient, const BlockParameters& p,
-                            VertexLump<T>* to) {
-  const V w = hn::Round(hn::Mul(weight, hn::Set(d, p.per_weight)));
+// Weight and gradient in quanta.
+struct Lump {
+  V weight;
+  V3 gradient;
+};
+HWY_INLINE Lump rounded(D d, V weight, const V3& gradient, const BlockParameters& p) {
   const V per = hn::Set(d, p.per_gradient);
-  const V x = hn::Round(hn::Mul(gradient.x, per)), y = hn::Round(hn::Mul(gradient.y, per));
-  const V z = hn::Round(hn::Mul(gradient.z, per));
+  return {hn::Round(hn::Mul(weight, hn::Set(d, p.per_weight))),
+          {hn::Round(hn::Mul(gradient.x, per)), hn::Round(hn::Mul(gradient.y, per)),
+           hn::Round(hn::Mul(gradient.z, per))}};
+}
+// Weights and gradients of a triangle add up to nothing; rounded ones as well, for in a lattice the
+// rounding of all triangles is the same and would add up.
+HWY_INLINE Lump rest_of(const Lump& a, const Lump& b) {
+  return {
+      hn::Neg(hn::Add(a.weight, b.weight)),
+      {hn::Neg(hn::Add(a.gradient.x, b.gradient.x)), hn::Neg(hn::Add(a.gradient.y, b.gradient.y)),
+       hn::Neg(hn::Add(a.gradient.z, b.gradient.z))}};
+}
+template <typename T>
+HWY_INLINE void store_lump(D d, const Lump& lump, VertexLump<T>* to) {
+  const V3& g = lump.gradient;
   if constexpr (sizeof(T) == 4) {
     const hn::Rebind<int32_t, D> di;
-    hn::StoreInterleaved4(hn::DemoteTo(di, w), hn::DemoteTo(di, x), hn::DemoteTo(di, y),
-                          hn::DemoteTo(di, z), di, to->value);
+    hn::StoreInterleaved4(hn::DemoteTo(di, lump.weight), hn::DemoteTo(di, g.x),
+                          hn::DemoteTo(di, g.y), hn::DemoteTo(di, g.z), di, to->value);
   } else {
-    hn::StoreInterleaved4(w, x, y, z, d, to->value);
+    hn::StoreInterleaved4(lump.weight, g.x, g.y, g.z, d, to->value);
   }
 }
 
@@ -122,16 +137,17 @@ HWY_INLINE void work_vector(D d, size_t at, size_t n, const BlockParameters& par
   const V of_face = hn::Mul(face, hn::Set(d, 1.0 / 24)), twelfth = hn::Set(d, 1.0 / 12);
   const V g01 = hn::MulAdd(w01, twelfth, of_face), g12 = hn::MulAdd(w12, twelfth, of_face);
   const V g20 = hn::MulAdd(w20, twelfth, of_face);
-  const auto lump = [&](int i, V out, V in, V g_out, const V3& e_out, V g_in,
-                        const V3& e_in) HWY_ATTR {
+  const auto lump = [&](V out, V in, V g_out, const V3& e_out, V g_in, const V3& e_in) HWY_ATTR {
     const V3 gradient = {hn::NegMulAdd(g_in, e_in.x, hn::Mul(g_out, e_out.x)),
                          hn::NegMulAdd(g_in, e_in.y, hn::Mul(g_out, e_out.y)),
                          hn::NegMulAdd(g_in, e_in.z, hn::Mul(g_out, e_out.z))};
-    store_lumps(d, hn::MulAdd(half, hn::Add(out, in), third), gradient, parameters, b.lump[i] + at);
+    return rounded(d, hn::MulAdd(half, hn::Add(out, in), third), gradient, parameters);
   };
-  lump(0, w01, w20, g01, e01, g20, e20);
-  lump(1, w12, w01, g12, e12, g01, e01);
-  lump(2, w20, w12, g20, e20, g12, e12);
+  const Lump lump0 = lump(w01, w20, g01, e01, g20, e20);
+  const Lump lump1 = lump(w12, w01, g12, e12, g01, e01);
+  store_lump(d, lump0, b.lump[0] + at);
+  store_lump(d, lump1, b.lump[1] + at);
+  store_lump(d, rest_of(lump0, lump1), b.lump[2] + at);
   hn::Store(error2, d, b.error2 + at);
   hn::Store(w01, d, b.edge_weight[0] + at);
   hn::Store(w12, d, b.edge_weight[1] + at);

@@ -80,8 +80,8 @@ TriangleError error_of(const std::array<Vec3, 3>& p, const Wave& wave, int degre
   const double face = -dot(n, n) / d2;
   // Good for waves across some 4 radians.
   static const NodeAllowance kFine{.degree = 1, .error = 1e-5, .divided = false};
-  static const EdgeRule edge_nodes = edge_rule(kFine, 3, 1);
-  static const std::span<const FaceNode> face_nodes = face_rule(kFine, 3, 1);
+  static const EdgeRule edge_nodes = edge_rule(kFine, Extent{3}, 1);
+  static const std::span<const FaceNode> face_nodes = face_rule(kFine, Extent{3}, 1);
   std::array<Complex, 3> values;
   for (int i = 0; i < 3; ++i) values[i] = wave.value(p[i]);
   double z2 = 0;

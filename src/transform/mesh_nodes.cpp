@@ -6,6 +6,7 @@
 #include "rholm/error.h"
 #include "shape/face.h"
 #include "transform/quadrature.h"
+#include "transform/star_geometry.h"
 
 namespace rholm {
 namespace {
@@ -14,10 +15,6 @@ constexpr std::size_t kWaiting = 4096;  // chosen: 350 kB
 // Elements longer than half their distance are halved: beyond, x/|x| bends so much that rules
 // for plane waves say little.
 constexpr double kLongest = 0.5;
-// The part of the extent that stands for bending: at kLongest it makes rules for L = 1 exact to
-// 1e-12 with 10 nodes, where the geometric rate (2 distance / edge)^-2n needs 10 (see
-// quadrature.h).
-constexpr double kBending = 5;
 constexpr int kMaxDepth = 100;  // after so many halvings doubles resolve nothing
 
 [[noreturn]] void throw_on_surface() {
@@ -25,17 +22,21 @@ constexpr int kMaxDepth = 100;  // after so many halvings doubles resolve nothin
               "the surface passes through the centre of the expansion: choose a centre inside it");
 }
 
-// Angle and bending of a straight piece seen from the centre.
-double extent(const Vec3& a, const Vec3& b, double distance, int degree) {
+Extent extent(const Vec3& a, const Vec3& b, double distance, int degree) {
   const Vec3 across = cross(a, b), e = b - a;
   const double over = 1 / (distance * distance);
   const double l = degree * over;
-  return std::sqrt(l * l * dot(across, across) + kBending * kBending * over * dot(e, e));
+  return {l * l * dot(across, across), over * dot(e, e)};
 }
 
-double extent(const std::array<Vec3, 3>& p, double distance, int degree) {
-  return std::max({extent(p[0], p[1], distance, degree), extent(p[1], p[2], distance, degree),
-                   extent(p[2], p[0], distance, degree)});
+Extent extent(const std::array<Vec3, 3>& p, double distance, int degree) {
+  Extent most;
+  for (int i = 0; i < 3; ++i) {
+    const Extent z = extent(p[i], p[(i + 1) % 3], distance, degree);
+    most.wave2 = std::max(most.wave2, z.wave2);
+    most.bend2 = std::max(most.bend2, z.bend2);
+  }
+  return most;
 }
 
 int longest_edge(const std::array<Vec3, 3>& p) {
@@ -74,6 +75,12 @@ bool is_long(const std::array<Vec3, 3>& p, double distance) {
   return !(norm(p[(k + 1) % 3] - p[k]) <= kLongest * distance);
 }
 
+// Pieces leave errors of their own, which add up in squares: of `share` of an element.
+NodeAllowance part_of(NodeAllowance allowance, double share) {
+  allowance.error *= std::sqrt(share);
+  return allowance;
+}
+
 // Nodes of r dOmega = d_T dS / |x|^2; `factor`: d_T times the area.
 template <typename Visit>
 void visit_radius(const std::array<Vec3, 3>& p, double factor, const NodeAllowance& allowance,
@@ -83,14 +90,15 @@ void visit_radius(const std::array<Vec3, 3>& p, double factor, const NodeAllowan
   if (factor == 0) return;
   std::span<const FaceNode> rule;
   if (!is_long(p, distance)) {
-    // 1/|x|^2 bends as much again.
-    rule = face_rule(allowance, extent(p, distance, allowance.degree) + kBending * kLongest,
-                     factor / (distance * distance));
+    // 1/|x|^2 counts for two degrees more.
+    Extent z = extent(p, distance, allowance.degree);
+    z.wave2 = std::pow(std::sqrt(z.wave2) + 2 * std::sqrt(z.bend2), 2);
+    rule = face_rule(allowance, z, factor / (distance * distance));
   }
   if (rule.empty()) {
     if (depth == kMaxDepth) throw_on_surface();
     halve(p, [&](const std::array<Vec3, 3>& half) {
-      visit_radius(half, factor / 2, allowance, depth + 1, visit);
+      visit_radius(half, factor / 2, part_of(allowance, 0.5), depth + 1, visit);
     });
     return;
   }
@@ -180,9 +188,10 @@ void NodeWriter::write_piece(const HalfEdge& edge, const Vec3& a, const Vec3& b,
   EdgeRule rule;
   if (length <= kLongest * distance) {
     // A gradient is up to L / |x| times the harmonic, and bends more (6 measured).
-    const double slope = 6 * norm(across) * options_.divided.degree / distance;
-    rule = edge_rule(options_.divided, extent(a, b, distance, options_.divided.degree),
-                     share * (std::abs(edge.weight) + slope));
+    const double slope = 2 * norm(across) * options_.divided.degree / distance;
+    rule =
+        edge_rule(part_of(options_.divided, share), extent(a, b, distance, options_.divided.degree),
+                  share * (std::abs(edge.weight) + slope));
   }
   if (rule.nodes.empty()) {
     if (!(share > std::exp2(-kMaxDepth))) throw_on_surface();
@@ -195,7 +204,7 @@ void NodeWriter::write_piece(const HalfEdge& edge, const Vec3& a, const Vec3& b,
     const Vec3 x = a + rule.nodes[k] * (b - a);
     const double weight = share * rule.weights[k];
     if (edge.weight != 0) write(x, weight * edge.weight);
-    if (edge.gradient != 0) sink_.add_gradient(x, weight * across);
+    if (edge.gradient != 0) sink_.add_gradient({x, weight * across});
   }
 }
 
@@ -203,7 +212,8 @@ void NodeWriter::write_face(const std::array<Vec3, 3>& p, double weight, int dep
   const double distance = distance_of(p);
   std::span<const FaceNode> rule;
   if (!is_long(p, distance)) {
-    rule = face_rule(options_.divided, extent(p, distance, options_.divided.degree), weight);
+    rule = face_rule(part_of(options_.divided, std::exp2(-depth)),
+                     extent(p, distance, options_.divided.degree), weight);
   }
   if (rule.empty()) {
     if (depth == kMaxDepth) throw_on_surface();
@@ -220,9 +230,9 @@ double radius_integral(const std::array<Vec3, 3>& corners, double relative_error
   if (normal.degenerate) return 0;
   const double factor = dot(normal.twice_area, corners[0]) / 2;
   const double distance = triangle_distance(corners);
-  const NodeAllowance allowance{.degree = 0,
-                                .error = relative_error * std::abs(factor) / (distance * distance),
-                                .divided = false};
+  // int r dOmega is at least this part of the sphere times the smallest radius.
+  const double least = std::abs(solid_angle(corners)) * distance;
+  const NodeAllowance allowance{.degree = 0, .error = relative_error * least, .divided = false};
   double sum = 0;
   visit_radius(corners, factor, allowance, 0, [&](const Vec3&, double weight) { sum += weight; });
   return sum;

@@ -16,14 +16,17 @@ struct Node {
   Vec3 x;  // relative to the centre, scaled, of any length
   double weight;
 };
+// weight . grad of Y(x/|x|) with respect to x.
+struct GradientNode {
+  Vec3 x, weight;
+};
 
 // Point sources as they are found, weights alone many at a time.
 class NodeSink {
  public:
   virtual ~NodeSink() = default;
   virtual void add(std::span<const Node> nodes) = 0;
-  // weight . grad of Y(x/|x|) with respect to x.
-  virtual void add_gradient(const Vec3& x, const Vec3& weight) = 0;
+  virtual void add_gradient(const GradientNode& node) = 0;
   // Into the sum that is not divided by l(l+1).
   virtual void add_undivided(const Vec3& x, double weight) = 0;
 };

@@ -24,14 +24,12 @@ struct MeshPassResult {
   Coefficients coefficients;  // of the radius; of the alternating sum where it is not star-shaped
   double volume = 0;          // enclosed; negative if inside out
   bool closed = false;        // every edge run through as often one way as the other, by a hash
-  double covers = 0;          // solid angle / 4 pi, roughly
   double min_d = 0;
   double min_cos_gamma = 0;
   std::size_t bad_triangles = 0;
   FastReport report;
   double edge_ratio = 0;  // energy of the errors of lumped edges in units of that of lumped faces
-  bool needs_double = false;  // not in single precision: sums out of range, or rounding too large
-  StageTimes times;           // "triangles", "spread", "fourier"
+  StageTimes times;       // "triangles", "spread", "fourier"
 };
 
 // Throws InvalidInput for coordinates that are not finite, indices out of range, `check` that

@@ -8,6 +8,7 @@
 #include <memory>
 #include <numbers>
 
+#include "harmonic/nonuniform.h"
 #include "rholm/error.h"
 #include "transform/mesh_coherence.h"
 #include "transform/mesh_nodes.h"
@@ -25,12 +26,20 @@ constexpr double kWindowShare = 0.45;
 constexpr double kQuantumShare = 0.2;
 // A cube-sphere of a million triangles left 0.5 times the window's error of the norm (measured).
 constexpr double kInStep = 0.4;
+// Sources along a meridian or a parallel, as on extruded shapes, are all alike to the grid: its
+// error is that of the parts, which cancel in the whole (8 times measured on such a shape).
+constexpr double kInStepAligned = 0.05;
+constexpr double kAlignedShare = 0.005;  // chosen: of the edges
+
+// What windows in single precision leave of sources in step, relative to the sum of the moduli of
+// their weights (6e-10 measured on boxes of a million faces).
+constexpr double kSingleInStep = 1.5e-9;
 
 // Rounding of the double sums against c_00, as in the direct engine.
 constexpr double kRounding = 1e-15;
 
 // A rule chosen as just good enough leaves, in the mean, this part of what it may.
-constexpr double kTypicalShare = 0.35;
+constexpr double kTypicalShare = 0.4;
 // What the measured coherence is multiplied by: eight packets scatter by a third.
 constexpr double kScatter = 2;
 // Elements (edges and faces) per triangle.
@@ -51,6 +60,22 @@ struct Moments {
     for (const Vec3& corner : p) at(corner, 1.0 / 12);
     at((p[0] + p[1] + p[2]) / 3.0, 0.75);
     solid += omega;
+  }
+};
+
+// Weights of edges, all and those along meridians or parallels; their angles.
+struct EdgeStatistics {
+  double all = 0, aligned = 0, angles = 0, count = 0;
+  void add(const Vec3& a, const Vec3& b, double weight) {
+    constexpr double kStraight = 1e-3;  // chosen: part of the edge's own angle
+    const double across = norm(cross(a, b));
+    const double r = norm(a), s = norm(b);
+    const double by_meridian = std::abs(a.x * b.y - a.y * b.x);
+    const double by_parallel = std::abs(a.z * s - b.z * r);
+    all += weight;
+    angles += across / (r * s);
+    ++count;
+    if (std::min(by_meridian, by_parallel) < kStraight * across) aligned += weight;
   }
 };
 
@@ -136,6 +161,15 @@ double source2_of(const MeshSample& sample) {
   return whole / 2 + sample.share * faces / 3;
 }
 
+// Sum of the moduli of what is spread, roughly.
+double moduli_of(const MeshSample& sample) {
+  double faces = 0, edges = 0;
+  for (const MeshSample::Entry& entry : sample.entries) faces += std::sqrt(entry.face_weight2);
+  for (const MeshSample::Edge& edge : sample.edges) edges += std::abs(edge.weight);
+  faces *= sample.share;
+  return faces + (sample.edge_share > 0 ? sample.edge_share * edges : faces);
+}
+
 // Some four thousand edges: the sum of squares to a few per cent, if none outweighs the others.
 std::uint32_t sampled_names(std::size_t n_triangles) {
   const double part = 4000 / (1.5 * static_cast<double>(n_triangles));
@@ -182,6 +216,7 @@ MeshSample sample_mesh(const MeshView& mesh, const Vec3& center, int degree) {
   const std::size_t taken = std::min(blocks, kSampleBlocks);
   auto block = std::make_unique<TriangleBlock<double>>();
   Moments moments;
+  EdgeStatistics edges;
   for (std::size_t k = 0; k < taken; ++k) {
     const std::size_t first = k * blocks / taken * kSize;
     const std::size_t n = std::min(kSize, mesh.n_triangles - first);
@@ -195,6 +230,10 @@ MeshSample sample_mesh(const MeshView& mesh, const Vec3& center, int degree) {
         p[i] = {block->corner[i][0][t], block->corner[i][1][t], block->corner[i][2][t]};
       }
       moments.add(p);
+      for (int i = 0; i < 3; ++i) {
+        const double weight = std::abs(block->edge_weight[i][t]);
+        if (std::isfinite(weight) && weight > 0) edges.add(p[i], p[(i + 1) % 3], weight);
+      }
       if (std::isfinite(block->error2[t])) {
         sample.entries.push_back({block->error2[t], std::pow(block->face_error[t], 2),
                                   std::pow(block->face_weight[t], 2)});
@@ -209,10 +248,11 @@ MeshSample sample_mesh(const MeshView& mesh, const Vec3& center, int degree) {
     const double variance = moments.square / moments.solid - sample.mean * sample.mean;
     sample.norm = std::sqrt(4 * kPi * std::max(0.0, variance));
   }
+  sample.aligned = edges.all > 0 ? edges.aligned / edges.all : 0;
+  sample.angle = edges.count > 0 ? edges.angles / edges.count : 0;
   const double n = static_cast<double>(std::max<std::size_t>(sample.entries.size(), 1));
   sample.share = static_cast<double>(mesh.n_triangles) / n;
   sample.overlaps = moments.solid > 1.01 * std::abs(moments.signed_solid);
-  sample.covers = sample.share * moments.signed_solid / (4 * kPi);
   // A tenth of the edges should meet; in a mesh of random order none does.
   if (static_cast<double>(sample.edges.size()) > 0.1 * n) {
     sample.edge_share =
@@ -222,46 +262,52 @@ MeshSample sample_mesh(const MeshView& mesh, const Vec3& center, int degree) {
 }
 
 MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& center, int degree,
-                   double precision, double tighten) {
+                   double precision, const PlanLimits& limits) {
   MeshPlan plan;
   if (!(sample.mean > 0)) {
     throw Error(ErrorCode::kInvalidInput,
                 "no direction sees the surface from the centre: its faces have no area");
   }
   const double c00 = sample.mean * std::sqrt(4 * kPi);
-  const double budget = std::max(precision * sample.norm, kRounding * c00) / tighten;
-  // Few elements do not average out, and few degrees are no plane waves (measured on octahedra, L =
-  // 1, 2, 3).
-  plan.few = 1 + 8 / std::sqrt(kElements * static_cast<double>(mesh.n_triangles)) +
-             0.5 / std::max(degree, 1);
+  const double budget = std::max(precision * sample.norm, kRounding * c00) / limits.tighten;
   // Where sheets overlap the norm of their alternating sum is below what the sample says.
-  if (sample.overlaps) plan.few *= 1.5;
-  plan.rules = kRuleShare * budget / plan.few;
+  plan.caution = sample.overlaps ? 1.5 : 1;
+  plan.rules = kRuleShare * budget / plan.caution;
   plan.window = kWindowShare * budget;
-  plan.most_window = kInStep * precision / tighten;
+  plan.most_window =
+      (sample.aligned > kAlignedShare ? kInStepAligned : kInStep) * precision / limits.tighten;
   plan.mean_error = std::max(precision, kRounding);
   plan.rounding = 4 * kRounding * c00 / sample.scale;
   const double unit = lumping_error(degree);
   // Half of the squares for lumps, half for nodes.
   const double lumps = plan.rules * std::sqrt(0.5) / unit;
-  double tolerance2 = tolerance_of(sample, lumps * lumps);
+  plan.in_step = neighbours_in_step(std::pow(degree * sample.angle, 2));
+  double tolerance2 = tolerance_of(sample, std::pow(lumps / plan.in_step, 2));
   if (!sample.entries.empty() && tolerance2 < sample.entries.back().error2) {
     // The measured energy may be too low by its scatter. What is four times as bad as all of the
     // sample gets nodes.
     const double coherence = kScatter * error_coherence(mesh, center, sample.scale, degree);
     if (coherence * face_error2(sample) <= lumps * lumps) {
       plan.coherence = coherence;
+      plan.in_step = 1;  // it has been measured
       tolerance2 = 16 * sample.entries.back().error2;
     }
   }
   double nodes = 0;
   for (const MeshSample::Entry& entry : sample.entries) nodes += entry.error2 > tolerance2;
   plan.source2 = source2_of(sample);
-  plan.node_share = nodes / static_cast<double>(std::max<std::size_t>(sample.entries.size(), 1));
+  plan.node_share =
+      limits.many_nodes
+          ? 1
+          : nodes / static_cast<double>(std::max<std::size_t>(sample.entries.size(), 1));
   const double vertices = static_cast<double>(mesh.n_vertices);
-  plan.single = kSingleNoise * std::sqrt(plan.source2 / (4 * kPi)) < 0.3 * plan.window;
-  // Rounding to quanta, six corners a vertex, adds variance q^2 / 2 to each vertex.
-  const double noise = kQuantumShare * budget * std::sqrt(8 * kPi / vertices);
+  plan.single =
+      !limits.forbid_single &&
+      single_rounding(degree, 1) * std::sqrt(plan.source2 / (4 * kPi)) < 0.3 * plan.window &&
+      kSingleInStep * moduli_of(sample) < plan.window;
+  // Rounding to quanta adds variance q^2 / 12 at two corners of a triangle and twice that at the
+  // third: at six corners a vertex 2/3 q^2.
+  const double noise = kQuantumShare * budget * std::sqrt(6 * kPi / vertices);
   const double quantum = std::exp2(std::floor(std::log2(noise)) - (plan.single ? 0 : 6));
   plan.block = {.center = center,
                 .scale = sample.scale,
@@ -287,7 +333,8 @@ MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& c
 double rule_error(const MeshPlan& plan, double lumped2, double noded) {
   const double unit = lumping_error(plan.divided.degree);
   const double element = kTypicalShare * plan.divided.error;
-  return plan.few * std::sqrt(unit * unit * lumped2 + kElements * noded * element * element);
+  const double lumps = unit * plan.in_step;
+  return plan.caution * std::sqrt(lumps * lumps * lumped2 + kElements * noded * element * element);
 }
 
 double quantum_error(const MeshPlan& plan) { return plan.rules * kQuantumShare / kRuleShare; }

@@ -34,17 +34,19 @@ struct MeshSample {
   double mean = 0;        // of r over directions
   double norm = 0;        // sqrt(int (r - mean)^2 dOmega)
   double share = 1;       // triangles of the mesh per triangle of the sample
-  double covers = 0;      // solid angle of the whole mesh / 4 pi, to some per cent
   bool overlaps = false;  // some faces turn their back
+  double angle = 0;       // of an edge as seen from the centre, on average
+  double aligned = 0;     // share of the edges, by weight, along meridians or parallels
 };
 MeshSample sample_mesh(const MeshView& mesh, const Vec3& center, int degree);
 
 struct MeshPlan {
   BlockParameters block;
   NodeAllowance divided, undivided;
-  double rules = 0;   // error the rules may leave, l2, scaled length
-  double few = 1;     // what the errors of few elements, or few degrees, may exceed the model by
-  double window = 0;  // and the windows of the transform
+  double rules = 0;    // error the rules may leave, l2, scaled length
+  double caution = 1;  // what the rules' errors may exceed the model by
+  double in_step = 1;  // see neighbours_in_step(), of lumped triangles
+  double window = 0;   // and the windows of the transform
   // Their error in any case: a mesh whose vertices lie in lattice lines may be in step with the
   // grid, then the error is of the size of the low degrees themselves, not of random sums.
   double most_window = 0;
@@ -57,9 +59,14 @@ struct MeshPlan {
   double coherence = 0;
   double rounding = 0;  // what double precision leaves at best, in the mesh's unit
 };
-// `tighten` divides what is allowed: more than 1 for a second try.
+// What a first try has taught.
+struct PlanLimits {
+  double tighten = 1;  // divides what is allowed
+  bool forbid_single = false;
+  bool many_nodes = false;  // more than the sample said
+};
 MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& center, int degree,
-                   double precision, double tighten);
+                   double precision, const PlanLimits& limits);
 
 // Sum of squares of W z^4 over all edges between lumped triangles, from the sample of half-edges
 // the pass took. Sorts it.
@@ -71,10 +78,6 @@ double rule_error(const MeshPlan& plan, double lumped2, double noded);
 
 // What rounding of lumps to quanta leaves, l2, scaled length.
 double quantum_error(const MeshPlan& plan);
-
-// What rounding of directions and windows to single precision leaves of sources of unit sum of
-// squares / 4 pi, divided by l(l+1) (measured).
-inline constexpr double kSingleNoise = 4e-7;
 
 // The window error that keeps the plan's share for sources whose squared weights have that sum.
 double window_error(const MeshPlan& plan, double source2);

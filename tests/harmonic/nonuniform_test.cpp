@@ -136,8 +136,7 @@ NonuniformPlan plan_of(int degree, int width, double sigma, int derivatives, boo
   const double wanted = std::max(32.0, std::ceil(2 * sigma * degree));
   const std::size_t points = smooth_length(static_cast<std::size_t>(wanted), 4);
   NonuniformPlan plan;
-  plan.fourier = sphere_fourier(
-      degree, grid_layout(width, points, points, single ? sizeof(float) : sizeof(double)));
+  plan.fourier = sphere_fourier(degree, grid_layout(width, points, points));
   plan.single = single;
   plan.polar_sine = static_cast<double>(derivatives) / std::max(degree, 1);
   return plan;
@@ -214,7 +213,8 @@ TEST(nonuniform, sources_of_all_kinds_add_up) {
   EXPECT_LT(distance(together, apart), 1e-9 * norm_of(apart.values()));
 }
 
-// Single precision adds what it is said to add, for every padded width.
+// Single precision adds what it is said to add, for every padded width; next to the poles it takes
+// differences over wider steps, which narrow windows answer with a few per cent more error.
 TEST(nonuniform, single_precision_keeps_its_rounding_error) {
   for (const int L : {16, 64, 180}) {
     const Problem problem(L, 400);
@@ -223,7 +223,7 @@ TEST(nonuniform, single_precision_keeps_its_rounding_error) {
         const double rounded =
             problem.adjoint_error(plan_of(L, width, 2, derivatives, true), derivatives);
         const double exact = problem.adjoint_error(plan_of(L, width, 2, derivatives), derivatives);
-        EXPECT_LT(rounded, std::hypot(1.02 * exact, 1.4 * single_rounding(L))) << L << " " << width;
+        EXPECT_LT(rounded, std::hypot(1.05 * exact, 1.4 * single_rounding(L))) << L << " " << width;
       }
     }
   }

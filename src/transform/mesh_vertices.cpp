@@ -1,0 +1,192 @@
+#include "transform/mesh_vertices.h"
+
+#include <algorithm>
+#include <cstring>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "transform/mesh_vertices.cpp"
+#include <hwy/foreach_target.h>
+
+#include <hwy/highway.h>
+
+#include "shape/corner_rows-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace rholm {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+struct Lumps {
+  V weight, x, y, z;
+};
+HWY_INLINE Lumps load_lumps(D d, const VertexLump<double>* from) {
+  Lumps l;
+  hn::LoadInterleaved4(d, from->value, l.weight, l.x, l.y, l.z);
+  return l;
+}
+HWY_INLINE Lumps load_lumps(D d, const VertexLump<std::int32_t>* from) {
+  const hn::Rebind<std::int32_t, D> di;
+  hn::Vec<decltype(di)> w, x, y, z;
+  hn::LoadInterleaved4(di, from->value, w, x, y, z);
+  return {hn::PromoteTo(d, w), hn::PromoteTo(d, x), hn::PromoteTo(d, y), hn::PromoteTo(d, z)};
+}
+
+HWY_INLINE void store_as(D d, V v, double* to) { hn::Store(v, d, to); }
+HWY_INLINE void store_as(D, V v, float* to) {
+  const hn::Rebind<float, D> df;
+  hn::Store(hn::DemoteTo(df, v), df, to);
+}
+
+template <typename Scalar, typename L, typename T>
+HWY_INLINE void load_any(const MeshView& mesh, std::size_t first, std::size_t n,
+                         const BlockParameters& p, const VertexLump<L>* lumps,
+                         SourceBatch<T>& batch) {
+  const D d;
+  constexpr std::size_t kLanes = hn::MaxLanes(D());
+  // Vertices one after the other are corners of "triangles" whose indices follow each other.
+  std::uint32_t indices[kVerticesPerBlock];
+  for (std::size_t j = 0; j < n; ++j) indices[j] = static_cast<std::uint32_t>(first + j);
+  MeshView view = mesh;
+  view.triangle_stride = sizeof(std::uint32_t);
+  const auto* const at = reinterpret_cast<const std::byte*>(indices);
+  // Rows of floats are read with 4 bytes more.
+  const std::size_t readable = mesh.n_vertices - (sizeof(Scalar) == sizeof(float)) - first;
+  const V scale = hn::Set(d, p.scale), zero = hn::Zero(d);
+  const V x0 = hn::Set(d, p.center.x), y0 = hn::Set(d, p.center.y), z0 = hn::Set(d, p.center.z);
+  const V weight = hn::Set(d, 1 / p.per_weight), slope = hn::Set(d, 1 / p.per_gradient);
+  for (std::size_t j = 0; j < n; j += kLanes) {
+    const Vector3 v = kWholeVectors && j + kLanes <= HWY_MIN(n, readable)
+                          ? LoadWhole(d, view, at + 4 * j, Scalar())
+                          : LoadFew<Scalar>(d, view, at + 4 * j, HWY_MIN(kLanes, n - j));
+    const Lumps l = load_lumps(d, lumps + j);
+    const auto nothing = hn::And(hn::And(hn::Eq(l.weight, zero), hn::Eq(l.x, zero)),
+                                 hn::And(hn::Eq(l.y, zero), hn::Eq(l.z, zero)));
+    const auto position = [&](V at_file, V origin, double otherwise) HWY_ATTR {
+      return hn::IfThenElse(nothing, hn::Set(d, otherwise),
+                            hn::Mul(scale, hn::Sub(at_file, origin)));
+    };
+    hn::Store(position(v.x, x0, 1), d, batch.x[0] + j);
+    hn::Store(position(v.y, y0, 0), d, batch.x[1] + j);
+    hn::Store(position(v.z, z0, 0), d, batch.x[2] + j);
+    store_as(d, hn::Mul(weight, l.weight), batch.value + j);
+    store_as(d, hn::Mul(slope, l.x), batch.gradient[0] + j);
+    store_as(d, hn::Mul(slope, l.y), batch.gradient[1] + j);
+    store_as(d, hn::Mul(slope, l.z), batch.gradient[2] + j);
+  }
+}
+
+template <typename L, typename T>
+HWY_INLINE void load_by_type(const MeshView& mesh, std::size_t first, std::size_t n,
+                             const BlockParameters& p, const VertexLump<L>* lumps,
+                             SourceBatch<T>& batch) {
+  if (mesh.coordinate == ScalarType::kFloat32) {
+    load_any<float>(mesh, first, n, p, lumps, batch);
+  } else {
+    load_any<double>(mesh, first, n, p, lumps, batch);
+  }
+}
+
+void LoadSingle(const MeshView& mesh, std::size_t first, std::size_t n, const BlockParameters& p,
+                const VertexLump<std::int32_t>* lumps, SourceBatch<float>& batch) {
+  load_by_type(mesh, first, n, p, lumps, batch);
+}
+void LoadDouble(const MeshView& mesh, std::size_t first, std::size_t n, const BlockParameters& p,
+                const VertexLump<double>* lumps, SourceBatch<double>& batch) {
+  load_by_type(mesh, first, n, p, lumps, batch);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace rholm
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace rholm {
+
+HWY_EXPORT(LoadSingle);
+HWY_EXPORT(LoadDouble);
+
+void load_vertices(const MeshView& mesh, std::size_t first, std::size_t n,
+                   const BlockParameters& parameters, const VertexLump<std::int32_t>* lumps,
+                   SourceBatch<float>& batch) {
+  HWY_DYNAMIC_DISPATCH(LoadSingle)(mesh, first, n, parameters, lumps, batch);
+}
+void load_vertices(const MeshView& mesh, std::size_t first, std::size_t n,
+                   const BlockParameters& parameters, const VertexLump<double>* lumps,
+                   SourceBatch<double>& batch) {
+  HWY_DYNAMIC_DISPATCH(LoadDouble)(mesh, first, n, parameters, lumps, batch);
+}
+
+namespace {
+
+constexpr std::size_t kVectorLanes = 8;  // lumps are read so many at a time
+
+std::int32_t sum_of(std::int32_t a, std::int32_t b) {  // modulo 2^32
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
+}
+double sum_of(double a, double b) { return a + b; }
+
+template <typename L>
+LumpSums sum_any(const VertexLump<L>* lumps, std::size_t n) {
+  LumpSums sums;
+  for (std::size_t i = 0; i < n; ++i) {
+    double v[4];
+    for (int k = 0; k < 4; ++k) v[k] = static_cast<double>(lumps[i].value[k]);
+    sums.weight += v[0];
+    sums.weight2 += v[0] * v[0];
+    sums.gradient2 += v[1] * v[1] + v[2] * v[2] + v[3] * v[3];
+  }
+  return sums;
+}
+
+}  // namespace
+
+void LumpSums::add(const LumpSums& other) {
+  weight += other.weight;
+  weight2 += other.weight2;
+  gradient2 += other.gradient2;
+}
+
+LumpSums sum_lumps(const VertexLump<std::int32_t>* lumps, std::size_t n) {
+  return sum_any(lumps, n);
+}
+LumpSums sum_lumps(const VertexLump<double>* lumps, std::size_t n) { return sum_any(lumps, n); }
+
+template <typename L>
+std::unique_ptr<typename LumpArrays<L>::Array> LumpArrays<L>::take() {
+  const std::lock_guard lock(mutex_);
+  if (!free_.empty()) {
+    std::unique_ptr<Array> array = std::move(free_.back());
+    free_.pop_back();
+    return array;
+  }
+  auto array = std::make_unique<Array>(n_vertices_ + kVectorLanes);
+  std::memset(static_cast<void*>(array->data()), 0, array->size() * sizeof(VertexLump<L>));
+  return array;
+}
+
+template <typename L>
+void LumpArrays<L>::give_back(std::unique_ptr<Array> array) {
+  const std::lock_guard lock(mutex_);
+  free_.push_back(std::move(array));
+}
+
+template <typename L>
+const VertexLump<L>* LumpArrays<L>::sums(std::size_t first, std::size_t n,
+                                         VertexLump<L>* room) const {
+  if (free_.size() == 1) return free_[0]->data() + first;
+  const std::size_t padded = (n + kVectorLanes - 1) / kVectorLanes * kVectorLanes;
+  std::memcpy(room, free_[0]->data() + first, padded * sizeof(VertexLump<L>));
+  for (std::size_t a = 1; a < free_.size(); ++a) {
+    const VertexLump<L>* more = free_[a]->data() + first;
+    for (std::size_t i = 0; i < n; ++i) {
+      for (int k = 0; k < 4; ++k) room[i].value[k] = sum_of(room[i].value[k], more[i].value[k]);
+    }
+  }
+  return room;
+}
+
+template class LumpArrays<std::int32_t>;
+template class LumpArrays<double>;
+
+}  // namespace rholm
+#endif  // HWY_ONCE

@@ -1,0 +1,59 @@
+// Lumps of vertices, and their way to the grid: the inner loops of the mesh pass's second half.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "base/aligned_array.h"
+#include "harmonic/spread.h"
+#include "rholm/mesh_view.h"
+#include "transform/mesh_block.h"
+
+namespace rholm {
+
+// Vertices worked on together: as many as a batch takes.
+inline constexpr std::size_t kVerticesPerBlock = SourceBatch<double>::kSize;
+
+// Arrays of lumps, one a thread. Sums of lumps are exact in any order: a thread takes any array
+// that is free.
+template <typename L>
+class LumpArrays {
+ public:
+  using Array = AlignedArray<VertexLump<L>>;
+  explicit LumpArrays(std::size_t n_vertices) : n_vertices_(n_vertices) {}
+  std::unique_ptr<Array> take();
+  void give_back(std::unique_ptr<Array> array);
+  // The sums of all arrays for n <= kVerticesPerBlock vertices from `first` on, which may be in
+  // `room`; zeros beyond the last vertex of the mesh.
+  const VertexLump<L>* sums(std::size_t first, std::size_t n, VertexLump<L>* room) const;
+
+ private:
+  std::size_t n_vertices_;
+  std::vector<std::unique_ptr<Array>> free_;
+  std::mutex mutex_;
+};
+
+// Of lumps, in quanta.
+struct LumpSums {
+  double weight = 0;     // their sum
+  double weight2 = 0;    // sum of squares of weights
+  double gradient2 = 0;  // and of gradients
+
+  void add(const LumpSums& other);
+};
+LumpSums sum_lumps(const VertexLump<std::int32_t>* lumps, std::size_t n);
+LumpSums sum_lumps(const VertexLump<double>* lumps, std::size_t n);
+
+// Sources of n <= kVerticesPerBlock vertices from `first` on, whose lumps are given, eight at a
+// time: read up to a multiple of that. Vertices without a lump may lie anywhere.
+void load_vertices(const MeshView& mesh, std::size_t first, std::size_t n,
+                   const BlockParameters& parameters, const VertexLump<std::int32_t>* lumps,
+                   SourceBatch<float>& batch);
+void load_vertices(const MeshView& mesh, std::size_t first, std::size_t n,
+                   const BlockParameters& parameters, const VertexLump<double>* lumps,
+                   SourceBatch<double>& batch);
+
+}  // namespace rholm
