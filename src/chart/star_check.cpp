@@ -186,8 +186,7 @@ void require_center_near(const UnitFrame& frame, const Vec3& center) {
                           center.x, center.y, center.z, kFarthest));
 }
 
-}  // namespace
-
+// Whether a surface whose faces all turn outwards meets every direction once.
 bool covers_once(const LocalView& view, const Vec3& center, const Context& context) {
   // Eight directions in general position (chosen): all of them on edges would be a coincidence
   // that only a mesh finer than rounding brings about.
@@ -197,6 +196,8 @@ bool covers_once(const LocalView& view, const Vec3& center, const Context& conte
   }
   return false;
 }
+
+}  // namespace
 
 StarReport check_star(const LocalView& view, const Vec3& center, int rays, const Context& context) {
   require_center_near(view.frame, center);

@@ -22,8 +22,4 @@ FoundCenter search_center(const LocalView& view, const CenterOptions& options,
 // check_star() of rholm/star.h.
 StarReport check_star(const LocalView& view, const Vec3& center, int rays, const Context& context);
 
-// Whether the faces, all with d_T > 0 seen from the centre (in the shape's coordinates), cover
-// every direction once: one that meets no edge tells it.
-bool covers_once(const LocalView& view, const Vec3& center, const Context& context);
-
 }  // namespace rholm

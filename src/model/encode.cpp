@@ -10,6 +10,7 @@
 #include "rholm/mapped_mesh.h"
 #include "rholm/model.h"
 #include "rholm/shape_io.h"
+#include "transform/exact_norms.h"
 #include "transform/mesh_pass.h"
 
 namespace rholm {
@@ -87,13 +88,14 @@ std::optional<Encoded> encode_as_it_lies(const MeshView& mesh, const EncodeOptio
   MeshPassResult pass =
       timed(encoded.times, "transform", [&] { return mesh_pass(mesh, wanted, context); });
   if (!pass.closed || !(pass.volume > 0) || pass.bad_triangles > 0) return std::nullopt;
-  // Faces that all turn outwards cover every direction equally often: a second sheet may have few.
-  if (!covers_once(local_view(mesh, context), *center, context)) return std::nullopt;
-  encoded.star = star_report(pass, *center);
   Analysis& analysis = encoded.analysis;
+  const ExactNorms norms =
+      timed(analysis.times, "norms", [&] { return exact_norms(mesh, *center, context); });
+  // Faces that all turn outwards cover every direction equally often: a second sheet may have few.
+  if (!covers_once(norms)) return std::nullopt;
+  encoded.star = star_report(pass, *center);
   set_pass(pass, analysis);
-  analysis.expansion.norm_squared =
-      timed(analysis.times, "norms", [&] { return radius_norm_squared(mesh, *center, context); });
+  analysis.expansion.norm_squared = norms.radius_squared;
   // Beyond, edges are too many to be kept waiting, and as a rule so short that their jumps say
   // nothing of the tail (method 5).
   constexpr std::size_t kMostPaired = std::size_t{1} << 18;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/compensated_sum.h"
+#include "chart/view_scan.h"
 #include "rholm/error.h"
 #include "shape/face.h"
 
@@ -42,9 +43,13 @@ Vec3 second_moment(const std::array<Vec3, 3>& corners, double omega, const Vec3&
 
 double unit_scale(const MeshView& mesh, const Vec3& center) {
   double largest = 0;
-  for (std::size_t i = 0; i < mesh.n_vertices; ++i) {
-    const Vec3 v = mesh.vertex(i) - center;
-    largest = std::max({largest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  if (mesh.n_vertices > 0) {
+    const VertexRange range = vertex_range(mesh, 0, mesh.n_vertices);
+    if (!range.finite) validate(mesh);  // throws, and says which
+    const double c[3] = {center.x, center.y, center.z};
+    for (int k = 0; k < 3; ++k) {
+      largest = std::max({largest, std::abs(range.min[k] - c[k]), std::abs(range.max[k] - c[k])});
+    }
   }
   // Between these the scale, its square and what is scaled back stay normal numbers.
   if (!(largest > 1e-150 && largest < 1e150)) {

@@ -1,0 +1,44 @@
+// What one pass over the triangles knows exactly: int r^2 dOmega, the solid angle, the volume.
+//
+// Source: method 5, (M7). Per triangle, <> the mean over its flat area, d2 = twice the area times
+// d_T = six times the volume of its cone,
+//   int_T r^2 dOmega = d_T Phi_T = d2/2 <1/|x|>,        Omega_T = d2/2 <1/|x|^3>.
+// (M7)'s logarithms cancel on small triangles, where cubature of the means has nothing to cancel:
+// vectors of triangles that are small as seen from the centre take a rule of degree 5 or 8 on
+// series of the two powers, the few others their closed forms or cubature of pieces. Relative error
+// of a triangle's two means: below 1e-14 (bounds: exact_norms_rules.h); measured for whole
+// surfaces, needles and rods among them: 2e-16. Needles longer than their distance may lose more,
+// 1e-16 of that distance against their height.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "rholm/context.h"
+#include "rholm/mesh_view.h"
+
+namespace rholm {
+
+struct ExactNorms {
+  double radius_squared = 0;  // int r^2 dOmega of a star-shaped surface
+  double solid_angle = 0;     // 4 pi times how often a closed surface surrounds the centre
+  double volume = 0;          // enclosed
+};
+// Signs are those of d_T. Same bits for any number of threads. Throws InvalidInput for an index out
+// of range, a coordinate that is not finite, and a size from the centre outside 1e-150 ... 1e150.
+ExactNorms exact_norms(const MeshView& mesh, const Vec3& center, const Context& context = {});
+
+// Whether a closed surface whose triangles all have d_T > 0 meets every direction once.
+bool covers_once(const ExactNorms& norms);
+
+// Sums over triangles, lengths as they come, without the factors of the triangle's cone.
+struct NormSums {
+  double first = 0;    // of d2 <1/|x|>
+  double third = 0;    // of d2 <1/|x|^3>
+  double volume6 = 0;  // of d2
+};
+// One triangle of any size, by (M7) or, where that cancels, by cubature of pieces; corners relative
+// to the centre and below about 1e70. Nothing for a triangle without area.
+NormSums norms_of_triangle(const std::array<Vec3, 3>& corners);
+
+}  // namespace rholm
