@@ -16,6 +16,7 @@
 #include "rholm/mesh.h"
 #include "rholm/mesh_view.h"
 #include "rholm/model.h"
+#include "rholm/monte_carlo.h"
 #include "rholm/primitives.h"
 #include "rholm/render.h"
 #include "rholm/shape_io.h"

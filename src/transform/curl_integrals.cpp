@@ -27,26 +27,6 @@ double arc_tangent_ratio(double z, double one_plus_z) {
   return 0.5 * std::log((1 + root) * (1 + root) / one_plus_z) / root;
 }
 
-// With eps = (C-rho)/(C+rho) and T = tan(psi/2): K_0 = 2 T f(eps T^2) / (C+rho), and
-// 1 + eps T^2 = D(psi) (1 + T^2) / (C+rho). For C > rho one turn of psi adds 2 pi /
-// sqrt(C^2-rho^2).
-double integral_of_order_zero(double C, double rho, double psi, double end_value) {
-  const double turns = std::round(psi / (2 * std::numbers::pi));
-  const double rest = psi - turns * 2 * std::numbers::pi;
-  double whole = 0;
-  if (turns != 0) whole = turns * 2 * std::numbers::pi / std::sqrt((C - rho) * (C + rho));
-  const double c = std::cos(rest / 2), s = std::sin(rest / 2);
-  const double eps = (C - rho) / (C + rho);
-  if (std::abs(c) < 1e-3) {
-    // T is infinite or nearly: only C > rho reaches it. atan(sqrt(eps) s/c) without the quotient.
-    return whole + 2 / std::sqrt((C - rho) * (C + rho)) *
-                       std::copysign(std::atan2(std::sqrt(eps) * std::abs(s), std::abs(c)), rest);
-  }
-  const double t = s / c;
-  const double one_plus_z = end_value / (c * c * (C + rho));
-  return whole + 2 * t / (C + rho) * arc_tangent_ratio(eps * t * t, one_plus_z);
-}
-
 Complex right_side(int m, double psi) {
   if (m == 0) return psi;
   const double x = m * psi;
@@ -93,9 +73,29 @@ void solve_tridiagonal(double C, double rho, double psi, double end_value, doubl
 
 }  // namespace
 
+// With eps = (C-rho)/(C+rho) and T = tan(psi/2): K_0 = 2 T f(eps T^2) / (C+rho), and
+// 1 + eps T^2 = D(psi) (1 + T^2) / (C+rho). For C > rho one turn of psi adds 2 pi /
+// sqrt(C^2-rho^2).
+double curl_integral_of_order_zero(double C, double rho, double psi, double end_value) {
+  const double turns = std::round(psi / (2 * std::numbers::pi));
+  const double rest = psi - turns * 2 * std::numbers::pi;
+  double whole = 0;
+  if (turns != 0) whole = turns * 2 * std::numbers::pi / std::sqrt((C - rho) * (C + rho));
+  const double c = std::cos(rest / 2), s = std::sin(rest / 2);
+  const double eps = (C - rho) / (C + rho);
+  if (std::abs(c) < 1e-3) {
+    // T is infinite or nearly: only C > rho reaches it. atan(sqrt(eps) s/c) without the quotient.
+    return whole + 2 / std::sqrt((C - rho) * (C + rho)) *
+                       std::copysign(std::atan2(std::sqrt(eps) * std::abs(s), std::abs(c)), rest);
+  }
+  const double t = s / c;
+  const double one_plus_z = end_value / (c * c * (C + rho));
+  return whole + 2 * t / (C + rho) * arc_tangent_ratio(eps * t * t, one_plus_z);
+}
+
 void curl_integrals(double C, double rho, double psi, double end_value, std::span<Complex> out) {
   if (out.empty()) return;
-  const double k0 = integral_of_order_zero(C, rho, psi, end_value);
+  const double k0 = curl_integral_of_order_zero(C, rho, psi, end_value);
   double log_lambda = 0;  // |lambda| = 1 for |C| <= rho
   if (C > rho) {
     log_lambda = rho > 0 ? std::log((C + std::sqrt((C - rho) * (C + rho))) / rho) : INFINITY;

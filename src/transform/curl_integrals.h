@@ -13,4 +13,7 @@ namespace rholm {
 void curl_integrals(double C, double rho, double psi, double end_value,
                     std::span<std::complex<double>> out);
 
+// K_0 alone.
+double curl_integral_of_order_zero(double C, double rho, double psi, double end_value);
+
 }  // namespace rholm
