@@ -33,7 +33,7 @@ constexpr double kAlignedShare = 0.005;  // chosen: of the edges
 
 // What windows in single precision leave of sources in step, relative to the sum of the moduli of
 // their weights (6e-10 measured on boxes of a million faces).
-constexpr double kSingleInStep = 1.5e-9;
+constexpr double kSingleInStep = 9e-10;
 
 // Rounding of the double sums against c_00, as in the direct engine.
 constexpr double kRounding = 1e-15;
