@@ -154,6 +154,26 @@ std::optional<SurfaceMeasures> measures_of(const Expansion& expansion, Session& 
   }
 }
 
+std::string errors_text(const TruncationErrors& errors) {
+  const auto length = [&](double value) {
+    return errors.diagonal > 0 ? fmt::format("{} ({} of the diagonal)", text_of(value),
+                                             text_of(value / errors.diagonal))
+                               : text_of(value);
+  };
+  std::string text;
+  const auto add = [&](const char* name, const std::optional<double>& value, const char* how) {
+    if (value) text += line(name, length(*value) + how);
+  };
+  add("radial error", errors.rms,
+      errors.rms_is_exact ? " rms over solid angle, exact" : " rms over solid angle, measured");
+  add("", errors.measured_max, " at most, measured");
+  add("", errors.predicted_max, " at most at vertices, predicted");
+  add("distance", errors.distance_rms, " rms over area, measured");
+  add("", errors.measured_max_distance, " at most, measured");
+  add("", errors.predicted_max_distance, " at most at vertices, predicted");
+  return text;
+}
+
 int report_coefficients(const Options& options, const CoefficientsFile& file, Session& session) {
   const Expansion& expansion = file.expansion;
   const bool model = options.input != "-" && is_model_file(options.input);
@@ -175,6 +195,8 @@ int report_coefficients(const Options& options, const CoefficientsFile& file, Se
   json["assumed"] = file.assumed;
   json["norm_squared"] = json_of(expansion.norm_squared);
   json["tail_strength"] = json_of(expansion.tail_strength);
+  json["errors"] = json_of(expansion.errors);
+  json["diagonal"] = expansion.errors ? Json(expansion.errors->diagonal) : Json(nullptr);
   json["volume"] = measures ? Json(measures->volume) : Json(nullptr);
   json["area"] = measures ? Json(measures->area) : Json(nullptr);
   json["volume_centroid"] = measures ? json_of(measures->centroid) : Json(nullptr);
@@ -191,6 +213,7 @@ int report_coefficients(const Options& options, const CoefficientsFile& file, Se
     text += line("area", text_of(measures->area));
     text += line("volume centroid", text_of(measures->centroid));
   }
+  if (expansion.errors) text += errors_text(*expansion.errors);
   options.json ? print_json(json) : print_text(text);
   return 0;
 }

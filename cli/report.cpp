@@ -39,6 +39,17 @@ Option json_option(bool& json) {
   return {.name = "json", .help = "the report as JSON on standard output", .target = &json};
 }
 
+Json json_of(const TruncationErrors& errors) {
+  return {{"rms", json_of(errors.rms)},
+          {"rms_is_exact", errors.rms_is_exact},
+          {"predicted_max", json_of(errors.predicted_max)},
+          {"predicted_max_distance", json_of(errors.predicted_max_distance)},
+          {"measured_max", json_of(errors.measured_max)},
+          {"measured_max_distance", json_of(errors.measured_max_distance)},
+          {"distance_rms", json_of(errors.distance_rms)},
+          {"points", errors.points}};
+}
+
 void print_json(const Json& json) {
   // Names of files may hold any bytes: those that are not UTF-8 are replaced.
   print_text(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");

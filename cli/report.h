@@ -19,9 +19,13 @@ using Json = nlohmann::ordered_json;
 Json json_of(const Vec3& v);  // [x, y, z]
 Json json_of(const Bounds& bounds);
 Json json_of(const std::vector<Attribute>& attributes);
+Json json_of(const TruncationErrors& errors);
 template <typename T>
 Json json_of(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
+}
+inline Json json_of(const std::optional<TruncationErrors>& errors) {
+  return errors ? json_of(*errors) : Json(nullptr);
 }
 
 // "--json" itself.

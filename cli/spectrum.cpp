@@ -24,6 +24,7 @@ struct Options {
   std::string input;
   std::string output;
   std::string format;
+  std::optional<double> tolerance;
   bool json = false;
 };
 
@@ -64,6 +65,14 @@ std::string csv(const Spectrum& s) {
   return table(s, "{},{},{},{}\n", "degree,energy,cumulative,rms_beyond\n");
 }
 
+// The smallest degree beyond which no more than the tolerance is left.
+std::optional<int> degree_within(const Spectrum& s, double tolerance) {
+  for (std::size_t l = 0; l < s.rms_beyond.size(); ++l) {
+    if (s.rms_beyond[l] <= tolerance) return static_cast<int>(l);
+  }
+  return std::nullopt;
+}
+
 Json report_json(const Options& options, const Expansion& expansion, const Spectrum& s) {
   Json json;
   json["file"] = options.input;
@@ -73,6 +82,8 @@ Json report_json(const Options& options, const Expansion& expansion, const Spect
   json["cumulative"] = s.cumulative;
   json["rms_beyond"] = s.rms_beyond;
   json["rms_beyond_includes_tail"] = s.includes_tail;
+  json["tolerance"] = json_of(options.tolerance);
+  if (options.tolerance) json["tolerance_degree"] = json_of(degree_within(s, *options.tolerance));
   json["norm_squared"] = json_of(expansion.norm_squared);
   json["tail_strength"] = json_of(expansion.tail_strength);
   return json;
@@ -96,7 +107,8 @@ int run(const Options& options, Session& session) {
   const Spectrum spectrum = spectrum_of(expansion);
   if (!format.empty()) {
     const std::string title = std::filesystem::path(options.input).filename().string();
-    const std::string text = format == "svg" ? spectrum_svg(expansion, title) : csv(spectrum);
+    const std::string text =
+        format == "svg" ? spectrum_svg(expansion, title, options.tolerance) : csv(spectrum);
     stop_if_interrupted();
     write_file(options.output, text);
   }
@@ -110,6 +122,12 @@ int run(const Options& options, Session& session) {
         spectrum.includes_tail ? "" : ", within the file's own degrees", "degree", "energy",
         "cumulative", "rms beyond");
     print_text(table(spectrum, "{:>6} {:>14.7g} {:>14.7g} {:>14.7g}\n", heading));
+    if (options.tolerance) {
+      const std::optional<int> degree = degree_within(spectrum, *options.tolerance);
+      print_text(degree ? fmt::format("# within {} from degree {} on\n",
+                                      text_of(*options.tolerance), *degree)
+                        : fmt::format("# never within {}\n", text_of(*options.tolerance)));
+    }
   }
   return 0;
 }
@@ -136,8 +154,15 @@ Command spectrum_command() {
                                     "output",
                                     false),
                       format_option(options->format, {"svg", "csv"}),
+                      {.name = "tolerance",
+                       .value = "E",
+                       .help = "rms over solid angle to draw and to find the degree of, in the "
+                               "shape's unit",
+                       .target = &options->tolerance,
+                       .min = 1e-300},
                       json_option(options->json)},
-          .examples = {"rholm spectrum bumpy.h5", "rholm spectrum bumpy.h5 -o spectrum.svg"},
+          .examples = {"rholm spectrum bumpy.h5",
+                       "rholm spectrum bumpy.h5 --tolerance 1e-3 -o spectrum.svg"},
           .run = [options](Session& session) { return run(*options, session); }};
 }
 

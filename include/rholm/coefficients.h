@@ -51,6 +51,23 @@ enum class RadialFunction { kRadius, kGauge };                  // r, or q = 1/r
 const char* to_string(RadialFunction function);                 // "radius", "gauge"
 RadialFunction parse_radial_function(const std::string& name);  // throws InvalidInput
 
+// How far the surface of an expansion is from the shape it was made of, in the unit of lengths;
+// empty where it is not known. Radial errors are |r - r_L| along directions from the centre,
+// distances those between the surfaces, to first order (radial error times cos gamma, method 5).
+struct TruncationErrors {
+  std::optional<double> rms;  // radial, over solid angle
+  bool rms_is_exact = false;  // by Parseval (M7), not measured
+  // Radial, at the vertices, in closed form (method 5), where edges are long against 1/L.
+  std::optional<double> predicted_max;
+  std::optional<double> predicted_max_distance;
+  // At `points` points of the shape: its vertices, and more where faces are long against 1/L.
+  std::optional<double> measured_max;
+  std::optional<double> measured_max_distance;
+  std::optional<double> distance_rms;  // over area, the larger of both ways
+  std::size_t points = 0;
+  double diagonal = 0;  // of the shape's bounding box; 0 if unknown
+};
+
 // A surface as coefficients: what a model file holds.
 struct Expansion {
   Coefficients coefficients;
@@ -63,6 +80,8 @@ struct Expansion {
   std::optional<double> norm_squared;
   // S of the predicted tail E_l ~ S / (pi l^4), method 5.
   std::optional<double> tail_strength;
+  // Of all its degrees; they do not hold when it is cut off.
+  std::optional<TruncationErrors> errors = {};
 };
 
 // How numbers of a file are scaled. Factors are relative to the orthonormal basis: 4-pi

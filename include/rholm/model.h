@@ -15,17 +15,29 @@
 #include "rholm/mesh.h"
 #include "rholm/star.h"
 #include "rholm/topology.h"
+#include "rholm/truncation.h"
 
 namespace rholm {
 
 struct EncodeOptions {
   AnalyzeOptions analyze = {};
+  // The smallest degree that keeps it, instead of analyze.degree.
+  std::optional<Tolerance> tolerance = {};
+  bool errors = true;  // measure and predict them: Expansion::errors of a star-shaped surface
   ChartOptions chart = {};
   double weld_tolerance = 0;  // in the shape's unit; 0 welds bit-identical vertices
 };
 
+// How a tolerance was kept: see ToleranceAnalysis.
+struct ToleranceReport {
+  double allowed = 0, reached = 0;
+  bool met = false;
+  std::vector<int> degrees;
+};
+
 struct Encoded {
   Analysis analysis;
+  std::optional<ToleranceReport> tolerance;
   StarReport star;
   double diagonal = 0;       // of the bounding box
   std::size_t vertices = 0;  // after welding, where that was needed

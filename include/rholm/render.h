@@ -29,9 +29,10 @@ struct RenderOptions {
   Vec3 up = {0, 0, 1};
   int samples = 3;         // per pixel side: samples^2 rays a pixel, 1 ... 16
   int occlusion_rays = 4;  // per sample, 0 ... 256; 0 switches ambient occlusion off
-  // Range of the colour map; by default the range of all scalars. Drawn as a scale bar.
+  // Range of the colour map; by default the range of all scalars.
   std::optional<double> scale_min;
   std::optional<double> scale_max;
+  bool scale_bar = true;  // drawn below the panels, with its label
   std::string scale_label;
 };
 
@@ -40,7 +41,10 @@ Image render(std::span<const Panel> panels, const RenderOptions& options = {},
              const Context& context = {});
 
 // Energy per degree on logarithmic scales as an SVG document, with the predicted tail
-// S / (pi l^4) if the expansion knows it.
-std::string spectrum_svg(const Expansion& expansion, const std::string& title);
+// S / (pi l^4) if the expansion knows it. With a tolerance (rms over solid angle, in the function's
+// unit, above 0) also its energy 4 pi E^2 and, if the norm is known, the energy of all degrees
+// beyond l, which crosses it where the tolerance is kept.
+std::string spectrum_svg(const Expansion& expansion, const std::string& title,
+                         std::optional<double> tolerance = {});
 
 }  // namespace rholm

@@ -23,6 +23,7 @@
 #include "rholm/star.h"
 #include "rholm/synthesize.h"
 #include "rholm/topology.h"
+#include "rholm/truncation.h"
 #include "rholm/vec3.h"
 
 namespace rholm {

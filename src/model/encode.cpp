@@ -12,6 +12,7 @@
 #include "rholm/shape_io.h"
 #include "transform/exact_norms.h"
 #include "transform/mesh_pass.h"
+#include "transform/tolerance.h"
 
 namespace rholm {
 namespace {
@@ -63,6 +64,28 @@ StarReport star_report(const MeshPassResult& pass, const Vec3& center) {
   return report;
 }
 
+// What a search for a degree has found.
+void keep(ToleranceAnalysis found, Encoded& encoded) {
+  encoded.tolerance = ToleranceReport{.allowed = found.allowed,
+                                      .reached = found.reached,
+                                      .met = found.met,
+                                      .degrees = std::move(found.degrees)};
+  const StageTimes times = std::move(encoded.analysis.times);
+  encoded.analysis = std::move(found.analysis);
+  encoded.analysis.times.insert(times.begin(), times.end());
+}
+
+void add_errors(const MeshView& mesh, const EncodeOptions& options, bool predict,
+                const Context& context, Encoded& encoded) {
+  Analysis& analysis = encoded.analysis;
+  const double precision =
+      analysis.fast ? analysis.fast->error : std::min(options.analyze.precision, 1e-8);
+  analysis.expansion.errors = timed(encoded.times, "errors", [&] {
+    return truncation_errors(mesh, analysis.expansion, {.precision = precision, .predict = predict},
+                             context);
+  });
+}
+
 // Everything from the mesh as it lies; none if it is not a closed, outward, star-shaped mesh of
 // triangles: then it must be looked at more closely.
 std::optional<Encoded> encode_as_it_lies(const MeshView& mesh, const EncodeOptions& options,
@@ -82,28 +105,57 @@ std::optional<Encoded> encode_as_it_lies(const MeshView& mesh, const EncodeOptio
   });
   if (!center) return std::nullopt;
   MeshPassOptions wanted = hooks;
-  wanted.degree = options.analyze.degree;
+  wanted.degree = options.tolerance ? first_degree(mesh.n_triangles, *options.tolerance)
+                                    : options.analyze.degree;
   wanted.precision = options.analyze.precision;
   wanted.center = *center;
+  Analysis& analysis = encoded.analysis;
+  // A tolerance decides how precise coefficients must be.
+  std::optional<ExactNorms> norms;
+  const auto find_norms = [&] {
+    norms = timed(analysis.times, "norms", [&] { return exact_norms(mesh, *center, context); });
+  };
+  ToleranceProblem problem;
+  problem.mesh = mesh;
+  problem.center = *center;
+  if (options.tolerance) {
+    find_norms();
+    problem.norm_squared = norms->radius_squared;
+    problem.diagonal = diagonal_of(mesh);
+    problem.precision = options.analyze.precision;
+    wanted.precision = precisions_for(problem, *options.tolerance).pilot;
+  }
   MeshPassResult pass =
       timed(encoded.times, "transform", [&] { return mesh_pass(mesh, wanted, context); });
   if (!pass.closed || !(pass.volume > 0) || pass.bad_triangles > 0) return std::nullopt;
-  Analysis& analysis = encoded.analysis;
-  const ExactNorms norms =
-      timed(analysis.times, "norms", [&] { return exact_norms(mesh, *center, context); });
+  if (!norms) find_norms();
   // Faces that all turn outwards cover every direction equally often: a second sheet may have few.
-  if (!covers_once(norms)) return std::nullopt;
+  if (!covers_once(*norms)) return std::nullopt;
   encoded.star = star_report(pass, *center);
   set_pass(pass, analysis);
-  analysis.expansion.norm_squared = norms.radius_squared;
+  if (options.tolerance) {
+    problem.transform = [&](int degree, double precision) {
+      wanted.degree = degree;
+      wanted.precision = precision;
+      MeshPassResult next = mesh_pass(mesh, wanted, context);
+      Analysis result;
+      set_pass(next, result);
+      return result;
+    };
+    timed(encoded.times, "transform",
+          [&] { keep(search_tolerance(problem, *options.tolerance, analysis, context), encoded); });
+  }
+  analysis.expansion.norm_squared = norms->radius_squared;
   // Beyond, edges are too many to be kept waiting, and as a rule so short that their jumps say
   // nothing of the tail (method 5).
   constexpr std::size_t kMostPaired = std::size_t{1} << 18;
-  if (mesh.n_triangles <= kMostPaired) {
+  const bool paired = mesh.n_triangles <= kMostPaired;
+  if (paired) {
     analysis.expansion.tail_strength =
         timed(analysis.times, "norms", [&] { return tail_strength(mesh, *center); });
   }
   finish_analysis(options.analyze, *center, analysis);
+  if (options.errors) add_errors(mesh, options, paired, context, encoded);
   encoded.diagonal = diagonal_of(mesh);
   encoded.vertices = mesh.n_vertices;
   encoded.faces = mesh.n_triangles;
@@ -173,8 +225,16 @@ Encoded encode(const Mesh& mesh, const EncodeOptions& options, const Context& co
   encoded.merged_vertices = topology.welded.merged_vertices;
   encoded.collapsed_triangles = topology.welded.collapsed_triangles;
   encoded.flipped = topology.flipped;
-  encoded.analysis =
-      timed(encoded.times, "transform", [&] { return analyze(chart, options.analyze, context); });
+  timed(encoded.times, "transform", [&] {
+    if (options.tolerance) {
+      keep(analyze(chart, *options.tolerance, options.analyze, context), encoded);
+    } else {
+      encoded.analysis = analyze(chart, options.analyze, context);
+    }
+  });
+  if (options.errors && chart.report.star_shaped) {
+    add_errors(view_of(topology.welded.mesh), options, true, context, encoded);
+  }
   return encoded;
 }
 

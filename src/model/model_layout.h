@@ -5,7 +5,7 @@ namespace rholm::layout {
 
 inline constexpr const char* kFormatName = "rholm-model";
 inline constexpr int kMajor = 1;
-inline constexpr int kMinor = 0;
+inline constexpr int kMinor = 1;
 
 // Root attributes
 inline constexpr const char* kFormat = "format";
@@ -25,6 +25,15 @@ inline constexpr const char* kUnit = "unit";
 inline constexpr const char* kMethod = "method";
 inline constexpr const char* kNormSquared = "norm_squared";
 inline constexpr const char* kTailStrength = "tail_strength";
+inline constexpr const char* kErrorRms = "error_rms";
+inline constexpr const char* kErrorRmsIsExact = "error_rms_is_exact";
+inline constexpr const char* kPredictedMax = "error_predicted_max";
+inline constexpr const char* kPredictedMaxDistance = "error_predicted_max_distance";
+inline constexpr const char* kMeasuredMax = "error_measured_max";
+inline constexpr const char* kMeasuredMaxDistance = "error_measured_max_distance";
+inline constexpr const char* kDistanceRms = "error_distance_rms";
+inline constexpr const char* kErrorPoints = "error_points";
+inline constexpr const char* kDiagonal = "diagonal";
 
 inline constexpr const char* kCrc32 = "crc32";
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <optional>
 #include <string>
@@ -108,6 +109,32 @@ class ModelReader {
     return result;
   }
 
+  // Lengths: no less than nothing.
+  std::optional<double> optional_length(const hdf5::Object& object, const char* name) const {
+    const std::optional<double> value = optional_number(object, name);
+    if (value && !(*value >= 0 && std::isfinite(*value))) {
+      refuse(fmt::format("the attribute '{}' is {}: it must be a length", name, *value));
+    }
+    return value;
+  }
+
+  std::optional<TruncationErrors> read_errors(const hdf5::Object& group) const {
+    const std::optional<double> points = optional_length(group, layout::kErrorPoints);
+    if (!points) return std::nullopt;
+    TruncationErrors errors;
+    errors.rms = optional_length(group, layout::kErrorRms);
+    errors.rms_is_exact = hdf5::find_attribute(file_, group, layout::kErrorRmsIsExact) &&
+                          integer(group, layout::kErrorRmsIsExact) == 1;
+    errors.predicted_max = optional_length(group, layout::kPredictedMax);
+    errors.predicted_max_distance = optional_length(group, layout::kPredictedMaxDistance);
+    errors.measured_max = optional_length(group, layout::kMeasuredMax);
+    errors.measured_max_distance = optional_length(group, layout::kMeasuredMaxDistance);
+    errors.distance_rms = optional_length(group, layout::kDistanceRms);
+    errors.points = static_cast<std::size_t>(std::min(*points, 1e18));
+    errors.diagonal = optional_length(group, layout::kDiagonal).value_or(0);
+    return errors;
+  }
+
   Expansion read_expansion(const hdf5::Object& group) const {
     const std::string normalization = text(group, layout::kNormalization);
     const std::int64_t csphase = integer(group, layout::kCsphase);
@@ -132,6 +159,7 @@ class ModelReader {
     expansion.method = optional_text(group, layout::kMethod);
     expansion.norm_squared = optional_number(group, layout::kNormSquared);
     expansion.tail_strength = optional_number(group, layout::kTailStrength);
+    expansion.errors = read_errors(group);
     check_crc32(group, array, expansion);
     check_expansion(expansion, file_.name);
     return expansion;

@@ -127,6 +127,21 @@ std::uint32_t model_crc32(const Expansion& expansion) {
   return crc32(expansion.method, crc32(expansion.unit, crc32(bytes)));
 }
 
+void write_errors(const Writer& writer, hid_t group, const TruncationErrors& errors) {
+  const auto write = [&](const char* name, const std::optional<double>& value) {
+    if (value) writer.write_attribute(group, name, *value);
+  };
+  write(layout::kErrorRms, errors.rms);
+  writer.write_attribute(group, layout::kErrorRmsIsExact, errors.rms_is_exact ? 1 : 0);
+  write(layout::kPredictedMax, errors.predicted_max);
+  write(layout::kPredictedMaxDistance, errors.predicted_max_distance);
+  write(layout::kMeasuredMax, errors.measured_max);
+  write(layout::kMeasuredMaxDistance, errors.measured_max_distance);
+  write(layout::kDistanceRms, errors.distance_rms);
+  writer.write_attribute(group, layout::kErrorPoints, static_cast<double>(errors.points));
+  writer.write_attribute(group, layout::kDiagonal, errors.diagonal);
+}
+
 void write_expansion(const Writer& writer, hid_t group, const Expansion& expansion) {
   writer.write_coefficients(group, expansion.coefficients);
   writer.write_attribute(group, layout::kDegree, expansion.coefficients.degree());
@@ -143,6 +158,7 @@ void write_expansion(const Writer& writer, hid_t group, const Expansion& expansi
   if (expansion.tail_strength) {
     writer.write_attribute(group, layout::kTailStrength, *expansion.tail_strength);
   }
+  if (expansion.errors) write_errors(writer, group, *expansion.errors);
 }
 
 }  // namespace

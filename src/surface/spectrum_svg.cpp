@@ -26,6 +26,7 @@ constexpr double kFloor = 0x1p-106;
 
 constexpr const char *kInk = "#222", *kGridInk = "#e3e3e3", *kFineInk = "#f3f3f3";
 constexpr const char *kDataInk = "#1f5fa8", *kTailInk = "#c0532a";
+constexpr const char *kBeyondInk = "#5b8c3a", *kToleranceInk = "#7a3fa0";
 
 struct Axes {
   double x_min, x_max;  // log10 of the degree
@@ -44,7 +45,10 @@ struct Curve {
   std::vector<bool> clipped;  // the energy is below the floor, or zero: log_energy means nothing
   double log_floor = 0;
   double log_strength = -kInfinity;  // log10(S / pi)
-  bool empty = true;                 // no degree above 0 has energy above the floor
+  // With a tolerance: log10 of its energy, and of what the degrees beyond l hold, empty if unknown.
+  double log_tolerance = -kInfinity;
+  std::vector<double> log_beyond;
+  bool empty = true;  // no degree above 0 has energy above the floor
 };
 
 Curve make_curve(const Expansion& expansion) {
@@ -68,6 +72,21 @@ Curve make_curve(const Expansion& expansion) {
   return curve;
 }
 
+// Below the rounding of the norm nothing is known.
+void add_tolerance(const Expansion& expansion, double tolerance, Curve& curve) {
+  curve.log_tolerance = std::log10(4 * std::numbers::pi) + 2 * std::log10(tolerance);
+  if (!expansion.norm_squared) return;
+  double beyond = *expansion.norm_squared;
+  const double floor = 1e-15 * beyond;
+  const std::vector<double> energy = power_spectrum(expansion.coefficients);
+  for (std::size_t l = 0; l < energy.size(); ++l) {
+    beyond -= energy[l];
+    if (l == 0) continue;
+    if (!(beyond > floor)) return;
+    curve.log_beyond.push_back(std::log10(beyond));
+  }
+}
+
 Axes make_axes(const Curve& curve) {
   const auto degrees = static_cast<double>(std::max<std::size_t>(curve.log_energy.size(), 2));
   Axes axes{0, std::log10(degrees), kInfinity, -kInfinity};
@@ -77,6 +96,14 @@ Axes make_axes(const Curve& curve) {
     axes.y_max = std::max(axes.y_max, curve.log_energy[k]);
   }
   if (curve.empty) axes.y_min = axes.y_max = curve.log_floor;
+  for (const double y : curve.log_beyond) {
+    axes.y_min = std::min(axes.y_min, y);
+    axes.y_max = std::max(axes.y_max, y);
+  }
+  if (std::isfinite(curve.log_tolerance)) {
+    axes.y_min = std::min(axes.y_min, curve.log_tolerance);
+    axes.y_max = std::max(axes.y_max, curve.log_tolerance);
+  }
   axes.y_min = std::floor(axes.y_min - 0.1);
   axes.y_max = std::ceil(axes.y_max + 0.1);
   return axes;
@@ -199,6 +226,22 @@ std::string tail(const Axes& axes, const Curve& curve) {
       kTailInk);
 }
 
+std::string tolerance_lines(const Axes& axes, const Curve& curve) {
+  if (!std::isfinite(curve.log_tolerance)) return "";
+  std::string path;
+  for (std::size_t k = 0; k < curve.log_beyond.size(); ++k) {
+    path += fmt::format("{}{:.2f} {:.2f}", path.empty() ? "M" : "L",
+                        axes.x(static_cast<double>(k + 1)), axes.y(curve.log_beyond[k]));
+  }
+  std::string svg;
+  if (!path.empty()) {
+    svg += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\"/>\n", path,
+                       kBeyondInk);
+  }
+  const double y = axes.y(curve.log_tolerance);
+  return svg + line(kLeft, y, kRight, y, kToleranceInk, 2);
+}
+
 std::string legend_line(double y, const char* ink, const char* dashes) {
   return fmt::format(
       "<line x1=\"{0}\" y1=\"{1:.2f}\" x2=\"{2}\" y2=\"{1:.2f}\" stroke=\"{3}\" "
@@ -227,6 +270,12 @@ std::string legend(const Curve& curve, RadialFunction function) {
         "predicted tail S / (&#960; l<tspan dy=\"-5\" "
         "font-size=\"10\">4</tspan><tspan dy=\"5\">)</tspan>");
   }
+  if (std::isfinite(curve.log_tolerance)) {
+    add(legend_line(y, kToleranceInk, "none"), "wanted tolerance, 4&#960; E&#178;");
+    if (!curve.log_beyond.empty()) {
+      add(legend_line(y, kBeyondInk, "none"), "energy of all degrees beyond l");
+    }
+  }
   add(legend_line(y, kDataInk, "none"),
       function == RadialFunction::kRadius ? "energy of the radius r" : "energy of the gauge 1/r");
   return svg;
@@ -234,8 +283,10 @@ std::string legend(const Curve& curve, RadialFunction function) {
 
 }  // namespace
 
-std::string spectrum_svg(const Expansion& expansion, const std::string& title) {
-  const Curve curve = make_curve(expansion);
+std::string spectrum_svg(const Expansion& expansion, const std::string& title,
+                         std::optional<double> tolerance) {
+  Curve curve = make_curve(expansion);
+  if (tolerance && *tolerance > 0) add_tolerance(expansion, *tolerance, curve);
   const Axes axes = make_axes(curve);
   std::string svg = fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
@@ -246,7 +297,7 @@ std::string spectrum_svg(const Expansion& expansion, const std::string& title) {
       kWidth, kHeight, escaped(title));
   svg += text((kLeft + kRight) / 2, 38, "middle", 18, escaped(title));
   svg += degree_axis(axes) + energy_axis(axes, expansion);
-  svg += tail(axes, curve) + data(axes, curve);
+  svg += tail(axes, curve) + tolerance_lines(axes, curve) + data(axes, curve);
   svg += fmt::format(
       "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#888\"/>\n", kLeft,
       kTop, kRight - kLeft, kBottom - kTop);

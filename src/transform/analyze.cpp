@@ -13,11 +13,12 @@
 #include "transform/star_geometry.h"
 
 namespace rholm {
-namespace {
 
 RadialFunction function_of(Method method) {
   return method == Method::kGauge ? RadialFunction::kGauge : RadialFunction::kRadius;
 }
+
+namespace {
 
 MethodOptions method_options(const StarGeometry& geometry, const AnalyzeOptions& options) {
   const MeanAndNorm scale = mean_and_norm(geometry, function_of(options.method));
@@ -148,8 +149,8 @@ void finish_analysis(const AnalyzeOptions& options, const Vec3& center, Analysis
   }
 }
 
-Analysis analyze(const StarChart& chart, const AnalyzeOptions& options, const Context& context) {
-  check(options);
+Analysis analyze_without_norms(const StarChart& chart, const AnalyzeOptions& options,
+                               const Context& context) {
   report_progress(context, "transform", 0);
   Analysis analysis;
   if (uses_mesh_pass(options)) {
@@ -157,6 +158,12 @@ Analysis analyze(const StarChart& chart, const AnalyzeOptions& options, const Co
   } else {
     by_method(chart, options, context, analysis);
   }
+  return analysis;
+}
+
+Analysis analyze(const StarChart& chart, const AnalyzeOptions& options, const Context& context) {
+  check(options);
+  Analysis analysis = analyze_without_norms(chart, options, context);
   if (chart.report.star_shaped) {
     const StageTimer timer(analysis.times, "norms");
     const bool gauge = options.method == Method::kGauge;

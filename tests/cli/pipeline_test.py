@@ -100,7 +100,7 @@ class Analyze(CliTest):
     def test_report_has_the_promised_keys(self):
         report = self.rholm("analyze", "a.off", "--degree", "4", "-o", "a.h5", "--json").json()
         stages = {"read", "topology", "center", "transform", "triangles", "spread", "fourier",
-                  "norms", "write"}
+                  "norms", "errors", "write"}
         self.assertEqual(set(report["seconds"]), stages)
         self.assertEqual(set(report["cpu_seconds"]), stages)
         self.assertEqual(report["degree"], 4)
@@ -117,6 +117,46 @@ class Analyze(CliTest):
         self.assertEqual(direct["engine"], "direct")
         self.assertLess(direct["closure_residual"], 1e-14)
         self.assertEqual([round(x, 9) for x in report["center"]], [0, 0, 0])
+
+    def test_a_tolerance_finds_the_degree_and_the_model_keeps_the_errors(self):
+        report = self.rholm("analyze", "a.off", "--tolerance", "0.05", "-o", "a.h5", "--json").json()
+        self.assertTrue(report["tolerance"]["met"])
+        self.assertLessEqual(report["errors"]["rms"], 0.05)
+        self.assertTrue(report["errors"]["rms_is_exact"])
+        info = self.rholm("info", "a.h5", "--json").json()
+        self.assertEqual(info["errors"], report["errors"])
+        self.assertIn("rms over solid angle, exact", self.rholm("info", "a.h5").out)
+        below = str(report["degree"] - 1)
+        less = self.rholm("analyze", "a.off", "--degree", below, "-o", "b.h5", "--json").json()
+        self.assertGreater(less["errors"]["rms"], 0.05)
+        spectrum = self.rholm("spectrum", "a.h5", "--tolerance", "0.05", "--json").json()
+        self.assertEqual(spectrum["tolerance_degree"], report["degree"])
+
+    def test_a_tolerance_that_is_not_kept_is_exit_code_4(self):
+        result = self.rholm("analyze", "a.off", "--tolerance", "1e-9", "--max-degree", "9", "-o",
+                            "a.h5", code=4)
+        self.assertIn("is not kept by degree 9", result.err)
+        self.assertTrue((self.folder / "a.h5").exists())
+
+    def test_degree_and_tolerance_exclude_each_other(self):
+        self.rholm("analyze", "a.off", "-o", "a.h5", code=2)
+        self.rholm("analyze", "a.off", "--degree", "3", "--tolerance", "1", "-o", "a.h5", code=2)
+        self.rholm("analyze", "a.off", "--degree", "3", "--norm", "max", "-o", "a.h5", code=2)
+        self.rholm("analyze", "a.off", "--tolerance", "0", "-o", "a.h5", code=2)
+
+    def test_monte_carlo_says_how_sure_it_is(self):
+        for method in ("monte-carlo-edge", "monte-carlo-triangle"):
+            report = self.rholm("analyze", "a.off", "--degree", "4", "--method", method,
+                                "--deviation", "0.6", "-o", "a.json", "--json").json()
+            self.assertTrue(report["deviation_reached"])
+            self.assertLessEqual(report["relative_deviation"], 0.6)
+            self.assertEqual(report["method"], method)
+            self.assertEqual(len(report["degree_deviation"]), 5)
+            self.rholm("analyze", "a.off", "--degree", "4", "--method", method, "--deviation",
+                       "1e-7", "--most-samples", "4", "-o", "a.json", code=4)
+            self.rholm("analyze", "a.off", "--tolerance", "4", "--method", method, "-o", "a.json",
+                       code=2)
+        self.rholm("analyze", "a.off", "--degree", "4", "--samples", "4", "-o", "a.json", code=2)
         # Distance of the origin from x + y + z = 1; a corner is seen at the angle of the normal.
         self.assertAlmostEqual(report["min_d"], 1 / math.sqrt(3), 9)
         self.assertAlmostEqual(report["min_cos_gamma"], 1 / math.sqrt(3), 9)
@@ -290,7 +330,7 @@ class Convert(CliTest):
     def setUp(self):
         super().setUp()
         self.write("a.off", off(*OCTAHEDRON))
-        self.rholm("analyze", "a.off", "--degree", "5", "--center", "0.1,0.2,0.05", "--unit", "km",
+        self.rholm("analyze", "a.off", "--degree", "5", "--center", "0.1,0.2,0.05", "--length-unit", "km",
                    "-o", "a.h5")
 
     def orthonormal(self, name):

@@ -1,11 +1,16 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "rholm/compare.h"
 #include "rholm/error.h"
 #include "rholm/model.h"
 #include "rholm/primitives.h"
+#include "rholm/synthesize.h"
+#include "support/test_meshes.h"
+#include "support/test_shapes.h"
 
 namespace rholm {
 namespace {
@@ -49,6 +54,51 @@ TEST(encode, a_soup_of_triangles_gives_the_coefficients_of_the_welded_mesh) {
     EXPECT_NEAR(*whole.analysis.expansion.tail_strength, *soup.analysis.expansion.tail_strength,
                 1e-12 * *whole.analysis.expansion.tail_strength);
   }
+}
+
+// The fast engine works on the mesh as it lies, the direct one on a chart.
+TEST(encode, finds_the_same_degree_for_a_tolerance_on_both_ways) {
+  const Mesh mesh = bumpy_sphere(3, 0.3);
+  for (const ErrorNorm norm : {ErrorNorm::kRms, ErrorNorm::kMax}) {
+    EncodeOptions options;
+    options.tolerance = Tolerance{.error = 3e-3, .norm = norm};
+    const Encoded fast = encode(mesh, options);
+    options.analyze.engine = Engine::kDirect;
+    const Encoded direct = encode(mesh, options);
+    ASSERT_TRUE(fast.tolerance && direct.tolerance);
+    EXPECT_TRUE(fast.tolerance->met);
+    EXPECT_EQ(fast.analysis.expansion.coefficients.degree(),
+              direct.analysis.expansion.coefficients.degree());
+    EXPECT_NEAR(fast.tolerance->reached, direct.tolerance->reached,
+                1e-4 * direct.tolerance->reached);
+    EXPECT_LE(norm == ErrorNorm::kRms ? *fast.analysis.expansion.errors->rms
+                                      : *fast.analysis.expansion.errors->measured_max,
+              fast.tolerance->allowed);
+  }
+}
+
+// Distances to first order against exact closest points.
+TEST(encode, distances_in_a_model_are_those_of_an_independent_comparison) {
+  const Mesh mesh = test::rotated(bumpy_sphere(3, 0.3));
+  const Encoded encoded = encode(mesh, {.analyze = {.degree = 12}});
+  const Mesh surface = synthesize(encoded.analysis.expansion, icosphere(6));
+  const Comparison comparison = compare(mesh, surface, {.samples = 100000});
+  const TruncationErrors& errors = *encoded.analysis.expansion.errors;
+  const double rms = std::max(comparison.a_to_b.rms, comparison.b_to_a.rms);
+  EXPECT_NEAR(*errors.distance_rms, rms, 0.03 * rms);
+  // The largest of random samples is a lower bound.
+  EXPECT_LT(comparison.hausdorff, 1.02 * *errors.measured_max_distance);
+  EXPECT_GT(comparison.hausdorff, 0.8 * *errors.measured_max_distance);
+}
+
+TEST(encode, leaves_errors_out_when_told_and_where_they_mean_nothing) {
+  EXPECT_FALSE(encode(bumpy_sphere(2), {.analyze = {.degree = 4}, .errors = false})
+                   .analysis.expansion.errors.has_value());
+  EncodeOptions folded{.analyze = {.degree = 4}};
+  folded.chart.allow_signed = true;
+  folded.chart.center = {.kind = CenterKind::kGiven, .point = {2, 0.5, 0.1}};
+  const Encoded prism = encode(test::l_prism(1), folded);
+  EXPECT_FALSE(prism.analysis.expansion.errors.has_value());
 }
 
 TEST(encode, turns_a_mesh_right_side_out) {

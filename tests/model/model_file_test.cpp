@@ -68,6 +68,35 @@ TEST(model_file, same_expansion_gives_the_same_bytes) {
   EXPECT_EQ(n_headers, 3u);
 }
 
+TEST(model_file, errors_return_and_those_that_are_unknown_stay_unknown) {
+  Expansion expansion = random_expansion(3);
+  expansion.errors = TruncationErrors{};
+  expansion.errors->rms = 0.25;
+  expansion.errors->rms_is_exact = true;
+  expansion.errors->measured_max = 1.5;
+  expansion.errors->distance_rms = 0.125;
+  expansion.errors->points = 1234567;
+  expansion.errors->diagonal = 3.5;
+  const TemporaryFolder folder;
+  write_model(expansion, folder / "a.h5");
+  const Expansion again = read_model(folder / "a.h5");
+  ASSERT_TRUE(again.errors.has_value());
+  EXPECT_EQ(again.errors->rms, 0.25);
+  EXPECT_TRUE(again.errors->rms_is_exact);
+  EXPECT_EQ(again.errors->measured_max, 1.5);
+  EXPECT_EQ(again.errors->distance_rms, 0.125);
+  EXPECT_EQ(again.errors->points, 1234567u);
+  EXPECT_EQ(again.errors->diagonal, 3.5);
+  EXPECT_FALSE(again.errors->predicted_max.has_value());
+  EXPECT_FALSE(again.errors->measured_max_distance.has_value());
+  expansion.errors->rms = -1;
+  write_model(expansion, folder / "b.h5");
+  EXPECT_THROW(read_model(folder / "b.h5"), Error);
+  expansion.errors.reset();
+  write_model(expansion, folder / "c.h5");
+  EXPECT_FALSE(read_model(folder / "c.h5").errors.has_value());
+}
+
 // Values by formula: C_lm = 1/(1 + l + m), S_lm = m/(l + 1).
 void expect_golden(const Expansion& expansion) {
   ASSERT_EQ(expansion.coefficients.degree(), 4);

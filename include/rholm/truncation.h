@@ -1,0 +1,78 @@
+// How far the surface of an expansion is from the mesh it was made of, and the degree that keeps a
+// tolerance. Layer: transform.
+//
+// Radial errors are |r - r_L| along directions from the centre. Distances between the surfaces are
+// to first order the radial error times the cosine of the slope of the surface one goes to (method
+// 5): the model's from the shape, the face's from the model.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "rholm/analyze.h"
+#include "rholm/coefficients.h"
+#include "rholm/context.h"
+#include "rholm/mesh_view.h"
+#include "rholm/star.h"
+
+namespace rholm {
+
+struct TruncationOptions {
+  // Relative error of the coefficients, l2 without the mean: decides whether Parseval's difference
+  // of two large numbers still means something.
+  double precision = 1e-8;
+  bool predict = true;  // the largest errors in closed form; about 300 ns per triangle
+};
+
+// All that can be known of a star-shaped closed mesh where it lies. `expansion` is that of the mesh
+// about its centre, of the radius or the gauge. The rms is exact by Parseval where the coefficients
+// are exact enough for that (then rms_is_exact), else measured. Throws InvalidInput as validate()
+// does, and for a gauge with q_L <= 0.
+TruncationErrors truncation_errors(const MeshView& mesh, const Expansion& expansion,
+                                   const TruncationOptions& options = {},
+                                   const Context& context = {});
+
+enum class ErrorNorm { kRms, kMax };
+enum class ErrorMeasure {
+  kRadius,   // rms over solid angle: exact, by Parseval
+  kDistance  // rms over area, the larger of both ways
+};
+const char* to_string(ErrorNorm norm);                      // "rms", "max"
+const char* to_string(ErrorMeasure measure);                // "radius", "distance"
+ErrorNorm parse_error_norm(const std::string& name);        // throws InvalidInput
+ErrorMeasure parse_error_measure(const std::string& name);  // throws InvalidInput
+
+enum class ToleranceUnit {
+  kAbsolute,  // the mesh's own
+  kDiagonal,  // of the bounding box
+  kRadius     // mean over directions
+};
+const char* to_string(ToleranceUnit unit);                    // "absolute", "diagonal", "radius"
+ToleranceUnit parse_tolerance_unit(const std::string& name);  // throws InvalidInput
+
+struct Tolerance {
+  double error = 0;  // above 0
+  ToleranceUnit unit = ToleranceUnit::kAbsolute;
+  ErrorNorm norm = ErrorNorm::kRms;
+  ErrorMeasure measure = ErrorMeasure::kRadius;
+  int max_degree = 1024;  // 0 ... kMaxDegree
+};
+
+struct ToleranceAnalysis {
+  Analysis analysis;   // of the smallest degree that keeps the tolerance, or of max_degree
+  double allowed = 0;  // in the mesh's unit
+  double reached = 0;  // the error of that degree in the norm and measure of the tolerance
+  bool met = false;
+  std::vector<int> degrees;  // that were computed on the way, the last one the largest
+};
+
+// The smallest degree whose error is within the tolerance, by coefficients of the radius: computed
+// for a small degree, then for the one that the decay of the error predicts, until the error of
+// what there is meets the tolerance; then cut off. options.degree is not used; the precision is as
+// fine as the tolerance asks for, and options.precision at most. Throws InvalidInput for a
+// tolerance out of range, the method gauge, and a surface that is not star-shaped.
+ToleranceAnalysis analyze(const StarChart& chart, const Tolerance& tolerance,
+                          const AnalyzeOptions& options = {}, const Context& context = {});
+
+}  // namespace rholm

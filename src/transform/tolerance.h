@@ -1,0 +1,40 @@
+// The search for the degree that keeps a tolerance, for meshes in charts and where they lie.
+#pragma once
+
+#include <functional>
+
+#include "rholm/mesh_view.h"
+#include "rholm/truncation.h"
+
+namespace rholm {
+
+// Coefficients of the mesh about the centre, without norms.
+using TransformTo = std::function<Analysis(int degree, double precision)>;
+
+struct ToleranceProblem {
+  MeshView mesh;
+  Vec3 center;
+  double norm_squared = 0;  // of the radius
+  double diagonal = 0;      // of the bounding box
+  double precision = 0;     // wanted by the caller, at least
+  TransformTo transform;
+};
+
+// Throws InvalidInput for values out of range.
+void check(const Tolerance& tolerance);
+
+// The degree to begin with: coefficients are as cheap as the pass over the faces.
+int first_degree(std::size_t n_triangles, const Tolerance& tolerance);
+
+// How exact coefficients must be: for an estimate of the degree, and in the end.
+struct Precisions {
+  double pilot = 0, final = 0;
+};
+Precisions precisions_for(const ToleranceProblem& problem, const Tolerance& tolerance);
+
+// `pilot`: coefficients of first_degree(). Pilots of higher degrees follow until the error of what
+// there is, measured at points, is within the tolerance; then coefficients in full precision.
+ToleranceAnalysis search_tolerance(const ToleranceProblem& problem, const Tolerance& tolerance,
+                                   const Analysis& pilot, const Context& context);
+
+}  // namespace rholm

@@ -1,0 +1,134 @@
+#include "rholm/truncation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "base/compensated_sum.h"
+#include "base/parallel.h"
+#include "chart/view_scan.h"
+#include "rholm/error.h"
+#include "transform/error_points.h"
+#include "transform/exact_norms.h"
+#include "transform/mesh_pass.h"
+#include "transform/tolerance.h"
+
+namespace rholm {
+namespace {
+
+constexpr std::size_t kAreaPoints = 100'000;
+
+// sqrt(||f - f_L||^2 / 4 pi), if the error of the coefficients leaves a hundredth of it.
+std::optional<double> parseval_rms(const Expansion& expansion, double precision) {
+  if (!expansion.norm_squared) return std::nullopt;
+  CompensatedSum rest;
+  rest.add(*expansion.norm_squared);
+  for (const double value : expansion.coefficients.values()) rest.add(-value * value);
+  const double mean2 = std::pow(expansion.coefficients.c(0, 0), 2);
+  const double varying = std::sqrt(std::max(0.0, *expansion.norm_squared - mean2));
+  // Of each coefficient's square: 2 c dc.
+  const double doubt =
+      2 * precision * (varying * varying + mean2) + 4e-15 * *expansion.norm_squared;
+  if (!(rest.value() > 50 * doubt)) return std::nullopt;
+  return std::sqrt(rest.value() / (4 * std::numbers::pi));
+}
+
+double diagonal_of(const MeshView& mesh) {
+  const VertexRange range = vertex_range(mesh, 0, mesh.n_vertices);
+  return norm(
+      {range.max[0] - range.min[0], range.max[1] - range.min[1], range.max[2] - range.min[2]});
+}
+
+// On fine meshes the jumps of neighbouring edges are correlated, and what they predict is too
+// large.
+bool shows_its_edges(const MeshView& mesh, int degree) {
+  const double angle =
+      1.5 * std::sqrt(4 * std::numbers::pi / static_cast<double>(mesh.n_triangles));
+  constexpr double kCoarse = 6;  // measured: 20 % at 5, a few per cent from 10 on
+  return degree * angle > kCoarse;
+}
+
+void predict(const MeshView& mesh, const Expansion& expansion, TruncationErrors& errors) {
+  if (!shows_its_edges(mesh, expansion.coefficients.degree())) return;
+  const ErrorStrengths strengths = vertex_error_strengths(mesh, expansion.center);
+  const double per = 1 / (2 * std::numbers::pi * (expansion.coefficients.degree() + 1.0));
+  if (expansion.function == RadialFunction::kRadius) errors.predicted_max = strengths.radius * per;
+  errors.predicted_max_distance = strengths.distance * per;
+}
+
+}  // namespace
+
+TruncationErrors truncation_errors(const MeshView& mesh, const Expansion& expansion,
+                                   const TruncationOptions& options, const Context& context) {
+  validate(mesh);
+  TruncationErrors errors;
+  errors.diagonal = diagonal_of(mesh);
+  const int degree = expansion.coefficients.degree();
+  const Context silent{.threads = context.threads};
+  // A ten thousandth of the truncation error would do; it is not known yet.
+  const double precision = std::clamp(options.precision, 1e-12, 1e-6);
+  report_progress(context, "errors", 0);
+  {
+    const ErrorPoints points = extreme_points(mesh, expansion.center, degree);
+    const PointErrors found = point_errors(points, expansion, degree, true, precision, silent);
+    errors.points = points.size();
+    errors.measured_max = largest(found.radial);
+    errors.measured_max_distance = std::max(largest(found.to_model), largest(found.to_shape));
+  }
+  report_progress(context, "errors", 0.6);
+  {
+    const ErrorPoints points = area_points(mesh, expansion.center, kAreaPoints);
+    const PointErrors found = point_errors(points, expansion, degree, true, precision, silent);
+    errors.points += points.size();
+    // At a degree too low for any face to be long the middle of one may err more than its corners.
+    errors.measured_max = std::max(*errors.measured_max, largest(found.radial));
+    errors.measured_max_distance =
+        std::max({*errors.measured_max_distance, largest(found.to_model), largest(found.to_shape)});
+    errors.distance_rms = rms_distance(found);
+    errors.rms = rms_over_solid_angle(points, found);
+  }
+  if (expansion.function == RadialFunction::kRadius) {
+    if (const std::optional<double> exact = parseval_rms(expansion, options.precision)) {
+      errors.rms = exact;
+      errors.rms_is_exact = true;
+    }
+  }
+  report_progress(context, "errors", 0.9);
+  if (options.predict) predict(mesh, expansion, errors);
+  return errors;
+}
+
+ToleranceAnalysis analyze(const StarChart& chart, const Tolerance& tolerance,
+                          const AnalyzeOptions& options, const Context& context) {
+  check(tolerance);
+  check(options);
+  if (function_of(options.method) != RadialFunction::kRadius) {
+    throw Error(ErrorCode::kInvalidInput,
+                "a tolerance is one of the radius: the method gauge expands its inverse");
+  }
+  if (!chart.report.star_shaped) {
+    throw Error(ErrorCode::kInvalidInput,
+                "a tolerance needs a surface that every direction meets once: give a degree");
+  }
+  const ExactNorms norms = exact_norms(view_of(chart.mesh), {}, context);
+  const ToleranceProblem problem{.mesh = view_of(chart.mesh),
+                                 .center = {},
+                                 .norm_squared = norms.radius_squared,
+                                 .diagonal = diagonal_of(view_of(chart.mesh)),
+                                 .precision = options.precision,
+                                 .transform = [&](int degree, double precision) {
+                                   AnalyzeOptions wanted = options;
+                                   wanted.degree = degree;
+                                   wanted.precision = precision;
+                                   return analyze_without_norms(chart, wanted, context);
+                                 }};
+  const Analysis pilot = problem.transform(first_degree(chart.mesh.triangles.size(), tolerance),
+                                           precisions_for(problem, tolerance).pilot);
+  ToleranceAnalysis result = search_tolerance(problem, tolerance, pilot, context);
+  result.analysis.expansion.tail_strength = tail_strength(chart, RadialFunction::kRadius);
+  finish_analysis(options, chart.report.center, result.analysis);
+  return result;
+}
+
+}  // namespace rholm
