@@ -2,7 +2,10 @@
 
 #include <sys/mman.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
 #include <new>
 
@@ -32,5 +35,35 @@ void* allocate_aligned(std::size_t bytes) {
 }
 
 void free_aligned(void* data) noexcept { std::free(data); }
+
+void* allocate_zeroed(std::size_t bytes, std::size_t& mapped) {
+  mapped = 0;
+  if (bytes < kHugeFrom) {
+    void* const data = allocate_aligned(bytes);
+    std::memset(data, 0, bytes);
+    return data;
+  }
+  if (bytes > std::numeric_limits<std::size_t>::max() - 2 * kHugePage) throw std::bad_alloc();
+  const std::size_t size = round_up(bytes, 4096);
+  // What is mapped too much on either side of whole huge pages is given back at once.
+  void* const room =
+      mmap(nullptr, size + kHugePage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (room == MAP_FAILED) throw std::bad_alloc();
+  const auto from = reinterpret_cast<std::uintptr_t>(room);
+  const std::size_t before = round_up(from, kHugePage) - from;
+  std::byte* const data = static_cast<std::byte*>(room) + before;
+  if (before > 0) munmap(room, before);
+  if (before < kHugePage) munmap(data + size, kHugePage - before);
+#ifdef MADV_HUGEPAGE
+  madvise(data, size / kHugePage * kHugePage, MADV_HUGEPAGE);
+#endif
+  mapped = size;
+  return data;
+}
+
+void free_zeroed(void* data, std::size_t mapped) noexcept {
+  if (mapped == 0) return free_aligned(data);
+  munmap(data, mapped);
+}
 
 }  // namespace rholm

@@ -13,7 +13,12 @@ namespace rholm {
 void* allocate_aligned(std::size_t bytes);
 void free_aligned(void* data) noexcept;
 
-// n elements that are not set to anything.
+// The same, all bits zero: large blocks come so from the system, and are not touched here.
+// `mapped` is what free_zeroed() has to know.
+void* allocate_zeroed(std::size_t bytes, std::size_t& mapped);
+void free_zeroed(void* data, std::size_t mapped) noexcept;
+
+// n elements that are not set to anything, or to zeros.
 template <typename T>
 class AlignedArray {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -22,6 +27,14 @@ class AlignedArray {
   AlignedArray() = default;
   explicit AlignedArray(std::size_t n)
       : data_(static_cast<T*>(allocate_aligned(n * sizeof(T)))), size_(n) {}
+  static AlignedArray zeros(std::size_t n) {
+    AlignedArray array;
+    std::size_t mapped = 0;
+    T* const data = static_cast<T*>(allocate_zeroed(n * sizeof(T), mapped));
+    array.data_ = {data, Free{mapped}};
+    array.size_ = n;
+    return array;
+  }
 
   T* data() { return data_.get(); }
   const T* data() const { return data_.get(); }
@@ -33,7 +46,8 @@ class AlignedArray {
 
  private:
   struct Free {
-    void operator()(T* data) const noexcept { free_aligned(data); }
+    std::size_t mapped = 0;
+    void operator()(T* data) const noexcept { free_zeroed(data, mapped); }
   };
   std::unique_ptr<T, Free> data_;
   std::size_t size_ = 0;

@@ -51,6 +51,39 @@ HWY_INLINE Vector3 LoadFew(D d, const MeshView& mesh, const std::byte* indices, 
   return {hn::Load(d, rows[0]), hn::Load(d, rows[1]), hn::Load(d, rows[2])};
 }
 
+// Coordinates as they are in the file, of twice as many triangles as a vector of doubles takes.
+using DF = hn::CappedTag<float, 16>;
+struct FloatRows {
+  hn::Vec<DF> x, y, z;
+};
+HWY_INLINE FloatRows LoadFewRows(const MeshView& mesh, const std::byte* indices, std::size_t n) {
+  const DF df;
+  alignas(64) float rows[3][hn::MaxLanes(DF())];
+  for (std::size_t i = 0; i < hn::MaxLanes(DF()); ++i) {
+    float row[3];
+    std::memcpy(row, Row(mesh, indices + std::min(i, n - 1) * mesh.triangle_stride), sizeof row);
+    for (std::size_t k = 0; k < 3; ++k) rows[k][i] = row[k];
+  }
+  return {hn::Load(df, rows[0]), hn::Load(df, rows[1]), hn::Load(df, rows[2])};
+}
+#if HWY_TARGET == HWY_SCALAR
+HWY_INLINE Vector3 Lower(D d, const FloatRows& rows) {
+  return {hn::PromoteTo(d, rows.x), hn::PromoteTo(d, rows.y), hn::PromoteTo(d, rows.z)};
+}
+HWY_INLINE Vector3 Upper(D d, const FloatRows& rows) { return Lower(d, rows); }
+#else
+HWY_INLINE Vector3 Lower(D d, const FloatRows& rows) {
+  const hn::Half<DF> half;
+  const auto to = [&](hn::Vec<DF> v) HWY_ATTR { return hn::PromoteTo(d, hn::LowerHalf(half, v)); };
+  return {to(rows.x), to(rows.y), to(rows.z)};
+}
+HWY_INLINE Vector3 Upper(D d, const FloatRows& rows) {
+  const hn::Half<DF> half;
+  const auto to = [&](hn::Vec<DF> v) HWY_ATTR { return hn::PromoteTo(d, hn::UpperHalf(half, v)); };
+  return {to(rows.x), to(rows.y), to(rows.z)};
+}
+#endif
+
 #if HWY_MAX_BYTES >= 32 && !HWY_HAVE_SCALABLE
 constexpr bool kWholeVectors = true;
 
@@ -78,6 +111,32 @@ HWY_INLINE Vector3 LoadWhole(D d, const MeshView& mesh, const std::byte* indices
                                      hn::InterleaveUpper(df, row1, row3));
   return {hn::PromoteTo(d, hn::InterleaveLower(df, even, odd)),
           hn::PromoteTo(d, hn::InterleaveUpper(df, even, odd)), hn::PromoteTo(d, z)};
+}
+
+// Rows i, i + 4, i + 8, i + 12 or as many as there are.
+HWY_INLINE auto LoadManyRows(const MeshView& mesh, const std::byte* indices, std::size_t i) {
+  const hn::FixedTag<float, 4> d4;
+  const hn::FixedTag<float, 8> d8;
+  const auto load = [&](std::size_t j) HWY_ATTR {
+    return hn::LoadU(d4,
+                     reinterpret_cast<const float*>(Row(mesh, indices + j * mesh.triangle_stride)));
+  };
+#if HWY_MAX_BYTES >= 64
+  return hn::Combine(DF(), hn::Combine(d8, load(i + 12), load(i + 8)),
+                     hn::Combine(d8, load(i + 4), load(i)));
+#else
+  return hn::Combine(d8, load(i + 4), load(i));
+#endif
+}
+HWY_INLINE FloatRows LoadWholeRows(const MeshView& mesh, const std::byte* indices) {
+  const DF df;
+  const auto row0 = LoadManyRows(mesh, indices, 0), row1 = LoadManyRows(mesh, indices, 1);
+  const auto row2 = LoadManyRows(mesh, indices, 2), row3 = LoadManyRows(mesh, indices, 3);
+  const auto even = hn::InterleaveLower(df, row0, row2);  // x0 x2 y0 y2
+  const auto odd = hn::InterleaveLower(df, row1, row3);   // x1 x3 y1 y3
+  const auto z = hn::InterleaveLower(df, hn::InterleaveUpper(df, row0, row2),
+                                     hn::InterleaveUpper(df, row1, row3));
+  return {hn::InterleaveLower(df, even, odd), hn::InterleaveUpper(df, even, odd), z};
 }
 
 // Four triangles.
@@ -114,6 +173,9 @@ HWY_INLINE Vector3 LoadWhole(D d, const MeshView& mesh, const std::byte* indices
 }
 #else
 constexpr bool kWholeVectors = false;
+HWY_INLINE FloatRows LoadWholeRows(const MeshView& mesh, const std::byte* indices) {
+  return LoadFewRows(mesh, indices, hn::MaxLanes(DF()));
+}
 template <class T>
 HWY_INLINE Vector3 LoadWhole(D d, const MeshView& mesh, const std::byte* indices, T) {
   return LoadFew<T>(d, mesh, indices, hn::Lanes(d));

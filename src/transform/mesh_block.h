@@ -56,6 +56,13 @@ struct SampledHalfEdge {
   bool lumped = false;
 };
 
+// Where the lump of triangle t of a block lies. Integers of eight triangles come out of vectors
+// with the even ones first.
+template <typename T>
+constexpr std::size_t lump_slot(std::size_t t) {
+  return sizeof(T) == 4 ? t / 8 * 8 + t % 2 * 4 + t % 8 / 2 : t;
+}
+
 template <typename T>
 struct TriangleBlock {
   static constexpr std::size_t kSize = kTrianglesPerBlock;
@@ -70,7 +77,7 @@ struct TriangleBlock {
   alignas(64) double face_weight[kSize];     // F
   alignas(64) std::uint8_t flag[kSize];
   alignas(64) std::uint8_t sampled[3][kSize / 8];  // bits: half-edges of the sample
-  alignas(64) VertexLump<T> lump[3][kSize];
+  alignas(64) VertexLump<T> lump[3][kSize];        // see lump_slot()
 };
 
 // What a block adds to the whole; lengths scaled.
@@ -78,7 +85,6 @@ struct BlockSums {
   double volume6 = 0;      // sum of d2: six times the enclosed volume
   double mean = 0;         // sum of d2/2 <1/|x|^2> over triangles without kMeanNodes: int r dOmega
   double face_error2 = 0;  // of lumped triangles: sum of (F z^4)^2
-  double weight2 = 0;      // sum of squares of W and F of lumped triangles
   double min_d2 = 0;       // smallest d_T |d_T|
   double min_cos2 = 0;     // smallest cos gamma |cos gamma|
   double max_edge2 = 0;    // largest (edge / radius)^2

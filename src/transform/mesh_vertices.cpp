@@ -86,6 +86,51 @@ HWY_INLINE void load_by_type(const MeshView& mesh, std::size_t first, std::size_
   }
 }
 
+HWY_INLINE V load_numbers(D d, const double* from) { return hn::Load(d, from); }
+HWY_INLINE V load_numbers(D d, const std::int32_t* from) {
+  return hn::PromoteTo(d, hn::Load(hn::Rebind<std::int32_t, D>(), from));
+}
+
+// Weight and gradient of a vertex follow each other in the lanes of one or more vectors.
+template <typename L>
+HWY_INLINE LumpSums sum_any(const VertexLump<L>* lumps, std::size_t n) {
+  const D d;
+  constexpr std::size_t kLanes = hn::MaxLanes(D());
+  constexpr std::size_t kParts = kLanes < 4 ? 4 / kLanes : 1, kStep = kParts * kLanes;
+  V sum[kParts], square[kParts];
+  for (std::size_t i = 0; i < kParts; ++i) sum[i] = square[i] = hn::Zero(d);
+  const L* numbers = lumps->value;
+  std::size_t at = 0;
+  for (; at + kStep <= 4 * n; at += kStep) {
+    for (std::size_t i = 0; i < kParts; ++i) {
+      const V v = load_numbers(d, numbers + at + i * kLanes);
+      sum[i] = hn::Add(sum[i], v);
+      square[i] = hn::MulAdd(v, v, square[i]);
+    }
+  }
+  alignas(64) double sums[kStep], squares[kStep];
+  for (std::size_t i = 0; i < kParts; ++i) {
+    hn::Store(sum[i], d, sums + i * kLanes);
+    hn::Store(square[i], d, squares + i * kLanes);
+  }
+  LumpSums total;
+  const auto add = [&](std::size_t i, double v, double vv) {
+    if (i % 4 == 0) total.weight += v;
+    (i % 4 == 0 ? total.weight2 : total.gradient2) += vv;
+  };
+  for (std::size_t i = 0; i < kStep; ++i) add(i, sums[i], squares[i]);
+  for (; at < 4 * n; ++at) {
+    const double v = static_cast<double>(numbers[at]);
+    add(at, v, v * v);
+  }
+  return total;
+}
+
+LumpSums SumSingle(const VertexLump<std::int32_t>* lumps, std::size_t n) {
+  return sum_any(lumps, n);
+}
+LumpSums SumDouble(const VertexLump<double>* lumps, std::size_t n) { return sum_any(lumps, n); }
+
 void LoadSingle(const MeshView& mesh, std::size_t first, std::size_t n, const BlockParameters& p,
                 const VertexLump<std::int32_t>* lumps, SourceBatch<float>& batch) {
   load_by_type(mesh, first, n, p, lumps, batch);
@@ -102,6 +147,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace rholm {
 
+HWY_EXPORT(SumSingle);
+HWY_EXPORT(SumDouble);
 HWY_EXPORT(LoadSingle);
 HWY_EXPORT(LoadDouble);
 
@@ -125,19 +172,6 @@ std::int32_t sum_of(std::int32_t a, std::int32_t b) {  // modulo 2^32
 }
 double sum_of(double a, double b) { return a + b; }
 
-template <typename L>
-LumpSums sum_any(const VertexLump<L>* lumps, std::size_t n) {
-  LumpSums sums;
-  for (std::size_t i = 0; i < n; ++i) {
-    double v[4];
-    for (int k = 0; k < 4; ++k) v[k] = static_cast<double>(lumps[i].value[k]);
-    sums.weight += v[0];
-    sums.weight2 += v[0] * v[0];
-    sums.gradient2 += v[1] * v[1] + v[2] * v[2] + v[3] * v[3];
-  }
-  return sums;
-}
-
 }  // namespace
 
 void LumpSums::add(const LumpSums& other) {
@@ -147,9 +181,11 @@ void LumpSums::add(const LumpSums& other) {
 }
 
 LumpSums sum_lumps(const VertexLump<std::int32_t>* lumps, std::size_t n) {
-  return sum_any(lumps, n);
+  return HWY_DYNAMIC_DISPATCH(SumSingle)(lumps, n);
 }
-LumpSums sum_lumps(const VertexLump<double>* lumps, std::size_t n) { return sum_any(lumps, n); }
+LumpSums sum_lumps(const VertexLump<double>* lumps, std::size_t n) {
+  return HWY_DYNAMIC_DISPATCH(SumDouble)(lumps, n);
+}
 
 template <typename L>
 std::unique_ptr<typename LumpArrays<L>::Array> LumpArrays<L>::take() {
@@ -159,9 +195,7 @@ std::unique_ptr<typename LumpArrays<L>::Array> LumpArrays<L>::take() {
     free_.pop_back();
     return array;
   }
-  auto array = std::make_unique<Array>(n_vertices_ + kVectorLanes);
-  std::memset(static_cast<void*>(array->data()), 0, array->size() * sizeof(VertexLump<L>));
-  return array;
+  return std::make_unique<Array>(Array::zeros(n_vertices_ + kVectorLanes));
 }
 
 template <typename L>

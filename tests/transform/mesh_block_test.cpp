@@ -128,7 +128,7 @@ TEST(mesh_block, lumps_of_a_triangle_add_up_to_nothing) {
     if (block.flag[at] != kLumped) continue;
     for (int k = 0; k < 4; ++k) {
       std::int64_t sum = 0;
-      for (int i = 0; i < 3; ++i) sum += block.lump[i][at].value[k];
+      for (int i = 0; i < 3; ++i) sum += block.lump[i][lump_slot<std::int32_t>(at)].value[k];
       EXPECT_EQ(sum, 0) << t << " " << k;
     }
   }
@@ -299,7 +299,20 @@ TEST(mesh_block, meshes_that_are_not_closed_or_oriented_have_other_hash_sums) {
       double& x = moved.vertices[moved.triangles[t][0]].x;
       x = std::nextafter(x, 2.0);
       for (const Mesh& bad : {open, flipped, doubled, moved}) EXPECT_FALSE(closes(bad));
+      for (const Mesh& bad : {open, flipped, doubled}) {
+        EXPECT_FALSE(closes(test::packed<float>(bad).view));
+      }
     }
+  }
+}
+
+// Round numbers, whose last bits are all zeros.
+TEST(mesh_block, holes_in_a_lattice_have_other_hash_sums) {
+  Mesh open = box({8, 8, 8}, 8);
+  for (std::size_t holes = 0; holes < 100; ++holes) {
+    open.triangles.erase(open.triangles.begin() + static_cast<std::ptrdiff_t>(3 * holes));
+    EXPECT_FALSE(closes(open)) << holes;
+    EXPECT_FALSE(closes(test::packed<float>(open).view)) << holes;
   }
 }
 
@@ -352,7 +365,6 @@ TEST(mesh_block, sums_do_not_depend_on_how_triangles_are_dealt_out) {
     const BlockSums sums = work<double>(view_of(mesh), parameters, per_block).sums;
     EXPECT_NEAR(sums.volume6, whole.volume6, 1e-13);
     EXPECT_NEAR(sums.mean, whole.mean, 1e-12);
-    EXPECT_NEAR(sums.weight2, whole.weight2, 1e-12 * whole.weight2);
     EXPECT_EQ(sums.min_d2, whole.min_d2);
     EXPECT_EQ(sums.min_cos2, whole.min_cos2);
     EXPECT_EQ(sums.max_edge2, whole.max_edge2);
@@ -432,7 +444,6 @@ TEST(mesh_block, flags_what_cannot_be_lumped) {
   EXPECT_EQ(worked.sums.nodes, 3u);
   EXPECT_EQ(worked.sums.bad, 1u);
   EXPECT_TRUE(std::isfinite(worked.sums.volume6));
-  EXPECT_TRUE(std::isfinite(worked.sums.weight2));
   EXPECT_TRUE(std::isfinite(worked.sums.min_cos2));
 }
 
