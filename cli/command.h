@@ -65,6 +65,7 @@ Command spectrum_command();
 Command compare_command();
 Command convert_command();
 Command render_command();
+Command report_command();
 Command make_command();
 Command bench_command();
 Command completion_command();

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "rholm/image.h"
 
@@ -13,7 +14,9 @@ namespace rholm {
 // interrupted run leaves the old file whole; "-" is standard output. Throws Io.
 void write_file(const std::filesystem::path& path, std::span<const char> bytes);
 
-// Writes a PNG in the same way. Throws Io, InvalidInput for an image whose buffer does not fit.
+// A PNG file in memory. Throws InvalidInput for an image whose buffer does not fit.
+std::vector<char> encode_png(const Image& image);
+// Writes it in the same way. Throws Io as well.
 void write_png(const std::filesystem::path& path, const Image& image);
 
 // Removes the temporary files of all writes in progress. Async-signal-safe: for a program

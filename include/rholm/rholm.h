@@ -19,6 +19,7 @@
 #include "rholm/monte_carlo.h"
 #include "rholm/primitives.h"
 #include "rholm/render.h"
+#include "rholm/report.h"
 #include "rholm/shape_io.h"
 #include "rholm/star.h"
 #include "rholm/synthesize.h"

@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "io/atomic_file.h"
 #include "rholm/error.h"
 #include "rholm/file.h"
 
@@ -25,7 +24,7 @@ void check(const Image& image) {
 
 }  // namespace
 
-void write_png(const std::filesystem::path& path, const Image& image) {
+std::vector<char> encode_png(const Image& image) {
   check(image);
   png_image png = {};
   png.version = PNG_IMAGE_VERSION;
@@ -40,9 +39,12 @@ void write_png(const std::filesystem::path& path, const Image& image) {
     png_image_free(&png);
     throw Error(ErrorCode::kInvalidInput, "cannot encode a PNG image: " + reason);
   }
-  AtomicFile file(path);
-  file.write(std::span<const char>(bytes.data(), size));
-  file.commit();
+  bytes.resize(size);
+  return bytes;
+}
+
+void write_png(const std::filesystem::path& path, const Image& image) {
+  write_file(path, encode_png(image));
 }
 
 }  // namespace rholm

@@ -192,6 +192,10 @@ Color pixel_color(const PanelPicture& p, const RayScene& scene, const LightSampl
 
 void draw_panel(Canvas& canvas, const PanelPicture& p, const RenderOptions& options,
                 const Context& context, const ParallelStage& stage) {
+  // Far below a pixel, beside something large, there is nothing to see; rays that start at the
+  // large thing's distance would overflow in units of the small one.
+  constexpr double kVisible = 1e-3;
+  if (p.subject.radius * p.pixels_per_unit < kVisible) return;
   const RayScene scene(p.subject.mesh);
   const LightSamples lights =
       make_light_samples(options.samples * options.samples, options.occlusion_rays);
@@ -211,7 +215,7 @@ void draw_panel(Canvas& canvas, const PanelPicture& p, const RenderOptions& opti
 Image render(std::span<const Panel> panels, const RenderOptions& options, const Context& context) {
   check(panels, options);
   const std::optional<ColorScale> scale = color_scale(panels, options);
-  const Layout layout = make_layout(panels, options, scale.has_value());
+  const Layout layout = make_layout(panels, options, scale && options.scale_bar);
   const double to_unit = common_scale(panels);
   std::vector<Subject> subjects;
   double radius = 0;
@@ -243,7 +247,7 @@ Image render(std::span<const Panel> panels, const RenderOptions& options, const 
     draw_text(canvas, panels[k].label, picture.center_x, layout.label_baseline, layout.text_size,
               kInk);
   }
-  if (scale) {
+  if (scale && options.scale_bar) {
     draw_scale_bar(canvas, *scale, options.scale_label, 0.5 * options.width, layout.bar_top,
                    0.5 * options.width, layout.text_size);
   }

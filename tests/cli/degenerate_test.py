@@ -89,6 +89,7 @@ class Degenerate(CliTest):
         for name, (content, *_) in SHAPES.items():
             self.write(name, content)
         self.write("good.off", off(*OCTAHEDRON))
+        self.write("good.sh", "0 0 1 0\n1 0 0.1 0\n1 1 0 0\n")
 
     def check(self, codes, *words, output=None):
         """Runs; the exit code must be allowed, a refusal must leave nothing behind."""
@@ -144,6 +145,14 @@ class Degenerate(CliTest):
                 # A picture of nothing visible is allowed, a crash is not.
                 self.check(codes | EITHER, "render", name, "--size", "64x48", output="out.png")
 
+    def test_report(self):
+        for name, (_, _, codes, _) in SHAPES.items():
+            with self.subTest(name):
+                self.check(codes, "report", name, "--degree", "3", "--size", "16",
+                           output="out.html")
+                self.check(codes | FINE, "report", "good.sh", "--shape", name, "--size", "16",
+                           output="out.html")
+
     def test_convert(self):
         for name, (_, codes, _, _) in SHAPES.items():
             for output in ("out.off", "out.obj", "out.ply", "out.stl"):
@@ -181,7 +190,8 @@ class Degenerate(CliTest):
                       ["compare", "good.off", "zero.h5", "--samples", "100"]):
             self.check(FINE, *words)
         for words, output in ((["synthesize", "zero.h5"], "z.ply"), (["spectrum", "zero.h5"], "z.svg"),
-                              (["render", "zero.h5", "--size", "64x64"], "z.png")):
+                              (["render", "zero.h5", "--size", "64x64"], "z.png"),
+                              (["report", "zero.h5", "--size", "16"], "z.html")):
             self.check(FINE, *words, output=output)
         for name in ("z.sh", "z.gfc", "z.json", "z.npy"):
             self.rholm("convert", "zero.h5", name)
@@ -200,7 +210,8 @@ class DegenerateCoefficients(CliTest):
 
     def check_refused(self, name):
         for words in (["info", name], ["spectrum", name], ["synthesize", name, "-o", "o.ply"],
-                      ["convert", name, "o.sh"], ["render", name, "-o", "o.png"]):
+                      ["convert", name, "o.sh"], ["render", name, "-o", "o.png"],
+                      ["report", name, "-o", "o.html"]):
             before = self.files()
             with self.subTest(" ".join(words)):
                 self.rholm(*words, code=3)

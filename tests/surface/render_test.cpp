@@ -243,6 +243,20 @@ TEST(render, draws_degenerate_shapes) {
   EXPECT_EQ(render({&panel, 1}, least).rgb.size(), 3u * 16 * 16);
 }
 
+// Beside a sphere of 1 what is 1e-30 of it is no pixel, and no ray that overflows.
+TEST(render, leaves_white_what_is_far_below_a_pixel) {
+  const Mesh large = icosphere(2), small = moved(icosphere(2), 1e-30, {});
+  for (const Mesh* first : {&large, &small}) {
+    std::vector<Panel> panels(2);
+    panels[0].mesh = first;
+    panels[1].mesh = first == &large ? &small : &large;
+    const Image image = render(panels, front());
+    const int center_of_large = first == &large ? 24 : 72;
+    EXPECT_NE(pixel(image, center_of_large, 40), kWhite);
+    EXPECT_EQ(pixel(image, 96 - center_of_large, 40), kWhite);
+  }
+}
+
 TEST(render, refuses_what_it_cannot_draw) {
   const Mesh good = icosphere(1), empty;
   const auto refused = [](const std::vector<Panel>& panels, const RenderOptions& options) {

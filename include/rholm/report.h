@@ -1,0 +1,42 @@
+// All that is known of a model on one page. Layer: model.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rholm/coefficients.h"
+#include "rholm/context.h"
+#include "rholm/mesh.h"
+
+namespace rholm {
+
+// How to get something again: "This page", "rholm report ...".
+struct ReportCommand {
+  std::string what;
+  std::string command;
+};
+
+struct ReportOptions {
+  std::string title;                         // what the page is of, as a rule a file's name
+  std::string shape_name;                    // of the shape, as a rule a file's name
+  std::vector<ReportCommand> commands = {};  // shown as they are, in this order
+  std::vector<std::string> notes = {};       // what must be known of the input, a sentence each
+  std::optional<double> tolerance = {};  // wanted rms error of the function: a line in the plots
+  double weld_tolerance = 0;             // of the shape, in its unit
+  int picture_size = 480;                // pixels of each picture's side, 16 ... 4096
+};
+
+// A page of HTML (UTF-8) that needs no other file and runs no script: pictures of the shape and of
+// the model at a few degrees, where they differ, the spectrum, a table of degrees and their errors,
+// figures, conventions, and how to get all that again. For a screen of any width and for paper.
+//
+// `shape`: the mesh that the model is of, or nullptr if it is not at hand: then there is no picture
+// of it, and of errors only what the expansion itself knows. Below 3 MB with pictures of the
+// default size. No degree above 512 is drawn or measured point by point: neither the pictures
+// nor the patience have room for it. Same input, same bytes, for any number of threads. Throws
+// InvalidInput for options out of range, an empty mesh, or coefficients that have no surface.
+std::string report_html(const Expansion& expansion, const Mesh* shape, const ReportOptions& options,
+                        const Context& context = {});
+
+}  // namespace rholm

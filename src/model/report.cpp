@@ -1,0 +1,95 @@
+#include "rholm/report.h"
+
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/parallel.h"
+#include "model/html.h"
+#include "model/report_data.h"
+#include "model/report_pictures.h"
+#include "model/report_style.h"
+#include "model/report_text.h"
+#include "rholm/error.h"
+#include "rholm/rholm.h"
+
+namespace rholm {
+namespace {
+
+void check(const Mesh* shape, const ReportOptions& options) {
+  constexpr int kMin = 16, kMax = 4096;
+  if (options.picture_size < kMin || options.picture_size > kMax) {
+    throw Error(ErrorCode::kInvalidInput,
+                fmt::format("the size of the pictures is {}, it must be {} ... {} pixels",
+                            options.picture_size, kMin, kMax));
+  }
+  if (options.tolerance && !(*options.tolerance > 0)) {
+    throw Error(ErrorCode::kInvalidInput,
+                fmt::format("the tolerance is {}, it must be above 0", *options.tolerance));
+  }
+  if (shape != nullptr && shape->triangles.empty()) {
+    throw Error(ErrorCode::kInvalidInput, "the shape has no triangle: there is nothing to draw");
+  }
+}
+
+// Nothing may be loaded from elsewhere, and nothing may run.
+std::string head(const ReportOptions& options) {
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
+      "style-src 'unsafe-inline'\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<meta name=\"generator\" content=\"rholm {}\">\n<title>{}</title>\n"
+      "<style>{}</style>\n</head>\n<body>\n",
+      kVersion, html::escaped(options.title), report::kStyle);
+}
+
+// The coefficients without what they know of the shape they are of.
+Expansion stranger(const Expansion& expansion) {
+  Expansion result = expansion;
+  result.norm_squared.reset();
+  result.tail_strength.reset();
+  result.errors.reset();
+  return result;
+}
+
+std::string page_of(const Expansion& expansion, std::optional<report::ShapeFigures> shape,
+                    const ReportOptions& options, const Context& context) {
+  const report::Data data = report::find_data(expansion, std::move(shape), context);
+  const report::Pictures pictures = report::draw(expansion, data, options, context);
+  std::string page = head(options) + report::heading(expansion, data, options) + "<main>\n";
+  page += report::levels_section(expansion, data, options, pictures);
+  page += report::error_map_section(expansion, data, options, pictures);
+  page += report::spectrum_section(expansion, data, options);
+  page += report::degrees_section(expansion, data);
+  page += report::errors_section(expansion, data);
+  page += report::figures_section(expansion, data);
+  page += report::conventions_section(expansion, options);
+  page += report::commands_section(options);
+  return page + fmt::format("</main>\n<footer>rholm {}</footer>\n</body>\n</html>\n", kVersion);
+}
+
+}  // namespace
+
+std::string report_html(const Expansion& expansion, const Mesh* shape, const ReportOptions& options,
+                        const Context& context) {
+  check(shape, options);
+  std::optional<report::ShapeFigures> figures;
+  if (shape != nullptr) {
+    report_progress(context, "figures", 0);
+    figures = report::shape_figures(*shape, expansion.center, options.weld_tolerance, context);
+  }
+  if (figures && !report::may_be_of(expansion, *figures)) {
+    ReportOptions told = options;
+    told.notes.push_back(
+        fmt::format("{} is not the shape that these coefficients were found from, at least not as "
+                    "it is joined here: what they keep of their own shape is left out.",
+                    options.shape_name));
+    return page_of(stranger(expansion), std::move(figures), told, context);
+  }
+  return page_of(expansion, std::move(figures), options, context);
+}
+
+}  // namespace rholm

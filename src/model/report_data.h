@@ -1,0 +1,71 @@
+// The figures of a report, before they are text.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "rholm/coefficients.h"
+#include "rholm/context.h"
+#include "rholm/mesh.h"
+#include "rholm/report.h"
+#include "rholm/star.h"
+#include "rholm/synthesize.h"
+#include "rholm/topology.h"
+
+namespace rholm::report {
+
+// Chosen: the shortest wave of this degree is 3 pixels of a picture of the default size, and
+// points are measured in a second.
+inline constexpr int kHighestDrawn = 512;
+
+struct ShapeFigures {
+  Mesh mesh;  // welded, outward, without attributes
+  Inspection inspection;
+  StarReport star;  // from the model's centre
+  // Closed, and every direction meets the surface once: radial errors and Parseval make sense.
+  bool is_star() const { return inspection.closed && inspection.oriented && star.star_shaped; }
+};
+ShapeFigures shape_figures(const Mesh& mesh, const Vec3& center, double weld_tolerance,
+                           const Context& context);
+
+// Whether the model may be of this shape, by the norm it keeps and the diagonal. One that is of
+// another shape knows the errors of that one, not of this.
+bool may_be_of(const Expansion& expansion, const ShapeFigures& shape);
+
+// One degree at which the series is cut off.
+struct DegreeRow {
+  int degree = 0;
+  // Radial, over solid angle, in the unit of lengths; none if it is not known.
+  std::optional<double> rms;
+  bool rms_is_exact = false;
+  std::optional<double> max;           // radial
+  std::optional<double> max_distance;  // between the surfaces
+};
+
+struct Data {
+  std::optional<ShapeFigures> shape;
+  std::vector<double> energy;  // per degree
+  // Per degree l: root mean square, over solid angle, of what the function holds above l; with what
+  // lies above the model's own degree if that is known.
+  std::vector<double> rms_beyond;
+  std::vector<bool> is_exact;  // that figure, but for what the coefficients' precision does
+  bool includes_tail = false;
+  double rms_floor = 0;                    // of the model's own degree: it may be up to this
+  std::vector<DegreeRow> rows;             // ascending, the last one the model's own
+  std::optional<TruncationErrors> errors;  // of the model's own degree
+  std::optional<SurfaceMeasures> model;    // none above kHighestDrawn, or without a surface
+  double mean_radius = 0;                  // of the model, over solid angle; 0 for a gauge
+  double diagonal = 0;                     // of the shape; 0 if unknown
+};
+
+Data find_data(const Expansion& expansion, std::optional<ShapeFigures> shape,
+               const Context& context);
+
+// 1, 2, 4, ... below L, and L.
+std::vector<int> degree_ladder(int degree);
+
+// The expansion cut off; what no longer holds is dropped.
+Expansion cut_off(const Expansion& expansion, int degree);
+
+}  // namespace rholm::report

@@ -1,0 +1,25 @@
+// The words of a report.
+#pragma once
+
+#include <string>
+
+#include "model/report_data.h"
+#include "model/report_pictures.h"
+
+namespace rholm::report {
+
+std::string heading(const Expansion& expansion, const Data& data, const ReportOptions& options);
+std::string levels_section(const Expansion& expansion, const Data& data,
+                           const ReportOptions& options, const Pictures& pictures);
+// Empty without a shape.
+std::string error_map_section(const Expansion& expansion, const Data& data,
+                              const ReportOptions& options, const Pictures& pictures);
+std::string spectrum_section(const Expansion& expansion, const Data& data,
+                             const ReportOptions& options);
+std::string degrees_section(const Expansion& expansion, const Data& data);
+std::string errors_section(const Expansion& expansion, const Data& data);
+std::string figures_section(const Expansion& expansion, const Data& data);
+std::string conventions_section(const Expansion& expansion, const ReportOptions& options);
+std::string commands_section(const ReportOptions& options);
+
+}  // namespace rholm::report
