@@ -69,6 +69,12 @@ ErrorPoints ErrorPoints::subset(const std::vector<std::size_t>& indices) const {
   return result;
 }
 
+void ErrorPoints::append(const ErrorPoints& more) {
+  directions.insert(directions.end(), more.directions.begin(), more.directions.end());
+  radii.insert(radii.end(), more.radii.begin(), more.radii.end());
+  cosines.insert(cosines.end(), more.cosines.begin(), more.cosines.end());
+}
+
 ErrorPoints extreme_points(const MeshView& mesh, const Vec3& center, int degree) {
   ErrorPoints points;
   // A vertex of no face is no point of the surface.

@@ -18,6 +18,7 @@ struct ErrorPoints {
 
   std::size_t size() const { return directions.size(); }
   ErrorPoints subset(const std::vector<std::size_t>& indices) const;
+  void append(const ErrorPoints& more);
 };
 
 // Where the largest errors of degree L are: all vertices and, where faces are long against 1/L, up

@@ -230,7 +230,7 @@ class Pass {
   // Calls visit(first, n, lumps) for blocks of vertices.
   template <typename Visit>
   void visit_lumps(std::size_t begin, std::size_t end, const Visit& visit) const {
-    VertexLump<Lump> room[kVerticesPerBlock];
+    alignas(64) VertexLump<Lump> room[kVerticesPerBlock];
     for (std::size_t first = begin; first < end; first += kVerticesPerBlock) {
       const std::size_t n = std::min(kVerticesPerBlock, end - first);
       visit(first, n, arrays_.sums(first, n, room));

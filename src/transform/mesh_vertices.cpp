@@ -86,9 +86,9 @@ HWY_INLINE void load_by_type(const MeshView& mesh, std::size_t first, std::size_
   }
 }
 
-HWY_INLINE V load_numbers(D d, const double* from) { return hn::Load(d, from); }
+HWY_INLINE V load_numbers(D d, const double* from) { return hn::LoadU(d, from); }
 HWY_INLINE V load_numbers(D d, const std::int32_t* from) {
-  return hn::PromoteTo(d, hn::Load(hn::Rebind<std::int32_t, D>(), from));
+  return hn::PromoteTo(d, hn::LoadU(hn::Rebind<std::int32_t, D>(), from));
 }
 
 // Weight and gradient of a vertex follow each other in the lanes of one or more vectors.

@@ -67,6 +67,7 @@ class ErrorOfDegree {
     const int degree = expansion.coefficients.degree();
     if (tolerance.norm == ErrorNorm::kMax) {
       points_ = extreme_points(problem.mesh, problem.center, degree);
+      points_.append(area_points(problem.mesh, problem.center, kAreaPoints));
     } else if (is_distance() || !final) {
       points_ = area_points(problem.mesh, problem.center, final ? kAreaPoints : kPilotPoints);
     }

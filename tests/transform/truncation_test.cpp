@@ -137,7 +137,8 @@ TEST(analyze_to_a_tolerance, finds_the_smallest_degree_that_keeps_it) {
         cut.coefficients = cut.coefficients.resized(l);
         return error_of(c.tolerance, truncation_errors(view_of(mesh), cut, {.precision = 1e-9}));
       };
-      EXPECT_NEAR(measured(degree), found.reached, 0.01 * found.reached) << c.name;
+      // Points between vertices lie closer for the higher degree that was searched in.
+      EXPECT_NEAR(measured(degree), found.reached, 0.03 * found.reached) << c.name;
       if (degree > 10) {
         EXPECT_GT(measured(degree - degree / 10), found.allowed) << c.name;
       }
