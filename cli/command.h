@@ -67,6 +67,8 @@ Command convert_command();
 Command render_command();
 Command report_command();
 Command make_command();
+Command orient_command();
+Command reconstruct_command();
 Command bench_command();
 Command completion_command();
 Command man_page_command();

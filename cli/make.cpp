@@ -6,6 +6,7 @@
 
 #include "cli/command.h"
 #include "cli/interrupt.h"
+#include "cli/make_sample.h"
 #include "cli/outputs.h"
 #include "cli/parse.h"
 #include "cli/session.h"
@@ -17,6 +18,7 @@ namespace {
 
 struct Options {
   std::string kind;
+  SampleArguments sample;
   std::optional<int> subdivisions;
   std::string axes;
   std::string size;
@@ -46,7 +48,8 @@ void check_options(const Options& o) {
   only_for(!o.radii.empty(), "--radii", {"torus"});
   only_for(!o.segments.empty(), "--segments", {"torus"});
   only_for(o.amplitude.has_value(), "--amplitude", {"bumpy"});
-  only_for(o.seed.has_value(), "--seed", {"bumpy"});
+  only_for(o.seed.has_value(), "--seed", {"bumpy", "sample"});
+  if (o.kind != "sample") refuse_given(o.sample, o.kind);
 }
 
 Mesh make_torus(const Options& o) {
@@ -76,68 +79,82 @@ int run(const Options& options, Session& session) {
   check_options(options);
   const ShapeFormat format = shape_output(options.output, options.format);
   check_writable(options.output);
-  Mesh mesh = make_shape(options);
-  if (!options.translate.empty()) {
-    const Vec3 shift = parse_vector("--translate", options.translate);
-    for (Vec3& vertex : mesh.vertices) vertex += shift;
+  const Vec3 shift =
+      options.translate.empty() ? Vec3{} : parse_vector("--translate", options.translate);
+  const ShapeWriteOptions writing{format, options.ascii};
+  if (options.kind == "sample") {
+    const auto seed = static_cast<std::uint64_t>(options.seed.value_or(1));
+    PointCloud cloud = make_sample(options.sample, seed, session);
+    for (Vec3& point : cloud.points) point += shift;
+    stop_if_interrupted();
+    write_shape(cloud, options.output, writing, session.context());
+    return 0;
   }
+  Mesh mesh = make_shape(options);
+  for (Vec3& vertex : mesh.vertices) vertex += shift;
   stop_if_interrupted();
-  write_shape(mesh, options.output, {format, options.ascii}, session.context());
+  write_shape(mesh, options.output, writing, session.context());
   return 0;
 }
 
 std::vector<Option> option_list(Options& o) {
-  return {{.name = "KIND",
-           .help = "sphere, ellipsoid, box, torus or bumpy",
-           .target = &o.kind,
-           .required = true,
-           .choices = {"sphere", "ellipsoid", "box", "torus", "bumpy"}},
-          {.name = "subdivisions",
-           .value = "N",
-           .help = "of sphere, ellipsoid, bumpy: 10 4^N + 2 vertices; 5 by default",
-           .target = &o.subdivisions,
-           .min = 0,
-           .max = 12},
-          {.name = "axes",
-           .value = "A,B,C",
-           .help = "semi-axes of the ellipsoid; 3,2,1 by default",
-           .target = &o.axes},
-          {.name = "size",
-           .value = "X,Y,Z",
-           .help = "edges of the box; 1,1,1 by default",
-           .target = &o.size},
-          {.name = "cells",
-           .value = "N",
-           .help = "squares per edge of the box; 1 by default",
-           .target = &o.cells,
-           .min = 1,
-           .max = 4096},
-          {.name = "radii",
-           .value = "R,r",
-           .help = "of the torus: centre line and tube; 1,0.4 by default",
-           .target = &o.radii},
-          {.name = "segments",
-           .value = "NxM",
-           .help = "of the torus: around the axis and around the tube; 96x48 by default",
-           .target = &o.segments},
-          {.name = "amplitude",
-           .value = "A",
-           .help = "height of the bumps, 0 ... 0.99; 0.2 by default",
-           .target = &o.amplitude,
-           .min = 0,
-           .max = 0.99},
-          {.name = "seed",
-           .value = "S",
-           .help = "which bumps; 1 by default",
-           .target = &o.seed,
-           .min = 0},
-          {.name = "translate",
-           .value = "X,Y,Z",
-           .help = "move the shape; it is centred at the origin otherwise",
-           .target = &o.translate},
-          output_option(o.output, "mesh to write: .ply, .obj, .off, .stl; - for standard output"),
-          format_option(o.format, shape_formats()),
-          {.name = "ascii", .help = "PLY and STL as text", .target = &o.ascii}};
+  std::vector<Option> options = {
+      {.name = "KIND",
+       .help = "sphere, ellipsoid, box, torus, bumpy, or sample: random points on MESH",
+       .target = &o.kind,
+       .required = true,
+       .choices = {"sphere", "ellipsoid", "box", "torus", "bumpy", "sample"}},
+      sample_operand(o.sample),
+      {.name = "subdivisions",
+       .value = "N",
+       .help = "of sphere, ellipsoid, bumpy: 10 4^N + 2 vertices; 5 by default",
+       .target = &o.subdivisions,
+       .min = 0,
+       .max = 12},
+      {.name = "axes",
+       .value = "A,B,C",
+       .help = "semi-axes of the ellipsoid; 3,2,1 by default",
+       .target = &o.axes},
+      {.name = "size",
+       .value = "X,Y,Z",
+       .help = "edges of the box; 1,1,1 by default",
+       .target = &o.size},
+      {.name = "cells",
+       .value = "N",
+       .help = "squares per edge of the box; 1 by default",
+       .target = &o.cells,
+       .min = 1,
+       .max = 4096},
+      {.name = "radii",
+       .value = "R,r",
+       .help = "of the torus: centre line and tube; 1,0.4 by default",
+       .target = &o.radii},
+      {.name = "segments",
+       .value = "NxM",
+       .help = "of the torus: around the axis and around the tube; 96x48 by default",
+       .target = &o.segments},
+      {.name = "amplitude",
+       .value = "A",
+       .help = "height of the bumps, 0 ... 0.99; 0.2 by default",
+       .target = &o.amplitude,
+       .min = 0,
+       .max = 0.99},
+      {.name = "seed",
+       .value = "S",
+       .help = "which bumps, which points; 1 by default",
+       .target = &o.seed,
+       .min = 0},
+      {.name = "translate",
+       .value = "X,Y,Z",
+       .help = "move the shape; it is centred at the origin, or where MESH is, otherwise",
+       .target = &o.translate}};
+  for (Option& option : sample_options(o.sample)) options.push_back(std::move(option));
+  options.push_back(output_option(
+      o.output,
+      "to write: .ply, .obj, .off, meshes as .stl, points as .xyz; - for standard output"));
+  options.push_back(format_option(o.format, shape_formats()));
+  options.push_back({.name = "ascii", .help = "PLY and STL as text", .target = &o.ascii});
+  return options;
 }
 
 }  // namespace
@@ -149,10 +166,14 @@ Command make_command() {
           .description =
               "Writes a closed mesh, its faces counter-clockwise from outside: the unit sphere, "
               "an ellipsoid, a box, a torus (which is not star-shaped), or a bumpy sphere "
-              "(which is).",
+              "(which is).\n\n'make sample MESH' writes points instead, as a scanner might give "
+              "them: random on the surface, uniform by area, with the normals of the faces; on "
+              "demand with errors, gaps and density that varies, all of them random numbers of "
+              "--seed. Lengths are parts of the diagonal of the bounding box of MESH.",
           .options = option_list(*options),
           .examples = {"rholm make bumpy -o bumpy.ply",
-                       "rholm make ellipsoid --axes 3,2,1 --subdivisions 6 -o ellipsoid.ply"},
+                       "rholm make ellipsoid --axes 3,2,1 --subdivisions 6 -o ellipsoid.ply",
+                       "rholm make sample bumpy.ply --points 20000 --noise 0.002 -o points.ply"},
           .run = [options](Session& session) { return run(*options, session); }};
 }
 

@@ -69,6 +69,10 @@ struct Inspection {
 };
 Inspection inspect(const Mesh& mesh);
 
+// The component (of triangles connected through edges, as counted above: weld first to close
+// seams) of the largest area, welded as by weld(mesh, 0). Of equal ones the first.
+Mesh largest_component(const Mesh& mesh);
+
 // Reverses every triangle. Normals nx, ny, nz among the attributes change sign.
 void flip(Mesh& mesh);
 

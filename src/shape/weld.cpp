@@ -3,7 +3,6 @@
 // are left out, pairs that lie within it altogether become one set without looking inside. So
 // neither tiny tolerances nor ones as large as the shape cost more than about n log n.
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <string>
 
@@ -12,36 +11,10 @@
 #include "shape/disjoint_sets.h"
 #include "shape/face.h"
 #include "shape/half_edges.h"
+#include "shape/identical.h"
 
 namespace rholm {
 namespace {
-
-std::uint64_t bits(double x) { return std::bit_cast<std::uint64_t>(x + 0.0); }  // -0 + 0 = 0
-
-std::uint64_t hash(const Vec3& v) {
-  // Odd multipliers of xxHash64; the shifts bring high bits, where doubles differ, down.
-  std::uint64_t h = bits(v.x) * 0x9e3779b185ebca87ULL;
-  h = (h ^ (h >> 32) ^ bits(v.y)) * 0xc2b2ae3d27d4eb4fULL;
-  h = (h ^ (h >> 29) ^ bits(v.z)) * 0x165667b19e3779f9ULL;
-  return h ^ (h >> 32);
-}
-
-// For every vertex the first one in file order with the same coordinates.
-std::vector<std::uint32_t> first_identical(const std::vector<Vec3>& vertices) {
-  constexpr std::uint32_t kFree = 0xffffffff;
-  const std::size_t slots = std::bit_ceil(2 * vertices.size() + 1);
-  std::vector<std::uint32_t> table(slots, kFree);
-  std::vector<std::uint32_t> first(vertices.size());
-  for (std::uint32_t i = 0; i < vertices.size(); ++i) {
-    std::size_t slot = hash(vertices[i]) & (slots - 1);
-    while (table[slot] != kFree && !(vertices[table[slot]] == vertices[i])) {
-      slot = (slot + 1) & (slots - 1);
-    }
-    if (table[slot] == kFree) table[slot] = i;
-    first[i] = table[slot];
-  }
-  return first;
-}
 
 // A node of the tree: points begin ... end of the order, and their box.
 struct Node {

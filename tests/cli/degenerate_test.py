@@ -164,6 +164,13 @@ class Degenerate(CliTest):
                         (self.folder / output).unlink()
                     self.assertEqual(self.files(), before)
 
+    def test_sample_and_orient(self):
+        # A surface with area has points; what has three places that are not on a line has normals.
+        for name, (_, codes, _, sampled) in SHAPES.items():
+            with self.subTest(name):
+                self.check(sampled, "make", "sample", name, "--points", "50", output="out.ply")
+                self.check(codes | EITHER, "orient", name, output="out.xyz")
+
     def test_center_on_the_surface_is_refused(self):
         self.rholm("make", "box", "--size", "2,2,2", "-o", "box.ply")
         for center in ("1,0,0", "1,1,0", "1,1,1", "0.25,-1,0.125"):

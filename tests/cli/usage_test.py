@@ -11,7 +11,7 @@ sys.path.insert(0, os.path.dirname(__file__))
 from harness import CliTest, OCTAHEDRON, RHOLM, SOURCE, Terminal, main, off
 
 COMMANDS = ["info", "center", "analyze", "synthesize", "spectrum", "compare", "convert", "render",
-            "report", "make", "bench", "completion"]
+            "report", "make", "orient", "bench", "completion"]
 
 
 class Help(CliTest):
@@ -99,7 +99,8 @@ class WrongUsage(CliTest):
     def test_outputs_without_a_format_are_refused_before_any_work(self):
         for words in (["analyze", "missing.off", "--degree", "4"], ["synthesize", "missing.h5"],
                       ["make", "sphere"], ["spectrum", "missing.h5"], ["render", "missing.off"],
-                      ["report", "missing.off"]):
+                      ["report", "missing.off"], ["orient", "missing.xyz"],
+                      ["make", "sample", "missing.off"]):
             self.refused(*words, "-o", "out.xyzzy", saying="out.xyzzy")
             self.refused(*words, "-o", "-", saying="--format")
         self.refused("convert", "a.off", "out.xyzzy", saying="out.xyzzy")
@@ -128,7 +129,9 @@ class Failures(CliTest):
                       ["analyze", "none.ply", "--degree", "2", "-o", "o.h5"],
                       ["compare", "none.ply", "none.ply"], ["convert", "none.ply", "o.obj"],
                       ["render", "none.ply", "-o", "o.png"],
-                      ["report", "none.ply", "-o", "o.html"]):
+                      ["report", "none.ply", "-o", "o.html"],
+                      ["orient", "none.ply", "-o", "o.ply"],
+                      ["make", "sample", "none.ply", "-o", "o.ply"]):
             result = self.rholm(*words, code=1)
             self.assertIn("none.", result.err)
             self.assertEqual(self.files(), [])

@@ -1,0 +1,236 @@
+// rholm reconstruct: surfaces from points.
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/inputs.h"
+#include "cli/interrupt.h"
+#include "cli/outputs.h"
+#include "cli/parse.h"
+#include "cli/report.h"
+#include "cli/session.h"
+#include "rholm/reconstruct.h"
+#include "rholm/topology.h"
+
+namespace rholm::cli {
+namespace {
+
+struct Options {
+  std::string input;
+  std::optional<double> tolerance;
+  std::string noise = "auto";
+  std::string holes = "fill";
+  std::optional<int> resolution;
+  double min_component = 0.01;
+  double max_memory = 8;
+  bool keep_outliers = false;
+  std::string output;
+  std::string format;
+  bool ascii = false;
+  bool json = false;
+};
+
+// Of a mesh the vertices, with the mean normals of their faces.
+PointCloud points_of(Mesh mesh) {
+  PointCloud cloud;
+  cloud.normals.resize(mesh.vertices.size());
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3& a = mesh.vertices[t[0]];
+    const Vec3 area = cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a);
+    for (const std::uint32_t corner : t) cloud.normals[corner] += area;
+  }
+  std::erase_if(mesh.attributes, [](const Attribute& a) {
+    return a.name == "nx" || a.name == "ny" || a.name == "nz";
+  });
+  cloud.points = std::move(mesh.vertices);
+  cloud.attributes = std::move(mesh.attributes);
+  return cloud;
+}
+
+PointCloud read_points(const std::string& path, Session& session) {
+  ShapeFile file = read_shape_input(path, session);
+  for (const std::string& warning : file.warnings) {
+    session.warn(fmt::format("{}: {}", display_name(path), warning));
+  }
+  if (auto* cloud = std::get_if<PointCloud>(&file.shape)) return std::move(*cloud);
+  Mesh& mesh = std::get<Mesh>(file.shape);
+  session.note(fmt::format("{} is a mesh: its {} vertices are taken as points", display_name(path),
+                           mesh.vertices.size()));
+  return points_of(std::move(mesh));
+}
+
+double parse_noise(const std::string& text) {
+  std::size_t end = 0;
+  double value = -1;
+  try {
+    value = std::stod(text, &end);
+  } catch (const std::exception&) {
+    end = 0;
+  }
+  if (end != text.size() || end == 0 || !(value >= 0 && value < 1)) {
+    throw UsageError(
+        fmt::format("--noise is auto or a part of the diagonal, 0 ... 1, not '{}'", text));
+  }
+  return value;
+}
+
+ReconstructOptions library_options(const Options& o, const Bounds& box) {
+  ReconstructOptions options;
+  const Vec3 size = box.max - box.min;
+  if (o.resolution) options.step = std::max({size.x, size.y, size.z}) / *o.resolution;
+  if (o.tolerance) options.tolerance = *o.tolerance * box.diagonal();
+  if (o.noise != "auto") options.noise = parse_noise(o.noise) * box.diagonal();
+  options.holes = parse_hole_policy(o.holes);
+  options.min_component = o.min_component;
+  options.remove_outliers = !o.keep_outliers;
+  options.max_memory = static_cast<std::size_t>(o.max_memory * 0x1p30);
+  return options;
+}
+
+Json json_of(const Reconstruction& made, double diagonal) {
+  const ReconstructReport& r = made.report;
+  Json json = {{"points", r.points},
+               {"dropped_points", r.dropped_points},
+               {"outliers", r.outliers},
+               {"computed_normals", r.computed_normals},
+               {"spacing", r.spacing},
+               {"noise", r.noise},
+               {"normal_noise_degrees", r.normal_noise_degrees},
+               {"neighbours", r.neighbours},
+               {"caps", r.caps},
+               {"coefficients", made.atlas.coefficients.size()},
+               {"step", r.step},
+               {"holes", r.holes},
+               {"smooth_holes", r.smooth_holes},
+               {"dropped_components", r.dropped_components},
+               {"vertices", made.mesh.vertices.size()},
+               {"faces", made.mesh.triangles.size()},
+               {"diagonal", diagonal},
+               {"foreseen_memory", r.memory}};
+  for (const auto& [name, time] : r.times) {
+    json["stages"][name] = {{"wall_seconds", time.wall}, {"cpu_seconds", time.cpu}};
+  }
+  return json;
+}
+
+std::string report_text(const Reconstruction& made, double diagonal, bool keep_holes) {
+  const ReconstructReport& r = made.report;
+  const auto relative = [&](double length) {
+    return fmt::format("{} ({:.3g} of the diagonal)", text_of(length), length / diagonal);
+  };
+  std::string text = line("points", fmt::format("{}", r.points));
+  if (r.dropped_points > 0) {
+    text += line("dropped",
+                 fmt::format("{} (not finite, doubled, or without a normal)", r.dropped_points));
+  }
+  if (r.outliers > 0) text += line("outliers", fmt::format("{}, left out", r.outliers));
+  if (r.computed_normals) text += line("normals", "computed, as by rholm orient");
+  text += line("spacing", relative(r.spacing));
+  text += line("noise", r.noise > 0 ? relative(r.noise) : "within what the caps explain");
+  text += line("caps", fmt::format("{} of about {} points", r.caps, r.neighbours));
+  text += line("grid", fmt::format("cubes of {}", relative(r.step)));
+  if (r.holes > 0) {
+    text += line("places without data",
+                 keep_holes ? fmt::format("{}", r.holes) : fmt::format("{} closed", r.holes));
+  }
+  if (r.dropped_components > 0)
+    text += line("small parts", fmt::format("{} dropped", r.dropped_components));
+  return text + line("surface",
+                     fmt::format("{}, {}", counted(made.mesh.vertices.size(), "vertex", "vertices"),
+                                 counted(made.mesh.triangles.size(), "face")));
+}
+
+int run(const Options& options, Session& session) {
+  const ShapeFormat format = shape_output(options.output, options.format, options.json);
+  if (format == ShapeFormat::kXyz)
+    throw UsageError("a surface needs a format with faces: .ply, .obj, .off or .stl");
+  if (options.noise != "auto") parse_noise(options.noise);
+  check_writable(options.output);
+  PointCloud cloud = read_points(options.input, session);
+  validate(cloud);
+  const Bounds box = bounds(cloud.points);
+  const ReconstructOptions wanted = library_options(options, box);
+  const Reconstruction made = reconstruct(std::move(cloud), wanted, session.context());
+  stop_if_interrupted();
+  write_shape(made.mesh, options.output, {format, options.ascii}, session.context());
+  if (options.json) {
+    Json json;
+    json["file"] = options.input;
+    json.update(json_of(made, box.diagonal()));
+    print_json(json);
+  } else if (options.output != "-") {
+    print_text(fmt::format("{}: reconstructed\n", display_name(options.input)) +
+               report_text(made, box.diagonal(), wanted.holes == HolePolicy::kKeep));
+  }
+  return 0;
+}
+
+std::vector<Option> option_list(Options& o) {
+  return {{.name = "POINTS",
+           .help = "file of points, or - for standard input; normals are computed if there are "
+                   "none",
+           .target = &o.input,
+           .required = true,
+           .offer = Offer::kShapes},
+          {.name = "tolerance",
+           .value = "E",
+           .help = "larger caps and a coarser surface, within this rms distance of the points; a "
+                   "part of the diagonal of the bounding box. By default as exact as the points",
+           .target = &o.tolerance,
+           .min = 0,
+           .max = 1},
+          {.name = "noise",
+           .value = "auto|SIGMA",
+           .help = "standard deviation of the points, a part of the diagonal; auto: estimated",
+           .target = &o.noise},
+          {.name = "holes",
+           .help = "fill: close places without points; keep: leave them open",
+           .target = &o.holes,
+           .choices = {"fill", "keep"}},
+          {.name = "resolution",
+           .value = "N",
+           .help = "cubes of the grid along the longest side; by default from the spacing",
+           .target = &o.resolution,
+           .min = 4,
+           .max = 65536},
+          {.name = "min-component",
+           .value = "SHARE",
+           .help = "parts with less of the largest one's area are dropped; 0.01 by default",
+           .target = &o.min_component,
+           .min = 0,
+           .max = 1},
+          {.name = "keep-outliers", .help = "do not look for outliers", .target = &o.keep_outliers},
+          {.name = "max-memory",
+           .value = "GIB",
+           .help = "refuse what would need more; 8 by default",
+           .target = &o.max_memory,
+           .min = 0.01,
+           .max = 65536},
+          output_option(o.output, "mesh to write: .ply, .obj, .off, .stl; - for standard output"),
+          format_option(o.format, {"ply", "obj", "off", "stl"}),
+          {.name = "ascii", .help = "PLY and STL as text", .target = &o.ascii},
+          json_option(o.json)};
+}
+
+}  // namespace
+
+Command reconstruct_command() {
+  auto options = std::make_shared<Options>();
+  return {.name = "reconstruct",
+          .summary = "From points to a closed surface",
+          .description =
+              "Covers points with overlapping caps, each a function on a sphere of its own fitted "
+              "to points and normals, blends them and extracts the surface: closed, 2-manifold, "
+              "oriented outwards, with normals. Size of caps, noise and resolution are chosen from "
+              "the data; outliers are left out, holes are closed smoothly, and colours and other "
+              "properties of the points are carried over.",
+          .options = option_list(*options),
+          .examples = {"rholm reconstruct points.ply -o surface.ply",
+                       "rholm reconstruct points.ply --holes keep --json -o surface.obj"},
+          .run = [options](Session& session) { return run(*options, session); }};
+}
+
+}  // namespace rholm::cli

@@ -1,0 +1,94 @@
+// Points without faces: made from meshes, put in order, given normals. Layer: shape.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "rholm/context.h"
+#include "rholm/mesh.h"
+
+namespace rholm {
+
+inline constexpr std::size_t kMaxPoints = 100000000;  // some 5 GB of memory: the sanity limit
+inline constexpr double kMaxDensityRatio = 1000;      // bounds the tries per point
+
+// What is measured of a surface, and how badly. Lengths are fractions of the diagonal of the
+// mesh's bounding box.
+struct SampleOptions {
+  std::size_t points = 100000;  // 1 ... kMaxPoints, before holes
+  // Standard deviation of a Gaussian displacement, the same and independent along x, y and z: so
+  // the distance to a flat surface has it too.
+  double noise = 0;
+  // Each normal is turned about an axis in the tangent plane, of uniform direction, by an angle
+  // that is Gaussian with mean 0 and this standard deviation, degrees.
+  double normal_noise = 0;
+  // Share of the points that is replaced (floor(share * points) of them, evenly spread over the
+  // list) by points uniform in the bounding box grown by 10 %, with normals uniform on the sphere.
+  double outliers = 0;
+  // Balls about points uniform on the surface; what lies in one is removed, after all the above.
+  int holes = 0;
+  double hole_radius = 0;
+  // The density falls exponentially along the longest axis of the bounding box, from the low
+  // coordinate to the high, to 1 / density_ratio; 1 ... kMaxDensityRatio.
+  double density_ratio = 1;
+  bool normals = true;
+  std::uint64_t seed = 1;
+};
+
+// Independent random points on the surface, uniform by area (unless the density falls), with the
+// exact normals of their faces. Same mesh and options, same points for any number of threads.
+// Throws InvalidInput for a mesh that is not valid or has no area, and options out of range.
+PointCloud sample_surface(const Mesh& mesh, const SampleOptions& options = {},
+                          const Context& context = {});
+
+struct CleanReport {
+  std::size_t points = 0;            // before
+  std::size_t not_finite = 0;        // points dropped: a coordinate is NaN or infinite
+  std::size_t duplicates = 0;        // points dropped: at the place of an earlier one
+  std::size_t opposite_normals = 0;  // of these, with a normal against the earlier one's
+  std::size_t zero_normals = 0;      // of the points that stay, if there are normals
+};
+
+// Makes a list of points fit for work: drops what is not finite, and merges points at bit-identical
+// places into the first one, which keeps its attributes. Its normal becomes the mean direction of
+// all their normals, but for those at more than 90 degrees to its own. Normals that are not finite
+// become zero. Throws InvalidInput if normals or attributes are not one per point.
+CleanReport clean(PointCloud& cloud);
+
+struct OrientOptions {
+  int neighbors = 0;             // of a fit, 3 ... 1000; 0: chosen from the data
+  bool keep_directions = false;  // of the normals there are (zero ones are computed): signs only
+  // At most one of these. They decide every sign alone.
+  std::optional<Vec3> center = {};  // the surface is seen from here from inside: normals point away
+  std::optional<Vec3> sensor = {};  // it has been measured from here: normals point to it
+};
+
+struct OrientReport {
+  std::size_t points = 0;
+  std::size_t duplicates = 0;    // points at the place of an earlier one; they share its normal
+  int neighbors = 0;             // of a fit
+  std::size_t components = 0;    // of the graph of neighbours; 0 with a centre or a sensor
+  std::size_t computed = 0;      // normals whose direction is new
+  std::size_t flipped = 0;       // normals that point to the other side now than they did
+  std::size_t undetermined = 0;  // points whose neighbours lie on a line: their normals are zero
+  // How far the neighbours' normals agree with a point's, times how nearly the winding number
+  // is 1 on the inner and 0 on the outer side of its component; 0 ... 1. With a centre or a sensor:
+  // the modulus of the cosine between normal and line of sight.
+  double mean_confidence = 0;
+  double unsure = 0;  // share of the points with a confidence below 0.5
+};
+
+// Gives points unit normals that point out of the solid they bound. Directions: planes and
+// paraboloids through the nearest points, and beside sharp edges through those of one side only.
+// Signs: along a minimum spanning tree of the graph of neighbours (Hoppe 1992), then, between parts
+// that it joins in doubt or not at all, so that their winding numbers agree; a closed part inside
+// another bounds a cavity. What is open and has no inside (a plane) points to the side of its
+// mean normal's largest component. Same input, same bits for any number of threads.
+//
+// Throws InvalidInput for a cloud that is not valid (clean() helps), more than kMaxPoints points,
+// options out of range, and points that lie on one line: they have no plane.
+OrientReport orient(PointCloud& cloud, const OrientOptions& options = {},
+                    const Context& context = {});
+
+}  // namespace rholm

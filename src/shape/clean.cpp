@@ -1,0 +1,90 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "rholm/error.h"
+#include "rholm/points.h"
+#include "shape/identical.h"
+
+namespace rholm {
+namespace {
+
+void check_sizes(const PointCloud& cloud) {
+  const auto check = [&](std::size_t n, const std::string& what) {
+    if (n == cloud.points.size()) return;
+    throw Error(ErrorCode::kInvalidInput, "there are " + std::to_string(n) + " " + what + " for " +
+                                              std::to_string(cloud.points.size()) +
+                                              " points; give one for each");
+  };
+  if (!cloud.normals.empty()) check(cloud.normals.size(), "normals");
+  for (const Attribute& a : cloud.attributes) check(a.values.size(), "values of '" + a.name + "'");
+}
+
+// Keeps the points that are marked, in their order.
+void keep_only(const std::vector<char>& kept, PointCloud& cloud) {
+  const auto squeeze = [&](auto& values) {
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (kept[i]) values[n++] = values[i];
+    }
+    values.resize(n);
+  };
+  squeeze(cloud.points);
+  squeeze(cloud.normals);
+  for (Attribute& a : cloud.attributes) squeeze(a.values);
+}
+
+// Scaled first: normals in a file have any length.
+Vec3 unit_or_zero(const Vec3& v) {
+  const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  if (!(largest > 0) || !is_finite(v)) return {};
+  return normalized({v.x / largest, v.y / largest, v.z / largest});
+}
+
+// Adds the normals of duplicates to those of the points that stay.
+std::size_t merge_normals(const std::vector<std::uint32_t>& first, std::vector<Vec3>& normals) {
+  std::vector<Vec3> sums(normals.size());
+  for (std::size_t i = 0; i < normals.size(); ++i) sums[i] = unit_or_zero(normals[i]);
+  std::size_t opposite = 0;
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    if (first[i] == i) continue;
+    Vec3& sum = sums[first[i]];
+    const Vec3 own = unit_or_zero(normals[i]);
+    if (dot(own, sum) < 0) {
+      ++opposite;
+    } else {
+      sum += own;
+    }
+    normals[first[i]] = normalized(sum);
+  }
+  return opposite;
+}
+
+}  // namespace
+
+CleanReport clean(PointCloud& cloud) {
+  check_sizes(cloud);
+  CleanReport report{.points = cloud.points.size()};
+  std::vector<char> kept(cloud.points.size());
+  for (std::size_t i = 0; i < kept.size(); ++i) kept[i] = is_finite(cloud.points[i]);
+  keep_only(kept, cloud);
+  report.not_finite = report.points - cloud.points.size();
+  for (Vec3& normal : cloud.normals) {
+    if (!is_finite(normal)) normal = {};
+  }
+  const std::vector<std::uint32_t> first = first_identical(cloud.points);
+  kept.resize(first.size());
+  for (std::uint32_t i = 0; i < first.size(); ++i) {
+    kept[i] = first[i] == i;
+    report.duplicates += first[i] != i;
+  }
+  if (report.duplicates > 0) {
+    if (!cloud.normals.empty()) report.opposite_normals = merge_normals(first, cloud.normals);
+    keep_only(kept, cloud);
+  }
+  report.zero_normals =
+      static_cast<std::size_t>(std::count(cloud.normals.begin(), cloud.normals.end(), Vec3{}));
+  return report;
+}
+
+}  // namespace rholm

@@ -1,0 +1,23 @@
+// Points that belong to no surface (method 7.4). Layer: shape.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rholm/context.h"
+#include "rholm/vec3.h"
+#include "shape/point_tree.h"
+
+namespace rholm {
+
+// One flag per point, in the order of the tree: 1 for a point whose neighbours' normals disagree
+// with its own (unit, in the same order), that lies off the planes of its neighbours, or that is
+// much farther from them than they are from theirs. `noise` is the standard deviation of the points
+// about the surface: within it nothing is off. Once the ones found are gone, a second and a third look
+// find those that they have hidden.
+std::vector<std::uint8_t> find_outliers(const PointTree& tree, std::span<const Vec3> points,
+                                        std::span<const Vec3> normals, double noise,
+                                        const Context& context = {});
+
+}  // namespace rholm

@@ -1,0 +1,150 @@
+"""Points: sampled from meshes, oriented."""
+
+import os
+import re
+import sys
+
+sys.path.insert(0, os.path.dirname(__file__))
+from harness import CliTest, OCTAHEDRON, main, off
+
+COLORED = """ply
+format ascii 1.0
+element vertex {n}
+property double x
+property double y
+property double z
+property uchar red
+end_header
+"""
+
+
+def rows(path):
+    return [[float(x) for x in line.split()] for line in path.read_text().splitlines()
+            if not line.startswith("#")]
+
+
+class Sample(CliTest):
+    def setUp(self):
+        super().setUp()
+        self.write("a.off", off(*OCTAHEDRON))
+
+    def test_points_lie_on_the_mesh_with_its_normals(self):
+        self.rholm("make", "sample", "a.off", "--points", "500", "-o", "p.xyz")
+        points = rows(self.folder / "p.xyz")
+        self.assertEqual(len(points), 500)
+        for x, y, z, nx, ny, nz in points:  # |x| + |y| + |z| = 1
+            self.assertAlmostEqual(abs(x) + abs(y) + abs(z), 1, 12)
+            self.assertAlmostEqual(x * nx + y * ny + z * nz, 3 ** -0.5, 12)
+
+    def test_every_option_is_heard(self):
+        self.rholm("make", "sample", "a.off", "--points", "1000", "-o", "clean.xyz")
+        clean = (self.folder / "clean.xyz").read_bytes()
+        for words in (["--noise", ".01"], ["--normal-noise", "5"], ["--outliers", ".1"],
+                      ["--holes", "2,.1"], ["--density-ratio", "9"], ["--seed", "2"],
+                      ["--no-normals"], ["--translate", "1,0,0"]):
+            self.rholm("make", "sample", "a.off", "--points", "1000", *words, "-o", "p.xyz")
+            self.assertNotEqual((self.folder / "p.xyz").read_bytes(), clean, words)
+        self.assertEqual(len(rows(self.folder / "p.xyz")[0]), 6)
+
+    def test_largest_component_leaves_the_others_out(self):
+        vertices, faces = OCTAHEDRON
+        self.write("two.off", off(vertices + [(9 + x / 2, y / 2, z / 2) for x, y, z in vertices],
+                                  faces + [tuple(i + 6 for i in f) for f in faces]))
+        words = ["make", "sample", "two.off", "--points", "200", "-o", "p.xyz"]
+        self.rholm(*words)
+        self.assertGreater(max(p[0] for p in rows(self.folder / "p.xyz")), 8)
+        self.rholm(*words, "--largest-component")
+        self.assertLess(max(p[0] for p in rows(self.folder / "p.xyz")), 1)
+
+    def test_what_does_not_belong_is_refused(self):
+        for words, saying in ((["sphere", "a.off"], "MESH"), (["sample"], "MESH"),
+                              (["sample", "a.off", "--cells", "3"], "--cells"),
+                              (["bumpy", "--noise", ".1"], "--noise"),
+                              (["box", "--no-normals"], "--no-normals"),
+                              (["sample", "a.off", "--points", "0"], "--points"),
+                              (["sample", "a.off", "--noise", "nan"], "--noise"),
+                              (["sample", "a.off", "--holes", "2"], "--holes"),
+                              (["sample", "a.off", "--holes", "1.5,.1"], "--holes"),
+                              (["sample", "a.off", "--density-ratio", ".5"], "--density-ratio")):
+            self.assertIn(saying, self.rholm("make", *words, "-o", "o.ply", code=2).err)
+        self.write("p.xyz", "0 0 0\n1 0 0\n0 1 0\n")
+        self.assertIn("mesh", self.rholm("make", "sample", "p.xyz", "-o", "o.ply", code=3).err)
+        self.assertEqual(self.files(), ["a.off", "p.xyz"])
+
+
+class Orient(CliTest):
+    def setUp(self):
+        super().setUp()
+        self.rholm("make", "torus", "-o", "t.ply")
+        self.rholm("make", "sample", "t.ply", "--points", "5000", "-o", "true.xyz")
+        self.rholm("make", "sample", "t.ply", "--points", "5000", "--no-normals", "-o", "p.ply")
+
+    def test_normals_are_those_of_the_mesh(self):
+        report = self.rholm("orient", "p.ply", "-o", "o.xyz", "--json").json()
+        self.assertEqual((report["points"], report["computed"], report["components"]),
+                         (5000, 5000, 1))
+        self.assertGreater(report["mean_confidence"], 0.8)
+        for a, b in zip(rows(self.folder / "true.xyz"), rows(self.folder / "o.xyz")):
+            self.assertEqual(a[:3], b[:3])
+            self.assertGreater(sum(x * y for x, y in zip(a[3:], b[3:])), 0.8)
+
+    def test_report_in_text_has_the_same(self):
+        text = self.rholm("orient", "p.ply", "-o", "o.xyz").out
+        for name in ("points", "neighbours", "components", "computed", "mean confidence", "unsure"):
+            self.assertRegex(text, rf"(?m)^  {name} +\d")
+        self.assertRegex(self.rholm("orient", "o.xyz", "-o", "o2.xyz").out, r"turned round +0")
+
+    def test_threads_do_not_change_a_bit(self):
+        outputs = []
+        for threads in (1, 2):
+            self.rholm("orient", "p.ply", "-o", "o.ply", "--threads", threads)
+            outputs.append((self.folder / "o.ply").read_bytes())
+        self.assertEqual(*outputs)
+
+    def test_colours_travel_through(self):
+        points = [p[:3] for p in rows(self.folder / "true.xyz")]
+        self.write("c.ply", COLORED.format(n=len(points)) + "".join(
+            f"{x!r} {y!r} {z!r} {i % 256}\n" for i, (x, y, z) in enumerate(points)))
+        self.rholm("orient", "c.ply", "--ascii", "-o", "o.ply")
+        text = (self.folder / "o.ply").read_text()
+        names = re.findall(r"property \w+ (\w+)", text)
+        self.assertIn("property uchar red", text)
+        for i, line in enumerate(text.split("end_header\n")[1].splitlines()):
+            self.assertEqual(int(line.split()[names.index("red")]), i % 256)
+
+    def test_a_sensor_sees_all_normals_and_a_center_none(self):
+        for option, sign in (("--sensor", 1), ("--center", -1)):
+            self.rholm("orient", "p.ply", option, "0,0,9", "-o", "o.xyz")
+            for x, y, z, nx, ny, nz in rows(self.folder / "o.xyz"):
+                self.assertGreaterEqual(sign * (-x * nx - y * ny + (9 - z) * nz), 0)
+
+    def test_a_stream_works_at_both_ends(self):
+        data = (self.folder / "p.ply").read_bytes()
+        self.rholm("orient", "p.ply", "-o", "o.ply")
+        result = self.rholm("orient", "-", "--format", "ply", "-o", "-", stdin=data)
+        self.assertEqual(result.bytes, (self.folder / "o.ply").read_bytes())
+
+    def test_directions_are_kept_on_demand(self):
+        lines = [line.split() for line in (self.folder / "true.xyz").read_text().splitlines()]
+        turned = [line[:3] + [str(-float(x)) for x in line[3:]] for line in lines[:1000]]
+        self.write("turned.xyz", "".join(" ".join(r) + "\n" for r in turned + lines[1000:]))
+        report = self.rholm("orient", "turned.xyz", "--keep-directions", "-o", "o.xyz",
+                            "--json").json()
+        self.assertEqual((report["computed"], report["flipped"]), (0, 1000))
+
+    def test_wrong_words_and_points_that_have_no_plane_are_refused(self):
+        for words, saying in ((["--center", "0,0,0", "--sensor", "1,1,1"], "exclude"),
+                              (["--center", "up"], "--center"), (["--k", "2"], "3 ... 1000")):
+            self.assertIn(saying, self.rholm("orient", "p.ply", *words, "-o", "o.ply",
+                                             code=2).err)
+        self.rholm("orient", "p.ply", "-o", "o.stl", code=2)
+        for points in ("0 0 0\n", "0 0 0\n1 1 1\n", "0 0 0\n1 1 1\n3 3 3\n", "0 0 0\n" * 9,
+                       "0 0 0\n1 0 0\nnan 0 1\n"):
+            self.write("few.xyz", points)
+            self.assertIn("rholm: error:", self.rholm("orient", "few.xyz", "-o", "o.ply",
+                                                      code=3).err)
+        self.assertNotIn("o.ply", self.files())
+
+
+if __name__ == "__main__":
+    main()
