@@ -20,6 +20,7 @@ using Runs = std::map<std::string, std::vector<StageTime>>;
 EncodeOptions encode_options(const BenchOptions& options) {
   EncodeOptions wanted;
   wanted.analyze = {.degree = options.degree, .precision = options.precision};
+  wanted.errors = false;  // a stage of its own, not of the transform
   wanted.chart.allow_signed = options.allow_signed;
   return wanted;
 }

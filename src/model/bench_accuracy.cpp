@@ -74,6 +74,7 @@ Reference bench_reference(const std::filesystem::path& path, const Vec3& center,
       .degree = options.degree, .engine = reference.engine, .precision = reference.precision};
   wanted.chart.center = {.kind = CenterKind::kGiven, .point = center, .rays = 0};
   wanted.chart.allow_signed = options.allow_signed;
+  wanted.errors = false;
   reference.coefficients = encode_file(path, wanted, context).analysis.expansion.coefficients;
   return reference;
 }
@@ -84,6 +85,7 @@ CoefficientsError bench_reference_error(const Context& context) {
     EncodeOptions wanted;
     wanted.analyze = {.degree = 64, .engine = engine, .precision = precision};
     wanted.chart.center.kind = CenterKind::kNone;
+    wanted.errors = false;
     return encode(mesh, wanted, context).analysis.expansion.coefficients;
   };
   return compare_coefficients(coefficients(Engine::kFast, kFastReference),

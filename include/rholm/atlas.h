@@ -1,0 +1,81 @@
+// An atlas: a surface of any genus as overlapping caps, each a function on a sphere of its own.
+// Layer: transform.
+//
+// A cap looks at the surface from a centre on its inner side. A point at distance r in direction u
+// from the centre has local direction (sin theta cos phi, sin theta sin phi, cos theta) in the
+// cap's frame; the sphere is opened by the stereographic dilation tan(theta'/2) = a tan(theta/2),
+// so that a small cap fills a hemisphere, and the surface is (method 7.1)
+//   r(u) = R_0 (1 + sum_lm [C_lm cos(m phi) + S_lm sin(m phi)] N_m P_lm(cos theta')),
+// in the real orthonormal harmonics of coefficients.h.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rholm/vec3.h"
+
+namespace rholm {
+
+// Where a cap is. x, y, z are orthonormal and right-handed; z points outwards.
+struct CapFrame {
+  Vec3 center;          // of the sphere
+  Vec3 x, y, z;         // axes of the local frame
+  double radius = 1;    // R_0 > 0; the seed is center + radius z
+  double dilation = 1;  // a >= 1
+  double support = 0;   // radius of the points around the seed that it was made of
+  Vec3 seed() const { return center + radius * z; }
+};
+
+// Where a cap speaks: with (p, q, h) = x - seed along the frame's axes, where
+//   s^2 = xx (p - px)^2 + 2 xy (p - px)(q - py) + yy (q - py)^2 + (h / support)^2 < 1:
+// the ellipse of its points, so that it is silent where it has none.
+struct CapSupport {
+  double px = 0, py = 0;
+  double xx = 0, xy = 0, yy = 0;
+};
+
+// Which harmonics a cap uses: all up to its degree, (L+1)^2, or those with l + m even,
+// (L+1)(L+2)/2: complete on a hemisphere (method 7.8).
+enum class CapBasis : std::uint8_t { kFull, kEven };
+
+// The number of coefficients of a cap.
+std::size_t n_coefficients(CapBasis basis, int degree);
+
+struct Cap {
+  CapFrame frame;
+  CapSupport where;
+  CapBasis basis = CapBasis::kFull;
+  std::uint16_t degree = 0;
+  // Its coefficients start here in Atlas::coefficients. Order: l = 0, 1, ..., in each l the orders
+  // m = 0, then C and S of m = 1, 2, ..., l; the even basis leaves out those with l + m odd.
+  std::size_t first = 0;
+  double error = 0;      // rms distance of the fitted points to the cap
+  double area = 0;       // of the surface that it was made for: all caps' add up to the whole
+  double weight = 1;     // of its potential where others speak as well
+  double deviation = 0;  // largest distance of its surface from the tangent plane of the seed
+};
+
+struct Atlas {
+  std::vector<Cap> caps;
+  std::vector<double> coefficients;
+  double spacing = 0;   // of the points: median distance to the nearest neighbours' circle
+  double noise = 0;     // standard deviation of the points' distances to the surface; 0 if clean
+  double diagonal = 0;  // of the points' bounding box
+
+  std::span<const double> coefficients_of(const Cap& cap) const {
+    return {coefficients.data() + cap.first, n_coefficients(cap.basis, cap.degree)};
+  }
+};
+
+// The surface's potential as one cap sees it: a signed distance to first order, positive outside
+// (method 7.5), g = (|x - c| - r(u)) / sqrt(1 + |grad r|^2 / r^2), and its gradient in space.
+struct CapValue {
+  double distance = 0;
+  Vec3 gradient;       // of g, to first order: a unit vector across the surface
+  bool valid = false;  // false at the centre, behind it, and where r(u) <= 0
+};
+CapValue evaluate(const Cap& cap, std::span<const double> coefficients, const Vec3& x);
+
+}  // namespace rholm

@@ -1,0 +1,65 @@
+// Surfaces from points: the whole way. Layer: model.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rholm/atlas.h"
+#include "rholm/context.h"
+#include "rholm/mesh.h"
+
+namespace rholm {
+
+enum class HolePolicy { kFill, kKeep };
+const char* to_string(HolePolicy policy);               // "fill", "keep"
+HolePolicy parse_hole_policy(const std::string& name);  // throws InvalidInput
+
+struct ReconstructOptions {
+  // Edge of the grid's cubes, in the unit of the points; 0: from their spacing and their noise.
+  double step = 0;
+  // Caps grow while their points fit to within this rms distance, in the unit of the points; 0: as
+  // exact as the points are.
+  double tolerance = 0;
+  std::optional<double> noise = {};  // standard deviation of the points; estimated if not given
+  HolePolicy holes = HolePolicy::kFill;
+  double min_component =
+      0.01;  // parts of the surface with less of the largest one's area are dropped
+  bool remove_outliers = true;
+  std::size_t max_memory = std::size_t{8} << 30;  // bytes: refused if more is foreseen
+};
+
+struct ReconstructReport {
+  std::size_t points = 0;          // given
+  std::size_t dropped_points = 0;  // not finite, or at the place of another
+  std::size_t outliers = 0;        // removed
+  bool computed_normals = false;
+  double spacing = 0;  // median distance between neighbours, as if on a square grid
+  double noise = 0;    // standard deviation along the normal, 0 if within the shape's own
+  double normal_noise_degrees = 0;  // of the normals against the surface
+  std::size_t neighbours = 0;       // points of a typical cap
+  std::size_t caps = 0;
+  double step = 0;
+  std::size_t holes = 0;         // places without points that were closed, or cut out
+  std::size_t smooth_holes = 0;  // of those closed, by a surface that continues the rim
+  std::size_t dropped_components = 0;
+  std::size_t memory = 0;  // foreseen for grid and surface, bytes
+  StageTimes times;
+};
+
+struct Reconstruction {
+  Mesh mesh;  // closed and oriented outwards (open with HolePolicy::kKeep), with normals nx, ny, nz
+  Atlas atlas;
+  ReconstructReport report;
+};
+
+// Points with normals that point outwards (any length; computed by orient() if there are none) to a
+// surface. Attributes of the points are carried over, averaged over the nearest ones. Throws
+// InvalidInput for fewer than 16 different points, options out of range, points that no closed
+// surface goes with, and if more memory than allowed would be needed (with the step that would do).
+// Same input, same bits for any number of threads.
+Reconstruction reconstruct(PointCloud cloud, const ReconstructOptions& options = {},
+                           const Context& context = {});
+
+}  // namespace rholm

@@ -1,0 +1,149 @@
+#include "rholm/reconstruct.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/stopwatch.h"
+#include "model/reconstruct_points.h"
+#include "rholm/error.h"
+#include "rholm/topology.h"
+#include "surface/atlas_surface.h"
+#include "transform/cap_cover.h"
+#include "transform/cap_size.h"
+
+namespace rholm {
+namespace {
+
+constexpr int kDegree = 3;  // of small caps: method 7.3
+// Steps of the grid. Of the spacing: method 7.7; of a cap's support: its surface has no waves
+// shorter than a third of it, and a step of half of that shows them.
+constexpr double kStepOfSpacing = 0.7;
+constexpr double kStepOfSupport = 0.15;
+// Points that no cap fits, or whose normals disagree, before all are searched for outliers: creases
+// and folds of clean shapes have fewer.
+constexpr double kSuspicious = 1e-3;
+constexpr double kDisagreeing = 0.03;
+
+void check(const ReconstructOptions& options) {
+  const auto refuse = [](const char* what, double value, const char* limit) {
+    throw Error(ErrorCode::kInvalidInput, fmt::format("{} is {}: {}", what, value, limit));
+  };
+  if (!(options.step >= 0) || !std::isfinite(options.step)) {
+    refuse("the step of the grid", options.step, "it must be positive, or 0 to choose it");
+  }
+  if (!(options.tolerance >= 0) || !std::isfinite(options.tolerance)) {
+    refuse("the tolerance", options.tolerance, "it must be positive, or 0 for none");
+  }
+  if (options.noise && !(*options.noise >= 0 && std::isfinite(*options.noise))) {
+    refuse("the noise", *options.noise, "it must be 0 or positive");
+  }
+  if (!(options.min_component >= 0 && options.min_component <= 1)) {
+    refuse("the least component", options.min_component, "it must be 0 ... 1 of the largest");
+  }
+}
+
+CoverOptions cover_options(const ReconstructOptions& options, const CapSize& size) {
+  return {.neighbours = size.neighbours,
+          .degree = kDegree,
+          .noise = size.noise,
+          .gradient_weight = size.gradient_weight,
+          .tolerance = options.tolerance};
+}
+
+// Caps for the points, once or twice: points that belong to no surface show in the caps they spoil.
+Cover fit_caps(WorkingPoints& points, const ReconstructOptions& options, CapSize& size,
+               ReconstructReport& report, const Context& context) {
+  const auto measure = [&] {
+    size = choose_cap_size(points.ordered(), kDegree, context);
+    if (options.noise) size.noise = *options.noise;
+  };
+  measure();
+  Cover caps;
+  const auto n = static_cast<double>(points.size());
+  if (!options.remove_outliers || size.disagreeing <= kDisagreeing) {
+    caps = cover(points.ordered(), cover_options(options, size), context);
+    const bool clean = static_cast<double>(caps.rejected) <= kSuspicious * n;
+    if (!options.remove_outliers || clean) return caps;
+  }
+  report.outliers = points.remove_outliers(size.noise, context);
+  if (report.outliers == 0 && !caps.caps.empty()) return caps;
+  measure();
+  return cover(points.ordered(), cover_options(options, size), context);
+}
+
+// The supports of most caps are at least this.
+double typical_support(const Atlas& atlas) {
+  std::vector<double> supports;
+  for (const Cap& cap : atlas.caps) supports.push_back(cap.frame.support);
+  const auto fifth = supports.begin() + static_cast<std::ptrdiff_t>(supports.size() / 5);
+  std::nth_element(supports.begin(), fifth, supports.end());
+  return *fifth;
+}
+
+double choose_step(const ReconstructOptions& options, const CapSize& size, double fine_spacing,
+                   const Atlas& atlas) {
+  if (options.step > 0) return options.step;
+  const double step = kStepOfSpacing * fine_spacing;
+  if (size.noise == 0 && options.tolerance == 0) return step;
+  return std::max(step, kStepOfSupport * typical_support(atlas));
+}
+
+}  // namespace
+
+const char* to_string(HolePolicy policy) { return policy == HolePolicy::kFill ? "fill" : "keep"; }
+
+HolePolicy parse_hole_policy(const std::string& name) {
+  for (const HolePolicy policy : {HolePolicy::kFill, HolePolicy::kKeep}) {
+    if (name == to_string(policy)) return policy;
+  }
+  throw Error(ErrorCode::kInvalidInput, "unknown way with holes '" + name + "': fill or keep");
+}
+
+Reconstruction reconstruct(PointCloud cloud, const ReconstructOptions& options,
+                           const Context& context) {
+  check(options);
+  Reconstruction result;
+  ReconstructReport& report = result.report;
+  StageTimes& times = report.times;
+  WorkingPoints points =
+      timed(times, "points", [&] { return WorkingPoints(std::move(cloud), report, context); });
+  CapSize size;
+  Cover caps =
+      timed(times, "caps", [&] { return fit_caps(points, options, size, report, context); });
+  if (caps.caps.empty()) {
+    throw Error(ErrorCode::kInvalidInput,
+                fmt::format("no surface goes with these {} points: no cap fits any of them; are "
+                            "their normals right (rholm orient)?",
+                            points.size()));
+  }
+  Atlas& atlas = result.atlas;
+  atlas.caps = std::move(caps.caps);
+  atlas.coefficients = std::move(caps.coefficients);
+  const Spacing spacing = points.spacing(context);
+  atlas.spacing = spacing.median, atlas.noise = size.noise;
+  atlas.diagonal = points.diagonal();
+  report.caps = atlas.caps.size();
+  report.spacing = spacing.median, report.noise = size.noise;
+  report.normal_noise_degrees = size.normal_noise * 180 / std::numbers::pi;
+  report.neighbours = size.neighbours;
+  report.step = choose_step(options, size, spacing.fine, atlas);
+
+  const AtlasSurfaceOptions wanted{.step = report.step,
+                                   .keep_holes = options.holes == HolePolicy::kKeep,
+                                   .min_component = options.min_component,
+                                   .max_memory = options.max_memory};
+  AtlasSurface surface =
+      timed(times, "surface", [&] { return extract_atlas(atlas, wanted, context); });
+  result.mesh = std::move(surface.mesh);
+  report.holes = surface.holes, report.smooth_holes = surface.smooth_holes;
+  report.dropped_components = surface.dropped_components;
+  report.memory = surface.memory;
+  timed(times, "attributes", [&] { points.carry_attributes(result.mesh, context); });
+  return result;
+}
+
+}  // namespace rholm

@@ -1,0 +1,157 @@
+#include "model/reconstruct_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/parallel.h"
+#include "rholm/error.h"
+#include "rholm/points.h"
+#include "rholm/topology.h"
+#include "shape/outliers.h"
+
+namespace rholm {
+namespace {
+
+constexpr std::size_t kFewestPoints = 16;  // as many as a cap has coefficients
+// The circle around a point that holds its 8 nearest has 8 squares of the spacing.
+constexpr std::size_t kCircle = 8;
+constexpr std::size_t kSpacingSeeds = 2000;
+// Of even random points the tenth lies at 0.8 of the median; a finer part of uneven ones below.
+constexpr double kTenthOfEven = 0.8;
+// Each sees what the one before has left (method 7.4).
+constexpr int kOutlierPasses = 3;
+
+// Points without a direction are of no use here.
+void drop_zero_normals(PointCloud& cloud) {
+  std::size_t kept = 0;
+  const std::size_t n = cloud.points.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!(norm(cloud.normals[i]) > 0)) continue;
+    cloud.points[kept] = cloud.points[i];
+    cloud.normals[kept] = cloud.normals[i];
+    for (Attribute& attribute : cloud.attributes) attribute.values[kept] = attribute.values[i];
+    ++kept;
+  }
+  cloud.points.resize(kept), cloud.normals.resize(kept);
+  for (Attribute& attribute : cloud.attributes) attribute.values.resize(kept);
+}
+
+void check_spread(const PointCloud& cloud, double diagonal) {
+  if (cloud.points.size() < kFewestPoints) {
+    throw Error(
+        ErrorCode::kInvalidInput,
+        fmt::format("{} different points with normals are too few for a surface: {} at least",
+                    cloud.points.size(), kFewestPoints));
+  }
+  if (!(diagonal > 1e-150 && diagonal < 1e150)) {
+    throw Error(ErrorCode::kInvalidInput,
+                fmt::format("the points span {}: 1e-150 ... 1e150 can be worked with", diagonal));
+  }
+}
+
+}  // namespace
+
+WorkingPoints::WorkingPoints(PointCloud cloud, ReconstructReport& report, const Context& context)
+    : cloud_(std::move(cloud)) {
+  report.points = cloud_.points.size();
+  clean(cloud_);
+  const bool directed = std::any_of(cloud_.normals.begin(), cloud_.normals.end(),
+                                    [](const Vec3& n) { return norm(n) > 0; });
+  diagonal_ = bounds(cloud_.points).diagonal();
+  if (!directed) {
+    check_spread(cloud_, diagonal_);
+    orient(cloud_, {}, context);
+    report.computed_normals = true;
+  }
+  drop_zero_normals(cloud_);
+  diagonal_ = bounds(cloud_.points).diagonal();
+  check_spread(cloud_, diagonal_);
+  report.dropped_points = report.points - cloud_.points.size();
+  order(context);
+}
+
+void WorkingPoints::order(const Context& context) {
+  tree_ = std::make_unique<PointTree>(cloud_.points, context);
+  const std::size_t n = tree_->size();
+  points_.resize(n), normals_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::uint32_t from = tree_->order()[i];
+    points_[i] = cloud_.points[from];
+    normals_[i] = normalized(cloud_.normals[from]);
+  }
+}
+
+Spacing WorkingPoints::spacing(const Context& context) const {
+  const std::size_t n = size(), seeds = std::min(n, kSpacingSeeds);
+  std::vector<double> all(seeds);
+  parallel_for(seeds, 256, context, {}, [&](std::size_t begin, std::size_t end) {
+    std::vector<Neighbor> near;
+    for (std::size_t j = begin; j < end; ++j) {
+      tree_->nearest_to(j * n / seeds, kCircle + 1, near);
+      all[j] = std::sqrt(std::numbers::pi * near.back().distance2 / kCircle);
+    }
+  });
+  std::sort(all.begin(), all.end());
+  const double median = all[seeds / 2];
+  return {median, std::min(median, all[seeds / 10] / kTenthOfEven)};
+}
+
+std::size_t WorkingPoints::remove_outliers(double noise, const Context& context) {
+  const std::size_t before = size();
+  for (int pass = 0; pass < kOutlierPasses; ++pass) {
+    const std::vector<std::uint8_t> gone = find_outliers(*tree_, points_, normals_, noise, context);
+    const auto n = static_cast<std::size_t>(std::count(gone.begin(), gone.end(), 1));
+    if (n == 0 || size() - n < kFewestPoints) break;
+    // A normal of zero is how points are dropped.
+    for (std::size_t i = 0; i < gone.size(); ++i) {
+      if (gone[i] != 0) cloud_.normals[tree_->order()[i]] = {};
+    }
+    drop_zero_normals(cloud_);
+    diagonal_ = bounds(cloud_.points).diagonal();
+    order(context);
+  }
+  return before - size();
+}
+
+void WorkingPoints::carry_attributes(Mesh& mesh, const Context& context) const {
+  const std::size_t n = mesh.vertices.size(), first = mesh.attributes.size();
+  for (const Attribute& attribute : cloud_.attributes) {
+    mesh.attributes.push_back({attribute.name, attribute.type, std::vector<double>(n)});
+  }
+  if (mesh.attributes.size() == first) return;
+  parallel_for(n, 1024, context, {.name = "attributes"}, [&](std::size_t begin, std::size_t end) {
+    std::vector<Neighbor> near;
+    std::vector<double> weights;
+    for (std::size_t v = begin; v < end; ++v) {
+      tree_->nearest(mesh.vertices[v], kCircle, near);
+      // The weight of method 7.5, its support a little beyond the farthest.
+      const double support2 = 1.3 * std::max(1e-300, static_cast<double>(near.back().distance2));
+      double sum = 0;
+      weights.clear();
+      for (const Neighbor& p : near) {
+        const double rest = 1 - p.distance2 / support2;
+        weights.push_back(rest * rest * rest);
+        sum += weights.back();
+      }
+      for (std::size_t a = 0; a < cloud_.attributes.size(); ++a) {
+        double value = 0;
+        for (std::size_t j = 0; j < near.size(); ++j) {
+          value += weights[j] * cloud_.attributes[a].values[tree_->order()[near[j].index]];
+        }
+        mesh.attributes[first + a].values[v] = value / sum;
+      }
+    }
+  });
+  // Whole numbers stay whole.
+  for (std::size_t a = first; a < mesh.attributes.size(); ++a) {
+    Attribute& attribute = mesh.attributes[a];
+    if (attribute.type == ScalarType::kFloat32 || attribute.type == ScalarType::kFloat64) continue;
+    for (double& value : attribute.values) value = std::round(value);
+  }
+}
+
+}  // namespace rholm

@@ -1,0 +1,30 @@
+// From an atlas to its surface: grid, holes, triangles, trimming. Layer: surface.
+#pragma once
+
+#include <cstddef>
+
+#include "rholm/atlas.h"
+#include "rholm/context.h"
+#include "rholm/mesh.h"
+
+namespace rholm {
+
+struct AtlasSurfaceOptions {
+  double step = 0;          // edge of the grid's cubes
+  bool keep_holes = false;  // cut away what no cap speaks for, instead of closing it
+  double min_component = 0.01;
+  std::size_t max_memory = std::size_t{8} << 30;
+};
+
+struct AtlasSurface {
+  Mesh mesh;  // with normals nx, ny, nz
+  std::size_t holes = 0, smooth_holes = 0;
+  std::size_t dropped_components = 0;
+  std::size_t memory = 0;  // foreseen, bytes
+};
+
+// Throws InvalidInput if more memory than allowed would be needed, or the surface does not close.
+AtlasSurface extract_atlas(const Atlas& atlas, const AtlasSurfaceOptions& options,
+                           const Context& context = {});
+
+}  // namespace rholm

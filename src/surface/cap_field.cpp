@@ -1,0 +1,414 @@
+#include "surface/cap_field.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/parallel.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "surface/cap_field.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "harmonic/low_harmonics-inl.h"
+#include "surface/cap_lane.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace rholm {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::CappedTag<float, 16>;
+using V = hn::Vec<D>;
+using M = hn::Mask<D>;
+
+// A cap in steps, relative to the first node of a block.
+struct LaneCap {
+  const CapLane& cap;
+  V sx, sy, sz;  // seed
+
+  HWY_INLINE LaneCap(D d, const CapLane& c, const Vec3& origin, double step) : cap(c) {
+    const Vec3 s = (c.seed - origin) / step;
+    sx = hn::Set(d, static_cast<float>(s.x));
+    sy = hn::Set(d, static_cast<float>(s.y));
+    sz = hn::Set(d, static_cast<float>(s.z));
+  }
+};
+
+HWY_INLINE V DotLane(D d, const float* a, V x, V y, V z) {
+  return hn::MulAdd(hn::Set(d, a[0]), x,
+                    hn::MulAdd(hn::Set(d, a[1]), y, hn::Mul(hn::Set(d, a[2]), z)));
+}
+
+// What a cap says at points: potential and weight, and the normal in space where asked for.
+struct Said {
+  V g, w;
+  V nx, ny, nz;
+};
+
+template <bool kNormals>
+HWY_INLINE bool Say(D d, const LaneCap& lane, V px, V py, V pz, Said& said) {
+  const CapLane& cap = lane.cap;
+  const V one = hn::Set(d, 1.0f);
+  const V dx = hn::Sub(px, lane.sx), dy = hn::Sub(py, lane.sy), dz = hn::Sub(pz, lane.sz);
+  const V height = DotLane(d, cap.z, dx, dy, dz);
+  const V lx = DotLane(d, cap.x, dx, dy, dz), ly = DotLane(d, cap.y, dx, dy, dz);
+  const V p = hn::Sub(lx, hn::Set(d, cap.px)), q = hn::Sub(ly, hn::Set(d, cap.py));
+  V near =
+      hn::MulAdd(hn::Set(d, cap.xx), hn::Mul(p, p), hn::Mul(hn::Set(d, cap.xy2), hn::Mul(p, q)));
+  near = hn::MulAdd(hn::Set(d, cap.yy), hn::Mul(q, q), near);
+  near = hn::Sub(one, hn::MulAdd(hn::Set(d, cap.hh), hn::Mul(height, height), near));
+  M speaks = hn::And(hn::Gt(near, hn::Zero(d)), hn::Lt(hn::Abs(height), hn::Set(d, cap.reach)));
+  if (hn::AllFalse(d, speaks)) return false;
+  const V lz = hn::Add(height, hn::Set(d, cap.radius));
+  const V rho2 = hn::MulAdd(lx, lx, hn::MulAdd(ly, ly, hn::Mul(lz, lz)));
+  const V rho = hn::Sqrt(rho2);
+  // (s1, s2) = a (ux, uy) / (1 + uz)
+  const V below = hn::Div(one, hn::Add(rho, lz));
+  const V t1 = hn::Mul(lx, below), t2 = hn::Mul(ly, below);
+  const V a = hn::Set(d, cap.dilation);
+  LowDirection<V> at;
+  at.s1 = hn::Mul(a, t1), at.s2 = hn::Mul(a, t2);
+  const V opened = hn::Div(one, hn::MulAdd(at.s1, at.s1, hn::MulAdd(at.s2, at.s2, one)));
+  const V over = hn::Add(opened, opened);
+  at.x = hn::Mul(at.s1, over), at.y = hn::Mul(at.s2, over), at.z = hn::Sub(over, one);
+  const LowSum<V> sum = SumLowHarmonics(d, cap.degree, cap.even, cap.coefficients, at);
+  const V level = hn::Add(one, sum.value);
+  // |grad f| / f = factor |grad phi| / (1 + phi)
+  const V factor = hn::Mul(hn::Mul(a, hn::MulAdd(t1, t1, hn::MulAdd(t2, t2, one))), opened);
+  const V slope = hn::Div(factor, level);
+  const V g1 = hn::Mul(slope, sum.d1), g2 = hn::Mul(slope, sum.d2);
+  const V flat = hn::Div(one, hn::Sqrt(hn::MulAdd(g1, g1, hn::MulAdd(g2, g2, one))));
+  said.g = hn::Mul(hn::NegMulAdd(hn::Set(d, cap.radius), level, rho), flat);
+  const V band = hn::Mul(said.g, hn::Set(d, cap.inverse_band));
+  const V rest = hn::NegMulAdd(band, band, one);
+  speaks = hn::And(speaks, hn::And(hn::Gt(rest, hn::Zero(d)), hn::Gt(level, hn::Set(d, 0.2f))));
+  speaks = hn::And(speaks, hn::Gt(lz, hn::Mul(rho, hn::Set(d, 0.3f))));
+  said.w = hn::IfThenElseZero(speaks, hn::Mul(hn::Mul(near, hn::Mul(near, near)),
+                                              hn::Mul(hn::Set(d, cap.trust), hn::Mul(rest, rest))));
+  said.g = hn::IfThenElseZero(speaks, said.g);
+  if constexpr (kNormals) {
+    // u - grad f / f, in the frame: the tangents of the plane's axes are e_i - t_i (u + e_3).
+    const V inverse = hn::Div(one, rho);
+    const V ux = hn::Mul(lx, inverse), uy = hn::Mul(ly, inverse), uz = hn::Mul(lz, inverse);
+    const V both = hn::MulAdd(g1, t1, hn::Mul(g2, t2));
+    const V fx = hn::Mul(flat, hn::Sub(hn::MulAdd(both, ux, ux), g1));
+    const V fy = hn::Mul(flat, hn::Sub(hn::MulAdd(both, uy, uy), g2));
+    const V fz = hn::Mul(flat, hn::MulAdd(both, hn::Add(uz, one), uz));
+    const auto turn = [&](int axis) HWY_ATTR {
+      return hn::IfThenElseZero(speaks,
+                                hn::MulAdd(hn::Set(d, cap.x[axis]), fx,
+                                           hn::MulAdd(hn::Set(d, cap.y[axis]), fy,
+                                                      hn::Mul(hn::Set(d, cap.z[axis]), fz))));
+    };
+    said.nx = turn(0), said.ny = turn(1), said.nz = turn(2);
+  }
+  return true;
+}
+
+void FillBlock(const CapLane* caps, const std::uint32_t* list, std::size_t n_caps,
+               const Vec3& origin, double step, const NodeTable& nodes, float* values) {
+  const D d;
+  alignas(64) float sum_g[512], sum_w[512];
+  for (std::size_t i = 0; i < 512; i += hn::Lanes(d)) {
+    hn::Store(hn::Zero(d), d, sum_g + i);
+    hn::Store(hn::Zero(d), d, sum_w + i);
+  }
+  for (std::size_t c = 0; c < n_caps; ++c) {
+    const LaneCap lane(d, caps[list[c]], origin, step);
+    for (std::size_t i = 0; i < 512; i += hn::Lanes(d)) {
+      Said said{};
+      if (!Say<false>(d, lane, hn::Load(d, nodes.x + i), hn::Load(d, nodes.y + i),
+                      hn::Load(d, nodes.z + i), said)) {
+        continue;
+      }
+      hn::Store(hn::MulAdd(said.w, said.g, hn::Load(d, sum_g + i)), d, sum_g + i);
+      hn::Store(hn::Add(said.w, hn::Load(d, sum_w + i)), d, sum_w + i);
+    }
+  }
+  for (std::size_t i = 0; i < 512; i += hn::Lanes(d)) {
+    const V w = hn::Load(d, sum_w + i);
+    const V g = hn::Div(hn::Load(d, sum_g + i), w);
+    hn::StoreU(hn::IfThenElse(hn::Gt(w, hn::Set(d, kLeastWeight)),
+                              hn::Mul(g, hn::Set(d, static_cast<float>(step))),
+                              hn::Set(d, BlockGrid::kUnknown)),
+               d, values + i);
+  }
+}
+
+// The same at scattered points, in steps from the origin; sums of w g, w and w n, five rows.
+void SayAt(const CapLane* caps, const std::uint32_t* list, std::size_t n_caps, const Vec3& origin,
+           double step, const float* points, std::size_t n, std::size_t stride, float* sums) {
+  const D d;
+  for (std::size_t row = 0; row < 5; ++row) {
+    for (std::size_t i = 0; i < n; i += hn::Lanes(d))
+      hn::Store(hn::Zero(d), d, sums + row * stride + i);
+  }
+  for (std::size_t c = 0; c < n_caps; ++c) {
+    const LaneCap lane(d, caps[list[c]], origin, step);
+    for (std::size_t i = 0; i < n; i += hn::Lanes(d)) {
+      Said said{};
+      if (!Say<true>(d, lane, hn::Load(d, points + i), hn::Load(d, points + stride + i),
+                     hn::Load(d, points + 2 * stride + i), said)) {
+        continue;
+      }
+      const auto add = [&](std::size_t row, V value) HWY_ATTR {
+        float* const at = sums + row * stride + i;
+        hn::Store(hn::MulAdd(said.w, value, hn::Load(d, at)), d, at);
+      };
+      add(0, said.g);
+      add(1, hn::Set(d, 1.0f));
+      add(2, said.nx);
+      add(3, said.ny);
+      add(4, said.nz);
+    }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace rholm
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace rholm {
+namespace {
+HWY_EXPORT(FillBlock);
+HWY_EXPORT(SayAt);
+
+NodeTable make_nodes() {
+  NodeTable nodes{};
+  for (std::size_t i = 0; i < 512; ++i) {
+    nodes.x[i] = static_cast<float>(i & 7);
+    nodes.y[i] = static_cast<float>((i >> 3) & 7);
+    nodes.z[i] = static_cast<float>(i >> 6);
+  }
+  return nodes;
+}
+
+struct Lanes {
+  std::vector<CapLane> caps;
+  std::vector<float> coefficients;
+};
+
+Lanes make_lanes(const Atlas& atlas, double step) {
+  Lanes lanes;
+  lanes.coefficients.assign(atlas.coefficients.begin(), atlas.coefficients.end());
+  lanes.caps.reserve(atlas.caps.size());
+  for (const Cap& cap : atlas.caps) {
+    CapLane lane;
+    const CapFrame& f = cap.frame;
+    lane.seed = f.seed();
+    const auto put = [](float* to, const Vec3& v) {
+      to[0] = static_cast<float>(v.x), to[1] = static_cast<float>(v.y),
+      to[2] = static_cast<float>(v.z);
+    };
+    put(lane.x, f.x), put(lane.y, f.y), put(lane.z, f.z);
+    const double support = f.support / step;
+    lane.radius = static_cast<float>(f.radius / step);
+    lane.dilation = static_cast<float>(f.dilation);
+    const double step2 = step * step;
+    lane.px = static_cast<float>(cap.where.px / step),
+    lane.py = static_cast<float>(cap.where.py / step);
+    lane.xx = static_cast<float>(cap.where.xx * step2),
+    lane.yy = static_cast<float>(cap.where.yy * step2);
+    lane.xy2 = static_cast<float>(2 * cap.where.xy * step2);
+    lane.hh = static_cast<float>(1 / (support * support));
+    lane.reach = static_cast<float>(kBandSteps + cap_deviation(atlas, cap) / step);
+    lane.inverse_band = static_cast<float>(1 / kBandSteps);
+    lane.trust = static_cast<float>(cap.weight);
+    lane.degree = cap.degree;
+    lane.even = cap.basis == CapBasis::kEven;
+    lane.coefficients = lanes.coefficients.data() + cap.first;
+    lanes.caps.push_back(lane);
+  }
+  return lanes;
+}
+
+}  // namespace
+
+double cap_deviation(const Atlas&, const Cap& cap) { return cap.deviation; }
+
+std::vector<Disc> discs_of(const Atlas& atlas, double step, const Context&) {
+  std::vector<Disc> discs;
+  discs.reserve(atlas.caps.size());
+  for (const Cap& cap : atlas.caps) {
+    const CapSupport& where = cap.where;
+    const double middle = (where.xx + where.yy) / 2;
+    const double spread = std::hypot((where.xx - where.yy) / 2, where.xy);
+    const CapFrame& f = cap.frame;
+    discs.push_back({f.seed() + where.px * f.x + where.py * f.y, f.z,
+                     1 / std::sqrt(middle - spread),
+                     kBandSteps * step + cap_deviation(atlas, cap)});
+  }
+  return discs;
+}
+
+namespace {
+
+// Calls visit(block) for the blocks of the grid, one step wider than their nodes, that a disc may
+// touch.
+template <class Visit>
+void visit_blocks(const BlockGrid& grid, const Disc& disc, const Visit& visit) {
+  const double side = BlockGrid::kSide;
+  const Vec3 c = (disc.center - grid.origin) / grid.step;
+  const double radius = disc.radius / grid.step, thickness = disc.half_thickness / grid.step;
+  // Nodes 0 ... 8 of block b: 8 b <= c + radius and 8 b + 8 >= c - radius.
+  const auto low = [&](double x) {
+    return static_cast<std::int32_t>(std::ceil((x - radius - side) / side));
+  };
+  const auto high = [&](double x) {
+    return static_cast<std::int32_t>(std::floor((x + radius) / side));
+  };
+  const double half = side / 2;
+  const double spread =
+      half * (std::abs(disc.normal.x) + std::abs(disc.normal.y) + std::abs(disc.normal.z));
+  for (std::int32_t bz = low(c.z); bz <= high(c.z); ++bz) {
+    for (std::int32_t by = low(c.y); by <= high(c.y); ++by) {
+      for (std::int32_t bx = low(c.x); bx <= high(c.x); ++bx) {
+        const Vec3 middle{side * bx + half, side * by + half, side * bz + half};
+        if (std::abs(dot(disc.normal, middle - c)) > thickness + spread) continue;
+        const std::int32_t block = find_block(grid, {bx, by, bz});
+        if (block != kNoBlock) visit(static_cast<std::size_t>(block));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+CapLists list_caps(const BlockGrid& grid, const std::vector<Disc>& discs) {
+  CapLists lists;
+  lists.first.assign(grid.n_blocks() + 1, 0);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;  // block, cap
+  pairs.reserve(8 * discs.size());
+  for (std::size_t c = 0; c < discs.size(); ++c) {
+    visit_blocks(grid, discs[c], [&](std::size_t block) {
+      ++lists.first[block + 1];
+      pairs.emplace_back(static_cast<std::uint32_t>(block), static_cast<std::uint32_t>(c));
+    });
+  }
+  for (std::size_t b = 0; b < grid.n_blocks(); ++b) lists.first[b + 1] += lists.first[b];
+  lists.caps.resize(pairs.size());
+  std::vector<std::size_t> next(lists.first.begin(), lists.first.end() - 1);
+  for (const auto& [block, cap] : pairs) lists.caps[next[block]++] = cap;
+  return lists;
+}
+
+void fill_grid(const Atlas& atlas, const CapLists& lists, BlockGrid& grid, const Context& context) {
+  const Lanes lanes = make_lanes(atlas, grid.step);
+  static const NodeTable nodes = make_nodes();
+  parallel_for(lists.first.size() - 1, 64, context, {.name = "grid"},
+               [&](std::size_t begin, std::size_t end) {
+                 for (std::size_t b = begin; b < end; ++b) {
+                   HWY_DYNAMIC_DISPATCH(FillBlock)
+                   (lanes.caps.data(), lists.caps.data() + lists.first[b],
+                    lists.first[b + 1] - lists.first[b], grid.node(b, 0), grid.step, nodes,
+                    grid.block_values(b));
+                 }
+               });
+}
+
+namespace {
+
+// s^2 of CapSupport on the rim of the data: half a disc of points, at the edge of a hole, has a
+// mean at 0.42 R from it, and an ellipse of half axis 0.62 R (kWider of cap_cover.cpp).
+constexpr double kRim = 0.46;
+
+double place(const Cap& cap, const Vec3& x) {
+  const CapFrame& f = cap.frame;
+  const Vec3 offset = x - f.seed();
+  const double p = dot(offset, f.x) - cap.where.px, q = dot(offset, f.y) - cap.where.py;
+  const double h = dot(offset, f.z) / f.support;
+  return cap.where.xx * p * p + 2 * cap.where.xy * p * q + cap.where.yy * q * q + h * h;
+}
+
+struct VertexRows {
+  AlignedArray<float> points, sums;
+  std::size_t stride = 0;
+
+  void resize(std::size_t n) {
+    if (n + 16 <= stride) return;
+    stride = (2 * n + 63) / 16 * 16;
+    points = AlignedArray<float>::zeros(3 * stride);
+    sums = AlignedArray<float>::zeros(5 * stride);
+  }
+};
+
+void add_vertex_normals(Mesh& mesh, std::vector<Vec3>& normals) {
+  const char* names[] = {"nx", "ny", "nz"};
+  for (int axis = 0; axis < 3; ++axis) {
+    Attribute attribute{names[axis], ScalarType::kFloat32, std::vector<double>(normals.size())};
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+      const Vec3& n = normals[i];
+      attribute.values[i] = axis == 0 ? n.x : axis == 1 ? n.y : n.z;
+    }
+    mesh.attributes.push_back(std::move(attribute));
+  }
+}
+
+}  // namespace
+
+void project_vertices(const Atlas& atlas, const CapLists& lists, const BlockGrid& grid,
+                      ExtractedSurface& surface, const Context& context) {
+  const Lanes lanes = make_lanes(atlas, grid.step);
+  std::vector<Vec3> normals(surface.mesh.vertices.size());
+  const std::size_t n_blocks = std::min(lists.first.size(), surface.first_vertex.size()) - 1;
+  parallel_for(
+      n_blocks, 64, context, {.name = "vertices"}, [&](std::size_t begin, std::size_t end) {
+        VertexRows rows;
+        for (std::size_t b = begin; b < end; ++b) {
+          const std::size_t first = surface.first_vertex[b],
+                            n = surface.first_vertex[b + 1] - first;
+          if (n == 0) continue;
+          rows.resize(n);
+          const Vec3 origin = grid.node(b, 0);
+          for (int pass = 0; pass < 2; ++pass) {
+            for (std::size_t i = 0; i < n; ++i) {
+              const Vec3 p = (surface.mesh.vertices[first + i] - origin) / grid.step;
+              rows.points[i] = static_cast<float>(p.x);
+              rows.points[rows.stride + i] = static_cast<float>(p.y);
+              rows.points[2 * rows.stride + i] = static_cast<float>(p.z);
+            }
+            HWY_DYNAMIC_DISPATCH(SayAt)
+            (lanes.caps.data(), lists.caps.data() + lists.first[b],
+             lists.first[b + 1] - lists.first[b], origin, grid.step, rows.points.data(), n,
+             rows.stride, rows.sums.data());
+            for (std::size_t i = 0; i < n; ++i) {
+              const float* s = rows.sums.data() + i;
+              const double w = s[rows.stride];
+              if (!(w > kLeastWeight)) continue;
+              const Vec3 normal =
+                  Vec3{s[2 * rows.stride], s[3 * rows.stride], s[4 * rows.stride]} / w;
+              normals[first + i] = normalized(normal);
+              const bool filled = !surface.filled.empty() && surface.filled[first + i] != 0;
+              const double square = dot(normal, normal);
+              if (filled || pass == 1 || !(square > 0.25)) continue;
+              const double g = std::clamp(s[0] / w, -0.5, 0.5);
+              surface.mesh.vertices[first + i] += -(g * grid.step / square) * normal;
+            }
+          }
+        }
+      });
+  add_vertex_normals(surface.mesh, normals);
+}
+
+std::vector<double> data_support(const Atlas& atlas, const CapLists& lists,
+                                 const ExtractedSurface& surface, const Context& context) {
+  std::vector<double> support(surface.mesh.vertices.size(), -1);
+  parallel_for(lists.first.size() - 1, 64, context, {}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      for (std::size_t v = surface.first_vertex[b]; v < surface.first_vertex[b + 1]; ++v) {
+        double nearest = 2;
+        for (std::size_t c = lists.first[b]; c < lists.first[b + 1]; ++c) {
+          nearest = std::min(nearest, place(atlas.caps[lists.caps[c]], surface.mesh.vertices[v]));
+        }
+        support[v] = 1 - nearest / kRim;
+      }
+    }
+  });
+  return support;
+}
+
+}  // namespace rholm
+#endif

@@ -1,0 +1,31 @@
+// Caps as the kernels of cap_field.cpp see them: single precision, in steps of the grid.
+#pragma once
+
+#include "rholm/vec3.h"
+
+namespace rholm {
+
+struct CapLane {
+  Vec3 seed;
+  float x[3], y[3], z[3];
+  float radius, dilation;
+  float px, py, xx, xy2, yy, hh;  // CapSupport, hh = 1 / support^2
+  float reach;                    // from the tangent plane: nodes beyond cannot be within the band
+  float inverse_band;             // 1 / T
+  float trust;                    // times the weight: less for a cap that fits its points worse
+  int degree;
+  bool even;
+  const float* coefficients;
+};
+
+// Nodes of a block in their order.
+struct NodeTable {
+  alignas(64) float x[512];
+  alignas(64) float y[512];
+  alignas(64) float z[512];
+};
+
+// Sums of weights below it are silence: a thousandth of a cap's own.
+inline constexpr float kLeastWeight = 1e-5f;
+
+}  // namespace rholm

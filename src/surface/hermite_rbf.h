@@ -1,0 +1,40 @@
+// A smooth function with given zeros and gradients there. Layer: surface.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "rholm/vec3.h"
+
+namespace rholm {
+
+// s(x) = sum_j [alpha_j phi(x - x_j) - beta_j . grad phi(x - x_j)] + a + b . x, phi(d) = |d|^3: of
+// all functions with s(x_i) = 0 and grad s(x_i) = n_i the one that bends least (its natural
+// semi-norm; Macedo, Gois, Velho 2011).
+class HermiteRbf {
+ public:
+  // At most kMaxCenters distinct centres with unit normals. Solves a dense system of
+  // 4 n + 4 equations.
+  static constexpr std::size_t kMaxCenters = 400;
+  HermiteRbf(std::span<const Vec3> centers, std::span<const Vec3> normals);
+
+  // False if the system has no useful solution (centres that all but coincide): do not use it.
+  bool valid() const { return valid_; }
+  double operator()(const Vec3& x) const;
+
+ private:
+  struct Term {
+    Vec3 center;  // in the frame of the centres: their middle at 0, their extent 1
+    double alpha = 0;
+    Vec3 beta;
+  };
+  std::vector<Term> terms_;
+  double constant_ = 0;
+  Vec3 linear_;
+  Vec3 middle_;
+  double scale_ = 1;
+  bool valid_ = false;
+};
+
+}  // namespace rholm

@@ -1,0 +1,18 @@
+// Open surfaces with clean borders. Layer: surface.
+#pragma once
+
+#include <span>
+
+#include "rholm/mesh.h"
+
+namespace rholm {
+
+// Cuts away where `support` (one value per vertex) is at most 0, along the line where it is 0 by
+// linear interpolation on the edges: of a 2-manifold a 2-manifold with borders is left. The
+// support is averaged with its neighbours' `smoothing` times first, so that the border is a smooth
+// curve at the scale of the mesh, and the cut is evened out along itself. Cuts keep a tenth of the
+// edge from its ends. Attributes are interpolated; vertices in no triangle go. Throws InvalidInput
+// if the number of values is not that of the vertices, or one is not finite.
+Mesh trim(const Mesh& mesh, std::span<const double> support, int smoothing = 2);
+
+}  // namespace rholm

@@ -1,0 +1,32 @@
+// Few large caps that cover a surface to a tolerance (method 7.8). Layer: transform.
+#pragma once
+
+#include <vector>
+
+#include "rholm/atlas.h"
+#include "rholm/context.h"
+#include "transform/cap_candidate.h"
+#include "transform/cap_samples.h"
+
+namespace rholm {
+
+struct GreedyOptions {
+  CandidateOptions candidate;
+  double largest = 0.35, smallest = 0.005;  // supports, of the diagonal
+  double uncovered = 0.002;                 // share of the samples that may be left
+  std::uint64_t seed = 1;
+};
+
+// Caps of an atlas, with their weights, in the order they were chosen. The cap that costs fewest
+// numbers per newly covered sample wins.
+struct GreedyCover {
+  std::vector<Candidate> chosen;
+  std::vector<std::uint32_t> seeds;      // samples
+  std::vector<std::uint8_t> is_covered;  // samples
+  double uncovered = 1;                  // share
+  std::size_t tried = 0;                 // candidates
+};
+GreedyCover greedy_cover(const SampleLevels& samples, double diagonal, const GreedyOptions& options,
+                         const Context& context);
+
+}  // namespace rholm

@@ -1,0 +1,31 @@
+// Coefficients of an atlas that its error can do without (method 7.8). Layer: transform.
+#pragma once
+
+#include "rholm/atlas.h"
+#include "rholm/context.h"
+#include "transform/cap_samples.h"
+
+namespace rholm {
+
+struct PruneOptions {
+  double tolerance = 0;  // rms of the blend, the samples' unit
+  double band = 0;       // of the blend
+  int more_degrees = 2;  // fitted before pruning, so that coefficients go where they serve most
+  int max_degree = 14;
+};
+
+struct PruneReport {
+  double rms = 0;                // of the blend
+  std::size_t coefficients = 0;  // that are not zero
+  double price = 0;  // squared error, summed over samples, that the last one dropped cost
+};
+
+// Fits the coefficients of all caps anew, by their shares in the blend, and sets to zero those that
+// matter least until the blend's error is the tolerance. Caps lose the degrees that are all zero.
+PruneReport prune(const SampleLevels& samples, const PruneOptions& options, Atlas& atlas,
+                  const Context& context);
+
+// The number of coefficients that are not zero.
+std::size_t n_kept(const Atlas& atlas);
+
+}  // namespace rholm

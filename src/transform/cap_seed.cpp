@@ -1,0 +1,49 @@
+#include "transform/cap_seed.h"
+
+#include <algorithm>
+
+namespace rholm {
+namespace {
+
+// Normals of a cap's points against the mean around its seed: those behind belong to another sheet;
+// noise may turn a few that far (method 7.11).
+constexpr double kSameSheet = -0.2;
+// The mean is of so many nearest points: one sheet, and enough to average noisy normals.
+constexpr std::size_t kMeanOf = 12;
+
+double value_weight(double d2, double support2) {
+  const double rest = std::max(0.0, 1 - d2 / support2);
+  return rest * rest + 0.01;  // method 7.4
+}
+
+// The direction that most of the nearest normals share with the seed's own.
+Vec3 sheet_normal(const OrderedPoints& all, std::size_t seed, const CapWorker& worker) {
+  const Vec3& own = all.normals[seed];
+  Vec3 sum = own;
+  for (std::size_t j = 0; j < std::min(kMeanOf, worker.near.size()); ++j) {
+    const Vec3& n = all.normals[worker.near[j].index];
+    if (dot(n, own) > 0) sum += n;
+  }
+  return normalized(sum);
+}
+
+}  // namespace
+
+Vec3 take_points(const OrderedPoints& all, std::size_t seed, std::size_t k, double support,
+                 bool leave_out, CapWorker& worker) {
+  worker.points.clear();
+  const Vec3 sheet = sheet_normal(all, seed, worker);
+  Vec3 axis;
+  for (std::size_t j = 0; j < k; ++j) {
+    const std::size_t i = worker.near[j].index;
+    if ((leave_out && i == seed) || dot(all.normals[i], sheet) < kSameSheet) continue;
+    const Vec3 offset = all.points[i] - all.points[seed];
+    const double weight = value_weight(dot(offset, offset), support * support);
+    worker.points.add(offset, all.normals[i], weight);
+    axis += weight * all.normals[i];
+  }
+  worker.points.pad();
+  return axis;
+}
+
+}  // namespace rholm

@@ -1,0 +1,30 @@
+// The points of one cap: what covering, choosing a size and removing outliers share.
+#pragma once
+
+#include <cstddef>
+#include <numbers>
+#include <vector>
+
+#include "shape/point_tree.h"
+#include "transform/cap_cover.h"
+#include "transform/cap_fit.h"
+
+namespace rholm {
+
+inline constexpr double kHalfAngle = 15 * std::numbers::pi / 180;  // method 7.2
+inline constexpr double kOpened = 60 * std::numbers::pi / 180;
+
+// Memory of one thread.
+struct CapWorker {
+  std::vector<Neighbor> near;
+  CapPoints points;
+  CapFitScratch scratch;
+  CapFit fit;
+};
+
+// Fills worker.points with those of the seed's sheet among its k nearest (worker.near), and returns
+// their mean normal, weighted. The seed itself is left out if `leave_out`.
+Vec3 take_points(const OrderedPoints& all, std::size_t seed, std::size_t k, double support,
+                 bool leave_out, CapWorker& worker);
+
+}  // namespace rholm

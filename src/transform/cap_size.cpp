@@ -1,0 +1,117 @@
+#include "transform/cap_size.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "transform/cap_pole.h"
+#include "transform/cap_seed.h"
+
+namespace rholm {
+namespace {
+
+struct Trial {
+  double slope_error = 1, rms = 0, level_rms = 0, slope_rms = 0, support = 0;
+};
+
+// Seeds of a trial: the mean of their errors is then known to a few hundredths.
+constexpr std::size_t kSeeds = 400;
+// Numbers of points that are tried, method 7.11; the smallest gives 72 equations for 16 unknowns.
+constexpr std::size_t kFewest = 24, kMost = 4000;
+constexpr double kLadder = 1.5;
+// Part of the seeds that counts, those with the least errors: seeds may be outliers, or on creases.
+constexpr double kCounted = 0.8;
+constexpr double kClearlyBetter = 0.8;
+// Trials end when errors have grown by this factor.
+constexpr double kGrown = 1.15;
+// Normals count for so much more than by their residuals, which creases enlarge (method 7.11).
+constexpr double kNormalsFavoured = 1.6;
+// Residuals above this part of the support are noise, not shape.
+constexpr double kNoisy = 0.05;
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+Trial try_seed(const OrderedPoints& all, std::size_t seed, std::size_t k,
+               const CapFitOptions& options, CapWorker& worker) {
+  Trial trial;
+  all.tree.nearest_to(seed, k, worker.near);
+  trial.support = std::sqrt(static_cast<double>(worker.near.back().distance2));
+  if (!(trial.support > 0)) return trial;
+  const Vec3 axis = take_points(all, seed, worker.near.size(), trial.support, true, worker);
+  const CapFrame frame = cap_frame(all.points[seed], axis, trial.support, kHalfAngle, kOpened);
+  if (!fit_cap(frame, worker.points, options, worker.scratch, worker.fit)) return trial;
+  trial.rms = worker.fit.rms;
+  trial.level_rms = worker.fit.rms / frame.radius;
+  trial.slope_rms = worker.fit.slope_rms;
+  const Vec3& n = all.normals[seed];
+  const double up = dot(n, frame.z);
+  if (!(up > 0)) return trial;
+  const CapPole pole = cap_pole(frame, options.basis, options.degree, worker.fit.coefficients);
+  const double e1 = pole.slope1 + dot(n, frame.x) / up, e2 = pole.slope2 + dot(n, frame.y) / up;
+  trial.slope_error = std::min(1.0, e1 * e1 + e2 * e2);
+  return trial;
+}
+
+}  // namespace
+
+CapSizeTrial try_cap_size(const OrderedPoints& points, std::size_t neighbours, int degree,
+                          double gradient_weight, std::size_t n_seeds, const Context& context) {
+  const std::size_t n = points.points.size();
+  n_seeds = std::min(n_seeds, n);
+  std::vector<Trial> trials(n_seeds);
+  const CapFitOptions options{.degree = degree, .gradient_weight = gradient_weight};
+  parallel_for(n_seeds, 16, context, {.name = "cap size"}, [&](std::size_t begin, std::size_t end) {
+    CapWorker worker;
+    for (std::size_t j = begin; j < end; ++j) {
+      trials[j] = try_seed(points, j * n / n_seeds, neighbours, options, worker);
+    }
+  });
+  CapSizeTrial mean{.neighbours = neighbours};
+  std::vector<double> rms, level, slope, support;
+  std::sort(trials.begin(), trials.end(),
+            [](const Trial& a, const Trial& b) { return a.slope_error < b.slope_error; });
+  const auto counted = static_cast<std::size_t>(kCounted * static_cast<double>(n_seeds)) + 1;
+  for (std::size_t j = 0; j < std::min(counted, n_seeds); ++j) {
+    mean.slope_error += trials[j].slope_error / static_cast<double>(counted);
+  }
+  for (const Trial& t : trials) {
+    if (t.slope_error >= 1) mean.disagreeing += 1 / static_cast<double>(n_seeds);
+    rms.push_back(t.rms), level.push_back(t.level_rms);
+    slope.push_back(t.slope_rms), support.push_back(t.support);
+  }
+  mean.rms = median(rms), mean.level_rms = median(level);
+  mean.slope_rms = median(slope), mean.support = median(support);
+  return mean;
+}
+
+CapSize choose_cap_size(const OrderedPoints& points, int degree, const Context& context) {
+  CapSize best;
+  CapSizeTrial chosen;
+  double weight = best.gradient_weight;
+  const std::size_t most = std::min(kMost, points.points.size() / 4);
+  for (double k = kFewest; chosen.neighbours == 0 || k < static_cast<double>(most); k *= kLadder) {
+    const CapSizeTrial trial =
+        try_cap_size(points, static_cast<std::size_t>(k), degree, weight, kSeeds, context);
+    if (trial.slope_rms > 0) weight = kNormalsFavoured * trial.level_rms / trial.slope_rms;
+    // Clean points show no minimum: only a clear gain is worth larger caps.
+    const double better = chosen.rms > kNoisy * chosen.support ? 1 : kClearlyBetter;
+    if (chosen.neighbours == 0 || trial.slope_error < better * chosen.slope_error) chosen = trial;
+    if (trial.slope_error > kGrown * chosen.slope_error) break;
+  }
+  best.neighbours = chosen.neighbours;
+  best.disagreeing = chosen.disagreeing;
+  if (chosen.slope_rms > 0) {
+    best.gradient_weight =
+        std::clamp(kNormalsFavoured * chosen.level_rms / chosen.slope_rms, 0.01, 10.0);
+  }
+  if (chosen.rms > kNoisy * chosen.support) best.noise = chosen.rms;
+  // Slopes on the opened sphere are those of the surface over the dilation.
+  best.normal_noise = chosen.slope_rms * std::tan(kOpened / 2) / std::tan(kHalfAngle / 2);
+  return best;
+}
+
+}  // namespace rholm
