@@ -1,11 +1,13 @@
 // Names in the model file: docs/model-file.md. Layer: model, private.
 #pragma once
 
+#include <cstddef>
+
 namespace rholm::layout {
 
 inline constexpr const char* kFormatName = "rholm-model";
 inline constexpr int kMajor = 1;
-inline constexpr int kMinor = 1;
+inline constexpr int kMinor = 2;
 
 // Root attributes
 inline constexpr const char* kFormat = "format";
@@ -36,6 +38,23 @@ inline constexpr const char* kErrorPoints = "error_points";
 inline constexpr const char* kDiagonal = "diagonal";
 
 inline constexpr const char* kCrc32 = "crc32";
+
+// The group of an atlas, its datasets and attributes; unit, method, diagonal and crc32 as above
+inline constexpr const char* kAtlas = "atlas";
+inline constexpr const char* kCaps = "caps";
+inline constexpr const char* kEllipses = "ellipses";
+inline constexpr const char* kWeights = "weights";
+inline constexpr const char* kDegrees = "degrees";
+inline constexpr const char* kKept = "kept";
+inline constexpr const char* kValues = "values";
+inline constexpr const char* kBasis = "basis";
+inline constexpr const char* kOrigin = "origin";
+inline constexpr const char* kScales = "scales";  // spacing, noise, band, step, tolerance
+inline constexpr std::size_t kScaleNumbers = 5;
+inline constexpr const char* kWeightPower = "weight_power";
+inline constexpr const char* kAtlasErrors = "errors";  // rms and max from the shape, to the shape
+inline constexpr std::size_t kErrorNumbers = 4;
+inline constexpr const char* kInputNumbers = "input_numbers";
 
 inline constexpr unsigned kMaxAttributes = 64;  // in the header of an object; chosen: ample
 

@@ -24,6 +24,8 @@ constexpr std::size_t kSpacingSeeds = 2000;
 constexpr double kTenthOfEven = 0.8;
 // Each sees what the one before has left (method 7.4).
 constexpr int kOutlierPasses = 3;
+// Of the points; smaller groups, where there are outliers, are made of them.
+constexpr double kLeastGroup = 0.002;
 
 // Points without a direction are of no use here.
 void drop_zero_normals(PointCloud& cloud) {
@@ -100,20 +102,26 @@ Spacing WorkingPoints::spacing(const Context& context) const {
   return {median, std::min(median, all[seeds / 10] / kTenthOfEven)};
 }
 
+bool WorkingPoints::remove(const std::vector<std::uint8_t>& gone, const Context& context) {
+  const auto n = static_cast<std::size_t>(std::count(gone.begin(), gone.end(), 1));
+  if (n == 0 || size() - n < kFewestPoints) return false;
+  // A normal of zero is how points are dropped.
+  for (std::size_t i = 0; i < gone.size(); ++i) {
+    if (gone[i] != 0) cloud_.normals[tree_->order()[i]] = {};
+  }
+  drop_zero_normals(cloud_);
+  diagonal_ = bounds(cloud_.points).diagonal();
+  order(context);
+  return true;
+}
+
 std::size_t WorkingPoints::remove_outliers(double noise, const Context& context) {
   const std::size_t before = size();
   for (int pass = 0; pass < kOutlierPasses; ++pass) {
-    const std::vector<std::uint8_t> gone = find_outliers(*tree_, points_, normals_, noise, context);
-    const auto n = static_cast<std::size_t>(std::count(gone.begin(), gone.end(), 1));
-    if (n == 0 || size() - n < kFewestPoints) break;
-    // A normal of zero is how points are dropped.
-    for (std::size_t i = 0; i < gone.size(); ++i) {
-      if (gone[i] != 0) cloud_.normals[tree_->order()[i]] = {};
-    }
-    drop_zero_normals(cloud_);
-    diagonal_ = bounds(cloud_.points).diagonal();
-    order(context);
+    if (!remove(find_outliers(*tree_, points_, normals_, noise, context), context)) break;
   }
+  const auto least = static_cast<std::size_t>(kLeastGroup * static_cast<double>(size()));
+  remove(find_small_groups(*tree_, normals_, std::max(kFewestPoints, least), context), context);
   return before - size();
 }
 

@@ -37,6 +37,8 @@ class WorkingPoints {
 
  private:
   void order(const Context& context);
+  // Drops the points whose flag is set, unless too few would be left.
+  bool remove(const std::vector<std::uint8_t>& gone, const Context& context);
 
   PointCloud cloud_;
   std::unique_ptr<PointTree> tree_;

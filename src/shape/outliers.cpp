@@ -1,9 +1,11 @@
 #include "shape/outliers.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/parallel.h"
+#include "shape/disjoint_sets.h"
 
 namespace rholm {
 namespace {
@@ -70,6 +72,35 @@ std::vector<std::uint8_t> find_outliers(const PointTree& tree, std::span<const V
     std::erase_if(near, [i](const Neighbor& other) { return other.index == i; });
     flags[i] = !near.empty() && is_outlier(scan, i, near, spacings) ? 1 : 0;
   });
+  return flags;
+}
+
+std::vector<std::uint8_t> find_small_groups(const PointTree& tree, std::span<const Vec3> normals,
+                                            std::size_t least, const Context& context) {
+  const std::size_t n = normals.size();
+  std::vector<float> spacing(n);
+  std::vector<std::array<std::uint32_t, kEighth>> links(n);
+  parallel_for(n, 2048, context, {.name = "outliers"}, [&](std::size_t begin, std::size_t end) {
+    std::vector<Neighbor> near;
+    for (std::size_t i = begin; i < end; ++i) {
+      tree.nearest_to(i, kEighth + 1, near);
+      spacing[i] = std::sqrt(near.back().distance2);
+      links[i].fill(static_cast<std::uint32_t>(i));
+      for (std::size_t j = 0; j < std::min(kEighth, near.size()); ++j) links[i][j] = near[j].index;
+    }
+  });
+  DisjointSets groups(n);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    for (const std::uint32_t j : links[i]) {
+      // As near as both have others: a point alone is far from where its neighbours are at home.
+      const bool close = spacing[i] < kIsolated * spacing[j] && spacing[j] < kIsolated * spacing[i];
+      if (close && dot(normals[i], normals[j]) > 0.5) groups.unite(i, j);
+    }
+  }
+  std::vector<std::uint32_t> sizes(n, 0);
+  for (std::uint32_t i = 0; i < n; ++i) ++sizes[groups.find(i)];
+  std::vector<std::uint8_t> flags(n);
+  for (std::uint32_t i = 0; i < n; ++i) flags[i] = sizes[groups.find(i)] < least ? 1 : 0;
   return flags;
 }
 

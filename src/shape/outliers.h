@@ -20,4 +20,9 @@ std::vector<std::uint8_t> find_outliers(const PointTree& tree, std::span<const V
                                         std::span<const Vec3> normals, double noise,
                                         const Context& context = {});
 
+// One flag per point: 1 for a point of a group of fewer than `least`. Points are of one group if they
+// are near neighbours, as near as both have others, and their normals agree.
+std::vector<std::uint8_t> find_small_groups(const PointTree& tree, std::span<const Vec3> normals,
+                                            std::size_t least, const Context& context = {});
+
 }  // namespace rholm
