@@ -26,7 +26,7 @@ constexpr double kStepOfSupport = 0.15;
 // Points that no cap fits, or whose normals disagree, before all are searched for outliers: creases
 // and folds of clean shapes have fewer.
 constexpr double kSuspicious = 1e-3;
-constexpr double kDisagreeing = 0.03;
+constexpr double kDisagreeing = 0.04, kDisagreeingNoisy = 0.08;
 
 void check(const ReconstructOptions& options) {
   const auto refuse = [](const char* what, double value, const char* limit) {
@@ -64,7 +64,8 @@ Cover fit_caps(WorkingPoints& points, const ReconstructOptions& options, CapSize
   measure();
   Cover caps;
   const auto n = static_cast<double>(points.size());
-  if (!options.remove_outliers || size.disagreeing <= kDisagreeing) {
+  if (!options.remove_outliers ||
+      size.disagreeing <= (size.noise > 0 ? kDisagreeingNoisy : kDisagreeing)) {
     caps = cover(points.ordered(), cover_options(options, size), context);
     const bool clean = static_cast<double>(caps.rejected) <= kSuspicious * n;
     if (!options.remove_outliers || clean) return caps;

@@ -22,6 +22,8 @@ constexpr std::size_t kCircle = 8;
 constexpr std::size_t kSpacingSeeds = 2000;
 // Of even random points the tenth lies at 0.8 of the median; a finer part of uneven ones below.
 constexpr double kTenthOfEven = 0.8;
+// Diagonals: squares of distances between neighbours must stay within single precision.
+constexpr double kSmallest = 1e-12, kLargest = 1e12;
 // Each sees what the one before has left (method 7.4).
 constexpr int kOutlierPasses = 3;
 // Of the points; smaller groups, where there are outliers, are made of them.
@@ -49,9 +51,10 @@ void check_spread(const PointCloud& cloud, double diagonal) {
         fmt::format("{} different points with normals are too few for a surface: {} at least",
                     cloud.points.size(), kFewestPoints));
   }
-  if (!(diagonal > 1e-150 && diagonal < 1e150)) {
+  if (!(diagonal > kSmallest && diagonal < kLargest)) {
     throw Error(ErrorCode::kInvalidInput,
-                fmt::format("the points span {}: 1e-150 ... 1e150 can be worked with", diagonal));
+                fmt::format("the points span {}: {} ... {} can be worked with; take another unit",
+                            diagonal, kSmallest, kLargest));
   }
 }
 

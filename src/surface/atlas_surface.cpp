@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "rholm/error.h"
+#include "shape/disjoint_sets.h"
+#include "surface/atlas_dipoles.h"
 #include "surface/block_grid.h"
 #include "surface/cap_field.h"
 #include "surface/components.h"
@@ -22,6 +25,8 @@ namespace {
 // Of a block: its values and tables, some 45 vertices with normals, 90 triangles, lists of caps
 // (measured on closed bodies).
 constexpr std::size_t kSurfaceOfBlock = 45 * 56 + 90 * 12 + 32 * 4;
+
+constexpr double kDipoleSteps = 2;  // between dipoles; their winding is smooth over as much
 
 std::size_t memory_of(std::size_t n_blocks) {
   return block_grid_bytes(n_blocks) + n_blocks * kSurfaceOfBlock;
@@ -39,22 +44,55 @@ Vec3 lowest_corner(const std::vector<Disc>& discs) {
   return low;
 }
 
-BlockGrid make_grid(const std::vector<Disc>& discs, const AtlasSurfaceOptions& options,
-                    const Context& context) {
-  const Vec3 origin = lowest_corner(discs);
-  return make_block_grid(
-      origin, options.step,
-      list_blocks(origin, options.step, discs, blocks_within(options.max_memory), context),
-      context);
+std::vector<BlockCoordinates> blocks_of(const Atlas& atlas, double step, std::size_t max_memory,
+                                        const Context& context) {
+  const std::vector<Disc> discs = discs_of(atlas, step, context);
+  return list_blocks(lowest_corner(discs), step, discs, blocks_within(max_memory), context);
 }
 
-struct Dipoles {
-  std::vector<FootPoint> feet;
-  std::vector<Vec3> points, area_normals;
-};
+// The finest of the steps of a power of two in the diagonal that fits; 0 if none does.
+double step_that_fits(const Atlas& atlas, const AtlasSurfaceOptions& options,
+                      const Context& context) {
+  double found = 0;
+  try {
+    for (double step = atlas.diagonal / 8; step > options.step; step /= 2) {
+      blocks_of(atlas, step, options.max_memory, context);
+      found = step;
+    }
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::kInvalidInput) throw;
+  }
+  return found;
+}
 
-Dipoles dipoles_of(const Atlas& atlas) {
-  Dipoles dipoles;
+BlockGrid make_grid(const Atlas& atlas, const std::vector<Disc>& discs,
+                    const AtlasSurfaceOptions& options, const Context& context) {
+  const Vec3 origin = lowest_corner(discs);
+  try {
+    return make_block_grid(
+        origin, options.step,
+        list_blocks(origin, options.step, discs, blocks_within(options.max_memory), context),
+        context);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::kInvalidInput) throw;
+    const double fits = step_that_fits(atlas, options, context);
+    throw Error(
+        ErrorCode::kInvalidInput,
+        fmt::format("a grid with steps of {:.3g} needs more than the {:.0f} MiB allowed: {}allow "
+                    "more memory",
+                    options.step, static_cast<double>(options.max_memory) / (1 << 20),
+                    fits > 0 ? fmt::format("take steps of {:.3g} (1/{:.0f} of the diagonal), or ",
+                                           fits, atlas.diagonal / fits)
+                             : ""));
+  }
+}
+
+// Small caps are one dipole each, of the area they were made for; large ones are spread.
+AtlasDipoles dipoles_of(const Atlas& atlas, double step, const Context& context) {
+  const bool small = std::all_of(atlas.caps.begin(), atlas.caps.end(),
+                                 [](const Cap& cap) { return cap.area > 0; });
+  if (!small) return spread_dipoles(atlas, kDipoleSteps * step, band_of(atlas, step), context);
+  AtlasDipoles dipoles;
   for (const Cap& cap : atlas.caps) {
     const CapFoot foot = cap_foot(atlas, cap);
     dipoles.feet.push_back({foot.point, foot.normal, cap.frame.support});
@@ -62,6 +100,40 @@ Dipoles dipoles_of(const Atlas& atlas) {
     dipoles.area_normals.push_back(cap.area * foot.normal);
   }
   return dipoles;
+}
+
+// A gap between random points is no hole; one of this many times a typical cap's disc is.
+constexpr double kGap = 1.0;
+constexpr double kBridged = 0.01;  // support of a vertex that stays: above 0
+
+double typical_area(const Atlas& atlas) {
+  std::vector<double> supports;
+  for (const Cap& cap : atlas.caps) supports.push_back(cap.frame.support);
+  const auto middle = supports.begin() + static_cast<std::ptrdiff_t>(supports.size() / 2);
+  std::nth_element(supports.begin(), middle, supports.end());
+  return std::numbers::pi * *middle * *middle;
+}
+
+// Connected parts without support that are smaller than `least` are kept.
+void bridge_gaps(const Mesh& mesh, double least, std::vector<double>& support) {
+  DisjointSets parts(support.size());
+  for (const Triangle& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = t[k], b = t[(k + 1) % 3];
+      if (support[a] <= 0 && support[b] <= 0) parts.unite(a, b);
+    }
+  }
+  std::vector<double> areas(support.size(), 0.0);
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3& a = mesh.vertices[t[0]];
+    const double area = norm(cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a)) / 2;
+    for (const std::uint32_t v : t) {
+      if (support[v] <= 0) areas[parts.find(v)] += area / 3;
+    }
+  }
+  for (std::uint32_t v = 0; v < support.size(); ++v) {
+    if (support[v] <= 0 && areas[parts.find(v)] < least) support[v] = kBridged;
+  }
 }
 
 // Vertices that no cap speaks for have the normals of their triangles.
@@ -95,11 +167,11 @@ AtlasSurface extract_atlas(const Atlas& atlas, const AtlasSurfaceOptions& option
                            const Context& context) {
   AtlasSurface result;
   const std::vector<Disc> discs = discs_of(atlas, options.step, context);
-  BlockGrid grid = make_grid(discs, options, context);
+  BlockGrid grid = make_grid(atlas, discs, options, context);
   result.memory = memory_of(grid.n_blocks());
   const CapLists lists = list_caps(grid, discs);
   fill_grid(atlas, lists, grid, context);
-  const Dipoles dipoles = dipoles_of(atlas);
+  const AtlasDipoles dipoles = dipoles_of(atlas, options.step, context);
   const WindingTree winding(dipoles.points, dipoles.area_normals);
   const HoleFilling filling = fill_holes(
       grid, dipoles.feet, winding, {.max_blocks = blocks_within(options.max_memory)}, context);
@@ -107,7 +179,8 @@ AtlasSurface extract_atlas(const Atlas& atlas, const AtlasSurfaceOptions& option
   ExtractedSurface surface = extract_surface(grid, context);
   project_vertices(atlas, lists, grid, surface, context);
   if (options.keep_holes) {
-    const std::vector<double> support = data_support(atlas, lists, surface, context);
+    std::vector<double> support = data_support(atlas, lists, surface, context);
+    bridge_gaps(surface.mesh, kGap * typical_area(atlas), support);
     result.mesh = trim(surface.mesh, support);
   } else {
     result.mesh = std::move(surface.mesh);

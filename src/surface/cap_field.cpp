@@ -116,15 +116,20 @@ void FillBlock(const CapLane* caps, const std::uint32_t* list, std::size_t n_cap
     hn::Store(hn::Zero(d), d, sum_w + i);
   }
   for (std::size_t c = 0; c < n_caps; ++c) {
-    const LaneCap lane(d, caps[list[c]], origin, step);
-    for (std::size_t i = 0; i < 512; i += hn::Lanes(d)) {
-      Said said{};
-      if (!Say<false>(d, lane, hn::Load(d, nodes.x + i), hn::Load(d, nodes.y + i),
-                      hn::Load(d, nodes.z + i), said)) {
-        continue;
+    const CapLane& cap = caps[list[c]];
+    const LaneCap lane(d, cap, origin, step);
+    const NodeRange range = nodes_near(cap, origin, step);
+    for (std::size_t z = range.first_z; z < range.end_z; ++z) {
+      const std::size_t end = 64 * z + 8 * range.end_y;
+      for (std::size_t i = 64 * z + 8 * range.first_y; i < end; i += hn::Lanes(d)) {
+        Said said{};
+        if (!Say<false>(d, lane, hn::Load(d, nodes.x + i), hn::Load(d, nodes.y + i),
+                        hn::Load(d, nodes.z + i), said)) {
+          continue;
+        }
+        hn::Store(hn::MulAdd(said.w, said.g, hn::Load(d, sum_g + i)), d, sum_g + i);
+        hn::Store(hn::Add(said.w, hn::Load(d, sum_w + i)), d, sum_w + i);
       }
-      hn::Store(hn::MulAdd(said.w, said.g, hn::Load(d, sum_g + i)), d, sum_g + i);
-      hn::Store(hn::Add(said.w, hn::Load(d, sum_w + i)), d, sum_w + i);
     }
   }
   for (std::size_t i = 0; i < 512; i += hn::Lanes(d)) {
@@ -191,6 +196,13 @@ struct Lanes {
   std::vector<float> coefficients;
 };
 
+// The longer half axis of the ellipse.
+double ellipse_reach(const Cap& cap) {
+  const CapSupport& where = cap.where;
+  const double middle = (where.xx + where.yy) / 2;
+  return 1 / std::sqrt(middle - std::hypot((where.xx - where.yy) / 2, where.xy));
+}
+
 Lanes make_lanes(const Atlas& atlas, double step) {
   Lanes lanes;
   lanes.coefficients.assign(atlas.coefficients.begin(), atlas.coefficients.end());
@@ -214,8 +226,17 @@ Lanes make_lanes(const Atlas& atlas, double step) {
     lane.yy = static_cast<float>(cap.where.yy * step2);
     lane.xy2 = static_cast<float>(2 * cap.where.xy * step2);
     lane.hh = static_cast<float>(1 / (support * support));
-    lane.reach = static_cast<float>(kBandSteps + cap_deviation(atlas, cap) / step);
-    lane.inverse_band = static_cast<float>(1 / kBandSteps);
+    lane.reach = static_cast<float>((band_of(atlas, step) + cap_deviation(atlas, cap)) / step);
+    // A disc of radius e and half thickness t across n reaches e sqrt(1 - n_x^2) + t |n_x| along x.
+    const Vec3 n = f.z;
+    const double edge = ellipse_reach(cap) / step;
+    const auto extent = [&](double along) {
+      return static_cast<float>(edge * std::sqrt(std::max(0.0, 1 - along * along)) +
+                                lane.reach * std::abs(along));
+    };
+    lane.middle = lane.seed + cap.where.px * f.x + cap.where.py * f.y;
+    lane.box[0] = extent(n.x), lane.box[1] = extent(n.y), lane.box[2] = extent(n.z);
+    lane.inverse_band = static_cast<float>(step / band_of(atlas, step));
     lane.trust = static_cast<float>(cap.weight);
     lane.degree = cap.degree;
     lane.even = cap.basis == CapBasis::kEven;
@@ -227,19 +248,30 @@ Lanes make_lanes(const Atlas& atlas, double step) {
 
 }  // namespace
 
+NodeRange nodes_near(const CapLane& cap, const Vec3& origin, double step) {
+  const Vec3 at = (cap.middle - origin) / step;
+  const auto first = [](double x) {
+    return static_cast<std::size_t>(std::clamp(std::ceil(x), 0.0, 8.0));
+  };
+  const auto end = [](double x) {
+    return static_cast<std::size_t>(std::clamp(std::floor(x) + 1, 0.0, 8.0));
+  };
+  return {first(at.y - cap.box[1]) & ~std::size_t{1},
+          (end(at.y + cap.box[1]) + 1) & ~std::size_t{1}, first(at.z - cap.box[2]),
+          end(at.z + cap.box[2])};
+}
+
+double band_of(const Atlas& atlas, double step) { return std::max(kBandSteps * step, atlas.band); }
+
 double cap_deviation(const Atlas&, const Cap& cap) { return cap.deviation; }
 
 std::vector<Disc> discs_of(const Atlas& atlas, double step, const Context&) {
   std::vector<Disc> discs;
   discs.reserve(atlas.caps.size());
   for (const Cap& cap : atlas.caps) {
-    const CapSupport& where = cap.where;
-    const double middle = (where.xx + where.yy) / 2;
-    const double spread = std::hypot((where.xx - where.yy) / 2, where.xy);
     const CapFrame& f = cap.frame;
-    discs.push_back({f.seed() + where.px * f.x + where.py * f.y, f.z,
-                     1 / std::sqrt(middle - spread),
-                     kBandSteps * step + cap_deviation(atlas, cap)});
+    discs.push_back({f.seed() + cap.where.px * f.x + cap.where.py * f.y, f.z, ellipse_reach(cap),
+                     band_of(atlas, step) + cap_deviation(atlas, cap)});
   }
   return discs;
 }
@@ -312,8 +344,8 @@ void fill_grid(const Atlas& atlas, const CapLists& lists, BlockGrid& grid, const
 namespace {
 
 // s^2 of CapSupport on the rim of the data: half a disc of points, at the edge of a hole, has a
-// mean at 0.42 R from it, and an ellipse of half axis 0.62 R (kWider of cap_cover.cpp).
-constexpr double kRim = 0.46;
+// mean at 0.42 R from it, and an ellipse of half axis 0.53 R.
+constexpr double kRim = 0.63;
 
 double place(const Cap& cap, const Vec3& x) {
   const CapFrame& f = cap.frame;
@@ -322,6 +354,11 @@ double place(const Cap& cap, const Vec3& x) {
   const double h = dot(offset, f.z) / f.support;
   return cap.where.xx * p * p + 2 * cap.where.xy * p * q + cap.where.yy * q * q + h * h;
 }
+
+// Steps that a vertex may move, and the squared mean of normals below which caps contradict each
+// other.
+constexpr double kLargestMove = 0.5;
+constexpr double kLeastNormal = 0.25;
 
 struct VertexRows {
   AlignedArray<float> points, sums;
@@ -354,42 +391,42 @@ void project_vertices(const Atlas& atlas, const CapLists& lists, const BlockGrid
   const Lanes lanes = make_lanes(atlas, grid.step);
   std::vector<Vec3> normals(surface.mesh.vertices.size());
   const std::size_t n_blocks = std::min(lists.first.size(), surface.first_vertex.size()) - 1;
-  parallel_for(
-      n_blocks, 64, context, {.name = "vertices"}, [&](std::size_t begin, std::size_t end) {
-        VertexRows rows;
-        for (std::size_t b = begin; b < end; ++b) {
-          const std::size_t first = surface.first_vertex[b],
-                            n = surface.first_vertex[b + 1] - first;
-          if (n == 0) continue;
-          rows.resize(n);
-          const Vec3 origin = grid.node(b, 0);
-          for (int pass = 0; pass < 2; ++pass) {
-            for (std::size_t i = 0; i < n; ++i) {
-              const Vec3 p = (surface.mesh.vertices[first + i] - origin) / grid.step;
-              rows.points[i] = static_cast<float>(p.x);
-              rows.points[rows.stride + i] = static_cast<float>(p.y);
-              rows.points[2 * rows.stride + i] = static_cast<float>(p.z);
-            }
-            HWY_DYNAMIC_DISPATCH(SayAt)
-            (lanes.caps.data(), lists.caps.data() + lists.first[b],
-             lists.first[b + 1] - lists.first[b], origin, grid.step, rows.points.data(), n,
-             rows.stride, rows.sums.data());
-            for (std::size_t i = 0; i < n; ++i) {
-              const float* s = rows.sums.data() + i;
-              const double w = s[rows.stride];
-              if (!(w > kLeastWeight)) continue;
-              const Vec3 normal =
-                  Vec3{s[2 * rows.stride], s[3 * rows.stride], s[4 * rows.stride]} / w;
-              normals[first + i] = normalized(normal);
-              const bool filled = !surface.filled.empty() && surface.filled[first + i] != 0;
-              const double square = dot(normal, normal);
-              if (filled || pass == 1 || !(square > 0.25)) continue;
-              const double g = std::clamp(s[0] / w, -0.5, 0.5);
-              surface.mesh.vertices[first + i] += -(g * grid.step / square) * normal;
-            }
-          }
-        }
-      });
+  parallel_for(n_blocks, 64, context, {.name = "vertices"},
+               [&](std::size_t begin, std::size_t end) {
+                 VertexRows rows;
+                 for (std::size_t b = begin; b < end; ++b) {
+                   const std::size_t first = surface.first_vertex[b],
+                                     n = surface.first_vertex[b + 1] - first;
+                   if (n == 0) continue;
+                   rows.resize(n);
+                   const Vec3 origin = grid.node(b, 0);
+                   for (std::size_t i = 0; i < n; ++i) {
+                     const Vec3 p = (surface.mesh.vertices[first + i] - origin) / grid.step;
+                     rows.points[i] = static_cast<float>(p.x);
+                     rows.points[rows.stride + i] = static_cast<float>(p.y);
+                     rows.points[2 * rows.stride + i] = static_cast<float>(p.z);
+                   }
+                   HWY_DYNAMIC_DISPATCH(SayAt)
+                   (lanes.caps.data(), lists.caps.data() + lists.first[b],
+                    lists.first[b + 1] - lists.first[b], origin, grid.step, rows.points.data(), n,
+                    rows.stride, rows.sums.data());
+                   for (std::size_t i = 0; i < n; ++i) {
+                     const float* s = rows.sums.data() + i;
+                     const double w = s[rows.stride];
+                     if (!(w > kLeastWeight)) continue;
+                     const Vec3 normal =
+                         Vec3{s[2 * rows.stride], s[3 * rows.stride], s[4 * rows.stride]} / w;
+                     // The vertex moves by a small part of a step: its normal is that of where it
+                     // was.
+                     normals[first + i] = normalized(normal);
+                     const bool filled = !surface.filled.empty() && surface.filled[first + i] != 0;
+                     const double square = dot(normal, normal);
+                     if (filled || !(square > kLeastNormal)) continue;
+                     const double g = std::clamp(s[0] / w, -kLargestMove, kLargestMove);
+                     surface.mesh.vertices[first + i] += -(g * grid.step / square) * normal;
+                   }
+                 }
+               });
   add_vertex_normals(surface.mesh, normals);
 }
 

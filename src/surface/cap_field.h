@@ -14,6 +14,8 @@ namespace rholm {
 
 // Nodes within so many steps of a cap hear it.
 inline constexpr double kBandSteps = 2.5;
+// The same as a length: at least Atlas::band.
+double band_of(const Atlas& atlas, double step);
 
 // The caps that reach each block, in their order: those of block b are
 // caps[first[b]] ... caps[first[b + 1] - 1].

@@ -1,22 +1,33 @@
 // Caps as the kernels of cap_field.cpp see them: single precision, in steps of the grid.
 #pragma once
 
+#include <cstddef>
+
 #include "rholm/vec3.h"
 
 namespace rholm {
 
 struct CapLane {
   Vec3 seed;
+  Vec3 middle;  // of the ellipse
   float x[3], y[3], z[3];
   float radius, dilation;
   float px, py, xx, xy2, yy, hh;  // CapSupport, hh = 1 / support^2
-  float reach;                    // from the tangent plane: nodes beyond cannot be within the band
-  float inverse_band;             // 1 / T
-  float trust;                    // times the weight: less for a cap that fits its points worse
+  float box[3];  // half extents of the part of space where it speaks, about the ellipse's middle
+  float reach;   // from the tangent plane: nodes beyond cannot be within the band
+  float inverse_band;  // 1 / T
+  float trust;         // times the weight: less for a cap that fits its points worse
   int degree;
   bool even;
   const float* coefficients;
 };
+
+// Rows of a block's nodes; y in pairs, since a vector may hold two rows.
+struct NodeRange {
+  std::size_t first_y = 0, end_y = 8, first_z = 0, end_z = 8;
+};
+// Those where a cap may speak. `origin` is the block's first node.
+NodeRange nodes_near(const CapLane& cap, const Vec3& origin, double step);
 
 // Nodes of a block in their order.
 struct NodeTable {

@@ -31,8 +31,7 @@ constexpr double kOfTolerance = 0.5;
 constexpr double kGrow = 1.6;
 constexpr std::size_t kMost = 4000;  // points of a cap of low degree
 constexpr std::size_t kFewest = 8;   // points: 24 rows for 16 unknowns and a penalty
-// Ellipses a little wider than their points' covariance, which scatters, and not too thin.
-constexpr double kWider = 1.4;
+// Ellipses are not thinner than this part of the support, squared.
 constexpr double kThinnest = 0.1;
 // Residuals of this part of the support halve the weight of a cap: a crease or a fold is left to
 // caps that do not see it. Measured: 0.001 to 0.01 are alike.
@@ -62,8 +61,8 @@ CapSupport ellipse_of(const CapFrame& frame, const CapPoints& points) {
   // Axes between kThinnest and 1 of the support: eigenvalues of a disc's covariance are R^2 / 4.
   const double middle = (xx + yy) / 2, radius = std::hypot((xx - yy) / 2, xy);
   const double quarter = frame.support * frame.support / 4;
-  const double large = std::clamp(kWider * (middle + radius), kThinnest * quarter, quarter);
-  const double small = std::clamp(kWider * (middle - radius), kThinnest * quarter, quarter);
+  const double large = std::clamp(middle + radius, kThinnest * quarter, quarter);
+  const double small = std::clamp(middle - radius, kThinnest * quarter, quarter);
   // Directions of the axes.
   const double angle = 0.5 * std::atan2(2 * xy, xx - yy);
   const double c = std::cos(angle), s = std::sin(angle);
@@ -82,11 +81,11 @@ bool good(const CapFit& fit, double support, const CoverOptions& options) {
 }
 
 // The cap of the k nearest points; false if there is none.
-bool fit_nearest(const OrderedPoints& all, std::size_t seed, std::size_t k,
+bool fit_nearest(const OrderedPoints& all, std::size_t seed, std::size_t k, CapSide side,
                  const CoverOptions& options, CapWorker& worker, Cap& cap) {
   const double support = std::sqrt(static_cast<double>(worker.near[k - 1].distance2));
   if (!(support > 0)) return false;
-  const Vec3 axis = take_points(all, seed, k, support, false, worker);
+  const Vec3 axis = take_points(all, seed, k, support, side, false, worker);
   cap.frame = cap_frame(all.points[seed], axis, support, kHalfAngle, kOpened);
   const CapFitOptions wanted{.degree = options.degree, .gradient_weight = options.gradient_weight};
   return fit_cap(cap.frame, worker.points, wanted, worker.scratch, worker.fit);
@@ -102,10 +101,11 @@ void grow_cap(const OrderedPoints& all, std::size_t seed, std::size_t k,
     more = static_cast<std::size_t>(kGrow * static_cast<double>(more));
     all.tree.nearest_to(seed, more, worker.near);
     const std::size_t found = worker.near.size();
-    const bool fitted = found > kept && fit_nearest(all, seed, found, options, worker, cap);
+    const bool fitted =
+        found > kept && fit_nearest(all, seed, found, CapSide::kSheet, options, worker, cap);
     if (fitted && worker.fit.rms <= allowed && worker.fit.usable >= kGoodShare) continue;
     worker.near.resize(std::min(found, kept));
-    fit_nearest(all, seed, worker.near.size(), options, worker, cap);
+    fit_nearest(all, seed, worker.near.size(), CapSide::kSheet, options, worker, cap);
     return;
   }
 }
@@ -122,12 +122,18 @@ bool make_cap(const OrderedPoints& all, std::size_t seed, const CoverOptions& op
   all.tree.nearest_to(seed, options.neighbours, worker.near);
   if (is_isolated(worker.near)) return false;
   for (std::size_t k = worker.near.size(); k > 0;) {
-    const bool fitted = fit_nearest(all, seed, k, options, worker, cap);
+    bool fitted = fit_nearest(all, seed, k, CapSide::kSheet, options, worker, cap);
     const auto fewer = static_cast<std::size_t>(kShrink * static_cast<double>(k));
     const double support = cap.frame.support;
     if (fitted && good(worker.fit, support, options)) {
       if (options.tolerance > 0) grow_cap(all, seed, k, options, worker, cap);
       return true;
+    }
+    // Perhaps there is a crease: one of its sides alone, where normals can tell.
+    if (options.noise == 0) {
+      fitted = fit_nearest(all, seed, k, CapSide::kFace, options, worker, cap);
+      if (fitted && worker.points.size() >= kFewest && good(worker.fit, support, options))
+        return true;
     }
     if (fewer < kFewest) {
       return fitted && worker.fit.rms <= std::max(kAnyFit * support, kAnyNoise * options.noise);
@@ -143,7 +149,10 @@ void describe_cap(const CoverOptions& options, const CapWorker& worker, Cap& cap
   cap.error = worker.fit.rms;
   cap.deviation = worker.fit.deviation;
   cap.where = ellipse_of(cap.frame, worker.points);
-  const double part = worker.fit.rms / (kTrusted * cap.frame.support);
+  // Noise is no fault of the cap's.
+  const double noise = kGoodNoise * options.noise;
+  const double excess = std::sqrt(std::max(0.0, worker.fit.rms * worker.fit.rms - noise * noise));
+  const double part = excess / (kTrusted * cap.frame.support);
   cap.weight = 1 / (1 + part * part);
 }
 

@@ -8,6 +8,8 @@ namespace {
 // Normals of a cap's points against the mean around its seed: those behind belong to another sheet;
 // noise may turn a few that far (method 7.11).
 constexpr double kSameSheet = -0.2;
+// Half of the angle of a right edge.
+constexpr double kSameFace = 0.7;
 // The mean is of so many nearest points: one sheet, and enough to average noisy normals.
 constexpr std::size_t kMeanOf = 12;
 
@@ -30,13 +32,15 @@ Vec3 sheet_normal(const OrderedPoints& all, std::size_t seed, const CapWorker& w
 }  // namespace
 
 Vec3 take_points(const OrderedPoints& all, std::size_t seed, std::size_t k, double support,
-                 bool leave_out, CapWorker& worker) {
+                 CapSide side, bool leave_out, CapWorker& worker) {
   worker.points.clear();
-  const Vec3 sheet = sheet_normal(all, seed, worker);
+  const bool face = side == CapSide::kFace;
+  const Vec3 sheet = face ? all.normals[seed] : sheet_normal(all, seed, worker);
+  const double least = face ? kSameFace : kSameSheet;
   Vec3 axis;
   for (std::size_t j = 0; j < k; ++j) {
     const std::size_t i = worker.near[j].index;
-    if ((leave_out && i == seed) || dot(all.normals[i], sheet) < kSameSheet) continue;
+    if ((leave_out && i == seed) || dot(all.normals[i], sheet) < least) continue;
     const Vec3 offset = all.points[i] - all.points[seed];
     const double weight = value_weight(dot(offset, offset), support * support);
     worker.points.add(offset, all.normals[i], weight);

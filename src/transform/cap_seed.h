@@ -22,9 +22,15 @@ struct CapWorker {
   CapFit fit;
 };
 
-// Fills worker.points with those of the seed's sheet among its k nearest (worker.near), and returns
-// their mean normal, weighted. The seed itself is left out if `leave_out`.
+// Which of a seed's neighbours belong to its cap.
+enum class CapSide {
+  kSheet,  // those that do not face away from it: the far side of a thin part does
+  kFace,   // those that face as it does: of a crease one side
+};
+
+// Fills worker.points with those among its k nearest (worker.near), and returns their mean normal,
+// weighted. The seed itself is left out if `leave_out`.
 Vec3 take_points(const OrderedPoints& all, std::size_t seed, std::size_t k, double support,
-                 bool leave_out, CapWorker& worker);
+                 CapSide side, bool leave_out, CapWorker& worker);
 
 }  // namespace rholm

@@ -26,8 +26,15 @@ constexpr double kClearlyBetter = 0.8;
 constexpr double kGrown = 1.15;
 // Normals count for so much more than by their residuals, which creases enlarge (method 7.11).
 constexpr double kNormalsFavoured = 1.6;
-// Residuals above this part of the support are noise, not shape.
-constexpr double kNoisy = 0.05;
+// Residuals of the smallest caps are noise from this part of their support on: no shape that caps
+// can show has as much. Below the other they are of no account (a fit of cap_cover.cpp is good).
+constexpr double kSurelyNoise = 0.1;
+constexpr double kNoticed = 0.02;
+// Between, they are noise if they do not grow with the caps: with the power 0.2 ... 0.5 of the
+// support those of noise do, since small fits follow it, with 1 those of creases, with 1.4 ... 3
+// those of whole shapes; measured between caps of k and of 9/4 k points.
+constexpr double kShapeGrows = 0.85;
+constexpr double kWide = 2.25;
 
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -41,7 +48,8 @@ Trial try_seed(const OrderedPoints& all, std::size_t seed, std::size_t k,
   all.tree.nearest_to(seed, k, worker.near);
   trial.support = std::sqrt(static_cast<double>(worker.near.back().distance2));
   if (!(trial.support > 0)) return trial;
-  const Vec3 axis = take_points(all, seed, worker.near.size(), trial.support, true, worker);
+  const Vec3 axis =
+      take_points(all, seed, worker.near.size(), trial.support, CapSide::kSheet, true, worker);
   const CapFrame frame = cap_frame(all.points[seed], axis, trial.support, kHalfAngle, kOpened);
   if (!fit_cap(frame, worker.points, options, worker.scratch, worker.fit)) return trial;
   trial.rms = worker.fit.rms;
@@ -54,6 +62,16 @@ Trial try_seed(const OrderedPoints& all, std::size_t seed, std::size_t k,
   const double e1 = pole.slope1 + dot(n, frame.x) / up, e2 = pole.slope2 + dot(n, frame.y) / up;
   trial.slope_error = std::min(1.0, e1 * e1 + e2 * e2);
   return trial;
+}
+
+// Whether the residuals of the smallest caps are noise and not shape.
+bool is_noise(const OrderedPoints& points, const CapSizeTrial& first, int degree, double weight,
+              const Context& context) {
+  if (!(first.rms > kNoticed * first.support)) return false;
+  if (first.rms > kSurelyNoise * first.support) return true;
+  const auto more = static_cast<std::size_t>(kWide * static_cast<double>(first.neighbours));
+  const CapSizeTrial wide = try_cap_size(points, more, degree, weight, kSeeds, context);
+  return wide.rms < first.rms * std::pow(wide.support / first.support, kShapeGrows);
 }
 
 }  // namespace
@@ -91,14 +109,16 @@ CapSizeTrial try_cap_size(const OrderedPoints& points, std::size_t neighbours, i
 CapSize choose_cap_size(const OrderedPoints& points, int degree, const Context& context) {
   CapSize best;
   CapSizeTrial chosen;
+  bool noisy = false;
   double weight = best.gradient_weight;
   const std::size_t most = std::min(kMost, points.points.size() / 4);
   for (double k = kFewest; chosen.neighbours == 0 || k < static_cast<double>(most); k *= kLadder) {
     const CapSizeTrial trial =
         try_cap_size(points, static_cast<std::size_t>(k), degree, weight, kSeeds, context);
     if (trial.slope_rms > 0) weight = kNormalsFavoured * trial.level_rms / trial.slope_rms;
+    if (chosen.neighbours == 0) noisy = is_noise(points, trial, degree, weight, context);
     // Clean points show no minimum: only a clear gain is worth larger caps.
-    const double better = chosen.rms > kNoisy * chosen.support ? 1 : kClearlyBetter;
+    const double better = noisy ? 1 : kClearlyBetter;
     if (chosen.neighbours == 0 || trial.slope_error < better * chosen.slope_error) chosen = trial;
     if (trial.slope_error > kGrown * chosen.slope_error) break;
   }
@@ -108,7 +128,7 @@ CapSize choose_cap_size(const OrderedPoints& points, int degree, const Context& 
     best.gradient_weight =
         std::clamp(kNormalsFavoured * chosen.level_rms / chosen.slope_rms, 0.01, 10.0);
   }
-  if (chosen.rms > kNoisy * chosen.support) best.noise = chosen.rms;
+  if (noisy) best.noise = chosen.rms;
   // Slopes on the opened sphere are those of the surface over the dilation.
   best.normal_noise = chosen.slope_rms * std::tan(kOpened / 2) / std::tan(kHalfAngle / 2);
   return best;
