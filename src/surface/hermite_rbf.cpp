@@ -73,15 +73,19 @@ HermiteRbf::HermiteRbf(std::span<const Vec3> centers, std::span<const Vec3> norm
   linear_ = vector_at(4 * n + 1);
 }
 
-double HermiteRbf::operator()(const Vec3& x) const {
+HermiteRbf::Value HermiteRbf::at(const Vec3& x) const {
   const Vec3 local = scale_ * (x - middle_);
   double sum = constant_ + dot(linear_, local);
+  Vec3 gradient = linear_;
   for (const Term& term : terms_) {
     const Vec3 d = local - term.center;
-    const double square = dot(d, d);
-    sum += std::sqrt(square) * (term.alpha * square - 3 * dot(term.beta, d));
+    const double square = dot(d, d), length = std::sqrt(square), along = dot(term.beta, d);
+    sum += length * (term.alpha * square - 3 * along);
+    // grad |d|^3 = 3 |d| d, and grad (|d| beta . d) = |d| beta + (beta . d) d / |d|.
+    const double across = length > 0 ? along / length : 0;
+    gradient += 3 * ((term.alpha * length - across) * d - length * term.beta);
   }
-  return sum / scale_;
+  return {sum / scale_, gradient};
 }
 
 }  // namespace rholm

@@ -21,7 +21,12 @@ class HermiteRbf {
 
   // False if the system has no useful solution (centres that all but coincide): do not use it.
   bool valid() const { return valid_; }
-  double operator()(const Vec3& x) const;
+  double operator()(const Vec3& x) const { return at(x).value; }
+  struct Value {
+    double value = 0;
+    Vec3 gradient;
+  };
+  Value at(const Vec3& x) const;
 
  private:
   struct Term {

@@ -37,6 +37,8 @@ constexpr double kFadeFrom = 1.3;
 constexpr double kFadeTo = 1.8;
 // The winding number is sure of its side if it differs from 1/2 by more (method 7.10).
 constexpr double kSure = 0.3;
+// A slope of less is a saddle's or an extremum's: no distance follows from it.
+constexpr double kLeastSlope = 0.05;
 // Fills are cut off at so many steps: a distance beyond means nothing.
 constexpr double kLargestSteps = 2.5;
 
@@ -162,10 +164,16 @@ double fill_value(const Fill& fill, const Vec3& x, double winding, double step) 
   const double away = norm(x - fill.hole.center) / fill.hole.reach;
   const double share = 1 - smooth_step((away - kFadeFrom) / (kFadeTo - kFadeFrom));
   if (share == 0) return by_winding;
-  const double s = std::clamp((*fill.smooth)(x), -kLargestSteps * step, kLargestSteps * step);
-  const bool disagree = (s < 0) != (winding > 0.5);
-  if (disagree && std::abs(winding - 0.5) > kSure) return by_winding;
-  return share * s + (1 - share) * by_winding;
+  // Far from its centres the function is steep or flat: a distance, to first order.
+  const HermiteRbf::Value smooth = fill.smooth->at(x);
+  const double distance = smooth.value / std::max(norm(smooth.gradient), kLeastSlope);
+  const double s = std::clamp(distance, -kLargestSteps * step, kLargestSteps * step);
+  // Never inside where the winding number is sure of outside, nor the other way round: bounds that
+  // cross zero where it becomes sure, so that the surface is as smooth there as the number.
+  const double outside = winding_value(winding + kSure, step);
+  const double inside = winding_value(winding - kSure, step);
+  const double bounded = std::min(std::max(s, outside), inside);
+  return share * bounded + (1 - share) * by_winding;
 }
 
 // The smooth fill whose hole is nearest, relative to its reach; nullptr if x is far from all.
