@@ -67,10 +67,10 @@ Cover fit_caps(WorkingPoints& points, const ReconstructOptions& options, CapSize
   if (!options.remove_outliers ||
       size.disagreeing <= (size.noise > 0 ? kDisagreeingNoisy : kDisagreeing)) {
     caps = cover(points.ordered(), cover_options(options, size), context);
-    const bool clean = static_cast<double>(caps.rejected) <= kSuspicious * n;
+    const bool clean = static_cast<double>(caps.rejected.size()) <= kSuspicious * n;
     if (!options.remove_outliers || clean) return caps;
   }
-  report.outliers = points.remove_outliers(size.noise, context);
+  report.outliers = points.remove_outliers(size.noise, caps.rejected, context);
   if (report.outliers == 0 && !caps.caps.empty()) return caps;
   measure();
   return cover(points.ordered(), cover_options(options, size), context);

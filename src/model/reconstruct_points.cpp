@@ -26,6 +26,8 @@ constexpr double kTenthOfEven = 0.8;
 constexpr double kSmallest = 1e-12, kLargest = 1e12;
 // Each sees what the one before has left (method 7.4).
 constexpr int kOutlierPasses = 3;
+// Random points are seldom fitted: as many are suspected as there are.
+constexpr double kOfSuspects = 2;
 // Of the points; smaller groups, where there are outliers, are made of them.
 constexpr double kLeastGroup = 0.002;
 
@@ -118,10 +120,19 @@ bool WorkingPoints::remove(const std::vector<std::uint8_t>& gone, const Context&
   return true;
 }
 
-std::size_t WorkingPoints::remove_outliers(double noise, const Context& context) {
+std::size_t WorkingPoints::remove_outliers(double noise, std::span<const std::uint32_t> suspects,
+                                           const Context& context) {
   const std::size_t before = size();
-  for (int pass = 0; pass < kOutlierPasses; ++pass) {
-    if (!remove(find_outliers(*tree_, points_, normals_, noise, context), context)) break;
+  std::vector<std::uint8_t> gone = find_outliers(*tree_, points_, normals_, noise, context);
+  const auto found = static_cast<double>(std::count(gone.begin(), gone.end(), 1));
+  if (!suspects.empty() && found > kOfSuspects * static_cast<double>(suspects.size())) {
+    std::vector<std::uint8_t> both(size(), 0);
+    for (const std::uint32_t i : suspects) both[i] = gone[i];
+    remove(both, context);
+    return before - size();
+  }
+  for (int pass = 1; remove(gone, context) && pass < kOutlierPasses; ++pass) {
+    gone = find_outliers(*tree_, points_, normals_, noise, context);
   }
   const auto least = static_cast<std::size_t>(kLeastGroup * static_cast<double>(size()));
   remove(find_small_groups(*tree_, normals_, std::max(kFewestPoints, least), context), context);

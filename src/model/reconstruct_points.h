@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "rholm/mesh.h"
@@ -29,8 +30,11 @@ class WorkingPoints {
   double diagonal() const { return diagonal_; }
   Spacing spacing(const Context& context) const;
 
-  // Returns how many there were.
-  std::size_t remove_outliers(double noise, const Context& context);
+  // Returns how many there were. Where many more look like outliers than the suspects that no cap
+  // fits, they are features that the points hardly show: then only suspects can be. Without
+  // suspects all can be.
+  std::size_t remove_outliers(double noise, std::span<const std::uint32_t> suspects,
+                              const Context& context);
 
   // Gives each vertex the mean of the attributes of the points around it.
   void carry_attributes(Mesh& mesh, const Context& context) const;

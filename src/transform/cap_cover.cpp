@@ -174,7 +174,7 @@ std::size_t mark(const OrderedPoints& all, const Cap& cap, std::size_t seed, std
 
 struct Block {
   std::vector<Candidate> caps;
-  std::size_t rejected = 0;
+  std::vector<std::uint32_t> rejected;
 };
 
 void cover_block(const OrderedPoints& all, std::size_t begin, std::size_t end,
@@ -185,7 +185,7 @@ void cover_block(const OrderedPoints& all, std::size_t begin, std::size_t end,
     if (covered[seed - begin] != 0) continue;
     Candidate made;
     if (!make_cap(all, seed, options, worker, made.cap)) {
-      ++block.rejected;
+      block.rejected.push_back(static_cast<std::uint32_t>(seed));
       continue;
     }
     describe_cap(options, worker, made.cap);
@@ -209,7 +209,7 @@ Cover cover(const OrderedPoints& points, const CoverOptions& options, const Cont
   });
   Cover result;
   for (Block& block : made) {
-    result.rejected += block.rejected;
+    result.rejected.insert(result.rejected.end(), block.rejected.begin(), block.rejected.end());
     for (Candidate& candidate : block.caps) {
       candidate.cap.first = result.coefficients.size();
       result.coefficients.insert(result.coefficients.end(), candidate.coefficients.begin(),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -30,8 +31,8 @@ struct CoverOptions {
 struct Cover {
   std::vector<Cap> caps;
   std::vector<double> coefficients;
-  // Points without a cap of their own, since none fits: outliers, or too few.
-  std::size_t rejected = 0;
+  // Points (in the order of the tree) that no cap fits: outliers, or where there are too few.
+  std::vector<std::uint32_t> rejected;
 };
 Cover cover(const OrderedPoints& points, const CoverOptions& options, const Context& context);
 
