@@ -1,0 +1,21 @@
+// The correlation of two functions over all rotations, on a grid of Euler angles.
+//
+//   <R a, b> = sum T_{m' h m} e^{-i (m' alpha + h beta + m gamma)},
+//   T_{m' h m} = i^{m'-m} sum_l conj(b_lm') a_lm Delta^l_{h m'} Delta^l_{h m}
+// (Kovacs and Wriggers 2002), complex coefficients with the Condon-Shortley phase: a Fourier
+// transform in three dimensions.
+#pragma once
+
+#include <vector>
+
+#include "rholm/context.h"
+#include "rholm/rotate.h"
+
+namespace rholm {
+
+// Rotations near the local maxima of the correlation over degrees 1 ... bandwidth, the largest
+// first, none within two steps of the grid of another, at most `most`.
+std::vector<Rotation> correlation_peaks(const Coefficients& a, const Coefficients& b, int bandwidth,
+                                        std::size_t most, const Context& context);
+
+}  // namespace rholm

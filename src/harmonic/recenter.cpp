@@ -1,0 +1,197 @@
+// With p = d + rho u, d the new centre seen from the old one: the root rho of
+//   F(rho) = |p| - r(p/|p|),    F' = (p . u - grad r . u) / |p|,
+// for each direction u by Newton's steps, kept within a bracket.
+#include "rholm/recenter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "base/compensated_sum.h"
+#include "base/parallel.h"
+#include "rholm/error.h"
+#include "rholm/grid.h"
+#include "rholm/harmonic.h"
+
+namespace rholm {
+namespace {
+
+constexpr int kMaxSteps = 100;  // 53 halvings end any bracket
+constexpr double kPrecision = 1e-13;
+
+Grid grid_for(int degree, int factor) {
+  return smallest_grid(GridKind::kGaussLegendre,
+                       std::min(factor * std::max(degree, 1), kMaxDegree));
+}
+
+std::vector<Vec3> directions_of(const Grid& grid) {
+  std::vector<Vec3> directions;
+  directions.reserve(static_cast<std::size_t>(grid.n_theta) * static_cast<std::size_t>(grid.n_phi));
+  for (const double theta : grid_colatitudes(grid)) {
+    for (int k = 0; k < grid.n_phi; ++k) {
+      const double phi = 2 * std::numbers::pi * k / grid.n_phi;
+      directions.push_back(
+          {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});
+    }
+  }
+  return directions;
+}
+
+// Radii instead of the expanded function.
+void to_radius(RadialFunction function, std::span<double> values) {
+  for (double& value : values) {
+    if (!(value > 0)) {
+      throw Error(ErrorCode::kInvalidInput,
+                  std::string("the ") + to_string(function) + " is " + std::to_string(value) +
+                      " somewhere: the surface has no inside, take fewer degrees or filter it");
+    }
+    if (function == RadialFunction::kGauge) value = 1 / value;
+  }
+}
+
+// One root per direction of a grid.
+class Rays {
+ public:
+  Rays(const Expansion& expansion, const Vec3& to, std::span<const Vec3> directions,
+       std::vector<double> first, double highest)
+      : expansion_(expansion),
+        d_(to),
+        directions_(directions),
+        rho_(std::move(first)),
+        low_(rho_.size(), 0.0),
+        high_(rho_.size(), highest),
+        open_(rho_.size()) {
+    std::iota(open_.begin(), open_.end(), std::size_t{0});
+  }
+
+  std::vector<double> solve(const Context& context) {
+    const Context quiet{.threads = context.threads, .progress = {}};
+    for (int n = 0; n < kMaxSteps && !open_.empty(); ++n) {
+      report_progress(context, "recenter", static_cast<double>(n) / kMaxSteps);
+      step(quiet);
+    }
+    return std::move(rho_);
+  }
+
+ private:
+  void step(const Context& context) {
+    std::vector<Vec3> at(open_.size());
+    for (std::size_t k = 0; k < open_.size(); ++k) {
+      const Vec3 p = point(open_[k]);
+      at[k] = p == Vec3{} ? directions_[open_[k]] : normalized(p);
+    }
+    ValuesAndGradients f = evaluate_with_gradient(expansion_.coefficients, at, {}, context);
+    const bool gauge = expansion_.function == RadialFunction::kGauge;
+    to_radius(expansion_.function, f.values);
+    std::vector<std::size_t> left;
+    for (std::size_t k = 0; k < open_.size(); ++k) {
+      const double r = f.values[k];
+      const Vec3 slope = gauge ? -r * r * f.gradients[k] : f.gradients[k];
+      if (!newton(open_[k], r, slope)) left.push_back(open_[k]);
+    }
+    open_ = std::move(left);
+  }
+
+  // Returns whether the root is found.
+  bool newton(std::size_t i, double r, const Vec3& slope) {
+    const Vec3 p = point(i), &u = directions_[i];
+    const double distance = norm(p);
+    const double value = distance - r, rise = (dot(p, u) - dot(slope, u)) / distance;
+    (value > 0 ? high_ : low_)[i] = rho_[i];
+    const double next = rho_[i] - value / rise;
+    const bool inside = rise > 0 && next > low_[i] && next < high_[i];
+    const double before = rho_[i];
+    rho_[i] = inside ? next : (low_[i] + high_[i]) / 2;
+    return std::abs(rho_[i] - before) <= kPrecision * r;
+  }
+
+  Vec3 point(std::size_t i) const { return d_ + rho_[i] * directions_[i]; }
+
+  const Expansion& expansion_;
+  Vec3 d_;
+  std::span<const Vec3> directions_;
+  std::vector<double> rho_, low_, high_;
+  std::vector<std::size_t> open_;  // rays without a root yet
+};
+
+// The surface turns its front to the new centre where its outward normal, r u - grad r, and the way
+// from there, r u - d, make less than a right angle.
+void check_seen(const Expansion& expansion, const Vec3& d, std::span<const Vec3> directions,
+                const Context& context) {
+  ValuesAndGradients f = evaluate_with_gradient(expansion.coefficients, directions, {}, context);
+  to_radius(expansion.function, f.values);
+  const bool gauge = expansion.function == RadialFunction::kGauge;
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    const double r = f.values[i];
+    const Vec3& u = directions[i];
+    const Vec3 slope = gauge ? -r * r * f.gradients[i] : f.gradients[i];
+    if (!(dot(r * u - slope, r * u - d) > 0)) {
+      throw Error(ErrorCode::kNotStarShaped,
+                  "the surface is not star-shaped from the new centre, (" + std::to_string(d.x) +
+                      ", " + std::to_string(d.y) + ", " + std::to_string(d.z) +
+                      ") from the old one: in direction (" + std::to_string(u.x) + ", " +
+                      std::to_string(u.y) + ", " + std::to_string(u.z) +
+                      ") it turns its back to it; choose a centre nearer to the old one");
+    }
+  }
+}
+
+}  // namespace
+
+Vec3 volume_centroid(const Expansion& expansion, const Context& context) {
+  // r^4 u has degree 4 L + 1.
+  const Grid grid = grid_for(expansion.coefficients.degree(), 3);
+  std::vector<double> r = synthesize_grid(expansion.coefficients, grid, context);
+  if (expansion.function == RadialFunction::kGauge) to_radius(expansion.function, r);
+  double largest = 0;
+  for (const double value : r) largest = std::max(largest, std::abs(value));
+  const std::vector<Vec3> directions = directions_of(grid);
+  const GaussRule rule = gauss_legendre(grid.n_theta);
+  CompensatedSum volume, x, y, z;
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    const double weight = rule.weights[i / static_cast<std::size_t>(grid.n_phi)];
+    const double part = r[i] / largest;
+    const double cube = weight * part * part * part;
+    volume.add(cube / 3);
+    x.add(cube * part / 4 * directions[i].x);
+    y.add(cube * part / 4 * directions[i].y);
+    z.add(cube * part / 4 * directions[i].z);
+  }
+  if (!(volume.value() > 0)) {
+    throw Error(ErrorCode::kInvalidInput, "the solid has no volume and so no centroid");
+  }
+  return expansion.center + largest / volume.value() * Vec3{x.value(), y.value(), z.value()};
+}
+
+Expansion recentered(const Expansion& expansion, const Vec3& center, const Context& context) {
+  Expansion result;
+  result.function = expansion.function;
+  result.center = center;
+  result.unit = expansion.unit;
+  result.method = expansion.method;
+  const Vec3 d = center - expansion.center;
+  if (!is_finite(d)) throw Error(ErrorCode::kInvalidInput, "the new centre is not finite");
+  if (d == Vec3{}) {
+    result.coefficients = expansion.coefficients;
+    return result;
+  }
+  const int degree = expansion.coefficients.degree();
+  const Grid grid = grid_for(degree, 2);
+  const std::vector<Vec3> directions = directions_of(grid);
+  check_seen(expansion, d, directions, {.threads = context.threads, .progress = {}});
+  std::vector<double> first = synthesize_grid(expansion.coefficients, grid, context);
+  to_radius(expansion.function, first);
+  const double highest = *std::max_element(first.begin(), first.end());
+  std::vector<double> rho =
+      Rays(expansion, d, directions, std::move(first), 1.1 * highest + norm(d)).solve(context);
+  if (expansion.function == RadialFunction::kGauge) {
+    for (double& value : rho) value = 1 / value;
+  }
+  result.coefficients = analyze_grid(rho, grid, degree, context);
+  return result;
+}
+
+}  // namespace rholm

@@ -1,0 +1,228 @@
+#include "rholm/filter.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "rholm/error.h"
+#include "rholm/harmonic.h"
+#include "support/random_data.h"
+
+namespace rholm {
+namespace {
+
+using test::random_coefficients;
+using test::random_directions;
+using test::relative_difference;
+
+constexpr double kPi = std::numbers::pi;
+constexpr Window kAll[] = {Window::kIdeal,    Window::kLanczos, Window::kLanczos2,
+                           Window::kGaussian, Window::kHeat,    Window::kExponential,
+                           Window::kPlateau};
+
+template <typename Call>
+void expect_refused(Call call) {
+  try {
+    call();
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kInvalidInput);
+  }
+}
+
+// The step as coefficients by Gauss quadrature over [1/2, 1], where it is 1: an independent way.
+Coefficients step(int degree) {
+  Coefficients f(degree);
+  const GaussRule rule = gauss_legendre(degree / 2 + 2);
+  std::vector<Vec3> directions;
+  std::vector<double> weights;
+  for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
+    const double x = 0.75 + 0.25 * rule.nodes[i];
+    directions.push_back({std::sqrt(1 - x * x), 0, x});
+    weights.push_back(2 * kPi * 0.25 * rule.weights[i]);
+  }
+  add_adjoint({.directions = directions, .weights = weights}, f, {.engine = Engine::kDirect});
+  for (int l = 0; l <= degree; ++l) {
+    for (int m = 1; m <= l; ++m) f.c(l, m) = f.s(l, m) = 0;  // of one meridian only
+  }
+  return f;
+}
+
+// Largest value - 1 and minus the smallest value of a filtered step, by its values on a meridian.
+Overshoot direct_overshoot(std::span<const double> gains) {
+  const int degree = static_cast<int>(gains.size()) - 1;
+  const Coefficients f = filter(step(degree), gains);
+  std::vector<Vec3> meridian;
+  for (int i = 0; i <= 20000; ++i) {
+    const double theta = kPi * i / 20000;
+    meridian.push_back({std::sin(theta), 0, std::cos(theta)});
+  }
+  double high = 0, low = 0;
+  for (const double value : evaluate(f, meridian, {.engine = Engine::kDirect})) {
+    high = std::max(high, value - 1);
+    low = std::max(low, -value);
+  }
+  return {high, low};
+}
+
+// Known figures of filters on the sphere: Gibbs' constant is 8.949 % of the step; each within a
+// fifth.
+TEST(filter, overshoot_of_a_spherical_step_is_the_known_one) {
+  EXPECT_NEAR(overshoot(Window::kIdeal, 64).above, 0.089, 0.089 / 5);
+  EXPECT_NEAR(overshoot(Window::kLanczos, 64).above, 0.014, 0.014 / 5);
+  EXPECT_NEAR(overshoot(Window::kLanczos2, 64).above, 0.0046, 0.0046 / 5);
+  EXPECT_NEAR(overshoot(Window::kGaussian, 64).above, 0.0026, 0.0026 / 5);
+}
+
+TEST(filter, heat_does_not_overshoot) {
+  for (const int degree : {4, 64, 100}) {
+    EXPECT_EQ(overshoot(Window::kHeat, degree).above, 0) << degree;
+    EXPECT_EQ(overshoot(Window::kHeat, degree).below, 0) << degree;
+  }
+}
+
+TEST(filter, overshoot_is_that_of_the_filtered_values) {
+  for (const Window window : kAll) {
+    for (const int degree : {1, 8, 64}) {
+      const std::vector<double> gains = low_pass(degree, 64, {.window = window});
+      const Overshoot series = overshoot(gains), direct = direct_overshoot(gains);
+      // The parabola between points: a part in a thousand.
+      EXPECT_NEAR(series.above, direct.above, 1e-3 * direct.above + 2e-12) << to_string(window);
+      EXPECT_NEAR(series.below, direct.below, 1e-3 * direct.below + 2e-12) << to_string(window);
+    }
+  }
+}
+
+TEST(filter, windows_fall_from_one_to_nothing_above_their_degree) {
+  for (const Window window : kAll) {
+    const std::vector<double> gains = low_pass(20, 40, {.window = window});
+    ASSERT_EQ(gains.size(), 41u);
+    EXPECT_EQ(gains[0], 1) << to_string(window);
+    for (int l = 1; l <= 40; ++l) {
+      EXPECT_LE(gains[l], gains[l - 1]) << to_string(window) << l;
+      EXPECT_GE(gains[l], 0);
+      if (window == Window::kHeat) continue;
+      if (l > 20) {
+        EXPECT_EQ(gains[l], 0) << to_string(window) << l;
+      }
+    }
+    EXPECT_EQ(parse_window(to_string(window)), window);
+  }
+}
+
+TEST(filter, windows_have_their_closed_forms) {
+  const auto at = [](WindowOptions options, int l) { return low_pass(63, 100, options)[l]; };
+  EXPECT_EQ(at({.window = Window::kIdeal}, 63), 1);
+  EXPECT_NEAR(at({.window = Window::kLanczos}, 32), 2 / kPi, 1e-15);  // sin(pi/2)/(pi/2)
+  EXPECT_NEAR(at({.window = Window::kLanczos2}, 32), 4 / (kPi * kPi), 1e-15);
+  EXPECT_NEAR(at({.window = Window::kGaussian}, 63), std::exp(-2.4), 1e-15);
+  EXPECT_NEAR(at({.window = Window::kHeat}, 63), 0.5, 1e-15);
+  EXPECT_NEAR(at({.window = Window::kHeat, .time = 0.01}, 9), std::exp(-0.9), 1e-15);
+  EXPECT_NEAR(at({.window = Window::kExponential, .order = 2}, 32), std::exp(-9.0), 1e-18);
+  EXPECT_EQ(at({.window = Window::kPlateau}, 32), 1);
+  EXPECT_NEAR(at({.window = Window::kPlateau}, 48), 0.5, 1e-15);
+}
+
+TEST(filter, low_and_high_pass_add_up_to_the_whole) {
+  for (const Window window : kAll) {
+    const std::vector<double> low = low_pass(9, 30, {.window = window}),
+                              high = high_pass(10, 30, {.window = window});
+    for (int l = 0; l <= 30; ++l) EXPECT_EQ(low[l] + high[l], 1) << to_string(window) << l;
+    EXPECT_EQ(high[0], 0);
+  }
+}
+
+TEST(filter, ideal_band_keeps_both_its_ends) {
+  const std::vector<double> gains = band_pass(3, 5, 8, {.window = Window::kIdeal});
+  EXPECT_EQ(gains, (std::vector<double>{0, 0, 0, 1, 1, 1, 0, 0, 0}));
+  EXPECT_EQ(band_pass(0, 5, 8), low_pass(5, 8));
+}
+
+TEST(filter, sharpening_undoes_a_mild_blur_to_first_order) {
+  // (1 + (1 - g)) g = 1 - (1 - g)^2.
+  const std::vector<double> low = low_pass(50, 20, {.window = Window::kHeat});
+  const std::vector<double> sharp = sharpened(low, 1);
+  for (int l = 0; l <= 20; ++l) {
+    EXPECT_NEAR(sharp[l] * low[l], 1 - std::pow(1 - low[l], 2), 1e-15);
+  }
+  EXPECT_EQ(sharp[0], 1);
+}
+
+TEST(filter, coefficients_are_multiplied_and_cut_off) {
+  const Coefficients f = random_coefficients(12, 1);
+  const std::vector<double> gains = {1, 0.5, -2, 0.25, 0, 0};
+  const Coefficients g = filter(f, gains);
+  EXPECT_EQ(g.degree(), 3);
+  for (int l = 0; l <= 3; ++l) {
+    for (int m = 0; m <= l; ++m) {
+      EXPECT_EQ(g.c(l, m), gains[l] * f.c(l, m));
+      EXPECT_EQ(g.s(l, m), gains[l] * f.s(l, m));
+    }
+  }
+  EXPECT_EQ(filter(f, std::vector<double>{}).degree(), 0);
+  EXPECT_EQ(filter(f, std::vector<double>{}).c(0, 0), 0);
+  EXPECT_EQ(relative_difference(filter(f, std::vector<double>(40, 1.0)), f), 0);
+}
+
+TEST(filter, heat_of_a_positive_function_stays_positive) {
+  // A spike on a small sphere, r = 0.01 + exp(40 (z - 1)): its ideal low pass is negative.
+  const int degree = 60;
+  const GaussRule rule = gauss_legendre(120);
+  Coefficients f(degree);
+  std::vector<Vec3> nodes;
+  std::vector<double> weights;
+  for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
+    const double x = rule.nodes[i];
+    nodes.push_back({std::sqrt(1 - x * x), 0, x});
+    weights.push_back(2 * kPi * rule.weights[i] * (0.01 + std::exp(40 * (x - 1))));
+  }
+  add_adjoint({.directions = nodes, .weights = weights}, f, {.engine = Engine::kDirect});
+  for (int l = 0; l <= degree; ++l) {
+    for (int m = 1; m <= l; ++m) f.c(l, m) = f.s(l, m) = 0;
+  }
+  const auto smallest = [&](const std::vector<double>& gains) {
+    const auto values = evaluate(filter(f, gains), random_directions(5000, 1));
+    return *std::min_element(values.begin(), values.end());
+  };
+  EXPECT_LT(smallest(low_pass(6, degree, {.window = Window::kIdeal})), 0);
+  for (const double time : {1e-4, 1e-3, 1e-2, 1e-1, 1.0}) {
+    EXPECT_GT(smallest(low_pass(0, degree, {.window = Window::kHeat, .time = time})), 0.0099);
+  }
+}
+
+TEST(filter, of_an_expansion_says_so_and_forgets_what_no_longer_holds) {
+  Expansion e;
+  e.coefficients = random_coefficients(4, 1);
+  e.method = "edge";
+  e.unit = "km";
+  e.center = {1, 2, 3};
+  e.norm_squared = 2;
+  e.tail_strength = 1;
+  e.errors.emplace();
+  const Expansion filtered = filter(e, low_pass(2, 4), "low-pass 2 lanczos");
+  EXPECT_EQ(filtered.method, "edge, low-pass 2 lanczos");
+  EXPECT_EQ(filtered.unit, "km");
+  EXPECT_EQ(filtered.center, e.center);
+  EXPECT_FALSE(filtered.norm_squared || filtered.tail_strength || filtered.errors);
+  e.method = std::string(250, 'x');  // no room for more
+  EXPECT_EQ(filter(e, low_pass(2, 4), "low-pass 2 lanczos").method, "low-pass 2 lanczos");
+}
+
+TEST(filter, what_is_out_of_range_is_refused) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  expect_refused([] { low_pass(-1, 4); });
+  expect_refused([] { low_pass(4, kMaxDegree + 1); });
+  expect_refused([] { low_pass(4, 4, {.order = 0}); });
+  expect_refused([] { low_pass(4, 4, {.time = 0.0}); });
+  expect_refused([&] { low_pass(4, 4, {.time = nan}); });
+  expect_refused([] { high_pass(0, 4); });
+  expect_refused([] { band_pass(5, 4, 8); });
+  expect_refused([&] { sharpened(low_pass(4, 4), nan); });
+  expect_refused([&] { filter(Coefficients(2), std::vector<double>{1, nan}); });
+  expect_refused([] { parse_window("round"); });
+}
+
+}  // namespace
+}  // namespace rholm
