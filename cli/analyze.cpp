@@ -6,6 +6,7 @@
 
 #include "cli/analyze_options.h"
 #include "cli/analyze_report.h"
+#include "cli/atlas_report.h"
 #include "cli/command.h"
 #include "cli/inputs.h"
 #include "cli/outputs.h"
@@ -73,6 +74,7 @@ void check_reached(const Options& options, const Encoded& encoded) {
 }
 
 int run(const Options& options, Session& session) {
+  if (options.atlas) return analyze_atlas(options, session);
   if (options.degree.has_value() == options.tolerance.tolerance.has_value()) {
     throw UsageError("--degree L or --tolerance E: one of the two is needed");
   }
@@ -189,6 +191,10 @@ std::vector<Option> option_list(Options& o) {
     for (Option& option : more) list.push_back(std::move(option));
   };
   add(tolerance_options(o.tolerance));
+  add({{.name = "atlas",
+        .help = "any shape, star-shaped or not, also points with normals: as few large caps that "
+                "keep --tolerance, the rms distance between the surfaces",
+        .target = &o.atlas}});
   add(transform_options(o));
   add(monte_carlo_options(o));
   add({rays_option(o.rays),
@@ -222,14 +228,16 @@ Command analyze_command() {
           "model. With --tolerance the smallest degree is found whose error is small "
           "enough.\n\nIdentical vertices are joined, a mesh that is inside out is "
           "turned, and said. A mesh that is not star-shaped is refused with exit code 3, "
-          "unless --signed is given.\n\nThe model file keeps all there is to know; of the "
+          "unless --signed is given; --atlas takes any shape.\n\nThe model file keeps all there is "
+          "to know; of the "
           "other formats the header says what it can, and the numbers are 4-pi normalised "
           "without Condon-Shortley phase unless told otherwise.",
       .options = option_list(*options),
       .examples = {"rholm analyze bumpy.ply --degree 32 -o bumpy.h5",
                    "rholm analyze bumpy.ply --tolerance 1e-3 --unit diagonal --norm max -o "
                    "bumpy.h5",
-                   "rholm analyze bumpy.ply --degree 8 --format shtools -o -"},
+                   "rholm analyze bumpy.ply --degree 8 --format shtools -o -",
+                   "rholm analyze bumpy.ply --atlas --tolerance 3e-3 --unit diagonal -o caps.h5"},
       .run = [options](Session& session) { return run(*options, session); }};
 }
 

@@ -17,6 +17,7 @@ struct AnalyzeCommandOptions {
   std::string input;
   std::optional<int> degree;
   ToleranceOptions tolerance;
+  bool atlas = false;
   std::string method = "edge";
   std::string engine;  // empty: the default
   std::string center = "auto";

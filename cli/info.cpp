@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "cli/atlas_report.h"
 #include "cli/command.h"
 #include "cli/inputs.h"
 #include "cli/prepare.h"
@@ -219,6 +220,7 @@ int report_coefficients(const Options& options, const CoefficientsFile& file, Se
 }
 
 int run(const Options& options, Session& session) {
+  if (holds_atlas(options.input)) return report_atlas(options.input, options.json);
   const Input input = read_input(options.input, session);
   if (const auto* file = std::get_if<ShapeFile>(&input)) return report_shape(options, *file);
   return report_coefficients(options, std::get<CoefficientsFile>(input), session);

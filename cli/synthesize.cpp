@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/atlas_report.h"
 #include "cli/command.h"
 #include "cli/inputs.h"
 #include "cli/interrupt.h"
@@ -12,6 +13,7 @@
 #include "cli/report.h"
 #include "cli/session.h"
 #include "cli/surfaces.h"
+#include "cli/synthesize_atlas.h"
 #include "cli/values.h"
 #include "rholm/primitives.h"
 #include "rholm/synthesize.h"
@@ -25,6 +27,8 @@ struct Options {
   std::optional<int> subdivisions;
   std::string grid;
   std::string like;
+  std::optional<double> resolution;  // of an atlas
+  std::optional<int> degree_limit;
   std::string output;
   std::string format;
   bool ascii = false;
@@ -52,6 +56,18 @@ void check_options(const Options& options, bool several) {
   }
 }
 
+int run_atlas(const Options& o, ShapeFormat format, Session& session) {
+  if (!o.degrees.empty() || o.subdivisions || !o.grid.empty() || !o.like.empty()) {
+    throw UsageError(
+        "--degree, --subdivisions, --grid and --like do not go with an atlas of caps: see "
+        "--resolution and --degree-limit");
+  }
+  if (o.resolution && !(*o.resolution > 0)) throw UsageError("--resolution: it must be above 0");
+  check_writable(o.output);
+  return synthesize_atlas(
+      {o.input, o.output, format, o.ascii, o.json, o.resolution, o.degree_limit}, session);
+}
+
 // The sphere whose directions the surface is computed at.
 Mesh sphere_of(const Options& options, int degree, const Expansion& expansion, Session& session) {
   if (!options.grid.empty()) {
@@ -67,6 +83,10 @@ Mesh sphere_of(const Options& options, int degree, const Expansion& expansion, S
 
 int run(const Options& options, Session& session) {
   const ShapeFormat format = shape_output(options.output, options.format, options.json);
+  if (holds_atlas(options.input)) return run_atlas(options, format, session);
+  if (options.resolution || options.degree_limit) {
+    throw UsageError("--resolution and --degree-limit go with an atlas of caps");
+  }
   std::vector<int> degrees;
   if (!options.degrees.empty()) degrees = parse_degrees("--degree", options.degrees);
   const bool several = degrees.size() > 1;
@@ -128,6 +148,18 @@ std::vector<Option> option_list(Options& o) {
            .help = "sample in the directions of this mesh's vertices, and keep its connectivity",
            .target = &o.like,
            .offer = Offer::kShapes},
+          {.name = "resolution",
+           .value = "STEP",
+           .help = "of an atlas: edge of the grid's cubes, in the shape's unit; by default the one "
+                   "it was measured at",
+           .target = &o.resolution,
+           .min = 0},
+          {.name = "degree-limit",
+           .value = "L",
+           .help = "of an atlas: without the coefficients of higher degrees: less detail",
+           .target = &o.degree_limit,
+           .min = 0,
+           .max = 24},
           output_option(o.output, "mesh to write: .ply, .obj, .off, .stl; - for standard output"),
           format_option(o.format, {"ply", "obj", "off", "stl", "xyz"}),
           {.name = "ascii", .help = "PLY and STL as text", .target = &o.ascii},

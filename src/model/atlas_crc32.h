@@ -17,9 +17,9 @@ inline std::uint32_t atlas_crc32(const PackedAtlas& packed) {
   std::uint32_t sum = 0;
   const auto add = [&](const auto& values) {
     if (values.empty()) return;
-    sum = crc32({reinterpret_cast<const char*>(values.data()),
-                 values.size() * sizeof(values.front())},
-                sum);
+    sum = crc32(
+        {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(values.front())},
+        sum);
   };
   add(packed.caps), add(packed.ellipses), add(packed.weights);
   add(packed.degrees), add(packed.kept), add(packed.values);

@@ -15,9 +15,9 @@
 namespace rholm {
 namespace {
 
-constexpr double kLargest = 32767;  // of an int16
+constexpr double kLargest = 32767;    // of an int16
 constexpr double kSameWeight = 1e-5;  // supports are kept with 24 bits
-constexpr double kProbes = 400;     // on a cap's surface, for its deviation: 0.1 of its radius apart
+constexpr double kProbes = 400;  // on a cap's surface, for its deviation: 0.1 of its radius apart
 
 // The vector along the axis of the turn that takes the coordinate axes to x, y, z, as long as its
 // angle. Through the unit quaternion whose largest part is taken from a root: exact at all angles.
@@ -30,10 +30,18 @@ Vec3 rotation_vector(const CapFrame& f) {
   const double wx = f.y.z - f.z.y, wy = f.z.x - f.x.z, wz = f.x.y - f.y.x;
   const double xy = f.x.y + f.y.x, xz = f.z.x + f.x.z, yz = f.y.z + f.z.y;
   switch (largest) {
-    case 0: q = {squares[0], wx, wy, wz}; break;
-    case 1: q = {wx, squares[1], xy, xz}; break;
-    case 2: q = {wy, xy, squares[2], yz}; break;
-    default: q = {wz, xz, yz, squares[3]}; break;
+    case 0:
+      q = {squares[0], wx, wy, wz};
+      break;
+    case 1:
+      q = {wx, squares[1], xy, xz};
+      break;
+    case 2:
+      q = {wy, xy, squares[2], yz};
+      break;
+    default:
+      q = {wz, xz, yz, squares[3]};
+      break;
   }
   if (q[0] < 0) q = {-q[0], -q[1], -q[2], -q[3]};
   const Vec3 axis{q[1], q[2], q[3]};
@@ -145,7 +153,8 @@ void check_numbers(const PackedAtlas& p, const std::string& name) {
   for (std::size_t c = 0; c < p.degrees.size(); ++c) {
     const float* const f = &p.caps[kPackedCap * c];
     if (!(f[6] > 0 && f[7] >= 1 && f[8] > 0)) {
-      refuse(name, fmt::format("cap {} has radius {}, dilation {}, support {}", c, f[6], f[7], f[8]));
+      refuse(name,
+             fmt::format("cap {} has radius {}, dilation {}, support {}", c, f[6], f[7], f[8]));
     }
     if (!p.weights.empty() && !(p.weights[c] > 0)) {
       refuse(name, fmt::format("cap {} has weight {}", c, p.weights[c]));
@@ -223,7 +232,8 @@ Atlas unpack(const PackedAtlas& packed, const std::string& name) {
     const std::size_t n = n_coefficients(cap.basis, cap.degree);
     for (std::size_t i = 0; i < n; ++i, ++bit) {
       const bool kept = ((packed.kept[bit / 8] >> (bit % 8)) & 1U) != 0;
-      atlas.coefficients.push_back(kept ? double{packed.caps[kPackedCap * c + 9]} * packed.values[value++] : 0);
+      atlas.coefficients.push_back(
+          kept ? double{packed.caps[kPackedCap * c + 9]} * packed.values[value++] : 0);
     }
     cap.deviation = deviation_of(cap, atlas.coefficients_of(cap));
     atlas.caps.push_back(cap);

@@ -18,10 +18,10 @@ struct PackedAtlas {
   Vec3 origin;
   double spacing = 0, noise = 0, diagonal = 0, band = 0;
   CapBasis basis = CapBasis::kFull;
-  double weight_power = 0;            // weights are (largest support / support)^power ...
-  std::vector<float> caps;            // [caps][kPackedCap]
-  std::vector<float> ellipses;        // [caps][5] as CapSupport; empty: all are the circle of support
-  std::vector<float> weights;         // ... unless they are here: [caps], or empty
+  double weight_power = 0;      // weights are (largest support / support)^power ...
+  std::vector<float> caps;      // [caps][kPackedCap]
+  std::vector<float> ellipses;  // [caps][5] as CapSupport; empty: all are the circle of support
+  std::vector<float> weights;   // ... unless they are here: [caps], or empty
   std::vector<std::uint8_t> degrees;  // [caps]
   std::vector<std::uint8_t> kept;     // one bit per coefficient, lowest bit first; 0: it is zero
   std::vector<std::int16_t> values;   // of the kept ones

@@ -37,8 +37,8 @@ class AtlasReader {
     model.step = scales[3], model.tolerance = scales[4];
     model.unit = text(group, layout::kUnit);
     model.method = text(group, layout::kMethod);
-    model.input_numbers = static_cast<std::size_t>(
-        std::min(numbers(group, layout::kInputNumbers, 1)[0], 1e18));
+    model.input_numbers =
+        static_cast<std::size_t>(std::min(numbers(group, layout::kInputNumbers, 1)[0], 1e18));
     if (hdf5::find_attribute(file_, group, layout::kAtlasErrors)) {
       const auto e = numbers(group, layout::kAtlasErrors, layout::kErrorNumbers);
       model.errors = AtlasErrors{e[0], e[1], e[2], e[3]};
@@ -76,25 +76,33 @@ class AtlasReader {
 
   template <class T>
   std::vector<T> table(const hdf5::Object& group, const char* name, std::size_t columns) const {
-    const hdf5::Array array =
-        hdf5::read_dataset(file_, hdf5::open_member(file_, group, name));
+    const hdf5::Array array = hdf5::read_dataset(file_, hdf5::open_member(file_, group, name));
     const auto& extents = array.extents;
-    const bool fits = columns == 1 ? extents.size() == 1
-                                   : extents.size() == 2 && extents[1] == columns;
+    const bool fits =
+        columns == 1 ? extents.size() == 1 : extents.size() == 2 && extents[1] == columns;
     if (!fits) {
       refuse(fmt::format("the shape of '{}' is ({}): it must have {} columns", array.path,
                          fmt::join(extents, ", "), columns));
     }
-    const std::vector<double> values = hdf5::to_doubles(file_, array);
-    std::vector<T> result(values.size());
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      // What is not finite in a table of float stays so, for unpack() to find.
-      if (std::numeric_limits<T>::is_integer &&
-          !(values[i] >= static_cast<double>(std::numeric_limits<T>::lowest()) &&
-            values[i] <= static_cast<double>(std::numeric_limits<T>::max()))) {
-        refuse(fmt::format("'{}' holds {}", array.path, values[i]));
+    return values_of<T>(array);
+  }
+
+  // What is not finite in a table of floats stays so, for unpack() to find.
+  template <class T>
+  std::vector<T> values_of(const hdf5::Array& array) const {
+    std::vector<T> result;
+    if constexpr (std::numeric_limits<T>::is_integer) {
+      for (const std::int64_t value : hdf5::to_integers(file_, array)) {
+        if (value != static_cast<T>(value)) refuse(fmt::format("'{}' holds {}", array.path, value));
+        result.push_back(static_cast<T>(value));
       }
-      result[i] = static_cast<T>(values[i]);
+    } else {
+      for (const double value : hdf5::to_doubles(file_, array)) {
+        // Out of the range of a float: a damaged file's, or a double's of another program.
+        result.push_back(std::abs(value) <= std::numeric_limits<T>::max()
+                             ? static_cast<T>(value)
+                             : std::numeric_limits<T>::quiet_NaN());
+      }
     }
     return result;
   }

@@ -297,6 +297,10 @@ File open(std::string_view bytes, const std::string& name) {
 
 Object root_group(const File& file) { return HeaderReader(file, "/").read(file.root); }
 
+bool has_member(const File& file, const Object& group, std::string_view name) {
+  return find_link(file, group, name).has_value();
+}
+
 Object open_member(const File& file, const Object& group, std::string_view name) {
   const std::optional<Link> link = find_link(file, group, name);
   const std::string path = (group.path == "/" ? "/" : group.path + "/") + std::string(name);

@@ -40,6 +40,7 @@ struct Object {
   std::vector<Message> messages;
 };
 Object root_group(const File& file);
+bool has_member(const File& file, const Object& group, std::string_view name);
 // Throws InvalidInput if the group has no such member, Unsupported if it is a soft or external
 // link.
 Object open_member(const File& file, const Object& group, std::string_view name);
@@ -64,6 +65,7 @@ Array read_dataset(const File& file, const Object& dataset);
 // The values, as many as the array has. Throw InvalidInput for an array of another kind.
 std::string to_text(const File& file, const Array& array);  // of exactly one string
 std::vector<double> to_doubles(const File& file, const Array& array);
+std::vector<std::int64_t> to_integers(const File& file, const Array& array);
 std::int64_t to_integer(const File& file, const Array& array);  // of exactly one integer
 
 }  // namespace rholm::hdf5

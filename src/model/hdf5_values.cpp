@@ -228,17 +228,30 @@ std::vector<double> to_doubles(const File& file, const Array& array) {
   return values;
 }
 
+std::vector<std::int64_t> to_integers(const File& file, const Array& array) {
+  if (array.type.kind != Kind::kInteger) damaged(file, "'" + array.path + "' must have integers");
+  std::vector<std::int64_t> values(count_of(array));
+  const unsigned unused = 64 - 8 * static_cast<unsigned>(array.type.size);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::uint64_t bits =
+        load(array.data.substr(i * array.type.size, array.type.size), array.type.big_endian);
+    if (array.type.is_signed) {
+      values[i] = static_cast<std::int64_t>(bits << unused) >> unused;
+      continue;
+    }
+    if (bits > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())) {
+      damaged(file, "'" + array.path + "' is too large");
+    }
+    values[i] = static_cast<std::int64_t>(bits);
+  }
+  return values;
+}
+
 std::int64_t to_integer(const File& file, const Array& array) {
   if (array.type.kind != Kind::kInteger || count_of(array) != 1) {
     damaged(file, "'" + array.path + "' must be one integer");
   }
-  const std::uint64_t bits = load(array.data, array.type.big_endian);
-  const unsigned unused = 64 - 8 * static_cast<unsigned>(array.type.size);
-  if (array.type.is_signed) return static_cast<std::int64_t>(bits << unused) >> unused;
-  if (bits > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())) {
-    damaged(file, "'" + array.path + "' is too large");
-  }
-  return static_cast<std::int64_t>(bits);
+  return to_integers(file, array).front();
 }
 
 }  // namespace rholm::hdf5

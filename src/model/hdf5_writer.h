@@ -80,6 +80,9 @@ class Writer {
   }
   void write_attribute(hid_t object, const char* name, const Vec3& value) const {
     const std::array<double, 3> numbers = {value.x, value.y, value.z};
+    write_attribute(object, name, std::span<const double>(numbers));
+  }
+  void write_attribute(hid_t object, const char* name, std::span<const double> numbers) const {
     const hsize_t size = numbers.size();
     const Handle space(checked(H5Screate_simple(1, &size, nullptr), "create a space"), H5Sclose);
     write_attribute(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, space, numbers.data());
@@ -94,10 +97,10 @@ class Writer {
         H5Sclose);
     const Handle creation = quiet_creation(H5P_DATASET_CREATE);
     checked(H5Pset_layout(creation, H5D_CONTIGUOUS), "choose a layout");
-    Handle dataset(checked(H5Dcreate2(group, name, file_type, space, H5P_DEFAULT, creation,
-                                      H5P_DEFAULT),
-                           "create a dataset"),
-                   H5Dclose);
+    Handle dataset(
+        checked(H5Dcreate2(group, name, file_type, space, H5P_DEFAULT, creation, H5P_DEFAULT),
+                "create a dataset"),
+        H5Dclose);
     checked(H5Dwrite(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values),
             "write a dataset");
     if (!dataset.close()) checked(-1, "write a dataset");

@@ -29,7 +29,14 @@ class ModelReader {
 
   Expansion read() const {
     const hdf5::Object root = hdf5::root_group(file_);
-    check_version(root);
+    check_model_version(file_, root);
+    if (!hdf5::has_member(file_, root, layout::kExpansion) &&
+        hdf5::has_member(file_, root, layout::kAtlas)) {
+      refuse(
+          "the model is an atlas of caps, not one expansion: make a mesh of it with 'rholm "
+          "synthesize'",
+          ErrorCode::kUnsupported);
+    }
     return read_expansion(hdf5::open_member(file_, root, layout::kExpansion));
   }
 
@@ -66,21 +73,6 @@ class ModelReader {
   std::optional<double> optional_number(const hdf5::Object& object, const char* name) const {
     if (!hdf5::find_attribute(file_, object, name)) return std::nullopt;
     return numbers(object, name, 1)[0];
-  }
-
-  void check_version(const hdf5::Object& root) const {
-    const auto format = hdf5::find_attribute(file_, root, layout::kFormat);
-    if (!format || hdf5::to_text(file_, *format) != layout::kFormatName) {
-      refuse(fmt::format("an HDF5 file without the attribute {} = {}: it is not a model",
-                         layout::kFormat, layout::kFormatName),
-             ErrorCode::kUnsupported);
-    }
-    const std::int64_t major = integer(root, layout::kVersionMajor);
-    if (major != layout::kMajor) {
-      refuse(fmt::format("the model has version {}, this program reads {}: use a newer rholm",
-                         major, layout::kMajor),
-             ErrorCode::kUnsupported);
-    }
   }
 
   // Files of other programs need not have the checksum.
@@ -171,6 +163,25 @@ class ModelReader {
 std::string_view text_of(std::span<const char> bytes) { return {bytes.data(), bytes.size()}; }
 
 }  // namespace
+
+void check_model_version(const hdf5::File& file, const hdf5::Object& root) {
+  const auto format = hdf5::find_attribute(file, root, layout::kFormat);
+  if (!format || hdf5::to_text(file, *format) != layout::kFormatName) {
+    throw Error(ErrorCode::kUnsupported,
+                fmt::format("{}: an HDF5 file without the attribute {} = {}: it is not a model",
+                            file.name, layout::kFormat, layout::kFormatName));
+  }
+  const auto major = hdf5::find_attribute(file, root, layout::kVersionMajor);
+  if (!major) {
+    throw Error(ErrorCode::kInvalidInput,
+                fmt::format("{}: '/' has no attribute '{}'", file.name, layout::kVersionMajor));
+  }
+  const std::int64_t found = hdf5::to_integer(file, *major);
+  if (found == layout::kMajor) return;
+  throw Error(ErrorCode::kUnsupported,
+              fmt::format("{}: the model has version {}, this program reads {}: use a newer rholm",
+                          file.name, found, layout::kMajor));
+}
 
 bool looks_like_model(std::span<const char> bytes) { return hdf5::has_signature(text_of(bytes)); }
 

@@ -1,10 +1,27 @@
 #include "rholm/atlas.h"
 
+#include <array>
+#include <cmath>
+
+#include "transform/cap_eval.h"
+
 namespace rholm {
 
 std::size_t n_coefficients(CapBasis basis, int degree) {
   const auto l = static_cast<std::size_t>(degree);
   return basis == CapBasis::kFull ? (l + 1) * (l + 1) : (l + 1) * (l + 2) / 2;
+}
+
+CapValue evaluate(const Cap& cap, std::span<const double> coefficients, const Vec3& x) {
+  CapPoints point;
+  point.add(x - cap.frame.seed(), cap.frame.z, 1);
+  point.pad();
+  std::array<double, 8> distance{};
+  std::array<double, 24> surface{}, normal{};
+  cap_distances(cap, coefficients, point, distance);
+  cap_surface(cap, coefficients, point, surface, normal);
+  if (!std::isfinite(distance[0])) return {};
+  return {distance[0], {normal[0], normal[8], normal[16]}, true};
 }
 
 }  // namespace rholm

@@ -22,8 +22,7 @@ constexpr double kHopeless = 0.3;
 constexpr double kFacing = 0.2;
 // Samples around a seed whose mean normal is a first axis.
 constexpr double kSameSide = 0.2;
-constexpr std::size_t kProbes = 160;
-constexpr std::size_t kMostStray = 0;
+constexpr double kLeastProbes = 150, kMostProbes = 20000;
 constexpr double kAgree = -0.2;  // of normals: those of creases differ
 
 // The patch around the seed that a centre below it sees from inside, as points to fit.
@@ -165,18 +164,18 @@ bool make_candidate(const SampleLevels& samples, std::uint32_t seed, double radi
   candidate.rms = misses.rms;
   candidate.share = static_cast<double>(samples.size()) / static_cast<double>(level.points.size());
   candidate.inside = candidate.share * static_cast<double>(misses.within);
-  return count_stray(samples, candidate.cap, candidate.coefficients, options.band, scratch) <=
-         kMostStray;
+  return !strays(samples, candidate.cap, candidate.coefficients, options.stray, radius, scratch);
 }
 
 // Probes on a sunflower: equal areas. A sample's square is seen from its middle: half its diagonal.
-std::size_t count_stray(const SampleLevels& samples, const Cap& cap,
-                        std::span<const double> coefficients, double band,
-                        CandidateScratch& scratch) {
+bool strays(const SampleLevels& samples, const Cap& cap, std::span<const double> coefficients,
+            double band, double spacing, CandidateScratch& scratch) {
   const CapFrame& f = cap.frame;
+  const double wanted = std::numbers::pi * f.support * f.support / (spacing * spacing);
+  const auto n = static_cast<std::size_t>(std::clamp(wanted, kLeastProbes, kMostProbes));
   scratch.probes.clear();
-  for (std::size_t k = 0; k < kProbes; ++k) {
-    const double r = f.support * std::sqrt((static_cast<double>(k) + 0.5) / kProbes);
+  for (std::size_t k = 0; k < n; ++k) {
+    const double r = f.support * std::sqrt((static_cast<double>(k) + 0.5) / static_cast<double>(n));
     const double angle = static_cast<double>(k) * std::numbers::pi * (3 - std::sqrt(5.0));
     scratch.probes.add(r * std::cos(angle) * f.x + r * std::sin(angle) * f.y, f.z, 1);
   }
@@ -187,17 +186,17 @@ std::size_t count_stray(const SampleLevels& samples, const Cap& cap,
   cap_surface(cap, coefficients, scratch.probes, values.first(3 * stride), values.last(3 * stride));
   const SampleLevel& level = samples.finest();
   const double far = band + level.spacing;
-  std::size_t stray = 0;
-  for (std::size_t k = 0; k < kProbes; ++k) {
+  for (std::size_t k = 0; k < n; ++k) {
     const Vec3 at{values[k], values[stride + k], values[2 * stride + k]};
     if (!(dot(at, at) <= f.support * f.support)) continue;  // also behind the centre
-    const double* const n = &values[3 * stride + k];
+    const double* const across = &values[3 * stride + k];
     level.tree.nearest(f.seed() + at, 1, scratch.near);
     const Neighbor& near = scratch.near.front();
-    const double agree = dot(level.normals[near.index], Vec3{n[0], n[stride], n[2 * stride]});
-    if (near.distance2 > far * far || agree < kAgree) ++stray;
+    const double agree =
+        dot(level.normals[near.index], Vec3{across[0], across[stride], across[2 * stride]});
+    if (near.distance2 > far * far || agree < kAgree) return true;
   }
-  return stray;
+  return false;
 }
 
 std::vector<std::uint32_t> covered_by(const SampleLevels& samples, const Candidate& candidate,

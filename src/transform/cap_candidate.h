@@ -14,14 +14,14 @@ namespace rholm {
 
 struct CandidateOptions {
   double tolerance = 0;  // rms distance of samples, their unit
-  double band = 0;       // a cap's surface farther from all samples would be a sheet of its own
+  double stray = 0;      // a cap's surface farther from all samples would be a sheet of its own
   int max_degree = 14;
   std::size_t samples = 1000;  // of a fit, about
 };
 
-// Numbers that a model keeps of a cap beside its coefficients: seed, axis (2), radius, dilation,
+// Numbers that a model keeps of a cap beside its coefficients: seed, rotation, radius, dilation,
 // support.
-inline constexpr std::size_t kFrameNumbers = 8;
+inline constexpr std::size_t kFrameNumbers = 9;
 
 struct Candidate {
   Cap cap;  // Cap::first is not set
@@ -51,11 +51,10 @@ bool make_candidate(const SampleLevels& samples, std::uint32_t seed, double radi
                     double half_angle, const CandidateOptions& options, CandidateScratch& scratch,
                     Candidate& candidate);
 
-// The number of probes, on its surface within its support, that are farther than `band` from
-// samples that face the same way.
-std::size_t count_stray(const SampleLevels& samples, const Cap& cap,
-                        std::span<const double> coefficients, double band,
-                        CandidateScratch& scratch);
+// Whether a point of its surface within its support is farther than `band` from samples that face
+// the same way; at probes about `spacing` apart.
+bool strays(const SampleLevels& samples, const Cap& cap, std::span<const double> coefficients,
+            double band, double spacing, CandidateScratch& scratch);
 
 // The samples of the finest level that a cap covers.
 std::vector<std::uint32_t> covered_by(const SampleLevels& samples, const Candidate& candidate,

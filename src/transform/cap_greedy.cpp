@@ -10,7 +10,8 @@
 namespace rholm {
 namespace {
 
-constexpr double kLadder = 1.3;  // of supports (method 7.8)
+constexpr double kLadder = 1.3;     // of supports (method 7.8)
+constexpr std::size_t kBatch = 12;  // seeds at a time, each with memory of its own
 constexpr std::size_t kFirstSeeds = 256, kMoreSeeds = 12;
 constexpr double kHalfAngles[] = {30 * std::numbers::pi / 180, 15 * std::numbers::pi / 180};
 
@@ -24,10 +25,11 @@ struct Entry {
 class Greedy {
  public:
   Greedy(const SampleLevels& samples, double diagonal, const GreedyOptions& options,
-         const Context& context)
+         std::vector<std::uint8_t> covered, const Context& context)
       : samples_(samples), options_(options), context_(context) {
-    cover_.is_covered.assign(samples.size(), 0);
-    left_ = samples.size();
+    cover_.is_covered = std::move(covered);
+    left_ = static_cast<std::size_t>(
+        std::count(cover_.is_covered.begin(), cover_.is_covered.end(), std::uint8_t{0}));
     for (double r = options.largest * diagonal; r > options.smallest * diagonal; r /= kLadder) {
       radii_.push_back(r);
     }
@@ -104,10 +106,14 @@ class Greedy {
                                            static_cast<double>(open.size()))];
     }
     std::vector<std::vector<Entry>> found(n);
-    parallel_for(n, 1, context_, {}, [&](std::size_t begin, std::size_t end) {
-      CandidateScratch scratch;
-      for (std::size_t i = begin; i < end; ++i) climb(seeds[i], scratch, found[i]);
-    });
+    for (std::size_t first = 0; first < n; first += kBatch) {
+      parallel_for(std::min(kBatch, n - first), 1, context_, {},
+                   [&](std::size_t begin, std::size_t end) {
+                     for (std::size_t i = begin; i < end; ++i) {
+                       climb(seeds[first + i], scratches_[i], found[first + i]);
+                     }
+                   });
+    }
     for (auto& entries : found) {
       for (Entry& entry : entries) pool_.push_back(std::move(entry));
     }
@@ -128,6 +134,10 @@ class Greedy {
         pool_.push_back(std::move(entry));
         std::push_heap(pool_.begin(), pool_.end(), worse);
         continue;
+      }
+      if (strays(samples_, entry.candidate.cap, entry.candidate.coefficients,
+                 options_.candidate.stray, options_.candidate.stray, scratch_)) {
+        continue;  // seen by more probes than before
       }
       take(std::move(entry));
       return true;
@@ -161,13 +171,14 @@ class Greedy {
   std::uint64_t drawn_ = 0;
   std::vector<Entry> pool_;
   CandidateScratch scratch_;
+  std::vector<CandidateScratch> scratches_{kBatch};
 };
 
 }  // namespace
 
 GreedyCover greedy_cover(const SampleLevels& samples, double diagonal, const GreedyOptions& options,
-                         const Context& context) {
-  return Greedy(samples, diagonal, options, context).run();
+                         std::vector<std::uint8_t> covered, const Context& context) {
+  return Greedy(samples, diagonal, options, std::move(covered), context).run();
 }
 
 }  // namespace rholm

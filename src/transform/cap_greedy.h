@@ -26,7 +26,9 @@ struct GreedyCover {
   double uncovered = 1;                  // share
   std::size_t tried = 0;                 // candidates
 };
+// Samples that are `covered` (one per sample) count as done.
+// Samples that are `covered` (one per sample) count as done.
 GreedyCover greedy_cover(const SampleLevels& samples, double diagonal, const GreedyOptions& options,
-                         const Context& context);
+                         std::vector<std::uint8_t> covered, const Context& context);
 
 }  // namespace rholm

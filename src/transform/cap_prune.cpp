@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <queue>
 
 #include "base/parallel.h"
 #include "transform/cap_blend.h"
 #include "transform/cap_candidate.h"
 #include "transform/cap_degrees.h"
+#include "transform/cap_eval.h"
 #include "transform/cap_fit.h"
 
 namespace rholm {
@@ -19,9 +21,14 @@ constexpr std::size_t kMostSamples = 6000;  // of a fit; of more every second, t
 constexpr double kLeastShare = 0.02;
 // The same where it is overridden, or misses: there it must not stray, but may be wrong.
 constexpr double kMissedShare = 0.003;
+// And for its own surface where it may have no samples: chosen, ten times more costs 1 % of the
+// coefficients, ten times less lets a third of the caps stray.
+constexpr double kOwnShare = 0.03;
 constexpr double kGradientWeight = 0.1;
 constexpr double kPenalty = 2e-9;
 constexpr double kShrink = 0.94;  // of a support that its surface leaves
+constexpr int kMostShrinks = 8;   // to 0.6: what still strays then is closed and dropped later
+constexpr int kMostSteps = 5;     // to the budget
 
 // The quadratic form of one cap's error over its coefficients, while some are dropped: the error
 // grows by c_i^2 / (M^-1)_ii when c_i becomes zero and the others make the best of it.
@@ -48,9 +55,36 @@ struct Form {
   }
 };
 
+// The surface the cap has, with little weight, so that it stays there where it has no samples, or
+// leaves them to others: points on a sunflower in the plane of the seed, carried along the rays.
+void add_own_surface(const Cap& cap, std::span<const double> coefficients, double spacing,
+                     CapPoints& points) {
+  const CapFrame& f = cap.frame;
+  const double samples = std::numbers::pi * f.support * f.support / (spacing * spacing);
+  const auto n = static_cast<std::size_t>(std::clamp(samples / 4, 100.0, 2000.0));
+  CapPoints plane;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double r = f.support * std::sqrt((static_cast<double>(k) + 0.5) / static_cast<double>(n));
+    const double angle = static_cast<double>(k) * std::numbers::pi * (3 - std::sqrt(5.0));
+    plane.add(r * std::cos(angle) * f.x + r * std::sin(angle) * f.y, f.z, 1);
+  }
+  plane.pad();
+  const std::size_t stride = plane.padded();
+  std::vector<double> at(3 * stride), across(3 * stride);
+  cap_surface(cap, coefficients, plane, at, across);
+  for (std::size_t k = 0; k < n; ++k) {
+    const Vec3 offset{at[k], at[stride + k], at[2 * stride + k]};
+    const Vec3 normal{across[k], across[stride + k], across[2 * stride + k]};
+    const Vec3 ray = offset + f.radius * f.z;
+    const double cosine = dot(normal, ray) / norm(ray);
+    if (!(cosine > 0.1)) continue;  // also where there is none
+    points.add(offset, normal, kOwnShare * cosine * cosine * samples / static_cast<double>(n));
+  }
+}
+
 // Fits a cap to the samples it speaks for, weighted by its share in the blend.
 bool make_form(const SampleLevel& samples, const Blend& all, const CapVoice& voice, const Cap& cap,
-               int degree, double tolerance, Form& form) {
+               std::span<const double> own, int degree, double tolerance, Form& form) {
   CapPoints points;
   const CapFrame& f = cap.frame;
   const std::size_t step = (voice.samples.size() + kMostSamples - 1) / kMostSamples;
@@ -66,6 +100,7 @@ bool make_form(const SampleLevel& samples, const Blend& all, const CapVoice& voi
     points.add(samples.points[s] - f.seed(), samples.normals[s],
                share * cosine * cosine * static_cast<double>(step));
   }
+  add_own_surface(cap, own, samples.spacing, points);
   points.pad();
   CapFitScratch scratch;
   const CapFitOptions options{cap.basis, degree, kGradientWeight, kPenalty};
@@ -150,6 +185,26 @@ Atlas with_forms(const Atlas& atlas, const std::vector<Form>& forms) {
   return result;
 }
 
+void set_support(Cap& cap, double support) {
+  cap.frame.support = support;
+  const double square = 1 / (support * support);
+  cap.where = {0, 0, square, 0, square};
+}
+
+// Supports shrink until their caps' surfaces do not leave the samples there.
+void shrink_stray(const SampleLevels& samples, double stray, Atlas& atlas, const Context& context) {
+  parallel_for(atlas.caps.size(), 16, context, {}, [&](std::size_t begin, std::size_t end) {
+    CandidateScratch scratch;
+    for (std::size_t c = begin; c < end; ++c) {
+      Cap& cap = atlas.caps[c];
+      for (int k = 0; k < kMostShrinks; ++k) {
+        if (!strays(samples, cap, atlas.coefficients_of(cap), stray, stray, scratch)) break;
+        set_support(cap, kShrink * cap.frame.support);
+      }
+    }
+  });
+}
+
 }  // namespace
 
 PruneReport prune(const SampleLevels& samples, const PruneOptions& options, Atlas& atlas,
@@ -161,7 +216,8 @@ PruneReport prune(const SampleLevels& samples, const PruneOptions& options, Atla
     for (std::size_t c = begin; c < end; ++c) {
       const Cap& cap = atlas.caps[c];
       const int degree = std::min(options.max_degree, cap.degree + options.more_degrees);
-      if (make_form(finest, before, before.caps[c], cap, degree, options.tolerance, forms[c]))
+      if (make_form(finest, before, before.caps[c], cap, atlas.coefficients_of(cap), degree,
+                    options.tolerance, forms[c]))
         continue;
       forms[c].n = n_coefficients(cap.basis, cap.degree);
       const auto own = atlas.coefficients_of(cap);
@@ -175,29 +231,15 @@ PruneReport prune(const SampleLevels& samples, const PruneOptions& options, Atla
   PruneReport report;
   double budget = options.tolerance * options.tolerance * static_cast<double>(finest.points.size());
   Atlas best;
-  const auto shrink_all = [&](Atlas& pruned) {
-    parallel_for(pruned.caps.size(), 1, context, {}, [&](std::size_t begin, std::size_t end) {
-      CandidateScratch scratch;
-      for (std::size_t c = begin; c < end; ++c) {
-        Cap& cap = pruned.caps[c];
-        for (int k = 0; k < 8; ++k) {
-          if (count_stray(samples, cap, pruned.coefficients_of(cap), options.band, scratch) == 0)
-            break;
-          cap.frame.support *= kShrink;
-          const double square = 1 / (cap.frame.support * cap.frame.support);
-          cap.where = {0, 0, square, 0, square};
-        }
-      }
-    });
-  };
-  for (int step = 0; step < 5; ++step) {
+  for (int step = 0; step < kMostSteps; ++step) {
     std::vector<Form> trial = forms;
     const double price = drop_until(budget, trial);
     Atlas pruned = with_forms(atlas, trial);
-    shrink_all(pruned);
+    shrink_stray(samples, options.stray, pruned, context);
+
     const Blend after = blend(pruned, finest, options.band, context);
     const double ratio = options.tolerance / after.rms;
-    if (after.rms <= options.tolerance || step == 0) {
+    if (after.rms <= options.tolerance || step == 0 || after.rms < report.rms) {
       best = std::move(pruned);
       report = {after.rms, n_kept(best), price};
     }

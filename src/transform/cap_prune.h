@@ -10,6 +10,7 @@ namespace rholm {
 struct PruneOptions {
   double tolerance = 0;  // rms of the blend, the samples' unit
   double band = 0;       // of the blend
+  double stray = 0;      // supports shrink where a cap's surface is farther from all samples
   int more_degrees = 2;  // fitted before pruning, so that coefficients go where they serve most
   int max_degree = 14;
 };
@@ -21,7 +22,8 @@ struct PruneReport {
 };
 
 // Fits the coefficients of all caps anew, by their shares in the blend, and sets to zero those that
-// matter least until the blend's error is the tolerance. Caps lose the degrees that are all zero.
+// matter least until the blend's error is the tolerance, if the caps can meet it (see rms). Caps
+// lose the degrees that are all zero.
 PruneReport prune(const SampleLevels& samples, const PruneOptions& options, Atlas& atlas,
                   const Context& context);
 

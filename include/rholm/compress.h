@@ -1,0 +1,94 @@
+// A surface as few large caps: a model smaller than its data (method 7.8). Layer: model.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rholm/atlas.h"
+#include "rholm/context.h"
+#include "rholm/mesh.h"
+
+namespace rholm {
+
+struct CompressOptions {
+  double tolerance = 0;  // rms distance between the surfaces, both ways, in the shape's unit; > 0
+  std::size_t samples = 0;  // that caps are fitted to; 0: by the tolerance
+  int max_degree = 14;      // of a cap, 2 ... 24
+  std::uint64_t seed = 1;   // of samples and of the search
+};
+
+// What a model is measured by. Lengths in the shape's unit.
+struct AtlasErrors {
+  double rms_from = 0, max_from = 0;  // from the shape to the model's surface
+  double rms_to = 0, max_to = 0;      // from the model's surface to the shape
+  double rms() const { return rms_from > rms_to ? rms_from : rms_to; }
+  double max() const { return max_from > max_to ? max_from : max_to; }
+};
+
+// An atlas and what its file says of it.
+struct AtlasModel {
+  Atlas atlas;
+  double step = 0;                         // of the grid its surface was measured at
+  double tolerance = 0;                    // that was asked for; 0: none
+  std::optional<AtlasErrors> errors = {};  // as measured on the extracted surface
+  std::size_t input_numbers = 0;           // coordinates of the shape: 3 per vertex; 0: not known
+  std::string unit, method;                // may be empty
+};
+
+// How large a model is: coefficients that are not zero, and the numbers of the caps' frames.
+struct AtlasSize {
+  std::size_t caps = 0, coefficients = 0, frame_numbers = 0;
+  std::size_t numbers() const { return coefficients + frame_numbers; }
+};
+AtlasSize size_of(const Atlas& atlas);
+
+struct CompressReport {
+  std::size_t samples = 0;
+  double uncovered = 0;   // share of the samples that no cap met by 4 tolerances
+  std::size_t genus = 0;  // of the extracted surface
+  bool met = false;       // the tolerance
+  StageTimes times = {};  // "samples", "caps", "fit", "surface"
+};
+
+struct Compressed {
+  AtlasModel model;
+  CompressReport report;
+};
+
+// Covers the shape with few caps, fits them, drops the coefficients its error can do without,
+// extracts the surface and measures it, until it is within the tolerance both ways. A mesh may be
+// open; points need normals and are taken as evenly spread (measured from the points only).
+// Throws InvalidInput for shapes without area, and options out of range. The tolerance may be
+// missed: see `met`. Same input, same bits for any number of threads.
+Compressed compress(const Mesh& mesh, const CompressOptions& options, const Context& context = {});
+Compressed compress(const PointCloud& cloud, const CompressOptions& options,
+                    const Context& context = {});
+
+struct AtlasSynthesisOptions {
+  double step = 0;                 // edge of the grid's cubes; 0: the model's
+  std::optional<int> degree = {};  // coefficients of higher degrees count as zero
+  std::size_t max_memory = std::size_t{8} << 30;
+};
+// The surface of a model, from it alone: closed, oriented outwards, with normals nx, ny, nz.
+Mesh synthesize(const AtlasModel& model, const AtlasSynthesisOptions& options = {},
+                const Context& context = {});
+
+// The cap that speaks loudest at each point, in small gaps between caps the nearest one; kNoCap for
+// an atlas without caps.
+inline constexpr std::uint32_t kNoCap = ~std::uint32_t{0};
+std::vector<std::uint32_t> loudest_caps(const Atlas& atlas, const std::vector<Vec3>& points,
+                                        const Context& context = {});
+// Sets red, green, blue: a colour per cap, caps that touch of different hues; grey without a cap.
+void set_cap_colors(std::vector<Attribute>& attributes, const Atlas& atlas,
+                    const std::vector<std::uint32_t>& caps);
+
+// The model file with an atlas in it: docs/model-file.md. Throws as write_model() and read_model().
+void write_atlas(const AtlasModel& model, const std::filesystem::path& path);
+AtlasModel read_atlas(const std::filesystem::path& path);
+bool is_atlas_file(const std::filesystem::path& path);  // a model file that holds an atlas
+
+}  // namespace rholm

@@ -1,0 +1,233 @@
+#include "rholm/compress.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/parallel.h"
+#include "base/stopwatch.h"
+#include "harmonic/low_harmonics.h"
+#include "model/atlas_pack.h"
+#include "rholm/compare.h"
+#include "rholm/error.h"
+#include "rholm/points.h"
+#include "rholm/topology.h"
+#include "shape/face.h"
+#include "surface/area_samples.h"
+#include "surface/atlas_surface.h"
+#include "transform/cap_blend.h"
+#include "transform/cap_greedy.h"
+#include "transform/cap_prune.h"
+
+namespace rholm {
+namespace {
+
+// All of these are tolerances, chosen on four shapes at 1e-3 and 3e-4 of the diagonal.
+constexpr double kSampleSpacing = 2.5;  // errors of a fit have waves longer than that
+constexpr double kStray = 5;        // a cap's surface farther from the samples is not theirs ...
+constexpr double kStrayFitted = 3;  // ... and once more, stricter, when coefficients are dropped
+constexpr double kStep = 4;         // of the grid: details that matter are larger
+constexpr double kBand = 10;        // caps that disagree by less are averaged
+constexpr double kLeastSamples = 20000, kMostSamples = 200000;
+constexpr double kWeightPower = 3;  // small caps override large ones
+// The surface is a little farther from the shape than the samples' blend tells: the aim is
+// corrected by what is measured, so many times, and left a little below the tolerance.
+constexpr int kMostTries = 5;
+constexpr double kAim = 0.995, kGoodEnough = 0.97;
+
+struct Samples {
+  std::vector<Vec3> points, normals;
+};
+
+Samples samples_of(const Mesh& mesh, const CompressOptions& options) {
+  std::size_t n = options.samples;
+  if (n == 0) {
+    const double spacing = kSampleSpacing * options.tolerance;
+    n = static_cast<std::size_t>(
+        std::clamp(surface_area(mesh) / (spacing * spacing), kLeastSamples, kMostSamples));
+  }
+  AreaSamples on = sample_by_area(mesh, n, options.seed);
+  Samples samples;
+  samples.points = std::move(on.points);
+  for (const std::uint32_t t : on.triangles) {
+    samples.normals.push_back(
+        normalized(face_normal(scaled_corners(mesh, mesh.triangles[t], 1)).twice_area));
+  }
+  return samples;
+}
+
+void check(const CompressOptions& options) {
+  const auto refuse = [](const char* what, double value, const std::string& limit) {
+    throw Error(ErrorCode::kInvalidInput,
+                fmt::format("{} is {}: it must be {}", what, value, limit));
+  };
+  if (!(options.tolerance > 0) || !std::isfinite(options.tolerance)) {
+    refuse("the tolerance", options.tolerance, "positive");
+  }
+  if (options.max_degree < 2 || options.max_degree > kMaxLowDegree) {
+    refuse("the highest degree", options.max_degree, fmt::format("2 ... {}", kMaxLowDegree));
+  }
+  if (options.samples != 0 && (options.samples < 1000 || options.samples > kMaxSamples)) {
+    refuse("the number of samples", static_cast<double>(options.samples),
+           fmt::format("1000 ... {}", kMaxSamples));
+  }
+}
+
+Atlas cover(const SampleLevels& levels, double diagonal, const CompressOptions& options,
+            CompressReport& report, const Context& context) {
+  GreedyOptions wanted;
+  wanted.candidate = {.tolerance = options.tolerance,
+                      .stray = kStray * options.tolerance,
+                      .max_degree = options.max_degree};
+  wanted.seed = options.seed;
+  const GreedyCover cover =
+      greedy_cover(levels, diagonal, wanted, std::vector<std::uint8_t>(levels.size()), context);
+  report.uncovered = cover.uncovered;
+  Atlas atlas;
+  for (const Candidate& chosen : cover.chosen) {
+    atlas.caps.push_back(chosen.cap);
+    atlas.caps.back().first = atlas.coefficients.size();
+    atlas.coefficients.insert(atlas.coefficients.end(), chosen.coefficients.begin(),
+                              chosen.coefficients.end());
+  }
+  set_weights(atlas.caps, kWeightPower);
+  atlas.spacing = levels.finest().spacing;
+  atlas.diagonal = diagonal;
+  atlas.band = kBand * options.tolerance;
+  return atlas;
+}
+
+// As it comes out of the file.
+Atlas rounded(Atlas atlas) {
+  set_weights(atlas.caps, kWeightPower);
+  return unpack(pack(atlas), "");
+}
+
+AtlasErrors measure(const Mesh& shape, const Mesh& surface, std::size_t samples,
+                    const Context& context) {
+  const Comparison found = compare(shape, surface, {.samples = samples}, context);
+  return {found.a_to_b.rms, found.a_to_b.max, found.b_to_a.rms, found.b_to_a.max};
+}
+
+AtlasErrors measure(const std::vector<Vec3>& points, const Mesh& surface, const Context& context) {
+  AtlasErrors errors;
+  for (const double d : distances_to_surface(points, surface, context)) {
+    errors.rms_from += d * d;
+    errors.max_from = std::max(errors.max_from, d);
+  }
+  errors.rms_from = std::sqrt(errors.rms_from / static_cast<double>(points.size()));
+  return errors;
+}
+
+template <class Measure>
+Compressed compress_samples(const Samples& samples, double diagonal, std::size_t input_numbers,
+                            const CompressOptions& options, const Measure& measure_surface,
+                            const Context& context) {
+  Compressed result;
+  CompressReport& report = result.report;
+  AtlasModel& model = result.model;
+  report.samples = samples.points.size();
+  model.step = kStep * options.tolerance, model.tolerance = options.tolerance;
+  model.input_numbers = input_numbers;
+  model.method = "greedy";
+  const SampleLevels levels = timed(report.times, "samples", [&] {
+    return make_levels(samples.points, samples.normals, context);
+  });
+  const Atlas covered = timed(report.times, "caps",
+                              [&] { return cover(levels, diagonal, options, report, context); });
+  double aim = options.tolerance;
+  for (int attempt = 0; attempt < kMostTries; ++attempt) {
+    const PruneOptions pruning{.tolerance = aim,
+                               .band = covered.band,
+                               .stray = kStrayFitted * options.tolerance,
+                               .max_degree = options.max_degree};
+    Atlas atlas = covered;
+    timed(report.times, "fit", [&] {
+      prune(levels, pruning, atlas, context);
+      atlas = rounded(std::move(atlas));
+    });
+    AtlasModel trial = model;
+    trial.atlas = std::move(atlas);
+    const AtlasErrors errors = timed(report.times, "surface", [&] {
+      const Mesh surface = synthesize(trial, {}, context);
+      report.genus = inspect(surface).genus;
+      return measure_surface(surface);
+    });
+    trial.errors = errors;
+    const bool met = errors.rms() <= options.tolerance;
+    const bool better =
+        !model.errors || (met && !report.met) ||
+        (met == report.met && (met ? size_of(trial.atlas).numbers() < size_of(model.atlas).numbers()
+                                   : errors.rms() < model.errors->rms()));
+    if (better) model = std::move(trial);
+    report.met = report.met || met;
+    if (met && errors.rms() >= kGoodEnough * options.tolerance) break;
+    aim *= kAim * options.tolerance / errors.rms();
+  }
+  return result;
+}
+
+}  // namespace
+
+AtlasSize size_of(const Atlas& atlas) {
+  return {atlas.caps.size(), n_kept(atlas), atlas.caps.size() * kFrameNumbers};
+}
+
+Compressed compress(const Mesh& mesh, const CompressOptions& options, const Context& context) {
+  check(options);
+  validate(mesh);
+  const Samples samples = samples_of(mesh, options);
+  const auto measure_surface = [&](const Mesh& surface) {
+    return measure(mesh, surface, std::max<std::size_t>(samples.points.size(), 100000), context);
+  };
+  return compress_samples(samples, bounds(mesh.vertices).diagonal(), 3 * mesh.vertices.size(),
+                          options, measure_surface, context);
+}
+
+Compressed compress(const PointCloud& cloud, const CompressOptions& options,
+                    const Context& context) {
+  check(options);
+  validate(cloud);
+  if (cloud.normals.size() != cloud.points.size()) {
+    throw Error(ErrorCode::kInvalidInput,
+                "points need normals that point outwards: 'rholm orient' gives them");
+  }
+  Samples samples;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    if (!(norm(cloud.normals[i]) > 0)) continue;
+    samples.points.push_back(cloud.points[i]);
+    samples.normals.push_back(normalized(cloud.normals[i]));
+  }
+  if (samples.points.size() < 1000) {
+    throw Error(ErrorCode::kInvalidInput,
+                fmt::format("{} points with normals are too few for large caps: at least 1000",
+                            samples.points.size()));
+  }
+  const auto measure_surface = [&](const Mesh& surface) {
+    return measure(samples.points, surface, context);
+  };
+  return compress_samples(samples, bounds(samples.points).diagonal(), 3 * cloud.points.size(),
+                          options, measure_surface, context);
+}
+
+Mesh synthesize(const AtlasModel& model, const AtlasSynthesisOptions& options,
+                const Context& context) {
+  const double step = options.step > 0 ? options.step : model.step;
+  if (!(step > 0) || !std::isfinite(step)) {
+    throw Error(ErrorCode::kInvalidInput,
+                fmt::format("the step of the grid is {}: it must be positive", step));
+  }
+  const AtlasSurfaceOptions wanted{.step = step, .max_memory = options.max_memory};
+  if (!options.degree) return extract_atlas(model.atlas, wanted, context).mesh;
+  Atlas coarse = model.atlas;
+  for (Cap& cap : coarse.caps) {
+    cap.degree =
+        static_cast<std::uint16_t>(std::min<int>(cap.degree, std::max(0, *options.degree)));
+  }
+  return extract_atlas(coarse, wanted, context).mesh;
+}
+
+}  // namespace rholm

@@ -1,0 +1,83 @@
+"""Atlases of large caps: analyze --atlas, info, synthesize, partition."""
+
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(__file__))
+from harness import CliTest, main
+
+
+class Atlas(CliTest):
+    def setUp(self):
+        super().setUp()
+        self.rholm("make", "torus", "-o", "t.ply")
+
+    def make_model(self, name="t.h5", *more):
+        return self.rholm("analyze", "t.ply", "--atlas", "--tolerance", "5e-3", "--unit", "diagonal",
+                          "-o", name, "--json", *more).json()
+
+    def test_a_torus_goes_to_a_model_and_back(self):
+        report = self.make_model()
+        self.assertTrue(report["met"])
+        info = self.rholm("info", "t.h5", "--json").json()
+        self.assertEqual(info["kind"], "atlas")
+        self.assertEqual(info["bytes"], (self.folder / "t.h5").stat().st_size)
+        for key in ("caps", "coefficients", "numbers", "input_numbers", "errors"):
+            self.assertEqual(info[key], report[key])
+        self.assertEqual(info["numbers"], info["coefficients"] + info["frame_numbers"])
+        self.assertIn("atlas of caps", self.rholm("info", "t.h5").out)
+        # In a process of its own, which has the model alone.
+        self.rholm("synthesize", "t.h5", "-o", "s.ply")
+        surface = self.rholm("info", "s.ply", "--json").json()
+        self.assertTrue(surface["closed"] and surface["manifold"] and surface["oriented"])
+        self.assertFalse(surface["inside_out"])
+        self.assertEqual(surface["genus"], 1)
+        found = self.rholm("compare", "t.ply", "s.ply", "--json").json()
+        for way in ("a_to_b", "b_to_a"):
+            # Other samples than those the model was measured by: 1 % apart at 100000 of them.
+            self.assertLess(found["relative"][way]["rms"], 5.1e-3)
+
+    def test_resolution_and_degree_limit(self):
+        step = self.make_model()["step"]
+        counts = {}
+        for name, words in {"own": (), "finer": ("--resolution", str(step / 2)),
+                            "flat": ("--degree-limit", "0")}.items():
+            counts[name] = self.rholm("synthesize", "t.h5", "-o", name + ".ply", "--json",
+                                      *words).json()["counts"]["vertices"]
+        self.assertGreater(counts["finer"], 3 * counts["own"])
+        self.assertGreater(counts["flat"], 0)
+
+    def test_threads_do_not_change_a_byte(self):
+        self.make_model("one.h5", "--threads", "1")
+        self.make_model("two.h5", "--threads", "2")
+        self.assertEqual((self.folder / "one.h5").read_bytes(),
+                         (self.folder / "two.h5").read_bytes())
+
+    def test_partition_colours_every_vertex(self):
+        report = self.rholm("partition", "t.ply", "--tolerance", "5e-3", "-o", "c.ply",
+                            "--json").json()
+        self.assertGreater(report["caps"], 3)
+        info = self.rholm("info", "c.ply", "--json").json()
+        self.assertEqual([a["name"] for a in info["attributes"][-3:]], ["red", "green", "blue"])
+
+    def test_options_that_do_not_go_together_are_refused(self):
+        self.rholm("analyze", "t.ply", "--atlas", "-o", "t.h5", code=2)
+        for words in (("--degree", "3"), ("--center", "none"), ("--norm", "max"), ("--signed",)):
+            self.rholm("analyze", "t.ply", "--atlas", "--tolerance", "1", "-o", "t.h5", *words,
+                       code=2)
+        self.rholm("analyze", "t.ply", "--atlas", "--tolerance", "1", "-o", "t.sh", code=2)
+        self.make_model()
+        self.rholm("synthesize", "t.h5", "--degree", "3", "-o", "s.ply", code=2)
+        self.rholm("synthesize", "t.h5", "--resolution", "0", "-o", "s.ply", code=2)
+        self.rholm("spectrum", "t.h5", code=3)
+
+    def test_damaged_models_are_refused(self):
+        self.make_model()
+        model = (self.folder / "t.h5").read_bytes()
+        (self.folder / "cut.h5").write_bytes(model[:-100])
+        self.rholm("info", "cut.h5", code=3)
+        self.rholm("synthesize", "cut.h5", "-o", "s.ply", code=3)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,171 @@
+// Expected values: surfaces with a closed form of the distance (sphere, torus), and fits of each
+// degree by itself.
+#include "transform/cap_greedy.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "transform/cap_blend.h"
+#include "transform/cap_degrees.h"
+#include "transform/cap_eval.h"
+#include "transform/cap_prune.h"
+
+namespace rholm {
+namespace {
+
+using std::numbers::pi;
+
+struct Samples {
+  std::vector<Vec3> points, normals;
+};
+
+// A Fibonacci lattice: equal areas, evenly whatever part of the list is taken.
+Samples sphere(std::size_t n) {
+  Samples s;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double z = 1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(n);
+    const double phi = static_cast<double>(i) * pi * (3 - std::sqrt(5.0)), r = std::sqrt(1 - z * z);
+    s.points.push_back({r * std::cos(phi), r * std::sin(phi), z});
+  }
+  s.normals = s.points;
+  return s;
+}
+
+constexpr double kTube = 0.4;
+
+// Radii 1 and kTube; theta spread so that areas are equal: theta + kTube sin(theta) is uniform.
+Samples torus(std::size_t n) {
+  Samples s;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double u = 2 * pi * (static_cast<double>(i) + 0.5) / static_cast<double>(n);
+    double theta = u;
+    for (int k = 0; k < 50; ++k) theta = u - kTube * std::sin(theta);
+    const double phi = static_cast<double>(i) * pi * (3 - std::sqrt(5.0));
+    const Vec3 out{std::cos(phi), std::sin(phi), 0};
+    const Vec3 normal = std::cos(theta) * out + std::sin(theta) * Vec3{0, 0, 1};
+    s.points.push_back(out + kTube * normal);
+    s.normals.push_back(normal);
+  }
+  return s;
+}
+
+GreedyOptions options_for(double tolerance) {
+  GreedyOptions options;
+  options.candidate.tolerance = tolerance;
+  options.candidate.stray = 5 * tolerance;
+  return options;
+}
+
+Atlas atlas_of(const GreedyCover& cover, double band) {
+  Atlas atlas;
+  for (const Candidate& chosen : cover.chosen) {
+    atlas.caps.push_back(chosen.cap);
+    atlas.caps.back().first = atlas.coefficients.size();
+    atlas.coefficients.insert(atlas.coefficients.end(), chosen.coefficients.begin(),
+                              chosen.coefficients.end());
+  }
+  set_weights(atlas.caps, 3);
+  atlas.band = band;
+  return atlas;
+}
+
+TEST(degree_fits, leading_blocks_are_the_fits_of_lower_degrees) {
+  const Samples s = sphere(400);
+  CapPoints points;
+  const CapFrame frame = cap_frame({0, 0, 1}, {0, 0, 1}, 0.6, 0.5, 1.5);
+  for (std::size_t i = 0; i < s.points.size(); ++i) {
+    const Vec3 offset = s.points[i] - Vec3{0, 0, 1};
+    if (norm(offset) < 0.7) points.add(offset, s.normals[i], 1 + 0.1 * s.points[i].x);
+  }
+  points.pad();
+  CapFitScratch scratch;
+  CapFitOptions options{CapBasis::kEven, 8, 0.3, 2e-9};
+  DegreeFits fits;
+  fits.factor(make_system(frame, points, options, scratch), scratch.matrix);
+  for (const int degree : {0, 1, 3, 8}) {
+    options.degree = degree;
+    CapFit alone;
+    ASSERT_TRUE(fit_cap(frame, points, options, scratch, alone));
+    std::vector<double> leading;
+    fits.solve(n_coefficients(CapBasis::kEven, degree), leading);
+    ASSERT_EQ(leading.size(), alone.coefficients.size());
+    for (std::size_t i = 0; i < leading.size(); ++i) {
+      EXPECT_NEAR(leading[i], alone.coefficients[i], 1e-9);  // condition below 1e6
+    }
+  }
+}
+
+TEST(greedy_cover, covered_samples_of_a_sphere_are_within_four_tolerances) {
+  const Samples s = sphere(6000);
+  const double tolerance = 1e-2;
+  const SampleLevels levels = make_levels(s.points, s.normals, {});
+  const GreedyCover cover = greedy_cover(levels, std::sqrt(12.0), options_for(tolerance),
+                                         std::vector<std::uint8_t>(levels.size()), {});
+  EXPECT_LE(cover.uncovered, 0.002);
+  // A cap that sees 30 degrees of a sphere is nearly constant: a dozen or two hold it.
+  EXPECT_LT(cover.chosen.size(), 40U);
+  for (const Candidate& chosen : cover.chosen) {
+    EXPECT_LE(chosen.rms, tolerance);
+    // Points of the caps' surfaces: their distance to the sphere is | |x| - 1 |.
+    const CapFrame& f = chosen.cap.frame;
+    CapPoints at;
+    for (double r = 0; r < 0.9 * f.support; r += 0.1 * f.support) at.add(r * f.x, f.z, 1);
+    at.pad();
+    std::vector<double> places(3 * at.padded()), normals(places.size());
+    cap_surface(chosen.cap, chosen.coefficients, at, places, normals);
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      const Vec3 x{places[i], places[at.padded() + i], places[2 * at.padded() + i]};
+      EXPECT_NEAR(norm(f.seed() + x), 1, 5 * tolerance);
+    }
+  }
+}
+
+TEST(greedy_cover, threads_do_not_change_a_bit) {
+  const Samples s = torus(8000);
+  std::vector<double> found[2];
+  for (const int threads : {1, 2}) {
+    Context context;
+    context.threads = threads;
+    const SampleLevels levels = make_levels(s.points, s.normals, context);
+    const GreedyCover cover = greedy_cover(levels, 4, options_for(0.02),
+                                           std::vector<std::uint8_t>(levels.size()), context);
+    Atlas atlas = atlas_of(cover, 0.2);
+    prune(levels, {.tolerance = 0.02, .band = 0.2, .stray = 0.1}, atlas, context);
+    found[threads - 1] = atlas.coefficients;
+  }
+  EXPECT_EQ(found[0], found[1]);
+}
+
+TEST(prune, keeps_the_tolerance_and_drops_coefficients) {
+  const Samples s = torus(6000);
+  const SampleLevels levels = make_levels(s.points, s.normals, {});
+  for (const double tolerance : {1e-2, 5e-3}) {
+    const GreedyCover cover = greedy_cover(levels, 4, options_for(tolerance),
+                                           std::vector<std::uint8_t>(levels.size()), {});
+    Atlas atlas = atlas_of(cover, 10 * tolerance);
+    const std::size_t before = n_kept(atlas);
+    const PruneReport report = prune(
+        levels, {.tolerance = tolerance, .band = atlas.band, .stray = 5 * tolerance}, atlas, {});
+    EXPECT_LE(report.rms, tolerance);
+    EXPECT_EQ(report.coefficients, n_kept(atlas));
+    EXPECT_LT(report.coefficients, before);
+    const Blend after = blend(atlas, levels.finest(), atlas.band, {});
+    EXPECT_DOUBLE_EQ(after.rms, report.rms);
+    EXPECT_LT(static_cast<double>(after.silent), 0.02 * static_cast<double>(levels.size()));
+  }
+}
+
+TEST(greedy_cover, cancels) {
+  const Samples s = torus(4000);
+  const SampleLevels levels = make_levels(s.points, s.normals, {});
+  Context context;
+  context.progress = [](std::string_view, double) { return false; };
+  EXPECT_THROW(
+      greedy_cover(levels, 4, options_for(0.02), std::vector<std::uint8_t>(levels.size()), context),
+      std::exception);
+}
+
+}  // namespace
+}  // namespace rholm
