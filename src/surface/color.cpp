@@ -44,6 +44,10 @@ Color from_oklch(double lightness, double chroma, double hue_degrees) {
           static_cast<float>(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s)};
 }
 
+float from_srgb(float encoded) {
+  return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+}
+
 std::uint8_t to_srgb_byte(float linear) {
   const float x = std::clamp(linear, 0.0f, 1.0f);
   const float encoded = x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f;

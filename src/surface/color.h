@@ -17,6 +17,9 @@ inline Color operator*(float s, const Color& a) { return {s * a.r, s * a.g, s * 
 // space for image processing". Not clipped: components may leave 0 ... 1.
 Color from_oklch(double lightness, double chroma, double hue_degrees);
 
+// The linear component of an sRGB encoded one, 0 ... 1.
+float from_srgb(float encoded);
+
 // The byte of the sRGB encoding (IEC 61966-2-1) of a linear component; clipped.
 std::uint8_t to_srgb_byte(float linear);
 

@@ -46,6 +46,10 @@ void check(std::span<const Panel> panels, const RenderOptions& options) {
       refuse("a panel needs a mesh with at least 1 triangle");
     }
     validate(*panel.mesh);
+    if (!panel.colors.empty() && panel.colors.size() != panel.mesh->vertices.size()) {
+      refuse("a panel has " + std::to_string(panel.colors.size()) + " colours for " +
+             std::to_string(panel.mesh->vertices.size()) + " vertices");
+    }
     if (panel.scalars.empty()) continue;
     if (panel.scalars.size() != panel.mesh->vertices.size()) {
       refuse("a panel has " + std::to_string(panel.scalars.size()) + " scalars for " +
@@ -118,6 +122,9 @@ Subject make_subject(const Panel& panel, double scale) {
   }
   if (panel.smooth) subject.normals = vertex_normals(*panel.mesh);
   if (!panel.scalars.empty()) subject.scalars = &panel.scalars;
+  for (const std::array<float, 3>& c : panel.colors) {
+    subject.colors.push_back({from_srgb(c[0]), from_srgb(c[1]), from_srgb(c[2])});
+  }
   return subject;
 }
 

@@ -43,6 +43,7 @@ struct Place {
   Vec3 normal;  // unit normal for shading, towards the eye
   bool back = false;
   double scalar = 0;
+  Color color;
 };
 
 // Of the interpolated surface: the mean of the projections onto the planes of the corners (Hanika
@@ -84,6 +85,11 @@ Place place_of(const Subject& subject, const ViewRay& ray, const RayHit& hit) {
   if (subject.scalars != nullptr) {
     const std::vector<double>& s = *subject.scalars;
     place.scalar = weights[0] * s[t[0]] + weights[1] * s[t[1]] + weights[2] * s[t[2]];
+  }
+  if (!subject.colors.empty()) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      place.color = place.color + static_cast<float>(weights[k]) * subject.colors[t[k]];
+    }
   }
   return place;
 }
@@ -181,6 +187,7 @@ std::optional<Color> shade(const Subject& subject, const RayScene& scene, const 
                        kKey * key_light(scene, view, place, lights, pixel, sample) +
                        kFill * std::max(0.0, dot(fill, place.normal));
   if (place.back) return static_cast<float>(light) * back_color();
+  if (!subject.colors.empty()) return static_cast<float>(light) * place.color;
   if (subject.scalars == nullptr) return static_cast<float>(light) * plain_color();
   return static_cast<float>(kFlatLight + (1 - kFlatLight) * light) * scale.color(place.scalar);
 }

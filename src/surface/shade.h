@@ -18,6 +18,7 @@ struct Subject {
   std::vector<Vec3> normals;           // unit, per vertex; empty: faces are flat
   const std::vector<double>* scalars;  // per vertex; null: plain
   double radius = 0;                   // max |vertex|
+  std::vector<Color> colors = {};      // per vertex; empty: by scalars, or plain
 };
 
 // The directions of the secondary rays of a pixel: a Hammersley set for the sky and one for the
