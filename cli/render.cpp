@@ -118,6 +118,33 @@ void color_by_error(const Options& options, Session& session, Scene& scene, Rend
       fmt::format("distance to {}", std::filesystem::path(options.against).filename().string());
 }
 
+// Whole numbers are bytes, others parts of 1.
+std::vector<std::array<float, 3>> own_colors(const Mesh& mesh) {
+  const char* names[] = {"red", "green", "blue"};
+  std::vector<std::array<float, 3>> colors;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Attribute* channel = find_attribute(mesh.attributes, names[k]);
+    if (channel == nullptr) return {};
+    const bool real =
+        channel->type == ScalarType::kFloat32 || channel->type == ScalarType::kFloat64;
+    colors.resize(channel->values.size());
+    for (std::size_t i = 0; i < colors.size(); ++i) {
+      const double value = channel->values[i] / (real ? 1 : 255);
+      colors[i][k] = std::isfinite(value) ? static_cast<float>(std::clamp(value, 0.0, 1.0)) : 0;
+    }
+  }
+  return colors;
+}
+
+void color_by_own(const Options& options, Session& session, Scene& scene) {
+  for (std::size_t i = 0; i < scene.panels.size(); ++i) {
+    scene.panels[i].colors = own_colors(*scene.panels[i].mesh);
+    if (!scene.panels[i].colors.empty()) continue;
+    session.warn(fmt::format("panel {} of {} has no red, green, blue: it stays plain", i + 1,
+                             options.inputs.size()));
+  }
+}
+
 void set_labels(const Options& options, Scene& scene) {
   if (options.labels.empty()) {
     if (scene.panels.size() == 1) scene.panels.front().label.clear();
@@ -141,6 +168,7 @@ int run(const Options& options, Session& session) {
   set_labels(options, scene);
   RenderOptions wanted = render_options(options, scene.panels.size());
   if (options.color == "error") color_by_error(options, session, scene, wanted);
+  if (options.color == "own") color_by_own(options, session, scene);
   const Image image = render(scene.panels, wanted, session.context());
   stop_if_interrupted();
   write_png(options.output, image);
@@ -158,9 +186,10 @@ std::vector<Option> option_list(Options& o) {
            .help = "pixels of the whole picture; 1024x768 by default, 400x460 for each of several",
            .target = &o.size},
           {.name = "color",
-           .help = "error: colour by the distance to the surface of --against, with a scale bar",
+           .help = "error: by the distance to the surface of --against, with a scale bar; own: the "
+                   "colours that a file has, red, green, blue at its vertices",
            .target = &o.color,
-           .choices = {"none", "error"}},
+           .choices = {"none", "error", "own"}},
           {.name = "against",
            .value = "SHAPE",
            .help = "mesh or coefficients to measure the error from",

@@ -1,6 +1,7 @@
 // Pictures of meshes and plots of spectra. Layer: surface.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -19,6 +20,8 @@ struct Panel {
   std::string label;            // below the panel; may be empty
   std::vector<double> scalars;  // per vertex, coloured by the colour map; empty: plain
   bool smooth = false;          // shade with vertex normals nx, ny, nz if the mesh has them
+  // Per vertex, red, green, blue 0 ... 1 as a screen shows them (sRGB); instead of scalars.
+  std::vector<std::array<float, 3>> colors = {};
 };
 
 struct RenderOptions {

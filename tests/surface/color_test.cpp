@@ -90,4 +90,10 @@ TEST(to_srgb_byte, follows_the_standard_and_clips) {
 }
 
 }  // namespace
+TEST(Color, srgb_there_and_back_is_the_byte) {
+  for (int byte = 0; byte < 256; ++byte) {
+    EXPECT_EQ(to_srgb_byte(from_srgb(static_cast<float>(byte) / 255)), byte);
+  }
+}
+
 }  // namespace rholm
