@@ -171,6 +171,12 @@ class Degenerate(CliTest):
                 self.check(sampled, "make", "sample", name, "--points", "50", output="out.ply")
                 self.check(codes | EITHER, "orient", name, output="out.xyz")
 
+    def test_reconstruct(self):
+        # None has points enough.
+        for name in SHAPES:
+            with self.subTest(name):
+                self.check(REFUSED, "reconstruct", name, output="out.ply")
+
     def test_center_on_the_surface_is_refused(self):
         self.rholm("make", "box", "--size", "2,2,2", "-o", "box.ply")
         for center in ("1,0,0", "1,1,0", "1,1,1", "0.25,-1,0.125"):
@@ -218,7 +224,9 @@ class DegenerateCoefficients(CliTest):
     def check_refused(self, name):
         for words in (["info", name], ["spectrum", name], ["synthesize", name, "-o", "o.ply"],
                       ["convert", name, "o.sh"], ["render", name, "-o", "o.png"],
-                      ["report", name, "-o", "o.html"]):
+                      ["report", name, "-o", "o.html"],
+                      ["filter", name, "--low-pass", "2", "-o", "o.h5"],
+                      ["rotate", name, "--mirror", "x", "-o", "o.h5"], ["align", name, "good.h5"]):
             before = self.files()
             with self.subTest(" ".join(words)):
                 self.rholm(*words, code=3)
@@ -248,6 +256,57 @@ class DegenerateCoefficients(CliTest):
         self.write("huge.json", '{"format": "rholm-coefficients", "degree": 2000000000}')
         for name in ("huge.npy", "huge.sh", "order.sh", "undefined.sh", "huge.gfc", "huge.json"):
             self.check_refused(name)
+
+    def test_gains_that_are_none_are_refused(self):
+        for text in ("", "# nothing\n", "1\n", "1 2 3\n", "-1 1\n", "one 1\n", "1 nan\n", "1 inf\n",
+                     "1 0.5\n1 0.5\n", "1.5 1\n", "99999999999999999999 1\n", "1 " + "0" * 5000):
+            self.write("gains.txt", text)
+            with self.subTest(text[:20]):
+                self.rholm("filter", "good.h5", "--gain", "gains.txt", "-o", "o.h5", code=3)
+                self.assertNotIn("o.h5", self.files())
+        self.rholm("filter", "good.h5", "--gain", "none.txt", "-o", "o.h5", code=1)
+        self.rholm("filter", "good.h5", "--gain", ".", "-o", "o.h5", code=1)
+
+    def test_rotations_that_are_none_are_refused(self):
+        for words, code in ((["--axis", "0,0,0", "--angle", "1"], 3),
+                            (["--matrix", "1,0,0,0,1,0,0,0,2"], 3),
+                            (["--matrix", "1,0,0,0,1,0,0,0,-1"], 3), (["--matrix", "1,2"], 2),
+                            (["--axis", "nan,0,0", "--angle", "1"], 2),
+                            (["--mirror", "x", "--about", "here"], 2)):
+            with self.subTest(" ".join(words)):
+                self.rholm("rotate", "good.h5", *words, "-o", "o.h5", code=code)
+                self.assertNotIn("o.h5", self.files())
+
+    def test_editing_goes_with_every_degree_and_function(self):
+        self.rholm("analyze", "good.off", "--degree", "0", "-o", "zero.h5")
+        self.rholm("analyze", "good.off", "--degree", "6", "--method", "gauge", "-o", "gauge.h5")
+        for name in ("zero.h5", "gauge.h5", "good.npy"):
+            for words in (["filter", name, "--low-pass", "0"], ["filter", name, "--high-pass", "9"],
+                          ["filter", name, "--low-pass", "4", "--window", "plateau"],
+                          ["rotate", name, "--principal-axes"],
+                          ["rotate", name, "--axis", "1,1,1", "--angle", "120"]):
+                with self.subTest(" ".join(words)):
+                    self.rholm(*words, "--json", "-o", "o.json").json()
+                    self.rholm("info", "o.json")
+        self.rholm("align", "good.h5", "gauge.h5", code=3)
+        report = self.rholm("align", "zero.h5", "zero.h5", "--json").json()
+        self.assertEqual(len(report["free_axes"]), 3)
+
+    def test_a_surface_without_centroid_is_aligned_by_its_own_centre(self):
+        self.write("odd.sh", "0 0 1 0\n1 0 2 0\n1 1 0 0\n")
+        self.write("point.sh", "0 0 0 0\n")
+        for name in ("odd.sh", "point.sh"):
+            result = self.rholm("align", name, "good.sh", "--json")
+            result.json()
+            self.assertIn("own centres", result.err)
+
+    def test_an_octahedron_lies_in_24_ways(self):
+        self.rholm("rotate", "good.h5", "--axis", "1,2,3", "--angle", "50", "-o", "turned.h5")
+        report = self.rholm("align", "good.h5", "turned.h5", "-o", "laid.h5", "--json").json()
+        self.assertEqual(len(report["ambiguities"]), 23)
+        self.assertLess(report["distance"], 1e-6)
+        self.assertEqual(self.rholm("align", "laid.h5", "turned.h5", "--json").json()["angle"] < 1e-4,
+                         True)
 
     def test_a_radius_below_zero_is_said(self):
         self.write("odd.sh", "0 0 1 0\n1 0 2 0\n1 1 0 0\n")

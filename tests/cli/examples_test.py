@@ -45,7 +45,8 @@ class Examples(CliTest):
     def test_help_texts(self):
         # The examples of one command may use what those of earlier ones made.
         for command in ("make", "info", "center", "analyze", "synthesize", "spectrum", "compare",
-                        "convert", "render", "report", "orient", "bench", "completion"):
+                        "convert", "render", "report", "filter", "rotate",
+                        "align", "orient", "reconstruct", "partition", "bench", "completion"):
             text = self.rholm(command, "--help").out
             for line in re.split(r"\nExamples?:\n", text)[1].splitlines():
                 with self.subTest(line):

@@ -11,7 +11,7 @@ sys.path.insert(0, os.path.dirname(__file__))
 from harness import CliTest, OCTAHEDRON, RHOLM, SOURCE, Terminal, main, off
 
 COMMANDS = ["info", "center", "analyze", "synthesize", "spectrum", "compare", "convert", "render",
-            "report", "make", "orient", "bench", "completion"]
+            "report", "make", "filter", "rotate", "align", "orient", "reconstruct", "bench", "completion"]
 
 
 class Help(CliTest):
@@ -99,8 +99,13 @@ class WrongUsage(CliTest):
     def test_outputs_without_a_format_are_refused_before_any_work(self):
         for words in (["analyze", "missing.off", "--degree", "4"], ["synthesize", "missing.h5"],
                       ["make", "sphere"], ["spectrum", "missing.h5"], ["render", "missing.off"],
-                      ["report", "missing.off"], ["orient", "missing.xyz"],
+                      ["report", "missing.off"], ["orient", "missing.xyz"], ["reconstruct", "missing.xyz"],
                       ["make", "sample", "missing.off"]):
+            self.refused(*words, "-o", "out.xyzzy", saying="out.xyzzy")
+            self.refused(*words, "-o", "-", saying="--format")
+        for words in (["filter", "missing.h5", "--low-pass", "4"],
+                      ["rotate", "missing.h5", "--mirror", "x"],
+                      ["align", "missing.h5", "missing.h5"]):
             self.refused(*words, "-o", "out.xyzzy", saying="out.xyzzy")
             self.refused(*words, "-o", "-", saying="--format")
         self.refused("convert", "a.off", "out.xyzzy", saying="out.xyzzy")
@@ -119,6 +124,18 @@ class WrongUsage(CliTest):
                      saying="several")
         self.refused("make", "box", "--amplitude", "0.1", "-o", "b.ply", saying="--amplitude")
         self.refused("render", "a.off", "--color", "error", "-o", "a.png", saying="--against")
+        self.refused("filter", "a.h5", "-o", "b.h5", saying="--low-pass")
+        self.refused("filter", "a.h5", "--low-pass", "4", "--band", "1,2", "-o", "b.h5",
+                     saying="one of")
+        self.refused("filter", "a.h5", "--low-pass", "4", "--time", "1", "-o", "b.h5",
+                     saying="--window heat")
+        self.refused("filter", "a.h5", "--high-pass", "4", "--sharpen", "1", "-o", "b.h5",
+                     saying="--low-pass")
+        self.refused("rotate", "a.h5", "-o", "b.h5", saying="--matrix")
+        self.refused("rotate", "a.h5", "--axis", "0,0,1", "-o", "b.h5", saying="--angle")
+        self.refused("rotate", "a.h5", "--mirror", "x", "--euler", "1,2,3", "-o", "b.h5",
+                     saying="one of")
+        self.refused("align", "-", "-", saying="standard input")
         self.refused("render", "a.off", "--size", "0x5", "-o", "a.png", saying="--size")
         self.refused("render", "a.off", "--view", "0,0,1", "-o", "a.png", saying="--up")
 
@@ -131,6 +148,10 @@ class Failures(CliTest):
                       ["render", "none.ply", "-o", "o.png"],
                       ["report", "none.ply", "-o", "o.html"],
                       ["orient", "none.ply", "-o", "o.ply"],
+                      ["reconstruct", "none.ply", "-o", "o.ply"],
+                      ["filter", "none.h5", "--low-pass", "4", "-o", "o.h5"],
+                      ["rotate", "none.h5", "--mirror", "x", "-o", "o.h5"],
+                      ["align", "none.h5", "none.h5"],
                       ["make", "sample", "none.ply", "-o", "o.ply"]):
             result = self.rholm(*words, code=1)
             self.assertIn("none.", result.err)

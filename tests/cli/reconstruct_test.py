@@ -1,0 +1,145 @@
+"""Surfaces from points: every option, what is reported, what is refused."""
+
+import os
+import re
+import sys
+
+sys.path.insert(0, os.path.dirname(__file__))
+from harness import CliTest, main
+
+
+def rows(path):
+    return [line.split() for line in path.read_text().splitlines() if not line.startswith("#")]
+
+
+class Reconstruct(CliTest):
+    def setUp(self):
+        super().setUp()
+        self.rholm("make", "torus", "-o", "t.ply")
+        self.rholm("make", "sample", "t.ply", "--points", "4000", "-o", "p.xyz")
+
+    def shape_of(self, name):
+        return self.rholm("info", name, "--json").json()
+
+    def reconstruct(self, *words, output="s.ply"):
+        return self.rholm("reconstruct", *words, "-o", output, "--json").json()
+
+    def test_a_torus_is_closed_with_one_hole_through_it(self):
+        report = self.reconstruct("p.xyz")
+        shape = self.shape_of("s.ply")
+        self.assertEqual((shape["components"], shape["genus"]), (1, 1))
+        self.assertTrue(shape["closed"] and shape["manifold"] and shape["oriented"])
+        self.assertEqual((report["points"], report["outliers"], report["dropped_points"]),
+                         (4000, 0, 0))
+        self.assertFalse(report["computed_normals"])
+        for count in ("vertices", "faces"):
+            self.assertEqual(report[count], shape["counts"][count])
+        self.assertIn("caps", report["stages"])
+        compared = self.rholm("compare", "t.ply", "s.ply", "--json").json()
+        self.assertLess(compared["b_to_a"]["rms"], 2e-3 * compared["diagonal"])
+
+    def test_report_in_text_has_the_same(self):
+        text = self.rholm("reconstruct", "p.xyz", "-o", "s.ply").out
+        for name in ("points", "spacing", "caps", "grid", "surface"):
+            self.assertRegex(text, rf"(?m)^  {name} +\S")
+
+    def test_points_without_normals_get_some(self):
+        points = [row[:3] for row in rows(self.folder / "p.xyz")]
+        self.write("bare.xyz", "".join(" ".join(row) + "\n" for row in points))
+        self.assertTrue(self.reconstruct("bare.xyz")["computed_normals"])
+        self.assertEqual(self.shape_of("s.ply")["genus"], 1)
+
+    def test_every_option_is_heard(self):
+        self.rholm("make", "sample", "t.ply", "--points", "4000", "--noise", ".003", "--outliers",
+                   ".02", "--holes", "1,.15", "-o", "bad.xyz")
+        self.reconstruct("bad.xyz", output="plain.ply")
+        plain = (self.folder / "plain.ply").read_bytes()
+        for words in (["--tolerance", ".02"], ["--noise", ".006"], ["--holes", "keep"],
+                      ["--resolution", "40"], ["--keep-outliers", "--min-component", "0"],
+                      ["--ascii"]):
+            self.reconstruct("bad.xyz", *words)
+            self.assertNotEqual((self.folder / "s.ply").read_bytes(), plain, words)
+
+    def test_holes_are_closed_or_kept(self):
+        self.write("half.xyz", "".join(" ".join(row) + "\n" for row in rows(self.folder / "p.xyz")
+                                       if float(row[0]) > 0))
+        self.assertGreaterEqual(self.reconstruct("half.xyz")["holes"], 2)
+        self.assertTrue(self.shape_of("s.ply")["closed"])
+        self.reconstruct("half.xyz", "--holes", "keep")
+        shape = self.shape_of("s.ply")
+        self.assertFalse(shape["closed"])
+        self.assertTrue(shape["manifold"])
+
+    def test_resolution_is_along_the_longest_side(self):
+        self.rholm("info", "p.xyz")
+        coordinates = [[float(x) for x in row[:3]] for row in rows(self.folder / "p.xyz")]
+        longest = max(max(c) - min(c) for c in zip(*coordinates))
+        step = self.reconstruct("p.xyz", "--resolution", "50")["step"]
+        self.assertAlmostEqual(step, longest / 50, 9)
+
+    def test_threads_do_not_change_a_bit(self):
+        outputs = []
+        for threads in (1, 2):
+            self.reconstruct("p.xyz", "--threads", threads)
+            outputs.append((self.folder / "s.ply").read_bytes())
+        self.assertEqual(*outputs)
+
+    def test_a_stream_works_at_both_ends(self):
+        data = (self.folder / "p.xyz").read_bytes()
+        self.reconstruct("p.xyz")
+        result = self.rholm("reconstruct", "-", "--format", "ply", "-o", "-", stdin=data)
+        self.assertEqual(result.bytes, (self.folder / "s.ply").read_bytes())
+
+    def test_colours_travel_along(self):
+        points = rows(self.folder / "p.xyz")
+        names = ["x", "y", "z", "nx", "ny", "nz"]
+        self.write("c.ply", f"ply\nformat ascii 1.0\nelement vertex {len(points)}\n" +
+                   "".join(f"property double {name}\n" for name in names) +
+                   "property uchar red\nend_header\n" +
+                   "".join(" ".join(row) + f" {200 if float(row[0]) > 0 else 50}\n"
+                           for row in points))
+        self.reconstruct("c.ply", "--ascii")
+        text = (self.folder / "s.ply").read_text()
+        header, body = text.split("end_header\n")
+        self.assertIn("property uchar red", header)
+        names = re.findall(r"property \w+ (\w+)", header.split("element face")[0])
+        count = int(re.search(r"element vertex (\d+)", header)[1])
+        for line in body.splitlines()[:count]:
+            values = dict(zip(names, line.split()))
+            if abs(float(values["x"])) > 0.3:  # beyond the reach of points of the other side
+                self.assertEqual(values["red"], "200" if float(values["x"]) > 0 else "50")
+
+    def test_vertices_of_a_mesh_are_points(self):
+        result = self.rholm("reconstruct", "t.ply", "-o", "s.ply")
+        self.assertIn("taken as points", result.err)
+        self.assertEqual(self.shape_of("s.ply")["genus"], 1)
+
+    def test_more_memory_than_allowed_is_refused_before_any_output(self):
+        result = self.rholm("reconstruct", "p.xyz", "--resolution", "4000", "--max-memory", "0.1",
+                            "-o", "s.ply", code=3)
+        self.assertRegex(result.err, r"102 MiB allowed: take steps of [0-9.e-]+ ")
+        self.assertNotIn("s.ply", self.files())
+
+    def test_wrong_words_and_points_without_a_surface_are_refused(self):
+        for words, saying in ((["--noise", "much"], "--noise"), (["--noise", "-1"], "--noise"),
+                              (["--noise", "nan"], "--noise"), (["--holes", "shut"], "--holes"),
+                              (["--tolerance", "2"], "--tolerance"),
+                              (["--resolution", "3"], "--resolution"),
+                              (["--min-component", "1.5"], "--min-component"),
+                              (["--max-memory", "0"], "--max-memory")):
+            self.assertIn(saying, self.rholm("reconstruct", "p.xyz", *words, "-o", "o.ply",
+                                             code=2).err)
+        self.assertIn("faces", self.rholm("reconstruct", "p.xyz", "-o", "o.xyz", code=2).err)
+        points = (self.folder / "p.xyz").read_text().splitlines()
+        bare = [" ".join(line.split()[:3]) for line in points if not line.startswith("#")]
+        for content in ("", "0 0 0\n", "0 0 0\n" * 50, "\n".join(bare[:15]) + "\n",
+                        "".join(f"{i} 0 0\n" for i in range(50)),
+                        "nan 0 0\n" * 50):
+            self.write("few.xyz", content)
+            self.assertIn("rholm: error:", self.rholm("reconstruct", "few.xyz", "-o", "o.ply",
+                                                      code=3).err)
+        self.assertNotIn("o.ply", self.files())
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,36 @@
+// Points for tests.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "rholm/mesh.h"
+#include "support/random_data.h"
+
+namespace rholm::test {
+
+// Random points of the unit sphere with their normals.
+inline PointCloud sphere_points(std::size_t n, std::uint64_t seed = 1) {
+  PointCloud cloud;
+  for (std::size_t i = 0; i < n; ++i) cloud.points.push_back(random_direction(seed, i));
+  cloud.normals = cloud.points;
+  return cloud;
+}
+
+// Normally distributed, deviation 1 (Box and Muller).
+inline double random_normal(std::uint64_t seed, std::uint64_t counter) {
+  const double u = 1 - random_in(0, 1, seed, 2 * counter);
+  return std::sqrt(-2 * std::log(u)) *
+         std::cos(random_in(0, 2 * std::numbers::pi, seed, 2 * counter + 1));
+}
+
+// Both clouds in one; attributes are left out.
+inline PointCloud joined(PointCloud a, const PointCloud& b) {
+  a.points.insert(a.points.end(), b.points.begin(), b.points.end());
+  a.normals.insert(a.normals.end(), b.normals.begin(), b.normals.end());
+  a.attributes.clear();
+  return a;
+}
+
+}  // namespace rholm::test

@@ -1,0 +1,141 @@
+// Covers of points with caps.
+#include "transform/cap_cover.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+#include "support/test_points.h"
+#include "transform/cap_blend.h"
+
+namespace rholm {
+namespace {
+
+struct Ordered {
+  std::unique_ptr<PointTree> tree;
+  std::vector<Vec3> points, normals;
+  OrderedPoints view() const { return {*tree, points, normals}; }
+};
+
+Ordered ordered(const PointCloud& cloud) {
+  Ordered result;
+  result.tree = std::make_unique<PointTree>(cloud.points);
+  for (const std::uint32_t i : result.tree->order()) {
+    result.points.push_back(cloud.points[i]);
+    result.normals.push_back(cloud.normals[i]);
+  }
+  return result;
+}
+
+// A plane is r = R_0 / cos(theta) on a cap of support R_0 tan(15 degrees), and degree 3 leaves no
+// more of it than its term 5 theta^4 / 24; of a sphere as large as this one less.
+constexpr double kMissed = 0.0037;
+
+std::span<const double> coefficients_of(const Cover& made, const Cap& cap) {
+  return {made.coefficients.data() + cap.first, n_coefficients(cap.basis, cap.degree)};
+}
+
+TEST(CapCover, every_point_of_a_sphere_lies_within_a_cap_and_on_it) {
+  const Ordered points = ordered(test::sphere_points(10000));
+  const Cover made = cover(points.view(), {}, {});
+  EXPECT_EQ(made.rejected.size(), 0U);
+  std::vector<char> heard(10000, 0);
+  double area = 0;
+  for (const Cap& cap : made.caps) {
+    EXPECT_LT(cap.error, kMissed * cap.frame.support);
+    EXPECT_NEAR(norm(cap.frame.seed()), 1, 1e-12);
+    EXPECT_GT(dot(cap.frame.z, cap.frame.seed()), 0.99);
+    area += cap.area;
+    std::vector<Neighbor> near;
+    points.tree->within(cap.frame.seed(), cap.frame.support, near);
+    for (const Neighbor& n : near) {
+      const Vec3& p = points.points[n.index];
+      if (place(cap, p - cap.frame.seed()) >= 1) continue;
+      heard[n.index] = 1;
+      EXPECT_NEAR(evaluate(cap, coefficients_of(made, cap), p).distance, 0,
+                  2 * kMissed * cap.frame.support);
+    }
+  }
+  EXPECT_EQ(std::count(heard.begin(), heard.end(), 1), 10000);
+  // Each point is in the area of one cap; discs of random points scatter by a fifth (24 points),
+  // their mean over hundreds of caps hardly.
+  EXPECT_NEAR(area, 4 * std::numbers::pi, 0.1 * 4 * std::numbers::pi);
+}
+
+TEST(CapCover, a_tolerance_makes_fewer_and_larger_caps_that_keep_it) {
+  const Ordered points = ordered(test::sphere_points(10000));
+  const std::size_t exact = cover(points.view(), {}, {}).caps.size();
+  const Cover rough = cover(points.view(), {.tolerance = 1e-3}, {});
+  EXPECT_LT(4 * rough.caps.size(), exact);
+  for (const Cap& cap : rough.caps) EXPECT_LT(cap.error, 1e-3);
+}
+
+TEST(CapCover, caps_at_an_edge_fit_as_well_as_a_surface_must) {
+  // The edge of a wedge along y: two planes that meet at right angles.
+  PointCloud cloud;
+  for (std::uint64_t i = 0; i < 8000; ++i) {
+    const double a = test::random_in(0, 1, 1, i), y = test::random_in(0, 1, 2, i);
+    const bool top = i % 2 == 0;
+    cloud.points.push_back(top ? Vec3{a, y, 0} : Vec3{0, y, -a});
+    cloud.normals.push_back(top ? Vec3{0, 0, 1} : Vec3{-1, 0, 0});
+  }
+  const Ordered points = ordered(cloud);
+  const Cover made = cover(points.view(), {}, {});
+  std::size_t n_edge = 0, n_away = 0;
+  for (const Cap& cap : made.caps) {
+    const Vec3 s = cap.frame.seed();
+    const double from_edge = std::hypot(s.x, s.z);
+    if (from_edge < cap.frame.support) {
+      ++n_edge;
+      EXPECT_LT(cap.error, 0.1 * cap.frame.support);
+    } else {
+      ++n_away;
+      EXPECT_LT(cap.error, kMissed * cap.frame.support);
+    }
+  }
+  EXPECT_GT(n_edge, 10U);
+  EXPECT_GT(n_away, 100U);
+}
+
+TEST(CapCover, both_sides_of_a_plate_have_caps_of_their_own) {
+  PointCloud plate;
+  for (std::uint64_t i = 0; i < 8000; ++i) {
+    const double side = i % 2 == 0 ? 1 : -1;
+    plate.points.push_back(
+        {test::random_in(-1, 1, 3, i), test::random_in(-1, 1, 4, i), 0.01 * side});
+    plate.normals.push_back({0, 0, side});
+  }
+  const Ordered points = ordered(plate);
+  const Cover made = cover(points.view(), {}, {});
+  EXPECT_LE(made.rejected.size(), 8U);  // at the border of both
+  for (const Cap& cap : made.caps) {
+    EXPECT_GT(cap.frame.seed().z * cap.frame.z.z, 0.009);
+    EXPECT_LT(cap.error, 1e-4);  // those of the other side would be off by the thickness
+  }
+}
+
+TEST(CapCover, points_without_a_surface_are_rejected) {
+  PointCloud cloud;
+  for (std::uint64_t i = 0; i < 2000; ++i) {
+    cloud.points.push_back(
+        {test::random_in(-1, 1, 5, i), test::random_in(-1, 1, 6, i), test::random_in(-1, 1, 7, i)});
+    cloud.normals.push_back(test::random_direction(8, i));
+  }
+  const Ordered points = ordered(cloud);
+  const Cover made = cover(points.view(), {}, {});
+  EXPECT_GT(made.rejected.size(), 1000U);
+}
+
+TEST(CapCover, is_the_same_for_every_number_of_threads) {
+  const Ordered points = ordered(test::sphere_points(10000));
+  const Cover one = cover(points.view(), {}, {.threads = 1});
+  const Cover two = cover(points.view(), {}, {.threads = 2});
+  EXPECT_EQ(one.coefficients, two.coefficients);
+  EXPECT_EQ(one.caps.size(), two.caps.size());
+}
+
+}  // namespace
+}  // namespace rholm
