@@ -63,8 +63,8 @@ struct Atlas {
   double spacing = 0;   // of the points: median distance to the nearest neighbours' circle
   double noise = 0;     // standard deviation of the points' distances to the surface; 0 if clean
   double diagonal = 0;  // of the points' bounding box
-  // Where caps disagree by less they are averaged, so a grid's points hear caps within it, or within
-  // 2.5 steps of the grid if that is more.
+  // Where caps disagree by less they are averaged, so a grid's points hear caps within it, or
+  // within 2.5 steps of the grid if that is more.
   double band = 0;
 
   std::span<const double> coefficients_of(const Cap& cap) const {
