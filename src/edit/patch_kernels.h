@@ -1,0 +1,43 @@
+// Inner loops of the fits of patches. Layer: edit.
+#pragma once
+
+#include <cstddef>
+
+#include "rholm/atlas.h"
+
+namespace rholm {
+
+// Points are worked on in whole vectors: arrays of them are padded to a multiple of this.
+inline constexpr std::size_t kPatchLanes = 8;
+inline constexpr std::size_t padded(std::size_t n) {
+  return (n + kPatchLanes - 1) / kPatchLanes * kPatchLanes;
+}
+
+// The harmonics of a patch: all up to degree 3, beyond those with l + m even. The even ones are
+// complete on a hemisphere, but slow where a function does not meet the equator at a right angle,
+// and a plane does not: a few odd ones take that part. (Measured on a paraboloid: the error of
+// degree 8 falls from 6e-3 to 2e-5 wavelengths.) Ordered by degree.
+inline constexpr int kPatchOdd = 3;
+constexpr std::size_t patch_basis(int degree) {
+  const auto d = static_cast<std::size_t>(degree + 1);
+  constexpr auto kOdd = static_cast<std::size_t>(kPatchOdd + 1);
+  return d <= kOdd ? d * d : d * (d + 1) / 2 + kOdd * (kOdd - 1) / 2;
+}
+
+// At n points (a multiple of kPatchLanes), given by their offsets from the cap's seed, offsets[axis
+// * n + i]: rows[i] is phi = |x - c| / R_0 - 1, rows[(1 + k) * n + i] the k-th harmonic, area[i]
+// the area on the opened sphere per area across the ray, in units of R_0^2. Points at the centre or
+// behind it give numbers without meaning, never NaN.
+void patch_rows(const CapFrame& frame, int degree, const double* offsets, std::size_t n,
+                double* rows, double* area);
+
+// The lower triangle of sum_i weight_i row_a(i) row_b(i) over `count` rows; matrix [count][count].
+// rows must be readable up to a multiple of four rows.
+void patch_gram(const double* rows, std::size_t count, const double* weights, std::size_t n,
+                double* matrix);
+
+// out_i = sum_k coefficients_k row_k(i).
+void patch_sum(const double* rows, const double* coefficients, std::size_t count, std::size_t n,
+               double* out);
+
+}  // namespace rholm

@@ -1,0 +1,348 @@
+#include "rholm/smooth.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "base/parallel.h"
+#include "edit/fading.h"
+#include "edit/local_mesh.h"
+#include "edit/patch_cover.h"
+#include "edit/patch_fit.h"
+#include "edit/patch_kernels.h"
+#include "rholm/error.h"
+
+namespace rholm {
+namespace {
+
+// Caps whose contributions are held at once.
+constexpr std::size_t kBatch = 64;
+// Points of a cap that are evaluated at once: their rows stay in the second-level cache.
+constexpr std::size_t kBlock = 256;
+// Waves shorter than this many edges are not in a mesh.
+constexpr double kFewestEdges = 2;
+// Degrees below this say where the surface is and how it curves, no detail.
+constexpr int kLowestDegree = 2;
+// Weights from here on are those of the region itself.
+constexpr double kInRegion = 1 - 1e-9;
+// Of a region that is bridged, on backs of folds.
+constexpr double kMayBeUnseen = 0.05;
+// A repair moves what is this near to what stands out, in wavelengths, and fades over the second
+// length: the flanks of a scratch stand out less than its middle.
+constexpr double kRepairCore = 0.25, kRepairReach = 0.25;
+// Squares of squares of coordinates are formed.
+constexpr double kLargest = 1e70;
+
+[[noreturn]] void refuse(const std::string& message) {
+  throw Error(ErrorCode::kInvalidInput, message);
+}
+
+constexpr auto kDegrees = static_cast<std::size_t>(kPatchDegree + 1);
+
+// The part of the mesh that is looked at.
+struct Site {
+  LocalMesh local;
+  std::vector<double> weights;        // of its points
+  std::vector<std::uint8_t> ignored;  // by the fits; empty if none
+};
+
+// What a cap says: for each point that it speaks for, its voice and where it wants the point to be
+// for each degree of the patch, relative to where it is.
+struct Speech {
+  std::vector<std::uint32_t> points;
+  std::vector<double> voices;
+  std::vector<Vec3> moves;  // [point][degree]
+  double forgotten = 0;
+};
+
+void speak(const Site& site, const PatchCap& cap, bool robust, PatchScratch& scratch,
+           Speech& speech) {
+  speech.points.clear();
+  speech.voices.clear();
+  const PatchFit fit = fit_patch_cap(site.local, cap, robust, site.ignored, scratch);
+  if (!fit.solved) return;
+  speech.forgotten = fit.forgotten;
+  for (std::size_t i = 0; i < cap.points.size(); ++i) {
+    if (!(cap.voices[i] > 0) || !(site.weights[cap.points[i]] > 0)) continue;
+    speech.points.push_back(cap.points[i]);
+    speech.voices.push_back(cap.voices[i]);
+  }
+  speech.moves.resize(speech.points.size() * kDegrees);
+  std::array<std::size_t, kDegrees> own;  // degrees of this cap with the same waves
+  for (std::size_t d = 0; d < kDegrees; ++d) {
+    own[d] = static_cast<std::size_t>(
+        std::min<long>(cap.degree, std::lround(static_cast<double>(d) * cap.size)));
+  }
+  std::vector<double> values((static_cast<std::size_t>(cap.degree) + 1) * kBlock);
+  for (std::size_t first = 0; first < speech.points.size(); first += kBlock) {
+    const std::size_t count = std::min(kBlock, speech.points.size() - first);
+    const std::span block(&speech.points[first], count);
+    evaluate_patch_cap(site.local, cap, fit, block, scratch, values.data(), kBlock);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec3& at = site.local.points[block[i]];
+      const Vec3 u = normalized(at - cap.frame.center);
+      for (std::size_t d = 0; d < kDegrees; ++d) {
+        const double r = cap.frame.radius * (1 + values[own[d] * kBlock + i]);
+        speech.moves[(first + i) * kDegrees + d] = cap.frame.center + r * u - at;
+      }
+    }
+  }
+}
+
+struct Blend {
+  std::vector<std::uint32_t> row;  // of each point: its place among those that may move
+  std::vector<double> voices;
+  std::vector<Vec3> moves;
+  std::vector<double> forgotten;
+};
+
+// Sums in the order of the caps, whatever the threads did.
+void add(const Speech& speech, Blend& blend) {
+  for (std::size_t i = 0; i < speech.points.size(); ++i) {
+    const std::size_t row = blend.row[speech.points[i]];
+    blend.voices[row] += speech.voices[i];
+    blend.forgotten[row] += speech.voices[i] * speech.forgotten;
+    for (std::size_t d = 0; d < kDegrees; ++d) {
+      blend.moves[row * kDegrees + d] += speech.voices[i] * speech.moves[i * kDegrees + d];
+    }
+  }
+}
+
+void divide(Blend& blend) {
+  for (std::size_t row = 0; row < blend.voices.size(); ++row) {
+    const double voice = blend.voices[row];
+    if (!(voice > 0)) continue;
+    blend.forgotten[row] /= voice;
+    for (std::size_t d = 0; d < kDegrees; ++d) {
+      blend.moves[row * kDegrees + d] = blend.moves[row * kDegrees + d] / voice;
+    }
+  }
+}
+
+Blend blend_caps(const Site& site, const std::vector<PatchCap>& caps, bool robust,
+                 const Context& context) {
+  Blend blend;
+  blend.row.resize(site.weights.size());
+  std::uint32_t rows = 0;
+  for (std::size_t i = 0; i < site.weights.size(); ++i) {
+    if (site.weights[i] > 0) blend.row[i] = rows++;
+  }
+  blend.voices.assign(rows, 0);
+  blend.forgotten.assign(rows, 0);
+  blend.moves.assign(rows * kDegrees, {});
+  std::vector<Speech> speeches(std::min(kBatch, caps.size()));
+  for (std::size_t first = 0; first < caps.size(); first += kBatch) {
+    const std::size_t count = std::min(kBatch, caps.size() - first);
+    const auto part = [&](std::size_t i) {
+      return static_cast<double>(i) / static_cast<double>(caps.size());
+    };
+    const ParallelStage stage{"fit caps", part(first), part(first + count)};
+    parallel_for(count, 4, context, stage, [&](std::size_t begin, std::size_t end) {
+      PatchScratch scratch;
+      for (std::size_t i = begin; i < end; ++i) {
+        speak(site, caps[first + i], robust, scratch, speeches[i]);
+      }
+    });
+    for (std::size_t i = 0; i < count; ++i) add(speeches[i], blend);
+  }
+  divide(blend);
+  return blend;
+}
+
+// Points that no cap sees, on the back of a fold, go where their neighbours go. Returns how many
+// there were.
+std::size_t follow_neighbours(const Site& site, Blend& blend) {
+  std::vector<std::uint32_t> open;
+  for (std::uint32_t i = 0; i < site.weights.size(); ++i) {
+    if (site.weights[i] > 0 && !(blend.voices[blend.row[i]] > 0)) open.push_back(i);
+  }
+  const std::size_t n_open = open.size();
+  for (std::size_t before = n_open + 1; !open.empty() && open.size() < before;) {
+    before = open.size();
+    std::erase_if(open, [&](std::uint32_t i) {
+      std::array<Vec3, kDegrees> sum{};
+      double count = 0;
+      for (const std::uint32_t t : site.local.triangles_at(i)) {
+        for (const std::uint32_t v : site.local.triangles[t]) {
+          if (!(site.weights[v] > 0) || !(blend.voices[blend.row[v]] > 0)) continue;
+          const Vec3* const moves = &blend.moves[blend.row[v] * kDegrees];
+          const Vec3 apart = site.local.points[v] - site.local.points[i];
+          for (std::size_t d = 0; d < kDegrees; ++d) sum[d] += apart + moves[d];
+          ++count;
+        }
+      }
+      if (count == 0) return false;
+      const std::size_t row = blend.row[i];
+      for (std::size_t d = 0; d < kDegrees; ++d) blend.moves[row * kDegrees + d] = sum[d] / count;
+      blend.voices[row] = 1;
+      return true;
+    });
+  }
+  return n_open;
+}
+
+// Weights fall to 0 away from what stands out of the fits.
+void keep_outstanding(const Blend& blend, double wavelength, Site& site) {
+  std::vector<double> distance(site.weights.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < distance.size(); ++i) {
+    if (!(site.weights[i] > 0)) continue;
+    const double off = norm(blend.moves[blend.row[i] * kDegrees + kPatchDegree]);
+    if (off > blend.forgotten[blend.row[i]]) distance[i] = 0;
+  }
+  const double reach = kRepairReach * wavelength;
+  march(site.local, kRepairCore * wavelength + reach, distance);
+  for (std::size_t i = 0; i < distance.size(); ++i) {
+    site.weights[i] *= fading((distance[i] - kRepairCore * wavelength) / reach);
+  }
+}
+
+Bounds bounds_of_weights(const Mesh& mesh, std::span<const double> weights) {
+  std::vector<Vec3> inside;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    if (weights[i] > 0) inside.push_back(mesh.vertices[i]);
+  }
+  return bounds(inside);
+}
+
+// The median length of edges at points that may move.
+double spacing_of(const LocalMesh& local, std::span<const double> weights) {
+  std::vector<double> lengths;
+  for (const Triangle& t : local.triangles) {
+    if (!(weights[t[0]] > 0)) continue;
+    lengths.push_back(norm(local.points[t[1]] - local.points[t[0]]));
+  }
+  if (lengths.empty()) return 0;
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  return *middle;
+}
+
+void check_mesh(const Mesh& mesh, double wavelength) {
+  validate(mesh);
+  if (!(wavelength > 0) || !std::isfinite(wavelength)) {
+    refuse(fmt::format("the wavelength must be positive, not {:g}", wavelength));
+  }
+  const Bounds box = bounds(mesh.vertices);
+  const double diagonal = box.diagonal();
+  if (!(diagonal < kLargest) || !(wavelength > 1 / kLargest)) {
+    refuse(fmt::format("lengths must be within {:g} ... {:g}; scale the shape", 1 / kLargest,
+                       kLargest));
+  }
+}
+
+Site make_site(const Mesh& mesh, std::span<const Region> regions, const PatchOptions& options) {
+  const double transition = options.transition < 0 ? options.wavelength : options.transition;
+  const std::vector<double> weights = region_weights(mesh, regions, transition);
+  Bounds box = bounds_of_weights(mesh, weights);
+  const double reach = kPatchRadius * options.wavelength;
+  box.min -= {reach, reach, reach};
+  box.max += {reach, reach, reach};
+  Site site;
+  site.local = cut_out(mesh, box);
+  site.weights.assign(site.local.points.size(), 0);
+  for (std::size_t i = 0; i < site.weights.size(); ++i) {
+    for (const std::uint32_t v : site.local.members_of(i)) {
+      site.weights[i] = std::max(site.weights[i], weights[v]);
+    }
+  }
+  const double spacing = spacing_of(site.local, site.weights);
+  if (options.wavelength < kFewestEdges * spacing) {
+    refuse(
+        fmt::format("a wavelength of {:g} is not in the mesh, whose edges are {:g} long in the "
+                    "region; take {:g} or more",
+                    options.wavelength, spacing, kFewestEdges * spacing));
+  }
+  if (options.fitting == PatchFitting::kAround) {
+    site.ignored.resize(site.weights.size());
+    for (std::size_t i = 0; i < site.weights.size(); ++i) {
+      site.ignored[i] = site.weights[i] >= kInRegion ? 1 : 0;
+    }
+  }
+  return site;
+}
+
+// A region that is left out of the fits must be narrow enough for caps that see both its sides.
+void check_bridged(const Site& site, std::size_t unseen, double wavelength) {
+  std::size_t inside = 0;
+  for (const std::uint8_t flag : site.ignored) inside += flag;
+  if (static_cast<double>(unseen) <= kMayBeUnseen * static_cast<double>(inside)) return;
+  if (site.ignored.empty()) return;
+  refuse(
+      fmt::format("the region is too wide to be bridged: {} of its {} vertices have too little "
+                  "around them; take a wavelength of twice the region's width, not {:g}",
+                  unseen, inside, wavelength));
+}
+
+}  // namespace
+
+Patch analyze_patch(const Mesh& mesh, std::span<const Region> regions, const PatchOptions& options,
+                    const Context& context) {
+  check_mesh(mesh, options.wavelength);
+  if (regions.empty()) refuse("there is no region to work on; give one");
+  Site site = make_site(mesh, regions, options);
+  const std::vector<PatchCap> caps = cover_patch(site.local, site.weights, options.wavelength);
+  const bool robust = options.fitting != PatchFitting::kMean || options.repair;
+  Blend blend = blend_caps(site, caps, robust, context);
+  const std::size_t unseen = follow_neighbours(site, blend);
+  check_bridged(site, unseen, options.wavelength);
+  if (options.repair) keep_outstanding(blend, options.wavelength, site);
+  Patch patch;
+  patch.wavelength = options.wavelength;
+  patch.degree = kPatchDegree;
+  patch.caps = caps.size();
+  for (std::size_t i = 0; i < site.weights.size(); ++i) {
+    if (!(site.weights[i] > 0)) continue;
+    const std::size_t row = blend.row[i];
+    for (const std::uint32_t v : site.local.members_of(i)) {
+      if (!(blend.voices[row] > 0)) {
+        ++patch.unreached;
+        continue;
+      }
+      patch.vertices.push_back(v);
+      patch.positions.push_back(mesh.vertices[v]);
+      patch.weights.push_back(site.weights[i]);
+      const Vec3* const moves = &blend.moves[row * kDegrees];
+      patch.moves.insert(patch.moves.end(), moves, moves + kDegrees);
+    }
+  }
+  return patch;
+}
+
+double longest_wavelength(const Patch& patch) {
+  return patch.wavelength * patch.degree / kLowestDegree;
+}
+
+std::vector<Vec3> update(const Patch& patch, const PatchUpdate& wanted) {
+  const double wavelength = wanted.wavelength == 0 ? patch.wavelength : wanted.wavelength;
+  if (!(wavelength >= patch.wavelength) || !(wavelength <= longest_wavelength(patch))) {
+    refuse(fmt::format("the patch was analysed for wavelengths {:g} ... {:g}, not {:g}",
+                       patch.wavelength, longest_wavelength(patch), wavelength));
+  }
+  if (!std::isfinite(wanted.strength)) refuse("the strength must be finite");
+  if (wanted.strength == 0) return patch.positions;
+  // Between two degrees the mean of their fits.
+  const double cut = patch.degree * patch.wavelength / wavelength;
+  const auto low = std::min(static_cast<std::size_t>(cut), static_cast<std::size_t>(patch.degree));
+  const double part = cut - static_cast<double>(low);
+  const std::size_t high = std::min(low + 1, static_cast<std::size_t>(patch.degree));
+  const auto n_degrees = static_cast<std::size_t>(patch.degree + 1);
+  std::vector<Vec3> moved(patch.vertices.size());
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    const Vec3* const moves = &patch.moves[i * n_degrees];
+    const Vec3 whole = (1 - part) * moves[low] + part * moves[high];
+    moved[i] = patch.positions[i] + wanted.strength * patch.weights[i] * whole;
+  }
+  return moved;
+}
+
+void apply(const Patch& patch, std::span<const Vec3> positions, Mesh& mesh) {
+  for (std::size_t i = 0; i < patch.vertices.size(); ++i) {
+    mesh.vertices[patch.vertices[i]] = positions[i];
+  }
+  update_normals(mesh, patch.vertices);
+}
+
+}  // namespace rholm
