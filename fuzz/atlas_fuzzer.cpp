@@ -1,0 +1,18 @@
+#include <cmath>
+
+#include "model/atlas_read.h"
+#include "rholm/error.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  try {
+    const rholm::AtlasModel model =
+        rholm::parse_atlas({reinterpret_cast<const char*>(data), size}, "fuzz");
+    for (const rholm::Cap& cap : model.atlas.caps) {
+      for (const double c : model.atlas.coefficients_of(cap)) {
+        if (!std::isfinite(c)) __builtin_trap();
+      }
+    }
+  } catch (const rholm::Error&) {
+  }
+  return 0;
+}
