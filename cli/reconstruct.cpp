@@ -12,6 +12,7 @@
 #include "cli/parse.h"
 #include "cli/report.h"
 #include "cli/session.h"
+#include "rholm/compress.h"
 #include "rholm/reconstruct.h"
 #include "rholm/topology.h"
 
@@ -27,6 +28,7 @@ struct Options {
   double min_component = 0.01;
   double max_memory = 8;
   bool keep_outliers = false;
+  std::string model;
   std::string output;
   std::string format;
   bool ascii = false;
@@ -149,12 +151,26 @@ int run(const Options& options, Session& session) {
     throw UsageError("a surface needs a format with faces: .ply, .obj, .off or .stl");
   if (options.noise != "auto") parse_noise(options.noise);
   check_writable(options.output);
+  if (!options.model.empty()) {
+    if (options.model == "-") throw UsageError("a model file is written in place: --model NAME.h5");
+    check_writable(options.model);
+  }
   PointCloud cloud = read_points(options.input, session);
   validate(cloud);
   const Bounds box = bounds(cloud.points);
   const ReconstructOptions wanted = library_options(options, box);
   const Reconstruction made = reconstruct(std::move(cloud), wanted, session.context());
   stop_if_interrupted();
+  if (!options.model.empty()) {
+    write_atlas({.atlas = made.atlas,
+                 .step = made.report.step,
+                 .tolerance = wanted.tolerance,
+                 .errors = {},
+                 .input_numbers = 3 * made.report.points,
+                 .unit = {},
+                 .method = "reconstruct"},
+                options.model);
+  }
   write_shape(made.mesh, options.output, {format, options.ascii}, session.context());
   if (options.json) {
     Json json;
@@ -209,6 +225,11 @@ std::vector<Option> option_list(Options& o) {
            .target = &o.max_memory,
            .min = 0.01,
            .max = 65536},
+          {.name = "model",
+           .value = "FILE",
+           .help = "write the caps to a model file, .h5, as well; rholm synthesize reads it",
+           .target = &o.model,
+           .offer = Offer::kAnyFile},
           output_option(o.output, "mesh to write: .ply, .obj, .off, .stl; - for standard output"),
           format_option(o.format, {"ply", "obj", "off", "stl"}),
           {.name = "ascii", .help = "PLY and STL as text", .target = &o.ascii},

@@ -140,6 +140,15 @@ class Reconstruct(CliTest):
                                                       code=3).err)
         self.assertNotIn("o.ply", self.files())
 
+    def test_the_surface_can_be_made_again_from_the_model_alone(self):
+        self.rholm("reconstruct", "p.xyz", "--model", "m.h5", "-o", "s.ply")
+        self.assertIn("atlas of caps", self.rholm("info", "m.h5").out)
+        self.rholm("synthesize", "m.h5", "-o", "again.ply")
+        # The file rounds coefficients to far less than the caps' own errors.
+        report = self.rholm("compare", "s.ply", "again.ply", "--json").json()
+        self.assertLess(report["relative"]["a_to_b"]["rms"], 1e-4)
+        self.rholm("reconstruct", "p.xyz", "--model", "-", "-o", "s.ply", code=2)
+
 
 if __name__ == "__main__":
     main()
