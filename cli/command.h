@@ -70,6 +70,7 @@ Command make_command();
 Command filter_command();
 Command rotate_command();
 Command align_command();
+Command smooth_command();
 Command orient_command();
 Command partition_command();
 Command reconstruct_command();

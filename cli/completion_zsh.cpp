@@ -32,8 +32,8 @@ std::string action(const Option& option) {
 // One specification of _arguments, quoted.
 std::string specification(const Option& option, int operand) {
   const std::string what = escaped(first_clause(option.help));
+  const bool many = std::holds_alternative<std::vector<std::string>*>(option.target);
   if (option.is_operand()) {
-    const bool many = std::holds_alternative<std::vector<std::string>*>(option.target);
     return fmt::format("'{}:{}:{}'", many ? "*" : fmt::format("{}", operand), escaped(option.name),
                        action(option));
   }
@@ -46,7 +46,8 @@ std::string specification(const Option& option, int operand) {
     return fmt::format("'(-{0} --{1})'{{-{0},--{1}}}'[{2}]{3}'", option.letter, option.name, what,
                        value);
   }
-  return fmt::format("'--{}{}[{}]{}'", option.name, option.is_switch() ? "" : "=", what, value);
+  return fmt::format("'{}--{}{}[{}]{}'", many ? "*" : "", option.name,
+                     option.is_switch() ? "" : "=", what, value);
 }
 
 std::string command_case(const Command& command) {

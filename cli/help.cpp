@@ -24,8 +24,8 @@ std::string usage_word(const Option& option) {
   std::string word = option.is_operand() ? option.name
                      : option.letter     ? fmt::format("-{}", option.letter)
                                          : "--" + option.name;
-  if (std::holds_alternative<std::vector<std::string>*>(option.target)) word += "...";
   if (!option.is_operand() && !option.is_switch()) word += " " + value_name(option);
+  if (std::holds_alternative<std::vector<std::string>*>(option.target)) word += "...";
   return option.required ? word : "[" + word + "]";
 }
 

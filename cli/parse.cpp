@@ -26,6 +26,9 @@ void add(CLI::App& app, const Option& option) {
           throw std::logic_error("option without a target: " + name);
         } else if constexpr (std::is_same_v<T, bool*>) {
           return app.add_flag(name, *target);
+        } else if constexpr (std::is_same_v<T, std::vector<std::string>*>) {
+          // An option that may come several times has one value each time.
+          return app.add_option(name, *target)->allow_extra_args(option.is_operand());
         } else {
           return app.add_option(name, *target);
         }

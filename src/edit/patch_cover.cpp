@@ -9,9 +9,10 @@
 namespace rholm {
 namespace {
 
-// The centre sees the support under this half angle, 3.7 supports below (method 7.2): close to
-// rays that are parallel, and the surface's own curvature is left to the harmonics.
-constexpr double kHalfAngle = 0.2618;  // 15 degrees
+// The centre is that of the sphere that the normals belong to, but not farther than 3.7 supports
+// below, which see 15 degrees of it (method 7.2): close to rays that are parallel. And not nearer
+// than 0.6: a hemisphere and a little more.
+constexpr double kFarthest = 3.7, kNearest = 0.6;
 // The support's rim on the opened sphere: the even harmonics are those of a hemisphere (method
 // 7.8), and need some room beyond the last points.
 constexpr double kOpened = 1.4835;  // 85 degrees
@@ -70,7 +71,8 @@ Vec3 axis_of(const LocalMesh& local, std::uint32_t seed, double radius,
 double make_cap(const LocalMesh& local, std::uint32_t seed, double radius,
                 std::span<const std::uint32_t> found, PatchCap& cap) {
   const Vec3 axis = axis_of(local, seed, radius, found);
-  cap.frame = cap_frame(local.points[seed], axis, radius, kHalfAngle, kOpened);
+  cap.frame = patch_frame({local.points, local.normals, local.areas, found}, local.points[seed],
+                          axis, radius);
   cap.points.clear();
   cap.voices.clear();
   double area = 0, good = 0;
@@ -89,6 +91,34 @@ double make_cap(const LocalMesh& local, std::uint32_t seed, double radius,
 }
 
 }  // namespace
+
+namespace {
+
+// The mean curvature of the sphere that the normals belong to, by least squares: n = axis + k o for
+// offsets o across the axis.
+double curvature_of(const PatchPoints& patch, const Vec3& seed, const Vec3& axis) {
+  double above = 0, below = 0;
+  for (const std::uint32_t v : patch.which) {
+    const Vec3 offset = patch.points[v] - seed;
+    const Vec3 across = offset - dot(offset, axis) * axis;
+    above += patch.areas[v] * dot(patch.normals[v], across);
+    below += patch.areas[v] * dot(across, across);
+  }
+  return below > 0 ? above / below : 0;
+}
+
+}  // namespace
+
+CapFrame patch_frame(const PatchPoints& patch, const Vec3& seed, const Vec3& axis, double radius) {
+  const double bend = radius * curvature_of(patch, seed, axis);
+  const double depth = std::clamp(bend > 0 ? 1 / bend : kFarthest, kNearest, kFarthest);
+  // The angle of the support, a chord, at that centre.
+  const double half_angle = 2 * std::asin(std::min(1.0, 0.5 / depth));
+  CapFrame frame = cap_frame(seed, axis, radius, half_angle, kOpened);
+  frame.radius = depth * radius;
+  frame.center = seed - frame.radius * frame.z;
+  return frame;
+}
 
 std::vector<PatchCap> cover_patch(const LocalMesh& local, std::span<const double> weights,
                                   double wavelength) {

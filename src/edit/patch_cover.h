@@ -19,6 +19,16 @@ struct PatchCap {
   std::vector<double> voices;         // of each point: weight of the cap in the blend
 };
 
+// Points of a surface: some of them, with normals and areas.
+struct PatchPoints {
+  std::span<const Vec3> points, normals;
+  std::span<const double> areas;
+  std::span<const std::uint32_t> which;
+};
+// The frame of a cap over them: its centre is that of the sphere that the normals belong to, within
+// limits. `seed` lies on the axis.
+CapFrame patch_frame(const PatchPoints& patch, const Vec3& seed, const Vec3& axis, double radius);
+
 // A cap's size and degree for a wavelength: its radius in wavelengths, and the degree whose waves
 // are that long half way to its rim.
 inline constexpr double kPatchRadius = 2;

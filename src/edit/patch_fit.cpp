@@ -23,6 +23,9 @@ constexpr double kPointsForWeights = 6;
 constexpr double kPointsPerCoefficient = 24;
 // Of (l (l + 1))^2 against the weights: only where points leave a fit undetermined it matters.
 constexpr double kPenalty = 1e-8;
+// With fewer points around it than this, a region is not bridged but guessed. Half a wavelength
+// across a cap is a sixth, and a third where caps had to shrink.
+constexpr double kMostIgnored = 0.45;
 // A pivot that has lost so many digits is none.
 constexpr double kLeastPivot = 1e-12;
 constexpr int kFirstDegree = 2, kDegreeStep = 2, kConvex = 3;
@@ -239,6 +242,11 @@ bool solve_robustly(const LocalMesh& local, const PatchCap& cap,
 PatchFit fit_patch_cap(const LocalMesh& local, const PatchCap& cap, bool robust,
                        std::span<const std::uint8_t> ignored, PatchScratch& scratch) {
   PatchFit fit;
+  const auto count = std::count_if(cap.points.begin(), cap.points.end(), [&](std::uint32_t v) {
+    return !ignored.empty() && ignored[v] != 0;
+  });
+  const double share = static_cast<double>(count) / static_cast<double>(cap.points.size());
+  if (share > kMostIgnored) return fit;
   const std::size_t n = patch_basis(cap.degree);
   double forgotten = 0;
   if (robust && !solve_robustly(local, cap, ignored, scratch, forgotten)) return fit;

@@ -1,27 +1,19 @@
 #include "rholm/smooth.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
 
-#include "base/parallel.h"
 #include "edit/fading.h"
 #include "edit/local_mesh.h"
-#include "edit/patch_cover.h"
-#include "edit/patch_fit.h"
-#include "edit/patch_kernels.h"
+#include "edit/patch_blend.h"
 #include "rholm/error.h"
 
 namespace rholm {
 namespace {
 
-// Caps whose contributions are held at once.
-constexpr std::size_t kBatch = 64;
-// Points of a cap that are evaluated at once: their rows stay in the second-level cache.
-constexpr std::size_t kBlock = 256;
 // Waves shorter than this many edges are not in a mesh.
 constexpr double kFewestEdges = 2;
 // Degrees below this say where the surface is and how it curves, no detail.
@@ -29,10 +21,11 @@ constexpr int kLowestDegree = 2;
 // Weights from here on are those of the region itself.
 constexpr double kInRegion = 1 - 1e-9;
 // Of a region that is bridged, on backs of folds.
-constexpr double kMayBeUnseen = 0.05;
+constexpr double kMayBeUnseen = 0.2;
 // A repair moves what is this near to what stands out, in wavelengths, and fades over the second
 // length: the flanks of a scratch stand out less than its middle.
 constexpr double kRepairCore = 0.25, kRepairReach = 0.25;
+constexpr double kRounding = 1e-6;
 // Squares of squares of coordinates are formed.
 constexpr double kLargest = 1e70;
 
@@ -40,157 +33,15 @@ constexpr double kLargest = 1e70;
   throw Error(ErrorCode::kInvalidInput, message);
 }
 
-constexpr auto kDegrees = static_cast<std::size_t>(kPatchDegree + 1);
-
-// The part of the mesh that is looked at.
-struct Site {
-  LocalMesh local;
-  std::vector<double> weights;        // of its points
-  std::vector<std::uint8_t> ignored;  // by the fits; empty if none
-};
-
-// What a cap says: for each point that it speaks for, its voice and where it wants the point to be
-// for each degree of the patch, relative to where it is.
-struct Speech {
-  std::vector<std::uint32_t> points;
-  std::vector<double> voices;
-  std::vector<Vec3> moves;  // [point][degree]
-  double forgotten = 0;
-};
-
-void speak(const Site& site, const PatchCap& cap, bool robust, PatchScratch& scratch,
-           Speech& speech) {
-  speech.points.clear();
-  speech.voices.clear();
-  const PatchFit fit = fit_patch_cap(site.local, cap, robust, site.ignored, scratch);
-  if (!fit.solved) return;
-  speech.forgotten = fit.forgotten;
-  for (std::size_t i = 0; i < cap.points.size(); ++i) {
-    if (!(cap.voices[i] > 0) || !(site.weights[cap.points[i]] > 0)) continue;
-    speech.points.push_back(cap.points[i]);
-    speech.voices.push_back(cap.voices[i]);
-  }
-  speech.moves.resize(speech.points.size() * kDegrees);
-  std::array<std::size_t, kDegrees> own;  // degrees of this cap with the same waves
-  for (std::size_t d = 0; d < kDegrees; ++d) {
-    own[d] = static_cast<std::size_t>(
-        std::min<long>(cap.degree, std::lround(static_cast<double>(d) * cap.size)));
-  }
-  std::vector<double> values((static_cast<std::size_t>(cap.degree) + 1) * kBlock);
-  for (std::size_t first = 0; first < speech.points.size(); first += kBlock) {
-    const std::size_t count = std::min(kBlock, speech.points.size() - first);
-    const std::span block(&speech.points[first], count);
-    evaluate_patch_cap(site.local, cap, fit, block, scratch, values.data(), kBlock);
-    for (std::size_t i = 0; i < count; ++i) {
-      const Vec3& at = site.local.points[block[i]];
-      const Vec3 u = normalized(at - cap.frame.center);
-      for (std::size_t d = 0; d < kDegrees; ++d) {
-        const double r = cap.frame.radius * (1 + values[own[d] * kBlock + i]);
-        speech.moves[(first + i) * kDegrees + d] = cap.frame.center + r * u - at;
-      }
-    }
-  }
-}
-
-struct Blend {
-  std::vector<std::uint32_t> row;  // of each point: its place among those that may move
-  std::vector<double> voices;
-  std::vector<Vec3> moves;
-  std::vector<double> forgotten;
-};
-
-// Sums in the order of the caps, whatever the threads did.
-void add(const Speech& speech, Blend& blend) {
-  for (std::size_t i = 0; i < speech.points.size(); ++i) {
-    const std::size_t row = blend.row[speech.points[i]];
-    blend.voices[row] += speech.voices[i];
-    blend.forgotten[row] += speech.voices[i] * speech.forgotten;
-    for (std::size_t d = 0; d < kDegrees; ++d) {
-      blend.moves[row * kDegrees + d] += speech.voices[i] * speech.moves[i * kDegrees + d];
-    }
-  }
-}
-
-void divide(Blend& blend) {
-  for (std::size_t row = 0; row < blend.voices.size(); ++row) {
-    const double voice = blend.voices[row];
-    if (!(voice > 0)) continue;
-    blend.forgotten[row] /= voice;
-    for (std::size_t d = 0; d < kDegrees; ++d) {
-      blend.moves[row * kDegrees + d] = blend.moves[row * kDegrees + d] / voice;
-    }
-  }
-}
-
-Blend blend_caps(const Site& site, const std::vector<PatchCap>& caps, bool robust,
-                 const Context& context) {
-  Blend blend;
-  blend.row.resize(site.weights.size());
-  std::uint32_t rows = 0;
-  for (std::size_t i = 0; i < site.weights.size(); ++i) {
-    if (site.weights[i] > 0) blend.row[i] = rows++;
-  }
-  blend.voices.assign(rows, 0);
-  blend.forgotten.assign(rows, 0);
-  blend.moves.assign(rows * kDegrees, {});
-  std::vector<Speech> speeches(std::min(kBatch, caps.size()));
-  for (std::size_t first = 0; first < caps.size(); first += kBatch) {
-    const std::size_t count = std::min(kBatch, caps.size() - first);
-    const auto part = [&](std::size_t i) {
-      return static_cast<double>(i) / static_cast<double>(caps.size());
-    };
-    const ParallelStage stage{"fit caps", part(first), part(first + count)};
-    parallel_for(count, 4, context, stage, [&](std::size_t begin, std::size_t end) {
-      PatchScratch scratch;
-      for (std::size_t i = begin; i < end; ++i) {
-        speak(site, caps[first + i], robust, scratch, speeches[i]);
-      }
-    });
-    for (std::size_t i = 0; i < count; ++i) add(speeches[i], blend);
-  }
-  divide(blend);
-  return blend;
-}
-
-// Points that no cap sees, on the back of a fold, go where their neighbours go. Returns how many
-// there were.
-std::size_t follow_neighbours(const Site& site, Blend& blend) {
-  std::vector<std::uint32_t> open;
-  for (std::uint32_t i = 0; i < site.weights.size(); ++i) {
-    if (site.weights[i] > 0 && !(blend.voices[blend.row[i]] > 0)) open.push_back(i);
-  }
-  const std::size_t n_open = open.size();
-  for (std::size_t before = n_open + 1; !open.empty() && open.size() < before;) {
-    before = open.size();
-    std::erase_if(open, [&](std::uint32_t i) {
-      std::array<Vec3, kDegrees> sum{};
-      double count = 0;
-      for (const std::uint32_t t : site.local.triangles_at(i)) {
-        for (const std::uint32_t v : site.local.triangles[t]) {
-          if (!(site.weights[v] > 0) || !(blend.voices[blend.row[v]] > 0)) continue;
-          const Vec3* const moves = &blend.moves[blend.row[v] * kDegrees];
-          const Vec3 apart = site.local.points[v] - site.local.points[i];
-          for (std::size_t d = 0; d < kDegrees; ++d) sum[d] += apart + moves[d];
-          ++count;
-        }
-      }
-      if (count == 0) return false;
-      const std::size_t row = blend.row[i];
-      for (std::size_t d = 0; d < kDegrees; ++d) blend.moves[row * kDegrees + d] = sum[d] / count;
-      blend.voices[row] = 1;
-      return true;
-    });
-  }
-  return n_open;
-}
-
 // Weights fall to 0 away from what stands out of the fits.
 void keep_outstanding(const Blend& blend, double wavelength, Site& site) {
   std::vector<double> distance(site.weights.size(), std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < distance.size(); ++i) {
     if (!(site.weights[i] > 0)) continue;
-    const double off = norm(blend.moves[blend.row[i] * kDegrees + kPatchDegree]);
-    if (off > blend.forgotten[blend.row[i]]) distance[i] = 0;
+    const double off = norm(blend.moves[blend.row[i] * kPatchDegrees + kPatchDegree]);
+    // Fits that are exact have forgotten nothing, but rounding.
+    const double enough = std::max(blend.forgotten[blend.row[i]], kRounding * wavelength);
+    if (off > enough) distance[i] = 0;
   }
   const double reach = kRepairReach * wavelength;
   march(site.local, kRepairCore * wavelength + reach, distance);
@@ -227,7 +78,7 @@ void check_mesh(const Mesh& mesh, double wavelength) {
   }
   const Bounds box = bounds(mesh.vertices);
   const double diagonal = box.diagonal();
-  if (!(diagonal < kLargest) || !(wavelength > 1 / kLargest)) {
+  if (!(diagonal < kLargest) || !(wavelength > 1 / kLargest) || !(wavelength < kLargest)) {
     refuse(fmt::format("lengths must be within {:g} ... {:g}; scale the shape", 1 / kLargest,
                        kLargest));
   }
@@ -304,8 +155,8 @@ Patch analyze_patch(const Mesh& mesh, std::span<const Region> regions, const Pat
       patch.vertices.push_back(v);
       patch.positions.push_back(mesh.vertices[v]);
       patch.weights.push_back(site.weights[i]);
-      const Vec3* const moves = &blend.moves[row * kDegrees];
-      patch.moves.insert(patch.moves.end(), moves, moves + kDegrees);
+      const Vec3* const moves = &blend.moves[row * kPatchDegrees];
+      patch.moves.insert(patch.moves.end(), moves, moves + kPatchDegrees);
     }
   }
   return patch;

@@ -171,6 +171,13 @@ class Degenerate(CliTest):
                 self.check(sampled, "make", "sample", name, "--points", "50", output="out.ply")
                 self.check(codes | EITHER, "orient", name, output="out.xyz")
 
+    def test_smooth(self):
+        for name in SHAPES:
+            for region in ("ball:0,0,0,3", "vertex:0,1"):
+                with self.subTest(f"{name} {region}"):
+                    self.check(EITHER, "smooth", name, "--region", region, "--wavelength", "2",
+                               output="out.ply")
+
     def test_reconstruct(self):
         # None has points enough.
         for name in SHAPES:

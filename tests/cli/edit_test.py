@@ -1,0 +1,86 @@
+"""Edits of regions: smooth."""
+
+import os
+import struct
+import sys
+
+sys.path.insert(0, os.path.dirname(__file__))
+from harness import CliTest, main
+
+
+def vertices(path):
+    """Bytes of each vertex of a binary PLY of meshes without attributes."""
+    data = path.read_bytes()
+    end = data.index(b"end_header\n") + len(b"end_header\n")
+    header = data[:end].decode()
+    size = struct.calcsize("3d" if "property double x" in header else "3f")
+    n = int(header.split("element vertex ")[1].split()[0])
+    return [data[end + i * size:end + (i + 1) * size] for i in range(n)]
+
+
+class Smooth(CliTest):
+    def setUp(self):
+        super().setUp()
+        self.rholm("make", "bumpy", "-o", "a.ply")
+        self.region = ["--region", "ball:0,0,1,0.3", "--wavelength", "0.3"]
+
+    def test_only_the_region_and_its_transition_change(self):
+        report = self.rholm("smooth", "a.ply", *self.region, "-o", "b.ply", "--json").json()
+        before, after = vertices(self.folder / "a.ply"), vertices(self.folder / "b.ply")
+        changed = [i for i, (x, y) in enumerate(zip(before, after)) if x != y]
+        self.assertEqual(len(before), len(after))
+        self.assertTrue(0 < len(changed) <= report["vertices"] < len(before) / 2)
+        form = "3d" if len(before[0]) == 24 else "3f"
+        for i in changed:  # ball and transition
+            x, y, z = struct.unpack("<" + form, before[i])
+            self.assertLess(x * x + y * y + (z - 1) ** 2, 0.6001 ** 2)
+
+    def test_strength_zero_changes_nothing(self):
+        self.rholm("smooth", "a.ply", *self.region, "--strength", "0", "-o", "b.ply")
+        self.assertEqual((self.folder / "a.ply").read_bytes(),
+                         (self.folder / "b.ply").read_bytes())
+
+    def test_a_painted_scratch_is_bridged(self):
+        # A spike of one vertex, painted red.
+        self.rholm("make", "sphere", "--ascii", "-o", "s.ply")
+        lines = (self.folder / "s.ply").read_text().splitlines()
+        start = lines.index("end_header") + 1
+        n = int(next(x for x in lines if x.startswith("element vertex")).split()[2])
+        z = next(i for i, x in enumerate(lines) if x.startswith("property") and x.endswith(" z"))
+        lines[z:z + 1] = [lines[z], *(f"property uchar {c}" for c in ("red", "green", "blue"))]
+        start += 3
+        for i in range(n):
+            spike = i == 100
+            xyz = [float(x) * (1.1 if spike else 1) for x in lines[start + i].split()]
+            lines[start + i] = " ".join(map(repr, xyz)) + (" 255 0 0" if spike else " 9 9 9")
+        self.write("spike.ply", "\n".join(lines) + "\n")
+        self.rholm("make", "sphere", "-o", "s.ply")
+        for words in (["--region", "color:ff0000", "--fit", "around"],
+                      ["--region", "vertex:100,0.3", "--repair"]):
+            self.rholm("smooth", "spike.ply", *words, "--wavelength", "0.3", "-o", "mended.ply")
+            compared = self.rholm("compare", "mended.ply", "s.ply", "--json").json()
+            self.assertLess(compared["hausdorff"], 2e-3)  # facets of the sphere are 6e-4 deep
+
+    def test_threads_do_not_change_a_byte(self):
+        for threads in (1, 2):
+            self.rholm("smooth", "a.ply", *self.region, "--threads", threads, "-o",
+                       f"{threads}.ply")
+        self.assertEqual((self.folder / "1.ply").read_bytes(), (self.folder / "2.ply").read_bytes())
+
+    def test_what_is_wrong_is_said(self):
+        for words, code, saying in (
+                (["--region", "cone:1", "--wavelength", "1"], 2, "--region"),
+                (["--wavelength", "1"], 2, "--region"),
+                (["--region", "ball:0,0,1,1"], 2, "--wavelength"),
+                (["--region", "ball:0,0,9,1", "--wavelength", "1"], 3, "nearest"),
+                (["--region", "ball:0,0,1,1", "--wavelength", "1e-3"], 3, "wavelength"),
+                (["--region", "property:w", "--wavelength", "1"], 3, "'w'"),
+                ([*self.region, "--fit", "mean", "--repair"], 2, "--repair"),
+                ([*self.region, "--format", "xyz"], 2, "--format")):
+            result = self.rholm("smooth", "a.ply", *words, "-o", "b.ply", code=code)
+            self.assertIn(saying, result.err)
+            self.assertFalse((self.folder / "b.ply").exists())
+
+
+if __name__ == "__main__":
+    main()

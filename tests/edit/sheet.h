@@ -1,0 +1,40 @@
+// Sheets for tests of edits: a triangular grid over the plane, lifted by a function.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "rholm/mesh.h"
+
+namespace rholm::test {
+
+// Equilateral triangles of side h, n x n of their squares' worth, the middle at the origin.
+template <class Height>
+Mesh sheet(int n, double h, const Height& height) {
+  Mesh mesh;
+  for (int i = 0; i <= n; ++i) {
+    for (int j = 0; j <= n; ++j) {
+      const double x = (j - n / 2 + 0.5 * (i % 2)) * h, y = (i - n / 2) * h * std::sqrt(0.75);
+      mesh.vertices.push_back({x, y, height(x, y)});
+    }
+  }
+  const auto at = [&](int i, int j) { return static_cast<std::uint32_t>(i * (n + 1) + j); };
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      if (i % 2 == 0) {
+        mesh.triangles.push_back({at(i, j), at(i, j + 1), at(i + 1, j)});
+        mesh.triangles.push_back({at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)});
+      } else {
+        mesh.triangles.push_back({at(i, j), at(i, j + 1), at(i + 1, j + 1)});
+        mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i + 1, j)});
+      }
+    }
+  }
+  return mesh;
+}
+
+inline Mesh sheet(int n, double h) {
+  return sheet(n, h, [](double, double) { return 0.0; });
+}
+
+}  // namespace rholm::test
