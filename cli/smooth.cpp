@@ -162,9 +162,9 @@ Command smooth_command() {
                   "theirs.\n\n") +
               kRegionHelp,
           .options = option_list(*options),
-          .examples = {"rholm smooth shape.ply --region ball:0,0,1,0.4 --wavelength 0.3 "
+          .examples = {"rholm smooth bumpy.ply --region ball:0,0,1,0.4 --wavelength 0.3 "
                        "-o smooth.ply",
-                       "rholm smooth shape.ply --region vertex:7,0.3 --wavelength 0.25 --repair "
+                       "rholm smooth bumpy.ply --region vertex:7,0.3 --wavelength 0.25 --repair "
                        "--json -o repaired.ply"},
           .run = [options](Session& session) { return run(*options, session); }};
 }

@@ -37,6 +37,9 @@ constexpr double kFadeFrom = 1.3;
 constexpr double kFadeTo = 1.8;
 // The winding number is sure of its side if it differs from 1/2 by more (method 7.10).
 constexpr double kSure = 0.3;
+// Where it is unsure its bounds are this many times as far as its own values, beyond a step: they
+// must not cut values next to the surface, from which its place is interpolated.
+constexpr double kBoundSlope = 2;
 // A slope of less is a saddle's or an extremum's: no distance follows from it.
 constexpr double kLeastSlope = 0.05;
 // Fills are cut off at so many steps: a distance beyond means nothing.
@@ -170,8 +173,8 @@ double fill_value(const Fill& fill, const Vec3& x, double winding, double step) 
   const double s = std::clamp(distance, -kLargestSteps * step, kLargestSteps * step);
   // Never inside where the winding number is sure of outside, nor the other way round: bounds that
   // cross zero where it becomes sure, so that the surface is as smooth there as the number.
-  const double outside = winding_value(winding + kSure, step);
-  const double inside = winding_value(winding - kSure, step);
+  const double outside = kBoundSlope * winding_value(winding + kSure, step);
+  const double inside = kBoundSlope * winding_value(winding - kSure, step);
   const double bounded = std::min(std::max(s, outside), inside);
   return share * bounded + (1 - share) * by_winding;
 }
