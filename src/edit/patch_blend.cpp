@@ -114,13 +114,12 @@ Blend blend_caps(const Site& site, const std::vector<PatchCap>& caps, bool robus
   return blend;
 }
 
-std::size_t follow_neighbours(const Site& site, Blend& blend) {
+void follow_neighbours(const Site& site, Blend& blend) {
   std::vector<std::uint32_t> open;
   for (std::uint32_t i = 0; i < site.weights.size(); ++i) {
     if (site.weights[i] > 0 && !(blend.voices[blend.row[i]] > 0)) open.push_back(i);
   }
-  const std::size_t n_open = open.size();
-  for (std::size_t before = n_open + 1; !open.empty() && open.size() < before;) {
+  for (std::size_t before = open.size() + 1; !open.empty() && open.size() < before;) {
     before = open.size();
     std::erase_if(open, [&](std::uint32_t i) {
       std::array<Vec3, kPatchDegrees> sum{};
@@ -142,7 +141,6 @@ std::size_t follow_neighbours(const Site& site, Blend& blend) {
       return true;
     });
   }
-  return n_open;
 }
 
 }  // namespace rholm

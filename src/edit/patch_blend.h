@@ -31,8 +31,7 @@ struct Blend {
 Blend blend_caps(const Site& site, const std::vector<PatchCap>& caps, bool robust,
                  const Context& context);
 
-// Points that no cap sees, on the back of a fold, go where their neighbours go. Returns how many
-// there were.
-std::size_t follow_neighbours(const Site& site, Blend& blend);
+// Points that no cap sees, on the back of a fold, go where their neighbours go.
+void follow_neighbours(const Site& site, Blend& blend);
 
 }  // namespace rholm

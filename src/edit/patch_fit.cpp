@@ -18,9 +18,10 @@ namespace rholm {
 namespace {
 
 // Points per coefficient: of the fits that only tell what stands out, and of the last, which
-// averages over what is left. Every cap draws its own.
+// averages over what is left: what n of them leave of finer detail is 1 / sqrt(n) of it, half of
+// that where caps overlap. Every cap draws its own.
 constexpr double kPointsForWeights = 6;
-constexpr double kPointsPerCoefficient = 24;
+constexpr double kPointsPerCoefficient = 400;
 // Of (l (l + 1))^2 against the weights: only where points leave a fit undetermined it matters.
 constexpr double kPenalty = 1e-8;
 // With fewer points around it than this, a region is not bridged but guessed. Half a wavelength

@@ -20,8 +20,9 @@ constexpr double kFewestEdges = 2;
 constexpr int kLowestDegree = 2;
 // Weights from here on are those of the region itself.
 constexpr double kInRegion = 1 - 1e-9;
-// Of a region that is bridged, on backs of folds.
-constexpr double kMayBeUnseen = 0.2;
+// A region that is bridged, in wavelengths: beyond the half that is advised, where fits begin to be
+// free in the middle.
+constexpr double kWidestBridge = 0.8;
 // A repair moves what is this near to what stands out, in wavelengths, and fades over the second
 // length: the flanks of a scratch stand out less than its middle.
 constexpr double kRepairCore = 0.25, kRepairReach = 0.25;
@@ -115,16 +116,20 @@ Site make_site(const Mesh& mesh, std::span<const Region> regions, const PatchOpt
   return site;
 }
 
-// A region that is left out of the fits must be narrow enough for caps that see both its sides.
-void check_bridged(const Site& site, std::size_t unseen, double wavelength) {
-  std::size_t inside = 0;
-  for (const std::uint8_t flag : site.ignored) inside += flag;
-  if (static_cast<double>(unseen) <= kMayBeUnseen * static_cast<double>(inside)) return;
+// A region that is left out of the fits must be narrow enough for waves to span it.
+void check_bridged(const Site& site, double wavelength) {
   if (site.ignored.empty()) return;
-  refuse(
-      fmt::format("the region is too wide to be bridged: {} of its {} vertices have too little "
-                  "around them; take a wavelength of twice the region's width, not {:g}",
-                  unseen, inside, wavelength));
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  std::vector<double> inwards(site.ignored.size());
+  for (std::size_t i = 0; i < inwards.size(); ++i) inwards[i] = site.ignored[i] ? kInfinity : 0;
+  march(site.local, kLargest, inwards);
+  const double widest = 2 * *std::max_element(inwards.begin(), inwards.end());
+  if (widest <= kWidestBridge * wavelength) return;
+  refuse(widest < kInfinity
+             ? fmt::format("the region is {:g} wide, too wide to be bridged by waves of {:g}; take "
+                           "a wavelength of {:g} or more",
+                           widest, wavelength, widest / kWidestBridge)
+             : std::string("a part of the region has nothing around it that could be bridged"));
 }
 
 }  // namespace
@@ -134,11 +139,11 @@ Patch analyze_patch(const Mesh& mesh, std::span<const Region> regions, const Pat
   check_mesh(mesh, options.wavelength);
   if (regions.empty()) refuse("there is no region to work on; give one");
   Site site = make_site(mesh, regions, options);
+  check_bridged(site, options.wavelength);
   const std::vector<PatchCap> caps = cover_patch(site.local, site.weights, options.wavelength);
   const bool robust = options.fitting != PatchFitting::kMean || options.repair;
   Blend blend = blend_caps(site, caps, robust, context);
-  const std::size_t unseen = follow_neighbours(site, blend);
-  check_bridged(site, unseen, options.wavelength);
+  follow_neighbours(site, blend);
   if (options.repair) keep_outstanding(blend, options.wavelength, site);
   Patch patch;
   patch.wavelength = options.wavelength;
