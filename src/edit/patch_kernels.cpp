@@ -15,9 +15,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<double, kPatchLanes>;
 using V = hn::Vec<D>;
 
-// Odd harmonics, which come before the even ones of higher degrees.
-constexpr std::size_t kMore = patch_basis(kPatchOdd) - even_index(kPatchOdd + 1, 0);
-
 // Directions this close to the one opposite the axis, where the plane ends, are taken as there.
 constexpr double kLowest = 1e-3;
 
@@ -53,10 +50,8 @@ void Rows(const CapFrame& frame, int degree, const double* offsets, std::size_t 
     VisitLowHarmonics(
         d, degree, at, [&](int, V b0, V b1, V, V) HWY_ATTR { re = b0, im = b1; },
         [&](int l, int m, V p, V) HWY_ATTR {
-          const bool whole = l <= kPatchOdd;
-          if (!whole && ((l + m) & 1) != 0) return;
-          const std::size_t index = whole ? low_index(l, m) : even_index(l, m) + kMore;
-          double* const row = rows + (1 + index) * n + i;
+          if (!in_patch_basis(l, m)) return;
+          double* const row = rows + (1 + patch_index(l, m)) * n + i;
           hn::StoreU(hn::Mul(p, re), d, row);
           if (m > 0) hn::StoreU(hn::Mul(p, im), d, row + n);
         });

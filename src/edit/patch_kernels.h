@@ -3,6 +3,7 @@
 
 #include <cstddef>
 
+#include "harmonic/low_harmonics.h"
 #include "rholm/atlas.h"
 
 namespace rholm {
@@ -22,6 +23,23 @@ constexpr std::size_t patch_basis(int degree) {
   const auto d = static_cast<std::size_t>(degree + 1);
   constexpr auto kOdd = static_cast<std::size_t>(kPatchOdd + 1);
   return d <= kOdd ? d * d : d * (d + 1) / 2 + kOdd * (kOdd - 1) / 2;
+}
+
+// The place of the cosine of (l, m) among them; its sine is the next.
+constexpr std::size_t patch_index(int l, int m) {
+  return l <= kPatchOdd ? low_index(l, m)
+                        : even_index(l, m) + patch_basis(kPatchOdd) - even_index(kPatchOdd + 1, 0);
+}
+constexpr bool in_patch_basis(int l, int m) { return l <= kPatchOdd || ((l + m) & 1) == 0; }
+
+// Calls visit(l, m, index) for each.
+template <class Visit>
+void for_each_patch_harmonic(int degree, const Visit& visit) {
+  for (int l = 0; l <= degree; ++l) {
+    for (int m = 0; m <= l; ++m) {
+      if (in_patch_basis(l, m)) visit(l, m, patch_index(l, m));
+    }
+  }
 }
 
 // At n points (a multiple of kPatchLanes), given by their offsets from the cap's seed, offsets[axis

@@ -1,0 +1,95 @@
+// Geometric texture: the detail of a patch of one surface laid on a patch of another. Layer: edit.
+//
+// Each patch is a smooth base, what harmonics up to a degree of a cap over it can follow, and the
+// detail on it, a height along the base's normal. Heights are carried from chart to chart (angle
+// from the patch's axis and azimuth, as seen from the centre of its sphere), turned by the azimuth
+// at which they are most like the target's own detail, scaled, faded in the target's transition.
+// As with smoothing the analysis is separate from the update of the vertices.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "rholm/context.h"
+#include "rholm/mesh.h"
+#include "rholm/region.h"
+#include "rholm/smooth.h"
+
+namespace rholm {
+
+enum class TransferMode : std::uint8_t {
+  kDisplacement,  // along the target's base normals
+  kCoefficients   // the coefficients above from_degree of one cap are put into the other's, raw:
+                  // frame and size come along and the rim of the cap is a step. For comparison
+};
+
+inline constexpr int kMaxTransferDegree = 64;  // from_degree of kDisplacement
+inline constexpr int kMaxSwapDegree = 24;      // degree of a cap with kCoefficients
+
+struct TransferOptions {
+  // The texture is what harmonics up to this degree on a cap over the source region leave:
+  // wavelengths below 4 radii / from_degree. 2 ... kMaxTransferDegree.
+  int from_degree = 8;
+  // Lengths on the target by lengths on the source, in units of the regions' radii: 1 lays one
+  // region on the other. > 0.
+  double scale = 1;
+  // Splits the target's edges until they are as short as the source's are there. Coinciding
+  // vertices become one, and new ones come after the old.
+  bool refine = false;
+  double transition = -1;  // of the target region; by default the wavelength of its base
+};
+
+// What a slider moves.
+struct TransferUpdate {
+  double height = 1;  // of the texture, times what `scale` makes of it
+  // Radians, counter-clockwise seen from outside; at 0 the texture lies as the shortest turn
+  // between the patches' axes lays it. By default where it is most like the target's own detail.
+  std::optional<double> angle = {};
+  // Where the texture is smaller than the target region it is laid again, side by side with
+  // neighbours fading into one another.
+  bool repeat = false;
+  bool remove_own = false;  // the target's own detail of the same wavelengths goes first
+  TransferMode mode = TransferMode::kDisplacement;
+};
+
+struct TransferReport {
+  double source_radius = 0, target_radius = 0;  // of discs with the areas of the bases
+  double scale = 1;                             // lengths on the target per length on the source
+  double source_wavelength = 0;                 // of the bases
+  double target_wavelength = 0;
+  double source_edge = 0, target_edge = 0;  // mean lengths, the target's after refinement
+  double source_rms = 0;                    // height of the texture in its region
+  double angle = 0;                         // of best correlation, radians
+  double correlation = 0;                   // with the target's own detail there, -1 ... 1
+  std::size_t new_vertices = 0;             // by refinement
+};
+
+// What an analysis knows.
+struct TransferState;
+struct TransferAnalysis {
+  Mesh mesh;    // the target, refined if that was wanted
+  Patch patch;  // the vertices that may move, and the base under them
+  TransferReport report;
+  std::shared_ptr<const TransferState> state;
+};
+
+// Throws InvalidInput for options out of range, for regions that one view cannot show (see the
+// message), for bases finer than the mesh, and what region_weights() throws.
+TransferAnalysis analyze_transfer(const Mesh& source, std::span<const Region> from,
+                                  const Mesh& target, std::span<const Region> to,
+                                  const TransferOptions& options = {}, const Context& context = {});
+
+// New positions of analysis.patch.vertices, for apply(). Throws InvalidInput for numbers that are
+// not finite, and with kCoefficients for from_degree >= kMaxSwapDegree.
+std::vector<Vec3> update(const TransferAnalysis& analysis, const TransferUpdate& wanted = {});
+
+// Both, and apply(): the target with the texture on it.
+Mesh transfer(const Mesh& source, std::span<const Region> from, const Mesh& target,
+              std::span<const Region> to, const TransferOptions& options = {},
+              const TransferUpdate& wanted = {}, const Context& context = {});
+
+}  // namespace rholm

@@ -1,0 +1,236 @@
+#include "rholm/transfer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "edit/cap_swap.h"
+#include "edit/fading.h"
+#include "edit/refine.h"
+#include "edit/textured_patch.h"
+#include "rholm/error.h"
+#include "rholm/topology.h"
+
+namespace rholm {
+namespace {
+
+// A base of waves of this many edges at least: what smoothing takes, and some room.
+constexpr double kFewestEdges = 3;
+// Edges of a refined target, in those of the source times the scale: lines on the texture's map are
+// half an edge apart, and heights between them cubic.
+constexpr double kRefined = 1;
+// Tiles of a repeated texture: the disc of the region, faded from here on, on a hexagonal lattice
+// where two neighbours just cover what lies between three.
+constexpr double kTileCore = 0.7, kTilePeriod = 1.45;
+
+[[noreturn]] void refuse(const std::string& message) {
+  throw Error(ErrorCode::kInvalidInput, message);
+}
+
+void check_options(const TransferOptions& o) {
+  if (o.from_degree < 2 || o.from_degree > kMaxTransferDegree) {
+    refuse(fmt::format("from_degree is {}; it must be within 2 ... {}", o.from_degree,
+                       kMaxTransferDegree));
+  }
+  if (!(o.scale > 0) || !(o.scale < 1e6)) {
+    refuse(fmt::format("the scale must be within 0 ... 1e6, not {:g}", o.scale));
+  }
+}
+
+void check_update(const TransferUpdate& u, int from_degree) {
+  if (u.mode == TransferMode::kCoefficients && from_degree >= kMaxSwapDegree) {
+    refuse(fmt::format("coefficients are swapped up to degree {}; from_degree is {}",
+                       kMaxSwapDegree, from_degree));
+  }
+  if (!std::isfinite(u.height) || (u.angle && !std::isfinite(*u.angle))) {
+    refuse("height and angle must be finite");
+  }
+}
+
+double mean_edge(const TexturedPatch& textured) {
+  double sum = 0, count = 0;
+  for (const Triangle& t : textured.local.triangles) {
+    if (textured.row[t[0]] == kNoRow || textured.row[t[1]] == kNoRow) continue;
+    sum += norm(textured.local.points[t[1]] - textured.local.points[t[0]]);
+    ++count;
+  }
+  return count > 0 ? sum / count : 0;
+}
+
+// Mean edge where regions are, before anything is known.
+double edge_in(const Mesh& mesh, const std::vector<double>& weights) {
+  double sum = 0, count = 0;
+  for (const Triangle& t : mesh.triangles) {
+    if (!(weights[t[0]] > 0)) continue;
+    sum += norm(mesh.vertices[t[1]] - mesh.vertices[t[0]]);
+    ++count;
+  }
+  return count > 0 ? sum / count : 0;
+}
+
+// Heights of the source at places of the target's chart, whose lengths are `scale` of its own.
+struct Texture {
+  const DetailMap& map;
+  double scale = 1, angle = 0;
+  bool repeat = false;
+
+  double single(const Place2& at) const { return map(at) * map.weight(at); }
+
+  // Neighbouring tiles fade into one another so that the mean square of unlike heights stays.
+  double tiled(const Place2& at) const {
+    const double row_height = kTilePeriod * std::sqrt(0.75);
+    const auto row = static_cast<int>(std::lround(std::clamp(at.q / row_height, -1e6, 1e6)));
+    double sum = 0, squares = 0;
+    for (int j = row - 2; j <= row + 2; ++j) {
+      const double shift = j % 2 == 0 ? 0 : 0.5;
+      const double column = std::round(at.p / kTilePeriod - shift);
+      for (int i = -2; i <= 2; ++i) {
+        const Place2 local{at.p - (column + i + shift) * kTilePeriod, at.q - j * row_height};
+        const double w = fading((std::hypot(local.p, local.q) - kTileCore) / (1 - kTileCore));
+        if (!(w > 0)) continue;
+        sum += w * map(local);
+        squares += w * w;
+      }
+    }
+    return squares > 0 ? sum / std::sqrt(squares) : 0;
+  }
+
+  double operator()(const Place2& at) const {
+    // Back into the source: turned the other way, larger.
+    const double c = std::cos(angle), s = std::sin(angle);
+    const Place2 back{(c * at.p + s * at.q) / scale, (c * at.q - s * at.p) / scale};
+    return repeat ? tiled(back) : single(back);
+  }
+};
+
+double rms_in_disc(const DetailMap& map) {
+  double sum = 0, count = 0;
+  for (std::size_t i = 0; i < map.values.size(); ++i) {
+    if (map.weights[i] < 1) continue;
+    sum += map.values[i] * map.values[i];
+    ++count;
+  }
+  return count > 0 ? std::sqrt(sum / count) : 0;
+}
+
+// Not a name that a file could give to a property.
+constexpr const char* kCarriedName = "region of a transfer";
+
+// Refines in the regions and their transition; returns how many vertices are new. Of the regions
+// places stay, but paint and numbers of vertices become an attribute, which refinement carries on.
+std::size_t refine_target(double transition, double length, std::vector<Region>& regions,
+                          Mesh& mesh) {
+  std::vector<double> weights = region_weights(mesh, regions, transition);
+  const auto is_place = [](const Region& region) {
+    return std::holds_alternative<BallRegion>(region) || std::holds_alternative<BoxRegion>(region);
+  };
+  const bool all_places = std::all_of(regions.begin(), regions.end(), is_place);
+  mesh.attributes.push_back({kCarriedName, ScalarType::kFloat64, weights});
+  mesh = weld(mesh).mesh;
+  weights = std::move(mesh.attributes.back().values);
+  mesh.attributes.pop_back();
+  const std::size_t n_before = mesh.vertices.size();
+  refine(mesh, weights, length);
+  if (!all_places) {
+    mesh.attributes.push_back({kCarriedName, ScalarType::kFloat64, std::move(weights)});
+    regions = {PropertyRegion{kCarriedName}};
+  }
+  return mesh.vertices.size() - n_before;
+}
+
+std::vector<Vec3> displaced(const TexturedPatch& target, const Texture& texture, double height,
+                            bool remove_own) {
+  const Patch& patch = target.patch;
+  std::vector<Vec3> positions = remove_own ? update(patch) : patch.positions;
+  for (std::size_t i = 0; i < target.local.points.size(); ++i) {
+    const std::uint32_t row = target.row[i];
+    if (row == kNoRow) continue;
+    const double h = height * texture(target.chart(target.base[i])) * patch.weights[row];
+    const Vec3 at = positions[row] + h * target.normals[i];
+    // Points of a seam have a row each, one after the other.
+    const std::size_t n = target.local.members_of(i).size();
+    for (std::size_t k = row; k < row + n; ++k) {
+      if (h != 0 || remove_own) positions[k] = at;
+    }
+  }
+  return positions;
+}
+
+}  // namespace
+
+struct TransferState {
+  TexturedPatch source, target;
+  DetailMap texture;
+  TransferOptions options;
+};
+
+TransferAnalysis analyze_transfer(const Mesh& source, std::span<const Region> from,
+                                  const Mesh& target, std::span<const Region> to,
+                                  const TransferOptions& options, const Context& context) {
+  check_options(options);
+  validate(source);
+  validate(target);
+  if (from.empty() || to.empty()) refuse("a source region and a target region are needed");
+  TransferAnalysis analysis;
+  analysis.mesh = target;
+  TransferReport& report = analysis.report;
+  auto state = std::make_shared<TransferState>();
+  state->options = options;
+  const double source_radius = region_radius(source, from);
+  report.source_wavelength = 4 * source_radius / options.from_degree;
+  state->source =
+      texture_of(source, from, report.source_wavelength, report.source_wavelength, context);
+  report.source_edge = mean_edge(state->source);
+  const double about = options.scale * region_radius(target, to) / source_radius;
+  const double wanted = report.source_wavelength * about;
+  std::vector<Region> regions(to.begin(), to.end());
+  const double transition = options.transition < 0 ? wanted : options.transition;
+  Mesh& mesh = analysis.mesh;
+  if (options.refine) {
+    report.new_vertices =
+        refine_target(transition, kRefined * report.source_edge * about, regions, mesh);
+  }
+  const double edge = edge_in(mesh, region_weights(mesh, regions, transition));
+  report.target_wavelength = std::max(wanted, kFewestEdges * edge);
+  state->target = texture_of(mesh, regions, report.target_wavelength, transition, context);
+  count_azimuths_like(state->source.chart, state->target.chart);
+  report.target_edge = mean_edge(state->target);
+  // Of the bases: the detail on them has no say in how large they are.
+  report.source_radius = state->source.chart.unit;
+  report.target_radius = state->target.chart.unit;
+  report.scale = options.scale * report.target_radius / report.source_radius;
+  state->texture = detail_of(state->source);
+  report.source_rms = rms_in_disc(state->texture);
+  const Alignment best = align_maps(state->texture, 1 / options.scale, detail_of(state->target));
+  report.angle = best.angle;
+  report.correlation = best.correlation;
+  std::erase_if(mesh.attributes, [](const Attribute& a) { return a.name == kCarriedName; });
+  analysis.patch = state->target.patch;
+  analysis.state = std::move(state);
+  return analysis;
+}
+
+std::vector<Vec3> update(const TransferAnalysis& analysis, const TransferUpdate& wanted) {
+  const TransferState& state = *analysis.state;
+  check_update(wanted, state.options.from_degree);
+  const double angle = wanted.angle.value_or(analysis.report.angle);
+  if (wanted.mode == TransferMode::kCoefficients) {
+    return swap_coefficients(state.source, state.target, state.options.from_degree, angle,
+                             wanted.height);
+  }
+  const Texture texture{state.texture, state.options.scale, angle, wanted.repeat};
+  return displaced(state.target, texture, wanted.height * analysis.report.scale, wanted.remove_own);
+}
+
+Mesh transfer(const Mesh& source, std::span<const Region> from, const Mesh& target,
+              std::span<const Region> to, const TransferOptions& options,
+              const TransferUpdate& wanted, const Context& context) {
+  check_update(wanted, options.from_degree);
+  TransferAnalysis analysis = analyze_transfer(source, from, target, to, options, context);
+  apply(analysis.patch, update(analysis, wanted), analysis.mesh);
+  return std::move(analysis.mesh);
+}
+
+}  // namespace rholm

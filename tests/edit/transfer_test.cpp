@@ -1,0 +1,267 @@
+#include "rholm/transfer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "base/random.h"
+#include "edit/refine.h"
+#include "edit/sheet.h"
+#include "rholm/error.h"
+#include "rholm/primitives.h"
+#include "rholm/topology.h"
+#include "support/test_meshes.h"
+
+namespace rholm {
+namespace {
+
+using std::numbers::pi;
+
+using Regions = std::vector<Region>;
+
+// Bumps without symmetry, of waves from 0.11 to 0.16 of a unit, at most 1 high.
+double pattern(double p, double q) {
+  double sum = 0;
+  for (std::uint64_t k = 0; k < 6; ++k) {
+    const double angle = pi * random_uniform(5, k), wave = 0.11 + 0.05 * random_uniform(6, k);
+    sum += std::cos(2 * pi * (p * std::cos(angle) + q * std::sin(angle)) / wave +
+                    6 * static_cast<double>(k));
+  }
+  return sum / 6;
+}
+
+// A sphere with the pattern around its north pole, over angles.
+Mesh patterned_sphere(int subdivisions, double radius, double height) {
+  Mesh mesh = icosphere(subdivisions);
+  for (Vec3& v : mesh.vertices) {
+    const double theta = std::acos(std::min(1.0, std::max(-1.0, v.z)));
+    const double phi = std::atan2(v.y, v.x);
+    v *= radius + height * pattern(theta * std::cos(phi), theta * std::sin(phi));
+  }
+  return mesh;
+}
+
+struct Result {
+  Mesh mesh;
+  TransferReport report;
+};
+Result moved_by(const Mesh& source, const Regions& from, const Mesh& target, const Regions& to,
+                const TransferOptions& options, const TransferUpdate& wanted) {
+  TransferAnalysis analysis = analyze_transfer(source, from, target, to, options);
+  apply(analysis.patch, update(analysis, wanted), analysis.mesh);
+  return {std::move(analysis.mesh), analysis.report};
+}
+
+struct Error2 {
+  double error = 0, wanted = 0;
+  double part() const { return std::sqrt(error / wanted); }
+};
+
+TEST(Transfer, pattern_moves_between_spheres_of_different_size) {
+  const Mesh source = patterned_sphere(7, 1, 0.008);
+  Mesh target = icosphere(7);
+  for (Vec3& v : target.vertices) v *= 3;
+  const Result moved =
+      moved_by(source, Regions{BallRegion{{0, 0, 1}, 0.5}}, target,
+               Regions{BallRegion{{0, 0, 3}, 1.5}}, {.from_degree = 8}, {.angle = 0.0});
+  EXPECT_NEAR(moved.report.scale, 3, 0.01);
+  Error2 error;
+  std::size_t outside = 0;
+  for (std::size_t i = 0; i < target.vertices.size(); ++i) {
+    const Vec3 u = target.vertices[i] / 3, x = moved.mesh.vertices[i];
+    if (norm(u - Vec3{0, 0, 1}) > 0.76) {  // region and transition, 0.5 + 0.25
+      outside += 1;
+      EXPECT_EQ(std::memcmp(&x, &target.vertices[i], sizeof x), 0);
+    }
+    if (norm(u - Vec3{0, 0, 1}) > 0.48) continue;
+    const double theta = std::acos(u.z), phi = std::atan2(u.y, u.x);
+    const double wanted = 0.024 * pattern(theta * std::cos(phi), theta * std::sin(phi));
+    error.error += std::pow(norm(x) - 3 - wanted, 2);
+    error.wanted += wanted * wanted;
+  }
+  EXPECT_LT(error.part(), 0.05);
+  EXPECT_GT(outside, 100000u);
+}
+
+// The charts are those of a centre 3.7 radii below, where neither patch bends (method 7.2).
+TEST(Transfer, pattern_moves_from_a_plane_to_a_saddle) {
+  const double h = 0.01;
+  const Mesh source = test::sheet(180, h, [](double x, double y) { return 0.004 * pattern(x, y); });
+  const auto saddle = [](double x, double y) { return (x * x - y * y) / 4; };
+  const Mesh target = test::sheet(180, h, saddle);
+  const Result moved =
+      moved_by(source, Regions{BallRegion{{0, 0, 0}, 0.5}}, target,
+               Regions{BallRegion{{0, 0, 0}, 0.5}}, {.from_degree = 8}, {.angle = 0.0});
+  const double source_depth = 3.7 * moved.report.source_radius;
+  const double target_depth = 3.7 * moved.report.target_radius;
+  Error2 error;
+  for (std::size_t i = 0; i < target.vertices.size(); ++i) {
+    const Vec3& v = target.vertices[i];
+    const double rho = std::hypot(v.x, v.y);
+    if (norm(v) > 0.48 || rho == 0) continue;
+    const double length = std::atan2(rho, target_depth + v.z) * target_depth;
+    const double there = source_depth * std::tan(length / moved.report.scale / source_depth);
+    const double wanted =
+        moved.report.scale * 0.004 * pattern(there * v.x / rho, there * v.y / rho);
+    const Vec3 normal = normalized({-v.x / 2, v.y / 2, 1});
+    const Vec3 move = moved.mesh.vertices[i] - v;
+    error.error += std::pow(dot(move, normal) - wanted, 2);
+    error.wanted += wanted * wanted;
+  }
+  EXPECT_LT(error.part(), 0.05);
+}
+
+// A rotation by `angle` about a unit axis.
+Vec3 turn(const Vec3& v, const Vec3& axis, double angle) {
+  const double c = std::cos(angle);
+  return c * v + std::sin(angle) * cross(axis, v) + (1 - c) * dot(axis, v) * axis;
+}
+
+// The target is turned about its own axis by the angle that is looked for, then that axis by the
+// shortest turn to anywhere.
+TEST(Transfer, angle_is_found_within_a_degree) {
+  const Mesh source =
+      test::sheet(90, 0.02, [](double x, double y) { return 0.004 * pattern(x, y); });
+  const Mesh bowed = test::sheet(
+      90, 0.02, [&](double x, double y) { return 0.004 * pattern(x, y) - (x * x + y * y) / 6; });
+  const Regions disc = {BallRegion{{0, 0, 0}, 0.5}};
+  for (std::uint64_t k = 0; k < 50; ++k) {
+    const double angle = 2 * pi * random_uniform(9, k) - pi;
+    const double heading = 2 * pi * random_uniform(10, k), tilt = 3 * random_uniform(11, k);
+    const Vec3 across = {std::cos(heading), std::sin(heading), 0};
+    Mesh target = bowed;
+    for (Vec3& v : target.vertices) v = turn(turn(v, {0, 0, 1}, angle), across, tilt);
+    const TransferReport found =
+        analyze_transfer(source, disc, target, disc, {.from_degree = 8}).report;
+    EXPECT_LT(std::abs(std::remainder(found.angle - angle, 2 * pi)), pi / 180) << angle;
+    EXPECT_GT(found.correlation, 0.8);
+  }
+}
+
+TEST(Transfer, what_replaces_its_own_detail_changes_little) {
+  const Mesh mesh =
+      test::sheet(180, 0.01, [](double x, double y) { return 0.004 * pattern(x, y); });
+  const Regions disc = {BallRegion{{0, 0, 0}, 0.5}};
+  const Result moved = moved_by(mesh, disc, mesh, disc, {.from_degree = 8}, {.remove_own = true});
+  Error2 error;
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    if (norm(mesh.vertices[i]) > 0.48) continue;
+    error.error += std::pow(moved.mesh.vertices[i].z - mesh.vertices[i].z, 2);
+    error.wanted += std::pow(mesh.vertices[i].z, 2);
+  }
+  EXPECT_LT(error.part(), 0.05);
+  EXPECT_NEAR(moved.report.angle, 0, pi / 180);
+}
+
+TEST(Transfer, repeated_texture_covers_a_larger_region_as_strongly) {
+  const Mesh source =
+      test::sheet(90, 0.02, [](double x, double y) { return 0.004 * pattern(x, y); });
+  const Mesh target = test::sheet(160, 0.01);
+  const Regions from = {BallRegion{{0, 0, 0}, 0.5}}, to = {BallRegion{{0, 0, 0}, 0.5}};
+  const TransferAnalysis analysis =
+      analyze_transfer(source, from, target, to, {.from_degree = 8, .scale = 0.4});
+  const auto rms_beyond = [&](bool repeat) {
+    double sum = 0, count = 0;
+    for (const Vec3& v : update(analysis, {.angle = 0.3, .repeat = repeat})) {
+      const double rho = std::hypot(v.x, v.y);
+      if (rho < 0.4 || rho > 0.5) continue;
+      sum += v.z * v.z;
+      ++count;
+    }
+    return std::sqrt(sum / count);
+  };
+  const double rms = analysis.report.source_rms;
+  EXPECT_NEAR(rms_beyond(true), 0.4 * rms, 0.06 * rms);
+  EXPECT_EQ(rms_beyond(false), 0);
+}
+
+TEST(Transfer, raw_coefficients_step_at_the_rim_where_displacements_fade) {
+  const Mesh source =
+      test::sheet(90, 0.02, [](double x, double y) { return 0.004 * pattern(x, y); });
+  const Mesh target = test::sheet(90, 0.02);
+  const Regions disc = {BallRegion{{0, 0, 0}, 0.5}};
+  const auto step = [&](TransferMode mode) {
+    const Mesh moved =
+        transfer(source, disc, target, disc, {.from_degree = 8}, {.angle = 0.0, .mode = mode});
+    double largest = 0;
+    for (const Triangle& t : moved.triangles) {
+      const Vec3 &a = target.vertices[t[0]], &b = target.vertices[t[1]];
+      if ((norm(a) < 0.5) == (norm(b) < 0.5)) continue;
+      largest = std::max(largest, std::abs(moved.vertices[t[0]].z - moved.vertices[t[1]].z));
+    }
+    return largest;
+  };
+  EXPECT_GT(step(TransferMode::kCoefficients), 1.2 * step(TransferMode::kDisplacement));
+}
+
+TEST(Transfer, refinement_closes_and_leaves_the_rest) {
+  const Mesh source =
+      test::sheet(90, 0.02, [](double x, double y) { return 0.004 * pattern(x, y); });
+  Mesh target = icosphere(4);
+  target.attributes = {
+      {"scar", ScalarType::kUint8, std::vector<double>(target.vertices.size(), 0)}};
+  for (std::size_t i = 0; i < target.vertices.size(); ++i) {
+    target.attributes[0].values[i] = target.vertices[i].z > 0.85 ? 1 : 0;
+  }
+  const auto top = static_cast<std::uint32_t>(
+      std::max_element(target.vertices.begin(), target.vertices.end(),
+                       [](const Vec3& a, const Vec3& b) { return a.z < b.z; }) -
+      target.vertices.begin());
+  for (const Region& region : {Region{BallRegion{{0, 0, 1}, 0.5}}, Region{PropertyRegion{"scar"}},
+                               Region{DiscRegion{top, 0.5}}}) {
+    const Result moved =
+        moved_by(source, Regions{BallRegion{{0, 0, 0}, 0.5}}, target, Regions{region},
+                 {.from_degree = 8, .refine = true}, {.angle = 0.0});
+    const Inspection found = inspect(moved.mesh);
+    EXPECT_TRUE(found.closed && found.manifold && found.oriented);
+    EXPECT_GT(moved.report.new_vertices, target.vertices.size());
+    EXPECT_EQ(moved.mesh.attributes.size(), 1u);
+    EXPECT_NO_THROW(validate(moved.mesh));
+    for (std::size_t i = 0; i < target.vertices.size(); ++i) {
+      EXPECT_TRUE(target.vertices[i].z > 0 || moved.mesh.vertices[i] == target.vertices[i]);
+    }
+  }
+}
+
+TEST(Refine, edges_get_short_and_a_sphere_stays_round) {
+  Mesh mesh = icosphere(3);
+  std::vector<double> weights(mesh.vertices.size(), 1);
+  refine(mesh, weights, 0.05);
+  EXPECT_TRUE(inspect(mesh).closed);
+  for (const Triangle& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_LE(norm(mesh.vertices[t[k]] - mesh.vertices[t[(k + 1) % 3]]), 0.05);
+    }
+  }
+  // Flat middles would lie h^2 / 8 = 2.6e-3 inside, h = 0.145.
+  for (const Vec3& v : mesh.vertices) EXPECT_NEAR(norm(v), 1, 3e-4);
+}
+
+TEST(Transfer, what_cannot_be_done_is_refused) {
+  const Mesh mesh = test::sheet(40, 0.05);
+  const Regions disc = {BallRegion{{0, 0, 0}, 0.5}};
+  for (const TransferOptions& options :
+       {TransferOptions{.from_degree = 1}, TransferOptions{.from_degree = 1000},
+        TransferOptions{.from_degree = 60},  // finer than the mesh
+        TransferOptions{.scale = 0}, TransferOptions{.scale = std::nan("")}}) {
+    EXPECT_THROW(transfer(mesh, disc, mesh, disc, options), Error);
+  }
+  for (const TransferUpdate& wanted :
+       {TransferUpdate{.height = std::nan("")}, TransferUpdate{.angle = std::nan("")}}) {
+    EXPECT_THROW(transfer(mesh, disc, mesh, disc, {}, wanted), Error);
+  }
+  EXPECT_THROW(
+      transfer(mesh, disc, mesh, disc, {.from_degree = 24}, {.mode = TransferMode::kCoefficients}),
+      Error);
+  EXPECT_THROW(transfer({}, disc, mesh, disc), Error);
+  EXPECT_THROW(transfer(mesh, disc, {}, disc), Error);
+  EXPECT_THROW(transfer(mesh, {}, mesh, disc), Error);
+  const Mesh ball = icosphere(4);  // no side shows all of it
+  EXPECT_THROW(transfer(ball, Regions{BallRegion{{0, 0, 0}, 2}}, mesh, disc), Error);
+}
+
+}  // namespace
+}  // namespace rholm
