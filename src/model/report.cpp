@@ -7,13 +7,11 @@
 #include <fmt/format.h>
 
 #include "base/parallel.h"
-#include "model/html.h"
 #include "model/report_data.h"
+#include "model/report_markup.h"
 #include "model/report_pictures.h"
-#include "model/report_style.h"
 #include "model/report_text.h"
 #include "rholm/error.h"
-#include "rholm/rholm.h"
 
 namespace rholm {
 namespace {
@@ -34,18 +32,6 @@ void check(const Mesh* shape, const ReportOptions& options) {
   }
 }
 
-// Nothing may be loaded from elsewhere, and nothing may run.
-std::string head(const ReportOptions& options) {
-  return fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
-      "style-src 'unsafe-inline'\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<meta name=\"generator\" content=\"rholm {}\">\n<title>{}</title>\n"
-      "<style>{}</style>\n</head>\n<body>\n",
-      kVersion, html::escaped(options.title), report::kStyle);
-}
-
 // The coefficients without what they know of the shape they are of.
 Expansion stranger(const Expansion& expansion) {
   Expansion result = expansion;
@@ -59,16 +45,16 @@ std::string page_of(const Expansion& expansion, std::optional<report::ShapeFigur
                     const ReportOptions& options, const Context& context) {
   const report::Data data = report::find_data(expansion, std::move(shape), context);
   const report::Pictures pictures = report::draw(expansion, data, options, context);
-  std::string page = head(options) + report::heading(expansion, data, options) + "<main>\n";
-  page += report::levels_section(expansion, data, options, pictures);
-  page += report::error_map_section(expansion, data, options, pictures);
-  page += report::spectrum_section(expansion, data, options);
-  page += report::degrees_section(expansion, data);
-  page += report::errors_section(expansion, data);
-  page += report::figures_section(expansion, data);
-  page += report::conventions_section(expansion, options);
-  page += report::commands_section(options);
-  return page + fmt::format("</main>\n<footer>rholm {}</footer>\n</body>\n</html>\n", kVersion);
+  std::string sections = report::levels_section(expansion, data, options, pictures);
+  sections += report::error_map_section(expansion, data, options, pictures);
+  sections += report::spectrum_section(expansion, data, options);
+  sections += report::degrees_section(expansion, data);
+  sections += report::errors_section(expansion, data);
+  sections += report::figures_section(expansion, data);
+  sections += report::conventions_section(expansion, options);
+  sections += report::commands_section(options);
+  return report::page(options, report::lead(expansion, options), report::facts(expansion, data),
+                      sections);
 }
 
 }  // namespace

@@ -7,18 +7,13 @@
 #include <fmt/format.h>
 
 #include "model/html.h"
+#include "model/report_markup.h"
 #include "model/report_plot.h"
 #include "model/report_tables.h"
 #include "model/report_text.h"
 
 namespace rholm::report {
 namespace {
-
-std::string figure_of(const Picture& picture, const std::string& alt, const std::string& caption) {
-  return fmt::format("<figure><img src=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}\">{}</figure>\n",
-                     picture.uri, picture.width, picture.height, html::escaped(alt),
-                     caption.empty() ? "" : "<figcaption>" + caption + "</figcaption>");
-}
 
 // The rms of a degree that is drawn, if the table has it or Parseval knows it.
 std::string rms_caption(int degree, const Expansion& expansion, const Data& data) {
@@ -196,12 +191,6 @@ Plot error_plot(const Expansion& expansion, const Data& data, const ReportOption
   return plot;
 }
 
-std::string plot_figure(const Plot& plot) {
-  const std::string svg = log_log_plot(plot);
-  if (svg.empty()) return "";
-  return "<figure>\n" + svg + "<figcaption>" + legend(plot) + "</figcaption>\n</figure>\n";
-}
-
 std::string map_caption(const Expansion& expansion, const Data& data, const ReportOptions& options,
                         const Pictures& pictures) {
   const double largest = pictures.errors.largest;
@@ -243,21 +232,9 @@ std::string error_map_section(const Expansion& expansion, const Data& data,
                               const ReportOptions& options, const Pictures& pictures) {
   if (pictures.errors.sides.empty()) return "";
   const int degree = pictures.errors.sides.front().degree;
-  const std::string bar_title = fmt::format("Colour bar of the distance, 0 to {:.3g} {}",
-                                            pictures.errors.largest, expansion.unit);
-  std::string html =
-      "<section>\n<h2>Where the model differs</h2>\n<figure class=\"map\">\n<div class=\"pictures "
-      "n2\">\n";
-  const char* kSides[] = {"from one side", "from the opposite side"};
-  for (std::size_t k = 0; k < pictures.errors.sides.size(); ++k) {
-    html += figure_of(pictures.errors.sides[k],
-                      fmt::format("Picture of the model at degree {}, coloured by its distance to "
-                                  "the shape, seen {}",
-                                  degree, kSides[k]),
-                      kSides[k]);
-  }
-  return html + "</div>\n" + color_bar(pictures.errors.scale, bar_title) + "<figcaption>" +
-         map_caption(expansion, data, options, pictures) + "</figcaption>\n</figure>\n</section>\n";
+  return section("Where the model differs",
+                 error_map(pictures.errors, fmt::format("the model at degree {}", degree),
+                           map_caption(expansion, data, options, pictures), expansion.unit));
 }
 
 std::string spectrum_section(const Expansion& expansion, const Data& data,

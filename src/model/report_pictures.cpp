@@ -34,14 +34,6 @@ std::vector<int> drawn_degrees(int degree) {
   return degrees;
 }
 
-Picture picture_of(const Image& image) {
-  Picture picture;
-  picture.uri = "data:image/png;base64," + html::base64(encode_png(image));
-  picture.width = image.width;
-  picture.height = image.height;
-  return picture;
-}
-
 // Surfaces of the model at a few degrees; where there is none, the degree is missing.
 struct Level {
   int degree;
@@ -70,8 +62,25 @@ void count_crossings(const Mesh& surface, const Mesh& sphere, const Vec3& center
   }
 }
 
-Panel panel_of(const Mesh& mesh, bool smooth) {
-  return {.mesh = &mesh, .label = {}, .scalars = {}, .smooth = smooth};
+std::vector<Picture> draw_levels(const std::vector<Level>& levels, const Mesh* shape, int size,
+                                 const Context& context) {
+  std::vector<Panel> panels;
+  for (const Level& level : levels) panels.push_back(panel_of(level.mesh, true));
+  if (shape != nullptr) panels.push_back(panel_of(*shape, false));
+  std::vector<Picture> pictures = draw_row(panels, size, context);
+  for (std::size_t k = 0; k < pictures.size(); ++k) {
+    pictures[k].is_shape = k == levels.size();
+    if (k < levels.size()) pictures[k].degree = levels[k].degree;
+  }
+  return pictures;
+}
+
+Picture picture_of(const Image& image) {
+  Picture picture;
+  picture.uri = "data:image/png;base64," + html::base64(encode_png(image));
+  picture.width = image.width;
+  picture.height = image.height;
+  return picture;
 }
 
 RenderOptions picture_options() {
@@ -79,24 +88,6 @@ RenderOptions picture_options() {
   options.samples = 2;  // chosen: the pictures are shown at half their size
   options.scale_bar = false;
   return options;
-}
-
-std::vector<Picture> draw_levels(const std::vector<Level>& levels, const Mesh* shape, int size,
-                                 const Context& context) {
-  std::vector<Panel> panels;
-  std::vector<Picture> pictures;
-  for (const Level& level : levels) panels.push_back(panel_of(level.mesh, true));
-  if (shape != nullptr) panels.push_back(panel_of(*shape, false));
-  RenderOptions options = picture_options();
-  options.width = static_cast<int>(panels.size()) * size;
-  options.height = size;
-  const Image image = render(panels, options, context);
-  for (const Image& part : cut_apart(image, panels.size())) pictures.push_back(picture_of(part));
-  for (std::size_t k = 0; k < pictures.size(); ++k) {
-    pictures[k].is_shape = k == levels.size();
-    if (k < levels.size()) pictures[k].degree = levels[k].degree;
-  }
-  return pictures;
 }
 
 // A few points at sharp vertices err many times more than the rest, which would be all of one
@@ -109,10 +100,30 @@ double scale_end(std::vector<double> distances, double largest) {
   return 1.25 * *end<largest&& * end> 0 ? *end : largest;
 }
 
-ErrorMap draw_errors(const Level& level, const Mesh& shape, int size, const Context& context) {
+bool is_white(const std::uint8_t* row, std::size_t bytes) {
+  return std::all_of(row, row + bytes, [](std::uint8_t byte) { return byte == 255; });
+}
+
+}  // namespace
+
+Panel panel_of(const Mesh& mesh, bool smooth) {
+  return {.mesh = &mesh, .label = {}, .scalars = {}, .smooth = smooth};
+}
+
+std::vector<Picture> draw_row(const std::vector<Panel>& panels, int size, const Context& context) {
+  RenderOptions options = picture_options();
+  options.width = static_cast<int>(panels.size()) * size;
+  options.height = size;
+  const Image image = render(panels, options, context);
+  std::vector<Picture> pictures;
+  for (const Image& part : cut_apart(image, panels.size())) pictures.push_back(picture_of(part));
+  return pictures;
+}
+
+ErrorMap draw_errors(const Mesh& surface, const Mesh& shape, int size, const Context& context) {
   ErrorMap map;
-  Panel panel = panel_of(level.mesh, true);
-  panel.scalars = distances_to_surface(level.mesh.vertices, shape, context);
+  Panel panel = panel_of(surface, true);
+  panel.scalars = distances_to_surface(surface.vertices, shape, context);
   map.largest = *std::max_element(panel.scalars.begin(), panel.scalars.end());
   map.scale = {0, scale_end(panel.scalars, map.largest)};
   RenderOptions options = picture_options();
@@ -122,16 +133,9 @@ ErrorMap draw_errors(const Level& level, const Mesh& shape, int size, const Cont
   for (const double side : {1.0, -1.0}) {
     options.view_direction = side * RenderOptions{}.view_direction;
     map.sides.push_back(picture_of(cut_apart(render({&panel, 1}, options, context), 1).front()));
-    map.sides.back().degree = level.degree;
   }
   return map;
 }
-
-bool is_white(const std::uint8_t* row, std::size_t bytes) {
-  return std::all_of(row, row + bytes, [](std::uint8_t byte) { return byte == 255; });
-}
-
-}  // namespace
 
 std::vector<Image> cut_apart(const Image& image, std::size_t panels) {
   const std::size_t row = 3 * static_cast<std::size_t>(image.width), width = row / panels;
@@ -164,7 +168,8 @@ Pictures draw(const Expansion& expansion, const Data& data, const ReportOptions&
   count_crossings(levels.back().mesh, sphere, expansion.center, pictures);
   pictures.levels = draw_levels(levels, shape, options.picture_size, context);
   if (shape != nullptr) {
-    pictures.errors = draw_errors(levels.back(), *shape, options.picture_size, context);
+    pictures.errors = draw_errors(levels.back().mesh, *shape, options.picture_size, context);
+    for (Picture& side : pictures.errors.sides) side.degree = pictures.degree;
   }
   return pictures;
 }

@@ -7,6 +7,7 @@
 
 #include "model/report_data.h"
 #include "rholm/image.h"
+#include "rholm/render.h"
 #include "surface/color.h"
 
 namespace rholm::report {
@@ -38,6 +39,12 @@ struct Pictures {
 
 Pictures draw(const Expansion& expansion, const Data& data, const ReportOptions& options,
               const Context& context);
+
+Panel panel_of(const Mesh& mesh, bool smooth);
+// Panels side by side at one scale, a picture for each.
+std::vector<Picture> draw_row(const std::vector<Panel>& panels, int size, const Context& context);
+// A surface coloured by its distance to the shape, with normals nx, ny, nz.
+ErrorMap draw_errors(const Mesh& surface, const Mesh& shape, int size, const Context& context);
 
 // A picture of panels of the same width side by side, cut into one for each. Rows that are white in
 // all of them are cut away but for a margin, so that they keep one scale and one base line.

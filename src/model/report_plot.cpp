@@ -181,6 +181,12 @@ std::string legend(const Plot& plot) {
   return list.empty() ? "" : "<ul class=\"legend\">\n" + list + "</ul>\n";
 }
 
+std::string plot_figure(const Plot& plot) {
+  const std::string svg = log_log_plot(plot);
+  if (svg.empty()) return "";
+  return "<figure>\n" + svg + "<figcaption>" + legend(plot) + "</figcaption>\n</figure>\n";
+}
+
 std::string color_bar(const ColorScale& scale, const std::string& title) {
   constexpr int kStops = 24;  // chosen: straight lines between them are not seen
   constexpr double kFrom = 20, kTo = 520, kBar = 16;

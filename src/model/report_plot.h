@@ -40,6 +40,9 @@ struct Plot {
 // sets the range has a point.
 std::string log_log_plot(const Plot& plot);
 
+// The same with its legend below; empty as well.
+std::string plot_figure(const Plot& plot);
+
 // The entries of the legend, as a list.
 std::string legend(const Plot& plot);
 

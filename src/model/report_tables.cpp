@@ -8,62 +8,12 @@
 #include <fmt/format.h>
 
 #include "model/html.h"
+#include "model/report_markup.h"
 
 namespace rholm::report {
 namespace {
 
 constexpr const char* kDash = "&#8211;";
-
-struct Column {
-  std::string heading;
-  bool is_number = false;
-};
-
-struct Row {
-  std::vector<std::string> cells;  // the first one names the row
-  bool own = false;                // the model's own degree: set off
-};
-
-struct Table {
-  std::string label;  // for those who do not see it: what scrolls
-  std::vector<Column> columns;
-  std::vector<Row> rows;
-};
-
-std::string markup_of(const Row& row, const std::vector<Column>& columns) {
-  std::string html = row.own ? "<tr class=\"own\">" : "<tr>";
-  for (std::size_t k = 0; k < row.cells.size(); ++k) {
-    const char* style = columns[k].is_number ? " class=\"num\"" : "";
-    html += k == 0 ? fmt::format("<th scope=\"row\"{}>{}</th>", style, row.cells[k])
-                   : fmt::format("<td{}>{}</td>", style, row.cells[k]);
-  }
-  return html + "</tr>\n";
-}
-
-// In a box of its own, in which it can be scrolled with a finger or the keyboard.
-std::string markup_of(const Table& table) {
-  std::string html = fmt::format(
-      "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"{}\">\n<table{}>\n",
-      table.label, table.rows.size() < 20 ? " class=\"short\"" : "");
-  html += "<thead><tr>";
-  for (const Column& column : table.columns) {
-    html += fmt::format("<th scope=\"col\"{}>{}</th>", column.is_number ? " class=\"num\"" : "",
-                        column.heading);
-  }
-  html += "</tr></thead>\n<tbody>\n";
-  for (const Row& row : table.rows) html += markup_of(row, table.columns);
-  return html + "</tbody>\n</table>\n</div>\n";
-}
-
-// "rms error, km", as far as the unit is known.
-std::string with_unit(const std::string& heading, const std::string& unit) {
-  return unit.empty() ? heading : heading + ", " + html::escaped(unit);
-}
-
-// A length and, smaller, which part of the diagonal it is.
-std::string two_lines(const std::string& value, const std::string& part) {
-  return part.empty() ? value : fmt::format("{}<small>{}</small>", value, part);
-}
 
 std::string length_cell(const std::optional<double>& value, const Data& data) {
   return two_lines(html::length(value, ""), of_diagonal(value, data));
@@ -137,8 +87,7 @@ void add_measures(const Data& data, const std::string& unit, std::vector<Row>& r
 }  // namespace
 
 std::string of_diagonal(const std::optional<double>& length, const Data& data) {
-  if (!length || !(data.diagonal > 0) || !std::isfinite(*length / data.diagonal)) return "";
-  return html::number(*length / data.diagonal, 3) + "&nbsp;<i>d</i>";
+  return part_of(length, data.diagonal);
 }
 
 std::string point_text(const Vec3& p, double size) {

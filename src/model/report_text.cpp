@@ -9,35 +9,11 @@
 #include <fmt/format.h>
 
 #include "model/html.h"
+#include "model/report_markup.h"
 #include "model/report_tables.h"
 
 namespace rholm::report {
 namespace {
-
-std::string paragraph(const std::string& markup) { return "<p>" + markup + "</p>\n"; }
-std::string note(const std::string& markup) { return "<p class=\"note\">" + markup + "</p>\n"; }
-std::string section(const std::string& title, const std::string& content) {
-  return "<section>\n<h2>" + title + "</h2>\n" + content + "</section>\n";
-}
-
-std::string fact(const std::string& name, const std::string& value, const std::string& small) {
-  return fmt::format("<div><dt>{}</dt><dd>{}{}</dd></div>\n", name, value,
-                     small.empty() ? "" : "<small>" + small + "</small>");
-}
-
-// As people say sizes: powers of 1000.
-std::string size_text(double bytes) {
-  const char* kUnits[] = {"bytes", "kB", "MB", "GB"};
-  std::size_t k = 0;
-  while (k < 3 && bytes >= 1000) bytes /= 1000, ++k;
-  return fmt::format("{}&nbsp;{}", k == 0 ? fmt::format("{}", bytes) : html::number(bytes, 3),
-                     kUnits[k]);
-}
-
-double bytes_of(const Mesh& mesh) {
-  return 24.0 * static_cast<double>(mesh.vertices.size()) +
-         12.0 * static_cast<double>(mesh.triangles.size());
-}
 
 std::string largest_fact(const Expansion& expansion, const Data& data) {
   if (!data.errors) return "";
@@ -47,21 +23,6 @@ std::string largest_fact(const Expansion& expansion, const Data& data) {
   if (!value) return "";
   return fact(measured ? "largest error" : "largest error, predicted",
               html::length(value, expansion.unit, 3), of_diagonal(value, data));
-}
-
-std::string facts(const Expansion& expansion, const Data& data) {
-  const int degree = expansion.coefficients.degree();
-  const double n = (degree + 1.0) * (degree + 1.0);
-  const DegreeRow& own = data.rows.back();
-  std::string html = "<dl class=\"facts\">\n" + fact("degree", std::to_string(degree), "");
-  html += fact("coefficients", html::count(static_cast<std::size_t>(n)), "");
-  if (own.rms) {
-    html += fact("rms error", rms_text(own, data, expansion.unit, 3), of_diagonal(own.rms, data));
-  }
-  html += largest_fact(expansion, data);
-  std::string small;
-  if (data.shape) small = "the mesh: " + size_text(bytes_of(data.shape->mesh));
-  return html + fact("size", size_text(8 * n), small) + "</dl>\n";
 }
 
 // Which rms figures are what.
@@ -99,7 +60,7 @@ std::string normalization_text() {
 
 }  // namespace
 
-std::string heading(const Expansion& expansion, const Data& data, const ReportOptions& options) {
+std::string lead(const Expansion& expansion, const ReportOptions& options) {
   const bool gauge = expansion.function == RadialFunction::kGauge;
   std::string lead = fmt::format("Spherical harmonics of {} to degree {}",
                                  gauge ? "the inverse radius 1/<i>r</i>" : "the radius <i>r</i>",
@@ -107,10 +68,22 @@ std::string heading(const Expansion& expansion, const Data& data, const ReportOp
   if (!options.shape_name.empty() && options.shape_name != options.title) {
     lead += ", beside the shape " + html::escaped(options.shape_name);
   }
-  std::string html = fmt::format("<header>\n<h1>{}</h1>\n<p class=\"lead\">{}.</p>\n",
-                                 html::escaped(options.title), lead);
-  for (const std::string& text : options.notes) html += note(html::escaped(text));
-  return html + facts(expansion, data) + "</header>\n";
+  return lead + ".";
+}
+
+std::string facts(const Expansion& expansion, const Data& data) {
+  const int degree = expansion.coefficients.degree();
+  const double n = (degree + 1.0) * (degree + 1.0);
+  const DegreeRow& own = data.rows.back();
+  std::string html = "<dl class=\"facts\">\n" + fact("degree", std::to_string(degree), "");
+  html += fact("coefficients", html::count(static_cast<std::size_t>(n)), "");
+  if (own.rms) {
+    html += fact("rms error", rms_text(own, data, expansion.unit, 3), of_diagonal(own.rms, data));
+  }
+  html += largest_fact(expansion, data);
+  std::string small;
+  if (data.shape) small = "the mesh: " + size_text(bytes_of(data.shape->mesh));
+  return html + fact("size", size_text(8 * n), small) + "</dl>\n";
 }
 
 std::string degrees_section(const Expansion& expansion, const Data& data) {
@@ -181,16 +154,6 @@ std::string conventions_section(const Expansion& expansion, const ReportOptions&
                         html::length(options.weld_tolerance, expansion.unit));
   }
   return section("Conventions", html + paragraph(text));
-}
-
-std::string commands_section(const ReportOptions& options) {
-  if (options.commands.empty()) return "";
-  std::string html;
-  for (const ReportCommand& command : options.commands) {
-    html += fmt::format("<p>{}</p>\n<pre><code>{}</code></pre>\n", html::escaped(command.what),
-                        html::escaped(command.command));
-  }
-  return section("To get it again", html);
 }
 
 }  // namespace rholm::report

@@ -8,7 +8,9 @@
 
 namespace rholm::report {
 
-std::string heading(const Expansion& expansion, const Data& data, const ReportOptions& options);
+// The sentence below the title, and what is to be seen first.
+std::string lead(const Expansion& expansion, const ReportOptions& options);
+std::string facts(const Expansion& expansion, const Data& data);
 std::string levels_section(const Expansion& expansion, const Data& data,
                            const ReportOptions& options, const Pictures& pictures);
 // Empty without a shape.
@@ -20,6 +22,5 @@ std::string degrees_section(const Expansion& expansion, const Data& data);
 std::string errors_section(const Expansion& expansion, const Data& data);
 std::string figures_section(const Expansion& expansion, const Data& data);
 std::string conventions_section(const Expansion& expansion, const ReportOptions& options);
-std::string commands_section(const ReportOptions& options);
 
 }  // namespace rholm::report
