@@ -71,6 +71,7 @@ Command filter_command();
 Command rotate_command();
 Command align_command();
 Command smooth_command();
+Command transfer_command();
 Command orient_command();
 Command partition_command();
 Command reconstruct_command();

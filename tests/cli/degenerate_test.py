@@ -178,6 +178,15 @@ class Degenerate(CliTest):
                     self.check(EITHER, "smooth", name, "--region", region, "--wavelength", "2",
                                output="out.ply")
 
+    def test_transfer(self):
+        for name in SHAPES:
+            for region in ("ball:0,0,0,3", "vertex:0,1"):
+                with self.subTest(f"{name} {region}"):
+                    for source, target in ((name, "good.off"), ("good.off", name)):
+                        self.check(EITHER, "transfer", "--from", source, "--from-region", region,
+                                   "--to", target, "--to-region", region, "--refine",
+                                   output="out.ply")
+
     def test_reconstruct(self):
         # None has points enough.
         for name in SHAPES:

@@ -46,7 +46,8 @@ class Examples(CliTest):
         # The examples of one command may use what those of earlier ones made.
         for command in ("make", "info", "center", "analyze", "synthesize", "spectrum", "compare",
                         "convert", "render", "report", "filter", "rotate",
-                        "align", "smooth", "orient", "reconstruct", "partition", "bench", "completion"):
+                        "align", "smooth", "transfer", "orient", "reconstruct", "partition", "bench",
+                        "completion"):
             text = self.rholm(command, "--help").out
             for line in re.split(r"\nExamples?:\n", text)[1].splitlines():
                 with self.subTest(line):
