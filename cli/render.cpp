@@ -118,27 +118,9 @@ void color_by_error(const Options& options, Session& session, Scene& scene, Rend
       fmt::format("distance to {}", std::filesystem::path(options.against).filename().string());
 }
 
-// Whole numbers are bytes, others parts of 1.
-std::vector<std::array<float, 3>> own_colors(const Mesh& mesh) {
-  const char* names[] = {"red", "green", "blue"};
-  std::vector<std::array<float, 3>> colors;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Attribute* channel = find_attribute(mesh.attributes, names[k]);
-    if (channel == nullptr) return {};
-    const bool real =
-        channel->type == ScalarType::kFloat32 || channel->type == ScalarType::kFloat64;
-    colors.resize(channel->values.size());
-    for (std::size_t i = 0; i < colors.size(); ++i) {
-      const double value = channel->values[i] / (real ? 1 : 255);
-      colors[i][k] = std::isfinite(value) ? static_cast<float>(std::clamp(value, 0.0, 1.0)) : 0;
-    }
-  }
-  return colors;
-}
-
 void color_by_own(const Options& options, Session& session, Scene& scene) {
   for (std::size_t i = 0; i < scene.panels.size(); ++i) {
-    scene.panels[i].colors = own_colors(*scene.panels[i].mesh);
+    scene.panels[i].colors = vertex_colors(*scene.panels[i].mesh);
     if (!scene.panels[i].colors.empty()) continue;
     session.warn(fmt::format("panel {} of {} has no red, green, blue: it stays plain", i + 1,
                              options.inputs.size()));

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/atlas_report.h"
 #include "cli/command.h"
 #include "cli/inputs.h"
 #include "cli/interrupt.h"
@@ -235,10 +236,49 @@ Subject subject_of(const Options& options, Session& session) {
   return subject_of_model(options, std::move(std::get<CoefficientsFile>(input)), session);
 }
 
+// The command that makes a model within the same tolerance of the shape.
+std::optional<ReportCommand> atlas_command(const Options& options, const AtlasModel& model) {
+  if (options.shape.empty() || !(model.tolerance > 0)) return std::nullopt;
+  std::string text = "rholm analyze " + quoted(options.shape) + " --atlas" +
+                     option_text("tolerance", fmt::format("{}", model.tolerance));
+  if (!model.unit.empty()) text += option_text("length-unit", model.unit);
+  return ReportCommand{"A model within the same tolerance", text + " -o " + quoted(options.input)};
+}
+
+std::string page_of_atlas(const Options& options, Session& session) {
+  if (options.degree || options.tolerance.tolerance || !options.center.empty() ||
+      options.weld > 0 || !options.length_unit.empty()) {
+    throw UsageError(
+        fmt::format("{} holds an atlas of caps: --degree, --tolerance, --center, --weld and "
+                    "--length-unit are for shapes, which are analysed first",
+                    display_name(options.input)));
+  }
+  const AtlasModel model = read_atlas(options.input);
+  std::optional<Mesh> shape;
+  ReportOptions page{.title = name_of(options.input), .shape_name = {}};
+  page.picture_size = options.size;
+  page.file_bytes = file_size_of(options.input);
+  std::string choices;
+  if (!options.shape.empty()) {
+    shape = read_mesh(options.shape, session);
+    page.shape_name = name_of(options.shape);
+    choices = option_text("shape", options.shape);
+  }
+  if (const auto command = atlas_command(options, model)) page.commands.push_back(*command);
+  page.commands.push_back({"This page", page_command(options, choices)});
+  return report_html(model, shape ? &*shape : nullptr, page, session.context());
+}
+
 int run(const Options& options, Session& session) {
   check_options(options);
   encode_options(options);  // refuses wrong values before anything is read
   check_writable(options.output);
+  if (holds_atlas(options.input)) {
+    const std::string page = page_of_atlas(options, session);
+    stop_if_interrupted();
+    write_file(options.output, page);
+    return 0;
+  }
   Subject subject = subject_of(options, session);
   subject.page.title = name_of(options.input);
   subject.page.weld_tolerance = options.weld;
@@ -252,24 +292,25 @@ int run(const Options& options, Session& session) {
 }
 
 std::vector<Option> input_options(Options& o) {
-  return {{.name = "INPUT",
-           .help = "file of coefficients, or of a closed mesh, which is analysed first; - for "
-                   "standard input",
-           .target = &o.input,
-           .required = true,
-           .offer = Offer::kShapesAndCoefficients},
-          {.name = "shape",
-           .value = "SHAPE",
-           .help = "the mesh that the coefficients are of: its picture, where the model differs, "
-                   "and the largest errors",
-           .target = &o.shape,
-           .offer = Offer::kShapes},
-          {.name = "degree",
-           .value = "L",
-           .help = "of the analysis of a mesh; 64 by default",
-           .target = &o.degree,
-           .min = 0,
-           .max = kMaxDegree}};
+  return {
+      {.name = "INPUT",
+       .help = "file of coefficients, an atlas, or a closed mesh, which is analysed first; - for "
+               "standard input",
+       .target = &o.input,
+       .required = true,
+       .offer = Offer::kShapesAndCoefficients},
+      {.name = "shape",
+       .value = "SHAPE",
+       .help = "the mesh that the coefficients are of: its picture, where the model differs, "
+               "and the largest errors",
+       .target = &o.shape,
+       .offer = Offer::kShapes},
+      {.name = "degree",
+       .value = "L",
+       .help = "of the analysis of a mesh; 64 by default",
+       .target = &o.degree,
+       .min = 0,
+       .max = kMaxDegree}};
 }
 
 std::vector<Option> shape_and_page_options(Options& o) {
@@ -310,7 +351,8 @@ Command report_command() {
           "conventions, and the commands that make model and page again. It can be read on a "
           "screen of any width and on paper.\n\nA mesh is analysed first, with the method edge. "
           "Coefficients are taken as they are; with --shape they are set beside the mesh they "
-          "are of. There are no dates in the page: the same input gives the same bytes.",
+          "are of; an atlas of caps likewise. There are no dates in the page: the same input gives "
+          "the same bytes.",
       .options = option_list(*options),
       .examples = {"rholm report bumpy.ply --degree 32 -o report.html",
                    "rholm report bumpy.h5 --shape bumpy.ply -o report.html"},

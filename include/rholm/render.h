@@ -24,6 +24,10 @@ struct Panel {
   std::vector<std::array<float, 3>> colors = {};
 };
 
+// The properties red, green and blue as panels have them: whole numbers are bytes, others parts of
+// 1; empty if the mesh has none.
+std::vector<std::array<float, 3>> vertex_colors(const Mesh& mesh);
+
 struct RenderOptions {
   int width = 1024;  // of the whole picture, pixels, 16 ... 16384
   int height = 768;

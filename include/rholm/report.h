@@ -1,11 +1,13 @@
 // All that is known of a model on one page. Layer: model.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "rholm/coefficients.h"
+#include "rholm/compress.h"
 #include "rholm/context.h"
 #include "rholm/mesh.h"
 
@@ -25,6 +27,7 @@ struct ReportOptions {
   std::optional<double> tolerance = {};  // wanted rms error of the function: a line in the plots
   double weld_tolerance = 0;             // of the shape, in its unit
   int picture_size = 480;                // pixels of each picture's side, 16 ... 4096
+  std::optional<std::uint64_t> file_bytes = {};  // of an atlas: how large its file is
 };
 
 // A page of HTML (UTF-8) that needs no other file and runs no script: pictures of the shape and of
@@ -37,6 +40,14 @@ struct ReportOptions {
 // nor the patience have room for it. Same input, same bytes, for any number of threads. Throws
 // InvalidInput for options out of range, an empty mesh, or coefficients that have no surface.
 std::string report_html(const Expansion& expansion, const Mesh* shape, const ReportOptions& options,
+                        const Context& context = {});
+
+// The same of an atlas: its surface at a few limits of the degree, its caps in colours, where it
+// differs from `shape`, what each degree adds, a table of limits and their errors. Surfaces are
+// extracted at the model's own step; distances to and from the shape are those of 100 000 points on
+// each. The tolerance of the options is not looked at: the model has its own. Throws InvalidInput
+// as above, and for an atlas without caps.
+std::string report_html(const AtlasModel& model, const Mesh* shape, const ReportOptions& options,
                         const Context& context = {});
 
 }  // namespace rholm

@@ -16,22 +16,6 @@
 namespace rholm {
 namespace {
 
-void check(const Mesh* shape, const ReportOptions& options) {
-  constexpr int kMin = 16, kMax = 4096;
-  if (options.picture_size < kMin || options.picture_size > kMax) {
-    throw Error(ErrorCode::kInvalidInput,
-                fmt::format("the size of the pictures is {}, it must be {} ... {} pixels",
-                            options.picture_size, kMin, kMax));
-  }
-  if (options.tolerance && !(*options.tolerance > 0)) {
-    throw Error(ErrorCode::kInvalidInput,
-                fmt::format("the tolerance is {}, it must be above 0", *options.tolerance));
-  }
-  if (shape != nullptr && shape->triangles.empty()) {
-    throw Error(ErrorCode::kInvalidInput, "the shape has no triangle: there is nothing to draw");
-  }
-}
-
 // The coefficients without what they know of the shape they are of.
 Expansion stranger(const Expansion& expansion) {
   Expansion result = expansion;
@@ -61,7 +45,7 @@ std::string page_of(const Expansion& expansion, std::optional<report::ShapeFigur
 
 std::string report_html(const Expansion& expansion, const Mesh* shape, const ReportOptions& options,
                         const Context& context) {
-  check(shape, options);
+  report::check(shape, options);
   std::optional<report::ShapeFigures> figures;
   if (shape != nullptr) {
     report_progress(context, "figures", 0);

@@ -1,5 +1,7 @@
 #include "model/report_data.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -96,6 +98,22 @@ DegreeRow row_of(int degree, const Expansion& expansion, const Data& data,
 }
 
 }  // namespace
+
+void check(const Mesh* shape, const ReportOptions& options) {
+  constexpr int kMin = 16, kMax = 4096;
+  if (options.picture_size < kMin || options.picture_size > kMax) {
+    throw Error(ErrorCode::kInvalidInput,
+                fmt::format("the size of the pictures is {}, it must be {} ... {} pixels",
+                            options.picture_size, kMin, kMax));
+  }
+  if (options.tolerance && !(*options.tolerance > 0)) {
+    throw Error(ErrorCode::kInvalidInput,
+                fmt::format("the tolerance is {}, it must be above 0", *options.tolerance));
+  }
+  if (shape != nullptr && shape->triangles.empty()) {
+    throw Error(ErrorCode::kInvalidInput, "the shape has no triangle: there is nothing to draw");
+  }
+}
 
 ShapeFigures shape_figures(const Mesh& mesh, const Vec3& center, double weld_tolerance,
                            const Context& context) {

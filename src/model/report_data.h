@@ -19,6 +19,9 @@ namespace rholm::report {
 // points are measured in a second.
 inline constexpr int kHighestDrawn = 512;
 
+// Throws InvalidInput for options out of range, and for a shape without faces.
+void check(const Mesh* shape, const ReportOptions& options);
+
 struct ShapeFigures {
   Mesh mesh;  // welded, outward, without attributes
   Inspection inspection;

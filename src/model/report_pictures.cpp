@@ -120,20 +120,29 @@ std::vector<Picture> draw_row(const std::vector<Panel>& panels, int size, const 
   return pictures;
 }
 
+std::vector<Picture> draw_sides(const Panel& panel, int size, std::optional<ColorScale> scale,
+                                const Context& context) {
+  RenderOptions options = picture_options();
+  options.width = options.height = size;
+  if (scale) {
+    options.scale_min = scale->min;
+    options.scale_max = scale->max;
+  }
+  std::vector<Picture> sides;
+  for (const double side : {1.0, -1.0}) {
+    options.view_direction = side * RenderOptions{}.view_direction;
+    sides.push_back(picture_of(cut_apart(render({&panel, 1}, options, context), 1).front()));
+  }
+  return sides;
+}
+
 ErrorMap draw_errors(const Mesh& surface, const Mesh& shape, int size, const Context& context) {
   ErrorMap map;
   Panel panel = panel_of(surface, true);
   panel.scalars = distances_to_surface(surface.vertices, shape, context);
   map.largest = *std::max_element(panel.scalars.begin(), panel.scalars.end());
   map.scale = {0, scale_end(panel.scalars, map.largest)};
-  RenderOptions options = picture_options();
-  options.width = options.height = size;
-  options.scale_min = map.scale.min;
-  options.scale_max = map.scale.max;
-  for (const double side : {1.0, -1.0}) {
-    options.view_direction = side * RenderOptions{}.view_direction;
-    map.sides.push_back(picture_of(cut_apart(render({&panel, 1}, options, context), 1).front()));
-  }
+  map.sides = draw_sides(panel, size, map.scale, context);
   return map;
 }
 

@@ -1,6 +1,7 @@
 // The pictures of a report, as PNG files in data: URIs.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -43,6 +44,9 @@ Pictures draw(const Expansion& expansion, const Data& data, const ReportOptions&
 Panel panel_of(const Mesh& mesh, bool smooth);
 // Panels side by side at one scale, a picture for each.
 std::vector<Picture> draw_row(const std::vector<Panel>& panels, int size, const Context& context);
+// A panel from one side, and from the opposite one.
+std::vector<Picture> draw_sides(const Panel& panel, int size, std::optional<ColorScale> scale,
+                                const Context& context);
 // A surface coloured by its distance to the shape, with normals nx, ny, nz.
 ErrorMap draw_errors(const Mesh& surface, const Mesh& shape, int size, const Context& context);
 

@@ -219,6 +219,23 @@ void draw_panel(Canvas& canvas, const PanelPicture& p, const RenderOptions& opti
 
 }  // namespace
 
+std::vector<std::array<float, 3>> vertex_colors(const Mesh& mesh) {
+  const char* names[] = {"red", "green", "blue"};
+  std::vector<std::array<float, 3>> colors;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Attribute* channel = find_attribute(mesh.attributes, names[k]);
+    if (channel == nullptr) return {};
+    const bool real =
+        channel->type == ScalarType::kFloat32 || channel->type == ScalarType::kFloat64;
+    colors.resize(channel->values.size());
+    for (std::size_t i = 0; i < colors.size(); ++i) {
+      const double value = channel->values[i] / (real ? 1 : 255);
+      colors[i][k] = std::isfinite(value) ? static_cast<float>(std::clamp(value, 0.0, 1.0)) : 0;
+    }
+  }
+  return colors;
+}
+
 Image render(std::span<const Panel> panels, const RenderOptions& options, const Context& context) {
   check(panels, options);
   const std::optional<ColorScale> scale = color_scale(panels, options);

@@ -138,6 +138,20 @@ class Report(CliTest):
         self.write("open.off", off(OCTAHEDRON[0], OCTAHEDRON[1][:-1]))
         self.page("a.h5", "--shape", "open.off")
 
+    def test_an_atlas_has_its_caps_and_its_shape(self):
+        self.rholm("make", "torus", "-o", "t.ply")
+        self.rholm("make", "sample", "t.ply", "--points", "3000", "-o", "t.xyz")
+        self.rholm("reconstruct", "t.xyz", "--model", "caps.h5", "-o", "s.ply")
+        alone = self.page("caps.h5")
+        beside = self.page("caps.h5", "--shape", "t.ply")
+        self.assertIn("overlapping caps", alone.text())
+        self.assertNotIn("Where the model differs", alone.text())
+        self.assertIn("Where the model differs", beside.text())
+        before = self.files()
+        for words in (["--degree", "3"], ["--weld", "1"], ["--center", "0,0,0"]):
+            self.rholm("report", "caps.h5", *words, "-o", "x.html", code=2)
+        self.assertEqual(self.files(), before)
+
     def test_standard_input_and_output(self):
         shape = (self.folder / "a.ply").read_bytes()
         page = self.rholm("report", "-", "--degree", "2", "--size", "16", "--format", "html", "-o",

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -13,6 +12,7 @@
 #include "model/report_data.h"
 #include "model/report_pictures.h"
 #include "model/report_plot.h"
+#include "report_pages.h"
 #include "rholm/error.h"
 #include "rholm/model.h"
 #include "rholm/primitives.h"
@@ -21,64 +21,7 @@
 namespace rholm {
 namespace {
 
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t n = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
-  return n;
-}
-
-// The tags of a page in their order, without angle brackets.
-std::vector<std::string> tags_of(const std::string& html) {
-  std::vector<std::string> tags;
-  for (std::size_t at = html.find('<'); at != std::string::npos; at = html.find('<', at + 1)) {
-    tags.push_back(html.substr(at + 1, html.find('>', at) - at - 1));
-  }
-  return tags;
-}
-
-// Every element that needs it is closed in its turn.
-bool is_balanced(const std::string& html) {
-  const std::set<std::string> kVoid = {"!DOCTYPE", "meta", "img", "br"};
-  std::vector<std::string> open;
-  for (const std::string& tag : tags_of(html)) {
-    const std::string name = tag.substr(0, tag.find_first_of(" \n"));
-    if (kVoid.count(name) > 0 || tag.back() == '/') continue;
-    if (tag[0] != '/') {
-      open.push_back(name);
-    } else {
-      if (open.empty() || open.back() != tag.substr(1)) return false;
-      open.pop_back();
-    }
-  }
-  return open.empty();
-}
-
-// What holds for every page.
-void expect_decent(const std::string& html) {
-  EXPECT_TRUE(is_balanced(html));
-  EXPECT_EQ(count(html, "<html lang=\"en\">"), 1u);
-  EXPECT_EQ(count(html, "<h1>"), 1u);
-  EXPECT_EQ(count(html, "<script"), 0u);
-  EXPECT_EQ(count(html, "http:") + count(html, "https:") + count(html, "@import"), 0u);
-  EXPECT_EQ(count(html, "url("), count(html, "url(#"));
-  EXPECT_EQ(count(html, "nan") + count(html, "inf,") + count(html, ">inf"), 0u);
-  for (const std::string& tag : tags_of(html)) {
-    if (tag.starts_with("img ")) {
-      EXPECT_NE(tag.find("src=\"data:image/png;base64,"), std::string::npos);
-      EXPECT_NE(tag.find(" alt=\"P"), std::string::npos);
-    }
-    if (tag.starts_with("th ") || tag == "th") {
-      EXPECT_NE(tag.find("scope="), std::string::npos) << tag;
-    }
-    EXPECT_EQ(tag.find("href"), std::string::npos) << tag;
-  }
-}
-
-ReportOptions small_pictures() {
-  ReportOptions options{.title = "a.h5", .shape_name = "a.ply"};
-  options.picture_size = 24;
-  return options;
-}
+using namespace test;
 
 Expansion expansion_of(const Mesh& mesh, int degree, Method method = Method::kEdge) {
   return encode(mesh, {.analyze = {.degree = degree, .method = method}}).analysis.expansion;
