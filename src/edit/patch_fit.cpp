@@ -193,12 +193,14 @@ void weigh_by_tukey(double forgotten, double halo, PatchScratch& scratch) {
   }
   // The flanks of what stands out would hold the fit where its middle was.
   const std::size_t n = padded(scratch.taken.size());
+  const std::size_t n_taken = scratch.taken.size();
   const double* const x = scratch.offsets.data();
-  for (std::size_t i = 0; i < scratch.taken.size(); ++i) {
+  double* const weights = scratch.weights.data();
+  for (std::size_t i = 0; i < n_taken; ++i) {
     if (!(scratch.residual[i] > forgotten)) continue;
-    for (std::size_t j = 0; j < scratch.taken.size(); ++j) {
-      const Vec3 apart = {x[i] - x[j], x[n + i] - x[n + j], x[2 * n + i] - x[2 * n + j]};
-      if (dot(apart, apart) < halo * halo) scratch.weights[j] = 0;
+    for (std::size_t j = 0; j < n_taken; ++j) {
+      const double dx = x[i] - x[j], dy = x[n + i] - x[n + j], dz = x[2 * n + i] - x[2 * n + j];
+      weights[j] = dx * dx + dy * dy + dz * dz < halo * halo ? 0 : weights[j];
     }
   }
 }
