@@ -174,7 +174,7 @@ std::vector<Option> option_list(Options& o) {
           {.name = "transition",
            .value = "T",
            .help = "width over which the detail fades outside the region; by default the length "
-                   "of the waves of L0 there",
+                   "of the waves of L0 there, at most a quarter of its radius",
            .target = &o.transition,
            .min = 0},
           {.name = "mode",

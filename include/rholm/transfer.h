@@ -40,7 +40,8 @@ struct TransferOptions {
   // Splits the target's edges until they are as short as the source's are there. Coinciding
   // vertices become one, and new ones come after the old.
   bool refine = false;
-  double transition = -1;  // of the target region; by default the wavelength of its base
+  // Of the target region; by default the wavelength of its base, at most a quarter of its radius.
+  double transition = -1;
 };
 
 // What a slider moves.

@@ -24,6 +24,9 @@ constexpr double kCovered = 0.55;
 // A point belongs to the cap's side of a fold if its normal is within 101 degrees of the axis: the
 // walls of a scratch do, the back of a fin does not.
 constexpr double kSameSide = -0.2;
+// And if it is no farther from the cap's sphere than this, in supports: ears and limbs that lean
+// over a patch are not of it. Cylinders are a quarter off where the support is their radius.
+constexpr double kOffSphere = 0.35;
 constexpr double kGoodShare = 0.85;  // method 7.4
 constexpr double kShrink = 0.75;
 constexpr double kSmallest = 0.3;      // of the first radius: degree 2
@@ -82,6 +85,8 @@ double make_cap(const LocalMesh& local, std::uint32_t seed, double radius,
     const double facing = dot(local.normals[v], axis) - kSameSide;
     const Vec3 offset = local.points[v] - local.points[seed];
     if (!(facing > 0) || dot(offset, axis) < -0.9 * cap.frame.radius) continue;
+    const double off = norm(local.points[v] - cap.frame.center) - cap.frame.radius;
+    if (std::abs(off) > kOffSphere * radius) continue;
     good += local.areas[v];
     cap.points.push_back(v);
     const double d2 = dot(offset, offset) / (kVoice * kVoice * radius * radius);

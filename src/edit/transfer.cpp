@@ -18,6 +18,9 @@ namespace {
 
 // A base of waves of this many edges at least: what smoothing takes, and some room.
 constexpr double kFewestEdges = 3;
+// Transitions, in radii of the regions, unless waves are shorter: what is around a region, limbs
+// and folds, is not to come along.
+constexpr double kTransition = 0.25;
 // Edges of a refined target, in those of the source times the scale: lines on the texture's map are
 // half an edge apart, and heights between them cubic.
 constexpr double kRefined = 1;
@@ -181,12 +184,15 @@ TransferAnalysis analyze_transfer(const Mesh& source, std::span<const Region> fr
   const double source_radius = region_radius(source, from);
   report.source_wavelength = 4 * source_radius / options.from_degree;
   state->source =
-      texture_of(source, from, report.source_wavelength, report.source_wavelength, context);
+      texture_of(source, from, report.source_wavelength,
+                 std::min(report.source_wavelength, kTransition * source_radius), context);
   report.source_edge = mean_edge(state->source);
-  const double about = options.scale * region_radius(target, to) / source_radius;
+  const double target_radius = region_radius(target, to);
+  const double about = options.scale * target_radius / source_radius;
   const double wanted = report.source_wavelength * about;
   std::vector<Region> regions(to.begin(), to.end());
-  const double transition = options.transition < 0 ? wanted : options.transition;
+  const double transition =
+      options.transition < 0 ? std::min(wanted, kTransition * target_radius) : options.transition;
   Mesh& mesh = analysis.mesh;
   if (options.refine) {
     report.new_vertices =

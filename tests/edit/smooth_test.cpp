@@ -207,6 +207,20 @@ TEST(Smooth, a_handle_is_no_obstacle) {
   EXPECT_LT(after, before / 6);
 }
 
+// A post, higher than wide, is in the support of the caps beside it, but not of their surface.
+TEST(Smooth, what_towers_beside_a_patch_does_not_pull_at_it) {
+  const Mesh mesh = test::sheet(90, kEdge, [](double x, double y) {
+    return 1.5 / (1 + std::pow(std::hypot(x - 1.3, y) / 0.4, 8));
+  });
+  const Patch patch =
+      patch_of(mesh, BallRegion{{0, 0, 0}, 0.3},
+               {.wavelength = 1, .transition = 0.2, .fitting = PatchFitting::kMean});
+  const std::vector<Vec3> moved = update(patch);
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    EXPECT_LT(norm(moved[i] - patch.positions[i]), 0.05);  // its foot does, by 0.034
+  }
+}
+
 TEST(Smooth, a_seam_of_the_file_stays_closed) {
   const Mesh whole = bumpy_sphere(4, 0.2, 3);
   const Mesh soup = test::exploded(whole);
