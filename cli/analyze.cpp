@@ -75,6 +75,9 @@ void check_reached(const Options& options, const Encoded& encoded) {
 
 int run(const Options& options, Session& session) {
   if (options.atlas) return analyze_atlas(options, session);
+  if (!options.fit.empty() || !options.extension.empty()) {
+    throw UsageError("--fit and --extension go with --atlas");
+  }
   if (options.degree.has_value() == options.tolerance.tolerance.has_value()) {
     throw UsageError("--degree L or --tolerance E: one of the two is needed");
   }
@@ -194,7 +197,17 @@ std::vector<Option> option_list(Options& o) {
   add({{.name = "atlas",
         .help = "any shape, star-shaped or not, also points with normals: as few large caps that "
                 "keep --tolerance, the rms distance between the surfaces",
-        .target = &o.atlas}});
+        .target = &o.atlas},
+       {.name = "fit",
+        .help = "of an atlas. least-squares: the default; integral: the paper's way, to compare "
+                "with: patches by a kd-tree, integrals over their points to --degree",
+        .target = &o.fit,
+        .choices = {"least-squares", "integral"}},
+       {.name = "extension",
+        .help = "with --fit integral, what a cap is beyond its points: zero, as the paper has it, "
+                "or the sphere it lies on",
+        .target = &o.extension,
+        .choices = {"zero", "sphere"}}});
   add(transform_options(o));
   add(monte_carlo_options(o));
   add({rays_option(o.rays),

@@ -9,18 +9,31 @@
 #include "cli/parse.h"
 #include "cli/prepare.h"
 #include "rholm/error.h"
+#include "rholm/patch_atlas.h"
 #include "rholm/topology.h"
 
 namespace rholm::cli {
 namespace {
 
+bool by_integrals(const AnalyzeCommandOptions& o) { return o.fit == "integral"; }
+
 void check_options(const AnalyzeCommandOptions& o) {
   const auto refuse = [](bool given, const char* name) {
     if (given) throw UsageError(fmt::format("{} does not go with --atlas", name));
   };
-  if (!o.tolerance.tolerance) throw UsageError("--atlas needs --tolerance E");
-  if (!(*o.tolerance.tolerance > 0)) throw UsageError("--tolerance: it must be above 0");
-  refuse(o.degree.has_value(), "--degree");
+  if (by_integrals(o)) {
+    if (!o.degree || o.tolerance.tolerance) {
+      throw UsageError(
+          "--fit integral needs the degree of the caps, --degree L, and no --tolerance");
+    }
+    if (*o.degree > 24) throw UsageError("--degree of a cap is 0 ... 24");
+    refuse(o.tolerance.max_degree.has_value(), "--max-degree and --fit integral");
+  } else {
+    if (!o.tolerance.tolerance) throw UsageError("--atlas needs --tolerance E");
+    if (!(*o.tolerance.tolerance > 0)) throw UsageError("--tolerance: it must be above 0");
+    refuse(o.degree.has_value(), "--degree");
+    if (!o.extension.empty()) throw UsageError("--extension goes with --fit integral");
+  }
   refuse(o.method != "edge", "--method");
   refuse(!o.engine.empty(), "--engine");
   refuse(o.center != "auto", "--center");
@@ -35,6 +48,15 @@ void check_options(const AnalyzeCommandOptions& o) {
   }
 }
 
+Mesh prepared_mesh(const AnalyzeCommandOptions& o, ShapeFile file, Session& session) {
+  Mesh mesh = weld(mesh_of(std::move(file), o.input, session), o.weld).mesh;
+  if (inspect(mesh).inside_out) {
+    flip(mesh);
+    session.note(kFlipped);
+  }
+  return mesh;
+}
+
 Compressed compress_shape(const AnalyzeCommandOptions& o, ShapeFile file, Session& session) {
   CompressOptions options;
   options.tolerance = *o.tolerance.tolerance;
@@ -45,14 +67,53 @@ Compressed compress_shape(const AnalyzeCommandOptions& o, ShapeFile file, Sessio
     if (relative) options.tolerance *= bounds(cloud->points).diagonal();
     return compress(*cloud, options, session.context());
   }
-  Mesh mesh = mesh_of(std::move(file), o.input, session);
-  mesh = weld(mesh, o.weld).mesh;
-  if (inspect(mesh).inside_out) {
-    flip(mesh);
-    session.note(kFlipped);
-  }
+  const Mesh mesh = prepared_mesh(o, std::move(file), session);
   if (relative) options.tolerance *= bounds(mesh.vertices).diagonal();
   return compress(mesh, options, session.context());
+}
+
+// The paper's way: what is made does not meet anything in particular.
+AtlasModel integrate_shape(const AnalyzeCommandOptions& o, ShapeFile file, Session& session) {
+  PatchAtlasOptions options;
+  options.degree = *o.degree;
+  if (!o.extension.empty()) options.extension = parse_cap_extension(o.extension);
+  if (const auto* cloud = std::get_if<PointCloud>(&file.shape)) {
+    return patch_atlas(*cloud, options, session.context()).model;
+  }
+  return patch_atlas(prepared_mesh(o, std::move(file), session), options, session.context()).model;
+}
+
+void report(const AnalyzeCommandOptions& options, const AtlasModel& model,
+            const CompressReport* found, Session& session) {
+  const auto bytes = file_size_of(options.output);
+  if (!options.json) {
+    std::string text = fmt::format("{}: atlas of caps\n", display_name(options.input));
+    if (bytes) text += line("bytes", fmt::format("{}", *bytes));
+    session.note(text + atlas_text(model));
+    return;
+  }
+  Json json;
+  json["file"] = options.input;
+  json["output"] = options.output;
+  json["bytes"] = bytes ? Json(*bytes) : Json(nullptr);
+  if (found != nullptr) {
+    json["met"] = found->met;
+    json["samples"] = found->samples;
+    json["uncovered"] = found->uncovered;
+    json["genus"] = found->genus;
+  }
+  json.update(atlas_json(model));
+  if (found != nullptr) {
+    for (const auto& [stage, time] : found->times) {
+      json["times"][stage] = {{"wall", time.wall}, {"cpu", time.cpu}};
+    }
+  }
+  print_json(json);
+}
+
+void write_model(const AnalyzeCommandOptions& options, AtlasModel& model) {
+  model.unit = options.length_unit;
+  write_atlas(model, options.output);
 }
 
 }  // namespace
@@ -64,29 +125,16 @@ int analyze_atlas(const AnalyzeCommandOptions& options, Session& session) {
   if (output.format) throw UsageError("an atlas goes to a model file: -o NAME.h5");
   check_writable(options.output);
 
-  Compressed found = compress_shape(options, read_shape_input(options.input, session), session);
-  found.model.unit = options.length_unit;
-  write_atlas(found.model, options.output);
-  const auto bytes = file_size_of(options.output);
-  if (options.json) {
-    Json json;
-    json["file"] = options.input;
-    json["output"] = options.output;
-    json["bytes"] = bytes ? Json(*bytes) : Json(nullptr);
-    json["met"] = found.report.met;
-    json["samples"] = found.report.samples;
-    json["uncovered"] = found.report.uncovered;
-    json["genus"] = found.report.genus;
-    json.update(atlas_json(found.model));
-    for (const auto& [stage, time] : found.report.times) {
-      json["times"][stage] = {{"wall", time.wall}, {"cpu", time.cpu}};
-    }
-    print_json(json);
-  } else {
-    std::string text = fmt::format("{}: atlas of caps\n", display_name(options.input));
-    if (bytes) text += line("bytes", fmt::format("{}", *bytes));
-    session.note(text + atlas_text(found.model));
+  ShapeFile file = read_shape_input(options.input, session);
+  if (by_integrals(options)) {
+    AtlasModel model = integrate_shape(options, std::move(file), session);
+    write_model(options, model);
+    report(options, model, nullptr, session);
+    return 0;
   }
+  Compressed found = compress_shape(options, std::move(file), session);
+  write_model(options, found.model);
+  report(options, found.model, &found.report, session);
   if (!found.report.met) {
     throw Error(ErrorCode::kNotConverged,
                 fmt::format("the tolerance of {} is not kept by what was written: the distance is "

@@ -18,6 +18,8 @@ struct AnalyzeCommandOptions {
   std::optional<int> degree;
   ToleranceOptions tolerance;
   bool atlas = false;
+  std::string fit;        // of an atlas; empty: least-squares
+  std::string extension;  // of caps that are fitted by integrals; empty: zero
   std::string method = "edge";
   std::string engine;  // empty: the default
   std::string center = "auto";

@@ -24,6 +24,7 @@ struct Options {
   std::optional<double> tolerance;
   std::string noise = "auto";
   std::string holes = "fill";
+  std::string blend = "smooth";
   std::optional<int> resolution;
   double min_component = 0.01;
   double max_memory = 8;
@@ -86,6 +87,7 @@ ReconstructOptions library_options(const Options& o, const Bounds& box) {
   if (o.tolerance) options.tolerance = *o.tolerance * box.diagonal();
   if (o.noise != "auto") options.noise = parse_noise(o.noise) * box.diagonal();
   options.holes = parse_hole_policy(o.holes);
+  options.blend = parse_cap_blend(o.blend);
   options.min_component = o.min_component;
   options.remove_outliers = !o.keep_outliers;
   options.max_memory = static_cast<std::size_t>(o.max_memory * 0x1p30);
@@ -206,6 +208,10 @@ std::vector<Option> option_list(Options& o) {
            .help = "fill: close places without points; keep: leave them open",
            .target = &o.holes,
            .choices = {"fill", "keep"}},
+          {.name = "blend",
+           .help = "weights of caps that overlap: smooth; spline: the paper's quadratic B-spline",
+           .target = &o.blend,
+           .choices = {"smooth", "spline"}},
           {.name = "resolution",
            .value = "N",
            .help = "cubes of the grid along the longest side; by default from the spacing",

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "rholm/vec3.h"
@@ -57,9 +58,23 @@ struct Cap {
   double deviation = 0;  // largest distance of its surface from the tangent plane of the seed
 };
 
+// How much a cap has to say at s^2 < 1 of CapSupport: (1 - s^2)^3, or the paper's quadratic
+// B-spline of 3 s / 2 (P44). Either is multiplied by (1 - g^2 / T^2)^2 of its potential g, T the
+// band.
+enum class CapBlend : std::uint8_t { kSmooth, kSpline };
+const char* to_string(CapBlend blend);              // "smooth", "spline"
+CapBlend parse_cap_blend(const std::string& name);  // throws InvalidInput
+
+// What a cap that is found by integrals over its points is beyond them: zero as the paper has it,
+// or the sphere it lies on, so that it jumps by its height over the sphere only.
+enum class CapExtension : std::uint8_t { kZero, kSphere };
+const char* to_string(CapExtension extension);              // "zero", "sphere"
+CapExtension parse_cap_extension(const std::string& name);  // throws InvalidInput
+
 struct Atlas {
   std::vector<Cap> caps;
   std::vector<double> coefficients;
+  CapBlend blend = CapBlend::kSmooth;
   double spacing = 0;   // of the points: median distance to the nearest neighbours' circle
   double noise = 0;     // standard deviation of the points' distances to the surface; 0 if clean
   double diagonal = 0;  // of the points' bounding box

@@ -24,6 +24,7 @@ struct ReconstructOptions {
   double tolerance = 0;
   std::optional<double> noise = {};  // standard deviation of the points; estimated if not given
   HolePolicy holes = HolePolicy::kFill;
+  CapBlend blend = CapBlend::kSmooth;  // kSpline: the paper's weights, for comparison
   double min_component =
       0.01;  // parts of the surface with less of the largest one's area are dropped
   bool remove_outliers = true;

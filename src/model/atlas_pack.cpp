@@ -195,6 +195,7 @@ PackedAtlas pack(const Atlas& atlas) {
   packed.origin = middle_of(atlas);
   packed.spacing = atlas.spacing, packed.noise = atlas.noise;
   packed.diagonal = atlas.diagonal, packed.band = atlas.band;
+  packed.blend = atlas.blend;
   if (!atlas.caps.empty()) packed.basis = atlas.caps.front().basis;
   std::size_t coefficients = 0;
   for (const Cap& cap : atlas.caps) coefficients += n_coefficients(cap.basis, cap.degree);
@@ -225,6 +226,7 @@ Atlas unpack(const PackedAtlas& packed, const std::string& name) {
   Atlas atlas;
   atlas.spacing = packed.spacing, atlas.noise = packed.noise;
   atlas.diagonal = packed.diagonal, atlas.band = packed.band;
+  atlas.blend = packed.blend;
   std::size_t value = 0, bit = 0;
   for (std::size_t c = 0; c < packed.degrees.size(); ++c) {
     Cap cap = unpack_cap(packed, c);

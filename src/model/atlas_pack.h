@@ -18,6 +18,7 @@ struct PackedAtlas {
   Vec3 origin;
   double spacing = 0, noise = 0, diagonal = 0, band = 0;
   CapBasis basis = CapBasis::kFull;
+  CapBlend blend = CapBlend::kSmooth;
   double weight_power = 0;      // weights are (largest support / support)^power ...
   std::vector<float> caps;      // [caps][kPackedCap]
   std::vector<float> ellipses;  // [caps][5] as CapSupport; empty: all are the circle of support

@@ -114,6 +114,12 @@ class AtlasReader {
       refuse("its basis is '" + basis + "': even or full are known", ErrorCode::kUnsupported);
     }
     p.basis = basis == "even" ? CapBasis::kEven : CapBasis::kFull;
+    const std::string blend = text(group, layout::kBlend);
+    if (!blend.empty() && blend != to_string(CapBlend::kSmooth) &&
+        blend != to_string(CapBlend::kSpline)) {
+      refuse("its blend is '" + blend + "': smooth or spline are known", ErrorCode::kUnsupported);
+    }
+    p.blend = blend.empty() ? CapBlend::kSmooth : parse_cap_blend(blend);
     p.caps = table<float>(group, layout::kCaps, kPackedCap);
     if (hdf5::has_member(file_, group, layout::kEllipses)) {
       p.ellipses = table<float>(group, layout::kEllipses, 5);

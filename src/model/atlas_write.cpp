@@ -43,6 +43,9 @@ void write_group(const Writer& writer, hid_t group, const AtlasModel& model) {
   write_table(writer, group, layout::kKept, packed.kept, 1, H5T_STD_U8LE, H5T_NATIVE_UINT8);
   write_table(writer, group, layout::kValues, packed.values, 1, H5T_STD_I16LE, H5T_NATIVE_INT16);
   writer.write_fixed_text(group, layout::kBasis, packed.basis == CapBasis::kEven ? "even" : "full");
+  if (packed.blend != CapBlend::kSmooth) {
+    writer.write_fixed_text(group, layout::kBlend, to_string(packed.blend));
+  }
   writer.write_attribute(group, layout::kOrigin, packed.origin);
   const std::array<double, layout::kScaleNumbers> scales = {
       packed.spacing, packed.noise, packed.band, model.step, model.tolerance};

@@ -10,6 +10,7 @@
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "harmonic/low_harmonics.h"
+#include "model/atlas_errors.h"
 #include "model/atlas_pack.h"
 #include "rholm/compare.h"
 #include "rholm/error.h"
@@ -104,22 +105,6 @@ Atlas cover(const SampleLevels& levels, double diagonal, const CompressOptions& 
 Atlas rounded(Atlas atlas) {
   set_weights(atlas.caps, kWeightPower);
   return unpack(pack(atlas), "");
-}
-
-AtlasErrors measure(const Mesh& shape, const Mesh& surface, std::size_t samples,
-                    const Context& context) {
-  const Comparison found = compare(shape, surface, {.samples = samples}, context);
-  return {found.a_to_b.rms, found.a_to_b.max, found.b_to_a.rms, found.b_to_a.max};
-}
-
-AtlasErrors measure(const std::vector<Vec3>& points, const Mesh& surface, const Context& context) {
-  AtlasErrors errors;
-  for (const double d : distances_to_surface(points, surface, context)) {
-    errors.rms_from += d * d;
-    errors.max_from = std::max(errors.max_from, d);
-  }
-  errors.rms_from = std::sqrt(errors.rms_from / static_cast<double>(points.size()));
-  return errors;
 }
 
 template <class Measure>

@@ -48,6 +48,7 @@ inline constexpr const char* kDegrees = "degrees";
 inline constexpr const char* kKept = "kept";
 inline constexpr const char* kValues = "values";
 inline constexpr const char* kBasis = "basis";
+inline constexpr const char* kBlend = "blend";
 inline constexpr const char* kOrigin = "origin";
 inline constexpr const char* kScales = "scales";  // spacing, noise, band, step, tolerance
 inline constexpr std::size_t kScaleNumbers = 5;

@@ -127,6 +127,7 @@ Reconstruction reconstruct(PointCloud cloud, const ReconstructOptions& options,
   const Spacing spacing = points.spacing(context);
   atlas.spacing = spacing.median, atlas.noise = size.noise;
   atlas.diagonal = points.diagonal();
+  atlas.blend = options.blend;
   report.caps = atlas.caps.size();
   report.spacing = spacing.median, report.noise = size.noise;
   report.normal_noise_degrees = size.normal_noise * 180 / std::numbers::pi;

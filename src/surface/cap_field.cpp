@@ -41,6 +41,17 @@ HWY_INLINE V DotLane(D d, const float* a, V x, V y, V z) {
                     hn::MulAdd(hn::Set(d, a[1]), y, hn::Mul(hn::Set(d, a[2]), z)));
 }
 
+// (1 - s^2)^3, or the quadratic B-spline of t = 3 s / 2: 3/4 - t^2 up to 1/2, then (3/2 - t)^2 / 2,
+// both over its value at 0.
+HWY_INLINE V WeightAt(D d, bool spline, V near) {
+  if (!spline) return hn::Mul(near, hn::Mul(near, near));
+  const V square = hn::Sub(hn::Set(d, 1.0f), near);
+  const V rest = hn::Sub(hn::Set(d, 1.0f), hn::Sqrt(hn::Max(square, hn::Zero(d))));
+  const V inner = hn::NegMulAdd(hn::Set(d, 3.0f), square, hn::Set(d, 1.0f));
+  const V outer = hn::Mul(hn::Set(d, 1.5f), hn::Mul(rest, rest));
+  return hn::IfThenElse(hn::Lt(square, hn::Set(d, 1.0f / 9)), inner, outer);
+}
+
 // What a cap says at points: potential and weight, and the normal in space where asked for.
 struct Said {
   V g, w;
@@ -85,7 +96,7 @@ HWY_INLINE bool Say(D d, const LaneCap& lane, V px, V py, V pz, Said& said) {
   const V rest = hn::NegMulAdd(band, band, one);
   speaks = hn::And(speaks, hn::And(hn::Gt(rest, hn::Zero(d)), hn::Gt(level, hn::Set(d, 0.2f))));
   speaks = hn::And(speaks, hn::Gt(lz, hn::Mul(rho, hn::Set(d, 0.3f))));
-  said.w = hn::IfThenElseZero(speaks, hn::Mul(hn::Mul(near, hn::Mul(near, near)),
+  said.w = hn::IfThenElseZero(speaks, hn::Mul(WeightAt(d, cap.spline, near),
                                               hn::Mul(hn::Set(d, cap.trust), hn::Mul(rest, rest))));
   said.g = hn::IfThenElseZero(speaks, said.g);
   if constexpr (kNormals) {
@@ -239,6 +250,7 @@ Lanes make_lanes(const Atlas& atlas, double step) {
     lane.inverse_band = static_cast<float>(step / band_of(atlas, step));
     lane.trust = static_cast<float>(cap.weight);
     lane.degree = cap.degree;
+    lane.spline = atlas.blend == CapBlend::kSpline;
     lane.even = cap.basis == CapBasis::kEven;
     lane.coefficients = lanes.coefficients.data() + cap.first;
     lanes.caps.push_back(lane);

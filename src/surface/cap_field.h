@@ -31,7 +31,8 @@ double cap_deviation(const Atlas& atlas, const Cap& cap);
 std::vector<Disc> discs_of(const Atlas& atlas, double step, const Context& context);
 CapLists list_caps(const BlockGrid& grid, const std::vector<Disc>& discs);
 
-// Sets values to G = sum w g / sum w, w = (1 - d^2/R^2)^3 (1 - g^2/T^2)^2.
+// Sets values to G = sum w g / sum w, w = (1 - d^2/R^2)^3 (1 - g^2/T^2)^2, or with the weight of
+// the paper in the place of the first factor: CapBlend.
 void fill_grid(const Atlas& atlas, const CapLists& lists, BlockGrid& grid, const Context& context);
 
 // Moves vertices to G = 0 by one Newton step, and sets their normals nx, ny, nz; those beside

@@ -19,6 +19,7 @@ struct CapLane {
   float trust;         // times the weight: less for a cap that fits its points worse
   int degree;
   bool even;
+  bool spline;  // CapBlend::kSpline
   const float* coefficients;
 };
 

@@ -130,7 +130,7 @@ double total_weight(const CapFrame& frame, const std::vector<Face>& faces) {
   return total;
 }
 
-// Calls visit(direction on the dilated sphere, weight of r dOmega') for the nodes of a face.
+// Calls visit(direction on the dilated sphere, weight of r dOmega', r) for the nodes of a face.
 template <typename Visit>
 void visit_nodes(const CapFrame& frame, const Face& face, const Allowance& allowance,
                  const Visit& visit) {
@@ -141,7 +141,8 @@ void visit_nodes(const CapFrame& frame, const Face& face, const Allowance& allow
   visit_triangle(face.corners, own, [&](const Vec3& x, double w) {
     const Vec3 u = normalized(x);
     const double conformal = conformal_factor(frame.dilation, u.z);
-    visit(dilated(frame.dilation, u), w * face.density / dot(x, x) * conformal * conformal);
+    visit(dilated(frame.dilation, u), w * face.density / dot(x, x) * conformal * conformal,
+          norm(x));
   });
 }
 
@@ -172,14 +173,14 @@ CapIntegral cap_integral(const CapFrame& frame, const PatchMesh& patch,
   CapIntegral result;
   const std::vector<Face> faces = faces_of(frame, patch);
   result.coefficients = Coefficients(options.degree);
-  if (faces.empty()) return result;
+  if (faces.empty() && options.extension == CapExtension::kZero) return result;
 
   const double weight = total_weight(frame, faces);
   const Allowance allowance =
       undivided_allowance(options.precision * weight, weight, options.degree);
   for (const Face& face : faces) {
     result.solid_angle += face.omega;
-    visit_nodes(frame, face, allowance, [&](const Vec3&, double) { ++result.nodes; });
+    visit_nodes(frame, face, allowance, [&](const Vec3&, double, double) { ++result.nodes; });
   }
   Sources sources({.degree = options.degree,
                    .engine = Engine::kFast,
@@ -188,9 +189,15 @@ CapIntegral cap_integral(const CapFrame& frame, const PatchMesh& patch,
                   context);
   for (std::size_t t = 0; t < faces.size(); ++t) {
     sources.set_progress(static_cast<double>(t) / static_cast<double>(faces.size()));
-    visit_nodes(frame, faces[t], allowance, [&](const Vec3& u, double w) { sources.add(u, w); });
+    visit_nodes(frame, faces[t], allowance, [&](const Vec3& u, double w, double r) {
+      // Of r - R_0, if the sphere itself is there everywhere.
+      sources.add(u, options.extension == CapExtension::kZero ? w : w * (1 - 1 / r));
+    });
   }
   result.coefficients = sources.finish();
+  if (options.extension == CapExtension::kSphere) {
+    result.coefficients.c(0, 0) += std::sqrt(4 * std::numbers::pi);
+  }
   for (double& value : result.coefficients.values()) value *= frame.radius;
   return result;
 }

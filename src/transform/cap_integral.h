@@ -2,8 +2,9 @@
 // with least squares (cap_fit.h). Layer: transform.
 //
 // The function is r(u), the distance of the patch from the centre of its sphere, where the patch
-// is, and zero elsewhere. It jumps at the border of the patch, so its series converges slowly and
-// not at the border itself, where it tends to r/2 (method 7.1).
+// is, and zero elsewhere, or the sphere's radius. It jumps at the border of the patch, so its
+// series converges slowly and not at the border itself, where it tends to the mean of both sides:
+// r/2 (method 7.1).
 #pragma once
 
 #include <cstddef>
@@ -30,7 +31,8 @@ struct PatchMesh {
 };
 
 struct CapIntegralOptions {
-  int degree = 64;           // 0 ... kMaxIntegralDegree
+  int degree = 64;  // 0 ... kMaxIntegralDegree
+  CapExtension extension = CapExtension::kZero;
   double precision = 1e-10;  // of the nodes: l2 error of all coefficients over the integral of r
 };
 inline constexpr int kMaxIntegralDegree = 512;  // beyond, caps have more numbers than shapes

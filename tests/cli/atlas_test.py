@@ -37,6 +37,24 @@ class Atlas(CliTest):
             # Other samples than those the model was measured by: 1 % apart at 100000 of them.
             self.assertLess(found["relative"][way]["rms"], 5.1e-3)
 
+    def test_the_paper_s_way_is_there_to_compare_with(self):
+        found = {}
+        for extension in ("zero", "sphere"):
+            found[extension] = self.rholm(
+                "analyze", "t.ply", "--atlas", "--fit", "integral", "--degree", "12",
+                "--extension", extension, "-o", extension + ".h5", "--json").json()
+            info = self.rholm("info", extension + ".h5", "--json").json()
+            self.assertEqual(info["method"], f"integral, {extension} beyond")
+            self.rholm("synthesize", extension + ".h5", "-o", extension + ".ply")
+        # The jump to zero is that of the whole radius.
+        self.assertLess(2 * found["sphere"]["errors"]["rms_from_shape"],
+                        found["zero"]["errors"]["rms_from_shape"])
+        for words in (["--fit", "integral"], ["--fit", "integral", "--degree", "25"],
+                      ["--fit", "integral", "--degree", "4", "--tolerance", "1"],
+                      ["--extension", "zero", "--tolerance", "1"], ["--fit", "best"]):
+            self.rholm("analyze", "t.ply", "--atlas", *words, "-o", "x.h5", code=2)
+        self.rholm("analyze", "t.ply", "--fit", "integral", "--degree", "4", "-o", "x.h5", code=2)
+
     def test_resolution_and_degree_limit(self):
         step = self.make_model()["step"]
         counts = {}

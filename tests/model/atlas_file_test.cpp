@@ -119,6 +119,13 @@ TEST(atlas_file, ellipses_and_weights_are_kept) {
   EXPECT_FLOAT_EQ(static_cast<float>(back.atlas.caps[0].weight), 2);
 }
 
+TEST(atlas_file, the_blend_is_kept) {
+  AtlasModel model = random_model(3, CapBasis::kEven);
+  EXPECT_EQ(parse_atlas(bytes_of(model), "test").atlas.blend, CapBlend::kSmooth);
+  model.atlas.blend = CapBlend::kSpline;
+  EXPECT_EQ(parse_atlas(bytes_of(model), "test").atlas.blend, CapBlend::kSpline);
+}
+
 TEST(atlas_file, cut_off_files_are_refused) {
   const std::string bytes = bytes_of(random_model(5, CapBasis::kEven));
   for (std::size_t n = 0; n < bytes.size(); n += 7) {

@@ -164,6 +164,27 @@ TEST(CapIntegral, the_triangulation_of_a_flat_patch_does_not_matter) {
   EXPECT_NEAR(a.solid_angle, 4 * kPi / 6, 1e-13);  // a face of a cube
 }
 
+// r - R_0 on the patch is that of the zero extension less R_0 times the patch's indicator, whose
+// integral is its solid angle.
+TEST(CapIntegral, the_sphere_as_extension_takes_its_part_off_the_mean) {
+  const Mesh mesh = cap_mesh(0.7, 6, 20);
+  const CapFrame frame = unit_frame_at({0, 0, -0.4}, 0.5);
+  CapIntegralOptions options{.degree = 12};
+  const CapIntegral zero = cap_integral(frame, {mesh.vertices, mesh.triangles}, options);
+  options.extension = CapExtension::kSphere;
+  const CapIntegral sphere = cap_integral(frame, {mesh.vertices, mesh.triangles}, options);
+  const double rest = 0.5 * (4 * kPi - zero.solid_angle) / std::sqrt(4 * kPi);
+  EXPECT_NEAR(sphere.coefficients.c(0, 0), zero.coefficients.c(0, 0) + rest, 1e-9);
+}
+
+TEST(CapIntegral, a_patch_of_its_own_sphere_vanishes_on_the_sphere) {
+  const Mesh mesh = cap_mesh(0.6, 40, 160);
+  const CapIntegral made = cap_integral(unit_frame_at({}), {mesh.vertices, mesh.triangles},
+                                        {.degree = 16, .extension = CapExtension::kSphere});
+  EXPECT_NEAR(made.coefficients.c(0, 0), std::sqrt(4 * kPi), 1e-3);
+  for (int l = 1; l <= 16; ++l) EXPECT_NEAR(made.coefficients.c(l, 0), 0, 1e-3);
+}
+
 // The paper's way from points to errors. Inside, the series of the zero extension converges; the
 // points at the border of the triangulation see half the radius.
 TEST(CapIntegral, points_of_a_sphere_go_through_partition_triangulation_and_integral) {

@@ -1,0 +1,35 @@
+// The paper's atlas (its sections 5.1 to 5.6), kept to compare with: patches by a kd-tree, each on
+// its best-fitting sphere, coefficients by integrals over the Delaunay triangles of its points.
+// Layer: model.
+#pragma once
+
+#include "rholm/compress.h"
+#include "rholm/context.h"
+#include "rholm/mesh.h"
+
+namespace rholm {
+
+struct PatchAtlasOptions {
+  int degree = 16;  // of every cap, 0 ... 24
+  CapExtension extension = CapExtension::kZero;
+  double min_cosine = 0.5;  // of normals to the mean normal of their patch (P36), 0 ... 1
+  // A patch is widened by the points around it: the radius of its cell over that of its own points,
+  // 1 ... 4. Caps are silent at the rims of their cells, where their series are wrong.
+  double overlap = 1.5;
+};
+
+struct PatchAtlas {
+  AtlasModel model;           // blended by the paper's weights; errors as measured on its surface
+  Mesh surface;               // with normals nx, ny, nz
+  double rms_along_rays = 0;  // of all points of the cells to the series of their caps, (P42)
+};
+
+// A mesh is its vertices, with the mean normals of their faces; its errors are measured both ways,
+// those of points from the points. Points need normals. Throws InvalidInput for options out of
+// range, and points that no patch can be made of. Same bits for any number of threads.
+PatchAtlas patch_atlas(const Mesh& mesh, const PatchAtlasOptions& options,
+                       const Context& context = {});
+PatchAtlas patch_atlas(const PointCloud& cloud, const PatchAtlasOptions& options,
+                       const Context& context = {});
+
+}  // namespace rholm

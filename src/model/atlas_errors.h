@@ -1,0 +1,18 @@
+// How far a shape is from the surface of its model. Layer: model, private.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "rholm/compress.h"
+#include "rholm/context.h"
+#include "rholm/mesh.h"
+
+namespace rholm {
+
+AtlasErrors measure(const Mesh& shape, const Mesh& surface, std::size_t samples,
+                    const Context& context);
+// From the points to the surface only.
+AtlasErrors measure(const std::vector<Vec3>& points, const Mesh& surface, const Context& context);
+
+}  // namespace rholm

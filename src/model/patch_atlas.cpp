@@ -1,0 +1,254 @@
+#include "rholm/patch_atlas.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/parallel.h"
+#include "chart/kd_partition.h"
+#include "chart/sphere_delaunay.h"
+#include "harmonic/low_harmonics.h"
+#include "model/atlas_errors.h"
+#include "model/atlas_pack.h"
+#include "rholm/error.h"
+#include "rholm/topology.h"
+#include "shape/face.h"
+#include "shape/point_tree.h"
+#include "surface/atlas_surface.h"
+#include "transform/cap_integral.h"
+
+namespace rholm {
+namespace {
+
+// Precision of the integrals: far below the jump at the border of a patch.
+constexpr double kPrecision = 1e-8;
+// Points of a widened cell are seen from its centre at a cosine above this, or left out.
+constexpr double kLeastCosine = 0.1;
+// The edge of the grid's cubes over the distance between points.
+constexpr double kStepSpacings = 1;
+
+void check(const PatchAtlasOptions& options) {
+  const auto check = [](const char* what, double value, double low, double high) {
+    if (value >= low && value <= high) return;
+    throw Error(ErrorCode::kInvalidInput,
+                fmt::format("{} is {}: it must be {} ... {}", what, value, low, high));
+  };
+  check("the degree of a cap", options.degree, 0, kMaxLowDegree);
+  check("the least cosine of a patch", options.min_cosine, 0, 1);
+  check("the overlap of cells", options.overlap, 1, 4);
+}
+
+// In local units: moduli of about 1, normals of length 1.
+struct Points {
+  std::vector<Vec3> points, normals;
+  UnitFrame frame;
+};
+
+Points local_points(const std::vector<Vec3>& points, const std::vector<Vec3>& normals) {
+  Points local;
+  local.frame = unit_frame(bounds(points));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!(norm(normals[i]) > 0)) continue;
+    local.points.push_back(local.frame.to_local(points[i]));
+    local.normals.push_back(normalized(normals[i]));
+  }
+  if (local.points.size() < 16) {
+    throw Error(
+        ErrorCode::kInvalidInput,
+        fmt::format("{} points with normals make no patches: at least 16", local.points.size()));
+  }
+  return local;
+}
+
+// A patch and the points around it, its own first.
+struct Cell {
+  std::vector<Vec3> points;
+  std::size_t own = 0;
+};
+
+Cell cell_of(const Points& all, const KdPartition& partition, const KdPatch& patch,
+             const PointTree& tree, double overlap) {
+  Cell cell;
+  std::vector<char> is_own(all.points.size(), 0);
+  Vec3 middle;
+  for (std::uint32_t k = patch.begin; k < patch.end; ++k) {
+    const std::uint32_t i = partition.order[k];
+    cell.points.push_back(all.points[i]);
+    middle += all.points[i];
+    is_own[i] = 1;
+  }
+  cell.own = cell.points.size();
+  middle = middle / static_cast<double>(cell.own);
+  double radius = 0;
+  for (const Vec3& p : cell.points) radius = std::max(radius, norm(p - middle));
+  std::vector<Neighbor> found;
+  tree.within(middle, overlap * radius, found);
+  for (const Neighbor& neighbor : found) {
+    const std::uint32_t i = tree.order()[neighbor.index];
+    const Vec3 ray = all.points[i] - patch.seen.sphere.center;
+    if (is_own[i] || dot(all.normals[i], ray) < kLeastCosine * norm(ray)) continue;
+    cell.points.push_back(all.points[i]);
+  }
+  return cell;
+}
+
+// One cap, and what is needed of all.
+struct MadeCap {
+  Cap cap;
+  std::vector<double> coefficients;
+  double own_area = 0;
+  double squares = 0;  // of errors along rays
+  std::size_t points = 0;
+};
+
+// In the order of atlas.h, of r / R_0 - 1.
+std::vector<double> flattened(const Coefficients& series, double radius) {
+  std::vector<double> values;
+  for (int l = 0; l <= series.degree(); ++l) {
+    values.push_back(series.c(l, 0) / radius);
+    for (int m = 1; m <= l; ++m) {
+      values.push_back(series.c(l, m) / radius);
+      values.push_back(series.s(l, m) / radius);
+    }
+  }
+  values[0] -= std::sqrt(4 * std::numbers::pi);
+  return values;
+}
+
+double area_of(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles) {
+  double twice = 0;
+  for (const Triangle& t : triangles) {
+    twice += norm(cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]]));
+  }
+  return twice / 2;
+}
+
+MadeCap make_cap(const Cell& cell, const KdPatch& patch, const PatchAtlasOptions& options,
+                 const Context& context) {
+  MadeCap made;
+  std::vector<Vec3> directions;
+  for (const Vec3& p : cell.points) directions.push_back(p - patch.seen.sphere.center);
+  const std::vector<Triangle> triangles = sphere_delaunay(directions);
+  if (triangles.empty()) return made;
+  made.cap.frame = patch_frame(patch.seen, cell.points);
+  const CapIntegral integral = cap_integral(
+      made.cap.frame, {cell.points, triangles},
+      {.degree = options.degree, .extension = options.extension, .precision = kPrecision}, context);
+  const CapErrors errors = cap_errors(made.cap.frame, integral.coefficients, cell.points, context);
+  made.squares = errors.sum * errors.sum;
+  made.points = cell.points.size();
+  const double support = made.cap.frame.support;
+  made.cap.where.xx = made.cap.where.yy = 1 / (support * support);
+  made.cap.degree = static_cast<std::uint16_t>(options.degree);
+  made.cap.error = errors.rms;
+  made.cap.area = area_of(cell.points, triangles);
+  made.own_area = made.cap.area * static_cast<double>(cell.own) / static_cast<double>(made.points);
+  made.coefficients = flattened(integral.coefficients, made.cap.frame.radius);
+  made.cap.deviation = deviation_of(made.cap, made.coefficients);
+  return made;
+}
+
+// Back to the shape's place and size.
+void move_back(const UnitFrame& frame, Cap& cap) {
+  cap.frame.center = frame.to_shape(cap.frame.center);
+  cap.where.xx *= frame.scale * frame.scale;
+  cap.where.yy *= frame.scale * frame.scale;
+  cap.area /= frame.scale * frame.scale;
+  for (double* length : {&cap.frame.radius, &cap.frame.support, &cap.error, &cap.deviation}) {
+    *length /= frame.scale;
+  }
+}
+
+PatchAtlas make_atlas(const Points& points, const PatchAtlasOptions& options,
+                      const Context& context) {
+  const KdPartition partition =
+      kd_partition(points.points, points.normals, {.min_cosine = options.min_cosine}, context);
+  const PointTree tree(points.points, context);
+  std::vector<MadeCap> made(partition.patches.size());
+  const Context alone{.threads = 1, .progress = {}};
+  parallel_for(made.size(), 1, context, {"patches"}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const KdPatch& patch = partition.patches[k];
+      made[k] =
+          make_cap(cell_of(points, partition, patch, tree, options.overlap), patch, options, alone);
+    }
+  });
+  PatchAtlas result;
+  Atlas& atlas = result.model.atlas;
+  double squares = 0, area = 0;
+  std::size_t n = 0;
+  for (MadeCap& cap : made) {
+    if (cap.points == 0) continue;
+    cap.cap.first = atlas.coefficients.size();
+    move_back(points.frame, cap.cap);
+    atlas.caps.push_back(cap.cap);
+    atlas.coefficients.insert(atlas.coefficients.end(), cap.coefficients.begin(),
+                              cap.coefficients.end());
+    squares += cap.squares, area += cap.own_area, n += cap.points;
+  }
+  if (atlas.caps.empty()) {
+    throw Error(ErrorCode::kInvalidInput, "no patch of these points has a triangle");
+  }
+  result.rms_along_rays = std::sqrt(squares / static_cast<double>(n)) / points.frame.scale;
+  atlas.blend = CapBlend::kSpline;
+  atlas.spacing = std::sqrt(area / static_cast<double>(points.points.size())) / points.frame.scale;
+  return result;
+}
+
+PatchAtlas make_all(const std::vector<Vec3>& points, const std::vector<Vec3>& normals,
+                    const PatchAtlasOptions& options, const Context& context) {
+  PatchAtlas made = make_atlas(local_points(points, normals), options, context);
+  AtlasModel& model = made.model;
+  model.atlas.diagonal = bounds(points).diagonal();
+  model.step = kStepSpacings * model.atlas.spacing;
+  model.input_numbers = 3 * points.size();
+  model.method = fmt::format("integral, {} beyond", to_string(options.extension));
+  model.atlas = unpack(pack(model.atlas), "");  // as it comes out of the file
+  made.surface = synthesize(model, {}, context);
+  if (made.surface.triangles.empty()) {
+    throw Error(
+        ErrorCode::kInvalidInput,
+        fmt::format("caps of degree {} leave no surface: take another degree", options.degree));
+  }
+  return made;
+}
+
+// Area-weighted.
+std::vector<Vec3> vertex_normals(const Mesh& mesh) {
+  std::vector<Vec3> normals(mesh.vertices.size());
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3& a = mesh.vertices[t[0]];
+    const Vec3 area = cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a);
+    for (const std::uint32_t corner : t) normals[corner] += area;
+  }
+  return normals;
+}
+
+}  // namespace
+
+PatchAtlas patch_atlas(const Mesh& mesh, const PatchAtlasOptions& options, const Context& context) {
+  check(options);
+  validate(mesh);
+  PatchAtlas made = make_all(mesh.vertices, vertex_normals(mesh), options, context);
+  made.model.errors = measure(mesh, made.surface, 100000, context);
+  return made;
+}
+
+PatchAtlas patch_atlas(const PointCloud& cloud, const PatchAtlasOptions& options,
+                       const Context& context) {
+  check(options);
+  validate(cloud);
+  if (cloud.normals.size() != cloud.points.size()) {
+    throw Error(ErrorCode::kInvalidInput,
+                "points need normals that point outwards: 'rholm orient' gives them");
+  }
+  PatchAtlas made = make_all(cloud.points, cloud.normals, options, context);
+  made.model.errors = measure(cloud.points, made.surface, context);
+  return made;
+}
+
+}  // namespace rholm

@@ -1,0 +1,78 @@
+// The paper's atlas. Oracles: the sphere that its points lie on.
+#include "rholm/patch_atlas.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "rholm/error.h"
+#include "rholm/primitives.h"
+#include "rholm/topology.h"
+#include "support/test_points.h"
+
+namespace rholm {
+namespace {
+
+double largest_error(const Mesh& surface) {
+  double largest = 0;
+  for (const Vec3& v : surface.vertices) largest = std::max(largest, std::abs(norm(v) - 1));
+  return largest;
+}
+
+// Every patch of a sphere lies on that sphere: nothing is left to expand, but for the triangles'
+// sagitta, 2 pi / 3000 sqrt(3) / 2 of the radius and less, which also has a jump at the border.
+TEST(patch_atlas, a_sphere_extended_by_itself_is_the_sphere) {
+  const PointCloud cloud = test::sphere_points(3000);
+  const PatchAtlas made =
+      patch_atlas(cloud, {.degree = 12, .extension = CapExtension::kSphere, .min_cosine = 0.6});
+  EXPECT_LT(largest_error(made.surface), 4e-3);
+  EXPECT_LT(made.rms_along_rays, 2e-3);
+  EXPECT_EQ(inspect(made.surface).boundary_edges, 0U);
+}
+
+// At the border of its points a series of the zero extension is half the radius: that is why
+// integrals are no way to a surface.
+TEST(patch_atlas, zero_beyond_the_points_costs_a_large_part_of_the_radius) {
+  const PointCloud cloud = test::sphere_points(3000);
+  const PatchAtlas made = patch_atlas(cloud, {.degree = 24, .min_cosine = 0.6});
+  EXPECT_GT(made.rms_along_rays, 0.02);
+  EXPECT_LT(made.rms_along_rays, 0.5);
+  EXPECT_EQ(made.model.atlas.blend, CapBlend::kSpline);
+  EXPECT_EQ(made.model.atlas.caps.front().degree, 24);
+}
+
+TEST(patch_atlas, place_and_size_of_the_shape_do_not_matter) {
+  PointCloud cloud = test::sphere_points(2000);
+  const PatchAtlasOptions options{.degree = 8, .extension = CapExtension::kSphere};
+  const PatchAtlas made = patch_atlas(cloud, options);
+  for (Vec3& p : cloud.points) p = 1024.0 * p + Vec3{4096, 0, -2048};
+  const PatchAtlas moved = patch_atlas(cloud, options);
+  ASSERT_EQ(moved.model.atlas.caps.size(), made.model.atlas.caps.size());
+  EXPECT_NEAR(moved.rms_along_rays, 1024 * made.rms_along_rays, 1e-6);
+  EXPECT_NEAR(moved.model.errors->rms_from, 1024 * made.model.errors->rms_from, 1e-2);
+}
+
+TEST(patch_atlas, is_the_same_bits_for_any_number_of_threads) {
+  const Mesh mesh = icosphere(3);
+  const PatchAtlasOptions options{.degree = 6, .extension = CapExtension::kSphere};
+  const PatchAtlas one = patch_atlas(mesh, options, {.threads = 1});
+  const PatchAtlas two = patch_atlas(mesh, options, {.threads = 2});
+  EXPECT_EQ(one.model.atlas.coefficients, two.model.atlas.coefficients);
+  EXPECT_EQ(one.surface.vertices, two.surface.vertices);
+}
+
+TEST(patch_atlas, what_it_cannot_be_made_of_is_refused) {
+  const PointCloud cloud = test::sphere_points(100);
+  PointCloud bare = cloud;
+  bare.normals.clear();
+  PointCloud few = cloud;
+  few.points.resize(10), few.normals.resize(10);
+  EXPECT_THROW(patch_atlas(bare, {}), Error);
+  EXPECT_THROW(patch_atlas(few, {}), Error);
+  EXPECT_THROW(patch_atlas(cloud, {.degree = 25}), Error);
+  EXPECT_THROW(patch_atlas(cloud, {.min_cosine = 2}), Error);
+  EXPECT_THROW(patch_atlas(cloud, {.overlap = 0.5}), Error);
+}
+
+}  // namespace
+}  // namespace rholm
