@@ -195,8 +195,8 @@ Mesh mesh_of(ShapeFile file, const std::string& path, Session& session) {
   }
   if (const auto* cloud = std::get_if<PointCloud>(&file.shape)) {
     throw Error(ErrorCode::kInvalidInput,
-                fmt::format("{} holds {} points without faces, and a mesh is needed; make a "
-                            "surface of them first with a program for reconstruction",
+                fmt::format("{} holds {} points without faces, and a mesh is needed; 'rholm "
+                            "reconstruct' makes a surface of them",
                             display_name(path), cloud->points.size()));
   }
   return std::get<Mesh>(std::move(file.shape));

@@ -38,8 +38,9 @@ void refuse(const Mesh& mesh, const StarReport& report, bool allow_signed) {
   }
   throw Error(ErrorCode::kNotStarShaped,
               why + ": " + describe(report, shape.bounds.diagonal()) +
-                  (report.center_fell_back ? "; accept" : "; try --center auto, or accept") +
-                  " the alternating sum of the radii with --signed (allow_signed)");
+                  (report.center_fell_back ? "; take" : "; try --center auto, or take") +
+                  " an atlas of caps (analyze --atlas, compress()), or accept the alternating sum "
+                  "of the radii with --signed (allow_signed)");
 }
 
 }  // namespace
