@@ -26,8 +26,8 @@ enum class PatchFitting : std::uint8_t {
 };
 
 struct PatchOptions {
-  // The finest detail that may stay: waves of this length keep their height, of 0.7 of it a
-  // quarter, of 0.6 nothing (docs/editing.md has the curve). In the unit of the vertices, > 0.
+  // The finest detail that may stay: waves of this length keep their height, of 0.8 of it half,
+  // of 0.6 nothing (docs/editing.md has the curve). In the unit of the vertices, > 0.
   double wavelength = 0;
   double transition = -1;  // width of the region's transition; by default the wavelength
   PatchFitting fitting = PatchFitting::kRobust;
