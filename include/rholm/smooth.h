@@ -21,15 +21,16 @@ namespace rholm {
 enum class PatchFitting : std::uint8_t {
   kMean,    // all points, by least squares: averages over what is finer than the wavelength
   kRobust,  // all but what stands out, narrower than half the wavelength: scratches, spikes
-  kAround   // what is not in the region, robustly: the region is bridged, it may be half a
-            // wavelength wide
+  kAround   // what is not in the region, robustly: the region is bridged, with the detail of its
+            // rim carried in; it may be half a wavelength wide, and nothing else moves
 };
 
 struct PatchOptions {
   // The finest detail that may stay: waves of this length keep their height, of 0.8 of it half,
   // of 0.6 nothing (docs/editing.md has the curve). In the unit of the vertices, > 0.
   double wavelength = 0;
-  double transition = -1;  // width of the region's transition; by default the wavelength
+  // Width of the region's transition; by default the wavelength. kAround needs none.
+  double transition = -1;
   PatchFitting fitting = PatchFitting::kRobust;
   // Moves only what stands out from a robust fit, and fades a quarter of a wavelength beyond:
   // scratches go, the texture around them stays.

@@ -9,6 +9,7 @@
 #include "edit/fading.h"
 #include "edit/local_mesh.h"
 #include "edit/patch_blend.h"
+#include "edit/rim_detail.h"
 #include "rholm/error.h"
 
 namespace rholm {
@@ -18,8 +19,11 @@ namespace {
 constexpr double kFewestEdges = 2;
 // Degrees below this say where the surface is and how it curves, no detail.
 constexpr int kLowestDegree = 2;
-// Weights from here on are those of the region itself.
-constexpr double kInRegion = 1 - 1e-9;
+// Of a region that is bridged: of the weights that a file may have, what is taken as in it.
+constexpr double kInRegion = 0.5;
+// The surface around such a region that its fits are compared with: in wavelengths, and in edges
+// at least.
+constexpr double kRim = 0.5, kRimEdges = 4;
 // A region that is bridged, in wavelengths: beyond the half that is advised, where fits begin to be
 // free in the middle.
 constexpr double kWidestBridge = 0.8;
@@ -85,6 +89,22 @@ void check_mesh(const Mesh& mesh, double wavelength) {
   }
 }
 
+// Marks the points of the regions; these and what is within `rim` around them have weight.
+void ignore_regions(const Mesh& mesh, std::span<const Region> regions, double rim, Site& site) {
+  const std::vector<double> weights = region_weights(mesh, regions, 0);
+  const std::size_t n = site.local.points.size();
+  site.ignored.assign(n, 0);
+  std::vector<double> distance(n, std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < n; ++i) {
+    for (const std::uint32_t v : site.local.members_of(i)) {
+      if (weights[v] >= kInRegion) site.ignored[i] = 1;
+    }
+    if (site.ignored[i] != 0) distance[i] = 0;
+  }
+  march(site.local, rim, distance);
+  for (std::size_t i = 0; i < n; ++i) site.weights[i] = distance[i] <= rim ? 1 : 0;
+}
+
 Site make_site(const Mesh& mesh, std::span<const Region> regions, const PatchOptions& options) {
   const double transition = options.transition < 0 ? options.wavelength : options.transition;
   const std::vector<double> weights = region_weights(mesh, regions, transition);
@@ -108,10 +128,7 @@ Site make_site(const Mesh& mesh, std::span<const Region> regions, const PatchOpt
                     options.wavelength, spacing, kFewestEdges * spacing));
   }
   if (options.fitting == PatchFitting::kAround) {
-    site.ignored.resize(site.weights.size());
-    for (std::size_t i = 0; i < site.weights.size(); ++i) {
-      site.ignored[i] = site.weights[i] >= kInRegion ? 1 : 0;
-    }
+    ignore_regions(mesh, regions, std::max(kRim * options.wavelength, kRimEdges * spacing), site);
   }
   return site;
 }
@@ -119,6 +136,10 @@ Site make_site(const Mesh& mesh, std::span<const Region> regions, const PatchOpt
 // A region that is left out of the fits must be narrow enough for waves to span it.
 void check_bridged(const Site& site, double wavelength) {
   if (site.ignored.empty()) return;
+  if (std::find(site.ignored.begin(), site.ignored.end(), 1) == site.ignored.end()) {
+    refuse(
+        fmt::format("no vertex has a weight of {:g} or more: nothing is to be bridged", kInRegion));
+  }
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   std::vector<double> inwards(site.ignored.size());
   for (std::size_t i = 0; i < inwards.size(); ++i) inwards[i] = site.ignored[i] ? kInfinity : 0;
@@ -144,6 +165,10 @@ Patch analyze_patch(const Mesh& mesh, std::span<const Region> regions, const Pat
   const bool robust = options.fitting != PatchFitting::kMean || options.repair;
   Blend blend = blend_caps(site, caps, robust, context);
   follow_neighbours(site, blend);
+  if (options.fitting == PatchFitting::kAround) {
+    carry_rim_detail(site, blend);
+    for (std::size_t i = 0; i < site.weights.size(); ++i) site.weights[i] = site.ignored[i];
+  }
   if (options.repair) keep_outstanding(blend, options.wavelength, site);
   Patch patch;
   patch.wavelength = options.wavelength;
