@@ -174,9 +174,10 @@ class Degenerate(CliTest):
     def test_smooth(self):
         for name in SHAPES:
             for region in ("ball:0,0,0,3", "vertex:0,1"):
-                with self.subTest(f"{name} {region}"):
-                    self.check(EITHER, "smooth", name, "--region", region, "--wavelength", "2",
-                               output="out.ply")
+                for fit in ("robust", "mean", "around"):
+                    with self.subTest(f"{name} {region} {fit}"):
+                        self.check(EITHER, "smooth", name, "--region", region, "--wavelength", "2",
+                                   "--fit", fit, output="out.ply")
 
     def test_transfer(self):
         for name in SHAPES:
