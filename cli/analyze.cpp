@@ -250,7 +250,7 @@ Command analyze_command() {
                    "rholm analyze bumpy.ply --tolerance 1e-3 --unit diagonal --norm max -o "
                    "bumpy.h5",
                    "rholm analyze bumpy.ply --degree 8 --format shtools -o -",
-                   "rholm analyze bumpy.ply --atlas --tolerance 3e-3 --unit diagonal -o caps.h5"},
+                   "rholm analyze bumpy.ply --atlas --tolerance 1e-2 --unit diagonal -o caps.h5"},
       .run = [options](Session& session) { return run(*options, session); }};
 }
 

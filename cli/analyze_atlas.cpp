@@ -101,6 +101,7 @@ void report(const AnalyzeCommandOptions& options, const AtlasModel& model,
     json["samples"] = found->samples;
     json["uncovered"] = found->uncovered;
     json["genus"] = found->genus;
+    json["topology_kept"] = found->topology_kept;
   }
   json.update(atlas_json(model));
   if (found != nullptr) {

@@ -80,7 +80,7 @@ Command partition_command() {
                       output_option(o.output, "shape to write: .ply; - for standard output"),
                       format_option(o.format, {"ply"}),
                       json_option(o.json)},
-          .examples = {"rholm partition bumpy.ply --tolerance 5e-3 -o caps.ply"},
+          .examples = {"rholm partition bumpy.ply --tolerance 1e-2 -o caps.ply"},
           .run = [options](Session& session) { return run(*options, session); }};
 }
 

@@ -51,6 +51,8 @@ struct CompressReport {
   double uncovered = 0;   // share of the samples that no cap met by 4 tolerances
   std::size_t genus = 0;  // of the extracted surface
   bool met = false;       // the tolerance
+  // The surface has as many parts and handles as the shape, as far as that is a closed manifold.
+  bool topology_kept = false;
   StageTimes times = {};  // "samples", "caps", "fit", "surface"
 };
 
@@ -60,7 +62,8 @@ struct Compressed {
 };
 
 // Covers the shape with few caps, fits them, drops the coefficients its error can do without,
-// extracts the surface and measures it, until it is within the tolerance both ways. A mesh may be
+// extracts the surface and measures it, until it is within the tolerance both ways and hangs
+// together as the shape does. A mesh may be
 // open; points need normals and are taken as evenly spread (measured from the points only).
 // Throws InvalidInput for shapes without area, and options out of range. The tolerance may be
 // missed: see `met`. Same input, same bits for any number of threads.

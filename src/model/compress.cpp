@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -36,8 +37,12 @@ constexpr double kLeastSamples = 20000, kMostSamples = 200000;
 constexpr double kWeightPower = 3;  // small caps override large ones
 // The surface is a little farther from the shape than the samples' blend tells: the aim is
 // corrected by what is measured, so many times, and left a little below the tolerance.
-constexpr int kMostTries = 5;
+constexpr int kMostTries = 8;
 constexpr double kAim = 0.995, kGoodEnough = 0.97;
+// Where caps hardly agree, as between fingers, a grid may see a handle that another does not: other
+// steps and bands, in these parts, are tried until the surface is connected as the shape is.
+constexpr double kSteps[] = {1, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4};
+constexpr double kBands[] = {1, 2};
 
 struct Samples {
   std::vector<Vec3> points, normals;
@@ -107,10 +112,49 @@ Atlas rounded(Atlas atlas) {
   return unpack(pack(atlas), "");
 }
 
+// How a closed surface hangs together.
+struct Topology {
+  std::size_t components = 0, genus = 0;
+  friend bool operator==(const Topology&, const Topology&) = default;
+};
+
+// Of a shape; none for what is not a closed surface.
+std::optional<Topology> topology_of(const Mesh& mesh) {
+  const Inspection found = inspect(mesh);
+  if (!found.closed || !found.manifold || !found.oriented) return std::nullopt;
+  return Topology{found.components, found.genus};
+}
+
+// The surface of a model whose step and band are chosen here, and whether it hangs together as
+// wanted; the first choice where none does.
+struct TrialSurface {
+  Mesh mesh;
+  Topology topology;
+  bool right = false;
+};
+TrialSurface choose_grid(AtlasModel& model, const std::optional<Topology>& wanted,
+                         const Context& context) {
+  const double step = model.step, band = model.atlas.band;
+  std::optional<TrialSurface> first;
+  for (const double step_part : kSteps) {
+    for (const double band_part : kBands) {
+      model.step = step_part * step, model.atlas.band = band_part * band;
+      TrialSurface trial{synthesize(model, {}, context), {}, false};
+      const Inspection found = inspect(trial.mesh);
+      trial.topology = {found.components, found.genus};
+      trial.right = !wanted || trial.topology == *wanted;
+      if (trial.right) return trial;
+      if (!first) first = std::move(trial);
+    }
+  }
+  model.step = step, model.atlas.band = band;
+  return std::move(*first);
+}
+
 template <class Measure>
 Compressed compress_samples(const Samples& samples, double diagonal, std::size_t input_numbers,
-                            const CompressOptions& options, const Measure& measure_surface,
-                            const Context& context) {
+                            const CompressOptions& options, const std::optional<Topology>& wanted,
+                            const Measure& measure_surface, const Context& context) {
   Compressed result;
   CompressReport& report = result.report;
   AtlasModel& model = result.model;
@@ -136,20 +180,25 @@ Compressed compress_samples(const Samples& samples, double diagonal, std::size_t
     });
     AtlasModel trial = model;
     trial.atlas = std::move(atlas);
+    Topology topology;
+    bool right = false;
     const AtlasErrors errors = timed(report.times, "surface", [&] {
-      const Mesh surface = synthesize(trial, {}, context);
-      report.genus = inspect(surface).genus;
-      return measure_surface(surface);
+      const TrialSurface surface = choose_grid(trial, wanted, context);
+      topology = surface.topology, right = surface.right;
+      return measure_surface(surface.mesh);
     });
     trial.errors = errors;
     const bool met = errors.rms() <= options.tolerance;
-    const bool better =
-        !model.errors || (met && !report.met) ||
-        (met == report.met && (met ? size_of(trial.atlas).numbers() < size_of(model.atlas).numbers()
-                                   : errors.rms() < model.errors->rms()));
-    if (better) model = std::move(trial);
-    report.met = report.met || met;
-    if (met && errors.rms() >= kGoodEnough * options.tolerance) break;
+    const auto rank = [](bool is_met, bool is_right) { return 2 * is_met + is_right; };
+    const int change = rank(met, right) - rank(report.met, report.topology_kept);
+    const bool smaller = met ? size_of(trial.atlas).numbers() < size_of(model.atlas).numbers()
+                             : errors.rms() < model.errors.value_or(errors).rms();
+    if (!model.errors || change > 0 || (change == 0 && smaller)) {
+      model = std::move(trial);
+      report.genus = topology.genus;
+      report.met = met, report.topology_kept = right;
+    }
+    if (met && right && errors.rms() >= kGoodEnough * options.tolerance) break;
     aim *= kAim * options.tolerance / errors.rms();
   }
   return result;
@@ -169,7 +218,7 @@ Compressed compress(const Mesh& mesh, const CompressOptions& options, const Cont
     return measure(mesh, surface, std::max<std::size_t>(samples.points.size(), 100000), context);
   };
   return compress_samples(samples, bounds(mesh.vertices).diagonal(), 3 * mesh.vertices.size(),
-                          options, measure_surface, context);
+                          options, topology_of(mesh), measure_surface, context);
 }
 
 Compressed compress(const PointCloud& cloud, const CompressOptions& options,
@@ -195,7 +244,7 @@ Compressed compress(const PointCloud& cloud, const CompressOptions& options,
     return measure(samples.points, surface, context);
   };
   return compress_samples(samples, bounds(samples.points).diagonal(), 3 * cloud.points.size(),
-                          options, measure_surface, context);
+                          options, {}, measure_surface, context);
 }
 
 Mesh synthesize(const AtlasModel& model, const AtlasSynthesisOptions& options,

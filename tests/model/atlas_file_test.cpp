@@ -195,6 +195,7 @@ TEST(compress, a_torus_meets_its_tolerance_both_ways_and_is_read_back) {
   const double diagonal = bounds(mesh.vertices).diagonal();
   const Compressed found = compress(mesh, {.tolerance = 2e-3 * diagonal});
   EXPECT_TRUE(found.report.met);
+  EXPECT_TRUE(found.report.topology_kept);
   EXPECT_LE(found.model.errors->rms(), 2e-3 * diagonal);
   EXPECT_LT(size_of(found.model.atlas).numbers(), 3 * mesh.vertices.size() / 20);
   const TemporaryFolder folder;
