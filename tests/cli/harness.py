@@ -63,8 +63,10 @@ class CliTest(unittest.TestCase):
 
     def check_decent(self, result):
         """What holds for every run: no NaN, no crash, one error and a clear one."""
-        # An error may quote the NaN of the input; nothing else may have one.
-        said = result.out + (result.err if result.code == 0 else "")
+        # An error may quote the NaN of the input; nothing else may have one. Binary files may hold
+        # those bytes by chance.
+        out = "" if b"\0" in result.bytes else result.out
+        said = out + (result.err if result.code == 0 else "")
         self.assertNotRegex(said, re.compile(r"\bnan\b", re.I), str(result))
         self.assertGreaterEqual(result.code, 0, f"died of a signal: {result}")
         errors = [line for line in result.err.splitlines() if line.startswith("rholm: error:")]
