@@ -39,6 +39,10 @@ NonuniformPlan plan_nonuniform(const NonuniformNeeds& needs);
 // The predicted cost of direct sums, in the same unit.
 double direct_cost(const NonuniformNeeds& needs);
 
+// How much larger than that of values the plan's error of Hessians is, relative to L^2: for
+// `sources` of them all over the sphere.
+double hessian_factor(const NonuniformPlan& plan, std::size_t sources);
+
 // What windows in single precision add to the error of generic sums (measured for L = 16 ... 2000,
 // up to 2.2e-7 for values and gradients, with windows up to 10 wide).
 double single_rounding(int degree, int derivatives = 0);

@@ -65,10 +65,14 @@ double polar_sine(int degree, int derivatives) {
 // How much larger than that of values the error of derivatives is, measured on even directions,
 // relative to L for gradients and L^2 for Hessians. Aliases have wave numbers around n - L, and
 // longitudes near the poles count 1 / sin(theta) times: the l2 norm of 1 / sin^2 down to a polar
-// sine is 0.7 times its inverse, and three times that where few sources are so near.
+// sine is 0.7 times its inverse, and three times that where few sources are so near: fewer than
+// thirty within twice the polar sine (chosen).
 double gradient_factor(double sigma) { return 2.6 * sigma * sigma; }
-double hessian_factor(double sigma, int degree) {
-  return 4 + 70 * std::pow(sigma - 1, 1.8) / polar_sine(degree, 2);
+double hessian_factor(double sigma, int degree, std::size_t sources) {
+  const double sine = polar_sine(degree, 2);
+  const bool few = 2 * sine * sine * static_cast<double>(sources) < 30;
+  const double near = (few ? 70 : 24) * std::pow(sigma - 1, 1.8);
+  return 4 + near / sine;
 }
 
 double predicted_error(const NonuniformNeeds& needs, int width, double sigma) {
@@ -80,7 +84,8 @@ double predicted_error(const NonuniformNeeds& needs, int width, double sigma) {
     derivatives = std::max(derivatives, needs.gradient_size * gradient_factor(sigma));
   }
   if (needs.derivatives > 1) {
-    derivatives = std::max(derivatives, needs.hessian_size * hessian_factor(sigma, needs.degree));
+    derivatives = std::max(derivatives,
+                           needs.hessian_size * hessian_factor(sigma, needs.degree, needs.sources));
   }
   return error * derivatives;
 }
@@ -107,6 +112,12 @@ void visit_grids(const NonuniformNeeds& needs, int width, double error, const Vi
 }
 
 }  // namespace
+
+double hessian_factor(const NonuniformPlan& plan, std::size_t sources) {
+  const double turn = 2.0 * std::max(plan.fourier.degree, 1);
+  const double sigma = static_cast<double>(plan.fourier.layout.n_phi) / turn;
+  return hessian_factor(sigma, plan.fourier.degree, sources);
+}
 
 // Second differences near the poles divide the rounding of values by the square of their step.
 double single_rounding(int degree, int derivatives) {

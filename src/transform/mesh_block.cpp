@@ -44,10 +44,11 @@ struct Lump {
   V3 gradient;
 };
 
-// Weights and gradients of a triangle add up to nothing; rounded ones as well, for in a lattice the
-// rounding of all triangles is the same and would add up: the third corner has what the others
-// leave.
-HWY_INLINE void store_lumps(D d, const Lump& first, const Lump& second, size_t at,
+// Weights and gradients of a triangle add up to nothing, or together with its nodes to nothing;
+// rounded ones as well, for in a lattice the rounding of all triangles is the same and would add
+// up: the third corner has what the others leave.
+template <bool kNodes>
+HWY_INLINE void store_lumps(D d, const Lump& first, const Lump& second, V nodes, size_t at,
                             TriangleBlock<double>& b) {
   const auto store = [&](const Lump& l, VertexLump<double>* to) HWY_ATTR {
     hn::StoreInterleaved4(l.weight, l.gradient.x, l.gradient.y, l.gradient.z, d, to[at].value);
@@ -60,14 +61,22 @@ HWY_INLINE void store_lumps(D d, const Lump& first, const Lump& second, size_t a
   const Lump f = whole(first), s = whole(second);
   store(f, b.lump[0]);
   store(s, b.lump[1]);
-  store({rest(f.weight, s.weight),
+  const V weight = rest(f.weight, s.weight);
+  store({kNodes ? hn::Sub(weight, nodes) : weight,
          {rest(f.gradient.x, s.gradient.x), rest(f.gradient.y, s.gradient.y),
           rest(f.gradient.z, s.gradient.z)}},
         b.lump[2]);
 }
 
+HWY_INLINE void store_four(D d, const Lump& l, size_t at, VertexLump<double>* to) {
+  const auto whole = [&](V v) HWY_ATTR { return hn::Round(v); };
+  hn::StoreInterleaved4(whole(l.weight), whole(l.gradient.x), whole(l.gradient.y),
+                        whole(l.gradient.z), d, to[at].value);
+}
+
 #if HWY_TARGET == HWY_SCALAR
-HWY_INLINE void store_lumps(D, const Lump& first, const Lump& second, size_t at,
+template <bool kNodes>
+HWY_INLINE void store_lumps(D d, const Lump& first, const Lump& second, V nodes, size_t at,
                             TriangleBlock<int32_t>& b) {
   const V f[4] = {first.weight, first.gradient.x, first.gradient.y, first.gradient.z};
   const V s[4] = {second.weight, second.gradient.x, second.gradient.y, second.gradient.z};
@@ -77,7 +86,16 @@ HWY_INLINE void store_lumps(D, const Lump& first, const Lump& second, size_t at,
     const V a = hn::Round(f[k]), c = hn::Round(s[k]);
     hn::Store(hn::DemoteTo(di, a), di, b.lump[0][slot].value + k);
     hn::Store(hn::DemoteTo(di, c), di, b.lump[1][slot].value + k);
-    hn::Store(hn::DemoteTo(di, hn::Neg(hn::Add(a, c))), di, b.lump[2][slot].value + k);
+    const V extra = kNodes && k == 0 ? nodes : hn::Zero(d);
+    hn::Store(hn::DemoteTo(di, hn::Neg(hn::Add(hn::Add(a, c), extra))), di,
+              b.lump[2][slot].value + k);
+  }
+}
+HWY_INLINE void store_four(D, const Lump& l, size_t at, VertexLump<int32_t>* to) {
+  const V v[4] = {l.weight, l.gradient.x, l.gradient.y, l.gradient.z};
+  const hn::Rebind<int32_t, D> di;
+  for (int k = 0; k < 4; ++k) {
+    hn::Store(hn::DemoteTo(di, hn::Round(v[k])), di, to[lump_slot<int32_t>(at)].value + k);
   }
 }
 #else
@@ -99,19 +117,29 @@ HWY_INLINE PackedLump packed(D d, const Lump& l) {
   return {hn::BitCast(du, hn::InterleaveLower(d64, wx, yz)),
           hn::BitCast(du, hn::InterleaveUpper(d64, wx, yz))};
 }
-HWY_INLINE void store_lumps(D d, const Lump& first, const Lump& second, size_t at,
+HWY_INLINE void store_packed(D, const PackedLump& l, size_t at, VertexLump<int32_t>* to) {
+  const hn::Repartition<int32_t, D> di;
+  hn::Store(hn::BitCast(di, l.even), di, to[lump_slot<int32_t>(at)].value);
+  hn::Store(hn::BitCast(di, l.odd), di, to[lump_slot<int32_t>(at + 1)].value);
+}
+HWY_INLINE void store_four(D d, const Lump& l, size_t at, VertexLump<int32_t>* to) {
+  store_packed(d, packed(d, l), at, to);
+}
+template <bool kNodes>
+HWY_INLINE void store_lumps(D d, const Lump& first, const Lump& second, V nodes, size_t at,
                             TriangleBlock<int32_t>& b) {
   const hn::Repartition<uint32_t, D> du;
-  const hn::Repartition<int32_t, D> di;
   const PackedLump f = packed(d, first), s = packed(d, second);
-  const auto store = [&](const PackedLump& l, VertexLump<int32_t>* to) HWY_ATTR {
-    hn::Store(hn::BitCast(di, l.even), di, to[lump_slot<int32_t>(at)].value);
-    hn::Store(hn::BitCast(di, l.odd), di, to[lump_slot<int32_t>(at + 1)].value);
-  };
   const auto rest = [&](auto a, auto c) HWY_ATTR { return hn::Sub(hn::Zero(du), hn::Add(a, c)); };
-  store(f, b.lump[0]);
-  store(s, b.lump[1]);
-  store({rest(f.even, s.even), rest(f.odd, s.odd)}, b.lump[2]);
+  store_packed(d, f, at, b.lump[0]);
+  store_packed(d, s, at, b.lump[1]);
+  PackedLump third = {rest(f.even, s.even), rest(f.odd, s.odd)};
+  if constexpr (kNodes) {
+    const V zero = hn::Zero(d);
+    const PackedLump more = packed(d, {nodes, {zero, zero, zero}});
+    third = {hn::Sub(third.even, more.even), hn::Sub(third.odd, more.odd)};
+  }
+  store_packed(d, third, at, b.lump[2]);
 }
 #endif
 
@@ -164,8 +192,175 @@ HWY_INLINE void sort_out(D d, const Elements& e, size_t at, size_t n,
   for (size_t i = 0; i < kLanes; ++i) b.flag[at + i] = static_cast<uint8_t>(values[i]);
 }
 
-// One vector of triangles. Lanes at and beyond n repeat others and are left out of the sums.
+// Of the half-edges 0 -> 1, 1 -> 2, 2 -> 0 and of the face.
+struct Weights {
+  V e01, e12, e20, face;
+};
+HWY_INLINE void store_weights(D d, const Weights& w, double (*edges)[kTrianglesPerBlock],
+                              double* faces, size_t at) {
+  hn::Store(w.e01, d, edges[0] + at);
+  hn::Store(w.e12, d, edges[1] + at);
+  hn::Store(w.e20, d, edges[2] + at);
+  hn::Store(w.face, d, faces + at);
+}
+
+// The gradient of a corner, `out` and `in` those of the edges that leave and reach it per edge
+// vector.
+HWY_INLINE V3 gradient_at(V out, const V3& e_out, V in, const V3& e_in) {
+  return {hn::NegMulAdd(in, e_in.x, hn::Mul(out, e_out.x)),
+          hn::NegMulAdd(in, e_in.y, hn::Mul(out, e_out.y)),
+          hn::NegMulAdd(in, e_in.z, hn::Mul(out, e_out.z))};
+}
+
+// VG: lumps at the corners. z2: squares of the extents of the edges. Returns the errors.
 template <typename T>
+HWY_INLINE Weights lump_gradients(D d, size_t at, const BlockParameters& parameters,
+                                  const Weights& w, const Weights& z2, const V3& e01, const V3& e12,
+                                  const V3& e20, TriangleBlock<T>& b) {
+  const V half = hn::Set(d, 0.5 * parameters.per_weight);
+  const V sixth = hn::Mul(hn::Neg(w.face), hn::Set(d, parameters.per_weight / 6));
+  const V twelfth = hn::Set(d, parameters.per_gradient / 12);
+  const V of_face = hn::Mul(w.face, hn::Set(d, parameters.per_gradient / 24));
+  const V g01 = hn::MulAdd(w.e01, twelfth, of_face), g12 = hn::MulAdd(w.e12, twelfth, of_face);
+  const V g20 = hn::MulAdd(w.e20, twelfth, of_face);
+  // 1/2 (W of both edges at the corner) + F/3 = -F/6 - 1/2 (W of the other).
+  const auto lump = [&](V opposite, V g_out, const V3& e_out, V g_in, const V3& e_in) HWY_ATTR {
+    return Lump{hn::NegMulAdd(half, opposite, sixth), gradient_at(g_out, e_out, g_in, e_in)};
+  };
+  store_lumps<false>(d, lump(w.e12, g01, e01, g20, e20), lump(w.e20, g12, e12, g01, e01),
+                     hn::Zero(d), at, b);
+  const V z = hn::Max(z2.e01, hn::Max(z2.e12, z2.e20));
+  const auto error = [&](V weight, V zz) HWY_ATTR { return hn::Mul(weight, hn::Mul(zz, zz)); };
+  return {error(w.e01, z2.e01), error(w.e12, z2.e12), error(w.e20, z2.e20), error(w.face, z)};
+}
+
+// Which of three numbers in each lane.
+struct Choice {
+  M second, third;
+  HWY_INLINE V of(D d, double a, double b, double c) const {
+    return hn::IfThenElse(third, hn::Set(d, c),
+                          hn::IfThenElse(second, hn::Set(d, b), hn::Set(d, a)));
+  }
+  template <typename Rule>
+  HWY_INLINE V of(D d, const std::array<Rule, kHermiteRules>& rules, double Rule::*number) const {
+    return of(d, rules[0].*number, rules[1].*number, rules[2].*number);
+  }
+};
+HWY_INLINE Choice choose(D d, V z2, const HermiteReach& reach2) {
+  return {hn::Gt(z2, hn::Set(d, reach2[0])), hn::Gt(z2, hn::Set(d, reach2[1]))};
+}
+HWY_INLINE void store_bytes(D, V v, std::uint8_t* to) {
+  const hn::Rebind<int32_t, D> di;
+  const hn::Rebind<uint8_t, D> db;
+  hn::StoreU(hn::DemoteTo(db, hn::DemoteTo(di, v)), db, to);
+}
+
+// An edge with its rule: what it adds to each of its ends.
+struct HermiteTerms {
+  V value, gradient, hessian, error;
+};
+// xx, xy, xz, yy, yz, zz of e e^T.
+struct Outer {
+  V v[6];
+};
+HWY_INLINE Outer outer(const V3& e) {
+  return {{hn::Mul(e.x, e.x), hn::Mul(e.x, e.y), hn::Mul(e.x, e.z), hn::Mul(e.y, e.y),
+           hn::Mul(e.y, e.z), hn::Mul(e.z, e.z)}};
+}
+
+// The terms of half-edge i; its nodes, in whole quanta, are added to `nodes`.
+template <typename T>
+HWY_INLINE HermiteTerms edge_terms(D d, size_t at, const BlockParameters& p, int i, V w, V z2,
+                                   TriangleBlock<T>& b, V& nodes) {
+  constexpr auto& rules = kHermiteEdges;
+  const Choice rule = choose(d, z2, p.edge_reach2);
+  const V z6 = hn::Mul(z2, hn::Mul(z2, z2));
+  constexpr auto& units = kHermiteEdgeUnits;
+  const V more =
+      hn::IfThenElse(rule.third, hn::Mul(z2, z2), hn::IfThenElse(rule.second, z2, hn::Set(d, 1.0)));
+  HermiteTerms t;
+  t.error = hn::Mul(w, hn::Mul(rule.of(d, units[0], units[1], units[2]), hn::Mul(z6, more)));
+  t.value = hn::Mul(w, rule.of(d, rules, &HermiteEdge::value));
+  t.gradient = hn::Mul(w, rule.of(d, rules, &HermiteEdge::gradient));
+  t.hessian = hn::Mul(w, rule.of(d, rules, &HermiteEdge::hessian));
+  if (hn::AllFalse(d, rule.second)) return t;
+  const V node = hn::Round(
+      hn::Mul(hn::Mul(w, hn::Set(d, p.per_weight)), rule.of(d, rules, &HermiteEdge::node)));
+  const V count = rule.of(d, 0, 1, 2);
+  nodes = hn::MulAdd(node, count, nodes);
+  hn::Store(hn::Mul(node, hn::Set(d, 1 / p.per_weight)), d, b.edge_node[i] + at);
+  store_bytes(d, count, b.edge_rule[i] + at);
+  b.has_nodes_between = true;
+  return t;
+}
+
+// VGH, as lump_gradients().
+template <typename T>
+HWY_INLINE Weights lump_hessians(D d, size_t at, const BlockParameters& p, const Weights& w,
+                                 const Weights& z2, const V3& e01, const V3& e12, const V3& e20,
+                                 TriangleBlock<T>& b) {
+  V nodes = hn::Zero(d);
+  const HermiteTerms t01 = edge_terms(d, at, p, 0, w.e01, z2.e01, b, nodes);
+  const HermiteTerms t12 = edge_terms(d, at, p, 1, w.e12, z2.e12, b, nodes);
+  const HermiteTerms t20 = edge_terms(d, at, p, 2, w.e20, z2.e20, b, nodes);
+  constexpr auto& faces = kHermiteFaces;
+  const V z = hn::Max(z2.e01, hn::Max(z2.e12, z2.e20)), root = hn::Sqrt(z);
+  const Choice rule = choose(d, z, p.face_reach2);
+  constexpr auto& units = kHermiteFaceUnits;
+  // z^5, z^6, z^7.
+  const V more = hn::IfThenElse(rule.third, hn::Mul(root, z), hn::IfThenElse(rule.second, z, root));
+  const V face_error = hn::Mul(hn::Mul(w.face, rule.of(d, units[0], units[1], units[2])),
+                               hn::Mul(hn::Mul(z, z), more));
+  const V scale = hn::Set(d, p.per_weight);
+  if (!hn::AllFalse(d, rule.second)) {
+    const V scaled = hn::Mul(w.face, scale), unscale = hn::Set(d, 1 / p.per_weight);
+    const V center = hn::Round(hn::Mul(scaled, rule.of(d, faces, &HermiteFace::center)));
+    const V orbit = hn::Round(hn::Mul(scaled, rule.of(d, faces, &HermiteFace::orbit)));
+    nodes = hn::Add(nodes, hn::MulAdd(hn::Set(d, 3.0), orbit, center));
+    hn::Store(hn::Mul(center, unscale), d, b.center_node + at);
+    hn::Store(hn::Mul(orbit, unscale), d, b.orbit_node + at);
+    store_bytes(d, rule.of(d, 0, 1, 2), b.face_rule + at);
+    b.has_nodes_between = true;
+  }
+  const V value = hn::Mul(w.face, rule.of(d, faces, &HermiteFace::value));
+  const V slope = hn::Mul(w.face, rule.of(d, faces, &HermiteFace::gradient));
+  const V per_gradient = hn::Set(d, p.per_gradient);
+  const auto gradient = [&](const HermiteTerms& t)
+                            HWY_ATTR { return hn::Mul(per_gradient, hn::Add(t.gradient, slope)); };
+  const V g01 = gradient(t01), g12 = gradient(t12), g20 = gradient(t20);
+  const auto lump = [&](const HermiteTerms& out, const HermiteTerms& in, V g_out, const V3& e_out,
+                        V g_in, const V3& e_in) HWY_ATTR {
+    return Lump{hn::Mul(scale, hn::Add(value, hn::Add(out.value, in.value))),
+                gradient_at(g_out, e_out, g_in, e_in)};
+  };
+  store_lumps<true>(d, lump(t01, t20, g01, e01, g20, e20), lump(t12, t01, g12, e12, g01, e01),
+                    nodes, at, b);
+  // a b^T + b a^T = a a^T + b b^T - c c^T for c = a - b, the edge opposite.
+  const V per_hessian = hn::Set(d, p.per_hessian);
+  const V product = hn::Mul(hn::Mul(per_hessian, w.face), rule.of(d, faces, &HermiteFace::product));
+  const V both =
+      hn::MulAdd(hn::Mul(per_hessian, w.face), rule.of(d, faces, &HermiteFace::square), product);
+  const V h01 = hn::MulAdd(per_hessian, t01.hessian, both);
+  const V h12 = hn::MulAdd(per_hessian, t12.hessian, both);
+  const V h20 = hn::MulAdd(per_hessian, t20.hessian, both);
+  const Outer o01 = outer(e01), o12 = outer(e12), o20 = outer(e20);
+  const auto store = [&](int corner, V h_out, const Outer& out, V h_in, const Outer& in,
+                         const Outer& opposite) HWY_ATTR {
+    const auto number = [&](int k) HWY_ATTR {
+      return hn::NegMulAdd(product, opposite.v[k],
+                           hn::MulAdd(h_out, out.v[k], hn::Mul(h_in, in.v[k])));
+    };
+    store_four(d, {number(0), {number(1), number(2), number(3)}}, at, b.hessian[0][corner]);
+    store_four(d, {number(4), {number(5), hn::Zero(d), hn::Zero(d)}}, at, b.hessian[1][corner]);
+  };
+  store(0, h01, o01, h20, o20, o12);
+  store(1, h12, o12, h01, o01, o20);
+  store(2, h20, o20, h12, o12, o01);
+  return {t01.error, t12.error, t20.error, face_error};
+}
+
+// One vector of triangles. Lanes at and beyond n repeat others and are left out of the sums.
+template <bool kHessians, typename T>
 HWY_INLINE void work_vector(D d, size_t at, size_t n, const BlockParameters& parameters,
                             TriangleBlock<T>& b, LaneSums& sums, BlockSums& counts) {
   const auto corner = [&](int i) HWY_ATTR {
@@ -205,45 +400,26 @@ HWY_INLINE void work_vector(D d, size_t at, size_t n, const BlockParameters& par
   // Error of lumping: z = L theta with a part for the bending of x/|x| along the edge; the same
   // seen from both sides of an edge. |p_i x p_j|^2 = r_i^2 e^2 - (p_i . e)^2.
   const V quarter = hn::Set(d, 0.25 * parameters.degree * parameters.degree);
-  const V bend = hn::Set(d, 16.0);
+  const V bend = hn::Set(d, kHessians ? kHermiteBend : 16.0);
   const auto phase2 = [&](V ri, V rj, V length, V over) HWY_ATTR {
     const V along = hn::Sub(hn::Sub(rj, ri), length);  // 2 p_i . e
     const V sine2 = hn::NegMulAdd(along, along, hn::Mul(hn::Mul(hn::Set(d, 4.0), ri), length));
     return hn::Mul(over, hn::MulAdd(hn::Mul(quarter, over), sine2, hn::Mul(bend, length)));
   };
-  const V z01 = phase2(r0, r1, l01, hn::Max(q0, q1)), z12 = phase2(r1, r2, l12, hn::Max(q1, q2));
-  const V z20 = phase2(r2, r0, l20, hn::Max(q2, q0)), z = hn::Max(z01, hn::Max(z12, z20));
-  const V f01 = hn::Mul(w01, hn::Mul(z01, z01)), f12 = hn::Mul(w12, hn::Mul(z12, z12));
-  const V f20 = hn::Mul(w20, hn::Mul(z20, z20)), f = hn::Mul(face, hn::Mul(z, z));
-  hn::Store(f01, d, b.edge_error[0] + at);
-  hn::Store(f12, d, b.edge_error[1] + at);
-  hn::Store(f20, d, b.edge_error[2] + at);
-  hn::Store(f, d, b.face_error + at);
-  V face_error2 = hn::Mul(f, f);
-  const V error2 = hn::MulAdd(f01, f01, hn::MulAdd(f12, f12, hn::MulAdd(f20, f20, face_error2)));
-  const V weight2 =
-      hn::MulAdd(w01, w01, hn::MulAdd(w12, w12, hn::MulAdd(w20, w20, hn::Mul(face, face))));
-  hn::Store(error2, d, b.error2 + at);
-  hn::Store(w01, d, b.edge_weight[0] + at);
-  hn::Store(w12, d, b.edge_weight[1] + at);
-  hn::Store(w20, d, b.edge_weight[2] + at);
-  hn::Store(face, d, b.face_weight + at);
-
-  // Lumps at the corners; e leaves corner i along both edges.
-  const V half = hn::Set(d, 0.5 * parameters.per_weight);
-  const V sixth = hn::Mul(over_f, hn::Set(d, parameters.per_weight / 6));
-  const V twelfth = hn::Set(d, parameters.per_gradient / 12);
-  const V of_face = hn::Mul(face, hn::Set(d, parameters.per_gradient / 24));
-  const V g01 = hn::MulAdd(w01, twelfth, of_face), g12 = hn::MulAdd(w12, twelfth, of_face);
-  const V g20 = hn::MulAdd(w20, twelfth, of_face);
-  // 1/2 (W of both edges at the corner) + F/3 = -F/6 - 1/2 (W of the other).
-  const auto lump = [&](V opposite, V g_out, const V3& e_out, V g_in, const V3& e_in) HWY_ATTR {
-    return Lump{hn::NegMulAdd(half, opposite, sixth),
-                {hn::NegMulAdd(g_in, e_in.x, hn::Mul(g_out, e_out.x)),
-                 hn::NegMulAdd(g_in, e_in.y, hn::Mul(g_out, e_out.y)),
-                 hn::NegMulAdd(g_in, e_in.z, hn::Mul(g_out, e_out.z))}};
+  const Weights w = {w01, w12, w20, face};
+  const Weights z = {phase2(r0, r1, l01, hn::Max(q0, q1)), phase2(r1, r2, l12, hn::Max(q1, q2)),
+                     phase2(r2, r0, l20, hn::Max(q2, q0)), zero};
+  const Weights f = kHessians ? lump_hessians(d, at, parameters, w, z, e01, e12, e20, b)
+                              : lump_gradients(d, at, parameters, w, z, e01, e12, e20, b);
+  const auto squares = [&](const Weights& v) HWY_ATTR {
+    return hn::MulAdd(v.e01, v.e01,
+                      hn::MulAdd(v.e12, v.e12, hn::MulAdd(v.e20, v.e20, hn::Mul(v.face, v.face))));
   };
-  store_lumps(d, lump(w12, g01, e01, g20, e20), lump(w20, g12, e12, g01, e01), at, b);
+  store_weights(d, f, b.edge_error, b.face_error, at);
+  store_weights(d, w, b.edge_weight, b.face_weight, at);
+  V face_error2 = hn::Mul(f.face, f.face);
+  const V error2 = squares(f), weight2 = squares(w);
+  hn::Store(error2, d, b.error2 + at);
 
   // The mean of 1/|x|^2 over the face by the same rule; its derivative along e is -2 (p . e)/r^4,
   // and p_0 . (both edges) = (r_1 + r_2 - 2 r_0 - l_01 - l_20) / 2: the terms of corner i are
@@ -338,7 +514,7 @@ HWY_INLINE void load_corners(const MeshView& mesh, size_t first, size_t n,
   }
 }
 
-template <typename T>
+template <bool kHessians, typename T>
 HWY_INLINE void work_loaded(size_t n, const BlockParameters& parameters, TriangleBlock<T>& block,
                             BlockSums& sums) {
   const D d;
@@ -351,8 +527,13 @@ HWY_INLINE void work_loaded(size_t n, const BlockParameters& parameters, Triangl
                     hn::Set(d, sums.max_edge2),
                     zero};
   std::memset(block.flag, 0, sizeof block.flag);
+  block.has_nodes_between = false;
+  if (kHessians) {
+    std::memset(block.edge_rule, 0, sizeof block.edge_rule);
+    std::memset(block.face_rule, 0, sizeof block.face_rule);
+  }
   for (size_t at = 0; at < n; at += hn::MaxLanes(d)) {
-    work_vector(d, at, n - at, parameters, block, lanes, sums);
+    work_vector<kHessians>(d, at, n - at, parameters, block, lanes, sums);
   }
   const auto total = [&](V v) HWY_ATTR { return hn::GetLane(hn::SumOfLanes(d, v)); };
   sums.volume6 += total(lanes.volume6);
@@ -374,7 +555,8 @@ HWY_INLINE void work_any(const MeshView& mesh, size_t first, size_t n,
   } else {
     load_corners(mesh, first, n, parameters, block, double());
   }
-  work_loaded(n, parameters, block, sums);
+  if (parameters.hessians) return work_loaded<true>(n, parameters, block, sums);
+  work_loaded<false>(n, parameters, block, sums);
 }
 
 // Records are read with 4 bytes more, but for the last.
@@ -486,24 +668,25 @@ void add_lump(const T* lump, T* sum) {
   std::memcpy(sum, &a, sizeof a);
 }
 
-template <typename T>
+template <bool kHessians, typename T>
 void add_triangle(const std::byte* record, const TriangleBlock<T>& block, std::size_t t,
                   VertexLump<T>* vertices) {
   const std::size_t slot = lump_slot<T>(t);
   for (int i = 0; i < 3; ++i) {
     std::uint32_t corner;
     std::memcpy(&corner, record + 4 * i, sizeof corner);
-    add_lump(block.lump[i][slot].value, vertices[corner].value);
+    VertexLump<T>* vertex = vertices + lumps_per_vertex(kHessians) * corner;
+    add_lump(block.lump[i][slot].value, vertex[0].value);
+    if constexpr (kHessians) {
+      add_lump(block.hessian[0][i][slot].value, vertex[1].value);
+      add_lump(block.hessian[1][i][slot].value, vertex[2].value);
+    }
   }
 }
 
-}  // namespace
-
-template <typename T>
-void scatter_lumps(const MeshView& mesh, std::size_t first, std::size_t n,
-                   const TriangleBlock<T>& block, VertexLump<T>* vertices) {
-  const std::size_t stride = mesh.triangle_stride;
-  const std::byte* record = mesh.triangles + first * stride;
+template <bool kHessians, typename T>
+void scatter(const std::byte* record, std::size_t stride, std::size_t n,
+             const TriangleBlock<T>& block, VertexLump<T>* vertices) {
   for (std::size_t at = 0; at < n; at += 8, record += 8 * stride) {
     std::uint64_t flags;
     std::memcpy(&flags, block.flag + at, sizeof flags);
@@ -512,17 +695,28 @@ void scatter_lumps(const MeshView& mesh, std::size_t first, std::size_t n,
         const std::byte* one = record + odd * stride;
 #pragma GCC unroll 4
         for (std::size_t t = odd; t < 8; t += 2, one += 2 * stride) {
-          add_triangle(one, block, at + t, vertices);
+          add_triangle<kHessians>(one, block, at + t, vertices);
         }
       }
       continue;
     }
     for (std::size_t t = 0; t < 8 && at + t < n; ++t) {
       if ((block.flag[at + t] & kNodes) == 0) {
-        add_triangle(record + t * stride, block, at + t, vertices);
+        add_triangle<kHessians>(record + t * stride, block, at + t, vertices);
       }
     }
   }
+}
+
+}  // namespace
+
+template <typename T>
+void scatter_lumps(const MeshView& mesh, std::size_t first, std::size_t n, bool hessians,
+                   const TriangleBlock<T>& block, VertexLump<T>* vertices) {
+  const std::size_t stride = mesh.triangle_stride;
+  const std::byte* record = mesh.triangles + first * stride;
+  if (hessians) return scatter<true>(record, stride, n, block, vertices);
+  scatter<false>(record, stride, n, block, vertices);
 }
 
 template <typename T>
@@ -549,10 +743,10 @@ template void sample_half_edges(const TriangleBlock<std::int32_t>&, std::size_t,
 template void sample_half_edges(const TriangleBlock<double>&, std::size_t,
                                 std::vector<SampledHalfEdge>&);
 
-template void scatter_lumps(const MeshView&, std::size_t, std::size_t,
+template void scatter_lumps(const MeshView&, std::size_t, std::size_t, bool,
                             const TriangleBlock<std::int32_t>&, VertexLump<std::int32_t>*);
-template void scatter_lumps(const MeshView&, std::size_t, std::size_t, const TriangleBlock<double>&,
-                            VertexLump<double>*);
+template void scatter_lumps(const MeshView&, std::size_t, std::size_t, bool,
+                            const TriangleBlock<double>&, VertexLump<double>*);
 
 }  // namespace rholm
 #endif  // HWY_ONCE

@@ -3,7 +3,8 @@
 // Notation of method 3e: corners p_0, p_1, p_2 relative to the centre, e_ij = p_j - p_i,
 //   n = e_01 x e_02,  d2 = n . p_0,  W_ij = n . (p_i x p_j) / d2,  F = -n . n / d2.
 // Lumped at the vertices by Hermite's rule (VG): the weight 1/2 (W of both half-edges) + F/3 and
-// the gradient (W/12 + F/24) e for both edge vectors e that leave the vertex.
+// the gradient (W/12 + F/24) e for both edge vectors e that leave the vertex. With Hessians (VGH)
+// by the rules of node_rules.h, which have nodes between the vertices where edges are long.
 //
 // Lumps are rounded to whole multiples of a quantum, so that their sums are exact: the same in any
 // order and for any number of threads.
@@ -15,16 +16,20 @@
 #include <vector>
 
 #include "rholm/mesh_view.h"
+#include "transform/node_rules.h"
 
 namespace rholm {
 
 inline constexpr std::size_t kTrianglesPerBlock = 128;  // chosen: 30 kB of work arrays
 
-// Weight and gradient of a vertex, in quanta.
+// Four numbers of a vertex, in quanta: weight and gradient x, y, z; with Hessians two more such
+// follow, xx, xy, xz, yy and yz, zz, 0, 0.
 template <typename T>  // std::int32_t or double
 struct alignas(4 * sizeof(T)) VertexLump {
-  T value[4];  // weight, gradient x, y, z
+  T value[4];
 };
+// VertexLumps of a vertex.
+constexpr std::size_t lumps_per_vertex(bool hessians) { return hessians ? 3 : 1; }
 
 struct BlockParameters {
   Vec3 center;              // in the mesh's coordinates
@@ -36,6 +41,9 @@ struct BlockParameters {
   double per_weight = 0;    // quanta per unit of weight,
   double per_gradient = 0;  // and of gradient
   double largest = 0;       // of a weight, in quanta
+  bool hessians = false;    // VGH, else VG; if so:
+  double per_hessian = 0;   // quanta per unit,
+  HermiteReach edge_reach2 = {}, face_reach2 = {};  // and how far the rules reach
   // Half-edges with a name below this are kept: one in 2^32 / sampled_names of all edges, both
   // sides.
   std::uint32_t sampled_names = 0;
@@ -78,6 +86,15 @@ struct TriangleBlock {
   alignas(64) std::uint8_t flag[kSize];
   alignas(64) std::uint8_t sampled[3][kSize / 8];  // bits: half-edges of the sample
   alignas(64) VertexLump<T> lump[3][kSize];        // see lump_slot()
+  // With Hessians: the further lumps of the corners, and the nodes between them. Of edges the rule
+  // and the weight of each node, of faces the rule and the weights at the centre and of the orbit.
+  alignas(64) VertexLump<T> hessian[2][3][kSize];
+  alignas(64) double edge_node[3][kSize];
+  alignas(64) double center_node[kSize];
+  alignas(64) double orbit_node[kSize];
+  alignas(64) std::uint8_t edge_rule[3][kSize];
+  alignas(64) std::uint8_t face_rule[kSize];
+  bool has_nodes_between = false;
 };
 
 // What a block adds to the whole; lengths scaled.
@@ -113,9 +130,10 @@ void sample_half_edges(const TriangleBlock<T>& block, std::size_t n,
 // The largest vertex index of n triangles from `first` on.
 std::uint32_t largest_index(const MeshView& mesh, std::size_t first, std::size_t n);
 
-// Adds the lumps of the block's first n triangles that are lumped.
+// Adds the lumps of the block's first n triangles that are lumped; lumps_per_vertex(hessians) of a
+// vertex follow each other.
 template <typename T>
-void scatter_lumps(const MeshView& mesh, std::size_t first, std::size_t n,
+void scatter_lumps(const MeshView& mesh, std::size_t first, std::size_t n, bool hessians,
                    const TriangleBlock<T>& block, VertexLump<T>* vertices);
 
 }  // namespace rholm

@@ -20,12 +20,15 @@ PassError error_of_pass(const MeshPlan& plan, PassFacts& facts, const Coefficien
   const double lumped2 =
       plan.coherence > 0 ? plan.coherence * facts.face_error2 : facts.face_error2 + edges2;
   const double rules = rule_error(plan, lumped2, static_cast<double>(facts.noded));
-  const double spread = std::sqrt(facts.source2 / (4 * std::numbers::pi));
   const GridLayout& layout = facts.transform.fourier.layout;
   const double relative_window =
       spread_error(layout.width, static_cast<double>(layout.n_phi) / (2.0 * std::max(degree, 1)));
-  const double window =
-      spread * (relative_window + (plan.single ? single_rounding(degree, 1) : 0.0));
+  const double rounding = plan.single ? single_rounding(degree, plan.block.hessians ? 2 : 1) : 0.0;
+  const auto generic = [](double square) { return std::sqrt(square / (4 * std::numbers::pi)); };
+  const double amplified =
+      std::pow(hessian_factor(facts.transform, facts.vertices), 2) * facts.hessian2;
+  const double window = relative_window * generic(facts.source2 + amplified) +
+                        rounding * generic(facts.source2 + facts.hessian2);
   const double scale = plan.block.scale;
   // Vertices in step with the grid leave the window's error of the whole, see
   // MeshPlan::most_window.

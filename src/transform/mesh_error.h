@@ -15,7 +15,9 @@ struct PassFacts {
   double face_error2 = 0;  // see BlockSums
   std::size_t noded = 0;   // triangles with nodes
   std::vector<SampledHalfEdge> half_edges;
-  double source2 = 0;  // sum of squares of all that was spread
+  double source2 = 0;   // sum of squares of all that was spread
+  double hessian2 = 0;  // and of L^2 times Hessians, at the vertices
+  std::size_t vertices = 0;
   NonuniformPlan transform;
 };
 

@@ -11,6 +11,7 @@
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "rholm/error.h"
+#include "transform/mesh_between.h"
 #include "transform/mesh_error.h"
 #include "transform/mesh_plan.h"
 #include "transform/mesh_sources.h"
@@ -24,9 +25,10 @@ constexpr std::size_t kBlockSize = kTrianglesPerBlock;
 // Blocks between two reports of progress: about 1 ms.
 constexpr std::size_t kBlocksPerStep = 512;
 constexpr std::size_t kVerticesPerStep = 256 * kVerticesPerBlock;
-// Below this part of triangles with nodes these are kept until the sums of squares are known
+// Below so many nodes per triangle these are kept until the sums of squares are known
 // exactly; above, they are spread as they come, to a window chosen from the sample.
-constexpr double kFewNodes = 0.01;
+constexpr double kFewNodes = 0.05;
+constexpr double kNodesEach = 5;  // of a triangle that has some, roughly
 // Tries to keep the precision: a second is rare, a third should not be needed.
 constexpr int kMostTries = 3;
 
@@ -68,13 +70,13 @@ class Pass {
         options_(options),
         plan_(plan),
         context_(context),
-        arrays_(mesh.n_vertices),
+        arrays_(mesh.n_vertices, plan.block.hessians),
         n_blocks_((mesh.n_triangles + kBlockSize - 1) / kBlockSize) {}
 
   Outcome run(MeshPassResult& result) {
-    const bool upfront = plan_.node_share > kFewNodes;
+    const bool upfront = kNodesEach * plan_.node_share + plan_.between > kFewNodes;
     if (upfront) {
-      choose_window(plan_.source2, estimated_sources());
+      choose_window(plan_.source2, plan_.hessian2, estimated_sources());
       make_grids();
     }
     parts_ = std::vector<MeshPart>(upfront ? grids_.size() : part_count());
@@ -97,8 +99,13 @@ class Pass {
     // The weights of each triangle add up to nothing.
     if (sizeof(T) == 4 && std::abs(lumps.weight) > 0x1p31) return Outcome::kOutOfRange;
     const double lumps2 = squares_of(lumps);
+    const double hessian2 =
+        plan_.block.hessians
+            ? std::pow(std::pow(plan_.divided.degree, 2) / plan_.block.per_hessian, 2) *
+                  lumps.hessian2
+            : 0;
     if (!upfront) {
-      choose_window(kept2 + lumps2, mesh_.n_vertices + kept);
+      choose_window(kept2 + lumps2, hessian2, mesh_.n_vertices + kept);
       make_grids();
     }
     {
@@ -109,15 +116,15 @@ class Pass {
       const StageTimer timer(result.times, "fourier");
       transform_grids(result);
     }
-    set_result(sums, lumps2, result);
+    set_result(sums, plan_.block.hessians ? 0 : lumps2, result);
     return Outcome::kDone;
   }
 
  private:
   std::size_t estimated_sources() const {
-    // Some five nodes a triangle.
+    const double nodes = kNodesEach * plan_.node_share + plan_.between;
     return mesh_.n_vertices +
-           static_cast<std::size_t>(5 * plan_.node_share * static_cast<double>(mesh_.n_triangles));
+           static_cast<std::size_t>(nodes * static_cast<double>(mesh_.n_triangles));
   }
 
   // Parts of the triangles when they need no grids: as many as pay, whatever the number of threads.
@@ -125,14 +132,16 @@ class Pass {
     return std::clamp<std::size_t>(mesh_.n_triangles / 20000, 1, 8);
   }
 
-  void choose_window(double source2, std::size_t sources) {
+  // `hessian2`: L^2 times Hessians, whose part in the error depends on the grid.
+  void choose_window(double source2, double hessian2, std::size_t sources) {
     NonuniformNeeds needs{.degree = plan_.divided.degree,
                           .error = std::clamp(window_error(plan_, source2), 1e-15, 1e-2),
                           .sources = sources,
-                          .derivatives = 1,
+                          .derivatives = plan_.block.hessians ? 2 : 1,
                           .forbid_single = sizeof(T) == 8,
                           // The sum of squares has gradients in it already.
-                          .gradient_size = 0};
+                          .gradient_size = 0,
+                          .hessian_size = std::sqrt(hessian2 / std::max(source2, 1e-300))};
     transform_ = plan_nonuniform(needs);
     transform_.single = sizeof(T) == 4;
     kernel_ = grid_kernel<T>(transform_.fourier);
@@ -161,6 +170,7 @@ class Pass {
     auto block = std::make_unique<TriangleBlock<Lump>>();
     PartSink<T> sink(part, grids_.empty() ? nullptr : grids_[p].get(), plan_);
     NodeWriter writer({plan_.divided, plan_.undivided}, sink);
+    NodesBetween between(sink);
     for (std::size_t b = begin; b < end; ++b) {
       const std::size_t first = b * kBlockSize;
       const std::size_t n = std::min(kBlockSize, mesh_.n_triangles - first);
@@ -171,7 +181,8 @@ class Pass {
       if (parameters.largest_index >= mesh_.n_vertices) refuse_mesh();
       const std::size_t before = part.sums.nodes;
       work_block(mesh_, first, n, parameters, *block, part.sums);
-      scatter_lumps(mesh_, first, n, *block, lumps->data());
+      scatter_lumps(mesh_, first, n, parameters.hessians, *block, lumps->data());
+      if (block->has_nodes_between) between.add(mesh_, first, n, *block);
       sample_half_edges(*block, n, part.half_edges);
       if (part.sums.nodes != before || part.sums.max_edge2 > plan_.block.mean_reach2) {
         write_nodes(*block, first, n, writer, part);
@@ -184,6 +195,7 @@ class Pass {
       }
     }
     writer.flush();
+    between.flush();
     sink.sum_undivided();
     arrays_.give_back(std::move(lumps));
   }
@@ -219,7 +231,7 @@ class Pass {
                  [&](std::size_t begin, std::size_t end) {
                    LumpSums& step = steps[begin / kVerticesPerStep];
                    visit_lumps(begin, end, [&](std::size_t, std::size_t n, const auto* lumps) {
-                     step.add(sum_lumps(lumps, n));
+                     step.add(sum_lumps(lumps, n, plan_.block.hessians));
                    });
                  });
     LumpSums sums;
@@ -230,7 +242,7 @@ class Pass {
   // Calls visit(first, n, lumps) for blocks of vertices.
   template <typename Visit>
   void visit_lumps(std::size_t begin, std::size_t end, const Visit& visit) const {
-    alignas(64) VertexLump<Lump> room[kVerticesPerBlock];
+    alignas(64) VertexLump<Lump> room[kLumpsPerBlock];
     for (std::size_t first = begin; first < end; first += kVerticesPerBlock) {
       const std::size_t n = std::min(kVerticesPerBlock, end - first);
       visit(first, n, arrays_.sums(first, n, room));
@@ -273,6 +285,7 @@ class Pass {
     std::vector<GridSpreader<T>> spreaders;
     for (auto& grid : grids_) {
       source2_ += grid->source2();
+      hessian2_ += grid->hessian2();
       spreaders.push_back(grid->take_spreader());
     }
     finish_adjoint<T>(transform_, spreaders, sum, context_, {"transform", 0.9, 1});
@@ -314,6 +327,8 @@ class Pass {
                     .noded = sums.nodes,
                     .half_edges = {},
                     .source2 = source2_ + lumps2,
+                    .hessian2 = hessian2_,
+                    .vertices = mesh_.n_vertices,
                     .transform = transform_};
     for (const MeshPart& part : parts_) {
       facts.half_edges.insert(facts.half_edges.end(), part.half_edges.begin(),
@@ -340,7 +355,8 @@ class Pass {
   NonuniformPlan transform_;
   GridKernel<T> kernel_;
   std::vector<std::unique_ptr<GridSources<T>>> grids_;
-  double source2_ = 0;  // of nodes
+  double source2_ = 0;  // of nodes; of vertices as well if they have Hessians
+  double hessian2_ = 0;
 };
 
 Outcome run_pass(const MeshView& mesh, const MeshPassOptions& options, const MeshPlan& plan,

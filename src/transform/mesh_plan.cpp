@@ -7,10 +7,12 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <optional>
 
 #include "harmonic/nonuniform.h"
 #include "rholm/error.h"
 #include "transform/mesh_coherence.h"
+#include "transform/mesh_lumping.h"
 #include "transform/mesh_nodes.h"
 #include "transform/star_geometry.h"
 
@@ -79,19 +81,22 @@ struct EdgeStatistics {
   }
 };
 
-// Half-edges of a block by the vertices at their ends.
-void add_edges(const TriangleBlock<double>& block, std::size_t n,
-               std::vector<MeshSample::Edge>& edges) {
+// Half-edges of a block, whose triangles begin at `first` of the sample, by the vertices at their
+// ends.
+void add_edges(const TriangleBlock<double>& block, std::size_t n, std::size_t first,
+               MeshSample& sample) {
   struct Half {
     std::uint64_t name;
     double error, error2, weight;
+    std::uint32_t number;
   };
   std::vector<Half> halves;
   for (std::size_t t = 0; t < n; ++t) {
-    for (int i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t a = block.hash[i][t], b = block.hash[(i + 1) % 3][t];
       halves.push_back({std::uint64_t{std::min(a, b)} << 32 | std::max(a, b),
-                        block.edge_error[i][t], block.error2[t], block.edge_weight[i][t]});
+                        block.edge_error[i][t], block.error2[t], block.edge_weight[i][t],
+                        static_cast<std::uint32_t>(3 * (first + t) + i)});
     }
   }
   std::sort(halves.begin(), halves.end(),
@@ -101,53 +106,18 @@ void add_edges(const TriangleBlock<double>& block, std::size_t n,
     if (a.name != b.name || !std::isfinite(a.error2 + b.error2)) continue;
     const bool in_order = a.error2 <= b.error2;
     const Half &lower = in_order ? a : b, &upper = in_order ? b : a;
-    edges.push_back(
+    sample.twins.push_back({a.number, b.number});
+    sample.edges.push_back(
         {lower.error2, upper.error2, lower.error, upper.error, lower.weight + upper.weight});
     ++i;
   }
 }
-
-// Sum of squares of what lumping leaves if triangles up to a tolerance are lumped: of an edge the
-// sum of its half-edges, or the one that is lumped.
-double lumped_error2(const MeshSample& sample, double tolerance2) {
-  double faces = 0, edges = 0;
-  for (const MeshSample::Entry& entry : sample.entries) {
-    if (entry.error2 > tolerance2) break;
-    // Where no neighbours are known, the edges' part is a guess until a pass has told it.
-    faces += (sample.edge_share > 0 ? 1 : 1 + sample.edge_ratio) * entry.face_error2;
-  }
-  for (const MeshSample::Edge& edge : sample.edges) {
-    if (edge.lower2 > tolerance2) continue;
-    const double error = edge.upper2 > tolerance2 ? edge.lower : edge.lower + edge.upper;
-    edges += error * error;
-  }
-  return sample.share * faces + sample.edge_share * edges;
-}
-
-// No single triangle may take more than a thirtieth of it all: the sample does not know the worst.
-double largest_tolerance(double allowed2) { return allowed2 / 1000; }
 
 // Sum of squares of all faces.
 double face_error2(const MeshSample& sample) {
   double faces = 0;
   for (const MeshSample::Entry& entry : sample.entries) faces += entry.face_error2;
   return sample.share * faces;
-}
-
-// The largest tolerance (squared, in units of lumping) of some two dozen that keeps the sum of
-// squares allowed; 0 if none does.
-double tolerance_of(const MeshSample& sample, double allowed2) {
-  // No single triangle may take more than a thirtieth of it all: the sample does not know the
-  // worst.
-  const double most = largest_tolerance(allowed2);
-  const std::size_t n = sample.entries.size();
-  constexpr std::size_t kSteps = 24;
-  for (std::size_t k = kSteps; k > 0 && n > 0; --k) {
-    const bool all = k == kSteps;
-    const double tolerance2 = all ? most : sample.entries[(n - 1) * k / kSteps].error2;
-    if (tolerance2 <= most && lumped_error2(sample, tolerance2) <= allowed2) return tolerance2;
-  }
-  return 0;
 }
 
 // Sum of squares of what is spread, roughly: edges in some three nodes or two lumps, faces in some
@@ -170,10 +140,33 @@ double moduli_of(const MeshSample& sample) {
   return faces + (sample.edge_share > 0 ? sample.edge_share * edges : faces);
 }
 
+// On smooth surfaces the edges' part is a few times the faces'; where every edge is a crease
+// nothing cancels, and to measure it is a waste of time.
+bool may_cancel(const MeshSample& sample) {
+  constexpr double kCreased = 30;  // chosen
+  double edges = 0;
+  for (const MeshSample::Edge& edge : sample.edges) edges += std::pow(edge.lower + edge.upper, 2);
+  return sample.edge_share * edges <= kCreased * face_error2(sample);
+}
+
 // Some four thousand edges: the sum of squares to a few per cent, if none outweighs the others.
 std::uint32_t sampled_names(std::size_t n_triangles) {
   const double part = 4000 / (1.5 * static_cast<double>(n_triangles));
   return static_cast<std::uint32_t>(std::min(1.0, part) * 4294967295.0);
+}
+
+MeshSample::Triangle triangle_of(const TriangleBlock<double>& block, std::size_t t,
+                                 const std::array<Vec3, 3>& p, int degree) {
+  MeshSample::Triangle triangle{.weight = {}, .z2 = {}, .face = block.face_weight[t]};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 &a = p[i], &b = p[(i + 1) % 3];
+    const Vec3 across = cross(a, b), e = b - a;
+    const double over = 1 / std::min(dot(a, a), dot(b, b));
+    triangle.weight[i] = block.edge_weight[i][t];
+    triangle.z2[i] = degree * static_cast<double>(degree) * over * over * dot(across, across) +
+                     kHermiteBend * over * dot(e, e);
+  }
+  return triangle;
 }
 
 }  // namespace
@@ -230,6 +223,7 @@ MeshSample sample_mesh(const MeshView& mesh, const Vec3& center, int degree) {
         p[i] = {block->corner[i][0][t], block->corner[i][1][t], block->corner[i][2][t]};
       }
       moments.add(p);
+      sample.triangles.push_back(triangle_of(*block, t, p, degree));
       for (int i = 0; i < 3; ++i) {
         const double weight = std::abs(block->edge_weight[i][t]);
         if (std::isfinite(weight) && weight > 0) edges.add(p[i], p[(i + 1) % 3], weight);
@@ -239,7 +233,7 @@ MeshSample sample_mesh(const MeshView& mesh, const Vec3& center, int degree) {
                                   std::pow(block->face_weight[t], 2)});
       }
     }
-    add_edges(*block, n, sample.edges);
+    add_edges(*block, n, sample.triangles.size() - n, sample);
   }
   std::sort(sample.entries.begin(), sample.entries.end(),
             [](const auto& a, const auto& b) { return a.error2 < b.error2; });
@@ -282,29 +276,38 @@ MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& c
   // Half of the squares for lumps, half for nodes.
   const double lumps = plan.rules * std::sqrt(0.5) / unit;
   plan.in_step = neighbours_in_step(std::pow(degree * sample.angle, 2));
-  double tolerance2 = tolerance_of(sample, std::pow(lumps / plan.in_step, 2));
+  const double allowed2 = std::pow(lumps / plan.in_step, 2);
+  plan.source2 = source2_of(sample);
+  double tolerance2 = tolerance_of(sample, allowed2);
   if (!sample.entries.empty() && tolerance2 < sample.entries.back().error2) {
     // The measured energy may be too low by its scatter. What is four times as bad as all of the
     // sample gets nodes.
-    const double coherence = kScatter * error_coherence(mesh, center, sample.scale, degree);
+    const double coherence = may_cancel(sample)
+                                 ? kScatter * error_coherence(mesh, center, sample.scale, degree)
+                                 : std::numeric_limits<double>::infinity();
     if (coherence * face_error2(sample) <= lumps * lumps) {
       plan.coherence = coherence;
       plan.in_step = 1;  // it has been measured
       tolerance2 = 16 * sample.entries.back().error2;
     }
   }
-  double nodes = 0;
-  for (const MeshSample::Entry& entry : sample.entries) nodes += entry.error2 > tolerance2;
-  plan.source2 = source2_of(sample);
-  plan.node_share =
-      limits.many_nodes
-          ? 1
-          : nodes / static_cast<double>(std::max<std::size_t>(sample.entries.size(), 1));
+  plan.node_share = noded_share(sample, tolerance2);
+  std::optional<HermiteLumps> hermite;
+  if (plan.node_share > 0) hermite = hermite_lumps(sample, allowed2);
+  if (hermite && hermite->cost < kNodedCost * plan.node_share) {
+    tolerance2 = hermite->tolerance2;
+    plan.node_share = hermite->node_share;
+    plan.between = hermite->between;
+    plan.hessian2 = hermite->hessian2;
+  } else {
+    hermite.reset();
+  }
+  if (limits.many_nodes) plan.node_share = 1;
   const double vertices = static_cast<double>(mesh.n_vertices);
-  plan.single =
-      !limits.forbid_single &&
-      single_rounding(degree, 1) * std::sqrt(plan.source2 / (4 * kPi)) < 0.3 * plan.window &&
-      kSingleInStep * moduli_of(sample) < plan.window;
+  plan.single = !limits.forbid_single &&
+                single_rounding(degree, hermite ? 2 : 1) * std::sqrt(plan.source2 / (4 * kPi)) <
+                    0.3 * plan.window &&
+                kSingleInStep * moduli_of(sample) < plan.window;
   // Rounding to quanta adds variance q^2 / 12 at two corners of a triangle and twice that at the
   // third: at six corners a vertex 2/3 q^2.
   const double noise = kQuantumShare * budget * std::sqrt(6 * kPi / vertices);
@@ -321,6 +324,12 @@ MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& c
                 // Sums wrap around: only those of whole vertices must fit into 31 bits, where the
                 // weights of neighbours cancel.
                 .largest = std::exp2(plan.single ? 28 : 48),
+                .hessians = hermite.has_value(),
+                // Nothing makes up for their rounding: finer. Still they are smaller than weights
+                // by kFarthest of node_rules.cpp.
+                .per_hessian = 4 * std::pow(std::max(degree, 1), 2) / quantum,
+                .edge_reach2 = hermite ? hermite->edge_reach2 : HermiteReach{},
+                .face_reach2 = hermite ? hermite->face_reach2 : HermiteReach{},
                 .sampled_names = sampled_names(mesh.n_triangles)};
   const double noded = std::max(plan.node_share * static_cast<double>(mesh.n_triangles), 10.0);
   const double element =

@@ -1,6 +1,8 @@
 // What a mesh pass decides before it starts, from a sample of the triangles.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "rholm/mesh_view.h"
@@ -26,6 +28,14 @@ struct MeshSample {
   };
   std::vector<Entry> entries;  // error2 ascending
   std::vector<Edge> edges;
+  // What rules with Hessians need to know of a triangle: W and z^2 of the half-edges, see
+  // kHermiteBend, and F; and the half-edges 3 t + i that are of one edge.
+  struct Triangle {
+    std::array<double, 3> weight, z2;
+    double face;
+  };
+  std::vector<Triangle> triangles;
+  std::vector<std::array<std::uint32_t, 2>> twins;
   double edge_share = 0;  // edges of the mesh per edge of the sample; 0: none is known
   // Where no edge is known: energy of the edges' errors in units of the faces'. As on smooth
   // meshes, until a pass has measured it.
@@ -51,7 +61,9 @@ struct MeshPlan {
   // grid, then the error is of the size of the low degrees themselves, not of random sums.
   double most_window = 0;
   double node_share = 0;  // part of the triangles that get nodes, as the sample has it
+  double between = 0;     // nodes between the vertices of lumped triangles, per triangle, likewise
   double source2 = 0;     // sum of squares of the nodes' weights, as the sample has it
+  double hessian2 = 0;    // and of L^2 times Hessians
   bool single = false;    // single precision will do
   double mean_error = 0;  // relative, of c_00
   // Energy of the whole error of lumping in units of that of the faces on their own, if all is

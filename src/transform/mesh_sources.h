@@ -29,26 +29,32 @@ class GridSources {
  public:
   // `gradient_cost`: see above.
   GridSources(const NonuniformPlan& plan, const GridKernel<T>& kernel, double gradient_cost)
-      : spreader_(plan, kernel), cost2_(gradient_cost * gradient_cost) {}
+      : spreader_(plan, kernel),
+        cost2_(gradient_cost * gradient_cost),
+        degree_(plan.fourier.degree) {}
 
   void add(std::span<const Node> nodes);
   void add(const GradientNode& node);
-  // Vertices as load_vertices() takes them; not counted.
+  // Vertices as load_vertices() takes them; counted only if they have Hessians.
   void add_vertices(const MeshView& mesh, std::size_t first, std::size_t n,
                     const BlockParameters& parameters, const VertexLump<LumpOf<T>>* lumps);
   void flush();
 
   // Sum of squares of all weights that were counted, gradients as much as they cost.
   double source2() const { return source2_; }
+  // And of L^2 times Hessians.
+  double hessian2() const { return hessian2_; }
   GridSpreader<T> take_spreader() { return std::move(spreader_); }
 
  private:
   static constexpr std::size_t kSize = SourceBatch<T>::kSize;
   void flush_values();
   void flush_gradients();
+  void count_vertices(std::size_t n);
 
   GridSpreader<T> spreader_;
-  double source2_ = 0, cost2_;
+  double source2_ = 0, hessian2_ = 0, cost2_;
+  int degree_;
   SourceBatch<T> values_, gradients_;
   std::size_t n_values_ = 0, n_gradients_ = 0;
 };

@@ -37,6 +37,24 @@ HWY_INLINE void store_as(D, V v, float* to) {
   hn::Store(hn::DemoteTo(df, v), df, to);
 }
 
+HWY_INLINE auto are_zero(D d, const Lumps& l) {
+  const V zero = hn::Zero(d);
+  return hn::And(hn::And(hn::Eq(l.weight, zero), hn::Eq(l.x, zero)),
+                 hn::And(hn::Eq(l.y, zero), hn::Eq(l.z, zero)));
+}
+
+// Where the Hessians are zero.
+template <typename L, typename T>
+HWY_INLINE auto load_hessians(D d, const VertexLump<L>* lumps, const BlockParameters& p,
+                              SourceBatch<T>& batch, std::size_t j) {
+  const V unit = hn::Set(d, 1 / p.per_hessian);
+  const Lumps a = load_lumps(d, lumps + kVerticesPerBlock);
+  const Lumps b = load_lumps(d, lumps + 2 * kVerticesPerBlock);
+  const V h[6] = {a.weight, a.x, a.y, a.z, b.weight, b.x};
+  for (int k = 0; k < 6; ++k) store_as(d, hn::Mul(unit, h[k]), batch.hessian[k] + j);
+  return hn::And(are_zero(d, a), are_zero(d, b));
+}
+
 template <typename Scalar, typename L, typename T>
 HWY_INLINE void load_any(const MeshView& mesh, std::size_t first, std::size_t n,
                          const BlockParameters& p, const VertexLump<L>* lumps,
@@ -51,7 +69,7 @@ HWY_INLINE void load_any(const MeshView& mesh, std::size_t first, std::size_t n,
   const auto* const at = reinterpret_cast<const std::byte*>(indices);
   // Rows of floats are read with 4 bytes more.
   const std::size_t readable = mesh.n_vertices - (sizeof(Scalar) == sizeof(float)) - first;
-  const V scale = hn::Set(d, p.scale), zero = hn::Zero(d);
+  const V scale = hn::Set(d, p.scale);
   const V x0 = hn::Set(d, p.center.x), y0 = hn::Set(d, p.center.y), z0 = hn::Set(d, p.center.z);
   const V weight = hn::Set(d, 1 / p.per_weight), slope = hn::Set(d, 1 / p.per_gradient);
   for (std::size_t j = 0; j < n; j += kLanes) {
@@ -59,8 +77,8 @@ HWY_INLINE void load_any(const MeshView& mesh, std::size_t first, std::size_t n,
                           ? LoadWhole(d, view, at + 4 * j, Scalar())
                           : LoadFew<Scalar>(d, view, at + 4 * j, HWY_MIN(kLanes, n - j));
     const Lumps l = load_lumps(d, lumps + j);
-    const auto nothing = hn::And(hn::And(hn::Eq(l.weight, zero), hn::Eq(l.x, zero)),
-                                 hn::And(hn::Eq(l.y, zero), hn::Eq(l.z, zero)));
+    auto nothing = are_zero(d, l);
+    if (p.hessians) nothing = hn::And(nothing, load_hessians(d, lumps + j, p, batch, j));
     const auto position = [&](V at_file, V origin, double otherwise) HWY_ATTR {
       return hn::IfThenElse(nothing, hn::Set(d, otherwise),
                             hn::Mul(scale, hn::Sub(at_file, origin)));
@@ -178,13 +196,35 @@ void LumpSums::add(const LumpSums& other) {
   weight += other.weight;
   weight2 += other.weight2;
   gradient2 += other.gradient2;
+  hessian2 += other.hessian2;
 }
 
-LumpSums sum_lumps(const VertexLump<std::int32_t>* lumps, std::size_t n) {
+namespace {
+
+LumpSums sum_fours(const VertexLump<std::int32_t>* lumps, std::size_t n) {
   return HWY_DYNAMIC_DISPATCH(SumSingle)(lumps, n);
 }
-LumpSums sum_lumps(const VertexLump<double>* lumps, std::size_t n) {
+LumpSums sum_fours(const VertexLump<double>* lumps, std::size_t n) {
   return HWY_DYNAMIC_DISPATCH(SumDouble)(lumps, n);
+}
+template <typename L>
+LumpSums sum_parts(const VertexLump<L>* lumps, std::size_t n, bool hessians) {
+  LumpSums sums = sum_fours(lumps, n);
+  if (!hessians) return sums;
+  for (std::size_t k = 1; k < lumps_per_vertex(true); ++k) {
+    const LumpSums more = sum_fours(lumps + k * kVerticesPerBlock, n);
+    sums.hessian2 += more.weight2 + more.gradient2;
+  }
+  return sums;
+}
+
+}  // namespace
+
+LumpSums sum_lumps(const VertexLump<std::int32_t>* lumps, std::size_t n, bool hessians) {
+  return sum_parts(lumps, n, hessians);
+}
+LumpSums sum_lumps(const VertexLump<double>* lumps, std::size_t n, bool hessians) {
+  return sum_parts(lumps, n, hessians);
 }
 
 template <typename L>
@@ -195,7 +235,7 @@ std::unique_ptr<typename LumpArrays<L>::Array> LumpArrays<L>::take() {
     free_.pop_back();
     return array;
   }
-  return std::make_unique<Array>(Array::zeros(n_vertices_ + kVectorLanes));
+  return std::make_unique<Array>(Array::zeros(per_vertex_ * n_vertices_ + kVectorLanes));
 }
 
 template <typename L>
@@ -207,13 +247,20 @@ void LumpArrays<L>::give_back(std::unique_ptr<Array> array) {
 template <typename L>
 const VertexLump<L>* LumpArrays<L>::sums(std::size_t first, std::size_t n,
                                          VertexLump<L>* room) const {
-  if (free_.size() == 1) return free_[0]->data() + first;
-  const std::size_t padded = (n + kVectorLanes - 1) / kVectorLanes * kVectorLanes;
-  std::memcpy(room, free_[0]->data() + first, padded * sizeof(VertexLump<L>));
-  for (std::size_t a = 1; a < free_.size(); ++a) {
-    const VertexLump<L>* more = free_[a]->data() + first;
-    for (std::size_t i = 0; i < n; ++i) {
-      for (int k = 0; k < 4; ++k) room[i].value[k] = sum_of(room[i].value[k], more[i].value[k]);
+  if (free_.size() == 1 && per_vertex_ == 1) return free_[0]->data() + first;
+  for (std::size_t k = 0; k < per_vertex_; ++k) {
+    VertexLump<L>* to = room + k * kVerticesPerBlock;
+    const std::size_t padded = (n + kVectorLanes - 1) / kVectorLanes * kVectorLanes;
+    std::fill(to + n, to + padded, VertexLump<L>{});
+    for (std::size_t a = 0; a < free_.size(); ++a) {
+      const VertexLump<L>* from = free_[a]->data() + first * per_vertex_ + k;
+      for (std::size_t i = 0; i < n; ++i, from += per_vertex_) {
+        if (a == 0) {
+          to[i] = *from;
+          continue;
+        }
+        for (int c = 0; c < 4; ++c) to[i].value[c] = sum_of(to[i].value[c], from->value[c]);
+      }
     }
   }
   return room;

@@ -16,6 +16,8 @@ namespace rholm {
 
 // Vertices worked on together: as many as a batch takes.
 inline constexpr std::size_t kVerticesPerBlock = SourceBatch<double>::kSize;
+// Room for the lumps of a block.
+inline constexpr std::size_t kLumpsPerBlock = lumps_per_vertex(true) * kVerticesPerBlock;
 
 // Arrays of lumps, one a thread. Sums of lumps are exact in any order: a thread takes any array
 // that is free.
@@ -23,15 +25,17 @@ template <typename L>
 class LumpArrays {
  public:
   using Array = AlignedArray<VertexLump<L>>;
-  explicit LumpArrays(std::size_t n_vertices) : n_vertices_(n_vertices) {}
+  LumpArrays(std::size_t n_vertices, bool hessians)
+      : n_vertices_(n_vertices), per_vertex_(lumps_per_vertex(hessians)) {}
   std::unique_ptr<Array> take();
   void give_back(std::unique_ptr<Array> array);
   // The sums of all arrays for n <= kVerticesPerBlock vertices from `first` on, which may be in
-  // `room`; zeros beyond the last vertex of the mesh.
+  // `room`; zeros beyond the last vertex of the mesh. With Hessians, what is first of all vertices
+  // comes first, then kVerticesPerBlock lumps further on what is second, and third.
   const VertexLump<L>* sums(std::size_t first, std::size_t n, VertexLump<L>* room) const;
 
  private:
-  std::size_t n_vertices_;
+  std::size_t n_vertices_, per_vertex_;
   std::vector<std::unique_ptr<Array>> free_;
   std::mutex mutex_;
 };
@@ -41,11 +45,13 @@ struct LumpSums {
   double weight = 0;     // their sum
   double weight2 = 0;    // sum of squares of weights
   double gradient2 = 0;  // and of gradients
+  double hessian2 = 0;   // and of Hessians
 
   void add(const LumpSums& other);
 };
-LumpSums sum_lumps(const VertexLump<std::int32_t>* lumps, std::size_t n);
-LumpSums sum_lumps(const VertexLump<double>* lumps, std::size_t n);
+// Of a block, as LumpArrays::sums() has them.
+LumpSums sum_lumps(const VertexLump<std::int32_t>* lumps, std::size_t n, bool hessians);
+LumpSums sum_lumps(const VertexLump<double>* lumps, std::size_t n, bool hessians);
 
 // Sources of n <= kVerticesPerBlock vertices from `first` on, whose lumps are given, eight at a
 // time: read up to a multiple of that. Vertices without a lump may lie anywhere.

@@ -1,5 +1,6 @@
 #include "transform/node_rules.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -214,9 +215,32 @@ std::span<const FaceNode> face_rule(const NodeAllowance& allowance, const Extent
   return {};
 }
 
+namespace {
+
+// Beyond z^2 of this, the derivatives of a rule weigh as much as its values.
+constexpr HermiteReach kFarthest = {16, 64};
+
+template <typename Rules, typename Units>
+HermiteReach reach_of(const Rules& rules, const Units& units, double error) {
+  HermiteReach reach;
+  for (std::size_t k = 0; k < reach.size(); ++k) {
+    reach[k] = std::min(kFarthest[k], std::pow(error / units[k], 2.0 / rules[k].power));
+  }
+  reach[1] = std::max(reach[0], reach[1]);
+  return reach;
+}
+
+}  // namespace
+
+HermiteReach hermite_edge_reach(double error) {
+  return reach_of(kHermiteEdges, kHermiteEdgeUnits, error);
+}
+HermiteReach hermite_face_reach(double error) {
+  return reach_of(kHermiteFaces, kHermiteFaceUnits, error);
+}
+
 double lumping_error(int degree) {
-  return std::sqrt(35.0 / 128) / 720 *
-         degree_factor({.degree = degree, .error = 0, .divided = true}, 4);
+  return kLumpingConstant * degree_factor({.degree = degree, .error = 0, .divided = true}, 4);
 }
 
 }  // namespace rholm

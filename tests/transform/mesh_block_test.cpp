@@ -10,6 +10,7 @@
 #include <memory>
 #include <vector>
 
+#include "rholm/harmonic.h"
 #include "rholm/primitives.h"
 #include "rholm/star.h"
 #include "rholm/topology.h"
@@ -34,6 +35,15 @@ BlockParameters parameters_about(const Vec3& center) {
   parameters.tolerance2 = parameters.mean_reach2 = parameters.largest = kInfinity;
   parameters.per_weight = parameters.per_gradient = 1 / kQuantum;
   return parameters;
+}
+
+// Rules with Hessians, this one for all edges and faces.
+void with_rule(BlockParameters& parameters, std::size_t rule) {
+  parameters.hessians = true;
+  parameters.per_hessian = parameters.per_weight;
+  for (std::size_t k = 0; k < parameters.edge_reach2.size(); ++k) {
+    parameters.edge_reach2[k] = parameters.face_reach2[k] = k < rule ? 0 : kInfinity;
+  }
 }
 
 template <typename T>
@@ -203,39 +213,142 @@ TEST(mesh_block, lumps_are_exact_for_quadratic_functions) {
   }
 }
 
+// Together with the nodes between the corners, which are whole quanta as well.
+TEST(mesh_block, lumps_and_nodes_of_a_triangle_add_up_to_nothing) {
+  const Mesh mesh = random_triangles(300, 2);
+  for (std::size_t rule = 0; rule < kHermiteRules; ++rule) {
+    BlockParameters parameters = parameters_about({});
+    parameters.per_weight = parameters.per_gradient = 1 << 20;
+    parameters.largest = 1 << 28;
+    with_rule(parameters, rule);
+    const auto worked = work<std::int32_t>(view_of(mesh), parameters);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const auto& block = *worked.blocks[t / kTrianglesPerBlock];
+      const std::size_t at = t % kTrianglesPerBlock;
+      if (block.flag[at] != kLumped) continue;
+      double sums[4] = {};
+      for (int i = 0; i < 3; ++i) {
+        for (int k = 0; k < 4; ++k) {
+          sums[k] += block.lump[i][lump_slot<std::int32_t>(at)].value[k];
+        }
+        EXPECT_EQ(block.edge_rule[i][at], rule);
+        if (rule > 0) {
+          sums[0] += static_cast<double>(rule) * block.edge_node[i][at] * parameters.per_weight;
+        }
+      }
+      EXPECT_EQ(block.face_rule[at], rule);
+      if (rule > 0) {
+        sums[0] += (block.center_node[at] + 3 * block.orbit_node[at]) * parameters.per_weight;
+      }
+      for (const double sum : sums) EXPECT_EQ(sum, 0) << t << ", rule " << rule;
+    }
+  }
+}
+
+// Means of (k . x)^d by Gauss's rules, far beyond the degrees wanted: edges are exact to degree 5,
+// 7, 9, faces to 4, 5, 6.
+TEST(mesh_block, lumps_with_hessians_are_exact_for_polynomials) {
+  const Mesh mesh = random_triangles(100, 3);
+  const GaussRule gauss = gauss_legendre(8);
+  const auto mean = [&](const auto& f) {
+    double sum = 0;
+    for (std::size_t i = 0; i < gauss.nodes.size(); ++i) {
+      sum += gauss.weights[i] / 2 * f((1 + gauss.nodes[i]) / 2);
+    }
+    return sum;
+  };
+  for (int rule = 0; rule < kHermiteRules; ++rule) {
+    BlockParameters parameters = parameters_about({});
+    with_rule(parameters, static_cast<std::size_t>(rule));
+    const auto worked = work<double>(view_of(mesh), parameters);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const Exact exact(mesh, t);
+      const auto& block = *worked.blocks[t / kTrianglesPerBlock];
+      const std::size_t at = t % kTrianglesPerBlock;
+      const std::array<Vec3, 3> p = {mesh.vertices[3 * t], mesh.vertices[3 * t + 1],
+                                     mesh.vertices[3 * t + 2]};
+      const Vec3 k = test::random_direction(4, t);
+      for (int d = 0; d <= 4 + rule; ++d) {
+        const auto power = [&](const Vec3& x, int n) { return n < 0 ? 0 : std::pow(dot(k, x), n); };
+        double lumped = 0, expected = 0;
+        const double face = static_cast<double>(exact.face);
+        expected +=
+            face * mean([&](double a) {
+              return 2 * (1 - a) * mean([&](double b) {
+                       return power(p[0] + a * (p[1] - p[0]) + (1 - a) * b * (p[2] - p[0]), d);
+                     });
+            });
+        for (std::size_t i = 0; i < 3; ++i) {
+          const Vec3 &a = p[i], e = p[(i + 1) % 3] - p[i];
+          expected +=
+              static_cast<double>(exact.w[i]) * mean([&](double s) { return power(a + s * e, d); });
+          const double* lump = block.lump[i][at].value;
+          lumped += kQuantum * (lump[0] * power(a, d) +
+                                d * dot({lump[1], lump[2], lump[3]}, k) * power(a, d - 1));
+          const double* h = block.hessian[0][i][at].value;
+          const double* h2 = block.hessian[1][i][at].value;
+          const double hessian = h[0] * k.x * k.x + h[3] * k.y * k.y + h2[1] * k.z * k.z +
+                                 2 * (h[1] * k.x * k.y + h[2] * k.x * k.z + h2[0] * k.y * k.z);
+          lumped += kQuantum * hessian * d * (d - 1) * power(a, d - 2);
+          for (int n = 1; n <= rule; ++n) {
+            lumped += block.edge_node[i][at] * power(a + n / (rule + 1.0) * e, d);
+          }
+          if (rule == 2) {
+            const Vec3 x = (5 * (p[0] + p[1] + p[2]) - 4 * a) / 11.0;
+            lumped += block.orbit_node[at] * power(x, d);
+          }
+        }
+        if (rule > 0) lumped += block.center_node[at] * power((p[0] + p[1] + p[2]) / 3.0, d);
+        const double size = std::pow(std::max({norm(p[0]), norm(p[1]), norm(p[2])}), d);
+        EXPECT_NEAR(
+            lumped, expected,
+            size * (1 + d * d) * (100 * kQuantum + 60 * static_cast<double>(exact.rounding)))
+            << "rule " << rule << ", degree " << d;
+      }
+    }
+  }
+}
+
 // Vertex sums of lumps, the blocks taken forwards or backwards.
 template <typename T>
-std::vector<VertexLump<T>> scattered(const Mesh& mesh, const Worked<T>& worked, bool backwards) {
-  std::vector<VertexLump<T>> lumps(mesh.vertices.size(), VertexLump<T>{});
+std::vector<VertexLump<T>> scattered(const Mesh& mesh, const Worked<T>& worked, bool backwards,
+                                     bool hessians = false) {
+  std::vector<VertexLump<T>> lumps(lumps_per_vertex(hessians) * mesh.vertices.size(),
+                                   VertexLump<T>{});
   const std::size_t blocks = worked.blocks.size();
   for (std::size_t k = 0; k < blocks; ++k) {
     const std::size_t b = backwards ? blocks - 1 - k : k;
     const std::size_t n =
         std::min(kTrianglesPerBlock, mesh.triangles.size() - b * kTrianglesPerBlock);
-    scatter_lumps(view_of(mesh), b * kTrianglesPerBlock, n, *worked.blocks[b], lumps.data());
+    scatter_lumps(view_of(mesh), b * kTrianglesPerBlock, n, hessians, *worked.blocks[b],
+                  lumps.data());
   }
   return lumps;
 }
 
 template <typename T>
-void expect_exact_sums() {
+void expect_exact_sums(bool hessians) {
   const Mesh mesh = test::rotated(bumpy_sphere(4));
   BlockParameters parameters = parameters_about({0.1, 0.2, 0.1});
   parameters.per_weight = parameters.per_gradient = 0x1p26;
+  if (hessians) with_rule(parameters, 0);
   const Worked<T> worked = work<T>(view_of(mesh), parameters);
-  const auto forwards = scattered(mesh, worked, false), backwards = scattered(mesh, worked, true);
+  const auto forwards = scattered(mesh, worked, false, hessians);
+  const auto backwards = scattered(mesh, worked, true, hessians);
   double sum = 0;
   for (std::size_t i = 0; i < forwards.size(); ++i) {
     for (int k = 0; k < 4; ++k) EXPECT_EQ(forwards[i].value[k], backwards[i].value[k]);
-    sum += static_cast<double>(forwards[i].value[0]);
+    if (i % lumps_per_vertex(hessians) == 0) sum += static_cast<double>(forwards[i].value[0]);
   }
   // Each of the three corners of each triangle is rounded by half a quantum at most.
   EXPECT_LT(std::abs(sum), 1.5 * static_cast<double>(mesh.triangles.size()));
 }
 
 TEST(mesh_block, sums_at_vertices_are_the_same_in_any_order) {
-  expect_exact_sums<std::int32_t>();
-  expect_exact_sums<double>();
+  for (const bool hessians : {false, true}) {
+    expect_exact_sums<std::int32_t>(hessians);
+    expect_exact_sums<double>(hessians);
+  }
 }
 
 TEST(mesh_block, triangles_that_need_nodes_do_not_reach_the_vertices) {

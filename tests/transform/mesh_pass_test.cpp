@@ -90,6 +90,7 @@ std::vector<Case> cases() {
           {"bumpy", bumpy, {0.1, 0, -0.1}, 64, 0.5},
           {"bumpy and fine", bumpy_sphere(5, 0.2), {}, 16, 0.5},
           {"rough", rough_sphere(3), {0.1, 0.1, 0}, 40, 0.1},
+          {"rough and fine", rough_sphere(4), {0.1, 0.1, 0}, 40, 0.05},
           {"sphere, off centre", icosphere(4), {0.5, 0.2, 0}, 24, 0.3},
           {"needle", ellipsoid({5, 0.3, 0.3}, 3), {0.2, 0.02, 0}, 32, 0.05},
           {"flat triangles", with_flat_triangles(bumpy, 20), {0.1, 0, -0.1}, 16, 0.5},
@@ -120,8 +121,11 @@ void sweep(const Case& c, Sweep& totals) {
     EXPECT_LT(error, wish + rounding);
     EXPECT_LT(std::abs(found.c(0, 0) - expected.c(0, 0)), (wish + 1e-14) * c00);
     if (wish < 3 * rounding) continue;
-    logarithm += std::log(wish / error);
-    ++n;
+    // Vertices alone: nothing would be cheaper.
+    if (analysis.fast->nodes > 0) {
+      logarithm += std::log(wish / error);
+      ++n;
+    }
     EXPECT_GT(reported, error / 3);
     EXPECT_LE(reported, wish);
     ++totals.reports;
@@ -129,13 +133,38 @@ void sweep(const Case& c, Sweep& totals) {
   }
   // A wave of L < 4 is as long as the body: that pieces of a face are not in step over it is left
   // out of account, which wastes digits but hardly time.
-  EXPECT_LT(std::exp(logarithm / n), c.degree < 4 ? 120 : 30) << c.name << ", L " << c.degree;
+  // On fine smooth bodies the errors of neighbours cancel, which is measured for values and
+  // gradients alone.
+  const bool fine = c.mesh.triangles.size() > 10'000;
+  EXPECT_LT(std::exp(logarithm / n), c.degree < 4 ? 120
+                                     : fine       ? 40
+                                                  : 30)
+      << c.name << ", L " << c.degree;
 }
 
 TEST(mesh_pass, keeps_wanted_precisions_and_wastes_no_more_than_a_factor_of_thirty) {
   Sweep totals;
   for (const Case& c : cases()) sweep(c, totals);
-  EXPECT_GT(totals.close, 0.5 * totals.reports);
+  // Errors of lumps cancel between neighbours on smooth bodies, by more than five times on fine
+  // ones.
+  EXPECT_GT(totals.close, 0.4 * totals.reports);
+}
+
+// Creases leave no error to cancel: values and gradients alone will not do, with Hessians and a few
+// nodes between the vertices nearly all of the triangles are lumped.
+TEST(mesh_pass, lumps_rough_meshes_with_hessians) {
+  const Mesh mesh = rough_sphere(5);
+  const StarChart chart = chart_of(mesh, {0.1, 0.1, 0});
+  const Analysis expected = analyze(chart, {.degree = 30, .precision = 1e-11});
+  std::size_t nodes = 0;
+  for (const double wish : {1e-2, 1e-4}) {
+    const Analysis found = analyze(chart, {.degree = 30, .precision = wish});
+    EXPECT_LT(relative_error(found.expansion.coefficients, expected.expansion.coefficients), wish);
+    EXPECT_GT(found.fast->lumped_triangles, mesh.triangles.size() * 9 / 10);
+    EXPECT_GT(found.fast->nodes, nodes);
+    EXPECT_LT(found.fast->nodes, 8 * mesh.triangles.size());
+    nodes = found.fast->nodes;
+  }
 }
 
 // The oracle is checked against another that shares no integrals with it either.
@@ -222,14 +251,16 @@ TEST(mesh_pass, the_order_of_triangles_changes_nothing_but_rounding) {
 }
 
 TEST(mesh_pass, every_instruction_set_keeps_the_precision) {
-  const StarChart chart = chart_of(test::rotated(bumpy_sphere(4)), {0.1, 0, 0});
-  const Coefficients expected = oracle_of(chart, 20).expansion.coefficients;
-  test::for_each_target([&](const char* target) {
-    for (const double precision : {1e-3, 1e-6, 1e-11}) {
-      const Analysis analysis = analyze(chart, {.degree = 20, .precision = precision});
-      EXPECT_LT(relative_error(analysis.expansion.coefficients, expected), precision) << target;
-    }
-  });
+  for (const Mesh& mesh : {test::rotated(bumpy_sphere(4)), rough_sphere(4)}) {
+    const StarChart chart = chart_of(mesh, {0.1, 0, 0});
+    const Coefficients expected = oracle_of(chart, 20).expansion.coefficients;
+    test::for_each_target([&](const char* target) {
+      for (const double precision : {1e-3, 1e-6, 1e-11}) {
+        const Analysis analysis = analyze(chart, {.degree = 20, .precision = precision});
+        EXPECT_LT(relative_error(analysis.expansion.coefficients, expected), precision) << target;
+      }
+    });
+  }
 }
 
 TEST(mesh_pass, tells_whether_the_mesh_is_closed_and_how_it_lies) {

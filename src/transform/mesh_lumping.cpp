@@ -1,0 +1,190 @@
+#include "transform/mesh_lumping.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rholm {
+namespace {
+
+// Costs beside kNodedCost: a node between vertices; Hessians of a triangle, and of its half of a
+// vertex (measured).
+constexpr double kBetweenCost = 50, kHessianCost = 25;
+
+// Sum of squares of what lumping leaves if triangles up to a tolerance are lumped: of an edge the
+// sum of its half-edges, or the one that is lumped.
+double lumped_error2(const MeshSample& sample, double tolerance2) {
+  double faces = 0, edges = 0;
+  for (const MeshSample::Entry& entry : sample.entries) {
+    if (entry.error2 > tolerance2) break;
+    // Where no neighbours are known, the edges' part is a guess until a pass has told it.
+    faces += (sample.edge_share > 0 ? 1 : 1 + sample.edge_ratio) * entry.face_error2;
+  }
+  for (const MeshSample::Edge& edge : sample.edges) {
+    if (edge.lower2 > tolerance2) continue;
+    const double error = edge.upper2 > tolerance2 ? edge.lower : edge.lower + edge.upper;
+    edges += error * error;
+  }
+  return sample.share * faces + sample.edge_share * edges;
+}
+
+// No single triangle may take more than a thirtieth of it all: the sample does not know the worst.
+double largest_tolerance(double allowed2) { return allowed2 / 1000; }
+
+}  // namespace
+
+double tolerance_of(const MeshSample& sample, double allowed2) {
+  // No single triangle may take more than a thirtieth of it all: the sample does not know the
+  // worst.
+  const double most = largest_tolerance(allowed2);
+  const std::size_t n = sample.entries.size();
+  constexpr std::size_t kSteps = 24;
+  for (std::size_t k = kSteps; k > 0 && n > 0; --k) {
+    const bool all = k == kSteps;
+    const double tolerance2 = all ? most : sample.entries[(n - 1) * k / kSteps].error2;
+    if (tolerance2 <= most && lumped_error2(sample, tolerance2) <= allowed2) return tolerance2;
+  }
+  return 0;
+}
+
+namespace {
+
+double power(double z2, int p) {
+  double result = p % 2 == 0 ? 1 : std::sqrt(z2);
+  for (int k = 0; k < p / 2; ++k) result *= z2;
+  return result;
+}
+
+// L^2 times what the Hessians of an edge are multiplied by, for the half-edges of the triangle with
+// the smaller and with the larger error.
+struct EdgeHessian {
+  double lower2, upper2;
+  double lower, upper;
+};
+
+// The sample as rules with Hessians see it.
+struct Seen {
+  MeshSample sample;
+  std::vector<EdgeHessian> hessians;
+};
+Seen with_hessians(const MeshSample& sample, HermiteLumps& lumps) {
+  Seen result;
+  MeshSample& seen = result.sample;
+  seen.share = sample.share;
+  seen.edge_share = sample.edge_share;
+  seen.edge_ratio = 0;
+  std::vector<std::array<double, 3>> errors;  // of half-edges
+  std::vector<double> errors2;
+  errors.reserve(sample.triangles.size());
+  errors2.reserve(sample.triangles.size());
+  seen.entries.reserve(sample.triangles.size());
+  seen.edges.reserve(sample.edges.size());
+  double nodes = 0;
+  for (const MeshSample::Triangle& t : sample.triangles) {
+    std::array<double, 3> error;
+    double edges2 = 0, z2 = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t k = hermite_rule(lumps.edge_reach2, t.z2[i]);
+      const HermiteEdge& rule = kHermiteEdges[k];
+      error[i] = t.weight[i] * kHermiteEdgeUnits[k] * power(t.z2[i], rule.power);
+      edges2 += error[i] * error[i];
+      z2 = std::max(z2, t.z2[i]);
+      nodes += rule.nodes / 2.0;
+    }
+    const std::size_t k = hermite_rule(lumps.face_reach2, z2);
+    const HermiteFace& rule = kHermiteFaces[k];
+    nodes += (rule.center != 0) + 3 * (rule.orbit != 0);
+    const double face2 = std::pow(t.face * kHermiteFaceUnits[k] * power(z2, rule.power), 2);
+    errors.push_back(error);
+    errors2.push_back(edges2 + face2);
+    if (!std::isfinite(edges2 + face2)) continue;
+    // Where no neighbours are known: (a + b)^2 <= 2 (a^2 + b^2).
+    const double own2 = sample.edge_share > 0 ? face2 : face2 + 2 * edges2;
+    seen.entries.push_back({edges2 + face2, own2, t.face * t.face});
+  }
+  lumps.between = nodes / static_cast<double>(std::max<std::size_t>(sample.triangles.size(), 1));
+  for (const auto& [first, second] : sample.twins) {
+    const double a = errors[first / 3][first % 3], b = errors[second / 3][second % 3];
+    const double a2 = errors2[first / 3], b2 = errors2[second / 3];
+    const MeshSample::Triangle &t = sample.triangles[first / 3], &u = sample.triangles[second / 3];
+    const double z2 = t.z2[first % 3];
+    const double factor = kHermiteEdges[hermite_rule(lumps.edge_reach2, z2)].hessian * z2;
+    const double ta = t.weight[first % 3], tb = u.weight[second % 3];
+    if (a2 <= b2) {
+      seen.edges.push_back({a2, b2, a, b, ta + tb});
+      result.hessians.push_back({a2, b2, factor * ta, factor * tb});
+    } else {
+      seen.edges.push_back({b2, a2, b, a, ta + tb});
+      result.hessians.push_back({b2, a2, factor * tb, factor * ta});
+    }
+  }
+  std::sort(seen.entries.begin(), seen.entries.end(),
+            [](const auto& a, const auto& b) { return a.error2 < b.error2; });
+  return result;
+}
+
+// Sum of squares over edges of lumped triangles, at both ends.
+double hessians2(const Seen& seen, double tolerance2) {
+  double sum = 0;
+  for (const EdgeHessian& edge : seen.hessians) {
+    if (edge.lower2 > tolerance2) continue;
+    const double h = edge.upper2 > tolerance2 ? edge.lower : edge.lower + edge.upper;
+    sum += 2 * h * h;
+  }
+  return seen.sample.edge_share * sum;
+}
+
+// Mean moduli of the weights of edges (of half-edges where no neighbours are known) and faces.
+struct MeanWeights {
+  double edge = 0, face = 0;
+};
+MeanWeights mean_weights(const MeshSample& sample) {
+  MeanWeights mean;
+  double faces = 0, halves = 0;
+  for (const MeshSample::Triangle& t : sample.triangles) {
+    const double sum = std::abs(t.weight[0]) + std::abs(t.weight[1]) + std::abs(t.weight[2]);
+    if (!std::isfinite(sum + t.face)) continue;
+    mean.face += std::abs(t.face);
+    halves += sum / 3;
+    ++faces;
+  }
+  for (const MeshSample::Edge& edge : sample.edges) mean.edge += std::abs(edge.weight);
+  mean.edge = sample.edge_share > 0
+                  ? mean.edge / static_cast<double>(std::max<std::size_t>(sample.edges.size(), 1))
+                  : halves / std::max(faces, 1.0);
+  mean.face /= std::max(faces, 1.0);
+  return mean;
+}
+
+}  // namespace
+
+double noded_share(const MeshSample& sample, double tolerance2) {
+  double noded = 0;
+  for (const MeshSample::Entry& entry : sample.entries) noded += entry.error2 > tolerance2;
+  return noded / static_cast<double>(std::max<std::size_t>(sample.entries.size(), 1));
+}
+
+std::optional<HermiteLumps> hermite_lumps(const MeshSample& sample, double allowed2) {
+  const MeanWeights mean = mean_weights(sample);
+  if (!(mean.edge > 0) || !(mean.face > 0) || !(allowed2 > 0)) return {};
+  // The error of an edge and of a face if all were alike: one and a half edges a triangle.
+  const double triangles = sample.share * static_cast<double>(sample.triangles.size());
+  const double edge = std::sqrt(allowed2 / (3 * triangles)) / mean.edge;
+  const double face = std::sqrt(allowed2 / (2 * triangles)) / mean.face;
+  std::optional<HermiteLumps> best;
+  // The more a rule may leave the fewer nodes between vertices, and the more triangles that have to
+  // be taken out.
+  for (double factor = 8; factor > 0.1; factor /= 2) {
+    HermiteLumps lumps{.edge_reach2 = hermite_edge_reach(factor * edge),
+                       .face_reach2 = hermite_face_reach(factor * face)};
+    const Seen seen = with_hessians(sample, lumps);
+    lumps.tolerance2 = tolerance_of(seen.sample, allowed2);
+    lumps.hessian2 = hessians2(seen, lumps.tolerance2);
+    lumps.node_share = noded_share(seen.sample, lumps.tolerance2);
+    lumps.cost = kHessianCost + kBetweenCost * lumps.between + kNodedCost * lumps.node_share;
+    if (best && lumps.cost > 1.2 * best->cost) break;
+    if (!best || lumps.cost < best->cost) best = lumps;
+  }
+  return best;
+}
+
+}  // namespace rholm
