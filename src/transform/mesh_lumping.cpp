@@ -11,8 +11,8 @@ namespace {
 constexpr double kBetweenCost = 50, kHessianCost = 25;
 
 // Sum of squares of what lumping leaves if triangles up to a tolerance are lumped: of an edge the
-// sum of its half-edges, or the one that is lumped.
-double lumped_error2(const MeshSample& sample, double tolerance2) {
+// sum of its half-edges, or the one that is lumped. No further than `enough`.
+double lumped_error2(const MeshSample& sample, double tolerance2, double enough) {
   double faces = 0, edges = 0;
   for (const MeshSample::Entry& entry : sample.entries) {
     if (entry.error2 > tolerance2) break;
@@ -23,6 +23,7 @@ double lumped_error2(const MeshSample& sample, double tolerance2) {
     if (edge.lower2 > tolerance2) continue;
     const double error = edge.upper2 > tolerance2 ? edge.lower : edge.lower + edge.upper;
     edges += error * error;
+    if (sample.edge_share * edges > enough) break;
   }
   return sample.share * faces + sample.edge_share * edges;
 }
@@ -37,11 +38,12 @@ double tolerance_of(const MeshSample& sample, double allowed2) {
   // worst.
   const double most = largest_tolerance(allowed2);
   const std::size_t n = sample.entries.size();
-  constexpr std::size_t kSteps = 24;
-  for (std::size_t k = kSteps; k > 0 && n > 0; --k) {
-    const bool all = k == kSteps;
-    const double tolerance2 = all ? most : sample.entries[(n - 1) * k / kSteps].error2;
-    if (tolerance2 <= most && lumped_error2(sample, tolerance2) <= allowed2) return tolerance2;
+  // Triangles that are left out: a third more each time, then a twenty-fourth of all.
+  for (std::size_t out = 0; out < n; out += std::clamp<std::size_t>(out / 3, 1, n / 24 + 1)) {
+    const double tolerance2 = out == 0 ? most : sample.entries[n - 1 - out].error2;
+    if (tolerance2 <= most && lumped_error2(sample, tolerance2, allowed2) <= allowed2) {
+      return tolerance2;
+    }
   }
   return 0;
 }

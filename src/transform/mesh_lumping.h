@@ -7,8 +7,8 @@
 
 namespace rholm {
 
-// The largest tolerance (squared, in units of lumping) of some two dozen that keeps the sum of
-// squares allowed; 0 if none does.
+// The largest tolerance (squared, in units of lumping) of a few dozen that keeps the sum of squares
+// allowed; 0 if none does.
 double tolerance_of(const MeshSample& sample, double allowed2);
 
 // The part of the triangles that is beyond it.

@@ -218,7 +218,7 @@ std::span<const FaceNode> face_rule(const NodeAllowance& allowance, const Extent
 namespace {
 
 // Beyond z^2 of this, the derivatives of a rule weigh as much as its values.
-constexpr HermiteReach kFarthest = {16, 64};
+constexpr HermiteReach kFarthest = {30, 120};
 
 template <typename Rules, typename Units>
 HermiteReach reach_of(const Rules& rules, const Units& units, double error) {
