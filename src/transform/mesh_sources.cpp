@@ -48,37 +48,12 @@ void GridSources<T>::add_vertices(const MeshView& mesh, std::size_t first, std::
                                   const BlockParameters& parameters,
                                   const VertexLump<LumpOf<T>>* lumps) {
   flush_gradients();
-  load_vertices(mesh, first, n, parameters, lumps, gradients_);
-  if (parameters.hessians) count_vertices(n);
-  spreader_.add(gradients_, n, parameters.hessians ? 2 : 1);
-}
-
-// Derivatives as far as they are tangential: a harmonic does not change along the radius, which on
-// steep surfaces most of an edge vector may be.
-template <typename T>
-void GridSources<T>::count_vertices(std::size_t n) {
-  const SourceBatch<T>& b = gradients_;
-  const double l2 = static_cast<double>(degree_) * degree_, l4 = l2 * l2;
-  double source2 = 0, hessian2 = 0;
-  for (std::size_t j = 0; j < n; ++j) {
-    const double x = b.x[0][j], y = b.x[1][j], z = b.x[2][j];
-    const double q = 1 / (x * x + y * y + z * z);
-    const double gx = b.gradient[0][j], gy = b.gradient[1][j], gz = b.gradient[2][j];
-    const double along = gx * x + gy * y + gz * z;
-    source2 += b.value[j] * static_cast<double>(b.value[j]) +
-               cost2_ * q * (gx * gx + gy * gy + gz * gz - q * along * along);
-    double h[6];
-    for (int k = 0; k < 6; ++k) h[k] = b.hessian[k][j];
-    const double hx = h[0] * x + h[1] * y + h[2] * z, hy = h[1] * x + h[3] * y + h[4] * z,
-                 hz = h[2] * x + h[4] * y + h[5] * z;
-    const double both = hx * x + hy * y + hz * z;
-    const double all =
-        h[0] * h[0] + h[3] * h[3] + h[5] * h[5] + 2 * (h[1] * h[1] + h[2] * h[2] + h[4] * h[4]);
-    const double one = hx * hx + hy * hy + hz * hz;
-    hessian2 += q * q * (all - 2 * q * one + q * q * both * both);
+  const LumpSums sums = load_vertices(mesh, first, n, parameters, lumps, gradients_);
+  if (parameters.hessians) {
+    source2_ += sums.weight2 + cost2_ * sums.gradient2;
+    hessian2_ += std::pow(parameters.degree, 4) * sums.hessian2;
   }
-  source2_ += source2;
-  hessian2_ += l4 * hessian2;
+  spreader_.add(gradients_, n, parameters.hessians ? 2 : 1);
 }
 
 template <typename T>

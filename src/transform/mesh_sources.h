@@ -29,9 +29,7 @@ class GridSources {
  public:
   // `gradient_cost`: see above.
   GridSources(const NonuniformPlan& plan, const GridKernel<T>& kernel, double gradient_cost)
-      : spreader_(plan, kernel),
-        cost2_(gradient_cost * gradient_cost),
-        degree_(plan.fourier.degree) {}
+      : spreader_(plan, kernel), cost2_(gradient_cost * gradient_cost) {}
 
   void add(std::span<const Node> nodes);
   void add(const GradientNode& node);
@@ -50,11 +48,9 @@ class GridSources {
   static constexpr std::size_t kSize = SourceBatch<T>::kSize;
   void flush_values();
   void flush_gradients();
-  void count_vertices(std::size_t n);
 
   GridSpreader<T> spreader_;
   double source2_ = 0, hessian2_ = 0, cost2_;
-  int degree_;
   SourceBatch<T> values_, gradients_;
   std::size_t n_values_ = 0, n_gradients_ = 0;
 };

@@ -43,22 +43,51 @@ HWY_INLINE auto are_zero(D d, const Lumps& l) {
                  hn::And(hn::Eq(l.y, zero), hn::Eq(l.z, zero)));
 }
 
-// Where the Hessians are zero.
+// Returns where the Hessians are zero.
 template <typename L, typename T>
 HWY_INLINE auto load_hessians(D d, const VertexLump<L>* lumps, const BlockParameters& p,
-                              SourceBatch<T>& batch, std::size_t j) {
+                              SourceBatch<T>& batch, std::size_t j, V* h) {
   const V unit = hn::Set(d, 1 / p.per_hessian);
   const Lumps a = load_lumps(d, lumps + kVerticesPerBlock);
   const Lumps b = load_lumps(d, lumps + 2 * kVerticesPerBlock);
-  const V h[6] = {a.weight, a.x, a.y, a.z, b.weight, b.x};
-  for (int k = 0; k < 6; ++k) store_as(d, hn::Mul(unit, h[k]), batch.hessian[k] + j);
+  const V numbers[6] = {a.weight, a.x, a.y, a.z, b.weight, b.x};
+  for (int k = 0; k < 6; ++k) {
+    h[k] = hn::Mul(unit, numbers[k]);
+    store_as(d, h[k], batch.hessian[k] + j);
+  }
   return hn::And(are_zero(d, a), are_zero(d, b));
 }
 
+HWY_INLINE V inner(V ax, V ay, V az, V bx, V by, V bz) {
+  return hn::MulAdd(ax, bx, hn::MulAdd(ay, by, hn::Mul(az, bz)));
+}
+
+// Sums of squares over lanes.
+struct LaneSquares {
+  V weight, gradient, hessian;
+};
+// Derivatives as far as they are tangential, for unit distance: of a gradient g^2 - (g.u)^2, of a
+// Hessian |H|^2 - 2 |Hu|^2 + (u.Hu)^2.
+HWY_INLINE void add_squares(D d, V x, V y, V z, V weight, V gx, V gy, V gz, const V* h,
+                            LaneSquares& sums) {
+  const V q = hn::Div(hn::Set(d, 1.0), inner(x, y, z, x, y, z));
+  const V along = inner(gx, gy, gz, x, y, z);
+  sums.weight = hn::MulAdd(weight, weight, sums.weight);
+  sums.gradient = hn::MulAdd(
+      q, hn::NegMulAdd(q, hn::Mul(along, along), inner(gx, gy, gz, gx, gy, gz)), sums.gradient);
+  const V hx = inner(h[0], h[1], h[2], x, y, z), hy = inner(h[1], h[3], h[4], x, y, z);
+  const V hz = inner(h[2], h[4], h[5], x, y, z), both = inner(hx, hy, hz, x, y, z);
+  const V off = inner(h[1], h[2], h[4], h[1], h[2], h[4]);
+  const V one = hn::Mul(q, inner(hx, hy, hz, hx, hy, hz)), twice = hn::Mul(q, both);
+  const V all = hn::Add(inner(h[0], h[3], h[5], h[0], h[3], h[5]), hn::Add(off, off));
+  sums.hessian = hn::MulAdd(
+      hn::Mul(q, q), hn::MulAdd(twice, twice, hn::Sub(all, hn::Add(one, one))), sums.hessian);
+}
+
 template <typename Scalar, typename L, typename T>
-HWY_INLINE void load_any(const MeshView& mesh, std::size_t first, std::size_t n,
-                         const BlockParameters& p, const VertexLump<L>* lumps,
-                         SourceBatch<T>& batch) {
+HWY_INLINE LumpSums load_any(const MeshView& mesh, std::size_t first, std::size_t n,
+                             const BlockParameters& p, const VertexLump<L>* lumps,
+                             SourceBatch<T>& batch) {
   const D d;
   constexpr std::size_t kLanes = hn::MaxLanes(D());
   // Vertices one after the other are corners of "triangles" whose indices follow each other.
@@ -71,6 +100,8 @@ HWY_INLINE void load_any(const MeshView& mesh, std::size_t first, std::size_t n,
   const std::size_t readable = mesh.n_vertices - (sizeof(Scalar) == sizeof(float)) - first;
   const V scale = hn::Set(d, p.scale);
   const V x0 = hn::Set(d, p.center.x), y0 = hn::Set(d, p.center.y), z0 = hn::Set(d, p.center.z);
+  const V none = hn::Zero(d);
+  LaneSquares squares = {none, none, none};
   const V weight = hn::Set(d, 1 / p.per_weight), slope = hn::Set(d, 1 / p.per_gradient);
   for (std::size_t j = 0; j < n; j += kLanes) {
     const Vector3 v = kWholeVectors && j + kLanes <= HWY_MIN(n, readable)
@@ -78,30 +109,39 @@ HWY_INLINE void load_any(const MeshView& mesh, std::size_t first, std::size_t n,
                           : LoadFew<Scalar>(d, view, at + 4 * j, HWY_MIN(kLanes, n - j));
     const Lumps l = load_lumps(d, lumps + j);
     auto nothing = are_zero(d, l);
-    if (p.hessians) nothing = hn::And(nothing, load_hessians(d, lumps + j, p, batch, j));
+    V h[6] = {none, none, none, none, none, none};
+    if (p.hessians) nothing = hn::And(nothing, load_hessians(d, lumps + j, p, batch, j, h));
     const auto position = [&](V at_file, V origin, double otherwise) HWY_ATTR {
       return hn::IfThenElse(nothing, hn::Set(d, otherwise),
                             hn::Mul(scale, hn::Sub(at_file, origin)));
     };
-    hn::Store(position(v.x, x0, 1), d, batch.x[0] + j);
-    hn::Store(position(v.y, y0, 0), d, batch.x[1] + j);
-    hn::Store(position(v.z, z0, 0), d, batch.x[2] + j);
-    store_as(d, hn::Mul(weight, l.weight), batch.value + j);
-    store_as(d, hn::Mul(slope, l.x), batch.gradient[0] + j);
-    store_as(d, hn::Mul(slope, l.y), batch.gradient[1] + j);
-    store_as(d, hn::Mul(slope, l.z), batch.gradient[2] + j);
+    const V x = position(v.x, x0, 1), y = position(v.y, y0, 0), z = position(v.z, z0, 0);
+    hn::Store(x, d, batch.x[0] + j);
+    hn::Store(y, d, batch.x[1] + j);
+    hn::Store(z, d, batch.x[2] + j);
+    const V w = hn::Mul(weight, l.weight);
+    const V gx = hn::Mul(slope, l.x), gy = hn::Mul(slope, l.y), gz = hn::Mul(slope, l.z);
+    store_as(d, w, batch.value + j);
+    store_as(d, gx, batch.gradient[0] + j);
+    store_as(d, gy, batch.gradient[1] + j);
+    store_as(d, gz, batch.gradient[2] + j);
+    if (p.hessians) add_squares(d, x, y, z, w, gx, gy, gz, h, squares);
   }
+  LumpSums sums;
+  sums.weight2 = hn::GetLane(hn::SumOfLanes(d, squares.weight));
+  sums.gradient2 = hn::GetLane(hn::SumOfLanes(d, squares.gradient));
+  sums.hessian2 = hn::GetLane(hn::SumOfLanes(d, squares.hessian));
+  return sums;
 }
 
 template <typename L, typename T>
-HWY_INLINE void load_by_type(const MeshView& mesh, std::size_t first, std::size_t n,
-                             const BlockParameters& p, const VertexLump<L>* lumps,
-                             SourceBatch<T>& batch) {
+HWY_INLINE LumpSums load_by_type(const MeshView& mesh, std::size_t first, std::size_t n,
+                                 const BlockParameters& p, const VertexLump<L>* lumps,
+                                 SourceBatch<T>& batch) {
   if (mesh.coordinate == ScalarType::kFloat32) {
-    load_any<float>(mesh, first, n, p, lumps, batch);
-  } else {
-    load_any<double>(mesh, first, n, p, lumps, batch);
+    return load_any<float>(mesh, first, n, p, lumps, batch);
   }
+  return load_any<double>(mesh, first, n, p, lumps, batch);
 }
 
 HWY_INLINE V load_numbers(D d, const double* from) { return hn::LoadU(d, from); }
@@ -149,13 +189,15 @@ LumpSums SumSingle(const VertexLump<std::int32_t>* lumps, std::size_t n) {
 }
 LumpSums SumDouble(const VertexLump<double>* lumps, std::size_t n) { return sum_any(lumps, n); }
 
-void LoadSingle(const MeshView& mesh, std::size_t first, std::size_t n, const BlockParameters& p,
-                const VertexLump<std::int32_t>* lumps, SourceBatch<float>& batch) {
-  load_by_type(mesh, first, n, p, lumps, batch);
+LumpSums LoadSingle(const MeshView& mesh, std::size_t first, std::size_t n,
+                    const BlockParameters& p, const VertexLump<std::int32_t>* lumps,
+                    SourceBatch<float>& batch) {
+  return load_by_type(mesh, first, n, p, lumps, batch);
 }
-void LoadDouble(const MeshView& mesh, std::size_t first, std::size_t n, const BlockParameters& p,
-                const VertexLump<double>* lumps, SourceBatch<double>& batch) {
-  load_by_type(mesh, first, n, p, lumps, batch);
+LumpSums LoadDouble(const MeshView& mesh, std::size_t first, std::size_t n,
+                    const BlockParameters& p, const VertexLump<double>* lumps,
+                    SourceBatch<double>& batch) {
+  return load_by_type(mesh, first, n, p, lumps, batch);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -170,15 +212,15 @@ HWY_EXPORT(SumDouble);
 HWY_EXPORT(LoadSingle);
 HWY_EXPORT(LoadDouble);
 
-void load_vertices(const MeshView& mesh, std::size_t first, std::size_t n,
-                   const BlockParameters& parameters, const VertexLump<std::int32_t>* lumps,
-                   SourceBatch<float>& batch) {
-  HWY_DYNAMIC_DISPATCH(LoadSingle)(mesh, first, n, parameters, lumps, batch);
+LumpSums load_vertices(const MeshView& mesh, std::size_t first, std::size_t n,
+                       const BlockParameters& parameters, const VertexLump<std::int32_t>* lumps,
+                       SourceBatch<float>& batch) {
+  return HWY_DYNAMIC_DISPATCH(LoadSingle)(mesh, first, n, parameters, lumps, batch);
 }
-void load_vertices(const MeshView& mesh, std::size_t first, std::size_t n,
-                   const BlockParameters& parameters, const VertexLump<double>* lumps,
-                   SourceBatch<double>& batch) {
-  HWY_DYNAMIC_DISPATCH(LoadDouble)(mesh, first, n, parameters, lumps, batch);
+LumpSums load_vertices(const MeshView& mesh, std::size_t first, std::size_t n,
+                       const BlockParameters& parameters, const VertexLump<double>* lumps,
+                       SourceBatch<double>& batch) {
+  return HWY_DYNAMIC_DISPATCH(LoadDouble)(mesh, first, n, parameters, lumps, batch);
 }
 
 namespace {

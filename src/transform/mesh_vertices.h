@@ -54,12 +54,15 @@ LumpSums sum_lumps(const VertexLump<std::int32_t>* lumps, std::size_t n, bool he
 LumpSums sum_lumps(const VertexLump<double>* lumps, std::size_t n, bool hessians);
 
 // Sources of n <= kVerticesPerBlock vertices from `first` on, whose lumps are given, eight at a
-// time: read up to a multiple of that. Vertices without a lump may lie anywhere.
-void load_vertices(const MeshView& mesh, std::size_t first, std::size_t n,
-                   const BlockParameters& parameters, const VertexLump<std::int32_t>* lumps,
-                   SourceBatch<float>& batch);
-void load_vertices(const MeshView& mesh, std::size_t first, std::size_t n,
-                   const BlockParameters& parameters, const VertexLump<double>* lumps,
-                   SourceBatch<double>& batch);
+// time: read up to a multiple of that. Vertices without a lump may lie anywhere. With Hessians,
+// returns sums of squares of the sources: derivatives at unit distance and as far as they are
+// tangential, for a harmonic does not change along the radius, which on steep surfaces most of an
+// edge may be.
+LumpSums load_vertices(const MeshView& mesh, std::size_t first, std::size_t n,
+                       const BlockParameters& parameters, const VertexLump<std::int32_t>* lumps,
+                       SourceBatch<float>& batch);
+LumpSums load_vertices(const MeshView& mesh, std::size_t first, std::size_t n,
+                       const BlockParameters& parameters, const VertexLump<double>* lumps,
+                       SourceBatch<double>& batch);
 
 }  // namespace rholm
