@@ -38,8 +38,8 @@ double tolerance_of(const MeshSample& sample, double allowed2) {
   // worst.
   const double most = largest_tolerance(allowed2);
   const std::size_t n = sample.entries.size();
-  // Triangles that are left out: a third more each time, then a twenty-fourth of all.
-  for (std::size_t out = 0; out < n; out += std::clamp<std::size_t>(out / 3, 1, n / 24 + 1)) {
+  // Triangles that are left out: half as many more each time, then a twelfth of all.
+  for (std::size_t out = 0; out < n; out += std::clamp<std::size_t>(out / 2, 1, n / 12 + 1)) {
     const double tolerance2 = out == 0 ? most : sample.entries[n - 1 - out].error2;
     if (tolerance2 <= most && lumped_error2(sample, tolerance2, allowed2) <= allowed2) {
       return tolerance2;
