@@ -13,6 +13,7 @@
 #include "cli/region_option.h"
 #include "cli/report.h"
 #include "cli/session.h"
+#include "cli/surfaces.h"
 #include "rholm/topology.h"
 
 namespace rholm::cli {
@@ -84,7 +85,7 @@ int run(const Options& options, Session& session) {
   const ShapeFormat format = shape_output(options.output, options.format, options.json);
   if (format == ShapeFormat::kXyz) throw UsageError("XYZ has no triangles; take .ply");
   check_writable(options.output);
-  Mesh mesh = read_mesh(options.input, session);
+  Mesh mesh = read_surface(options.input, session);
   const double diagonal = bounds(mesh.vertices).diagonal();
   const Patch patch = analyze_patch(mesh, regions,
                                     {.wavelength = *options.wavelength,
@@ -109,10 +110,10 @@ int run(const Options& options, Session& session) {
 std::vector<Option> option_list(Options& o) {
   return {
       {.name = "SHAPE",
-       .help = "file of a mesh, or - for standard input",
+       .help = "file of a mesh, or of a model, whose surface is taken; - for standard input",
        .target = &o.input,
        .required = true,
-       .offer = Offer::kShapes},
+       .offer = Offer::kShapesAndCoefficients},
       region_option("region", "where: ball, vertex, box, property or color, see above", o.regions),
       {.name = "wavelength",
        .value = "W",

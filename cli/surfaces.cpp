@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "cli/atlas_report.h"
+#include "rholm/compress.h"
 #include "rholm/primitives.h"
 #include "rholm/synthesize.h"
 
@@ -41,6 +43,13 @@ Mesh surface_of(const Input& input, const std::string& path, std::optional<int> 
   Mesh surface = synthesize(expansion, sphere, std::span(&wanted, 1), session.context()).front();
   warn_of_crossings(surface, sphere, expansion.center, display_name(path), session);
   return surface;
+}
+
+Mesh read_surface(const std::string& path, Session& session) {
+  if (holds_atlas(path)) return synthesize(read_atlas(path), {}, session.context());
+  Input input = read_input(path, session);
+  if (auto* file = std::get_if<ShapeFile>(&input)) return mesh_of(std::move(*file), path, session);
+  return surface_of(input, path, std::nullopt, std::nullopt, session);
 }
 
 }  // namespace rholm::cli

@@ -14,6 +14,7 @@
 #include "cli/region_option.h"
 #include "cli/report.h"
 #include "cli/session.h"
+#include "cli/surfaces.h"
 #include "cli/values.h"
 
 namespace rholm::cli {
@@ -98,8 +99,8 @@ int run(const Options& options, Session& session) {
     throw UsageError("standard input is one file: --from and --to cannot both be -");
   }
   check_writable(options.output);
-  const Mesh source = read_mesh(options.from, session);
-  const Mesh target = options.to == options.from ? source : read_mesh(options.to, session);
+  const Mesh source = read_surface(options.from, session);
+  const Mesh target = options.to == options.from ? source : read_surface(options.to, session);
   TransferAnalysis analysis = analyze_transfer(source, from, target, to,
                                                {.from_degree = options.from_degree,
                                                 .scale = options.scale,
@@ -126,18 +127,18 @@ int run(const Options& options, Session& session) {
 std::vector<Option> option_list(Options& o) {
   return {{.name = "from",
            .value = "SOURCE",
-           .help = "mesh with the detail, or - for standard input",
+           .help = "mesh or model with the detail, or - for standard input",
            .target = &o.from,
            .required = true,
-           .offer = Offer::kShapes},
+           .offer = Offer::kShapesAndCoefficients},
           region_option("from-region", "where the detail is: ball, vertex, box, property, color",
                         o.from_regions),
           {.name = "to",
            .value = "TARGET",
-           .help = "mesh that gets it, or - for standard input",
+           .help = "mesh or model that gets it, or - for standard input",
            .target = &o.to,
            .required = true,
-           .offer = Offer::kShapes},
+           .offer = Offer::kShapesAndCoefficients},
           region_option("to-region", "where it is laid", o.to_regions),
           {.name = "from-degree",
            .value = "L0",

@@ -132,6 +132,16 @@ class Transfer(CliTest):
         self.assertEqual(self.rholm("transfer", *words, "--quiet").err, "")
         self.assertEqual(self.rholm("transfer", *words, "--refine").err, "")
 
+    def test_models_are_edited_as_their_surfaces(self):
+        self.rholm("make", "bumpy", "--subdivisions", "3", "-o", "b.ply")
+        self.rholm("analyze", "b.ply", "--degree", "12", "-o", "b.h5", "--quiet")
+        self.rholm("synthesize", "b.h5", "--subdivisions", "5", "-o", "own.ply")
+        words = ("--region", "ball:0,0,1,0.4", "--wavelength", "0.5")
+        self.rholm("smooth", "b.h5", *words, "-o", "model.ply")
+        self.rholm("smooth", "own.ply", *words, "-o", "mesh.ply")
+        found = self.rholm("compare", "model.ply", "mesh.ply", "--json").json()
+        self.assertLess(found["hausdorff"], 1e-12)
+
     def test_raw_coefficients_differ(self):
         for mode in ("displacement", "coefficients"):
             self.rholm("transfer", *self.words, "--mode", mode, "-o", f"{mode}.ply")
