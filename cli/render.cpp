@@ -216,15 +216,17 @@ std::vector<Option> option_list(Options& o) {
 
 Command render_command() {
   auto options = std::make_shared<Options>();
-  return {.name = "render",
-          .summary = "A picture of meshes and models",
-          .description =
-              "Draws meshes, and the surfaces of coefficients, as a shaded PNG picture. Several "
-              "inputs, or several degrees of one, stand side by side at equal scale.",
-          .options = option_list(*options),
-          .examples = {"rholm render bumpy.h5 --degree 2,8,32 -o levels.png",
-                       "rholm render bumpy.h5 --color error --against bumpy.ply -o error.png"},
-          .run = [options](Session& session) { return run(*options, session); }};
+  return {
+      .name = "render",
+      .summary = "A picture of meshes and models",
+      .description =
+          "Draws meshes, and the surfaces of coefficients, as a shaded PNG picture. Several "
+          "inputs, or several degrees of one, stand side by side at equal scale.",
+      .options = option_list(*options),
+      .examples =
+          {"rholm render bumpy.h5 --degree 2,8,32 --size 720x240 -o levels.png",
+           "rholm render bumpy.h5 --color error --against bumpy.ply --size 480x360 -o error.png"},
+      .run = [options](Session& session) { return run(*options, session); }};
 }
 
 }  // namespace rholm::cli

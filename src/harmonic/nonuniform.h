@@ -33,6 +33,9 @@ struct NonuniformNeeds {
   // largest of the three. Smaller ones ask less of the windows.
   double gradient_size = 1;
   double hessian_size = 1;
+  // Sources that are sure to lie all over the sphere, as the vertices of a closed surface do: many
+  // of them near the poles ask less of the windows of Hessians than few. 0: nothing is known.
+  std::size_t spread_out = 0;
 };
 // The cheapest plan by the cost model (docs/performance.md).
 NonuniformPlan plan_nonuniform(const NonuniformNeeds& needs);

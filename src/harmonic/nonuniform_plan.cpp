@@ -84,8 +84,8 @@ double predicted_error(const NonuniformNeeds& needs, int width, double sigma) {
     derivatives = std::max(derivatives, needs.gradient_size * gradient_factor(sigma));
   }
   if (needs.derivatives > 1) {
-    derivatives = std::max(derivatives,
-                           needs.hessian_size * hessian_factor(sigma, needs.degree, needs.sources));
+    derivatives = std::max(
+        derivatives, needs.hessian_size * hessian_factor(sigma, needs.degree, needs.spread_out));
   }
   return error * derivatives;
 }

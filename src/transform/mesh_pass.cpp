@@ -141,7 +141,8 @@ class Pass {
                           .forbid_single = sizeof(T) == 8,
                           // The sum of squares has gradients in it already.
                           .gradient_size = 0,
-                          .hessian_size = std::sqrt(hessian2 / std::max(source2, 1e-300))};
+                          .hessian_size = std::sqrt(hessian2 / std::max(source2, 1e-300)),
+                          .spread_out = mesh_.n_vertices};
     transform_ = plan_nonuniform(needs);
     transform_.single = sizeof(T) == 4;
     kernel_ = grid_kernel<T>(transform_.fourier);
