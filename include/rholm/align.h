@@ -51,7 +51,7 @@ struct AlignedRotation {
 };
 
 struct Alignment {
-  AlignedRotation best;
+  AlignedRotation best;  // of several that are equal to rounding the smallest turn, no mirror image
   // Others that are nearly as good, best first: symmetries of the shape. At most 32.
   std::vector<AlignedRotation> ambiguities;
   // Axes in the frame of b about which turning by a radian changes the correlation by less than the

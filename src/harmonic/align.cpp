@@ -21,6 +21,8 @@ constexpr std::size_t kMostAmbiguities = 32;  // chosen
 constexpr double kSameRotation = 0.01;
 // Between the correlations of peaks before and after their last refinement.
 constexpr double kSlack = 0.1;
+// Correlations closer than this are equal: rounding.
+constexpr double kSameCorrelation = 1e-12;
 // An axis of rotation within this of a free axis is that axis: 6 degrees.
 constexpr double kSameAxis = 0.995;
 
@@ -181,6 +183,20 @@ Found find_rotations(const Coefficients& a, const Coefficients& b, bool mirrored
   return found;
 }
 
+// Best first. Which of the equally good ones is the largest to the last bit is chance, so that they
+// come by their angle, images of the mirror last.
+void sort_by_correlation(std::vector<AlignedRotation>& all) {
+  std::stable_sort(all.begin(), all.end(),
+                   [](const auto& x, const auto& y) { return x.correlation > y.correlation; });
+  const double least = all.front().correlation - kSameCorrelation;
+  const auto end = std::find_if(all.begin(), all.end(),
+                                [&](const AlignedRotation& r) { return r.correlation < least; });
+  std::stable_sort(all.begin(), end, [](const auto& x, const auto& y) {
+    if (x.mirrored != y.mirrored) return y.mirrored;
+    return angle_between(x.rotation, {}) < angle_between(y.rotation, {});
+  });
+}
+
 Expansion about_centroid(const Expansion& expansion, const Context& context) {
   Expansion low = expansion;
   if (low.coefficients.degree() > kMaxCenteredDegree) {
@@ -223,13 +239,11 @@ Alignment align(const Coefficients& a, const Coefficients& b, const AlignOptions
   Found found = find_rotations(a, b, false, options, context);
   if (options.allow_mirror) {
     const Found other = find_rotations(image, b, true, options, context);
-    const bool better = other.rotations[0].correlation > found.rotations[0].correlation;
-    if (better) found.free_axes = other.free_axes;
-    auto& all = found.rotations;
-    all.insert(better ? all.begin() : all.end(), other.rotations.begin(), other.rotations.end());
-    std::stable_sort(all.begin(), all.end(),
-                     [](const auto& x, const auto& y) { return x.correlation > y.correlation; });
+    const double gain = other.rotations[0].correlation - found.rotations[0].correlation;
+    if (gain > kSameCorrelation) found.free_axes = other.free_axes;
+    found.rotations.insert(found.rotations.end(), other.rotations.begin(), other.rotations.end());
   }
+  sort_by_correlation(found.rotations);
   Alignment result;
   result.free_axes = std::move(found.free_axes);
   result.unaligned_distance = distance(a, b);

@@ -208,6 +208,23 @@ TEST(align, an_ellipsoid_has_four_ways_to_lie) {
   }
 }
 
+// The invariant of a cube's group: 24 rotations are equally good, and 24 mirror images.
+TEST(align, of_equally_good_rotations_the_smallest_is_best) {
+  Coefficients cubic(4);
+  cubic.c(0, 0) = 1;
+  cubic.c(4, 0) = std::sqrt(7. / 12);
+  cubic.c(4, 4) = std::sqrt(5. / 12);
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const Coefficients f = rotate(cubic, random_rotation(seed));
+    const Alignment still = align(f, f, {.allow_mirror = seed % 2 == 0});
+    EXPECT_LT(angle_between(still.best.rotation, {}), 1e-6) << seed;
+    EXPECT_FALSE(still.best.mirrored);
+    EXPECT_GE(still.ambiguities.size(), 23u);
+    const Rotation small = rotation_about(random_direction(seed, 1), 20 * kDegrees);
+    EXPECT_LT(angle_between(align(f, rotate(f, small)).best.rotation, small), 1e-6) << seed;
+  }
+}
+
 TEST(align, a_surface_of_revolution_turns_freely_about_its_axis) {
   Coefficients a(6);
   a.c(0, 0) = 3, a.c(1, 0) = 0.4, a.c(2, 0) = 0.5, a.c(3, 0) = -0.3;
