@@ -62,7 +62,7 @@ struct TransferReport {
   double scale = 1;                             // lengths on the target per length on the source
   double source_wavelength = 0;                 // of the bases
   double target_wavelength = 0;
-  double source_edge = 0, target_edge = 0;  // mean lengths, the target's after refinement
+  double source_edge = 0, target_edge = 0;  // median lengths, the target's after refinement
   double source_rms = 0;                    // height of the texture in its region
   double angle = 0;                         // of best correlation, radians
   double correlation = 0;                   // with the target's own detail there, -1 ... 1

@@ -86,6 +86,21 @@ void link_triangles(LocalMesh& local) {
 
 }  // namespace
 
+double median_edge(std::span<const Vec3> points, std::span<const Triangle> triangles,
+                   std::span<const double> weights) {
+  std::vector<double> lengths;
+  for (const Triangle& t : triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t from = t[k], to = t[(k + 1) % 3];
+      if (weights[from] > 0) lengths.push_back(norm(points[to] - points[from]));
+    }
+  }
+  if (lengths.empty()) return 0;
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  return *middle;
+}
+
 LocalMesh cut_out(const Mesh& mesh, const Bounds& box) {
   std::vector<std::uint8_t> in(mesh.vertices.size());
   for (std::size_t i = 0; i < in.size(); ++i) in[i] = inside(box, mesh.vertices[i]) ? 1 : 0;

@@ -33,6 +33,10 @@ struct LocalMesh {
   }
 };
 
+// The median length of the edges that leave points of weight > 0; 0 if there are none.
+double median_edge(std::span<const Vec3> points, std::span<const Triangle> triangles,
+                   std::span<const double> weights);
+
 // Triangles with a corner in the box, and their corners.
 LocalMesh cut_out(const Mesh& mesh, const Bounds& box);
 

@@ -95,19 +95,36 @@ void split(const Triangle& t, const std::array<std::uint32_t, 3>& m, const Mesh&
   }
 }
 
+[[noreturn]] void refuse(double length) {
+  throw Error(
+      ErrorCode::kInvalidInput,
+      fmt::format("edges of {:g} would need more than {} vertices; take a larger scale or a "
+                  "coarser source",
+                  length, kMostRefined));
+}
+
+// No triangle with edges of at most this length is larger than the equilateral one, and there are
+// half as many vertices as triangles: said before the work, not when memory is full.
+void check_size(const Mesh& mesh, const std::vector<double>& weights, double length) {
+  double area = 0;
+  for (const Triangle& t : mesh.triangles) {
+    if (!(std::max({weights[t[0]], weights[t[1]], weights[t[2]]}) > 0)) continue;
+    const Vec3& a = mesh.vertices[t[0]];
+    area += norm(cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a)) / 2;
+  }
+  const double largest = std::sqrt(3.) / 4 * length * length;
+  if (!(area / largest / 2 <= static_cast<double>(kMostRefined))) refuse(length);
+}
+
 }  // namespace
 
 void refine(Mesh& mesh, std::vector<double>& weights, double length) {
+  check_size(mesh, weights, length);
   for (int pass = 0; pass < kMostPasses; ++pass) {
     const std::vector<Key> edges = long_edges(mesh, weights, length);
     if (edges.empty()) return;
     const auto first = mesh.vertices.size();
-    if (first + edges.size() > kMostRefined) {
-      throw Error(ErrorCode::kInvalidInput,
-                  fmt::format("edges of {:g} would need more than {} vertices; take a larger scale "
-                              "or a coarser source",
-                              length, kMostRefined));
-    }
+    if (first + edges.size() > kMostRefined) refuse(length);
     const std::vector<Vec3> normals = vertex_normals(mesh);
     for (const Key edge : edges) add_middle(normals, edge, mesh, weights);
     std::vector<Triangle> triangles;

@@ -63,19 +63,6 @@ Bounds bounds_of_weights(const Mesh& mesh, std::span<const double> weights) {
   return bounds(inside);
 }
 
-// The median length of edges at points that may move.
-double spacing_of(const LocalMesh& local, std::span<const double> weights) {
-  std::vector<double> lengths;
-  for (const Triangle& t : local.triangles) {
-    if (!(weights[t[0]] > 0)) continue;
-    lengths.push_back(norm(local.points[t[1]] - local.points[t[0]]));
-  }
-  if (lengths.empty()) return 0;
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle;
-}
-
 void check_mesh(const Mesh& mesh, double wavelength) {
   validate(mesh);
   if (!(wavelength > 0) || !std::isfinite(wavelength)) {
@@ -120,7 +107,7 @@ Site make_site(const Mesh& mesh, std::span<const Region> regions, const PatchOpt
       site.weights[i] = std::max(site.weights[i], weights[v]);
     }
   }
-  const double spacing = spacing_of(site.local, site.weights);
+  const double spacing = median_edge(site.local.points, site.local.triangles, site.weights);
   if (options.wavelength < kFewestEdges * spacing) {
     refuse(
         fmt::format("a wavelength of {:g} is not in the mesh, whose edges are {:g} long in the "

@@ -17,7 +17,7 @@ namespace rholm {
 namespace {
 
 // A base of waves of this many edges at least: what smoothing takes, and some room.
-constexpr double kFewestEdges = 3;
+constexpr double kFewestBaseEdges = 3;
 // Transitions, in radii of the regions, unless waves are shorter: what is around a region, limbs
 // and folds, is not to come along.
 constexpr double kTransition = 0.25;
@@ -52,25 +52,10 @@ void check_update(const TransferUpdate& u, int from_degree) {
   }
 }
 
-double mean_edge(const TexturedPatch& textured) {
-  double sum = 0, count = 0;
-  for (const Triangle& t : textured.local.triangles) {
-    if (textured.row[t[0]] == kNoRow || textured.row[t[1]] == kNoRow) continue;
-    sum += norm(textured.local.points[t[1]] - textured.local.points[t[0]]);
-    ++count;
-  }
-  return count > 0 ? sum / count : 0;
-}
-
-// Mean edge where regions are, before anything is known.
-double edge_in(const Mesh& mesh, const std::vector<double>& weights) {
-  double sum = 0, count = 0;
-  for (const Triangle& t : mesh.triangles) {
-    if (!(weights[t[0]] > 0)) continue;
-    sum += norm(mesh.vertices[t[1]] - mesh.vertices[t[0]]);
-    ++count;
-  }
-  return count > 0 ? sum / count : 0;
+double median_edge(const TexturedPatch& textured) {
+  std::vector<double> in(textured.row.size());
+  for (std::size_t i = 0; i < in.size(); ++i) in[i] = textured.row[i] == kNoRow ? 0 : 1;
+  return median_edge(textured.local.points, textured.local.triangles, in);
 }
 
 // Heights of the source at places of the target's chart, whose lengths are `scale` of its own.
@@ -186,7 +171,7 @@ TransferAnalysis analyze_transfer(const Mesh& source, std::span<const Region> fr
   state->source =
       texture_of(source, from, report.source_wavelength,
                  std::min(report.source_wavelength, kTransition * source_radius), context);
-  report.source_edge = mean_edge(state->source);
+  report.source_edge = median_edge(state->source);
   const double target_radius = region_radius(target, to);
   const double about = options.scale * target_radius / source_radius;
   const double wanted = report.source_wavelength * about;
@@ -198,11 +183,12 @@ TransferAnalysis analyze_transfer(const Mesh& source, std::span<const Region> fr
     report.new_vertices =
         refine_target(transition, kRefined * report.source_edge * about, regions, mesh);
   }
-  const double edge = edge_in(mesh, region_weights(mesh, regions, transition));
-  report.target_wavelength = std::max(wanted, kFewestEdges * edge);
+  const double edge =
+      median_edge(mesh.vertices, mesh.triangles, region_weights(mesh, regions, transition));
+  report.target_wavelength = std::max(wanted, kFewestBaseEdges * edge);
   state->target = texture_of(mesh, regions, report.target_wavelength, transition, context);
   count_azimuths_like(state->source.chart, state->target.chart);
-  report.target_edge = mean_edge(state->target);
+  report.target_edge = median_edge(state->target);
   // Of the bases: the detail on them has no say in how large they are.
   report.source_radius = state->source.chart.unit;
   report.target_radius = state->target.chart.unit;

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
+#include "edit/local_mesh.h"
 #include "edit/refine.h"
 #include "edit/sheet.h"
 #include "rholm/error.h"
@@ -238,6 +239,25 @@ TEST(Refine, edges_get_short_and_a_sphere_stays_round) {
   }
   // Flat middles would lie h^2 / 8 = 2.6e-3 inside, h = 0.145.
   for (const Vec3& v : mesh.vertices) EXPECT_NEAR(norm(v), 1, 3e-4);
+}
+
+TEST(Refine, what_would_be_too_large_is_refused_before_the_work) {
+  for (const double length : {0., 1e-300, 1e-6}) {
+    Mesh mesh = icosphere(3);
+    std::vector<double> weights(mesh.vertices.size(), 0);
+    weights[5] = 1;
+    EXPECT_THROW(refine(mesh, weights, length), Error);
+    EXPECT_EQ(mesh.vertices.size(), icosphere(3).vertices.size());
+  }
+}
+
+TEST(LocalMesh, edges_do_not_depend_on_the_order_of_corners) {
+  const std::vector<Vec3> points = {{0, 0, 0}, {3, 0, 0}, {0, 4, 0}};
+  for (const Triangle& t : {Triangle{0, 1, 2}, {1, 2, 0}, {2, 0, 1}}) {
+    EXPECT_EQ(median_edge(points, std::vector{t}, std::vector<double>{1, 0, 0}), 3);
+    EXPECT_EQ(median_edge(points, std::vector{t}, std::vector<double>{1, 1, 1}), 4);
+    EXPECT_EQ(median_edge(points, std::vector{t}, std::vector<double>{0, 0, 0}), 0);
+  }
 }
 
 TEST(Transfer, what_cannot_be_done_is_refused) {
