@@ -47,8 +47,9 @@ void draw(const Scene& scene, const View& view, const std::filesystem::path& pat
   write_png(path, render(scene.panels, options));
 }
 
-Json level(const Mesh& shape, const Mesh& surface, int degree) {
-  const Comparison found = compare(shape, surface);
+Json level(const Mesh& shape, const Mesh& surface, int degree, const Settings& settings) {
+  const Comparison found =
+      settings.quick ? compare(shape, surface, {.samples = 10'000}) : compare(shape, surface);
   return {{"degree", degree},
           {"coefficients", (degree + 1) * (degree + 1)},
           {"rms", std::max(found.a_to_b.rms, found.b_to_a.rms) / found.diagonal},
@@ -56,7 +57,9 @@ Json level(const Mesh& shape, const Mesh& surface, int degree) {
 }
 
 // Vertices closer together than the finest wave of the largest degree.
-int subdivisions_for(int degree) { return degree > 300 ? 8 : degree > 100 ? 7 : 6; }
+int subdivisions_for(int degree) {
+  return degree > 300 ? 8 : degree > 100 ? 7 : degree > 40 ? 6 : 5;
+}
 
 Json figure(const std::string& file, const Subject& shape, const std::vector<int>& degrees,
             const View& view, const Settings& settings) {
@@ -67,7 +70,7 @@ Json figure(const std::string& file, const Subject& shape, const std::vector<int
   Scene scene;
   std::vector<Mesh> surfaces = synthesize(expansion, icosphere(subdivisions_for(degree)), degrees);
   for (std::size_t i = 0; i < degrees.size(); ++i) {
-    levels.push_back(level(shape.chart.mesh, surfaces[i], degrees[i]));
+    levels.push_back(level(shape.chart.mesh, surfaces[i], degrees[i], settings));
     scene.add(std::move(surfaces[i]),
               fmt::format("L = {}: {:.2g} %", degrees[i], 100 * levels[i]["rms"].get<double>()),
               true);
@@ -95,7 +98,7 @@ Json vase_picture(const std::string& file, const View& view, const Settings& set
   const Coefficients exact = analyze(shape.chart, {.degree = degree}).expansion.coefficients;
   Scene scene;
   Json errors;
-  const Mesh sphere = icosphere(7);
+  const Mesh sphere = icosphere(settings.quick ? 5 : 7);
   for (const SamplePlaces places : {SamplePlaces::kTriangles, SamplePlaces::kEdges}) {
     const bool triangles = places == SamplePlaces::kTriangles;
     const MonteCarlo run = monte_carlo(
