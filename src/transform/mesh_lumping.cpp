@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace rholm {
 namespace {
@@ -28,20 +29,36 @@ double lumped_error2(const MeshSample& sample, double tolerance2, double enough)
   return sample.share * faces + sample.edge_share * edges;
 }
 
-// No single triangle may take more than a thirtieth of it all: the sample does not know the worst.
-double largest_tolerance(double allowed2) { return allowed2 / 1000; }
+// The sample does not know the worst: of what it has none of there may be three times what one of
+// its triangles stands for, at 95 %. They may take a seventh of it all. A single one may always
+// take a forty-fifth of the error: the pass sees the sum, and there is a second try.
+double largest_tolerance(const MeshSample& sample, double allowed2) {
+  return allowed2 * std::max(0.15 / (3 * sample.share), 1.0 / 2000);
+}
+
+// Entries in any order.
+bool may_all_be_lumped(const MeshSample& sample, double allowed2) {
+  const double most = largest_tolerance(sample, allowed2);
+  for (const MeshSample::Entry& entry : sample.entries) {
+    if (entry.error2 > most) return false;
+  }
+  const double lumps2 = (1 - node_share2(false)) * allowed2;
+  return lumped_error2(sample, most, lumps2) <= lumps2;
+}
 
 }  // namespace
 
+double node_share2(bool some_noded) { return some_noded ? 0.5 : 0.1; }
+
 double tolerance_of(const MeshSample& sample, double allowed2) {
-  // No single triangle may take more than a thirtieth of it all: the sample does not know the
-  // worst.
-  const double most = largest_tolerance(allowed2);
+  const double most = largest_tolerance(sample, allowed2);
+  if (may_all_be_lumped(sample, allowed2)) return most;
   const std::size_t n = sample.entries.size();
   // Triangles that are left out: half as many more each time, then a twelfth of all.
   for (std::size_t out = 0; out < n; out += std::clamp<std::size_t>(out / 2, 1, n / 12 + 1)) {
     const double tolerance2 = out == 0 ? most : sample.entries[n - 1 - out].error2;
-    if (tolerance2 <= most && lumped_error2(sample, tolerance2, allowed2) <= allowed2) {
+    const double lumps2 = (1 - node_share2(true)) * allowed2;
+    if (tolerance2 <= most && lumped_error2(sample, tolerance2, lumps2) <= lumps2) {
       return tolerance2;
     }
   }
@@ -63,12 +80,38 @@ struct EdgeHessian {
   double lower, upper;
 };
 
+// What each rule leaves of a triangle's half-edges, and of its face, whose z^2 is the largest of
+// theirs.
+struct RuleErrors {
+  std::array<std::array<double, kHermiteRules>, 3> edges;
+  std::array<double, kHermiteRules> face;
+  double z2;
+};
+std::vector<RuleErrors> rule_errors(const MeshSample& sample) {
+  std::vector<RuleErrors> all;
+  all.reserve(sample.triangles.size());
+  for (const MeshSample::Triangle& t : sample.triangles) {
+    RuleErrors errors = {
+        .edges = {}, .face = {}, .z2 = *std::max_element(t.z2.begin(), t.z2.end())};
+    for (std::size_t k = 0; k < kHermiteRules; ++k) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        errors.edges[i][k] =
+            t.weight[i] * kHermiteEdgeUnits[k] * power(t.z2[i], kHermiteEdges[k].power);
+      }
+      errors.face[k] = t.face * kHermiteFaceUnits[k] * power(errors.z2, kHermiteFaces[k].power);
+    }
+    all.push_back(errors);
+  }
+  return all;
+}
+
 // The sample as rules with Hessians see it.
 struct Seen {
   MeshSample sample;
   std::vector<EdgeHessian> hessians;
 };
-Seen with_hessians(const MeshSample& sample, HermiteLumps& lumps) {
+Seen with_hessians(const MeshSample& sample, const std::vector<RuleErrors>& rules,
+                   HermiteLumps& lumps) {
   Seen result;
   MeshSample& seen = result.sample;
   seen.share = sample.share;
@@ -81,21 +124,19 @@ Seen with_hessians(const MeshSample& sample, HermiteLumps& lumps) {
   seen.entries.reserve(sample.triangles.size());
   seen.edges.reserve(sample.edges.size());
   double nodes = 0;
-  for (const MeshSample::Triangle& t : sample.triangles) {
+  for (std::size_t n = 0; n < rules.size(); ++n) {
+    const MeshSample::Triangle& t = sample.triangles[n];
     std::array<double, 3> error;
-    double edges2 = 0, z2 = 0;
+    double edges2 = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t k = hermite_rule(lumps.edge_reach2, t.z2[i]);
-      const HermiteEdge& rule = kHermiteEdges[k];
-      error[i] = t.weight[i] * kHermiteEdgeUnits[k] * power(t.z2[i], rule.power);
+      error[i] = rules[n].edges[i][k];
       edges2 += error[i] * error[i];
-      z2 = std::max(z2, t.z2[i]);
-      nodes += rule.nodes / 2.0;
+      nodes += kHermiteEdges[k].nodes / 2.0;
     }
-    const std::size_t k = hermite_rule(lumps.face_reach2, z2);
-    const HermiteFace& rule = kHermiteFaces[k];
-    nodes += (rule.center != 0) + 3 * (rule.orbit != 0);
-    const double face2 = std::pow(t.face * kHermiteFaceUnits[k] * power(z2, rule.power), 2);
+    const std::size_t k = hermite_rule(lumps.face_reach2, rules[n].z2);
+    nodes += (kHermiteFaces[k].center != 0) + 3 * (kHermiteFaces[k].orbit != 0);
+    const double face2 = rules[n].face[k] * rules[n].face[k];
     errors.push_back(error);
     errors2.push_back(edges2 + face2);
     if (!std::isfinite(edges2 + face2)) continue;
@@ -119,9 +160,12 @@ Seen with_hessians(const MeshSample& sample, HermiteLumps& lumps) {
       result.hessians.push_back({b2, a2, factor * tb, factor * ta});
     }
   }
-  std::sort(seen.entries.begin(), seen.entries.end(),
-            [](const auto& a, const auto& b) { return a.error2 < b.error2; });
   return result;
+}
+
+void sort_entries(MeshSample& sample) {
+  std::sort(sample.entries.begin(), sample.entries.end(),
+            [](const auto& a, const auto& b) { return a.error2 < b.error2; });
 }
 
 // Sum of squares over edges of lumped triangles, at both ends.
@@ -172,19 +216,33 @@ std::optional<HermiteLumps> hermite_lumps(const MeshSample& sample, double allow
   const double triangles = sample.share * static_cast<double>(sample.triangles.size());
   const double edge = std::sqrt(allowed2 / (3 * triangles)) / mean.edge;
   const double face = std::sqrt(allowed2 / (2 * triangles)) / mean.face;
-  std::optional<HermiteLumps> best;
+  const std::vector<RuleErrors> rules = rule_errors(sample);
   // The more a rule may leave the fewer nodes between vertices, and the more triangles that have to
   // be taken out.
-  for (double factor = 8; factor > 0.1; factor /= 2) {
+  const auto with_errors = [&](double factor) {
     HermiteLumps lumps{.edge_reach2 = hermite_edge_reach(factor * edge),
                        .face_reach2 = hermite_face_reach(factor * face)};
-    const Seen seen = with_hessians(sample, lumps);
+    Seen seen = with_hessians(sample, rules, lumps);
+    if (!may_all_be_lumped(seen.sample, allowed2)) sort_entries(seen.sample);
     lumps.tolerance2 = tolerance_of(seen.sample, allowed2);
     lumps.hessian2 = hessians2(seen, lumps.tolerance2);
     lumps.node_share = noded_share(seen.sample, lumps.tolerance2);
     lumps.cost = kHessianCost + kBetweenCost * lumps.between + kNodedCost * lumps.node_share;
-    if (best && lumps.cost > 1.2 * best->cost) break;
-    if (!best || lumps.cost < best->cost) best = lumps;
+    return lumps;
+  };
+  HermiteLumps best;
+  best.cost = std::numeric_limits<double>::infinity();
+  double at = 1;
+  for (double factor = 8; factor > 0.1; factor /= 2) {
+    const HermiteLumps lumps = with_errors(factor);
+    if (lumps.cost > 1.2 * best.cost) break;
+    if (lumps.cost < best.cost) best = lumps, at = factor;
+    if (lumps.node_share == 0) break;  // more nodes between vertices would only cost more
+  }
+  if (best.between == 0 && best.node_share == 0) return best;
+  for (const double step : {1.7, 1.4, 1.2, 0.85}) {
+    const HermiteLumps lumps = with_errors(step * at);
+    if (lumps.cost < best.cost) best = lumps;
   }
   return best;
 }

@@ -7,8 +7,12 @@
 
 namespace rholm {
 
-// The largest tolerance (squared, in units of lumping) of a few dozen that keeps the sum of squares
-// allowed; 0 if none does.
+// Of the squares that rules may leave, the part of triangles with nodes of their own. Where the
+// sample has none, there may be a few all the same.
+double node_share2(bool some_noded);
+
+// The largest tolerance (squared, in units of lumping) of a few dozen that keeps lumps within their
+// part of the sum of squares allowed; 0 if none does.
 double tolerance_of(const MeshSample& sample, double allowed2);
 
 // The part of the triangles that is beyond it.

@@ -273,10 +273,9 @@ MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& c
   plan.mean_error = std::max(precision, kRounding);
   plan.rounding = 4 * kRounding * c00 / sample.scale;
   const double unit = lumping_error(degree);
-  // Half of the squares for lumps, half for nodes.
-  const double lumps = plan.rules * std::sqrt(0.5) / unit;
   plan.in_step = neighbours_in_step(std::pow(degree * sample.angle, 2));
-  const double allowed2 = std::pow(lumps / plan.in_step, 2);
+  const double rules2 = std::pow(plan.rules / unit, 2);
+  const double allowed2 = rules2 / (plan.in_step * plan.in_step);
   plan.source2 = source2_of(sample);
   double tolerance2 = tolerance_of(sample, allowed2);
   if (!sample.entries.empty() && tolerance2 < sample.entries.back().error2) {
@@ -285,7 +284,7 @@ MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& c
     const double coherence = may_cancel(sample)
                                  ? kScatter * error_coherence(mesh, center, sample.scale, degree)
                                  : std::numeric_limits<double>::infinity();
-    if (coherence * face_error2(sample) <= lumps * lumps) {
+    if (coherence * face_error2(sample) <= (1 - node_share2(false)) * rules2) {
       plan.coherence = coherence;
       plan.in_step = 1;  // it has been measured
       tolerance2 = 16 * sample.entries.back().error2;
@@ -312,6 +311,7 @@ MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& c
   // third: at six corners a vertex 2/3 q^2.
   const double noise = kQuantumShare * budget * std::sqrt(6 * kPi / vertices);
   const double quantum = std::exp2(std::floor(std::log2(noise)) - (plan.single ? 0 : 6));
+  plan.quanta = kQuantumShare * budget * quantum / noise;
   plan.block = {.center = center,
                 .scale = sample.scale,
                 .degree = static_cast<double>(degree),
@@ -332,8 +332,9 @@ MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& c
                 .face_reach2 = hermite ? hermite->face_reach2 : HermiteReach{},
                 .sampled_names = sampled_names(mesh.n_triangles)};
   const double noded = std::max(plan.node_share * static_cast<double>(mesh.n_triangles), 10.0);
-  const double element =
-      plan.rules * std::sqrt(0.5) / (kTypicalShare * std::sqrt(kElements * noded));
+  const double element = plan.rules *
+                         std::sqrt(node_share2(plan.node_share > 0) / (kElements * noded)) /
+                         kTypicalShare;
   plan.divided = {.degree = degree, .error = element, .divided = true};
   plan.undivided = {.degree = degree, .error = element, .divided = false};
   return plan;
@@ -345,8 +346,6 @@ double rule_error(const MeshPlan& plan, double lumped2, double noded) {
   const double lumps = unit * plan.in_step;
   return plan.caution * std::sqrt(lumps * lumps * lumped2 + kElements * noded * element * element);
 }
-
-double quantum_error(const MeshPlan& plan) { return plan.rules * kQuantumShare / kRuleShare; }
 
 double window_error(const MeshPlan& plan, double source2) {
   return std::min(plan.most_window, plan.window / std::sqrt(std::max(source2, 1e-300) / (4 * kPi)));

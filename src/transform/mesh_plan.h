@@ -57,6 +57,7 @@ struct MeshPlan {
   double caution = 1;  // what the rules' errors may exceed the model by
   double in_step = 1;  // see neighbours_in_step(), of lumped triangles
   double window = 0;   // and the windows of the transform
+  double quanta = 0;   // and what rounding of lumps to quanta leaves
   // Their error in any case: a mesh whose vertices lie in lattice lines may be in step with the
   // grid, then the error is of the size of the low degrees themselves, not of random sums.
   double most_window = 0;
@@ -87,9 +88,6 @@ double sampled_error2(std::vector<SampledHalfEdge>& sample, std::uint32_t sample
 // l2 error of the rules, scaled length, for a sum of squares over lumped triangles in units of
 // lumping_error(L)^2 and a number of triangles with nodes.
 double rule_error(const MeshPlan& plan, double lumped2, double noded);
-
-// What rounding of lumps to quanta leaves, l2, scaled length.
-double quantum_error(const MeshPlan& plan);
 
 // The window error that keeps the plan's share for sources whose squared weights have that sum.
 double window_error(const MeshPlan& plan, double source2);
