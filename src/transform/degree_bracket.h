@@ -1,0 +1,22 @@
+// A search between a degree whose error is too large and one whose error is not.
+#pragma once
+
+namespace rholm {
+
+struct DegreeBracket {
+  int bad = -1, good = 0;
+  double bad_value = 0, good_value = 0;
+  // The error falls like 1 / (L + 1), as at vertices; else like some power.
+  bool at_vertices = false;
+  int same_side = 0;  // guesses in a row on one side
+
+  // A fiftieth: the error itself is hardly known better.
+  int step() const { return good / 50 > 1 ? good / 50 : 1; }
+  bool closed() const { return good - bad <= step(); }
+  void add(int degree, double value, double limit);
+  // The next degree to try, strictly between the two unless it is closed; such that the bracket
+  // closes if the guess is right to a step.
+  int guess(double limit) const;
+};
+
+}  // namespace rholm
