@@ -7,15 +7,11 @@
 #include <string>
 
 #include "base/parallel.h"
-#include "rholm/error.h"
+#include "base/refuse.h"
 #include "shape/face.h"
 
 namespace rholm {
 namespace {
-
-[[noreturn]] void refuse(const std::string& message) {
-  throw Error(ErrorCode::kInvalidInput, message);
-}
 
 void check(std::span<const Vec3> points, std::span<const Vec3> normals,
            const PartitionOptions& options) {

@@ -6,18 +6,14 @@
 
 #include <fmt/format.h>
 
+#include "base/refuse.h"
 #include "edit/fading.h"
 #include "edit/local_mesh.h"
-#include "rholm/error.h"
 
 namespace rholm {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-[[noreturn]] void refuse(const std::string& message) {
-  throw Error(ErrorCode::kInvalidInput, message);
-}
 
 // From distances to the region, not positive inside.
 std::vector<double> faded(std::vector<double> distance, double transition) {

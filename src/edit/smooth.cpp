@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
+#include "base/refuse.h"
 #include "edit/fading.h"
 #include "edit/local_mesh.h"
 #include "edit/patch_blend.h"
 #include "edit/rim_detail.h"
-#include "rholm/error.h"
 
 namespace rholm {
 namespace {
@@ -33,10 +33,6 @@ constexpr double kRepairCore = 0.25, kRepairReach = 0.25;
 constexpr double kRounding = 1e-6;
 // Squares of squares of coordinates are formed.
 constexpr double kLargest = 1e70;
-
-[[noreturn]] void refuse(const std::string& message) {
-  throw Error(ErrorCode::kInvalidInput, message);
-}
 
 // Weights fall to 0 away from what stands out of the fits.
 void keep_outstanding(const Blend& blend, double wavelength, Site& site) {

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "base/refuse.h"
 #include "edit/patch_cover.h"
-#include "rholm/error.h"
 
 namespace rholm {
 namespace {
@@ -22,10 +22,6 @@ constexpr double kReach = 2;
 constexpr double kOpposite = 1e-9;
 // Samples of the map per edge of the mesh.
 constexpr double kSamplesPerEdge = 2;
-
-[[noreturn]] void refuse(const std::string& message) {
-  throw Error(ErrorCode::kInvalidInput, message);
-}
 
 std::vector<double> areas_of(const LocalMesh& local, std::span<const Vec3> positions) {
   std::vector<double> areas(positions.size(), 0);

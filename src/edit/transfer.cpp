@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
+#include "base/refuse.h"
 #include "edit/cap_swap.h"
 #include "edit/fading.h"
 #include "edit/refine.h"
 #include "edit/textured_patch.h"
-#include "rholm/error.h"
 #include "rholm/topology.h"
 
 namespace rholm {
@@ -27,10 +27,6 @@ constexpr double kRefined = 1;
 // Tiles of a repeated texture: the disc of the region, faded from here on, on a hexagonal lattice
 // where two neighbours just cover what lies between three.
 constexpr double kTileCore = 0.7, kTilePeriod = 1.45;
-
-[[noreturn]] void refuse(const std::string& message) {
-  throw Error(ErrorCode::kInvalidInput, message);
-}
 
 void check_options(const TransferOptions& o) {
   if (o.from_degree < 2 || o.from_degree > kMaxTransferDegree) {

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "base/parallel.h"
+#include "base/refuse.h"
 #include "harmonic/align_newton.h"
 #include "harmonic/align_search.h"
-#include "rholm/error.h"
 #include "rholm/harmonic.h"
 #include "rholm/recenter.h"
 
@@ -28,10 +28,6 @@ constexpr double kSameAxis = 0.995;
 
 // Surfaces are seen from their centroids up to here: a second's work.
 constexpr int kMaxCenteredDegree = 256;
-
-[[noreturn]] void refuse(const std::string& message) {
-  throw Error(ErrorCode::kInvalidInput, message);
-}
 
 void check(const Coefficients& a, const Coefficients& b, const AlignOptions& options) {
   if (options.bandwidth < 1 || options.bandwidth > 64) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "rholm/error.h"
+#include "base/refuse.h"
 
 namespace rholm {
 namespace {
@@ -22,10 +22,6 @@ constexpr double kExponentialDepth = 36;
 
 // Texts of a model's file are at most 256 bytes.
 constexpr std::size_t kMaxMethodLength = 256;
-
-[[noreturn]] void refuse(const std::string& message) {
-  throw Error(ErrorCode::kInvalidInput, message);
-}
 
 void check(int cutoff, int degree, const WindowOptions& options) {
   for (const int l : {cutoff, degree}) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "rholm/error.h"
+#include "base/refuse.h"
 #include "rholm/rotate.h"
 
 namespace rholm {
@@ -12,10 +12,6 @@ namespace {
 
 // How far a matrix may be from orthogonal: numbers rounded to four digits.
 constexpr double kOrthogonality = 1e-4;
-
-[[noreturn]] void refuse(const std::string& message) {
-  throw Error(ErrorCode::kInvalidInput, message);
-}
 
 Rotation normalized(const Rotation& r) {
   const double length = std::hypot(std::hypot(r.w, r.x), std::hypot(r.y, r.z));

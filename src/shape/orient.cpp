@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/parallel.h"
+#include "base/refuse.h"
 #include "rholm/error.h"
 #include "rholm/points.h"
 #include "shape/face.h"
@@ -17,9 +18,6 @@ namespace rholm {
 namespace {
 
 void check(const PointCloud& cloud, const OrientOptions& options) {
-  const auto refuse = [](const std::string& message) {
-    throw Error(ErrorCode::kInvalidInput, message);
-  };
   validate(cloud);
   if (cloud.points.size() > kMaxPoints) {
     refuse("there are " + std::to_string(cloud.points.size()) + " points, at most " +

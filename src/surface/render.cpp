@@ -6,7 +6,7 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
-#include "rholm/error.h"
+#include "base/refuse.h"
 #include "rholm/topology.h"
 #include "shape/face.h"
 #include "surface/canvas.h"
@@ -20,10 +20,6 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 const Color kPaper = {1, 1, 1};
 const Color kInk = {0.03f, 0.03f, 0.035f};
-
-[[noreturn]] void refuse(const std::string& message) {
-  throw Error(ErrorCode::kInvalidInput, message);
-}
 
 void require_between(int value, int low, int high, const char* what) {
   if (value >= low && value <= high) return;
