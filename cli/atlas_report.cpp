@@ -1,7 +1,6 @@
 // What is said of atlases; rholm info of one.
 #include "cli/atlas_report.h"
 
-#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -12,12 +11,6 @@
 
 namespace rholm::cli {
 namespace {
-
-int highest_degree(const Atlas& atlas) {
-  int degree = 0;
-  for (const Cap& cap : atlas.caps) degree = std::max<int>(degree, cap.degree);
-  return degree;
-}
 
 double share_of(const AtlasModel& model) {
   return static_cast<double>(size_of(model.atlas).numbers()) /

@@ -87,6 +87,9 @@ struct Atlas {
   }
 };
 
+// Of all caps; 0 without caps.
+int highest_degree(const Atlas& atlas);
+
 // The surface's potential as one cap sees it: a signed distance to first order, positive outside
 // (method 7.5), g = (|x - c| - r(u)) / sqrt(1 + |grad r|^2 / r^2), and its gradient in space.
 struct CapValue {

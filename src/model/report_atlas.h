@@ -8,7 +8,6 @@
 
 namespace rholm::report {
 
-int highest_degree(const Atlas& atlas);
 // Limits of the degree at which the surface is drawn: a quarter of the highest, half of it, all.
 std::vector<int> drawn_limits(const Atlas& atlas);
 // Coefficients of degrees up to a limit that are not zero.

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -18,12 +17,6 @@ void for_each_coefficient(const Atlas& atlas, const Cap& cap, const Function& f)
 }
 
 }  // namespace
-
-int highest_degree(const Atlas& atlas) {
-  int degree = 0;
-  for (const Cap& cap : atlas.caps) degree = std::max<int>(degree, cap.degree);
-  return degree;
-}
 
 std::vector<int> drawn_limits(const Atlas& atlas) {
   const int degree = highest_degree(atlas);

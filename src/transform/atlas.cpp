@@ -1,5 +1,6 @@
 #include "rholm/atlas.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -33,6 +34,12 @@ CapExtension parse_cap_extension(const std::string& name) {
 std::size_t n_coefficients(CapBasis basis, int degree) {
   const auto l = static_cast<std::size_t>(degree);
   return basis == CapBasis::kFull ? (l + 1) * (l + 1) : (l + 1) * (l + 2) / 2;
+}
+
+int highest_degree(const Atlas& atlas) {
+  int degree = 0;
+  for (const Cap& cap : atlas.caps) degree = std::max<int>(degree, cap.degree);
+  return degree;
 }
 
 CapValue evaluate(const Cap& cap, std::span<const double> coefficients, const Vec3& x) {

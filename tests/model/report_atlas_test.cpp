@@ -57,6 +57,14 @@ TEST(report_atlas, heights_are_those_of_orthonormal_coefficients) {
   EXPECT_EQ(report::drawn_limits(model.atlas), (std::vector<int>{1, 2}));
 }
 
+TEST(atlas, has_the_highest_degree_of_its_caps) {
+  EXPECT_EQ(highest_degree(Atlas{}), 0);
+  Atlas atlas = six_caps_of_a_sphere().atlas;
+  EXPECT_EQ(highest_degree(atlas), 2);
+  atlas.caps[3].degree = 7;
+  EXPECT_EQ(highest_degree(atlas), 7);
+}
+
 TEST(report_atlas, is_one_page_that_needs_nothing_else) {
   const AtlasModel model = six_caps_of_a_sphere();
   const Mesh shape = icosphere(4);
