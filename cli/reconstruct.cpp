@@ -39,12 +39,7 @@ struct Options {
 // Of a mesh the vertices, with the mean normals of their faces.
 PointCloud points_of(Mesh mesh) {
   PointCloud cloud;
-  cloud.normals.resize(mesh.vertices.size());
-  for (const Triangle& t : mesh.triangles) {
-    const Vec3& a = mesh.vertices[t[0]];
-    const Vec3 area = cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a);
-    for (const std::uint32_t corner : t) cloud.normals[corner] += area;
-  }
+  cloud.normals = area_normals(mesh.vertices, mesh.triangles);
   std::erase_if(mesh.attributes, [](const Attribute& a) {
     return a.name == "nx" || a.name == "ny" || a.name == "nz";
   });

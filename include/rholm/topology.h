@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "rholm/mesh.h"
@@ -75,6 +76,10 @@ Mesh largest_component(const Mesh& mesh);
 
 // Reverses every triangle. Normals nx, ny, nz among the attributes change sign.
 void flip(Mesh& mesh);
+
+// At each vertex the sum of its triangles' normals, each as long as twice the triangle's area: not
+// normalised, and zero where no triangle is. Indices of triangles are below the number of vertices.
+std::vector<Vec3> area_normals(std::span<const Vec3> vertices, std::span<const Triangle> triangles);
 
 double surface_area(const Mesh& mesh);
 // Signed volume of a closed mesh (positive if triangles are counter-clockwise from outside).

@@ -127,11 +127,7 @@ LocalMesh cut_out(const Mesh& mesh, const Bounds& box) {
 }
 
 std::vector<Vec3> point_normals(const LocalMesh& local, std::span<const Vec3> positions) {
-  std::vector<Vec3> normals(local.points.size());
-  for (const Triangle& t : local.triangles) {
-    const Vec3 normal = cross(positions[t[1]] - positions[t[0]], positions[t[2]] - positions[t[0]]);
-    for (const std::uint32_t v : t) normals[v] += normal;
-  }
+  std::vector<Vec3> normals = area_normals(positions, local.triangles);
   for (Vec3& n : normals) n = normalized(n);
   return normals;
 }
@@ -147,12 +143,7 @@ void update_normals(Mesh& mesh, std::span<const std::uint32_t> vertices) {
   std::vector<double>* const y = values_of("ny");
   std::vector<double>* const z = values_of("nz");
   if (x == nullptr || y == nullptr || z == nullptr) return;
-  std::vector<Vec3> sums(mesh.vertices.size());
-  for (const Triangle& t : mesh.triangles) {
-    const Vec3& a = mesh.vertices[t[0]];
-    const Vec3 normal = cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a);
-    for (const std::uint32_t v : t) sums[v] += normal;
-  }
+  const std::vector<Vec3> sums = area_normals(mesh.vertices, mesh.triangles);
   for (const std::uint32_t v : vertices) {
     const Vec3 n = normalized(sums[v]);
     (*x)[v] = n.x, (*y)[v] = n.y, (*z)[v] = n.z;

@@ -217,23 +217,13 @@ PatchAtlas make_all(const std::vector<Vec3>& points, const std::vector<Vec3>& no
   return made;
 }
 
-// Area-weighted.
-std::vector<Vec3> vertex_normals(const Mesh& mesh) {
-  std::vector<Vec3> normals(mesh.vertices.size());
-  for (const Triangle& t : mesh.triangles) {
-    const Vec3& a = mesh.vertices[t[0]];
-    const Vec3 area = cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a);
-    for (const std::uint32_t corner : t) normals[corner] += area;
-  }
-  return normals;
-}
-
 }  // namespace
 
 PatchAtlas patch_atlas(const Mesh& mesh, const PatchAtlasOptions& options, const Context& context) {
   check(options);
   validate(mesh);
-  PatchAtlas made = make_all(mesh.vertices, vertex_normals(mesh), options, context);
+  PatchAtlas made =
+      make_all(mesh.vertices, area_normals(mesh.vertices, mesh.triangles), options, context);
   made.model.errors = measure(mesh, made.surface, 100000, context);
   return made;
 }

@@ -63,6 +63,17 @@ Bounds bounds(const std::vector<Vec3>& points) {
   return box;
 }
 
+std::vector<Vec3> area_normals(std::span<const Vec3> vertices,
+                               std::span<const Triangle> triangles) {
+  std::vector<Vec3> normals(vertices.size());
+  for (const Triangle& t : triangles) {
+    const Vec3& a = vertices[t[0]];
+    const Vec3 area = cross(vertices[t[1]] - a, vertices[t[2]] - a);
+    for (const std::uint32_t corner : t) normals[corner] += area;
+  }
+  return normals;
+}
+
 double surface_area(const Mesh& mesh) {
   return measure(view_of(mesh), unit_frame(bounds(mesh.vertices))).area;
 }

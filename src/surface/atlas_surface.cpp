@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "rholm/error.h"
+#include "rholm/topology.h"
 #include "shape/disjoint_sets.h"
 #include "surface/atlas_dipoles.h"
 #include "surface/block_grid.h"
@@ -148,12 +149,7 @@ void complete_normals(Mesh& mesh) {
   std::vector<std::uint8_t> missing(n);
   for (std::size_t i = 0; i < n; ++i) missing[i] = nx[i] == 0 && ny[i] == 0 && nz[i] == 0;
   if (std::find(missing.begin(), missing.end(), 1) == missing.end()) return;
-  std::vector<Vec3> sums(n);
-  for (const Triangle& t : mesh.triangles) {
-    const Vec3& a = mesh.vertices[t[0]];
-    const Vec3 area = cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a);
-    for (const std::uint32_t corner : t) sums[corner] += area;
-  }
+  const std::vector<Vec3> sums = area_normals(mesh.vertices, mesh.triangles);
   for (std::size_t i = 0; i < n; ++i) {
     if (missing[i] == 0) continue;
     const Vec3 normal = normalized(sums[i]);

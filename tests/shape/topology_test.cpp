@@ -146,6 +146,20 @@ TEST(inspect, measures_scale_with_the_shape) {
   }
 }
 
+// The faces of the tetrahedron at the origin have normals (0, 0, -1), (-1, 0, 0), (0, -1, 0) and
+// (1, 1, 1), each as long as twice its area.
+TEST(area_normals, are_sums_of_normals_as_long_as_twice_the_areas) {
+  Mesh mesh = tetrahedron();
+  mesh.vertices.push_back({7, 7, 7});  // of no triangle
+  const std::vector<Vec3> normals = area_normals(mesh.vertices, mesh.triangles);
+  EXPECT_EQ(normals, (std::vector<Vec3>{{-1, -1, -1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}}));
+  for (Vec3& v : mesh.vertices) v = 2 * v;  // powers of two: exact
+  EXPECT_EQ(area_normals(mesh.vertices, mesh.triangles)[1], (Vec3{4, 0, 0}));
+  flip(mesh);
+  EXPECT_EQ(area_normals(mesh.vertices, mesh.triangles)[2], (Vec3{0, -4, 0}));
+  EXPECT_TRUE(area_normals({}, {}).empty());
+}
+
 TEST(inspect, finds_the_shape_turned_inside_out_and_flip_turns_it_back) {
   Mesh mesh = icosphere(1);
   mesh.attributes = {{.name = "nx", .values = std::vector<double>(42, 0.5)},
