@@ -13,6 +13,7 @@
 #include "harmonic/low_harmonics.h"
 #include "model/atlas_errors.h"
 #include "model/atlas_pack.h"
+#include "model/oriented_points.h"
 #include "rholm/compare.h"
 #include "rholm/error.h"
 #include "rholm/points.h"
@@ -44,11 +45,7 @@ constexpr double kAim = 0.995, kGoodEnough = 0.97;
 constexpr double kSteps[] = {1, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4};
 constexpr double kBands[] = {1, 2};
 
-struct Samples {
-  std::vector<Vec3> points, normals;
-};
-
-Samples samples_of(const Mesh& mesh, const CompressOptions& options) {
+OrientedPoints samples_of(const Mesh& mesh, const CompressOptions& options) {
   std::size_t n = options.samples;
   if (n == 0) {
     const double spacing = kSampleSpacing * options.tolerance;
@@ -56,7 +53,7 @@ Samples samples_of(const Mesh& mesh, const CompressOptions& options) {
         std::clamp(surface_area(mesh) / (spacing * spacing), kLeastSamples, kMostSamples));
   }
   AreaSamples on = sample_by_area(mesh, n, options.seed);
-  Samples samples;
+  OrientedPoints samples;
   samples.points = std::move(on.points);
   for (const std::uint32_t t : on.triangles) {
     samples.normals.push_back(
@@ -152,9 +149,10 @@ TrialSurface choose_grid(AtlasModel& model, const std::optional<Topology>& wante
 }
 
 template <class Measure>
-Compressed compress_samples(const Samples& samples, double diagonal, std::size_t input_numbers,
-                            const CompressOptions& options, const std::optional<Topology>& wanted,
-                            const Measure& measure_surface, const Context& context) {
+Compressed compress_samples(const OrientedPoints& samples, double diagonal,
+                            std::size_t input_numbers, const CompressOptions& options,
+                            const std::optional<Topology>& wanted, const Measure& measure_surface,
+                            const Context& context) {
   Compressed result;
   CompressReport& report = result.report;
   AtlasModel& model = result.model;
@@ -213,7 +211,7 @@ AtlasSize size_of(const Atlas& atlas) {
 Compressed compress(const Mesh& mesh, const CompressOptions& options, const Context& context) {
   check(options);
   validate(mesh);
-  const Samples samples = samples_of(mesh, options);
+  const OrientedPoints samples = samples_of(mesh, options);
   const auto measure_surface = [&](const Mesh& surface) {
     return measure(mesh, surface, std::max<std::size_t>(samples.points.size(), 100000), context);
   };
@@ -224,17 +222,8 @@ Compressed compress(const Mesh& mesh, const CompressOptions& options, const Cont
 Compressed compress(const PointCloud& cloud, const CompressOptions& options,
                     const Context& context) {
   check(options);
-  validate(cloud);
-  if (cloud.normals.size() != cloud.points.size()) {
-    throw Error(ErrorCode::kInvalidInput,
-                "points need normals that point outwards: 'rholm orient' gives them");
-  }
-  Samples samples;
-  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    if (!(norm(cloud.normals[i]) > 0)) continue;
-    samples.points.push_back(cloud.points[i]);
-    samples.normals.push_back(normalized(cloud.normals[i]));
-  }
+  check_oriented(cloud);
+  const OrientedPoints samples = oriented_points(cloud.points, cloud.normals);
   if (samples.points.size() < 1000) {
     throw Error(ErrorCode::kInvalidInput,
                 fmt::format("{} points with normals are too few for large caps: at least 1000",

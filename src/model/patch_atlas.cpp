@@ -14,6 +14,7 @@
 #include "harmonic/low_harmonics.h"
 #include "model/atlas_errors.h"
 #include "model/atlas_pack.h"
+#include "model/oriented_points.h"
 #include "rholm/error.h"
 #include "rholm/topology.h"
 #include "shape/face.h"
@@ -49,13 +50,9 @@ struct Points {
 };
 
 Points local_points(const std::vector<Vec3>& points, const std::vector<Vec3>& normals) {
-  Points local;
-  local.frame = unit_frame(bounds(points));
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!(norm(normals[i]) > 0)) continue;
-    local.points.push_back(local.frame.to_local(points[i]));
-    local.normals.push_back(normalized(normals[i]));
-  }
+  OrientedPoints oriented = oriented_points(points, normals);
+  Points local{std::move(oriented.points), std::move(oriented.normals), unit_frame(bounds(points))};
+  for (Vec3& p : local.points) p = local.frame.to_local(p);
   if (local.points.size() < 16) {
     throw Error(
         ErrorCode::kInvalidInput,
@@ -231,11 +228,7 @@ PatchAtlas patch_atlas(const Mesh& mesh, const PatchAtlasOptions& options, const
 PatchAtlas patch_atlas(const PointCloud& cloud, const PatchAtlasOptions& options,
                        const Context& context) {
   check(options);
-  validate(cloud);
-  if (cloud.normals.size() != cloud.points.size()) {
-    throw Error(ErrorCode::kInvalidInput,
-                "points need normals that point outwards: 'rholm orient' gives them");
-  }
+  check_oriented(cloud);
   PatchAtlas made = make_all(cloud.points, cloud.normals, options, context);
   made.model.errors = measure(cloud.points, made.surface, context);
   return made;

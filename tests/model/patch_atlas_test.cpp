@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
+#include "model/oriented_points.h"
+#include "rholm/compress.h"
 #include "rholm/error.h"
 #include "rholm/primitives.h"
 #include "rholm/topology.h"
@@ -72,6 +75,33 @@ TEST(patch_atlas, what_it_cannot_be_made_of_is_refused) {
   EXPECT_THROW(patch_atlas(cloud, {.degree = 25}), Error);
   EXPECT_THROW(patch_atlas(cloud, {.min_cosine = 2}), Error);
   EXPECT_THROW(patch_atlas(cloud, {.overlap = 0.5}), Error);
+}
+
+template <class Make>
+std::string refusal(const Make& make) {
+  try {
+    make();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kInvalidInput);
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(atlases, of_points_without_normals_are_refused_with_what_helps) {
+  PointCloud bare = test::sphere_points(1000);
+  bare.normals.clear();
+  for (const std::string& message : {refusal([&] { patch_atlas(bare, {}); }),
+                                     refusal([&] { compress(bare, {.tolerance = 0.01}); })}) {
+    EXPECT_NE(message.find("rholm orient"), std::string::npos) << message;
+  }
+}
+
+TEST(atlases, leave_out_points_whose_normal_is_zero) {
+  const Vec3 some{1, 2, 3}, other{4, 5, 6};
+  const OrientedPoints kept = oriented_points({some, other, some}, {{0, 3, 0}, {}, {0, 0, -0.5}});
+  EXPECT_EQ(kept.points, (std::vector<Vec3>{some, some}));
+  EXPECT_EQ(kept.normals, (std::vector<Vec3>{{0, 1, 0}, {0, 0, -1}}));
 }
 
 }  // namespace

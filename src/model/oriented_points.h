@@ -1,0 +1,21 @@
+// Points that have normals, as atlases are made of them.
+#pragma once
+
+#include <vector>
+
+#include "rholm/mesh.h"
+
+namespace rholm {
+
+// Throws InvalidInput unless the cloud is valid and has normals.
+void check_oriented(const PointCloud& cloud);
+
+// One normal of length 1 per point.
+struct OrientedPoints {
+  std::vector<Vec3> points, normals;
+};
+
+// The points with a normal that is not zero, in their order. One normal per point, of any length.
+OrientedPoints oriented_points(const std::vector<Vec3>& points, const std::vector<Vec3>& normals);
+
+}  // namespace rholm
