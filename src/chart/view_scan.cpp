@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "chart/view_scan.cpp"
-#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -24,49 +22,14 @@ using M = hn::Mask<D>;
 // Triangles whose indices are checked, and corners asked for, ahead of use; measured: 32 to 256 are
 // alike.
 constexpr std::size_t kBlock = 128;
-// Bytes of triangles asked for beyond those; measured: a tenth of a large mesh's pass.
-constexpr std::size_t kFarAhead = 2048;
 // Below, the squares of a normal in the unit frame lose their digits.
 constexpr double kSmallestSquare = 1e-280;
 // sin^2 of an angle below which the plain product of double edges has lost 7 bits: left to the
 // visitor's exact one. Edges between floats are exact in double, and so are their products.
 constexpr double kIllConditioned = 0x1p-14;
 
-HWY_INLINE Vector3 Minus(const Vector3& a, const Vector3& b) {
-  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-HWY_INLINE V Dot(const Vector3& a, const Vector3& b) {
-  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
-}
-HWY_INLINE Vector3 Cross(const Vector3& a, const Vector3& b) {
-  return {hn::NegMulAdd(a.z, b.y, hn::Mul(a.y, b.z)), hn::NegMulAdd(a.x, b.z, hn::Mul(a.z, b.x)),
-          hn::NegMulAdd(a.y, b.x, hn::Mul(a.x, b.y))};
-}
 HWY_INLINE Vector3 Same(D d, const Vec3& v) {
   return {hn::Set(d, v.x), hn::Set(d, v.y), hn::Set(d, v.z)};
-}
-
-// Returns the largest index of [begin, end), and asks for one corner of each triangle: neighbours
-// bring the others.
-HWY_INLINE std::uint32_t LookAhead(const MeshView& mesh, std::size_t begin, std::size_t end) {
-  if (begin == end) return 0;
-  using Four [[gnu::vector_size(16)]] = std::uint32_t;
-  Four largest = {}, corners = {};
-  const std::size_t stride = mesh.triangle_stride, vertex_stride = mesh.vertex_stride;
-  const std::byte* const vertices = mesh.vertices;
-  const std::byte* at = mesh.triangles + begin * stride;
-  // One load each, but for the last, behind which there may be nothing.
-  for (const std::byte* const last = at + (end - 1 - begin) * stride; at != last; at += stride) {
-    std::memcpy(&corners, at, 16);
-    largest = largest > corners ? largest : corners;
-    std::uint32_t index;
-    std::memcpy(&index, at, sizeof index);
-    hwy::Prefetch(vertices + index * vertex_stride);
-    hwy::Prefetch(at + kFarAhead);
-  }
-  std::memcpy(&corners, at, 12);
-  largest = largest > corners ? largest : corners;
-  return std::max({largest[0], largest[1], largest[2]});
 }
 
 // Visits the triangles t ... t + n - 1 of a vector that are chosen.

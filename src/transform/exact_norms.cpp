@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <numbers>
 #include <vector>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "transform/exact_norms.cpp"
-#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -28,7 +26,6 @@ namespace {
 // Triangles whose indices are checked, and corners asked for, ahead of use; and whose sums are
 // plain ones, as in view_scan.cpp.
 constexpr std::size_t kBlock = 128;
-constexpr std::size_t kFarAhead = 2048;  // bytes, as there
 
 // binomial(-1/2, k): (1 + v)^(-1/2) = sum of them times v^k.
 struct Binomials {
@@ -76,17 +73,6 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using M = hn::Mask<D>;
-
-HWY_INLINE Vector3 Minus(const Vector3& a, const Vector3& b) {
-  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-HWY_INLINE V Dot(const Vector3& a, const Vector3& b) {
-  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
-}
-HWY_INLINE Vector3 Cross(const Vector3& a, const Vector3& b) {
-  return {hn::NegMulAdd(a.z, b.y, hn::Mul(a.y, b.z)), hn::NegMulAdd(a.x, b.z, hn::Mul(a.z, b.x)),
-          hn::NegMulAdd(a.y, b.x, hn::Mul(a.x, b.y))};
-}
 
 // Squares in units of g, as in Block.
 struct LaneSquares {
@@ -257,29 +243,6 @@ HWY_INLINE M AddTriangles(D d, const Block& block, std::size_t at, LaneSums& sum
   sums.first = hn::Add(sums.first, hn::IfThenZeroElse(left, hn::Mul(first, means.first)));
   sums.third = hn::Add(sums.third, hn::IfThenZeroElse(left, hn::Mul(third, means.third)));
   return left;
-}
-
-// Returns the largest index of [begin, end), and asks for one corner of each triangle: neighbours
-// bring the others.
-HWY_INLINE std::uint32_t LookAhead(const MeshView& mesh, std::size_t begin, std::size_t end) {
-  if (begin == end) return 0;
-  using Four [[gnu::vector_size(16)]] = std::uint32_t;
-  Four largest = {}, corners = {};
-  const std::size_t stride = mesh.triangle_stride, vertex_stride = mesh.vertex_stride;
-  const std::byte* const vertices = mesh.vertices;
-  const std::byte* at = mesh.triangles + begin * stride;
-  // One load each, but for the last, behind which there may be nothing.
-  for (const std::byte* const last = at + (end - 1 - begin) * stride; at != last; at += stride) {
-    std::memcpy(&corners, at, 16);
-    largest = largest > corners ? largest : corners;
-    std::uint32_t index;
-    std::memcpy(&index, at, sizeof index);
-    hwy::Prefetch(vertices + index * vertex_stride);
-    hwy::Prefetch(at + kFarAhead);
-  }
-  std::memcpy(&corners, at, 12);
-  largest = largest > corners ? largest : corners;
-  return HWY_MAX(largest[0], HWY_MAX(largest[1], largest[2]));
 }
 
 template <class T>

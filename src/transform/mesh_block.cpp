@@ -85,11 +85,11 @@ HWY_INLINE void work_vector(D d, size_t at, size_t n, const BlockParameters& par
   };
   const V zero = hn::Zero(d), one = hn::Set(d, 1.0);
   const V3 p0 = corner(0), p1 = corner(1), p2 = corner(2);
-  const V3 e01 = sub(p1, p0), e12 = sub(p2, p1), e20 = sub(p0, p2);
-  const V3 n3 = cross(e20, e01), across = cross(n3, p0);
-  const V d2 = dot(n3, p0), nn = dot(n3, n3);
-  const V r0 = dot(p0, p0), r1 = dot(p1, p1), r2 = dot(p2, p2);  // squares
-  const V l01 = dot(e01, e01), l12 = dot(e12, e12), l20 = dot(e20, e20);
+  const V3 e01 = Minus(p1, p0), e12 = Minus(p2, p1), e20 = Minus(p0, p2);
+  const V3 n3 = Cross(e20, e01), across = Cross(n3, p0);
+  const V d2 = Dot(n3, p0), nn = Dot(n3, n3);
+  const V r0 = Dot(p0, p0), r1 = Dot(p1, p1), r2 = Dot(p2, p2);  // squares
+  const V l01 = Dot(e01, e01), l12 = Dot(e12, e12), l20 = Dot(e20, e20);
   Elements e;
   e.d2 = d2;
   e.nn = nn;
@@ -110,7 +110,7 @@ HWY_INLINE void work_vector(D d, size_t at, size_t n, const BlockParameters& par
 
   // n . (p_i x p_j) = (n x p_i) . e_ij, and all weights add up to nothing.
   const V over_f = hn::Mul(nn, over_d), face = hn::Neg(over_f);
-  const V w01 = hn::Mul(dot(across, e01), over_d), w20 = hn::Mul(dot(across, e20), over_d);
+  const V w01 = hn::Mul(Dot(across, e01), over_d), w20 = hn::Mul(Dot(across, e20), over_d);
   const V w12 = hn::Sub(over_f, hn::Add(w01, w20));
 
   // Error of lumping: z = L theta with a part for the bending of x/|x| along the edge; the same

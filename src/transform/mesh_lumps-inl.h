@@ -25,16 +25,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 using M = hn::Mask<D>;
 using V3 = Vector3;
 
-HWY_INLINE V3 sub(const V3& a, const V3& b) {
-  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-HWY_INLINE V dot(const V3& a, const V3& b) {
-  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
-}
-HWY_INLINE V3 cross(const V3& a, const V3& b) {
-  return {hn::NegMulAdd(a.z, b.y, hn::Mul(a.y, b.z)), hn::NegMulAdd(a.x, b.z, hn::Mul(a.z, b.x)),
-          hn::NegMulAdd(a.y, b.x, hn::Mul(a.x, b.y))};
-}
 // Weight and gradient of lanes, in quanta but not yet whole.
 struct Lump {
   V weight;
