@@ -1,15 +1,8 @@
 #include "transform/mesh_between.h"
 
-#include <algorithm>
-
 namespace rholm {
-namespace {
 
-constexpr std::size_t kWaiting = 4096;  // chosen: 300 kB
-
-}  // namespace
-
-NodesBetween::NodesBetween(NodeSink& sink) : sink_(sink), waiting_(kWaiting) {}
+NodesBetween::NodesBetween(NodeSink& sink) : nodes_(sink) {}
 
 template <typename T>
 void NodesBetween::add(const MeshView& mesh, std::size_t first, std::size_t n,
@@ -27,8 +20,7 @@ void NodesBetween::add(const MeshView& mesh, std::size_t first, std::size_t n,
       if (rules[i] == 0) continue;
       const int j = i == 2 ? 0 : i + 1;
       add_edge(vertices[i], vertices[j],
-               {.name = 0,
-                .rule = static_cast<std::uint32_t>(rules[i]),
+               {.rule = static_cast<std::uint32_t>(rules[i]),
                 .weight = block.edge_node[i][t],
                 .a = p[i],
                 .b = p[j]});
@@ -38,47 +30,33 @@ void NodesBetween::add(const MeshView& mesh, std::size_t first, std::size_t n,
 }
 
 void NodesBetween::add_edge(std::uint32_t i, std::uint32_t j, const HalfEdge& edge) {
-  const std::uint64_t low = std::min(i, j), high = std::max(i, j);
-  const std::uint64_t name = (low << 32 | high) + 1;
-  HalfEdge& slot = waiting_[(name * 0x9E3779B97F4A7C15U) >> 52];
-  if (slot.name == name && slot.rule == edge.rule) {
-    slot.weight += edge.weight;
-    write_edge(slot);
-    slot.name = 0;
-    return;
-  }
-  if (slot.name != 0) write_edge(slot);
-  slot = edge;
-  slot.name = name;
+  const auto join = [](HalfEdge& twin, const HalfEdge& other) {
+    if (twin.rule != other.rule) return false;
+    twin.weight += other.weight;
+    return true;
+  };
+  waiting_.add(i, j, edge, join, [&](const HalfEdge& whole) { write_edge(whole); });
 }
 
 void NodesBetween::write_edge(const HalfEdge& edge) {
   const Vec3 sum = edge.a + edge.b;
-  if (edge.rule == 1) return write(sum, edge.weight);  // a direction is what counts
-  write(sum + edge.a, edge.weight);
-  write(sum + edge.b, edge.weight);
+  if (edge.rule == 1) return nodes_.add(sum, edge.weight);  // a direction is what counts
+  nodes_.add(sum + edge.a, edge.weight);
+  nodes_.add(sum + edge.b, edge.weight);
 }
 
 void NodesBetween::write_face(const std::array<Vec3, 3>& p, double center, double orbit) {
   const Vec3 sum = p[0] + p[1] + p[2];
-  write(sum, center);
+  nodes_.add(sum, center);
   if (orbit == 0) return;
   // (5 p_i + 5 p_j + p_k) / 11, 11/5 times as far.
   constexpr double kLess = (3 * kHermiteOrbit - 1) / kHermiteOrbit;
-  for (const Vec3& corner : p) write(sum - kLess * corner, orbit);
+  for (const Vec3& corner : p) nodes_.add(sum - kLess * corner, orbit);
 }
 
 void NodesBetween::flush() {
-  for (HalfEdge& edge : waiting_) {
-    if (edge.name != 0) write_edge(edge);
-    edge.name = 0;
-  }
-  write_nodes();
-}
-
-void NodesBetween::write_nodes() {
-  if (n_nodes_ > 0) sink_.add(std::span(nodes_).first(n_nodes_));
-  n_nodes_ = 0;
+  waiting_.flush([&](const HalfEdge& edge) { write_edge(edge); });
+  nodes_.flush();
 }
 
 template void NodesBetween::add(const MeshView&, std::size_t, std::size_t,

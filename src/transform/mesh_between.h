@@ -4,15 +4,15 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "transform/mesh_block.h"
 #include "transform/mesh_nodes.h"
+#include "transform/twin_cache.h"
 
 namespace rholm {
 
-// Half-edges wait for their twins, as in NodeWriter: both have the same nodes unless a rule's limit
-// lies between what rounding makes of their lengths.
+// Half-edges wait for their twins: both have the same nodes unless a rule's limit lies between what
+// rounding makes of their lengths.
 class NodesBetween {
  public:
   explicit NodesBetween(NodeSink& sink);
@@ -25,7 +25,6 @@ class NodesBetween {
 
  private:
   struct HalfEdge {
-    std::uint64_t name = 0;  // of both ends, 0: none
     std::uint32_t rule = 0;
     double weight = 0;  // of each node
     Vec3 a, b;
@@ -33,16 +32,9 @@ class NodesBetween {
   void add_edge(std::uint32_t i, std::uint32_t j, const HalfEdge& edge);
   void write_edge(const HalfEdge& edge);
   void write_face(const std::array<Vec3, 3>& p, double center, double orbit);
-  void write(const Vec3& x, double weight) {
-    nodes_[n_nodes_++] = {x, weight};
-    if (n_nodes_ == nodes_.size()) write_nodes();
-  }
-  void write_nodes();
 
-  NodeSink& sink_;
-  std::array<Node, 256> nodes_;
-  std::size_t n_nodes_ = 0;
-  std::vector<HalfEdge> waiting_;
+  NodeBuffer nodes_;
+  TwinCache<HalfEdge> waiting_;
 };
 
 }  // namespace rholm

@@ -11,7 +11,6 @@
 namespace rholm {
 namespace {
 
-constexpr std::size_t kWaiting = 4096;  // chosen: 350 kB
 // Elements longer than half their distance are halved: beyond, x/|x| bends so much that rules
 // for plane waves say little.
 constexpr double kLongest = 0.5;
@@ -116,7 +115,7 @@ NodeWriter::NodeWriter(const NodeOptions& options, NodeSink& sink)
     : options_(options),
       grazing_(grazing_slope(options.divided.degree)),
       sink_(sink),
-      waiting_(kWaiting) {}
+      nodes_(sink) {}
 
 void NodeWriter::add_triangle(const std::array<Vec3, 3>& p,
                               const std::array<std::uint32_t, 3>& vertices) {
@@ -145,36 +144,21 @@ void NodeWriter::add_edge(std::uint32_t i, std::uint32_t j, const Vec3& a, const
                           double weight, double gradient) {
   // The edge as seen from its lower vertex: a weight knows no direction, a gradient changes sign.
   const bool swapped = j < i;
-  const std::uint64_t low = std::min(i, j), high = std::max(i, j);
-  const std::uint64_t name = (low << 32 | high) + 1;
-  HalfEdge edge{.name = name,
-                .a = swapped ? b : a,
-                .b = swapped ? a : b,
-                .weight = weight,
-                .gradient = swapped ? -gradient : gradient};
-  HalfEdge& slot = waiting_[(name * 0x9E3779B97F4A7C15U) >> 52];
-  if (slot.name == name) {
-    edge.weight += slot.weight;
-    edge.gradient += slot.gradient;
-    slot.name = 0;
-    write_edge(edge);
-    return;
-  }
-  if (slot.name != 0) write_edge(slot);
-  slot = edge;
+  const HalfEdge edge{.a = swapped ? b : a,
+                      .b = swapped ? a : b,
+                      .weight = weight,
+                      .gradient = swapped ? -gradient : gradient};
+  const auto join = [](HalfEdge& twin, const HalfEdge& other) {
+    twin.weight += other.weight;
+    twin.gradient += other.gradient;
+    return true;
+  };
+  waiting_.add(i, j, edge, join, [&](const HalfEdge& whole) { write_edge(whole); });
 }
 
 void NodeWriter::flush() {
-  for (HalfEdge& edge : waiting_) {
-    if (edge.name != 0) write_edge(edge);
-    edge.name = 0;
-  }
-  write_nodes();
-}
-
-void NodeWriter::write_nodes() {
-  if (n_nodes_ > 0) sink_.add(std::span(nodes_).first(n_nodes_));
-  n_nodes_ = 0;
+  waiting_.flush([&](const HalfEdge& edge) { write_edge(edge); });
+  nodes_.flush();
 }
 
 void NodeWriter::write_edge(const HalfEdge& edge) {
@@ -203,7 +187,7 @@ void NodeWriter::write_piece(const HalfEdge& edge, const Vec3& a, const Vec3& b,
   for (std::size_t k = 0; k < rule.nodes.size(); ++k) {
     const Vec3 x = a + rule.nodes[k] * (b - a);
     const double weight = share * rule.weights[k];
-    if (edge.weight != 0) write(x, weight * edge.weight);
+    if (edge.weight != 0) nodes_.add(x, weight * edge.weight);
     if (edge.gradient != 0) sink_.add_gradient({x, weight * across});
   }
 }
@@ -221,7 +205,7 @@ void NodeWriter::write_face(const std::array<Vec3, 3>& p, double weight, int dep
     return;
   }
   for (const FaceNode& node : rule) {
-    write(node.at[0] * p[0] + node.at[1] * p[1] + node.at[2] * p[2], node.weight * weight);
+    nodes_.add(node.at[0] * p[0] + node.at[1] * p[1] + node.at[2] * p[2], node.weight * weight);
   }
 }
 

@@ -5,10 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "rholm/vec3.h"
 #include "transform/node_rules.h"
+#include "transform/twin_cache.h"
 
 namespace rholm {
 
@@ -41,9 +41,26 @@ struct NodeOptions {
   NodeAllowance undivided;
 };
 
+// Hands weights on many at a time.
+class NodeBuffer {
+ public:
+  explicit NodeBuffer(NodeSink& sink) : sink_(sink) {}
+  void add(const Vec3& x, double weight) {
+    nodes_[n_nodes_++] = {x, weight};
+    if (n_nodes_ == nodes_.size()) flush();
+  }
+  void flush() {
+    if (n_nodes_ > 0) sink_.add(std::span(nodes_).first(n_nodes_));
+    n_nodes_ = 0;
+  }
+
+ private:
+  NodeSink& sink_;
+  std::array<Node, 256> nodes_;
+  std::size_t n_nodes_ = 0;
+};
+
 // Half-edges that have met their twins are summed: an edge of two triangles gets its nodes once.
-// A half-edge whose twin is not among the last few thousand gets nodes of its own: the same sum,
-// at the price of more nodes.
 class NodeWriter {
  public:
   NodeWriter(const NodeOptions& options, NodeSink& sink);
@@ -55,7 +72,6 @@ class NodeWriter {
 
  private:
   struct HalfEdge {
-    std::uint64_t name = 0;  // of both ends, 0: none
     Vec3 a, b;
     double weight = 0;    // W
     double gradient = 0;  // of -(a x b) . grad
@@ -66,18 +82,11 @@ class NodeWriter {
   void write_piece(const HalfEdge& edge, const Vec3& a, const Vec3& b, double share);
   void write_face(const std::array<Vec3, 3>& p, double weight, int depth);
 
-  void write(const Vec3& x, double weight) {
-    nodes_[n_nodes_++] = {x, weight};
-    if (n_nodes_ == nodes_.size()) write_nodes();
-  }
-  void write_nodes();
-
   NodeOptions options_;
   double grazing_;  // d_T / r
   NodeSink& sink_;
-  std::array<Node, 256> nodes_;
-  std::size_t n_nodes_ = 0;
-  std::vector<HalfEdge> waiting_;
+  NodeBuffer nodes_;
+  TwinCache<HalfEdge> waiting_;
 };
 
 // d_T int_T dS/|x|^2 of a triangle, its part of int r dOmega, to the relative error wanted.

@@ -1,0 +1,55 @@
+// Half-edges that wait for their twins.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace rholm {
+
+// An edge of two triangles is to be worked once, with the sum of what both sides say. A half-edge
+// whose twin is not among the last few thousand is worked alone: the same sum, at the price of more
+// work.
+template <typename HalfEdge>
+class TwinCache {
+ public:
+  TwinCache() : slots_(std::size_t{1} << kBits) {}
+
+  // The half-edge between vertices i and j, in either sense. Where its twin waits and
+  // join(twin, edge) takes the edge in and is true, work(twin) is called; else it waits itself, and
+  // one that waited in its place is worked.
+  template <typename Join, typename Work>
+  void add(std::uint32_t i, std::uint32_t j, const HalfEdge& edge, const Join& join,
+           const Work& work) {
+    const std::uint64_t low = std::min(i, j), high = std::max(i, j);
+    const std::uint64_t name = (low << 32 | high) + 1;
+    Slot& slot = slots_[(name * 0x9E3779B97F4A7C15U) >> (64 - kBits)];  // 2^64 / the golden ratio
+    if (slot.name == name && join(slot.edge, edge)) {
+      slot.name = 0;
+      work(slot.edge);
+      return;
+    }
+    if (slot.name != 0) work(slot.edge);
+    slot = {name, edge};
+  }
+
+  // Works all that wait.
+  template <typename Work>
+  void flush(const Work& work) {
+    for (Slot& slot : slots_) {
+      if (slot.name != 0) work(slot.edge);
+      slot.name = 0;
+    }
+  }
+
+ private:
+  static constexpr int kBits = 12;  // chosen: some 300 kB
+  struct Slot {
+    std::uint64_t name = 0;  // of both ends, 0: none
+    HalfEdge edge;
+  };
+  std::vector<Slot> slots_;
+};
+
+}  // namespace rholm
