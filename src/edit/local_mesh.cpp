@@ -1,11 +1,13 @@
 #include "edit/local_mesh.h"
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
-#include <tuple>
 
 namespace rholm {
 namespace {
+
+constexpr std::uint32_t kNone = 0xffffffff;
 
 bool inside(const Bounds& box, const Vec3& p) {
   return p.x >= box.min.x && p.y >= box.min.y && p.z >= box.min.z && p.x <= box.max.x &&
@@ -27,19 +29,28 @@ std::vector<std::uint32_t> used_vertices(std::size_t n_vertices,
   return used;
 }
 
+std::uint64_t hash(const Vec3& p) {
+  std::uint64_t sum = 0;
+  // 0 and -0 are the same place.
+  for (const double x : {p.x + 0.0, p.y + 0.0, p.z + 0.0}) {
+    sum = (sum ^ std::bit_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15;  // 2^64 / golden ratio
+    sum ^= sum >> 32;
+  }
+  return sum;
+}
+
 // For each of the used vertices the first one at the same position.
 std::vector<std::uint32_t> first_at(const Mesh& mesh, std::span<const std::uint32_t> used) {
-  std::vector<std::uint32_t> order(used.size()), first(used.size());
-  std::iota(order.begin(), order.end(), 0u);
-  const auto at = [&](std::uint32_t i) {
+  // At most half full, looked through from the hash on.
+  std::vector<std::uint32_t> table(std::bit_ceil(2 * used.size() + 1), kNone), first(used.size());
+  for (std::uint32_t i = 0; i < used.size(); ++i) {
     const Vec3& p = mesh.vertices[used[i]];
-    return std::tuple(p.x, p.y, p.z);
-  };
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return std::tuple(at(a), a) < std::tuple(at(b), b);
-  });
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    first[order[i]] = i > 0 && at(order[i]) == at(order[i - 1]) ? first[order[i - 1]] : order[i];
+    std::size_t at = hash(p) & (table.size() - 1);
+    while (table[at] != kNone && !(mesh.vertices[used[table[at]]] == p)) {
+      at = (at + 1) & (table.size() - 1);
+    }
+    if (table[at] == kNone) table[at] = i;
+    first[i] = table[at];
   }
   return first;
 }

@@ -7,20 +7,22 @@
 
 #include "base/parallel.h"
 #include "edit/patch_fit.h"
+#include "edit/patch_kernels.h"
 
 namespace rholm {
 namespace {
 
 // Caps whose contributions are held at once.
 constexpr std::size_t kBatch = 64;
-// Points of a cap that are evaluated at once: their rows stay in the second-level cache.
-constexpr std::size_t kBlock = 256;
-// What a cap says: for each point that it speaks for, its voice and where it wants the point to be
-// for each degree of the patch, relative to where it is.
+// What a cap says: for each point that it speaks for, its voice and how far along the ray through
+// it the fit of each degree lies.
 struct Speech {
   std::vector<std::uint32_t> points;
   std::vector<double> voices;
-  std::vector<Vec3> moves;  // [point][degree]
+  std::vector<double> heights;  // over the centre
+  std::vector<Vec3> rays;
+  std::vector<double> lengths;  // [degree][point]
+  std::size_t stride = 0;       // from one degree to the next
   double forgotten = 0;
 };
 
@@ -28,6 +30,7 @@ void speak(const Site& site, const PatchCap& cap, bool robust, PatchScratch& scr
            Speech& speech) {
   speech.points.clear();
   speech.voices.clear();
+  speech.rays.clear();
   const PatchFit fit = fit_patch_cap(site.local, cap, robust, site.ignored, scratch);
   if (!fit.solved) return;
   speech.forgotten = fit.forgotten;
@@ -36,37 +39,45 @@ void speak(const Site& site, const PatchCap& cap, bool robust, PatchScratch& scr
     speech.points.push_back(cap.points[i]);
     speech.voices.push_back(cap.voices[i]);
   }
-  speech.moves.resize(speech.points.size() * kPatchDegrees);
-  std::array<std::size_t, kPatchDegrees> own;  // degrees of this cap with the same waves
-  for (std::size_t d = 0; d < kPatchDegrees; ++d) {
-    own[d] = static_cast<std::size_t>(
-        std::min<long>(cap.degree, std::lround(static_cast<double>(d) * cap.size)));
+  speech.stride = padded(speech.points.size());
+  speech.lengths.resize((static_cast<std::size_t>(cap.degree) + 1) * speech.stride);
+  evaluate_patch_cap(site.local, cap, fit, speech.points, scratch, speech.lengths.data(),
+                     speech.stride);
+  const std::size_t n = speech.points.size();
+  speech.heights.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec3 offset = site.local.points[speech.points[i]] - cap.frame.center;
+    speech.heights[i] = norm(offset);
+    speech.rays.push_back(speech.heights[i] > 0 ? offset / speech.heights[i] : Vec3{});
   }
-  std::vector<double> values((static_cast<std::size_t>(cap.degree) + 1) * kBlock);
-  for (std::size_t first = 0; first < speech.points.size(); first += kBlock) {
-    const std::size_t count = std::min(kBlock, speech.points.size() - first);
-    const std::span block(&speech.points[first], count);
-    evaluate_patch_cap(site.local, cap, fit, block, scratch, values.data(), kBlock);
-    for (std::size_t i = 0; i < count; ++i) {
-      const Vec3& at = site.local.points[block[i]];
-      const Vec3 u = normalized(at - cap.frame.center);
-      for (std::size_t d = 0; d < kPatchDegrees; ++d) {
-        const double r = cap.frame.radius * (1 + values[own[d] * kBlock + i]);
-        speech.moves[(first + i) * kPatchDegrees + d] = cap.frame.center + r * u - at;
-      }
+  for (std::size_t d = 0; d <= static_cast<std::size_t>(cap.degree); ++d) {
+    double* const lengths = &speech.lengths[d * speech.stride];
+    for (std::size_t i = 0; i < n; ++i) {
+      lengths[i] = cap.frame.radius * (1 + lengths[i]) - speech.heights[i];
     }
   }
 }
 
+// The degrees of a cap whose waves are those of the patch's degrees.
+std::array<std::size_t, kPatchDegrees> own_degrees(const PatchCap& cap) {
+  std::array<std::size_t, kPatchDegrees> own;
+  for (std::size_t d = 0; d < kPatchDegrees; ++d) {
+    own[d] = static_cast<std::size_t>(
+        std::min<long>(cap.degree, std::lround(static_cast<double>(d) * cap.size)));
+  }
+  return own;
+}
+
 // Sums in the order of the caps, whatever the threads did.
-void add(const Speech& speech, Blend& blend) {
+void add(const Speech& speech, const PatchCap& cap, Blend& blend) {
+  const std::array<std::size_t, kPatchDegrees> own = own_degrees(cap);
   for (std::size_t i = 0; i < speech.points.size(); ++i) {
     const std::size_t row = blend.row[speech.points[i]];
     blend.voices[row] += speech.voices[i];
     blend.forgotten[row] += speech.voices[i] * speech.forgotten;
+    const Vec3 said = speech.voices[i] * speech.rays[i];
     for (std::size_t d = 0; d < kPatchDegrees; ++d) {
-      blend.moves[row * kPatchDegrees + d] +=
-          speech.voices[i] * speech.moves[i * kPatchDegrees + d];
+      blend.moves[row * kPatchDegrees + d] += speech.lengths[own[d] * speech.stride + i] * said;
     }
   }
 }
@@ -76,9 +87,8 @@ void divide(Blend& blend) {
     const double voice = blend.voices[row];
     if (!(voice > 0)) continue;
     blend.forgotten[row] /= voice;
-    for (std::size_t d = 0; d < kPatchDegrees; ++d) {
-      blend.moves[row * kPatchDegrees + d] = blend.moves[row * kPatchDegrees + d] / voice;
-    }
+    for (std::size_t d = 0; d < kPatchDegrees; ++d)
+      blend.moves[row * kPatchDegrees + d] *= 1 / voice;
   }
 }
 
@@ -108,7 +118,7 @@ Blend blend_caps(const Site& site, const std::vector<PatchCap>& caps, bool robus
         speak(site, caps[first + i], robust, scratch, speeches[i]);
       }
     });
-    for (std::size_t i = 0; i < count; ++i) add(speeches[i], blend);
+    for (std::size_t i = 0; i < count; ++i) add(speeches[i], caps[first + i], blend);
   }
   divide(blend);
   return blend;

@@ -34,20 +34,35 @@ constexpr double kFewestPoints = 1.5;  // of a coefficient
 
 class Gatherer {
  public:
-  explicit Gatherer(const LocalMesh& local) : local_(local), seen_(local.points.size(), 0) {}
+  explicit Gatherer(const LocalMesh& local)
+      : local_(local), begin_(1, 0), seen_(local.points.size(), 0) {
+    next_to_.reserve(local.around.size());
+    for (std::uint32_t i = 0; i < local.points.size(); ++i) {
+      seen_[i] = ++mark_;
+      for (const std::uint32_t t : local.triangles_at(i)) {
+        for (const std::uint32_t v : local.triangles[t]) {
+          if (seen_[v] == mark_) continue;
+          seen_[v] = mark_;
+          next_to_.push_back(v);
+        }
+      }
+      begin_.push_back(static_cast<std::uint32_t>(next_to_.size()));
+    }
+  }
 
   // Points connected to the seed within the radius, near ones first.
   const std::vector<std::uint32_t>& gather(std::uint32_t seed, double radius) {
     ++mark_;
     found_.assign(1, seed);
     seen_[seed] = mark_;
+    const Vec3 at = local_.points[seed];
     for (std::size_t next = 0; next < found_.size(); ++next) {
-      for (const std::uint32_t t : local_.triangles_at(found_[next])) {
-        for (const std::uint32_t v : local_.triangles[t]) {
-          if (seen_[v] == mark_) continue;
-          seen_[v] = mark_;
-          if (norm(local_.points[v] - local_.points[seed]) < radius) found_.push_back(v);
-        }
+      for (std::uint32_t k = begin_[found_[next]]; k < begin_[found_[next] + 1]; ++k) {
+        const std::uint32_t v = next_to_[k];
+        if (seen_[v] == mark_) continue;
+        seen_[v] = mark_;
+        const Vec3 offset = local_.points[v] - at;
+        if (dot(offset, offset) < radius * radius) found_.push_back(v);
       }
     }
     return found_;
@@ -55,6 +70,7 @@ class Gatherer {
 
  private:
   const LocalMesh& local_;
+  std::vector<std::uint32_t> next_to_, begin_;  // neighbours of point i: begin_[i] ... [i + 1]
   std::vector<std::uint32_t> seen_, found_;
   std::uint32_t mark_ = 0;
 };
@@ -64,8 +80,9 @@ Vec3 axis_of(const LocalMesh& local, std::uint32_t seed, double radius,
              std::span<const std::uint32_t> found) {
   Vec3 sum;
   for (const std::uint32_t v : found) {
-    const double d = norm(local.points[v] - local.points[seed]) / radius;
-    sum += local.areas[v] * (1 - d * d) * local.normals[v];
+    const Vec3 offset = local.points[v] - local.points[seed];
+    const double d2 = dot(offset, offset) / (radius * radius);
+    sum += local.areas[v] * (1 - d2) * local.normals[v];
   }
   // A sphere seen as a whole has no mean: its seed's normal is as good as any.
   return norm(sum) > 0 ? normalized(sum) : local.normals[seed];
@@ -79,6 +96,8 @@ double make_cap(const LocalMesh& local, std::uint32_t seed, double radius,
                           axis, radius);
   cap.points.clear();
   cap.voices.clear();
+  cap.points.reserve(found.size());
+  cap.voices.reserve(found.size());
   double area = 0, good = 0;
   for (const std::uint32_t v : found) {
     area += local.areas[v];
@@ -149,7 +168,8 @@ std::vector<PatchCap> cover_patch(const LocalMesh& local, std::span<const double
       --cap.degree;
     }
     for (const std::uint32_t v : cap.points) {
-      if (norm(local.points[v] - local.points[seed]) < kCovered * radius) covered[v] = 1;
+      const Vec3 offset = local.points[v] - local.points[seed];
+      if (dot(offset, offset) < kCovered * kCovered * radius * radius) covered[v] = 1;
     }
     caps.push_back(std::move(cap));
   }

@@ -22,6 +22,8 @@ namespace {
 // that where caps overlap. Every cap draws its own.
 constexpr double kPointsForWeights = 6;
 constexpr double kPointsPerCoefficient = 400;
+// Up to this many times the first, all are taken at once: one set of rows serves both.
+constexpr double kFew = 1.5;
 // Of (l (l + 1))^2 against the weights: only where points leave a fit undetermined it matters.
 constexpr double kPenalty = 1e-8;
 // With fewer points around it than this, a region is not bridged but guessed. Half a wavelength
@@ -52,114 +54,138 @@ void choose_points(const PatchCap& cap, double wanted, std::span<const std::uint
   }
 }
 
+// Few enough points are one block, whose rows are made once.
+std::size_t block_length(std::size_t n) { return n <= 2 * kPatchBlock ? n : kPatchBlock; }
+
 void fill_offsets(const LocalMesh& local, const CapFrame& frame,
                   std::span<const std::uint32_t> points, PatchScratch& scratch) {
   const std::size_t n = padded(points.size());
   const Vec3 seed = frame.seed();
-  scratch.offsets.assign(3 * n, 0);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vec3 offset = local.points[points[i]] - seed;
-    scratch.offsets[i] = offset.x;
-    scratch.offsets[n + i] = offset.y;
-    scratch.offsets[2 * n + i] = offset.z;
-  }
-}
-
-// Weights before any robustness: area on the opened sphere, less at the rim, 0 for the padding.
-void base_weights(const LocalMesh& local, const PatchCap& cap, PatchScratch& scratch) {
-  const std::size_t n = padded(scratch.taken.size());
-  const double support2 = cap.frame.support * cap.frame.support;
-  scratch.base.assign(n, 0);
-  double sum = 0;
-  for (std::size_t i = 0; i < scratch.taken.size(); ++i) {
-    const Vec3 offset = {scratch.offsets[i], scratch.offsets[n + i], scratch.offsets[2 * n + i]};
-    const double rim = 1.15 - std::min(1.0, dot(offset, offset) / support2);  // method 7.8
-    scratch.base[i] = local.areas[scratch.taken[i]] * scratch.area[i] * rim;
-    sum += scratch.base[i];
-  }
-  if (!(sum > 0)) return;
-  for (double& w : scratch.base) w /= sum;
-}
-
-// Factors the normal equations of n unknowns, b and then A in the matrix of n + 1: U^T U = A, row
-// by row so that the compiler can work in vectors, and U^-T b beside it. False if a pivot is lost.
-bool factorize(std::size_t n, PatchScratch& scratch) {
-  const std::vector<double>& matrix = scratch.matrix;
-  std::vector<double>& upper = scratch.factor;  // [n][n + 1], the last column is U^-T b
-  upper.resize(n * (n + 1));
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = i; j < n; ++j) upper[i * (n + 1) + j] = matrix[(j + 1) * (n + 1) + i + 1];
-    upper[i * (n + 1) + n] = matrix[(i + 1) * (n + 1)];
-  }
-  for (std::size_t k = 0; k < n; ++k) {
-    double* const row = &upper[k * (n + 1)];
-    if (!(row[k] > kLeastPivot * matrix[(k + 1) * (n + 2)])) return false;
-    const double inverse = 1 / std::sqrt(row[k]);
-    for (std::size_t j = k; j <= n; ++j) row[j] *= inverse;
-    for (std::size_t i = k + 1; i < n; ++i) {
-      double* const below = &upper[i * (n + 1)];
-      const double times = row[i];
-      for (std::size_t j = i; j <= n; ++j) below[j] -= times * row[j];
+  scratch.offsets.resize(3 * n);
+  for (std::size_t first = 0; first < n; first += block_length(n)) {
+    const std::size_t m = std::min(block_length(n), n - first);
+    double* const x = &scratch.offsets[3 * first];
+    for (std::size_t i = 0; i < m; ++i) {
+      const std::size_t at = first + i;
+      const Vec3 offset = at < points.size() ? local.points[points[at]] - seed : Vec3{};
+      x[i] = offset.x, x[m + i] = offset.y, x[2 * m + i] = offset.z;
     }
   }
-  return true;
 }
 
-// The solution of the leading `count` equations.
-void back_substitute(const std::vector<double>& upper, std::size_t n, std::size_t count,
-                     double* x) {
-  for (std::size_t i = count; i-- > 0;) {
-    const double* const row = &upper[i * (n + 1)];
+// Weights before any robustness of the block's m points: area on the opened sphere, less at the
+// rim, 0 for the padding.
+void base_weights(const LocalMesh& local, const PatchCap& cap, std::size_t first, std::size_t m,
+                  PatchScratch& scratch) {
+  const double support2 = cap.frame.support * cap.frame.support;
+  const double* const x = &scratch.offsets[3 * first];
+  for (std::size_t i = 0; i < m; ++i) {
+    double& weight = scratch.base[first + i];
+    weight = 0;
+    if (first + i >= scratch.taken.size()) continue;
+    const Vec3 offset = {x[i], x[m + i], x[2 * m + i]};
+    const double rim = 1.15 - std::min(1.0, dot(offset, offset) / support2);  // method 7.8
+    weight = local.areas[scratch.taken[first + i]] * scratch.area[first + i] * rim;
+  }
+}
+
+// Calls visit(first, m) for the blocks of the points taken, with their rows and base weights made.
+// Those of several blocks are made each time: that is quicker than to fetch them from memory.
+template <class Visit>
+void for_each_block(const LocalMesh& local, const PatchCap& cap, PatchScratch& scratch,
+                    const Visit& visit) {
+  const std::size_t n = padded(scratch.taken.size());
+  for (std::size_t first = 0; first < n; first += block_length(n)) {
+    const std::size_t m = std::min(block_length(n), n - first);
+    if (!scratch.rows_made) {
+      patch_rows(cap.frame, cap.degree, &scratch.offsets[3 * first], m, scratch.rows.data(),
+                 &scratch.area[first]);
+      base_weights(local, cap, first, m, scratch);
+    }
+    scratch.rows_made = m == n;
+    visit(first, m);
+  }
+}
+
+// The solution of all n equations.
+void back_substitute(std::size_t n, PatchScratch& scratch) {
+  std::vector<double>& x = scratch.solution;
+  x.resize(n);
+  for (std::size_t i = n; i-- > 0;) {
+    const double* const row = &scratch.factor[i * padded(n + 1)];
     double value = row[n];
-    for (std::size_t j = i + 1; j < count; ++j) value -= row[j] * x[j];
+    for (std::size_t j = i + 1; j < n; ++j) value -= row[j] * x[j];
     x[i] = value / row[i];
   }
 }
 
-bool solve(int degree, PatchScratch& scratch) {
+// The solutions of the leading equations of degree 0, 1, ... `degree`, one after the other.
+std::vector<double> solve_family(int degree, PatchScratch& scratch) {
+  const std::size_t n = patch_basis(degree), n_sets = static_cast<std::size_t>(degree) + 1;
+  scratch.family.resize(n * padded(n_sets));
+  patch_family(scratch.factor.data(), degree, scratch.family.data());
+  std::vector<double> coefficients(n * n_sets);
+  for (std::size_t d = 0; d < n_sets; ++d) {
+    for (std::size_t i = 0; i < n; ++i) {
+      coefficients[d * n + i] = scratch.family[i * padded(n_sets) + d];
+    }
+  }
+  return coefficients;
+}
+
+// The normal equations of the points taken, factored.
+bool make_equations(const LocalMesh& local, const PatchCap& cap, int degree,
+                    PatchScratch& scratch) {
   const std::size_t n = patch_basis(degree);
   if (scratch.taken.size() < n) return false;
-  const std::size_t n_points = padded(scratch.taken.size());
-  scratch.matrix.resize((n + 1) * (n + 1));
-  patch_gram(scratch.rows.data(), n + 1, scratch.weights.data(), n_points, scratch.matrix.data());
+  scratch.matrix.assign((n + 1) * (n + 1), 0);
+  const std::vector<double>& weights = scratch.weights.empty() ? scratch.base : scratch.weights;
+  for_each_block(local, cap, scratch, [&](std::size_t first, std::size_t m) {
+    patch_gram(scratch.rows.data(), n + 1, &weights[first], m, scratch.matrix.data());
+  });
   double sum = 0;
-  for (const double w : scratch.weights) sum += w;
+  for (const double w : weights) sum += w;
   for (int l = 1; l <= degree; ++l) {
     const double square = static_cast<double>(l) * (l + 1) * l * (l + 1);
     for (std::size_t i = patch_basis(l - 1); i < patch_basis(l); ++i) {
       scratch.matrix[(i + 1) * (n + 2)] += kPenalty * sum * square;
     }
   }
-  if (!factorize(n, scratch)) return false;
-  scratch.solution.resize(n);
-  back_substitute(scratch.factor, n, n, scratch.solution.data());
+  scratch.factor.resize(n * padded(n + 1));
+  return patch_factorize(scratch.matrix.data(), n, kLeastPivot, scratch.factor.data());
+}
+
+bool solve(const LocalMesh& local, const PatchCap& cap, int degree, PatchScratch& scratch) {
+  if (!make_equations(local, cap, degree, scratch)) return false;
+  back_substitute(patch_basis(degree), scratch);
   return true;
 }
 
-// Points, their rows and their weights.
+// Points, all with their base weights.
 void take_points(const LocalMesh& local, const PatchCap& cap, double per_coefficient,
                  std::span<const std::uint8_t> ignored, PatchScratch& scratch) {
   const std::size_t n = patch_basis(cap.degree);
   choose_points(cap, per_coefficient * static_cast<double>(n), ignored, scratch);
   const std::size_t n_points = padded(scratch.taken.size());
   fill_offsets(local, cap.frame, scratch.taken, scratch);
-  scratch.rows.resize((n + 5) * n_points);
+  scratch.rows.resize((n + 5) * block_length(n_points));
   scratch.area.resize(n_points);
-  patch_rows(cap.frame, cap.degree, scratch.offsets.data(), n_points, scratch.rows.data(),
-             scratch.area.data());
-  base_weights(local, cap, scratch);
-  scratch.weights = scratch.base;
+  scratch.base.resize(n_points);
+  scratch.weights.clear();
+  scratch.rows_made = false;
 }
 
+double halo_of(const PatchCap& cap) { return kHalo * cap.frame.support / cap.degree; }
+
 // |e| of the solution at the points.
-void find_residuals(std::size_t n, PatchScratch& scratch) {
-  const std::size_t n_points = padded(scratch.taken.size());
-  scratch.residual.resize(n_points);
-  patch_sum(&scratch.rows[n_points], scratch.solution.data(), n, n_points, scratch.residual.data());
-  const double* const wanted = scratch.rows.data();
-  for (std::size_t i = 0; i < n_points; ++i) {
-    scratch.residual[i] = std::abs(scratch.residual[i] - wanted[i]);
-  }
+void find_residuals(const LocalMesh& local, const PatchCap& cap, PatchScratch& scratch) {
+  scratch.residual.resize(padded(scratch.taken.size()));
+  for_each_block(local, cap, scratch, [&](std::size_t first, std::size_t m) {
+    double* const residual = &scratch.residual[first];
+    const double* const wanted = scratch.rows.data();
+    patch_sum(wanted + m, scratch.solution.data(), scratch.solution.size(), m, residual);
+    for (std::size_t i = 0; i < m; ++i) residual[i] = std::abs(residual[i] - wanted[i]);
+  });
 }
 
 double median_residual(PatchScratch& scratch) {
@@ -179,6 +205,7 @@ double detail_of(std::size_t n, const PatchScratch& scratch) {
 }
 
 void weigh_by_huber(double turn, PatchScratch& scratch) {
+  scratch.weights = scratch.base;
   for (std::size_t i = 0; i < scratch.taken.size(); ++i) {
     const double e = scratch.residual[i];
     scratch.weights[i] = scratch.base[i] * (e > turn ? turn / e : 1);
@@ -186,29 +213,31 @@ void weigh_by_huber(double turn, PatchScratch& scratch) {
 }
 
 void weigh_by_tukey(double forgotten, double halo, PatchScratch& scratch) {
+  scratch.weights = scratch.base;
   for (std::size_t i = 0; i < scratch.taken.size(); ++i) {
     const double part = scratch.residual[i] / forgotten;
     const double rest = std::max(0.0, 1 - part * part);
-    scratch.weights[i] = scratch.base[i] * rest * rest;
+    scratch.weights[i] *= rest * rest;
   }
   // The flanks of what stands out would hold the fit where its middle was.
-  const std::size_t n = padded(scratch.taken.size());
-  const std::size_t n_taken = scratch.taken.size();
-  const double* const x = scratch.offsets.data();
-  double* const weights = scratch.weights.data();
-  for (std::size_t i = 0; i < n_taken; ++i) {
+  const std::size_t n = padded(scratch.taken.size()), length = block_length(n);
+  for (std::size_t i = 0; i < scratch.taken.size(); ++i) {
     if (!(scratch.residual[i] > forgotten)) continue;
-    for (std::size_t j = 0; j < n_taken; ++j) {
-      const double dx = x[i] - x[j], dy = x[n + i] - x[n + j], dz = x[2 * n + i] - x[2 * n + j];
-      weights[j] = dx * dx + dy * dy + dz * dz < halo * halo ? 0 : weights[j];
+    const std::size_t own = i / length * length, own_m = std::min(length, n - own);
+    const double* const x = &scratch.offsets[3 * own + i - own];
+    const double at[3] = {x[0], x[own_m], x[2 * own_m]};
+    for (std::size_t first = 0; first < n; first += length) {
+      const std::size_t m = std::min(length, n - first);
+      patch_silence(&scratch.offsets[3 * first], m, at, halo, &scratch.weights[first]);
     }
   }
 }
 
 // Weights for the next solution, from what the last one leaves; returns the residual from which
 // on points are forgotten, 0 if every point is fitted exactly.
-double weigh_again(const PatchCap& cap, bool convex, PatchScratch& scratch) {
-  find_residuals(scratch.solution.size(), scratch);
+double weigh_again(const LocalMesh& local, const PatchCap& cap, bool convex,
+                   PatchScratch& scratch) {
+  find_residuals(local, cap, scratch);
   const double median = median_residual(scratch);
   if (!(median > 0)) return 0;
   const double forgotten =
@@ -216,25 +245,23 @@ double weigh_again(const PatchCap& cap, bool convex, PatchScratch& scratch) {
   if (convex) {
     weigh_by_huber(kTurn * median, scratch);
   } else {
-    weigh_by_tukey(forgotten, kHalo * cap.frame.support / cap.degree, scratch);
+    weigh_by_tukey(forgotten, halo_of(cap), scratch);
   }
   return forgotten;
 }
 
-// The solution of the robust fit of some points; false if there is none.
-bool solve_robustly(const LocalMesh& local, const PatchCap& cap,
-                    std::span<const std::uint8_t> ignored, PatchScratch& scratch,
+// The solution of the robust fit of the points taken; false if there is none.
+bool solve_robustly(const LocalMesh& local, const PatchCap& cap, PatchScratch& scratch,
                     double& forgotten) {
-  take_points(local, cap, kPointsForWeights, ignored, scratch);
   const int first = std::min(kFirstDegree, cap.degree);
-  if (!solve(first, scratch)) return false;
+  if (!solve(local, cap, first, scratch)) return false;
   for (int i = 0; i < kConvex; ++i) {
-    if (weigh_again(cap, true, scratch) == 0) break;
-    if (!solve(first, scratch)) return false;
+    if (weigh_again(local, cap, true, scratch) == 0) break;
+    if (!solve(local, cap, first, scratch)) return false;
   }
   for (int degree = first;; degree = std::min(cap.degree, degree + kDegreeStep)) {
-    forgotten = weigh_again(cap, false, scratch);
-    if (!solve(degree, scratch)) return false;
+    forgotten = weigh_again(local, cap, false, scratch);
+    if (!solve(local, cap, degree, scratch)) return false;
     if (degree == cap.degree) break;
   }
   return true;
@@ -250,20 +277,20 @@ PatchFit fit_patch_cap(const LocalMesh& local, const PatchCap& cap, bool robust,
   });
   const double share = static_cast<double>(count) / static_cast<double>(cap.points.size());
   if (share > kMostIgnored) return fit;
-  const std::size_t n = patch_basis(cap.degree);
+  const double some = kPointsForWeights * static_cast<double>(patch_basis(cap.degree));
+  const bool few = static_cast<double>(cap.points.size()) <= kFew * some;
   double forgotten = 0;
-  if (robust && !solve_robustly(local, cap, ignored, scratch, forgotten)) return fit;
-  take_points(local, cap, kPointsPerCoefficient, ignored, scratch);
+  if (robust) {
+    take_points(local, cap, few ? kPointsPerCoefficient : kPointsForWeights, ignored, scratch);
+    if (!solve_robustly(local, cap, scratch, forgotten)) return fit;
+  }
+  if (!robust || !few) take_points(local, cap, kPointsPerCoefficient, ignored, scratch);
   if (forgotten > 0) {
-    find_residuals(n, scratch);
-    weigh_by_tukey(forgotten, kHalo * cap.frame.support / cap.degree, scratch);
+    find_residuals(local, cap, scratch);
+    weigh_by_tukey(forgotten, halo_of(cap), scratch);
   }
-  if (!solve(cap.degree, scratch)) return fit;
-  fit.coefficients.assign(n * static_cast<std::size_t>(cap.degree + 1), 0);
-  for (int d = 0; d <= cap.degree; ++d) {
-    back_substitute(scratch.factor, n, patch_basis(d),
-                    &fit.coefficients[n * static_cast<std::size_t>(d)]);
-  }
+  if (!make_equations(local, cap, cap.degree, scratch)) return fit;
+  fit.coefficients = solve_family(cap.degree, scratch);
   fit.forgotten = forgotten * cap.frame.radius;
   fit.solved = true;
   return fit;
@@ -272,16 +299,15 @@ PatchFit fit_patch_cap(const LocalMesh& local, const PatchCap& cap, bool robust,
 void evaluate_patch_cap(const LocalMesh& local, const PatchCap& cap, const PatchFit& fit,
                         std::span<const std::uint32_t> points, PatchScratch& scratch,
                         double* values, std::size_t stride) {
-  const std::size_t n = patch_basis(cap.degree);
-  const std::size_t n_points = padded(points.size());
+  const std::size_t n = patch_basis(cap.degree), n_points = padded(points.size());
   fill_offsets(local, cap.frame, points, scratch);
-  scratch.rows.resize((n + 5) * n_points);
+  scratch.rows.resize((n + 5) * block_length(n_points));
   scratch.area.resize(n_points);
-  patch_rows(cap.frame, cap.degree, scratch.offsets.data(), n_points, scratch.rows.data(),
-             scratch.area.data());
-  for (int d = 0; d <= cap.degree; ++d) {
-    patch_sum(&scratch.rows[n_points], &fit.coefficients[n * static_cast<std::size_t>(d)],
-              patch_basis(d), n_points, values + stride * static_cast<std::size_t>(d));
+  for (std::size_t first = 0; first < n_points; first += block_length(n_points)) {
+    const std::size_t m = std::min(block_length(n_points), n_points - first);
+    patch_rows(cap.frame, cap.degree, &scratch.offsets[3 * first], m, scratch.rows.data(),
+               &scratch.area[first]);
+    patch_sums(&scratch.rows[m], fit.coefficients.data(), cap.degree, m, values + first, stride);
   }
 }
 

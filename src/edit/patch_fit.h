@@ -16,10 +16,13 @@ struct PatchFit {
   bool solved = false;
 };
 
-// Scratch memory, one per thread.
+// Scratch memory, one per thread. Points are worked on in blocks: `offsets` and `rows` as
+// patch_kernels.h has them, one block after the other, rows of one block only.
 struct PatchScratch {
   std::vector<double> offsets, rows, area, weights, base, matrix, factor, solution, residual, order;
+  std::vector<double> family;  // solutions of all degrees
   std::vector<std::uint32_t> taken;
+  bool rows_made = false;  // of the only block
 };
 
 // Points marked as ignored have no say, if there are any marks.

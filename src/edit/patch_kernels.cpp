@@ -1,5 +1,7 @@
 #include "edit/patch_kernels.h"
 
+#include <cmath>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "edit/patch_kernels.cpp"
 #include <hwy/foreach_target.h>
@@ -80,7 +82,7 @@ void Gram(const double* rows, std::size_t count, const double* weights, std::siz
       }
       for (std::size_t r = 0; r < 4 && i + r < count; ++r) {
         for (std::size_t c = 0; c < 4 && j + c < count; ++c) {
-          matrix[(i + r) * count + j + c] = hn::GetLane(hn::SumOfLanes(d, sum[r][c]));
+          matrix[(i + r) * count + j + c] += hn::GetLane(hn::SumOfLanes(d, sum[r][c]));
         }
       }
     }
@@ -99,6 +101,99 @@ void Sum(const double* rows, const double* coefficients, std::size_t count, std:
   }
 }
 
+// A row is loaded once for four sets.
+void Sums(const double* rows, const double* coefficients, int degree, std::size_t n, double* out,
+          std::size_t stride) {
+  const D d;
+  const std::size_t count = patch_basis(degree);
+  for (int top = degree; top >= 0; top -= 4) {
+    const int low = top < 3 ? 0 : top - 3;
+    // Those below the lowest are the lowest once more.
+    const double* set[4];
+    for (int s = 0; s < 4; ++s) {
+      set[s] = coefficients + count * static_cast<std::size_t>(top - s < low ? low : top - s);
+    }
+    for (std::size_t i = 0; i < n; i += hn::Lanes(d)) {
+      V sum0 = hn::Zero(d), sum1 = sum0, sum2 = sum0, sum3 = sum0;
+      for (std::size_t k = 0; k < patch_basis(top); ++k) {
+        const V row = hn::LoadU(d, rows + k * n + i);
+        sum0 = hn::MulAdd(hn::Set(d, set[0][k]), row, sum0);
+        sum1 = hn::MulAdd(hn::Set(d, set[1][k]), row, sum1);
+        sum2 = hn::MulAdd(hn::Set(d, set[2][k]), row, sum2);
+        sum3 = hn::MulAdd(hn::Set(d, set[3][k]), row, sum3);
+      }
+      double* const to = out + stride * static_cast<std::size_t>(top) + i;
+      hn::StoreU(sum0, d, to);
+      if (top - 1 >= low) hn::StoreU(sum1, d, to - stride);
+      if (top - 2 >= low) hn::StoreU(sum2, d, to - 2 * stride);
+      if (top - 3 >= low) hn::StoreU(sum3, d, to - 3 * stride);
+    }
+  }
+}
+
+bool Factorize(const double* matrix, std::size_t n, double least, double* upper) {
+  const D d;
+  const std::size_t length = padded(n + 1);
+  for (std::size_t i = 0; i < n; ++i) {
+    double* const row = upper + i * length;
+    for (std::size_t j = 0; j < length; ++j) row[j] = 0;
+    for (std::size_t j = i; j < n; ++j) row[j] = matrix[(j + 1) * (n + 1) + i + 1];
+    row[n] = matrix[(i + 1) * (n + 1)];
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    double* const row = upper + k * length;
+    if (!(row[k] > least * matrix[(k + 1) * (n + 2)])) return false;
+    const double inverse = 1 / std::sqrt(row[k]);
+    for (std::size_t j = k; j <= n; ++j) row[j] *= inverse;
+    for (std::size_t i = k + 1; i < n; ++i) {
+      double* const below = upper + i * length;
+      const V times = hn::Set(d, row[i]);
+      for (std::size_t j = i / hn::Lanes(d) * hn::Lanes(d); j < length; j += hn::Lanes(d)) {
+        hn::StoreU(hn::NegMulAdd(times, hn::LoadU(d, row + j), hn::LoadU(d, below + j)), d,
+                   below + j);
+      }
+    }
+  }
+  return true;
+}
+
+// Degrees side by side: one alone is a chain of operations that wait for one another.
+void Family(const double* upper, int degree, double* x) {
+  const D d;
+  const std::size_t n = patch_basis(degree), length = padded(n + 1);
+  const std::size_t sets = padded(static_cast<std::size_t>(degree) + 1);
+  int lowest = degree;  // that has an i
+  for (std::size_t i = n; i-- > 0;) {
+    while (lowest > 0 && i < patch_basis(lowest - 1)) --lowest;
+    const double* const row = upper + i * length;
+    for (std::size_t s = 0; s < sets; s += hn::Lanes(d)) {
+      V sum = hn::Set(d, row[n]);
+      for (std::size_t j = i + 1; j < n; ++j) {
+        sum = hn::NegMulAdd(hn::Set(d, row[j]), hn::LoadU(d, x + j * sets + s), sum);
+      }
+      const V here = hn::Iota(d, static_cast<double>(s));
+      const auto has = hn::Ge(here, hn::Set(d, static_cast<double>(lowest)));
+      sum = hn::IfThenElseZero(has, hn::Div(sum, hn::Set(d, row[i])));
+      hn::StoreU(sum, d, x + i * sets + s);
+    }
+  }
+}
+
+void Silence(const double* offsets, std::size_t n, const double* at, double radius,
+             double* weights) {
+  const D d;
+  const V x = hn::Set(d, at[0]), y = hn::Set(d, at[1]), z = hn::Set(d, at[2]);
+  const V square = hn::Set(d, radius * radius);
+  for (std::size_t i = 0; i < n; i += hn::Lanes(d)) {
+    const V dx = hn::Sub(hn::LoadU(d, offsets + i), x);
+    const V dy = hn::Sub(hn::LoadU(d, offsets + n + i), y);
+    const V dz = hn::Sub(hn::LoadU(d, offsets + 2 * n + i), z);
+    const V far = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
+    const V weight = hn::LoadU(d, weights + i);
+    hn::StoreU(hn::IfThenZeroElse(hn::Lt(far, square), weight), d, weights + i);
+  }
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace rholm
 HWY_AFTER_NAMESPACE();
@@ -109,6 +204,10 @@ namespace {
 HWY_EXPORT(Rows);
 HWY_EXPORT(Gram);
 HWY_EXPORT(Sum);
+HWY_EXPORT(Sums);
+HWY_EXPORT(Factorize);
+HWY_EXPORT(Family);
+HWY_EXPORT(Silence);
 }  // namespace
 
 void patch_rows(const CapFrame& frame, int degree, const double* offsets, std::size_t n,
@@ -124,6 +223,24 @@ void patch_gram(const double* rows, std::size_t count, const double* weights, st
 void patch_sum(const double* rows, const double* coefficients, std::size_t count, std::size_t n,
                double* out) {
   HWY_DYNAMIC_DISPATCH(Sum)(rows, coefficients, count, n, out);
+}
+
+void patch_sums(const double* rows, const double* coefficients, int degree, std::size_t n,
+                double* out, std::size_t stride) {
+  HWY_DYNAMIC_DISPATCH(Sums)(rows, coefficients, degree, n, out, stride);
+}
+
+bool patch_factorize(const double* matrix, std::size_t n, double least, double* upper) {
+  return HWY_DYNAMIC_DISPATCH(Factorize)(matrix, n, least, upper);
+}
+
+void patch_family(const double* upper, int degree, double* x) {
+  HWY_DYNAMIC_DISPATCH(Family)(upper, degree, x);
+}
+
+void patch_silence(const double* offsets, std::size_t n, const double* at, double radius,
+                   double* weights) {
+  HWY_DYNAMIC_DISPATCH(Silence)(offsets, n, at, radius, weights);
 }
 
 }  // namespace rholm

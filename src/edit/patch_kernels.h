@@ -10,6 +10,8 @@ namespace rholm {
 
 // Points are worked on in whole vectors: arrays of them are padded to a multiple of this.
 inline constexpr std::size_t kPatchLanes = 8;
+// And this many at a time: the rows of degree 8 at them, 104 KiB, stay in a second-level cache.
+inline constexpr std::size_t kPatchBlock = 256;
 inline constexpr std::size_t padded(std::size_t n) {
   return (n + kPatchLanes - 1) / kPatchLanes * kPatchLanes;
 }
@@ -49,13 +51,31 @@ void for_each_patch_harmonic(int degree, const Visit& visit) {
 void patch_rows(const CapFrame& frame, int degree, const double* offsets, std::size_t n,
                 double* rows, double* area);
 
-// The lower triangle of sum_i weight_i row_a(i) row_b(i) over `count` rows; matrix [count][count].
-// rows must be readable up to a multiple of four rows.
+// Adds the lower triangle of sum_i weight_i row_a(i) row_b(i) over `count` rows to
+// matrix [count][count]. rows must be readable up to a multiple of four rows.
 void patch_gram(const double* rows, std::size_t count, const double* weights, std::size_t n,
                 double* matrix);
 
 // out_i = sum_k coefficients_k row_k(i).
 void patch_sum(const double* rows, const double* coefficients, std::size_t count, std::size_t n,
                double* out);
+
+// The same of degree + 1 sets of coefficients, those of degree d at [d patch_basis(degree)] and 0
+// beyond patch_basis(d): out[d * stride + i].
+void patch_sums(const double* rows, const double* coefficients, int degree, std::size_t n,
+                double* out, std::size_t stride);
+
+// Factors the normal equations of n unknowns: matrix [n + 1][n + 1] as patch_gram() makes it, the
+// right-hand side in its first column. U^T U = A, upper [n][padded(n + 1)], with U^-T b in column
+// n; what is left of the diagonal has no meaning. False if a pivot loses all but `least` of itself.
+bool patch_factorize(const double* matrix, std::size_t n, double least, double* upper);
+
+// From that, solutions of the leading equations of degree 0, 1, ... `degree`, n = patch_basis(
+// degree): x[i padded(degree + 1) + d], 0 where degree d has no i.
+void patch_family(const double* upper, int degree, double* x);
+
+// Weights of the points nearer than `radius` to (x, y, z) become 0; offsets as above.
+void patch_silence(const double* offsets, std::size_t n, const double* at, double radius,
+                   double* weights);
 
 }  // namespace rholm

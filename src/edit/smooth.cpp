@@ -157,6 +157,7 @@ Patch analyze_patch(const Mesh& mesh, std::span<const Region> regions, const Pat
   patch.wavelength = options.wavelength;
   patch.degree = kPatchDegree;
   patch.caps = caps.size();
+  patch.moves.reserve(blend.moves.size());
   for (std::size_t i = 0; i < site.weights.size(); ++i) {
     if (!(site.weights[i] > 0)) continue;
     const std::size_t row = blend.row[i];

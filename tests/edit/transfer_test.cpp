@@ -260,6 +260,15 @@ TEST(LocalMesh, edges_do_not_depend_on_the_order_of_corners) {
   }
 }
 
+TEST(LocalMesh, vertices_at_the_same_place_are_one_point_whatever_the_sign_of_zero) {
+  Mesh mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, -0.0, 0}, {1, 1, 0}, {-0.0, 1, -0.0}};
+  mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+  const LocalMesh local = cut_out(mesh, bounds(mesh.vertices));
+  EXPECT_EQ(local.points, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}));
+  EXPECT_EQ(local.triangles, (std::vector<Triangle>{{0, 1, 2}, {1, 3, 2}}));
+}
+
 TEST(Transfer, what_cannot_be_done_is_refused) {
   const Mesh mesh = test::sheet(40, 0.05);
   const Regions disc = {BallRegion{{0, 0, 0}, 0.5}};

@@ -1,0 +1,117 @@
+#include "edit/patch_kernels.h"
+
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "base/random.h"
+
+namespace rholm {
+namespace {
+
+// Rows and weights of a well-posed least squares of n unknowns, the first row its right-hand side;
+// its normal equations by a plain sum.
+struct Equations {
+  std::size_t n, n_points = 96;
+  std::vector<double> rows, weights, matrix;
+  explicit Equations(std::size_t unknowns)
+      : n(unknowns), rows((n + 5) * n_points), weights(n_points), matrix((n + 1) * (n + 1)) {
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = random_uniform(1, i) - 0.5;
+    for (std::size_t i = 0; i < n_points; ++i) weights[i] = 0.5 + random_uniform(2, i);
+    for (std::size_t a = 0; a <= n; ++a) {
+      for (std::size_t b = 0; b <= a; ++b) {
+        for (std::size_t i = 0; i < n_points; ++i) {
+          matrix[a * (n + 1) + b] += weights[i] * rows[a * n_points + i] * rows[b * n_points + i];
+        }
+      }
+    }
+  }
+};
+
+TEST(PatchKernels, gram_of_blocks_is_the_sum_over_all_points) {
+  const Equations e(patch_basis(4));
+  std::vector<double> matrix(e.matrix.size(), 0);
+  for (std::size_t first = 0; first < e.n_points; first += 32) {
+    std::vector<double> block;
+    for (std::size_t row = 0; row < e.n + 5; ++row) {
+      const auto from = e.rows.begin() + static_cast<std::ptrdiff_t>(row * e.n_points + first);
+      block.insert(block.end(), from, from + 32);
+    }
+    patch_gram(block.data(), e.n + 1, &e.weights[first], 32, matrix.data());
+  }
+  for (std::size_t a = 0; a <= e.n; ++a) {
+    for (std::size_t b = 0; b <= a; ++b) {
+      EXPECT_NEAR(matrix[a * (e.n + 1) + b], e.matrix[a * (e.n + 1) + b], 1e-13);
+    }
+  }
+}
+
+TEST(PatchKernels, family_solves_the_leading_equations_of_each_degree) {
+  for (const int degree : {0, 1, 3, 8, 9}) {
+    const Equations e(patch_basis(degree));
+    const std::size_t n = e.n, sets = padded(static_cast<std::size_t>(degree) + 1);
+    std::vector<double> upper(n * padded(n + 1)), x(n * sets);
+    ASSERT_TRUE(patch_factorize(e.matrix.data(), n, 1e-12, upper.data()));
+    patch_family(upper.data(), degree, x.data());
+    for (int d = 0; d <= degree; ++d) {
+      for (std::size_t a = 0; a < n; ++a) {
+        const std::size_t at = static_cast<std::size_t>(d);
+        if (a >= patch_basis(d)) {
+          EXPECT_EQ(x[a * sets + at], 0);
+          continue;
+        }
+        double left = -e.matrix[(a + 1) * (n + 1)];
+        for (std::size_t b = 0; b < patch_basis(d); ++b) {
+          const std::size_t row = std::max(a, b) + 1, column = std::min(a, b) + 1;
+          left += e.matrix[row * (n + 1) + column] * x[b * sets + at];
+        }
+        EXPECT_NEAR(left, 0, 1e-12) << degree << " " << d << " " << a;
+      }
+    }
+  }
+}
+
+TEST(PatchKernels, lost_pivot_is_told) {
+  Equations e(patch_basis(2));
+  const std::size_t last = e.n * (e.n + 1);  // its last row becomes twice its first
+  for (std::size_t k = 1; k < e.n; ++k) {
+    e.matrix[last + k] = 2 * e.matrix[k * (e.n + 1) + 1];
+  }
+  e.matrix[last + e.n] = 4 * e.matrix[e.n + 2];
+  std::vector<double> upper(e.n * padded(e.n + 1));
+  EXPECT_FALSE(patch_factorize(e.matrix.data(), e.n, 1e-12, upper.data()));
+}
+
+TEST(PatchKernels, sums_of_all_degrees_are_those_of_one_after_the_other) {
+  for (int degree = 0; degree <= 9; ++degree) {
+    const std::size_t count = patch_basis(degree), n = 16;
+    const std::size_t sets = static_cast<std::size_t>(degree) + 1;
+    std::vector<double> rows(count * n), coefficients(count * sets, 0), one(n), all(sets * n);
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = random_uniform(3, i);
+    for (int d = 0; d <= degree; ++d) {
+      for (std::size_t k = 0; k < patch_basis(d); ++k) {
+        const std::size_t at = static_cast<std::size_t>(d) * count + k;
+        coefficients[at] = random_uniform(4, at);
+      }
+    }
+    patch_sums(rows.data(), coefficients.data(), degree, n, all.data(), n);
+    for (int d = 0; d <= degree; ++d) {
+      const auto at = static_cast<std::size_t>(d);
+      patch_sum(rows.data(), &coefficients[at * count], patch_basis(d), n, one.data());
+      for (std::size_t i = 0; i < n; ++i) EXPECT_EQ(all[at * n + i], one[i]) << degree << " " << d;
+    }
+  }
+}
+
+TEST(PatchKernels, what_is_nearer_than_the_radius_is_silent) {
+  const std::size_t n = 8;
+  std::vector<double> offsets(3 * n, 0), weights(n, 2);
+  for (std::size_t i = 0; i < n; ++i) offsets[i] = static_cast<double>(i);
+  const double at[3] = {2, 0, 0};
+  patch_silence(offsets.data(), n, at, 1.5, weights.data());
+  EXPECT_EQ(weights, (std::vector<double>{2, 0, 0, 0, 2, 2, 2, 2}));
+}
+
+}  // namespace
+}  // namespace rholm
