@@ -50,8 +50,8 @@ struct TransferUpdate {
   // Radians, counter-clockwise seen from outside; at 0 the texture lies as the shortest turn
   // between the patches' axes lays it. By default where it is most like the target's own detail.
   std::optional<double> angle = {};
-  // Where the texture is smaller than the target region it is laid again, side by side with
-  // neighbours fading into one another.
+  // Where the texture is smaller than the target region it is laid again, side by side, turned
+  // alike, where neighbours agree best; they meet along the lines where they differ least.
   bool repeat = false;
   bool remove_own = false;  // the target's own detail of the same wavelengths goes first
   TransferMode mode = TransferMode::kDisplacement;

@@ -8,8 +8,8 @@
 
 #include "base/refuse.h"
 #include "edit/cap_swap.h"
-#include "edit/fading.h"
 #include "edit/refine.h"
+#include "edit/repeated_map.h"
 #include "edit/textured_patch.h"
 #include "rholm/topology.h"
 
@@ -24,9 +24,6 @@ constexpr double kTransition = 0.25;
 // Edges of a refined target, in those of the source times the scale: lines on the texture's map are
 // half an edge apart, and heights between them cubic.
 constexpr double kRefined = 1;
-// Tiles of a repeated texture: the disc of the region, faded from here on, on a hexagonal lattice
-// where two neighbours just cover what lies between three.
-constexpr double kTileCore = 0.7, kTilePeriod = 1.45;
 
 void check_options(const TransferOptions& o) {
   if (o.from_degree < 2 || o.from_degree > kMaxTransferDegree) {
@@ -57,35 +54,17 @@ double median_edge(const TexturedPatch& textured) {
 // Heights of the source at places of the target's chart, whose lengths are `scale` of its own.
 struct Texture {
   const DetailMap& map;
+  const RepeatedMap& repeated;
   double scale = 1, angle = 0;
   bool repeat = false;
 
   double single(const Place2& at) const { return map(at) * map.weight(at); }
 
-  // Neighbouring tiles fade into one another so that the mean square of unlike heights stays.
-  double tiled(const Place2& at) const {
-    const double row_height = kTilePeriod * std::sqrt(0.75);
-    const auto row = static_cast<int>(std::lround(std::clamp(at.q / row_height, -1e6, 1e6)));
-    double sum = 0, squares = 0;
-    for (int j = row - 2; j <= row + 2; ++j) {
-      const double shift = j % 2 == 0 ? 0 : 0.5;
-      const double column = std::round(at.p / kTilePeriod - shift);
-      for (int i = -2; i <= 2; ++i) {
-        const Place2 local{at.p - (column + i + shift) * kTilePeriod, at.q - j * row_height};
-        const double w = fading((std::hypot(local.p, local.q) - kTileCore) / (1 - kTileCore));
-        if (!(w > 0)) continue;
-        sum += w * map(local);
-        squares += w * w;
-      }
-    }
-    return squares > 0 ? sum / std::sqrt(squares) : 0;
-  }
-
   double operator()(const Place2& at) const {
     // Back into the source: turned the other way, larger.
     const double c = std::cos(angle), s = std::sin(angle);
     const Place2 back{(c * at.p + s * at.q) / scale, (c * at.q - s * at.p) / scale};
-    return repeat ? tiled(back) : single(back);
+    return repeat ? repeated(back) : single(back);
   }
 };
 
@@ -147,6 +126,7 @@ std::vector<Vec3> displaced(const TexturedPatch& target, const Texture& texture,
 struct TransferState {
   TexturedPatch source, target;
   DetailMap texture;
+  RepeatedMap repeated;
   TransferOptions options;
 };
 
@@ -190,6 +170,7 @@ TransferAnalysis analyze_transfer(const Mesh& source, std::span<const Region> fr
   report.target_radius = state->target.chart.unit;
   report.scale = options.scale * report.target_radius / report.source_radius;
   state->texture = detail_of(state->source);
+  state->repeated = repeat(state->texture);
   report.source_rms = rms_in_disc(state->texture);
   const Alignment best = align_maps(state->texture, 1 / options.scale, detail_of(state->target));
   report.angle = best.angle;
@@ -208,7 +189,7 @@ std::vector<Vec3> update(const TransferAnalysis& analysis, const TransferUpdate&
     return swap_coefficients(state.source, state.target, state.options.from_degree, angle,
                              wanted.height);
   }
-  const Texture texture{state.texture, state.options.scale, angle, wanted.repeat};
+  const Texture texture{state.texture, state.repeated, state.options.scale, angle, wanted.repeat};
   return displaced(state.target, texture, wanted.height * analysis.report.scale, wanted.remove_own);
 }
 
