@@ -401,7 +401,10 @@ MeshPassResult mesh_pass(const MeshView& mesh, const MeshPassOptions& options,
       const double wish = std::max(options.precision, norm > 0 ? plan.rounding / norm : 1.0);
       result.report.reached = !(result.report.error > wish);
       if (result.report.reached || tries++ == kMostTries) return result;
-      limits.tighten *= 1.5 * result.report.error / wish;
+      // What the plan allowed may be far above what came of it, and has to come below that.
+      const double planned = std::hypot(plan.rules, plan.window, plan.quanta) / plan.block.scale;
+      const double slack = std::max(1.0, planned / (result.report.error * norm));
+      limits.tighten *= 1.5 * slack * result.report.error / wish;
       sample.edge_ratio = std::max(sample.edge_ratio, result.edge_ratio);
     }
     times = std::move(result.times);
