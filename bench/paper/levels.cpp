@@ -37,14 +37,14 @@ struct View {
   int width, height;
 };
 
-void draw(const Scene& scene, const View& view, const std::filesystem::path& path) {
+void draw(const Scene& scene, const View& view, const std::string& file, const Settings& settings) {
   RenderOptions options;
   options.width = view.width;
   options.height = view.height;
   options.view_direction = view.direction;
   options.up = view.up;
-  options.occlusion_rays = 16;  // smooth shades, and smaller files
-  write_png(path, render(scene.panels, options));
+  options.occlusion_rays = settings.quick ? 2 : 16;  // smooth shades, and smaller files
+  write_png(settings.images / file, render(scene.panels, options));
 }
 
 Json level(const Mesh& shape, const Mesh& surface, int degree, const Settings& settings) {
@@ -76,7 +76,7 @@ Json figure(const std::string& file, const Subject& shape, const std::vector<int
               true);
   }
   scene.add(shape.chart.mesh, shape.real ? "the mesh" : "the mesh (a stand-in)", false);
-  draw(scene, view, settings.images / file);
+  draw(scene, view, file, settings);
   return {{"file", file},
           {"name", shape.name},
           {"source", shape.source},
@@ -115,7 +115,7 @@ Json vase_picture(const std::string& file, const View& view, const Settings& set
   expansion.coefficients = exact;
   scene.add(synthesize(expansion, sphere), fmt::format("exact, L = {}", degree), true);
   scene.add(shape.chart.mesh, shape.real ? "the mesh" : "the mesh (a stand-in)", false);
-  draw(scene, view, settings.images / file);
+  draw(scene, view, file, settings);
   return {{"file", file}, {"degree", degree}, {"source", shape.source}, {"errors", errors}};
 }
 
