@@ -137,7 +137,7 @@ Command compare_command() {
               "threshold.\n\nThe largest distance is a lower bound of the Hausdorff distance.",
           .options = option_list(*options),
           .examples = {"rholm compare bumpy.ply bumpy.h5",
-                       "rholm compare bumpy.ply smooth.ply --samples 1000000 --seed 7 --json"},
+                       "rholm compare bumpy.ply smooth.ply --samples 300000 --seed 7 --json"},
           .run = [options](Session& session) { return run(*options, session); }};
 }
 

@@ -354,8 +354,8 @@ Command report_command() {
           "are of; an atlas of caps likewise. There are no dates in the page: the same input gives "
           "the same bytes.",
       .options = option_list(*options),
-      .examples = {"rholm report bumpy.ply --degree 32 --size 240 -o report.html",
-                   "rholm report bumpy.h5 --shape bumpy.ply --size 240 -o report.html"},
+      .examples = {"rholm report bumpy.ply --degree 32 --size 160 -o report.html",
+                   "rholm report bumpy.h5 --shape bumpy.ply --size 160 -o report.html"},
       .run = [options](Session& session) { return run(*options, session); }};
 }
 

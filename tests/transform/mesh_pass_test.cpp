@@ -158,7 +158,7 @@ TEST(mesh_pass, lumps_rough_meshes_with_hessians) {
 
 // A ball has hardly more than its mean: the sample takes the rest for larger than it is.
 TEST(mesh_pass, reaches_what_rounding_allows_on_a_ball) {
-  for (const int subdivisions : {3, 4, 5, 6}) {
+  for (const int subdivisions : {3, 5}) {
     for (const int degree : {1, 2, 5}) {
       const StarChart chart = chart_of(icosphere(subdivisions), {});
       const Analysis analysis = analyze(chart, {.degree = degree});
