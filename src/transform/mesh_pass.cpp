@@ -85,19 +85,21 @@ class Pass {
       work_triangles();
     }
     BlockSums sums = no_triangles();
-    double kept2 = 0;
+    double kept2 = 0, node_weight = 0;
     std::size_t kept = 0;
     for (const MeshPart& part : parts_) {
       if (part.too_many) return Outcome::kTooManyNodes;
       sums.add(part.sums);
       kept2 += part.source2;
+      node_weight += part.weight;
       kept += part.kept.size() + part.kept_gradients.size();
       result.report.nodes += part.nodes;
     }
     check_sums(sums);
     const LumpSums lumps = sum_all_lumps();
     // The weights of each triangle add up to nothing.
-    if (sizeof(T) == 4 && std::abs(lumps.weight) > 0x1p31) return Outcome::kOutOfRange;
+    const double whole_weight = lumps.weight + plan_.block.per_weight * node_weight;
+    if (sizeof(T) == 4 && std::abs(whole_weight) > 0x1p31) return Outcome::kOutOfRange;
     const double lumps2 = squares_of(lumps);
     const double hessian2 =
         plan_.block.hessians

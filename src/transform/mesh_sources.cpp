@@ -77,6 +77,7 @@ void GridSources<T>::flush_gradients() {
 template <typename T>
 void PartSink<T>::add(std::span<const Node> nodes) {
   part_.nodes += nodes.size();
+  for (const Node& node : nodes) part_.weight += node.weight;
   if (grid_ != nullptr) return grid_->add(nodes);
   for (const Node& node : nodes) part_.source2 += node.weight * node.weight;
   part_.too_many = part_.too_many || part_.kept.size() + nodes.size() > kMostKept;

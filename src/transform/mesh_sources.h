@@ -65,6 +65,7 @@ struct MeshPart {
   std::vector<GradientNode> kept_gradients;
   bool too_many = false;
   double source2 = 0;      // of those kept
+  double weight = 0;       // sum of weights, of all that are divided by l(l+1)
   std::size_t nodes = 0;   // of all
   Coefficients undivided;  // of nodes that are not divided by l(l+1), if there are any
 };

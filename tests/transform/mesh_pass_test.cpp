@@ -168,6 +168,19 @@ TEST(mesh_pass, reaches_what_rounding_allows_on_a_ball) {
   }
 }
 
+// Nodes between the vertices take a part of the weights, so that those of the vertices alone do not
+// add up to nothing: that is no overflow, and no reason to begin again in double precision.
+TEST(mesh_pass, single_precision_is_enough_where_nodes_take_a_part) {
+  const Mesh mesh = bumpy_sphere(7, 0.2);
+  const MeshPassOptions options{.degree = 256, .precision = 1e-6};
+  const MeshPassResult found = mesh_pass(view_of(mesh), options, {});
+  EXPECT_TRUE(found.report.single);
+  EXPECT_EQ(found.report.passes, 1);
+  EXPECT_GT(found.report.nodes, mesh.triangles.size());
+  const MeshPassResult expected = mesh_pass(view_of(mesh), {.degree = 256, .precision = 1e-10}, {});
+  EXPECT_LT(relative_error(found.coefficients, expected.coefficients), 1e-6);
+}
+
 // The oracle is checked against another that shares no integrals with it either.
 TEST(mesh_pass, agrees_with_the_curl_method) {
   const StarChart chart = chart_of(test::rotated(bumpy_sphere(2, 0.25)), {0.1, 0, -0.1});
