@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -11,6 +12,10 @@ namespace rholm {
 struct Place2 {
   double p = 0, q = 0;
 };
+inline Place2 operator+(const Place2& a, const Place2& b) { return {a.p + b.p, a.q + b.q}; }
+inline Place2 operator-(const Place2& a, const Place2& b) { return {a.p - b.p, a.q - b.q}; }
+inline Place2 operator*(double s, const Place2& a) { return {s * a.p, s * a.q}; }
+inline double length(const Place2& v) { return std::hypot(v.p, v.q); }
 
 // A square of n x n samples around the origin, 0 where nothing is known.
 struct DetailMap {

@@ -1,13 +1,12 @@
 #include "edit/local_mesh.h"
 
 #include <algorithm>
-#include <bit>
 #include <numeric>
+
+#include "shape/identical.h"
 
 namespace rholm {
 namespace {
-
-constexpr std::uint32_t kNone = 0xffffffff;
 
 bool inside(const Bounds& box, const Vec3& p) {
   return p.x >= box.min.x && p.y >= box.min.y && p.z >= box.min.z && p.x <= box.max.x &&
@@ -29,37 +28,14 @@ std::vector<std::uint32_t> used_vertices(std::size_t n_vertices,
   return used;
 }
 
-std::uint64_t hash(const Vec3& p) {
-  std::uint64_t sum = 0;
-  // 0 and -0 are the same place.
-  for (const double x : {p.x + 0.0, p.y + 0.0, p.z + 0.0}) {
-    sum = (sum ^ std::bit_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15;  // 2^64 / golden ratio
-    sum ^= sum >> 32;
-  }
-  return sum;
-}
-
-// For each of the used vertices the first one at the same position.
-std::vector<std::uint32_t> first_at(const Mesh& mesh, std::span<const std::uint32_t> used) {
-  // At most half full, looked through from the hash on.
-  std::vector<std::uint32_t> table(std::bit_ceil(2 * used.size() + 1), kNone), first(used.size());
-  for (std::uint32_t i = 0; i < used.size(); ++i) {
-    const Vec3& p = mesh.vertices[used[i]];
-    std::size_t at = hash(p) & (table.size() - 1);
-    while (table[at] != kNone && !(mesh.vertices[used[table[at]]] == p)) {
-      at = (at + 1) & (table.size() - 1);
-    }
-    if (table[at] == kNone) table[at] = i;
-    first[i] = table[at];
-  }
-  return first;
-}
-
 // Makes corners, indices of vertices, indices of points.
 void number_points(const Mesh& mesh, std::vector<std::uint32_t>& corners, LocalMesh& local) {
   std::vector<std::uint32_t> place;
   const std::vector<std::uint32_t> used = used_vertices(mesh.vertices.size(), corners, place);
-  const std::vector<std::uint32_t> first = first_at(mesh, used);
+  std::vector<Vec3> positions;
+  positions.reserve(used.size());
+  for (const std::uint32_t v : used) positions.push_back(mesh.vertices[v]);
+  const std::vector<std::uint32_t> first = first_identical(positions);
   std::vector<std::uint32_t> point(used.size());
   for (std::size_t i = 0; i < used.size(); ++i) {
     if (first[i] != i) {
@@ -67,7 +43,7 @@ void number_points(const Mesh& mesh, std::vector<std::uint32_t>& corners, LocalM
       continue;
     }
     point[i] = static_cast<std::uint32_t>(local.points.size());
-    local.points.push_back(mesh.vertices[used[i]]);
+    local.points.push_back(positions[i]);
   }
   local.members_begin.assign(local.points.size() + 1, 0);
   for (const std::uint32_t p : point) ++local.members_begin[p + 1];

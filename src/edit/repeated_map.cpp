@@ -27,11 +27,6 @@ constexpr double kAside = 0.45;
 constexpr int kMostSamples = 512;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-Place2 operator+(const Place2& a, const Place2& b) { return {a.p + b.p, a.q + b.q}; }
-Place2 operator-(const Place2& a, const Place2& b) { return {a.p - b.p, a.q - b.q}; }
-Place2 operator*(double s, const Place2& a) { return {s * a.p, s * a.q}; }
-double length(const Place2& v) { return std::hypot(v.p, v.q); }
-
 // What it costs to pass from the tile at 0 to that at t in x; infinite beyond either.
 double difference(const DetailMap& map, const Place2& x, const Place2& t) {
   if (!(length(x) < kDisc) || !(length(x - t) < kDisc)) return kInfinity;

@@ -23,20 +23,17 @@ constexpr double kLeastAngle = 48, kLargestAngle = 72;
 constexpr int kSamples = 32, kHalvings = 5;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-double length(const Place2& v) { return std::hypot(v.p, v.q); }
-
 // The circle through 0, a and b.
 double corner_radius(const TileLattice& lattice) {
   const auto [a, b] = lattice;
   const double twice = std::abs(a.p * b.q - a.q * b.p);
-  const double third = length({b.p - a.p, b.q - a.q});
+  const double third = length(b - a);
   return twice > 0 ? length(a) * length(b) * third / (2 * twice) : kInfinity;
 }
 
 bool is_allowed(const TileLattice& lattice, double radius) {
   const auto [a, b] = lattice;
-  const Place2 c{b.p - a.p, b.q - a.q};
-  for (const Place2& v : {a, b, c}) {
+  for (const Place2& v : {a, b, b - a}) {
     if (length(v) < kShortest * radius || length(v) > kLongest * radius) return false;
   }
   const double angle =
@@ -90,7 +87,7 @@ class Overlaps {
   }
   double apart(const TileLattice& lattice) const {
     const auto [a, b] = lattice;
-    return apart(a) + apart(b) + apart(Place2{b.p - a.p, b.q - a.q});
+    return apart(a) + apart(b) + apart(b - a);
   }
 
  private:
@@ -168,7 +165,7 @@ TileLattice find_lattice(const DetailMap& map, double radius) {
            {Place2{step, 0}, Place2{-step, 0}, Place2{0, step}, Place2{0, -step}}) {
         for (Place2 TileLattice::*const which : {&TileLattice::a, &TileLattice::b}) {
           TileLattice moved = best;
-          (moved.*which).p += by.p, (moved.*which).q += by.q;
+          moved.*which = moved.*which + by;
           if (!is_allowed(moved, radius)) continue;
           const double apart = overlaps.apart(moved);
           if (!(apart < least)) continue;
