@@ -146,10 +146,7 @@ std::optional<Encoded> encode_as_it_lies(const MeshView& mesh, const EncodeOptio
           [&] { keep(search_tolerance(problem, *options.tolerance, analysis, context), encoded); });
   }
   analysis.expansion.norm_squared = norms->radius_squared;
-  // Beyond, edges are too many to be kept waiting, and as a rule so short that their jumps say
-  // nothing of the tail (method 5).
-  constexpr std::size_t kMostPaired = std::size_t{1} << 18;
-  const bool paired = mesh.n_triangles <= kMostPaired;
+  const bool paired = mesh.n_triangles <= kMostPredicted;
   if (paired) {
     analysis.expansion.tail_strength =
         timed(analysis.times, "norms", [&] { return tail_strength(mesh, *center); });

@@ -4,12 +4,9 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <vector>
 
-#include "base/parallel.h"
 #include "rholm/error.h"
 #include "transform/error_of_degree.h"
-#include "transform/mesh_pass.h"
 
 namespace rholm {
 namespace {
@@ -29,9 +26,7 @@ constexpr double kSlow = 1.1;
 
 // The largest error at vertices times L + 1, as the mesh predicts it; 0 where it says nothing.
 double error_at_vertices(const ToleranceProblem& problem, const Tolerance& tolerance) {
-  // Beyond, faces are as a rule so small that their vertices say nothing of the error.
-  constexpr std::size_t kMostTriangles = std::size_t{1} << 18;
-  if (tolerance.norm != ErrorNorm::kMax || problem.mesh.n_triangles > kMostTriangles) return 0;
+  if (tolerance.norm != ErrorNorm::kMax || problem.mesh.n_triangles > kMostPredicted) return 0;
   const ErrorStrengths strengths = vertex_error_strengths(problem.mesh, problem.center);
   const bool distance = tolerance.measure == ErrorMeasure::kDistance;
   return (distance ? strengths.distance : strengths.radius) / (2 * std::numbers::pi);

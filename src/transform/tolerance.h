@@ -8,6 +8,10 @@
 
 namespace rholm {
 
+// Triangles of a mesh whose errors are predicted. Beyond, edges are too many to be kept waiting,
+// and as a rule so short that their jumps say nothing of the error (method 5).
+inline constexpr std::size_t kMostPredicted = std::size_t{1} << 18;
+
 // Coefficients of the mesh about the centre, without norms.
 using TransformTo = std::function<Analysis(int degree, double precision)>;
 
