@@ -331,7 +331,9 @@ MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& c
                 .edge_reach2 = hermite ? hermite->edge_reach2 : HermiteReach{},
                 .face_reach2 = hermite ? hermite->face_reach2 : HermiteReach{},
                 .sampled_names = sampled_names(mesh.n_triangles)};
-  const double noded = std::max(plan.node_share * static_cast<double>(mesh.n_triangles), 10.0);
+  // What the sample has none of counts as three of its triangles, as in largest_tolerance().
+  const double noded = std::max(plan.node_share * static_cast<double>(mesh.n_triangles),
+                                std::max(3 * sample.share, 10.0));
   const double element = plan.rules *
                          std::sqrt(node_share2(plan.node_share > 0) / (kElements * noded)) /
                          kTypicalShare;
