@@ -132,9 +132,9 @@ ValuesAndGradients evaluate_on_grid(const NonuniformPlan& plan, const Coefficien
 
 template <typename T>
 GridSpreader<T>::GridSpreader(const NonuniformPlan& plan, const GridKernel<T>& kernel)
-    : plan_(plan), kernel_(kernel), grid_(plan.fourier.layout.cells()) {
-  std::fill(grid_.begin(), grid_.end(), 0.0);
-}
+    : plan_(plan),
+      kernel_(kernel),
+      grid_(AlignedArray<double>::zeros(plan.fourier.layout.cells())) {}
 
 template <typename T>
 void GridSpreader<T>::add(SourceBatch<T>& batch, std::size_t n, int derivatives) {
