@@ -11,6 +11,7 @@
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "rholm/error.h"
+#include "shape/triangle_order.h"
 #include "transform/mesh_between.h"
 #include "transform/mesh_error.h"
 #include "transform/mesh_plan.h"
@@ -51,6 +52,12 @@ class SharedProgress {
   std::mutex mutex_;
   double done_ = 0;
 };
+
+void check_triangles(const MeshPassOptions& options, std::size_t first, std::size_t n) {
+  if (options.check && !options.check(first, n)) {
+    throw Error(ErrorCode::kUnsupported, "a face is not a triangle");
+  }
+}
 
 enum class Outcome {
   kDone,
@@ -177,9 +184,7 @@ class Pass {
     for (std::size_t b = begin; b < end; ++b) {
       const std::size_t first = b * kBlockSize;
       const std::size_t n = std::min(kBlockSize, mesh_.n_triangles - first);
-      if (options_.check && !options_.check(first, n)) {
-        throw Error(ErrorCode::kUnsupported, "a face is not a triangle");
-      }
+      check_triangles(options_, first, n);
       parameters.largest_index = largest_index(mesh_, first, n);
       if (parameters.largest_index >= mesh_.n_vertices) refuse_mesh();
       const std::size_t before = part.sums.nodes;
@@ -368,6 +373,42 @@ Outcome run_pass(const MeshView& mesh, const MeshPassOptions& options, const Mes
   return Pass<double>(mesh, options, plan, context).run(result);
 }
 
+// A mesh with a sample of it; the triangles sorted if they were in random order, where every corner
+// misses the cache and neighbours, which nobody knows, cannot be seen to cancel.
+struct PassInput {
+  MeshView mesh;
+  MeshPassOptions options;
+  MeshSample sample;
+  std::optional<OrderedTriangles> ordered;
+};
+
+// Smaller meshes are in the cache, and sampled whole.
+constexpr std::size_t kWorthOrdering = 8192;
+
+PassInput pass_input(const MeshView& mesh, const MeshPassOptions& options, const Context& context,
+                     StageTimes& times) {
+  PassInput input{.mesh = mesh,
+                  .options = options,
+                  .sample = sample_mesh(mesh, options.center, options.degree),
+                  .ordered = {}};
+  const auto order = [&](TriangleKey key) {
+    const StageTimer timer(times, "order");
+    const auto check = [&](std::size_t first, std::size_t n) {
+      check_triangles(input.options, first, n);
+    };
+    input.ordered = order_triangles(mesh, key, check, input.options.release, context);
+    input.mesh = input.ordered->view;
+    input.options.check = {};
+    input.options.release = {};
+    input.sample = sample_mesh(input.mesh, options.center, options.degree);
+  };
+  const auto in_order = [&] { return input.sample.edge_share > 0; };
+  if (in_order() || mesh.n_triangles < kWorthOrdering) return input;
+  if (vertices_in_order(mesh)) order(TriangleKey::kVertex);
+  if (!in_order()) order(TriangleKey::kPosition);
+  return input;
+}
+
 }  // namespace
 
 MeshPassResult mesh_pass(const MeshView& mesh, const MeshPassOptions& options,
@@ -375,7 +416,9 @@ MeshPassResult mesh_pass(const MeshView& mesh, const MeshPassOptions& options,
   if (mesh.n_triangles == 0) {
     throw Error(ErrorCode::kInvalidInput, "the mesh has no triangles");
   }
-  MeshSample sample = sample_mesh(mesh, options.center, options.degree);
+  StageTimes times;
+  PassInput input = pass_input(mesh, options, caller, times);
+  MeshSample& sample = input.sample;
   // A second pass does not go back.
   double furthest = 0;
   Context context = caller;
@@ -386,13 +429,12 @@ MeshPassResult mesh_pass(const MeshView& mesh, const MeshPassOptions& options,
     };
   }
   PlanLimits limits;
-  StageTimes times;
   for (int passes = 1, tries = 1;; ++passes) {
     const MeshPlan plan =
-        plan_mesh(mesh, sample, options.center, options.degree, options.precision, limits);
+        plan_mesh(input.mesh, sample, options.center, options.degree, options.precision, limits);
     MeshPassResult result;
     result.times = std::move(times);
-    const Outcome outcome = run_pass(mesh, options, plan, context, result);
+    const Outcome outcome = run_pass(input.mesh, input.options, plan, context, result);
     result.report.passes = passes;
     // Each of these is possible once.
     limits.forbid_single = limits.forbid_single || outcome == Outcome::kOutOfRange;

@@ -1,10 +1,12 @@
 // Reproducible random inputs for tests.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/random.h"
@@ -37,6 +39,14 @@ inline std::vector<Vec3> random_directions(std::size_t n, std::uint64_t seed) {
   while (directions.size() < n) directions.push_back(random_direction(seed, directions.size()));
   directions.resize(n);
   return directions;
+}
+
+template <typename T>
+void shuffle(std::vector<T>& items, std::uint64_t seed) {
+  for (std::size_t i = items.size(); i > 1; --i) {
+    const auto k = static_cast<std::size_t>(random_in(0, 1, seed, i) * static_cast<double>(i));
+    std::swap(items[i - 1], items[std::min(k, i - 1)]);
+  }
 }
 
 inline std::vector<double> random_values(std::size_t n, std::uint64_t seed) {

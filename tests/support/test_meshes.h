@@ -47,6 +47,20 @@ inline Mesh l_prism(double height) {
   return prism({{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 4}, {0, 4}}, {0.5, 0.5}, height);
 }
 
+// The same surface, its vertices in the order that `order` has them in.
+inline Mesh renumbered(const Mesh& mesh, const std::vector<std::uint32_t>& order) {
+  Mesh result = mesh;
+  std::vector<std::uint32_t> number(order.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) {
+    number[order[i]] = i;
+    result.vertices[i] = mesh.vertices[order[i]];
+  }
+  for (Triangle& t : result.triangles) {
+    for (std::uint32_t& corner : t) corner = number[corner];
+  }
+  return result;
+}
+
 // Each triangle with three vertices of its own.
 inline Mesh exploded(const Mesh& mesh) {
   Mesh soup;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -238,15 +239,6 @@ TEST(mesh_pass, takes_float_coordinates_in_a_file_as_the_numbers_they_are) {
   }
 }
 
-template <typename T>
-void shuffle(std::vector<T>& items, std::uint64_t seed) {
-  for (std::size_t i = items.size(); i > 1; --i) {
-    const auto k =
-        static_cast<std::size_t>(test::random_in(0, 1, seed, i) * static_cast<double>(i));
-    std::swap(items[i - 1], items[std::min(k, i - 1)]);
-  }
-}
-
 TEST(mesh_pass, the_order_of_triangles_changes_nothing_but_rounding) {
   Mesh mesh = rough_sphere(5);
   const MeshPassOptions plain{.degree = 30};
@@ -255,13 +247,50 @@ TEST(mesh_pass, the_order_of_triangles_changes_nothing_but_rounding) {
     options.precision = precision;
     const MeshPassResult in_order = mesh_pass(view_of(mesh), options, {});
     Mesh mixed = mesh;
-    shuffle(mixed.triangles, 11);
+    test::shuffle(mixed.triangles, 11);
     const MeshPassResult random = mesh_pass(view_of(mixed), options, {});
     EXPECT_LT(relative_error(random.coefficients, in_order.coefficients), 2 * precision);
     EXPECT_TRUE(random.closed);
     EXPECT_NEAR(random.volume, in_order.volume, 1e-13 * in_order.volume);
     EXPECT_EQ(random.min_d, in_order.min_d);
   }
+}
+
+// Sorted, neighbours are seen to cancel again, and no triangle needs nodes that did not before.
+TEST(mesh_pass, a_fine_mesh_in_random_order_is_as_good_as_in_order) {
+  const Mesh mesh = test::rotated(bumpy_sphere(6));
+  const MeshPassOptions options{.degree = 48, .precision = 1e-5, .center = {0.1, 0, 0}};
+  const MeshPassResult in_order = mesh_pass(view_of(mesh), options, {});
+  Mesh mixed = mesh;
+  test::shuffle(mixed.triangles, 11);
+  std::vector<std::uint32_t> order(mesh.vertices.size());
+  std::iota(order.begin(), order.end(), 0U);
+  test::shuffle(order, 12);
+  for (const Mesh& disordered : {mixed, test::renumbered(mixed, order)}) {
+    const MeshPassResult random = mesh_pass(view_of(disordered), options, {});
+    EXPECT_LT(relative_error(random.coefficients, in_order.coefficients), 2 * options.precision);
+    EXPECT_LE(random.report.nodes, in_order.report.nodes);
+    EXPECT_TRUE(random.report.reached);
+    EXPECT_TRUE(random.closed);
+    EXPECT_EQ(random.times.count("order"), 1u);
+    EXPECT_EQ(in_order.times.count("order"), 0u);
+    expect_same_bits(mesh_pass(view_of(disordered), options, {.threads = 2}), random);
+  }
+}
+
+TEST(mesh_pass, a_disordered_mesh_with_something_wrong_is_refused) {
+  Mesh mesh = bumpy_sphere(5);
+  test::shuffle(mesh.triangles, 11);
+  const MeshPassOptions options{.degree = 8, .precision = 1e-3};
+  Mesh beyond = mesh;
+  beyond.triangles[777][1] = static_cast<std::uint32_t>(mesh.vertices.size());
+  EXPECT_THROW(mesh_pass(view_of(beyond), options, {}), Error);
+  Mesh nowhere = mesh;
+  nowhere.vertices[777].y = std::nan("");
+  EXPECT_THROW(mesh_pass(view_of(nowhere), options, {}), Error);
+  MeshPassOptions checked = options;
+  checked.check = [](std::size_t first, std::size_t) { return first < 9000; };
+  EXPECT_THROW(mesh_pass(view_of(mesh), checked, {}), Error);
 }
 
 TEST(mesh_pass, every_instruction_set_keeps_the_precision) {
