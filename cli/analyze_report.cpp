@@ -17,8 +17,8 @@ namespace {
 
 Json times_json(const AnalyzeRun& run, double StageTime::*clock) {
   Json json;
-  for (const char* stage : {"read", "topology", "center", "transform", "triangles", "spread",
-                            "fourier", "norms", "errors", "write"}) {
+  for (const char* stage : {"read", "topology", "center", "transform", "order", "triangles",
+                            "spread", "fourier", "norms", "rays", "errors", "write"}) {
     const auto found = run.times.find(stage);
     json[stage] = found == run.times.end() ? 0.0 : found->second.*clock;
   }
@@ -110,7 +110,7 @@ std::string analyze_text(const AnalyzeCommandOptions& options, const AnalyzeRun&
   const Encoded& encoded = run.encoded;
   const Analysis& analysis = encoded.analysis;
   double seconds = 0;
-  for (const char* stage : {"read", "topology", "center", "transform", "norms", "write"}) {
+  for (const char* stage : {"read", "topology", "center", "transform", "norms", "rays", "write"}) {
     const auto found = run.times.find(stage);
     if (found != run.times.end()) seconds += found->second.wall;
   }

@@ -31,6 +31,7 @@ std::vector<Row> stage_rows(const Timings& stages) {
       {"read", "- look at file, map or read"},
       {"topology", "- join, pair edges"},
       {"center", "- check the centre"},
+      {"order", "- sort the triangles"},
       {"triangles", "- triangles"},
       {"spread", "- spread"},
       {"fourier", "- Fourier and Legendre"},

@@ -46,14 +46,16 @@ struct Encoded {
   std::size_t merged_vertices = 0;
   std::size_t collapsed_triangles = 0;
   bool flipped = false;  // the mesh was inside out
-  StageTimes times;      // "read", "topology", "center", "transform", and parts of the last
+  // "read", "topology", "center", "transform" and its parts, "rays" of a surface that is not
+  // star-shaped.
+  StageTimes times;
 };
 
 // Welds, turns right side out, checks, finds the centre, transforms. Throws what its stages throw.
 Encoded encode(const Mesh& mesh, const EncodeOptions& options = {}, const Context& context = {});
 // The same for a mesh in a mapped file, worked through where it lies; none if it must be read
-// and changed first: not closed and oriented outwards as it is, not star-shaped, other methods than
-// edge by the fast engine, or welding asked for.
+// and changed first: not closed and oriented outwards as it is, not star-shaped (unless that is
+// allowed and the centre given), other methods than edge by the fast engine, or welding asked for.
 std::optional<Encoded> encode_mapped(const MappedMesh& mesh, const EncodeOptions& options = {},
                                      const Context& context = {});
 // The same for a file. A large binary PLY file is mapped, not read, and worked through where it

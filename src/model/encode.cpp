@@ -59,9 +59,29 @@ StarReport star_report(const MeshPassResult& pass, const Vec3& center) {
   report.center = center;
   report.min_d = pass.min_d;
   report.min_cos_gamma = pass.min_cos_gamma;
-  report.star_shaped = true;
-  report.once_share = 1;
+  report.bad_triangles = pass.bad_triangles;
+  report.star_shaped = pass.bad_triangles == 0;
+  report.once_share = report.star_shaped ? 1 : 0;
   return report;
+}
+
+// The alternating sum of a surface some of whose faces turn their backs: no norms, no errors, but
+// how many directions meet it more than once.
+void finish_signed(const MeshView& mesh, const EncodeOptions& options, const Context& context,
+                   Encoded& encoded) {
+  const int rays = options.chart.center.rays;
+  if (rays > 0) {
+    encoded.star = timed(encoded.times, "rays",
+                         [&] { return check_star(mesh, encoded.star.center, rays, context); });
+  }
+  finish_analysis(options.analyze, encoded.star.center, encoded.analysis);
+}
+
+void set_counts(const MeshView& mesh, Encoded& encoded) {
+  encoded.diagonal = diagonal_of(mesh);
+  encoded.vertices = mesh.n_vertices;
+  encoded.faces = mesh.n_triangles;
+  encoded.edges = mesh.n_triangles / 2 * 3;
 }
 
 // What a search for a degree has found.
@@ -86,8 +106,8 @@ void add_errors(const MeshView& mesh, const EncodeOptions& options, bool predict
   });
 }
 
-// Everything from the mesh as it lies; none if it is not a closed, outward, star-shaped mesh of
-// triangles: then it must be looked at more closely.
+// Everything from the mesh as it lies; none if it is not a closed, outward mesh of triangles,
+// star-shaped or to be taken as it is: then it must be looked at more closely.
 std::optional<Encoded> encode_as_it_lies(const MeshView& mesh, const EncodeOptions& options,
                                          const MeshPassOptions& hooks, const Context& context) {
   if (!uses_mesh_pass(options.analyze) || options.weld_tolerance != 0 || mesh.n_triangles == 0) {
@@ -127,7 +147,15 @@ std::optional<Encoded> encode_as_it_lies(const MeshView& mesh, const EncodeOptio
   }
   MeshPassResult pass =
       timed(encoded.times, "transform", [&] { return mesh_pass(mesh, wanted, context); });
-  if (!pass.closed || !(pass.volume > 0) || pass.bad_triangles > 0) return std::nullopt;
+  if (!pass.closed || !(pass.volume > 0)) return std::nullopt;
+  if (pass.bad_triangles > 0) {
+    if (!options.chart.allow_signed || options.tolerance) return std::nullopt;
+    encoded.star = star_report(pass, *center);
+    set_pass(pass, analysis);
+    finish_signed(mesh, options, context, encoded);
+    set_counts(mesh, encoded);
+    return encoded;
+  }
   if (!norms) find_norms();
   // Faces that all turn outwards cover every direction equally often: a second sheet may have few.
   if (!covers_once(*norms)) return std::nullopt;
@@ -153,10 +181,7 @@ std::optional<Encoded> encode_as_it_lies(const MeshView& mesh, const EncodeOptio
   }
   finish_analysis(options.analyze, *center, analysis);
   if (options.errors) add_errors(mesh, options, paired, context, encoded);
-  encoded.diagonal = diagonal_of(mesh);
-  encoded.vertices = mesh.n_vertices;
-  encoded.faces = mesh.n_triangles;
-  encoded.edges = mesh.n_triangles / 2 * 3;
+  set_counts(mesh, encoded);
   return encoded;
 }
 

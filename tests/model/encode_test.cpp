@@ -9,6 +9,7 @@
 #include "rholm/model.h"
 #include "rholm/primitives.h"
 #include "rholm/synthesize.h"
+#include "support/oracle.h"
 #include "support/test_meshes.h"
 #include "support/test_shapes.h"
 
@@ -99,6 +100,28 @@ TEST(encode, leaves_errors_out_when_told_and_where_they_mean_nothing) {
   folded.chart.center = {.kind = CenterKind::kGiven, .point = {2, 0.5, 0.1}};
   const Encoded prism = encode(test::l_prism(1), folded);
   EXPECT_FALSE(prism.analysis.expansion.errors.has_value());
+}
+
+// The direct engine goes the long way, by a chart.
+TEST(encode, surfaces_that_fold_are_the_same_as_by_a_chart) {
+  EncodeOptions folded{.analyze = {.degree = 12, .precision = 1e-8}};
+  folded.chart.allow_signed = true;
+  folded.chart.center = {.kind = CenterKind::kGiven, .point = {2, 0.5, 0.1}, .rays = 2000};
+  const Encoded fast = encode(test::l_prism(1), folded);
+  folded.analyze.engine = Engine::kDirect;
+  const Encoded slow = encode(test::l_prism(1), folded);
+  EXPECT_LT(test::relative_error(fast.analysis.expansion.coefficients,
+                                 slow.analysis.expansion.coefficients),
+            2e-8);
+  EXPECT_FALSE(fast.star.star_shaped);
+  EXPECT_EQ(fast.star.bad_triangles, slow.star.bad_triangles);
+  EXPECT_EQ(fast.star.multiple_share, slow.star.multiple_share);
+  EXPECT_GT(fast.star.multiple_share, 0);
+  EXPECT_NEAR(fast.star.min_d, slow.star.min_d, 1e-14);
+  EXPECT_FALSE(fast.analysis.expansion.norm_squared.has_value());
+  EXPECT_TRUE(fast.times.contains("rays"));
+  EXPECT_FALSE(fast.times.contains("topology"));
+  EXPECT_EQ(fast.edges, slow.edges);
 }
 
 TEST(encode, turns_a_mesh_right_side_out) {
