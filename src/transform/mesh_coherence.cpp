@@ -6,11 +6,13 @@
 #include <complex>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "base/random.h"
 #include "shape/face.h"
 #include "transform/node_rules.h"
+#include "transform/wave_kernels.h"
 
 namespace rholm {
 namespace {
@@ -25,7 +27,7 @@ constexpr double kWidth = 6;          // s in units of 1/L: about one wave lengt
 constexpr double kReach = 4;          // of a packet, in units of s: exp(-8) beyond
 constexpr std::size_t kFewest = 200;  // triangles in all packets together
 constexpr double kFarthestRun = 0.3;  // radians: beyond, neighbours are not together in the file
-// At most so many triangles are worked out, some 1.5 us each.
+// At most so many triangles are worked out, some 0.5 us each.
 constexpr double kMost = 20000;
 
 struct Packet {
@@ -50,61 +52,92 @@ struct Looker {
   }
 };
 
-// The wave at x, and its gradient.
-struct Wave {
-  Vec3 k;  // L times a unit vector
-  Complex value(const Vec3& x) const {
-    const double phase = dot(k, x) / norm(x);
-    return {std::cos(phase), std::sin(phase)};
+// Points of one triangle, and a wave there.
+class WavePoints {
+ public:
+  void clear() { n_ = 0; }
+  void add(const Vec3& p) {
+    x_[n_] = p.x;
+    y_[n_] = p.y;
+    z_[n_++] = p.z;
   }
-  // Along e.
-  Complex slope(const Vec3& x, const Vec3& e) const {
-    const double r = norm(x);
-    const Vec3 u = x / r;
-    return Complex(0, (dot(k, e) - dot(k, u) * dot(u, e)) / r) * value(x);
+  // Wave vector L times a unit vector.
+  void find_values(const Vec3& k) {
+    const std::size_t n = n_;
+    while (n_ % 8 != 0) add({1, 0, 0});
+    wave_values(k, n, x_, y_, z_, cosine_, sine_);
+    n_ = n;
   }
+  Complex operator[](std::size_t i) const { return {cosine_[i], sine_[i]}; }
+
+ private:
+  static constexpr std::size_t kMost = 128;
+  std::size_t n_ = 0;
+  double x_[kMost], y_[kMost], z_[kMost], cosine_[kMost], sine_[kMost];
 };
+
+// The derivative of the wave along e at x, where it has this value.
+Complex slope(const Vec3& k, const Vec3& x, const Complex& value, const Vec3& e) {
+  const double r = norm(x);
+  const Vec3 u = x / r;
+  return Complex(0, (dot(k, e) - dot(k, u) * dot(u, e)) / r) * value;
+}
 
 struct TriangleError {
   Complex error;
   double face = 0;  // (F z^4)^2
 };
 
-// Lumping less nodes that leave nothing worth mentioning.
-TriangleError error_of(const std::array<Vec3, 3>& p, const Wave& wave, int degree) {
+// Nodes that leave nothing worth mentioning: good for waves across some 4 radians.
+struct FineNodes {
+  NodeAllowance fine{.degree = 1, .error = 1e-5, .divided = false};
+  EdgeRule edge = edge_rule(fine, Extent{3}, 1);
+  std::span<const FaceNode> face = face_rule(fine, Extent{3}, 1);
+};
+
+// Corners, nodes of the edges, nodes of the face.
+void place_points(const std::array<Vec3, 3>& p, const FineNodes& nodes, WavePoints& points) {
+  points.clear();
+  for (const Vec3& corner : p) points.add(corner);
+  for (int i = 0; i < 3; ++i) {
+    for (const double t : nodes.edge.nodes) points.add(p[i] + t * (p[(i + 1) % 3] - p[i]));
+  }
+  for (const FaceNode& node : nodes.face) {
+    points.add(node.at[0] * p[0] + node.at[1] * p[1] + node.at[2] * p[2]);
+  }
+}
+
+// Lumping less the integrals by many nodes.
+TriangleError error_of(const std::array<Vec3, 3>& p, const Vec3& k, int degree,
+                       WavePoints& points) {
   TriangleError result;
   const FaceNormal normal = face_normal(p);
   const double d2 = dot(normal.twice_area, p[0]);
   if (normal.degenerate || d2 == 0) return result;
   const Vec3& n = normal.twice_area;
   const double face = -dot(n, n) / d2;
-  // Good for waves across some 4 radians.
-  static const NodeAllowance kFine{.degree = 1, .error = 1e-5, .divided = false};
-  static const EdgeRule edge_nodes = edge_rule(kFine, Extent{3}, 1);
-  static const std::span<const FaceNode> face_nodes = face_rule(kFine, Extent{3}, 1);
-  std::array<Complex, 3> values;
-  for (int i = 0; i < 3; ++i) values[i] = wave.value(p[i]);
+  static const FineNodes nodes;
+  place_points(p, nodes, points);
+  points.find_values(k);
+  std::size_t at = 3;  // the next node
   double z2 = 0;
   for (int i = 0; i < 3; ++i) {
-    const Vec3 &a = p[i], &b = p[(i + 1) % 3], &c = p[(i + 2) % 3];
+    const int j = (i + 1) % 3;
+    const Vec3 &a = p[i], &b = p[j], &c = p[(i + 2) % 3];
     const Vec3 e = b - a, across = cross(a, b);
     const double weight = dot(n, across) / d2;
     Complex mean = 0;
-    for (std::size_t k = 0; k < edge_nodes.nodes.size(); ++k) {
-      mean += edge_nodes.weights[k] * wave.value(a + edge_nodes.nodes[k] * e);
-    }
-    const Complex lumped =
-        0.5 * (values[i] + values[(i + 1) % 3]) + (wave.slope(a, e) - wave.slope(b, e)) / 12.0;
+    for (const double node_weight : nodes.edge.weights) mean += node_weight * points[at++];
+    const Complex leaving = slope(k, a, points[i], e), reaching = slope(k, b, points[j], e);
+    const Complex lumped = 0.5 * (points[i] + points[j]) + (leaving - reaching) / 12.0;
     result.error += weight * (lumped - mean);
-    result.error += face * (values[i] / 3.0 + (wave.slope(a, e) + wave.slope(a, c - a)) / 24.0);
+    result.error += face * (points[i] / 3.0 + (leaving + slope(k, a, points[i], c - a)) / 24.0);
     const double r2 = std::min(dot(a, a), dot(b, b));
     z2 = std::max(z2, degree * static_cast<double>(degree) * dot(across, across) / (r2 * r2) +
                           16 * dot(e, e) / r2);
   }
   Complex mean = 0;
-  for (const FaceNode& node : face_nodes) {
-    mean += node.weight * wave.value(node.at[0] * p[0] + node.at[1] * p[1] + node.at[2] * p[2]);
-  }
+  for (const FaceNode& node : nodes.face) mean += node.weight * points[at++];
   result.error -= face * mean;
   result.face = std::pow(face * z2 * z2, 2);
   return result;
@@ -165,8 +198,9 @@ double error_coherence(const MeshView& mesh, const Vec3& center, double scale, i
   if (packets * expected > kMost) return kUnknown;
   double energy = 0, faces = 0;
   std::size_t used = 0;
+  const auto points = std::make_unique<WavePoints>();
   for (const Packet& packet : packets_on(look, packets)) {
-    const Wave wave{static_cast<double>(degree) * packet.wave};
+    const Vec3 k = static_cast<double>(degree) * packet.wave;
     const auto near = [&](const Vec3& u) {
       const Vec3 away = u - packet.middle;
       return dot(away, away) < around;
@@ -181,7 +215,7 @@ double error_coherence(const MeshView& mesh, const Vec3& center, double scale, i
         const double distance2 = dot(from, from);
         if (!(distance2 < reach * reach)) continue;
         if (static_cast<double>(++used) > 3 * kMost) return kUnknown;
-        const TriangleError error = error_of(p, wave, degree);
+        const TriangleError error = error_of(p, k, degree, *points);
         const double window = std::exp(-distance2 / (2 * width * width));
         sum += window * error.error;
         faces += window * window * error.face;
