@@ -22,9 +22,13 @@ using Complex = std::complex<double>;
 // Packets: the energy to some 35 % with eight, 60 % with three; fewer where each has many
 // triangles.
 constexpr int kMostPackets = 8, kFewestPackets = 3;
-constexpr double kEnough = 4000;      // triangles in all packets together
-constexpr double kWidth = 6;          // s in units of 1/L: about one wave length
-constexpr double kReach = 4;          // of a packet, in units of s: exp(-8) beyond
+constexpr double kEnough = 4000;  // triangles in all packets together
+constexpr double kWidth = 6;      // s in units of 1/L: about one wave length
+constexpr double kReach = 4;      // of a packet, in units of s: exp(-8) beyond
+// Where the first packets leave so many times the limit the others would not change it.
+constexpr double kFar = 8;
+// As lumping_error() has it, the square of sqrt(35/128) / 720 of weight and z^4.
+constexpr double kUnit = 35.0 / 128 / (720.0 * 720.0);
 constexpr std::size_t kFewest = 200;  // triangles in all packets together
 constexpr double kFarthestRun = 0.3;  // radians: beyond, neighbours are not together in the file
 // At most so many triangles are worked out, some 0.5 us each.
@@ -76,11 +80,15 @@ class WavePoints {
   double x_[kMost], y_[kMost], z_[kMost], cosine_[kMost], sine_[kMost];
 };
 
-// The derivative of the wave along e at x, where it has this value.
-Complex slope(const Vec3& k, const Vec3& x, const Complex& value, const Vec3& e) {
-  const double r = norm(x);
-  const Vec3 u = x / r;
-  return Complex(0, (dot(k, e) - dot(k, u) * dot(u, e)) / r) * value;
+// The wave and its gradient at a corner.
+struct CornerWave {
+  Complex value, turned;  // turned: i times the value
+  Vec3 phase;             // gradient of the phase
+  Complex slope(const Vec3& e) const { return dot(phase, e) * turned; }
+};
+CornerWave corner_wave(const Vec3& k, const Vec3& x, const Complex& value) {
+  const double over = 1 / dot(x, x);
+  return {value, {-value.imag(), value.real()}, std::sqrt(over) * (k - (over * dot(k, x)) * x)};
 }
 
 struct TriangleError {
@@ -119,6 +127,8 @@ TriangleError error_of(const std::array<Vec3, 3>& p, const Vec3& k, int degree,
   static const FineNodes nodes;
   place_points(p, nodes, points);
   points.find_values(k);
+  std::array<CornerWave, 3> waves;
+  for (std::size_t i = 0; i < 3; ++i) waves[i] = corner_wave(k, p[i], points[i]);
   std::size_t at = 3;  // the next node
   double z2 = 0;
   for (int i = 0; i < 3; ++i) {
@@ -128,10 +138,11 @@ TriangleError error_of(const std::array<Vec3, 3>& p, const Vec3& k, int degree,
     const double weight = dot(n, across) / d2;
     Complex mean = 0;
     for (const double node_weight : nodes.edge.weights) mean += node_weight * points[at++];
-    const Complex leaving = slope(k, a, points[i], e), reaching = slope(k, b, points[j], e);
-    const Complex lumped = 0.5 * (points[i] + points[j]) + (leaving - reaching) / 12.0;
+    const CornerWave &here = waves[i], &there = waves[j];
+    const Complex leaving = here.slope(e);
+    const Complex lumped = 0.5 * (here.value + there.value) + (leaving - there.slope(e)) / 12.0;
     result.error += weight * (lumped - mean);
-    result.error += face * (points[i] / 3.0 + (leaving + slope(k, a, points[i], c - a)) / 24.0);
+    result.error += face * (here.value / 3.0 + (leaving + here.slope(c - a)) / 24.0);
     const double r2 = std::min(dot(a, a), dot(b, b));
     z2 = std::max(z2, degree * static_cast<double>(degree) * dot(across, across) / (r2 * r2) +
                           16 * dot(e, e) / r2);
@@ -162,7 +173,8 @@ std::vector<Packet> packets_on(const Looker& look, int count) {
 
 }  // namespace
 
-double error_coherence(const MeshView& mesh, const Vec3& center, double scale, int degree) {
+double error_coherence(const MeshView& mesh, const Vec3& center, double scale, int degree,
+                       double limit) {
   constexpr double kUnknown = std::numeric_limits<double>::infinity();
   const Looker look{mesh, center, scale};
   const double width = kWidth / std::max(degree, 1), reach = kReach * width;
@@ -198,6 +210,7 @@ double error_coherence(const MeshView& mesh, const Vec3& center, double scale, i
   if (packets * expected > kMost) return kUnknown;
   double energy = 0, faces = 0;
   std::size_t used = 0;
+  int done = 0;
   const auto points = std::make_unique<WavePoints>();
   for (const Packet& packet : packets_on(look, packets)) {
     const Vec3 k = static_cast<double>(degree) * packet.wave;
@@ -222,10 +235,11 @@ double error_coherence(const MeshView& mesh, const Vec3& center, double scale, i
       }
     }
     energy += std::norm(sum);
+    ++done;
+    if (done >= kFewestPackets && energy > kFar * limit * faces * kUnit) break;
   }
   if (used < kFewest || !(faces > 0) || !std::isfinite(energy)) return kUnknown;
-  // As lumping_error() has it: sqrt(35/128) / 720 of weight and z^4.
-  return energy / (faces * (35.0 / 128) / (720.0 * 720.0));
+  return energy / (faces * kUnit);
 }
 
 }  // namespace rholm

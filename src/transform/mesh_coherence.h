@@ -15,7 +15,9 @@ namespace rholm {
 
 // |sum of errors|^2 over the packets / sum over their triangles of what (F z^4)^2 of each predicts
 // on its own: the energy of the whole error in units of that of the faces. Infinity if nobody can
-// tell: few triangles in a packet, or neighbours far apart in the file.
-double error_coherence(const MeshView& mesh, const Vec3& center, double scale, int degree);
+// tell: few triangles in a packet, or neighbours far apart in the file. What is far above the
+// limit is measured on fewer packets.
+double error_coherence(const MeshView& mesh, const Vec3& center, double scale, int degree,
+                       double limit);
 
 }  // namespace rholm

@@ -29,11 +29,22 @@ double lumped_error2(const MeshSample& sample, double tolerance2, double enough)
   return sample.share * faces + sample.edge_share * edges;
 }
 
+// Energy of all errors if everything is lumped, in units of what triangles have on their own: small
+// where the half-edges of each edge nearly cancel.
+double cancellation(const MeshSample& sample) {
+  constexpr double kAll = std::numeric_limits<double>::infinity();
+  double own = 0;
+  for (const MeshSample::Entry& entry : sample.entries) own += entry.error2;
+  const double whole = lumped_error2(sample, kAll, kAll);
+  return sample.edge_share > 0 && own > 0 ? std::min(1.0, whole / (sample.share * own)) : 1;
+}
+
 // The sample does not know the worst: of what it has none of there may be three times what one of
-// its triangles stands for, at 95 %. They may take a seventh of it all. A single one may always
-// take a forty-fifth of the error: the pass sees the sum, and there is a second try.
+// its triangles stands for, at 95 %. They may take a seventh of it all, and cancel as others do. A
+// single one may always take a forty-fifth of the error: the pass sees the sum, and there is a
+// second try.
 double largest_tolerance(const MeshSample& sample, double allowed2) {
-  return allowed2 * std::max(0.15 / (3 * sample.share), 1.0 / 2000);
+  return allowed2 * std::max(0.15 / (3 * sample.share), 1.0 / 2000) / cancellation(sample);
 }
 
 // Entries in any order.
@@ -55,14 +66,16 @@ double tolerance_of(const MeshSample& sample, double allowed2) {
   if (may_all_be_lumped(sample, allowed2)) return most;
   const std::size_t n = sample.entries.size();
   // Triangles that are left out: half as many more each time, then a twelfth of all.
+  std::vector<double> tolerances;
   for (std::size_t out = 0; out < n; out += std::clamp<std::size_t>(out / 2, 1, n / 12 + 1)) {
-    const double tolerance2 = out == 0 ? most : sample.entries[n - 1 - out].error2;
-    const double lumps2 = (1 - node_share2(true)) * allowed2;
-    if (tolerance2 <= most && lumped_error2(sample, tolerance2, lumps2) <= lumps2) {
-      return tolerance2;
-    }
+    tolerances.push_back(out == 0 ? most : sample.entries[n - 1 - out].error2);
   }
-  return 0;
+  const double lumps2 = (1 - node_share2(true)) * allowed2;
+  // The fewer are lumped the less they leave.
+  const auto first = std::partition_point(tolerances.begin(), tolerances.end(), [&](double t2) {
+    return t2 > most || lumped_error2(sample, t2, lumps2) > lumps2;
+  });
+  return first == tolerances.end() ? 0 : *first;
 }
 
 namespace {
@@ -233,11 +246,21 @@ std::optional<HermiteLumps> hermite_lumps(const MeshSample& sample, double allow
   HermiteLumps best;
   best.cost = std::numeric_limits<double>::infinity();
   double at = 1;
-  for (double factor = 8; factor > 0.1; factor /= 2) {
+  // Whether to go on in this direction.
+  const auto take = [&](double factor) {
     const HermiteLumps lumps = with_errors(factor);
-    if (lumps.cost > 1.2 * best.cost) break;
     if (lumps.cost < best.cost) best = lumps, at = factor;
-    if (lumps.node_share == 0) break;  // more nodes between vertices would only cost more
+    return lumps.cost <= 1.2 * best.cost;
+  };
+  constexpr double kStart = 8, kMost = 1e4, kLeast = 0.1;
+  bool better = take(kStart);
+  if (best.node_share == 0) {
+    // Nodes between vertices alone: where errors cancel many fewer may do.
+    for (double f = 2 * kStart; better && best.between > 0 && f < kMost; f *= 2) better = take(f);
+  } else {
+    for (double f = kStart / 2; better && best.node_share > 0 && f > kLeast; f /= 2) {
+      better = take(f);
+    }
   }
   if (best.between == 0 && best.node_share == 0) return best;
   for (const double step : {1.7, 1.4, 1.2, 0.85}) {

@@ -19,7 +19,7 @@
 namespace rholm {
 namespace {
 
-constexpr std::size_t kSampleBlocks = 24;  // 3072 triangles: some 0.3 ms
+constexpr std::size_t kSampleBlocks = 24;  // 3072 triangles: some 1 ms, and planning as much again
 constexpr double kPi = std::numbers::pi;
 
 // Shares of the wanted error; they add up in squares.
@@ -281,10 +281,12 @@ MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& c
   if (!sample.entries.empty() && tolerance2 < sample.entries.back().error2) {
     // The measured energy may be too low by its scatter. What is four times as bad as all of the
     // sample gets nodes.
-    const double coherence = may_cancel(sample)
-                                 ? kScatter * error_coherence(mesh, center, sample.scale, degree)
-                                 : std::numeric_limits<double>::infinity();
-    if (coherence * face_error2(sample) <= (1 - node_share2(false)) * rules2) {
+    const double limit = (1 - node_share2(false)) * rules2 / face_error2(sample);
+    const double coherence =
+        may_cancel(sample)
+            ? kScatter * error_coherence(mesh, center, sample.scale, degree, limit / kScatter)
+            : std::numeric_limits<double>::infinity();
+    if (std::isfinite(coherence) && coherence <= limit) {
       plan.coherence = coherence;
       plan.in_step = 1;  // it has been measured
       tolerance2 = 16 * sample.entries.back().error2;
