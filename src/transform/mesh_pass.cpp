@@ -409,6 +409,22 @@ PassInput pass_input(const MeshView& mesh, const MeshPassOptions& options, const
   return input;
 }
 
+// What a pass that fell short of the wish teaches the next one.
+void learn(const MeshPassResult& result, const MeshPlan& plan, double wish, double norm,
+           PassInput& input, PlanLimits& limits) {
+  MeshSample& sample = input.sample;
+  sample.edge_ratio = std::max(sample.edge_ratio, result.edge_ratio);
+  sample.measured_ratio = std::max(sample.measured_ratio, result.edge_ratio);
+  // Where edges nobody had seen were what was wrong, a plan that knows of them is enough.
+  const MeshPlan wiser = plan_mesh(input.mesh, sample, input.options.center, input.options.degree,
+                                   input.options.precision, limits);
+  if (wiser.block.tolerance2 < 0.5 * plan.block.tolerance2) return;
+  // What the plan allowed may be far above what came of it, and has to come below that.
+  const double planned = std::hypot(plan.rules, plan.window, plan.quanta) / plan.block.scale;
+  const double slack = std::max(1.0, planned / (result.report.error * norm));
+  limits.tighten *= 1.5 * slack * result.report.error / wish;
+}
+
 }  // namespace
 
 MeshPassResult mesh_pass(const MeshView& mesh, const MeshPassOptions& options,
@@ -418,7 +434,6 @@ MeshPassResult mesh_pass(const MeshView& mesh, const MeshPassOptions& options,
   }
   StageTimes times;
   PassInput input = pass_input(mesh, options, caller, times);
-  MeshSample& sample = input.sample;
   // A second pass does not go back.
   double furthest = 0;
   Context context = caller;
@@ -430,8 +445,8 @@ MeshPassResult mesh_pass(const MeshView& mesh, const MeshPassOptions& options,
   }
   PlanLimits limits;
   for (int passes = 1, tries = 1;; ++passes) {
-    const MeshPlan plan =
-        plan_mesh(input.mesh, sample, options.center, options.degree, options.precision, limits);
+    const MeshPlan plan = plan_mesh(input.mesh, input.sample, options.center, options.degree,
+                                    options.precision, limits);
     MeshPassResult result;
     result.times = std::move(times);
     const Outcome outcome = run_pass(input.mesh, input.options, plan, context, result);
@@ -445,11 +460,7 @@ MeshPassResult mesh_pass(const MeshView& mesh, const MeshPassOptions& options,
       const double wish = std::max(options.precision, norm > 0 ? plan.rounding / norm : 1.0);
       result.report.reached = !(result.report.error > wish);
       if (result.report.reached || tries++ == kMostTries) return result;
-      // What the plan allowed may be far above what came of it, and has to come below that.
-      const double planned = std::hypot(plan.rules, plan.window, plan.quanta) / plan.block.scale;
-      const double slack = std::max(1.0, planned / (result.report.error * norm));
-      limits.tighten *= 1.5 * slack * result.report.error / wish;
-      sample.edge_ratio = std::max(sample.edge_ratio, result.edge_ratio);
+      learn(result, plan, wish, norm, input, limits);
     }
     times = std::move(result.times);
   }

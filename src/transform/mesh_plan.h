@@ -40,6 +40,9 @@ struct MeshSample {
   // Where no edge is known: energy of the edges' errors in units of the faces'. As on smooth
   // meshes, until a pass has measured it.
   double edge_ratio = 3;
+  // The same as a pass has found it, at least: edges between parts of the file that are not in the
+  // sample together may be creases. 0: there was none.
+  double measured_ratio = 0;
   double scale = 1;       // a power of two that brings lengths to about 1
   double mean = 0;        // of r over directions
   double norm = 0;        // sqrt(int (r - mean)^2 dOmega)

@@ -167,6 +167,17 @@ TEST(mesh_pass, lumps_all_of_a_smooth_mesh_where_edges_cancel) {
   EXPECT_EQ(found.report.passes, 1);
 }
 
+// The sample sees rows of a face, where edges cancel, and none of the creases between faces.
+TEST(mesh_pass, creases_that_no_sample_has_seen_keep_the_precision) {
+  const Mesh mesh = box({1, 1, 1}, 65);
+  const MeshPassResult expected = mesh_pass(view_of(mesh), {.degree = 64, .precision = 1e-11}, {});
+  for (const double wish : {1e-5, 1e-6, 1e-7}) {
+    const MeshPassResult found = mesh_pass(view_of(mesh), {.degree = 64, .precision = wish}, {});
+    EXPECT_LT(relative_error(found.coefficients, expected.coefficients), wish);
+    EXPECT_TRUE(found.report.reached);
+  }
+}
+
 // A ball has hardly more than its mean: the sample takes the rest for larger than it is.
 TEST(mesh_pass, reaches_what_rounding_allows_on_a_ball) {
   for (const int subdivisions : {3, 5}) {
