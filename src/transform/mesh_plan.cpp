@@ -29,9 +29,12 @@ constexpr double kQuantumShare = 0.2;
 // A cube-sphere of a million triangles left 0.5 times the window's error of the norm (measured).
 constexpr double kInStep = 0.4;
 // Sources along a meridian or a parallel, as on extruded shapes, are all alike to the grid: its
-// error is that of the parts, which cancel in the whole (8 times measured on such a shape).
-constexpr double kInStepAligned = 0.05;
-constexpr double kAlignedShare = 0.005;  // chosen: of the edges
+// error is that of the parts, which cancel in the whole (8 times measured on such a shape, a fifth
+// of whose edges lie so), and grows with the share of the edges.
+constexpr double kAlignedTimes = 7, kAlignedShare = 0.2;
+double in_step(double aligned) {
+  return kInStep / (1 + kAlignedTimes * std::min(1.0, aligned / kAlignedShare));
+}
 
 // What windows in single precision leave of sources in step, relative to the sum of the moduli of
 // their weights (6e-10 measured on boxes of a million faces).
@@ -268,8 +271,7 @@ MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& c
   plan.caution = sample.overlaps ? 1.5 : 1;
   plan.rules = kRuleShare * budget / plan.caution;
   plan.window = kWindowShare * budget;
-  plan.most_window =
-      (sample.aligned > kAlignedShare ? kInStepAligned : kInStep) * precision / limits.tighten;
+  plan.most_window = in_step(sample.aligned) * precision / limits.tighten;
   plan.mean_error = std::max(precision, kRounding);
   plan.rounding = 4 * kRounding * c00 / sample.scale;
   const double unit = lumping_error(degree);
