@@ -99,8 +99,8 @@ class Analyze(CliTest):
 
     def test_report_has_the_promised_keys(self):
         report = self.rholm("analyze", "a.off", "--degree", "4", "-o", "a.h5", "--json").json()
-        stages = {"read", "topology", "center", "transform", "triangles", "spread", "fourier",
-                  "norms", "errors", "write"}
+        stages = {"read", "topology", "center", "transform", "order", "triangles", "spread",
+                  "fourier", "norms", "rays", "errors", "write"}
         self.assertEqual(set(report["seconds"]), stages)
         self.assertEqual(set(report["cpu_seconds"]), stages)
         self.assertEqual(report["degree"], 4)
