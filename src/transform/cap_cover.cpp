@@ -33,6 +33,10 @@ constexpr std::size_t kMost = 4000;  // points of a cap of low degree
 constexpr std::size_t kFewest = 8;   // points: 24 rows for 16 unknowns and a penalty
 // Ellipses are not thinner than this part of the support, squared.
 constexpr double kThinnest = 0.1;
+// Of 24 random points of a disc the third nearest is nearer than a tenth of the farthest twice in
+// a thousand times.
+constexpr std::size_t kInner = 3;
+constexpr double kClose = 0.1;
 // Residuals of this part of the support halve the weight of a cap: a crease or a fold is left to
 // caps that do not see it. Measured: 0.001 to 0.01 are alike.
 constexpr double kTrusted = 0.002;
@@ -47,33 +51,56 @@ double place(const Cap& cap, const Vec3& offset) {
   return cap.where.xx * p * p + 2 * cap.where.xy * p * q + cap.where.yy * q * q + h * h;
 }
 
-// The ellipse with the mean and the covariance of the points: those of a full disc give its circle.
-CapSupport ellipse_of(const CapFrame& frame, const CapPoints& points) {
-  double p = 0, q = 0, pp = 0, pq = 0, qq = 0;
+// Mean and covariance of points in a frame's plane.
+struct Moments {
+  double p = 0, q = 0;
+  double xx = 0, xy = 0, yy = 0;
+  double middle = 0, radius = 0;  // eigenvalues of the covariance: middle +- radius
+};
+
+Moments moments_of(const CapFrame& frame, const CapPoints& points) {
+  Moments m;
   const auto n = static_cast<double>(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vec3 offset = points.offset(i);
     const double x = dot(offset, frame.x), y = dot(offset, frame.y);
-    p += x, q += y, pp += x * x, pq += x * y, qq += y * y;
+    m.p += x, m.q += y, m.xx += x * x, m.xy += x * y, m.yy += y * y;
   }
-  p /= n, q /= n;
-  const double xx = pp / n - p * p, xy = pq / n - p * q, yy = qq / n - q * q;
-  // Axes between kThinnest and 1 of the support: eigenvalues of a disc's covariance are R^2 / 4.
-  const double middle = (xx + yy) / 2, radius = std::hypot((xx - yy) / 2, xy);
-  const double quarter = frame.support * frame.support / 4;
-  const double large = std::clamp(middle + radius, kThinnest * quarter, quarter);
-  const double small = std::clamp(middle - radius, kThinnest * quarter, quarter);
+  m.p /= n, m.q /= n;
+  m.xx = m.xx / n - m.p * m.p, m.xy = m.xy / n - m.p * m.q, m.yy = m.yy / n - m.q * m.q;
+  m.middle = (m.xx + m.yy) / 2, m.radius = std::hypot((m.xx - m.yy) / 2, m.xy);
+  return m;
+}
+
+// Of a disc's covariance, both are R^2 / 4.
+double eigenvalue_of_disc(const CapFrame& frame) { return frame.support * frame.support / 4; }
+
+// The ellipse with the mean and the covariance of the points: those of a full disc give its circle.
+CapSupport ellipse_of(const CapFrame& frame, const Moments& m) {
+  // Axes between kThinnest and 1 of the support.
+  const double most = eigenvalue_of_disc(frame), least = kThinnest * most;
+  const double large = std::clamp(m.middle + m.radius, least, most);
+  const double small = std::clamp(m.middle - m.radius, least, most);
   // Directions of the axes.
-  const double angle = 0.5 * std::atan2(2 * xy, xx - yy);
+  const double angle = 0.5 * std::atan2(2 * m.xy, m.xx - m.yy);
   const double c = std::cos(angle), s = std::sin(angle);
   const double a = 1 / (4 * large), b = 1 / (4 * small);
-  return {p, q, a * c * c + b * s * s, (a - b) * c * s, a * s * s + b * c * c};
+  return {m.p, m.q, a * c * c + b * s * s, (a - b) * c * s, a * s * s + b * c * c};
 }
 
 struct Candidate {
   Cap cap;
   std::vector<double> coefficients;
 };
+
+// Whether the points of a cap fill its disc. Along a line, or in two places far apart, they leave
+// open what lies between: needles, and ridges thinner than the spacing, have such caps.
+bool fills_disc(const Cap& cap, std::size_t k, const CapWorker& worker) {
+  const double inner2 = worker.near[std::min(kInner, k - 1)].distance2;
+  if (inner2 < kClose * kClose * worker.near[k - 1].distance2) return false;
+  const Moments m = moments_of(cap.frame, worker.points);
+  return m.middle - m.radius > kThinnest * eigenvalue_of_disc(cap.frame);
+}
 
 bool good(const CapFit& fit, double support, const CoverOptions& options) {
   return fit.usable >= kGoodShare &&
@@ -125,14 +152,15 @@ bool make_cap(const OrderedPoints& all, std::size_t seed, const CoverOptions& op
     bool fitted = fit_nearest(all, seed, k, CapSide::kSheet, options, worker, cap);
     const auto fewer = static_cast<std::size_t>(kShrink * static_cast<double>(k));
     const double support = cap.frame.support;
-    if (fitted && good(worker.fit, support, options)) {
+    const bool full = fitted && fills_disc(cap, k, worker);
+    if (full && good(worker.fit, support, options)) {
       if (options.tolerance > 0) grow_cap(all, seed, k, options, worker, cap);
       return true;
     }
     // Perhaps there is a crease: one of its sides alone, where normals can tell.
     if (options.noise == 0) {
       fitted = fit_nearest(all, seed, k, CapSide::kFace, options, worker, cap);
-      if (fitted && worker.points.size() >= kFewest && good(worker.fit, support, options))
+      if (fitted && full && worker.points.size() >= kFewest && good(worker.fit, support, options))
         return true;
     }
     if (fewer < kFewest) {
@@ -148,7 +176,7 @@ void describe_cap(const CoverOptions& options, const CapWorker& worker, Cap& cap
   cap.degree = static_cast<std::uint16_t>(options.degree);
   cap.error = worker.fit.rms;
   cap.deviation = worker.fit.deviation;
-  cap.where = ellipse_of(cap.frame, worker.points);
+  cap.where = ellipse_of(cap.frame, moments_of(cap.frame, worker.points));
   // Noise is no fault of the cap's.
   const double noise = kGoodNoise * options.noise;
   const double excess = std::sqrt(std::max(0.0, worker.fit.rms * worker.fit.rms - noise * noise));

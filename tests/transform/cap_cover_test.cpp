@@ -117,6 +117,34 @@ TEST(CapCover, both_sides_of_a_plate_have_caps_of_their_own) {
   }
 }
 
+// Random points of the strip -1/2 < x < 1/2, |y| < width / 2 in the plane z = 0.
+PointCloud strip(double width, std::size_t n) {
+  PointCloud cloud;
+  for (std::uint64_t i = 0; i < n; ++i) {
+    const double x = test::random_in(-0.5, 0.5, 9, i), y = test::random_in(-0.5, 0.5, 10, i);
+    cloud.points.push_back({x, width * y, 0});
+    cloud.normals.push_back({0, 0, 1});
+  }
+  return cloud;
+}
+
+TEST(CapCover, caps_of_a_strip_are_silent_beside_it) {
+  // One point wide: the 24 nearest points reach 12 widths to either side, where the thinnest
+  // ellipse is 12 sqrt(0.1) = 3.8 widths from the middle; the 9 nearest 4.5, where it is 1.4.
+  constexpr double kWidth = 0.004;
+  constexpr std::size_t kPoints = 250;
+  const Ordered points = ordered(strip(kWidth, kPoints));
+  const Cover made = cover(points.view(), {}, {});
+  ASSERT_GT(made.caps.size(), 20U);
+  for (const Cap& cap : made.caps) {
+    for (int i = -500; i <= 500; ++i) {
+      for (const double y : {-3 * kWidth, 3 * kWidth}) {
+        EXPECT_GT(place(cap, Vec3{0.001 * i, y, 0} - cap.frame.seed()), 1);
+      }
+    }
+  }
+}
+
 TEST(CapCover, points_without_a_surface_are_rejected) {
   PointCloud cloud;
   for (std::uint64_t i = 0; i < 2000; ++i) {
