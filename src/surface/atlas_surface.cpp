@@ -173,6 +173,8 @@ AtlasSurface extract_atlas(const Atlas& atlas, const AtlasSurfaceOptions& option
       grid, dipoles.feet, winding, {.max_blocks = blocks_within(options.max_memory)}, context);
   result.holes = filling.holes, result.smooth_holes = filling.smooth;
   ExtractedSurface surface = extract_surface(grid, context);
+  // From here on only the places of blocks are asked for.
+  grid.values = {}, grid.neighbours = {};
   project_vertices(atlas, lists, grid, surface, context);
   if (options.keep_holes) {
     std::vector<double> support = data_support(atlas, lists, surface, context);

@@ -384,16 +384,14 @@ struct VertexRows {
   }
 };
 
-void add_vertex_normals(Mesh& mesh, std::vector<Vec3>& normals) {
-  const char* names[] = {"nx", "ny", "nz"};
-  for (int axis = 0; axis < 3; ++axis) {
-    Attribute attribute{names[axis], ScalarType::kFloat32, std::vector<double>(normals.size())};
-    for (std::size_t i = 0; i < normals.size(); ++i) {
-      const Vec3& n = normals[i];
-      attribute.values[i] = axis == 0 ? n.x : axis == 1 ? n.y : n.z;
-    }
-    mesh.attributes.push_back(std::move(attribute));
+// nx, ny, nz of `mesh`, zero.
+std::array<double*, 3> add_vertex_normals(Mesh& mesh) {
+  for (const char* name : {"nx", "ny", "nz"}) {
+    mesh.attributes.push_back(
+        {name, ScalarType::kFloat32, std::vector<double>(mesh.vertices.size())});
   }
+  const auto axis = mesh.attributes.end() - 3;
+  return {axis[0].values.data(), axis[1].values.data(), axis[2].values.data()};
 }
 
 }  // namespace
@@ -401,7 +399,7 @@ void add_vertex_normals(Mesh& mesh, std::vector<Vec3>& normals) {
 void project_vertices(const Atlas& atlas, const CapLists& lists, const BlockGrid& grid,
                       ExtractedSurface& surface, const Context& context) {
   const Lanes lanes = make_lanes(atlas, grid.step);
-  std::vector<Vec3> normals(surface.mesh.vertices.size());
+  const std::array<double*, 3> normals = add_vertex_normals(surface.mesh);
   const std::size_t n_blocks = std::min(lists.first.size(), surface.first_vertex.size()) - 1;
   parallel_for(n_blocks, 64, context, {.name = "vertices"},
                [&](std::size_t begin, std::size_t end) {
@@ -430,7 +428,9 @@ void project_vertices(const Atlas& atlas, const CapLists& lists, const BlockGrid
                          Vec3{s[2 * rows.stride], s[3 * rows.stride], s[4 * rows.stride]} / w;
                      // The vertex moves by a small part of a step: its normal is that of where it
                      // was.
-                     normals[first + i] = normalized(normal);
+                     const Vec3 unit = normalized(normal);
+                     normals[0][first + i] = unit.x, normals[1][first + i] = unit.y;
+                     normals[2][first + i] = unit.z;
                      const bool filled = !surface.filled.empty() && surface.filled[first + i] != 0;
                      const double square = dot(normal, normal);
                      if (filled || !(square > kLeastNormal)) continue;
@@ -439,7 +439,6 @@ void project_vertices(const Atlas& atlas, const CapLists& lists, const BlockGrid
                    }
                  }
                });
-  add_vertex_normals(surface.mesh, normals);
 }
 
 std::vector<double> data_support(const Atlas& atlas, const CapLists& lists,
