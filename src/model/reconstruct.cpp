@@ -19,9 +19,10 @@ namespace rholm {
 namespace {
 
 constexpr int kDegree = 3;  // of small caps: method 7.3
-// Steps of the grid. Of the spacing: method 7.7; of a cap's support: its surface has no waves
+// Steps of the grid. Of the spacing (method 7.7): from 0.7 to 0.6 normals gain 3 %, faces and time
+// grow by a third; below distances gain nothing more. Of a cap's support: its surface has no waves
 // shorter than a third of it, and a step of half of that shows them.
-constexpr double kStepOfSpacing = 0.7;
+constexpr double kStepOfSpacing = 0.6;
 constexpr double kStepOfSupport = 0.15;
 // Points that no cap fits, or whose normals disagree, before all are searched for outliers: creases
 // and folds of clean shapes have fewer.
