@@ -14,6 +14,7 @@
 #include "surface/atlas_dipoles.h"
 #include "surface/block_grid.h"
 #include "surface/cap_field.h"
+#include "surface/close_grid.h"
 #include "surface/components.h"
 #include "surface/extract.h"
 #include "surface/hole_fill.h"
@@ -166,9 +167,10 @@ AtlasSurface extract_atlas(const Atlas& atlas, const AtlasSurfaceOptions& option
   BlockGrid grid = make_grid(atlas, discs, options, context);
   result.memory = memory_of(grid.n_blocks());
   const CapLists lists = list_caps(grid, discs);
-  fill_grid(atlas, lists, grid, context);
+  const std::vector<std::uint64_t> doubtful = fill_grid(atlas, lists, grid, context);
   const AtlasDipoles dipoles = dipoles_of(atlas, options.step, context);
   const WindingTree winding(dipoles.points, dipoles.area_normals);
+  forget_refuted(grid, doubtful, winding, context);
   const HoleFilling filling = fill_holes(
       grid, dipoles.feet, winding, {.max_blocks = blocks_within(options.max_memory)}, context);
   result.holes = filling.holes, result.smooth_holes = filling.smooth;

@@ -119,7 +119,8 @@ HWY_INLINE bool Say(D d, const LaneCap& lane, V px, V py, V pz, Said& said) {
 }
 
 void FillBlock(const CapLane* caps, const std::uint32_t* list, std::size_t n_caps,
-               const Vec3& origin, double step, const NodeTable& nodes, float* values) {
+               const Vec3& origin, double step, const NodeTable& nodes, float* values,
+               std::uint64_t* doubtful) {
   const D d;
   alignas(64) float sum_g[512], sum_w[512];
   for (std::size_t i = 0; i < 512; i += hn::Lanes(d)) {
@@ -150,6 +151,11 @@ void FillBlock(const CapLane* caps, const std::uint32_t* list, std::size_t n_cap
                               hn::Mul(g, hn::Set(d, static_cast<float>(step))),
                               hn::Set(d, BlockGrid::kUnknown)),
                d, values + i);
+  }
+  const auto near = static_cast<float>(kDoubtfulSteps * step);
+  for (std::size_t i = 0; i < 512; ++i) {
+    const bool weak = sum_w[i] > kLeastWeight && sum_w[i] < kDoubtfulWeight;
+    if (weak && std::abs(values[i]) < near) doubtful[i >> 6] |= std::uint64_t{1} << (i & 63);
   }
 }
 
@@ -339,18 +345,21 @@ CapLists list_caps(const BlockGrid& grid, const std::vector<Disc>& discs) {
   return lists;
 }
 
-void fill_grid(const Atlas& atlas, const CapLists& lists, BlockGrid& grid, const Context& context) {
+std::vector<std::uint64_t> fill_grid(const Atlas& atlas, const CapLists& lists, BlockGrid& grid,
+                                     const Context& context) {
   const Lanes lanes = make_lanes(atlas, grid.step);
   static const NodeTable nodes = make_nodes();
+  std::vector<std::uint64_t> doubtful(8 * grid.n_blocks(), 0);
   parallel_for(lists.first.size() - 1, 64, context, {.name = "grid"},
                [&](std::size_t begin, std::size_t end) {
                  for (std::size_t b = begin; b < end; ++b) {
                    HWY_DYNAMIC_DISPATCH(FillBlock)
                    (lanes.caps.data(), lists.caps.data() + lists.first[b],
                     lists.first[b + 1] - lists.first[b], grid.node(b, 0), grid.step, nodes,
-                    grid.block_values(b));
+                    grid.block_values(b), &doubtful[8 * b]);
                  }
                });
+  return doubtful;
 }
 
 namespace {

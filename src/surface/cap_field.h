@@ -32,8 +32,10 @@ std::vector<Disc> discs_of(const Atlas& atlas, double step, const Context& conte
 CapLists list_caps(const BlockGrid& grid, const std::vector<Disc>& discs);
 
 // Sets values to G = sum w g / sum w, w = (1 - d^2/R^2)^3 (1 - g^2/T^2)^2, or with the weight of
-// the paper in the place of the first factor: CapBlend.
-void fill_grid(const Atlas& atlas, const CapLists& lists, BlockGrid& grid, const Context& context);
+// the paper in the place of the first factor: CapBlend. Returns one bit per node, 8 words per
+// block: 1 where the value is doubtful, near the surface but at the very end of all caps.
+std::vector<std::uint64_t> fill_grid(const Atlas& atlas, const CapLists& lists, BlockGrid& grid,
+                                     const Context& context);
 
 // Moves vertices to G = 0 by one Newton step, and sets their normals nx, ny, nz; those beside
 // filled nodes stay, with normals of their triangles.

@@ -17,6 +17,9 @@ namespace rholm {
 namespace {
 
 constexpr std::size_t kGrain = 64;  // blocks
+// The winding number refutes a side if it is so far beyond 1/2. Measured: horns at edges are fewer
+// with 0.2 than with 0.3.
+constexpr double kRefuted = 0.2;
 
 bool is_complete(const BlockGrid& grid, const std::vector<char>& fully_known, std::size_t b) {
   return std::all_of(grid.neighbours[b].begin(), grid.neighbours[b].end(),
@@ -167,6 +170,28 @@ Closing close_grid(BlockGrid& grid, const NodeValues& values, std::size_t max_bl
     closing.added_blocks += grid.n_blocks() - blocks_before;
     ++closing.rounds;
   }
+}
+
+std::size_t forget_refuted(BlockGrid& grid, std::span<const std::uint64_t> doubtful,
+                           const WindingTree& tree, const Context& context) {
+  std::vector<float*> values;
+  std::vector<Vec3> places;
+  for (std::size_t word = 0; word < doubtful.size(); ++word) {
+    for (std::uint64_t bits = doubtful[word]; bits != 0; bits &= bits - 1) {
+      const std::size_t node = 64 * (word % 8) + std::countr_zero(bits);
+      values.push_back(grid.block_values(word / 8) + node);
+      places.push_back(grid.node(word / 8, node));
+    }
+  }
+  const std::vector<double> w = tree.winding(places, context);
+  std::size_t forgotten = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double inside = *values[i] < 0 ? w[i] : 1 - w[i];
+    if (inside >= 0.5 - kRefuted) continue;
+    *values[i] = BlockGrid::kUnknown;
+    ++forgotten;
+  }
+  return forgotten;
 }
 
 double winding_value(double winding, double step) { return (0.5 - winding) * 2 * step; }
