@@ -10,14 +10,13 @@
 #include "chart/view_scan.h"
 #include "rholm/error.h"
 #include "transform/error_points.h"
+#include "transform/error_sites.h"
 #include "transform/exact_norms.h"
 #include "transform/mesh_pass.h"
 #include "transform/tolerance.h"
 
 namespace rholm {
 namespace {
-
-constexpr std::size_t kAreaPoints = 100'000;
 
 // sqrt(||f - f_L||^2 / 4 pi), if the error of the coefficients leaves a hundredth of it.
 std::optional<double> parseval_rms(const Expansion& expansion, double precision) {
@@ -40,18 +39,9 @@ double diagonal_of(const MeshView& mesh) {
       {range.max[0] - range.min[0], range.max[1] - range.min[1], range.max[2] - range.min[2]});
 }
 
-// On fine meshes the jumps of neighbouring edges are correlated, and what they predict is too
-// large.
-bool shows_its_edges(const MeshView& mesh, int degree) {
-  const double angle =
-      1.5 * std::sqrt(4 * std::numbers::pi / static_cast<double>(mesh.n_triangles));
-  constexpr double kCoarse = 6;  // measured: 20 % at 5, a few per cent from 10 on
-  return degree * angle > kCoarse;
-}
-
-void predict(const MeshView& mesh, const Expansion& expansion, TruncationErrors& errors) {
-  if (!shows_its_edges(mesh, expansion.coefficients.degree())) return;
-  const ErrorStrengths strengths = vertex_error_strengths(mesh, expansion.center);
+void predict(const Expansion& expansion, ErrorSites& sites, TruncationErrors& errors) {
+  if (!shows_its_edges(sites.mesh(), expansion.coefficients.degree())) return;
+  const ErrorStrengths& strengths = sites.strengths();
   const double per = 1 / (2 * std::numbers::pi * (expansion.coefficients.degree() + 1.0));
   if (expansion.function == RadialFunction::kRadius) errors.predicted_max = strengths.radius * per;
   errors.predicted_max_distance = strengths.distance * per;
@@ -62,15 +52,21 @@ void predict(const MeshView& mesh, const Expansion& expansion, TruncationErrors&
 TruncationErrors truncation_errors(const MeshView& mesh, const Expansion& expansion,
                                    const TruncationOptions& options, const Context& context) {
   validate(mesh);
+  ErrorSites sites(mesh, expansion.center);
+  return truncation_errors(expansion, options, sites, context);
+}
+
+TruncationErrors truncation_errors(const Expansion& expansion, const TruncationOptions& options,
+                                   ErrorSites& sites, const Context& context) {
   TruncationErrors errors;
-  errors.diagonal = diagonal_of(mesh);
+  errors.diagonal = diagonal_of(sites.mesh());
   const int degree = expansion.coefficients.degree();
   const Context silent{.threads = context.threads};
   // A ten thousandth of the truncation error would do; it is not known yet.
   const double precision = std::clamp(options.precision, 1e-12, 1e-6);
   report_progress(context, "errors", 0);
   {
-    const ErrorPoints points = extreme_points(mesh, expansion.center, degree);
+    const ErrorPoints& points = sites.extreme(degree);
     const PointErrors found = point_errors(points, expansion, degree, true, precision, silent);
     errors.points = points.size();
     errors.measured_max = largest(found.radial);
@@ -78,7 +74,7 @@ TruncationErrors truncation_errors(const MeshView& mesh, const Expansion& expans
   }
   report_progress(context, "errors", 0.6);
   {
-    const ErrorPoints points = area_points(mesh, expansion.center, kAreaPoints);
+    const ErrorPoints& points = sites.over_area();
     const PointErrors found = point_errors(points, expansion, degree, true, precision, silent);
     errors.points += points.size();
     // At a degree too low for any face to be long the middle of one may err more than its corners.
@@ -95,7 +91,7 @@ TruncationErrors truncation_errors(const MeshView& mesh, const Expansion& expans
     }
   }
   report_progress(context, "errors", 0.9);
-  if (options.predict) predict(mesh, expansion, errors);
+  if (options.predict) predict(expansion, sites, errors);
   return errors;
 }
 
