@@ -60,18 +60,20 @@ struct Tolerance {
 };
 
 struct ToleranceAnalysis {
-  Analysis analysis;   // of the smallest degree that keeps the tolerance, or of max_degree
+  // Of the smallest degree that keeps the tolerance, or of max_degree. The errors of its expansion
+  // are set where the tolerance is one of the largest error or of distances: they were measured.
+  Analysis analysis;
   double allowed = 0;  // in the mesh's unit
   double reached = 0;  // the error of that degree in the norm and measure of the tolerance
   bool met = false;
-  std::vector<int> degrees;  // that were computed on the way, the last one the largest
+  std::vector<int> degrees;  // that were computed on the way, the last one in full precision
 };
 
-// The smallest degree whose error is within the tolerance, by coefficients of the radius: computed
-// for a small degree, then for the one that the decay of the error predicts, until the error of
-// what there is meets the tolerance; then cut off. options.degree is not used; the precision is as
-// fine as the tolerance asks for, and options.precision at most. Throws InvalidInput for a
-// tolerance out of range, the method gauge, and a surface that is not star-shaped.
+// The smallest degree whose error is within the tolerance, to a few hundredths, exactly so for the
+// rms radius: found with coarse coefficients, then computed as analyze() computes it.
+// options.degree is not used; the precision is as fine as the tolerance asks for, and
+// options.precision at most. Throws InvalidInput for a tolerance out of range, the method gauge,
+// and a surface that is not star-shaped.
 ToleranceAnalysis analyze(const StarChart& chart, const Tolerance& tolerance,
                           const AnalyzeOptions& options = {}, const Context& context = {});
 

@@ -85,7 +85,7 @@ void set_counts(const MeshView& mesh, Encoded& encoded) {
 }
 
 // What a search for a degree has found.
-void keep(ToleranceAnalysis found, Encoded& encoded) {
+void keep(ToleranceAnalysis found, const EncodeOptions& options, Encoded& encoded) {
   encoded.tolerance = ToleranceReport{.allowed = found.allowed,
                                       .reached = found.reached,
                                       .met = found.met,
@@ -93,13 +93,14 @@ void keep(ToleranceAnalysis found, Encoded& encoded) {
   const StageTimes times = std::move(encoded.analysis.times);
   encoded.analysis = std::move(found.analysis);
   encoded.analysis.times.insert(times.begin(), times.end());
+  if (!options.errors) encoded.analysis.expansion.errors.reset();
 }
 
 void add_errors(const MeshView& mesh, const EncodeOptions& options, bool predict,
                 const Context& context, Encoded& encoded) {
   Analysis& analysis = encoded.analysis;
-  const double precision =
-      analysis.fast ? analysis.fast->error : std::min(options.analyze.precision, 1e-8);
+  if (analysis.expansion.errors) return;  // a search for a degree has measured them
+  const double precision = known_error(analysis, options.analyze.precision);
   analysis.expansion.errors = timed(encoded.times, "errors", [&] {
     return truncation_errors(mesh, analysis.expansion, {.precision = precision, .predict = predict},
                              context);
@@ -170,8 +171,9 @@ std::optional<Encoded> encode_as_it_lies(const MeshView& mesh, const EncodeOptio
       set_pass(next, result);
       return result;
     };
-    timed(encoded.times, "transform",
-          [&] { keep(search_tolerance(problem, *options.tolerance, analysis, context), encoded); });
+    timed(encoded.times, "transform", [&] {
+      keep(search_tolerance(problem, *options.tolerance, analysis, context), options, encoded);
+    });
   }
   analysis.expansion.norm_squared = norms->radius_squared;
   const bool paired = mesh.n_triangles <= kMostPredicted;
@@ -249,7 +251,7 @@ Encoded encode(const Mesh& mesh, const EncodeOptions& options, const Context& co
   encoded.flipped = topology.flipped;
   timed(encoded.times, "transform", [&] {
     if (options.tolerance) {
-      keep(analyze(chart, *options.tolerance, options.analyze, context), encoded);
+      keep(analyze(chart, *options.tolerance, options.analyze, context), options, encoded);
     } else {
       encoded.analysis = analyze(chart, options.analyze, context);
     }

@@ -5,10 +5,11 @@ namespace rholm {
 
 struct DegreeBracket {
   int bad = -1, good = 0;
-  double bad_value = 0, good_value = 0;
-  // The error falls like 1 / (L + 1), as at vertices; else like some power.
-  bool at_vertices = false;
-  int same_side = 0;  // guesses in a row on one side
+  double bad_value = 0, good_value = 0;  // 0: not known
+  int same_side = 0;                     // guesses in a row on one side
+  // Of the guess before the last on that side.
+  int before = 0;
+  double before_value = 0;
 
   // A fiftieth: the error itself is hardly known better.
   int step() const { return good / 50 > 1 ? good / 50 : 1; }

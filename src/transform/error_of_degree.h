@@ -1,65 +1,61 @@
-// The error of the first L degrees of one set of coefficients, for any L, as a tolerance measures
-// it.
+// The error of the first L degrees of coefficients, for any L, as a tolerance measures it.
 #pragma once
 
 #include <optional>
 #include <vector>
 
-#include "transform/degree_bracket.h"
+#include "rholm/coefficients.h"
+#include "rholm/context.h"
+#include "rholm/truncation.h"
 #include "transform/error_points.h"
-#include "transform/tolerance.h"
+#include "transform/error_sites.h"
 
 namespace rholm {
 
+// sqrt(sum of the energies beyond l / 4 pi) for every l of the coefficients, `beyond` being the
+// energy beyond all of them.
+std::vector<double> rms_tails(const Coefficients& coefficients, double beyond);
+// The smallest l that has such a tail within the limit, the last one if none has.
+int smallest_degree(const std::vector<double>& tails, double limit);
+
+// The one that the tolerance is about.
+double error_in(const TruncationErrors& errors, const Tolerance& tolerance);
+
+// Largest errors and distances, measured at points.
 class ErrorOfDegree {
  public:
-  // `final`: the coefficients are exact enough for Parseval, and all points are used. The largest
-  // error at vertices, if it is known, is `at_vertices` / (L + 1); else 0.
-  ErrorOfDegree(const ToleranceProblem& problem, const Tolerance& tolerance,
-                const Expansion& expansion, bool final, double at_vertices, const Context& context);
+  // All must outlive this. `size`: of the function, root mean square.
+  ErrorOfDegree(const Tolerance& tolerance, ErrorSites& sites, double size, const Context& context);
 
-  double of(int degree) const;
-
-  // That of all coefficients, at all points.
-  double reached() const;
-
-  // An estimate of the smallest degree whose error is within the tolerance, that of the
-  // coefficients being good; `bracket` says what is known.
-  int estimate(const DegreeBracket& bracket) const;
-
-  // The smallest good degree near an estimate, and its error; none if that of the coefficients is
-  // not good either.
-  std::optional<DegreeBracket> confirm(int estimate) const;
+  // Of the first `degree` degrees, at all points; at a part of them where these say on which side
+  // of the limit it is: root mean squares that are not close to it, largest errors above it or well
+  // within it at what were the worst points, or far above it at the first degree that is asked for.
+  double of(const Expansion& expansion, int degree, double limit);
 
  private:
-  // Known for all degrees from the energies.
-  bool is_spectral() const;
   bool is_distance() const { return tolerance_.measure == ErrorMeasure::kDistance; }
-  int degree() const { return expansion_.coefficients.degree(); }
+  bool is_largest() const { return tolerance_.norm == ErrorNorm::kMax; }
+  double rms_of(const Expansion& expansion, int degree, double limit);
+  double largest_of(const Expansion& expansion, int degree, double limit);
+  void keep_worst(const std::vector<double>& errors, double least);
+  const ErrorPoints& all_points(int degree);
+  const ErrorPoints& some_points();
+  PointErrors measured(const ErrorPoints& points, const Expansion& expansion, int degree,
+                       double limit) const;
+  std::vector<double> sizes(PointErrors errors) const;
 
-  void set_tails();
-  int smallest_spectral() const;
-  std::optional<DegreeBracket> confirm_largest() const;
-  DegreeBracket narrowed(const ErrorPoints& few, double factor, DegreeBracket bracket) const;
-
-  PointErrors errors_of(const ErrorPoints& points, int degree) const;
-  // Of all coefficients.
-  const PointErrors& whole() const;
-  double value_of(const PointErrors& errors) const;
-  double measured(const ErrorPoints& points, int degree) const;
-  ErrorPoints few_of(const ErrorPoints& points, const PointErrors& errors) const;
-
-  const ToleranceProblem& problem_;
   const Tolerance& tolerance_;
-  const Expansion& expansion_;
-  bool final_;
-  double at_vertices_;
+  ErrorSites& sites_;
+  double size_;
   const Context& context_;
   Context silent_;
-  std::vector<double> tails_;
-  // Where the largest error is looked for, and where it is confirmed; else only the first.
-  ErrorPoints points_, all_;
-  mutable std::optional<PointErrors> whole_;
+  ErrorPoints all_, some_, worst_;
+  int degree_of_all_ = -1;
+  int first_ = -1;
 };
+
+// The root mean square error of the radius at a part of the points over the area, to 0.7 %.
+double sampled_rms(const Expansion& expansion, ErrorSites& sites, double precision,
+                   const Context& context);
 
 }  // namespace rholm

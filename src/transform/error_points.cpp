@@ -59,8 +59,15 @@ int divisions(const Face& face, int degree) {
 
 }  // namespace
 
+void ErrorPoints::reserve(std::size_t n) {
+  directions.reserve(n);
+  radii.reserve(n);
+  cosines.reserve(n);
+}
+
 ErrorPoints ErrorPoints::subset(const std::vector<std::size_t>& indices) const {
   ErrorPoints result;
+  result.reserve(indices.size());
   for (const std::size_t i : indices) {
     result.directions.push_back(directions[i]);
     result.radii.push_back(radii[i]);

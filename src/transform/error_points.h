@@ -17,6 +17,7 @@ struct ErrorPoints {
   std::vector<double> cosines;
 
   std::size_t size() const { return directions.size(); }
+  void reserve(std::size_t n);
   ErrorPoints subset(const std::vector<std::size_t>& indices) const;
   void append(const ErrorPoints& more);
 };

@@ -30,14 +30,22 @@ void check(const Tolerance& tolerance);
 // The degree to begin with: coefficients are as cheap as the pass over the faces.
 int first_degree(std::size_t n_triangles, const Tolerance& tolerance);
 
+// In the mesh's unit. `mean`: of the radius.
+double absolute_error(const ToleranceProblem& problem, const Tolerance& tolerance, double mean);
+
 // How exact coefficients must be: for an estimate of the degree, and in the end.
 struct Precisions {
   double pilot = 0, final = 0;
 };
 Precisions precisions_for(const ToleranceProblem& problem, const Tolerance& tolerance);
 
+// The relative error of coefficients that were wanted as exact as this.
+double known_error(const Analysis& analysis, double wanted);
+
 // `pilot`: coefficients of first_degree(). Pilots of higher degrees follow until the error of what
-// there is, measured at points, is within the tolerance; then coefficients in full precision.
+// there is, measured at points, is within the tolerance, and say which degree is the smallest; then
+// coefficients of that degree in full precision. Their `errors` are set where the tolerance is not
+// one of Parseval's.
 ToleranceAnalysis search_tolerance(const ToleranceProblem& problem, const Tolerance& tolerance,
                                    const Analysis& pilot, const Context& context);
 

@@ -78,6 +78,37 @@ TEST(encode, finds_the_same_degree_for_a_tolerance_on_both_ways) {
   }
 }
 
+// What a search for a degree ends with is the model that this degree gives.
+TEST(encode, a_tolerance_gives_the_bits_of_the_degree_it_finds) {
+  const Mesh mesh = test::rotated(bumpy_sphere(3, 0.3));
+  for (const Tolerance& tolerance :
+       {Tolerance{.error = 0.02, .norm = ErrorNorm::kMax},
+        Tolerance{.error = 5e-3, .measure = ErrorMeasure::kDistance},
+        Tolerance{.error = 0.02, .norm = ErrorNorm::kMax, .measure = ErrorMeasure::kDistance}}) {
+    const Encoded found = encode(mesh, {.tolerance = tolerance});
+    const Expansion& expansion = found.analysis.expansion;
+    const Encoded same = encode(mesh, {.analyze = {.degree = expansion.coefficients.degree()}});
+    const auto a = expansion.coefficients.values();
+    const auto b = same.analysis.expansion.coefficients.values();
+    EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end()));
+    ASSERT_TRUE(expansion.errors && same.analysis.expansion.errors);
+    EXPECT_EQ(expansion.errors->rms, same.analysis.expansion.errors->rms);
+    EXPECT_EQ(expansion.errors->measured_max, same.analysis.expansion.errors->measured_max);
+    EXPECT_EQ(expansion.errors->distance_rms, same.analysis.expansion.errors->distance_rms);
+    EXPECT_EQ(expansion.errors->predicted_max, same.analysis.expansion.errors->predicted_max);
+    EXPECT_EQ(expansion.errors->points, same.analysis.expansion.errors->points);
+    EXPECT_EQ(expansion.errors->diagonal, same.analysis.expansion.errors->diagonal);
+  }
+}
+
+TEST(encode, without_errors_a_tolerance_leaves_none) {
+  const Mesh mesh = bumpy_sphere(3, 0.3);
+  const Tolerance tolerance{.error = 0.02, .norm = ErrorNorm::kMax};
+  const Encoded encoded = encode(mesh, {.tolerance = tolerance, .errors = false});
+  EXPECT_TRUE(encoded.tolerance->met);
+  EXPECT_FALSE(encoded.analysis.expansion.errors);
+}
+
 // Distances to first order against exact closest points.
 TEST(encode, distances_in_a_model_are_those_of_an_independent_comparison) {
   const Mesh mesh = test::rotated(bumpy_sphere(3, 0.3));
