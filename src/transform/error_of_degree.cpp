@@ -72,9 +72,9 @@ double ErrorOfDegree::of(const Expansion& expansion, int degree, double limit) {
 }
 
 double ErrorOfDegree::rms_of(const Expansion& expansion, int degree, double limit) {
-  const double value = rms_distance(measured(some_points(), expansion, degree, limit));
+  const double value = rms_distance(measured(some_points(), expansion, degree, limit), 0);
   if (value > kClose * limit || kClose * value < limit) return value;
-  return rms_distance(measured(sites_.over_area(), expansion, degree, limit));
+  return rms_distance(measured(sites_.over_area(), expansion, degree, limit), 0);
 }
 
 double ErrorOfDegree::largest_of(const Expansion& expansion, int degree, double limit) {
@@ -90,16 +90,17 @@ double ErrorOfDegree::largest_of(const Expansion& expansion, int degree, double 
   }
   const std::vector<double> errors = sizes(measured(all, expansion, degree, limit));
   const double value = largest(errors);
-  keep_worst(errors, kWorst * value);
+  keep_worst(all, errors, kWorst * value);
   return value;
 }
 
-void ErrorOfDegree::keep_worst(const std::vector<double>& errors, double least) {
+void ErrorOfDegree::keep_worst(const ErrorPoints& points, const std::vector<double>& errors,
+                               double least) {
   std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < errors.size(); ++i) {
     if (errors[i] >= least) indices.push_back(i);
   }
-  worst_ = all_.subset(indices);
+  worst_ = points.subset(indices);
 }
 
 const ErrorPoints& ErrorOfDegree::some_points() {
@@ -111,12 +112,8 @@ const ErrorPoints& ErrorOfDegree::some_points() {
 }
 
 const ErrorPoints& ErrorOfDegree::all_points(int degree) {
-  if (degree > kDenseUpTo * degree_of_all_) {
-    all_ = sites_.extreme(degree);
-    all_.append(sites_.over_area());
-    degree_of_all_ = degree;
-  }
-  return all_;
+  if (degree > kDenseUpTo * degree_of_all_) degree_of_all_ = degree;
+  return sites_.all(degree_of_all_);
 }
 
 PointErrors ErrorOfDegree::measured(const ErrorPoints& points, const Expansion& expansion,
@@ -141,7 +138,7 @@ double sampled_rms(const Expansion& expansion, ErrorSites& sites, double precisi
   const ErrorPoints points = every(sites.over_area(), kPart);
   const PointErrors errors = point_errors(points, expansion, expansion.coefficients.degree(), false,
                                           precision, {.threads = context.threads});
-  return rms_over_solid_angle(points, errors);
+  return rms_over_solid_angle(points, errors, 0);
 }
 
 }  // namespace rholm

@@ -37,7 +37,7 @@ class ErrorOfDegree {
   bool is_largest() const { return tolerance_.norm == ErrorNorm::kMax; }
   double rms_of(const Expansion& expansion, int degree, double limit);
   double largest_of(const Expansion& expansion, int degree, double limit);
-  void keep_worst(const std::vector<double>& errors, double least);
+  void keep_worst(const ErrorPoints& points, const std::vector<double>& errors, double least);
   const ErrorPoints& all_points(int degree);
   const ErrorPoints& some_points();
   PointErrors measured(const ErrorPoints& points, const Expansion& expansion, int degree,
@@ -49,7 +49,7 @@ class ErrorOfDegree {
   double size_;
   const Context& context_;
   Context silent_;
-  ErrorPoints all_, some_, worst_;
+  ErrorPoints some_, worst_;
   int degree_of_all_ = -1;
   int first_ = -1;
 };

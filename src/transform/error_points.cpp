@@ -20,6 +20,7 @@ constexpr int kMostDivisions = 3;
 struct Face {
   std::array<Vec3, 3> corners;  // from the centre
   FaceNormal normal;
+  double twice_area = 0;
 };
 
 Face face_of(const MeshView& mesh, std::size_t t, const Vec3& center) {
@@ -27,21 +28,22 @@ Face face_of(const MeshView& mesh, std::size_t t, const Vec3& center) {
   Face face;
   for (int i = 0; i < 3; ++i) face.corners[i] = mesh.vertex(triangle[i]) - center;
   face.normal = face_normal(face.corners);
+  face.twice_area = norm(face.normal.twice_area);
   return face;
 }
 
-void add_point(ErrorPoints& points, const Vec3& x, double cosine) {
-  const double r = norm(x);
-  if (!(r > 0)) return;  // nobody sees the centre
+// At a distance r from the centre, where nobody sees it if that is 0.
+void add_point(ErrorPoints& points, const Vec3& x, double r, double cosine) {
+  if (!(r > 0)) return;
   points.directions.push_back(x / r);
   points.radii.push_back(r);
   points.cosines.push_back(cosine);
 }
 
 void add_on_face(ErrorPoints& points, const Face& face, const Vec3& x) {
-  const double size = norm(x) * norm(face.normal.twice_area);
+  const double r = norm(x), size = r * face.twice_area;
   if (!(size > 0)) return;
-  add_point(points, x, std::abs(dot(face.normal.twice_area, x)) / size);
+  add_point(points, x, r, std::abs(dot(face.normal.twice_area, x)) / size);
 }
 
 // Into how many parts the edges of a face are divided.
@@ -90,7 +92,8 @@ ErrorPoints extreme_points(const MeshView& mesh, const Vec3& center, int degree)
     for (const std::uint32_t i : mesh.triangle(t)) used[i] = true;
   }
   for (std::size_t i = 0; i < mesh.n_vertices; ++i) {
-    if (used[i]) add_point(points, mesh.vertex(i) - center, 0);
+    const Vec3 x = mesh.vertex(i) - center;
+    if (used[i]) add_point(points, x, norm(x), 0);
   }
   for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
     const Face face = face_of(mesh, t, center);
@@ -112,7 +115,7 @@ ErrorPoints area_points(const MeshView& mesh, const Vec3& center, std::size_t n)
   double whole = 0;
   for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
     const Face face = face_of(mesh, t, center);
-    if (!face.normal.degenerate) whole += norm(face.normal.twice_area);
+    if (!face.normal.degenerate) whole += face.twice_area;
   }
   ErrorPoints points;
   const double part = whole / static_cast<double>(n);
@@ -122,7 +125,7 @@ ErrorPoints area_points(const MeshView& mesh, const Vec3& center, std::size_t n)
   for (std::size_t t = 0; t < mesh.n_triangles && next < n; ++t) {
     const Face face = face_of(mesh, t, center);
     if (face.normal.degenerate) continue;
-    sum += norm(face.normal.twice_area);
+    sum += face.twice_area;
     while (next < n && (static_cast<double>(next) + random_uniform(kSeed, 3 * next)) * part < sum) {
       // Uniform on the triangle.
       const double s = std::sqrt(random_uniform(kSeed, 3 * next + 1));
@@ -204,9 +207,10 @@ double largest(const std::vector<double>& values) {
   return most;
 }
 
-double rms_over_solid_angle(const ErrorPoints& points, const PointErrors& errors) {
+double rms_over_solid_angle(const ErrorPoints& points, const PointErrors& errors,
+                            std::size_t first) {
   double sum = 0, weights = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (std::size_t i = first; i < points.size(); ++i) {
     const double weight = points.cosines[i] / (points.radii[i] * points.radii[i]);
     sum += weight * errors.radial[i] * errors.radial[i];
     weights += weight;
@@ -214,15 +218,15 @@ double rms_over_solid_angle(const ErrorPoints& points, const PointErrors& errors
   return weights > 0 ? std::sqrt(sum / weights) : 0;
 }
 
-double rms_distance(const PointErrors& errors) {
+double rms_distance(const PointErrors& errors, std::size_t first) {
+  if (first >= errors.radial.size()) return 0;
   double there = 0, back = 0, weights = 0;
-  for (std::size_t i = 0; i < errors.radial.size(); ++i) {
+  for (std::size_t i = first; i < errors.radial.size(); ++i) {
     there += errors.to_model[i] * errors.to_model[i];
     back += errors.stretch[i] * errors.to_shape[i] * errors.to_shape[i];
     weights += errors.stretch[i];
   }
-  if (errors.radial.empty()) return 0;
-  there /= static_cast<double>(errors.radial.size());
+  there /= static_cast<double>(errors.radial.size() - first);
   return std::sqrt(std::max(there, weights > 0 ? back / weights : 0.0));
 }
 

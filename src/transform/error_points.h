@@ -42,8 +42,9 @@ PointErrors point_errors(const ErrorPoints& points, const Expansion& expansion, 
                          bool slopes, double precision, const Context& context);
 
 double largest(const std::vector<double>& values);
-// Root mean squares over area points.
-double rms_over_solid_angle(const ErrorPoints& points, const PointErrors& errors);
-double rms_distance(const PointErrors& errors);  // the larger of both ways
+// Root mean squares over area points, which are those from `first` on.
+double rms_over_solid_angle(const ErrorPoints& points, const PointErrors& errors,
+                            std::size_t first);
+double rms_distance(const PointErrors& errors, std::size_t first);  // the larger of both ways
 
 }  // namespace rholm

@@ -22,12 +22,13 @@ const ErrorPoints& ErrorSites::vertices() {
   return *vertices_;
 }
 
-const ErrorPoints& ErrorSites::extreme(int degree) {
+const ErrorPoints& ErrorSites::all(int degree) {
   if (degree_ != degree) {
-    extreme_ = extreme_points(mesh_, center_, degree);
+    all_ = extreme_points(mesh_, center_, degree);
+    all_.append(over_area());
     degree_ = degree;
   }
-  return extreme_;
+  return all_;
 }
 
 const ErrorPoints& ErrorSites::over_area() {

@@ -25,8 +25,8 @@ class ErrorSites {
 
   // That belong to faces.
   const ErrorPoints& vertices();
-  // extreme_points() of the degree; those asked for last are kept.
-  const ErrorPoints& extreme(int degree);
+  // extreme_points() of the degree, then those over the area; the ones asked for last are kept.
+  const ErrorPoints& all(int degree);
   // 100 000 of area_points(): a root mean square to 0.3 %.
   const ErrorPoints& over_area();
   // Largest errors at vertices times 2 pi (L + 1).
@@ -37,7 +37,7 @@ class ErrorSites {
   Vec3 center_;
   std::optional<ErrorPoints> vertices_;
   std::optional<int> degree_;
-  ErrorPoints extreme_;
+  ErrorPoints all_;
   std::optional<ErrorPoints> over_area_;
   std::optional<ErrorStrengths> strengths_;
 };

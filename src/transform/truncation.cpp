@@ -65,25 +65,16 @@ TruncationErrors truncation_errors(const Expansion& expansion, const TruncationO
   // A ten thousandth of the truncation error would do; it is not known yet.
   const double precision = std::clamp(options.precision, 1e-12, 1e-6);
   report_progress(context, "errors", 0);
-  {
-    const ErrorPoints& points = sites.extreme(degree);
-    const PointErrors found = point_errors(points, expansion, degree, true, precision, silent);
-    errors.points = points.size();
-    errors.measured_max = largest(found.radial);
-    errors.measured_max_distance = std::max(largest(found.to_model), largest(found.to_shape));
-  }
-  report_progress(context, "errors", 0.6);
-  {
-    const ErrorPoints& points = sites.over_area();
-    const PointErrors found = point_errors(points, expansion, degree, true, precision, silent);
-    errors.points += points.size();
-    // At a degree too low for any face to be long the middle of one may err more than its corners.
-    errors.measured_max = std::max(*errors.measured_max, largest(found.radial));
-    errors.measured_max_distance =
-        std::max({*errors.measured_max_distance, largest(found.to_model), largest(found.to_shape)});
-    errors.distance_rms = rms_distance(found);
-    errors.rms = rms_over_solid_angle(points, found);
-  }
+  // Those over the area for the largest errors too: at a degree too low for any face to be long the
+  // middle of one may err more than its corners.
+  const ErrorPoints& points = sites.all(degree);
+  const std::size_t extreme = points.size() - sites.over_area().size();
+  const PointErrors found = point_errors(points, expansion, degree, true, precision, silent);
+  errors.points = points.size();
+  errors.measured_max = largest(found.radial);
+  errors.measured_max_distance = std::max(largest(found.to_model), largest(found.to_shape));
+  errors.distance_rms = rms_distance(found, extreme);
+  errors.rms = rms_over_solid_angle(points, found, extreme);
   if (expansion.function == RadialFunction::kRadius) {
     if (const std::optional<double> exact = parseval_rms(expansion, options.precision)) {
       errors.rms = exact;
