@@ -105,7 +105,7 @@ int run(const Options& options, Session& session) {
   if (!run.encoded.star.star_shaped) {
     session.warn(
         "the surface is not star-shaped: the coefficients are those of the alternating "
-        "sum of its radii");
+        "sum of its radii, of which the exact norm is not one: no errors are given");
   }
   const Stopwatch writing;
   write_coefficients_output(run.encoded.analysis.expansion, output, convention);
