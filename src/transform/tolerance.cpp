@@ -45,7 +45,9 @@ Precisions precisions_for(const ToleranceProblem& problem, const Tolerance& tole
       tolerance.norm == ErrorNorm::kRms && tolerance.measure == ErrorMeasure::kRadius;
   const double needed = parseval ? 1e-3 * relative * relative : 1e-3 * relative;
   const double final = std::min(problem.precision, std::clamp(needed, 1e-13, 1e-2));
-  return {.pilot = std::max(final, std::clamp(0.1 * relative, 1e-7, 1e-3)), .final = final};
+  // At single points errors of coefficients add up to more than their root mean square (measured).
+  const double coarse = (tolerance.norm == ErrorNorm::kMax ? 0.02 : 0.1) * relative;
+  return {.pilot = std::max(final, std::clamp(coarse, 1e-7, 1e-3)), .final = final};
 }
 
 double known_error(const Analysis& analysis, double wanted) {

@@ -37,7 +37,7 @@ constexpr double kCheap = 500, kBeyondCheap = 1.6;
 constexpr double kMargin = 0.997, kAim = 0.98, kEnough = 0.96;
 // Powers of 1 / (L + 1) that are believed of an error: the least, the largest, and that of one
 // about which nothing is known (chosen).
-constexpr double kLeastDecay = 0.4, kMostDecay = 6, kUsualDecay = 2;
+constexpr double kLeastDecay = 0.7, kMostDecay = 6, kUsualDecay = 2;
 
 struct Known {
   int degree;
