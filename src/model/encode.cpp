@@ -171,6 +171,7 @@ std::optional<Encoded> encode_as_it_lies(const MeshView& mesh, const EncodeOptio
       set_pass(next, result);
       return result;
     };
+    problem.pilot = problem.transform;
     timed(encoded.times, "transform", [&] {
       keep(search_tolerance(problem, *options.tolerance, analysis, context), options, encoded);
     });

@@ -18,10 +18,10 @@ using TransformTo = std::function<Analysis(int degree, double precision)>;
 struct ToleranceProblem {
   MeshView mesh;
   Vec3 center;
-  double norm_squared = 0;  // of the radius
-  double diagonal = 0;      // of the bounding box
-  double precision = 0;     // wanted by the caller, at least
-  TransformTo transform;
+  double norm_squared = 0;       // of the radius
+  double diagonal = 0;           // of the bounding box
+  double precision = 0;          // wanted by the caller, at least
+  TransformTo pilot, transform;  // coarse coefficients, as fast as can be; those that are wanted
 };
 
 // Throws InvalidInput for values out of range.

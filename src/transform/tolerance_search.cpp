@@ -67,8 +67,8 @@ class Search {
         sites_(problem.mesh, problem.center),
         error_(wanted, sites_, std::sqrt(problem.norm_squared / (4 * std::numbers::pi)), context) {}
 
-  ToleranceAnalysis run(const Analysis& pilot) {
-    take(pilot);
+  ToleranceAnalysis run(const Analysis& first) {
+    take(first);
     double degree = is_spectral() ? kFinalSpectral * spectral_degree() + 1 : measured_degree();
     for (;;) {
       finish(degree);
@@ -95,10 +95,10 @@ class Search {
     const double mean = expansion().coefficients.c(0, 0) / std::sqrt(4 * std::numbers::pi);
     result_.allowed = absolute_error(problem_, wanted_, mean);
   }
-  void transform(double degree, double precision) {
-    take(problem_.transform(static_cast<int>(std::min<double>(degree, wanted_.max_degree)),
-                            precision));
+  int within_most(double degree) const {
+    return static_cast<int>(std::min<double>(degree, wanted_.max_degree));
   }
+  void pilot(double degree) { take(problem_.pilot(within_most(degree), precisions_.pilot)); }
 
   // By energies: higher and higher degrees, until the tail beyond them is within the tolerance.
   int spectral_degree() {
@@ -111,7 +111,7 @@ class Search {
       if (beyond <= limit || top == wanted_.max_degree) return smallest_degree(tails, limit);
       const Known half{top / 2, tails[static_cast<std::size_t>(top / 2)]};
       const double next = kBeyondSpectral * extrapolated(half, {top, beyond}, kLeastDecay, limit);
-      transform(std::min(next, kFarthest * (top + 1)), precisions_.pilot);
+      pilot(std::min(next, kFarthest * (top + 1)));
     }
   }
 
@@ -132,7 +132,7 @@ class Search {
     const double beyond = is_at_vertices(bad_->degree) ? kBeyondVertices : kBeyond * far;
     const double ahead = (1 + beyond) * (degree + 1);
     const double next = std::min(ahead, kFarthest * known);
-    transform(std::max(next, std::min(cheap_degree(), kBeyondCheap * next)), precisions_.pilot);
+    pilot(std::max(next, std::min(cheap_degree(), kBeyondCheap * next)));
   }
 
   // Takes note of a degree; whether it is the one.
@@ -185,7 +185,7 @@ class Search {
   }
   // Final coefficients, and their error as it is measured for any model.
   void finish(double degree) {
-    transform(degree, precisions_.final);
+    take(problem_.transform(within_most(degree), precisions_.final));
     if (is_spectral()) {
       cut_by_parseval(expansion().coefficients);
       return;

@@ -99,19 +99,22 @@ ToleranceAnalysis analyze(const StarChart& chart, const Tolerance& tolerance,
                 "a tolerance needs a surface that every direction meets once: give a degree");
   }
   const ExactNorms norms = exact_norms(view_of(chart.mesh), {}, context);
-  const ToleranceProblem problem{.mesh = view_of(chart.mesh),
-                                 .center = {},
-                                 .norm_squared = norms.radius_squared,
-                                 .diagonal = diagonal_of(view_of(chart.mesh)),
-                                 .precision = options.precision,
-                                 .transform = [&](int degree, double precision) {
-                                   AnalyzeOptions wanted = options;
-                                   wanted.degree = degree;
-                                   wanted.precision = precision;
-                                   return analyze_without_norms(chart, wanted, context);
-                                 }};
-  const Analysis pilot = problem.transform(first_degree(chart.mesh.triangles.size(), tolerance),
-                                           precisions_for(problem, tolerance).pilot);
+  const auto analyzed = [&](AnalyzeOptions wanted, int degree, double precision) {
+    wanted.degree = degree;
+    wanted.precision = precision;
+    return analyze_without_norms(chart, wanted, context);
+  };
+  // Pilots by the fast sums whatever the method: the coefficients are the same.
+  const ToleranceProblem problem{
+      .mesh = view_of(chart.mesh),
+      .center = {},
+      .norm_squared = norms.radius_squared,
+      .diagonal = diagonal_of(view_of(chart.mesh)),
+      .precision = options.precision,
+      .pilot = [&](int degree, double p) { return analyzed({}, degree, p); },
+      .transform = [&](int degree, double p) { return analyzed(options, degree, p); }};
+  const Analysis pilot = problem.pilot(first_degree(chart.mesh.triangles.size(), tolerance),
+                                       precisions_for(problem, tolerance).pilot);
   ToleranceAnalysis result = search_tolerance(problem, tolerance, pilot, context);
   result.analysis.expansion.tail_strength = tail_strength(chart, RadialFunction::kRadius);
   finish_analysis(options, chart.report.center, result.analysis);

@@ -101,6 +101,22 @@ TEST(encode, a_tolerance_gives_the_bits_of_the_degree_it_finds) {
   }
 }
 
+// The search is done with the fast sums.
+TEST(encode, a_tolerance_ends_with_the_method_that_was_asked_for) {
+  const Mesh mesh = test::rotated(bumpy_sphere(2, 0.3));
+  EncodeOptions options{.analyze = {.method = Method::kArea, .precision = 1e-6}};
+  options.tolerance = Tolerance{.error = 0.03, .norm = ErrorNorm::kMax};
+  const Encoded found = encode(mesh, options);
+  ASSERT_TRUE(found.tolerance->met);
+  options.analyze.degree = found.analysis.expansion.coefficients.degree();
+  options.tolerance.reset();
+  const Encoded same = encode(mesh, options);
+  EXPECT_EQ(found.analysis.expansion.method, "area");
+  const auto a = found.analysis.expansion.coefficients.values();
+  const auto b = same.analysis.expansion.coefficients.values();
+  EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end()));
+}
+
 TEST(encode, without_errors_a_tolerance_leaves_none) {
   const Mesh mesh = bumpy_sphere(3, 0.3);
   const Tolerance tolerance{.error = 0.02, .norm = ErrorNorm::kMax};
