@@ -20,7 +20,7 @@ constexpr double kDenseUpTo = 1.5;
 
 // Points whose error was this part of the largest stand for all where they cost less, unless they
 // say that it is within the limit, but not well within.
-constexpr double kWorst = 0.3, kWellWithin = 0.9;
+constexpr double kWorst = 0.3, kWellWithin = 0.97;
 
 // Whether the points cost more than the grid that they are interpolated on: 60 ns each, 45 L^2 ns
 // (measured).

@@ -17,24 +17,29 @@ namespace rholm {
 namespace {
 
 // Coefficients are computed this far beyond the degree that is to be looked at, where that was
-// reached from half of it; less where it was nearer, and where the error falls like 1 / (L + 1) at
-// least: others cost as much.
-constexpr double kBeyond = 0.25, kBeyondVertices = 0.08;
+// reached from half of it, for others cost as much; less where it was nearer. Where edges show,
+// this far beyond where 1 / (L + 1) would have it.
+constexpr double kBeyond = 0.25, kBeyondVertices = 0.15;
 // Of Parseval's tails, which are known at every degree at once.
 constexpr double kBeyondSpectral = 1.3;
 // Tails of final coefficients are exact: a few degrees more than expected are cut off again.
 constexpr double kFinalSpectral = 1.005;
 // An error that is so little too large says how far to go, wherever it came from.
 constexpr double kNear = 1.5;
+// And one that is so much lower says little.
+constexpr double kFar = 1.5;
 // Errors do not fall evenly.
 constexpr double kLeastStep = 1.03;
 // So much farther than what is known no guess is followed.
-constexpr double kFarthest = 8;
+constexpr double kFarthest = 12;
 // Legendre sums of some 0.3 L^3 ns take as long as a pass of 150 ns a triangle.
 constexpr double kCheap = 500, kBeyondCheap = 1.6;
 // Coarse coefficients: that the error of the final ones is above the tolerance after all must be
 // rare. A degree whose error is not below kEnough of it is hardly too high.
-constexpr double kMargin = 0.997, kAim = 0.98, kEnough = 0.96;
+constexpr double kMargin = 0.997, kAim = 0.975, kEnough = 0.95;
+// Lower degrees cost so little to look at that they may be the smallest to a step.
+constexpr int kLow = 128;
+constexpr double kEnoughLow = 0.985;
 // Powers of 1 / (L + 1) that are believed of an error: the least, the largest, and that of one
 // about which nothing is known (chosen).
 constexpr double kLeastDecay = 0.7, kMostDecay = 6, kUsualDecay = 2;
@@ -129,7 +134,12 @@ class Search {
   void reach(double degree) {
     const double known = bad_->degree + 1;
     const double far = std::clamp(std::log2((degree + 1) / known), 0.2, 1.0);
-    const double beyond = is_at_vertices(bad_->degree) ? kBeyondVertices : kBeyond * far;
+    double beyond = kBeyond * far;
+    if (is_at_vertices(bad_->degree)) {
+      const double slowest = known * bad_->value / (kAim * result_.allowed);
+      beyond = (1 + kBeyondVertices) * slowest / (degree + 1) - 1;
+      beyond = std::clamp(beyond, kBeyondVertices, kBeyond);
+    }
     const double ahead = (1 + beyond) * (degree + 1);
     const double next = std::min(ahead, kFarthest * known);
     pilot(std::max(next, std::min(cheap_degree(), kBeyondCheap * next)));
@@ -145,7 +155,8 @@ class Search {
       if (degree == wanted_.max_degree) return true;
     } else {
       good_ = now;
-      if (degree == 0 || now.value >= kEnough * result_.allowed) return true;
+      const double enough = (degree > kLow ? kEnough : kEnoughLow) * result_.allowed;
+      if (degree == 0 || now.value >= enough) return true;
     }
     bracket_.add(degree, now.value, limit);
     return good_ && bracket_.closed();
@@ -153,10 +164,14 @@ class Search {
 
   double inside() {
     const double aim = kAim * result_.allowed;
-    if (bad_) return bracket_.guess(aim);
-    const double slope = is_at_vertices(good_->degree) ? 1 : kUsualDecay;
-    const double guess = (good_->degree + 1) * std::pow(good_->value / aim, 1 / slope) - 1;
-    return std::clamp<double>(guess, 0, good_->degree - 1);
+    const bool slow = is_at_vertices(good_->degree);
+    const double power = slow ? 1 : kUsualDecay;
+    const double guess = (good_->degree + 1) * std::pow(good_->value / aim, 1 / power) - 1;
+    if (!bad_) return std::clamp<double>(guess, 0, good_->degree - 1);
+    // What is far away says less than the law does.
+    const bool far = good_->degree > kFar * bad_->degree && bracket_.same_side < 2;
+    const bool inside = guess > bad_->degree + bracket_.step() && std::floor(guess) < good_->degree;
+    return slow && far && inside ? std::floor(guess) : bracket_.guess(aim);
   }
 
   // All that were tried are bad: how the error falls from half the degree says where it will be
@@ -168,8 +183,10 @@ class Search {
       const int half = bad_->degree / 2;
       before_ = Known{half, error_.of(expansion(), half, aim)};
     }
-    const double guess =
-        extrapolated(*before_, *bad_, is_at_vertices(bad_->degree) ? 1 : kLeastDecay, aim);
+    const bool slow = is_at_vertices(bad_->degree);
+    double guess = extrapolated(*before_, *bad_, slow ? 1 : kLeastDecay, aim);
+    // Where edges begin to show it falls faster than it will.
+    if (slow) guess = std::sqrt((guess + 1) * (bad_->degree + 1) * bad_->value / aim) - 1;
     return std::max(guess, kLeastStep * bad_->degree);
   }
 
@@ -183,6 +200,7 @@ class Search {
   bool is_at_vertices(int degree) const {
     return is_largest() && shows_its_edges(problem_.mesh, degree);
   }
+
   // Final coefficients, and their error as it is measured for any model.
   void finish(double degree) {
     take(problem_.transform(within_most(degree), precisions_.final));
