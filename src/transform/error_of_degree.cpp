@@ -16,11 +16,11 @@ constexpr double kDoubt = 2;
 // Root mean squares of some points differ from those of all by 0.7 %.
 constexpr double kClose = 1.05;
 // Points between vertices that are dense enough for one degree are for those up to this times it.
-constexpr double kDenseUpTo = 1.5;
+constexpr double kDenseUpTo = 1.2;
 
 // Points whose error was this part of the largest stand for all where they cost less, unless they
 // say that it is within the limit, but not well within.
-constexpr double kWorst = 0.3, kWellWithin = 0.97;
+constexpr double kWorst = 0.3, kWellWithin = 0.9;
 
 // Whether the points cost more than the grid that they are interpolated on: 60 ns each, 45 L^2 ns
 // (measured).

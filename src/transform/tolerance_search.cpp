@@ -23,7 +23,7 @@ constexpr double kBeyond = 0.25, kBeyondVertices = 0.15;
 // Of Parseval's tails, which are known at every degree at once.
 constexpr double kBeyondSpectral = 1.3;
 // Tails of final coefficients are exact: a few degrees more than expected are cut off again.
-constexpr double kFinalSpectral = 1.005;
+constexpr double kFinalSpectral = 1.015;
 // An error that is so little too large says how far to go, wherever it came from.
 constexpr double kNear = 1.5;
 // And one that is so much lower says little.
