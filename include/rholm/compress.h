@@ -88,6 +88,10 @@ std::vector<std::uint32_t> loudest_caps(const Atlas& atlas, const std::vector<Ve
 // Sets red, green, blue: a colour per cap, caps that touch of different hues; grey without a cap.
 void set_cap_colors(std::vector<Attribute>& attributes, const Atlas& atlas,
                     const std::vector<std::uint32_t>& caps);
+// The same by the degrees of the caps: dark blue for the lowest of the atlas to yellow for the
+// highest.
+void set_degree_colors(std::vector<Attribute>& attributes, const Atlas& atlas,
+                       const std::vector<std::uint32_t>& caps);
 
 // The model file with an atlas in it: docs/model-file.md. Throws as write_model() and read_model().
 void write_atlas(const AtlasModel& model, const std::filesystem::path& path);

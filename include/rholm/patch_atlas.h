@@ -3,6 +3,9 @@
 // Layer: model.
 #pragma once
 
+#include <cstddef>
+#include <string>
+
 #include "rholm/compress.h"
 #include "rholm/context.h"
 #include "rholm/mesh.h"
@@ -31,5 +34,24 @@ PatchAtlas patch_atlas(const Mesh& mesh, const PatchAtlasOptions& options,
                        const Context& context = {});
 PatchAtlas patch_atlas(const PointCloud& cloud, const PatchAtlasOptions& options,
                        const Context& context = {});
+
+// The steps before any expansion (the paper's Figure 3), each patch in a colour of its own.
+enum class PatchView {
+  kPatches,    // the points of each patch, joined by their Delaunay triangles on its sphere
+  kTriangles,  // the same, each triangle by itself and smaller, so that gaps show them
+  kSpheres     // the same on the sphere of each patch: what the series begin from
+};
+const char* to_string(PatchView view);                // "patches", "triangles", "spheres"
+PatchView parse_patch_view(const std::string& name);  // throws InvalidInput
+
+struct PatchPicture {
+  Mesh mesh;  // with red, green, blue; patches share no vertices
+  std::size_t patches = 0;
+};
+// options.degree, extension and overlap are not used. Throws as patch_atlas().
+PatchPicture patch_picture(const Mesh& mesh, PatchView view, const PatchAtlasOptions& options = {},
+                           const Context& context = {});
+PatchPicture patch_picture(const PointCloud& cloud, PatchView view,
+                           const PatchAtlasOptions& options = {}, const Context& context = {});
 
 }  // namespace rholm

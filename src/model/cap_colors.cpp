@@ -83,18 +83,56 @@ std::vector<std::uint32_t> loudest_caps(const Atlas& atlas, const std::vector<Ve
   return loudest;
 }
 
-void set_cap_colors(std::vector<Attribute>& attributes, const Atlas& atlas,
-                    const std::vector<std::uint32_t>& caps) {
-  const std::vector<std::size_t> hues = hues_of(atlas);
+namespace {
+
+using Color = std::array<std::uint8_t, 3>;
+
+// `color_of` a cap's index.
+template <typename ColorOf>
+void set_colors(std::vector<Attribute>& attributes, const std::vector<std::uint32_t>& caps,
+                const ColorOf& color_of) {
   const std::array<const char*, 3> names = {"red", "green", "blue"};
   for (std::size_t channel = 0; channel < names.size(); ++channel) {
     std::erase_if(attributes, [&](const Attribute& a) { return a.name == names[channel]; });
     Attribute color{names[channel], ScalarType::kUint8, {}};
+    color.values.reserve(caps.size());
     for (const std::uint32_t cap : caps) {
-      color.values.push_back(cap == kNoCap ? kGrey[channel] : kHues[hues[cap]][channel]);
+      color.values.push_back((cap == kNoCap ? kGrey : color_of(cap))[channel]);
     }
     attributes.push_back(std::move(color));
   }
+}
+
+// Dark blue, green, yellow: lighter throughout, so that it reads without colours, too.
+Color ramp(double t) {
+  constexpr std::array<Color, 3> kStops = {{{52, 28, 110}, {33, 145, 140}, {253, 231, 37}}};
+  const std::size_t i = t < 0.5 ? 0 : 1;
+  const double part = 2 * t - static_cast<double>(i);
+  Color color;
+  for (std::size_t k = 0; k < color.size(); ++k) {
+    color[k] =
+        static_cast<std::uint8_t>(std::lround((1 - part) * kStops[i][k] + part * kStops[i + 1][k]));
+  }
+  return color;
+}
+
+}  // namespace
+
+void set_cap_colors(std::vector<Attribute>& attributes, const Atlas& atlas,
+                    const std::vector<std::uint32_t>& caps) {
+  const std::vector<std::size_t> hues = hues_of(atlas);
+  set_colors(attributes, caps, [&](std::uint32_t cap) { return kHues[hues[cap]]; });
+}
+
+void set_degree_colors(std::vector<Attribute>& attributes, const Atlas& atlas,
+                       const std::vector<std::uint32_t>& caps) {
+  if (atlas.caps.empty()) return set_cap_colors(attributes, atlas, caps);
+  const auto [least, most] =
+      std::minmax_element(atlas.caps.begin(), atlas.caps.end(),
+                          [](const Cap& a, const Cap& b) { return a.degree < b.degree; });
+  const double low = least->degree, range = std::max(1, most->degree - least->degree);
+  set_colors(attributes, caps,
+             [&](std::uint32_t cap) { return ramp((atlas.caps[cap].degree - low) / range); });
 }
 
 }  // namespace rholm

@@ -102,6 +102,13 @@ struct MadeCap {
   std::size_t points = 0;
 };
 
+// Triangles between points as their patch's sphere sees them.
+std::vector<Triangle> triangles_between(const KdPatch& patch, const std::vector<Vec3>& points) {
+  std::vector<Vec3> directions;
+  for (const Vec3& p : points) directions.push_back(p - patch.seen.sphere.center);
+  return sphere_delaunay(directions);
+}
+
 // In the order of atlas.h, of r / R_0 - 1.
 std::vector<double> flattened(const Coefficients& series, double radius) {
   std::vector<double> values;
@@ -127,9 +134,7 @@ double area_of(const std::vector<Vec3>& points, const std::vector<Triangle>& tri
 MadeCap make_cap(const Cell& cell, const KdPatch& patch, const PatchAtlasOptions& options,
                  const Context& context) {
   MadeCap made;
-  std::vector<Vec3> directions;
-  for (const Vec3& p : cell.points) directions.push_back(p - patch.seen.sphere.center);
-  const std::vector<Triangle> triangles = sphere_delaunay(directions);
+  const std::vector<Triangle> triangles = triangles_between(patch, cell.points);
   if (triangles.empty()) return made;
   made.cap.frame = patch_frame(patch.seen, cell.points);
   const CapIntegral integral = cap_integral(
@@ -214,7 +219,115 @@ PatchAtlas make_all(const std::vector<Vec3>& points, const std::vector<Vec3>& no
   return made;
 }
 
+// Triangles that stand apart are so much smaller.
+constexpr double kApart = 0.85;
+
+// The pieces of a picture, and which patch each vertex is of.
+class PictureMaker {
+ public:
+  explicit PictureMaker(PatchView view) : view_(view) {}
+
+  void add(const KdPatch& patch, const std::vector<Vec3>& points, const UnitFrame& frame) {
+    const std::vector<Triangle> triangles = triangles_between(patch, points);
+    if (triangles.empty()) return;
+    Cap cap;
+    cap.frame = patch_frame(patch.seen, points);
+    const auto place = [&](const Vec3& p) {
+      const Sphere& sphere = patch.seen.sphere;
+      const Vec3 ray = p - sphere.center;
+      return frame.to_shape(
+          view_ == PatchView::kSpheres ? sphere.center + (sphere.radius / norm(ray)) * ray : p);
+    };
+    const std::size_t before = mesh_.vertices.size();
+    if (view_ == PatchView::kTriangles) {
+      for (const Triangle& t : triangles) {
+        const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
+        const Vec3 middle = (points[t[0]] + points[t[1]] + points[t[2]]) / 3.0;
+        for (const std::uint32_t i : t) {
+          mesh_.vertices.push_back(place(middle + kApart * (points[i] - middle)));
+        }
+        mesh_.triangles.push_back({first, first + 1, first + 2});
+      }
+    } else {
+      const auto first = static_cast<std::uint32_t>(before);
+      for (const Vec3& p : points) mesh_.vertices.push_back(place(p));
+      for (const Triangle& t : triangles) {
+        mesh_.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+      }
+    }
+    patch_of_.insert(patch_of_.end(), mesh_.vertices.size() - before,
+                     static_cast<std::uint32_t>(atlas_.caps.size()));
+    atlas_.caps.push_back(cap);
+  }
+
+  PatchPicture finish() {
+    if (atlas_.caps.empty()) {
+      throw Error(ErrorCode::kInvalidInput, "no patch of these points has a triangle");
+    }
+    set_cap_colors(mesh_.attributes, atlas_, patch_of_);
+    return {std::move(mesh_), atlas_.caps.size()};
+  }
+
+ private:
+  PatchView view_;
+  Mesh mesh_;
+  std::vector<std::uint32_t> patch_of_;
+  Atlas atlas_;  // frames alone, in local units: neighbours are told apart by them
+};
+
+PatchPicture picture_of(const std::vector<Vec3>& points, const std::vector<Vec3>& normals,
+                        PatchView view, const PatchAtlasOptions& options, const Context& context) {
+  const Points local = local_points(points, normals);
+  const KdPartition partition =
+      kd_partition(local.points, local.normals, {.min_cosine = options.min_cosine}, context);
+  PictureMaker maker(view);
+  std::vector<Vec3> own;
+  for (const KdPatch& patch : partition.patches) {
+    own.clear();
+    for (std::uint32_t k = patch.begin; k < patch.end; ++k) {
+      own.push_back(local.points[partition.order[k]]);
+    }
+    maker.add(patch, own, local.frame);
+  }
+  return maker.finish();
+}
+
 }  // namespace
+
+const char* to_string(PatchView view) {
+  switch (view) {
+    case PatchView::kPatches:
+      return "patches";
+    case PatchView::kTriangles:
+      return "triangles";
+    case PatchView::kSpheres:
+      return "spheres";
+  }
+  return "unknown";
+}
+
+PatchView parse_patch_view(const std::string& name) {
+  for (const PatchView view : {PatchView::kPatches, PatchView::kTriangles, PatchView::kSpheres}) {
+    if (name == to_string(view)) return view;
+  }
+  throw Error(ErrorCode::kInvalidInput,
+              "unknown view '" + name + "': patches, triangles or spheres");
+}
+
+PatchPicture patch_picture(const Mesh& mesh, PatchView view, const PatchAtlasOptions& options,
+                           const Context& context) {
+  check(options);
+  validate(mesh);
+  return picture_of(mesh.vertices, area_normals(mesh.vertices, mesh.triangles), view, options,
+                    context);
+}
+
+PatchPicture patch_picture(const PointCloud& cloud, PatchView view,
+                           const PatchAtlasOptions& options, const Context& context) {
+  check(options);
+  check_oriented(cloud);
+  return picture_of(cloud.points, cloud.normals, view, options, context);
+}
 
 PatchAtlas patch_atlas(const Mesh& mesh, const PatchAtlasOptions& options, const Context& context) {
   check(options);

@@ -78,6 +78,21 @@ class Atlas(CliTest):
         info = self.rholm("info", "c.ply", "--json").json()
         self.assertEqual([a["name"] for a in info["attributes"][-3:]], ["red", "green", "blue"])
 
+    def test_partition_shows_degrees_and_the_steps_of_the_paper(self):
+        report = self.rholm("partition", "t.ply", "--tolerance", "5e-3", "--show", "degrees", "-o",
+                            "d.ply", "--json").json()
+        self.assertLessEqual(*report["degrees"])
+        faces = {}
+        for view in ("patches", "triangles", "spheres"):
+            report = self.rholm("partition", "t.ply", "--show", view, "-o", view + ".ply",
+                                "--json").json()
+            self.assertGreater(report["patches"], 3)
+            info = self.rholm("info", view + ".ply", "--json").json()
+            self.assertEqual([a["name"] for a in info["attributes"][-3:]], ["red", "green", "blue"])
+            faces[view] = info["counts"]["faces"]
+        self.assertEqual(len(set(faces.values())), 1)
+        self.rholm("partition", "t.ply", "--show", "nothing", "-o", "n.ply", code=2)
+
     def test_options_that_do_not_go_together_are_refused(self):
         self.rholm("analyze", "t.ply", "--atlas", "-o", "t.h5", code=2)
         for words in (("--degree", "3"), ("--center", "none"), ("--norm", "max"), ("--signed",)):

@@ -44,6 +44,70 @@ TEST(patch_atlas, zero_beyond_the_points_costs_a_large_part_of_the_radius) {
   EXPECT_EQ(made.model.atlas.caps.front().degree, 24);
 }
 
+// The patches of a sphere are seen from its middle: their triangles cover it but for the gaps
+// between patches, and lie on it whether points are projected or not.
+TEST(patch_atlas, pictures_of_the_steps_lie_on_the_sphere) {
+  PointCloud cloud = test::sphere_points(3000);
+  for (Vec3& p : cloud.points) p = 8.0 * p + Vec3{100, 0, 0};
+  for (const PatchView view : {PatchView::kPatches, PatchView::kTriangles, PatchView::kSpheres}) {
+    const PatchPicture picture = patch_picture(cloud, view, {.min_cosine = 0.6});
+    EXPECT_GT(picture.patches, 8U);
+    double area = 0;
+    for (const Triangle& t : picture.mesh.triangles) {
+      const Vec3 &a = picture.mesh.vertices[t[0]], &b = picture.mesh.vertices[t[1]],
+                 &c = picture.mesh.vertices[t[2]];
+      const Vec3 twice = cross(b - a, c - a);
+      EXPECT_GT(dot(twice, a - Vec3{100, 0, 0}), 0);
+      area += norm(twice) / 2;
+    }
+    const bool apart = view == PatchView::kTriangles;
+    // Triangles that stand apart are 0.85 of their size, and inside the sphere by a part of their
+    // sagitta.
+    const double whole = 4 * 3.1415926536 * 64 * (apart ? 0.85 * 0.85 : 1);
+    EXPECT_LT(area, whole);
+    EXPECT_GT(area, 0.75 * whole);
+    for (const Vec3& v : picture.mesh.vertices) {
+      EXPECT_NEAR(norm(v - Vec3{100, 0, 0}), 8, apart ? 0.2 : 1e-9);
+    }
+    ASSERT_EQ(picture.mesh.attributes.size(), 3U);
+    EXPECT_EQ(picture.mesh.attributes[0].values.size(), picture.mesh.vertices.size());
+    EXPECT_EQ(picture.mesh.vertices.size() == 3 * picture.mesh.triangles.size(), apart);
+    EXPECT_EQ(parse_patch_view(to_string(view)), view);
+  }
+}
+
+// Where points are not on the sphere of their patch, its picture has them there: a distance r from
+// the centre in common to all of a patch.
+TEST(patch_atlas, spheres_are_those_that_fit_best) {
+  const Mesh mesh = ellipsoid({3, 2, 1}, 4);
+  const PatchPicture points = patch_picture(mesh, PatchView::kPatches);
+  const PatchPicture spheres = patch_picture(mesh, PatchView::kSpheres);
+  ASSERT_EQ(points.mesh.triangles, spheres.mesh.triangles);
+  double largest = 0;
+  for (std::size_t i = 0; i < points.mesh.vertices.size(); ++i) {
+    largest = std::max(largest, norm(points.mesh.vertices[i] - spheres.mesh.vertices[i]));
+  }
+  EXPECT_GT(largest, 1e-3);
+  EXPECT_LT(largest, 0.3);
+}
+
+TEST(set_degree_colors, higher_degrees_are_lighter) {
+  Atlas atlas;
+  for (const int degree : {8, 2, 14, 5}) {
+    atlas.caps.emplace_back().degree = static_cast<std::uint16_t>(degree);
+  }
+  std::vector<Attribute> colors = {{"red", ScalarType::kFloat32, {1}}};
+  set_degree_colors(colors, atlas, {1, 3, 0, 2, kNoCap});
+  ASSERT_EQ(colors.size(), 3U);  // what was there is replaced
+  double last = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double light = 0.3 * colors[0].values[i] + 0.59 * colors[1].values[i];
+    EXPECT_GT(light, last);
+    last = light;
+  }
+  for (const Attribute& color : colors) EXPECT_EQ(color.values[4], 128);
+}
+
 TEST(patch_atlas, place_and_size_of_the_shape_do_not_matter) {
   PointCloud cloud = test::sphere_points(2000);
   const PatchAtlasOptions options{.degree = 8, .extension = CapExtension::kSphere};
