@@ -9,6 +9,7 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
+#include "shape/morton.h"
 
 namespace rholm {
 namespace {
@@ -19,14 +20,7 @@ constexpr std::size_t kVisit = 8192;  // triangles between two calls of before()
 constexpr std::size_t kSampled = 512;
 // On a surface most cells of a Morton curve through space are empty.
 constexpr int kEmptyBits = 4;
-constexpr int kAxisBits = 10;
-
-std::uint32_t spread_bits(std::uint32_t v) {  // ten of them, two places between
-  v = (v | v << 16) & 0x030000FFU;
-  v = (v | v << 8) & 0x0300F00FU;
-  v = (v | v << 4) & 0x030C30C3U;
-  return (v | v << 2) & 0x09249249U;
-}
+constexpr int kMostBits = 30;
 
 // Keys below 2^bits.
 class Keys {
@@ -34,7 +28,7 @@ class Keys {
   Keys(const MeshView& mesh, TriangleKey key, const Context& context)
       : mesh_(mesh), by_vertex_(key == TriangleKey::kVertex) {
     const int bits = static_cast<int>(std::bit_width(std::max<std::size_t>(mesh.n_triangles, 2)));
-    bits_ = std::min(by_vertex_ ? bits : bits + kEmptyBits, 3 * kAxisBits);
+    bits_ = std::min(by_vertex_ ? bits : bits + kEmptyBits, kMostBits);
     if (!by_vertex_) place_vertices(context);
   }
 
@@ -56,11 +50,8 @@ class Keys {
     places_ = AlignedArray<std::uint32_t>(mesh_.n_vertices);
     parallel_for(mesh_.n_vertices, kPart, context, {}, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        const Vec3 x = mesh_.vertex(i);
-        const std::uint32_t code = spread_bits(cell(x.x - least_.x)) |
-                                   spread_bits(cell(x.y - least_.y)) << 1 |
-                                   spread_bits(cell(x.z - least_.z)) << 2;
-        places_[i] = code >> (3 * kAxisBits - bits_);
+        const std::uint64_t code = morton(per_length_ * (mesh_.vertex(i) - middle_));
+        places_[i] = static_cast<std::uint32_t>(code >> (3 * kMortonLevels - bits_));
       }
     });
   }
@@ -74,19 +65,14 @@ class Keys {
       most = {std::max(most.x, x.x), std::max(most.y, x.y), std::max(most.z, x.z)};
     }
     const double size = std::max({most.x - least.x, most.y - least.y, most.z - least.z});
-    least_ = least;
-    per_length_ = size > 0 ? (1 << kAxisBits) / size : 0;
-  }
-  std::uint32_t cell(double distance) const {
-    const double at = distance * per_length_;
-    constexpr double kLast = (1 << kAxisBits) - 1;
-    return at > 0 ? static_cast<std::uint32_t>(std::min(at, kLast)) : 0;
+    middle_ = 0.5 * (least + most);
+    per_length_ = size > 0 ? 2 / size : 0;
   }
 
   const MeshView& mesh_;
   bool by_vertex_;
   int bits_ = 0;
-  Vec3 least_;
+  Vec3 middle_;
   double per_length_ = 0;
   AlignedArray<std::uint32_t> places_;  // of the vertices
 };

@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "rholm/error.h"
 #include "rholm/topology.h"
+#include "shape/morton.h"
 
 namespace rholm {
 namespace {
@@ -17,32 +18,11 @@ using std::numbers::pi;
 
 // Measured at 200 000 points: 4 to 16 are within a tenth of each other.
 constexpr std::uint32_t kLeafSize = 8;
-// Bits per axis of a place on the Morton curve.
-constexpr int kLevels = 21;
 // A patch of no area still has a radius, relative to the points' extent: its term, 0 / radius^3,
 // must not become 0 / 0.
 constexpr double kLeastRadius = 1e-30;
 // Queries that are worked on at a time; a multiple of any vector's length.
 constexpr std::size_t kGrain = 1024;
-
-// Every third bit.
-std::uint64_t spread(std::uint64_t v) {
-  v = (v | v << 32) & 0x001f00000000ffffULL;
-  v = (v | v << 16) & 0x001f0000ff0000ffULL;
-  v = (v | v << 8) & 0x100f00f00f00f00fULL;
-  v = (v | v << 4) & 0x10c30c30c30c30c3ULL;
-  return (v | v << 2) & 0x1249249249249249ULL;
-}
-
-// Of a point in -1 ... 1; those outside, or not finite, go to the border.
-std::uint64_t morton(const Vec3& x) {
-  const auto cell = [](double c) {
-    const double scaled = (c + 1) * (1 << (kLevels - 1));
-    if (!(scaled > 0)) return std::uint64_t{0};
-    return static_cast<std::uint64_t>(std::min(scaled, 0x1p21 - 1));
-  };
-  return spread(cell(x.x)) | spread(cell(x.y)) << 1 | spread(cell(x.z)) << 2;
-}
 
 void check_finite(std::span<const Vec3> vectors, const char* what) {
   for (std::size_t i = 0; i < vectors.size(); ++i) {
@@ -115,7 +95,7 @@ WindingTree::WindingTree(std::span<const Vec3> points, std::span<const Vec3> are
     order_[i] = keys[i].index;
     points_[i].at = local[keys[i].index];
   }
-  if (!keys.empty()) split(keys, 0, static_cast<std::uint32_t>(keys.size()), kLevels);
+  if (!keys.empty()) split(keys, 0, static_cast<std::uint32_t>(keys.size()), kMortonLevels);
   set_area_normals(area_normals);
 }
 
