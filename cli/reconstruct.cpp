@@ -12,6 +12,8 @@
 #include "cli/parse.h"
 #include "cli/report.h"
 #include "cli/session.h"
+#include "cli/simplify_option.h"
+#include "cli/values.h"
 #include "rholm/compress.h"
 #include "rholm/reconstruct.h"
 #include "rholm/topology.h"
@@ -27,6 +29,7 @@ struct Options {
   std::string blend = "smooth";
   std::optional<int> resolution;
   double min_component = 0.01;
+  std::string simplify = kNotSimplified;
   double max_memory = 8;
   bool keep_outliers = false;
   std::string model;
@@ -61,18 +64,12 @@ PointCloud read_points(const std::string& path, Session& session) {
 }
 
 double parse_noise(const std::string& text) {
-  std::size_t end = 0;
-  double value = -1;
-  try {
-    value = std::stod(text, &end);
-  } catch (const std::exception&) {
-    end = 0;
-  }
-  if (end != text.size() || end == 0 || !(value >= 0 && value < 1)) {
+  const std::optional<double> value = read_number(text);
+  if (!value || !(*value >= 0 && *value < 1)) {
     throw UsageError(
         fmt::format("--noise is auto or a part of the diagonal, 0 ... 1, not '{}'", text));
   }
-  return value;
+  return *value;
 }
 
 ReconstructOptions library_options(const Options& o, const Bounds& box) {
@@ -85,6 +82,7 @@ ReconstructOptions library_options(const Options& o, const Bounds& box) {
   options.blend = parse_cap_blend(o.blend);
   options.min_component = o.min_component;
   options.remove_outliers = !o.keep_outliers;
+  options.simplify = parse_simplify(o.simplify);
   options.max_memory = static_cast<std::size_t>(o.max_memory * 0x1p30);
   return options;
 }
@@ -107,6 +105,8 @@ Json json_of(const Reconstruction& made, double diagonal) {
                {"dropped_components", r.dropped_components},
                {"vertices", made.mesh.vertices.size()},
                {"faces", made.mesh.triangles.size()},
+               {"full_faces", r.faces},
+               {"simplify_error", r.simplify_error},
                {"diagonal", diagonal},
                {"foreseen_memory", r.memory}};
   for (const auto& [name, time] : r.times) {
@@ -137,6 +137,10 @@ std::string report_text(const Reconstruction& made, double diagonal, bool keep_h
   }
   if (r.dropped_components > 0)
     text += line("small parts", fmt::format("{} dropped", r.dropped_components));
+  if (made.mesh.triangles.size() < r.faces) {
+    text += line("simplified", fmt::format("from {} faces, moved by at most {}", r.faces,
+                                           relative(r.simplify_error)));
+  }
   return text + line("surface",
                      fmt::format("{}, {}", counted(made.mesh.vertices.size(), "vertex", "vertices"),
                                  counted(made.mesh.triangles.size(), "face")));
@@ -147,6 +151,7 @@ int run(const Options& options, Session& session) {
   if (format == ShapeFormat::kXyz)
     throw UsageError("a surface needs a format with faces: .ply, .obj, .off or .stl");
   if (options.noise != "auto") parse_noise(options.noise);
+  parse_simplify(options.simplify);
   check_writable(options.output);
   if (!options.model.empty()) {
     if (options.model == "-") throw UsageError("a model file is written in place: --model NAME.h5");
@@ -213,6 +218,7 @@ std::vector<Option> option_list(Options& o) {
            .target = &o.resolution,
            .min = 4,
            .max = 65536},
+          simplify_option(o.simplify),
           {.name = "min-component",
            .value = "SHARE",
            .help = "parts with less of the largest one's area are dropped; 0.01 by default",

@@ -12,6 +12,7 @@
 #include "cli/parse.h"
 #include "cli/report.h"
 #include "cli/session.h"
+#include "cli/simplify_option.h"
 #include "cli/surfaces.h"
 #include "cli/synthesize_atlas.h"
 #include "cli/values.h"
@@ -29,6 +30,7 @@ struct Options {
   std::string like;
   std::optional<double> resolution;  // of an atlas
   std::optional<int> degree_limit;
+  std::string simplify = kNotSimplified;
   std::string output;
   std::string format;
   bool ascii = false;
@@ -63,9 +65,11 @@ int run_atlas(const Options& o, ShapeFormat format, Session& session) {
         "--resolution and --degree-limit");
   }
   if (o.resolution && !(*o.resolution > 0)) throw UsageError("--resolution: it must be above 0");
+  const std::optional<SimplifyOptions> simplify = parse_simplify(o.simplify);
   check_writable(o.output);
   return synthesize_atlas(
-      {o.input, o.output, format, o.ascii, o.json, o.resolution, o.degree_limit}, session);
+      {o.input, o.output, format, o.ascii, o.json, o.resolution, o.degree_limit, simplify},
+      session);
 }
 
 // The sphere whose directions the surface is computed at.
@@ -84,8 +88,8 @@ Mesh sphere_of(const Options& options, int degree, const Expansion& expansion, S
 int run(const Options& options, Session& session) {
   const ShapeFormat format = shape_output(options.output, options.format, options.json);
   if (holds_atlas(options.input)) return run_atlas(options, format, session);
-  if (options.resolution || options.degree_limit) {
-    throw UsageError("--resolution and --degree-limit go with an atlas of caps");
+  if (options.resolution || options.degree_limit || options.simplify != kNotSimplified) {
+    throw UsageError("--resolution, --degree-limit and --simplify go with an atlas of caps");
   }
   std::vector<int> degrees;
   if (!options.degrees.empty()) degrees = parse_degrees("--degree", options.degrees);
@@ -160,6 +164,7 @@ std::vector<Option> option_list(Options& o) {
            .target = &o.degree_limit,
            .min = 0,
            .max = 24},
+          simplify_option(o.simplify),
           output_option(o.output, "mesh to write: .ply, .obj, .off, .stl; - for standard output"),
           format_option(o.format, {"ply", "obj", "off", "stl", "xyz"}),
           {.name = "ascii", .help = "PLY and STL as text", .target = &o.ascii},

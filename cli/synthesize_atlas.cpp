@@ -13,6 +13,7 @@ int synthesize_atlas(const SynthesizeAtlasOptions& options, Session& session) {
   AtlasSynthesisOptions wanted;
   if (options.resolution) wanted.step = *options.resolution;
   wanted.degree = options.degree_limit;
+  wanted.simplify = options.simplify;
   const Mesh surface = synthesize(model, wanted, session.context());
   stop_if_interrupted();
   write_shape(surface, options.output, {options.format, options.ascii}, session.context());

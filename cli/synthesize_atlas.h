@@ -6,6 +6,7 @@
 
 #include "cli/session.h"
 #include "rholm/shape_io.h"
+#include "rholm/simplify.h"
 
 namespace rholm::cli {
 
@@ -15,6 +16,7 @@ struct SynthesizeAtlasOptions {
   bool ascii = false, json = false;
   std::optional<double> resolution;  // the grid's step, in the shape's unit
   std::optional<int> degree_limit;
+  std::optional<SimplifyOptions> simplify;
 };
 int synthesize_atlas(const SynthesizeAtlasOptions& options, Session& session);
 

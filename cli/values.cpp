@@ -22,6 +22,12 @@ bool read_number(const std::string& text, Number& number) {
 
 }  // namespace
 
+std::optional<double> read_number(const std::string& text) {
+  double number = 0;
+  if (!read_number(text, number) || !std::isfinite(number)) return std::nullopt;
+  return number;
+}
+
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts(1);
   for (const char c : text) {

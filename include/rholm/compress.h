@@ -11,6 +11,7 @@
 #include "rholm/atlas.h"
 #include "rholm/context.h"
 #include "rholm/mesh.h"
+#include "rholm/simplify.h"
 
 namespace rholm {
 
@@ -72,8 +73,9 @@ Compressed compress(const PointCloud& cloud, const CompressOptions& options,
                     const Context& context = {});
 
 struct AtlasSynthesisOptions {
-  double step = 0;                 // edge of the grid's cubes; 0: the model's
-  std::optional<int> degree = {};  // coefficients of higher degrees count as zero
+  double step = 0;                               // edge of the grid's cubes; 0: the model's
+  std::optional<int> degree = {};                // coefficients of higher degrees count as zero
+  std::optional<SimplifyOptions> simplify = {};  // fewer triangles for the same surface
   std::size_t max_memory = std::size_t{8} << 30;
 };
 // The surface of a model, from it alone: closed, oriented outwards, with normals nx, ny, nz.

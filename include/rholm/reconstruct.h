@@ -9,6 +9,7 @@
 #include "rholm/atlas.h"
 #include "rholm/context.h"
 #include "rholm/mesh.h"
+#include "rholm/simplify.h"
 
 namespace rholm {
 
@@ -28,6 +29,7 @@ struct ReconstructOptions {
   double min_component =
       0.01;  // parts of the surface with less of the largest one's area are dropped
   bool remove_outliers = true;
+  std::optional<SimplifyOptions> simplify = {};   // fewer triangles for the same surface
   std::size_t max_memory = std::size_t{8} << 30;  // bytes: refused if more is foreseen
 };
 
@@ -45,7 +47,9 @@ struct ReconstructReport {
   std::size_t holes = 0;         // places without points that were closed, or cut out
   std::size_t smooth_holes = 0;  // of those closed, by a surface that continues the rim
   std::size_t dropped_components = 0;
-  std::size_t memory = 0;  // foreseen for grid and surface, bytes
+  std::size_t faces = 0;      // of the surface before it was simplified
+  double simplify_error = 0;  // by simplify(), as Simplification::error
+  std::size_t memory = 0;     // foreseen for grid and surface, bytes
   StageTimes times;
 };
 

@@ -243,7 +243,8 @@ Mesh synthesize(const AtlasModel& model, const AtlasSynthesisOptions& options,
     throw Error(ErrorCode::kInvalidInput,
                 fmt::format("the step of the grid is {}: it must be positive", step));
   }
-  const AtlasSurfaceOptions wanted{.step = step, .max_memory = options.max_memory};
+  const AtlasSurfaceOptions wanted{
+      .step = step, .simplify = options.simplify, .max_memory = options.max_memory};
   if (!options.degree) return extract_atlas(model.atlas, wanted, context).mesh;
   Atlas coarse = model.atlas;
   for (Cap& cap : coarse.caps) {

@@ -138,12 +138,14 @@ Reconstruction reconstruct(PointCloud cloud, const ReconstructOptions& options,
   const AtlasSurfaceOptions wanted{.step = report.step,
                                    .keep_holes = options.holes == HolePolicy::kKeep,
                                    .min_component = options.min_component,
+                                   .simplify = options.simplify,
                                    .max_memory = options.max_memory};
   AtlasSurface surface =
       timed(times, "surface", [&] { return extract_atlas(atlas, wanted, context); });
   result.mesh = std::move(surface.mesh);
   report.holes = surface.holes, report.smooth_holes = surface.smooth_holes;
   report.dropped_components = surface.dropped_components;
+  report.faces = surface.faces, report.simplify_error = surface.simplify_error;
   report.memory = surface.memory;
   timed(times, "attributes", [&] { points.carry_attributes(result.mesh, context); });
   return result;

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include "rholm/atlas.h"
 #include "rholm/context.h"
 #include "rholm/mesh.h"
+#include "rholm/simplify.h"
 
 namespace rholm {
 
@@ -13,6 +15,7 @@ struct AtlasSurfaceOptions {
   double step = 0;          // edge of the grid's cubes
   bool keep_holes = false;  // cut away what no cap speaks for, instead of closing it
   double min_component = 0.01;
+  std::optional<SimplifyOptions> simplify = {};  // with nothing in it: 1/50 of the step
   std::size_t max_memory = std::size_t{8} << 30;
 };
 
@@ -20,6 +23,8 @@ struct AtlasSurface {
   Mesh mesh;  // with normals nx, ny, nz
   std::size_t holes = 0, smooth_holes = 0;
   std::size_t dropped_components = 0;
+  std::size_t faces = 0;  // before simplification
+  double simplify_error = 0;
   std::size_t memory = 0;  // foreseen, bytes
 };
 

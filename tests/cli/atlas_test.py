@@ -65,6 +65,20 @@ class Atlas(CliTest):
         self.assertGreater(counts["finer"], 3 * counts["own"])
         self.assertGreater(counts["flat"], 0)
 
+    def test_simplify_goes_with_an_atlas_only(self):
+        self.make_model()
+        counts = self.rholm("synthesize", "t.h5", "-o", "s.ply", "--json", "--simplify",
+                            "2000").json()["counts"]
+        self.assertLessEqual(counts["faces"], 2000)
+        shape = self.rholm("info", "s.ply", "--json").json()
+        self.assertTrue(shape["closed"] and shape["manifold"])
+        self.assertEqual(shape["genus"], 1)
+        self.rholm("synthesize", "t.h5", "-o", "s.ply", "--simplify", "ten", code=2)
+        self.rholm("make", "bumpy", "-o", "b.ply")
+        self.rholm("analyze", "b.ply", "--degree", "4", "-o", "star.h5")
+        failed = self.rholm("synthesize", "star.h5", "-o", "s.ply", "--simplify", "auto", code=2)
+        self.assertIn("--simplify", failed.err)
+
     def test_threads_do_not_change_a_byte(self):
         self.make_model("one.h5", "--threads", "1")
         self.make_model("two.h5", "--threads", "2")

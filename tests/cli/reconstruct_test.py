@@ -77,6 +77,26 @@ class Reconstruct(CliTest):
         step = self.reconstruct("p.xyz", "--resolution", "50")["step"]
         self.assertAlmostEqual(step, longest / 50, 9)
 
+    def test_simplify_keeps_the_shape_with_fewer_faces(self):
+        full = self.reconstruct("p.xyz")
+        self.assertEqual((full["full_faces"], full["simplify_error"]), (full["faces"], 0))
+        for value, most in (("auto", full["faces"] / 2), ("3000", 3000),
+                            ("5%", full["faces"] * 0.05)):
+            report = self.reconstruct("p.xyz", "--simplify", value)
+            self.assertLessEqual(report["faces"], most, value)
+            self.assertEqual(report["full_faces"], full["faces"])
+            self.assertGreater(report["simplify_error"], 0)
+            shape = self.shape_of("s.ply")
+            self.assertEqual(shape["counts"]["faces"], report["faces"])
+            self.assertEqual((shape["components"], shape["genus"]), (1, 1))
+            self.assertTrue(shape["closed"] and shape["manifold"] and shape["oriented"])
+        text = self.rholm("reconstruct", "p.xyz", "-o", "s.ply", "--simplify", "10%").out
+        self.assertRegex(text, r"(?m)^  simplified +from \d+ faces")
+        for value in ("", "3", "0%", "101%", "nan", "1e99", "1000.5", "some"):
+            failed = self.rholm("reconstruct", "p.xyz", "-o", "n.ply", "--simplify", value, code=2)
+            self.assertIn("--simplify", failed.err)
+        self.assertFalse((self.folder / "n.ply").exists())
+
     def test_threads_do_not_change_a_bit(self):
         outputs = []
         for threads in (1, 2):
