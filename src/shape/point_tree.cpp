@@ -15,6 +15,15 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+namespace rholm {
+namespace {
+
+// Of n points the k nearest come first; the square of the distance to the last of them.
+float keep_nearest(Neighbor* found, std::size_t n, std::size_t k);
+
+}  // namespace
+}  // namespace rholm
+
 HWY_BEFORE_NAMESPACE();
 namespace rholm {
 namespace HWY_NAMESPACE {
@@ -66,9 +75,12 @@ HWY_INLINE unsigned NearChildren(const float* boxes, const V (&at)[3], float rad
   return bits;
 }
 
-// Every point within radius2 of `at`, in the order of the tree.
-void Gather(const PointTree::View& tree, const float* at, float radius2,
+// Every point within radius2 of `at`, in the order of the tree; with k > 0 at least the k nearest
+// of them, in any order.
+void Gather(const PointTree::View& tree, const float* at, float radius2, std::size_t k,
             std::vector<Neighbor>& found) {
+  // A radius that is far too large is cut as soon as so many points tell.
+  const std::size_t many = k > 0 ? std::max<std::size_t>(64, 4 * k) : ~std::size_t{0};
   const D d;
   const V x[3] = {hn::Set(d, at[0]), hn::Set(d, at[1]), hn::Set(d, at[2])};
   // One frame a level: the children still to visit.
@@ -93,6 +105,10 @@ void Gather(const PointTree::View& tree, const float* at, float radius2,
       const std::size_t most = n + tree.leaf_begin[child + 1] - tree.leaf_begin[child];
       if (most > found.size()) found.resize(2 * most);
       n += ScanLeaf(tree, child, x, radius2, found.data() + n);
+      if (n >= many) {
+        radius2 = keep_nearest(found.data(), n, k);
+        n = k;
+      }
       continue;
     }
     ++depth;
@@ -123,6 +139,11 @@ float radius2_for(double k, double density) {
 
 bool nearer(const Neighbor& a, const Neighbor& b) {
   return a.distance2 != b.distance2 ? a.distance2 < b.distance2 : a.index < b.index;
+}
+
+float keep_nearest(Neighbor* found, std::size_t n, std::size_t k) {
+  if (n > k) std::nth_element(found, found + (k - 1), found + n, nearer);
+  return found[k - 1].distance2;
 }
 
 struct Box {
@@ -287,14 +308,13 @@ void PointTree::search(const std::array<float, 3>& at, float radius2, std::size_
   if (k == 0) return;
   const View tree = view();
   for (;;) {
-    HWY_DYNAMIC_DISPATCH(Gather)(tree, at.data(), radius2, found);
+    HWY_DYNAMIC_DISPATCH(Gather)(tree, at.data(), radius2, k, found);
     if (found.size() >= k) break;
     const float wanted =
         static_cast<float>(k) / static_cast<float>(std::max<std::size_t>(1, found.size()));
     radius2 *= std::clamp(1.3f * wanted, 1.5f, 8.0f);
   }
-  const auto middle = found.begin() + static_cast<std::ptrdiff_t>(k);
-  if (found.size() > k) std::nth_element(found.begin(), middle - 1, found.end(), nearer);
+  keep_nearest(found.data(), found.size(), k);
   found.resize(k);
   std::sort(found.begin(), found.end(), nearer);
   const float unit2 = static_cast<float>(1 / (scale_ * scale_));
@@ -331,7 +351,7 @@ void PointTree::within(const Vec3& x, double radius, std::vector<Neighbor>& foun
   found.clear();
   if (size() == 0) return;
   const double r = radius * scale_;
-  HWY_DYNAMIC_DISPATCH(Gather)(view(), local(x).data(), static_cast<float>(r * r), found);
+  HWY_DYNAMIC_DISPATCH(Gather)(view(), local(x).data(), static_cast<float>(r * r), 0, found);
   const float unit2 = static_cast<float>(1 / (scale_ * scale_));
   for (Neighbor& neighbor : found) neighbor.distance2 *= unit2;
 }
