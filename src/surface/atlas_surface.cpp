@@ -184,8 +184,10 @@ AtlasSurface extract_atlas(const Atlas& atlas, const AtlasSurfaceOptions& option
   const AtlasDipoles dipoles = dipoles_of(atlas, options.step, context);
   const WindingTree winding(dipoles.points, dipoles.area_normals);
   forget_refuted(grid, doubtful, winding, context);
-  const HoleFilling filling =
-      fill_holes(grid, dipoles.feet, winding, {.max_blocks = blocks_within(options)}, context);
+  const HoleFilling filling = fill_holes(
+      grid, dipoles.feet, winding,
+      {.max_blocks = blocks_within(options), .support = node_support(atlas, lists, grid, context)},
+      context);
   result.holes = filling.holes, result.smooth_holes = filling.smooth;
   ExtractedSurface surface = extract_surface(grid, context);
   // From here on only the places of blocks are asked for.

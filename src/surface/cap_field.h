@@ -9,6 +9,7 @@
 #include "rholm/context.h"
 #include "surface/block_grid.h"
 #include "surface/extract.h"
+#include "surface/hole_fill.h"
 
 namespace rholm {
 
@@ -46,5 +47,10 @@ void project_vertices(const Atlas& atlas, const CapLists& lists, const BlockGrid
 // rim, negative beyond all.
 std::vector<double> data_support(const Atlas& atlas, const CapLists& lists,
                                  const ExtractedSurface& surface, const Context& context);
+
+// The same at nodes of the grid, as what they are worth to a hole beside them: 1 within the data, 0
+// where caps end. Refers to its arguments.
+NodeSupport node_support(const Atlas& atlas, const CapLists& lists, const BlockGrid& grid,
+                         const Context& context);
 
 }  // namespace rholm

@@ -22,6 +22,9 @@ constexpr double kBorder = 0.4;
 constexpr double kCapSpacing = 0.6;
 constexpr double kAroundRim = 36;
 constexpr double kWidening = 0.4;
+// Values are distances, to first order, if their slope is near 1.
+constexpr double kLeastSteep = 0.6;
+constexpr double kMostSteep = 1.5;
 // Too many are thinned out by this until they fit. Chosen: a few rounds at most.
 constexpr double kThinning = 1.2;
 // Fewer cannot tell more than a plane.
@@ -46,6 +49,10 @@ constexpr double kLeastSlope = 0.05;
 constexpr double kLargestSteps = 2.5;
 
 // Foot points by the block they lie in.
+bool is_large(const Hole& hole, double step) {
+  return hole.nodes.size() >= kLeastNodes && hole.radius >= kLeastRadiusSteps * step;
+}
+
 struct FeetOfBlocks {
   std::vector<std::uint32_t> first;  // n_blocks + 1
   std::vector<std::uint32_t> feet;
@@ -134,10 +141,75 @@ struct Fill {
   std::optional<HermiteRbf> smooth;
 };
 
+// Measured nodes in the blocks of the rims and next to them.
+std::vector<NodeId> nodes_around(const BlockGrid& grid, const std::vector<Fill>& fills) {
+  std::vector<char> near(grid.n_blocks(), 0);
+  for (const Fill& fill : fills) {
+    for (const NodeId& id : fill.hole.rim) {
+      for (const std::int32_t b : grid.neighbours[id.block]) {
+        if (b != kNoBlock) near[b] = 1;
+      }
+    }
+  }
+  std::vector<NodeId> nodes;
+  for (std::uint32_t b = 0; b < grid.n_blocks(); ++b) {
+    if (!near[b]) continue;
+    for (std::uint16_t n = 0; n < BlockGrid::kNodes; ++n) {
+      if (std::isfinite(grid.block_values(b)[n]) && !grid.is_filled(b, n)) nodes.push_back({b, n});
+    }
+  }
+  return nodes;
+}
+
+// The value of a measured node; not finite for others.
+float measured(const BlockGrid& grid, const NodeId& id, int dx, int dy, int dz) {
+  NodeId at;
+  if (!step_to(grid, id, dx, dy, dz, at) || grid.is_filled(at.block, at.node)) {
+    return BlockGrid::kUnknown;
+  }
+  return grid.block_values(at.block)[at.node];
+}
+
+// By the six nodes around a measured one; not finite if one is not measured. Differences to one
+// side only would tilt all normals of a rim the same way.
+Vec3 gradient_at(const BlockGrid& grid, const NodeId& id) {
+  const auto slope = [&](int dx, int dy, int dz) {
+    return (measured(grid, id, dx, dy, dz) - measured(grid, id, -dx, -dy, -dz)) / (2 * grid.step);
+  };
+  return {slope(1, 0, 0), slope(0, 1, 0), slope(0, 0, 1)};
+}
+
+// The surface as the grid has it up to the end of the data: the feet of caps end before.
+void add_feet_of_grid(const BlockGrid& grid, const std::vector<Fill>& fills,
+                      const NodeSupport& support_of, std::vector<FootPoint>& feet) {
+  std::vector<FootPoint> found;
+  std::vector<Vec3> around;  // seven for each
+  for (const NodeId& id : nodes_around(grid, fills)) {
+    const float value = grid.block_values(id.block)[id.node];
+    if (std::abs(value) >= grid.step) continue;
+    const Vec3 gradient = gradient_at(grid, id);
+    const double steepness = norm(gradient);
+    if (!(steepness > kLeastSteep && steepness < kMostSteep)) continue;
+    const Vec3 x = grid.node(id.block, id.node);
+    const Vec3 normal = gradient / steepness;
+    found.push_back({x - value * normal, normal, 0});
+    for (const Vec3& d : {Vec3{}, Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
+      around.push_back(x + grid.step * d);
+      if (norm(d) > 0) around.push_back(x - grid.step * d);
+    }
+  }
+  std::vector<double> support(around.size());
+  if (!around.empty()) support_of(around, support);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const auto seven = support.begin() + static_cast<std::ptrdiff_t>(7 * i);
+    if (*std::min_element(seven, seven + 7) >= 1) feet.push_back(found[i]);
+  }
+}
+
 void make_smooth(const BlockGrid& grid, std::span<const FootPoint> feet,
                  const FeetOfBlocks& feet_of, Fill& fill) {
   const Hole& hole = fill.hole;
-  if (hole.nodes.size() < kLeastNodes || hole.radius < kLeastRadiusSteps * grid.step) return;
+  if (!is_large(hole, grid.step)) return;
   const std::vector<Candidate> candidates = candidates_of(grid, hole, feet, feet_of);
   double widen = 1;
   std::vector<std::uint32_t> chosen = thin_out(candidates, hole.radius, feet, widen);
@@ -213,26 +285,6 @@ void forget(BlockGrid& grid, const Hole& hole) {
   }
 }
 
-// Measured nodes in the blocks of the rims and next to them.
-std::vector<NodeId> nodes_around(const BlockGrid& grid, const std::vector<Fill>& fills) {
-  std::vector<char> near(grid.n_blocks(), 0);
-  for (const Fill& fill : fills) {
-    for (const NodeId& id : fill.hole.rim) {
-      for (const std::int32_t b : grid.neighbours[id.block]) {
-        if (b != kNoBlock) near[b] = 1;
-      }
-    }
-  }
-  std::vector<NodeId> nodes;
-  for (std::uint32_t b = 0; b < grid.n_blocks(); ++b) {
-    if (!near[b]) continue;
-    for (std::uint16_t n = 0; n < BlockGrid::kNodes; ++n) {
-      if (std::isfinite(grid.block_values(b)[n]) && !grid.is_filled(b, n)) nodes.push_back({b, n});
-    }
-  }
-  return nodes;
-}
-
 // Values that are guesses of caps are handed over to the fill. Those count as filled from then on:
 // a vertex there is where the blend is zero, not where the caps are.
 void hand_over(BlockGrid& grid, const std::vector<Fill>& fills, const NodeSupport& support_of,
@@ -272,9 +324,14 @@ HoleFilling fill_holes(BlockGrid& grid, std::span<const FootPoint> feet, const W
   std::vector<Fill> fills;
   for (Hole& hole : find_holes(grid)) fills.push_back({std::move(hole), {}});
   result.holes = fills.size();
-  const FeetOfBlocks feet_of = sort_feet(grid, feet);
+  std::vector<FootPoint> all_feet(feet.begin(), feet.end());
+  if (options.support) {
+    std::erase_if(fills, [&](const Fill& fill) { return !is_large(fill.hole, grid.step); });
+    add_feet_of_grid(grid, fills, options.support, all_feet);
+  }
+  const FeetOfBlocks feet_of = sort_feet(grid, all_feet);
   parallel_for(fills.size(), 1, context, {}, [&](std::size_t begin, std::size_t) {
-    make_smooth(grid, feet, feet_of, fills[begin]);
+    make_smooth(grid, all_feet, feet_of, fills[begin]);
   });
   std::erase_if(fills, [](const Fill& fill) { return !fill.smooth; });
   result.smooth = fills.size();

@@ -27,7 +27,8 @@ using NodeSupport = std::function<void(std::span<const Vec3> x, std::span<double
 
 struct HoleFillOptions {
   std::size_t max_blocks = 0;  // of the grid; see close_grid()
-  // If given, known nodes around a hole with less support than 1 take over part of the fill.
+  // If given, known nodes around a hole with less support than 1 take over part of the fill, and
+  // the surface at those with support 1 guides it.
   NodeSupport support = {};
 };
 

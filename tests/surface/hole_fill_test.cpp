@@ -292,6 +292,24 @@ TEST(HoleFill, values_without_support_are_handed_over_to_the_fill) {
   }
 }
 
+TEST(HoleFill, the_grid_itself_says_where_the_fill_begins) {
+  const double half_angle = 20 * pi / 180;
+  OpenSphere sphere = open_sphere(half_angle, 0.03, 14000);
+  const WindingTree tree(sphere.points, sphere.area_normals);
+  const NodeSupport all = [](std::span<const Vec3> x, std::span<double> support) {
+    std::fill_n(support.begin(), x.size(), 1.0);
+  };
+  // Without a single foot of a cap.
+  const HoleFilling filling =
+      fill_holes(sphere.grid, {}, tree, {.max_blocks = 100000, .support = all});
+  EXPECT_EQ(filling.smooth, 1U);
+  const ExtractedSurface surface = extract_surface(sphere.grid);
+  expect_closed_manifold(surface.mesh);
+  // The grid's nodes with six known ones around them begin two steps from the rim.
+  const double wide = half_angle + 2 * 0.03;
+  for (const Vec3& v : surface.mesh.vertices) EXPECT_NEAR(norm(v), 1, 0.075 * (1 - std::cos(wide)));
+}
+
 TEST(HoleFill, threads_do_not_change_a_bit) {
   std::vector<Mesh> meshes;
   for (const int threads : {1, 2}) {
