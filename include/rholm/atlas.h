@@ -60,7 +60,8 @@ struct Cap {
 
 // How much a cap has to say at s^2 < 1 of CapSupport: (1 - s^2)^3, or the paper's quadratic
 // B-spline of 3 s / 2 (P44). Either is multiplied by (1 - g^2 / T^2)^2 of its potential g, T the
-// band.
+// band, and where points are noisy by 1 / (1 + |grad r|^2 / r^2), the squared cosine of the angle
+// between its surface and the sphere: where a cap leans, others see better.
 enum class CapBlend : std::uint8_t { kSmooth, kSpline };
 const char* to_string(CapBlend blend);              // "smooth", "spline"
 CapBlend parse_cap_blend(const std::string& name);  // throws InvalidInput

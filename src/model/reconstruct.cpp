@@ -28,6 +28,9 @@ constexpr double kStepOfSupport = 0.15;
 // and folds of clean shapes have fewer.
 constexpr double kSuspicious = 1e-3;
 constexpr double kDisagreeing = 0.04, kDisagreeingNoisy = 0.08;
+// Standard deviations of the noise within which caps are averaged: one that is off by as much must
+// not be heard alone.
+constexpr double kBandOfNoise = 3;
 
 void check(const ReconstructOptions& options) {
   const auto refuse = [](const char* what, double value, const char* limit) {
@@ -128,7 +131,7 @@ Reconstruction reconstruct(PointCloud cloud, const ReconstructOptions& options,
   const Spacing spacing = points.spacing(context);
   atlas.spacing = spacing.median, atlas.noise = size.noise;
   atlas.diagonal = points.diagonal();
-  atlas.blend = options.blend;
+  atlas.blend = options.blend, atlas.band = kBandOfNoise * size.noise;
   report.caps = atlas.caps.size();
   report.spacing = spacing.median, report.noise = size.noise;
   report.normal_noise_degrees = size.normal_noise * 180 / std::numbers::pi;

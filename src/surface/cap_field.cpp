@@ -98,6 +98,7 @@ HWY_INLINE bool Say(D d, const LaneCap& lane, V px, V py, V pz, Said& said) {
   speaks = hn::And(speaks, hn::Gt(lz, hn::Mul(rho, hn::Set(d, 0.3f))));
   said.w = hn::IfThenElseZero(speaks, hn::Mul(WeightAt(d, cap.spline, near),
                                               hn::Mul(hn::Set(d, cap.trust), hn::Mul(rest, rest))));
+  if (cap.noisy) said.w = hn::Mul(said.w, hn::Mul(flat, flat));
   said.g = hn::IfThenElseZero(speaks, said.g);
   if constexpr (kNormals) {
     // u - grad f / f, in the frame: the tangents of the plane's axes are e_i - t_i (u + e_3).
@@ -257,6 +258,7 @@ Lanes make_lanes(const Atlas& atlas, double step) {
     lane.trust = static_cast<float>(cap.weight);
     lane.degree = cap.degree;
     lane.spline = atlas.blend == CapBlend::kSpline;
+    lane.noisy = atlas.noise > 0;
     lane.even = cap.basis == CapBasis::kEven;
     lane.coefficients = lanes.coefficients.data() + cap.first;
     lanes.caps.push_back(lane);

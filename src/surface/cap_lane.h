@@ -20,6 +20,7 @@ struct CapLane {
   int degree;
   bool even;
   bool spline;  // CapBlend::kSpline
+  bool noisy;   // less is heard of it where it leans
   const float* coefficients;
 };
 

@@ -40,6 +40,9 @@ constexpr double kClose = 0.1;
 // Residuals of this part of the support halve the weight of a cap: a crease or a fold is left to
 // caps that do not see it. Measured: 0.001 to 0.01 are alike.
 constexpr double kTrusted = 0.002;
+// Caps of noisy points count by this power of the number of their points. With 1, their variance,
+// small ones still make spikes at tips, where few others speak; 2 and 3 are alike.
+constexpr double kTrustInPoints = 2;
 // Points that the cap speaks for.
 constexpr double kCovered = 0.7;
 
@@ -113,7 +116,7 @@ bool fit_nearest(const OrderedPoints& all, std::size_t seed, std::size_t k, CapS
   const double support = std::sqrt(static_cast<double>(worker.near[k - 1].distance2));
   if (!(support > 0)) return false;
   const Vec3 axis = take_points(all, seed, k, support, side, false, worker);
-  cap.frame = cap_frame(all.points[seed], axis, support, kHalfAngle, kOpened);
+  cap.frame = cap_frame(worker.middle, axis, support, kHalfAngle, kOpened);
   const CapFitOptions wanted{.degree = options.degree, .gradient_weight = options.gradient_weight};
   return fit_cap(cap.frame, worker.points, wanted, worker.scratch, worker.fit);
 }
@@ -126,7 +129,7 @@ void grow_cap(const OrderedPoints& all, std::size_t seed, std::size_t k,
   for (std::size_t more = k; worker.fit.rms <= allowed && more < kMost;) {
     const std::size_t kept = more;
     more = static_cast<std::size_t>(kGrow * static_cast<double>(more));
-    all.tree.nearest_to(seed, more, worker.near);
+    all.tree.nearest(worker.middle, more, worker.near);
     const std::size_t found = worker.near.size();
     const bool fitted =
         found > kept && fit_nearest(all, seed, found, CapSide::kSheet, options, worker, cap);
@@ -146,8 +149,10 @@ bool is_isolated(const std::vector<Neighbor>& near) {
 // The largest good cap around a point.
 bool make_cap(const OrderedPoints& all, std::size_t seed, const CoverOptions& options,
               CapWorker& worker, Cap& cap) {
+  worker.middle = all.points[seed];
   all.tree.nearest_to(seed, options.neighbours, worker.near);
   if (is_isolated(worker.near)) return false;
+  if (options.noise > 0) settle(all, seed, worker);
   for (std::size_t k = worker.near.size(); k > 0;) {
     bool fitted = fit_nearest(all, seed, k, CapSide::kSheet, options, worker, cap);
     const auto fewer = static_cast<std::size_t>(kShrink * static_cast<double>(k));
@@ -182,6 +187,10 @@ void describe_cap(const CoverOptions& options, const CapWorker& worker, Cap& cap
   const double excess = std::sqrt(std::max(0.0, worker.fit.rms * worker.fit.rms - noise * noise));
   const double part = excess / (kTrusted * cap.frame.support);
   cap.weight = 1 / (1 + part * part);
+  if (options.noise == 0) return;
+  const double share =
+      static_cast<double>(worker.points.size()) / static_cast<double>(options.neighbours);
+  cap.weight *= std::pow(std::min(1.0, share), kTrustInPoints);
 }
 
 // Marks what the cap speaks for within a block of points; returns how many are new.
@@ -193,7 +202,7 @@ std::size_t mark(const OrderedPoints& all, const Cap& cap, std::size_t seed, std
     if (near.index < begin || near.index - begin >= covered.size()) continue;
     std::uint8_t& flag = covered[near.index - begin];
     if (flag != 0 || dot(all.normals[near.index], cap.frame.z) < kCovered) continue;
-    if (place(cap, all.points[near.index] - all.points[seed]) > core * core) continue;
+    if (place(cap, all.points[near.index] - worker.middle) > core * core) continue;
     flag = 1;
     ++n_new;
   }

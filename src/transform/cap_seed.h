@@ -16,7 +16,8 @@ inline constexpr double kOpened = 60 * std::numbers::pi / 180;
 
 // Memory of one thread.
 struct CapWorker {
-  std::vector<Neighbor> near;
+  Vec3 middle;                 // of the cap: its seed, or where settle() moves it
+  std::vector<Neighbor> near;  // around it, nearest first
   CapPoints points;
   CapFitScratch scratch;
   CapFit fit;
@@ -28,7 +29,12 @@ enum class CapSide {
   kFace,   // those that face as it does: of a crease one side
 };
 
-// Fills worker.points with those among its k nearest (worker.near), and returns their mean normal,
+// Moves worker.middle from the seed across the sheet, to the mean of the nearest points there, and
+// sorts worker.near anew. A noisy seed that lies off the surface has neighbours that do so too, and
+// its cap would pass through it.
+void settle(const OrderedPoints& all, std::size_t seed, CapWorker& worker);
+
+// Fills worker.points with those among the k nearest (worker.near), and returns their mean normal,
 // weighted. The seed itself is left out if `leave_out`.
 Vec3 take_points(const OrderedPoints& all, std::size_t seed, std::size_t k, double support,
                  CapSide side, bool leave_out, CapWorker& worker);

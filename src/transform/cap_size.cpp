@@ -50,12 +50,13 @@ double median(std::vector<double>& values) {
 Trial try_seed(const OrderedPoints& all, std::size_t seed, std::size_t k,
                const CapFitOptions& options, CapWorker& worker) {
   Trial trial;
+  worker.middle = all.points[seed];
   all.tree.nearest_to(seed, k, worker.near);
   trial.support = std::sqrt(static_cast<double>(worker.near.back().distance2));
   if (!(trial.support > 0)) return trial;
   const Vec3 axis =
       take_points(all, seed, worker.near.size(), trial.support, CapSide::kSheet, true, worker);
-  const CapFrame frame = cap_frame(all.points[seed], axis, trial.support, kHalfAngle, kOpened);
+  const CapFrame frame = cap_frame(worker.middle, axis, trial.support, kHalfAngle, kOpened);
   if (!fit_cap(frame, worker.points, options, worker.scratch, worker.fit)) return trial;
   trial.rms = worker.fit.rms;
   trial.level_rms = worker.fit.rms / frame.radius;

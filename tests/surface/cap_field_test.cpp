@@ -62,7 +62,16 @@ Field make_field(const Atlas& atlas, double step) {
 // Quadratic B-spline of (P44), 1 at 0.
 double spline(double t) { return (t < 0.5 ? 0.75 - t * t : 0.5 * (1.5 - t) * (1.5 - t)) / 0.75; }
 
-// Method: G = sum w g / sum w, w = trust (1 - s^2)^3 (1 - g^2/T^2)^2.
+// The square of the cosine between a cap's surface and the sphere it is on: that of the angle
+// between the surface's normal and the direction from the centre.
+double squared_cosine(const Atlas& atlas, const Cap& cap, const Vec3& x) {
+  const CapValue value = evaluate(cap, atlas.coefficients_of(cap), x);
+  const double out = dot(value.gradient, normalized(x - cap.frame.center));
+  return out * out / dot(value.gradient, value.gradient);
+}
+
+// Method: G = sum w g / sum w, w = trust (1 - s^2)^3 (1 - g^2/T^2)^2, and the squared cosine where
+// points are noisy.
 struct Sum {
   double weight = 0, value = 0;
 };
@@ -76,7 +85,8 @@ Sum blend_at(const Atlas& atlas, double band, const Vec3& x) {
     if (!value.valid || !(rest > 0)) continue;
     const double by_place =
         atlas.blend == CapBlend::kSpline ? spline(1.5 * std::sqrt(1 - near)) : near * near * near;
-    const double w = cap.weight * by_place * rest * rest;
+    const double lean = atlas.noise > 0 ? squared_cosine(atlas, cap, x) : 1;
+    const double w = cap.weight * by_place * rest * rest * lean;
     sum.weight += w;
     sum.value += w * value.distance;
   }
@@ -118,6 +128,9 @@ TEST(CapField, nodes_have_the_blend_of_the_caps_that_reach_them) {
     SCOPED_TRACE(target);
     atlas.blend = CapBlend::kSmooth;
     expect_blend(atlas, step, band);
+    atlas.noise = step;
+    expect_blend(atlas, step, band);
+    atlas.noise = 0;
     atlas.blend = CapBlend::kSpline;
     expect_blend(atlas, step, band);
   });

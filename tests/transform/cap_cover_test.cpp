@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -10,6 +11,7 @@
 
 #include "support/test_points.h"
 #include "transform/cap_blend.h"
+#include "transform/cap_seed.h"
 
 namespace rholm {
 namespace {
@@ -143,6 +145,67 @@ TEST(CapCover, caps_of_a_strip_are_silent_beside_it) {
       }
     }
   }
+}
+
+// A plate, and one point lifted off its upper side.
+TEST(CapCover, a_noisy_seed_settles_on_the_mean_of_the_points_around_it) {
+  constexpr double kLifted = 0.02, kThickness = 0.03;
+  PointCloud plate;
+  for (std::uint64_t i = 0; i < 8000; ++i) {
+    const bool top = i % 2 == 0;
+    plate.points.push_back(
+        {test::random_in(-1, 1, 11, i), test::random_in(-1, 1, 12, i), top ? 0.0 : -kThickness});
+    plate.normals.push_back({0, 0, top ? 1.0 : -1.0});
+  }
+  plate.points.push_back({0, 0, kLifted});
+  plate.normals.push_back({0, 0, 1});
+  const Ordered points = ordered(plate);
+  const auto lifted = std::find_if(points.points.begin(), points.points.end(),
+                                   [](const Vec3& p) { return p.z > 0; });
+  const auto seed = static_cast<std::size_t>(lifted - points.points.begin());
+  CapWorker worker;
+  worker.middle = *lifted;
+  points.tree->nearest_to(seed, 60, worker.near);
+  std::size_t n = 0;  // of the upper side among the nearest quarter, the seed with them
+  for (std::size_t j = 0; j < 15; ++j) n += points.normals[worker.near[j].index].z > 0;
+  ASSERT_GT(n, 4U);
+  settle(points.view(), seed, worker);
+  EXPECT_NEAR(norm(worker.middle - Vec3{0, 0, kLifted / static_cast<double>(n)}), 0, 1e-12);
+  for (std::size_t j = 0; j < worker.near.size(); ++j) {
+    const Vec3 offset = points.points[worker.near[j].index] - worker.middle;
+    const double d2 = dot(offset, offset);
+    EXPECT_NEAR(worker.near[j].distance2, d2, 1e-6 * d2);
+    EXPECT_GE(worker.near[j].distance2, worker.near[j == 0 ? 0 : j - 1].distance2);
+  }
+}
+
+TEST(CapCover, a_noisy_cap_counts_by_the_square_of_its_points) {
+  // On the plane all caps take the 60 points they are given. Where two planes meet at right angles
+  // those of both fit worse than the noise, and caps are smaller.
+  PointCloud cloud;
+  for (std::uint64_t i = 0; i < 8000; ++i) {
+    const double a = test::random_in(0, 1, 13, i), y = test::random_in(0, 1, 14, i);
+    const double noise = 0.003 * test::random_normal(15, i);
+    const bool top = i % 2 == 0;
+    cloud.points.push_back(top ? Vec3{a, y, noise} : Vec3{noise, y, -a});
+    cloud.normals.push_back(top ? Vec3{0, 0, 1} : Vec3{-1, 0, 0});
+  }
+  const Ordered points = ordered(cloud);
+  const Cover made = cover(points.view(), {.neighbours = 60, .noise = 0.003}, {});
+  std::size_t whole = 0, small = 0;
+  for (const Cap& cap : made.caps) {
+    // Those whose residuals exceed the noise count for less besides.
+    if (cap.error > 0.003) continue;
+    // A cap has 60, 39, 25, ... points less those that face away: here none.
+    const double n = 60 * std::sqrt(cap.weight);
+    EXPECT_NEAR(n, std::round(n), 1e-9);
+    const double nearest = std::min(
+        {std::abs(n - 60), std::abs(n - 39), std::abs(n - 25), std::abs(n - 16), std::abs(n - 10)});
+    EXPECT_NEAR(nearest, 0, 1e-9);
+    (n > 59 ? whole : small) += 1;
+  }
+  EXPECT_GT(whole, 100U);
+  EXPECT_GT(small, 10U);
 }
 
 TEST(CapCover, points_without_a_surface_are_rejected) {
