@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/parallel.h"
 #include "transform/cap_pole.h"
@@ -14,16 +15,21 @@ struct Trial {
   double slope_error = 1, rms = 0, level_rms = 0, slope_rms = 0, support = 0;
 };
 
-// Seeds of a trial: the mean of their errors is then known to a few hundredths.
-constexpr std::size_t kSeeds = 400;
+// Seeds of a trial: the mean of their errors is then known to a few hundredths. Where points are
+// noisy sizes differ by less.
+constexpr std::size_t kSeeds = 400, kSeedsNoisy = 800;
 // Numbers of points that are tried, method 7.11; the smallest gives 72 equations for 16 unknowns.
 constexpr std::size_t kFewest = 24, kMost = 4000;
 constexpr double kLadder = 1.5;
 // Part of the seeds that counts, those with the least errors: seeds may be outliers, or on creases.
 constexpr double kCounted = 0.8;
 constexpr double kClearlyBetter = 0.8;
-// Trials end when errors have grown by this factor.
-constexpr double kGrown = 1.15;
+// Trials end when errors have grown by this factor, of noisy points clearly.
+constexpr double kGrown = 1.15, kGrownNoisy = 1.05;
+// Errors of noisy points hardly change between two sizes near the best, and which of them is the
+// least is chance: so the lowest point of a parabola in log k through all that are within this
+// factor of it.
+constexpr double kNearBest = 1.1;
 // Normals count for so much more than by their residuals, which creases enlarge (method 7.11).
 constexpr double kNormalsFavoured = 1.6;
 // Residuals of the smallest caps are noise from this part of their support on: no shape that caps
@@ -82,6 +88,40 @@ bool is_noise(const OrderedPoints& points, const CapSizeTrial& first, int degree
 
 }  // namespace
 
+double least_of_parabola(std::span<const double> x, std::span<const double> y) {
+  // y = c0 + c1 t + c2 t^2 with t = x - mean(x): normal equations of the centred t and t^2.
+  const auto n = static_cast<double>(x.size());
+  double mean = 0, mean_y = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) mean += x[i] / n, mean_y += y[i] / n;
+  double s2 = 0, s3 = 0, s4 = 0, sy = 0, s2y = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double t = x[i] - mean, v = y[i] - mean_y;
+    s2 += t * t, s3 += t * t * t, s4 += t * t * t * t, sy += t * v, s2y += t * t * v;
+  }
+  const double square = s4 - s2 * s2 / n, determinant = s2 * square - s3 * s3;
+  if (!(determinant > 1e-9 * s2 * s4)) return std::numeric_limits<double>::quiet_NaN();
+  const double c1 = (sy * square - s2y * s3) / determinant, c2 = (s2 * s2y - s3 * sy) / determinant;
+  if (!(c2 > 0)) return std::numeric_limits<double>::quiet_NaN();
+  const auto [low, high] = std::minmax_element(x.begin(), x.end());
+  return std::clamp(mean - c1 / (2 * c2), *low, *high);
+}
+
+namespace {
+
+// The best number of points by all trials; 0 if they do not show one.
+std::size_t steady_size(std::span<const CapSizeTrial> trials, double least) {
+  std::vector<double> sizes, errors;
+  for (const CapSizeTrial& trial : trials) {
+    if (trial.slope_error > kNearBest * least) continue;
+    sizes.push_back(std::log(static_cast<double>(trial.neighbours)));
+    errors.push_back(trial.slope_error);
+  }
+  const double best = least_of_parabola(sizes, errors);
+  return std::isfinite(best) ? static_cast<std::size_t>(std::exp(best)) : 0;
+}
+
+}  // namespace
+
 CapSizeTrial try_cap_size(const OrderedPoints& points, std::size_t neighbours, int degree,
                           double gradient_weight, std::size_t n_seeds, const Context& context) {
   const std::size_t n = points.points.size();
@@ -115,18 +155,23 @@ CapSizeTrial try_cap_size(const OrderedPoints& points, std::size_t neighbours, i
 CapSize choose_cap_size(const OrderedPoints& points, int degree, const Context& context) {
   CapSize best;
   CapSizeTrial chosen;
+  std::vector<CapSizeTrial> trials;
   bool noisy = false;
   double weight = best.gradient_weight;
   const std::size_t most = std::min(kMost, points.points.size() / 4);
   for (double k = kFewest; chosen.neighbours == 0 || k < static_cast<double>(most); k *= kLadder) {
-    const CapSizeTrial trial =
-        try_cap_size(points, static_cast<std::size_t>(k), degree, weight, kSeeds, context);
+    const CapSizeTrial trial = try_cap_size(points, static_cast<std::size_t>(k), degree, weight,
+                                            noisy ? kSeedsNoisy : kSeeds, context);
+    trials.push_back(trial);
     if (trial.slope_rms > 0) weight = kNormalsFavoured * trial.level_rms / trial.slope_rms;
     if (chosen.neighbours == 0) noisy = is_noise(points, trial, degree, weight, context);
     // Clean points show no minimum: only a clear gain is worth larger caps.
     const double better = noisy ? 1 : kClearlyBetter;
     if (chosen.neighbours == 0 || trial.slope_error < better * chosen.slope_error) chosen = trial;
-    if (trial.slope_error > kGrown * chosen.slope_error) break;
+    if (trial.slope_error > (noisy ? kGrownNoisy : kGrown) * chosen.slope_error) break;
+  }
+  if (const std::size_t k = noisy ? steady_size(trials, chosen.slope_error) : 0; k > 0) {
+    chosen = try_cap_size(points, k, degree, weight, kSeedsNoisy, context);
   }
   best.neighbours = chosen.neighbours;
   best.disagreeing = chosen.disagreeing;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "rholm/context.h"
@@ -19,6 +20,10 @@ struct CapSize {
 };
 
 CapSize choose_cap_size(const OrderedPoints& points, int degree, const Context& context);
+
+// Where the parabola of least squares through y over x is least, within the range of x; NaN if it
+// has no least value, or there are fewer than three x.
+double least_of_parabola(std::span<const double> x, std::span<const double> y);
 
 // Of one size, for tests and tuning: mean over seeds of the squared slope between a seed's normal
 // and the cap fitted to all but the seed, cut at 1, and medians of the residuals.

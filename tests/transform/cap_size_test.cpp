@@ -103,6 +103,25 @@ TEST(CapSize, normals_that_say_nothing_disagree) {
       0.001);
 }
 
+TEST(CapSize, a_parabola_is_least_at_its_vertex_within_the_range) {
+  const std::vector<double> x{0, 0.4, 1, 2.5, 3};
+  const auto parabola = [&](double bend, double vertex) {
+    std::vector<double> y;
+    for (const double at : x) y.push_back(3 + bend * (at - vertex) * (at - vertex));
+    return y;
+  };
+  EXPECT_NEAR(least_of_parabola(x, parabola(2, 1.3)), 1.3, 1e-12);
+  EXPECT_EQ(least_of_parabola(x, parabola(2, -1)), 0);
+  EXPECT_EQ(least_of_parabola(x, parabola(2, 5)), 3);
+  EXPECT_TRUE(std::isnan(least_of_parabola(x, parabola(-2, 1.3))));
+  EXPECT_TRUE(std::isnan(least_of_parabola({{1.0, 2.0}}, {{3.0, 4.0}})));
+  EXPECT_TRUE(std::isnan(least_of_parabola({}, {})));
+  // Errors that are orthogonal to 1, x and x^2 change nothing: third differences of equal steps.
+  const std::vector<double> even{0, 1, 2, 3};
+  EXPECT_NEAR(least_of_parabola(even, std::vector<double>{1 + 0.1, 0 - 0.3, 1 + 0.3, 4 - 0.1}), 1,
+              1e-12);
+}
+
 TEST(CapSize, is_the_same_for_every_number_of_threads) {
   const Ordered points = ordered(noisy_sphere(2000, 0.01, 0.1));
   const CapSize one = choose_cap_size(points.view(), 3, {.threads = 1});
