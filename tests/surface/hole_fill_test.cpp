@@ -116,6 +116,24 @@ TEST(CloseGrid, doubtful_values_on_the_wrong_side_are_forgotten) {
   }
 }
 
+TEST(CloseGrid, a_side_is_refuted_beyond_0_15_from_a_half) {
+  // Dipoles of area 1 at one place: w = n / (4 pi d^2) at a distance d below them.
+  const std::vector<Vec3> points(100, Vec3{}), area_normals(100, Vec3{0, 0, 1});
+  const WindingTree tree(points, area_normals);
+  for (const double w : {0.34, 0.36, 0.64, 0.66}) {
+    SCOPED_TRACE(w);
+    BlockGrid grid =
+        make_block_grid({0, 0, -std::sqrt(100 / (4 * std::numbers::pi * w))}, 1, {{0, 0, 0}});
+    std::vector<std::uint64_t> doubtful(8, 0);
+    doubtful[0] = 1;
+    const float side = w < 0.5 ? -0.5F : 0.5F;  // what is less likely
+    grid.block_values(0)[0] = side;
+    const bool refuted = w < 0.35 || w > 0.65;
+    EXPECT_EQ(forget_refuted(grid, doubtful, tree), refuted ? 1U : 0U);
+    EXPECT_EQ(std::isnan(grid.block_values(0)[0]), refuted);
+  }
+}
+
 TEST(CloseGrid, nothing_is_asked_for_where_nothing_is_open) {
   BlockGrid grid = box_grid({}, 0.1, -2, 2);
   fill_grid(grid, [](const Vec3& x) {
