@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/parallel.h"
 #include "shape/plane_fit.h"
@@ -16,6 +17,7 @@ constexpr std::size_t kGrain = 1024;  // points per chunk; chosen: a few millise
 constexpr int kLadder[] = {10, 15, 22, 33, 50, 75, 112, 168, 252};
 constexpr std::size_t kRungs = std::size(kLadder);
 constexpr double kCleanFall = 3.3;    // see choose_neighbors
+constexpr double kCalmShare = 0.9;    // see choose_neighbors
 constexpr std::size_t kSeeds = 1000;  // chosen: the error of the mean is 3 %
 
 // Where noise asks for more than that, planes are as good as paraboloids and edges cannot be told
@@ -142,15 +144,25 @@ int choose_neighbors(const PointTree& tree, std::span<const Vec3> points, const 
     for (const Halves& h : halves) sum += sine2(h.odd[a], h.even[b]) + sine2(h.even[a], h.odd[b]);
     return sum / static_cast<double>(2 * n_seeds);
   };
+  // The same of one rung without its tenth of largest ones. Few points in a half may lie on nearly
+  // a line, where its plane may be any: a handful of seeds that would be half of the mean
+  // (measured).
+  const auto calm_difference = [&](std::size_t r) {
+    std::vector<double> each(n_seeds);
+    for (std::size_t s = 0; s < n_seeds; ++s) each[s] = sine2(halves[s].odd[r], halves[s].even[r]);
+    std::sort(each.begin(), each.end());
+    const auto calm = static_cast<std::size_t>(kCalmShare * static_cast<double>(n_seeds));
+    return std::accumulate(each.begin(), each.begin() + static_cast<std::ptrdiff_t>(calm), 0.0);
+  };
   // A random direction has sin^2 = 2/3 on average: a rung says something well below that (chosen:
   // a deviation of 25 degrees).
   std::size_t base = 0;
   while (base + 1 < rungs && difference(base, base) > 0.18) ++base;
   // Noise makes half fits differ by a variance that falls as 1 / k^2, curvature and edges more
-  // slowly. Measured from 10 to 22 neighbours, where noise alone gives 4.8: clean samples of meshes
-  // have 2 to 3, with noise a twentieth of the spacing it is 3.6 or more. Clean points want the
-  // smallest neighbourhood.
-  if (base == 0 && difference(0, 0) < kCleanFall * difference(2, 2)) return kLadder[0];
+  // slowly. Measured from 10 to 22 neighbours, where noise alone gives 4.8 or more: clean samples
+  // of meshes have 0.7 (of flat faces) to 3, with noise a twentieth of the spacing it is 3.4 or
+  // more, 3.1 of the most detailed. Clean points want the smallest neighbourhood.
+  if (base == 0 && calm_difference(0) < kCleanFall * calm_difference(2)) return kLadder[0];
   std::size_t best = base;
   double least = 1;
   for (std::size_t r = base; r < rungs; ++r) {

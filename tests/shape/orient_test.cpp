@@ -115,6 +115,16 @@ TEST(orient, sphere_points_outwards_within_a_degree) {
   for (const Vec3& n : cloud.normals) EXPECT_NEAR(norm(n), 1, 1e-12);
 }
 
+// Half fits of five points are wild now and then: one of these spheres in four was taken for noise.
+TEST(orient, clean_points_take_few_neighbours_whatever_their_sample) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const PointCloud truth = random_sphere(3000, seed);
+    PointCloud cloud = without_normals(truth);
+    EXPECT_EQ(orient(cloud).neighbors, 10) << seed;
+    EXPECT_LE(quality(cloud.normals, truth.normals).angle, 0.05) << seed;
+  }
+}
+
 TEST(orient, torus_points_outwards_also_in_noise_for_which_it_takes_more_neighbours) {
   const Mesh mesh = torus(1, 0.4, 200, 100);
   int neighbors = 0;
