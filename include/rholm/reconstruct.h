@@ -35,7 +35,7 @@ struct ReconstructOptions {
 
 struct ReconstructReport {
   std::size_t points = 0;          // given
-  std::size_t dropped_points = 0;  // not finite, or at the place of another
+  std::size_t dropped_points = 0;  // not finite, at the place of another, without a normal
   std::size_t outliers = 0;        // removed
   bool computed_normals = false;
   double spacing = 0;  // median distance between neighbours, as if on a square grid
@@ -60,7 +60,8 @@ struct Reconstruction {
 };
 
 // Points with normals that point outwards (any length; computed by orient() if there are none) to a
-// surface. Attributes of the points are carried over, averaged over the nearest ones. Throws
+// surface. Attributes of the points are carried over, averaged over the nearest ones that have a
+// finite value and rounded to their type; not a number where none has. Throws
 // InvalidInput for fewer than 16 different points, options out of range, points that no closed
 // surface goes with, and if more memory than allowed would be needed (with the step that would do).
 // Same input, same bits for any number of threads.

@@ -288,6 +288,7 @@ TEST(Reconstruct, attributes_that_are_linear_in_space_travel_along) {
   ASSERT_NE(heights, nullptr);
   ASSERT_NE(reds, nullptr);
   EXPECT_EQ(reds->type, ScalarType::kUint8);
+  EXPECT_EQ(heights->type, ScalarType::kFloat32);
   // The eight nearest lie within 2.5 spacings (8 of them would fill pi r^2 with r = 1.6, at holes
   // of the random points more); a mean of them is no farther off than the gradient times that.
   const double reach = 2.5 * made.report.spacing;
@@ -296,6 +297,26 @@ TEST(Reconstruct, attributes_that_are_linear_in_space_travel_along) {
     EXPECT_NEAR(heights->values[i], 2 * v.x - v.y + 3 * v.z, std::sqrt(14.0) * reach);
     EXPECT_NEAR(reds->values[i], 127.5 * (1 + v.z), 127.5 * reach + 1);
     EXPECT_EQ(reds->values[i], std::round(reds->values[i]));
+    EXPECT_EQ(heights->values[i], static_cast<float>(heights->values[i]));
+  }
+}
+
+TEST(Reconstruct, attributes_without_a_value_leave_it_to_their_neighbours) {
+  PointCloud cloud = sphere_points(2000);
+  Attribute heat{"heat", ScalarType::kFloat64, std::vector<double>(2000, 7)}, cold = heat;
+  for (std::size_t i = 0; i < 2000; i += 100) {
+    heat.values[i] = std::numeric_limits<double>::quiet_NaN();
+    heat.values[i + 1] = std::numeric_limits<double>::infinity();
+  }
+  cold.name = "cold";
+  cold.values.assign(2000, std::numeric_limits<double>::quiet_NaN());
+  cloud.attributes = {heat, cold};
+  const Reconstruction made = reconstruct(std::move(cloud));
+  for (const double value : find_attribute(made.mesh.attributes, "heat")->values) {
+    EXPECT_NEAR(value, 7, 1e-14);
+  }
+  for (const double value : find_attribute(made.mesh.attributes, "cold")->values) {
+    EXPECT_TRUE(std::isnan(value));
   }
 }
 
