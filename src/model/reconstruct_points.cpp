@@ -22,6 +22,9 @@ constexpr std::size_t kCircle = 8;
 constexpr std::size_t kSpacingSeeds = 2000;
 // Of even random points the tenth lies at 0.8 of the median; a finer part of uneven ones below.
 constexpr double kTenthOfEven = 0.8;
+// Of the diagonal: points no farther from one line than this have no surface, whatever their
+// normals; far above what single precision does to a line.
+constexpr double kLine = 1e-5;
 // Diagonals: squares of distances between neighbours must stay within single precision.
 constexpr double kSmallest = 1e-12, kLargest = 1e12;
 // Each sees what the one before has left (method 7.4).
@@ -50,13 +53,33 @@ void check_spread(const PointCloud& cloud, double diagonal) {
   if (cloud.points.size() < kFewestPoints) {
     throw Error(
         ErrorCode::kInvalidInput,
-        fmt::format("{} different points with normals are too few for a surface: {} at least",
-                    cloud.points.size(), kFewestPoints));
+        fmt::format("{} different {} too few for a surface: {} at least", cloud.points.size(),
+                    cloud.points.size() == 1 ? "point with a normal is" : "points with normals are",
+                    kFewestPoints));
   }
   if (!(diagonal > kSmallest && diagonal < kLargest)) {
     throw Error(ErrorCode::kInvalidInput,
                 fmt::format("the points span {}: {} ... {} can be worked with; take another unit",
                             diagonal, kSmallest, kLargest));
+  }
+}
+
+// The line is the one from the first point to the farthest from it.
+void check_width(const std::vector<Vec3>& points, double diagonal) {
+  const Vec3 first = points.front();
+  const auto distance = [&](const Vec3& p) { return norm(p - first); };
+  const Vec3 far =
+      *std::max_element(points.begin(), points.end(),
+                        [&](const Vec3& a, const Vec3& b) { return distance(a) < distance(b); });
+  const Vec3 along = normalized(far - first);
+  const auto is_near = [&](const Vec3& p) {
+    return norm(cross(p - first, along)) <= kLine * diagonal;
+  };
+  if (std::all_of(points.begin(), points.end(), is_near)) {
+    throw Error(ErrorCode::kInvalidInput,
+                fmt::format("all {} points lie on one line, within {:.0e} of its length: give "
+                            "points of a surface",
+                            points.size(), kLine));
   }
 }
 
@@ -77,6 +100,7 @@ WorkingPoints::WorkingPoints(PointCloud cloud, ReconstructReport& report, const 
   drop_zero_normals(cloud_);
   diagonal_ = bounds(cloud_.points).diagonal();
   check_spread(cloud_, diagonal_);
+  check_width(cloud_.points, diagonal_);
   report.dropped_points = report.points - cloud_.points.size();
   order(context);
 }
