@@ -65,7 +65,9 @@ Compressed compress_shape(const AnalyzeCommandOptions& o, ShapeFile file, Sessio
   const bool relative = o.tolerance.unit == "diagonal";
   if (const auto* cloud = std::get_if<PointCloud>(&file.shape)) {
     if (relative) options.tolerance *= bounds(cloud->points).diagonal();
-    return compress(*cloud, options, session.context());
+    Compressed found = compress(*cloud, options, session.context());
+    if (found.report.turned_normals) session.note(kTurned);
+    return found;
   }
   const Mesh mesh = prepared_mesh(o, std::move(file), session);
   if (relative) options.tolerance *= bounds(mesh.vertices).diagonal();

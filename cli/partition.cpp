@@ -34,6 +34,7 @@ void show_caps(const Options& options, ShapeFormat format, Shape& shape,
   const double diagonal = bounds(points).diagonal();
   const Compressed found =
       compress(shape, {.tolerance = options.tolerance * diagonal}, session.context());
+  if (found.report.turned_normals) session.note(kTurned);
   const Atlas& atlas = found.model.atlas;
   const auto caps = loudest_caps(atlas, points, session.context());
   if (options.show == "degrees") {

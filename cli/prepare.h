@@ -28,5 +28,8 @@ Prepared prepare(const Mesh& mesh, double weld_tolerance);
 // What to say of a mesh that was inside out.
 inline constexpr const char* kFlipped =
     "the mesh was inside out, it has been turned right side out";
+// The same of points.
+inline constexpr const char* kTurned =
+    "all normals pointed inwards, they have been turned outwards";
 
 }  // namespace rholm::cli

@@ -93,6 +93,7 @@ Json json_of(const Reconstruction& made, double diagonal) {
                {"dropped_points", r.dropped_points},
                {"outliers", r.outliers},
                {"computed_normals", r.computed_normals},
+               {"turned_normals", r.turned_normals},
                {"spacing", r.spacing},
                {"noise", r.noise},
                {"normal_noise_degrees", r.normal_noise_degrees},
@@ -127,6 +128,7 @@ std::string report_text(const Reconstruction& made, double diagonal, bool keep_h
   }
   if (r.outliers > 0) text += line("outliers", fmt::format("{}, left out", r.outliers));
   if (r.computed_normals) text += line("normals", "computed, as by rholm orient");
+  if (r.turned_normals) text += line("normals", "all pointed inwards, turned outwards");
   text += line("spacing", relative(r.spacing));
   text += line("noise", r.noise > 0 ? relative(r.noise) : "within what the caps explain");
   text += line("caps", fmt::format("{} of about {} points", r.caps, r.neighbours));

@@ -49,9 +49,10 @@ AtlasSize size_of(const Atlas& atlas);
 
 struct CompressReport {
   std::size_t samples = 0;
-  double uncovered = 0;   // share of the samples that no cap met by 4 tolerances
-  std::size_t genus = 0;  // of the extracted surface
-  bool met = false;       // the tolerance
+  bool turned_normals = false;  // of points: all of them, they pointed into the solid
+  double uncovered = 0;         // share of the samples that no cap met by 4 tolerances
+  std::size_t genus = 0;        // of the extracted surface
+  bool met = false;             // the tolerance
   // The surface has as many parts and handles as the shape, as far as that is a closed manifold.
   bool topology_kept = false;
   StageTimes times = {};  // "samples", "caps", "fit", "surface"
@@ -65,9 +66,10 @@ struct Compressed {
 // Covers the shape with few caps, fits them, drops the coefficients its error can do without,
 // extracts the surface and measures it, until it is within the tolerance both ways and hangs
 // together as the shape does. A mesh may be
-// open; points need normals and are taken as evenly spread (measured from the points only).
-// Throws InvalidInput for shapes without area, and options out of range. The tolerance may be
-// missed: see `met`. Same input, same bits for any number of threads.
+// open; points need normals (if they point into a solid that the points lie all around, they are
+// turned) and are taken as evenly spread (measured from the points only). Throws InvalidInput for
+// shapes without area, and options out of range. The tolerance may be missed: see `met`. Same
+// input, same bits for any number of threads.
 Compressed compress(const Mesh& mesh, const CompressOptions& options, const Context& context = {});
 Compressed compress(const PointCloud& cloud, const CompressOptions& options,
                     const Context& context = {});

@@ -38,8 +38,9 @@ struct ReconstructReport {
   std::size_t dropped_points = 0;  // not finite, at the place of another, without a normal
   std::size_t outliers = 0;        // removed
   bool computed_normals = false;
-  double spacing = 0;  // median distance between neighbours, as if on a square grid
-  double noise = 0;    // standard deviation along the normal, 0 if within the shape's own
+  bool turned_normals = false;  // all of them: they pointed into the solid
+  double spacing = 0;           // median distance between neighbours, as if on a square grid
+  double noise = 0;             // standard deviation along the normal, 0 if within the shape's own
   double normal_noise_degrees = 0;  // of the normals against the surface
   std::size_t neighbours = 0;       // points of a typical cap
   std::size_t caps = 0;
@@ -59,12 +60,13 @@ struct Reconstruction {
   ReconstructReport report;
 };
 
-// Points with normals that point outwards (any length; computed by orient() if there are none) to a
-// surface. Attributes of the points are carried over, averaged over the nearest ones that have a
-// finite value and rounded to their type; not a number where none has. Throws
-// InvalidInput for fewer than 16 different points, options out of range, points that no closed
-// surface goes with, and if more memory than allowed would be needed (with the step that would do).
-// Same input, same bits for any number of threads.
+// Points with normals that point outwards (any length; computed by orient() if there are none; if
+// they point into a solid that the points lie all around, they are turned) to a surface. Attributes
+// of the points are carried over, averaged over the nearest ones that have a finite value and
+// rounded to their type; not a number where none has. Throws InvalidInput for fewer than 16
+// different points, options out of range, points that no closed surface goes with, and if more
+// memory than allowed would be needed (with the step that would do). Same input, same bits for any
+// number of threads.
 Reconstruction reconstruct(PointCloud cloud, const ReconstructOptions& options = {},
                            const Context& context = {});
 

@@ -223,17 +223,21 @@ Compressed compress(const PointCloud& cloud, const CompressOptions& options,
                     const Context& context) {
   check(options);
   check_oriented(cloud);
-  const OrientedPoints samples = oriented_points(cloud.points, cloud.normals);
+  OrientedPoints samples = oriented_points(cloud.points, cloud.normals);
   if (samples.points.size() < 1000) {
     throw Error(ErrorCode::kInvalidInput,
                 fmt::format("{} points with normals are too few for large caps: at least 1000",
                             samples.points.size()));
   }
+  const bool turned = turn_outwards(samples, context);
   const auto measure_surface = [&](const Mesh& surface) {
     return measure(samples.points, surface, context);
   };
-  return compress_samples(samples, bounds(samples.points).diagonal(), 3 * cloud.points.size(),
-                          options, {}, measure_surface, context);
+  Compressed result =
+      compress_samples(samples, bounds(samples.points).diagonal(), 3 * cloud.points.size(), options,
+                       {}, measure_surface, context);
+  result.report.turned_normals = turned;
+  return result;
 }
 
 Mesh synthesize(const AtlasModel& model, const AtlasSynthesisOptions& options,

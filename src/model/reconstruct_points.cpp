@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/parallel.h"
+#include "model/oriented_points.h"
 #include "rholm/error.h"
 #include "rholm/points.h"
 #include "rholm/topology.h"
@@ -103,6 +104,11 @@ WorkingPoints::WorkingPoints(PointCloud cloud, ReconstructReport& report, const 
   check_width(cloud_.points, diagonal_);
   report.dropped_points = report.points - cloud_.points.size();
   order(context);
+  report.turned_normals = directed && face_inwards(*tree_, points_, normals_, context);
+  if (report.turned_normals) {
+    for (Vec3& normal : cloud_.normals) normal = -normal;
+    for (Vec3& normal : normals_) normal = -normal;
+  }
 }
 
 void WorkingPoints::order(const Context& context) {

@@ -13,6 +13,7 @@
 #include "rholm/model.h"
 #include "rholm/primitives.h"
 #include "rholm/topology.h"
+#include "support/test_points.h"
 
 namespace rholm {
 namespace {
@@ -205,6 +206,16 @@ TEST(compress, a_torus_meets_its_tolerance_both_ways_and_is_read_back) {
   EXPECT_TRUE(seen.closed && seen.manifold && seen.oriented && !seen.inside_out);
   EXPECT_EQ(seen.genus, 1U);
   EXPECT_EQ(seen.components, 1U);
+}
+
+TEST(compress, points_may_point_inwards) {
+  PointCloud cloud = test::sphere_points(1500);
+  const Compressed right = compress(cloud, {.tolerance = 0.05});
+  EXPECT_FALSE(right.report.turned_normals);
+  for (Vec3& normal : cloud.normals) normal = -normal;
+  const Compressed turned = compress(cloud, {.tolerance = 0.05});
+  EXPECT_TRUE(turned.report.turned_normals);
+  EXPECT_EQ(turned.model.atlas.coefficients, right.model.atlas.coefficients);
 }
 
 TEST(compress, options_out_of_range_are_refused) {

@@ -115,6 +115,28 @@ TEST(Reconstruct, normals_are_computed_where_there_are_none) {
   EXPECT_TRUE(made.report.computed_normals);
 }
 
+TEST(Reconstruct, normals_into_the_solid_are_turned) {
+  for (const double density_ratio : {1.0, 30.0}) {
+    PointCloud cloud =
+        sample_surface(torus(1, 0.4, 96, 48), {.points = 20000, .density_ratio = density_ratio});
+    const Reconstruction right = reconstruct(cloud);
+    EXPECT_FALSE(right.report.turned_normals);
+    for (Vec3& normal : cloud.normals) normal = -normal;
+    const Reconstruction turned = reconstruct(cloud);
+    EXPECT_TRUE(turned.report.turned_normals);
+    EXPECT_EQ(turned.mesh.vertices, right.mesh.vertices);
+    EXPECT_EQ(turned.mesh.triangles, right.mesh.triangles);
+  }
+}
+
+TEST(Reconstruct, normals_of_an_open_sheet_stay) {
+  PointCloud half = sphere_points(4000);
+  std::erase_if(half.points, [](const Vec3& p) { return p.z < 0; });
+  half.normals.clear();
+  for (const Vec3& p : half.points) half.normals.push_back(-p);
+  EXPECT_FALSE(reconstruct(half).report.turned_normals);
+}
+
 TEST(Reconstruct, a_torus_has_a_hole_through_it) {
   const Mesh truth = torus(1, 0.3, 200, 80);
   const Reconstruction made = reconstruct(sample_surface(truth, {.points = 8000}));
