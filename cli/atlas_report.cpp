@@ -54,10 +54,11 @@ Json atlas_json(const AtlasModel& model) {
   json["errors"] = nullptr;
   if (model.errors) {
     const AtlasErrors& e = *model.errors;
+    const auto measured = [&](double value) { return e.two_sided() ? Json(value) : Json(nullptr); };
     json["errors"] = {{"rms_from_shape", e.rms_from},
                       {"max_from_shape", e.max_from},
-                      {"rms_to_shape", e.rms_to},
-                      {"max_to_shape", e.max_to}};
+                      {"rms_to_shape", measured(e.rms_to)},
+                      {"max_to_shape", measured(e.max_to)}};
   }
   return json;
 }
@@ -78,7 +79,8 @@ std::string atlas_text(const AtlasModel& model) {
   if (model.errors) {
     const AtlasErrors& e = *model.errors;
     text += line("distance", length_text(e.rms_from, diagonal) + " rms from the shape, measured");
-    text += line("", length_text(e.rms_to, diagonal) + " rms to the shape, measured");
+    text += line("", e.two_sided() ? length_text(e.rms_to, diagonal) + " rms to the shape, measured"
+                                   : "not measured to the shape, which is points");
     text += line("", length_text(e.max(), diagonal) + " at most, measured");
   }
   text += line("diagonal", text_of(diagonal));

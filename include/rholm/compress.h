@@ -25,9 +25,10 @@ struct CompressOptions {
 // What a model is measured by. Lengths in the shape's unit.
 struct AtlasErrors {
   double rms_from = 0, max_from = 0;  // from the shape to the model's surface
-  double rms_to = 0, max_to = 0;      // from the model's surface to the shape
+  double rms_to = 0, max_to = 0;      // from the model's surface to the shape; 0 if that is points
   double rms() const { return rms_from > rms_to ? rms_from : rms_to; }
   double max() const { return max_from > max_to ? max_from : max_to; }
+  bool two_sided() const { return max_to > 0; }
 };
 
 // An atlas and what its file says of it.

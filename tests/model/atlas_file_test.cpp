@@ -208,14 +208,16 @@ TEST(compress, a_torus_meets_its_tolerance_both_ways_and_is_read_back) {
   EXPECT_EQ(seen.components, 1U);
 }
 
-TEST(compress, points_may_point_inwards) {
+TEST(compress, points_may_point_inwards_and_are_measured_one_way) {
   PointCloud cloud = test::sphere_points(1500);
   const Compressed right = compress(cloud, {.tolerance = 0.05});
   EXPECT_FALSE(right.report.turned_normals);
+  EXPECT_FALSE(right.model.errors->two_sided());
   for (Vec3& normal : cloud.normals) normal = -normal;
   const Compressed turned = compress(cloud, {.tolerance = 0.05});
   EXPECT_TRUE(turned.report.turned_normals);
   EXPECT_EQ(turned.model.atlas.coefficients, right.model.atlas.coefficients);
+  EXPECT_TRUE(compress(icosphere(3), {.tolerance = 0.05}).model.errors->two_sided());
 }
 
 TEST(compress, options_out_of_range_are_refused) {
