@@ -165,6 +165,8 @@ int run(const Options& options, Session& session) {
   const ReconstructOptions wanted = library_options(options, box);
   const Reconstruction made = reconstruct(std::move(cloud), wanted, session.context());
   stop_if_interrupted();
+  write_shape(made.mesh, options.output, {format, options.ascii}, session.context());
+  // Last, as it is not interrupted: who reads that nothing was written finds nothing.
   if (!options.model.empty()) {
     write_atlas({.atlas = made.atlas,
                  .step = made.report.step,
@@ -175,7 +177,6 @@ int run(const Options& options, Session& session) {
                  .method = "reconstruct"},
                 options.model);
   }
-  write_shape(made.mesh, options.output, {format, options.ascii}, session.context());
   if (options.json) {
     Json json;
     json["file"] = options.input;
