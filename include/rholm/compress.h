@@ -81,7 +81,8 @@ struct AtlasSynthesisOptions {
   std::optional<SimplifyOptions> simplify = {};  // fewer triangles for the same surface
   std::size_t max_memory = std::size_t{8} << 30;
 };
-// The surface of a model, from it alone: closed, oriented outwards, with normals nx, ny, nz.
+// The surface of a model, from it alone: closed, oriented outwards, with normals nx, ny, nz. Throws
+// InvalidInput for a step so large that no surface is left, or too small for the memory.
 Mesh synthesize(const AtlasModel& model, const AtlasSynthesisOptions& options = {},
                 const Context& context = {});
 

@@ -249,13 +249,21 @@ Mesh synthesize(const AtlasModel& model, const AtlasSynthesisOptions& options,
   }
   const AtlasSurfaceOptions wanted{
       .step = step, .simplify = options.simplify, .max_memory = options.max_memory};
-  if (!options.degree) return extract_atlas(model.atlas, wanted, context).mesh;
-  Atlas coarse = model.atlas;
-  for (Cap& cap : coarse.caps) {
-    cap.degree =
-        static_cast<std::uint16_t>(std::min<int>(cap.degree, std::max(0, *options.degree)));
+  Atlas atlas = model.atlas;
+  for (Cap& cap : atlas.caps) {
+    const int degree = options.degree.value_or(cap.degree);
+    cap.degree = static_cast<std::uint16_t>(std::min<int>(cap.degree, std::max(0, degree)));
   }
-  return extract_atlas(coarse, wanted, context).mesh;
+  Mesh surface = extract_atlas(atlas, wanted, context).mesh;
+  if (surface.triangles.empty()) {
+    throw Error(
+        ErrorCode::kInvalidInput,
+        fmt::format("a grid with steps of {:.3g} finds no surface of a model with a diagonal of "
+                    "{:.3g}: take smaller steps{}",
+                    step, atlas.diagonal,
+                    model.step > 0 ? fmt::format(", {:.3g} is its own", model.step) : ""));
+  }
+  return surface;
 }
 
 }  // namespace rholm

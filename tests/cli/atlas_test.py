@@ -64,6 +64,10 @@ class Atlas(CliTest):
                                       *words).json()["counts"]["vertices"]
         self.assertGreater(counts["finer"], 3 * counts["own"])
         self.assertGreater(counts["flat"], 0)
+        for step, code in (("1000", 3),):
+            refused = self.rholm("synthesize", "t.h5", "-o", "x.ply", "--resolution", step, code=code)
+            self.assertIn("take s", refused.err)
+            self.assertNotIn("x.ply", self.files())
 
     def test_simplify_goes_with_an_atlas_only(self):
         self.make_model()
