@@ -19,6 +19,7 @@ namespace {
 int exit_code_of(ErrorCode code) {
   switch (code) {
     case ErrorCode::kIo:
+    case ErrorCode::kOutOfMemory:
       return kFailure;
     case ErrorCode::kInvalidInput:
     case ErrorCode::kUnsupported:

@@ -82,7 +82,7 @@ struct AtlasSynthesisOptions {
   std::size_t max_memory = std::size_t{8} << 30;
 };
 // The surface of a model, from it alone: closed, oriented outwards, with normals nx, ny, nz. Throws
-// InvalidInput for a step so large that no surface is left, or too small for the memory.
+// InvalidInput for a step so large that no surface is left, OutOfMemory for one too small.
 Mesh synthesize(const AtlasModel& model, const AtlasSynthesisOptions& options = {},
                 const Context& context = {});
 

@@ -14,6 +14,7 @@ enum class ErrorCode {
   kIo,             // the operating system refused to read or write
   kUnsupported,    // well-formed, but a variant that is not handled
   kNotStarShaped,  // the surface is not star-shaped from any (or the given) centre
+  kOutOfMemory,    // more memory than allowed would be needed
   kNotConverged,   // a tolerance was not reached within the limits
   kCancelled,      // the progress callback asked to stop
 };

@@ -63,10 +63,10 @@ struct Reconstruction {
 // Points with normals that point outwards (any length; computed by orient() if there are none; if
 // they point into a solid that the points lie all around, they are turned) to a surface. Attributes
 // of the points are carried over, averaged over the nearest ones that have a finite value and
-// rounded to their type; not a number where none has. Throws InvalidInput for fewer than 16
-// different points, options out of range, points that no closed surface goes with, and if more
-// memory than allowed would be needed (with the step that would do). Same input, same bits for any
-// number of threads.
+// rounded to their type; not a number where none has. Throws
+// InvalidInput for fewer than 16 different points, options out of range and points that no closed
+// surface goes with, OutOfMemory if more than allowed would be needed (with the step that would
+// do). Same input, same bits for any number of threads.
 Reconstruction reconstruct(PointCloud cloud, const ReconstructOptions& options = {},
                            const Context& context = {});
 

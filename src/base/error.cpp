@@ -12,6 +12,8 @@ const char* to_string(ErrorCode code) {
       return "Unsupported";
     case ErrorCode::kNotStarShaped:
       return "NotStarShaped";
+    case ErrorCode::kOutOfMemory:
+      return "OutOfMemory";
     case ErrorCode::kNotConverged:
       return "NotConverged";
     case ErrorCode::kCancelled:

@@ -60,6 +60,19 @@ std::vector<BlockCoordinates> blocks_of(const Atlas& atlas, double step,
   return list_blocks(lowest_corner(discs), step, discs, blocks_within(options), context);
 }
 
+// Steps beyond the grid's coordinates are refused as input.
+bool is_too_fine(const Error& error) {
+  return error.code() == ErrorCode::kOutOfMemory || error.code() == ErrorCode::kInvalidInput;
+}
+
+// Of the box around the caps.
+double longest_side(const Atlas& atlas) {
+  std::vector<Vec3> seeds;
+  for (const Cap& cap : atlas.caps) seeds.push_back(cap.frame.seed());
+  const Vec3 size = bounds(seeds).max - bounds(seeds).min;
+  return std::max({size.x, size.y, size.z});
+}
+
 // The finest of the steps of a power of two in the diagonal that fits; 0 if none does.
 double step_that_fits(const Atlas& atlas, const AtlasSurfaceOptions& options,
                       const Context& context) {
@@ -70,7 +83,7 @@ double step_that_fits(const Atlas& atlas, const AtlasSurfaceOptions& options,
       found = step;
     }
   } catch (const Error& error) {
-    if (error.code() != ErrorCode::kInvalidInput) throw;
+    if (!is_too_fine(error)) throw;
   }
   return found;
 }
@@ -83,15 +96,16 @@ BlockGrid make_grid(const Atlas& atlas, const std::vector<Disc>& discs,
         origin, options.step,
         list_blocks(origin, options.step, discs, blocks_within(options), context), context);
   } catch (const Error& error) {
-    if (error.code() != ErrorCode::kInvalidInput) throw;
+    if (!is_too_fine(error)) throw;
     const double fits = step_that_fits(atlas, options, context);
     throw Error(
-        ErrorCode::kInvalidInput,
+        ErrorCode::kOutOfMemory,
         fmt::format("a grid with steps of {:.3g} needs more than the {:.0f} MiB allowed: {}allow "
                     "more memory",
                     options.step, static_cast<double>(options.max_memory) / (1 << 20),
-                    fits > 0 ? fmt::format("take steps of {:.3g} (1/{:.0f} of the diagonal), or ",
-                                           fits, atlas.diagonal / fits)
+                    fits > 0 ? fmt::format("take steps of {:.3g} (1/{:.0f} of the diagonal, {:.0f} "
+                                           "along the longest side), or ",
+                                           fits, atlas.diagonal / fits, longest_side(atlas) / fits)
                              : ""));
   }
 }

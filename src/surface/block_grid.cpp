@@ -70,7 +70,7 @@ class KeySet {
 
 [[noreturn]] void throw_too_many(std::size_t max_blocks) {
   throw Error(
-      ErrorCode::kInvalidInput,
+      ErrorCode::kOutOfMemory,
       fmt::format("the grid needs more than {} blocks ({:.0f} MiB): take a coarser "
                   "resolution, or allow more memory",
                   max_blocks, static_cast<double>(block_grid_bytes(max_blocks)) / (1 << 20)));

@@ -83,7 +83,7 @@ void add_wanted_blocks(BlockGrid& grid, Search& search, std::size_t max_blocks) 
   add_blocks(grid, missing);
   if (grid.n_blocks() > max_blocks) {
     throw Error(
-        ErrorCode::kInvalidInput,
+        ErrorCode::kOutOfMemory,
         fmt::format("closing the surface needs more than {} blocks ({:.0f} MiB): take a "
                     "coarser resolution, keep the holes open, or allow more memory",
                     max_blocks, static_cast<double>(block_grid_bytes(max_blocks)) / (1 << 20)));

@@ -64,7 +64,7 @@ class Atlas(CliTest):
                                       *words).json()["counts"]["vertices"]
         self.assertGreater(counts["finer"], 3 * counts["own"])
         self.assertGreater(counts["flat"], 0)
-        for step, code in (("1000", 3),):
+        for step, code in ("1000", 3), ("1e-6", 1):
             refused = self.rholm("synthesize", "t.h5", "-o", "x.ply", "--resolution", step, code=code)
             self.assertIn("take s", refused.err)
             self.assertNotIn("x.ply", self.files())

@@ -136,9 +136,14 @@ class Reconstruct(CliTest):
 
     def test_more_memory_than_allowed_is_refused_before_any_output(self):
         result = self.rholm("reconstruct", "p.xyz", "--resolution", "4000", "--max-memory", "0.1",
-                            "-o", "s.ply", code=3)
+                            "-o", "s.ply", code=1)
         self.assertRegex(result.err, r"102 MiB allowed: take steps of [0-9.e-]+ ")
         self.assertNotIn("s.ply", self.files())
+        # What it says in the option's own words does.
+        fits = re.search(r"(\d+) along the longest side", result.err)[1]
+        self.assertLess(int(fits), 4000)
+        self.rholm("reconstruct", "p.xyz", "--resolution", fits, "--max-memory", "0.1",
+                   "-o", "s.ply")
 
     def test_wrong_words_and_points_without_a_surface_are_refused(self):
         for words, saying in ((["--noise", "much"], "--noise"), (["--noise", "-1"], "--noise"),

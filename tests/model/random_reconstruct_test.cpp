@@ -131,7 +131,9 @@ TEST(RandomReconstruct, every_surface_is_a_closed_manifold) {
       const Inspection open = inspect(reconstruct(std::move(cloud), options).mesh);
       EXPECT_EQ(open.non_manifold_edges + open.non_manifold_vertices + open.misoriented_edges, 0U);
     } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ErrorCode::kInvalidInput) << error.what();
+      EXPECT_TRUE(error.code() == ErrorCode::kInvalidInput ||
+                  error.code() == ErrorCode::kOutOfMemory)
+          << error.what();
       ++refused;
     }
   }

@@ -70,11 +70,12 @@ Vec3 vertex_normal(const Mesh& mesh, std::size_t i) {
 }
 
 // What a clear refusal says, or "" if there is none.
-std::string refusal(PointCloud cloud, const ReconstructOptions& options = {}) {
+std::string refusal(PointCloud cloud, const ReconstructOptions& options = {},
+                    ErrorCode code = ErrorCode::kInvalidInput) {
   try {
     reconstruct(std::move(cloud), options);
   } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::kInvalidInput) << error.what();
+    EXPECT_EQ(error.code(), code) << error.what();
     return error.what();
   }
   return "";
@@ -419,7 +420,8 @@ TEST(Reconstruct, stops_when_asked) {
 }
 
 TEST(Reconstruct, more_memory_than_allowed_is_refused_with_the_number) {
-  const std::string said = refusal(sphere_points(2000), {.step = 8e-3, .max_memory = 1 << 22});
+  const std::string said =
+      refusal(sphere_points(2000), {.step = 8e-3, .max_memory = 1 << 22}, ErrorCode::kOutOfMemory);
   EXPECT_NE(said.find("4 MiB"), std::string::npos) << said;
   // And it says what would do, which does.
   const std::size_t at = said.find("take steps of ");
@@ -431,8 +433,8 @@ TEST(Reconstruct, more_memory_than_allowed_is_refused_with_the_number) {
   EXPECT_LE(made.report.memory, std::size_t{1} << 22);
   EXPECT_EQ(made.report.step, step);
   // Without a step that would do.
-  EXPECT_NE(refusal(sphere_points(2000), {.step = 1e-300}), "");
-  EXPECT_NE(refusal(sphere_points(2000), {.max_memory = 0}), "");
+  EXPECT_NE(refusal(sphere_points(2000), {.step = 1e-300}, ErrorCode::kOutOfMemory), "");
+  EXPECT_NE(refusal(sphere_points(2000), {.max_memory = 0}, ErrorCode::kOutOfMemory), "");
 }
 
 TEST(Reconstruct, options_out_of_range_are_refused_with_their_value) {
@@ -477,7 +479,10 @@ void expect_closed_or_refused(const PointCloud& cloud, const std::string& name) 
         EXPECT_EQ(found.boundary_edges, 0U);
       }
     } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ErrorCode::kInvalidInput) << error.what();
+      // Points nearly at one place ask for steps of nearly nothing.
+      EXPECT_TRUE(error.code() == ErrorCode::kInvalidInput ||
+                  error.code() == ErrorCode::kOutOfMemory)
+          << error.what();
       EXPECT_GT(std::string(error.what()).size(), 20U);
     }
   }

@@ -106,7 +106,7 @@ TEST(AtlasSurface, memory_is_foreseen_and_kept) {
     extract_atlas(atlas, {.step = 0.05, .max_memory = needed / 2});
     FAIL();
   } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ErrorCode::kInvalidInput);
+    EXPECT_EQ(error.code(), ErrorCode::kOutOfMemory);
     EXPECT_NE(std::string(error.what()).find("0.05"), std::string::npos) << error.what();
   }
 }
