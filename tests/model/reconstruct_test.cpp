@@ -297,6 +297,22 @@ TEST(Reconstruct, uneven_density_does_not_tear_the_surface) {
 
 // ---- Attributes ----
 
+TEST(Reconstruct, a_density_that_falls_a_thousand_times_does_not_tear_it_either) {
+  // By rejection: the density is 1000^(-(z + 1) / 2).
+  PointCloud cloud;
+  for (std::uint64_t i = 0; cloud.points.size() < 20000; ++i) {
+    const Vec3 p = random_direction(3, i);
+    if (random_in(0, 1, 4, i) < std::pow(1000, -(p.z + 1) / 2)) cloud.points.push_back(p);
+  }
+  cloud.normals = cloud.points;
+  const Mesh mesh = reconstruct(std::move(cloud)).mesh;
+  const Inspection found = inspect(mesh);
+  EXPECT_TRUE(found.closed && found.manifold);
+  EXPECT_EQ(found.components, 1U);
+  EXPECT_EQ(found.genus, 0U);
+  EXPECT_NEAR(found.volume, 4 * std::numbers::pi / 3, 0.02);
+}
+
 TEST(Reconstruct, attributes_that_are_linear_in_space_travel_along) {
   PointCloud cloud = sphere_points(5000);
   Attribute height{"height", ScalarType::kFloat32, {}}, red{"red", ScalarType::kUint8, {}};
