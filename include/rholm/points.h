@@ -50,10 +50,11 @@ struct CleanReport {
   std::size_t zero_normals = 0;      // of the points that stay, if there are normals
 };
 
-// Makes a list of points fit for work: drops what is not finite, and merges points at bit-identical
-// places into the first one, which keeps its attributes. Its normal becomes the mean direction of
-// all their normals, but for those at more than 90 degrees to its own. Normals that are not finite
-// become zero. Throws InvalidInput if normals or attributes are not one per point.
+// Makes a list of points fit for work: drops what is not finite, and merges points at one
+// place (to 2^-23 of the diagonal of their bounding box) into the first one, which keeps its
+// attributes. Its normal becomes the mean direction of all their normals, but for those at more
+// than 90 degrees to its own. Normals that are not finite become zero. Throws InvalidInput if
+// normals or attributes are not one per point.
 CleanReport clean(PointCloud& cloud);
 
 struct OrientOptions {

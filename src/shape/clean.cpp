@@ -4,6 +4,7 @@
 
 #include "rholm/error.h"
 #include "rholm/points.h"
+#include "rholm/topology.h"
 #include "shape/identical.h"
 
 namespace rholm {
@@ -41,6 +42,25 @@ Vec3 unit_or_zero(const Vec3& v) {
   return normalized({v.x / largest, v.y / largest, v.z / largest});
 }
 
+// Distances between neighbours are those of single precision (point_tree.h): what is closer than
+// this part of the extent is at one place.
+constexpr double kPlace = 0x1p-23;
+
+// The first point in the same cell of that size. Of two that are closer, but in two cells, both
+// stay.
+std::vector<std::uint32_t> first_in_place(const std::vector<Vec3>& points) {
+  const Bounds box = bounds(points);
+  const double per_length = 1 / (kPlace * box.diagonal());
+  if (!std::isnormal(per_length)) return first_identical(points);
+  std::vector<Vec3> places;
+  places.reserve(points.size());
+  for (const Vec3& p : points) {
+    const Vec3 cell = per_length * (p - box.min);
+    places.push_back({std::floor(cell.x), std::floor(cell.y), std::floor(cell.z)});
+  }
+  return first_identical(places);
+}
+
 // Adds the normals of duplicates to those of the points that stay.
 std::size_t merge_normals(const std::vector<std::uint32_t>& first, std::vector<Vec3>& normals) {
   std::vector<Vec3> sums(normals.size());
@@ -72,7 +92,7 @@ CleanReport clean(PointCloud& cloud) {
   for (Vec3& normal : cloud.normals) {
     if (!is_finite(normal)) normal = {};
   }
-  const std::vector<std::uint32_t> first = first_identical(cloud.points);
+  const std::vector<std::uint32_t> first = first_in_place(cloud.points);
   kept.resize(first.size());
   for (std::uint32_t i = 0; i < first.size(); ++i) {
     kept[i] = first[i] == i;

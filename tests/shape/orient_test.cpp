@@ -338,6 +338,19 @@ TEST(clean, drops_what_is_not_finite_and_merges_duplicates) {
   EXPECT_EQ(cloud.normals[2], (Vec3{}));
 }
 
+TEST(clean, merges_what_single_precision_cannot_tell_apart) {
+  PointCloud cloud = random_sphere(2000);
+  const std::size_t n = cloud.points.size();
+  for (std::size_t copy = 1; copy < 5; ++copy) {
+    for (std::size_t i = 0; i < n; ++i) {
+      cloud.points.push_back(cloud.points[i] + 1e-10 * random_direction(copy, i));
+      cloud.normals.push_back(cloud.normals[i]);
+    }
+  }
+  // But for points that happen to lie on both sides of a boundary between cells.
+  EXPECT_GE(clean(cloud).duplicates, 4 * n - n / 20);
+}
+
 TEST(clean, leaves_good_points_as_they_are_and_refuses_lists_that_do_not_fit) {
   PointCloud cloud = random_sphere(100);
   const PointCloud before = cloud;
