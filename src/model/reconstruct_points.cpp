@@ -115,11 +115,13 @@ void WorkingPoints::order(const Context& context) {
   tree_ = std::make_unique<PointTree>(cloud_.points, context);
   const std::size_t n = tree_->size();
   points_.resize(n), normals_.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::uint32_t from = tree_->order()[i];
-    points_[i] = cloud_.points[from];
-    normals_[i] = normalized(cloud_.normals[from]);
-  }
+  parallel_for(n, 8192, context, {}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t from = tree_->order()[i];
+      points_[i] = cloud_.points[from];
+      normals_[i] = normalized(cloud_.normals[from]);
+    }
+  });
 }
 
 Spacing WorkingPoints::spacing(const Context& context) const {

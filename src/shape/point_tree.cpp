@@ -187,7 +187,7 @@ PointTree::PointTree(std::span<const Vec3> points, const Context& context) : ord
                 static_cast<std::uint32_t>(i)};
   }
   split(items, context);
-  store(items);
+  store(items, context);
 }
 
 // Halves ranges along their widest extent until leaves are small; the tree is complete, so that a
@@ -222,36 +222,38 @@ void PointTree::split(std::vector<Item>& items, const Context& context) {
   leaf_begin_ = std::move(begin);
 }
 
-void PointTree::store(const std::vector<Item>& items) {
+void PointTree::store(const std::vector<Item>& items, const Context& context) {
   const std::size_t n = items.size(), leaves = leaf_begin_.size() - 1;
   stride_ = n + kLeafSize;  // vectors may be read beyond the last point
   coordinates_ = AlignedArray<float>(3 * stride_);
-  for (std::size_t i = 0; i < stride_; ++i) {
-    for (std::size_t a = 0; a < 3; ++a) coordinates_[a * stride_ + i] = i < n ? items[i].at[a] : 0;
-    if (i < n) order_[i] = items[i].index;
+  for (std::size_t a = 0; a < 3; ++a) {
+    for (std::size_t i = n; i < stride_; ++i) coordinates_[a * stride_ + i] = 0;
   }
   leaf_of_.resize(n);
   leaf_density_.resize(leaves);
-  std::vector<Box> boxes(leaves);
-  for (std::size_t j = 0; j < leaves; ++j) {
-    for (std::uint32_t i = leaf_begin_[j]; i < leaf_begin_[j + 1]; ++i) {
-      boxes[j].add(items[i].at);
-      leaf_of_[i] = static_cast<std::uint32_t>(j);
-    }
-    std::array<float, 3> extent{};
-    for (std::size_t a = 0; a < 3; ++a) extent[a] = boxes[j].upper[a] - boxes[j].lower[a];
-    std::sort(extent.begin(), extent.end());
-    const float least = 1e-6f;  // of the whole: a line or a point has no area
-    const float area = std::max(extent[2], least) * std::max(extent[1], least);
-    leaf_density_[j] = static_cast<float>(leaf_begin_[j + 1] - leaf_begin_[j]) / area;
-  }
   std::vector<float> flat(6 * leaves);
-  for (std::size_t j = 0; j < leaves; ++j) {
-    for (std::size_t a = 0; a < 3; ++a) {
-      flat[6 * j + a] = boxes[j].lower[a];
-      flat[6 * j + a + 3] = boxes[j].upper[a];
+  parallel_for(leaves, 1024, context, {}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t j = begin; j < end; ++j) {
+      Box box;
+      for (std::uint32_t i = leaf_begin_[j]; i < leaf_begin_[j + 1]; ++i) {
+        const Item& item = items[i];
+        for (std::size_t a = 0; a < 3; ++a) coordinates_[a * stride_ + i] = item.at[a];
+        order_[i] = item.index;
+        leaf_of_[i] = static_cast<std::uint32_t>(j);
+        box.add(item.at);
+      }
+      std::array<float, 3> extent{};
+      for (std::size_t a = 0; a < 3; ++a) {
+        extent[a] = box.upper[a] - box.lower[a];
+        flat[6 * j + a] = box.lower[a];
+        flat[6 * j + a + 3] = box.upper[a];
+      }
+      std::sort(extent.begin(), extent.end());
+      const float least = 1e-6f;  // of the whole: a line or a point has no area
+      const float area = std::max(extent[2], least) * std::max(extent[1], least);
+      leaf_density_[j] = static_cast<float>(leaf_begin_[j + 1] - leaf_begin_[j]) / area;
     }
-  }
+  });
   make_boxes(std::move(flat));
 }
 

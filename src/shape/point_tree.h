@@ -64,7 +64,7 @@ class PointTree {
     std::uint32_t index;
   };
   void split(std::vector<Item>& items, const Context& context);
-  void store(const std::vector<Item>& items);
+  void store(const std::vector<Item>& items, const Context& context);
   void make_boxes(std::vector<float> leaves);
   std::array<float, 3> local(const Vec3& x) const;
   void search(const std::array<float, 3>& at, float radius2, std::size_t k,

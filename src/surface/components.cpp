@@ -98,11 +98,19 @@ void keep(std::vector<T>& values, const std::vector<std::uint32_t>& renumbered) 
   values.resize(renumbered.back());
 }
 
+bool has_area(const Mesh& mesh) {
+  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
+    const Vec3& a = mesh.vertices[t[0]];
+    return norm(cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a)) > 0;
+  });
+}
+
 // As the public function; `renumbered` is empty if nothing was dropped.
 DroppedComponents drop(Mesh& mesh, double least_share, std::vector<std::uint32_t>& renumbered) {
   DroppedComponents result;
   std::size_t n = 0;
   const std::vector<std::uint32_t> component = number_components(mesh, n);
+  if (n == 1 && has_area(mesh)) return {.components = 1};
   const std::vector<Component> measures = measure(mesh, component, n);
   const std::vector<char> stays = choose(measures, least_share);
   double area = 0;
