@@ -134,8 +134,10 @@ std::string report_text(const Reconstruction& made, double diagonal, bool keep_h
   text += line("caps", fmt::format("{} of about {} points", r.caps, r.neighbours));
   text += line("grid", fmt::format("cubes of {}", relative(r.step)));
   if (r.holes > 0) {
-    text += line("places without data",
-                 keep_holes ? fmt::format("{}", r.holes) : fmt::format("{} closed", r.holes));
+    text += line(
+        "places without data",
+        keep_holes ? fmt::format("{}", r.holes)
+                   : fmt::format("{} closed, {} of them wide: smoothly", r.holes, r.smooth_holes));
   }
   if (r.dropped_components > 0)
     text += line("small parts", fmt::format("{} dropped", r.dropped_components));
