@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <set>
 #include <string_view>
 #include <vector>
 
@@ -15,6 +17,7 @@
 #include "rholm/primitives.h"
 #include "rholm/topology.h"
 #include "shape/vertex_stars.h"
+#include "support/random_data.h"
 #include "support/test_meshes.h"
 
 namespace rholm {
@@ -143,6 +146,51 @@ TEST(simplify, edges_of_more_triangles_and_touching_fans_stay) {
     EXPECT_NEAR(after.volume, 2, 1e-12);
     EXPECT_LT(after.triangles, before.triangles / 2);
   }
+}
+
+// Closed, open and torn, with vertices and edges that touch.
+Mesh random_complex(std::uint64_t seed) {
+  std::uint64_t next = 0;
+  const auto below = [&](std::size_t n) {
+    return static_cast<std::uint32_t>(test::random_in(0, 1, seed, next++) * static_cast<double>(n) *
+                                      (1 - 1e-12));
+  };
+  Mesh mesh = seed % 3 == 0 ? Mesh{} : seed % 3 == 1 ? icosphere(1) : torus(1, 0.4, 6, 5);
+  if (seed % 3 == 0) {
+    for (std::uint64_t v = 0; v < 10; ++v) mesh.vertices.push_back(test::random_direction(seed, v));
+    for (int t = 0; t < 16; ++t) mesh.triangles.push_back({below(10), below(10), below(10)});
+  } else {
+    for (std::uint32_t n = below(6); n > 0; --n) {
+      mesh.triangles.erase(mesh.triangles.begin() + below(mesh.triangles.size()));
+    }
+    const std::uint32_t a = below(mesh.vertices.size()), b = below(mesh.vertices.size());
+    for (Triangle& t : mesh.triangles) std::replace(t.begin(), t.end(), a, b);
+  }
+  std::set<Triangle> seen;  // no repeated corners, no triangle twice
+  std::erase_if(mesh.triangles, [&](Triangle t) {
+    std::sort(t.begin(), t.end());
+    return t[0] == t[1] || t[1] == t[2] || !seen.insert(t).second;
+  });
+  return mesh;
+}
+
+TEST(simplify, connectivity_stays_whatever_the_mesh) {
+  // Shrinking an edge under the link condition keeps the homotopy type.
+  std::size_t shrunk = 0;
+  for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
+    const Mesh mesh = random_complex(seed);
+    const Inspection before = inspect(mesh);
+    const Inspection after = inspect(simplify(mesh, {.triangles = 1}, {.threads = 1}).mesh);
+    ASSERT_EQ(after.euler_characteristic, before.euler_characteristic) << seed;
+    ASSERT_EQ(after.components, before.components) << seed;
+    ASSERT_EQ(after.boundary_edges == 0, before.boundary_edges == 0) << seed;
+    ASSERT_LE(after.non_manifold_edges, before.non_manifold_edges) << seed;
+    ASSERT_LE(after.non_manifold_vertices, before.non_manifold_vertices) << seed;
+    ASSERT_LE(after.misoriented_edges, before.misoriented_edges) << seed;
+    ASSERT_EQ(after.duplicate_triangles, 0U) << seed;
+    shrunk += after.triangles < before.triangles ? 1 : 0;
+  }
+  EXPECT_GT(shrunk, 1500U);
 }
 
 TEST(simplify, units_do_not_matter) {
