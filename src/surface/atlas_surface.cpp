@@ -110,11 +110,16 @@ BlockGrid make_grid(const Atlas& atlas, const std::vector<Disc>& discs,
   }
 }
 
+// Many small caps that overlap by half, as points have; few large ones do not say where data end.
+bool are_small(const Atlas& atlas) {
+  return std::all_of(atlas.caps.begin(), atlas.caps.end(),
+                     [](const Cap& cap) { return cap.area > 0; });
+}
+
 // Small caps are one dipole each, of the area they were made for; large ones are spread.
 AtlasDipoles dipoles_of(const Atlas& atlas, double step, const Context& context) {
-  const bool small = std::all_of(atlas.caps.begin(), atlas.caps.end(),
-                                 [](const Cap& cap) { return cap.area > 0; });
-  if (!small) return spread_dipoles(atlas, kDipoleSteps * step, band_of(atlas, step), context);
+  if (!are_small(atlas))
+    return spread_dipoles(atlas, kDipoleSteps * step, band_of(atlas, step), context);
   AtlasDipoles dipoles;
   for (const Cap& cap : atlas.caps) {
     const CapFoot foot = cap_foot(atlas, cap);
@@ -211,10 +216,9 @@ AtlasSurface extract_atlas(const Atlas& atlas, const AtlasSurfaceOptions& option
   const AtlasDipoles dipoles = dipoles_of(atlas, options.step, context);
   const WindingTree winding(dipoles.points, dipoles.area_normals);
   forget_refuted(grid, doubtful, winding, context);
-  const HoleFilling filling = fill_holes(
-      grid, dipoles.feet, winding,
-      {.max_blocks = blocks_within(options), .support = node_support(atlas, lists, grid, context)},
-      context);
+  HoleFillOptions filled{.max_blocks = blocks_within(options), .support = {}};
+  if (are_small(atlas)) filled.support = node_support(atlas, lists, grid, context);
+  const HoleFilling filling = fill_holes(grid, dipoles.feet, winding, filled, context);
   result.holes = filling.holes, result.smooth_holes = filling.smooth;
   ExtractedSurface surface = extract_surface(grid, context);
   // From here on only the places of blocks are asked for.
