@@ -50,7 +50,7 @@ struct ReconstructReport {
   std::size_t dropped_components = 0;
   std::size_t faces = 0;      // of the surface before it was simplified
   double simplify_error = 0;  // by simplify(), as Simplification::error
-  std::size_t memory = 0;     // foreseen for grid and surface, bytes
+  std::size_t memory = 0;     // foreseen for points, grid and surface, bytes
   StageTimes times;
 };
 

@@ -38,6 +38,9 @@ constexpr double kDisagreeing = 0.04, kDisagreeingNoisy = 0.08;
 // not be heard alone.
 constexpr double kBandOfNoise = 3;
 
+// Of a point with its normal, its part of trees and caps: measured on 50 000 to 500 000.
+constexpr std::size_t kMemoryOfPoint = 300;
+
 void check(const ReconstructOptions& options) {
   const auto refuse = [](const char* what, double value, const char* limit) {
     throw Error(ErrorCode::kInvalidInput, fmt::format("{} is {}: {}", what, value, limit));
@@ -168,7 +171,8 @@ Reconstruction reconstruct(PointCloud cloud, const ReconstructOptions& options,
                                    .keep_holes = options.holes == HolePolicy::kKeep,
                                    .min_component = options.min_component,
                                    .simplify = options.simplify,
-                                   .max_memory = options.max_memory};
+                                   .max_memory = options.max_memory,
+                                   .memory_in_use = kMemoryOfPoint * points.size()};
   AtlasSurface surface =
       timed(times, "surface", [&] { return extract_atlas(atlas, wanted, context); });
   result.mesh = std::move(surface.mesh);

@@ -38,11 +38,13 @@ constexpr double kDipoleSteps = 2;  // between dipoles; their winding is smooth 
 
 std::size_t memory_of(std::size_t n_blocks, const AtlasSurfaceOptions& options) {
   const std::size_t surface = kSurfaceOfBlock + (options.simplify ? kSimplifyOfBlock : 0);
-  return block_grid_bytes(n_blocks) + n_blocks * surface;
+  return options.memory_in_use + block_grid_bytes(n_blocks) + n_blocks * surface;
 }
 
 std::size_t blocks_within(const AtlasSurfaceOptions& options) {
-  return std::max<std::size_t>(1, options.max_memory / memory_of(1, options));
+  const std::size_t none = memory_of(0, options);
+  if (options.max_memory <= none) return 1;
+  return std::max<std::size_t>(1, (options.max_memory - none) / (memory_of(1, options) - none));
 }
 
 Vec3 lowest_corner(const std::vector<Disc>& discs) {

@@ -17,6 +17,7 @@ struct AtlasSurfaceOptions {
   double min_component = 0.01;
   std::optional<SimplifyOptions> simplify = {};  // with nothing in it: 1/50 of the step
   std::size_t max_memory = std::size_t{8} << 30;
+  std::size_t memory_in_use = 0;  // bytes of max_memory that the caller holds
 };
 
 struct AtlasSurface {
@@ -25,7 +26,7 @@ struct AtlasSurface {
   std::size_t dropped_components = 0;
   std::size_t faces = 0;  // before simplification
   double simplify_error = 0;
-  std::size_t memory = 0;  // foreseen, bytes
+  std::size_t memory = 0;  // foreseen with what was in use, bytes
 };
 
 // Throws InvalidInput if more memory than allowed would be needed, or the surface does not close.
