@@ -42,6 +42,8 @@ constexpr int kMostTries = 8;
 constexpr double kAim = 0.995, kGoodEnough = 0.97;
 // Where caps hardly agree, as between fingers, a grid may see a handle that another does not: other
 // steps and bands, in these parts, are tried until the surface is connected as the shape is.
+// In so many tries at most: a search through all of them takes as long as forty extractions.
+constexpr int kMostSearches = 2;
 constexpr double kSteps[] = {1, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4};
 constexpr double kBands[] = {1, 2};
 
@@ -123,13 +125,13 @@ std::optional<Topology> topology_of(const Mesh& mesh) {
 }
 
 // The surface of a model whose step and band are chosen here, and whether it hangs together as
-// wanted; the first choice where none does.
+// wanted; the first choice where none does, or without a search.
 struct TrialSurface {
   Mesh mesh;
   Topology topology;
   bool right = false;
 };
-TrialSurface choose_grid(AtlasModel& model, const std::optional<Topology>& wanted,
+TrialSurface choose_grid(AtlasModel& model, const std::optional<Topology>& wanted, bool search,
                          const Context& context) {
   const double step = model.step, band = model.atlas.band;
   std::optional<TrialSurface> first;
@@ -140,7 +142,7 @@ TrialSurface choose_grid(AtlasModel& model, const std::optional<Topology>& wante
       const Inspection found = inspect(trial.mesh);
       trial.topology = {found.components, found.genus};
       trial.right = !wanted || trial.topology == *wanted;
-      if (trial.right) return trial;
+      if (trial.right || !search) return trial;
       if (!first) first = std::move(trial);
     }
   }
@@ -166,6 +168,7 @@ Compressed compress_samples(const OrientedPoints& samples, double diagonal,
   const Atlas covered = timed(report.times, "caps",
                               [&] { return cover(levels, diagonal, options, report, context); });
   double aim = options.tolerance;
+  int searches = 0;  // that found nothing
   for (int attempt = 0; attempt < kMostTries; ++attempt) {
     const PruneOptions pruning{.tolerance = aim,
                                .band = covered.band,
@@ -181,8 +184,9 @@ Compressed compress_samples(const OrientedPoints& samples, double diagonal,
     Topology topology;
     bool right = false;
     const AtlasErrors errors = timed(report.times, "surface", [&] {
-      const TrialSurface surface = choose_grid(trial, wanted, context);
+      const TrialSurface surface = choose_grid(trial, wanted, searches < kMostSearches, context);
       topology = surface.topology, right = surface.right;
+      if (!right) ++searches;
       return measure_surface(surface.mesh);
     });
     trial.errors = errors;
