@@ -55,22 +55,6 @@ void number_points(const Mesh& mesh, std::vector<std::uint32_t>& corners, LocalM
   for (std::uint32_t& corner : corners) corner = point[place[corner]];
 }
 
-void link_triangles(LocalMesh& local) {
-  local.around_begin.assign(local.points.size() + 1, 0);
-  for (const Triangle& t : local.triangles) {
-    for (const std::uint32_t v : t) ++local.around_begin[v + 1];
-  }
-  std::partial_sum(local.around_begin.begin(), local.around_begin.end(),
-                   local.around_begin.begin());
-  local.around.resize(3 * local.triangles.size());
-  std::vector<std::uint32_t> next(local.around_begin.begin(), local.around_begin.end() - 1);
-  for (std::size_t i = 0; i < local.triangles.size(); ++i) {
-    for (const std::uint32_t v : local.triangles[i]) {
-      local.around[next[v]++] = static_cast<std::uint32_t>(i);
-    }
-  }
-}
-
 }  // namespace
 
 double median_edge(std::span<const Vec3> points, std::span<const Triangle> triangles,
@@ -101,7 +85,7 @@ LocalMesh cut_out(const Mesh& mesh, const Bounds& box) {
     const Triangle t = {corners[i], corners[i + 1], corners[i + 2]};
     if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) local.triangles.push_back(t);
   }
-  link_triangles(local);
+  local.stars = make_vertex_stars(local.points.size(), local.triangles);
   local.areas.assign(local.points.size(), 0);
   for (const Triangle& t : local.triangles) {
     const double area = norm(cross(local.points[t[1]] - local.points[t[0]],

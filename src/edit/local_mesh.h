@@ -8,6 +8,7 @@
 
 #include "rholm/mesh.h"
 #include "rholm/topology.h"
+#include "shape/vertex_stars.h"
 
 namespace rholm {
 
@@ -15,18 +16,14 @@ namespace rholm {
 // surface.
 struct LocalMesh {
   std::vector<Vec3> points;
-  std::vector<Triangle> triangles;    // of points; none with a repeated corner
-  std::vector<Vec3> normals;          // unit, weighted by area; zero where there is no area
-  std::vector<double> areas;          // a third of the triangles around each point
-  std::vector<std::uint32_t> around;  // triangles around point i: around_begin[i] ... [i + 1]
-  std::vector<std::uint32_t> around_begin;
+  std::vector<Triangle> triangles;     // of points; none with a repeated corner
+  std::vector<Vec3> normals;           // unit, weighted by area; zero where there is no area
+  std::vector<double> areas;           // a third of the triangles around each point
+  VertexStars stars;                   // triangles around each point
   std::vector<std::uint32_t> members;  // vertices of the mesh at point i, likewise
   std::vector<std::uint32_t> members_begin;
 
-  std::span<const std::uint32_t> triangles_at(std::size_t point) const {
-    return std::span(around).subspan(around_begin[point],
-                                     around_begin[point + 1] - around_begin[point]);
-  }
+  std::span<const std::uint32_t> triangles_at(std::size_t point) const { return stars.of(point); }
   std::span<const std::uint32_t> members_of(std::size_t point) const {
     return std::span(members).subspan(members_begin[point],
                                       members_begin[point + 1] - members_begin[point]);

@@ -36,7 +36,7 @@ class Gatherer {
  public:
   explicit Gatherer(const LocalMesh& local)
       : local_(local), begin_(1, 0), seen_(local.points.size(), 0) {
-    next_to_.reserve(local.around.size());
+    next_to_.reserve(3 * local.triangles.size());
     for (std::uint32_t i = 0; i < local.points.size(); ++i) {
       seen_[i] = ++mark_;
       for (const std::uint32_t t : local.triangles_at(i)) {

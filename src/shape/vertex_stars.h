@@ -16,7 +16,7 @@ struct VertexStars {
   std::vector<std::uint32_t> begin;  // n_vertices + 1
   std::vector<std::uint32_t> triangles;
 
-  std::span<const std::uint32_t> of(std::uint32_t v) const {
+  std::span<const std::uint32_t> of(std::size_t v) const {
     return {triangles.data() + begin[v], begin[v + 1] - begin[v]};
   }
 };
