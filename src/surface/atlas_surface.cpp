@@ -174,27 +174,16 @@ void complete_normals(Mesh& mesh) {
         ->values;
   };
   std::vector<double>&nx = axis("nx"), &ny = axis("ny"), &nz = axis("nz");
-  const std::size_t n = mesh.vertices.size();
-  constexpr std::uint32_t kHasOne = ~std::uint32_t{0};
-  std::vector<std::uint32_t> place(n, kHasOne);
-  std::vector<Vec3> sums;
-  for (std::size_t i = 0; i < n; ++i) {
-    if (nx[i] != 0 || ny[i] != 0 || nz[i] != 0) continue;
-    place[i] = static_cast<std::uint32_t>(sums.size());
-    sums.emplace_back();
-  }
-  if (sums.empty()) return;
+  const auto is_missing = [&](std::uint32_t i) { return nx[i] == 0 && ny[i] == 0 && nz[i] == 0; };
+  std::vector<Triangle> around;  // few: not all triangles have to be summed
   for (const Triangle& t : mesh.triangles) {
-    if ((place[t[0]] & place[t[1]] & place[t[2]]) == kHasOne) continue;
-    const Vec3& a = mesh.vertices[t[0]];
-    const Vec3 twice = cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a);
-    for (const std::uint32_t v : t) {
-      if (place[v] != kHasOne) sums[place[v]] += twice;
-    }
+    if (std::any_of(t.begin(), t.end(), is_missing)) around.push_back(t);
   }
-  for (std::size_t i = 0; i < n; ++i) {
-    if (place[i] == kHasOne) continue;
-    const Vec3 normal = normalized(sums[place[i]]);
+  if (around.empty()) return;
+  const std::vector<Vec3> sums = area_normals(mesh.vertices, around);
+  for (std::uint32_t i = 0; i < mesh.vertices.size(); ++i) {
+    if (!is_missing(i)) continue;
+    const Vec3 normal = normalized(sums[i]);
     nx[i] = normal.x, ny[i] = normal.y, nz[i] = normal.z;
   }
 }
