@@ -1,23 +1,15 @@
 // Points that have normals, as atlases are made of them.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "rholm/context.h"
 #include "rholm/mesh.h"
-#include "shape/point_tree.h"
 
 namespace rholm {
 
 // Throws InvalidInput unless the cloud is valid and has normals.
 void check_oriented(const PointCloud& cloud);
-
-// Whether the normals of points all around a solid point into it: the volume by the theorem of
-// Gauss is negative by more than chance makes it. False where points do not surround anything.
-// Unit normals, both in the order of the tree.
-bool face_inwards(const PointTree& tree, std::span<const Vec3> points,
-                  std::span<const Vec3> normals, const Context& context);
 
 // One normal of length 1 per point.
 struct OrientedPoints {

@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 
 #include "base/parallel.h"
-#include "model/oriented_points.h"
 #include "rholm/error.h"
 #include "rholm/points.h"
 #include "rholm/topology.h"
+#include "shape/face_inwards.h"
 #include "shape/outliers.h"
 
 namespace rholm {
