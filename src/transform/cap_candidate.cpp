@@ -24,6 +24,8 @@ constexpr double kFacing = 0.2;
 constexpr double kSameSide = 0.2;
 constexpr double kLeastProbes = 150, kMostProbes = 20000;
 constexpr double kAgree = -0.2;  // of normals: those of creases differ
+// Spacings of random samples across which there is none: once in 10^8 discs of that radius.
+constexpr double kVoid = 2.5;
 
 // The patch around the seed that a centre below it sees from inside, as points to fit.
 CapFrame gather(const SampleLevel& level, std::uint32_t start, const Vec3& seed, const Vec3& normal,
@@ -185,16 +187,19 @@ bool strays(const SampleLevels& samples, const Cap& cap, std::span<const double>
   const std::span<double> values(scratch.surface);
   cap_surface(cap, coefficients, scratch.probes, values.first(3 * stride), values.last(3 * stride));
   const SampleLevel& level = samples.finest();
-  const double far = band + level.spacing;
+  const double far = band + level.spacing;                   // of a sample, off the surface
+  const double wide = std::max(far, kVoid * level.spacing);  // and along it
   for (std::size_t k = 0; k < n; ++k) {
     const Vec3 at{values[k], values[stride + k], values[2 * stride + k]};
     if (!(dot(at, at) <= f.support * f.support)) continue;  // also behind the centre
     const double* const across = &values[3 * stride + k];
     level.tree.nearest(f.seed() + at, 1, scratch.near);
     const Neighbor& near = scratch.near.front();
-    const double agree =
-        dot(level.normals[near.index], Vec3{across[0], across[stride], across[2 * stride]});
-    if (near.distance2 > far * far || agree < kAgree) return true;
+    const Vec3& normal = level.normals[near.index];
+    const double agree = dot(normal, Vec3{across[0], across[stride], across[2 * stride]});
+    const double height = dot(f.seed() + at - level.points[near.index], normal);
+    const double off2 = height * height, along2 = std::max(0.0, near.distance2 - off2);
+    if (off2 / (far * far) + along2 / (wide * wide) > 1 || agree < kAgree) return true;
   }
   return false;
 }

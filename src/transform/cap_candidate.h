@@ -51,8 +51,9 @@ bool make_candidate(const SampleLevels& samples, std::uint32_t seed, double radi
                     double half_angle, const CandidateOptions& options, CandidateScratch& scratch,
                     Candidate& candidate);
 
-// Whether a point of its surface within its support is farther than `band` from samples that face
-// the same way; at probes about `spacing` apart.
+// Whether a point of its surface within its support is farther than `band` off the surface of the
+// samples, or where they have ended, or faces the other way; at probes about `spacing` apart.
+// Samples may be random: voids between them are not their end.
 bool strays(const SampleLevels& samples, const Cap& cap, std::span<const double> coefficients,
             double band, double spacing, CandidateScratch& scratch);
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/random.h"
 #include "transform/cap_blend.h"
 #include "transform/cap_degrees.h"
 #include "transform/cap_eval.h"
@@ -155,6 +156,83 @@ TEST(prune, keeps_the_tolerance_and_drops_coefficients) {
     EXPECT_DOUBLE_EQ(after.rms, report.rms);
     EXPECT_LT(static_cast<double>(after.silent), 0.02 * static_cast<double>(levels.size()));
   }
+}
+
+// Random as samples of a mesh are: without the evenness of a lattice.
+Samples random_sphere(std::size_t n) {
+  Samples s;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double z = 2 * random_uniform(1, 2 * i) - 1, phi = 2 * pi * random_uniform(1, 2 * i + 1);
+    const double r = std::sqrt(1 - z * z);
+    s.points.push_back({r * std::cos(phi), r * std::sin(phi), z});
+  }
+  s.normals = s.points;
+  return s;
+}
+
+// The even coefficients of a function f + c have that of degree 0 changed.
+void lift(Candidate& candidate, double height) {
+  candidate.coefficients[0] += height / candidate.cap.frame.radius * std::sqrt(4 * pi);
+}
+
+TEST(strays, voids_between_random_samples_are_no_edges) {
+  // Samples are seven tolerances apart, as 200 000 of a mesh are at 3e-4 of its diagonal: the
+  // widest of their voids have radii of 1.7 spacings.
+  const Samples s = random_sphere(60000);
+  const SampleLevels levels = make_levels(s.points, s.normals, {});
+  const double tolerance = levels.finest().spacing / 7;
+  CandidateOptions options;
+  options.tolerance = tolerance, options.stray = 3 * tolerance;
+  CandidateScratch scratch;
+  Candidate candidate;
+  for (std::uint32_t seed = 0; seed < 60000; seed += 6000) {
+    ASSERT_TRUE(make_candidate(levels, seed, 0.5, 0.5, options, scratch, candidate));
+    EXPECT_FALSE(strays(levels, candidate.cap, candidate.coefficients, options.stray, options.stray,
+                        scratch));
+    // But a surface off the samples does, by more than the band and a spacing.
+    lift(candidate, 11 * tolerance);
+    EXPECT_TRUE(strays(levels, candidate.cap, candidate.coefficients, options.stray, options.stray,
+                       scratch));
+  }
+}
+
+TEST(strays, surfaces_that_go_on_where_samples_end_do) {
+  const Samples whole = random_sphere(20000);
+  Samples half;
+  for (const Vec3& p : whole.points) {
+    if (p.z > 0) half.points.push_back(p);
+  }
+  half.normals = half.points;
+  const SampleLevels all = make_levels(whole.points, whole.normals, {});
+  const SampleLevels upper = make_levels(half.points, half.normals, {});
+  CandidateOptions options;
+  options.tolerance = 1e-3, options.stray = 3e-3;
+  CandidateScratch scratch;
+  Candidate candidate;
+  std::size_t tried = 0;
+  for (std::uint32_t seed = 0; seed < all.size(); ++seed) {
+    const double z = all.finest().points[seed].z;
+    // The cap reaches 0.1 beyond the border, four spacings, or ends before it.
+    if (!(std::abs(z - 0.2) < 1e-4 || std::abs(z - 0.4) < 1e-4)) continue;
+    ++tried;
+    ASSERT_TRUE(make_candidate(all, seed, 0.3, 0.5, options, scratch, candidate));
+    EXPECT_EQ(
+        strays(upper, candidate.cap, candidate.coefficients, options.stray, options.stray, scratch),
+        z < 0.3);
+  }
+  EXPECT_GE(tried, 2U);
+}
+
+TEST(prune, leaves_no_gaps_between_caps_of_random_samples) {
+  const Samples s = random_sphere(30000);
+  const SampleLevels levels = make_levels(s.points, s.normals, {});
+  const double tolerance = levels.finest().spacing / 7;
+  const GreedyCover cover = greedy_cover(levels, std::sqrt(12.0), options_for(tolerance),
+                                         std::vector<std::uint8_t>(levels.size()), {});
+  Atlas atlas = atlas_of(cover, 10 * tolerance);
+  prune(levels, {.tolerance = tolerance, .band = atlas.band, .stray = 3 * tolerance}, atlas, {});
+  const Blend after = blend(atlas, levels.finest(), atlas.band, {});
+  EXPECT_LT(static_cast<double>(after.silent), 0.005 * static_cast<double>(levels.size()));
 }
 
 TEST(greedy_cover, cancels) {
