@@ -58,21 +58,35 @@ struct Said {
   V nx, ny, nz;
 };
 
-template <bool kNormals>
-HWY_INLINE bool Say(D d, const LaneCap& lane, V px, V py, V pz, Said& said) {
+// Where points lie with respect to a cap: in its frame, 1 - s^2 of its support, and whether they
+// are within that and not too far from the tangent plane.
+struct Place {
+  V lx, ly, height, near;
+  M within;
+};
+
+HWY_INLINE Place PlaceOf(D d, const LaneCap& lane, V px, V py, V pz) {
   const CapLane& cap = lane.cap;
   const V one = hn::Set(d, 1.0f);
   const V dx = hn::Sub(px, lane.sx), dy = hn::Sub(py, lane.sy), dz = hn::Sub(pz, lane.sz);
-  const V height = DotLane(d, cap.z, dx, dy, dz);
-  const V lx = DotLane(d, cap.x, dx, dy, dz), ly = DotLane(d, cap.y, dx, dy, dz);
-  const V p = hn::Sub(lx, hn::Set(d, cap.px)), q = hn::Sub(ly, hn::Set(d, cap.py));
-  V near =
+  Place at;
+  at.height = DotLane(d, cap.z, dx, dy, dz);
+  at.lx = DotLane(d, cap.x, dx, dy, dz), at.ly = DotLane(d, cap.y, dx, dy, dz);
+  const V p = hn::Sub(at.lx, hn::Set(d, cap.px)), q = hn::Sub(at.ly, hn::Set(d, cap.py));
+  V square =
       hn::MulAdd(hn::Set(d, cap.xx), hn::Mul(p, p), hn::Mul(hn::Set(d, cap.xy2), hn::Mul(p, q)));
-  near = hn::MulAdd(hn::Set(d, cap.yy), hn::Mul(q, q), near);
-  near = hn::Sub(one, hn::MulAdd(hn::Set(d, cap.hh), hn::Mul(height, height), near));
-  M speaks = hn::And(hn::Gt(near, hn::Zero(d)), hn::Lt(hn::Abs(height), hn::Set(d, cap.reach)));
-  if (hn::AllFalse(d, speaks)) return false;
-  const V lz = hn::Add(height, hn::Set(d, cap.radius));
+  square = hn::MulAdd(hn::Set(d, cap.yy), hn::Mul(q, q), square);
+  at.near = hn::Sub(one, hn::MulAdd(hn::Set(d, cap.hh), hn::Mul(at.height, at.height), square));
+  at.within =
+      hn::And(hn::Gt(at.near, hn::Zero(d)), hn::Lt(hn::Abs(at.height), hn::Set(d, cap.reach)));
+  return at;
+}
+
+template <bool kNormals>
+HWY_INLINE void Say(D d, const CapLane& cap, const Place& place, Said& said) {
+  const V one = hn::Set(d, 1.0f);
+  const V lx = place.lx, ly = place.ly;
+  const V lz = hn::Add(place.height, hn::Set(d, cap.radius));
   const V rho2 = hn::MulAdd(lx, lx, hn::MulAdd(ly, ly, hn::Mul(lz, lz)));
   const V rho = hn::Sqrt(rho2);
   // (s1, s2) = a (ux, uy) / (1 + uz)
@@ -94,9 +108,10 @@ HWY_INLINE bool Say(D d, const LaneCap& lane, V px, V py, V pz, Said& said) {
   said.g = hn::Mul(hn::NegMulAdd(hn::Set(d, cap.radius), level, rho), flat);
   const V band = hn::Mul(said.g, hn::Set(d, cap.inverse_band));
   const V rest = hn::NegMulAdd(band, band, one);
-  speaks = hn::And(speaks, hn::And(hn::Gt(rest, hn::Zero(d)), hn::Gt(level, hn::Set(d, 0.2f))));
+  M speaks =
+      hn::And(place.within, hn::And(hn::Gt(rest, hn::Zero(d)), hn::Gt(level, hn::Set(d, 0.2f))));
   speaks = hn::And(speaks, hn::Gt(lz, hn::Mul(rho, hn::Set(d, 0.3f))));
-  said.w = hn::IfThenElseZero(speaks, hn::Mul(WeightAt(d, cap.spline, near),
+  said.w = hn::IfThenElseZero(speaks, hn::Mul(WeightAt(d, cap.spline, place.near),
                                               hn::Mul(hn::Set(d, cap.trust), hn::Mul(rest, rest))));
   if (cap.noisy) said.w = hn::Mul(said.w, hn::Mul(flat, flat));
   said.g = hn::IfThenElseZero(speaks, said.g);
@@ -116,14 +131,36 @@ HWY_INLINE bool Say(D d, const LaneCap& lane, V px, V py, V pz, Said& said) {
     };
     said.nx = turn(0), said.ny = turn(1), said.nz = turn(2);
   }
-  return true;
+}
+
+// The nodes of a block that lie within a cap, by their indices; how many. A cap is a disc, and
+// fills little more than a third of the vectors it touches. `chosen` has room for a vector more.
+HWY_INLINE std::size_t NodesWithin(D d, const LaneCap& lane, const NodeRange& range,
+                                   const NodeTable& nodes, std::int32_t* chosen) {
+  const hn::RebindToSigned<D> di;
+  std::size_t count = 0;
+  for (std::size_t z = range.first_z; z < range.end_z; ++z) {
+    const std::size_t end = 64 * z + 8 * range.end_y;
+    for (std::size_t i = 64 * z + 8 * range.first_y; i < end; i += hn::Lanes(d)) {
+      const M within = PlaceOf(d, lane, hn::Load(d, nodes.x + i), hn::Load(d, nodes.y + i),
+                               hn::Load(d, nodes.z + i))
+                           .within;
+      if (hn::AllFalse(d, within)) continue;
+      const auto all = hn::Iota(di, static_cast<std::int32_t>(i));
+      hn::StoreU(hn::Compress(all, hn::RebindMask(di, within)), di, chosen + count);
+      count += hn::CountTrue(d, within);
+    }
+  }
+  return count;
 }
 
 void FillBlock(const CapLane* caps, const std::uint32_t* list, std::size_t n_caps,
                const Vec3& origin, double step, const NodeTable& nodes, float* values,
                std::uint64_t* doubtful) {
   const D d;
-  alignas(64) float sum_g[512], sum_w[512];
+  const hn::RebindToSigned<D> di;
+  alignas(64) float sum_g[512], sum_w[512], said_g[16], said_w[16];
+  std::int32_t chosen[512 + 16];
   for (std::size_t i = 0; i < 512; i += hn::Lanes(d)) {
     hn::Store(hn::Zero(d), d, sum_g + i);
     hn::Store(hn::Zero(d), d, sum_w + i);
@@ -131,17 +168,23 @@ void FillBlock(const CapLane* caps, const std::uint32_t* list, std::size_t n_cap
   for (std::size_t c = 0; c < n_caps; ++c) {
     const CapLane& cap = caps[list[c]];
     const LaneCap lane(d, cap, origin, step);
-    const NodeRange range = nodes_near(cap, origin, step);
-    for (std::size_t z = range.first_z; z < range.end_z; ++z) {
-      const std::size_t end = 64 * z + 8 * range.end_y;
-      for (std::size_t i = 64 * z + 8 * range.first_y; i < end; i += hn::Lanes(d)) {
-        Said said{};
-        if (!Say<false>(d, lane, hn::Load(d, nodes.x + i), hn::Load(d, nodes.y + i),
-                        hn::Load(d, nodes.z + i), said)) {
-          continue;
-        }
-        hn::Store(hn::MulAdd(said.w, said.g, hn::Load(d, sum_g + i)), d, sum_g + i);
-        hn::Store(hn::Add(said.w, hn::Load(d, sum_w + i)), d, sum_w + i);
+    const std::size_t n = NodesWithin(d, lane, nodes_near(cap, origin, step), nodes, chosen);
+    hn::StoreU(hn::Zero(di), di, chosen + n);
+    for (std::size_t first = 0; first < n; first += hn::Lanes(d)) {
+      const auto index = hn::LoadU(di, chosen + first);
+      const auto coordinate = [&](auto bits) HWY_ATTR {
+        return hn::ConvertTo(d, hn::And(bits, hn::Set(di, 7)));
+      };
+      const Place place = PlaceOf(d, lane, coordinate(index), coordinate(hn::ShiftRight<3>(index)),
+                                  coordinate(hn::ShiftRight<6>(index)));
+      Said said{};
+      Say<false>(d, cap, place, said);
+      hn::Store(hn::Mul(said.w, said.g), d, said_g);
+      hn::Store(said.w, d, said_w);
+      const std::size_t end = std::min(n - first, hn::Lanes(d));
+      for (std::size_t k = 0; k < end; ++k) {
+        sum_g[chosen[first + k]] += said_g[k];
+        sum_w[chosen[first + k]] += said_w[k];
       }
     }
   }
@@ -171,11 +214,12 @@ void SayAt(const CapLane* caps, const std::uint32_t* list, std::size_t n_caps, c
   for (std::size_t c = 0; c < n_caps; ++c) {
     const LaneCap lane(d, caps[list[c]], origin, step);
     for (std::size_t i = 0; i < n; i += hn::Lanes(d)) {
+      const Place place =
+          PlaceOf(d, lane, hn::Load(d, points + i), hn::Load(d, points + stride + i),
+                  hn::Load(d, points + 2 * stride + i));
+      if (hn::AllFalse(d, place.within)) continue;
       Said said{};
-      if (!Say<true>(d, lane, hn::Load(d, points + i), hn::Load(d, points + stride + i),
-                     hn::Load(d, points + 2 * stride + i), said)) {
-        continue;
-      }
+      Say<true>(d, lane.cap, place, said);
       const auto add = [&](std::size_t row, V value) HWY_ATTR {
         float* const at = sums + row * stride + i;
         hn::Store(hn::MulAdd(said.w, value, hn::Load(d, at)), d, at);
