@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -30,20 +31,31 @@ namespace {
 
 // All of these are tolerances, chosen on four shapes at 1e-3 and 3e-4 of the diagonal.
 constexpr double kSampleSpacing = 2.5;  // errors of a fit have waves longer than that
-constexpr double kStray = 5;        // a cap's surface farther from the samples is not theirs ...
-constexpr double kStrayFitted = 3;  // ... and once more, stricter, when coefficients are dropped
-constexpr double kStep = 4;         // of the grid: details that matter are larger
-constexpr double kBand = 10;        // caps that disagree by less are averaged
+constexpr double kStray = 5;         // a cap's surface farther from the samples is not theirs ...
+constexpr double kStrayFitted = 3;   // ... and once more, stricter, when coefficients are dropped
+constexpr double kStep = 4;          // of the grid: details that matter are larger
+constexpr double kLeastSteps = 250;  // along the diagonal: fewer show as facets
+constexpr double kBand = 10;         // caps that disagree by less are averaged
 constexpr double kLeastSamples = 20000, kMostSamples = 200000;
-constexpr double kWeightPower = 3;  // small caps override large ones
+// How far caps speak, of the support they were chosen with, and the power of it that small ones
+// override large ones by.
+struct Overlap {
+  double reach, power;
+};
+// Where neighbours barely overlap, the surface changes from one to the other in a step. Measured:
+// 1.3 leaves fewer steps still, but splinters at thin parts.
+constexpr Overlap kWide = {1.15, 1};
+// Where parts lie close together, as fingers do, that makes handles.
+constexpr Overlap kNarrow = {1, 3};
 // The surface is a little farther from the shape than the samples' blend tells: the aim is
 // corrected by what is measured, so many times, and left a little below the tolerance.
 constexpr int kMostTries = 8;
 constexpr double kAim = 0.995, kGoodEnough = 0.97;
 // Where caps hardly agree, as between fingers, a grid may see a handle that another does not: other
 // steps and bands, in these parts, are tried until the surface is connected as the shape is.
-// In so many tries at most: a search through all of them takes as long as forty extractions.
-constexpr int kMostSearches = 2;
+// In so many tries at most, by overlap: a search through all of them takes as long as forty
+// extractions.
+constexpr int kMostWideSearches = 1, kMostNarrowSearches = 2;
 constexpr double kSteps[] = {1, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4};
 constexpr double kBands[] = {1, 2};
 
@@ -98,16 +110,21 @@ Atlas cover(const SampleLevels& levels, double diagonal, const CompressOptions& 
     atlas.coefficients.insert(atlas.coefficients.end(), chosen.coefficients.begin(),
                               chosen.coefficients.end());
   }
-  set_weights(atlas.caps, kWeightPower);
   atlas.spacing = levels.finest().spacing;
   atlas.diagonal = diagonal;
   atlas.band = kBand * options.tolerance;
   return atlas;
 }
 
+Atlas overlapping(Atlas atlas, const Overlap& overlap) {
+  for (Cap& cap : atlas.caps) set_support(cap, overlap.reach * cap.frame.support);
+  set_weights(atlas.caps, overlap.power);
+  return atlas;
+}
+
 // As it comes out of the file.
-Atlas rounded(Atlas atlas) {
-  set_weights(atlas.caps, kWeightPower);
+Atlas rounded(Atlas atlas, const Overlap& overlap) {
+  set_weights(atlas.caps, overlap.power);
   return unpack(pack(atlas), "");
 }
 
@@ -124,50 +141,74 @@ std::optional<Topology> topology_of(const Mesh& mesh) {
   return Topology{found.components, found.genus};
 }
 
+// Of a grid, times the first choice.
+struct GridParts {
+  double step = 1, band = 1;
+};
+std::vector<GridParts> all_grid_parts() {
+  std::vector<GridParts> parts;
+  for (const double step : kSteps) {
+    for (const double band : kBands) parts.push_back({step, band});
+  }
+  return parts;
+}
+
 // The surface of a model whose step and band are chosen here, and whether it hangs together as
-// wanted; the first choice where none does, or without a search.
+// wanted.
 struct TrialSurface {
   Mesh mesh;
   Topology topology;
   bool right = false;
 };
+
+// Tries `parts` in their order, the first alone without a search; it is taken where none is right.
+// One that is comes first from then on.
 TrialSurface choose_grid(AtlasModel& model, const std::optional<Topology>& wanted, bool search,
-                         const Context& context) {
+                         std::vector<GridParts>& parts, const Context& context) {
   const double step = model.step, band = model.atlas.band;
   std::optional<TrialSurface> first;
-  for (const double step_part : kSteps) {
-    for (const double band_part : kBands) {
-      model.step = step_part * step, model.atlas.band = band_part * band;
-      TrialSurface trial{synthesize(model, {}, context), {}, false};
-      const Inspection found = inspect(trial.mesh);
-      trial.topology = {found.components, found.genus};
-      trial.right = !wanted || trial.topology == *wanted;
-      if (trial.right || !search) return trial;
-      if (!first) first = std::move(trial);
+  for (std::size_t i = 0; i < (search ? parts.size() : 1); ++i) {
+    model.step = parts[i].step * step, model.atlas.band = parts[i].band * band;
+    TrialSurface trial;
+    try {
+      trial.mesh = synthesize(model, {}, context);
+    } catch (const Error& error) {
+      // A finer grid than memory allows is no choice.
+      if (!first || error.code() != ErrorCode::kOutOfMemory) throw;
+      continue;
     }
+    const Inspection found = inspect(trial.mesh);
+    trial.topology = {found.components, found.genus};
+    trial.right = !wanted || trial.topology == *wanted;
+    if (trial.right) {
+      std::rotate(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(i),
+                  parts.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+      return trial;
+    }
+    if (!first) first = std::move(trial);
   }
-  model.step = step, model.atlas.band = band;
+  model.step = parts[0].step * step, model.atlas.band = parts[0].band * band;
   return std::move(*first);
 }
 
-template <class Measure>
-Compressed compress_samples(const OrientedPoints& samples, double diagonal,
-                            std::size_t input_numbers, const CompressOptions& options,
-                            const std::optional<Topology>& wanted, const Measure& measure_surface,
-                            const Context& context) {
-  Compressed result;
+// What a model is made for.
+struct Target {
+  const SampleLevels& levels;
+  const CompressOptions& options;
+  const std::optional<Topology>& topology;
+  std::function<AtlasErrors(const Mesh&)> measure;
+};
+
+// Drops coefficients of the caps until the surface is as far from the shape as allowed; what is
+// better than `result` replaces it.
+void fit(const Target& target, const Atlas& chosen, const Overlap& overlap, int most_searches,
+         Compressed& result, const Context& context) {
+  const CompressOptions& options = target.options;
   CompressReport& report = result.report;
   AtlasModel& model = result.model;
-  report.samples = samples.points.size();
-  model.step = kStep * options.tolerance, model.tolerance = options.tolerance;
-  model.input_numbers = input_numbers;
-  model.method = "greedy";
-  const SampleLevels levels = timed(report.times, "samples", [&] {
-    return make_levels(samples.points, samples.normals, context);
-  });
-  const Atlas covered = timed(report.times, "caps",
-                              [&] { return cover(levels, diagonal, options, report, context); });
+  const Atlas covered = overlapping(chosen, overlap);
   double aim = options.tolerance;
+  std::vector<GridParts> parts = all_grid_parts();
   int searches = 0;  // that found nothing
   for (int attempt = 0; attempt < kMostTries; ++attempt) {
     const PruneOptions pruning{.tolerance = aim,
@@ -176,18 +217,20 @@ Compressed compress_samples(const OrientedPoints& samples, double diagonal,
                                .max_degree = options.max_degree};
     Atlas atlas = covered;
     timed(report.times, "fit", [&] {
-      prune(levels, pruning, atlas, context);
-      atlas = rounded(std::move(atlas));
+      prune(target.levels, pruning, atlas, context);
+      atlas = rounded(std::move(atlas), overlap);
     });
     AtlasModel trial = model;
+    trial.step = std::min(kStep * options.tolerance, covered.diagonal / kLeastSteps);
     trial.atlas = std::move(atlas);
     Topology topology;
     bool right = false;
     const AtlasErrors errors = timed(report.times, "surface", [&] {
-      const TrialSurface surface = choose_grid(trial, wanted, searches < kMostSearches, context);
+      const TrialSurface surface =
+          choose_grid(trial, target.topology, searches < most_searches, parts, context);
       topology = surface.topology, right = surface.right;
       if (!right) ++searches;
-      return measure_surface(surface.mesh);
+      return target.measure(surface.mesh);
     });
     trial.errors = errors;
     const bool met = errors.rms() <= options.tolerance;
@@ -201,7 +244,31 @@ Compressed compress_samples(const OrientedPoints& samples, double diagonal,
       report.met = met, report.topology_kept = right;
     }
     if (met && right && errors.rms() >= kGoodEnough * options.tolerance) break;
+    if (searches >= most_searches && overlap.reach > 1) break;  // the other may find one
     aim *= kAim * options.tolerance / errors.rms();
+  }
+}
+
+Compressed compress_samples(const OrientedPoints& samples, double diagonal,
+                            std::size_t input_numbers, const CompressOptions& options,
+                            const std::optional<Topology>& wanted,
+                            const std::function<AtlasErrors(const Mesh&)>& measure_surface,
+                            const Context& context) {
+  Compressed result;
+  CompressReport& report = result.report;
+  report.samples = samples.points.size();
+  result.model.tolerance = options.tolerance;
+  result.model.input_numbers = input_numbers;
+  result.model.method = "greedy";
+  const SampleLevels levels = timed(report.times, "samples", [&] {
+    return make_levels(samples.points, samples.normals, context);
+  });
+  const Atlas chosen = timed(report.times, "caps",
+                             [&] { return cover(levels, diagonal, options, report, context); });
+  const Target target{levels, options, wanted, measure_surface};
+  fit(target, chosen, kWide, kMostWideSearches, result, context);
+  if (!report.met || !report.topology_kept) {
+    fit(target, chosen, kNarrow, kMostNarrowSearches, result, context);
   }
   return result;
 }

@@ -98,4 +98,10 @@ void set_weights(std::span<Cap> caps, double power) {
   for (Cap& cap : caps) cap.weight = std::pow(largest / cap.frame.support, power);
 }
 
+void set_support(Cap& cap, double support) {
+  cap.frame.support = support;
+  const double square = 1 / (support * support);
+  cap.where = {0, 0, square, 0, square};
+}
+
 }  // namespace rholm

@@ -39,4 +39,7 @@ Blend blend(const Atlas& atlas, const SampleLevel& samples, double band, const C
 // Weights that let small caps override large ones: (largest support / support)^power.
 void set_weights(std::span<Cap> caps, double power);
 
+// A circle around the seed.
+void set_support(Cap& cap, double support);
+
 }  // namespace rholm

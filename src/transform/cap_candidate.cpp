@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "transform/cap_blend.h"
 #include "transform/cap_eval.h"
 
 namespace rholm {
@@ -157,7 +158,7 @@ bool make_candidate(const SampleLevels& samples, std::uint32_t seed, double radi
     candidate.covered.push_back(level.base[scratch.indices[i]]);
   }
   candidate.cap.frame = frame;
-  candidate.cap.where = {0, 0, 1 / (radius * radius), 0, 1 / (radius * radius)};
+  set_support(candidate.cap, radius);
   candidate.cap.basis = CapBasis::kEven;
   candidate.cap.degree = static_cast<std::uint16_t>(high);
   candidate.cap.error = misses.rms;

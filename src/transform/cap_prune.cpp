@@ -185,12 +185,6 @@ Atlas with_forms(const Atlas& atlas, const std::vector<Form>& forms) {
   return result;
 }
 
-void set_support(Cap& cap, double support) {
-  cap.frame.support = support;
-  const double square = 1 / (support * support);
-  cap.where = {0, 0, square, 0, square};
-}
-
 // Supports shrink until their caps' surfaces do not leave the samples there.
 void shrink_stray(const SampleLevels& samples, double stray, Atlas& atlas, const Context& context) {
   parallel_for(atlas.caps.size(), 16, context, {}, [&](std::size_t begin, std::size_t end) {
