@@ -37,25 +37,24 @@ constexpr double kStep = 4;          // of the grid: details that matter are lar
 constexpr double kLeastSteps = 250;  // along the diagonal: fewer show as facets
 constexpr double kBand = 10;         // caps that disagree by less are averaged
 constexpr double kLeastSamples = 20000, kMostSamples = 200000;
-// How far caps speak, of the support they were chosen with, and the power of it that small ones
-// override large ones by.
+// How far caps speak, of the support they were chosen with; the power of it that small ones
+// override large ones by; how many searches of a grid may fail (each takes as long as fourteen
+// extractions), and whether other handles than the shape's are put up with then.
 struct Overlap {
   double reach, power;
+  int most_searches;
+  bool settles;
 };
 // Where neighbours barely overlap, the surface changes from one to the other in a step. Measured:
-// 1.3 leaves fewer steps still, but splinters at thin parts.
-constexpr Overlap kWide = {1.15, 1};
-// Where parts lie close together, as fingers do, that makes handles.
-constexpr Overlap kNarrow = {1, 3};
+// 1.3 leaves fewer steps still, but splinters at thin parts. Where parts lie close together, as
+// fingers do, that makes handles, and caps speak as far as they were chosen to.
+constexpr Overlap kOverlaps[] = {{1.15, 1, 1, false}, {1, 3, 2, true}};
 // The surface is a little farther from the shape than the samples' blend tells: the aim is
 // corrected by what is measured, so many times, and left a little below the tolerance.
 constexpr int kMostTries = 8;
 constexpr double kAim = 0.995, kGoodEnough = 0.97;
 // Where caps hardly agree, as between fingers, a grid may see a handle that another does not: other
 // steps and bands, in these parts, are tried until the surface is connected as the shape is.
-// In so many tries at most, by overlap: a search through all of them takes as long as forty
-// extractions.
-constexpr int kMostWideSearches = 1, kMostNarrowSearches = 2;
 constexpr double kSteps[] = {1, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4};
 constexpr double kBands[] = {1, 2};
 
@@ -201,8 +200,8 @@ struct Target {
 
 // Drops coefficients of the caps until the surface is as far from the shape as allowed; what is
 // better than `result` replaces it.
-void fit(const Target& target, const Atlas& chosen, const Overlap& overlap, int most_searches,
-         Compressed& result, const Context& context) {
+void fit(const Target& target, const Atlas& chosen, const Overlap& overlap, Compressed& result,
+         const Context& context) {
   const CompressOptions& options = target.options;
   CompressReport& report = result.report;
   AtlasModel& model = result.model;
@@ -227,7 +226,7 @@ void fit(const Target& target, const Atlas& chosen, const Overlap& overlap, int 
     bool right = false;
     const AtlasErrors errors = timed(report.times, "surface", [&] {
       const TrialSurface surface =
-          choose_grid(trial, target.topology, searches < most_searches, parts, context);
+          choose_grid(trial, target.topology, searches < overlap.most_searches, parts, context);
       topology = surface.topology, right = surface.right;
       if (!right) ++searches;
       return target.measure(surface.mesh);
@@ -244,7 +243,7 @@ void fit(const Target& target, const Atlas& chosen, const Overlap& overlap, int 
       report.met = met, report.topology_kept = right;
     }
     if (met && right && errors.rms() >= kGoodEnough * options.tolerance) break;
-    if (searches >= most_searches && overlap.reach > 1) break;  // the other may find one
+    if (searches >= overlap.most_searches && !overlap.settles) break;
     aim *= kAim * options.tolerance / errors.rms();
   }
 }
@@ -266,9 +265,9 @@ Compressed compress_samples(const OrientedPoints& samples, double diagonal,
   const Atlas chosen = timed(report.times, "caps",
                              [&] { return cover(levels, diagonal, options, report, context); });
   const Target target{levels, options, wanted, measure_surface};
-  fit(target, chosen, kWide, kMostWideSearches, result, context);
-  if (!report.met || !report.topology_kept) {
-    fit(target, chosen, kNarrow, kMostNarrowSearches, result, context);
+  for (const Overlap& overlap : kOverlaps) {
+    fit(target, chosen, overlap, result, context);
+    if (report.met && report.topology_kept) break;
   }
   return result;
 }

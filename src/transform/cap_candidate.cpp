@@ -25,7 +25,8 @@ constexpr double kFacing = 0.2;
 constexpr double kSameSide = 0.2;
 constexpr double kLeastProbes = 150, kMostProbes = 20000;
 constexpr double kAgree = -0.2;  // of normals: those of creases differ
-// Spacings of random samples across which there is none: once in 10^8 discs of that radius.
+// Spacings of random samples across which there is none: less than once in 10^8 discs of that
+// radius.
 constexpr double kVoid = 2.5;
 
 // The patch around the seed that a centre below it sees from inside, as points to fit.

@@ -24,9 +24,7 @@ struct GreedyCover {
   std::vector<std::uint32_t> seeds;      // samples
   std::vector<std::uint8_t> is_covered;  // samples
   double uncovered = 1;                  // share
-  std::size_t tried = 0;                 // candidates
 };
-// Samples that are `covered` (one per sample) count as done.
 // Samples that are `covered` (one per sample) count as done.
 GreedyCover greedy_cover(const SampleLevels& samples, double diagonal, const GreedyOptions& options,
                          std::vector<std::uint8_t> covered, const Context& context);

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/random.h"
+#include "support/random_data.h"
 #include "transform/cap_blend.h"
 #include "transform/cap_degrees.h"
 #include "transform/cap_eval.h"
@@ -161,11 +161,7 @@ TEST(prune, keeps_the_tolerance_and_drops_coefficients) {
 // Random as samples of a mesh are: without the evenness of a lattice.
 Samples random_sphere(std::size_t n) {
   Samples s;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double z = 2 * random_uniform(1, 2 * i) - 1, phi = 2 * pi * random_uniform(1, 2 * i + 1);
-    const double r = std::sqrt(1 - z * z);
-    s.points.push_back({r * std::cos(phi), r * std::sin(phi), z});
-  }
+  for (std::size_t i = 0; i < n; ++i) s.points.push_back(test::random_direction(1, i));
   s.normals = s.points;
   return s;
 }
