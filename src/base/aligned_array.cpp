@@ -9,6 +9,8 @@
 #include <limits>
 #include <new>
 
+#include "base/poison.h"
+
 namespace rholm {
 namespace {
 
@@ -31,6 +33,7 @@ void* allocate_aligned(std::size_t bytes) {
   // A wish that may be refused without harm.
   if (unit == kHugePage) madvise(data, size / kHugePage * kHugePage, MADV_HUGEPAGE);
 #endif
+  poison_scratch(data, bytes);
   return data;
 }
 

@@ -9,7 +9,7 @@ namespace rholm {
 
 // Aligned to a cache line; blocks of several MiB are placed on huge pages where the system offers
 // them, for a first touch of a small page costs far more than its part of a large one. Throws
-// std::bad_alloc.
+// std::bad_alloc. Not set to anything, but see poison.h.
 void* allocate_aligned(std::size_t bytes);
 void free_aligned(void* data) noexcept;
 

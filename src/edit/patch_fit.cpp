@@ -11,6 +11,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/poison.h"
 #include "base/random.h"
 #include "edit/patch_kernels.h"
 
@@ -62,6 +63,7 @@ void fill_offsets(const LocalMesh& local, const CapFrame& frame,
   const std::size_t n = padded(points.size());
   const Vec3 seed = frame.seed();
   scratch.offsets.resize(3 * n);
+  poison_scratch(std::span(scratch.offsets));
   for (std::size_t first = 0; first < n; first += block_length(n)) {
     const std::size_t m = std::min(block_length(n), n - first);
     double* const x = &scratch.offsets[3 * first];
@@ -123,6 +125,7 @@ void back_substitute(std::size_t n, PatchScratch& scratch) {
 std::vector<double> solve_family(int degree, PatchScratch& scratch) {
   const std::size_t n = patch_basis(degree), n_sets = static_cast<std::size_t>(degree) + 1;
   scratch.family.resize(n * padded(n_sets));
+  poison_scratch(std::span(scratch.family));
   patch_family(scratch.factor.data(), degree, scratch.family.data());
   std::vector<double> coefficients(n * n_sets);
   for (std::size_t d = 0; d < n_sets; ++d) {
@@ -152,6 +155,7 @@ bool make_equations(const LocalMesh& local, const PatchCap& cap, int degree,
     }
   }
   scratch.factor.resize(n * padded(n + 1));
+  poison_scratch(std::span(scratch.factor));
   return patch_factorize(scratch.matrix.data(), n, kLeastPivot, scratch.factor.data());
 }
 
@@ -170,7 +174,10 @@ void take_points(const LocalMesh& local, const PatchCap& cap, double per_coeffic
   fill_offsets(local, cap.frame, scratch.taken, scratch);
   scratch.rows.resize((n + 5) * block_length(n_points));
   scratch.area.resize(n_points);
+  poison_scratch(std::span(scratch.rows));
+  poison_scratch(std::span(scratch.area));
   scratch.base.resize(n_points);
+  poison_scratch(std::span(scratch.base));
   scratch.weights.clear();
   scratch.rows_made = false;
 }
@@ -180,6 +187,7 @@ double halo_of(const PatchCap& cap) { return kHalo * cap.frame.support / cap.deg
 // |e| of the solution at the points.
 void find_residuals(const LocalMesh& local, const PatchCap& cap, PatchScratch& scratch) {
   scratch.residual.resize(padded(scratch.taken.size()));
+  poison_scratch(std::span(scratch.residual));
   for_each_block(local, cap, scratch, [&](std::size_t first, std::size_t m) {
     double* const residual = &scratch.residual[first];
     const double* const wanted = scratch.rows.data();
@@ -303,6 +311,8 @@ void evaluate_patch_cap(const LocalMesh& local, const PatchCap& cap, const Patch
   fill_offsets(local, cap.frame, points, scratch);
   scratch.rows.resize((n + 5) * block_length(n_points));
   scratch.area.resize(n_points);
+  poison_scratch(std::span(scratch.rows));
+  poison_scratch(std::span(scratch.area));
   for (std::size_t first = 0; first < n_points; first += block_length(n_points)) {
     const std::size_t m = std::min(block_length(n_points), n_points - first);
     patch_rows(cap.frame, cap.degree, &scratch.offsets[3 * first], m, scratch.rows.data(),

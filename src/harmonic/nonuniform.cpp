@@ -9,6 +9,25 @@
 namespace rholm {
 namespace {
 
+// A power of two that brings numbers of this size to 1 ... 2: single precision ends at 1e38, and
+// nothing is rounded by it.
+double scale_for(double largest) {
+  if (!(largest > 0) || !std::isfinite(largest)) return 1;
+  return std::exp2(std::min(1023, -std::ilogb(largest)));
+}
+
+double largest_of(const ScatteredSources& sources) {
+  double largest = 0;
+  for (const double w : sources.weights) largest = std::max(largest, std::abs(w));
+  for (const Vec3& g : sources.gradients) {
+    largest = std::max({largest, std::abs(g.x), std::abs(g.y), std::abs(g.z)});
+  }
+  for (const auto& hessian : sources.hessians) {
+    for (const double h : hessian) largest = std::max(largest, std::abs(h));
+  }
+  return largest;
+}
+
 // A lane without a source: any direction will do.
 template <typename T>
 void pad(SourceBatch<T>& batch, std::size_t n) {
@@ -33,24 +52,25 @@ void load_positions(std::span<const Vec3> directions, SourceBatch<T>& batch) {
 
 template <typename T>
 void load_sources(const ScatteredSources& sources, std::size_t first, std::size_t n,
-                  int derivatives, SourceBatch<T>& batch) {
+                  int derivatives, double scale, SourceBatch<T>& batch) {
   load_positions(sources.directions.subspan(first, n), batch);
   for (std::size_t j = 0; j < n; ++j) {
-    batch.value[j] = sources.weights.empty() ? T{0} : static_cast<T>(sources.weights[first + j]);
+    batch.value[j] =
+        sources.weights.empty() ? T{0} : static_cast<T>(scale * sources.weights[first + j]);
     if (derivatives == 0) continue;
-    const Vec3 g = sources.gradients.empty() ? Vec3{} : sources.gradients[first + j];
+    const Vec3 g = sources.gradients.empty() ? Vec3{} : scale * sources.gradients[first + j];
     batch.gradient[0][j] = static_cast<T>(g.x);
     batch.gradient[1][j] = static_cast<T>(g.y);
     batch.gradient[2][j] = static_cast<T>(g.z);
     if (derivatives == 1) continue;
     for (int i = 0; i < 6; ++i)
-      batch.hessian[i][j] = static_cast<T>(sources.hessians[first + j][i]);
+      batch.hessian[i][j] = static_cast<T>(scale * sources.hessians[first + j][i]);
   }
 }
 
 template <typename T>
 void add_sources(const NonuniformPlan& plan, const ScatteredSources& sources, int derivatives,
-                 Coefficients& sum, const Context& context) {
+                 double scale, Coefficients& sum, const Context& context) {
   const GridKernel<T> kernel = grid_kernel<T>(plan.fourier);
   const std::size_t n = sources.directions.size();
   const std::size_t parts = grid_count(plan, n), size = (n + parts - 1) / parts;
@@ -61,7 +81,7 @@ void add_sources(const NonuniformPlan& plan, const ScatteredSources& sources, in
     constexpr std::size_t kSize = SourceBatch<T>::kSize;
     for (std::size_t first = begin; first < end; first += kSize) {
       const std::size_t count = std::min(kSize, end - first);
-      load_sources(sources, first, count, derivatives, *batch);
+      load_sources(sources, first, count, derivatives, scale, *batch);
       spreaders[begin / size].add(*batch, count, derivatives);
     }
   });
@@ -125,6 +145,20 @@ ValuesAndGradients evaluate_on_grid(const NonuniformPlan& plan, const Coefficien
           }
         }
       });
+  return result;
+}
+
+ValuesAndGradients evaluate_in_single(const NonuniformPlan& plan, Coefficients coefficients,
+                                      std::span<const Vec3> directions, bool with_gradient,
+                                      const Context& context) {
+  double largest = 0;
+  for (const double c : coefficients.values()) largest = std::max(largest, std::abs(c));
+  const double scale = scale_for(largest);
+  for (double& c : coefficients.values()) c *= scale;
+  ValuesAndGradients result =
+      evaluate_on_grid<float>(plan, coefficients, directions, with_gradient, context);
+  for (double& value : result.values) value /= scale;
+  for (Vec3& gradient : result.gradients) gradient = gradient / scale;
   return result;
 }
 
@@ -202,9 +236,14 @@ template void finish_adjoint(const NonuniformPlan&, std::span<GridSpreader<doubl
 void nonuniform_add_adjoint(const NonuniformPlan& plan, const ScatteredSources& sources,
                             int derivatives, Coefficients& sum, const Context& context) {
   if (plan.single) {
-    add_sources<float>(plan, sources, derivatives, sum, context);
+    const double scale = scale_for(largest_of(sources));
+    Coefficients scaled(sum.degree());
+    add_sources<float>(plan, sources, derivatives, scale, scaled, context);
+    for (std::size_t i = 0; i < sum.values().size(); ++i) {
+      sum.values()[i] += scaled.values()[i] / scale;
+    }
   } else {
-    add_sources<double>(plan, sources, derivatives, sum, context);
+    add_sources<double>(plan, sources, derivatives, 1, sum, context);
   }
 }
 
@@ -212,7 +251,7 @@ ValuesAndGradients nonuniform_evaluate(const NonuniformPlan& plan, const Coeffic
                                        std::span<const Vec3> directions, bool with_gradient,
                                        const Context& context) {
   return plan.single
-             ? evaluate_on_grid<float>(plan, coefficients, directions, with_gradient, context)
+             ? evaluate_in_single(plan, coefficients, directions, with_gradient, context)
              : evaluate_on_grid<double>(plan, coefficients, directions, with_gradient, context);
 }
 

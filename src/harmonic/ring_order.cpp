@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/poison.h"
 #include "harmonic/legendre_kernels.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -111,7 +112,11 @@ double polar_limit(int degree) { return 1.5e-3 * std::sqrt(degree); }
 double single_limit(int degree) { return degree <= 128 ? 0 : 3e-4 * std::sqrt(degree); }
 
 void make_room(std::size_t n, AlignedArray<double>& array) {
-  if (array.size() < n + kPadding) array = AlignedArray<double>(n + kPadding);
+  if (array.size() < n + kPadding) {
+    array = AlignedArray<double>(n + kPadding);
+  } else {
+    poison_scratch(array.data(), array.size() * sizeof(double));
+  }
 }
 
 }  // namespace

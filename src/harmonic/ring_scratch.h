@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "base/aligned_array.h"
+#include "base/poison.h"
 
 namespace rholm {
 
@@ -12,7 +13,11 @@ class RingScratch {
  public:
   // n numbers, not set.
   explicit RingScratch(std::size_t n) {
-    if (n > kOnStack) heap_ = AlignedArray<double>(n);
+    if (n > kOnStack) {
+      heap_ = AlignedArray<double>(n);
+    } else {
+      poison_scratch(stack_, n * sizeof(double));
+    }
   }
   double* data() { return heap_.size() > 0 ? heap_.data() : stack_; }
 

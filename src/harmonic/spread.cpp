@@ -8,6 +8,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "base/poison.h"
 #include "harmonic/place-inl.h"
 #include "harmonic/windows-inl.h"
 
@@ -124,6 +125,7 @@ void interpolate_rows(const GridLayout& layout, Placed<T>& p, const Windows<T>& 
   const size_t stride = layout.stride;
   const int width = layout.width;
   Partial<T> partial;
+  poison_all(partial);
   for (size_t j = 0; j < n; ++j) {
     // Sums over rows with the window in theta, and with its derivative.
     V sum[kVectors], slope[kVectors];
@@ -205,6 +207,8 @@ void spread_batch(const GridKernel<T>& kernel, const SourceBatch<T>& batch, size
   const GridLayout& layout = kernel.layout;
   for (size_t from = 0; from < n; from += kBlock<T>) {
     const size_t count = HWY_MIN(kBlock<T>, n - from);
+    poison_all(placed);
+    poison_all(windows);
     place_block<kOrders>(kernel, batch, from, count, n, static_cast<T>(polar_sine), placed, polar);
     evaluate_windows<kOrders, true>(kernel, placed, count, windows);
     with_padded_width(layout.width, [&](auto padded) {
@@ -241,6 +245,8 @@ void interpolate_batch(const GridKernel<T>& kernel, const T* grid, size_t n, dou
   Windows<T> windows;
   for (size_t from = 0; from < n; from += kBlock<T>) {
     const size_t count = HWY_MIN(kBlock<T>, n - from);
+    poison_all(placed);
+    poison_all(windows);
     place(layout, batch, from, count, placed);
     evaluate_windows<kOrders, false>(kernel, placed, count, windows);
     with_padded_width(layout.width, [&](auto padded) {

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "base/parallel.h"
+#include "base/poison.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "surface/cap_field.cpp"
@@ -435,10 +437,13 @@ struct VertexRows {
   std::size_t stride = 0;
 
   void resize(std::size_t n) {
-    if (n + 16 <= stride) return;
-    stride = (2 * n + 63) / 16 * 16;
-    points = AlignedArray<float>::zeros(3 * stride);
-    sums = AlignedArray<float>::zeros(5 * stride);
+    if (n + 16 > stride) {
+      stride = (2 * n + 63) / 16 * 16;
+      points = AlignedArray<float>(3 * stride);
+      sums = AlignedArray<float>(5 * stride);
+    }
+    poison_scratch(std::span(points.begin(), points.end()));
+    poison_scratch(std::span(sums.begin(), sums.end()));
   }
 };
 

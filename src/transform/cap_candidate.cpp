@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/poison.h"
 #include "transform/cap_blend.h"
 #include "transform/cap_eval.h"
 
@@ -77,6 +78,7 @@ Misses misses_of(const CapSystem& system, const CapFrame& frame, const Candidate
   Misses misses;
   double sum = 0;
   scratch.values.resize(scratch.points.padded());
+  poison_scratch(std::span(scratch.values));
   for (std::size_t i = 0; i < scratch.points.size(); ++i) {
     const double d2 = scratch.distance2[i];
     scratch.values[i] = frame.radius * rest[i] / (1.15 - d2 / fit2);
@@ -186,6 +188,7 @@ bool strays(const SampleLevels& samples, const Cap& cap, std::span<const double>
   scratch.probes.pad();
   const std::size_t stride = scratch.probes.padded();
   scratch.surface.resize(6 * stride);
+  poison_scratch(std::span(scratch.surface));
   const std::span<double> values(scratch.surface);
   cap_surface(cap, coefficients, scratch.probes, values.first(3 * stride), values.last(3 * stride));
   const SampleLevel& level = samples.finest();
@@ -224,6 +227,7 @@ std::vector<std::uint32_t> covered_by(const SampleLevels& samples, const Candida
   }
   scratch.points.pad();
   scratch.values.resize(scratch.points.padded());
+  poison_scratch(std::span(scratch.values));
   cap_distances(candidate.cap, candidate.coefficients, scratch.points, scratch.values);
   std::vector<std::uint32_t> covered;
   for (std::size_t i = 0; i < scratch.points.size(); ++i) {

@@ -8,6 +8,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "base/poison.h"
 #include "harmonic/low_harmonics-inl.h"
 #include "transform/cap_fit_rows.h"
 
@@ -25,7 +26,8 @@ HWY_INLINE V Dot(D d, const Vec3& a, V x, V y, V z) {
 }
 
 // Rows of the least squares, each multiplied by its weight: for every harmonic its value and two
-// slopes at each point, then the right-hand sides, then the points' distances from the centre.
+// slopes at each point, then the right-hand sides. All of a row is written, zeros beyond the last
+// point: what takes rows reads them whole, whatever the lanes.
 std::size_t FillRows(const CapFrame& frame, const CapPoints& points, const CapFitOptions& options,
                      double* rows, std::size_t stride) {
   const D d;
@@ -33,7 +35,8 @@ std::size_t FillRows(const CapFrame& frame, const CapPoints& points, const CapFi
   const bool even = options.basis == CapBasis::kEven;
   const std::size_t n_basis = n_coefficients(options.basis, options.degree), third = stride / 3;
   V usable = hn::Zero(d);
-  for (std::size_t i = 0; i < points.size(); i += hn::Lanes(d)) {
+  for (std::size_t i = 0; i < third; i += hn::Lanes(d)) {
+    const std::size_t left = points.size() - HWY_MIN(i, points.size());
     const V px = hn::Load(d, points.row(0) + i), py = hn::Load(d, points.row(1) + i);
     const V pz = hn::Load(d, points.row(2) + i), nx = hn::Load(d, points.row(3) + i);
     const V ny = hn::Load(d, points.row(4) + i), nz = hn::Load(d, points.row(5) + i);
@@ -42,14 +45,17 @@ std::size_t FillRows(const CapFrame& frame, const CapPoints& points, const CapFi
     const V lz = hn::Add(Dot(d, frame.z, px, py, pz), hn::Set(d, frame.radius));
     const V rho = hn::Sqrt(hn::MulAdd(lx, lx, hn::MulAdd(ly, ly, hn::Mul(lz, lz))));
     const V inverse = hn::Div(one, rho);
-    const V ux = hn::Mul(lx, inverse), uy = hn::Mul(ly, inverse), uz = hn::Mul(lz, inverse);
+    V ux = hn::Mul(lx, inverse), uy = hn::Mul(ly, inverse), uz = hn::Mul(lz, inverse);
     const V n1 = Dot(d, frame.x, nx, ny, nz), n2 = Dot(d, frame.y, nx, ny, nz);
     const V n3 = Dot(d, frame.z, nx, ny, nz);
-    const V facing = hn::MulAdd(n1, ux, hn::MulAdd(n2, uy, hn::Mul(n3, uz)));
+    V facing = hn::MulAdd(n1, ux, hn::MulAdd(n2, uy, hn::Mul(n3, uz)));
     auto good = hn::And(hn::Gt(facing, hn::Set(d, kLeastFacing)), hn::Gt(uz, hn::Set(d, -0.9)));
-    good = hn::And(good, hn::FirstN(d, points.size() - i));
+    good = hn::And(good, hn::FirstN(d, left));
     const V weight = hn::IfThenElseZero(good, hn::Sqrt(hn::Load(d, points.row(6) + i)));
     usable = hn::Add(usable, hn::IfThenElseZero(good, one));
+    // What is left out counts as on the axis: a weight of zero does not undo a division by it.
+    ux = hn::IfThenElseZero(good, ux), uy = hn::IfThenElseZero(good, uy);
+    uz = hn::IfThenElse(good, uz, one), facing = hn::IfThenElseZero(good, facing);
     // Stereographic plane, opened, and the conformal factor.
     const V below = hn::Div(one, hn::Add(one, uz));
     const V s1 = hn::Mul(ux, below), s2 = hn::Mul(uy, below);
@@ -116,7 +122,7 @@ void NormalMatrix(const double* rows, std::size_t n, std::size_t length, std::si
       for (auto& row : sum) {
         for (V& v : row) v = hn::Zero(d);
       }
-      // Rows beyond the last are those of the scratch memory's padding.
+      // Rows beyond the last may hold anything: their sums are not taken.
       for (std::size_t k = 0; k < length; k += hn::Lanes(d)) {
         V left[4], right[4];
         for (std::size_t r = 0; r < 4; ++r) left[r] = hn::Load(d, rows + (i + r) * stride + k);
@@ -247,8 +253,9 @@ CapSystem make_system(const CapFrame& frame, const CapPoints& points, const CapF
   system.third = (points.size() + kCapLanes - 1) / kCapLanes * kCapLanes;
   system.stride = 3 * system.third;
   const std::size_t wanted = (n + 6) * system.stride;
-  if (scratch.rows.size() < wanted) scratch.rows = AlignedArray<double>::zeros(2 * wanted);
+  if (scratch.rows.size() < wanted) scratch.rows = AlignedArray<double>(2 * wanted);
   double* const rows = scratch.rows.data();
+  poison_scratch(rows, wanted * sizeof(double));
   system.usable = HWY_DYNAMIC_DISPATCH(FillRows)(frame, points, options, rows, system.stride);
   for (std::size_t i = 0; i < points.size(); ++i) system.weights += points.weight(i);
   if (3 * system.usable < n) return system;

@@ -14,6 +14,7 @@
 
 #include "base/compensated_sum.h"
 #include "base/parallel.h"
+#include "base/poison.h"
 #include "shape/corner_rows-inl.h"
 #include "transform/exact_norms_rules.h"
 #include "transform/star_geometry.h"
@@ -184,8 +185,8 @@ HWY_NOINLINE Means MeansOfQuarters(D d, const LaneSquares& s) {
   return sum;
 }
 
-// Prepares one vector of triangles; those from n on count for nothing.
-HWY_INLINE void Prepare(D d, const Vector3& p0, const Vector3& p1, const Vector3& p2, std::size_t n,
+// Prepares one vector of triangles.
+HWY_INLINE void Prepare(D d, const Vector3& p0, const Vector3& p1, const Vector3& p2,
                         std::size_t at, Block& block) {
   const Vector3 e0 = Minus(p2, p1), e1 = Minus(p0, p2), e2 = Minus(p1, p0);
   const Vector3 normal = Cross(e1, e2);
@@ -204,11 +205,9 @@ HWY_INLINE void Prepare(D d, const Vector3& p0, const Vector3& p1, const Vector3
   hn::Store(hn::Mul(l1, q), d, block.l[1] + at);
   hn::Store(hn::Mul(l2, q), d, block.l[2] + at);
   const V infinite = hn::Set(d, std::numeric_limits<double>::infinity());
-  const M inside = hn::FirstN(d, n);
-  hn::Store(hn::IfThenElseZero(inside, hn::IfThenElse(clear, hn::Mul(longest, q), infinite)), d,
-            block.longest + at);
+  hn::Store(hn::IfThenElse(clear, hn::Mul(longest, q), infinite), d, block.longest + at);
   hn::Store(inverse, d, block.inverse + at);
-  hn::Store(hn::IfThenElseZero(inside, d2), d, block.d2 + at);
+  hn::Store(d2, d, block.d2 + at);
 }
 
 struct LaneSums {
@@ -258,19 +257,26 @@ HWY_INLINE void PrepareBlock(const MeshView& mesh, const Frame& frame, std::size
                    hn::MulAdd(v.z, scale, shift.z)};
   };
   const std::byte* indices = mesh.triangles + begin * mesh.triangle_stride;
+  poison_all(block);
   std::size_t at = 0;
   if (whole) {
     for (; at + lanes <= n; at += lanes, indices += lanes * mesh.triangle_stride) {
       Prepare(d, local(LoadWhole(d, mesh, indices, T())),
               local(LoadWhole(d, mesh, indices + 4, T())),
-              local(LoadWhole(d, mesh, indices + 8, T())), lanes, at, block);
+              local(LoadWhole(d, mesh, indices + 8, T())), at, block);
     }
   }
   for (; at < n; at += lanes, indices += lanes * mesh.triangle_stride) {
     const std::size_t few = HWY_MIN(lanes, n - at);
     Prepare(d, local(LoadFew<T>(d, mesh, indices, few)),
             local(LoadFew<T>(d, mesh, indices + 4, few)),
-            local(LoadFew<T>(d, mesh, indices + 8, few)), few, at, block);
+            local(LoadFew<T>(d, mesh, indices + 8, few)), at, block);
+  }
+  // Beyond the last triangle a vector repeats it. Triangles of size 0 at distance 1 count for
+  // nothing instead; weights of 0 would not do where the last one has its centre at the mesh's.
+  for (double* row : {block.r[0], block.r[1], block.r[2], block.l[0], block.l[1], block.l[2],
+                      block.longest, block.inverse, block.d2}) {
+    for (std::size_t i = n; i < at; ++i) row[i] = 0;
   }
 }
 

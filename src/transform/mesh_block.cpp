@@ -12,6 +12,7 @@
 
 #include <hwy/highway.h>
 
+#include "base/poison.h"
 #include "shape/corner_rows-inl.h"
 #include "transform/mesh_hash-inl.h"
 #include "transform/mesh_lumps-inl.h"
@@ -358,6 +359,7 @@ void BlockSums::add(const BlockSums& other) {
 template <typename T>
 void work_block(const MeshView& mesh, std::size_t first, std::size_t n,
                 const BlockParameters& parameters, TriangleBlock<T>& block, BlockSums& sums) {
+  poison_all(block);
   work(mesh, first, n, parameters, block, sums);
 }
 

@@ -80,10 +80,12 @@ NodeAllowance part_of(NodeAllowance allowance, double share) {
   return allowance;
 }
 
-// Nodes of r dOmega = d_T dS / |x|^2; `factor`: d_T times the area.
+// Nodes of r dOmega = d_T dS / |x|^2; `factor`: d_T times the area. A piece may have its part of
+// `allowance`, or the part `relative` of its own integral: all have one sign, and near a plane
+// through the centre no share of the whole is as small as what is to be kept there.
 template <typename Visit>
 void visit_radius(const std::array<Vec3, 3>& p, double factor, const NodeAllowance& allowance,
-                  int depth, const Visit& visit) {
+                  double relative, int depth, const Visit& visit) {
   const double distance = distance_of(p);
   if (depth == 0 && distance == 0) throw_on_surface();
   if (factor == 0) return;
@@ -92,12 +94,16 @@ void visit_radius(const std::array<Vec3, 3>& p, double factor, const NodeAllowan
     // 1/|x|^2 counts for two degrees more.
     Extent z = extent(p, distance, allowance.degree);
     z.wave2 = std::pow(std::sqrt(z.wave2) + 2 * std::sqrt(z.bend2), 2);
-    rule = face_rule(allowance, z, factor / (distance * distance));
+    const double weight = factor / (distance * distance);
+    NodeAllowance allowed = allowance;
+    // A piece that is not long reaches to 3/2 of its distance.
+    allowed.error = std::max(allowed.error, relative * std::abs(weight) / 2.25);
+    rule = face_rule(allowed, z, weight);
   }
   if (rule.empty()) {
     if (depth == kMaxDepth) throw_on_surface();
     halve(p, [&](const std::array<Vec3, 3>& half) {
-      visit_radius(half, factor / 2, part_of(allowance, 0.5), depth + 1, visit);
+      visit_radius(half, factor / 2, part_of(allowance, 0.5), relative, depth + 1, visit);
     });
     return;
   }
@@ -133,7 +139,7 @@ void NodeWriter::add_triangle(const std::array<Vec3, 3>& p,
     add_edge(vertices[i], vertices[j], p[i], p[j], weight, grazing ? 1 : 0);
   }
   if (grazing) {
-    visit_radius(p, d2 / 2, options_.undivided, 0,
+    visit_radius(p, d2 / 2, options_.undivided, 0, 0,
                  [&](const Vec3& x, double weight) { sink_.add_undivided(x, weight); });
   } else {
     write_face(p, -dot(n, n) / d2, 0);
@@ -218,7 +224,8 @@ double radius_integral(const std::array<Vec3, 3>& corners, double relative_error
   const double least = std::abs(solid_angle(corners)) * distance;
   const NodeAllowance allowance{.degree = 0, .error = relative_error * least, .divided = false};
   double sum = 0;
-  visit_radius(corners, factor, allowance, 0, [&](const Vec3&, double weight) { sum += weight; });
+  visit_radius(corners, factor, allowance, relative_error, 0,
+               [&](const Vec3&, double weight) { sum += weight; });
   return sum;
 }
 

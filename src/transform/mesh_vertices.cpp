@@ -9,6 +9,7 @@
 
 #include <hwy/highway.h>
 
+#include "base/poison.h"
 #include "shape/corner_rows-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -215,11 +216,13 @@ HWY_EXPORT(LoadDouble);
 LumpSums load_vertices(const MeshView& mesh, std::size_t first, std::size_t n,
                        const BlockParameters& parameters, const VertexLump<std::int32_t>* lumps,
                        SourceBatch<float>& batch) {
+  poison_all(batch);
   return HWY_DYNAMIC_DISPATCH(LoadSingle)(mesh, first, n, parameters, lumps, batch);
 }
 LumpSums load_vertices(const MeshView& mesh, std::size_t first, std::size_t n,
                        const BlockParameters& parameters, const VertexLump<double>* lumps,
                        SourceBatch<double>& batch) {
+  poison_all(batch);
   return HWY_DYNAMIC_DISPATCH(LoadDouble)(mesh, first, n, parameters, lumps, batch);
 }
 

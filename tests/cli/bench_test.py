@@ -43,6 +43,11 @@ class Bench(CliTest):
             self.assertLessEqual(case["accuracy"]["error_of_mean"], case["precision"])
             self.assertIn("direct", case["accuracy"]["reference"])
 
+    def test_the_instruction_set_is_the_one_that_was_forced(self):
+        machine = self.report("--faces", "2000", *QUICK)["machine"]
+        self.assertEqual(machine["vector_instructions"],
+                         os.environ.get("RHOLM_TEST_TARGET", machine["vector_instructions"]))
+
     def test_figures_are_of_one_run_and_per_face(self):
         case, = self.report("--faces", "5000", *QUICK)["cases"]
         stages = case["runs"][0]["stages"]

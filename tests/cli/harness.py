@@ -8,11 +8,19 @@ import select
 import shutil
 import struct
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
 from pathlib import Path
 
+# RHOLM_TEST_TARGET names a set of instructions, which the program itself would not look at: a
+# program of the tests does.
+if "RHOLM_TEST_TARGET" in os.environ:
+    if "RHOLM_FORCED" not in os.environ:
+        sys.exit("RHOLM_TEST_TARGET is set, and RHOLM_FORCED does not name the program of the tests "
+                 "(tests/cli/forced/rholm of the build)")
+    os.environ["RHOLM"] = os.environ["RHOLM_FORCED"]
 RHOLM = os.environ.get("RHOLM", "rholm")
 SOURCE = Path(__file__).resolve().parents[2]
 
@@ -152,4 +160,6 @@ def binary_stl(mesh):
 
 
 def main():
+    if "RHOLM_TEST_TARGET" in os.environ:
+        print("instruction set:", os.environ["RHOLM_TEST_TARGET"], "(forced)", file=sys.stderr)
     unittest.main(verbosity=2)

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -148,6 +149,30 @@ TEST(evaluate_with_gradient, agrees_with_central_differences) {
       const std::array<Vec3, 2> ends = {normalized(u + h * tangent), normalized(u - h * tangent)};
       const auto values = evaluate(f, ends, kDirect);
       EXPECT_NEAR(dot(g.gradients[j], tangent), (values[0] - values[1]) / (2 * h), 2e-6);
+    }
+  }
+}
+
+// Also where sums of this precision are taken in floats, which end at 3e38: many directions, so
+// that the fast engine is cheaper.
+TEST(evaluate, of_a_function_times_a_power_of_two_is_that_times_its_values) {
+  const Coefficients f = random_coefficients(40, 5);
+  const auto directions = random_directions(100000, 6);
+  for (const double precision : {1e-3, 1e-9}) {
+    const SumOptions options{.precision = precision};
+    const auto expected = evaluate_with_gradient(f, directions, options);
+    for (const double unit : {0x1p-500, 0x1p-140, 0x1p140, 0x1p500}) {
+      Coefficients scaled = f;
+      for (double& c : scaled.values()) c *= unit;
+      const auto found = evaluate_with_gradient(scaled, directions, options);
+      const auto values = evaluate(scaled, directions, options);
+      double worst = 0;
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        worst = std::max({worst, std::abs(found.values[i] / unit - expected.values[i]),
+                          std::abs(values[i] / unit - expected.values[i]),
+                          norm(found.gradients[i] / unit - expected.gradients[i]) / 40});
+      }
+      EXPECT_LE(worst, precision * norm_of(f.values())) << unit;
     }
   }
 }

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <vector>
 
+#include "base/aligned_array.h"
 #include "io/shape_test_support.h"
 #include "model/bench_rows.h"
 #include "model/bench_timing.h"
@@ -14,6 +15,8 @@
 #include "rholm/error.h"
 #include "rholm/primitives.h"
 #include "rholm/shape_io.h"
+#include "support/random_data.h"
+#include "support/targets.h"
 
 namespace rholm {
 namespace {
@@ -26,6 +29,34 @@ struct BumpyFile {
   std::filesystem::path path = folder.path() / "bumpy.ply";
   BumpyFile() { write_shape(mesh, path); }
 };
+
+// The floor of spreading does what spreading does: windows of any width, 1 ... 33 sources.
+TEST(bench_rows, add_the_products_of_the_taps) {
+  test::for_each_target([](const char* target) {
+    for (int width = 2; width <= kMaxSpreadWidth; ++width) {
+      const GridLayout layout = grid_layout(width, 32, 32);
+      const auto columns = static_cast<std::size_t>(padded_width(width));
+      const auto w = static_cast<std::size_t>(width);
+      const std::vector<double> numbers = test::random_values(columns + 2 * w, 1);
+      AlignedArray<double> taps(numbers.size()), grid = AlignedArray<double>::zeros(layout.cells());
+      std::copy(numbers.begin(), numbers.end(), taps.begin());
+      std::vector<double> expected(layout.cells(), 0.0);
+      for (std::uint32_t n = 1; n <= 33; ++n) {
+        const std::uint32_t first[] = {n % 16};
+        update_rows(layout, first, taps.data(), grid.data());
+        for (std::size_t i = 0; i < w; ++i) {
+          for (std::size_t k = 0; k < columns; ++k) {
+            expected[i * layout.stride + first[0] + k] +=
+                (numbers[columns + i] + numbers[columns + w + i]) * numbers[k];
+          }
+        }
+      }
+      for (std::size_t i = 0; i < expected.size(); ++i) {
+        ASSERT_NEAR(grid[i], expected[i], 1e-13) << target << " " << width;
+      }
+    }
+  });
+}
 
 BenchOptions quick() { return {.degree = 16, .precision = 1e-6, .repeat = 3}; }
 

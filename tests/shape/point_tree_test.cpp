@@ -127,6 +127,32 @@ TEST(PointTree, nearest_points_are_those_of_brute_force) {
   });
 }
 
+TEST(PointTree, of_any_number_of_points_finds_those_of_brute_force) {
+  test::for_each_target([](const char* target) {
+    std::vector<Vec3> points;
+    std::vector<Neighbor> found;
+    for (std::uint64_t n = 1; n <= 33; ++n) {
+      SCOPED_TRACE(std::string(target) + " " + std::to_string(n));
+      points.push_back(random_point(5, n));
+      const PointTree tree(points);
+      const Vec3 x = random_point(6, n);
+      const double tolerance = n == 1 ? 1e-6 : rounding(points, x);
+      const std::vector<double> expected = sorted_distances(points, x);
+      for (std::size_t k = 1; k <= n; ++k) {
+        tree.nearest(x, k, found);
+        ASSERT_EQ(found.size(), k);
+        expect_sound(tree, points, x, found, tolerance);
+        EXPECT_NEAR(std::sqrt(static_cast<double>(found.back().distance2)), expected[k - 1],
+                    tolerance);
+        // Between this one and the next.
+        if (k == n || expected[k] - expected[k - 1] < 4 * tolerance) continue;
+        tree.within(x, (expected[k - 1] + expected[k]) / 2, found);
+        EXPECT_EQ(found.size(), k);
+      }
+    }
+  });
+}
+
 TEST(PointTree, nearest_to_a_point_starts_with_its_place) {
   for (const Cloud& cloud : clouds()) {
     SCOPED_TRACE(cloud.name);

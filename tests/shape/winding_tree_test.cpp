@@ -12,6 +12,7 @@
 
 #include "base/random.h"
 #include "rholm/error.h"
+#include "support/targets.h"
 
 namespace rholm {
 namespace {
@@ -168,6 +169,22 @@ TEST(WindingTree, other_queries_do_not_change_a_bit) {
   for (std::size_t i = 0; i < x.size(); i += 7) {
     EXPECT_EQ(tree.winding(std::span(x).subspan(i, 1))[0], all[i]);
   }
+}
+
+TEST(WindingTree, any_number_of_queries_has_the_direct_sums) {
+  const Sheet sheet = sphere(60);
+  const WindingTree tree(sheet.points, sheet.area_normals);
+  const std::vector<Vec3> x = random_points(33, 8, 2);
+  test::for_each_target([&](const char* target) {
+    for (std::size_t n = 1; n <= x.size(); ++n) {
+      const std::vector<double> w = tree.winding(std::span(x).first(n), {}, 1e6);
+      ASSERT_EQ(w.size(), n);
+      for (std::size_t i = 0; i < n; ++i) {
+        EXPECT_NEAR(w[i], direct_sum(sheet, x[i]), 1e-12) << target << " " << n;
+      }
+      EXPECT_EQ(w[n - 1], tree.winding(std::span(x).subspan(n - 1, 1), {}, 1e6)[0]) << target;
+    }
+  });
 }
 
 TEST(WindingTree, degenerate_points_give_finite_numbers) {

@@ -112,6 +112,30 @@ TEST(exact_norms, are_as_good_with_every_instruction_set) {
   });
 }
 
+// Vectors that are not full repeat their last triangle: here one whose own centre is the mesh's,
+// where 1/|x| is infinite. It adds nothing: its plane passes through the centre.
+TEST(exact_norms, are_numbers_for_any_number_of_triangles_whatever_the_last_one_is) {
+  Mesh mesh = bumpy_sphere(1, 0.3);
+  const std::vector<Triangle> triangles = mesh.triangles;
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), {{3, 0, 0}, {0, 3, 0}, {-3, -3, 0}});
+  test::for_each_target([&](const char* target) {
+    double first_power = 0, volume = 0;
+    for (std::size_t n = 1; n <= 33; ++n) {
+      mesh.triangles = {triangles[n - 1]};
+      const ExactNorms one = exact_norms(view_of(mesh), {});
+      first_power += one.radius_squared, volume += one.volume;
+      mesh.triangles.assign(triangles.begin(), triangles.begin() + static_cast<std::ptrdiff_t>(n));
+      for (const bool more : {false, true}) {
+        if (more) mesh.triangles.push_back({first, first + 1, first + 2});
+        const ExactNorms norms = exact_norms(view_of(mesh), {});
+        EXPECT_NEAR(norms.radius_squared, first_power, 1e-13) << target << " " << n << more;
+        EXPECT_NEAR(norms.volume, volume, 1e-13) << target << " " << n << more;
+      }
+    }
+  });
+}
+
 TEST(exact_norms, have_the_same_bits_for_any_number_of_threads) {
   const Mesh mesh = bumpy_sphere(6, 0.5);
   const ExactNorms one = exact_norms(view_of(mesh), {}, {.threads = 1, .progress = {}});

@@ -1,0 +1,19 @@
+// The program rholm with the instruction set that RHOLM_TEST_TARGET names, and with scratch memory
+// full of NaN: for the tests alone.
+#include <cstdio>
+
+#include "cli/bus_error.h"
+#include "cli/interrupt.h"
+#include "cli/program.h"
+#include "support/targets.h"
+
+int main(int argc, char** argv) {
+  const std::string wrong = rholm::test::force_target_of_environment();
+  if (!wrong.empty()) {
+    std::fprintf(stderr, "%s\n", wrong.c_str());
+    return 99;  // none of rholm's own
+  }
+  rholm::cli::install_signal_handlers();
+  rholm::cli::install_bus_error_handler();
+  return rholm::cli::run_program({argv + 1, argv + argc});
+}
