@@ -23,9 +23,14 @@ struct PrincipalAxes {
   std::array<Vec3, 3> axes;      // right-handed, orthonormal
   std::array<double, 3> values;  // of the form, descending; their sum is 0
   Rotation to_axes;              // turns axes[0] to x, axes[1] to y, axes[2] to z
+  // About these the form turns freely: none, the one axis of revolution, or three where it has no
+  // direction at all (a sphere, a cube).
+  std::vector<Vec3> free_axes = {};
 };
 // Of the two signs of each axis that which points to the larger part of degree 3; where that
-// vanishes they are arbitrary. For a gauge, 1/r, the form's sign is turned.
+// vanishes they are arbitrary. Values that differ by less than 1e-10 of the mean (c_00) are equal:
+// then to_axes is the smallest turn that will do, none for three of them. For a gauge, 1/r, the
+// form's sign is turned.
 PrincipalAxes principal_axes(const Coefficients& coefficients,
                              RadialFunction function = RadialFunction::kRadius);
 
@@ -41,11 +46,15 @@ struct AlignOptions {
   // Other rotations are reported if their correlation (-1 ... 1) is at most this below the best.
   double margin = 0.01;
   bool allow_mirror = false;  // also try the mirror image of a (x -> -x, then rotated)
+  // Root mean square over the sphere of what is not known of a and b. A function that is constant
+  // but for this, or for 1e-10 of its mean, has nothing to turn: three free axes, no rotation.
+  double unknown_a = 0;
+  double unknown_b = 0;
 };
 
 struct AlignedRotation {
   Rotation rotation;       // of the mirror image, if mirrored
-  bool mirrored = false;   // x -> -x comes first
+  bool mirrored = false;   // the reflection x -> -x comes first; y and z stay
   double correlation = 0;  // of degrees 1 ... refine_degree, normalised: 1 is equal up to a factor
   double distance = 0;     // root mean square of R a - b over the sphere, all degrees
 };
@@ -70,14 +79,16 @@ enum class AlignCenters {
   kOwn      // the centres of the expansions
 };
 
-// x becomes R (x - from) + to; mirrored, R M (x - from) + to with M: x -> -x.
+// The point p becomes R (p - from) + to; mirrored, R M (p - from) + to, with M = diag(-1, 1, 1):
+// the reflection in the plane through `from` across the x axis.
 struct Placement {
   Alignment alignment;
   Vec3 from, to;
 };
 
 // The same for surfaces; with kVolume as they are seen from there, up to degree 256 (recentered(),
-// which also throws NotStarShaped). Throws InvalidInput if their functions differ.
+// which also throws NotStarShaped). What their errors say is left out counts as not known. Throws
+// InvalidInput if their functions differ.
 Placement align(const Expansion& a, const Expansion& b, AlignCenters centers,
                 const AlignOptions& options = {}, const Context& context = {});
 

@@ -47,8 +47,12 @@ class Coefficients {
 };
 
 // What the function is in terms of the surface x = center + r(u) u.
-enum class RadialFunction { kRadius, kGauge };                  // r, or q = 1/r
-const char* to_string(RadialFunction function);                 // "radius", "gauge"
+enum class RadialFunction {
+  kRadius,  // r
+  kGauge,   // q = 1/r
+  kOther    // no surface at all: a gravity field, a temperature
+};
+const char* to_string(RadialFunction function);                 // "radius", "gauge", "other"
 RadialFunction parse_radial_function(const std::string& name);  // throws InvalidInput
 
 // How far the surface of an expansion is from the shape it was made of, in the unit of lengths;
@@ -83,6 +87,9 @@ struct Expansion {
   // Of all its degrees; they do not hold when it is cut off.
   std::optional<TruncationErrors> errors = {};
 };
+
+// Throws Unsupported for coefficients that are not of a surface (kOther).
+void require_surface(const Expansion& expansion);
 
 // How numbers of a file are scaled. Factors are relative to the orthonormal basis: 4-pi
 // normalised functions have mean square 1, Schmidt semi-normalised ones 1/(2l+1).

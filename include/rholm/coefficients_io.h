@@ -36,6 +36,9 @@ struct CoefficientsFile {
   CoefficientsFormat format = CoefficientsFormat::kShtools;
   Convention convention;             // in which the numbers stood
   std::vector<std::string> assumed;  // what the file did not say: "normalization 4pi", ...
+  // What the file says it is of, if that is no shape: "gravity_field"; the function is then kOther.
+  std::string product;
+  std::vector<std::string> passed_over;  // what it says and what is not used: "radius '6378136.3'"
 };
 
 // "-" is standard input; the content decides the format. Throws Io, InvalidInput (malformed,
@@ -57,5 +60,9 @@ struct CoefficientsWriteOptions {
 // Numbers are written with the shortest digits that read back the same. "-" is standard output.
 void write_coefficients(const Expansion& expansion, const std::filesystem::path& path,
                         const CoefficientsWriteOptions& options = {});
+
+// What names a unit of lengths in every format: one line of UTF-8 text of at most 256 bytes,
+// without blanks at its ends. Throws InvalidInput for anything else.
+void check_unit(const std::string& unit);
 
 }  // namespace rholm

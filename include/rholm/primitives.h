@@ -10,6 +10,10 @@
 
 namespace rholm {
 
+// The most vertices of a latitude-longitude sphere or a torus. Chosen: they are 6 GB, and twice as
+// many triangles still have edges that can be numbered.
+inline constexpr long long kMaxGridVertices = 1LL << 28;
+
 // The unit icosahedron with each edge halved `subdivisions` times and every vertex on the unit
 // sphere: 20 * 4^n triangles, 10 * 4^n + 2 vertices. 0 <= subdivisions <= 12.
 Mesh icosphere(int subdivisions);

@@ -14,7 +14,7 @@
 
 namespace rholm {
 
-// One thing in the picture. Panels stand side by side, all at the same scale.
+// One thing in the picture. Panels stand side by side.
 struct Panel {
   const Mesh* mesh = nullptr;
   std::string label;            // below the panel; may be empty
@@ -32,6 +32,7 @@ struct RenderOptions {
   int width = 1024;  // of the whole picture, pixels, 16 ... 16384
   int height = 768;
   bool perspective = false;
+  bool fit_each = false;  // every panel is filled; otherwise all have the same scale
   Vec3 view_direction = {-0.55, 0.75, -0.4};  // from the eye into the scene
   Vec3 up = {0, 0, 1};
   int samples = 3;         // per pixel side: samples^2 rays a pixel, 1 ... 16

@@ -1,6 +1,7 @@
 // Welding, pairing of edges and inspection of triangle meshes. Layer: shape.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -39,7 +40,12 @@ std::vector<Edge> pair_edges(const Mesh& mesh);
 struct Bounds {
   Vec3 min;
   Vec3 max;
-  double diagonal() const { return norm(max - min); }
+  // Right for all coordinates up to a quarter of the largest double.
+  double diagonal() const {
+    const Vec3 size = max - min;
+    const double plain = norm(size);
+    return plain > 1e-150 && plain < 1e150 ? plain : std::hypot(std::hypot(size.x, size.y), size.z);
+  }
 };
 Bounds bounds(const std::vector<Vec3>& points);  // {0,0,0} twice for no points
 

@@ -29,13 +29,13 @@ void check(std::span<const Vec3> points, std::span<const Vec3> normals,
   }
   if (normals.size() != points.size()) {
     refuse("there are " + std::to_string(points.size()) + " points and " +
-           std::to_string(normals.size()) + " normals; give one for each (see orient())");
+           std::to_string(normals.size()) + " normals; give one for each");
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!is_finite(points[i])) refuse("point " + std::to_string(i) + " is not finite; drop it");
     if (!is_finite(normals[i]) || normals[i] == Vec3{}) {
       refuse("the normal of point " + std::to_string(i) +
-             " is zero or not finite; compute it (see orient())");
+             " is zero or not finite; compute it first");
     }
   }
 }

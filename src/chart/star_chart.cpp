@@ -10,9 +10,9 @@ namespace {
 
 std::string describe(const StarReport& report, double diagonal) {
   std::string text = fmt::format(
-      "from the centre ({:.9g}, {:.9g}, {:.9g}) the smallest d_T is {:.3g} ({:.2g} of the "
-      "diagonal), "
-      "the smallest cos gamma {:.3g}, and {} triangles turn their back",
+      "from the centre ({:.9g}, {:.9g}, {:.9g}) the smallest distance to the plane of a "
+      "face, min d, is {:.3g} ({:.2g} of the diagonal), "
+      "min cos gamma {:.3g}, and {} triangles turn their back",
       report.center.x, report.center.y, report.center.z, report.min_d, report.min_d / diagonal,
       report.min_cos_gamma, report.bad_triangles);
   if (report.rays > 0) {
@@ -28,19 +28,26 @@ void refuse(const Mesh& mesh, const StarReport& report, bool allow_signed) {
   if (shape.volume < 0) {
     throw Error(
         ErrorCode::kInvalidInput,
-        fmt::format("the mesh is inside out (its volume is {:.6g}): flip its triangles first",
+        fmt::format("the mesh is inside out (its volume is {:.6g}): 'rholm repair' turns it",
                     shape.volume));
   }
   if (allow_signed) return;
+  if (shape.duplicate_triangles > 0) {
+    throw Error(
+        ErrorCode::kNotStarShaped,
+        fmt::format("the surface is not star-shaped: {} of its {} faces are duplicates, with "
+                    "the same three vertices as others, and directions meet it twice; "
+                    "'rholm repair' drops them",
+                    shape.duplicate_triangles, shape.triangles));
+  }
   std::string why = "the surface is not star-shaped";
   if (shape.components > 1) {
     why += fmt::format(" (it has {} components that are not connected)", shape.components);
   }
   throw Error(ErrorCode::kNotStarShaped,
               why + ": " + describe(report, shape.bounds.diagonal()) +
-                  (report.center_fell_back ? "; take" : "; try --center auto, or take") +
-                  " an atlas of caps (analyze --atlas, compress()), or accept the alternating sum "
-                  "of the radii with --signed (allow_signed)");
+                  (report.center_fell_back ? "; take" : "; let the centre be found, or take") +
+                  " an atlas of caps, or the alternating sum of the radii");
 }
 
 }  // namespace

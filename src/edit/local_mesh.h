@@ -30,6 +30,9 @@ struct LocalMesh {
   }
 };
 
+// Waves shorter than this many edges are not in a mesh.
+inline constexpr double kFewestEdges = 2;
+
 // The median length of the edges that leave points of weight > 0; 0 if there are none.
 double median_edge(std::span<const Vec3> points, std::span<const Triangle> triangles,
                    std::span<const double> weights);

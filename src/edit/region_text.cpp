@@ -59,7 +59,9 @@ Region parse_region(const std::string& text) {
   const std::string kind = text.substr(0, colon);
   const std::string values = colon == std::string::npos ? "" : text.substr(colon + 1);
   if (kind == "ball") {
-    const std::vector<double> v = numbers_of(text, values, 4, "a ball is ball:X,Y,Z,RADIUS");
+    const char* const form = "a ball is ball:X,Y,Z,RADIUS, its radius above 0";
+    const std::vector<double> v = numbers_of(text, values, 4, form);
+    if (!(v[3] > 0)) refuse(text, form);
     return BallRegion{{v[0], v[1], v[2]}, v[3]};
   }
   if (kind == "box") {
@@ -68,12 +70,12 @@ Region parse_region(const std::string& text) {
                      {std::max(v[0], v[3]), std::max(v[1], v[4]), std::max(v[2], v[5])}};
   }
   if (kind == "vertex") {
-    const char* const form = "a disc on the surface is vertex:INDEX,RADIUS";
+    const char* const form = "a disc on the surface is vertex:INDEX,RADIUS, its radius above 0";
     const std::vector<std::string> parts = parts_of(values);
     const std::optional<std::uint32_t> vertex = number_of<std::uint32_t>(parts[0]);
     const std::optional<double> radius =
         parts.size() == 2 ? number_of<double>(parts[1]) : std::optional<double>();
-    if (!vertex || !radius) refuse(text, form);
+    if (!vertex || !radius || !(*radius > 0)) refuse(text, form);
     return DiscRegion{*vertex, *radius};
   }
   if (kind == "property" && !values.empty()) return PropertyRegion{values};

@@ -15,8 +15,6 @@
 namespace rholm {
 namespace {
 
-// Waves shorter than this many edges are not in a mesh.
-constexpr double kFewestEdges = 2;
 // Degrees below this say where the surface is and how it curves, no detail.
 constexpr int kLowestDegree = 2;
 // Of a region that is bridged: of the weights that a file may have, what is taken as in it.

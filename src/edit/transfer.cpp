@@ -27,8 +27,8 @@ constexpr double kRefined = 1;
 
 void check_options(const TransferOptions& o) {
   if (o.from_degree < 2 || o.from_degree > kMaxTransferDegree) {
-    refuse(fmt::format("from_degree is {}; it must be within 2 ... {}", o.from_degree,
-                       kMaxTransferDegree));
+    refuse(fmt::format("the degree above which the detail begins is {}; it must be within 2 ... {}",
+                       o.from_degree, kMaxTransferDegree));
   }
   if (!(o.scale > 0) || !(o.scale < 1e6)) {
     refuse(fmt::format("the scale must be within 0 ... 1e6, not {:g}", o.scale));
@@ -37,8 +37,10 @@ void check_options(const TransferOptions& o) {
 
 void check_update(const TransferUpdate& u, int from_degree) {
   if (u.mode == TransferMode::kCoefficients && from_degree >= kMaxSwapDegree) {
-    refuse(fmt::format("coefficients are swapped up to degree {}; from_degree is {}",
-                       kMaxSwapDegree, from_degree));
+    refuse(
+        fmt::format("coefficients are swapped up to degree {}, and the detail begins above {}; "
+                    "take a degree below {}",
+                    kMaxSwapDegree, from_degree, kMaxSwapDegree));
   }
   if (!std::isfinite(u.height) || (u.angle && !std::isfinite(*u.angle))) {
     refuse("height and angle must be finite");
@@ -121,6 +123,19 @@ std::vector<Vec3> displaced(const TexturedPatch& target, const Texture& texture,
   return positions;
 }
 
+// The base needs waves that the source has.
+void check_degree(const Mesh& source, std::span<const double> weights, double radius, int degree) {
+  const double edge = median_edge(source.vertices, source.triangles, weights);
+  if (4 * radius / degree >= kFewestEdges * edge) return;
+  const int most = static_cast<int>(4 * radius / (kFewestEdges * edge));
+  refuse(
+      fmt::format("the region is {:.3g} across and the mesh's edges are {:.3g} long there: a base "
+                  "of degree {} has waves of {:.3g}, shorter than {:g} edges; take {}",
+                  2 * radius, edge, degree, 4 * radius / degree, kFewestEdges,
+                  most >= 2 ? fmt::format("degree {} or less, or a larger region", most)
+                            : std::string("a larger region, or a finer mesh")));
+}
+
 }  // namespace
 
 struct TransferState {
@@ -144,9 +159,9 @@ TransferAnalysis analyze_transfer(const Mesh& source, std::span<const Region> fr
   state->options = options;
   const double source_radius = region_radius(source, from);
   report.source_wavelength = 4 * source_radius / options.from_degree;
-  state->source =
-      texture_of(source, from, report.source_wavelength,
-                 std::min(report.source_wavelength, kTransition * source_radius), context);
+  const double fading = std::min(report.source_wavelength, kTransition * source_radius);
+  check_degree(source, region_weights(source, from, fading), source_radius, options.from_degree);
+  state->source = texture_of(source, from, report.source_wavelength, fading, context);
   report.source_edge = median_edge(state->source);
   const double target_radius = region_radius(target, to);
   const double about = options.scale * target_radius / source_radius;

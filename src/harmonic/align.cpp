@@ -26,6 +26,9 @@ constexpr double kSameCorrelation = 1e-12;
 // An axis of rotation within this of a free axis is that axis: 6 degrees.
 constexpr double kSameAxis = 0.995;
 
+// Parts of the mean: below, coefficients are what rounding and the precision of an analysis leave.
+constexpr double kNothing = 1e-10;
+
 // Surfaces are seen from their centroids up to here: a second's work.
 constexpr int kMaxCenteredDegree = 256;
 
@@ -42,6 +45,9 @@ void check(const Coefficients& a, const Coefficients& b, const AlignOptions& opt
   if (!(options.margin >= 0 && options.margin <= 2)) {
     refuse("margin " + std::to_string(options.margin) +
            " of the correlation is out of range: choose one from 0 to 2");
+  }
+  for (const double unknown : {options.unknown_a, options.unknown_b}) {
+    if (!(unknown >= 0)) refuse("what is not known of a function must be 0 or more");
   }
   for (const Coefficients* f : {&a, &b}) {
     for (const double value : f->values()) {
@@ -76,15 +82,25 @@ struct Pair {
     a = scaled(a_all, degree, unit_a);
     b = scaled(b_all, degree, unit_b);
     const double of_a = std::sqrt(correlation(a, a)), of_b = std::sqrt(correlation(b, b));
-    // Below rounding of the mean there is nothing to turn.
-    if (of_a > 1e-15 && of_b > 1e-15) norms = of_a * of_b;
+    const double to_norm = std::sqrt(4 * std::numbers::pi);
+    const auto turns = [&](double norm, double mean, double unknown) {
+      return norm > std::max(kNothing * std::abs(mean), to_norm * unknown);
+    };
+    if (turns(of_a, a.c(0, 0), options.unknown_a / unit_a) &&
+        turns(of_b, b.c(0, 0), options.unknown_b / unit_b)) {
+      norms = of_a * of_b;
+    }
   }
 };
 
 std::vector<Rotation> starts(const Pair& pair, const AlignOptions& options,
                              const Context& context) {
   if (options.start == AlignStart::kCorrelation) {
-    return correlation_peaks(pair.a, pair.b, options.bandwidth, kMostPeaks, context);
+    // Where they are laid on each other already, that is among many that are equally good.
+    std::vector<Rotation> peaks =
+        correlation_peaks(pair.a, pair.b, options.bandwidth, kMostPeaks, context);
+    peaks.push_back({});
+    return peaks;
   }
   const Rotation from = principal_axes(pair.a).to_axes;
   const Rotation to = inverse(principal_axes(pair.b).to_axes);
@@ -193,6 +209,12 @@ void sort_by_correlation(std::vector<AlignedRotation>& all) {
   });
 }
 
+// Root mean square of what the coefficients leave out, if that is known: errors are of a radius.
+double left_out(const Expansion& expansion) {
+  const bool known = expansion.errors && expansion.function == RadialFunction::kRadius;
+  return known ? expansion.errors->rms.value_or(0) : 0;
+}
+
 Expansion about_centroid(const Expansion& expansion, const Context& context) {
   Expansion low = expansion;
   if (low.coefficients.degree() > kMaxCenteredDegree) {
@@ -258,15 +280,20 @@ Alignment align(const Coefficients& a, const Coefficients& b, const AlignOptions
 
 Placement align(const Expansion& a, const Expansion& b, AlignCenters centers,
                 const AlignOptions& options, const Context& context) {
+  require_surface(a);
+  require_surface(b);
   if (a.function != b.function) {
     refuse(std::string("one expansion is of the ") + to_string(a.function) + ", the other of the " +
            to_string(b.function) + ": make both in the same way");
   }
+  AlignOptions wanted = options;
+  wanted.unknown_a = std::max(options.unknown_a, left_out(a));
+  wanted.unknown_b = std::max(options.unknown_b, left_out(b));
   if (centers == AlignCenters::kOwn) {
-    return {align(a.coefficients, b.coefficients, options, context), a.center, b.center};
+    return {align(a.coefficients, b.coefficients, wanted, context), a.center, b.center};
   }
   const Expansion x = about_centroid(a, context), y = about_centroid(b, context);
-  return {align(x.coefficients, y.coefficients, options, context), x.center, y.center};
+  return {align(x.coefficients, y.coefficients, wanted, context), x.center, y.center};
 }
 
 Expansion placed(const Expansion& a, const Placement& placement, const Context& context) {
@@ -276,6 +303,38 @@ Expansion placed(const Expansion& a, const Placement& placement, const Context& 
   result.center += placement.to - placement.from;
   return result;
 }
+
+namespace {
+
+// The smallest turn that takes one unit vector to another.
+Rotation turn_between(const Vec3& from, const Vec3& to) {
+  const Vec3 axis = cross(from, to);
+  if (norm(axis) > 1e-15) return rotation_about(axis, std::atan2(norm(axis), dot(from, to)));
+  if (dot(from, to) > 0) return {};
+  const Vec3 across = cross(from, std::abs(from.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0});
+  return rotation_about(across, std::numbers::pi);
+}
+
+// Where values are equal only the axis that stands alone is one; the others follow it.
+void settle_equal_axes(double mean, PrincipalAxes& found) {
+  const auto equal = [&](int i) {
+    return found.values[i] - found.values[i + 1] <= kNothing * std::abs(mean);
+  };
+  if (!equal(0) && !equal(1)) return;
+  constexpr Vec3 kX = {1, 0, 0}, kY = {0, 1, 0}, kZ = {0, 0, 1};
+  found.to_axes = {};
+  if (equal(0) && equal(1)) {
+    found.free_axes = {kX, kY, kZ};
+  } else {
+    const Vec3 alone = found.axes[equal(0) ? 2 : 0];
+    found.free_axes = {alone};
+    found.to_axes = turn_between(alone, equal(0) ? kZ : kX);
+  }
+  const Rotation back = inverse(found.to_axes);
+  found.axes = {rotate(kX, back), rotate(kY, back), rotate(kZ, back)};
+}
+
+}  // namespace
 
 // Degree 2 in this basis, all of x^2 ... with positive factors:
 //   sqrt(5/16pi) (2z^2 - x^2 - y^2), sqrt(15/4pi) xz, yz, xy, sqrt(15/16pi) (x^2 - y^2).
@@ -290,13 +349,22 @@ PrincipalAxes principal_axes(const Coefficients& coefficients, RadialFunction fu
   PrincipalAxes result{.axes = eigen.vectors, .values = eigen.values, .to_axes = {}};
   Coefficients odd(3);
   for (int m = 0; m <= 3; ++m) odd.c(3, m) = sign * f.c(3, m), odd.s(3, m) = sign * f.s(3, m);
-  const std::vector<double> values =
-      evaluate(odd, std::span(result.axes).first(2), {.engine = Engine::kDirect});
-  for (int i = 0; i < 2; ++i) {
-    if (values[i] < 0) result.axes[i] = -result.axes[i];
+  const std::vector<double> values = evaluate(odd, result.axes, {.engine = Engine::kDirect});
+  // Below this degree 3 says nothing, and an axis keeps the sign nearer to the one it is laid on.
+  const double mean = f.c(0, 0), least = kNothing * std::abs(mean);
+  const auto choose_sign = [&](Vec3& axis, double value, double nearer) {
+    if (std::abs(value) > least ? value < 0 : nearer < 0) axis = -axis;
+  };
+  const bool oblate = result.values[0] - result.values[1] <= least;
+  choose_sign(result.axes[0], values[0], result.axes[0].x);
+  choose_sign(result.axes[1], values[1], result.axes[1].y);
+  if (oblate) {
+    choose_sign(result.axes[2], values[2], result.axes[2].z);
+  } else {
+    result.axes[2] = cross(result.axes[0], result.axes[1]);
+    result.to_axes = rotation_of(RotationMatrix{result.axes[0], result.axes[1], result.axes[2]});
   }
-  result.axes[2] = cross(result.axes[0], result.axes[1]);
-  result.to_axes = rotation_of(RotationMatrix{result.axes[0], result.axes[1], result.axes[2]});
+  settle_equal_axes(mean, result);
   return result;
 }
 

@@ -44,14 +44,30 @@ Coefficients Coefficients::resized(int degree) const {
 }
 
 const char* to_string(RadialFunction function) {
-  return function == RadialFunction::kGauge ? "gauge" : "radius";
+  switch (function) {
+    case RadialFunction::kRadius:
+      return "radius";
+    case RadialFunction::kGauge:
+      return "gauge";
+    case RadialFunction::kOther:
+      return "other";
+  }
+  return "unknown";
 }
 
 RadialFunction parse_radial_function(const std::string& name) {
   if (name == "radius") return RadialFunction::kRadius;
   if (name == "gauge") return RadialFunction::kGauge;
+  if (name == "other") return RadialFunction::kOther;
   throw Error(ErrorCode::kInvalidInput,
-              "unknown function " + in_quotes(name) + ": it must be 'radius' or 'gauge'");
+              "unknown function " + in_quotes(name) + ": it must be 'radius', 'gauge' or 'other'");
+}
+
+void require_surface(const Expansion& expansion) {
+  if (expansion.function != RadialFunction::kOther) return;
+  throw Error(ErrorCode::kUnsupported,
+              "the coefficients are not the radius of a surface, but of something else, as a "
+              "gravity field is: there is no surface to make, measure or compare");
 }
 
 const char* to_string(Normalization normalization) {

@@ -142,6 +142,7 @@ void check_seen(const Expansion& expansion, const Vec3& d, std::span<const Vec3>
 }  // namespace
 
 Vec3 volume_centroid(const Expansion& expansion, const Context& context) {
+  require_surface(expansion);
   // r^4 u has degree 4 L + 1.
   const Grid grid = grid_for(expansion.coefficients.degree(), 3);
   std::vector<double> r = synthesize_grid(expansion.coefficients, grid, context);
@@ -167,6 +168,7 @@ Vec3 volume_centroid(const Expansion& expansion, const Context& context) {
 }
 
 Expansion recentered(const Expansion& expansion, const Vec3& center, const Context& context) {
+  require_surface(expansion);
   Expansion result;
   result.function = expansion.function;
   result.center = center;

@@ -68,6 +68,8 @@ AtomicFile::AtomicFile(const std::filesystem::path& path, const Context& context
   const std::filesystem::path target = follow_links(path);
   struct stat status = {};
   const bool exists = ::stat(target.c_str(), &status) == 0;
+  // A name that is too long, a circle of links: noticed now, not when all is written.
+  if (!exists && errno != ENOENT) fail(name_, errno);
   if (exists && S_ISDIR(status.st_mode)) fail(name_, EISDIR);
   if (exists && !S_ISREG(status.st_mode)) {
     descriptor_ = ::open(target.c_str(), O_WRONLY | O_CLOEXEC);

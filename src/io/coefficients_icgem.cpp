@@ -1,7 +1,7 @@
 // ICGEM-like text: a header of lines `key value` up to `end_of_head`, then lines `gfc l m C S`.
 // The format is made for gravity fields; a shape has no gravity constant and no reference radius,
-// so none is written, and those of a file are passed over. Keys that begin with `rholm_` say
-// what the standard ones cannot.
+// so none is written, and those of a file are passed over. What is no shape has the function
+// `other`. Keys that begin with `rholm_` say what the standard ones cannot.
 #include <fmt/format.h>
 
 #include <optional>
@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::string_view kOwnPrefix = "rholm_";
 constexpr std::string_view kProduct = "shape";
+constexpr std::string_view kOtherProduct = "other";
 
 // ICGEM's word for the 4-pi normalization, and ours for what it has no word for.
 const char* norm_name(Normalization normalization) {
@@ -34,7 +35,13 @@ struct Header {
   ParsedCoefficients parsed;
   std::optional<int> degree;
   std::optional<int> lines;
+  std::optional<std::string> product;
+  bool has_gravity_constant = false;
 };
+
+void pass_over(std::string_view key, std::string_view value, Header& header) {
+  header.parsed.passed_over.push_back(fmt::format("{} {}", key, in_quotes(value)));
+}
 
 void take_own_key(std::string_view key, std::string_view value, const TextLine& line,
                   Header& header) {
@@ -59,11 +66,27 @@ void take_key(const TextLine& line, Header& header) {
     set_once(header.degree, parse_count(value, "max_degree", kMaxDegree, line), key, line);
   } else if (key == "norm") {
     set_once(header.parsed.normalization, parse_norm(value, line), key, line);
-  } else if (key == "product_type" && value != kProduct) {
-    header.parsed.passed_over.push_back("product_type " + in_quotes(value) + " as a shape");
+  } else if (key == "product_type") {
+    set_once(header.product, std::string(value), key, line);
+  } else if (key == "earth_gravity_constant" || key == "gravity_constant") {
+    header.has_gravity_constant = true;
+    pass_over(key, value, header);
+  } else if (key == "radius") {
+    pass_over(key, value, header);
   } else if (key.starts_with(kOwnPrefix)) {
     take_own_key(key.substr(kOwnPrefix.size()), value, line, header);
   }
+}
+
+// What a file says to be no shape, or of a gravity constant, are not radii, unless it says so.
+void settle_function(Header& header) {
+  const std::string product =
+      header.product.value_or(header.has_gravity_constant ? "gravity_field" : "shape");
+  if (header.parsed.function || product == kProduct) return;
+  header.parsed.function = RadialFunction::kOther;
+  if (product == kOtherProduct) return;
+  const std::string shown = in_quotes(product);  // bounded, and without control characters
+  header.parsed.product = shown.substr(1, shown.size() - 2);
 }
 
 // Before `begin_of_head`, if a file has it, stands free text.
@@ -81,7 +104,10 @@ Header parse_header(TextCursor& text, const std::string& name) {
   Header header;
   while (!text.at_end()) {
     const TextLine line = take_line(text, name);
-    if (trimmed(line.content).starts_with("end_of_head")) return header;
+    if (trimmed(line.content).starts_with("end_of_head")) {
+      settle_function(header);
+      return header;
+    }
     take_key(line, header);
   }
   throw Error(ErrorCode::kInvalidInput,
@@ -123,7 +149,8 @@ std::string format_icgem(const Expansion& expansion, const Coefficients& externa
   std::string text = fmt::format(
       "product_type {}\nmodelname rholm\nmax_degree {}\nerrors no\nnorm {}\n"
       "rholm_format 1\nrholm_lines {}\nrholm_csphase {}\n",
-      kProduct, degree, norm_name(convention.normalization), n_pairs(degree), convention.csphase);
+      expansion.function == RadialFunction::kOther ? kOtherProduct : kProduct, degree,
+      norm_name(convention.normalization), n_pairs(degree), convention.csphase);
   for (const auto& [key, value] : describe(expansion)) {
     text += fmt::format("{}{} {}\n", kOwnPrefix, key, value);
   }

@@ -152,7 +152,8 @@ CoefficientsFile parse_coefficients(std::span<const char> bytes, const std::stri
   expansion.method = std::move(parsed.method);
   expansion.norm_squared = parsed.norm_squared;
   expansion.tail_strength = parsed.tail_strength;
-  for (std::string& what : parsed.passed_over) file.assumed.push_back(std::move(what));
+  file.product = std::move(parsed.product);
+  file.passed_over = std::move(parsed.passed_over);
   check_expansion(expansion, name);
   return file;
 }

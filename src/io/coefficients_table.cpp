@@ -175,8 +175,8 @@ bool take_description(std::string_view key, std::string_view value, const TextLi
     }
     set_once(parsed.csphase, value == "-1" ? -1 : 1, key, line);
   } else if (key == "function") {
-    if (value != "radius" && value != "gauge") {
-      refuse_line(line, "function is " + in_quotes(value) + ": it must be radius or gauge");
+    if (value != "radius" && value != "gauge" && value != "other") {
+      refuse_line(line, "function is " + in_quotes(value) + ": it must be radius, gauge or other");
     }
     set_once(parsed.function, parse_radial_function(std::string(value)), key, line);
   } else if (key == "center") {

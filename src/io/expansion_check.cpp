@@ -6,6 +6,8 @@
 #include <optional>
 #include <string_view>
 
+#include "io/number_text.h"
+#include "rholm/coefficients_io.h"
 #include "rholm/error.h"
 
 namespace rholm {
@@ -61,6 +63,10 @@ void check_norm(const std::optional<double>& value, const char* what, const std:
 }
 
 }  // namespace
+
+void check_unit(const std::string& unit) {
+  check_text(unit, "the name of a unit", in_quotes(unit));
+}
 
 void check_coefficients(const Coefficients& coefficients, const std::string& name) {
   const int degree = coefficients.degree();

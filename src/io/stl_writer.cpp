@@ -9,16 +9,21 @@
 namespace rholm {
 namespace {
 
+// Floats have their full precision within 1.2e-38 ... 3.4e38; small coordinates beside larger ones
+// may round to 0, those of a whole shape may not.
 void check_range(const ShapeView& shape, const std::string& name) {
+  double largest = 0;
   for (const Vec3& p : shape.points) {
-    const double largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-    if (largest < kInfiniteAsFloat) continue;
-    char digits[kMaxNumberLength];
-    throw Error(ErrorCode::kInvalidInput,
-                name + ": the coordinate " + std::string(digits, format_number(digits, largest)) +
-                    " does not fit the floats of STL (up to 3.4e38): scale the shape, or write "
-                    "PLY, OBJ or OFF");
+    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   }
+  const bool small = largest > 0 && largest < std::numeric_limits<float>::min();
+  if (largest < kInfiniteAsFloat && !small) return;
+  char digits[kMaxNumberLength];
+  throw Error(ErrorCode::kInvalidInput,
+              name + ": the largest coordinate, " +
+                  std::string(digits, format_number(digits, largest)) +
+                  ", does not fit the floats of STL (1.2e-38 ... 3.4e38): scale the shape, or "
+                  "write PLY, OBJ or OFF");
 }
 
 // Of the triangle before its corners are rounded; zero if it has no area.

@@ -11,6 +11,7 @@
 #include "shape/face.h"
 #include "shape/identical.h"
 #include "shape/normals.h"
+#include "shape/on_line.h"
 #include "shape/orient_graph.h"
 #include "shape/orient_sides.h"
 
@@ -34,6 +35,14 @@ void check(const PointCloud& cloud, const OrientOptions& options) {
     if (place && !is_finite(*place)) refuse("the centre or sensor is not a finite point");
   }
 }
+
+[[noreturn]] void refuse_line(std::size_t n) {
+  refuse("all " + std::to_string(n) +
+         " points lie on one line, where there are no normals; give points of a surface");
+}
+
+// Of the extent: fits see points in single precision, ten roundings of which are no width.
+constexpr double kLine = 1e-6;
 
 // The distinct points in the order of a tree over them, moved and scaled to the size of 1.
 struct Scene {
@@ -59,6 +68,8 @@ Scene make_scene(const PointCloud& cloud, const Context& context) {
                     std::to_string(distinct.size()) +
                     " different places have no plane; at least 3 places are needed");
   }
+  // Told from the points at once; fits of millions of them would take a minute to find no plane.
+  if (lie_on_line(local, kLine)) refuse_line(cloud.points.size());
   scene.tree.emplace(local, context);
   scene.place.resize(distinct.size());
   scene.points.resize(distinct.size());
@@ -150,10 +161,7 @@ OrientReport orient(PointCloud& cloud, const OrientOptions& options, const Conte
   report.neighbors = fits.n_neighbors;
   if (std::all_of(fits.normals.begin(), fits.normals.end(),
                   [](const Vec3& n) { return n == Vec3{}; })) {
-    throw Error(
-        ErrorCode::kInvalidInput,
-        "all " + std::to_string(cloud.points.size()) +
-            " points lie on one line, where there are no normals; give points of a surface");
+    refuse_line(cloud.points.size());
   }
   std::vector<Vec3> normals = std::move(fits.normals);
   const std::vector<float> confidence = options.center || options.sensor

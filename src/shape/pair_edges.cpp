@@ -1,6 +1,10 @@
+#include <optional>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "rholm/error.h"
+#include "rholm/repair.h"
 #include "rholm/topology.h"
 #include "shape/half_edges.h"
 
@@ -43,15 +47,26 @@ struct Unpaired {
   std::size_t total() const { return boundary + misoriented + odd; }
 };
 
-[[noreturn]] void throw_unpaired(const Unpaired& unpaired) {
-  throw Error(
-      ErrorCode::kInvalidInput,
-      "the mesh is not closed and consistently oriented: " + std::to_string(unpaired.total()) +
-          " edges have a side without a partner (" + std::to_string(unpaired.boundary) +
-          " boundary edges, " + std::to_string(unpaired.misoriented) +
-          " between triangles of opposite orientation, " + std::to_string(unpaired.odd) +
-          " where three or more triangles meet); weld with a tolerance, close the holes "
-          "or orient the triangles alike");
+// What would mend it.
+std::string advice(const Mesh& mesh, const Unpaired& unpaired) {
+  const std::optional<double> tolerance =
+      unpaired.boundary > 0 ? closing_tolerance(mesh) : std::nullopt;
+  const std::string weld = tolerance ? fmt::format("--weld {:.2g}", *tolerance) : "";
+  if (tolerance && unpaired.total() == unpaired.boundary) {
+    return fmt::format("{} joins its borders, which lie within {:.2g} of each other", weld,
+                       *tolerance);
+  }
+  return fmt::format("'rholm repair{}{}' orients faces alike and closes small holes",
+                     tolerance ? " " : "", weld);
+}
+
+[[noreturn]] void throw_unpaired(const Mesh& mesh, const Unpaired& unpaired) {
+  throw Error(ErrorCode::kInvalidInput,
+              fmt::format("the mesh is not closed and consistently oriented: {} edges have a side "
+                          "without a partner ({} boundary edges, {} between triangles of opposite "
+                          "orientation, {} where three or more triangles meet); {}",
+                          unpaired.total(), unpaired.boundary, unpaired.misoriented, unpaired.odd,
+                          advice(mesh, unpaired)));
 }
 
 }  // namespace
@@ -72,7 +87,7 @@ std::vector<Edge> pair_edges(const Mesh& mesh) {
       ++unpaired.odd;
     }
   });
-  if (unpaired.total() > 0) throw_unpaired(unpaired);
+  if (unpaired.total() > 0) throw_unpaired(mesh, unpaired);
   return edges;
 }
 

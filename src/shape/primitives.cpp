@@ -14,9 +14,6 @@ namespace {
 
 using std::numbers::pi;
 
-// Chosen: 2^28 vertices are 6 GB, and twice as many triangles still have edges that can be
-// numbered (see half_edges.cpp).
-constexpr long long kMaxVertices = 1LL << 28;
 constexpr int kMaxSubdivisions = 12;
 constexpr int kMaxBoxSquares = 4096;  // 12 n^2 triangles: 2e8
 
@@ -36,10 +33,11 @@ void require_length(double value, const char* what) {
 }
 
 void require_grid(int n, int least_n, int m, int least_m, const char* what) {
-  require(n >= least_n && m >= least_m && static_cast<long long>(n) * m <= kMaxVertices,
+  require(n >= least_n && m >= least_m && static_cast<long long>(n) * m <= kMaxGridVertices,
           std::string(what) + " has " + std::to_string(n) + " x " + std::to_string(m) +
               " vertices, it must have at least " + std::to_string(least_n) + " x " +
-              std::to_string(least_m) + " and at most " + std::to_string(kMaxVertices) + " in all");
+              std::to_string(least_m) + " and at most " + std::to_string(kMaxGridVertices) +
+              " in all");
 }
 
 // Twelve vertices (0, +-1, +-golden ratio) and their cyclic permutations, on the unit sphere.

@@ -281,31 +281,36 @@ bool RayScene::occluded(const Vec3& origin, const Vec3& direction, double near, 
   return query.tfar < 0;  // Embree's sign for occluded
 }
 
-int RayScene::count_hits(const Vec3& origin, const Vec3& direction) const {
+std::vector<RayCrossing> RayScene::crossings(const Vec3& origin, const Vec3& direction) const {
   RTCRayHit query = {impl_->ray(origin, direction, 0, kInfinity), {}};
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   AllHitsContext context;
   rtcInitIntersectContext(&context.base);
   context.base.filter = note_triangle;
   rtcIntersect1(impl_->scene.get(), &context.base, &query);
-  std::vector<double> distances;
-  const Vec3 q = impl_->frame.to_local(origin);
-  const auto local_corners = [this](std::uint32_t triangle) -> std::array<Vec3, 3> {
+  const UnitFrame& frame = impl_->frame;
+  const Vec3 q = frame.to_local(origin);
+  std::vector<RayCrossing> crossings;
+  for (const std::uint32_t triangle : context.triangles) {
     const auto& [a, b, c] = impl_->mesh.triangles[triangle];
     const std::vector<Vec3>& vertices = impl_->mesh.vertices;
-    const UnitFrame& frame = impl_->frame;
-    return {frame.to_local(vertices[a]), frame.to_local(vertices[b]), frame.to_local(vertices[c])};
-  };
-  for (const std::uint32_t triangle : context.triangles) {
-    const double t = plane_distance(local_corners(triangle), q, direction);
-    if (std::isfinite(t)) distances.push_back(t);
+    const double t = plane_distance(
+        {frame.to_local(vertices[a]), frame.to_local(vertices[b]), frame.to_local(vertices[c])}, q,
+        direction);
+    if (std::isfinite(t)) crossings.push_back({triangle, t / frame.scale});
   }
-  std::sort(distances.begin(), distances.end());
+  std::sort(crossings.begin(), crossings.end(), [](const RayCrossing& a, const RayCrossing& b) {
+    return a.distance != b.distance ? a.distance < b.distance : a.triangle < b.triangle;
+  });
+  return crossings;
+}
+
+int RayScene::count_hits(const Vec3& origin, const Vec3& direction) const {
   int count = 0;
   double last = -kInfinity;
-  for (const double t : distances) {
-    count += t - last > 1e-6 * std::abs(t);
-    last = t;
+  for (const RayCrossing& crossing : crossings(origin, direction)) {
+    count += crossing.distance - last > 1e-6 * std::abs(crossing.distance);
+    last = crossing.distance;
   }
   return count;
 }

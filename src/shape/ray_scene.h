@@ -26,6 +26,11 @@ struct RayHit {
   double distance = 0;
 };
 
+struct RayCrossing {
+  std::uint32_t triangle = 0;
+  double distance = 0;  // to the triangle's plane
+};
+
 // Keeps a reference to `mesh`, which must outlive it. All queries may be called from several
 // threads at once.
 class RayScene {
@@ -41,6 +46,9 @@ class RayScene {
   // First hit along origin + t direction, near < t < far; direction of unit length.
   RayHit first_hit(const Vec3& origin, const Vec3& direction, double near, double far) const;
   bool occluded(const Vec3& origin, const Vec3& direction, double near, double far) const;
+  // All triangles that the half line from `origin` meets, the nearest first. A shared edge or
+  // vertex is met once per triangle; where it starts is good to 1e-7 of the mesh's size.
+  std::vector<RayCrossing> crossings(const Vec3& origin, const Vec3& direction) const;
   // How often the half line from `origin` meets the surface: hits closer to each other than
   // 1e-6 of the distance count once (edges and vertices are shared).
   int count_hits(const Vec3& origin, const Vec3& direction) const;

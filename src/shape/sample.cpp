@@ -203,6 +203,12 @@ PointCloud sample_surface(const Mesh& mesh, const SampleOptions& options, const 
     if (options.normals) cloud.normals[n] = cloud.normals[k];
     ++n;
   }
+  if (n == 0) {
+    throw Error(ErrorCode::kInvalidInput,
+                "the " + std::to_string(options.holes) + " holes of radius " +
+                    std::to_string(options.hole_radius) + " of the diagonal leave none of the " +
+                    std::to_string(options.points) + " points; take fewer or smaller ones");
+  }
   cloud.points.resize(n);
   if (options.normals) cloud.normals.resize(n);
   return cloud;

@@ -10,6 +10,8 @@
 
 #include "base/parallel.h"
 #include "rholm/error.h"
+#include "rholm/topology.h"
+#include "shape/face.h"
 #include "shape/half_edges.h"
 #include "shape/plane_quadric.h"
 #include "shape/vertex_stars.h"
@@ -321,6 +323,13 @@ void check(const SimplifyOptions& options) {
   }
 }
 
+// 1 for sizes near 1.
+double far_scale(const Bounds& box) {
+  constexpr int kFarExponent = 300;  // chosen: far below the 512 of squares
+  const UnitFrame frame = unit_frame(box);
+  return std::abs(frame.exponent) > kFarExponent ? frame.scale : 1;
+}
+
 void keep(std::vector<double>& values, const std::vector<std::uint32_t>& kept) {
   for (std::size_t i = 0; i < kept.size(); ++i) values[i] = values[kept[i]];
   values.resize(kept.size());
@@ -333,13 +342,17 @@ Simplification simplify(Mesh mesh, const SimplifyOptions& options, const Context
   check(options);
   const auto share =
       static_cast<std::size_t>(options.share * static_cast<double>(mesh.triangles.size()));
+  // Where squares of lengths would leave the range of a double, a power of two brings them back.
+  const double scale = far_scale(bounds(mesh.vertices));
+  for (Vec3& v : mesh.vertices) v *= scale;
   const SimplifyOptions wanted{.triangles = std::max(options.triangles, share),
-                               .max_error = options.max_error};
+                               .max_error = options.max_error * scale};
   Simplifier simplifier(std::move(mesh.vertices), std::move(mesh.triangles), wanted, context);
   simplifier.run();
   Simplification result;
-  result.error = simplifier.error();
+  result.error = simplifier.error() / scale;
   result.mesh.vertices = std::move(simplifier.points());
+  for (Vec3& v : result.mesh.vertices) v = v / scale;
   result.mesh.triangles = std::move(simplifier.triangles());
   result.mesh.attributes = std::move(mesh.attributes);
   for (Attribute& attribute : result.mesh.attributes) keep(attribute.values, simplifier.given());

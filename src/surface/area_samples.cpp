@@ -18,8 +18,9 @@ std::vector<double> cumulative_areas(const Mesh& mesh) {
   std::vector<double> sums;
   sums.reserve(mesh.triangles.size());
   CompensatedSum sum;
+  const double scale = unit_frame(bounds(mesh.vertices)).scale;  // areas of any unit in range
   for (const Triangle& t : mesh.triangles) {
-    const FaceNormal face = face_normal(scaled_corners(mesh, t, 1));
+    const FaceNormal face = face_normal(scaled_corners(mesh, t, scale));
     if (!face.degenerate) sum.add(norm(face.twice_area));
     sums.push_back(sum.value());
   }

@@ -27,8 +27,8 @@ struct Stroke {
 void draw_strokes(Canvas& canvas, const std::vector<Stroke>& strokes, double thickness,
                   const Color& color);
 
-// `size` is the height of capitals in pixels. Characters are those of ASCII; others are drawn as an
-// empty box.
+// `size` is the height of capitals in pixels. UTF-8; what the font does not have (see font.h) is
+// drawn as an empty box.
 double text_width(std::string_view text, double size);
 // Centred at x, with its baseline at y.
 void draw_text(Canvas& canvas, std::string_view text, double x, double y, double size,

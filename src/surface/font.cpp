@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "surface/utf8.h"
@@ -120,12 +121,116 @@ constexpr std::array<Glyph, 95> kGlyphs = {{
 }};
 constexpr Glyph kUnknown = {7, "m04l0Gl7Gl74l04"};
 
+// Marks above small letters, below the baseline, or across.
+enum class Mark { kGrave, kAcute, kCircumflex, kTilde, kDiaeresis, kRing, kCedilla };
+constexpr std::array<Glyph, 7> kMarks = {{
+    {3, "m0Hl3E"},
+    {3, "m0El3H"},
+    {4, "m0El2Hl4E"},
+    {6, "m0Eq1I3Gq5D6H"},
+    {4, "m0Fl0Fm4Fl4F"},
+    {4, "m2Ih0Gv2Eh4Gv2I"},
+    {3, "m24l23q4331q2000"},
+}};
+constexpr int kRaised = 4;  // marks above capitals
+
+// Letters of Latin-1 that are others with a mark.
+struct Marked {
+  char32_t character;
+  char base;
+  Mark mark;
+};
+constexpr Marked kMarked[] = {
+    {U'\u00C0', 'A', Mark::kGrave},      {U'\u00C1', 'A', Mark::kAcute},
+    {U'\u00C2', 'A', Mark::kCircumflex}, {U'\u00C3', 'A', Mark::kTilde},
+    {U'\u00C4', 'A', Mark::kDiaeresis},  {U'\u00C5', 'A', Mark::kRing},
+    {U'\u00C7', 'C', Mark::kCedilla},    {U'\u00C8', 'E', Mark::kGrave},
+    {U'\u00C9', 'E', Mark::kAcute},      {U'\u00CA', 'E', Mark::kCircumflex},
+    {U'\u00CB', 'E', Mark::kDiaeresis},  {U'\u00CC', 'I', Mark::kGrave},
+    {U'\u00CD', 'I', Mark::kAcute},      {U'\u00CE', 'I', Mark::kCircumflex},
+    {U'\u00CF', 'I', Mark::kDiaeresis},  {U'\u00D1', 'N', Mark::kTilde},
+    {U'\u00D2', 'O', Mark::kGrave},      {U'\u00D3', 'O', Mark::kAcute},
+    {U'\u00D4', 'O', Mark::kCircumflex}, {U'\u00D5', 'O', Mark::kTilde},
+    {U'\u00D6', 'O', Mark::kDiaeresis},  {U'\u00D9', 'U', Mark::kGrave},
+    {U'\u00DA', 'U', Mark::kAcute},      {U'\u00DB', 'U', Mark::kCircumflex},
+    {U'\u00DC', 'U', Mark::kDiaeresis},  {U'\u00DD', 'Y', Mark::kAcute},
+    {U'\u00E0', 'a', Mark::kGrave},      {U'\u00E1', 'a', Mark::kAcute},
+    {U'\u00E2', 'a', Mark::kCircumflex}, {U'\u00E3', 'a', Mark::kTilde},
+    {U'\u00E4', 'a', Mark::kDiaeresis},  {U'\u00E5', 'a', Mark::kRing},
+    {U'\u00E7', 'c', Mark::kCedilla},    {U'\u00E8', 'e', Mark::kGrave},
+    {U'\u00E9', 'e', Mark::kAcute},      {U'\u00EA', 'e', Mark::kCircumflex},
+    {U'\u00EB', 'e', Mark::kDiaeresis},  {U'\u00EC', 'i', Mark::kGrave},
+    {U'\u00ED', 'i', Mark::kAcute},      {U'\u00EE', 'i', Mark::kCircumflex},
+    {U'\u00EF', 'i', Mark::kDiaeresis},  {U'\u00F1', 'n', Mark::kTilde},
+    {U'\u00F2', 'o', Mark::kGrave},      {U'\u00F3', 'o', Mark::kAcute},
+    {U'\u00F4', 'o', Mark::kCircumflex}, {U'\u00F5', 'o', Mark::kTilde},
+    {U'\u00F6', 'o', Mark::kDiaeresis},  {U'\u00F9', 'u', Mark::kGrave},
+    {U'\u00FA', 'u', Mark::kAcute},      {U'\u00FB', 'u', Mark::kCircumflex},
+    {U'\u00FC', 'u', Mark::kDiaeresis},  {U'\u00FD', 'y', Mark::kAcute},
+    {U'\u00FF', 'y', Mark::kDiaeresis},
+};
+constexpr Glyph kDotlessI = {0, "m0Cl04"};
+
+// The other letters of Latin-1, some signs of it, dashes and the apostrophe.
+struct Other {
+  char32_t character;
+  Glyph glyph;
+};
+constexpr Other kOthers[] = {
+    {U'\u00A0', {4, ""}},
+    {U'\u00B0', {4, "m2Hh0Fv2Dh4Fv2H"}},                                  // degree sign
+    {U'\u00B1', {8, "m48l4Em0Bl8Bm04l84"}},                               // plus-minus
+    {U'\u00B2', {4, "m0Fv2Hh4Fq4D0Al4A"}},                                // squared
+    {U'\u00B3', {4, "m0Hl4Hl2Eh4Cv2Ah0B"}},                               // cubed
+    {U'\u00B5', {6, "m0Cl00m07v34h68m6Cl64"}},                            // micro
+    {U'\u00B7', {0, "m0Al0A"}},                                           // middle dot
+    {U'\u00B9', {2, "m0Fl2Hl2A"}},                                        // to the first
+    {U'\u00C6', {12, "m04l6GlCGm6Gl64lC4m28l68m6AlBA"}},                  // AE
+    {U'\u00D0', {8, "m04l0Gl3Gh8Bl89v34l04m0Al4A"}},                      // Eth
+    {U'\u00D7', {8, "m16l7Cm1Cl76"}},                                     // times
+    {U'\u00D8', {10, "m5Gh0Av54hAAv5Gm13l9H"}},                           // O with a stroke
+    {U'\u00DE', {8, "m04l0Gm0Dl4Dh8Av47l07"}},                            // Thorn
+    {U'\u00DF', {7, "m04l0Cv3Gh6Dv3Am3Ah77v34l24"}},                      // sharp s
+    {U'\u00E6', {11, "m0Bq1C2Ch58m58lB8v8Ch58v84qA4B6m58v34h06v38l58"}},  // ae
+    {U'\u00F0', {7, "m78v34h08v3Ch78q7E3Hm2El6H"}},                       // eth
+    {U'\u00F7', {8, "m09l89m4Dl4Dm45l45"}},                               // divided by
+    {U'\u00F8', {7, "m3Ch08v34l44h78v4Cl3Cm03l7D"}},                      // o with a stroke
+    {U'\u00FE', {7, "m00l0Gm08v3Cl4Ch78v44l34h08"}},                      // thorn
+    {U'\u2013', {7, "m09l79"}},                                           // en dash
+    {U'\u2014', {11, "m09lB9"}},                                          // em dash
+    {U'\u2019', {0, "m0Gl0D"}},                                           // apostrophe
+};
+
 constexpr double kUnit = 1.0 / 12;    // of the grid, in heights of a capital
 constexpr double kNarrow = 0.9 / 12;  // the same across: the letters look too wide without
 constexpr int kBaseline = 4;
 constexpr int kArcPieces = 8;  // straight pieces of a curve: off by 0.5 % of its radius
 
-const Glyph& glyph_of(char32_t c) { return c >= U' ' && c <= U'~' ? kGlyphs[c - U' '] : kUnknown; }
+const Marked* marked_letter(char32_t c) {
+  const auto* found = std::find_if(std::begin(kMarked), std::end(kMarked),
+                                   [&](const Marked& m) { return m.character == c; });
+  return found == std::end(kMarked) ? nullptr : found;
+}
+
+// Of a letter with a mark that without it.
+const Glyph& glyph_of(char32_t c) {
+  if (c >= U' ' && c <= U'~') return kGlyphs[c - U' '];
+  if (const Marked* marked = marked_letter(c)) {
+    return marked->base == 'i' ? kDotlessI : kGlyphs[static_cast<std::size_t>(marked->base - ' ')];
+  }
+  for (const Other& other : kOthers) {
+    if (other.character == c) return other.glyph;
+  }
+  return kUnknown;
+}
+
+const Glyph& mark_of(const Marked& marked) { return kMarks[static_cast<std::size_t>(marked.mark)]; }
+
+// Room for the mark too.
+int width_of(char32_t c) {
+  const Marked* marked = marked_letter(c);
+  return std::max(glyph_of(c).width, marked ? mark_of(*marked).width : 0);
+}
 
 struct Point {
   double x = 0;
@@ -191,22 +296,44 @@ class PathReader {
   std::vector<Stroke> strokes_;
 };
 
+// The value of a character of `length` bytes.
+char32_t code_point(std::string_view text, std::size_t length) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  if (length == 1) return byte(0);
+  char32_t code = byte(0) & (0x7Fu >> length);
+  for (std::size_t i = 1; i < length; ++i) code = code << 6 | (byte(i) & 0x3Fu);
+  return code;
+}
+
 }  // namespace
 
 std::vector<char32_t> characters(std::string_view text) {
   std::vector<char32_t> result;
   while (!text.empty()) {
     const std::size_t length = utf8_length(text);
-    result.push_back(length == 1 ? static_cast<char32_t>(text[0]) : U'\uFFFD');
+    result.push_back(length == 0 ? U'\uFFFD' : code_point(text, length));
     text.remove_prefix(std::max<std::size_t>(length, 1));
   }
   return result;
 }
 
-double glyph_advance(char32_t character) { return kNarrow * glyph_of(character).width + kGlyphGap; }
+double glyph_advance(char32_t character) { return kNarrow * width_of(character) + kGlyphGap; }
 
 std::vector<Stroke> glyph_strokes(char32_t character) {
-  return PathReader(glyph_of(character).path).strokes();
+  const Glyph& glyph = glyph_of(character);
+  const auto shifted = [&](const Glyph& part, double up) {
+    std::vector<Stroke> strokes = PathReader(part.path).strokes();
+    const double right = 0.5 * kNarrow * (width_of(character) - part.width);
+    for (Stroke& s : strokes) s.x0 += right, s.x1 += right, s.y0 += up, s.y1 += up;
+    return strokes;
+  };
+  std::vector<Stroke> strokes = shifted(glyph, 0);
+  if (const Marked* marked = marked_letter(character)) {
+    const bool raised = marked->base <= 'Z' && marked->mark != Mark::kCedilla;
+    const std::vector<Stroke> mark = shifted(mark_of(*marked), raised ? kRaised * kUnit : 0);
+    strokes.insert(strokes.end(), mark.begin(), mark.end());
+  }
+  return strokes;
 }
 
 }  // namespace rholm

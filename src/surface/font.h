@@ -12,8 +12,9 @@ namespace rholm {
 inline constexpr double kGlyphThickness = 0.14;
 inline constexpr double kGlyphGap = 0.28;  // between neighbours' middle lines
 
-// The characters of UTF-8 text, all that are not ASCII as U+FFFD, which has the glyph of an empty
-// box; bytes that are not UTF-8 count one by one.
+// The characters of UTF-8 text; bytes that are not UTF-8 count one by one, as U+FFFD. There are
+// glyphs for ASCII, the letters and some signs of Latin-1, dashes and the apostrophe; all others
+// have that of an empty box.
 std::vector<char32_t> characters(std::string_view text);
 
 double glyph_advance(char32_t character);  // width and gap

@@ -41,6 +41,7 @@ struct Sums {
 }  // namespace
 
 SurfaceMeasures measure(const Expansion& expansion, const Context& context) {
+  require_surface(expansion);
   const int degree = expansion.coefficients.degree();
   const bool gauge = expansion.function == RadialFunction::kGauge;
   // Sums are formed in units of the mean radius, whose powers might overflow.

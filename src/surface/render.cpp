@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/parallel.h"
 #include "base/random.h"
@@ -58,8 +59,8 @@ void check(std::span<const Panel> panels, const RenderOptions& options) {
   }
 }
 
-// The wanted range, or that of all scalars; around a single value one that is not empty. None
-// without scalars.
+// The wanted range, or that of all scalars; at a single value one that is not empty, by an end that
+// nobody chose. None without scalars.
 std::optional<ColorScale> color_scale(std::span<const Panel> panels, const RenderOptions& options) {
   double min = kInfinity, max = -kInfinity;
   for (const Panel& panel : panels) {
@@ -69,14 +70,15 @@ std::optional<ColorScale> color_scale(std::span<const Panel> panels, const Rende
     }
   }
   if (min > max) return std::nullopt;
-  if (!options.scale_min && !options.scale_max && min == max) {
-    const double margin = min == 0 ? 1 : std::abs(min) / 2;
-    return ColorScale{std::min(min, 0.0), min + margin};
+  ColorScale scale = {options.scale_min.value_or(min), options.scale_max.value_or(max)};
+  if (scale.min == scale.max) {
+    const double margin = scale.min == 0 ? 1 : std::abs(scale.min) / 2;
+    if (!options.scale_min) scale.min = std::min(scale.max - (options.scale_max ? margin : 0), 0.0);
+    if (!options.scale_max) scale.max += margin;
   }
-  const ColorScale scale = {options.scale_min.value_or(min), options.scale_max.value_or(max)};
   if (!(scale.min < scale.max) || !std::isfinite(scale.max - scale.min)) {
     refuse("the colour scale runs from " + std::to_string(scale.min) + " to " +
-           std::to_string(scale.max) + "; give a scale_min below the scale_max");
+           std::to_string(scale.max) + "; its lower end must be below the upper one");
   }
   return scale;
 }
@@ -163,6 +165,44 @@ double pixels_per_unit(const std::vector<PlaneBox>& boxes, const Layout& layout)
   return std::isfinite(scale) ? scale : 1;
 }
 
+// A panel's thing, and how it is seen.
+struct Sight {
+  Subject subject;
+  View view;
+  PlaneBox box;
+  double pixels_per_unit = 1;
+};
+
+// Of panels that have one scale.
+std::vector<Sight> sights_at_one_scale(std::span<const Panel> panels, const RenderOptions& options,
+                                       const Layout& layout) {
+  const double to_unit = common_scale(panels);
+  std::vector<Sight> sights;
+  double radius = 0;
+  for (const Panel& panel : panels) {
+    sights.push_back({.subject = make_subject(panel, to_unit), .view = {}, .box = {}});
+    radius = std::max(radius, sights.back().subject.radius);
+  }
+  std::vector<PlaneBox> boxes;
+  for (Sight& sight : sights) {
+    sight.view = make_view(options, radius > 0 ? radius : 1);
+    sight.box = projected_box(sight.view, sight.subject.mesh);
+    boxes.push_back(sight.box);
+  }
+  for (Sight& sight : sights) sight.pixels_per_unit = pixels_per_unit(boxes, layout);
+  return sights;
+}
+
+std::vector<Sight> make_sights(std::span<const Panel> panels, const RenderOptions& options,
+                               const Layout& layout) {
+  if (!options.fit_each) return sights_at_one_scale(panels, options, layout);
+  std::vector<Sight> sights;
+  for (const Panel& panel : panels) {
+    sights.push_back(std::move(sights_at_one_scale({&panel, 1}, options, layout).front()));
+  }
+  return sights;
+}
+
 struct PanelPicture {
   const Subject& subject;
   const View& view;
@@ -236,28 +276,18 @@ Image render(std::span<const Panel> panels, const RenderOptions& options, const 
   check(panels, options);
   const std::optional<ColorScale> scale = color_scale(panels, options);
   const Layout layout = make_layout(panels, options, scale && options.scale_bar);
-  const double to_unit = common_scale(panels);
-  std::vector<Subject> subjects;
-  double radius = 0;
-  for (const Panel& panel : panels) {
-    subjects.push_back(make_subject(panel, to_unit));
-    radius = std::max(radius, subjects.back().radius);
-  }
-  const View view = make_view(options, radius > 0 ? radius : 1);
-  std::vector<PlaneBox> boxes;
-  for (const Subject& subject : subjects) boxes.push_back(projected_box(view, subject.mesh));
-  const double zoom = pixels_per_unit(boxes, layout);
+  const std::vector<Sight> sights = make_sights(panels, options, layout);
 
   Canvas canvas = make_canvas(options.width, options.height, kPaper);
   const auto n = static_cast<double>(panels.size());
   for (std::size_t k = 0; k < panels.size(); ++k) {
     const auto first = static_cast<double>(k);
     const double left = first * layout.panel_width, right = left + layout.panel_width;
-    const PanelPicture picture = {subjects[k],
-                                  view,
+    const PanelPicture picture = {sights[k].subject,
+                                  sights[k].view,
                                   scale.value_or(ColorScale{}),
-                                  boxes[k],
-                                  zoom,
+                                  sights[k].box,
+                                  sights[k].pixels_per_unit,
                                   0.5 * (left + right),
                                   0.5 * layout.panel_height,
                                   static_cast<int>(left),

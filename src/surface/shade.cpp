@@ -25,8 +25,15 @@ constexpr double kKeyRadius = 0.18;  // of the key's disc at distance 1: 10 degr
 // Rays start this far (in radii) off the surface: 1000 times the rounding of Embree's floats.
 constexpr double kRayOffset = 1e-4;
 
-Color plain_color() { return from_oklch(0.83, 0.045, 75); }  // sandstone
-Color back_color() { return from_oklch(0.55, 0.14, 28); }    // brick: seen from inside
+// Made once: they are asked for at every sample.
+Color plain_color() {
+  static const Color color = from_oklch(0.83, 0.045, 75);  // sandstone
+  return color;
+}
+Color back_color() {
+  static const Color color = from_oklch(0.55, 0.14, 28);  // brick: seen from inside
+  return color;
+}
 
 struct Frame {
   Vec3 x, y, z;

@@ -277,7 +277,9 @@ std::string legend(const Curve& curve, RadialFunction function) {
     }
   }
   add(legend_line(y, kDataInk, "none"),
-      function == RadialFunction::kRadius ? "energy of the radius r" : "energy of the gauge 1/r");
+      function == RadialFunction::kRadius  ? "energy of the radius r"
+      : function == RadialFunction::kGauge ? "energy of the gauge 1/r"
+                                           : "energy of the function");
   return svg;
 }
 

@@ -33,6 +33,7 @@ void set_normals(Mesh& mesh, const std::vector<Vec3>& normals) {
 // q u + grad_S q.
 Mesh surface_of_degree(const Expansion& expansion, const Mesh& sphere, int degree,
                        const Context& context) {
+  require_surface(expansion);
   const bool gauge = expansion.function == RadialFunction::kGauge;
   const ValuesAndGradients f =
       evaluate_with_gradient(expansion.coefficients.resized(degree), sphere.vertices, {}, context);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/random.h"
+#include "chart/view_scan.h"
 #include "rholm/error.h"
 #include "rholm/harmonic.h"
 #include "shape/face.h"
@@ -23,10 +24,18 @@ struct Face {
   double twice_area = 0;
 };
 
-Face face_of(const MeshView& mesh, std::size_t t, const Vec3& center) {
+// A power of two that brings lengths near 1, so that areas and their squares are in range. It
+// rounds nothing.
+double scale_of(const MeshView& mesh) {
+  const VertexRange r = vertex_range(mesh, 0, mesh.n_vertices);
+  return unit_frame({{r.min[0], r.min[1], r.min[2]}, {r.max[0], r.max[1], r.max[2]}}).scale;
+}
+
+// Times `scale`.
+Face face_of(const MeshView& mesh, std::size_t t, const Vec3& center, double scale) {
   const Triangle triangle = mesh.triangle(t);
   Face face;
-  for (int i = 0; i < 3; ++i) face.corners[i] = mesh.vertex(triangle[i]) - center;
+  for (int i = 0; i < 3; ++i) face.corners[i] = scale * (mesh.vertex(triangle[i]) - center);
   face.normal = face_normal(face.corners);
   face.twice_area = norm(face.normal.twice_area);
   return face;
@@ -86,17 +95,18 @@ void ErrorPoints::append(const ErrorPoints& more) {
 
 ErrorPoints extreme_points(const MeshView& mesh, const Vec3& center, int degree) {
   ErrorPoints points;
+  const double scale = scale_of(mesh);
   // A vertex of no face is no point of the surface.
   std::vector<bool> used(mesh.n_vertices);
   for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
     for (const std::uint32_t i : mesh.triangle(t)) used[i] = true;
   }
   for (std::size_t i = 0; i < mesh.n_vertices; ++i) {
-    const Vec3 x = mesh.vertex(i) - center;
+    const Vec3 x = scale * (mesh.vertex(i) - center);
     if (used[i]) add_point(points, x, norm(x), 0);
   }
   for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
-    const Face face = face_of(mesh, t, center);
+    const Face face = face_of(mesh, t, center, scale);
     if (face.normal.degenerate) continue;
     const int n = divisions(face, degree);
     for (int i = 0; i < n; ++i) {
@@ -108,13 +118,15 @@ ErrorPoints extreme_points(const MeshView& mesh, const Vec3& center, int degree)
       }
     }
   }
+  for (double& r : points.radii) r /= scale;
   return points;
 }
 
 ErrorPoints area_points(const MeshView& mesh, const Vec3& center, std::size_t n) {
+  const double scale = scale_of(mesh);
   double whole = 0;
   for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
-    const Face face = face_of(mesh, t, center);
+    const Face face = face_of(mesh, t, center, scale);
     if (!face.normal.degenerate) whole += face.twice_area;
   }
   ErrorPoints points;
@@ -123,7 +135,7 @@ ErrorPoints area_points(const MeshView& mesh, const Vec3& center, std::size_t n)
   std::size_t next = 0;
   constexpr std::uint64_t kSeed = 1;
   for (std::size_t t = 0; t < mesh.n_triangles && next < n; ++t) {
-    const Face face = face_of(mesh, t, center);
+    const Face face = face_of(mesh, t, center, scale);
     if (face.normal.degenerate) continue;
     sum += face.twice_area;
     while (next < n && (static_cast<double>(next) + random_uniform(kSeed, 3 * next)) * part < sum) {
@@ -135,6 +147,7 @@ ErrorPoints area_points(const MeshView& mesh, const Vec3& center, std::size_t n)
       ++next;
     }
   }
+  for (double& r : points.radii) r /= scale;
   return points;
 }
 

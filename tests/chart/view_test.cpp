@@ -1,6 +1,5 @@
 // Centres and checks of meshes that lie in somebody else's memory, against slow plain answers.
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <cmath>
 #include <limits>
@@ -14,6 +13,7 @@
 #include "rholm/primitives.h"
 #include "support/packed_mesh.h"
 #include "support/random_data.h"
+#include "support/targets.h"
 #include "support/test_meshes.h"
 
 namespace rholm {
@@ -30,17 +30,13 @@ const Context kOneThread{.threads = 1, .progress = {}};
 
 LocalView local(const MeshView& mesh) { return local_view(mesh, kOneThread); }
 
-// Runs `test` with each set of vector instructions this machine has.
+// Calls `run` with each set of vector instructions this machine has.
 template <class Test>
-void for_each_target(const Test& test) {
-  for (const auto target : hwy::SupportedAndGeneratedTargets()) {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    SCOPED_TRACE(hwy::TargetName(target));
-    test();
-  }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+void for_each_target(const Test& run) {
+  test::for_each_target([&](const char* target) {
+    SCOPED_TRACE(target);
+    run();
+  });
 }
 
 // A sphere with noise: every normal is off, and faces of all depths are near the optimum.
@@ -198,6 +194,45 @@ TEST(scan_below, visits_all_faces_below_the_limits_in_order) {
       expect_scan_complete<float>(mesh, center, {.distance = none, .cosine = limit});
       expect_scan_complete<double>(mesh, center, {.distance = 0.2, .cosine = limit});
     }
+  });
+}
+
+// Ranges of 1 ... 33 faces or vertices that begin anywhere, against one after the other.
+template <class T>
+void expect_any_range(const Mesh& mesh) {
+  const PackedMesh bytes = packed<T>(mesh), apart = packed<T>(mesh, 8);
+  const LocalView view = local(bytes.view);
+  const ScanLimits limits = {.distance = 0.4, .cosine = 0.5};
+  for (std::size_t n = 1; n <= 33; ++n) {
+    const std::size_t begin = 5 * n;
+    std::vector<std::size_t> all, single;
+    scan_below(view, begin, begin + n, {0.1, 0, 0}, limits,
+               [&](std::size_t t) { all.push_back(t); });
+    for (std::size_t t = begin; t < begin + n; ++t) {
+      scan_below(view, t, t + 1, {0.1, 0, 0}, limits, [&](std::size_t i) { single.push_back(i); });
+    }
+    EXPECT_EQ(all, single) << n;
+    for (const MeshView& vertices : {bytes.view, apart.view}) {
+      const VertexRange range = vertex_range(vertices, begin, begin + n);
+      VertexRange expected;
+      for (std::size_t i = begin; i < begin + n; ++i) {
+        const Vec3 v = vertices.vertex(i);
+        expected.add(0, v.x, v.x), expected.add(1, v.y, v.y), expected.add(2, v.z, v.z);
+      }
+      EXPECT_TRUE(range.finite);
+      for (int k = 0; k < 3; ++k) {
+        EXPECT_EQ(range.min[k], expected.min[k]) << n;
+        EXPECT_EQ(range.max[k], expected.max[k]) << n;
+      }
+    }
+  }
+}
+
+TEST(view_scan, takes_any_number_of_faces_and_vertices) {
+  const Mesh mesh = rough_sphere(3, 0.05);
+  for_each_target([&] {
+    expect_any_range<float>(mesh);
+    expect_any_range<double>(mesh);
   });
 }
 

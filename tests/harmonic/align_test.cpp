@@ -325,11 +325,58 @@ TEST(align, principal_axes_follow_the_body_with_their_signs) {
   }
 }
 
+// An icosphere: degrees 1 ... 5 vanish, with what rounding leaves.
+TEST(align, principal_axes_of_a_sphere_turn_nothing_and_are_free) {
+  Coefficients sphere = random_coefficients(8, 3);
+  for (double& value : sphere.values()) value *= 1e-14;
+  sphere.c(0, 0) = std::sqrt(4 * kPi);
+  const PrincipalAxes found = principal_axes(sphere);
+  EXPECT_EQ(found.free_axes.size(), 3u);
+  EXPECT_EQ(angle_between(found.to_axes, {}), 0);
+  EXPECT_EQ(found.axes[0], (Vec3{1, 0, 0}));
+}
+
+TEST(align, principal_axes_of_a_body_of_revolution_take_the_smallest_turn) {
+  const Vec3 axis = normalized({0.3, -0.2, 0.9});
+  for (const double along : {0.5, 2.0}) {  // oblate: to z, prolate: to x
+    const Rotation turn = rotation_about(cross({0, 0, 1}, axis), std::acos(axis.z));
+    const PrincipalAxes found = principal_axes(rotate(quadratic_form({1, 1, along}, 1), turn));
+    ASSERT_EQ(found.free_axes.size(), 1u) << along;
+    EXPECT_NEAR(std::abs(dot(found.free_axes[0], axis)), 1, 1e-12);
+    const Vec3 target = along < 1 ? Vec3{0, 0, 1} : Vec3{1, 0, 0};
+    EXPECT_NEAR(norm(rotate(axis, found.to_axes) - target), 0, 1e-12);
+    EXPECT_NEAR(angle_between(found.to_axes, {}), std::acos(dot(axis, target)), 1e-12);
+  }
+}
+
+TEST(align, what_is_laid_on_itself_stays_whatever_its_symmetries) {
+  // 48 rotations and reflections: degree 4 of a cube.
+  Coefficients cube(4);
+  cube.c(0, 0) = 4;
+  cube.c(4, 0) = 0.1 * std::sqrt(7.0);
+  cube.c(4, 4) = 0.1 * std::sqrt(5.0);
+  EXPECT_LT(angle_between(align(cube, cube).best.rotation, {}), 1e-9);
+}
+
 Expansion expansion_of(const Coefficients& coefficients, const Vec3& center) {
   Expansion expansion;
   expansion.coefficients = coefficients;
   expansion.center = center;
   return expansion;
+}
+
+TEST(align, what_is_not_known_of_a_round_surface_makes_it_a_sphere) {
+  Expansion nearly_round = expansion_of(Coefficients(6), {});
+  nearly_round.coefficients.c(0, 0) = std::sqrt(4 * kPi);
+  nearly_round.coefficients.c(6, 3) = 1e-5 * std::sqrt(4 * kPi);
+  for (const double left_out : {0.9e-5, 1.1e-5}) {
+    nearly_round.errors.emplace().rms = left_out;
+    for (const AlignCenters centers : {AlignCenters::kOwn, AlignCenters::kVolume}) {
+      const Alignment found = align(nearly_round, nearly_round, centers).alignment;
+      EXPECT_EQ(found.free_axes.size(), left_out > 1e-5 ? 3u : 0u);
+      EXPECT_LT(angle_between(found.best.rotation, {}), 1e-6);
+    }
+  }
 }
 
 TEST(align, laid_on_the_other_by_their_own_centres) {

@@ -146,6 +146,16 @@ TEST(atomic_file, symbolic_links_stay_links) {
 }
 
 // In a child: the names given up to the handler are not freed, as the process is about to end.
+TEST(atomic_file, names_that_cannot_be_are_refused_before_anything_is_written) {
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink(folder / "b", folder / "a");
+  std::filesystem::create_symlink(folder / "a", folder / "b");
+  expect_error([&] { AtomicFile file(folder / "a"); }, ErrorCode::kIo, {"symbolic links"});
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "a"));
+  expect_error([&] { AtomicFile file(folder / std::string(300, 'x').c_str()); }, ErrorCode::kIo,
+               {"too long"});
+}
+
 TEST(atomic_file, signal_handler_may_discard_unfinished_files) {
   const TemporaryFolder folder;
   write_all(folder / "a", "old");

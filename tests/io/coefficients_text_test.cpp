@@ -206,12 +206,42 @@ TEST(icgem, published_files_are_read_and_what_they_are_is_said) {
   const CoefficientsFile file = parse(kPublishedStyle);
   EXPECT_EQ(file.format, CoefficientsFormat::kIcgem);
   EXPECT_EQ(file.convention, (Convention{Normalization::kFourPi, 1}));
-  EXPECT_EQ(file.assumed, (std::vector<std::string>{"csphase 1", "function radius", "center 0 0 0",
-                                                    "product_type 'gravity_field' as a shape"}));
+  EXPECT_EQ(file.assumed, (std::vector<std::string>{"csphase 1", "center 0 0 0"}));
+  EXPECT_EQ(file.passed_over, (std::vector<std::string>{"earth_gravity_constant '0.3986004415E+15'",
+                                                        "radius '0.6378136300E+07'"}));
   const double factor = std::sqrt(4 * std::numbers::pi);
   EXPECT_DOUBLE_EQ(file.expansion.coefficients.c(2, 0), -4.8e-4 * factor);
   EXPECT_DOUBLE_EQ(file.expansion.coefficients.s(2, 2), -1.4e-6 * factor);
   EXPECT_EQ(file.expansion.coefficients.c(1, 0), 0);
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
+TEST(icgem, gravity_field_is_no_radius) {
+  const CoefficientsFile file = parse(kPublishedStyle);
+  EXPECT_EQ(file.expansion.function, RadialFunction::kOther);
+  EXPECT_EQ(file.product, "gravity_field");
+  EXPECT_THROW(require_surface(file.expansion), Error);
+  // A gravity constant says it where the type of product does not; a file of ours has the last
+  // word.
+  const std::string type = "product_type              gravity_field\n";
+  EXPECT_EQ(parse(replaced(kPublishedStyle, type, "")).expansion.function, RadialFunction::kOther);
+  const std::string shape = replaced(kPublishedStyle, type, "product_type shape\n");
+  EXPECT_EQ(parse(shape).expansion.function, RadialFunction::kRadius);
+  const std::string own = replaced(kPublishedStyle, type, type + "rholm_function gauge\n");
+  EXPECT_EQ(parse(own).expansion.function, RadialFunction::kGauge);
+}
+
+TEST(icgem, what_is_no_radius_stays_so_in_every_format) {
+  const Expansion field = parse(kPublishedStyle).expansion;
+  for (const auto format :
+       {CoefficientsFormat::kShtools, CoefficientsFormat::kIcgem, CoefficientsFormat::kJson}) {
+    const CoefficientsFile again = parse(written(field, format));
+    EXPECT_EQ(again.expansion.function, RadialFunction::kOther) << to_string(format);
+    EXPECT_EQ(again.product, "");
+  }
 }
 
 TEST(icgem, malformed_files_are_refused) {

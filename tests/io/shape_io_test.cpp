@@ -296,6 +296,13 @@ TEST(shape_io, names_of_formats_are_read_back) {
   expect_error([] { parse_shape_format("doc"); }, ErrorCode::kUnsupported, {"'doc'", "ply"});
 }
 
+TEST(shape_io, small_coordinates_beside_others_may_round_to_zero) {
+  const TemporaryFolder folder;
+  Mesh mesh = tetrahedron_with_attributes();
+  mesh.vertices = {{1, 1e-60, 0}, {0, 1, 1e-17}, {1e-300, 0, 1}, {0, 0, 0}};
+  EXPECT_NO_THROW(write_shape(mesh, folder / "a.stl"));
+}
+
 TEST(shape_io, what_a_format_cannot_hold_is_refused) {
   const TemporaryFolder folder;
   const auto refuse = [&](const auto& shape, const char* name, ErrorCode code, const char* word) {
@@ -307,6 +314,9 @@ TEST(shape_io, what_a_format_cannot_hold_is_refused) {
   refuse(mesh, "a.doc", ErrorCode::kUnsupported, "extension");
   refuse(mesh, "a", ErrorCode::kUnsupported, "extension");
   refuse(mesh, "a.stl", ErrorCode::kInvalidInput, "does not fit the floats");
+  Mesh tiny = mesh;  // all would be 0
+  for (Vec3& v : tiny.vertices) v = {1e-60, 2e-60, -3e-60};
+  refuse(tiny, "a.stl", ErrorCode::kInvalidInput, "does not fit the floats");
   expect_error([&] { write_shape(mesh, "-"); }, ErrorCode::kInvalidInput, {"format"});
   mesh.vertices[0].x = NAN;
   refuse(mesh, "a.ply", ErrorCode::kInvalidInput, "vertex 0");

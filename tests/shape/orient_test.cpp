@@ -4,6 +4,8 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <string>
+#include <string_view>
 
 #include "rholm/error.h"
 #include "rholm/points.h"
@@ -195,6 +197,23 @@ TEST(orient, density_may_fall_a_hundred_times) {
   PointCloud cloud = without_normals(truth);
   orient(cloud);
   EXPECT_GE(quality(cloud.normals, truth.normals).right, 0.999);
+}
+
+// Before neighbours are looked for, which takes minutes for millions of them: nothing is reported.
+TEST(orient, points_on_a_line_are_refused_before_any_work) {
+  for (const double width : {0.0, 1e-9}) {
+    PointCloud line;
+    for (int i = 0; i < 20000; ++i) {
+      line.points.push_back({0.3 * i, 7 - 0.1 * i, 1e4 + 0.2 * i + width * (i % 7)});
+    }
+    std::string stages;
+    const Context context{.progress = [&](std::string_view stage, double) {
+      stages += stage;
+      return true;
+    }};
+    EXPECT_THROW(orient(line, {}, context), Error);
+    EXPECT_EQ(stages, "");
+  }
 }
 
 TEST(orient, lines_of_a_scanner_are_not_taken_for_lines) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <set>
 #include <string>
 #include <vector>
@@ -80,6 +81,27 @@ TEST(font, takes_any_bytes) {
   EXPECT_EQ(characters("\xE2\x82").size(), 2u);      // cut off
   EXPECT_EQ(characters(std::string("\0x", 2)).size(), 2u);
   EXPECT_FALSE(glyph_strokes(characters("\xC3\xA4")[0]).empty());
+  EXPECT_EQ(characters("\xC3\xA4\xE2\x80\x93"), (std::vector<char32_t>{0xE4, 0x2013}));
+}
+
+TEST(font, letters_of_latin_1_have_shapes_of_their_own) {
+  std::set<std::vector<double>> shapes;
+  const auto shape_of = [](char32_t c) {
+    std::vector<double> shape;
+    for (const Stroke& s : glyph_strokes(c)) {
+      for (const double x : {s.x0, s.x1}) {
+        EXPECT_GE(x, -0.01) << std::uint32_t{c};
+        EXPECT_LE(x, glyph_advance(c) - kGlyphGap + 0.01) << std::uint32_t{c};
+      }
+      shape.insert(shape.end(), {s.x0, s.y0, s.x1, s.y1});
+    }
+    return shape;
+  };
+  shapes.insert(shape_of(0xFFFD));  // the empty box
+  for (char32_t c = U'A'; c <= U'z'; ++c) shapes.insert(shape_of(c));
+  for (char32_t c = 0xC0; c <= 0xFF; ++c) {
+    EXPECT_TRUE(shapes.insert(shape_of(c)).second) << std::uint32_t{c};
+  }
 }
 
 TEST(draw_text, is_centred_and_as_wide_as_it_says) {

@@ -14,7 +14,9 @@
 #include "base/random.h"
 #include "rholm/error.h"
 #include "rholm/topology.h"
+#include "support/targets.h"
 #include "surface/field_grid.h"
+#include "surface/node_masks.h"
 #include "surface/surface_table.h"
 
 namespace rholm {
@@ -58,6 +60,32 @@ TEST(SurfaceTable, every_crossed_edge_stands_in_one_loop_that_is_triangulated) {
     EXPECT_EQ(surface.n_edges, crossed);
     EXPECT_EQ(surface.n_triangles == 0, crossed == 0) << inside;
   }
+}
+
+TEST(NodeMasks, have_a_bit_for_each_node_of_any_number_of_blocks) {
+  const float special[] = {-1,
+                           1,
+                           0,
+                           -0.0f,
+                           std::numeric_limits<float>::infinity(),
+                           -std::numeric_limits<float>::infinity(),
+                           std::nanf("")};
+  std::vector<float> values(33 * 512);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] = special[static_cast<std::size_t>(7 * random_uniform(11, i))];
+  }
+  test::for_each_target([&](const char* target) {
+    for (std::size_t n = 1; n <= 33; ++n) {
+      std::vector<NodeMasks> masks(n);
+      node_masks(values.data(), n, masks.data());
+      for (std::size_t i = 0; i < 512 * n; ++i) {
+        const NodeMasks& block = masks[i / 512];
+        const std::size_t z = i % 512 / 64, bit = i % 64;
+        ASSERT_EQ(block.known[z] >> bit & 1, std::isfinite(values[i]) ? 1u : 0u) << target;
+        ASSERT_EQ(block.inside[z] >> bit & 1, values[i] == -1 ? 1u : 0u) << target;
+      }
+    }
+  });
 }
 
 TEST(Extract, random_signs_at_all_nodes_give_a_closed_manifold) {

@@ -163,6 +163,26 @@ TEST(render, draws_panels_side_by_side_at_one_scale_with_labels_below) {
   EXPECT_GT(coloured(labelled, 96, 192, 74, 80), 10);
 }
 
+TEST(render, fills_each_panel_on_demand_whatever_the_sizes) {
+  const Mesh large = moved(icosphere(3), 0x1p300, {}), small = moved(icosphere(3), 0x1p-300, {});
+  std::array<Panel, 2> panels;
+  panels[0].mesh = &large;
+  panels[1].mesh = &small;
+  RenderOptions options = front();
+  options.width = 192;
+  options.fit_each = true;
+  for (const bool perspective : {false, true}) {
+    options.perspective = perspective;
+    const Image image = render(panels, options);
+    int inked[2] = {0, 0};
+    for (int y = 0; y < options.height; ++y) {
+      for (int x = 0; x < 192; ++x) inked[x / 96] += pixel(image, x, y) != kWhite;
+    }
+    EXPECT_GT(inked[0], 3000);  // a disc of 0.9 of the height of 80: 4070
+    EXPECT_NEAR(inked[1], inked[0], 30);
+  }
+}
+
 TEST(render, colours_scalars_and_draws_their_scale) {
   const Mesh mesh = icosphere(4);
   Panel panel;
@@ -186,6 +206,13 @@ TEST(render, draws_a_constant_scalar) {
   for (const double value : {0.0, 3.0, -3.0, 1e300}) {
     Panel panel{&mesh, "", std::vector<double>(mesh.vertices.size(), value), false};
     EXPECT_NE(pixel(render({&panel, 1}, front()), 48, 32), kWhite) << value;
+    // A surface compared with itself: the scale has one end, and all values lie there.
+    RenderOptions from = front(), to = front();
+    from.scale_min = value;
+    to.scale_max = value;
+    for (const RenderOptions& options : {from, to}) {
+      EXPECT_NE(pixel(render({&panel, 1}, options), 48, 32), kWhite) << value;
+    }
   }
 }
 

@@ -1,0 +1,59 @@
+// Which triangles go on into which: a mesh as sheets that are manifold by themselves, even where
+// they touch.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "rholm/mesh.h"
+
+namespace rholm {
+
+inline constexpr std::uint32_t kNoMate = std::numeric_limits<std::uint32_t>::max();
+
+// Half-edge 3 t + k runs from corner k of triangle t to the next.
+inline std::uint32_t start_of(const std::vector<Triangle>& triangles, std::uint32_t half_edge) {
+  return triangles[half_edge / 3][half_edge % 3];
+}
+inline std::uint32_t end_of(const std::vector<Triangle>& triangles, std::uint32_t half_edge) {
+  return triangles[half_edge / 3][(half_edge + 1) % 3];
+}
+
+// For each half-edge that of the triangle beyond its edge, kNoMate along a border. Where two
+// triangles meet they are mates, whatever their senses. Around an edge of more, those that have
+// the solid between them are (a falling half-edge and the next one around that rises), then what
+// is left in pairs of neighbours; of an odd number one has no mate. That is right where triangles
+// are oriented alike: kPairsOnly leaves those edges without mates, to orient them first.
+enum class MatesAt { kPairsOnly, kAllEdges };
+std::vector<std::uint32_t> find_mates(const std::vector<Vec3>& vertices,
+                                      const std::vector<Triangle>& triangles, MatesAt where);
+
+// Parts of triangles connected through mates: part[t], counted in the order of their first ones.
+struct Parts {
+  std::vector<std::uint32_t> part;
+  std::size_t n = 0;
+};
+Parts find_parts(std::size_t n_triangles, const std::vector<std::uint32_t>& mates);
+
+struct Orienting {
+  std::vector<char> flipped;    // per triangle
+  std::vector<char> one_sided;  // per part: there is no orientation
+};
+// Turns triangles so that mates run through their edge in opposite senses: of each part the smaller
+// share of its area. One-sided parts stay as they are. `mates` follows the triangles.
+Orienting orient_alike(const std::vector<Vec3>& vertices, const Parts& parts,
+                       std::vector<Triangle>& triangles, std::vector<std::uint32_t>& mates);
+
+// Turns the triangles that are marked; `mates` follows.
+void flip_marked(const std::vector<char>& marked, std::vector<Triangle>& triangles,
+                 std::vector<std::uint32_t>& mates);
+
+// Gives each fan of a vertex but the first a copy of it at the end of the list. Returns for each
+// new vertex the one it is a copy of.
+std::vector<std::uint32_t> separate_fans(std::size_t n_vertices,
+                                         const std::vector<std::uint32_t>& mates,
+                                         std::vector<Triangle>& triangles);
+
+}  // namespace rholm
