@@ -51,9 +51,13 @@ AtlasSize size_of(const Atlas& atlas);
 struct CompressReport {
   std::size_t samples = 0;
   bool turned_normals = false;  // of points: all of them, they pointed into the solid
-  double uncovered = 0;         // share of the samples that no cap met by 4 tolerances
-  std::size_t genus = 0;        // of the extracted surface
-  bool met = false;             // the tolerance
+  double hidden = 0;  // share of a mesh that lies inside of its solid, where parts run into each
+                      // other: left out, and not measured
+  double gap = 0;     // between sheets that face each other: less on a twentieth of the area
+  double aimed = 0;   // the tolerance that was aimed at: thin shapes need a smaller one than asked
+  double uncovered = 0;   // share of the samples that no cap met by 4 tolerances
+  std::size_t genus = 0;  // of the extracted surface
+  bool met = false;       // the tolerance
   // The surface has as many parts and handles as the shape, as far as that is a closed manifold.
   bool topology_kept = false;
   StageTimes times = {};  // "samples", "caps", "fit", "surface"
@@ -66,11 +70,13 @@ struct Compressed {
 
 // Covers the shape with few caps, fits them, drops the coefficients its error can do without,
 // extracts the surface and measures it, until it is within the tolerance both ways and hangs
-// together as the shape does. A mesh may be
-// open; points need normals (if they point into a solid that the points lie all around, they are
-// turned) and are taken as evenly spread (measured from the points only). Throws InvalidInput for
-// shapes without area, and options out of range. The tolerance may be missed: see `met`. Same
-// input, same bits for any number of threads.
+// together as the shape does. A mesh may be open; of one whose parts run into each other the outer
+// surface is taken; points need normals (if they point into a solid that the points lie all around,
+// they are turned) and are taken as evenly spread (measured from the points only). Throws
+// InvalidInput for shapes without area, triangles that are not oriented alike, and options out of
+// range; Unsupported for shapes too thin for the grid, and where the caps would take more numbers
+// than the shape. The tolerance may be missed: see `met`. Same input, same bits for any number of
+// threads.
 Compressed compress(const Mesh& mesh, const CompressOptions& options, const Context& context = {});
 Compressed compress(const PointCloud& cloud, const CompressOptions& options,
                     const Context& context = {});

@@ -12,6 +12,9 @@ namespace rholm {
 
 AtlasErrors measure(const Mesh& shape, const Mesh& surface, std::size_t samples,
                     const Context& context);
+// Of a shape whose parts run into each other: from points of its outer surface, and back to all.
+AtlasErrors measure(const std::vector<Vec3>& outer, const Mesh& shape, const Mesh& surface,
+                    std::size_t samples, const Context& context);
 // From the points to the surface only.
 AtlasErrors measure(const std::vector<Vec3>& points, const Mesh& surface, const Context& context);
 

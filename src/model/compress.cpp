@@ -13,17 +13,17 @@
 #include "base/stopwatch.h"
 #include "harmonic/low_harmonics.h"
 #include "model/atlas_errors.h"
-#include "model/atlas_pack.h"
+#include "model/atlas_fit.h"
 #include "model/oriented_points.h"
+#include "model/outer_samples.h"
 #include "rholm/compare.h"
 #include "rholm/error.h"
 #include "rholm/points.h"
 #include "rholm/topology.h"
-#include "shape/face.h"
-#include "surface/area_samples.h"
 #include "surface/atlas_surface.h"
-#include "transform/cap_blend.h"
+#include "surface/cap_field.h"
 #include "transform/cap_greedy.h"
+#include "transform/cap_level.h"
 #include "transform/cap_prune.h"
 
 namespace rholm {
@@ -31,49 +31,39 @@ namespace {
 
 // All of these are tolerances, chosen on four shapes at 1e-3 and 3e-4 of the diagonal.
 constexpr double kSampleSpacing = 2.5;  // errors of a fit have waves longer than that
-constexpr double kStray = 5;         // a cap's surface farther from the samples is not theirs ...
-constexpr double kStrayFitted = 3;   // ... and once more, stricter, when coefficients are dropped
-constexpr double kStep = 4;          // of the grid: details that matter are larger
+constexpr double kStray = 3;          // a cap's surface farther from the samples is not theirs ...
+constexpr double kStrayFitted = 1.5;  // ... and once more, stricter, when coefficients are dropped
+constexpr double kStep = 4;           // of the grid: details that matter are larger
+constexpr double kBand = 10;          // caps that disagree by less are averaged
+// Parts of the diagonal: neighbours that disagree by more than a coarse tolerance make no surface.
+constexpr double kCoarsest = 0.02, kWidestBand = 0.1;
 constexpr double kLeastSteps = 250;  // along the diagonal: fewer show as facets
-constexpr double kBand = 10;         // caps that disagree by less are averaged
 constexpr double kLeastSamples = 20000, kMostSamples = 200000;
-// How far caps speak, of the support they were chosen with; the power of it that small ones
-// override large ones by; how many searches of a grid may fail (each takes as long as fourteen
-// extractions), and whether other handles than the shape's are put up with then.
-struct Overlap {
-  double reach, power;
-  int most_searches;
-  bool settles;
-};
+
+// Sheets of a surface that face each other leave room for the error of both caps, and for the band
+// within which the grid hears them: at most these parts of the gap. It is the one that kThin of the
+// area falls below: at sharp edges all fall to 0.
+constexpr double kThin = 0.05;
+constexpr double kToleranceOfGap = 1.0 / 6, kBandOfGap = 1.0 / 3;
+constexpr double kStepOfGap = kBandOfGap / kBandSteps;
+
 // Where neighbours barely overlap, the surface changes from one to the other in a step. Measured:
 // 1.3 leaves fewer steps still, but splinters at thin parts. Where parts lie close together, as
-// fingers do, that makes handles, and caps speak as far as they were chosen to.
-constexpr Overlap kOverlaps[] = {{1.15, 1, 1, false}, {1, 3, 2, true}};
-// The surface is a little farther from the shape than the samples' blend tells: the aim is
-// corrected by what is measured, so many times, and left a little below the tolerance.
-constexpr int kMostTries = 8;
-constexpr double kAim = 0.995, kGoodEnough = 0.97;
-// Where caps hardly agree, as between fingers, a grid may see a handle that another does not: other
-// steps and bands, in these parts, are tried until the surface is connected as the shape is.
-constexpr double kSteps[] = {1, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4};
-constexpr double kBands[] = {1, 2};
-
-OrientedPoints samples_of(const Mesh& mesh, const CompressOptions& options) {
-  std::size_t n = options.samples;
-  if (n == 0) {
-    const double spacing = kSampleSpacing * options.tolerance;
-    n = static_cast<std::size_t>(
-        std::clamp(surface_area(mesh) / (spacing * spacing), kLeastSamples, kMostSamples));
-  }
-  AreaSamples on = sample_by_area(mesh, n, options.seed);
-  OrientedPoints samples;
-  samples.points = std::move(on.points);
-  for (const std::uint32_t t : on.triangles) {
-    samples.normals.push_back(
-        normalized(face_normal(scaled_corners(mesh, mesh.triangles[t], 1)).twice_area));
-  }
-  return samples;
-}
+// fingers do, that makes handles, and caps speak as far as they were chosen to; where neither will
+// do, finer caps are chosen.
+struct Attempt {
+  double tolerance;  // of the caps' choice, of that aimed at
+  double smallest;   // support, of the diagonal
+  double uncovered;  // share of the samples: what is left out may be a part of its own
+  Overlap overlap;
+};
+constexpr Attempt kAttempts[] = {{1, 0.005, 0.002, {1.15, 1, false}},
+                                 {1, 0.005, 0.002, {1, 3, true}},
+                                 {0.5, 0.001, 0, {1.15, 1, false}},
+                                 {0.5, 0.001, 0, {1, 3, true}}};
+constexpr int kSearches = 2;  // of a grid, in vain
+// A shape of few vertices may be worth so many numbers; others no more than twice their own.
+constexpr std::size_t kFewNumbers = 12000;
 
 void check(const CompressOptions& options) {
   const auto refuse = [](const char* what, double value, const std::string& limit) {
@@ -92,16 +82,74 @@ void check(const CompressOptions& options) {
   }
 }
 
-Atlas cover(const SampleLevels& levels, double diagonal, const CompressOptions& options,
-            CompressReport& report, const Context& context) {
+// What a shape is to compress().
+struct Subject {
+  OrientedPoints samples;
+  double diagonal = 0;
+  std::size_t input_numbers = 0;
+  std::optional<Topology> topology = {};
+  std::function<AtlasErrors(const Mesh&)> measure;
+};
+
+// What a gap between sheets allows.
+struct Lengths {
+  double tolerance, band, step;
+};
+Lengths lengths_for(double tolerance, double diagonal, double gap, double area) {
+  // Samples are as far apart as errors have waves.
+  const double least = std::sqrt(area / kMostSamples) / (kSampleSpacing * kToleranceOfGap);
+  if (gap < least) {
+    throw Error(ErrorCode::kUnsupported,
+                fmt::format("the shape is too thin for an atlas of caps: over {:.0f} % of its area "
+                            "opposite sheets are {:.3g} apart or less ({:.2g} of the diagonal), "
+                            "and {:.0f} samples can tell {:.3g} apart",
+                            100 * kThin, gap, gap / diagonal, kMostSamples, least));
+  }
+  const double within = std::min({tolerance, kCoarsest * diagonal, kToleranceOfGap * gap});
+  return {within, std::min({kBand * within, kWidestBand * diagonal, kBandOfGap * gap}),
+          std::min({kStep * within, diagonal / kLeastSteps, kStepOfGap * gap})};
+}
+
+std::size_t n_samples(const CompressOptions& options, const Lengths& lengths, double area) {
+  if (options.samples != 0) return options.samples;
+  const double spacing = kSampleSpacing * lengths.tolerance;
+  return static_cast<std::size_t>(
+      std::clamp(area / (spacing * spacing), kLeastSamples, kMostSamples));
+}
+
+std::size_t most_numbers(const Subject& subject) {
+  return std::max(2 * subject.input_numbers, kFewNumbers);
+}
+
+// A cover that was given up, or has no caps.
+[[noreturn]] void refuse(const GreedyCover& cover, const Subject& subject, double tolerance) {
+  if (cover.foreseen > 0) {
+    throw Error(ErrorCode::kUnsupported,
+                fmt::format("an atlas of caps within {:.3g} would take {} numbers or more, and at "
+                            "most {} are worth it for this shape: take a larger tolerance",
+                            tolerance, cover.foreseen, most_numbers(subject)));
+  }
+  throw Error(ErrorCode::kUnsupported,
+              fmt::format("no cap follows the surface within {:.3g}: it is too rough for an "
+                          "atlas at this tolerance, or no surface",
+                          tolerance));
+}
+
+bool is_usable(const GreedyCover& cover) { return cover.foreseen == 0 && !cover.chosen.empty(); }
+
+GreedyCover cover(const SampleLevels& levels, const Subject& subject, const Attempt& attempt,
+                  double tolerance, const CompressOptions& options, const Context& context) {
   GreedyOptions wanted;
-  wanted.candidate = {.tolerance = options.tolerance,
-                      .stray = kStray * options.tolerance,
-                      .max_degree = options.max_degree};
+  wanted.smallest = attempt.smallest, wanted.uncovered = attempt.uncovered;
+  wanted.candidate = {
+      .tolerance = tolerance, .stray = kStray * tolerance, .max_degree = options.max_degree};
+  wanted.most_numbers = most_numbers(subject);
   wanted.seed = options.seed;
-  const GreedyCover cover =
-      greedy_cover(levels, diagonal, wanted, std::vector<std::uint8_t>(levels.size()), context);
-  report.uncovered = cover.uncovered;
+  return greedy_cover(levels, subject.diagonal, wanted, std::vector<std::uint8_t>(levels.size()),
+                      context);
+}
+
+Atlas atlas_of(const GreedyCover& cover, double spacing, double diagonal, double band) {
   Atlas atlas;
   for (const Candidate& chosen : cover.chosen) {
     atlas.caps.push_back(chosen.cap);
@@ -109,167 +157,67 @@ Atlas cover(const SampleLevels& levels, double diagonal, const CompressOptions& 
     atlas.coefficients.insert(atlas.coefficients.end(), chosen.coefficients.begin(),
                               chosen.coefficients.end());
   }
-  atlas.spacing = levels.finest().spacing;
-  atlas.diagonal = diagonal;
-  atlas.band = kBand * options.tolerance;
+  atlas.spacing = spacing, atlas.diagonal = diagonal, atlas.band = band;
   return atlas;
 }
 
-Atlas overlapping(Atlas atlas, const Overlap& overlap) {
-  for (Cap& cap : atlas.caps) set_support(cap, overlap.reach * cap.frame.support);
-  set_weights(atlas.caps, overlap.power);
-  return atlas;
+Compressed compress_subject(const Subject& subject, const Lengths& lengths,
+                            const CompressOptions& options, const Context& context) {
+  Compressed result;
+  CompressReport& report = result.report;
+  report.samples = subject.samples.points.size();
+  report.aimed = lengths.tolerance;
+  result.model.tolerance = options.tolerance;
+  result.model.input_numbers = subject.input_numbers;
+  result.model.method = "greedy";
+  const SampleLevels levels = timed(report.times, "samples", [&] {
+    return make_levels(subject.samples.points, subject.samples.normals, context);
+  });
+  Atlas chosen;
+  double chosen_with = 0, uncovered = 1;
+  int searches = kSearches;
+  for (const Attempt& attempt : kAttempts) {
+    const double tolerance = attempt.tolerance * lengths.tolerance;
+    if (tolerance != chosen_with) {
+      const GreedyCover covered = timed(report.times, "caps", [&] {
+        return cover(levels, subject, attempt, tolerance, options, context);
+      });
+      if (!is_usable(covered)) {
+        // Finer caps than those of a model that there is already are not insisted on.
+        if (chosen_with > 0) break;
+        refuse(covered, subject, tolerance);
+      }
+      chosen = atlas_of(covered, levels.finest().spacing, subject.diagonal, lengths.band);
+      chosen_with = tolerance;
+      uncovered = covered.uncovered;
+    }
+    const FitTarget target{.levels = levels,
+                           .topology = subject.topology,
+                           .tolerance = lengths.tolerance,
+                           .accepted = options.tolerance,
+                           .stray = kStrayFitted * tolerance,
+                           .step = lengths.step,
+                           .max_degree = options.max_degree,
+                           .uncovered = uncovered,
+                           .measure = subject.measure};
+    fit_atlas(target, chosen, attempt.overlap, result, searches, context);
+    if (report.met && report.topology_kept) break;
+  }
+  return result;
 }
 
-// As it comes out of the file.
-Atlas rounded(Atlas atlas, const Overlap& overlap) {
-  set_weights(atlas.caps, overlap.power);
-  return unpack(pack(atlas), "");
-}
-
-// How a closed surface hangs together.
-struct Topology {
-  std::size_t components = 0, genus = 0;
-  friend bool operator==(const Topology&, const Topology&) = default;
-};
-
-// Of a shape; none for what is not a closed surface.
-std::optional<Topology> topology_of(const Mesh& mesh) {
-  const Inspection found = inspect(mesh);
+// Of a mesh that bounds a solid; none for others.
+std::optional<Topology> topology_of(const Inspection& found) {
   if (!found.closed || !found.manifold || !found.oriented) return std::nullopt;
   return Topology{found.components, found.genus};
 }
 
-// Of a grid, times the first choice.
-struct GridParts {
-  double step = 1, band = 1;
-};
-std::vector<GridParts> all_grid_parts() {
-  std::vector<GridParts> parts;
-  for (const double step : kSteps) {
-    for (const double band : kBands) parts.push_back({step, band});
-  }
-  return parts;
-}
-
-// The surface of a model whose step and band are chosen here, and whether it hangs together as
-// wanted.
-struct TrialSurface {
-  Mesh mesh;
-  Topology topology;
-  bool right = false;
-};
-
-// Tries `parts` in their order, the first alone without a search; it is taken where none is right.
-// One that is comes first from then on.
-TrialSurface choose_grid(AtlasModel& model, const std::optional<Topology>& wanted, bool search,
-                         std::vector<GridParts>& parts, const Context& context) {
-  const double step = model.step, band = model.atlas.band;
-  std::optional<TrialSurface> first;
-  for (std::size_t i = 0; i < (search ? parts.size() : 1); ++i) {
-    model.step = parts[i].step * step, model.atlas.band = parts[i].band * band;
-    TrialSurface trial;
-    try {
-      trial.mesh = synthesize(model, {}, context);
-    } catch (const Error& error) {
-      // A finer grid than memory allows is no choice.
-      if (!first || error.code() != ErrorCode::kOutOfMemory) throw;
-      continue;
-    }
-    const Inspection found = inspect(trial.mesh);
-    trial.topology = {found.components, found.genus};
-    trial.right = !wanted || trial.topology == *wanted;
-    if (trial.right) {
-      std::rotate(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(i),
-                  parts.begin() + static_cast<std::ptrdiff_t>(i) + 1);
-      return trial;
-    }
-    if (!first) first = std::move(trial);
-  }
-  model.step = parts[0].step * step, model.atlas.band = parts[0].band * band;
-  return std::move(*first);
-}
-
-// What a model is made for.
-struct Target {
-  const SampleLevels& levels;
-  const CompressOptions& options;
-  const std::optional<Topology>& topology;
-  std::function<AtlasErrors(const Mesh&)> measure;
-};
-
-// Drops coefficients of the caps until the surface is as far from the shape as allowed; what is
-// better than `result` replaces it.
-void fit(const Target& target, const Atlas& chosen, const Overlap& overlap, Compressed& result,
-         const Context& context) {
-  const CompressOptions& options = target.options;
-  CompressReport& report = result.report;
-  AtlasModel& model = result.model;
-  const Atlas covered = overlapping(chosen, overlap);
-  double aim = options.tolerance;
-  std::vector<GridParts> parts = all_grid_parts();
-  int searches = 0;  // that found nothing
-  for (int attempt = 0; attempt < kMostTries; ++attempt) {
-    const PruneOptions pruning{.tolerance = aim,
-                               .band = covered.band,
-                               .stray = kStrayFitted * options.tolerance,
-                               .max_degree = options.max_degree};
-    Atlas atlas = covered;
-    timed(report.times, "fit", [&] {
-      prune(target.levels, pruning, atlas, context);
-      atlas = rounded(std::move(atlas), overlap);
-    });
-    AtlasModel trial = model;
-    trial.step = std::min(kStep * options.tolerance, covered.diagonal / kLeastSteps);
-    trial.atlas = std::move(atlas);
-    Topology topology;
-    bool right = false;
-    const AtlasErrors errors = timed(report.times, "surface", [&] {
-      const TrialSurface surface =
-          choose_grid(trial, target.topology, searches < overlap.most_searches, parts, context);
-      topology = surface.topology, right = surface.right;
-      if (!right) ++searches;
-      return target.measure(surface.mesh);
-    });
-    trial.errors = errors;
-    const bool met = errors.rms() <= options.tolerance;
-    const auto rank = [](bool is_met, bool is_right) { return 2 * is_met + is_right; };
-    const int change = rank(met, right) - rank(report.met, report.topology_kept);
-    const bool smaller = met ? size_of(trial.atlas).numbers() < size_of(model.atlas).numbers()
-                             : errors.rms() < model.errors.value_or(errors).rms();
-    if (!model.errors || change > 0 || (change == 0 && smaller)) {
-      model = std::move(trial);
-      report.genus = topology.genus;
-      report.met = met, report.topology_kept = right;
-    }
-    if (met && right && errors.rms() >= kGoodEnough * options.tolerance) break;
-    if (searches >= overlap.most_searches && !overlap.settles) break;
-    aim *= kAim * options.tolerance / errors.rms();
-  }
-}
-
-Compressed compress_samples(const OrientedPoints& samples, double diagonal,
-                            std::size_t input_numbers, const CompressOptions& options,
-                            const std::optional<Topology>& wanted,
-                            const std::function<AtlasErrors(const Mesh&)>& measure_surface,
-                            const Context& context) {
-  Compressed result;
-  CompressReport& report = result.report;
-  report.samples = samples.points.size();
-  result.model.tolerance = options.tolerance;
-  result.model.input_numbers = input_numbers;
-  result.model.method = "greedy";
-  const SampleLevels levels = timed(report.times, "samples", [&] {
-    return make_levels(samples.points, samples.normals, context);
-  });
-  const Atlas chosen = timed(report.times, "caps",
-                             [&] { return cover(levels, diagonal, options, report, context); });
-  const Target target{levels, options, wanted, measure_surface};
-  for (const Overlap& overlap : kOverlaps) {
-    fit(target, chosen, overlap, result, context);
-    if (report.met && report.topology_kept) break;
-  }
-  return result;
+void check_oriented_alike(const Inspection& found) {
+  if (found.oriented) return;
+  throw Error(ErrorCode::kInvalidInput,
+              fmt::format("{} edges have two triangles that face opposite sides: an atlas needs "
+                          "triangles that are oriented alike; 'rholm repair' turns them",
+                          found.misoriented_edges));
 }
 
 }  // namespace
@@ -281,18 +229,38 @@ AtlasSize size_of(const Atlas& atlas) {
 Compressed compress(const Mesh& mesh, const CompressOptions& options, const Context& context) {
   check(options);
   validate(mesh);
-  const OrientedPoints samples = samples_of(mesh, options);
-  const auto measure_surface = [&](const Mesh& surface) {
-    return measure(mesh, surface, std::max<std::size_t>(samples.points.size(), 100000), context);
+  check_span(bounds(mesh.vertices).diagonal());
+  const Inspection found = inspect(mesh);
+  check_oriented_alike(found);
+  const RayScene scene(mesh);
+  OuterSurface outer{mesh, scene, found.closed, options.seed};
+  const SheetProbe probe = probe_sheets(outer, kThin, context);
+  Subject subject;
+  subject.diagonal = bounds(mesh.vertices).diagonal();
+  const double area = surface_area(mesh);
+  const Lengths lengths = lengths_for(options.tolerance, subject.diagonal, probe.gap, area);
+  outer.closed = probe.hidden > 0;  // nothing else has to be looked for
+  subject.samples = outer_samples(outer, n_samples(options, lengths, area), context);
+  subject.input_numbers = 3 * mesh.vertices.size();
+  // What is left of parts that run into each other hangs together in a way of its own.
+  if (probe.hidden == 0) subject.topology = topology_of(found);
+  const std::vector<Vec3>& visible = subject.samples.points;
+  subject.measure = [&](const Mesh& surface) {
+    const std::size_t n = std::max<std::size_t>(visible.size(), 100000);
+    return probe.hidden == 0 ? measure(mesh, surface, n, context)
+                             : measure(visible, mesh, surface, n, context);
   };
-  return compress_samples(samples, bounds(mesh.vertices).diagonal(), 3 * mesh.vertices.size(),
-                          options, topology_of(mesh), measure_surface, context);
+  Compressed result = compress_subject(subject, lengths, options, context);
+  result.report.hidden = probe.hidden;
+  result.report.gap = probe.gap;
+  return result;
 }
 
 Compressed compress(const PointCloud& cloud, const CompressOptions& options,
                     const Context& context) {
   check(options);
   check_oriented(cloud);
+  check_span(bounds(cloud.points).diagonal());
   OrientedPoints samples = oriented_points(cloud.points, cloud.normals);
   if (samples.points.size() < 1000) {
     throw Error(ErrorCode::kInvalidInput,
@@ -300,12 +268,14 @@ Compressed compress(const PointCloud& cloud, const CompressOptions& options,
                             samples.points.size()));
   }
   const bool turned = turn_outwards(samples, context);
-  const auto measure_surface = [&](const Mesh& surface) {
-    return measure(samples.points, surface, context);
-  };
-  Compressed result =
-      compress_samples(samples, bounds(samples.points).diagonal(), 3 * cloud.points.size(), options,
-                       {}, measure_surface, context);
+  Subject subject;
+  subject.diagonal = bounds(samples.points).diagonal();
+  const Lengths lengths = lengths_for(options.tolerance, subject.diagonal, INFINITY, 0);
+  subject.input_numbers = 3 * cloud.points.size();
+  subject.samples = std::move(samples);
+  const std::vector<Vec3>& points = subject.samples.points;
+  subject.measure = [&](const Mesh& surface) { return measure(points, surface, context); };
+  Compressed result = compress_subject(subject, lengths, options, context);
   result.report.turned_normals = turned;
   return result;
 }
@@ -319,11 +289,8 @@ Mesh synthesize(const AtlasModel& model, const AtlasSynthesisOptions& options,
   }
   const AtlasSurfaceOptions wanted{
       .step = step, .simplify = options.simplify, .max_memory = options.max_memory};
-  Atlas atlas = model.atlas;
-  for (Cap& cap : atlas.caps) {
-    const int degree = options.degree.value_or(cap.degree);
-    cap.degree = static_cast<std::uint16_t>(std::min<int>(cap.degree, std::max(0, degree)));
-  }
+  const Atlas atlas =
+      options.degree ? at_degree(model.atlas, std::max(0, *options.degree)) : model.atlas;
   Mesh surface = extract_atlas(atlas, wanted, context).mesh;
   if (surface.triangles.empty()) {
     throw Error(

@@ -122,6 +122,7 @@ std::string_view data_of(const File& file, const Array& array, std::string_view 
   }
   const std::uint64_t address = reader.u64();
   const std::uint64_t size = reader.u64();
+  if (needed == 0 && address == kUndefined) return {};  // nothing is stored of nothing
   if (address == kUndefined || size != needed) {
     damaged(file, "the values of '" + array.path + "' are not all stored");
   }

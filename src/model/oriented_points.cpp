@@ -1,5 +1,7 @@
 #include "model/oriented_points.h"
 
+#include <fmt/format.h>
+
 #include "base/refuse.h"
 #include "shape/face_inwards.h"
 
@@ -35,6 +37,15 @@ bool turn_outwards(OrientedPoints& samples, const Context& context) {
   if (!face_inwards(tree, sorted.points, sorted.normals, context)) return false;
   for (Vec3& normal : samples.normals) normal = -normal;
   return true;
+}
+
+void check_span(double diagonal) {
+  constexpr double kSmallest = 1e-12, kLargest = 1e12;
+  if (diagonal >= kSmallest && diagonal <= kLargest) return;
+  refuse(
+      fmt::format("the shape spans {:.6g}: {} ... {:g} can be worked with; take another unit of "
+                  "length",
+                  diagonal, kSmallest, kLargest));
 }
 
 }  // namespace rholm

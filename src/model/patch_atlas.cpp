@@ -318,6 +318,7 @@ PatchPicture patch_picture(const Mesh& mesh, PatchView view, const PatchAtlasOpt
                            const Context& context) {
   check(options);
   validate(mesh);
+  check_span(bounds(mesh.vertices).diagonal());
   return picture_of(mesh.vertices, area_normals(mesh.vertices, mesh.triangles), view, options,
                     context);
 }
@@ -326,12 +327,14 @@ PatchPicture patch_picture(const PointCloud& cloud, PatchView view,
                            const PatchAtlasOptions& options, const Context& context) {
   check(options);
   check_oriented(cloud);
+  check_span(bounds(cloud.points).diagonal());
   return picture_of(cloud.points, cloud.normals, view, options, context);
 }
 
 PatchAtlas patch_atlas(const Mesh& mesh, const PatchAtlasOptions& options, const Context& context) {
   check(options);
   validate(mesh);
+  check_span(bounds(mesh.vertices).diagonal());
   PatchAtlas made =
       make_all(mesh.vertices, area_normals(mesh.vertices, mesh.triangles), options, context);
   made.model.errors = measure(mesh, made.surface, 100000, context);
@@ -342,6 +345,7 @@ PatchAtlas patch_atlas(const PointCloud& cloud, const PatchAtlasOptions& options
                        const Context& context) {
   check(options);
   check_oriented(cloud);
+  check_span(bounds(cloud.points).diagonal());
   PatchAtlas made = make_all(cloud.points, cloud.normals, options, context);
   made.model.errors = measure(cloud.points, made.surface, context);
   return made;

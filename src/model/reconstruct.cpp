@@ -175,6 +175,12 @@ Reconstruction reconstruct(PointCloud cloud, const ReconstructOptions& options,
                                    .memory_in_use = kMemoryOfPoint * points.size()};
   AtlasSurface surface =
       timed(times, "surface", [&] { return extract_atlas(atlas, wanted, context); });
+  if (surface.mesh.triangles.empty()) {
+    throw Error(ErrorCode::kInvalidInput,
+                fmt::format("a grid with steps of {:.3g} finds no surface of these points, {:.3g} "
+                            "apart, with a diagonal of {:.3g}: take smaller steps",
+                            report.step, spacing.median, atlas.diagonal));
+  }
   result.mesh = std::move(surface.mesh);
   report.holes = surface.holes, report.smooth_holes = surface.smooth_holes;
   report.dropped_components = surface.dropped_components;

@@ -12,6 +12,7 @@
 #include "rholm/points.h"
 #include "rholm/topology.h"
 #include "shape/face_inwards.h"
+#include "shape/on_line.h"
 #include "shape/outliers.h"
 
 namespace rholm {
@@ -65,23 +66,12 @@ void check_spread(const PointCloud& cloud, double diagonal) {
   }
 }
 
-// The line is the one from the first point to the farthest from it.
 void check_width(const std::vector<Vec3>& points, double diagonal) {
-  const Vec3 first = points.front();
-  const auto distance = [&](const Vec3& p) { return norm(p - first); };
-  const Vec3 far =
-      *std::max_element(points.begin(), points.end(),
-                        [&](const Vec3& a, const Vec3& b) { return distance(a) < distance(b); });
-  const Vec3 along = normalized(far - first);
-  const auto is_near = [&](const Vec3& p) {
-    return norm(cross(p - first, along)) <= kLine * diagonal;
-  };
-  if (std::all_of(points.begin(), points.end(), is_near)) {
-    throw Error(ErrorCode::kInvalidInput,
-                fmt::format("all {} points lie on one line, within {:.0e} of its length: give "
-                            "points of a surface",
-                            points.size(), kLine));
-  }
+  if (!lie_on_line(points, kLine * diagonal)) return;
+  throw Error(ErrorCode::kInvalidInput,
+              fmt::format("all {} points lie on one line, within {:.0e} of its length: give "
+                          "points of a surface",
+                          points.size(), kLine));
 }
 
 }  // namespace
@@ -95,6 +85,7 @@ WorkingPoints::WorkingPoints(PointCloud cloud, ReconstructReport& report, const 
   diagonal_ = bounds(cloud_.points).diagonal();
   if (!directed) {
     check_spread(cloud_, diagonal_);
+    check_width(cloud_.points, diagonal_);
     orient(cloud_, {}, context);
     report.computed_normals = true;
   }

@@ -45,6 +45,7 @@ std::string page_of(const Expansion& expansion, std::optional<report::ShapeFigur
 
 std::string report_html(const Expansion& expansion, const Mesh* shape, const ReportOptions& options,
                         const Context& context) {
+  require_surface(expansion);
   report::check(shape, options);
   std::optional<report::ShapeFigures> figures;
   if (shape != nullptr) {

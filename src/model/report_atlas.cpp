@@ -135,8 +135,9 @@ std::string map_section(const AtlasData& data, const Context& context) {
   if (map.largest > map.scale.max)
     caption += " One point in 500 is farther and has the last colour.";
   const std::string part = part_of(map.largest, data.model.atlas.diagonal);
-  caption += fmt::format(" The largest at {} points is {}{}.", html::count(surface.vertices.size()),
-                         length_of(map.largest, data, 3), part.empty() ? "" : " (" + part + ")");
+  caption += fmt::format(" The largest at the {} vertices of this picture is {}{}.",
+                         html::count(surface.vertices.size()), length_of(map.largest, data, 3),
+                         part.empty() ? "" : " (" + part + ")");
   return section("Where the model differs", error_map(map, "the model", caption, data.model.unit));
 }
 

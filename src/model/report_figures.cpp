@@ -202,9 +202,12 @@ std::string map_caption(const Expansion& expansion, const Data& data, const Repo
   if (largest > pictures.errors.scale.max) {
     text += " One point in 500 is farther and has the last colour.";
   }
-  return text + fmt::format(" The largest at {} points is {}{}.", html::count(pictures.vertices),
-                            html::length(largest, expansion.unit, 3),
-                            part.empty() ? "" : " (" + part + ")");
+  text += fmt::format(" The largest at the {} vertices of this picture is {}{}.",
+                      html::count(pictures.vertices), html::length(largest, expansion.unit, 3),
+                      part.empty() ? "" : " (" + part + ")");
+  // Else three figures that are all called the largest seem to contradict each other.
+  return text +
+         " Errors of <i>r</i> go along rays instead; those of the tables are from more points.";
 }
 
 }  // namespace

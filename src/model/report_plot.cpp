@@ -23,8 +23,10 @@ struct Axes {
   double y_min = 0, y_max = 1;  // log10, whole numbers
 
   double x(double value) const { return kLeft + std::log10(value) / x_max * (kRight - kLeft); }
-  double y(double value) const {
-    return kBottom - (std::log10(value) - y_min) / (y_max - y_min) * (kBottom - kTop);
+  double y(double value) const { return y_of_power(std::log10(value)); }
+  // Of 10^power, which may be beyond all numbers.
+  double y_of_power(double power) const {
+    return kBottom - (power - y_min) / (y_max - y_min) * (kBottom - kTop);
   }
 };
 
@@ -84,7 +86,7 @@ std::string value_axis(const Axes& axes, const std::string& label) {
   const int low = static_cast<int>(axes.y_min), high = static_cast<int>(axes.y_max);
   const int step = std::max(1, (high - low + 7) / 8);
   for (int power = low; power <= high; ++power) {
-    const double y = axes.y(std::pow(10.0, power));
+    const double y = axes.y_of_power(power);
     const bool named = (power - low) % step == 0;
     svg += line(kLeft, y, kRight, y, named ? "grid" : "fine");
     if (!named) continue;

@@ -21,7 +21,7 @@ std::string largest_fact(const Expansion& expansion, const Data& data) {
   const bool measured = e.measured_max.has_value();
   const std::optional<double> value = measured ? e.measured_max : e.predicted_max;
   if (!value) return "";
-  return fact(measured ? "largest error" : "largest error, predicted",
+  return fact(measured ? "largest error of <i>r</i>" : "largest error of <i>r</i>, predicted",
               html::length(value, expansion.unit, 3), of_diagonal(value, data));
 }
 

@@ -198,6 +198,9 @@ SimplifyOptions stops(SimplifyOptions options, double step) {
 
 AtlasSurface extract_atlas(const Atlas& atlas, const AtlasSurfaceOptions& options,
                            const Context& context) {
+  if (atlas.caps.empty()) {
+    throw Error(ErrorCode::kInvalidInput, "an atlas without caps has no surface");
+  }
   AtlasSurface result;
   const std::vector<Disc> discs = discs_of(atlas, options.step, context);
   BlockGrid grid = make_grid(atlas, discs, options, context);

@@ -13,6 +13,8 @@ namespace {
 constexpr double kLadder = 1.3;     // of supports (method 7.8)
 constexpr std::size_t kBatch = 12;  // seeds at a time, each with memory of its own
 constexpr std::size_t kFirstSeeds = 256, kMoreSeeds = 12;
+// Caps that tell how many there will be.
+constexpr std::size_t kTelling = 20;
 constexpr double kHalfAngles[] = {30 * std::numbers::pi / 180, 15 * std::numbers::pi / 180};
 
 struct Entry {
@@ -30,6 +32,7 @@ class Greedy {
     cover_.is_covered = std::move(covered);
     left_ = static_cast<std::size_t>(
         std::count(cover_.is_covered.begin(), cover_.is_covered.end(), std::uint8_t{0}));
+    open_ = left_;
     for (double r = options.largest * diagonal; r > options.smallest * diagonal; r /= kLadder) {
       radii_.push_back(r);
     }
@@ -45,6 +48,10 @@ class Greedy {
         if (++dry > 20) break;
       } else {
         dry = 0;
+        if (foreseen() > static_cast<double>(options_.most_numbers)) {
+          cover_.foreseen = static_cast<std::size_t>(foreseen());
+          break;
+        }
       }
       add_candidates(kMoreSeeds);
     }
@@ -55,6 +62,14 @@ class Greedy {
  private:
   double share_left() const {
     return static_cast<double>(left_) / static_cast<double>(samples_.size());
+  }
+
+  // Numbers of all caps if the rest of the samples cost what the covered ones did: the dearest are
+  // left to the end, so it will be more. 0 where that is not asked for, or too early to tell.
+  double foreseen() const {
+    if (options_.most_numbers == 0 || cover_.chosen.size() < kTelling) return 0;
+    return static_cast<double>(numbers_) * static_cast<double>(open_) /
+           static_cast<double>(open_ - left_);
   }
 
   double gain_of(const Candidate& candidate) const {
@@ -157,6 +172,7 @@ class Greedy {
     std::size_t r = 0;
     while (r + 1 < radii_.size() && radii_[r + 1] > 0.99 * radius) ++r;
     start_ = r;
+    numbers_ += entry.candidate.cost();
     cover_.chosen.push_back(std::move(entry.candidate));
     cover_.seeds.push_back(entry.seed);
   }
@@ -165,9 +181,10 @@ class Greedy {
   const GreedyOptions& options_;
   const Context& context_;
   GreedyCover cover_;
-  std::vector<double> radii_;  // falling
-  std::size_t start_ = 3;      // where climbs begin
-  std::size_t left_ = 0;
+  std::vector<double> radii_;        // falling
+  std::size_t start_ = 3;            // where climbs begin
+  std::size_t open_ = 0, left_ = 0;  // samples not covered, at first and now
+  std::size_t numbers_ = 0;          // of the caps chosen
   std::uint64_t drawn_ = 0;
   std::vector<Entry> pool_;
   CandidateScratch scratch_;

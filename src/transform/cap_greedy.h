@@ -14,6 +14,9 @@ struct GreedyOptions {
   CandidateOptions candidate;
   double largest = 0.35, smallest = 0.005;  // supports, of the diagonal
   double uncovered = 0.002;                 // share of the samples that may be left
+  // Given up where the numbers of all caps would be more than this, as foreseen from those chosen;
+  // 0: never.
+  std::size_t most_numbers = 0;
   std::uint64_t seed = 1;
 };
 
@@ -24,6 +27,7 @@ struct GreedyCover {
   std::vector<std::uint32_t> seeds;      // samples
   std::vector<std::uint8_t> is_covered;  // samples
   double uncovered = 1;                  // share
+  std::size_t foreseen = 0;              // numbers of all caps; 0 unless it was given up for them
 };
 // Samples that are `covered` (one per sample) count as done.
 GreedyCover greedy_cover(const SampleLevels& samples, double diagonal, const GreedyOptions& options,

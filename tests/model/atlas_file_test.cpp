@@ -1,6 +1,7 @@
 // Expected values: the atlas that was written; rounding bounds of float and of 16-bit steps.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/random.h"
@@ -12,8 +13,6 @@
 #include "rholm/error.h"
 #include "rholm/model.h"
 #include "rholm/primitives.h"
-#include "rholm/topology.h"
-#include "support/test_points.h"
 
 namespace rholm {
 namespace {
@@ -127,6 +126,17 @@ TEST(atlas_file, the_blend_is_kept) {
   EXPECT_EQ(parse_atlas(bytes_of(model), "test").atlas.blend, CapBlend::kSpline);
 }
 
+// Caps that are spheres: nothing is stored of their coefficients, and that is read back.
+TEST(atlas_file, caps_whose_coefficients_are_all_zero_are_read_back) {
+  AtlasModel model = random_model(4, CapBasis::kEven);
+  std::fill(model.atlas.coefficients.begin(), model.atlas.coefficients.end(), 0.0);
+  const TemporaryFolder folder;
+  write_atlas(model, folder / "zero.h5");
+  const AtlasModel back = read_atlas(folder / "zero.h5");
+  EXPECT_EQ(back.atlas.caps.size(), model.atlas.caps.size());
+  EXPECT_EQ(back.atlas.coefficients, model.atlas.coefficients);
+}
+
 TEST(atlas_file, cut_off_files_are_refused) {
   const std::string bytes = bytes_of(random_model(5, CapBasis::kEven));
   for (std::size_t n = 0; n < bytes.size(); n += 7) {
@@ -189,44 +199,6 @@ TEST(atlas_file, kinds_of_models_are_told_apart) {
     EXPECT_NE(std::string(error.what()).find("atlas of caps"), std::string::npos);
   }
   EXPECT_THROW(write_atlas(AtlasModel{}, folder / "empty.h5"), Error);
-}
-
-TEST(compress, a_torus_meets_its_tolerance_both_ways_and_is_read_back) {
-  const Mesh mesh = torus(1, 0.4, 128, 64);
-  const double diagonal = bounds(mesh.vertices).diagonal();
-  const Compressed found = compress(mesh, {.tolerance = 2e-3 * diagonal});
-  EXPECT_TRUE(found.report.met);
-  EXPECT_TRUE(found.report.topology_kept);
-  EXPECT_LE(found.model.errors->rms(), 2e-3 * diagonal);
-  EXPECT_LT(size_of(found.model.atlas).numbers(), 3 * mesh.vertices.size() / 20);
-  const TemporaryFolder folder;
-  write_atlas(found.model, folder / "a.h5");
-  const Mesh surface = synthesize(read_atlas(folder / "a.h5"));
-  const Inspection seen = inspect(surface);
-  EXPECT_TRUE(seen.closed && seen.manifold && seen.oriented && !seen.inside_out);
-  EXPECT_EQ(seen.genus, 1U);
-  EXPECT_EQ(seen.components, 1U);
-}
-
-TEST(compress, points_may_point_inwards_and_are_measured_one_way) {
-  PointCloud cloud = test::sphere_points(1500);
-  const Compressed right = compress(cloud, {.tolerance = 0.05});
-  EXPECT_FALSE(right.report.turned_normals);
-  EXPECT_FALSE(right.model.errors->two_sided());
-  for (Vec3& normal : cloud.normals) normal = -normal;
-  const Compressed turned = compress(cloud, {.tolerance = 0.05});
-  EXPECT_TRUE(turned.report.turned_normals);
-  EXPECT_EQ(turned.model.atlas.coefficients, right.model.atlas.coefficients);
-  EXPECT_TRUE(compress(icosphere(3), {.tolerance = 0.05}).model.errors->two_sided());
-}
-
-TEST(compress, options_out_of_range_are_refused) {
-  const Mesh mesh = icosphere(3);
-  EXPECT_THROW(compress(mesh, {}), Error);
-  EXPECT_THROW(compress(mesh, {.tolerance = NAN}), Error);
-  EXPECT_THROW(compress(mesh, {.tolerance = 1, .max_degree = 25}), Error);
-  EXPECT_THROW(compress(Mesh{}, {.tolerance = 1}), Error);
-  EXPECT_THROW(compress(PointCloud{}, {.tolerance = 1}), Error);
 }
 
 }  // namespace

@@ -189,7 +189,7 @@ TEST(model_file, other_hdf5_files_are_refused_with_their_reason) {
       {"rank-2.h5", ErrorCode::kInvalidInput, "shape"},
       {"not-square.h5", ErrorCode::kInvalidInput, "shape"},
       {"no-degree.h5", ErrorCode::kInvalidInput, "degree"},
-      {"empty-array.h5", ErrorCode::kInvalidInput, "not all stored"},
+      {"empty-array.h5", ErrorCode::kInvalidInput, "(2, 0, 0)"},
       {"wrong-degree.h5", ErrorCode::kInvalidInput, "degree 3"},
       {"nan.h5", ErrorCode::kInvalidInput, "not finite"},
       {"above-diagonal.h5", ErrorCode::kInvalidInput, "m > l"},

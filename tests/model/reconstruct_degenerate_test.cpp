@@ -34,6 +34,7 @@ void expect_closed_or_refused(const PointCloud& cloud, const std::string& name) 
     try {
       const Reconstruction made = reconstruct(cloud, {.holes = holes, .max_memory = 1 << 28});
       expect_finite(made.mesh);
+      EXPECT_FALSE(made.mesh.triangles.empty());
       const Inspection found = inspect(made.mesh);
       expect_manifold(found);
       if (holes == HolePolicy::kFill) {
@@ -94,6 +95,18 @@ TEST(ReconstructDegenerate, points_without_a_surface) {
   PointCloud random = with_normals(cloud, up);
   for (std::size_t i = 0; i < n; ++i) random.normals[i] = random_direction(4, i);
   expect_decent(random, "a cube of points with random normals");
+}
+
+TEST(ReconstructDegenerate, a_grid_too_coarse_for_the_shape_is_refused_with_its_step) {
+  // Steps of ten diameters.
+  const PointCloud sphere = sphere_points(500);
+  try {
+    const Reconstruction made = reconstruct(sphere, {.step = 20});
+    FAIL() << made.mesh.triangles.size() << " triangles";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kInvalidInput);
+    EXPECT_NE(std::string(error.what()).find("steps of 20 "), std::string::npos) << error.what();
+  }
 }
 
 TEST(ReconstructDegenerate, bad_normals) {

@@ -98,6 +98,23 @@ TEST(degree_fits, leading_blocks_are_the_fits_of_lower_degrees) {
   }
 }
 
+TEST(greedy_cover, is_given_up_where_too_many_numbers_are_foreseen) {
+  const Samples s = torus(6000);
+  const SampleLevels levels = make_levels(s.points, s.normals, {});
+  const std::vector<std::uint8_t> none(levels.size());
+  GreedyOptions options = options_for(1e-3);
+  const GreedyCover all = greedy_cover(levels, 3, options, none, {});
+  EXPECT_EQ(all.foreseen, 0U);
+  std::size_t numbers = 0;
+  for (const Candidate& chosen : all.chosen) numbers += chosen.cost();
+  options.most_numbers = numbers / 2;
+  const GreedyCover few = greedy_cover(levels, 3, options, none, {});
+  EXPECT_GT(few.foreseen, options.most_numbers);
+  EXPECT_LT(few.chosen.size(), all.chosen.size());
+  options.most_numbers = 2 * numbers;
+  EXPECT_EQ(greedy_cover(levels, 3, options, none, {}).chosen.size(), all.chosen.size());
+}
+
 TEST(greedy_cover, covered_samples_of_a_sphere_are_within_four_tolerances) {
   const Samples s = sphere(6000);
   const double tolerance = 1e-2;

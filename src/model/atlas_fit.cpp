@@ -1,0 +1,156 @@
+#include "model/atlas_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "base/parallel.h"
+#include "base/stopwatch.h"
+#include "model/atlas_pack.h"
+#include "rholm/error.h"
+#include "rholm/topology.h"
+#include "transform/cap_blend.h"
+#include "transform/cap_prune.h"
+
+namespace rholm {
+namespace {
+
+// The surface is a little farther from the shape than the samples' blend tells: the aim is
+// corrected by what is measured, so many times, and left a little below the tolerance. An aim that
+// hardly changes what is measured, or no numbers, is the last.
+constexpr int kMostTries = 8;
+constexpr double kAim = 0.995, kGoodEnough = 0.97, kStalled = 0.98;
+constexpr double kSameAim = 1.03;        // between one that is kept and one that is not
+constexpr double kWorthSearching = 1.5;  // tolerances: beyond, another aim comes first
+// Where caps hardly agree, as between fingers, a grid may see a handle that another does not: other
+// steps and bands, in these parts, are tried until the surface is connected as the shape is.
+constexpr double kSteps[] = {1, 0.8, 0.6};
+constexpr double kBands[] = {1, 2};
+
+Atlas overlapping(Atlas atlas, const Overlap& overlap) {
+  for (Cap& cap : atlas.caps) set_support(cap, overlap.reach * cap.frame.support);
+  set_weights(atlas.caps, overlap.power);
+  return atlas;
+}
+
+// As it comes out of the file.
+Atlas rounded(Atlas atlas, const Overlap& overlap) {
+  set_weights(atlas.caps, overlap.power);
+  return unpack(pack(atlas), "");
+}
+
+// Of a grid, times the first choice.
+struct GridParts {
+  double step = 1, band = 1;
+};
+std::vector<GridParts> all_grid_parts() {
+  std::vector<GridParts> parts;
+  for (const double step : kSteps) {
+    for (const double band : kBands) parts.push_back({step, band});
+  }
+  return parts;
+}
+
+// The surface of a model, what is measured on it, and whether it hangs together as wanted.
+struct TrialSurface {
+  AtlasModel model;
+  Topology topology;
+  bool right = false;
+};
+
+TrialSurface try_surface(const FitTarget& target, AtlasModel model, const GridParts& parts,
+                         const Context& context) {
+  model.step *= parts.step, model.atlas.band *= parts.band;
+  const Mesh mesh = synthesize(model, {}, context);
+  const Inspection found = inspect(mesh);
+  TrialSurface trial{std::move(model), {found.components, found.genus}, false};
+  trial.right = !target.topology || trial.topology == *target.topology;
+  trial.model.errors = target.measure(mesh);
+  return trial;
+}
+
+// Other grids than the first, in the order of `parts`: one that is right comes first from then on.
+std::optional<TrialSurface> search_grid(const FitTarget& target, const AtlasModel& model,
+                                        std::vector<GridParts>& parts, const Context& context) {
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    std::optional<TrialSurface> trial;
+    try {
+      trial = try_surface(target, model, parts[i], context);
+    } catch (const Error& error) {
+      // A finer grid than memory allows is no choice.
+      if (error.code() != ErrorCode::kOutOfMemory) throw;
+      continue;
+    }
+    if (!trial->right) continue;
+    std::rotate(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(i),
+                parts.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+    return trial;
+  }
+  return std::nullopt;
+}
+
+// Whether a trial is better than what there is: a tolerance kept first, then the handles, then few
+// numbers, or the lesser error.
+bool is_better(const TrialSurface& trial, bool met, const Compressed& than) {
+  const auto rank = [](bool is_met, bool is_right) { return 2 * is_met + is_right; };
+  const int change = rank(met, trial.right) - rank(than.report.met, than.report.topology_kept);
+  if (!than.model.errors || change != 0) return !than.model.errors || change > 0;
+  return met ? size_of(trial.model.atlas).numbers() < size_of(than.model.atlas).numbers()
+             : trial.model.errors->rms() < than.model.errors->rms();
+}
+
+}  // namespace
+
+void fit_atlas(const FitTarget& target, const Atlas& chosen, const Overlap& overlap,
+               Compressed& result, int& searches, const Context& context) {
+  CompressReport& report = result.report;
+  const Atlas covered = overlapping(chosen, overlap);
+  double aim = target.tolerance, last = 0;
+  double kept = 0, missed = INFINITY;  // aims
+  std::size_t last_numbers = 0;
+  std::vector<GridParts> parts = all_grid_parts();
+  for (int attempt = 0; attempt < kMostTries; ++attempt) {
+    const PruneOptions pruning{.tolerance = aim,
+                               .band = covered.band,
+                               .stray = target.stray,
+                               .max_degree = target.max_degree};
+    AtlasModel model = result.model;
+    model.step = target.step;
+    timed(report.times, "fit", [&] {
+      model.atlas = covered;
+      prune(target.levels, pruning, model.atlas, context);
+      model.atlas = rounded(std::move(model.atlas), overlap);
+    });
+    const TrialSurface trial = timed(report.times, "surface", [&] {
+      TrialSurface first = try_surface(target, model, parts.front(), context);
+      const bool worth = first.model.errors->rms() <= kWorthSearching * target.tolerance;
+      if (first.right || !worth || searches == 0) return first;
+      std::optional<TrialSurface> other = search_grid(target, model, parts, context);
+      if (!other) --searches;
+      return other ? std::move(*other) : std::move(first);
+    });
+    const double rms = trial.model.errors->rms();
+    const bool met = rms <= target.accepted;
+    if (is_better(trial, met, result)) {
+      result.model = trial.model;
+      report.genus = trial.topology.genus, report.uncovered = target.uncovered;
+      report.met = met, report.topology_kept = trial.right;
+    }
+    // No number is saved where more than the tolerance would do.
+    const bool good = rms >= kGoodEnough * target.tolerance || target.tolerance < target.accepted;
+    if (met && trial.right && good) break;
+    if (met && !trial.right && !overlap.settles) break;
+    const std::size_t numbers = size_of(trial.model.atlas).numbers();
+    const bool stalled =
+        !met && last > target.tolerance ? rms > kStalled * last : numbers == last_numbers;
+    if (stalled) break;
+    last = rms, last_numbers = numbers;
+    (rms <= target.tolerance ? kept : missed) = aim;
+    if (missed < kSameAim * kept) break;
+    aim = kept > 0 && std::isfinite(missed) ? std::sqrt(kept * missed)
+                                            : aim * kAim * target.tolerance / rms;
+  }
+}
+
+}  // namespace rholm

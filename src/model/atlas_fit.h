@@ -1,0 +1,45 @@
+// From chosen caps to a model whose extracted surface keeps a tolerance (method 7.8). Layer: model,
+// private.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "rholm/compress.h"
+#include "transform/cap_samples.h"
+
+namespace rholm {
+
+// How a closed surface hangs together.
+struct Topology {
+  std::size_t components = 0, genus = 0;
+  friend bool operator==(const Topology&, const Topology&) = default;
+};
+
+// How far caps speak, of the support they were chosen with, and the power of it that small ones
+// override large ones by.
+struct Overlap {
+  double reach = 1, power = 1;
+  bool settles = false;  // whether other handles than the shape's are put up with
+};
+
+// What a model is made for.
+struct FitTarget {
+  const SampleLevels& levels;
+  std::optional<Topology> topology;  // of the shape, if it has one
+  double tolerance = 0;              // that is aimed at
+  double accepted = 0;               // that will do, at least as much
+  double stray = 0;                  // caps' surfaces farther from all samples are cut back
+  double step = 0;                   // of the grid
+  int max_degree = 14;
+  double uncovered = 0;  // share of the samples that the caps were not chosen for
+  std::function<AtlasErrors(const Mesh&)> measure;
+};
+
+// Drops coefficients of the caps until the surface is as far from the shape as allowed; what is
+// better than `result` replaces it. `searches` is how many searches for a grid with the right
+// handles may still find nothing: each takes as long as ten extractions.
+void fit_atlas(const FitTarget& target, const Atlas& chosen, const Overlap& overlap,
+               Compressed& result, int& searches, const Context& context);
+
+}  // namespace rholm

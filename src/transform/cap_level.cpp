@@ -1,0 +1,37 @@
+#include "transform/cap_level.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace rholm {
+namespace {
+
+// Standard deviations of the disagreement of two caps that are averaged: nearly all.
+constexpr double kDisagree = 3;
+
+// rms over the cap of what the coefficients from `first` on say.
+double lost(const Cap& cap, std::span<const double> coefficients, std::size_t first) {
+  double sum = 0;
+  for (std::size_t i = first; i < coefficients.size(); ++i)
+    sum += coefficients[i] * coefficients[i];
+  return cap.frame.radius * std::sqrt(sum / (4 * std::numbers::pi));
+}
+
+}  // namespace
+
+Atlas at_degree(const Atlas& atlas, int degree) {
+  Atlas level = atlas;
+  double squares = 0, areas = 0;
+  for (Cap& cap : level.caps) {
+    const std::span<const double> all = atlas.coefficients_of(cap);
+    cap.degree = static_cast<std::uint16_t>(std::min<int>(cap.degree, degree));
+    const double rms = lost(cap, all, n_coefficients(cap.basis, cap.degree));
+    const double area = cap.frame.support * cap.frame.support;
+    squares += area * rms * rms, areas += area;
+  }
+  if (areas > 0) level.band = std::max(level.band, kDisagree * std::sqrt(2 * squares / areas));
+  return level;
+}
+
+}  // namespace rholm
