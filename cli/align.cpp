@@ -10,6 +10,7 @@
 #include "cli/convention.h"
 #include "cli/inputs.h"
 #include "cli/interrupt.h"
+#include "cli/length_units.h"
 #include "cli/outputs.h"
 #include "cli/parse.h"
 #include "cli/report.h"
@@ -30,6 +31,7 @@ struct Options {
   std::string output;
   std::string format;
   ConventionOptions convention;
+  InputConvention input_convention;
   bool json = false;
 };
 
@@ -72,6 +74,10 @@ Json report_json(const Options& o, const Placement& placement, const Expansion& 
   json["descriptor_distance"] = descriptor_distance(a.coefficients, b.coefficients);
   json["from"] = json_of(placement.from);
   json["to"] = json_of(placement.to);
+  // The reflection that comes first: p becomes p - 2 ((p - point) . normal) normal.
+  json["reflection"] = found.best.mirrored
+                           ? Json{{"point", json_of(placement.from)}, {"normal", {1, 0, 0}}}
+                           : Json(nullptr);
   json["ambiguities"] = Json::array();
   for (const AlignedRotation& r : found.ambiguities) {
     json["ambiguities"].push_back(json_of_aligned(r));
@@ -84,7 +90,10 @@ Json report_json(const Options& o, const Placement& placement, const Expansion& 
 std::string report_text(const Options& o, const Placement& placement) {
   const Alignment& found = placement.alignment;
   std::string text = fmt::format("{} onto {}\n", display_name(o.a), display_name(o.b));
-  if (found.best.mirrored) text += line("mirrored", "x to -x, then");
+  if (found.best.mirrored) {
+    text += line("mirrored",
+                 fmt::format("in the plane x = {}, then turned", text_of(placement.from.x)));
+  }
   text += text_of(found.best.rotation);
   text += line("about", text_of(placement.from) + ", laid on " + text_of(placement.to));
   text += line("correlation", fmt::format("{:.6f}", found.best.correlation));
@@ -111,27 +120,30 @@ int run(const Options& options, Session& session) {
   if (options.a == "-" && options.b == "-") {
     throw UsageError("only one of the two models can be standard input");
   }
-  const Expansion a = read_coefficients_input(options.a, session).expansion;
-  const Expansion b = read_coefficients_input(options.b, session).expansion;
+  Expansion a = read_expansion(options.a, session, options.input_convention);
+  const Expansion b = read_expansion(options.b, session, options.input_convention);
   if (a.function != b.function) {
     throw Error(ErrorCode::kInvalidInput,
                 fmt::format("{} is of the {}, {} of the {}: analyze both by the same method",
                             display_name(options.a), to_string(a.function), display_name(options.b),
                             to_string(b.function)));
   }
+  bring_to_unit(a, options.a, b.unit, options.b, session);
   const Placement found = placement_of(options, a, b, session);
   if (output) {
-    write_coefficients_output(placed(a, found, session.context()), *output, convention);
+    write_coefficients_output(placed(a, found, session.context()), *output, convention, session);
   }
   if (options.json) {
     print_json(report_json(options, found, a, b));
-  } else if (options.output != "-") {
+  } else if (!output) {
     print_text(report_text(options, found));
+  } else if (options.output != "-") {
+    session.report(report_text(options, found));
   }
   return 0;
 }
 
-std::vector<Option> option_list(Options& o) {
+std::vector<Option> search_options(Options& o) {
   return {{.name = "A",
            .help = "file of coefficients to turn, or - for standard input",
            .target = &o.a,
@@ -165,34 +177,47 @@ std::vector<Option> option_list(Options& o) {
                    "solids; own, the centres of the expansions",
            .target = &o.center,
            .choices = {"volume", "own"}},
-          {.name = "mirror", .help = "try the mirror image of A too", .target = &o.mirror},
+          {.name = "mirror",
+           .help = "try the mirror image of A too: reflected in the plane through its centre, "
+                   "across the x axis, before it is turned",
+           .target = &o.mirror},
           output_option(o.output,
                         "A laid on B, to be written: .h5, .sh, .gfc, .json, .npy; - "
                         "for standard output",
                         false),
-          format_option(o.format, coefficients_formats()),
-          normalization_option(o.convention.normalization, ""),
-          csphase_option(o.convention.csphase, ""),
-          json_option(o.json)};
+          format_option(o.format, coefficients_formats())};
+}
+
+std::vector<Option> option_list(Options& o) {
+  std::vector<Option> list = search_options(o);
+  append(list, convention_options(o.convention));
+  append(list, input_convention_options(o.input_convention));
+  list.push_back(json_option(o.json));
+  return list;
 }
 
 }  // namespace
 
 Command align_command() {
   auto options = std::make_shared<Options>();
-  return {.name = "align",
-          .summary = "Turn one model onto another",
-          .description =
-              "Lays the centroid of A on that of B and finds the rotation that brings the "
-              "surfaces nearest: by the correlation over all rotations, then by Newton's "
-              "iteration. The distance is the root mean square of the difference of the radii "
-              "over all directions.\n\nOther rotations that are nearly as good are listed: those "
-              "of a symmetric shape; and axes about which the shape turns freely. Size is not "
-              "changed.",
-          .options = option_list(*options),
-          .examples = {"rholm align bumpy.h5 turned.h5",
-                       "rholm align image.h5 bumpy.h5 --mirror --json -o back.h5"},
-          .run = [options](Session& session) { return run(*options, session); }};
+  return {
+      .name = "align",
+      .summary = "Turn one model onto another",
+      .description =
+          "Lays the centroid of A on that of B and finds the rotation that brings the "
+          "surfaces nearest: by the correlation over all rotations, then by Newton's "
+          "iteration. The distance is the root mean square of the difference of the radii "
+          "over all directions.\n\nOther rotations that are nearly as good are listed: those "
+          "of a symmetric shape; and axes about which the shape turns freely: one of a surface of "
+          "revolution, three of a sphere. Where all that is not round is below what a model is "
+          "known to leave out, it is taken for a sphere and not turned. Size is not changed."
+          "\n\nWith --mirror also the mirror image of A is tried. What is done then is a "
+          "reflection in the plane through the centroid of A across the x axis (x becomes 2 "
+          "from_x - x, y and z stay), followed by the rotation; not an inversion in a point.",
+      .options = option_list(*options),
+      .examples = {"rholm align bumpy.h5 turned.h5",
+                   "rholm align image.h5 bumpy.h5 --mirror --json -o back.h5"},
+      .run = [options](Session& session) { return run(*options, session); }};
 }
 
 }  // namespace rholm::cli

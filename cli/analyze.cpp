@@ -78,7 +78,10 @@ int run(const Options& options, Session& session) {
   if (!options.fit.empty() || !options.extension.empty()) {
     throw UsageError("--fit and --extension go with --atlas");
   }
-  if (options.degree.has_value() == options.tolerance.tolerance.has_value()) {
+  if (options.degree && options.tolerance.tolerance) {
+    throw UsageError("--degree L or --tolerance E: only one of the two can be kept");
+  }
+  if (!options.degree && !options.tolerance.tolerance) {
     throw UsageError("--degree L or --tolerance E: one of the two is needed");
   }
   if (const auto places = parse_sample_places(options.method)) {
@@ -108,7 +111,7 @@ int run(const Options& options, Session& session) {
         "sum of its radii, of which the exact norm is not one: no errors are given");
   }
   const Stopwatch writing;
-  write_coefficients_output(run.encoded.analysis.expansion, output, convention);
+  write_coefficients_output(run.encoded.analysis.expansion, output, convention, session);
   run.times["write"] = writing.elapsed();
 
   if (options.json) {
@@ -190,11 +193,10 @@ std::vector<Option> option_list(Options& o) {
                                .target = &o.degree,
                                .min = 0,
                                .max = kMaxDegree}};
-  const auto add = [&](std::vector<Option> more) {
-    for (Option& option : more) list.push_back(std::move(option));
-  };
-  add(tolerance_options(o.tolerance));
-  add({{.name = "atlas",
+  append(list, tolerance_options(o.tolerance));
+  append(
+      list,
+      {{.name = "atlas",
         .help = "any shape, star-shaped or not, also points with normals: as few large caps that "
                 "keep --tolerance, the rms distance between the surfaces",
         .target = &o.atlas},
@@ -208,21 +210,15 @@ std::vector<Option> option_list(Options& o) {
                 "or the sphere it lies on",
         .target = &o.extension,
         .choices = {"zero", "sphere"}}});
-  add(transform_options(o));
-  add(monte_carlo_options(o));
-  add({rays_option(o.rays),
-       weld_option(o.weld),
-       {.name = "length-unit",
-        .value = "NAME",
-        .help = "unit of length to write into the file, as in km",
-        .target = &o.length_unit},
-       output_option(o.output,
-                     "file of coefficients: .h5 (model file), .sh (SHTOOLS text), "
-                     ".gfc, .json, .npy; - for standard output"),
-       format_option(o.format, coefficients_formats()),
-       normalization_option(o.convention.normalization, ""),
-       csphase_option(o.convention.csphase, ""),
-       json_option(o.json)});
+  append(list, transform_options(o));
+  append(list, monte_carlo_options(o));
+  append(list, {rays_option(o.rays), weld_option(o.weld), length_unit_option(o.length_unit),
+                output_option(o.output,
+                              "file of coefficients: .h5 (model file), .sh (SHTOOLS text), "
+                              ".gfc, .json, .npy; - for standard output"),
+                format_option(o.format, coefficients_formats())});
+  append(list, convention_options(o.convention));
+  list.push_back(json_option(o.json));
   return list;
 }
 
@@ -251,7 +247,8 @@ Command analyze_command() {
                    "bumpy.h5",
                    "rholm analyze bumpy.ply --degree 8 --format shtools -o -",
                    "rholm analyze bumpy.ply --atlas --tolerance 1e-2 --unit diagonal -o caps.h5"},
-      .run = [options](Session& session) { return run(*options, session); }};
+      .run = [options](Session& session) { return run(*options, session); },
+      .if_not_star = "--center auto, --atlas, --signed"};
 }
 
 }  // namespace rholm::cli

@@ -1,4 +1,5 @@
 // rholm analyze --atlas: any shape as few large caps.
+#include <cmath>
 #include <variant>
 
 #include <fmt/format.h>
@@ -30,7 +31,6 @@ void check_options(const AnalyzeCommandOptions& o) {
     refuse(o.tolerance.max_degree.has_value(), "--max-degree and --fit integral");
   } else {
     if (!o.tolerance.tolerance) throw UsageError("--atlas needs --tolerance E");
-    if (!(*o.tolerance.tolerance > 0)) throw UsageError("--tolerance: it must be above 0");
     refuse(o.degree.has_value(), "--degree");
     if (!o.extension.empty()) throw UsageError("--extension goes with --fit integral");
   }
@@ -50,9 +50,16 @@ void check_options(const AnalyzeCommandOptions& o) {
 
 Mesh prepared_mesh(const AnalyzeCommandOptions& o, ShapeFile file, Session& session) {
   Mesh mesh = weld(mesh_of(std::move(file), o.input, session), o.weld).mesh;
-  if (inspect(mesh).inside_out) {
+  const Inspection state = inspect(mesh);
+  if (state.inside_out) {
     flip(mesh);
     session.note(kFlipped);
+  }
+  if (state.misoriented_edges + state.duplicate_triangles > 0) {
+    session.warn(
+        fmt::format("{}: faces disagree about their sides at {} edges, {} faces are "
+                    "duplicates, and caps follow both sides: 'rholm repair' mends it",
+                    display_name(o.input), state.misoriented_edges, state.duplicate_triangles));
   }
   return mesh;
 }
@@ -71,7 +78,18 @@ Compressed compress_shape(const AnalyzeCommandOptions& o, ShapeFile file, Sessio
   }
   const Mesh mesh = prepared_mesh(o, std::move(file), session);
   if (relative) options.tolerance *= bounds(mesh.vertices).diagonal();
-  return compress(mesh, options, session.context());
+  Compressed found = compress(mesh, options, session.context());
+  if (found.report.hidden > 0) {
+    session.note(
+        fmt::format("{:.2g} % of the surface lies inside of the solid, where parts run "
+                    "into each other; it is left out",
+                    100 * found.report.hidden));
+  }
+  if (found.report.aimed < options.tolerance && std::isfinite(found.report.gap)) {
+    session.note(fmt::format("sheets of the surface lie {} apart: caps are fitted within {}",
+                             text_of(found.report.gap), text_of(found.report.aimed)));
+  }
+  return found;
 }
 
 // The paper's way: what is made does not meet anything in particular.
@@ -101,6 +119,9 @@ void report(const AnalyzeCommandOptions& options, const AtlasModel& model,
   if (found != nullptr) {
     json["met"] = found->met;
     json["samples"] = found->samples;
+    json["hidden"] = found->hidden;
+    json["gap"] = std::isfinite(found->gap) ? Json(found->gap) : Json(nullptr);
+    json["aimed"] = found->aimed;
     json["uncovered"] = found->uncovered;
     json["genus"] = found->genus;
     json["topology_kept"] = found->topology_kept;

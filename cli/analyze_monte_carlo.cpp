@@ -79,7 +79,7 @@ int analyze_by_monte_carlo(const AnalyzeCommandOptions& options, SamplePlaces pl
       prepared.mesh, {.center = center, .allow_signed = options.allow_signed}, session.context());
   MonteCarlo found = monte_carlo(chart, wanted, session.context());
   found.expansion.unit = options.length_unit;
-  write_coefficients_output(found.expansion, output, convention);
+  write_coefficients_output(found.expansion, output, convention, session);
 
   if (options.json) {
     print_json(json_of_run(options, found, chart.report));

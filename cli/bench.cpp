@@ -39,12 +39,14 @@ std::vector<double> parse_list(const std::string& option, const std::string& tex
                                double high) {
   std::vector<double> list;
   for (const std::string& part : split(text, ',')) {
-    const double number = parse_numbers(option, part, 1)[0];
-    if (!(number >= low && number <= high)) {
+    const std::optional<double> number = read_number(part);
+    if (!number || !(*number >= low && *number <= high)) {
       throw UsageError(
-          fmt::format("{} has {}; it must be within {:g} ... {:g}", option, part, low, high));
+          fmt::format("{} is '{}' and has '{}'; it must be numbers within {:g} ... {:g} "
+                      "between commas",
+                      option, text, part, low, high));
     }
-    list.push_back(number);
+    list.push_back(*number);
   }
   return list;
 }
@@ -56,6 +58,18 @@ std::vector<int> parse_counts(const std::string& option, const std::string& text
     counts.push_back(static_cast<int>(number));
   }
   return counts;
+}
+
+std::vector<double> parse_precisions(const std::string& option, const std::string& text) {
+  return parse_list(option, text, 1e-14, 1e-1);
+}
+
+std::vector<int> parse_threads(const std::string& option, const std::string& text) {
+  return parse_counts(option, text, 1, 4096);
+}
+
+std::vector<int> parse_faces(const std::string& option, const std::string& text) {
+  return parse_counts(option, text, 12, kMostFaces);
 }
 
 // A mesh to measure: in memory, and the file that is worked on.
@@ -88,11 +102,11 @@ std::filesystem::path temporary_folder() {
 Settings settings_of(const Options& options) {
   Settings settings;
   settings.degrees = parse_degrees("--degree", options.degree);
-  settings.precisions = parse_list("--precision", options.precision, 1e-14, 1e-1);
+  settings.precisions = parse_precisions("--precision", options.precision);
   settings.shuffle = options.shuffle;
   settings.bench = {.allow_signed = options.allow_signed,
                     .repeat = options.repeat,
-                    .threads = parse_counts("--thread-counts", options.thread_counts, 1, 4096),
+                    .threads = parse_threads("--thread-counts", options.thread_counts),
                     .folder = temporary_folder()};
   return settings;
 }
@@ -198,8 +212,7 @@ int run(const Options& options, Session& session) {
   const Settings settings = settings_of(options);
   const std::string faces =
       options.faces.empty() && options.shapes.empty() ? kFaces : options.faces;
-  const std::vector<int> own =
-      faces.empty() ? std::vector<int>{} : parse_counts("--faces", faces, 12, kMostFaces);
+  const std::vector<int> own = faces.empty() ? std::vector<int>{} : parse_faces("--faces", faces);
   if (std::find(options.shapes.begin(), options.shapes.end(), "-") != options.shapes.end()) {
     throw UsageError("standard input can be read once only: a mesh to measure needs a name");
   }
@@ -231,15 +244,18 @@ std::vector<Option> option_list(Options& o) {
            .value = "N,...",
            .help = "make smooth bodies with about so many triangles; 82000,1300000 if no file is "
                    "given",
-           .target = &o.faces},
+           .target = &o.faces,
+           .check = parse_faces},
           {.name = "degree",
            .value = "L,...",
            .help = "the highest degree; 256 by default",
-           .target = &o.degree},
+           .target = &o.degree,
+           .check = parse_degrees},
           {.name = "precision",
            .value = "P,...",
            .help = "wanted relative errors of the coefficients; 1e-6 by default",
-           .target = &o.precision},
+           .target = &o.precision,
+           .check = parse_precisions},
           {.name = "repeat",
            .value = "N",
            .help = "runs of each kind; 5 by default, reported are median and least",
@@ -250,7 +266,8 @@ std::vector<Option> option_list(Options& o) {
            .value = "N,...",
            .help = "numbers of threads that take turns from file to coefficients, the first to "
                    "compare with; 1 by default",
-           .target = &o.thread_counts},
+           .target = &o.thread_counts,
+           .check = parse_threads},
           {.name = "shuffle",
            .help = "measure copies with the triangles in random order, too",
            .target = &o.shuffle},
@@ -278,7 +295,8 @@ Command bench_command() {
           .options = option_list(*options),
           .examples = {"rholm bench --faces 5000 --degree 32 --repeat 3",
                        "rholm bench bumpy.ply --degree 32 --precision 1e-4,1e-6 --json"},
-          .run = [options](Session& session) { return run(*options, session); }};
+          .run = [options](Session& session) { return run(*options, session); },
+          .if_not_star = "--signed"};
 }
 
 }  // namespace rholm::cli

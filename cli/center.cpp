@@ -13,6 +13,8 @@
 #include "rholm/error.h"
 #include "rholm/star.h"
 
+#include "rholm/topology.h"
+
 namespace rholm::cli {
 namespace {
 
@@ -30,12 +32,15 @@ int run(const Options& options, Session& session) {
   const Prepared prepared = prepare(read_mesh(options.input, session), options.weld);
   if (prepared.flipped) session.note(kFlipped);
   const StarReport report = find_center(prepared.mesh, wanted, session.context());
+  const std::size_t duplicates =
+      report.star_shaped ? 0 : inspect(prepared.mesh).duplicate_triangles;
   if (options.json) {
     Json json;
     json["file"] = options.input;
     json["kind"] = to_string(wanted.kind);
     add_star_report(report, json);
     json["flipped"] = prepared.flipped;
+    json["duplicate_faces"] = duplicates;
     json["diagonal"] = prepared.diagonal;
     json["relative"] = {{"min_d", prepared.diagonal > 0 ? report.min_d / prepared.diagonal : 0.0}};
     print_json(json);
@@ -43,6 +48,12 @@ int run(const Options& options, Session& session) {
     print_text(fmt::format("{}: {}star-shaped from the centre '{}'\n", display_name(options.input),
                            report.star_shaped ? "" : "not ", options.center) +
                star_report_text(report, prepared.diagonal));
+  }
+  if (duplicates > 0) {
+    session.warn(
+        fmt::format("{} of {} faces are duplicates, with the same three vertices as "
+                    "others: 'rholm repair' drops them",
+                    duplicates, prepared.mesh.triangles.size()));
   }
   return report.star_shaped ? kDone : kRefused;
 }

@@ -31,6 +31,10 @@ struct Option {
   std::vector<std::string> choices = {};  // the only values allowed, if any
   std::optional<double> min = {};         // bounds of a number, inclusive
   std::optional<double> max = {};
+  std::optional<double> above = {};  // a lower bound that is not allowed itself
+  // Throws UsageError for a text that is no value of `option` (as typed). Whatever can be known
+  // to be wrong without a file is refused here, before one is opened.
+  std::function<void(const std::string& option, const std::string& text)> check = {};
   Offer offer = Offer::kNothing;
 
   bool is_operand() const { return name.front() >= 'A' && name.front() <= 'Z'; }
@@ -46,6 +50,7 @@ struct Command {
   std::vector<Option> options;
   std::vector<std::string> examples;      // whole command lines
   std::function<int(Session&)> run = {};  // returns the exit code
+  std::string if_not_star = {};           // what to do with a shape that is not star-shaped
   bool hidden = false;                    // not in the list of commands
 };
 
@@ -56,8 +61,13 @@ struct CommonOptions {
 };
 std::vector<Option> common_options(CommonOptions& values);
 
+// `more` behind `list`.
+void append(std::vector<Option>& list, std::vector<Option> more);
+
 // The commands in the order of the pipeline, one file each.
 Command info_command();
+Command repair_command();
+Command simplify_command();
 Command center_command();
 Command analyze_command();
 Command synthesize_command();
@@ -68,6 +78,7 @@ Command render_command();
 Command report_command();
 Command make_command();
 Command filter_command();
+Command recenter_command();
 Command rotate_command();
 Command align_command();
 Command smooth_command();

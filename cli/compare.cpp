@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/length_units.h"
 #include "cli/report.h"
 #include "cli/session.h"
 #include "cli/surfaces.h"
@@ -18,6 +19,7 @@ struct Options {
   std::string b;
   CompareOptions compare;
   std::optional<int> subdivisions;
+  InputConvention convention;
   bool json = false;
 };
 
@@ -74,8 +76,11 @@ std::string report_text(const Options& options, const Comparison& c) {
 }
 
 int run(const Options& options, Session& session) {
-  const Input first = read_input(options.a, session);
-  const Input second = read_input(options.b, session);
+  Input first = read_surface_input(options.a, session, options.convention);
+  Input second = read_surface_input(options.b, session, options.convention);
+  CommonUnit unit;
+  unit.add(first, options.a, session);
+  unit.add(second, options.b, session);
   const Mesh a = surface_of(first, options.a, {}, options.subdivisions, session);
   const Mesh b = surface_of(second, options.b, {}, options.subdivisions, session);
   const Comparison comparison = compare(a, b, options.compare, session.context());
@@ -95,32 +100,35 @@ std::vector<Option> option_list(Options& o) {
                   .required = true,
                   .offer = Offer::kShapesAndCoefficients};
   };
-  return {surface("A", "the surface to measure against: a mesh, or coefficients", o.a),
-          surface("B", "the other surface", o.b),
-          {.name = "samples",
-           .value = "N",
-           .help = "points on each surface; 200000 by default",
-           .target = &o.compare.samples,
-           .min = 1,
-           .max = 1e9},
-          {.name = "seed",
-           .value = "S",
-           .help = "of the random points; 1 by default",
-           .target = &o.compare.seed},
-          {.name = "threshold",
-           .value = "T",
-           .help = "of the F-score, as a fraction of A's diagonal; 0.01 by default",
-           .target = &o.compare.threshold,
-           .min = 1e-12,
-           .max = 1e3},
-          {.name = "subdivisions",
-           .value = "N",
-           .help = "icosphere on which coefficients are sampled; by default the smallest N of 5 "
-                   "... 8 with 16 (L+1)^2 vertices",
-           .target = &o.subdivisions,
-           .min = 0,
-           .max = 12},
-          json_option(o.json)};
+  std::vector<Option> list = {
+      surface("A", "the surface to measure against: a mesh, or coefficients", o.a),
+      surface("B", "the other surface", o.b),
+      {.name = "samples",
+       .value = "N",
+       .help = "points on each surface; 200000 by default",
+       .target = &o.compare.samples,
+       .min = 1,
+       .max = 1e9},
+      {.name = "seed",
+       .value = "S",
+       .help = "of the random points; 1 by default",
+       .target = &o.compare.seed},
+      {.name = "threshold",
+       .value = "T",
+       .help = "of the F-score, as a fraction of A's diagonal; 0.01 by default",
+       .target = &o.compare.threshold,
+       .min = 1e-12,
+       .max = 1e3},
+      {.name = "subdivisions",
+       .value = "N",
+       .help = "icosphere on which coefficients are sampled; by default the smallest N of 5 "
+               "... 8 with 16 (L+1)^2 vertices",
+       .target = &o.subdivisions,
+       .min = 0,
+       .max = 12}};
+  append(list, input_convention_options(o.convention));
+  list.push_back(json_option(o.json));
+  return list;
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 // rholm convert: the same data in another format or convention.
+#include <algorithm>
 #include <memory>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "cli/command.h"
 #include "cli/convention.h"
@@ -11,7 +11,6 @@
 #include "cli/outputs.h"
 #include "cli/parse.h"
 #include "cli/session.h"
-#include "rholm/error.h"
 
 namespace rholm::cli {
 namespace {
@@ -21,8 +20,7 @@ struct Options {
   std::string output;
   std::string format;
   ConventionOptions to;
-  ConventionOptions from;
-  bool override_file = false;
+  InputConvention from;
   bool ascii = false;
 };
 
@@ -32,7 +30,27 @@ std::vector<std::string> all_formats() {
   return formats;
 }
 
+// What --format or the extension of the output names.
+std::string named_format(const Options& options) {
+  if (!options.format.empty()) return options.format;
+  const std::string extension = extension_of(options.output);
+  if (extension == ".h5") return "h5";
+  if (const auto format = coefficients_format_of("x" + extension)) return to_string(*format);
+  return extension.empty() ? extension : extension.substr(1);
+}
+
+bool is_one_of(const std::string& name, const std::vector<std::string>& formats) {
+  return std::find(formats.begin(), formats.end(), name) != formats.end();
+}
+
 void convert_shape(const Options& options, const ShapeFile& file, Session& session) {
+  const std::string wanted = named_format(options);
+  if (is_one_of(wanted, coefficients_formats()) && extension_of(options.output) != ".txt") {
+    throw UsageError(
+        fmt::format("{} is a shape and {} a format of coefficients: 'rholm analyze {} "
+                    "--degree L -o {}' finds them",
+                    display_name(options.input), wanted, options.input, options.output));
+  }
   const ShapeFormat format = shape_output(options.output, options.format);
   for (const std::string& warning : file.warnings) {
     session.warn(fmt::format("{}: {}", display_name(options.input), warning));
@@ -46,28 +64,24 @@ void convert_shape(const Options& options, const ShapeFile& file, Session& sessi
 
 void convert_coefficients(const Options& options, const CoefficientsFile& file,
                           const Convention& convention, Session& session) {
+  const std::string wanted = named_format(options);
+  if (is_one_of(wanted, shape_formats())) {
+    throw UsageError(
+        fmt::format("{} holds coefficients and {} is a format of shapes: 'rholm "
+                    "synthesize {} -o {}' makes their surface",
+                    display_name(options.input), wanted, options.input, options.output));
+  }
   const CoefficientsOutput output = coefficients_output(options.output, options.format);
-  if (!file.assumed.empty()) {
-    session.note(fmt::format("{} does not say it, assumed: {}", display_name(options.input),
-                             fmt::join(file.assumed, ", ")));
-  }
-  write_coefficients_output(file.expansion, output, convention);
-  // A NumPy file has no room to say it.
-  if (output.format == CoefficientsFormat::kNpy) {
-    session.note(fmt::format("{} is written with {}, which the file cannot say",
-                             options.output == "-" ? "standard output" : options.output,
-                             text_of(convention)));
-  }
+  write_coefficients_output(file.expansion, output, convention, session);
 }
 
 int run(const Options& options, Session& session) {
   const Convention convention = options.to.output_convention();
-  const CoefficientsReadOptions reading{options.from.output_convention(), options.override_file};
   if (options.output == "-" && options.format.empty()) {
     throw UsageError("standard output has no extension: say --format");
   }
   check_writable(options.output);
-  const Input input = read_input(options.input, session, reading);
+  const Input input = read_input(options.input, session, options.from);
   stop_if_interrupted();
   if (const auto* shape = std::get_if<ShapeFile>(&input)) {
     convert_shape(options, *shape, session);
@@ -78,26 +92,26 @@ int run(const Options& options, Session& session) {
 }
 
 std::vector<Option> option_list(Options& o) {
-  return {{.name = "IN",
-           .help = "file of coefficients or of a shape, or - for standard input",
-           .target = &o.input,
-           .required = true,
-           .offer = Offer::kShapesAndCoefficients},
-          {.name = "OUT",
-           .help = "file to write; - for standard output, with --format",
-           .target = &o.output,
-           .required = true,
-           .offer = Offer::kAnyFile},
-          normalization_option(o.to.normalization, ""),
-          csphase_option(o.to.csphase, ""),
-          normalization_option(o.from.normalization, "input-"),
-          csphase_option(o.from.csphase, "input-"),
-          {.name = "override",
-           .help = "believe --input-normalization and --input-csphase even where the file says "
-                   "otherwise",
-           .target = &o.override_file},
-          format_option(o.format, all_formats()),
-          {.name = "ascii", .help = "PLY and STL as text", .target = &o.ascii}};
+  std::vector<Option> list = {
+      {.name = "IN",
+       .help = "file of coefficients or of a shape, or - for standard input",
+       .target = &o.input,
+       .required = true,
+       .offer = Offer::kShapesAndCoefficients},
+      {.name = "OUT",
+       .help = "file to write; - for standard output, with --format",
+       .target = &o.output,
+       .required = true,
+       .offer = Offer::kAnyFile}};
+  append(list, convention_options(o.to));
+  append(list, input_convention_options(o.from));
+  append(list, {{.name = "override",
+                 .help = "believe --input-normalization and --input-csphase even where the file "
+                         "says otherwise",
+                 .target = &o.from.override_file},
+                format_option(o.format, all_formats()),
+                {.name = "ascii", .help = "PLY and STL as text", .target = &o.ascii}});
+  return list;
 }
 
 }  // namespace

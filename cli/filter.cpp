@@ -34,6 +34,7 @@ struct Options {
   std::string output;
   std::string format;
   ConventionOptions convention;
+  InputConvention input_convention;
   bool json = false;
 };
 
@@ -76,10 +77,7 @@ Filter filter_of(const Options& o, int degree) {
             high_pass(*o.high_pass, degree, window), false};
   }
   if (!o.band.empty()) {
-    const std::vector<int> ends = parse_degrees("--band", o.band);
-    if (ends.size() != 2 || ends[0] > ends[1]) {
-      throw UsageError(fmt::format("--band {}: two degrees are needed, as in 10,40", o.band));
-    }
+    const std::vector<int> ends = parse_band("--band", o.band);
     return {fmt::format("band {}-{} {}", ends[0], ends[1], o.window),
             band_pass(ends[0], ends[1], degree, window), false};
   }
@@ -106,7 +104,7 @@ Figures figures_of(const Filter& filter, const Expansion& before, const Expansio
   }
   figures.change = distance(before.coefficients, after.coefficients);
   const int degree = after.coefficients.degree();
-  if (degree <= kMaxSampledDegree) {
+  if (degree <= kMaxSampledDegree && after.function != RadialFunction::kOther) {
     const auto values = synthesize_grid(
         after.coefficients, smallest_grid(GridKind::kGaussLegendre, 2 * degree), session.context());
     figures.smallest = *std::min_element(values.begin(), values.end());
@@ -151,7 +149,8 @@ int run(const Options& options, Session& session) {
       coefficients_output(options.output, options.format, options.json);
   const Convention convention = options.convention.output_convention();
   check_writable(options.output);
-  const Expansion before = read_coefficients_input(options.input, session).expansion;
+  const Expansion before =
+      read_coefficients_input(options.input, session, options.input_convention).expansion;
   Filter wanted = filter_of(options, before.coefficients.degree());
   wanted.keeps_mean = wanted.gains[0] == 1;
   if (options.keep_mean) wanted.gains[0] = 1;
@@ -161,7 +160,7 @@ int run(const Options& options, Session& session) {
     session.warn(fmt::format("the {} is {} somewhere: the surface crosses its centre",
                              to_string(after.function), text_of(*figures.smallest)));
   }
-  write_coefficients_output(after, output, convention);
+  write_coefficients_output(after, output, convention, session);
   if (options.json) {
     print_json(report_json(options, wanted, figures, before, after));
   } else {
@@ -184,7 +183,11 @@ std::vector<Option> filter_options(Options& o) {
        .target = &o.high_pass,
        .min = 1,
        .max = kMaxDegree},
-      {.name = "band", .value = "L0,L1", .help = "keep degrees from L0 to L1", .target = &o.band},
+      {.name = "band",
+       .value = "L0,L1",
+       .help = "keep degrees from L0 to L1",
+       .target = &o.band,
+       .check = parse_band},
       {.name = "gain",
        .value = "FILE",
        .help = "gains from a text file: lines with a degree and a number; other degrees stay",
@@ -225,13 +228,13 @@ std::vector<Option> option_list(Options& o) {
                                .target = &o.input,
                                .required = true,
                                .offer = Offer::kCoefficients}};
-  for (Option& option : filter_options(o)) list.push_back(std::move(option));
+  append(list, filter_options(o));
   list.push_back(output_option(o.output,
                                "file of coefficients to write: .h5, .sh, .gfc, .json, "
                                ".npy; - for standard output"));
   list.push_back(format_option(o.format, coefficients_formats()));
-  list.push_back(normalization_option(o.convention.normalization, ""));
-  list.push_back(csphase_option(o.convention.csphase, ""));
+  append(list, convention_options(o.convention));
+  append(list, input_convention_options(o.input_convention));
   list.push_back(json_option(o.json));
   return list;
 }

@@ -1,4 +1,5 @@
 // rholm info: what a file holds.
+#include <cmath>
 #include <memory>
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include "cli/session.h"
 #include "rholm/error.h"
 #include "rholm/model.h"
+#include "rholm/repair.h"
 #include "rholm/synthesize.h"
 #include "rholm/topology.h"
 
@@ -21,6 +23,7 @@ namespace {
 struct Options {
   std::string input;
   double weld = 0;
+  InputConvention convention;
   bool json = false;
 };
 
@@ -33,6 +36,7 @@ struct MeshReport {
   Inspection inspection;
   std::size_t vertices_read;
   std::size_t faces_read;
+  std::optional<double> closes_at;  // a tolerance that welds its borders
 
   bool solid() const { return inspection.closed && inspection.oriented; }
   std::size_t isolated() const {
@@ -50,6 +54,7 @@ Json mesh_json(const MeshReport& report, double tolerance) {
                   {"collapsed_faces", report.welded.collapsed_triangles}};
   json["closed"] = i.closed;
   json["boundary_edges"] = i.boundary_edges;
+  json["closes_at"] = json_of(report.closes_at);
   json["manifold"] = i.manifold;
   json["non_manifold_edges"] = i.non_manifold_edges;
   json["non_manifold_vertices"] = i.non_manifold_vertices;
@@ -76,6 +81,31 @@ std::string manifold_text(const Inspection& i) {
                                         counted(i.non_manifold_vertices, "vertex", "vertices")));
 }
 
+// Areas and volumes of shapes of 1e150 or 1e-150 are no doubles.
+std::string measure_text(double value, bool must_differ_from_zero) {
+  if (std::isinf(value)) return "beyond 1.8e308, the largest number: take another unit of length";
+  if (value == 0 && must_differ_from_zero) {
+    return "below 4.9e-324, the smallest number: take another unit of length";
+  }
+  return text_of(value);
+}
+
+// What is wrong with a mesh, and what mends it.
+std::string advice_text(const MeshReport& report) {
+  const Inspection& i = report.inspection;
+  std::string text;
+  if (report.closes_at) {
+    text += line("borders", fmt::format("lie within {0:.2g} of each other: --weld {0:.2g} joins "
+                                        "them",
+                                        *report.closes_at));
+  }
+  const bool damaged = i.boundary_edges + i.non_manifold_edges + i.non_manifold_vertices +
+                           i.misoriented_edges + i.degenerate_triangles + i.duplicate_triangles >
+                       0;
+  if (damaged && i.triangles > 0) text += line("mended by", "rholm repair");
+  return text;
+}
+
 std::string mesh_text(const MeshReport& report) {
   const Inspection& i = report.inspection;
   std::string text;
@@ -95,11 +125,15 @@ std::string mesh_text(const MeshReport& report) {
   text += line("degenerate", counted(i.degenerate_triangles, "face") + " without area");
   text += line("duplicate", counted(i.duplicate_triangles, "face"));
   text += line("bounds", fmt::format("{} to {}", text_of(i.bounds.min), text_of(i.bounds.max)));
-  text += line("diagonal", text_of(i.bounds.diagonal()));
-  text += line("area", text_of(i.area));
-  text += line("volume", report.solid() ? text_of(i.volume) : "none: not a solid");
+  text += line("diagonal", measure_text(i.bounds.diagonal(), false));
+  const bool has_area = i.degenerate_triangles < i.triangles;
+  text += line("area", measure_text(i.area, has_area));
+  // A flat solid has no volume; one too small for its area has none that can be told.
+  text += line("volume", report.solid() ? measure_text(i.volume, has_area && i.area < 1e-200)
+                                        : "none: not a solid");
+  if (report.solid()) text += line("volume centroid", text_of(i.volume_centroid));
   text += line("attributes", text_of(report.welded.mesh.attributes));
-  return text;
+  return text + advice_text(report);
 }
 
 Json cloud_json(const PointCloud& cloud) {
@@ -130,8 +164,12 @@ int report_shape(const Options& options, const ShapeFile& file) {
                                  mesh ? "mesh" : "points", to_string(file.format), file.encoding);
   if (mesh) {
     const Welded welded = weld(*mesh, options.weld);
-    const MeshReport report{file, welded, inspect(welded.mesh), mesh->vertices.size(),
-                            mesh->triangles.size()};
+    const MeshReport report{file,
+                            welded,
+                            inspect(welded.mesh),
+                            mesh->vertices.size(),
+                            mesh->triangles.size(),
+                            closing_tolerance(welded.mesh)};
     json.update(mesh_json(report, options.weld));
     text += mesh_text(report);
   } else {
@@ -146,6 +184,7 @@ int report_shape(const Options& options, const ShapeFile& file) {
 
 std::optional<SurfaceMeasures> measures_of(const Expansion& expansion, Session& session) {
   if (expansion.coefficients.degree() > kMaxMeasuredDegree) return std::nullopt;
+  if (expansion.function == RadialFunction::kOther) return std::nullopt;
   try {
     return measure(expansion, session.context());
   } catch (const Error& error) {
@@ -194,6 +233,8 @@ int report_coefficients(const Options& options, const CoefficientsFile& file, Se
   json["normalization"] = to_string(file.convention.normalization);
   json["csphase"] = file.convention.csphase;
   json["assumed"] = file.assumed;
+  json["product"] = file.product.empty() ? Json(nullptr) : Json(file.product);
+  json["passed_over"] = file.passed_over;
   json["norm_squared"] = json_of(expansion.norm_squared);
   json["tail_strength"] = json_of(expansion.tail_strength);
   json["errors"] = json_of(expansion.errors);
@@ -209,6 +250,8 @@ int report_coefficients(const Options& options, const CoefficientsFile& file, Se
   text += line("method", expansion.method.empty() ? "not said" : expansion.method);
   text += line("numbers in", convention);
   for (const std::string& assumed : file.assumed) text += line("assumed", assumed);
+  if (!file.product.empty()) text += line("of", file.product + ", no shape");
+  for (const std::string& what : file.passed_over) text += line("not used", what);
   if (measures) {
     text += line("volume", text_of(measures->volume));
     text += line("area", text_of(measures->area));
@@ -221,9 +264,22 @@ int report_coefficients(const Options& options, const CoefficientsFile& file, Se
 
 int run(const Options& options, Session& session) {
   if (holds_atlas(options.input)) return report_atlas(options.input, options.json);
-  const Input input = read_input(options.input, session);
+  const Input input = read_input(options.input, session, options.convention);
   if (const auto* file = std::get_if<ShapeFile>(&input)) return report_shape(options, *file);
   return report_coefficients(options, std::get<CoefficientsFile>(input), session);
+}
+
+std::vector<Option> option_list(Options& o) {
+  std::vector<Option> list = {
+      {.name = "SHAPE",
+       .help = "file of a shape or of coefficients, or - for standard input",
+       .target = &o.input,
+       .required = true,
+       .offer = Offer::kShapesAndCoefficients},
+      weld_option(o.weld)};
+  append(list, input_convention_options(o.convention));
+  list.push_back(json_option(o.json));
+  return list;
 }
 
 }  // namespace
@@ -239,13 +295,7 @@ Command info_command() {
               "degree, centre and convention. The content decides what a file is, not its name."
               "\n\nA mesh that is open or inside out is information, not an error: the exit code "
               "is 0.",
-          .options = {{.name = "SHAPE",
-                       .help = "file of a shape or of coefficients, or - for standard input",
-                       .target = &options->input,
-                       .required = true,
-                       .offer = Offer::kShapesAndCoefficients},
-                      weld_option(options->weld),
-                      json_option(options->json)},
+          .options = option_list(*options),
           .examples = {"rholm info bumpy.ply", "rholm info bumpy.ply --json"},
           .run = [options](Session& session) { return run(*options, session); }};
 }

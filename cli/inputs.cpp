@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "cli/interrupt.h"
 #include "rholm/error.h"
@@ -97,6 +98,12 @@ Guess guess(std::span<const char> head, const std::string& path) {
   return guess_by_extension(extension_of(path));
 }
 
+// "a gravity_field, no shape".
+std::string not_a_shape(const CoefficientsFile& file) {
+  return file.product.empty() ? "no shape (its function is 'other')"
+                              : fmt::format("a {}, no shape", file.product);
+}
+
 // A file that may be looked at several times: its bytes if it is a stream, else its beginning.
 struct Source {
   std::string path;
@@ -123,6 +130,22 @@ ShapeFile read_shape_of(const Source& source, Session& session) {
   return read_shape(source.path, {}, session.context());
 }
 
+// What a reader of the numbers has to know, once for each file.
+void say_what_it_means(const CoefficientsFile& file, const std::string& path, Session& session,
+                       const InputConvention& convention) {
+  const std::vector<std::string> open = convention.left_open(file.assumed);
+  if (!open.empty()) {
+    session.note(
+        fmt::format("{} does not say it, assumed: {}", display_name(path), fmt::join(open, ", ")));
+  }
+  if (file.expansion.function == RadialFunction::kOther) {
+    session.note(fmt::format("{} is {}: its coefficients are taken as they are{}{}",
+                             display_name(path), not_a_shape(file),
+                             file.passed_over.empty() ? "" : ", without ",
+                             fmt::join(file.passed_over, ", ")));
+  }
+}
+
 CoefficientsFile read_coefficients_of(const Source& source, Session& session,
                                       const CoefficientsReadOptions& options) {
   if (source.stream && source.guess == Guess::kModel) {
@@ -137,8 +160,46 @@ CoefficientsFile read_coefficients_of(const Source& source, Session& session,
   return read_any_coefficients(source.path, options, session.context());
 }
 
+void check_surface(const CoefficientsFile& file, const std::string& path) {
+  if (file.expansion.function != RadialFunction::kOther) return;
+  throw Error(ErrorCode::kUnsupported,
+              fmt::format("{} is {}: its coefficients are not the radius of a surface; 'spectrum', "
+                          "'filter', 'rotate' and 'convert' take them{}",
+                          display_name(path), not_a_shape(file),
+                          file.product.empty() ? ""
+                                               : "; if they are radii all the same, write "
+                                                 "'product_type shape' into its header"));
+}
+
 bool is_coefficients(Guess guess) {
   return guess == Guess::kCoefficients || guess == Guess::kModel;
+}
+
+CoefficientsFile read_file(const std::string& path, Session& session,
+                           const InputConvention& convention) {
+  const Source source = look_at(path);
+  if (source.guess == Guess::kShape) {
+    throw Error(ErrorCode::kInvalidInput,
+                fmt::format("{} is a shape, and coefficients are needed; make them with 'rholm "
+                            "analyze {} --degree L -o OUT.h5'",
+                            display_name(path), path));
+  }
+  return read_coefficients_of(source, session, convention.reading());
+}
+
+Input read_either(const std::string& path, Session& session, const InputConvention& convention) {
+  const Source source = look_at(path);
+  if (source.guess == Guess::kShape) return read_shape_of(source, session);
+  if (is_coefficients(source.guess)) {
+    return read_coefficients_of(source, session, convention.reading());
+  }
+  // Bare text: lines `l m C S` are coefficients, anything else is taken for points.
+  try {
+    return read_coefficients_of(source, session, convention.reading());
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::kIo || error.code() == ErrorCode::kCancelled) throw;
+    return read_shape_of(source, session);
+  }
 }
 
 }  // namespace
@@ -164,29 +225,36 @@ ShapeFile read_shape_input(const std::string& path, Session& session) {
 }
 
 CoefficientsFile read_coefficients_input(const std::string& path, Session& session,
-                                         const CoefficientsReadOptions& options) {
-  const Source source = look_at(path);
-  if (source.guess == Guess::kShape) {
-    throw Error(ErrorCode::kInvalidInput,
-                fmt::format("{} is a shape, and coefficients are needed; make them with 'rholm "
-                            "analyze {} --degree L -o OUT.h5'",
-                            display_name(path), path));
-  }
-  return read_coefficients_of(source, session, options);
+                                         const InputConvention& convention) {
+  CoefficientsFile file = read_file(path, session, convention);
+  say_what_it_means(file, path, session, convention);
+  return file;
 }
 
-Input read_input(const std::string& path, Session& session,
-                 const CoefficientsReadOptions& options) {
-  const Source source = look_at(path);
-  if (source.guess == Guess::kShape) return read_shape_of(source, session);
-  if (is_coefficients(source.guess)) return read_coefficients_of(source, session, options);
-  // Bare text: lines `l m C S` are coefficients, anything else is taken for points.
-  try {
-    return read_coefficients_of(source, session, options);
-  } catch (const Error& error) {
-    if (error.code() == ErrorCode::kIo || error.code() == ErrorCode::kCancelled) throw;
-    return read_shape_of(source, session);
+Expansion read_expansion(const std::string& path, Session& session,
+                         const InputConvention& convention) {
+  CoefficientsFile file = read_file(path, session, convention);
+  check_surface(file, path);
+  say_what_it_means(file, path, session, convention);
+  return std::move(file.expansion);
+}
+
+Input read_input(const std::string& path, Session& session, const InputConvention& convention) {
+  Input input = read_either(path, session, convention);
+  if (const auto* file = std::get_if<CoefficientsFile>(&input)) {
+    say_what_it_means(*file, path, session, convention);
   }
+  return input;
+}
+
+Input read_surface_input(const std::string& path, Session& session,
+                         const InputConvention& convention) {
+  Input input = read_either(path, session, convention);
+  if (const auto* file = std::get_if<CoefficientsFile>(&input)) {
+    check_surface(*file, path);
+    say_what_it_means(*file, path, session, convention);
+  }
+  return input;
 }
 
 Mesh mesh_of(ShapeFile file, const std::string& path, Session& session) {

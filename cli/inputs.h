@@ -7,6 +7,7 @@
 #include <string>
 #include <variant>
 
+#include "cli/convention.h"
 #include "cli/session.h"
 #include "rholm/coefficients_io.h"
 #include "rholm/mesh.h"
@@ -17,12 +18,18 @@ namespace rholm::cli {
 using Input = std::variant<ShapeFile, CoefficientsFile>;
 
 // Each throws what the readers throw; the wrong kind of file is InvalidInput, and the message
-// names the command that makes the right one.
+// names the command that makes the right one. What a file of coefficients does not say, and was
+// assumed, is said, and if it is of no surface.
 ShapeFile read_shape_input(const std::string& path, Session& session);
 CoefficientsFile read_coefficients_input(const std::string& path, Session& session,
-                                         const CoefficientsReadOptions& options = {});
-Input read_input(const std::string& path, Session& session,
-                 const CoefficientsReadOptions& options = {});
+                                         const InputConvention& convention);
+Input read_input(const std::string& path, Session& session, const InputConvention& convention);
+
+// The same where a surface is needed: coefficients of something else are Unsupported.
+Expansion read_expansion(const std::string& path, Session& session,
+                         const InputConvention& convention);
+Input read_surface_input(const std::string& path, Session& session,
+                         const InputConvention& convention);
 
 // The mesh of a file, its warnings passed on; points are refused.
 Mesh mesh_of(ShapeFile file, const std::string& path, Session& session);

@@ -52,11 +52,29 @@ void check_options(const Options& o) {
   if (o.kind != "sample") refuse_given(o.sample, o.kind);
 }
 
+// Three lengths.
+Vec3 parse_edges(const std::string& option, const std::string& text) {
+  const std::vector<double> edges = parse_positive(option, text, 3);
+  return {edges[0], edges[1], edges[2]};
+}
+
+std::vector<double> parse_radii(const std::string& option, const std::string& text) {
+  std::vector<double> radii = parse_positive(option, text, 2);
+  if (radii[0] > radii[1]) return radii;
+  throw UsageError(fmt::format(
+      "{} is '{}'; the radius of the centre line must be above that of the tube, as in 1,0.4",
+      option, text));
+}
+
+std::array<int, 2> parse_segments(const std::string& option, const std::string& text) {
+  return parse_grid(option, text, {3, 3});
+}
+
 Mesh make_torus(const Options& o) {
   const std::vector<double> radii =
-      o.radii.empty() ? std::vector<double>{1, 0.4} : parse_numbers("--radii", o.radii, 2);
-  const auto segments = o.segments.empty() ? std::array<int, 2>{96, 48}
-                                           : parse_size("--segments", o.segments, 3, 16384);
+      o.radii.empty() ? std::vector<double>{1, 0.4} : parse_radii("--radii", o.radii);
+  const auto segments =
+      o.segments.empty() ? std::array<int, 2>{96, 48} : parse_segments("--segments", o.segments);
   return torus(radii[0], radii[1], segments[0], segments[1]);
 }
 
@@ -64,11 +82,10 @@ Mesh make_shape(const Options& o) {
   const int subdivisions = o.subdivisions.value_or(kDefaultSubdivisions);
   if (o.kind == "sphere") return icosphere(subdivisions);
   if (o.kind == "ellipsoid") {
-    return ellipsoid(o.axes.empty() ? Vec3{3, 2, 1} : parse_vector("--axes", o.axes), subdivisions);
+    return ellipsoid(o.axes.empty() ? Vec3{3, 2, 1} : parse_edges("--axes", o.axes), subdivisions);
   }
   if (o.kind == "box") {
-    return box(o.size.empty() ? Vec3{1, 1, 1} : parse_vector("--size", o.size),
-               o.cells.value_or(1));
+    return box(o.size.empty() ? Vec3{1, 1, 1} : parse_edges("--size", o.size), o.cells.value_or(1));
   }
   if (o.kind == "torus") return make_torus(o);
   return bumpy_sphere(subdivisions, o.amplitude.value_or(0.2),
@@ -77,7 +94,9 @@ Mesh make_shape(const Options& o) {
 
 int run(const Options& options, Session& session) {
   check_options(options);
-  const ShapeFormat format = shape_output(options.output, options.format);
+  const ShapeFormat format = options.kind == "sample"
+                                 ? points_output(options.output, options.format)
+                                 : mesh_output(options.output, options.format);
   check_writable(options.output);
   const Vec3 shift =
       options.translate.empty() ? Vec3{} : parse_vector("--translate", options.translate);
@@ -114,11 +133,13 @@ std::vector<Option> option_list(Options& o) {
       {.name = "axes",
        .value = "A,B,C",
        .help = "semi-axes of the ellipsoid; 3,2,1 by default",
-       .target = &o.axes},
+       .target = &o.axes,
+       .check = parse_edges},
       {.name = "size",
        .value = "X,Y,Z",
        .help = "edges of the box; 1,1,1 by default",
-       .target = &o.size},
+       .target = &o.size,
+       .check = parse_edges},
       {.name = "cells",
        .value = "N",
        .help = "squares per edge of the box; 1 by default",
@@ -128,11 +149,13 @@ std::vector<Option> option_list(Options& o) {
       {.name = "radii",
        .value = "R,r",
        .help = "of the torus: centre line and tube; 1,0.4 by default",
-       .target = &o.radii},
+       .target = &o.radii,
+       .check = parse_radii},
       {.name = "segments",
        .value = "NxM",
        .help = "of the torus: around the axis and around the tube; 96x48 by default",
-       .target = &o.segments},
+       .target = &o.segments,
+       .check = parse_segments},
       {.name = "amplitude",
        .value = "A",
        .help = "height of the bumps, 0 ... 0.99; 0.2 by default",
@@ -147,7 +170,8 @@ std::vector<Option> option_list(Options& o) {
       {.name = "translate",
        .value = "X,Y,Z",
        .help = "move the shape; it is centred at the origin, or where MESH is, otherwise",
-       .target = &o.translate}};
+       .target = &o.translate,
+       .check = parse_vector}};
   for (Option& option : sample_options(o.sample)) options.push_back(std::move(option));
   options.push_back(output_option(
       o.output,

@@ -13,15 +13,15 @@
 namespace rholm::cli {
 namespace {
 
-void set_holes(const std::string& text, SampleOptions& options) {
-  const std::vector<double> values = parse_numbers("--holes", text, 2);
-  if (values[0] != std::floor(values[0]) || values[0] < 0 || values[0] > 1000 || values[1] < 0 ||
-      values[1] > 1) {
-    throw UsageError(fmt::format(
-        "--holes is '{}'; it must be a whole number 0 ... 1000 and a radius 0 ... 1", text));
+// The number of holes and their radius.
+std::vector<double> parse_holes(const std::string& option, const std::string& text) {
+  const std::vector<double> values = parse_numbers(option, text, 2);
+  if (values[0] == std::floor(values[0]) && values[0] >= 0 && values[0] <= 1000 && values[1] >= 0 &&
+      values[1] <= 1) {
+    return values;
   }
-  options.holes = static_cast<int>(values[0]);
-  options.hole_radius = values[1];
+  throw UsageError(fmt::format(
+      "{} is '{}'; it must be a whole number 0 ... 1000 and a radius 0 ... 1", option, text));
 }
 
 }  // namespace
@@ -62,7 +62,8 @@ std::vector<Option> sample_options(SampleArguments& a) {
            .value = "K,R",
            .help = "of sample: without points in K balls about random points of the surface, "
                    "radius R of the diagonal",
-           .target = &a.holes},
+           .target = &a.holes,
+           .check = parse_holes},
           {.name = "density-ratio",
            .value = "Q",
            .help = "of sample: density falls Q times along the longest axis, exponentially",
@@ -99,7 +100,11 @@ PointCloud make_sample(const SampleArguments& a, std::uint64_t seed, Session& se
                         .normals = !a.no_normals,
                         .seed = seed};
   if (a.points) options.points = static_cast<std::size_t>(*a.points);
-  if (!a.holes.empty()) set_holes(a.holes, options);
+  if (!a.holes.empty()) {
+    const std::vector<double> holes = parse_holes("--holes", a.holes);
+    options.holes = static_cast<int>(holes[0]);
+    options.hole_radius = holes[1];
+  }
   const Mesh mesh = read_mesh(a.mesh, session);
   return sample_surface(a.largest_component ? largest_component(weld(mesh).mesh) : mesh, options,
                         session.context());

@@ -86,8 +86,7 @@ std::string report_text(const OrientReport& report, bool by_sight, bool had_norm
 
 int run(const Options& options, Session& session) {
   const OrientOptions wanted = library_options(options);
-  const ShapeFormat format = shape_output(options.output, options.format, options.json);
-  if (format == ShapeFormat::kStl) throw UsageError("STL has no points; take .ply or .xyz");
+  const ShapeFormat format = points_output(options.output, options.format, options.json);
   check_writable(options.output);
   PointCloud cloud = points_of(read_shape_input(options.input, session), options.input, session);
   const bool had_normals = !cloud.normals.empty();
@@ -100,8 +99,8 @@ int run(const Options& options, Session& session) {
     json.update(json_of(report));
     print_json(json);
   } else if (options.output != "-") {
-    print_text(fmt::format("{}: oriented\n", display_name(options.input)) +
-               report_text(report, wanted.center || wanted.sensor, had_normals));
+    session.report(fmt::format("{}: oriented\n", display_name(options.input)) +
+                   report_text(report, wanted.center || wanted.sensor, had_normals));
   }
   return 0;
 }
@@ -121,11 +120,13 @@ std::vector<Option> option_list(Options& o) {
           {.name = "center",
            .value = "X,Y,Z",
            .help = "normals point away from here, a point inside",
-           .target = &o.center},
+           .target = &o.center,
+           .check = parse_vector},
           {.name = "sensor",
            .value = "X,Y,Z",
            .help = "normals point to here, where the points were measured from",
-           .target = &o.sensor},
+           .target = &o.sensor,
+           .check = parse_vector},
           {.name = "keep-directions",
            .help = "believe the normals of the file up to their signs",
            .target = &o.keep_directions},

@@ -1,6 +1,7 @@
 #include "cli/outputs.h"
 
 #include <errno.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cstring>
@@ -8,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/convention.h"
 #include "cli/inputs.h"
 #include "cli/interrupt.h"
 #include "cli/parse.h"
@@ -23,6 +25,17 @@ constexpr const char* kModelFormat = "h5";
   if (path == "-") throw UsageError("standard output has no extension: say --format");
   throw UsageError(fmt::format(
       "'{}' has no extension that names a format; known are {}, or say --format", path, known));
+}
+
+// All that a NumPy array does not hold, as words.
+std::string unsaid_by_npy(const Expansion& expansion, const Convention& convention) {
+  const Vec3& c = expansion.center;
+  std::string text = fmt::format("{}; function {}; centre ({}, {}, {})", text_of(convention),
+                                 to_string(expansion.function), c.x, c.y, c.z);
+  if (!expansion.unit.empty()) text += "; unit " + expansion.unit;
+  if (!expansion.method.empty()) text += "; method " + expansion.method;
+  if (expansion.norm_squared || expansion.errors) text += "; their norm and errors are lost too";
+  return text;
 }
 
 }  // namespace
@@ -45,6 +58,14 @@ Option format_option(std::string& format, std::vector<std::string> choices) {
 }
 
 std::vector<std::string> shape_formats() { return {"ply", "obj", "off", "stl", "xyz"}; }
+
+std::vector<std::string> mesh_formats() { return {"ply", "obj", "off", "stl"}; }
+
+std::vector<Option> mesh_output_options(std::string& path, std::string& format, bool& ascii) {
+  return {output_option(path, "mesh to write: .ply, .obj, .off, .stl; - for standard output"),
+          format_option(format, mesh_formats()),
+          {.name = "ascii", .help = "PLY and STL as text", .target = &ascii}};
+}
 
 std::vector<std::string> coefficients_formats() {
   return {kModelFormat, "shtools", "icgem", "json", "npy"};
@@ -70,6 +91,21 @@ ShapeFormat shape_output(const std::string& path, const std::string& format, boo
   throw_unknown_format(path, ".ply, .obj, .off, .stl, .xyz");
 }
 
+ShapeFormat mesh_output(const std::string& path, const std::string& format, bool json) {
+  const ShapeFormat found = shape_output(path, format, json);
+  if (found != ShapeFormat::kXyz) return found;
+  throw UsageError(
+      fmt::format("{} has no faces, and a mesh has them: take .ply, .obj, .off or .stl",
+                  format.empty() ? fmt::format("'{}' is a file of points, which", path)
+                                 : "--format " + format));
+}
+
+ShapeFormat points_output(const std::string& path, const std::string& format, bool json) {
+  const ShapeFormat found = shape_output(path, format, json);
+  if (found != ShapeFormat::kStl) return found;
+  throw UsageError("STL has triangles only, no points: take .ply, .xyz, .obj or .off");
+}
+
 CoefficientsOutput coefficients_output(const std::string& path, const std::string& format,
                                        bool json) {
   check_not_shared(path, json);
@@ -86,7 +122,15 @@ CoefficientsOutput coefficients_output(const std::string& path, const std::strin
 
 void check_writable(const std::string& path) {
   if (path == "-" || path.empty()) return;
-  if (std::filesystem::is_directory(path)) {
+  struct stat status = {};
+  if (::stat(path.c_str(), &status) != 0) {
+    // A file that is not there is what is wanted, a folder that is not is said below. A name that
+    // is too long, or a circle of links, would only be noticed by the writer.
+    if (errno != ENOENT && errno != ENOTDIR && errno != EACCES) {
+      throw Error(ErrorCode::kIo,
+                  fmt::format("{} cannot be written: {}", path, std::strerror(errno)));
+    }
+  } else if (S_ISDIR(status.st_mode)) {
     throw Error(ErrorCode::kIo, fmt::format("{} cannot be written: it is a folder", path));
   }
   std::filesystem::path folder = std::filesystem::path(path).parent_path();
@@ -98,12 +142,17 @@ void check_writable(const std::string& path) {
 }
 
 void write_coefficients_output(const Expansion& expansion, const CoefficientsOutput& output,
-                               const Convention& convention) {
+                               const Convention& convention, Session& session) {
   stop_if_interrupted();
-  if (output.format) {
-    write_coefficients(expansion, output.path, {output.format, convention});
-  } else {
-    write_model(expansion, output.path);
+  if (!output.format) return write_model(expansion, output.path);
+  write_coefficients(expansion, output.path, {output.format, convention});
+  const std::string name = output.path == "-" ? "standard output" : output.path;
+  if (output.format == CoefficientsFormat::kNpy) {
+    session.note(fmt::format("{} has numbers alone and cannot say that they are of {}", name,
+                             unsaid_by_npy(expansion, convention)));
+  } else if (expansion.errors) {
+    session.note(
+        fmt::format("{} has no room for the errors of the model: a model file (.h5) has", name));
   }
 }
 

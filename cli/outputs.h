@@ -6,6 +6,7 @@
 #include <string>
 
 #include "cli/command.h"
+#include "cli/session.h"
 #include "rholm/coefficients_io.h"
 #include "rholm/mesh.h"
 #include "rholm/shape_io.h"
@@ -15,6 +16,8 @@ namespace rholm::cli {
 // "-o, --output OUT", required or not, and "--format".
 Option output_option(std::string& path, const std::string& help, bool required = true);
 Option format_option(std::string& format, std::vector<std::string> choices);
+// --output, --format and --ascii of commands that write a mesh.
+std::vector<Option> mesh_output_options(std::string& path, std::string& format, bool& ascii);
 
 // What a file of coefficients is to be: a model file, or one of the library's text formats.
 struct CoefficientsOutput {
@@ -24,12 +27,17 @@ struct CoefficientsOutput {
 
 // Names for --format.
 std::vector<std::string> shape_formats();         // ply, obj, off, stl, xyz
+std::vector<std::string> mesh_formats();          // the same without xyz, which has no faces
 std::vector<std::string> coefficients_formats();  // h5, shtools, icgem, json, npy
 
 // The format by `format` (an option's value, may be empty), else by the extension. Throws
 // UsageError if neither says it, or if "-" stands without a format. `json` is whether a report
 // wants standard output too.
 ShapeFormat shape_output(const std::string& path, const std::string& format, bool json = false);
+// The same for a mesh: xyz, which has no faces, is refused.
+ShapeFormat mesh_output(const std::string& path, const std::string& format, bool json = false);
+// The same for points: stl, which has triangles only, is refused.
+ShapeFormat points_output(const std::string& path, const std::string& format, bool json = false);
 CoefficientsOutput coefficients_output(const std::string& path, const std::string& format,
                                        bool json = false);
 
@@ -40,8 +48,9 @@ void check_not_shared(const std::string& path, bool json);
 // work, the answer of the writer itself counts.
 void check_writable(const std::string& path);
 
+// Says what of the expansion the format has no room for.
 void write_coefficients_output(const Expansion& expansion, const CoefficientsOutput& output,
-                               const Convention& convention);
+                               const Convention& convention, Session& session);
 
 // The file's size, if it is a file.
 std::optional<std::uintmax_t> file_size_of(const std::string& path);

@@ -72,7 +72,6 @@ void show_patches(const Options& options, ShapeFormat format, const Shape& shape
 int run(const Options& options, Session& session) {
   const ShapeFormat format = shape_output(options.output, options.format, options.json);
   if (format != ShapeFormat::kPly) throw UsageError("colours need a .ply file");
-  if (!(options.tolerance > 0)) throw UsageError("--tolerance: it must be above 0");
   check_writable(options.output);
   ShapeFile file = read_shape_input(options.input, session);
   Json json;
@@ -129,7 +128,7 @@ Command partition_command() {
                        .value = "E",
                        .help = "rms distance of the caps, of the diagonal; 0.001 by default",
                        .target = &o.tolerance,
-                       .min = 0},
+                       .above = 0},
                       {.name = "min-cosine",
                        .value = "C",
                        .help = "of patches: the least cosine between a normal and their mean; 0.5 "

@@ -1,7 +1,7 @@
 #include "cli/prepare.h"
 
-#include "cli/parse.h"
-#include "rholm/error.h"
+#include "cli/values.h"
+#include "rholm/coefficients_io.h"
 #include "rholm/topology.h"
 
 namespace rholm::cli {
@@ -24,15 +24,23 @@ Option center_option(std::string& center) {
               "cosine: where the surface is seen least aslant; none: the file's origin; "
               "centroid: of the surface; volume: of the solid",
           .target = &center,
-          .choices = {}};
+          .check = [](const std::string&, const std::string& text) { parse_center_option(text); }};
+}
+
+Option length_unit_option(std::string& unit) {
+  return {.name = "length-unit",
+          .value = "NAME",
+          .help = "unit of the mesh's lengths, as in km, to be written into the file",
+          .target = &unit,
+          .check = [](const std::string& option, const std::string& text) {
+            check_by(option, text, [&] { check_unit(text); });
+          }};
 }
 
 CenterOptions parse_center_option(const std::string& text) {
-  try {
-    return parse_center(text);
-  } catch (const Error& error) {
-    throw UsageError(std::string("--center: ") + error.what());
-  }
+  CenterOptions options;
+  check_by("--center", text, [&] { options = parse_center(text); });
+  return options;
 }
 
 Option rays_option(int& rays) {

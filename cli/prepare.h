@@ -14,6 +14,8 @@ Option weld_option(double& tolerance);
 Option center_option(std::string& center);
 Option rays_option(int& rays);
 CenterOptions parse_center_option(const std::string& text);  // throws UsageError
+// "--length-unit NAME".
+Option length_unit_option(std::string& unit);
 
 struct Prepared {
   Mesh mesh;  // welded, outward

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <new>
 #include <span>
 
@@ -62,6 +63,10 @@ int run_command(const Command& command, std::span<const std::string> words) {
     return command.run(session);
   } catch (const UsageError& error) {
     throw UsageError(fmt::format("{}\nTry 'rholm {} --help'.", error.what(), command.name));
+  } catch (const Error& error) {
+    // The library speaks of ideas; what they are called here, the command knows.
+    if (error.code() != ErrorCode::kNotStarShaped || command.if_not_star.empty()) throw;
+    throw Error(error.code(), fmt::format("{} ({})", error.what(), command.if_not_star));
   }
 }
 
@@ -108,6 +113,9 @@ int run_program(const std::vector<std::string>& words) {
     return exit_code_of(error.code());
   } catch (const std::bad_alloc&) {
     print_error("there is not enough memory for this; ask for a lower degree or fewer vertices");
+    return kFailure;
+  } catch (const std::filesystem::filesystem_error& error) {
+    print_error(fmt::format("{}: {}", error.path1().string(), error.code().message()));
     return kFailure;
   } catch (const std::exception& error) {
     print_error(fmt::format("unexpected: {}", error.what()));

@@ -63,13 +63,11 @@ PointCloud read_points(const std::string& path, Session& session) {
   return points_of(std::move(mesh));
 }
 
-double parse_noise(const std::string& text) {
+void check_noise(const std::string& option, const std::string& text) {
   const std::optional<double> value = read_number(text);
-  if (!value || !(*value >= 0 && *value < 1)) {
-    throw UsageError(
-        fmt::format("--noise is auto or a part of the diagonal, 0 ... 1, not '{}'", text));
-  }
-  return *value;
+  if (text == "auto" || (value && *value >= 0 && *value < 1)) return;
+  throw UsageError(fmt::format(
+      "{} is '{}'; it must be auto or a part of the diagonal from 0 up to below 1", option, text));
 }
 
 ReconstructOptions library_options(const Options& o, const Bounds& box) {
@@ -77,12 +75,12 @@ ReconstructOptions library_options(const Options& o, const Bounds& box) {
   const Vec3 size = box.max - box.min;
   if (o.resolution) options.step = std::max({size.x, size.y, size.z}) / *o.resolution;
   if (o.tolerance) options.tolerance = *o.tolerance * box.diagonal();
-  if (o.noise != "auto") options.noise = parse_noise(o.noise) * box.diagonal();
+  if (o.noise != "auto") options.noise = *read_number(o.noise) * box.diagonal();
   options.holes = parse_hole_policy(o.holes);
   options.blend = parse_cap_blend(o.blend);
   options.min_component = o.min_component;
   options.remove_outliers = !o.keep_outliers;
-  options.simplify = parse_simplify(o.simplify);
+  options.simplify = parse_simplify("--simplify", o.simplify);
   options.max_memory = static_cast<std::size_t>(o.max_memory * 0x1p30);
   return options;
 }
@@ -151,11 +149,7 @@ std::string report_text(const Reconstruction& made, double diagonal, bool keep_h
 }
 
 int run(const Options& options, Session& session) {
-  const ShapeFormat format = shape_output(options.output, options.format, options.json);
-  if (format == ShapeFormat::kXyz)
-    throw UsageError("a surface needs a format with faces: .ply, .obj, .off or .stl");
-  if (options.noise != "auto") parse_noise(options.noise);
-  parse_simplify(options.simplify);
+  const ShapeFormat format = mesh_output(options.output, options.format, options.json);
   check_writable(options.output);
   if (!options.model.empty()) {
     if (options.model == "-") throw UsageError("a model file is written in place: --model NAME.h5");
@@ -185,8 +179,8 @@ int run(const Options& options, Session& session) {
     json.update(json_of(made, box.diagonal()));
     print_json(json);
   } else if (options.output != "-") {
-    print_text(fmt::format("{}: reconstructed\n", display_name(options.input)) +
-               report_text(made, box.diagonal(), wanted.holes == HolePolicy::kKeep));
+    session.report(fmt::format("{}: reconstructed\n", display_name(options.input)) +
+                   report_text(made, box.diagonal(), wanted.holes == HolePolicy::kKeep));
   }
   return 0;
 }
@@ -208,7 +202,8 @@ std::vector<Option> option_list(Options& o) {
           {.name = "noise",
            .value = "auto|SIGMA",
            .help = "standard deviation of the points, a part of the diagonal; auto: estimated",
-           .target = &o.noise},
+           .target = &o.noise,
+           .check = check_noise},
           {.name = "holes",
            .help = "fill: close places without points; keep: leave them open",
            .target = &o.holes,
@@ -243,7 +238,7 @@ std::vector<Option> option_list(Options& o) {
            .target = &o.model,
            .offer = Offer::kAnyFile},
           output_option(o.output, "mesh to write: .ply, .obj, .off, .stl; - for standard output"),
-          format_option(o.format, {"ply", "obj", "off", "stl"}),
+          format_option(o.format, mesh_formats()),
           {.name = "ascii", .help = "PLY and STL as text", .target = &o.ascii},
           json_option(o.json)};
 }

@@ -1,26 +1,24 @@
 #include "cli/region_option.h"
 
-#include <fmt/format.h>
-
-#include "cli/parse.h"
-#include "rholm/error.h"
+#include "cli/values.h"
 
 namespace rholm::cli {
 
 Option region_option(const std::string& name, const std::string& help,
                      std::vector<std::string>& texts) {
-  return {.name = name, .value = "R", .help = help, .target = &texts, .required = true};
+  return {.name = name,
+          .value = "R",
+          .help = help,
+          .target = &texts,
+          .required = true,
+          .check = [](const std::string& option, const std::string& text) {
+            check_by(option, text, [&] { parse_region(text); });
+          }};
 }
 
-std::vector<Region> parse_regions(const std::string& name, const std::vector<std::string>& texts) {
+std::vector<Region> parse_regions(const std::vector<std::string>& texts) {
   std::vector<Region> regions;
-  for (const std::string& text : texts) {
-    try {
-      regions.push_back(parse_region(text));
-    } catch (const Error& error) {
-      throw UsageError(fmt::format("--{}: {}", name, error.what()));
-    }
-  }
+  for (const std::string& text : texts) regions.push_back(parse_region(text));
   return regions;
 }
 

@@ -13,8 +13,8 @@ namespace rholm::cli {
 Option region_option(const std::string& name, const std::string& help,
                      std::vector<std::string>& texts);
 
-// Throws UsageError for what is no region.
-std::vector<Region> parse_regions(const std::string& name, const std::vector<std::string>& texts);
+// Of texts that the option has checked.
+std::vector<Region> parse_regions(const std::vector<std::string>& texts);
 
 // What a region may be, for the descriptions of commands.
 inline constexpr const char* kRegionHelp =

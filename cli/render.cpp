@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <deque>
 #include <filesystem>
+#include <limits>
 #include <memory>
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include "cli/command.h"
 #include "cli/inputs.h"
 #include "cli/interrupt.h"
+#include "cli/length_units.h"
 #include "cli/outputs.h"
 #include "cli/parse.h"
 #include "cli/session.h"
@@ -18,6 +20,7 @@
 #include "cli/values.h"
 #include "rholm/compare.h"
 #include "rholm/file.h"
+#include "rholm/topology.h"
 
 namespace rholm::cli {
 namespace {
@@ -30,23 +33,35 @@ struct Options {
   std::string against;
   std::optional<double> scale_max;
   bool perspective = false;
+  bool flat = false;
+  std::string fit = "scale";
   std::string view;
   std::string up;
   std::string labels;
   std::optional<int> subdivisions;
   std::string output;
   std::string format;
+  InputConvention convention;
 };
 
 // Panels point to their meshes: a deque keeps them where they are.
 struct Scene {
   std::deque<Mesh> meshes;
   std::vector<Panel> panels;
+  CommonUnit unit;
 };
 
 // Pixels: one panel is a picture of its own, several share the width.
 constexpr int kMinSize = 16, kMaxSize = 16384;
 constexpr int kSingleWidth = 1024, kSingleHeight = 768, kPanelWidth = 400, kPanelHeight = 460;
+
+// A picture of more pixels than a screen has takes four rays a pixel instead of nine: what one
+// pixel loses the eye has back from its neighbours, in less than half of the time.
+constexpr double kManyPixels = 4e6;
+constexpr int kFewSamples = 2;
+
+// Of the largest: smaller things can hardly be seen at its scale.
+constexpr double kSmall = 0.05;
 
 void check_options(const Options& options) {
   if (options.output == "-" && options.format.empty()) {
@@ -64,6 +79,9 @@ void check_options(const Options& options) {
   }
 }
 
+// Radians between sight and up, below which what is up would be decided by rounding.
+constexpr double kLeastAngle = 1e-6;
+
 RenderOptions render_options(const Options& options, std::size_t panels) {
   RenderOptions wanted;
   const int n = static_cast<int>(std::min<std::size_t>(panels, 40));
@@ -74,11 +92,23 @@ RenderOptions render_options(const Options& options, std::size_t panels) {
     wanted.width = size[0];
     wanted.height = size[1];
   }
+  if (double(wanted.width) * wanted.height > kManyPixels) wanted.samples = kFewSamples;
   wanted.perspective = options.perspective;
-  if (!options.view.empty()) wanted.view_direction = parse_vector("--view", options.view);
-  if (!options.up.empty()) wanted.up = parse_vector("--up", options.up);
-  if (norm(cross(wanted.view_direction, wanted.up)) == 0) {
-    throw UsageError("--view and --up must be two different directions");
+  wanted.fit_each = options.fit == "each";
+  if (!options.view.empty()) wanted.view_direction = parse_direction("--view", options.view);
+  const auto along_view = [&](const Vec3& up) {
+    return norm(cross(normalized(wanted.view_direction), normalized(up))) < kLeastAngle;
+  };
+  if (!options.up.empty()) {
+    wanted.up = parse_direction("--up", options.up);
+    if (along_view(wanted.up)) {
+      throw UsageError(
+          fmt::format("--up is '{}', the direction of --view or its opposite: another "
+                      "one is needed",
+                      options.up));
+    }
+  } else if (along_view(wanted.up)) {
+    wanted.up = {0, 1, 0};  // seen from above or below, as on a map
   }
   return wanted;
 }
@@ -91,13 +121,15 @@ void add_panel(Mesh mesh, const std::string& label, bool smooth, Scene& scene) {
 
 // A shape is one panel, a model one for each degree asked for.
 void add_input(const Options& options, const std::string& path, Session& session, Scene& scene) {
-  const Input input = read_input(path, session);
+  Input input = read_surface_input(path, session, options.convention);
+  scene.unit.add(input, path, session);
   const std::string name = path == "-" ? "input" : std::filesystem::path(path).stem().string();
   const auto* file = std::get_if<CoefficientsFile>(&input);
   if (!file || options.degrees.empty()) {
     const std::string label =
         file ? fmt::format("{}, L = {}", name, file->expansion.coefficients.degree()) : name;
-    add_panel(surface_of(input, path, {}, options.subdivisions, session), label, file, scene);
+    add_panel(surface_of(input, path, {}, options.subdivisions, session), label,
+              file || !options.flat, scene);
     return;
   }
   for (const int degree : parse_degrees("--degree", options.degrees)) {
@@ -107,7 +139,8 @@ void add_input(const Options& options, const std::string& path, Session& session
 }
 
 void color_by_error(const Options& options, Session& session, Scene& scene, RenderOptions& wanted) {
-  const Input other = read_input(options.against, session);
+  Input other = read_surface_input(options.against, session, options.convention);
+  scene.unit.add(other, options.against, session);
   const Mesh surface = surface_of(other, options.against, {}, options.subdivisions, session);
   for (Panel& panel : scene.panels) {
     panel.scalars = distances_to_surface(panel.mesh->vertices, surface, session.context());
@@ -140,6 +173,21 @@ void set_labels(const Options& options, Scene& scene) {
   for (std::size_t i = 0; i < labels.size(); ++i) scene.panels[i].label = labels[i];
 }
 
+// What is invisible beside the others.
+void note_small(const Options& options, const Scene& scene, Session& session) {
+  double largest = 0, smallest = std::numeric_limits<double>::infinity();
+  for (const Mesh& mesh : scene.meshes) {
+    const double size = bounds(mesh.vertices).diagonal();
+    largest = std::max(largest, size);
+    smallest = std::min(smallest, size);
+  }
+  if (options.fit == "each" || !(smallest < kSmall * largest)) return;
+  session.note(
+      fmt::format("the smallest shape has {:.2g} of the size of the largest, and all are "
+                  "drawn at one scale: --fit each fills every picture",
+                  smallest / largest));
+}
+
 int run(const Options& options, Session& session) {
   check_options(options);
   render_options(options, 1);  // refuses wrong values before anything is read
@@ -148,6 +196,7 @@ int run(const Options& options, Session& session) {
   Scene scene;
   for (const std::string& path : options.inputs) add_input(options, path, session, scene);
   set_labels(options, scene);
+  note_small(options, scene, session);
   RenderOptions wanted = render_options(options, scene.panels.size());
   if (options.color == "error") color_by_error(options, session, scene, wanted);
   if (options.color == "own") color_by_own(options, session, scene);
@@ -157,59 +206,79 @@ int run(const Options& options, Session& session) {
   return 0;
 }
 
+std::vector<Option> picture_options(Options& o) {
+  return {
+      {.name = "INPUT",
+       .help = "files of meshes or coefficients; several stand side by side",
+       .target = &o.inputs,
+       .required = true,
+       .offer = Offer::kShapesAndCoefficients},
+      {.name = "size",
+       .value = "WxH",
+       .help = "pixels of the whole picture; 1024x768 by default, 400x460 for each of several",
+       .target = &o.size,
+       .check = [](const std::string& option,
+                   const std::string& text) { parse_size(option, text, kMinSize, kMaxSize); }},
+      {.name = "color",
+       .help = "error: by the distance to the surface of --against, with a scale bar; own: the "
+               "colours that a file has, red, green, blue at its vertices",
+       .target = &o.color,
+       .choices = {"none", "error", "own"}},
+      {.name = "against",
+       .value = "SHAPE",
+       .help = "mesh or coefficients to measure the error from",
+       .target = &o.against,
+       .offer = Offer::kShapesAndCoefficients},
+      {.name = "scale-max",
+       .value = "D",
+       .help = "distance at the top of the scale bar; by default the largest there is",
+       .target = &o.scale_max,
+       .above = 0},
+      {.name = "degree",
+       .value = "L[,L...]",
+       .help = "cut coefficients off at these degrees, one picture for each",
+       .target = &o.degrees,
+       .check = parse_degrees},
+      {.name = "labels",
+       .value = "TEXT[,TEXT...]",
+       .help = "what stands below each picture, instead of file and degree",
+       .target = &o.labels},
+      {.name = "view",
+       .value = "X,Y,Z",
+       .help = "direction of sight, from the eye into the scene; -0.55,0.75,-0.4 by default",
+       .target = &o.view,
+       .check = parse_direction},
+      {.name = "up",
+       .value = "X,Y,Z",
+       .help = "direction that points up in the picture; 0,0,1 by default, or 0,1,0 where that "
+               "is the direction of sight",
+       .target = &o.up,
+       .check = parse_direction},
+      {.name = "fit",
+       .help = "scale: all at one scale (the default); each: every one as large as it fits",
+       .target = &o.fit,
+       .choices = {"scale", "each"}},
+      {.name = "flat",
+       .help = "show the faces of a mesh, even where its file has normals, which make it smooth",
+       .target = &o.flat},
+      {.name = "perspective",
+       .help = "as a camera sees it, instead of parallel lines of sight",
+       .target = &o.perspective},
+      {.name = "subdivisions",
+       .value = "N",
+       .help = "icosphere on which coefficients are sampled; by default the smallest N of 5 "
+               "... 8 with 16 (L+1)^2 vertices",
+       .target = &o.subdivisions,
+       .min = 0,
+       .max = 12},
+      output_option(o.output, "picture to write: .png; - for standard output"),
+      format_option(o.format, {"png"})};
+}
+
 std::vector<Option> option_list(Options& o) {
-  return {{.name = "INPUT",
-           .help = "files of meshes or coefficients; several stand side by side at one scale",
-           .target = &o.inputs,
-           .required = true,
-           .offer = Offer::kShapesAndCoefficients},
-          {.name = "size",
-           .value = "WxH",
-           .help = "pixels of the whole picture; 1024x768 by default, 400x460 for each of several",
-           .target = &o.size},
-          {.name = "color",
-           .help = "error: by the distance to the surface of --against, with a scale bar; own: the "
-                   "colours that a file has, red, green, blue at its vertices",
-           .target = &o.color,
-           .choices = {"none", "error", "own"}},
-          {.name = "against",
-           .value = "SHAPE",
-           .help = "mesh or coefficients to measure the error from",
-           .target = &o.against,
-           .offer = Offer::kShapesAndCoefficients},
-          {.name = "scale-max",
-           .value = "D",
-           .help = "distance at the top of the scale bar; by default the largest there is",
-           .target = &o.scale_max,
-           .min = 1e-300},
-          {.name = "degree",
-           .value = "L[,L...]",
-           .help = "cut coefficients off at these degrees, one picture for each",
-           .target = &o.degrees},
-          {.name = "labels",
-           .value = "TEXT[,TEXT...]",
-           .help = "what stands below each picture, instead of file and degree",
-           .target = &o.labels},
-          {.name = "view",
-           .value = "X,Y,Z",
-           .help = "direction of sight, from the eye into the scene; -0.55,0.75,-0.4 by default",
-           .target = &o.view},
-          {.name = "up",
-           .value = "X,Y,Z",
-           .help = "direction that points up in the picture; 0,0,1 by default",
-           .target = &o.up},
-          {.name = "perspective",
-           .help = "as a camera sees it, instead of parallel lines of sight",
-           .target = &o.perspective},
-          {.name = "subdivisions",
-           .value = "N",
-           .help = "icosphere on which coefficients are sampled; by default the smallest N of 5 "
-                   "... 8 with 16 (L+1)^2 vertices",
-           .target = &o.subdivisions,
-           .min = 0,
-           .max = 12},
-          output_option(o.output, "picture to write: .png; - for standard output"),
-          format_option(o.format, {"png"})};
+  std::vector<Option> list = picture_options(o);
+  append(list, input_convention_options(o.convention));
+  return list;
 }
 
 }  // namespace
@@ -221,10 +290,15 @@ Command render_command() {
       .summary = "A picture of meshes and models",
       .description =
           "Draws meshes, and the surfaces of coefficients, as a shaded PNG picture. Several "
-          "inputs, or several degrees of one, stand side by side at equal scale.",
+          "inputs, or several degrees of one, stand side by side at one scale, or with --fit each "
+          "as "
+          "large as they fit. A mesh whose file has normals is shaded by them, smooth where they "
+          "are and creased where they differ; --flat shows its faces. Pictures of more than four "
+          "million pixels take four rays a pixel instead of nine.",
       .options = option_list(*options),
       .examples =
           {"rholm render bumpy.h5 --degree 2,8,32 --size 720x240 -o levels.png",
+           "rholm render bumpy.h5 bumpy.ply --fit each --size 480x240 -o both.png",
            "rholm render bumpy.h5 --color error --against bumpy.ply --size 480x360 -o error.png"},
       .run = [options](Session& session) { return run(*options, session); }};
 }

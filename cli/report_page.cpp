@@ -37,6 +37,7 @@ struct Options {
   int size = ReportOptions{}.picture_size;
   std::string output;
   std::string format;
+  InputConvention convention;
 };
 
 // What the page is made of.
@@ -134,8 +135,9 @@ void not_kept(const std::string& what, Subject& subject) {
 void add_verdicts(const Encoded& encoded, const EncodeOptions& wanted, Subject& subject) {
   const std::optional<FastReport>& fast = encoded.analysis.fast;
   if (fast && !fast->reached) {
-    not_kept(fmt::format("the precision of the coefficients is {}, less than wanted",
-                         text_of(fast->error)),
+    not_kept(fmt::format("the estimated error of the coefficients is {}, above the wanted {}; "
+                         "'rholm analyze --engine direct' makes a model that is exact",
+                         text_of(fast->error), text_of(wanted.analyze.precision)),
              subject);
   }
   if (!encoded.tolerance) return;
@@ -229,7 +231,7 @@ Subject subject_of_model(const Options& options, CoefficientsFile file, Session&
 }
 
 Subject subject_of(const Options& options, Session& session) {
-  Input input = read_input(options.input, session);
+  Input input = read_surface_input(options.input, session, options.convention);
   if (auto* file = std::get_if<ShapeFile>(&input)) {
     return subject_of_shape(options, mesh_of(std::move(*file), options.input, session), session);
   }
@@ -316,10 +318,7 @@ std::vector<Option> input_options(Options& o) {
 std::vector<Option> shape_and_page_options(Options& o) {
   return {center_option(o.center),
           weld_option(o.weld),
-          {.name = "length-unit",
-           .value = "NAME",
-           .help = "unit of length of a mesh, as in km",
-           .target = &o.length_unit},
+          length_unit_option(o.length_unit),
           {.name = "size",
            .value = "N",
            .help = "pixels of the side of each picture, 16 ... 4096; 480 by default",
@@ -332,8 +331,9 @@ std::vector<Option> shape_and_page_options(Options& o) {
 
 std::vector<Option> option_list(Options& o) {
   std::vector<Option> list = input_options(o);
-  for (Option& option : tolerance_options(o.tolerance)) list.push_back(std::move(option));
-  for (Option& option : shape_and_page_options(o)) list.push_back(std::move(option));
+  append(list, tolerance_options(o.tolerance));
+  append(list, shape_and_page_options(o));
+  append(list, input_convention_options(o.convention));
   return list;
 }
 
@@ -356,7 +356,8 @@ Command report_command() {
       .options = option_list(*options),
       .examples = {"rholm report bumpy.ply --degree 32 --size 160 -o report.html",
                    "rholm report bumpy.h5 --shape bumpy.ply --size 160 -o report.html"},
-      .run = [options](Session& session) { return run(*options, session); }};
+      .run = [options](Session& session) { return run(*options, session); },
+      .if_not_star = "'rholm analyze --atlas' makes a model of it, to report on with --shape"};
 }
 
 }  // namespace rholm::cli

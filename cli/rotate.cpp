@@ -31,6 +31,7 @@ struct Options {
   std::string output;
   std::string format;
   ConventionOptions convention;
+  InputConvention input_convention;
   bool json = false;
 };
 
@@ -48,18 +49,39 @@ void check_usage(const Options& o) {
   }
 }
 
-Rotation rotation_of(const Options& o, const Expansion& expansion) {
-  if (o.angle) return rotation_about(parse_vector("--axis", o.axis), *o.angle * kDegrees);
+Rotation parse_matrix(const std::string& option, const std::string& text) {
+  const std::vector<double> m = parse_numbers(option, text, 9);
+  Rotation rotation;
+  check_by(option, text, [&] {
+    rotation = rholm::rotation_of(
+        RotationMatrix{Vec3{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}});
+  });
+  return rotation;
+}
+
+void check_about(const std::string& option, const std::string& text) {
+  if (text != "origin" && text != "center") parse_vector(option, text);
+}
+
+Rotation rotation_of(const Options& o, const PrincipalAxes& principal) {
+  if (o.angle) return rotation_about(parse_direction("--axis", o.axis), *o.angle * kDegrees);
   if (!o.euler.empty()) {
-    const std::vector<double> e = parse_numbers("--euler", o.euler, 3);
-    return rholm::rotation_of(EulerAngles{e[0] * kDegrees, e[1] * kDegrees, e[2] * kDegrees});
+    const Vec3 e = parse_vector("--euler", o.euler);
+    return rholm::rotation_of(EulerAngles{e.x * kDegrees, e.y * kDegrees, e.z * kDegrees});
   }
   if (!o.matrix.empty()) {
-    const std::vector<double> m = parse_numbers("--matrix", o.matrix, 9);
-    return rholm::rotation_of(
-        RotationMatrix{Vec3{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}});
+    return parse_matrix("--matrix", o.matrix);
   }
-  return principal_axes(expansion.coefficients, expansion.function).to_axes;
+  return principal.to_axes;
+}
+
+// What degree 2 leaves open.
+void report_free_axes(const std::vector<Vec3>& axes, Json& json, std::string& text) {
+  json["free_axes"] = Json::array();
+  for (const Vec3& axis : axes) {
+    json["free_axes"].push_back(json_of(axis));
+    text += line("free to turn", "about " + rholm::cli::text_of(axis));
+  }
 }
 
 Vec3 point_about(const Options& o, const Expansion& expansion) {
@@ -74,7 +96,8 @@ int run(const Options& options, Session& session) {
       coefficients_output(options.output, options.format, options.json);
   const Convention convention = options.convention.output_convention();
   check_writable(options.output);
-  const Expansion before = read_coefficients_input(options.input, session).expansion;
+  const Expansion before =
+      read_coefficients_input(options.input, session, options.input_convention).expansion;
   const Vec3 about = point_about(options, before);
   Json json;
   json["file"] = options.input;
@@ -88,16 +111,19 @@ int run(const Options& options, Session& session) {
     json["mirror"] = options.mirror;
     text += fmt::format(": mirrored, {0} to -{0}\n", options.mirror);
   } else {
-    const Rotation rotation = rotation_of(options, before);
+    PrincipalAxes principal;
+    if (options.principal_axes) principal = principal_axes(before.coefficients, before.function);
+    const Rotation rotation = rotation_of(options, principal);
     after = rotate(before, rotation, about, session.context());
     json.update(json_of(rotation));
     text += ": rotated\n" + text_of(rotation);
+    if (options.principal_axes) report_free_axes(principal.free_axes, json, text);
   }
   json["about"] = json_of(about);
   json["center"] = json_of(after.center);
   text += line("centre", rholm::cli::text_of(after.center));
   text.pop_back();  // the note ends the line
-  write_coefficients_output(after, output, convention);
+  write_coefficients_output(after, output, convention, session);
   if (options.json) {
     print_json(json);
   } else {
@@ -106,7 +132,7 @@ int run(const Options& options, Session& session) {
   return 0;
 }
 
-std::vector<Option> option_list(Options& o) {
+std::vector<Option> turn_options(Options& o) {
   return {{.name = "MODEL",
            .help = "file of coefficients, or - for standard input",
            .target = &o.input,
@@ -115,7 +141,8 @@ std::vector<Option> option_list(Options& o) {
           {.name = "axis",
            .value = "X,Y,Z",
            .help = "direction of the axis, of any length; with --angle",
-           .target = &o.axis},
+           .target = &o.axis,
+           .check = parse_direction},
           {.name = "angle",
            .value = "DEG",
            .help = "angle about the axis, in degrees, by the right hand's rule",
@@ -125,13 +152,16 @@ std::vector<Option> option_list(Options& o) {
           {.name = "euler",
            .value = "A,B,C",
            .help = "in degrees: by C about z, then by B about y, then by A about z",
-           .target = &o.euler},
+           .target = &o.euler,
+           .check = parse_vector},
           {.name = "matrix",
            .value = "M",
            .help = "nine numbers, row by row: x becomes M x",
-           .target = &o.matrix},
+           .target = &o.matrix,
+           .check = parse_matrix},
           {.name = "principal-axes",
-           .help = "the longest axis of degree 2 to x, the shortest to z",
+           .help = "the longest axis of degree 2 to x, the shortest to z; where two are equal the "
+                   "third alone, where all are (a sphere, a cube) nothing is turned",
            .target = &o.principal_axes},
           {.name = "mirror",
            .help = "change the sign of one coordinate instead",
@@ -141,14 +171,20 @@ std::vector<Option> option_list(Options& o) {
            .value = "POINT",
            .help = "the point that stays: origin (of the file's coordinates, the default), "
                    "center (of the expansion), or X,Y,Z",
-           .target = &o.about},
+           .target = &o.about,
+           .check = check_about},
           output_option(o.output,
                         "file of coefficients to write: .h5, .sh, .gfc, .json, .npy; - "
                         "for standard output"),
-          format_option(o.format, coefficients_formats()),
-          normalization_option(o.convention.normalization, ""),
-          csphase_option(o.convention.csphase, ""),
-          json_option(o.json)};
+          format_option(o.format, coefficients_formats())};
+}
+
+std::vector<Option> option_list(Options& o) {
+  std::vector<Option> list = turn_options(o);
+  append(list, convention_options(o.convention));
+  append(list, input_convention_options(o.input_convention));
+  list.push_back(json_option(o.json));
+  return list;
 }
 
 }  // namespace

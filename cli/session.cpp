@@ -65,6 +65,11 @@ void Session::warn(const std::string& message) {
   if (!options_.quiet) print_message("warning", "1;33", message);
 }
 
+void Session::report(const std::string& text) {
+  erase_bar();
+  if (!options_.quiet) std::fwrite(text.data(), 1, text.size(), stdout);
+}
+
 bool Session::on_progress(std::string_view stage, double fraction) {
   const auto now = std::chrono::steady_clock::now();
   if (bar_wanted_ && !stage.empty() && now >= bar_due_) {

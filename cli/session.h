@@ -28,6 +28,8 @@ class Session {
   // Standard error, unless --quiet: what the user may want to know, and what they should know.
   void note(const std::string& message);
   void warn(const std::string& message);
+  // Standard output, unless --quiet: what a command that writes a file tells beside it.
+  void report(const std::string& text);
 
  private:
   bool on_progress(std::string_view stage, double fraction);

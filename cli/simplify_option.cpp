@@ -15,10 +15,11 @@ Option simplify_option(std::string& text) {
           .help =
               "fewer faces for the same surface: N of them, P per cent, or as few as hardly "
               "change it (auto); none, the default, leaves it whole",
-          .target = &text};
+          .target = &text,
+          .check = parse_simplify};
 }
 
-std::optional<SimplifyOptions> parse_simplify(const std::string& text) {
+std::optional<SimplifyOptions> parse_simplify(const std::string& option, const std::string& text) {
   if (text == kNotSimplified) return std::nullopt;
   if (text == "auto") return SimplifyOptions{};
   const bool per_cent = text.ends_with('%');
@@ -29,7 +30,7 @@ std::optional<SimplifyOptions> parse_simplify(const std::string& text) {
     return SimplifyOptions{.triangles = static_cast<std::size_t>(*number)};
   }
   throw UsageError(fmt::format(
-      "--simplify is '{}'; it must be auto, a number of faces from 4, or a percentage, as in 10%",
+      "{} is '{}'; it must be auto, a number of faces from 4, or a percentage, as in 10%", option,
       text));
 }
 

@@ -27,6 +27,7 @@ struct Options {
   std::string fit = "robust";
   bool repair = false;
   std::string output, format;
+  InputConvention convention;
   bool ascii = false, json = false;
 };
 
@@ -55,7 +56,8 @@ Moved moved_by(const Patch& patch, const std::vector<Vec3>& positions) {
   return moved;
 }
 
-void print_report(const Options& options, const Patch& patch, const Moved& moved, double diagonal) {
+void print_report(const Options& options, const Patch& patch, const Moved& moved, double diagonal,
+                  Session& session) {
   if (options.json) {
     print_json({{"file", options.input},
                 {"output", options.output},
@@ -70,22 +72,22 @@ void print_report(const Options& options, const Patch& patch, const Moved& moved
                 {"max_move", moved.max},
                 {"diagonal", diagonal}});
   } else if (options.output != "-") {
-    print_text(fmt::format("{}: smoothed\n", display_name(options.input)) +
-               line("vertices",
-                    fmt::format("{}, of {}", patch.vertices.size(), counted(patch.caps, "cap"))) +
-               line("moved by",
-                    fmt::format("{:.3g} rms, {:.3g} at most ({:.2g} of the diagonal)", moved.rms,
-                                moved.max, diagonal > 0 ? moved.max / diagonal : 0.0)));
+    session.report(
+        fmt::format("{}: smoothed\n", display_name(options.input)) +
+        line("vertices",
+             fmt::format("{}, of {}", patch.vertices.size(), counted(patch.caps, "cap"))) +
+        line("moved by",
+             fmt::format("{:.3g} rms, {:.3g} at most ({:.2g} of the diagonal)", moved.rms,
+                         moved.max, diagonal > 0 ? moved.max / diagonal : 0.0)));
   }
 }
 
 int run(const Options& options, Session& session) {
   const PatchFitting fitting = fitting_of(options);
-  const std::vector<Region> regions = parse_regions("region", options.regions);
-  const ShapeFormat format = shape_output(options.output, options.format, options.json);
-  if (format == ShapeFormat::kXyz) throw UsageError("XYZ has no triangles; take .ply");
+  const std::vector<Region> regions = parse_regions(options.regions);
+  const ShapeFormat format = mesh_output(options.output, options.format, options.json);
   check_writable(options.output);
-  Mesh mesh = read_surface(options.input, session);
+  Mesh mesh = read_surface(options.input, session, options.convention);
   const double diagonal = bounds(mesh.vertices).diagonal();
   const Patch patch = analyze_patch(mesh, regions,
                                     {.wavelength = *options.wavelength,
@@ -103,11 +105,11 @@ int run(const Options& options, Session& session) {
   }
   if (options.repair && patch.vertices.empty())
     session.note("nothing stands out: nothing was moved");
-  print_report(options, patch, moved_by(patch, positions), diagonal);
+  print_report(options, patch, moved_by(patch, positions), diagonal, session);
   return 0;
 }
 
-std::vector<Option> option_list(Options& o) {
+std::vector<Option> edit_options(Options& o) {
   return {
       {.name = "SHAPE",
        .help = "file of a mesh, or of a model, whose surface is taken; - for standard input",
@@ -120,7 +122,7 @@ std::vector<Option> option_list(Options& o) {
        .help = "detail finer than this goes, in the unit of the file",
        .target = &o.wavelength,
        .required = true,
-       .min = 0},
+       .above = 0},
       {.name = "strength",
        .value = "S",
        .help = "1 (default) takes the detail away, 0.5 half of it, -1 doubles it",
@@ -139,11 +141,15 @@ std::vector<Option> option_list(Options& o) {
        .value = "T",
        .help = "width over which the edit fades outside the region; W by default",
        .target = &o.transition,
-       .min = 0},
-      output_option(o.output, "mesh to write: .ply, .obj, .off, .stl; - for standard output"),
-      format_option(o.format, {"ply", "obj", "off", "stl"}),
-      {.name = "ascii", .help = "PLY and STL as text", .target = &o.ascii},
-      json_option(o.json)};
+       .min = 0}};
+}
+
+std::vector<Option> option_list(Options& o) {
+  std::vector<Option> list = edit_options(o);
+  append(list, mesh_output_options(o.output, o.format, o.ascii));
+  append(list, input_convention_options(o.convention));
+  list.push_back(json_option(o.json));
+  return list;
 }
 
 }  // namespace

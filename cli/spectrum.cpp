@@ -25,6 +25,7 @@ struct Options {
   std::string output;
   std::string format;
   std::optional<double> tolerance;
+  InputConvention convention;
   bool json = false;
 };
 
@@ -103,7 +104,8 @@ std::string plot_format(const Options& options) {
 int run(const Options& options, Session& session) {
   const std::string format = plot_format(options);
   check_writable(options.output);
-  const Expansion expansion = read_coefficients_input(options.input, session).expansion;
+  const Expansion expansion =
+      read_coefficients_input(options.input, session, options.convention).expansion;
   const Spectrum spectrum = spectrum_of(expansion);
   if (!format.empty()) {
     const std::string title = std::filesystem::path(options.input).filename().string();
@@ -118,7 +120,8 @@ int run(const Options& options, Session& session) {
     const std::string heading = fmt::format(
         "# {}, per degree of the {}; rms beyond over solid angle{}\n"
         "{:>6} {:>14} {:>14} {:>14}\n",
-        display_name(options.input), to_string(expansion.function),
+        display_name(options.input),
+        expansion.function == RadialFunction::kOther ? "function" : to_string(expansion.function),
         spectrum.includes_tail ? "" : ", within the file's own degrees", "degree", "energy",
         "cumulative", "rms beyond");
     print_text(table(spectrum, "{:>6} {:>14.7g} {:>14.7g} {:>14.7g}\n", heading));
@@ -130,6 +133,26 @@ int run(const Options& options, Session& session) {
     }
   }
   return 0;
+}
+
+std::vector<Option> option_list(Options& o) {
+  std::vector<Option> list = {
+      {.name = "MODEL",
+       .help = "file of coefficients",
+       .target = &o.input,
+       .required = true,
+       .offer = Offer::kCoefficients},
+      output_option(o.output, "plot to write: .svg, or a table as .csv; - for standard output",
+                    false),
+      format_option(o.format, {"svg", "csv"}),
+      {.name = "tolerance",
+       .value = "E",
+       .help = "rms over solid angle to draw and to find the degree of, in the shape's unit",
+       .target = &o.tolerance,
+       .above = 0}};
+  append(list, input_convention_options(o.convention));
+  list.push_back(json_option(o.json));
+  return list;
 }
 
 }  // namespace
@@ -144,23 +167,7 @@ Command spectrum_command() {
               "For a model file of a star-shaped mesh this includes what lies above the file's "
               "last degree, exactly.\n\nWith -o the plot is written and the table is not; --json "
               "reports in either case.",
-          .options = {{.name = "MODEL",
-                       .help = "file of coefficients",
-                       .target = &options->input,
-                       .required = true,
-                       .offer = Offer::kCoefficients},
-                      output_option(options->output,
-                                    "plot to write: .svg, or a table as .csv; - for standard "
-                                    "output",
-                                    false),
-                      format_option(options->format, {"svg", "csv"}),
-                      {.name = "tolerance",
-                       .value = "E",
-                       .help = "rms over solid angle to draw and to find the degree of, in the "
-                               "shape's unit",
-                       .target = &options->tolerance,
-                       .min = 1e-300},
-                      json_option(options->json)},
+          .options = option_list(*options),
           .examples = {"rholm spectrum bumpy.h5",
                        "rholm spectrum bumpy.h5 --tolerance 1e-3 -o spectrum.svg"},
           .run = [options](Session& session) { return run(*options, session); }};

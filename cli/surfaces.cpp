@@ -45,9 +45,9 @@ Mesh surface_of(const Input& input, const std::string& path, std::optional<int> 
   return surface;
 }
 
-Mesh read_surface(const std::string& path, Session& session) {
+Mesh read_surface(const std::string& path, Session& session, const InputConvention& convention) {
   if (holds_atlas(path)) return synthesize(read_atlas(path), {}, session.context());
-  Input input = read_input(path, session);
+  Input input = read_surface_input(path, session, convention);
   if (auto* file = std::get_if<ShapeFile>(&input)) return mesh_of(std::move(*file), path, session);
   return surface_of(input, path, std::nullopt, std::nullopt, session);
 }

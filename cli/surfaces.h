@@ -35,7 +35,7 @@ Mesh surface_of(const Input& input, const std::string& path, std::optional<int> 
                 std::optional<int> subdivisions, Session& session);
 
 // A mesh to be edited: the file's, or the surface of its coefficients or of its atlas.
-Mesh read_surface(const std::string& path, Session& session);
+Mesh read_surface(const std::string& path, Session& session, const InputConvention& convention);
 
 // Tells the user if some vertices of a surface r <= 0 lie on the wrong side of the centre.
 void warn_of_crossings(const Mesh& surface, const Mesh& sphere, const Vec3& center,

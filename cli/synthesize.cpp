@@ -33,6 +33,7 @@ struct Options {
   std::string simplify = kNotSimplified;
   std::string output;
   std::string format;
+  InputConvention convention;
   bool ascii = false;
   bool json = false;
 };
@@ -64,19 +65,21 @@ int run_atlas(const Options& o, ShapeFormat format, Session& session) {
         "--degree, --subdivisions, --grid and --like do not go with an atlas of caps: see "
         "--resolution and --degree-limit");
   }
-  if (o.resolution && !(*o.resolution > 0)) throw UsageError("--resolution: it must be above 0");
-  const std::optional<SimplifyOptions> simplify = parse_simplify(o.simplify);
+  const std::optional<SimplifyOptions> simplify = parse_simplify("--simplify", o.simplify);
   check_writable(o.output);
   return synthesize_atlas(
       {o.input, o.output, format, o.ascii, o.json, o.resolution, o.degree_limit, simplify},
       session);
 }
 
+std::array<int, 2> parse_rings(const std::string& option, const std::string& text) {
+  return parse_grid(option, text, {1, 3});
+}
+
 // The sphere whose directions the surface is computed at.
 Mesh sphere_of(const Options& options, int degree, const Expansion& expansion, Session& session) {
   if (!options.grid.empty()) {
-    const auto [n_theta, n_phi] = parse_size("--grid", options.grid, 1, 32768);
-    if (n_phi < 3) throw UsageError("--grid needs at least 3 directions per ring, as in 90x180");
+    const auto [n_theta, n_phi] = parse_rings("--grid", options.grid);
     return latitude_longitude_sphere(n_theta, n_phi);
   }
   if (!options.like.empty()) {
@@ -86,7 +89,7 @@ Mesh sphere_of(const Options& options, int degree, const Expansion& expansion, S
 }
 
 int run(const Options& options, Session& session) {
-  const ShapeFormat format = shape_output(options.output, options.format, options.json);
+  const ShapeFormat format = mesh_output(options.output, options.format, options.json);
   if (holds_atlas(options.input)) return run_atlas(options, format, session);
   if (options.resolution || options.degree_limit || options.simplify != kNotSimplified) {
     throw UsageError("--resolution, --degree-limit and --simplify go with an atlas of caps");
@@ -96,8 +99,9 @@ int run(const Options& options, Session& session) {
   const bool several = degrees.size() > 1;
   check_options(options, several);
   check_writable(options.output);
+  for (const int degree : degrees) check_writable(output_for(options.output, degree, several));
 
-  const Expansion expansion = read_coefficients_input(options.input, session).expansion;
+  const Expansion expansion = read_expansion(options.input, session, options.convention);
   const int highest = expansion.coefficients.degree();
   if (degrees.empty()) degrees.push_back(highest);
   for (const int degree : degrees) {
@@ -125,7 +129,7 @@ int run(const Options& options, Session& session) {
   return 0;
 }
 
-std::vector<Option> option_list(Options& o) {
+std::vector<Option> synthesis_options(Options& o) {
   return {{.name = "MODEL",
            .help = "file of coefficients",
            .target = &o.input,
@@ -135,7 +139,8 @@ std::vector<Option> option_list(Options& o) {
            .value = "L[,L...]",
            .help = "degrees at which the series is cut off; by default its own. Several degrees "
                    "make several files: OUT-L4.ply, OUT-L16.ply",
-           .target = &o.degrees},
+           .target = &o.degrees,
+           .check = parse_degrees},
           {.name = "subdivisions",
            .value = "N",
            .help = "sample on an icosphere of 10 4^N + 2 vertices; by default the smallest N of 4 "
@@ -146,7 +151,8 @@ std::vector<Option> option_list(Options& o) {
           {.name = "grid",
            .value = "NTHETAxNPHI",
            .help = "sample on rings of equal latitude and the poles instead",
-           .target = &o.grid},
+           .target = &o.grid,
+           .check = parse_rings},
           {.name = "like",
            .value = "SHAPE",
            .help = "sample in the directions of this mesh's vertices, and keep its connectivity",
@@ -157,18 +163,22 @@ std::vector<Option> option_list(Options& o) {
            .help = "of an atlas: edge of the grid's cubes, in the shape's unit; by default the one "
                    "it was measured at",
            .target = &o.resolution,
-           .min = 0},
+           .above = 0},
           {.name = "degree-limit",
            .value = "L",
            .help = "of an atlas: without the coefficients of higher degrees: less detail",
            .target = &o.degree_limit,
            .min = 0,
            .max = 24},
-          simplify_option(o.simplify),
-          output_option(o.output, "mesh to write: .ply, .obj, .off, .stl; - for standard output"),
-          format_option(o.format, {"ply", "obj", "off", "stl", "xyz"}),
-          {.name = "ascii", .help = "PLY and STL as text", .target = &o.ascii},
-          json_option(o.json)};
+          simplify_option(o.simplify)};
+}
+
+std::vector<Option> option_list(Options& o) {
+  std::vector<Option> list = synthesis_options(o);
+  append(list, mesh_output_options(o.output, o.format, o.ascii));
+  append(list, input_convention_options(o.convention));
+  list.push_back(json_option(o.json));
+  return list;
 }
 
 }  // namespace

@@ -11,7 +11,6 @@ std::optional<Tolerance> ToleranceOptions::parsed() const {
     }
     return std::nullopt;
   }
-  if (!(*tolerance > 0)) throw UsageError("--tolerance: it must be above 0");
   Tolerance result;
   result.error = *tolerance;
   if (!norm.empty()) result.norm = parse_error_norm(norm);
@@ -29,7 +28,7 @@ std::vector<Option> tolerance_options(ToleranceOptions& o) {
            .help = "the smallest degree whose error is at most E, instead of --degree; exit code "
                    "4 if --max-degree does not keep it",
            .target = &o.tolerance,
-           .min = 0},
+           .above = 0},
           {.name = "norm",
            .help = "of the tolerance: rms (the default) or max, the largest error",
            .target = &o.norm,

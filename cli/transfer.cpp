@@ -29,12 +29,19 @@ struct Options {
   std::string rotate = "auto", mode = "displacement";
   bool repeat = false, refine = false, remove_own = false;
   std::string output, format;
+  InputConvention convention;
   bool ascii = false, json = false;
 };
 
 constexpr double kDegree = std::numbers::pi / 180;
 // Edges of the target, in those of the texture on it, from which on it is worth a word.
 constexpr double kCoarse = 1.5;
+
+void check_angle(const std::string& option, const std::string& text) {
+  if (text == "auto" || read_number(text)) return;
+  throw UsageError(
+      fmt::format("{} is '{}'; it must be auto or a finite number of degrees", option, text));
+}
 
 TransferUpdate update_of(const Options& o) {
   TransferUpdate wanted{.height = o.height, .repeat = o.repeat, .remove_own = o.remove_own};
@@ -55,7 +62,7 @@ std::size_t moved_vertices(const Patch& patch, const std::vector<Vec3>& position
 }
 
 void print_report(const Options& options, const TransferReport& report, double angle,
-                  std::size_t moved) {
+                  std::size_t moved, Session& session) {
   if (options.json) {
     print_json({{"from", options.from},
                 {"to", options.to},
@@ -79,7 +86,7 @@ void print_report(const Options& options, const TransferReport& report, double a
     return;
   }
   if (options.output == "-") return;
-  print_text(
+  session.report(
       fmt::format("{}: detail of {}\n", display_name(options.to), display_name(options.from)) +
       line("texture", fmt::format("{:.3g} rms high, waves shorter than {:.3g}", report.source_rms,
                                   report.source_wavelength)) +
@@ -90,17 +97,17 @@ void print_report(const Options& options, const TransferReport& report, double a
 }
 
 int run(const Options& options, Session& session) {
-  const std::vector<Region> from = parse_regions("from-region", options.from_regions);
-  const std::vector<Region> to = parse_regions("to-region", options.to_regions);
+  const std::vector<Region> from = parse_regions(options.from_regions);
+  const std::vector<Region> to = parse_regions(options.to_regions);
   const TransferUpdate wanted = update_of(options);
-  const ShapeFormat format = shape_output(options.output, options.format, options.json);
-  if (format == ShapeFormat::kXyz) throw UsageError("XYZ has no triangles; take .ply");
+  const ShapeFormat format = mesh_output(options.output, options.format, options.json);
   if (options.from == "-" && options.to == "-") {
     throw UsageError("standard input is one file: --from and --to cannot both be -");
   }
   check_writable(options.output);
-  const Mesh source = read_surface(options.from, session);
-  const Mesh target = options.to == options.from ? source : read_surface(options.to, session);
+  const Mesh source = read_surface(options.from, session, options.convention);
+  const Mesh target =
+      options.to == options.from ? source : read_surface(options.to, session, options.convention);
   TransferAnalysis analysis = analyze_transfer(source, from, target, to,
                                                {.from_degree = options.from_degree,
                                                 .scale = options.scale,
@@ -120,11 +127,11 @@ int run(const Options& options, Session& session) {
         coarse));
   }
   print_report(options, report, wanted.angle.value_or(report.angle),
-               moved_vertices(analysis.patch, positions));
+               moved_vertices(analysis.patch, positions), session);
   return 0;
 }
 
-std::vector<Option> option_list(Options& o) {
+std::vector<Option> edit_options(Options& o) {
   return {{.name = "from",
            .value = "SOURCE",
            .help = "mesh or model with the detail, or - for standard input",
@@ -162,7 +169,8 @@ std::vector<Option> option_list(Options& o) {
            .value = "DEG",
            .help = "turn of the detail, counter-clockwise from outside; auto (default) is where it "
                    "is most like the target's own",
-           .target = &o.rotate},
+           .target = &o.rotate,
+           .check = check_angle},
           {.name = "repeat",
            .help = "lay the detail again and again, for scales below 1",
            .target = &o.repeat},
@@ -182,11 +190,15 @@ std::vector<Option> option_list(Options& o) {
            .help = "displacement (default): along the normals of the target's base; coefficients: "
                    "put the harmonics above L0 of one cap into the other, raw, for comparison",
            .target = &o.mode,
-           .choices = {"displacement", "coefficients"}},
-          output_option(o.output, "mesh to write: .ply, .obj, .off, .stl; - for standard output"),
-          format_option(o.format, {"ply", "obj", "off", "stl"}),
-          {.name = "ascii", .help = "PLY and STL as text", .target = &o.ascii},
-          json_option(o.json)};
+           .choices = {"displacement", "coefficients"}}};
+}
+
+std::vector<Option> option_list(Options& o) {
+  std::vector<Option> list = edit_options(o);
+  append(list, mesh_output_options(o.output, o.format, o.ascii));
+  append(list, input_convention_options(o.convention));
+  list.push_back(json_option(o.json));
+  return list;
 }
 
 }  // namespace

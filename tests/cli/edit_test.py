@@ -158,7 +158,7 @@ class Transfer(CliTest):
         for words, code, saying in (
                 (["--rotate", "left"], 2, "--rotate"),
                 (["--from-degree", "1"], 2, "--from-degree"),
-                (["--from-degree", "64"], 3, "wavelength"),
+                (["--from-degree", "64"], 3, "degree 25 or less"),
                 (["--mode", "coefficients", "--repeat"], 2, "--repeat"),
                 (["--mode", "coefficients", "--from-degree", "24"], 3, "24"),
                 (["--to-region", "cone:1"], 2, "--to-region"),

@@ -90,6 +90,14 @@ class Report(CliTest):
                       "642", "1280"):  # coefficients, vertices and faces
             self.assertIn(words, text)
 
+    def test_a_precision_that_is_not_reached_is_said_with_the_way_to_it(self):
+        self.rholm("make", "ellipsoid", "--axes", "1,1,1e-7", "--subdivisions", "2", "-o", "flat.ply")
+        text = self.page("flat.ply", "--degree", "6", code=4).text()
+        said = self.run_rholm("report", "flat.ply", "--degree", "6", "--size", "16", "-o", "f.html").err
+        for words in (text, said):
+            self.assertIn("above the wanted 1e-08", words)
+            self.assertIn("--engine direct", words)
+
     def test_coefficients_of_every_format_have_a_page(self):
         for name in ("a.h5", "a.sh", "a.npy"):
             if name != "a.h5":

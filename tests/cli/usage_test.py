@@ -88,7 +88,7 @@ class WrongUsage(CliTest):
         analyze("--degree", "4", "--center", "left", saying="--center")
         analyze("--degree", "4", "--center", "1,2", saying="--center")
         analyze("--degree", "4", "--weld", "-1", saying="--weld")
-        analyze("--degree", "4", "--csphase", "0", saying="1 or -1")
+        analyze("--degree", "4", "--csphase", "0", saying="one of 1, -1")
         analyze("--degree", "4", "--threads", "-2", saying="--threads")
 
     def test_a_value_that_is_not_a_number_is_refused_as_such(self):
@@ -137,7 +137,8 @@ class WrongUsage(CliTest):
                      saying="one of")
         self.refused("align", "-", "-", saying="standard input")
         self.refused("render", "a.off", "--size", "0x5", "-o", "a.png", saying="--size")
-        self.refused("render", "a.off", "--view", "0,0,1", "-o", "a.png", saying="--up")
+        self.refused("render", "a.off", "--view", "0,0,1", "--up", "0,0,-2", "-o", "a.png",
+                     saying="--up")
 
 
 class Failures(CliTest):

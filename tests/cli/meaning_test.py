@@ -1,0 +1,326 @@
+"""What files mean and what is said of it: conventions, units, what is no shape, what is lost; and
+what --quiet leaves."""
+
+import json
+import os
+import re
+import sys
+
+sys.path.insert(0, os.path.dirname(__file__))
+from harness import CliTest, main
+
+GRAVITY = """product_type gravity_field
+earth_gravity_constant 0.3986004415E+15
+radius 0.6378136300E+07
+max_degree 2
+norm fully_normalized
+key L M C S
+end_of_head
+gfc 0 0 1.0 0.0
+gfc 2 0 -4.8D-04 0.0
+gfc 2 2 2.4e-06 -1.4e-06
+"""
+
+# An ellipsoid-like body: (l, m, C, S), 4-pi normalised.
+BARE = "0 0 1 0\n1 0 0 0\n1 1 0 0\n2 0 -0.1 0\n2 1 0.02 0.01\n2 2 0.05 -0.03\n"
+
+
+def commands_that_read(model):
+    """Each command that reads coefficients, with a file of them."""
+    return {
+        "info": ["info", model],
+        "synthesize": ["synthesize", model, "-o", "o.ply"],
+        "spectrum": ["spectrum", model],
+        "compare": ["compare", model, "s.ply", "--samples", "100"],
+        "compare B": ["compare", "s.ply", model, "--samples", "100"],
+        "convert": ["convert", model, "o.json"],
+        "render": ["render", model, "--size", "32x32", "-o", "o.png"],
+        "render --against": ["render", "s.ply", "--color", "error", "--against", model, "--size",
+                             "32x32", "-o", "o.png"],
+        "report": ["report", model, "--size", "16", "-o", "o.html"],
+        "filter": ["filter", model, "--low-pass", "1", "-o", "o.h5"],
+        "rotate": ["rotate", model, "--mirror", "x", "-o", "o.h5"],
+        "recenter": ["recenter", model, "-o", "o.h5"],
+        "align": ["align", model, "s.h5"],
+        "align B": ["align", "s.h5", model],
+        "smooth": ["smooth", model, "--region", "ball:0,0,1,0.5", "--wavelength", "0.5", "-o",
+                   "o.ply"],
+        "transfer": ["transfer", "--from", model, "--from-region", "ball:0,0,1,0.5", "--to",
+                     "s.ply", "--to-region", "ball:0,0,1,0.5", "-o", "o.ply"],
+    }
+
+
+class Meaning(CliTest):
+    def setUp(self):
+        super().setUp()
+        self.rholm("make", "ellipsoid", "--axes", "1.2,1.1,1", "--subdivisions", "4", "-o", "s.ply")
+        self.rholm("analyze", "s.ply", "--degree", "4", "--no-errors", "--quiet", "-o", "s.h5")
+
+    def model(self, name, unit, degree=4):
+        self.rholm("analyze", "s.ply", "--degree", degree, "--length-unit", unit, "--quiet", "-o",
+                   name)
+
+
+class Conventions(Meaning):
+    def test_every_command_says_what_it_assumed(self):
+        self.write("bare.sh", BARE)
+        for name, words in commands_that_read("bare.sh").items():
+            with self.subTest(name):
+                result = self.rholm(*words)
+                said = re.findall(r"bare.sh does not say it, assumed: (.*)", result.err)
+                self.assertEqual(said, ["normalization 4pi, csphase 1, function radius, "
+                                        "center 0 0 0"], str(result))
+
+    def test_every_command_takes_what_it_is_told_instead(self):
+        self.write("bare.sh", BARE)
+        told = ["--input-normalization", "schmidt", "--input-csphase", "-1"]
+        for name, words in commands_that_read("bare.sh").items():
+            with self.subTest(name):
+                said = self.rholm(*words, *told).err
+                self.assertIn("assumed: function radius, center 0 0 0", said)
+                self.assertNotIn("csphase", said)
+
+    def test_what_is_told_counts(self):
+        # C_20 of Schmidt's functions is that of 4-pi normalised ones times sqrt 5; a phase changes
+        # the sign of odd orders.
+        self.write("bare.sh", BARE)
+        energy = {}
+        for normalization in ("4pi", "schmidt"):
+            energy[normalization] = self.rholm("spectrum", "bare.sh", "--json",
+                                               "--input-normalization",
+                                               normalization).json()["energy"][2]
+        self.assertAlmostEqual(energy["4pi"] / energy["schmidt"], 5, 12)
+        for phase, sign in (("1", 1), ("-1", -1)):
+            self.rholm("filter", "bare.sh", "--low-pass", "2", "--window", "ideal", "-o", "o.json",
+                       "--input-csphase", phase)
+            row = json.loads((self.folder / "o.json").read_text())["coefficients"]["C"][2]
+            self.assertAlmostEqual(row[1], sign * 0.02, 14)
+            self.assertAlmostEqual(row[2], 0.05, 14)
+
+    def test_files_that_say_it_are_not_talked_about(self):
+        self.rholm("convert", "s.h5", "s.json")
+        for model in ("s.h5", "s.json"):
+            self.assertNotIn("assumed", self.rholm("spectrum", model).err)
+
+    def test_quiet_is_quiet_about_it(self):
+        self.write("bare.sh", BARE)
+        self.assertEqual(self.rholm("synthesize", "bare.sh", "--quiet", "-o", "o.ply").err, "")
+
+
+class NoShape(Meaning):
+    def test_gravity_field_makes_no_surface(self):
+        self.write("g.gfc", GRAVITY)
+        before = self.files()
+        for name, words in commands_that_read("g.gfc").items():
+            if name in ("info", "spectrum", "convert", "filter", "rotate"):
+                continue
+            with self.subTest(name):
+                result = self.rholm(*words, code=3)
+                self.assertIn("g.gfc is a gravity_field, no shape", result.err)
+                self.assertEqual(self.files(), before)
+
+    def test_its_numbers_are_taken_and_that_is_said(self):
+        self.write("g.gfc", GRAVITY)
+        for name in ("info", "spectrum", "convert", "filter", "rotate"):
+            with self.subTest(name):
+                said = self.rholm(*commands_that_read("g.gfc")[name]).err
+                self.assertIn("g.gfc is a gravity_field, no shape", said)
+                self.assertIn("without earth_gravity_constant", said)
+        report = self.rholm("info", "g.gfc", "--json").json()
+        self.assertEqual(report["function"], "other")
+        self.assertEqual(report["product"], "gravity_field")
+        self.assertIsNone(report["volume"])
+
+    def test_no_format_makes_a_body_of_it(self):
+        self.write("g.gfc", GRAVITY)
+        for name in ("o.h5", "o.sh", "o.json", "o.gfc"):
+            self.rholm("convert", "g.gfc", name)
+            self.assertEqual(self.rholm("info", name, "--json").json()["function"], "other")
+            self.assertIn("no shape", self.rholm("synthesize", name, "-o", "o.ply", code=3).err)
+            self.rholm("spectrum", name)
+
+    def test_radii_in_such_a_file_are_a_body_once_it_says_so(self):
+        self.write("g.gfc", GRAVITY.replace("gravity_field", "shape"))
+        self.rholm("synthesize", "g.gfc", "-o", "o.ply")
+
+
+class Units(Meaning):
+    def test_models_in_km_and_m_of_one_body_lie_on_each_other(self):
+        self.model("m.h5", "m")
+        self.rholm("make", "ellipsoid", "--axes", "0.0012,0.0011,0.001", "--subdivisions", "4",
+                   "-o", "s.ply")
+        self.model("km.h5", "kilometres")
+        for words in (["compare", "m.h5", "km.h5"], ["compare", "km.h5", "m.h5"]):
+            result = self.rholm(*words, "--samples", "1000", "--json")
+            self.assertRegex(result.err, r"m.h5 is in \w+ and k?m.h5 in \w+")
+            report = result.json()
+            # The same vertices but for the rounding of text and float to the file.
+            self.assertLess(report["relative"]["hausdorff"], 1e-5)
+        report = self.rholm("align", "km.h5", "m.h5", "--json", "-o", "o.h5").json()
+        self.assertLess(report["distance"], 1e-5)
+        self.assertEqual(self.rholm("info", "o.h5", "--json").json()["unit"], "m")
+
+    def test_units_that_cannot_be_converted_are_refused(self):
+        self.model("a.h5", "m")
+        self.model("b.h5", "voxels")
+        for words in (["compare", "a.h5", "b.h5"], ["align", "a.h5", "b.h5"],
+                      ["render", "a.h5", "b.h5", "-o", "o.png"]):
+            said = self.rholm(*words, code=3).err
+            self.assertIn("voxels", said)
+            self.assertIn("--length-unit", said)
+
+    def test_a_model_without_a_unit_is_said(self):
+        self.model("a.h5", "m")
+        for words in (["compare", "a.h5", "s.h5", "--samples", "100"], ["align", "s.h5", "a.h5"]):
+            self.assertIn("s.h5 says no unit of length and a.h5 says m", self.rholm(*words).err)
+        # Files of meshes have no place for one.
+        self.assertEqual(self.rholm("compare", "a.h5", "s.ply", "--samples", "100").err, "")
+
+    def test_pictures_at_one_scale_are_in_one_unit(self):
+        self.model("m.h5", "m")
+        self.model("km.h5", "km")
+        said = self.rholm("render", "m.h5", "km.h5", "--size", "64x32", "-o", "o.png").err
+        self.assertIn("km.h5 is in km and m.h5 in m: its lengths are taken times 1000", said)
+
+
+class Lost(Meaning):
+    def test_an_array_of_numbers_says_what_it_loses(self):
+        self.rholm("analyze", "s.ply", "--degree", "2", "--method", "gauge", "--center", "0.1,0,0.2",
+                   "--length-unit", "km", "--quiet", "-o", "g.h5")
+        words = ["normalization schmidt", "csphase -1", "function gauge", "(0.1, 0, 0.2)",
+                 "unit km"]
+        convention = ["--normalization", "schmidt", "--csphase", "-1"]
+        for command in (["convert", "g.h5", "g.npy"],
+                        ["filter", "g.h5", "--low-pass", "1", "-o", "f.npy"],
+                        ["rotate", "g.h5", "--mirror", "x", "--about", "center", "-o", "r.npy"]):
+            said = self.rholm(*command, *convention).err
+            for word in words:
+                self.assertIn(word, said)
+
+    def test_text_says_that_errors_are_lost(self):
+        self.model("a.h5", "m")
+        self.assertIn("errors", self.rholm("convert", "a.h5", "a.sh").err)
+        self.assertEqual(self.rholm("convert", "s.h5", "s.sh").err, "")
+
+
+class Quiet(Meaning):
+    def test_commands_that_write_a_file_say_nothing(self):
+        self.rholm("make", "sample", "s.ply", "--points", "2000", "-o", "p.ply")
+        self.model("a.h5", "m")
+        for words in (["reconstruct", "p.ply", "-o", "o.ply"], ["orient", "p.ply", "-o", "o.ply"],
+                      ["smooth", "s.ply", "--region", "ball:0,0,1,0.5", "--wavelength", "0.5", "-o",
+                       "o.ply"],
+                      ["transfer", "--from", "s.ply", "--from-region", "ball:0,0,1,0.5", "--to",
+                       "s.ply", "--to-region", "ball:1,0,0,0.5", "-o", "o.ply"],
+                      ["align", "s.h5", "a.h5", "-o", "o.h5"], ["synthesize", "s.h5", "-o", "o.ply"],
+                      ["convert", "a.h5", "o.npy"], ["rotate", "s.h5", "--mirror", "x", "-o", "o.h5"],
+                      ["filter", "s.h5", "--low-pass", "2", "-o", "o.h5"],
+                      ["analyze", "s.ply", "--degree", "2", "-o", "o.h5"],
+                      ["report", "s.h5", "--size", "16", "-o", "o.html"],
+                      ["render", "s.h5", "--size", "32x32", "-o", "o.png"]):
+            with self.subTest(words[0]):
+                result = self.rholm(*words, "--quiet")
+                self.assertEqual(result.out + result.err, "")
+
+    def test_a_report_that_is_asked_for_stays(self):
+        for words in (["info", "s.ply"], ["center", "s.ply"], ["spectrum", "s.h5"],
+                      ["compare", "s.ply", "s.h5", "--samples", "100"], ["align", "s.h5", "s.h5"],
+                      ["smooth", "s.ply", "--region", "ball:0,0,1,0.5", "--wavelength", "0.5",
+                       "--json", "-o", "o.ply"]):
+            with self.subTest(words[0]):
+                result = self.rholm(*words, "--quiet")
+                self.assertEqual(result.err, "")
+                self.assertNotEqual(result.out, "")
+
+
+class Words(Meaning):
+    def test_both_a_degree_and_a_tolerance(self):
+        said = self.rholm("analyze", "s.ply", "--degree", "4", "--tolerance", "1", "-o", "o.h5",
+                          code=2).err
+        self.assertIn("only one of the two", said)
+
+    def test_points_are_no_output_of_a_surface(self):
+        for words in (["synthesize", "s.h5", "-o", "o.xyz"],
+                      ["smooth", "s.ply", "--region", "ball:0,0,1,1", "--wavelength", "1", "-o",
+                       "o.xyz"], ["make", "sphere", "-o", "o.xyz"]):
+            self.assertIn("no faces", self.rholm(*words, code=2).err)
+        self.assertNotIn("xyz", self.rholm("synthesize", "--help").out)
+        for words in (["make", "sample", "s.ply"], ["orient", "s.ply"]):
+            self.assertIn("no points", self.rholm(*words, "-o", "o.stl", code=2).err)
+
+    def test_convert_points_to_the_command_that_does_it(self):
+        said = self.rholm("convert", "s.h5", "o.ply", code=2).err
+        self.assertIn("'rholm synthesize s.h5 -o o.ply'", said)
+        said = self.rholm("convert", "s.ply", "o.h5", code=2).err
+        self.assertIn("'rholm analyze s.ply --degree L -o o.h5'", said)
+
+    def test_transfer_speaks_of_its_own_options(self):
+        self.rholm("make", "sphere", "--subdivisions", "2", "-o", "coarse.ply")
+        words = ["transfer", "--from", "coarse.ply", "--from-region", "ball:0,0,1,0.7", "--to",
+                 "s.ply", "--to-region", "ball:0,0,1,0.5", "-o", "o.ply"]
+        said = self.rholm(*words, "--from-degree", "20", code=3).err
+        self.assertNotIn("wavelength", said)
+        most = int(re.search(r"degree (\d+) or less", said)[1])
+        self.assertGreaterEqual(most, 2)
+        self.assertNotIn("or less", self.run_rholm(*words, "--from-degree", most).err)
+
+    def test_a_sample_without_points_is_refused(self):
+        said = self.rholm("make", "sample", "s.ply", "--holes", "100,1", "-o", "o.ply", code=3).err
+        self.assertIn("holes", said)
+        self.assertNotIn("o.ply", self.files())
+
+    def test_what_is_not_star_shaped_is_told_in_the_words_of_the_command(self):
+        self.rholm("make", "torus", "-o", "t.ply")
+        said = self.rholm("analyze", "t.ply", "--degree", "4", "-o", "o.h5", code=3).err
+        for word in ("min d", "--atlas", "--signed"):
+            self.assertIn(word, said)
+        for word in ("allow_signed", "compress(", "d_T", "min_d"):
+            self.assertNotIn(word, said)
+        said = self.rholm("report", "t.ply", "-o", "o.html", code=3).err
+        self.assertIn("rholm analyze --atlas", said)
+        self.assertNotIn("--signed", said)
+
+    def test_text_has_the_centroid_that_json_has(self):
+        centroid = self.rholm("info", "s.ply", "--json").json()["volume_centroid"]
+        self.assertEqual(len(centroid), 3)
+        self.assertIn("volume centroid", self.rholm("info", "s.ply").out)
+
+    def test_a_view_from_above_needs_no_up(self):
+        for view in ("0,0,1", "0,0,-3"):
+            self.rholm("render", "s.ply", "--view", view, "--size", "32x32", "-o", "o.png")
+        said = self.rholm("render", "s.ply", "--view", "0,0,1", "--up", "0,0,2", "-o", "o.png",
+                          code=2).err
+        self.assertIn("--up", said)
+
+
+class Names(Meaning):
+    def test_names_that_cannot_be_are_failures(self):
+        long = "x" * 300
+        os.symlink("b.ply", self.folder / "a.ply")
+        os.symlink("a.ply", self.folder / "b.ply")
+        before = self.files()
+        for name, words in ((long, "too long"), ("a.ply", "symbolic links")):
+            for command in (["info", name], ["analyze", name, "--degree", "2", "-o", "o.h5"],
+                            ["compare", "s.ply", name], ["bench", name],
+                            ["synthesize", "s.h5", "--like", name, "-o", "o.ply"],
+                            ["filter", "s.h5", "--gain", name, "-o", "o.h5"],
+                            ["make", "sphere", "--format", "ply", "-o", name],
+                            ["analyze", "s.ply", "--degree", "2", "--format", "h5", "-o", name],
+                            ["report", "s.ply", "--format", "html", "-o", name],
+                            ["render", "s.ply", "--format", "png", "-o", name],
+                            ["convert", "s.h5", name, "--format", "json"]):
+                with self.subTest(command=command):
+                    said = self.rholm(*command, code=1).err
+                    self.assertIn(words, said)
+                    self.assertNotIn("unexpected", said)
+        self.assertEqual(self.files(), before)
+
+    def test_a_level_whose_name_would_be_too_long_is_refused_before_the_work(self):
+        name = "x" * 249 + ".ply"  # 253 bytes; with -L1 it is beyond the 255 of file systems
+        said = self.rholm("synthesize", "s.h5", "--degree", "1,2", "-o", name, code=1).err
+        self.assertIn("too long", said)
+        self.assertIn("-L1.ply", said)
+
+
+if __name__ == "__main__":
+    main()
