@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "rholm/compare.h"
+#include "surface/area_samples.h"
 
 namespace rholm {
 
@@ -13,14 +14,6 @@ AtlasErrors measure(const Mesh& shape, const Mesh& surface, std::size_t samples,
   return {found.a_to_b.rms, found.a_to_b.max, found.b_to_a.rms, found.b_to_a.max};
 }
 
-AtlasErrors measure(const std::vector<Vec3>& outer, const Mesh& shape, const Mesh& surface,
-                    std::size_t samples, const Context& context) {
-  const AtlasErrors back = measure(shape, surface, samples, context);
-  AtlasErrors errors = measure(outer, surface, context);
-  errors.rms_to = back.rms_to, errors.max_to = back.max_to;
-  return errors;
-}
-
 AtlasErrors measure(const std::vector<Vec3>& points, const Mesh& surface, const Context& context) {
   AtlasErrors errors;
   for (const double d : distances_to_surface(points, surface, context)) {
@@ -28,6 +21,17 @@ AtlasErrors measure(const std::vector<Vec3>& points, const Mesh& surface, const 
     errors.max_from = std::max(errors.max_from, d);
   }
   errors.rms_from = std::sqrt(errors.rms_from / static_cast<double>(points.size()));
+  return errors;
+}
+
+// What lies inside is as far from the whole surface in many directions, and asked for in vain: the
+// way back begins from the surface alone.
+AtlasErrors measure(const std::vector<Vec3>& outer, const Mesh& shape, const Mesh& surface,
+                    std::size_t samples, const Context& context) {
+  AtlasErrors errors = measure(outer, surface, context);
+  const AtlasErrors back =
+      measure(sample_by_area(surface, samples, CompareOptions{}.seed).points, shape, context);
+  errors.rms_to = back.rms_from, errors.max_to = back.max_from;
   return errors;
 }
 

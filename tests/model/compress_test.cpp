@@ -39,11 +39,12 @@ Mesh with(Mesh mesh, const Mesh& other) {
 
 TEST(compress, a_torus_meets_its_tolerance_both_ways_and_is_read_back) {
   const Mesh mesh = torus(1, 0.4, 128, 64);
-  const double diagonal = bounds(mesh.vertices).diagonal();
-  const Compressed found = compress(mesh, {.tolerance = 2e-3 * diagonal});
+  const double tolerance = 5e-3 * bounds(mesh.vertices).diagonal();
+  const Compressed found = compress(mesh, {.tolerance = tolerance});
   EXPECT_TRUE(found.report.met);
   EXPECT_TRUE(found.report.topology_kept);
-  EXPECT_LE(found.model.errors->rms(), 2e-3 * diagonal);
+  EXPECT_TRUE(found.model.errors->two_sided());
+  EXPECT_LE(found.model.errors->rms(), tolerance);
   EXPECT_LT(size_of(found.model.atlas).numbers(), 3 * mesh.vertices.size() / 20);
   const TemporaryFolder folder;
   write_atlas(found.model, folder / "a.h5");
@@ -56,14 +57,13 @@ TEST(compress, a_torus_meets_its_tolerance_both_ways_and_is_read_back) {
 
 TEST(compress, points_may_point_inwards_and_are_measured_one_way) {
   PointCloud cloud = test::sphere_points(1500);
-  const Compressed right = compress(cloud, {.tolerance = 0.05});
+  const Compressed right = compress(cloud, {.tolerance = 0.02});
   EXPECT_FALSE(right.report.turned_normals);
   EXPECT_FALSE(right.model.errors->two_sided());
   for (Vec3& normal : cloud.normals) normal = -normal;
-  const Compressed turned = compress(cloud, {.tolerance = 0.05});
+  const Compressed turned = compress(cloud, {.tolerance = 0.02});
   EXPECT_TRUE(turned.report.turned_normals);
   EXPECT_EQ(turned.model.atlas.coefficients, right.model.atlas.coefficients);
-  EXPECT_TRUE(compress(icosphere(3), {.tolerance = 0.05}).model.errors->two_sided());
 }
 
 TEST(compress, options_out_of_range_are_refused) {
@@ -126,7 +126,7 @@ TEST(compress, what_lies_inside_is_left_out) {
   const Mesh outer = icosphere(4);
   Mesh inner = icosphere(3);
   for (Vec3& v : inner.vertices) v = 0.5 * v;
-  const Compressed found = compress(with(outer, inner), {.tolerance = 0.05});
+  const Compressed found = compress(with(outer, inner), {.tolerance = 0.02});
   EXPECT_NEAR(found.report.hidden, 0.2, 0.02);  // of 5000 probes: a deviation of 0.006
   EXPECT_TRUE(found.report.met);
   const Inspection seen = inspect(synthesize(found.model));
@@ -155,7 +155,7 @@ TEST(compress, an_atlas_without_caps_has_no_surface) {
 // Levels of a model are surfaces of one piece.
 TEST(compress, levels_hang_together) {
   const Mesh mesh = bumpy_sphere(4, 0.3, 3);
-  const Compressed found = compress(mesh, {.tolerance = 0.05});
+  const Compressed found = compress(mesh, {.tolerance = 0.1});
   const Inspection seen = inspect(synthesize(found.model, {.degree = 2}));
   EXPECT_TRUE(seen.closed && seen.manifold);
   EXPECT_EQ(seen.components, 1U);

@@ -99,7 +99,7 @@ TEST(degree_fits, leading_blocks_are_the_fits_of_lower_degrees) {
 }
 
 TEST(greedy_cover, is_given_up_where_too_many_numbers_are_foreseen) {
-  const Samples s = torus(6000);
+  const Samples s = torus(3000);
   const SampleLevels levels = make_levels(s.points, s.normals, {});
   const std::vector<std::uint8_t> none(levels.size());
   GreedyOptions options = options_for(1e-3);
