@@ -3,6 +3,7 @@
 #include <memory>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "cli/command.h"
 #include "cli/convention.h"
@@ -58,6 +59,10 @@ void convert_shape(const Options& options, const ShapeFile& file, Session& sessi
   std::visit(
       [&](const auto& shape) {
         write_shape(shape, options.output, {format, options.ascii}, session.context());
+        const auto lost = attributes_left_out(shape.attributes, format);
+        if (lost.empty()) return;
+        session.note(fmt::format("{}: {} has no room for {}", display_name(options.output),
+                                 to_string(format), fmt::join(lost, ", ")));
       },
       file.shape);
 }
@@ -124,7 +129,8 @@ Command convert_command() {
               "Coefficients become coefficients: model file (.h5), SHTOOLS text (.sh, .txt, "
               ".shtools), ICGEM-like text (.gfc, .icgem), JSON (.json), NumPy (.npy). Shapes "
               "become shapes: .ply, .obj, .off, .stl, .xyz, with the attributes the format has "
-              "room for.\n\nConventions are those of the text, JSON and NumPy files; a model "
+              "room for; what is left out is said.\n\nConventions are those of the text, JSON and "
+              "NumPy files; a model "
               "file is always orthonormal without Condon-Shortley phase. Where an input does not "
               "say its convention, it is taken to be that of --input-normalization and "
               "--input-csphase (4pi and 1 by default), and what was assumed is said.",

@@ -59,4 +59,8 @@ void write_shape(const Mesh& mesh, const std::filesystem::path& path,
 void write_shape(const PointCloud& cloud, const std::filesystem::path& path,
                  const ShapeWriteOptions& options = {}, const Context& context = {});
 
+// Names of the attributes that the format has no room for.
+std::vector<std::string> attributes_left_out(std::span<const Attribute> attributes,
+                                             ShapeFormat format);
+
 }  // namespace rholm

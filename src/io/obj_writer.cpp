@@ -4,14 +4,6 @@
 namespace rholm {
 namespace {
 
-AttributeGroup<2> find_texture(const ShapeView& shape) {
-  for (const std::array<const char*, 2>& names :
-       {std::array{"u", "v"}, std::array{"s", "t"}, std::array{"texture_u", "texture_v"}}) {
-    if (auto group = find_group<2>(shape.attributes, names)) return group;
-  }
-  return std::nullopt;
-}
-
 // Colours of OBJ files run from 0 to 1.
 double color_value(const Attribute& attribute, std::size_t i) {
   return attribute.type == ScalarType::kUint8 ? attribute.values[i] / 255 : attribute.values[i];
@@ -49,7 +41,7 @@ void put_corner(std::uint32_t vertex, bool texture, bool normal, OutputBuffer& o
 
 void format_obj(const ShapeView& shape, OutputBuffer& out) {
   put_positions(shape, out);
-  const auto texture = find_texture(shape);
+  const auto texture = find_texture(shape.attributes);
   if (texture) {
     for (std::size_t i = 0; i < shape.points.size(); ++i) {
       out.text("vt ");

@@ -1,8 +1,44 @@
 #include "io/shape_writers.h"
 
+#include <algorithm>
+
 #include "rholm/error.h"
 
 namespace rholm {
+namespace {
+
+template <std::size_t kSize>
+void add_group(const AttributeGroup<kSize>& group, std::vector<const Attribute*>& to) {
+  if (group) to.insert(to.end(), group->begin(), group->end());
+}
+
+// Those that a format other than PLY writes.
+std::vector<const Attribute*> written(std::span<const Attribute> attributes, ShapeFormat format) {
+  std::vector<const Attribute*> kept;
+  if (format == ShapeFormat::kStl) return kept;
+  add_group(find_group<3>(attributes, {"nx", "ny", "nz"}), kept);
+  if (format == ShapeFormat::kXyz) return kept;
+  add_group(find_group<3>(attributes, {"red", "green", "blue"}), kept);
+  if (format == ShapeFormat::kOff) {
+    add_group(find_group<4>(attributes, {"red", "green", "blue", "alpha"}), kept);
+  } else {
+    add_group(find_texture(attributes), kept);
+  }
+  return kept;
+}
+
+}  // namespace
+
+std::vector<std::string> attributes_left_out(std::span<const Attribute> attributes,
+                                             ShapeFormat format) {
+  std::vector<std::string> names;
+  if (format == ShapeFormat::kPly) return names;
+  const std::vector<const Attribute*> kept = written(attributes, format);
+  for (const Attribute& a : attributes) {
+    if (std::find(kept.begin(), kept.end(), &a) == kept.end()) names.push_back(a.name);
+  }
+  return names;
+}
 
 ShapeView shape_view_of(const Mesh& mesh) {
   return {.points = mesh.vertices,

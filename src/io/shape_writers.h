@@ -51,6 +51,15 @@ AttributeGroup<kSize> find_group(std::span<const Attribute> attributes,
   return group;
 }
 
+// The names that texture coordinates go by.
+inline AttributeGroup<2> find_texture(std::span<const Attribute> attributes) {
+  for (const std::array<const char*, 2>& names :
+       {std::array{"u", "v"}, std::array{"s", "t"}, std::array{"texture_u", "texture_v"}}) {
+    if (auto group = find_group<2>(attributes, names)) return group;
+  }
+  return std::nullopt;
+}
+
 // One normal per point or vertex, from where they are; empty if there are none.
 std::vector<Vec3> normals_of(const ShapeView& shape);
 

@@ -203,6 +203,18 @@ class Lost(Meaning):
         self.assertEqual(self.rholm("convert", "s.h5", "s.sh").err, "")
 
 
+    def test_shapes_say_which_attributes_are_lost(self):
+        self.write("c.off", "CNOFF\n3 1 0\n" + "".join(
+            f"{x} {y} 0 0 0 1 9 8 7 255\n" for x, y in ((0, 0), (1, 0), (0, 1))) + "3 0 1 2\n")
+        self.assertEqual(self.rholm("convert", "c.off", "c.ply").err, "")
+        said = self.rholm("convert", "c.ply", "c.stl").err
+        for name in ("stl", "red", "nx"):
+            self.assertIn(name, said)
+        said = self.rholm("convert", "c.ply", "c.obj").err
+        self.assertIn("alpha", said)
+        self.assertNotIn("red", said)
+
+
 class Quiet(Meaning):
     def test_commands_that_write_a_file_say_nothing(self):
         self.rholm("make", "sample", "s.ply", "--points", "2000", "-o", "p.ply")

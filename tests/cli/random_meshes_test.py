@@ -200,6 +200,8 @@ def all_of_them(words):
     parser.add_argument("--table", help="file for the tables, which are printed in any case")
     parser.add_argument("--keep", help="folder for meshes that something was wrong with")
     options = parser.parse_args(words)
+    if not KINDS:
+        sys.exit("NumPy is not installed for this Python")
     trials, lock = [], threading.Lock()
 
     def one(number):

@@ -254,6 +254,30 @@ TEST(shape_io, values_their_type_cannot_hold_are_written_as_double) {
   }
 }
 
+// Told before and found missing after.
+TEST(shape_io, attributes_that_are_left_out_are_told) {
+  Mesh mesh = tetrahedron_with_attributes();
+  mesh.attributes.push_back({"quality", ScalarType::kFloat64, {1, 2, 3, 4}});
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const auto expect_left_out = [](const auto& shape, ShapeFormat format) {
+    const TemporaryFolder folder;
+    write_shape(shape, folder / "a", {.format = format});
+    const auto read = read_shape(folder / "a").shape;
+    std::vector<std::string> missing;
+    for (const Attribute& a : shape.attributes) {
+      const bool found = std::visit(
+          [&](const auto& it) { return find_attribute(it.attributes, a.name) != nullptr; }, read);
+      if (!found) missing.push_back(a.name);
+    }
+    EXPECT_EQ(attributes_left_out(shape.attributes, format), missing) << to_string(format);
+  };
+  for (const ShapeFormat format :
+       {ShapeFormat::kPly, ShapeFormat::kObj, ShapeFormat::kOff, ShapeFormat::kStl}) {
+    expect_left_out(mesh, format);
+  }
+  expect_left_out(cloud_with_attributes(), ShapeFormat::kXyz);
+}
+
 TEST(shape_io, content_decides_before_the_name) {
   const TemporaryFolder folder;
   const Mesh mesh = tetrahedron_with_attributes();
