@@ -45,11 +45,12 @@ Json json_of_run(const AnalyzeCommandOptions& options, const MonteCarlo& found,
   json["places"] = found.places;
   json["samples"] = found.samples;
   json["rounds"] = found.rounds;
-  json["relative_deviation"] = found.relative_deviation;
+  json["relative_deviation"] = json_of(found.relative_deviation);
   json["deviation_reached"] = found.reached;
   json["degree_deviation"] = found.degree_deviation;
   json["norm_squared"] = json_of(found.expansion.norm_squared);
   json["truncation_rms"] = json_of(found.truncation_rms);
+  json["truncation_rms_doubt"] = json_of(found.truncation_rms_doubt);
   Json wall, cpu;
   for (const auto& [stage, time] : found.times) {
     wall[stage] = time.wall;
@@ -59,6 +60,11 @@ Json json_of_run(const AnalyzeCommandOptions& options, const MonteCarlo& found,
   json["cpu_seconds"] = cpu;
   json["peak_memory_bytes"] = peak_memory_bytes();
   return json;
+}
+
+std::string text_of_deviation(const MonteCarlo& found) {
+  return found.relative_deviation ? text_of(*found.relative_deviation)
+                                  : "not known: too few points";
 }
 
 }  // namespace
@@ -84,16 +90,16 @@ int analyze_by_monte_carlo(const AnalyzeCommandOptions& options, SamplePlaces pl
   if (options.json) {
     print_json(json_of_run(options, found, chart.report));
   } else {
-    session.note(fmt::format(
-        "{}: degree {} by {}, {} points on each of {} {}; relative deviation {}", options.output,
-        *options.degree, options.method, found.samples, found.places,
-        places == SamplePlaces::kEdges ? "edges" : "faces", text_of(found.relative_deviation)));
+    session.note(
+        fmt::format("{}: degree {} by {}, {} points on each of {} {}; relative deviation {}",
+                    options.output, *options.degree, options.method, found.samples, found.places,
+                    places == SamplePlaces::kEdges ? "edges" : "faces", text_of_deviation(found)));
   }
   if (!found.reached) {
     throw Error(ErrorCode::kNotConverged,
                 fmt::format("the wanted deviation was not reached with {} points each, which were "
                             "written: it is {}; more --most-samples may do",
-                            found.samples, text_of(found.relative_deviation)));
+                            found.samples, text_of_deviation(found)));
   }
   return 0;
 }

@@ -92,6 +92,7 @@ Json analyze_json(const AnalyzeCommandOptions& options, const AnalyzeRun& run) {
   json["norm_squared"] = json_of(analysis.expansion.norm_squared);
   json["tail_strength"] = json_of(analysis.expansion.tail_strength);
   json["truncation_rms"] = json_of(analysis.truncation_rms);
+  json["truncation_rms_doubt"] = json_of(analysis.truncation_rms_doubt);
   json["errors"] = json_of(analysis.expansion.errors);
   json["tolerance"] =
       encoded.tolerance ? tolerance_json(options, *encoded.tolerance) : Json(nullptr);

@@ -63,10 +63,16 @@ struct Analysis {
   // engine, which checks both by a hash over all half-edges.
   std::optional<double> closure_residual;
   std::optional<FastReport> fast;  // of the fast engine with the method edge
-  StageTimes times;                // "triangles", "spread", "fourier", "norms": where known
-  // Exact truncation error over solid angle, sqrt(||f - f_L||^2 / 4 pi), in the unit of f;
-  // none if the surface is not star-shaped, for there (M7) is not the norm.
-  std::optional<double> truncation_rms;
+  // That the coefficients were wanted with: a search for a degree may have asked for more than
+  // AnalyzeOptions::precision.
+  double precision = 0;
+  StageTimes times;  // "triangles", "spread", "fourier", "norms": where known
+  // Truncation error over solid angle, sqrt(||f - f_L||^2 / 4 pi), in the unit of f, as the
+  // difference of the exact norm and that of the coefficients, and how far it is at most from that
+  // of exact coefficients: they are as exact as the precision. None if that is not below an eighth
+  // of it (its square is known to a quarter), and if the surface is not star-shaped, for there (M7)
+  // is not the norm.
+  std::optional<double> truncation_rms, truncation_rms_doubt;
 };
 
 // Throws InvalidInput for a degree or precision out of range, a centre on a vertex, or (gauge) a

@@ -58,13 +58,15 @@ struct MonteCarlo {
   std::size_t samples = 0;  // on each of them
   int rounds = 0;
   // sqrt(V / (M - V)): V the sum of the squared standard errors over 1 <= l <= L, M that of the
-  // squared coefficients found (V of which is scatter); at most 100. For L = 0 that of c_00.
-  double relative_deviation = 0;
+  // squared coefficients found (V of which is scatter). For L = 0 that of c_00. None above 1, or
+  // above 1/2 with fewer than 100 pairs of points: M - V is itself no more than scatter there.
+  std::optional<double> relative_deviation;
   bool reached = false;  // the wanted deviation; true for a fixed number of samples
-  // For each l, root mean square over its 2l + 1 coefficients of the standard error.
+  // For each l, the standard error of its 2l + 1 coefficients together, l2: over the sphere, its
+  // function of degree l is this over sqrt(4 pi) off, root mean square.
   std::vector<double> degree_deviation;
-  // As in Analysis, of the surface and these coefficients: scatter is part of it.
-  std::optional<double> truncation_rms;
+  // As in Analysis, the doubt by 3 deviations: none unless samples are very many.
+  std::optional<double> truncation_rms, truncation_rms_doubt;
   StageTimes times;  // "samples", "sums", "norms"
 };
 

@@ -96,11 +96,10 @@ void keep(ToleranceAnalysis found, const EncodeOptions& options, Encoded& encode
   if (!options.errors) encoded.analysis.expansion.errors.reset();
 }
 
-void add_errors(const MeshView& mesh, const EncodeOptions& options, bool predict,
-                const Context& context, Encoded& encoded) {
+void add_errors(const MeshView& mesh, bool predict, const Context& context, Encoded& encoded) {
   Analysis& analysis = encoded.analysis;
   if (analysis.expansion.errors) return;  // a search for a degree has measured them
-  const double precision = known_error(analysis, options.analyze.precision);
+  const double precision = known_error(analysis);
   analysis.expansion.errors = timed(encoded.times, "errors", [&] {
     return truncation_errors(mesh, analysis.expansion, {.precision = precision, .predict = predict},
                              context);
@@ -153,6 +152,7 @@ std::optional<Encoded> encode_as_it_lies(const MeshView& mesh, const EncodeOptio
     if (!options.chart.allow_signed || options.tolerance) return std::nullopt;
     encoded.star = star_report(pass, *center);
     set_pass(pass, analysis);
+    analysis.precision = wanted.precision;
     finish_signed(mesh, options, context, encoded);
     set_counts(mesh, encoded);
     return encoded;
@@ -162,6 +162,7 @@ std::optional<Encoded> encode_as_it_lies(const MeshView& mesh, const EncodeOptio
   if (!covers_once(*norms)) return std::nullopt;
   encoded.star = star_report(pass, *center);
   set_pass(pass, analysis);
+  analysis.precision = wanted.precision;
   if (options.tolerance) {
     problem.transform = [&](int degree, double precision) {
       wanted.degree = degree;
@@ -169,6 +170,7 @@ std::optional<Encoded> encode_as_it_lies(const MeshView& mesh, const EncodeOptio
       MeshPassResult next = mesh_pass(mesh, wanted, context);
       Analysis result;
       set_pass(next, result);
+      result.precision = precision;
       return result;
     };
     problem.pilot = problem.transform;
@@ -183,7 +185,7 @@ std::optional<Encoded> encode_as_it_lies(const MeshView& mesh, const EncodeOptio
         timed(analysis.times, "norms", [&] { return tail_strength(mesh, *center); });
   }
   finish_analysis(options.analyze, *center, analysis);
-  if (options.errors) add_errors(mesh, options, paired, context, encoded);
+  if (options.errors) add_errors(mesh, paired, context, encoded);
   set_counts(mesh, encoded);
   return encoded;
 }
@@ -258,7 +260,7 @@ Encoded encode(const Mesh& mesh, const EncodeOptions& options, const Context& co
     }
   });
   if (options.errors && chart.report.star_shaped) {
-    add_errors(view_of(topology.welded.mesh), options, true, context, encoded);
+    add_errors(view_of(topology.welded.mesh), true, context, encoded);
   }
   return encoded;
 }

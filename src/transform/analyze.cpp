@@ -4,13 +4,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/compensated_sum.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "rholm/error.h"
 #include "transform/mesh_pass.h"
 #include "transform/methods.h"
+#include "transform/parseval.h"
 #include "transform/star_geometry.h"
+#include "transform/tolerance.h"
 
 namespace rholm {
 
@@ -61,11 +62,14 @@ void check_finite(const Coefficients& c) {
   }
 }
 
-std::optional<double> truncation_rms(double norm_squared, const Coefficients& c) {
-  CompensatedSum rest;
-  rest.add(norm_squared);
-  for (const double value : c.values()) rest.add(-value * value);
-  return std::sqrt(std::max(0.0, rest.value()) / (4 * std::numbers::pi));
+// The mean is summed by cubature of its own, each triangle to the wanted precision.
+void set_truncation_rms(double norm_squared, Analysis& analysis) {
+  const Coefficients& c = analysis.expansion.coefficients;
+  const CoefficientErrors errors =
+      coefficient_errors(norm_squared, c, analysis.precision, known_error(analysis));
+  const ParsevalRest rest = parseval_rest(norm_squared, c, errors);
+  analysis.truncation_rms = rms_of(rest, kBelieved);
+  if (analysis.truncation_rms) analysis.truncation_rms_doubt = rms_doubt(rest);
 }
 
 }  // namespace
@@ -145,7 +149,7 @@ void finish_analysis(const AnalyzeOptions& options, const Vec3& center, Analysis
   expansion.center = center;
   expansion.method = to_string(options.method);
   if (expansion.norm_squared) {
-    analysis.truncation_rms = truncation_rms(*expansion.norm_squared, expansion.coefficients);
+    set_truncation_rms(*expansion.norm_squared, analysis);
   }
 }
 
@@ -153,6 +157,7 @@ Analysis analyze_without_norms(const StarChart& chart, const AnalyzeOptions& opt
                                const Context& context) {
   report_progress(context, "transform", 0);
   Analysis analysis;
+  analysis.precision = options.precision;
   if (uses_mesh_pass(options)) {
     by_mesh_pass(chart, options, context, analysis);
   } else {

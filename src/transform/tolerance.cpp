@@ -50,8 +50,16 @@ Precisions precisions_for(const ToleranceProblem& problem, const Tolerance& tole
   return {.pilot = std::max(final, std::clamp(coarse, 1e-7, 1e-3)), .final = final};
 }
 
-double known_error(const Analysis& analysis, double wanted) {
-  return analysis.fast ? analysis.fast->error : std::min(wanted, 1e-8);
+double known_error(const Analysis& analysis) {
+  if (!analysis.fast) return analysis.precision;
+  // The fast engine's is relative to the degrees found, which may hold next to nothing.
+  const Coefficients& c = analysis.expansion.coefficients;
+  const double mean = c.c(0, 0);
+  const double varying = analysis.expansion.norm_squared.value_or(0) - mean * mean;
+  if (!(varying > 0)) return analysis.fast->error;
+  double found = 0;
+  for (const double value : c.values().subspan(1)) found += value * value;
+  return analysis.fast->error * std::sqrt(std::min(1.0, found / varying));
 }
 
 const char* to_string(ErrorNorm norm) { return norm == ErrorNorm::kRms ? "rms" : "max"; }

@@ -209,7 +209,7 @@ class Search {
       return;
     }
     const bool predict = problem_.mesh.n_triangles <= kMostPredicted;
-    const double precision = known_error(result_.analysis, problem_.precision);
+    const double precision = known_error(result_.analysis);
     expansion().errors = truncation_errors(
         expansion(), {.precision = precision, .predict = predict}, sites_, context_);
     result_.reached = error_in(*expansion().errors, wanted_);

@@ -5,7 +5,6 @@
 #include <numbers>
 #include <optional>
 
-#include "base/compensated_sum.h"
 #include "base/parallel.h"
 #include "chart/view_scan.h"
 #include "rholm/error.h"
@@ -13,6 +12,7 @@
 #include "transform/error_sites.h"
 #include "transform/exact_norms.h"
 #include "transform/mesh_pass.h"
+#include "transform/parseval.h"
 #include "transform/tolerance.h"
 
 namespace rholm {
@@ -21,16 +21,10 @@ namespace {
 // sqrt(||f - f_L||^2 / 4 pi), if the error of the coefficients leaves a hundredth of it.
 std::optional<double> parseval_rms(const Expansion& expansion, double precision) {
   if (!expansion.norm_squared) return std::nullopt;
-  CompensatedSum rest;
-  rest.add(*expansion.norm_squared);
-  for (const double value : expansion.coefficients.values()) rest.add(-value * value);
-  const double mean2 = std::pow(expansion.coefficients.c(0, 0), 2);
-  const double varying = std::sqrt(std::max(0.0, *expansion.norm_squared - mean2));
-  // Of each coefficient's square: 2 c dc.
-  const double doubt =
-      2 * precision * (varying * varying + mean2) + 4e-15 * *expansion.norm_squared;
-  if (!(rest.value() > 50 * doubt)) return std::nullopt;
-  return std::sqrt(rest.value() / (4 * std::numbers::pi));
+  const double norm_squared = *expansion.norm_squared;
+  const CoefficientErrors errors =
+      coefficient_errors(norm_squared, expansion.coefficients, precision, precision);
+  return rms_of(parseval_rest(norm_squared, expansion.coefficients, errors), 50);
 }
 
 double diagonal_of(const MeshView& mesh) {
