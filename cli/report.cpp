@@ -47,6 +47,7 @@ Json json_of(const TruncationErrors& errors) {
           {"measured_max", json_of(errors.measured_max)},
           {"measured_max_distance", json_of(errors.measured_max_distance)},
           {"distance_rms", json_of(errors.distance_rms)},
+          {"distances_are_closest", errors.distances_are_closest},
           {"points", errors.points}};
 }
 

@@ -29,6 +29,7 @@ inline constexpr const char* kNormSquared = "norm_squared";
 inline constexpr const char* kTailStrength = "tail_strength";
 inline constexpr const char* kErrorRms = "error_rms";
 inline constexpr const char* kErrorRmsIsExact = "error_rms_is_exact";
+inline constexpr const char* kDistancesAreClosest = "error_distances_are_closest";
 inline constexpr const char* kPredictedMax = "error_predicted_max";
 inline constexpr const char* kPredictedMaxDistance = "error_predicted_max_distance";
 inline constexpr const char* kMeasuredMax = "error_measured_max";

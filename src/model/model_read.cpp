@@ -115,6 +115,9 @@ class ModelReader {
     if (!points) return std::nullopt;
     TruncationErrors errors;
     errors.rms = optional_length(group, layout::kErrorRms);
+    errors.distances_are_closest =
+        hdf5::find_attribute(file_, group, layout::kDistancesAreClosest) &&
+        integer(group, layout::kDistancesAreClosest) == 1;
     errors.rms_is_exact = hdf5::find_attribute(file_, group, layout::kErrorRmsIsExact) &&
                           integer(group, layout::kErrorRmsIsExact) == 1;
     errors.predicted_max = optional_length(group, layout::kPredictedMax);

@@ -37,6 +37,7 @@ void write_errors(const Writer& writer, hid_t group, const TruncationErrors& err
   };
   write(layout::kErrorRms, errors.rms);
   writer.write_attribute(group, layout::kErrorRmsIsExact, errors.rms_is_exact ? 1 : 0);
+  writer.write_attribute(group, layout::kDistancesAreClosest, errors.distances_are_closest ? 1 : 0);
   write(layout::kPredictedMax, errors.predicted_max);
   write(layout::kPredictedMaxDistance, errors.predicted_max_distance);
   write(layout::kMeasuredMax, errors.measured_max);

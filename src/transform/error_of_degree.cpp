@@ -5,12 +5,18 @@
 #include <numbers>
 
 #include "base/parallel.h"
+#include "transform/distance_check.h"
 
 namespace rholm {
 namespace {
 
 // Every so many of the points over the area stand for all where little is asked.
 constexpr std::size_t kPart = 5;
+// And whether first order holds, which is asked where the error is this near to the limit.
+constexpr std::size_t kFew = 100;
+constexpr double kNear = 2.5;
+// Few closest points differ from many by a per cent.
+constexpr double kCloseFew = 1.04;
 // What some points find is at most this much less than what all do (measured: 1.9).
 constexpr double kDoubt = 2;
 // Root mean squares of some points differ from those of all by 0.7 %.
@@ -68,7 +74,46 @@ ErrorOfDegree::ErrorOfDegree(const Tolerance& tolerance, ErrorSites& sites, doub
       silent_{.threads = context.threads} {}
 
 double ErrorOfDegree::of(const Expansion& expansion, int degree, double limit) {
-  return is_largest() ? largest_of(expansion, degree, limit) : rms_of(expansion, degree, limit);
+  if (is_distance() && is_coarse(sites_.mesh()) && may_be_refined(expansion, degree, limit)) {
+    closest_rule_ = true;
+  }
+  if (closest_rule_) return closest_of(expansion, degree, limit);
+  const double value =
+      is_largest() ? largest_of(expansion, degree, limit) : rms_of(expansion, degree, limit);
+  if (!is_distance() || value > kNear * limit || limit > kNear * value) return value;
+  const double ratio = second_order_ratio(expansion, degree, limit);
+  return closest_rule_ ? closest_of(expansion, degree, limit) : ratio * value;
+}
+
+bool ErrorOfDegree::may_be_refined(const Expansion& expansion, int degree, double limit) {
+  const PointErrors errors = measured(few_points(), expansion, degree, limit);
+  return rholm::may_be_refined(sites_.mesh(), expansion, largest(errors.radial), sites_.diagonal());
+}
+
+// What the error to first order is to be multiplied by, unless closest points rule from now on:
+// what is steep at one degree is steep at the next.
+double ErrorOfDegree::second_order_ratio(const Expansion& expansion, int degree, double limit) {
+  if (!may_be_refined(expansion, degree, limit)) return 1;
+  const ErrorPoints& points = is_largest() ? some_points() : few_points();
+  const std::size_t first = is_largest() ? sites_.vertices().size() : 0;
+  const PointErrors errors = measured(points, expansion, degree, limit);
+  const SecondOrder second =
+      second_order(points, errors, first, expansion, degree, precision(limit), silent_);
+  if (second.first_order_holds()) return 1;
+  closest_rule_ = !second.suffices(sites_.mesh());
+  return is_largest() ? second.max_ratio : second.rms_ratio;
+}
+
+// At few points unless they say that it is close to the limit.
+double ErrorOfDegree::closest_of(const Expansion& expansion, int degree, double limit) {
+  const ErrorPoints extreme = extreme_points(sites_.mesh(), sites_.center(), degree);
+  const auto at = [&](bool fine) {
+    const SurfaceDistances found =
+        sites_.closest(fine).measure(expansion, degree, extreme, precision(limit), silent_);
+    return is_largest() ? found.max : found.rms;
+  };
+  const double value = at(false);
+  return value > kCloseFew * limit || kCloseFew * value < limit ? value : at(true);
 }
 
 double ErrorOfDegree::rms_of(const Expansion& expansion, int degree, double limit) {
@@ -116,12 +161,20 @@ const ErrorPoints& ErrorOfDegree::all_points(int degree) {
   return sites_.all(degree_of_all_);
 }
 
+const ErrorPoints& ErrorOfDegree::few_points() {
+  if (few_.size() == 0) few_ = every(sites_.over_area(), kFew);
+  return few_;
+}
+
+// A thousandth of the tolerance.
+double ErrorOfDegree::precision(double limit) const {
+  return std::clamp(1e-3 * limit / size_, 1e-12, 1e-3);
+}
+
 PointErrors ErrorOfDegree::measured(const ErrorPoints& points, const Expansion& expansion,
                                     int degree, double limit) const {
-  // A thousandth of the tolerance.
-  const double precision = std::clamp(1e-3 * limit / size_, 1e-12, 1e-3);
   report_progress(context_, "errors", 0);
-  return point_errors(points, expansion, degree, is_distance(), precision, silent_);
+  return point_errors(points, expansion, degree, is_distance(), precision(limit), silent_);
 }
 
 // Of each point what the largest error is the largest of.

@@ -30,16 +30,23 @@ class ErrorOfDegree {
   // Of the first `degree` degrees, at all points; at a part of them where these say on which side
   // of the limit it is: root mean squares that are not close to it, largest errors above it or well
   // within it at what were the worst points, or far above it at the first degree that is asked for.
+  // Distances near the limit are to second order where that differs; those of closest points for
+  // coarse meshes, and from where second order is not enough.
   double of(const Expansion& expansion, int degree, double limit);
 
  private:
   bool is_distance() const { return tolerance_.measure == ErrorMeasure::kDistance; }
   bool is_largest() const { return tolerance_.norm == ErrorNorm::kMax; }
+  bool may_be_refined(const Expansion& expansion, int degree, double limit);
+  double second_order_ratio(const Expansion& expansion, int degree, double limit);
+  double closest_of(const Expansion& expansion, int degree, double limit);
   double rms_of(const Expansion& expansion, int degree, double limit);
   double largest_of(const Expansion& expansion, int degree, double limit);
   void keep_worst(const ErrorPoints& points, const std::vector<double>& errors, double least);
   const ErrorPoints& all_points(int degree);
   const ErrorPoints& some_points();
+  const ErrorPoints& few_points();
+  double precision(double limit) const;
   PointErrors measured(const ErrorPoints& points, const Expansion& expansion, int degree,
                        double limit) const;
   std::vector<double> sizes(PointErrors errors) const;
@@ -49,9 +56,10 @@ class ErrorOfDegree {
   double size_;
   const Context& context_;
   Context silent_;
-  ErrorPoints some_, worst_;
+  ErrorPoints few_, some_, worst_;
   int degree_of_all_ = -1;
   int first_ = -1;
+  bool closest_rule_ = false;  // for this mesh, once it is known
 };
 
 // The root mean square error of the radius at a part of the points over the area, to 0.7 %.

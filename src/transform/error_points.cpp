@@ -42,17 +42,19 @@ Face face_of(const MeshView& mesh, std::size_t t, const Vec3& center, double sca
 }
 
 // At a distance r from the centre, where nobody sees it if that is 0.
-void add_point(ErrorPoints& points, const Vec3& x, double r, double cosine) {
+void add_point(ErrorPoints& points, const Vec3& x, double r, double cosine, std::int64_t owner) {
   if (!(r > 0)) return;
   points.directions.push_back(x / r);
   points.radii.push_back(r);
   points.cosines.push_back(cosine);
+  points.owners.push_back(owner);
 }
 
-void add_on_face(ErrorPoints& points, const Face& face, const Vec3& x) {
+void add_on_face(ErrorPoints& points, const Face& face, const Vec3& x, std::size_t t) {
   const double r = norm(x), size = r * face.twice_area;
   if (!(size > 0)) return;
-  add_point(points, x, r, std::abs(dot(face.normal.twice_area, x)) / size);
+  add_point(points, x, r, std::abs(dot(face.normal.twice_area, x)) / size,
+            static_cast<std::int64_t>(t));
 }
 
 // Into how many parts the edges of a face are divided.
@@ -74,6 +76,7 @@ void ErrorPoints::reserve(std::size_t n) {
   directions.reserve(n);
   radii.reserve(n);
   cosines.reserve(n);
+  owners.reserve(n);
 }
 
 ErrorPoints ErrorPoints::subset(const std::vector<std::size_t>& indices) const {
@@ -83,14 +86,24 @@ ErrorPoints ErrorPoints::subset(const std::vector<std::size_t>& indices) const {
     result.directions.push_back(directions[i]);
     result.radii.push_back(radii[i]);
     result.cosines.push_back(cosines[i]);
+    if (!owners.empty()) result.owners.push_back(owners[i]);
   }
   return result;
+}
+
+ErrorPoints ErrorPoints::first(std::size_t n) const {
+  const auto end = static_cast<std::ptrdiff_t>(n);
+  return {{directions.begin(), directions.begin() + end},
+          {radii.begin(), radii.begin() + end},
+          {cosines.begin(), cosines.begin() + end},
+          {}};
 }
 
 void ErrorPoints::append(const ErrorPoints& more) {
   directions.insert(directions.end(), more.directions.begin(), more.directions.end());
   radii.insert(radii.end(), more.radii.begin(), more.radii.end());
   cosines.insert(cosines.end(), more.cosines.begin(), more.cosines.end());
+  owners.insert(owners.end(), more.owners.begin(), more.owners.end());
 }
 
 ErrorPoints extreme_points(const MeshView& mesh, const Vec3& center, int degree) {
@@ -103,7 +116,7 @@ ErrorPoints extreme_points(const MeshView& mesh, const Vec3& center, int degree)
   }
   for (std::size_t i = 0; i < mesh.n_vertices; ++i) {
     const Vec3 x = scale * (mesh.vertex(i) - center);
-    if (used[i]) add_point(points, x, norm(x), 0);
+    if (used[i]) add_point(points, x, norm(x), 0, -1 - static_cast<std::int64_t>(i));
   }
   for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
     const Face face = face_of(mesh, t, center, scale);
@@ -114,7 +127,7 @@ ErrorPoints extreme_points(const MeshView& mesh, const Vec3& center, int degree)
         if (j == n) continue;
         const double a = static_cast<double>(i) / n, b = static_cast<double>(j) / n;
         add_on_face(points, face,
-                    a * face.corners[0] + b * face.corners[1] + (1 - a - b) * face.corners[2]);
+                    a * face.corners[0] + b * face.corners[1] + (1 - a - b) * face.corners[2], t);
       }
     }
   }
@@ -143,7 +156,7 @@ ErrorPoints area_points(const MeshView& mesh, const Vec3& center, std::size_t n)
       const double s = std::sqrt(random_uniform(kSeed, 3 * next + 1));
       const double b = s * random_uniform(kSeed, 3 * next + 2);
       add_on_face(points, face,
-                  (1 - s) * face.corners[0] + b * face.corners[1] + (s - b) * face.corners[2]);
+                  (1 - s) * face.corners[0] + b * face.corners[1] + (s - b) * face.corners[2], t);
       ++next;
     }
   }
@@ -218,6 +231,20 @@ double largest(const std::vector<double>& values) {
   double most = 0;
   for (const double value : values) most = std::max(most, value);
   return most;
+}
+
+std::vector<std::size_t> indices_of_largest(const std::vector<double>& values, std::size_t n) {
+  const double least = 0.5 * largest(values);
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (values[i] >= least) indices.push_back(i);
+  }
+  const auto end = indices.begin() + static_cast<std::ptrdiff_t>(std::min(n, indices.size()));
+  std::partial_sort(indices.begin(), end, indices.end(), [&](std::size_t a, std::size_t b) {
+    return values[a] != values[b] ? values[a] > values[b] : a < b;
+  });
+  indices.erase(end, indices.end());
+  return indices;
 }
 
 double rms_over_solid_angle(const ErrorPoints& points, const PointErrors& errors,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "rholm/coefficients.h"
@@ -15,10 +16,13 @@ struct ErrorPoints {
   std::vector<double> radii;
   // cos gamma of the face a point lies on; 0 at vertices, which have none.
   std::vector<double> cosines;
+  // Its face t, or -1 - i for vertex i; empty where nobody asks.
+  std::vector<std::int64_t> owners;
 
   std::size_t size() const { return directions.size(); }
   void reserve(std::size_t n);
   ErrorPoints subset(const std::vector<std::size_t>& indices) const;
+  ErrorPoints first(std::size_t n) const;
   void append(const ErrorPoints& more);
 };
 
@@ -42,6 +46,9 @@ PointErrors point_errors(const ErrorPoints& points, const Expansion& expansion, 
                          bool slopes, double precision, const Context& context);
 
 double largest(const std::vector<double>& values);
+// The indices of at most n values, of those that are at least half of the largest: the largest
+// first, ties by index.
+std::vector<std::size_t> indices_of_largest(const std::vector<double>& values, std::size_t n);
 // Root mean squares over area points, which are those from `first` on.
 double rms_over_solid_angle(const ErrorPoints& points, const PointErrors& errors,
                             std::size_t first);

@@ -8,6 +8,7 @@
 #include "rholm/analyze.h"
 #include "rholm/mesh_view.h"
 #include "rholm/truncation.h"
+#include "transform/closest_distances.h"
 #include "transform/error_points.h"
 
 namespace rholm {
@@ -22,6 +23,8 @@ class ErrorSites {
   ErrorSites(const MeshView& mesh, const Vec3& center) : mesh_(mesh), center_(center) {}
 
   const MeshView& mesh() const { return mesh_; }
+  const Vec3& center() const { return center_; }
+  double diagonal() const;  // of the bounding box
 
   // That belong to faces.
   const ErrorPoints& vertices();
@@ -29,6 +32,8 @@ class ErrorSites {
   const ErrorPoints& all(int degree);
   // 100 000 of area_points(): a root mean square to 0.3 %.
   const ErrorPoints& over_area();
+  // Closest points: a few thousand, and as many as what is said in the end rests on.
+  ClosestDistances& closest(bool fine);
   // Largest errors at vertices times 2 pi (L + 1).
   const ErrorStrengths& strengths();
 
@@ -39,6 +44,7 @@ class ErrorSites {
   std::optional<int> degree_;
   ErrorPoints all_;
   std::optional<ErrorPoints> over_area_;
+  std::optional<ClosestDistances> few_, many_;
   std::optional<ErrorStrengths> strengths_;
 };
 

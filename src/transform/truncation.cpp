@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "chart/view_scan.h"
 #include "rholm/error.h"
+#include "transform/distance_check.h"
 #include "transform/error_points.h"
 #include "transform/error_sites.h"
 #include "transform/exact_norms.h"
@@ -39,6 +40,31 @@ void predict(const Expansion& expansion, ErrorSites& sites, TruncationErrors& er
   const double per = 1 / (2 * std::numbers::pi * (expansion.coefficients.degree() + 1.0));
   if (expansion.function == RadialFunction::kRadius) errors.predicted_max = strengths.radius * per;
   errors.predicted_max_distance = strengths.distance * per;
+}
+
+// Distances by closest points where those to first order may mislead.
+void refine_distances(const ErrorPoints& points, const PointErrors& found,
+                      const Expansion& expansion, double precision, const Context& context,
+                      ErrorSites& sites, TruncationErrors& errors) {
+  const int degree = expansion.coefficients.degree();
+  if (!may_be_refined(sites.mesh(), expansion, *errors.measured_max, errors.diagonal)) return;
+  const std::size_t extreme = points.size() - sites.over_area().size();
+  if (!is_coarse(sites.mesh())) {
+    const SecondOrder second =
+        second_order(points, found, extreme, expansion, degree, precision, context);
+    if (second.first_order_holds()) return;
+    if (second.suffices(sites.mesh())) {
+      *errors.distance_rms *= second.rms_ratio;
+      *errors.measured_max_distance *= second.max_ratio;
+      errors.distances_are_closest = true;
+      return;
+    }
+  }
+  const SurfaceDistances distances =
+      sites.closest(true).measure(expansion, degree, points.first(extreme), precision, context);
+  errors.distance_rms = distances.rms;
+  errors.measured_max_distance = distances.max;
+  errors.distances_are_closest = true;
 }
 
 }  // namespace
@@ -75,6 +101,7 @@ TruncationErrors truncation_errors(const Expansion& expansion, const TruncationO
       errors.rms_is_exact = true;
     }
   }
+  refine_distances(points, found, expansion, precision, silent, sites, errors);
   report_progress(context, "errors", 0.9);
   if (options.predict) predict(expansion, sites, errors);
   return errors;

@@ -75,6 +75,7 @@ TEST(model_file, errors_return_and_those_that_are_unknown_stay_unknown) {
   expansion.errors->rms_is_exact = true;
   expansion.errors->measured_max = 1.5;
   expansion.errors->distance_rms = 0.125;
+  expansion.errors->distances_are_closest = true;
   expansion.errors->points = 1234567;
   expansion.errors->diagonal = 3.5;
   const TemporaryFolder folder;
@@ -85,6 +86,7 @@ TEST(model_file, errors_return_and_those_that_are_unknown_stay_unknown) {
   EXPECT_TRUE(again.errors->rms_is_exact);
   EXPECT_EQ(again.errors->measured_max, 1.5);
   EXPECT_EQ(again.errors->distance_rms, 0.125);
+  EXPECT_TRUE(again.errors->distances_are_closest);
   EXPECT_EQ(again.errors->points, 1234567u);
   EXPECT_EQ(again.errors->diagonal, 3.5);
   EXPECT_FALSE(again.errors->predicted_max.has_value());

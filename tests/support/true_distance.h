@@ -1,0 +1,161 @@
+// Distances between a mesh of few faces and a model by closest points, as plainly as can be: from
+// points of the model to every triangle; from points of the mesh to a dense net of the model's
+// points, then downhill by steps in the direction that are halved. An oracle.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "base/random.h"
+#include "rholm/coefficients.h"
+#include "rholm/harmonic.h"
+#include "rholm/primitives.h"
+#include "shape/closest_point.h"
+#include "shape/point_tree.h"
+
+namespace rholm::test {
+
+struct TrueDistance {
+  double there_rms = 0, back_rms = 0, there_max = 0, back_max = 0;
+  double there_error = 0, back_error = 0;  // relative standard errors of the root mean squares
+  double rms() const { return std::max(there_rms, back_rms); }
+  double max() const { return std::max(there_max, back_max); }
+};
+
+inline std::vector<Vec3> model_points(const Coefficients& c, const std::vector<Vec3>& directions) {
+  const std::vector<double> r = evaluate(c, directions, {.precision = 1e-10});
+  std::vector<Vec3> points(r.size());
+  for (std::size_t i = 0; i < r.size(); ++i) points[i] = r[i] * directions[i];
+  return points;
+}
+
+// A root mean square with weights, and its relative standard error: by the scatter of 20 parts,
+// every 20th point each.
+struct WeightedMean {
+  std::array<double, 20> squares = {}, weights = {};
+  std::size_t n = 0;
+  void add(double distance, double weight) {
+    squares[n % 20] += weight * distance * distance;
+    weights[n % 20] += weight;
+    ++n;
+  }
+  double rms() const {
+    double square = 0, weight = 0;
+    for (std::size_t k = 0; k < 20; ++k) square += squares[k], weight += weights[k];
+    return std::sqrt(square / weight);
+  }
+  double error() const {
+    double weight = 0, sum = 0;
+    for (const double w : weights) weight += w / 20;
+    const double mean = rms() * rms();
+    for (std::size_t k = 0; k < 20; ++k) {
+      sum += std::pow((squares[k] - mean * weights[k]) / (weight * mean), 2);
+    }
+    return std::sqrt(sum / (20 * 19)) / 2;
+  }
+};
+
+// From points x to the model.
+inline std::vector<double> to_model(const std::vector<Vec3>& x, const Coefficients& c,
+                                    const std::vector<Vec3>& net, const PointTree& tree) {
+  constexpr std::size_t kStarts = 3;
+  std::vector<double> best(x.size(), 1e300);
+  std::vector<Neighbor> found;
+  for (std::size_t start = 0; start < kStarts; ++start) {
+    std::vector<Vec3> u(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      tree.nearest(x[i], 1 + 4 * (kStarts - 1), found);
+      // The nearest, and others of those near it; the ray's own last.
+      u[i] = start + 1 == kStarts ? normalized(x[i]) : net[tree.order()[found[4 * start].index]];
+    }
+    std::vector<double> distance(x.size(), 1e300);
+    for (double step = 0.01; step > 1e-6; step /= 2) {
+      for (int axis = 0; axis < 4; ++axis) {
+        std::vector<Vec3> there(x.size());
+        for (std::size_t i = 0; i < x.size(); ++i) {
+          const Vec3 a = normalized(std::abs(u[i].z) < 0.7 ? cross(u[i], Vec3{0, 0, 1})
+                                                           : cross(u[i], Vec3{1, 0, 0}));
+          const Vec3 along = axis / 2 == 0 ? a : cross(u[i], a);
+          there[i] = normalized(u[i] + (axis % 2 == 0 ? step : -step) * along);
+          if (distance[i] > 1e299) there[i] = u[i];
+        }
+        const std::vector<Vec3> y = model_points(c, there);
+        for (std::size_t i = 0; i < x.size(); ++i) {
+          const double d = norm(x[i] - y[i]);
+          if (d < distance[i]) distance[i] = d, u[i] = there[i];
+        }
+      }
+    }
+    for (std::size_t i = 0; i < x.size(); ++i) best[i] = std::min(best[i], distance[i]);
+  }
+  return best;
+}
+
+// `n` points on each surface; those of the mesh by area, those of the model on a net of directions
+// with the area it has there.
+inline TrueDistance true_distance(const Mesh& mesh, const Coefficients& c, std::size_t n) {
+  const std::vector<Vec3> net = icosphere(6).vertices;
+  const std::vector<Vec3> dense = model_points(c, net);
+  const PointTree tree(dense);
+  std::vector<double> areas;
+  double whole = 0;
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3& a = mesh.vertices[t[0]];
+    areas.push_back(norm(cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a)) / 2);
+    whole += areas.back();
+  }
+  std::vector<Vec3> x;
+  std::vector<double> weights;
+  for (std::size_t t = 0; t < areas.size(); ++t) {
+    const auto count =
+        static_cast<std::size_t>(std::ceil(static_cast<double>(n) * areas[t] / whole));
+    for (std::size_t k = 0; k < count; ++k) {
+      // Roberts' sequence of low discrepancy, folded into the triangle.
+      double s = std::fmod(0.7548776662466927 * static_cast<double>(k + 1), 1.0);
+      double v = std::fmod(0.5698402909980532 * static_cast<double>(k + 1), 1.0);
+      if (s + v > 1) s = 1 - s, v = 1 - v;
+      const Triangle& f = mesh.triangles[t];
+      x.push_back((1 - s - v) * mesh.vertices[f[0]] + s * mesh.vertices[f[1]] +
+                  v * mesh.vertices[f[2]]);
+      weights.push_back(areas[t] / static_cast<double>(count));
+    }
+  }
+  TrueDistance result;
+  WeightedMean there, back;
+  const std::vector<double> distances = to_model(x, c, net, tree);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    there.add(distances[i], weights[i]);
+    result.there_max = std::max(result.there_max, distances[i]);
+  }
+  const std::vector<double> at_vertices = to_model(mesh.vertices, c, net, tree);
+  result.there_max = std::max(result.there_max, *std::ranges::max_element(at_vertices));
+
+  std::vector<Vec3> u(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const double z = 1 - (2 * static_cast<double>(k) + 1) / static_cast<double>(n);
+    const double phi = 2.399963229728653 * static_cast<double>(k), s = std::sqrt(1 - z * z);
+    u[k] = {s * std::cos(phi), s * std::sin(phi), z};
+  }
+  const ValuesAndGradients model = evaluate_with_gradient(c, u, {.precision = 1e-10});
+  for (std::size_t k = 0; k < n; ++k) {
+    const Vec3 y = model.values[k] * u[k];
+    double nearest = 1e300;
+    for (const Triangle& t : mesh.triangles) {
+      const Vec3 to = closest_point_of_triangle(
+          y, {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]});
+      nearest = std::min(nearest, norm(y - to));
+    }
+    const double r = std::abs(model.values[k]);
+    back.add(nearest, r * std::hypot(r, norm(model.gradients[k])));
+    result.back_max = std::max(result.back_max, nearest);
+  }
+  result.there_rms = there.rms();
+  result.back_rms = back.rms();
+  result.there_error = there.error();
+  result.back_error = back.error();
+  return result;
+}
+
+}  // namespace rholm::test
