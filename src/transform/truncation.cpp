@@ -9,6 +9,7 @@
 #include "chart/view_scan.h"
 #include "rholm/error.h"
 #include "transform/distance_check.h"
+#include "transform/error_peaks.h"
 #include "transform/error_points.h"
 #include "transform/error_sites.h"
 #include "transform/exact_norms.h"
@@ -40,6 +41,23 @@ void predict(const Expansion& expansion, ErrorSites& sites, TruncationErrors& er
   const double per = 1 / (2 * std::numbers::pi * (expansion.coefficients.degree() + 1.0));
   if (expansion.function == RadialFunction::kRadius) errors.predicted_max = strengths.radius * per;
   errors.predicted_max_distance = strengths.distance * per;
+}
+
+// The largest errors between points. Of distances those from the shape to the model: to the shape
+// they are to the planes of faces, which are not the faces.
+void climb(const ErrorPoints& points, const PointErrors& found, const Expansion& expansion,
+           double precision, const Context& context, ErrorSites& sites, TruncationErrors& errors) {
+  const int degree = expansion.coefficients.degree();
+  const auto highest = [&](const std::vector<double>& values, bool slopes) {
+    return highest_peak(
+        sites.mesh(), sites.center(), points, values, degree, [&](const ErrorPoints& at) {
+          PointErrors there = point_errors(at, expansion, degree, slopes, precision, context);
+          return slopes ? std::move(there.to_model) : std::move(there.radial);
+        });
+  };
+  errors.measured_max = std::max(*errors.measured_max, highest(found.radial, false));
+  errors.measured_max_distance =
+      std::max(*errors.measured_max_distance, highest(found.to_model, true));
 }
 
 // Distances by closest points where those to first order may mislead.
@@ -101,6 +119,7 @@ TruncationErrors truncation_errors(const Expansion& expansion, const TruncationO
       errors.rms_is_exact = true;
     }
   }
+  climb(points, found, expansion, precision, silent, sites, errors);
   refine_distances(points, found, expansion, precision, silent, sites, errors);
   report_progress(context, "errors", 0.9);
   if (options.predict) predict(expansion, sites, errors);
