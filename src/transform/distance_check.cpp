@@ -13,9 +13,9 @@ namespace {
 constexpr std::size_t kCoarse = 100, kMostFaces = 2'000'000;
 constexpr double kFarApart = 1e3;
 
-// The ratio of root mean squares of a thousand points is known to a fraction of a per cent: both
+// The ratio of root mean squares of five hundred points is known to a fraction of a per cent: both
 // are of the same points.
-constexpr std::size_t kSample = 1000;
+constexpr std::size_t kSample = 500;
 constexpr int kSteps = 2;
 // Points that err most by first order, so many at a time, until no other can be expected to err
 // more.
@@ -53,13 +53,13 @@ bool SecondOrder::suffices(const MeshView& mesh) const {
 }
 
 SecondOrder second_order(const ErrorPoints& points, const PointErrors& errors, std::size_t first,
-                         const Expansion& expansion, int degree, double precision,
-                         const Context& context) {
+                         const Expansion& expansion, int degree, double precision) {
   const std::vector<double> values = first_order(errors);
   const std::vector<std::size_t> worst = indices_of_largest(values, kMostWorst);
   SecondOrder result;
   if (worst.empty()) return result;
   const double scale = std::exp2(-std::ilogb(std::max(largest(points.radii), 1e-300)));
+  const Context context{.threads = 1};  // waking others takes longer than a thousand points
   const RadialSurface surface(expansion, degree, scale, precision, context);
   const auto distances = [&](const std::vector<std::size_t>& indices) {
     std::vector<Vec3> x, from;

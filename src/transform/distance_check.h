@@ -4,7 +4,6 @@
 #include <cstddef>
 
 #include "rholm/coefficients.h"
-#include "rholm/context.h"
 #include "rholm/mesh_view.h"
 #include "transform/error_points.h"
 
@@ -18,8 +17,8 @@ bool may_be_refined(const MeshView& mesh, const Expansion& expansion, double lar
                     double diagonal);
 
 // What distances to second order are of those to first order: by steps down from points of the
-// mesh to the closest point of the model near the ray. Root mean square of a thousand of the points
-// over the area, the larger of both ways, and the largest of all.
+// mesh to the closest point of the model near the ray. Root mean square of five hundred of the
+// points over the area, the larger of both ways, and the largest of all.
 struct SecondOrder {
   double rms_ratio = 1, max_ratio = 1;
 
@@ -31,7 +30,6 @@ struct SecondOrder {
 };
 // `points` and their errors: those over the area are from `first` on.
 SecondOrder second_order(const ErrorPoints& points, const PointErrors& errors, std::size_t first,
-                         const Expansion& expansion, int degree, double precision,
-                         const Context& context);
+                         const Expansion& expansion, int degree, double precision);
 
 }  // namespace rholm

@@ -98,7 +98,7 @@ double ErrorOfDegree::second_order_ratio(const Expansion& expansion, int degree,
   const std::size_t first = is_largest() ? sites_.vertices().size() : 0;
   const PointErrors errors = measured(points, expansion, degree, limit);
   const SecondOrder second =
-      second_order(points, errors, first, expansion, degree, precision(limit), silent_);
+      second_order(points, errors, first, expansion, degree, precision(limit));
   if (second.first_order_holds()) return 1;
   closest_rule_ = !second.suffices(sites_.mesh());
   return is_largest() ? second.max_ratio : second.rms_ratio;

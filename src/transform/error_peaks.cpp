@@ -12,14 +12,14 @@ namespace rholm {
 namespace {
 
 // Worst points that are this far apart, in waves' 1/L, are peaks of their own.
-constexpr std::size_t kSites = 4, kCandidates = 256;
+constexpr std::size_t kSites = 3, kCandidates = 256;
 constexpr double kApart = 2;
 // On each face around them steps of this many 1/L at first (points lie within 1.5 of them), halved
-// each time: five leave 1/20 of 1/L, 6e-4 of a peak of that curvature. After the first the best
-// faces go on.
+// each time: four leave 1/10 of 1/L at most, 6e-4 of a peak of that curvature. After the first the
+// best faces go on.
 constexpr double kFirstStep = 0.75;
-constexpr int kRounds = 5;
-constexpr std::size_t kFaces = 5;
+constexpr int kRounds = 4;
+constexpr std::size_t kFaces = 4;
 
 struct Climber {
   std::array<Vec3, 3> corners;  // from the centre, scaled

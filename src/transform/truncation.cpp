@@ -46,7 +46,8 @@ void predict(const Expansion& expansion, ErrorSites& sites, TruncationErrors& er
 // The largest errors between points. Of distances those from the shape to the model: to the shape
 // they are to the planes of faces, which are not the faces.
 void climb(const ErrorPoints& points, const PointErrors& found, const Expansion& expansion,
-           double precision, const Context& context, ErrorSites& sites, TruncationErrors& errors) {
+           double precision, ErrorSites& sites, TruncationErrors& errors) {
+  const Context context{.threads = 1};  // waking others takes longer than a hundred points
   const int degree = expansion.coefficients.degree();
   const auto highest = [&](const std::vector<double>& values, bool slopes) {
     return highest_peak(
@@ -68,8 +69,7 @@ void refine_distances(const ErrorPoints& points, const PointErrors& found,
   if (!may_be_refined(sites.mesh(), expansion, *errors.measured_max, errors.diagonal)) return;
   const std::size_t extreme = points.size() - sites.over_area().size();
   if (!is_coarse(sites.mesh())) {
-    const SecondOrder second =
-        second_order(points, found, extreme, expansion, degree, precision, context);
+    const SecondOrder second = second_order(points, found, extreme, expansion, degree, precision);
     if (second.first_order_holds()) return;
     if (second.suffices(sites.mesh())) {
       *errors.distance_rms *= second.rms_ratio;
@@ -119,7 +119,7 @@ TruncationErrors truncation_errors(const Expansion& expansion, const TruncationO
       errors.rms_is_exact = true;
     }
   }
-  climb(points, found, expansion, precision, silent, sites, errors);
+  climb(points, found, expansion, precision, sites, errors);
   refine_distances(points, found, expansion, precision, silent, sites, errors);
   report_progress(context, "errors", 0.9);
   if (options.predict) predict(expansion, sites, errors);
