@@ -20,7 +20,8 @@ namespace {
 // corrected by what is measured, so many times, and left a little below the tolerance. An aim that
 // hardly changes what is measured, or no numbers, is the last.
 constexpr int kMostTries = 8;
-constexpr double kAim = 0.995, kGoodEnough = 0.97, kStalled = 0.98;
+constexpr double kAim = 0.995, kGoodEnough = 0.97;
+constexpr double kStalled = 0.1;         // of the change of the aim, as logarithms
 constexpr double kSameAim = 1.03;        // between one that is kept and one that is not
 constexpr double kWorthSearching = 1.5;  // tolerances: beyond, another aim comes first
 // Where caps hardly agree, as between fingers, a grid may see a handle that another does not: other
@@ -106,20 +107,21 @@ void fit_atlas(const FitTarget& target, const Atlas& chosen, const Overlap& over
                Compressed& result, int& searches, const Context& context) {
   CompressReport& report = result.report;
   const Atlas covered = overlapping(chosen, overlap);
-  double aim = target.tolerance, last = 0;
+  const PruneOptions wanted{.tolerance = target.tolerance,
+                            .band = covered.band,
+                            .stray = target.stray,
+                            .max_degree = target.max_degree};
+  std::optional<Pruning> pruning;
+  double aim = target.tolerance, last = 0, last_aim = 0;
   double kept = 0, missed = INFINITY;  // aims
   std::size_t last_numbers = 0;
   std::vector<GridParts> parts = all_grid_parts();
   for (int attempt = 0; attempt < kMostTries; ++attempt) {
-    const PruneOptions pruning{.tolerance = aim,
-                               .band = covered.band,
-                               .stray = target.stray,
-                               .max_degree = target.max_degree};
     AtlasModel model = result.model;
     model.step = target.step;
     timed(report.times, "fit", [&] {
-      model.atlas = covered;
-      prune(target.levels, pruning, model.atlas, context);
+      if (!pruning) pruning.emplace(target.levels, wanted, covered, context);
+      pruning->to(aim, model.atlas, context);
       model.atlas = rounded(std::move(model.atlas), overlap);
     });
     const TrialSurface trial = timed(report.times, "surface", [&] {
@@ -142,10 +144,11 @@ void fit_atlas(const FitTarget& target, const Atlas& chosen, const Overlap& over
     if (met && trial.right && good) break;
     if (met && !trial.right && !overlap.settles) break;
     const std::size_t numbers = size_of(trial.model.atlas).numbers();
-    const bool stalled =
-        !met && last > target.tolerance ? rms > kStalled * last : numbers == last_numbers;
+    const bool stalled = !met && last > target.tolerance
+                             ? std::log(rms / last) > kStalled * std::log(aim / last_aim)
+                             : numbers == last_numbers;
     if (stalled) break;
-    last = rms, last_numbers = numbers;
+    last = rms, last_numbers = numbers, last_aim = aim;
     (rms <= target.tolerance ? kept : missed) = aim;
     if (missed < kSameAim * kept) break;
     aim = kept > 0 && std::isfinite(missed) ? std::sqrt(kept * missed)

@@ -1,6 +1,8 @@
 // Coefficients of an atlas that its error can do without (method 7.8). Layer: transform.
 #pragma once
 
+#include <vector>
+
 #include "rholm/atlas.h"
 #include "rholm/context.h"
 #include "transform/cap_samples.h"
@@ -15,6 +17,8 @@ struct PruneOptions {
   int max_degree = 14;
 };
 
+struct CapForm;  // the error of one cap as a function of its coefficients
+
 struct PruneReport {
   double rms = 0;                // of the blend
   std::size_t coefficients = 0;  // that are not zero
@@ -22,10 +26,29 @@ struct PruneReport {
 };
 
 // Fits the coefficients of all caps anew, by their shares in the blend, and sets to zero those that
-// matter least until the blend's error is the tolerance, if the caps can meet it (see rms). Caps
-// lose the degrees that are all zero.
+// matter least until the blend's error is the tolerance, if the caps can meet it (see rms). What is
+// left is fitted once more, so that caps agree where they meet. Caps lose the degrees that are all
+// zero; supports shrink where caps stray.
 PruneReport prune(const SampleLevels& samples, const PruneOptions& options, Atlas& atlas,
                   const Context& context);
+
+// The same to several aims from the same fits. Refers to the samples.
+class Pruning {
+ public:
+  // `options.tolerance` is the scale of what caps miss; aims are near it.
+  Pruning(const SampleLevels& samples, const PruneOptions& options, const Atlas& atlas,
+          const Context& context);
+  ~Pruning();
+  Pruning(const Pruning&) = delete;
+  Pruning& operator=(const Pruning&) = delete;
+  PruneReport to(double aim, Atlas& pruned, const Context& context) const;
+
+ private:
+  const SampleLevels& samples_;
+  PruneOptions options_;
+  Atlas atlas_;
+  std::vector<CapForm> forms_;
+};
 
 // The number of coefficients that are not zero.
 std::size_t n_kept(const Atlas& atlas);
