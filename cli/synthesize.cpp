@@ -166,7 +166,7 @@ std::vector<Option> synthesis_options(Options& o) {
            .above = 0},
           {.name = "degree-limit",
            .value = "L",
-           .help = "of an atlas: without the coefficients of higher degrees: less detail",
+           .help = "of an atlas: caps of no higher degrees, fitted to its surface: less detail",
            .target = &o.degree_limit,
            .min = 0,
            .max = 24},

@@ -82,8 +82,10 @@ Compressed compress(const PointCloud& cloud, const CompressOptions& options,
                     const Context& context = {});
 
 struct AtlasSynthesisOptions {
-  double step = 0;                               // edge of the grid's cubes; 0: the model's
-  std::optional<int> degree = {};                // coefficients of higher degrees count as zero
+  double step = 0;  // edge of the grid's cubes; 0: the model's
+  // The caps have no higher degrees, and are fitted to the model's own surface with those they
+  // have.
+  std::optional<int> degree = {};
   std::optional<SimplifyOptions> simplify = {};  // fewer triangles for the same surface
   std::size_t max_memory = std::size_t{8} << 30;
 };

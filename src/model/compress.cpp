@@ -14,6 +14,7 @@
 #include "harmonic/low_harmonics.h"
 #include "model/atlas_errors.h"
 #include "model/atlas_fit.h"
+#include "model/atlas_level.h"
 #include "model/oriented_points.h"
 #include "model/outer_samples.h"
 #include "rholm/compare.h"
@@ -23,7 +24,6 @@
 #include "surface/atlas_surface.h"
 #include "surface/cap_field.h"
 #include "transform/cap_greedy.h"
-#include "transform/cap_level.h"
 #include "transform/cap_prune.h"
 
 namespace rholm {
@@ -289,8 +289,12 @@ Mesh synthesize(const AtlasModel& model, const AtlasSynthesisOptions& options,
   }
   const AtlasSurfaceOptions wanted{
       .step = step, .simplify = options.simplify, .max_memory = options.max_memory};
-  const Atlas atlas =
-      options.degree ? at_degree(model.atlas, std::max(0, *options.degree)) : model.atlas;
+  Atlas atlas = model.atlas;
+  if (options.degree && *options.degree < highest_degree(atlas)) {
+    const AtlasSurfaceOptions whole{.step = step, .max_memory = options.max_memory};
+    atlas = level_of(atlas, std::max(0, *options.degree), extract_atlas(atlas, whole, context).mesh,
+                     context);
+  }
   Mesh surface = extract_atlas(atlas, wanted, context).mesh;
   if (surface.triangles.empty()) {
     throw Error(

@@ -20,17 +20,22 @@ double lost(const Cap& cap, std::span<const double> coefficients, std::size_t fi
 
 }  // namespace
 
-Atlas at_degree(const Atlas& atlas, int degree) {
-  Atlas level = atlas;
+double lost_at_degree(const Atlas& atlas, int degree) {
   double squares = 0, areas = 0;
-  for (Cap& cap : level.caps) {
-    const std::span<const double> all = atlas.coefficients_of(cap);
-    cap.degree = static_cast<std::uint16_t>(std::min<int>(cap.degree, degree));
-    const double rms = lost(cap, all, n_coefficients(cap.basis, cap.degree));
+  for (const Cap& cap : atlas.caps) {
+    const int left = std::min<int>(cap.degree, degree);
+    const double rms = lost(cap, atlas.coefficients_of(cap), n_coefficients(cap.basis, left));
     const double area = cap.frame.support * cap.frame.support;
     squares += area * rms * rms, areas += area;
   }
-  if (areas > 0) level.band = std::max(level.band, kDisagree * std::sqrt(2 * squares / areas));
+  return areas > 0 ? std::sqrt(squares / areas) : 0;
+}
+
+Atlas at_degree(const Atlas& atlas, int degree) {
+  Atlas level = atlas;
+  for (Cap& cap : level.caps)
+    cap.degree = static_cast<std::uint16_t>(std::min<int>(cap.degree, degree));
+  level.band = std::max(level.band, kDisagree * std::sqrt(2.0) * lost_at_degree(atlas, degree));
   return level;
 }
 

@@ -204,7 +204,7 @@ PruneReport Pruning::to(double aim, Atlas& pruned, const Context& context) const
     for (std::size_t c = 0; c < forms_.size(); ++c) {
       if (shrinks[c] > kFreeShrinks) worth[c] *= kDearer;
     }
-    agree(finest, options_.tolerance, options_.band, trial, context);
+    agree(finest, {.tolerance = options_.tolerance, .band = options_.band}, trial, context);
     const Blend after = blend(trial, finest, options_.band, context);
     const double ratio = aim / after.rms;
     if (after.rms <= aim || step == 0 || after.rms < report.rms) {

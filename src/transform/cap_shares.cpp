@@ -89,11 +89,11 @@ bool solve_some(const CapSystem& system, const std::vector<double>& matrix,
   return true;
 }
 
-// Fits what is not zero of one cap anew.
-void refit(const Cap& cap, const CapPoints& points, std::span<double> coefficients) {
+// Fits one cap anew: what is not zero, or all.
+void refit(const Cap& cap, const CapPoints& points, bool all, std::span<double> coefficients) {
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < coefficients.size(); ++i) {
-    if (coefficients[i] != 0) kept.push_back(i);
+    if (all || coefficients[i] != 0) kept.push_back(i);
   }
   if (kept.empty() || points.size() == 0) return;
   CapFitScratch scratch;
@@ -179,17 +179,18 @@ CapFitOptions share_fit(CapBasis basis, int degree) {
   return {basis, degree, kGradientWeight, kPenalty};
 }
 
-void agree(const SampleLevel& samples, double tolerance, double band, Atlas& atlas,
+void agree(const SampleLevel& samples, const AgreeOptions& options, Atlas& atlas,
            const Context& context) {
-  const CapShares shares = shares_of(atlas, samples, band, context);
+  const CapShares shares = shares_of(atlas, samples, options.band, context);
   parallel_for(atlas.caps.size(), 1, context, {}, [&](std::size_t begin, std::size_t end) {
     CapPoints points;
     for (std::size_t c = begin; c < end; ++c) {
       const Cap& cap = atlas.caps[c];
       const std::span<double> own(atlas.coefficients.data() + cap.first,
                                   n_coefficients(cap.basis, cap.degree));
-      share_points(atlas, c, own, samples, shares, {.tolerance = tolerance, .agree = true}, points);
-      refit(cap, points, own);
+      share_points(atlas, c, own, samples, shares, {.tolerance = options.tolerance, .agree = true},
+                   points);
+      refit(cap, points, options.all, own);
     }
   });
 }

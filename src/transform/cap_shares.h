@@ -40,9 +40,15 @@ void share_points(const Atlas& atlas, std::size_t index, std::span<const double>
 // The fit to them: slopes weigh less than in a candidate's.
 CapFitOptions share_fit(CapBasis basis, int degree);
 
-// Fits the coefficients of all caps that are not zero to samples that are moved to the blend as far
-// as shares change there, all at once: one step towards caps that agree where they meet.
-void agree(const SampleLevel& samples, double tolerance, double band, Atlas& atlas,
+struct AgreeOptions {
+  double tolerance = 0;  // of ShareWeights
+  double band = 0;       // of the blend
+  bool all = false;      // coefficients that are zero too
+};
+
+// Fits the coefficients of all caps to samples that are moved to the blend as far as shares change
+// there, all at once: one step towards caps that agree where they meet.
+void agree(const SampleLevel& samples, const AgreeOptions& options, Atlas& atlas,
            const Context& context);
 
 }  // namespace rholm

@@ -117,7 +117,7 @@ TEST(agree, brings_caps_together_where_they_meet) {
   const SampleLevel& samples = levels.finest();
   Atlas atlas = two_caps(samples);
   const double before = ledges(atlas, samples), error = blend(atlas, samples, atlas.band, {}).rms;
-  agree(samples, 0.02, atlas.band, atlas, {});
+  agree(samples, {.tolerance = 0.02, .band = atlas.band}, atlas, {});
   // A third less for one step, at no cost: the error of the blend stays.
   EXPECT_LT(ledges(atlas, samples), 0.7 * before);
   EXPECT_LT(blend(atlas, samples, atlas.band, {}).rms, 1.05 * error);
@@ -128,7 +128,7 @@ TEST(agree, leaves_what_is_zero) {
   Atlas atlas = two_caps(levels.finest());
   atlas.coefficients[4] = 0;
   const std::vector<double> before = atlas.coefficients;
-  agree(levels.finest(), 0.03, atlas.band, atlas, {});
+  agree(levels.finest(), {.tolerance = 0.03, .band = atlas.band}, atlas, {});
   for (std::size_t i = 0; i < before.size(); ++i) EXPECT_EQ(atlas.coefficients[i] == 0, i == 4);
 }
 
