@@ -56,7 +56,7 @@ TEST(distance_tolerance, is_kept_by_closest_points_on_random_polyhedra) {
     if (!is_star(d.mesh)) continue;
     const StarChart chart =
         make_star_chart(d.mesh, {.center = {.kind = CenterKind::kNone, .point = {}, .rays = 0}});
-    const ToleranceAnalysis found = analyze(chart, d.tolerance);
+    const ToleranceAnalysis found = analyze(chart, d.tolerance, {}, {.threads = 1, .progress = {}});
     if (!found.met) {
       ++unreached;
       EXPECT_EQ(found.analysis.expansion.coefficients.degree(), d.tolerance.max_degree);

@@ -25,7 +25,8 @@ struct TrueDistance {
 };
 
 inline std::vector<Vec3> model_points(const Coefficients& c, const std::vector<Vec3>& directions) {
-  const std::vector<double> r = evaluate(c, directions, {.precision = 1e-10});
+  const std::vector<double> r =
+      evaluate(c, directions, {.precision = 1e-10}, {.threads = 1, .progress = {}});
   std::vector<Vec3> points(r.size());
   for (std::size_t i = 0; i < r.size(); ++i) points[i] = r[i] * directions[i];
   return points;
