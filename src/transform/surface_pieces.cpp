@@ -14,6 +14,9 @@ using Corners = std::array<Vec3, 3>;
 
 constexpr int kMostHalvings = 60;  // a face is this many halvings from rounding at most
 constexpr std::uint64_t kSeed = 2;
+// What differs by less is the same in one unit of length and rounded apart in another: halvings do
+// not depend on it.
+constexpr double kSame = 1 + 1e-9;
 
 // Van Oosterom and Strackee 1983.
 double solid_angle(const Corners& p) {
@@ -64,10 +67,10 @@ class Pieces {
 
   void add(const Corners& p, double area, const Vec3& normal, int halvings) {
     const double points = share(p, area);
-    if (points > 1 && halvings < kMostHalvings) {
+    if (points > kSame && halvings < kMostHalvings) {
       int longest = 0;
       for (int i = 1; i < 3; ++i) {
-        if (edge2(p, i) > edge2(p, longest)) longest = i;
+        if (edge2(p, i) > kSame * edge2(p, longest)) longest = i;
       }
       const Vec3 &a = p[longest], &b = p[(longest + 1) % 3], &c = p[(longest + 2) % 3];
       const Vec3 middle = (a + b) / 2;
