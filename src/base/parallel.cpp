@@ -5,12 +5,25 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <map>
 #include <mutex>
 #include <optional>
 
 #include "rholm/error.h"
 
 namespace rholm {
+namespace {
+
+// One for each number of threads, for good: oneTBB (2021.8) keeps an arena that is done with in its
+// lists while any of its threads looks for work, 7 kB each, and walks them for each new one.
+tbb::task_arena& arena_of(int threads) {
+  static std::mutex mutex;
+  static auto& arenas = *new std::map<int, tbb::task_arena>;
+  const std::lock_guard lock(mutex);
+  return arenas.try_emplace(threads, threads).first->second;
+}
+
+}  // namespace
 
 int thread_count(const Context& context) {
   return context.threads > 0 ? context.threads : std::max(1, tbb::info::default_concurrency());
@@ -48,8 +61,7 @@ void parallel_for(std::size_t n, std::size_t grain, const Context& context,
   if (threads > tbb::info::default_concurrency()) {
     more.emplace(tbb::global_control::max_allowed_parallelism, threads);
   }
-  tbb::task_arena arena(threads);
-  arena.execute([&] {
+  arena_of(threads).execute([&] {
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, chunks, 1),
         [&](const tbb::blocked_range<std::size_t>& range) {

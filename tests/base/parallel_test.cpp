@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <fstream>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include "base/compensated_sum.h"
@@ -22,6 +24,43 @@ TEST(parallel_for, visits_every_index_once_for_any_number_of_threads) {
       for (const auto& count : visits) EXPECT_EQ(count, 1);
     }
   }
+}
+
+TEST(parallel_for, may_be_called_by_several_threads_at_once) {
+  std::atomic<int> visits = 0;
+  std::vector<std::thread> callers;
+  for (int caller = 0; caller < 4; ++caller) {
+    callers.emplace_back([&] {
+      for (int k = 0; k < 100; ++k) {
+        parallel_for(16, 1, {.threads = 2}, {}, [&](std::size_t begin, std::size_t end) {
+          visits += static_cast<int>(end - begin);
+        });
+      }
+    });
+  }
+  for (std::thread& caller : callers) caller.join();
+  EXPECT_EQ(visits, 4 * 100 * 16);
+}
+
+// Pages of the program in use.
+long resident_pages() {
+  std::ifstream file("/proc/self/statm");
+  long all = 0, resident = 0;
+  file >> all >> resident;
+  return resident;
+}
+
+TEST(parallel_for, many_calls_take_no_more_memory_than_few) {
+  const auto call = [](int n) {
+    for (int k = 0; k < n; ++k) {
+      parallel_for(16, 1, {.threads = 2}, {}, [](std::size_t, std::size_t) {});
+    }
+  };
+  call(100);
+  const long before = resident_pages();
+  ASSERT_GT(before, 0);
+  call(2000);
+  EXPECT_LT(resident_pages() - before, 1000);
 }
 
 TEST(parallel_for, callback_that_says_no_cancels) {
