@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "rholm/primitives.h"
+#include "transform/error_peaks.h"
 
 namespace rholm {
 namespace {
@@ -18,6 +19,8 @@ constexpr int kSteps = 3;
 // Edges of the model's triangles are 1.1 / 2^level; waves of degree L have five of them.
 constexpr double kEdge = 1.3;
 constexpr int kCoarsest = 4, kFinest = 7;
+// Coarse meshes have a peak at each vertex and others along their edges.
+constexpr std::size_t kPeaks = 16;
 // Extreme points are taken so many at a time.
 constexpr std::size_t kBatch = 500, kMostExtreme = 10'000;
 
@@ -160,6 +163,12 @@ SurfaceDistances ClosestDistances::measure(const Expansion& expansion, int degre
   const std::vector<double> there = model.distances(x, opposite.points);
   const std::vector<double> back = closest(*scene_, opposite.points, silent);
 
+  // Where the largest is, of both kinds of points, for the climb from there.
+  ErrorPoints seen;
+  seen.directions = pieces_.directions;
+  seen.radii = pieces_.radii;
+  seen.owners = pieces_.faces;
+  std::vector<double> values = there;
   double there2 = 0, back2 = 0, area = 0, model_area = 0, most = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const Vec3& u = pieces_.directions[i];
@@ -195,9 +204,24 @@ SurfaceDistances ClosestDistances::measure(const Expansion& expansion, int degre
       points.push_back(pieces_.scale * extreme.radii[order[k]] * extreme.directions[order[k]]);
       across.push_back(models[order[k]]);
     }
-    most = std::max({most, largest(model.distances(points, across)),
-                     largest(closest(*scene_, across, silent))});
+    const std::vector<double> found = model.distances(points, across);
+    most = std::max({most, largest(found), largest(closest(*scene_, across, silent))});
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const std::size_t i = order[first + k];
+      seen.directions.push_back(extreme.directions[i]);
+      seen.radii.push_back(pieces_.scale * extreme.radii[i]);
+      seen.owners.push_back(extreme.owners[i]);
+      values.push_back(found[k]);
+    }
   }
+  const Context alone{.threads = 1};  // a hundred points at a time
+  const RadialSurface near(expansion, degree, pieces_.scale, precision, alone);
+  const auto error = [&](const ErrorPoints& at) {
+    std::vector<Vec3> points(at.size());
+    for (std::size_t i = 0; i < points.size(); ++i) points[i] = at.radii[i] * at.directions[i];
+    return model.distances(points, near.points(at.directions));
+  };
+  most = std::max(most, highest_peak(view_of(shape_), {}, seen, values, degree, kPeaks, error));
   result.rms = std::sqrt(result.rms) / pieces_.scale;
   result.max = most / pieces_.scale;
   return result;

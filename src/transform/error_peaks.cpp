@@ -12,14 +12,13 @@ namespace rholm {
 namespace {
 
 // Worst points that are this far apart, in waves' 1/L, are peaks of their own.
-constexpr std::size_t kSites = 3, kCandidates = 256;
+constexpr std::size_t kCandidates = 2048;
 constexpr double kApart = 2;
 // On each face around them steps of this many 1/L at first (points lie within 1.5 of them), halved
 // each time: four leave 1/10 of 1/L at most, 6e-4 of a peak of that curvature. After the first the
 // best faces go on.
 constexpr double kFirstStep = 0.75;
 constexpr int kRounds = 4;
-constexpr std::size_t kFaces = 4;
 
 struct Climber {
   std::array<Vec3, 3> corners;  // from the centre, scaled
@@ -35,12 +34,12 @@ struct Climber {
 
 // The worst points, none near a worse one.
 std::vector<std::size_t> sites(const ErrorPoints& points, const std::vector<double>& values,
-                               int degree) {
+                               int degree, std::size_t n) {
   const std::vector<std::size_t> order = indices_of_largest(values, kCandidates);
   const double apart = kApart / std::max(degree, 1);
   std::vector<std::size_t> found;
   std::size_t different = 0;
-  for (std::size_t k = 0; k < order.size() && different < kSites; ++k) {
+  for (std::size_t k = 0; k < order.size() && different < n; ++k) {
     double nearest = 4;
     for (const std::size_t i : found) {
       const Vec3 chord = points.directions[order[k]] - points.directions[i];
@@ -131,18 +130,19 @@ void climb(std::vector<Climber>& climbers, double scale, const ErrorAt& error) {
 }  // namespace
 
 double highest_peak(const MeshView& mesh, const Vec3& center, const ErrorPoints& points,
-                    const std::vector<double>& values, int degree, const ErrorAt& error) {
+                    const std::vector<double>& values, int degree, std::size_t n_sites,
+                    const ErrorAt& error) {
   const VertexRange r = vertex_range(mesh, 0, mesh.n_vertices);
   const double scale =
       unit_frame({{r.min[0], r.min[1], r.min[2]}, {r.max[0], r.max[1], r.max[2]}}).scale;
   double highest = largest(values);
   std::vector<Climber> all =
-      climbers(mesh, center, scale, points, sites(points, values, degree), values, degree);
+      climbers(mesh, center, scale, points, sites(points, values, degree, n_sites), values, degree);
   for (int round = 0; round < kRounds && !all.empty(); ++round) {
     climb(all, scale, error);
     std::stable_sort(all.begin(), all.end(),
                      [](const Climber& a, const Climber& b) { return a.value > b.value; });
-    if (all.size() > kFaces) all.resize(kFaces);
+    if (all.size() > n_sites + 1) all.resize(n_sites + 1);
     highest = std::max(highest, all[0].value);
   }
   return highest;

@@ -14,8 +14,10 @@ namespace rholm {
 using ErrorAt = std::function<std::vector<double>(const ErrorPoints&)>;
 
 // The largest value found on the faces around the worst points, at least that of the worst.
-// `values`: the error at the points. Steps are a part of the waves of the degree.
+// `values`: the error at the points; `n_sites`: how many of them, apart from each other, are worst.
+// Steps are a part of the waves of the degree.
 double highest_peak(const MeshView& mesh, const Vec3& center, const ErrorPoints& points,
-                    const std::vector<double>& values, int degree, const ErrorAt& error);
+                    const std::vector<double>& values, int degree, std::size_t n_sites,
+                    const ErrorAt& error);
 
 }  // namespace rholm

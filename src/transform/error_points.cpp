@@ -96,7 +96,7 @@ ErrorPoints ErrorPoints::first(std::size_t n) const {
   return {{directions.begin(), directions.begin() + end},
           {radii.begin(), radii.begin() + end},
           {cosines.begin(), cosines.begin() + end},
-          {}};
+          {owners.begin(), owners.begin() + std::min(end, std::ssize(owners))}};
 }
 
 void ErrorPoints::append(const ErrorPoints& more) {

@@ -36,12 +36,13 @@ class Pieces {
   }
 
   SurfacePieces run() {
-    for_each_face([&](const Corners& p, const Vec3& twice_area) {
+    for_each_face([&](const Corners& p, const Vec3& twice_area, std::int64_t) {
       area_ += norm(twice_area) / 2;
       angle_ += solid_angle(p);
     });
     if (!(area_ > 0) || !(angle_ > 0)) return std::move(found_);
-    for_each_face([&](const Corners& p, const Vec3& twice_area) {
+    for_each_face([&](const Corners& p, const Vec3& twice_area, std::int64_t face) {
+      face_ = face;
       const double area = norm(twice_area) / 2;
       add(p, area, twice_area / (2 * area), 0);
     });
@@ -56,7 +57,8 @@ class Pieces {
       Corners p;
       for (int i = 0; i < 3; ++i) p[i] = found_.scale * (mesh_.vertex(triangle[i]) - center_);
       const FaceNormal normal = face_normal(p);
-      if (!normal.degenerate && norm(normal.twice_area) > 0) function(p, normal.twice_area);
+      if (normal.degenerate || !(norm(normal.twice_area) > 0)) continue;
+      function(p, normal.twice_area, static_cast<std::int64_t>(t));
     }
   }
 
@@ -105,6 +107,7 @@ class Pieces {
     found_.radii.push_back(r);
     found_.cosines.push_back(std::abs(dot(normal, x)) / r);
     found_.areas.push_back(area);
+    found_.faces.push_back(face_);
   }
 
   const MeshView& mesh_;
@@ -113,6 +116,7 @@ class Pieces {
   bool all_;
   double area_ = 0, angle_ = 0, sum_ = 0;
   std::uint64_t taken_ = 0;
+  std::int64_t face_ = 0;
   SurfacePieces found_;
 };
 

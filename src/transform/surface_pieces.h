@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "rholm/mesh_view.h"
@@ -14,7 +15,8 @@ struct SurfacePieces {
   std::vector<double> radii;     // its distance, times `scale`
   std::vector<double> cosines;   // of its face
   std::vector<double> areas;     // that it stands for, times scale^2
-  double scale = 1;              // a power of two that brings lengths near 1
+  std::vector<std::int64_t> faces;
+  double scale = 1;  // a power of two that brings lengths near 1
 
   std::size_t size() const { return directions.size(); }
 };

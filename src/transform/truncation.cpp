@@ -43,6 +43,10 @@ void predict(const Expansion& expansion, ErrorSites& sites, TruncationErrors& er
   errors.predicted_max_distance = strengths.distance * per;
 }
 
+// Enough for smooth meshes, whose points are dense; climbs cost as much as a hundredth of a whole
+// analysis.
+constexpr std::size_t kPeaks = 3;
+
 // The largest errors between points. Of distances those from the shape to the model: to the shape
 // they are to the planes of faces, which are not the faces.
 void climb(const ErrorPoints& points, const PointErrors& found, const Expansion& expansion,
@@ -51,7 +55,7 @@ void climb(const ErrorPoints& points, const PointErrors& found, const Expansion&
   const int degree = expansion.coefficients.degree();
   const auto highest = [&](const std::vector<double>& values, bool slopes) {
     return highest_peak(
-        sites.mesh(), sites.center(), points, values, degree, [&](const ErrorPoints& at) {
+        sites.mesh(), sites.center(), points, values, degree, kPeaks, [&](const ErrorPoints& at) {
           PointErrors there = point_errors(at, expansion, degree, slopes, precision, context);
           return slopes ? std::move(there.to_model) : std::move(there.radial);
         });

@@ -63,8 +63,13 @@ TEST(distance_tolerance, is_kept_by_closest_points_on_random_polyhedra) {
       continue;
     }
     ++met;
-    const test::TrueDistance truth =
-        test::true_distance(d.mesh, found.analysis.expansion.coefficients, 6000);
+    const Coefficients& c = found.analysis.expansion.coefficients;
+    const auto error = [&](const test::TrueDistance& truth) {
+      return d.tolerance.norm == ErrorNorm::kRms ? truth.rms() : truth.max();
+    };
+    test::TrueDistance truth = test::true_distance(d.mesh, c, 6000);
+    // Few points say too little of it.
+    if (error(truth) > 0.99 * found.allowed) truth = test::true_distance(d.mesh, c, 60'000);
     if (d.tolerance.norm == ErrorNorm::kRms) {
       const double there = truth.there_rms / found.allowed, back = truth.back_rms / found.allowed;
       // Of the sampling of both: 4 standard errors in 500 runs.

@@ -28,7 +28,7 @@ TEST(highest_peak, is_found_between_points) {
       return values;
     };
     const ErrorPoints points = extreme_points(view_of(mesh), {}, kDegree);
-    const double found = highest_peak(view_of(mesh), {}, points, error(points), kDegree, error);
+    const double found = highest_peak(view_of(mesh), {}, points, error(points), kDegree, 3, error);
     EXPECT_GT(found, 0.999 * 2);
     EXPECT_LE(found, 2);
     EXPECT_LT(largest(error(points)), 0.99 * 2);
