@@ -19,6 +19,8 @@ constexpr int kSteps = 3;
 // Edges of the model's triangles are 1.1 / 2^level; waves of degree L have five of them.
 constexpr double kEdge = 1.3;
 constexpr int kCoarsest = 4, kFinest = 7;
+// So many times more points to first order, which cost a hundredth.
+constexpr std::size_t kDense = 12;
 // Coarse meshes have a peak at each vertex and others along their edges.
 constexpr std::size_t kPeaks = 16;
 // Extreme points are taken so many at a time.
@@ -100,6 +102,45 @@ std::vector<double> RadialSurface::distances(const std::vector<Vec3>& x, std::ve
   return distances;
 }
 
+namespace {
+
+// Means of squares over the shape and over the model.
+struct Squares {
+  double there = 0, back = 0;
+};
+
+// What pieces of the mesh are of the model: area, and distances to first order.
+struct PieceModel {
+  const SurfacePieces& pieces;
+  std::vector<double> model_areas, to_model, to_shape;
+
+  PieceModel(const SurfacePieces& p, const RadialPoints& opposite)
+      : pieces(p), model_areas(p.size()), to_model(p.size()), to_shape(p.size()) {
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      const Vec3& u = p.directions[i];
+      const double angle = p.areas[i] * p.cosines[i] / (p.radii[i] * p.radii[i]);
+      const double cosine = std::max(std::abs(dot(opposite.normals[i], u)), 1e-6);
+      const double radial = norm(p.radii[i] * u - opposite.points[i]);
+      model_areas[i] = angle * squared_norm(opposite.points[i]) / cosine;
+      to_model[i] = radial * cosine;
+      to_shape[i] = radial * p.cosines[i];
+    }
+  }
+  Squares squares(const std::vector<double>& there, const std::vector<double>& back) const {
+    Squares sum;
+    double area = 0, model_area = 0;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      sum.there += pieces.areas[i] * there[i] * there[i];
+      sum.back += model_areas[i] * back[i] * back[i];
+      area += pieces.areas[i];
+      model_area += model_areas[i];
+    }
+    return {area > 0 ? sum.there / area : 0, model_area > 0 ? sum.back / model_area : 0};
+  }
+};
+
+}  // namespace
+
 // A model as triangles: where to begin on its surface.
 struct ClosestDistances::Model {
   const RadialSurface& surface;
@@ -132,7 +173,8 @@ struct ClosestDistances::Model {
 };
 
 ClosestDistances::ClosestDistances(const MeshView& mesh, const Vec3& center, std::size_t n_points)
-    : pieces_(surface_pieces(mesh, center, n_points)) {
+    : pieces_(surface_pieces(mesh, center, n_points)),
+      dense_(surface_pieces(mesh, center, kDense * n_points)) {
   shape_.vertices.resize(mesh.n_vertices);
   shape_.triangles.resize(mesh.n_triangles);
   for (std::size_t i = 0; i < mesh.n_vertices; ++i) {
@@ -169,21 +211,19 @@ SurfaceDistances ClosestDistances::measure(const Expansion& expansion, int degre
   seen.radii = pieces_.radii;
   seen.owners = pieces_.faces;
   std::vector<double> values = there;
-  double there2 = 0, back2 = 0, area = 0, model_area = 0, most = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const Vec3& u = pieces_.directions[i];
-    const double angle = pieces_.areas[i] * pieces_.cosines[i] / squared_norm(x[i]);
-    const double cosine = std::max(std::abs(dot(opposite.normals[i], u)), 1e-6);
-    const double weight = angle * squared_norm(opposite.points[i]) / cosine;
-    there2 += pieces_.areas[i] * there[i] * there[i];
-    back2 += weight * back[i] * back[i];
-    area += pieces_.areas[i];
-    model_area += weight;
-    most = std::max({most, there[i], back[i]});
-  }
+  const PieceModel few(pieces_, opposite), many(dense_, surface.at(dense_.directions));
+  // To first order at many points: what they say more than few is much the same for both.
+  const Squares first_few = few.squares(few.to_model, few.to_shape);
+  const Squares first_many = many.squares(many.to_model, many.to_shape);
+  const Squares found = few.squares(there, back);
+  const auto scaled = [](double square, double of_few, double of_many) {
+    return of_few > 0 ? square * of_many / of_few : square;
+  };
   SurfaceDistances result;
-  if (area > 0) result.rms = there2 / area;
-  if (model_area > 0) result.rms = std::max(result.rms, back2 / model_area);
+  result.rms = std::sqrt(std::max(scaled(found.there, first_few.there, first_many.there),
+                                  scaled(found.back, first_few.back, first_many.back))) /
+               pieces_.scale;
+  double most = std::max(largest(there), largest(back));
 
   // No distance is above the radial error: the largest of these first.
   const std::vector<Vec3> models = surface.points(extreme.directions);
@@ -204,14 +244,14 @@ SurfaceDistances ClosestDistances::measure(const Expansion& expansion, int degre
       points.push_back(pieces_.scale * extreme.radii[order[k]] * extreme.directions[order[k]]);
       across.push_back(models[order[k]]);
     }
-    const std::vector<double> found = model.distances(points, across);
-    most = std::max({most, largest(found), largest(closest(*scene_, across, silent))});
+    const std::vector<double> distances = model.distances(points, across);
+    most = std::max({most, largest(distances), largest(closest(*scene_, across, silent))});
     for (std::size_t k = 0; k < points.size(); ++k) {
       const std::size_t i = order[first + k];
       seen.directions.push_back(extreme.directions[i]);
       seen.radii.push_back(pieces_.scale * extreme.radii[i]);
       seen.owners.push_back(extreme.owners[i]);
-      values.push_back(found[k]);
+      values.push_back(distances[k]);
     }
   }
   const Context alone{.threads = 1};  // a hundred points at a time
@@ -222,7 +262,6 @@ SurfaceDistances ClosestDistances::measure(const Expansion& expansion, int degre
     return model.distances(points, near.points(at.directions));
   };
   most = std::max(most, highest_peak(view_of(shape_), {}, seen, values, degree, kPeaks, error));
-  result.rms = std::sqrt(result.rms) / pieces_.scale;
   result.max = most / pieces_.scale;
   return result;
 }

@@ -65,7 +65,7 @@ class ClosestDistances {
   struct Model;
   const Mesh& sphere(int degree);
 
-  SurfacePieces pieces_;
+  SurfacePieces pieces_, dense_;
   Mesh shape_;  // about the centre, scaled
   std::unique_ptr<RayScene> scene_;
   int level_ = -1;

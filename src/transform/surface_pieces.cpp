@@ -78,8 +78,6 @@ class Pieces {
       const Vec3 middle = (a + b) / 2;
       add({a, middle, c}, area / 2, normal, halvings + 1);
       add({middle, b, c}, area / 2, normal, halvings + 1);
-    } else if (all_) {
-      add_point((p[0] + p[1] + p[2]) / 3, area, normal);
     } else {
       add_by_chance(p, area, normal, points);
     }
@@ -89,15 +87,16 @@ class Pieces {
     return dot(e, e);
   }
 
-  // One point in each whole unit of the sum of shares.
+  // A random point of each piece: middles would miss what is at the edges of faces, where errors
+  // are largest. Of too many pieces one in each whole unit of the sum of shares.
   void add_by_chance(const Corners& p, double area, const Vec3& normal, double points) {
     sum_ += points;
     const auto next = static_cast<double>(taken_);
-    if (next + random_uniform(kSeed, 3 * taken_) >= sum_) return;
+    if (!all_ && next + random_uniform(kSeed, 3 * taken_) >= sum_) return;
     const double s = std::sqrt(random_uniform(kSeed, 3 * taken_ + 1));
     const double b = s * random_uniform(kSeed, 3 * taken_ + 2);
     ++taken_;
-    add_point((1 - s) * p[0] + b * p[1] + (s - b) * p[2], area / points, normal);
+    add_point((1 - s) * p[0] + b * p[1] + (s - b) * p[2], all_ ? area : area / points, normal);
   }
 
   void add_point(const Vec3& x, double area, const Vec3& normal) {
