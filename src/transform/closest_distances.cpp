@@ -210,7 +210,7 @@ SurfaceDistances ClosestDistances::measure(const Expansion& expansion, int degre
   seen.directions = pieces_.directions;
   seen.radii = pieces_.radii;
   seen.owners = pieces_.faces;
-  std::vector<double> values = there;
+  std::vector<double> to_model = there, to_shape = back;
   const PieceModel few(pieces_, opposite), many(dense_, surface.at(dense_.directions));
   // To first order at many points: what they say more than few is much the same for both.
   const Squares first_few = few.squares(few.to_model, few.to_shape);
@@ -245,23 +245,30 @@ SurfaceDistances ClosestDistances::measure(const Expansion& expansion, int degre
       across.push_back(models[order[k]]);
     }
     const std::vector<double> distances = model.distances(points, across);
-    most = std::max({most, largest(distances), largest(closest(*scene_, across, silent))});
+    const std::vector<double> from_model = closest(*scene_, across, silent);
+    most = std::max({most, largest(distances), largest(from_model)});
     for (std::size_t k = 0; k < points.size(); ++k) {
       const std::size_t i = order[first + k];
       seen.directions.push_back(extreme.directions[i]);
       seen.radii.push_back(pieces_.scale * extreme.radii[i]);
       seen.owners.push_back(extreme.owners[i]);
-      values.push_back(distances[k]);
+      to_model.push_back(distances[k]);
+      to_shape.push_back(from_model[k]);
     }
   }
   const Context alone{.threads = 1};  // a hundred points at a time
   const RadialSurface near(expansion, degree, pieces_.scale, precision, alone);
-  const auto error = [&](const ErrorPoints& at) {
+  const auto there_at = [&](const ErrorPoints& at) {
     std::vector<Vec3> points(at.size());
     for (std::size_t i = 0; i < points.size(); ++i) points[i] = at.radii[i] * at.directions[i];
     return model.distances(points, near.points(at.directions));
   };
-  most = std::max(most, highest_peak(view_of(shape_), {}, seen, values, degree, kPeaks, error));
+  const auto back_at = [&](const ErrorPoints& at) {
+    return closest(*scene_, near.points(at.directions), alone);
+  };
+  const MeshView view = view_of(shape_);
+  most = std::max({most, highest_peak(view, {}, seen, to_model, degree, kPeaks, there_at),
+                   highest_peak(view, {}, seen, to_shape, degree, kPeaks, back_at)});
   result.max = most / pieces_.scale;
   return result;
 }
