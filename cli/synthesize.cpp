@@ -166,7 +166,8 @@ std::vector<Option> synthesis_options(Options& o) {
            .above = 0},
           {.name = "degree-limit",
            .value = "L",
-           .help = "of an atlas: caps of no higher degrees, fitted to its surface: less detail",
+           .help = "of an atlas: caps of no higher degrees, fitted to its surface: less detail; a "
+                   "limit too low for caps to agree is refused with the least that will do",
            .target = &o.degree_limit,
            .min = 0,
            .max = 24},

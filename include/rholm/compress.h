@@ -90,7 +90,9 @@ struct AtlasSynthesisOptions {
   std::size_t max_memory = std::size_t{8} << 30;
 };
 // The surface of a model, from it alone: closed, oriented outwards, with normals nx, ny, nz. Throws
-// InvalidInput for a step so large that no surface is left, OutOfMemory for one too small.
+// InvalidInput for a step so large that no surface is left, OutOfMemory for one too small, and
+// Unsupported for a degree so low that caps stand beside each other as plates, with the least that
+// will do.
 Mesh synthesize(const AtlasModel& model, const AtlasSynthesisOptions& options = {},
                 const Context& context = {});
 

@@ -1,8 +1,18 @@
 #include "model/atlas_level.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "model/atlas_fit.h"
+#include "rholm/error.h"
+#include "rholm/topology.h"
 #include "surface/area_samples.h"
 #include "transform/cap_level.h"
 #include "transform/cap_samples.h"
@@ -15,12 +25,16 @@ constexpr std::size_t kSamples = 100000;  // chosen: half as many as the finest 
 // Chosen: on a bunny one alone leaves a level of 4 with 8 % more of badly turned normals.
 constexpr int kSweeps = 3;
 
-}  // namespace
+// What leans by more because caps disagree shows as a ledge.
+constexpr double kLedgeAngle = 10 * std::numbers::pi / 180;
+// Share of the surface that ledges may take more than the whole model's do. Chosen by pictures
+// (scripts/atlas-figures --levels): what is above shows plates, mostly levels of degree 1 and 2.
+constexpr double kMoreLedges = 0.01;
 
-Atlas level_of(const Atlas& atlas, int degree, const Mesh& surface, const Context& context) {
-  Atlas level = at_degree(atlas, degree);
-  const double lost = lost_at_degree(atlas, degree);
-  if (surface.triangles.empty() || !(lost > 0)) return level;
+// Where caps disagree, one grid may see a handle that another does not: bands to try, in parts.
+constexpr double kBands[] = {1, 1.5, 2, 0.7};
+
+SampleLevels samples_of(const Mesh& surface, const Context& context) {
   const AreaSamples area = sample_by_area(surface, kSamples, 1);
   std::vector<Vec3> normals;
   normals.reserve(area.points.size());
@@ -29,10 +43,60 @@ Atlas level_of(const Atlas& atlas, int degree, const Mesh& surface, const Contex
     const Vec3& a = surface.vertices[t[0]];
     normals.push_back(normalized(cross(surface.vertices[t[1]] - a, surface.vertices[t[2]] - a)));
   }
-  const SampleLevels samples = make_levels(area.points, normals, context);
+  return make_levels(area.points, normals, context);
+}
+
+double ledges_of(const Atlas& atlas, const SampleLevel& samples, const Context& context) {
+  return share_of_ledges(shares_of(atlas, samples, atlas.band, context), std::tan(kLedgeAngle));
+}
+
+Atlas fitted(const Atlas& atlas, int degree, const SampleLevel& samples, const Context& context) {
+  Atlas level = at_degree(atlas, degree);
+  const double lost = lost_at_degree(atlas, degree);
+  if (!(lost > 0)) return level;
   const AgreeOptions options{.tolerance = lost, .band = level.band, .all = true};
-  for (int sweep = 0; sweep < kSweeps; ++sweep) agree(samples.finest(), options, level, context);
+  for (int sweep = 0; sweep < kSweeps; ++sweep) agree(samples, options, level, context);
   return level;
+}
+
+}  // namespace
+
+Atlas level_of(const Atlas& atlas, int degree, const Mesh& surface, const Context& context) {
+  const SampleLevels levels = samples_of(surface, context);
+  const SampleLevel& samples = levels.finest();
+  const Atlas level = fitted(atlas, degree, samples, context);
+  const double most = ledges_of(atlas, samples, context) + kMoreLedges;
+  const double ledges = ledges_of(level, samples, context);
+  if (ledges <= most) return level;
+  int usable = degree + 1;
+  while (usable < highest_degree(atlas) &&
+         ledges_of(fitted(atlas, usable, samples, context), samples, context) > most) {
+    ++usable;
+  }
+  throw Error(ErrorCode::kUnsupported,
+              fmt::format("caps of degree {} cannot agree where they meet: {:.1f} % of the surface "
+                          "would be ledges between them; the least degree that will do for this "
+                          "model is {}",
+                          degree, 100 * ledges, usable));
+}
+
+Mesh level_surface(const Atlas& level, const Mesh& whole, const AtlasSurfaceOptions& options,
+                   const Context& context) {
+  const auto topology = [](const Mesh& mesh) {
+    const Inspection found = inspect(mesh);
+    return Topology{found.components, found.genus};
+  };
+  const Topology wanted = topology(whole);
+  Mesh first;
+  for (const double part : kBands) {
+    Atlas other = level;
+    other.band *= part;
+    Mesh surface = extract_atlas(other, options, context).mesh;
+    if (surface.triangles.empty()) continue;
+    if (topology(surface) == wanted) return surface;
+    if (first.triangles.empty()) first = std::move(surface);
+  }
+  return first;
 }
 
 }  // namespace rholm

@@ -289,13 +289,18 @@ Mesh synthesize(const AtlasModel& model, const AtlasSynthesisOptions& options,
   }
   const AtlasSurfaceOptions wanted{
       .step = step, .simplify = options.simplify, .max_memory = options.max_memory};
-  Atlas atlas = model.atlas;
+  const Atlas& atlas = model.atlas;
+  Mesh surface;
   if (options.degree && *options.degree < highest_degree(atlas)) {
-    const AtlasSurfaceOptions whole{.step = step, .max_memory = options.max_memory};
-    atlas = level_of(atlas, std::max(0, *options.degree), extract_atlas(atlas, whole, context).mesh,
-                     context);
+    const AtlasSurfaceOptions own{.step = step, .max_memory = options.max_memory};
+    const Mesh whole = extract_atlas(atlas, own, context).mesh;
+    if (!whole.triangles.empty()) {
+      const Atlas level = level_of(atlas, std::max(0, *options.degree), whole, context);
+      surface = level_surface(level, whole, wanted, context);
+    }
+  } else {
+    surface = extract_atlas(atlas, wanted, context).mesh;
   }
-  Mesh surface = extract_atlas(atlas, wanted, context).mesh;
   if (surface.triangles.empty()) {
     throw Error(
         ErrorCode::kInvalidInput,

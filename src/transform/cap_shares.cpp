@@ -147,6 +147,23 @@ CapShares shares_of(const Atlas& atlas, const SampleLevel& samples, double band,
   return shares;
 }
 
+double share_of_ledges(const CapShares& shares, double slope) {
+  const Blend& all = shares.blend;
+  std::vector<double> leans(all.weight.size());
+  for (std::size_t c = 0; c < all.caps.size(); ++c) {
+    const CapVoice& voice = all.caps[c];
+    for (std::size_t i = 0; i < voice.samples.size(); ++i) {
+      const std::uint32_t s = voice.samples[i];
+      if (all.is_silent(s)) continue;
+      const double part = std::sqrt(double{shares.slopes[c][i]});
+      leans[s] += part * std::abs(voice.distances[i] - all.error(s));
+    }
+  }
+  const auto n = std::count_if(leans.begin(), leans.end(), [&](double l) { return l > slope; });
+  const std::size_t heard = leans.size() - all.silent;
+  return heard > 0 ? static_cast<double>(n) / static_cast<double>(heard) : 0;
+}
+
 void share_points(const Atlas& atlas, std::size_t index, std::span<const double> coefficients,
                   const SampleLevel& samples, const CapShares& shares, const ShareWeights& weights,
                   CapPoints& points) {

@@ -24,6 +24,11 @@ struct CapShares {
 CapShares shares_of(const Atlas& atlas, const SampleLevel& samples, double band,
                     const Context& context);
 
+// The part of the samples where the surface leans by more than a slope because caps disagree:
+// sum |grad p| |g - G| over the caps, G the blend of their potentials g; of two caps, the slope
+// |grad p| |g_1 - g_2| of the ledge between them.
+double share_of_ledges(const CapShares& shares, double slope);
+
 // How a fit weighs samples.
 struct ShareWeights {
   double tolerance = 0;  // samples that a cap misses by far more are left to others

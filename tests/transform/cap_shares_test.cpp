@@ -112,6 +112,39 @@ TEST(shares_of, slopes_are_those_of_shares_along_the_surface) {
   EXPECT_GT(compared, 500U);
 }
 
+// The ledge between two caps has the slope |grad p| |g_1 - g_2|; there is none where one of them is
+// alone, nor between a cap and itself.
+TEST(share_of_ledges, is_the_part_where_shares_change_fast_for_what_caps_disagree_by) {
+  const SampleLevels levels = wavy_samples();
+  const SampleLevel& samples = levels.finest();
+  Atlas atlas = two_caps(samples);
+  Atlas same = atlas;
+  same.caps[1] = same.caps[0];
+  same.caps[1].weight = 2;
+  EXPECT_EQ(share_of_ledges(shares_of(same, samples, 1e3, {}), 1e-3), 0);
+  const double slope = 0.1;
+  atlas.caps[1].frame.center.z += 0.03;
+  std::size_t leaning = 0, heard = 0;
+  for (const Vec3& at : samples.points) {
+    const double own = share(atlas, 0, at);
+    if (std::isnan(own)) continue;  // beyond both
+    ++heard;
+    if (!(own > 0 && own < 1)) continue;
+    CapValue values[2];
+    for (std::size_t c = 0; c < 2; ++c)
+      values[c] = evaluate(atlas.caps[c], atlas.coefficients_of(atlas.caps[c]), at);
+    const double h = 1e-6;  // along the wave's plane, nearly the surface
+    const auto along = [&](const Vec3& way) {
+      return (share(atlas, 0, at + h * way) - share(atlas, 0, at - h * way)) / (2 * h);
+    };
+    const double steepness = std::hypot(along({1, 0, 0}), along({0, 1, 0}));
+    leaning += steepness * std::abs(values[0].distance - values[1].distance) > slope;
+  }
+  EXPECT_GT(leaning, heard / 20);
+  EXPECT_NEAR(share_of_ledges(shares_of(atlas, samples, 1e3, {}), slope),
+              static_cast<double>(leaning) / static_cast<double>(heard), 0.01);
+}
+
 TEST(agree, brings_caps_together_where_they_meet) {
   const SampleLevels levels = wavy_samples();
   const SampleLevel& samples = levels.finest();
