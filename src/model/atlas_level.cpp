@@ -61,23 +61,32 @@ Atlas fitted(const Atlas& atlas, int degree, const SampleLevel& samples, const C
 
 }  // namespace
 
-Atlas level_of(const Atlas& atlas, int degree, const Mesh& surface, const Context& context) {
-  const SampleLevels levels = samples_of(surface, context);
-  const SampleLevel& samples = levels.finest();
-  const Atlas level = fitted(atlas, degree, samples, context);
-  const double most = ledges_of(atlas, samples, context) + kMoreLedges;
-  const double ledges = ledges_of(level, samples, context);
-  if (ledges <= most) return level;
-  int usable = degree + 1;
-  while (usable < highest_degree(atlas) &&
-         ledges_of(fitted(atlas, usable, samples, context), samples, context) > most) {
-    ++usable;
-  }
+LevelMaker::LevelMaker(const Atlas& atlas, const Mesh& surface, const Context& context)
+    : atlas_(atlas), samples_(samples_of(surface, context)), context_(context) {
+  most_ledges_ = ledges_of(atlas, samples_.finest(), context) + kMoreLedges;
+}
+
+AtlasLevel LevelMaker::at(int degree) const {
+  AtlasLevel level{.degree = degree, .atlas = fitted(atlas_, degree, samples_.finest(), context_)};
+  level.ledges = ledges_of(level.atlas, samples_.finest(), context_);
+  level.usable = degree >= highest_degree(atlas_) || level.ledges <= most_ledges_;
+  return level;
+}
+
+AtlasLevel LevelMaker::usable_from(int degree) const {
+  AtlasLevel level = at(degree);
+  while (!level.usable) level = at(level.degree + 1);
+  return level;
+}
+
+AtlasLevel LevelMaker::usable_at(int degree) const {
+  AtlasLevel level = at(degree);
+  if (level.usable) return level;
   throw Error(ErrorCode::kUnsupported,
               fmt::format("caps of degree {} cannot agree where they meet: {:.1f} % of the surface "
                           "would be ledges between them; the least degree that will do for this "
                           "model is {}",
-                          degree, 100 * ledges, usable));
+                          degree, 100 * level.ledges, usable_from(degree + 1).degree));
 }
 
 Mesh level_surface(const Atlas& level, const Mesh& whole, const AtlasSurfaceOptions& options,

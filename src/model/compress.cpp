@@ -295,8 +295,9 @@ Mesh synthesize(const AtlasModel& model, const AtlasSynthesisOptions& options,
     const AtlasSurfaceOptions own{.step = step, .max_memory = options.max_memory};
     const Mesh whole = extract_atlas(atlas, own, context).mesh;
     if (!whole.triangles.empty()) {
-      const Atlas level = level_of(atlas, std::max(0, *options.degree), whole, context);
-      surface = level_surface(level, whole, wanted, context);
+      const AtlasLevel level =
+          LevelMaker(atlas, whole, context).usable_at(std::max(0, *options.degree));
+      surface = level_surface(level.atlas, whole, wanted, context);
     }
   } else {
     surface = extract_atlas(atlas, wanted, context).mesh;

@@ -210,7 +210,17 @@ PatchAtlas make_all(const std::vector<Vec3>& points, const std::vector<Vec3>& no
   model.input_numbers = 3 * points.size();
   model.method = fmt::format("integral, {} beyond", to_string(options.extension));
   model.atlas = unpack(pack(model.atlas), "");  // as it comes out of the file
-  made.surface = synthesize(model, {}, context);
+  try {
+    made.surface = synthesize(model, {}, context);
+  } catch (const Error& error) {
+    // Nobody chose that step.
+    if (error.code() != ErrorCode::kOutOfMemory) throw;
+    throw Error(ErrorCode::kUnsupported,
+                fmt::format("the shape is too thin for an atlas of patches: its points are {:.2g} "
+                            "of the diagonal apart, as the square root of the area goes, and "
+                            "a grid with such steps needs more memory than allowed",
+                            model.atlas.spacing / model.atlas.diagonal));
+  }
   if (made.surface.triangles.empty()) {
     throw Error(
         ErrorCode::kInvalidInput,

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/parallel.h"
+#include "model/atlas_level.h"
 #include "model/html.h"
 #include "model/report_atlas.h"
 #include "model/report_data.h"
@@ -23,7 +24,7 @@ namespace {
 using namespace report;
 
 // The surface with the degrees up to a limit, beside the shape.
-struct Level {
+struct DrawnLevel {
   int degree = 0;
   std::size_t coefficients = 0;
   Mesh mesh;
@@ -35,7 +36,7 @@ struct AtlasData {
   const Mesh* shape;
   const ReportOptions& options;
   AtlasSize size;
-  std::vector<Level> levels;  // ascending, the last one with all degrees
+  std::vector<DrawnLevel> levels;  // ascending, the last one with all degrees
 };
 
 std::string length_of(double value, const AtlasData& data, int digits) {
@@ -86,12 +87,12 @@ std::string facts(const AtlasData& data) {
 
 std::string levels_section(const AtlasData& data, const Context& context) {
   std::vector<Panel> panels;
-  for (const Level& level : data.levels) panels.push_back(panel_of(level.mesh, true));
+  for (const DrawnLevel& level : data.levels) panels.push_back(panel_of(level.mesh, true));
   if (data.shape != nullptr) panels.push_back(panel_of(*data.shape, false));
   const std::vector<Picture> pictures = draw_row(panels, data.options.picture_size, context);
   std::string html = fmt::format("<div class=\"pictures n{}\">\n", pictures.size());
   for (std::size_t k = 0; k < data.levels.size(); ++k) {
-    const Level& level = data.levels[k];
+    const DrawnLevel& level = data.levels[k];
     const std::string rms =
         level.comparison
             ? "<br><small>rms " + part_of(level.comparison->a_to_b.rms, data.model.atlas.diagonal) +
@@ -176,7 +177,7 @@ std::string degrees_section(const AtlasData& data) {
   const auto cell = [&](double length) {
     return two_lines(html::length(length, ""), part_of(length, data.model.atlas.diagonal));
   };
-  for (const Level& level : data.levels) {
+  for (const DrawnLevel& level : data.levels) {
     Row row{{std::to_string(level.degree), html::count(level.coefficients),
              html::count(level.mesh.triangles.size())},
             &level == &data.levels.back()};
@@ -245,24 +246,31 @@ std::string conventions_section(const AtlasData& data) {
   return section("Conventions", html + paragraph(text + "."));
 }
 
-std::vector<Level> make_levels(const AtlasModel& model, const Mesh* shape, const Context& context) {
+std::vector<DrawnLevel> make_levels(const AtlasModel& model, const Mesh* shape,
+                                    const Context& context) {
   constexpr std::size_t kSamples = 100000;
-  std::vector<Level> levels;
-  for (const int degree : drawn_limits(model.atlas)) {
-    report_progress(context, "surfaces", 0);
-    Level level;
-    level.degree = degree;
-    level.coefficients = coefficients_up_to(model.atlas, degree);
-    level.mesh = synthesize(model, {.degree = degree}, context);
-    if (level.mesh.triangles.empty()) continue;  // few degrees may leave nothing of a surface
+  const AtlasSurfaceOptions grid{.step = model.step};
+  Mesh whole = synthesize(model, {}, context);
+  const LevelMaker maker(model.atlas, whole, context);
+  std::vector<DrawnLevel> levels;
+  const auto add = [&](int degree, Mesh mesh) {
+    if (mesh.triangles.empty()) return;  // few degrees may leave nothing of a surface
+    DrawnLevel level{degree, coefficients_up_to(model.atlas, degree), std::move(mesh), {}};
     if (shape != nullptr) {
       level.comparison = compare(*shape, level.mesh, {.samples = kSamples}, context);
     }
     levels.push_back(std::move(level));
+  };
+  const int highest = highest_degree(model.atlas);
+  for (const int limit : drawn_limits(model.atlas)) {
+    report_progress(context, "surfaces", 0);
+    if (limit == highest || (!levels.empty() && limit <= levels.back().degree)) continue;
+    const AtlasLevel level = maker.usable_from(limit);
+    if (level.degree < highest) {
+      add(level.degree, level_surface(level.atlas, whole, grid, context));
+    }
   }
-  if (levels.empty() || levels.back().degree != highest_degree(model.atlas)) {
-    throw Error(ErrorCode::kInvalidInput, "the caps of the atlas have no surface at its step");
-  }
+  add(highest, std::move(whole));
   return levels;
 }
 

@@ -97,6 +97,15 @@ class Atlas(CliTest):
             self.assertIn("take s", refused.err)
             self.assertNotIn("x.ply", self.files())
 
+    def test_report_draws_levels_that_are_whole(self):
+        self.make_model()
+        refused = self.rholm("synthesize", "t.h5", "-o", "x.ply", "--degree-limit", "1", code=3)
+        least = re.search(r"for this model is (\d+)$", refused.err).group(1)
+        self.rholm("report", "t.h5", "--shape", "t.ply", "--size", "64", "-o", "t.html")
+        drawn = re.findall(r"degrees up to (\d+)", (self.folder / "t.html").read_text())
+        self.assertEqual(drawn[0], least)
+        self.assertEqual(int(drawn[-1]), max(map(int, drawn)))
+
     def test_simplify_goes_with_an_atlas_only(self):
         self.make_model()
         counts = self.rholm("synthesize", "t.h5", "-o", "s.ply", "--json", "--simplify",

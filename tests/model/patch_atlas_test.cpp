@@ -152,6 +152,17 @@ std::string refusal(const Make& make) {
   return "accepted";
 }
 
+// A grid with steps of its points' spacing would need more memory than there is: the shape is no
+// good, not the machine.
+TEST(patch_atlas, needles_are_refused_as_such) {
+  try {
+    patch_atlas(box({1, 1e-7, 1e-7}, 2), {.degree = 6});
+    ADD_FAILURE() << "nothing was thrown";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kUnsupported) << error.what();
+  }
+}
+
 TEST(atlases, of_points_without_normals_are_refused_with_what_helps) {
   PointCloud bare = test::sphere_points(1000);
   bare.normals.clear();
