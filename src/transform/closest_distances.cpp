@@ -192,38 +192,63 @@ const Mesh& ClosestDistances::sphere(int degree) {
   return sphere_;
 }
 
+namespace {
+
+// Where distances of both ways were found: the model's at points of the mesh, and back at the
+// points of the model opposite to them.
+struct Seen {
+  ErrorPoints points;  // lengths scaled
+  std::vector<double> to_model, to_shape;
+  double most() const { return std::max(largest(to_model), largest(to_shape)); }
+};
+
+// The larger of both ways. First order at many points tells what few leave out: it is much the same
+// for closest points.
+double rms_of(const Seen& at_few, const PieceModel& few, const PieceModel& many) {
+  const Squares first_few = few.squares(few.to_model, few.to_shape);
+  const Squares first_many = many.squares(many.to_model, many.to_shape);
+  const Squares found = few.squares(at_few.to_model, at_few.to_shape);
+  const auto scaled = [](double square, double of_few, double of_many) {
+    return of_few > 0 ? square * of_many / of_few : square;
+  };
+  return std::sqrt(std::max(scaled(found.there, first_few.there, first_many.there),
+                            scaled(found.back, first_few.back, first_many.back)));
+}
+
+// Those of the largest values, in descending order.
+std::vector<std::size_t> largest_first(const std::vector<double>& values, std::size_t most) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const std::size_t last = std::min(order.size(), most);
+  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(last), order.end(),
+                    [&](std::size_t a, std::size_t b) {
+                      return values[a] != values[b] ? values[a] > values[b] : a < b;
+                    });
+  order.resize(last);
+  return order;
+}
+
+}  // namespace
+
 SurfaceDistances ClosestDistances::measure(const Expansion& expansion, int degree,
                                            const ErrorPoints& extreme, double precision,
                                            const Context& context) {
   const Context silent{.threads = context.threads};
   const RadialSurface surface(expansion, degree, pieces_.scale, precision, silent);
   const Model model(surface, sphere(degree), silent);
-  const std::size_t n = pieces_.size();
-  std::vector<Vec3> x(n);
-  for (std::size_t i = 0; i < n; ++i) x[i] = pieces_.radii[i] * pieces_.directions[i];
+  std::vector<Vec3> x(pieces_.size());
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = pieces_.radii[i] * pieces_.directions[i];
   const RadialPoints opposite = surface.at(pieces_.directions);
-  const std::vector<double> there = model.distances(x, opposite.points);
-  const std::vector<double> back = closest(*scene_, opposite.points, silent);
-
-  // Where the largest is, of both kinds of points, for the climb from there.
-  ErrorPoints seen;
-  seen.directions = pieces_.directions;
-  seen.radii = pieces_.radii;
-  seen.owners = pieces_.faces;
-  std::vector<double> to_model = there, to_shape = back;
-  const PieceModel few(pieces_, opposite), many(dense_, surface.at(dense_.directions));
-  // To first order at many points: what they say more than few is much the same for both.
-  const Squares first_few = few.squares(few.to_model, few.to_shape);
-  const Squares first_many = many.squares(many.to_model, many.to_shape);
-  const Squares found = few.squares(there, back);
-  const auto scaled = [](double square, double of_few, double of_many) {
-    return of_few > 0 ? square * of_many / of_few : square;
-  };
+  Seen seen;
+  seen.points.directions = pieces_.directions;
+  seen.points.radii = pieces_.radii;
+  seen.points.owners = pieces_.faces;
+  seen.to_model = model.distances(x, opposite.points);
+  seen.to_shape = closest(*scene_, opposite.points, silent);
   SurfaceDistances result;
-  result.rms = std::sqrt(std::max(scaled(found.there, first_few.there, first_many.there),
-                                  scaled(found.back, first_few.back, first_many.back))) /
+  result.rms = rms_of(seen, PieceModel(pieces_, opposite),
+                      PieceModel(dense_, surface.at(dense_.directions))) /
                pieces_.scale;
-  double most = std::max(largest(there), largest(back));
 
   // No distance is above the radial error: the largest of these first.
   const std::vector<Vec3> models = surface.points(extreme.directions);
@@ -231,31 +256,26 @@ SurfaceDistances ClosestDistances::measure(const Expansion& expansion, int degre
   for (std::size_t i = 0; i < extreme.size(); ++i) {
     radial[i] = std::abs(pieces_.scale * extreme.radii[i] - dot(models[i], extreme.directions[i]));
   }
-  std::vector<std::size_t> order(extreme.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const std::size_t last = std::min(order.size(), kMostExtreme);
-  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(last), order.end(),
-                    [&](std::size_t a, std::size_t b) {
-                      return radial[a] != radial[b] ? radial[a] > radial[b] : a < b;
-                    });
-  for (std::size_t first = 0; first < last && radial[order[first]] > most; first += kBatch) {
+  const std::vector<std::size_t> order = largest_first(radial, kMostExtreme);
+  double most = seen.most();
+  for (std::size_t first = 0; first < order.size() && radial[order[first]] > most;
+       first += kBatch) {
     std::vector<Vec3> points, across;
-    for (std::size_t k = first; k < std::min(last, first + kBatch); ++k) {
-      points.push_back(pieces_.scale * extreme.radii[order[k]] * extreme.directions[order[k]]);
-      across.push_back(models[order[k]]);
+    for (std::size_t k = first; k < std::min(order.size(), first + kBatch); ++k) {
+      const std::size_t i = order[k];
+      points.push_back(pieces_.scale * extreme.radii[i] * extreme.directions[i]);
+      across.push_back(models[i]);
+      seen.points.directions.push_back(extreme.directions[i]);
+      seen.points.radii.push_back(pieces_.scale * extreme.radii[i]);
+      seen.points.owners.push_back(extreme.owners[i]);
     }
-    const std::vector<double> distances = model.distances(points, across);
-    const std::vector<double> from_model = closest(*scene_, across, silent);
-    most = std::max({most, largest(distances), largest(from_model)});
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      const std::size_t i = order[first + k];
-      seen.directions.push_back(extreme.directions[i]);
-      seen.radii.push_back(pieces_.scale * extreme.radii[i]);
-      seen.owners.push_back(extreme.owners[i]);
-      to_model.push_back(distances[k]);
-      to_shape.push_back(from_model[k]);
-    }
+    const std::vector<double> there = model.distances(points, across);
+    const std::vector<double> back = closest(*scene_, across, silent);
+    seen.to_model.insert(seen.to_model.end(), there.begin(), there.end());
+    seen.to_shape.insert(seen.to_shape.end(), back.begin(), back.end());
+    most = std::max({most, largest(there), largest(back)});
   }
+
   const Context alone{.threads = 1};  // a hundred points at a time
   const RadialSurface near(expansion, degree, pieces_.scale, precision, alone);
   const auto there_at = [&](const ErrorPoints& at) {
@@ -267,8 +287,9 @@ SurfaceDistances ClosestDistances::measure(const Expansion& expansion, int degre
     return closest(*scene_, near.points(at.directions), alone);
   };
   const MeshView view = view_of(shape_);
-  most = std::max({most, highest_peak(view, {}, seen, to_model, degree, kPeaks, there_at),
-                   highest_peak(view, {}, seen, to_shape, degree, kPeaks, back_at)});
+  most =
+      std::max({most, highest_peak(view, {}, seen.points, seen.to_model, degree, kPeaks, there_at),
+                highest_peak(view, {}, seen.points, seen.to_shape, degree, kPeaks, back_at)});
   result.max = most / pieces_.scale;
   return result;
 }
