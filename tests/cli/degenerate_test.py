@@ -124,9 +124,10 @@ class Degenerate(CliTest):
 
     def test_analyze(self):
         for name, (_, _, codes, _) in SHAPES.items():
-            for method in ("edge", "gauge", "curl", "area"):
-                with self.subTest(f"{name} {method}"):
-                    self.check(codes, "analyze", name, "--degree", "3", "--method", method,
+            # Of the same function errors are the same.
+            for method in (["edge"], ["gauge"], ["curl", "--no-errors"], ["area", "--no-errors"]):
+                with self.subTest(f"{name} {method[0]}"):
+                    self.check(codes, "analyze", name, "--degree", "3", "--method", *method,
                                "--rays", "500", output="out.sh")
 
     def test_analyze_signed(self):
