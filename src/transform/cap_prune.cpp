@@ -45,8 +45,8 @@ constexpr double kShrink = 0.94;  // of a support that its surface leaves
 constexpr int kMostShrinks = 8;   // to 0.6: what still strays then is closed and dropped later
 constexpr int kMostSteps = 5;     // to the budget
 // A cap that is to shrink to less than 0.7 has lost coefficients that it needs: those it has are
-// dearer from then on. Chosen: half as many shrinks take 6 % more numbers, without a bound the caps
-// at rims, as of ears, are cut to pieces.
+// dearer from then on. Chosen by scripts/atlas-figures: half as many shrinks take 6 % more numbers,
+// without a bound the caps at rims, as of ears, are cut to pieces.
 constexpr int kFreeShrinks = 6;
 constexpr double kDearer = 4;
 

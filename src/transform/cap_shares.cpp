@@ -24,9 +24,9 @@ constexpr double kOwnShare = 0.03;
 constexpr double kGradientWeight = 0.1;
 constexpr double kPenalty = 2e-9;
 
-// Tolerances that a ledge of slope 1 counts as. Chosen: one of 5 degrees then counts as an error of
-// a tolerance; 20 takes 3 % more numbers, for a fifth fewer badly turned normals on a bunny and no
-// fewer on the Armadillo.
+// Tolerances that a ledge of slope 1 counts as. Chosen by scripts/atlas-figures: one of 5 degrees
+// then counts as an error of a tolerance; 20 takes 3 % more numbers, for a fifth fewer badly turned
+// normals on a bunny and no fewer on the Armadillo.
 constexpr double kLedge = 12;
 // Of shares: where supports end between two samples, slopes have no bound.
 constexpr double kMostLedge = 10;
