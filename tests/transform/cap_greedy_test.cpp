@@ -248,30 +248,6 @@ TEST(prune, leaves_no_gaps_between_caps_of_random_samples) {
   EXPECT_LT(static_cast<double>(after.silent), 0.005 * static_cast<double>(levels.size()));
 }
 
-// A flat ellipsoid: caps that bend at its rim lose what others say as well, but not so much that
-// their own surface leaves the samples and they are cut to less than 0.7 of their size.
-TEST(prune, leaves_caps_the_coefficients_that_keep_them_at_the_samples) {
-  constexpr double kFlat = 0.2, kTolerance = 5e-3;
-  Samples s = random_sphere(10000);
-  for (std::size_t i = 0; i < s.points.size(); ++i) {
-    s.points[i].z *= kFlat;
-    s.normals[i].z /= kFlat;
-    s.normals[i] = normalized(s.normals[i]);
-  }
-  const SampleLevels levels = make_levels(s.points, s.normals, {});
-  GreedyOptions options = options_for(kTolerance);
-  options.candidate.stray = 3 * kTolerance;
-  const GreedyCover cover =
-      greedy_cover(levels, 3, options, std::vector<std::uint8_t>(levels.size()), {});
-  Atlas atlas = atlas_of(cover, 10 * kTolerance);
-  const std::vector<Cap> before = atlas.caps;
-  prune(levels, {.tolerance = kTolerance, .band = atlas.band, .stray = 1.5 * kTolerance}, atlas,
-        {});
-  ASSERT_EQ(atlas.caps.size(), before.size());
-  for (std::size_t c = 0; c < before.size(); ++c)
-    EXPECT_GE(atlas.caps[c].frame.support, 0.7 * before[c].frame.support);
-}
-
 TEST(greedy_cover, cancels) {
   const Samples s = torus(4000);
   const SampleLevels levels = make_levels(s.points, s.normals, {});
