@@ -113,10 +113,11 @@ class Values(CliTest):
         self.assertEqual({command for command, _ in options}, set(NEEDS))
 
     def test_values_that_are_no_values(self):
-        for (command, option), is_word in described_options().items():
+        for k, ((command, option), is_word) in enumerate(described_options().items()):
             if option == "threads" and command != "info":
                 continue  # the same for all
-            for value in ["", "text"] if is_word else BAD:
+            # No value and a word for each; of the numbers, which one place reads, another in turn.
+            for value in BAD[:2] if is_word else [*BAD[:2], BAD[2 + k % (len(BAD) - 2)]]:
                 if value and option in FREE:
                     continue
                 with self.subTest(command=command, option=option, value=value):

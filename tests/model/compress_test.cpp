@@ -162,20 +162,15 @@ TEST(compress, levels_lose_less_than_the_degrees_they_lack) {
   const AtlasModel model = compress(mesh, {.tolerance = 0.03}).model;
   const Mesh whole = synthesize(model);
   for (const int degree : {2, 3}) {
-    const Comparison found =
-        compare(whole, synthesize(model, {.degree = degree}), {.samples = 20000});
+    const Mesh level = synthesize(model, {.degree = degree});
+    const Comparison found = compare(whole, level, {.samples = 20000});
     EXPECT_LT(found.a_to_b.rms, 0.65 * lost_at_degree(model.atlas, degree)) << degree;
+    // They hang together as the whole does.
+    const Inspection seen = inspect(level);
+    EXPECT_TRUE(seen.closed && seen.manifold);
+    EXPECT_EQ(seen.components, 1U);
+    EXPECT_EQ(seen.genus, 0U);
   }
-}
-
-// Levels of a model are surfaces of one piece.
-TEST(compress, levels_hang_together) {
-  const Mesh mesh = bumpy_sphere(4, 0.3, 3);
-  const Compressed found = compress(mesh, {.tolerance = 0.1});
-  const Inspection seen = inspect(synthesize(found.model, {.degree = 2}));
-  EXPECT_TRUE(seen.closed && seen.manifold);
-  EXPECT_EQ(seen.components, 1U);
-  EXPECT_EQ(seen.genus, 0U);
 }
 
 }  // namespace
