@@ -22,8 +22,6 @@ namespace rholm::test {
 struct TrueDistance {
   double there_rms = 0, back_rms = 0, there_max = 0, back_max = 0;
   double there_error = 0, back_error = 0;  // relative standard errors of the root mean squares
-  std::vector<Vec3> points;                // of the mesh, and how far they are from the model's net
-  std::vector<double> distances;
   double rms() const { return std::max(there_rms, back_rms); }
   double max() const { return std::max(there_max, back_max); }
 };
@@ -68,9 +66,10 @@ struct WeightedMean {
 class ModelNet {
  public:
   explicit ModelNet(const Coefficients& c)
-      : points_(model_points(c, sphere().vertices)), tree_(points_) {}
+      : c_(c), points_(model_points(c, sphere().vertices)), tree_(points_) {}
 
-  std::vector<double> distances(const std::vector<Vec3>& x) const {
+  // Points of the net are trusted up to that distance; what is farther goes to the model itself.
+  std::vector<double> distances(const std::vector<Vec3>& x, double trusted) const {
     std::vector<double> result;
     std::vector<Neighbor> found;
     for (const Vec3& from : x) {
@@ -84,12 +83,35 @@ class ModelNet {
           nearest = std::min(nearest, norm(from - to));
         }
       }
+      if (nearest > trusted) nearest = downhill(from, tree_.order()[found.front().index]);
       result.push_back(nearest);
     }
     return result;
   }
 
  private:
+  // From x to the model itself, from a point of the net on: no less than the distance.
+  double downhill(const Vec3& x, std::size_t at) const {
+    Vec3 u = sphere().vertices[at];
+    double nearest = norm(x - points_[at]);
+    for (double step = 0.01; step > 1e-9;) {
+      const Vec3 e = normalized(cross(u, std::abs(u.x) < 0.7 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
+      const Vec3 f = cross(u, e);
+      std::vector<Vec3> around;
+      for (int k = 0; k < 16; ++k) {
+        const double angle = k * std::numbers::pi / 8;
+        around.push_back(normalized(u + step * (std::cos(angle) * e + std::sin(angle) * f)));
+      }
+      const std::vector<Vec3> points = model_points(c_, around);
+      bool nearer = false;
+      for (std::size_t k = 0; k < points.size(); ++k) {
+        const double distance = norm(x - points[k]);
+        if (distance < nearest) nearest = distance, u = around[k], nearer = true;
+      }
+      if (!nearer) step /= 2;
+    }
+    return nearest;
+  }
   static const Mesh& sphere() {
     static const Mesh mesh = icosphere(8);
     return mesh;
@@ -104,43 +126,17 @@ class ModelNet {
     }();
     return lists;
   }
+  const Coefficients& c_;
   std::vector<Vec3> points_;
   PointTree tree_;
 };
 
-// From x to the model itself, from the direction of the nearest of a dense net of points on: the
-// net is flat between its points. No less than the distance.
-inline double distance_to_model(const Coefficients& c, const Vec3& x) {
-  const std::vector<Vec3> directions = icosphere(8).vertices;
-  const std::vector<Vec3> net = model_points(c, directions);
-  std::size_t at = 0;
-  for (std::size_t i = 0; i < net.size(); ++i) {
-    if (norm(x - net[i]) < norm(x - net[at])) at = i;
-  }
-  Vec3 u = directions[at];
-  double nearest = norm(x - net[at]);
-  for (double step = 0.01; step > 1e-9;) {
-    const Vec3 e = normalized(cross(u, std::abs(u.x) < 0.7 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
-    const Vec3 f = cross(u, e);
-    std::vector<Vec3> around;
-    for (int k = 0; k < 16; ++k) {
-      const double angle = k * std::numbers::pi / 8;
-      around.push_back(normalized(u + step * (std::cos(angle) * e + std::sin(angle) * f)));
-    }
-    const std::vector<Vec3> points = model_points(c, around);
-    bool nearer = false;
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      const double distance = norm(x - points[k]);
-      if (distance < nearest) nearest = distance, u = around[k], nearer = true;
-    }
-    if (!nearer) step /= 2;
-  }
-  return nearest;
-}
-
 // `n` points on each surface; those of the mesh by area, those of the model on a net of directions
-// with the area it has there.
-inline TrueDistance true_distance(const Mesh& mesh, const Coefficients& c, std::size_t n) {
+// with the area it has there. The net of triangles is flat between its points, a little within the
+// model: points of the mesh that are farther than `trusted` from it are tried with the model
+// itself.
+inline TrueDistance true_distance(const Mesh& mesh, const Coefficients& c, std::size_t n,
+                                  double trusted = INFINITY) {
   const ModelNet net(c);
   std::vector<double> areas;
   double whole = 0;
@@ -167,15 +163,10 @@ inline TrueDistance true_distance(const Mesh& mesh, const Coefficients& c, std::
   }
   TrueDistance result;
   WeightedMean there, back;
-  const std::vector<double> distances = net.distances(x);
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    there.add(distances[i], weights[i]);
-  }
-  const std::vector<double> at_vertices = net.distances(mesh.vertices);
-  result.points = std::move(x), result.distances = distances;
-  result.points.insert(result.points.end(), mesh.vertices.begin(), mesh.vertices.end());
-  result.distances.insert(result.distances.end(), at_vertices.begin(), at_vertices.end());
-  result.there_max = *std::ranges::max_element(result.distances);
+  const std::vector<double> distances = net.distances(x, trusted);
+  for (std::size_t i = 0; i < x.size(); ++i) there.add(distances[i], weights[i]);
+  const std::vector<double> at_vertices = net.distances(mesh.vertices, trusted);
+  result.there_max = std::max(std::ranges::max(distances), std::ranges::max(at_vertices));
 
   std::vector<Vec3> u(n);
   for (std::size_t k = 0; k < n; ++k) {
