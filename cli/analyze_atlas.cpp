@@ -89,6 +89,13 @@ Compressed compress_shape(const AnalyzeCommandOptions& o, ShapeFile file, Sessio
     session.note(fmt::format("sheets of the surface lie {} apart: caps are fitted within {}",
                              text_of(found.report.gap), text_of(found.report.aimed)));
   }
+  if (!found.report.topology_kept) {
+    session.warn(fmt::format(
+        "the surface of the model has other parts or handles than the shape (components "
+        "{}, genus {}): some of it is too thin or too small for these caps, or lies "
+        "too close together",
+        found.report.components, found.report.genus));
+  }
   return found;
 }
 
@@ -123,6 +130,7 @@ void report(const AnalyzeCommandOptions& options, const AtlasModel& model,
     json["gap"] = std::isfinite(found->gap) ? Json(found->gap) : Json(nullptr);
     json["aimed"] = found->aimed;
     json["uncovered"] = found->uncovered;
+    json["components"] = found->components;
     json["genus"] = found->genus;
     json["topology_kept"] = found->topology_kept;
   }

@@ -55,9 +55,9 @@ struct CompressReport {
                       // other: left out, and not measured
   double gap = 0;     // between sheets that face each other: less on a twentieth of the area
   double aimed = 0;   // the tolerance that was aimed at: thin shapes need a smaller one than asked
-  double uncovered = 0;   // share of the samples that no cap met by 4 tolerances
-  std::size_t genus = 0;  // of the extracted surface
-  bool met = false;       // the tolerance
+  double uncovered = 0;                   // share of the samples that no cap met by 4 tolerances
+  std::size_t components = 0, genus = 0;  // of the extracted surface
+  bool met = false;                       // the tolerance
   // The surface has as many parts and handles as the shape, as far as that is a closed manifold.
   bool topology_kept = false;
   StageTimes times = {};  // "samples", "caps", "fit", "surface"

@@ -9,7 +9,6 @@
 #include "base/stopwatch.h"
 #include "model/atlas_pack.h"
 #include "rholm/error.h"
-#include "rholm/topology.h"
 #include "transform/cap_blend.h"
 #include "transform/cap_prune.h"
 
@@ -24,10 +23,13 @@ constexpr double kAim = 0.995, kGoodEnough = 0.97;
 constexpr double kStalled = 0.1;         // of the change of the aim, as logarithms
 constexpr double kSameAim = 1.03;        // between one that is kept and one that is not
 constexpr double kWorthSearching = 1.5;  // tolerances: beyond, another aim comes first
+// A surface that is near enough and has handles that the shape has not is tried nearer, so often.
+constexpr double kTighter = 0.7;
+constexpr int kTightenings = 2;
 // Where caps hardly agree, as between fingers, a grid may see a handle that another does not: other
 // steps and bands, in these parts, are tried until the surface is connected as the shape is.
-constexpr double kSteps[] = {1, 0.8, 0.6};
-constexpr double kBands[] = {1, 2};
+constexpr double kSteps[] = {1, 0.8};
+constexpr double kBands[] = {1, 2, 1.5};
 
 Atlas overlapping(Atlas atlas, const Overlap& overlap) {
   for (Cap& cap : atlas.caps) set_support(cap, overlap.reach * cap.frame.support);
@@ -53,58 +55,65 @@ std::vector<GridParts> all_grid_parts() {
   return parts;
 }
 
-// The surface of a model, what is measured on it, and whether it hangs together as wanted.
+// The surface of a model, what is measured on it, and how it hangs together.
 struct TrialSurface {
   AtlasModel model;
   Topology topology;
-  bool right = false;
+  std::size_t odd = 0;  // parts and handles that the shape has not, or lacks
 };
 
 TrialSurface try_surface(const FitTarget& target, AtlasModel model, const GridParts& parts,
                          const Context& context) {
   model.step *= parts.step, model.atlas.band *= parts.band;
   const Mesh mesh = synthesize(model, {}, context);
-  const Inspection found = inspect(mesh);
-  TrialSurface trial{std::move(model), {found.components, found.genus}, false};
-  trial.right = !target.topology || trial.topology == *target.topology;
+  TrialSurface trial{std::move(model), topology_of(inspect(mesh))};
+  trial.odd = n_odd(trial.topology, target.topology);
   trial.model.errors = target.measure(mesh);
   return trial;
 }
 
-// Other grids than the first, in the order of `parts`: one that is right comes first from then on.
-std::optional<TrialSurface> search_grid(const FitTarget& target, const AtlasModel& model,
-                                        std::vector<GridParts>& parts, const Context& context) {
+// The surface of the first grid, or of another that is nearer to being right, tried in the order of
+// `parts`: a grid that is right comes first from then on.
+TrialSurface search_grid(const FitTarget& target, const AtlasModel& model, TrialSurface best,
+                         std::vector<GridParts>& parts, int& searches, const Context& context) {
   for (std::size_t i = 1; i < parts.size(); ++i) {
-    std::optional<TrialSurface> trial;
+    if (i > 1 && best.odd > kFewHandles) return best;
     try {
-      trial = try_surface(target, model, parts[i], context);
+      TrialSurface trial = try_surface(target, model, parts[i], context);
+      if (trial.odd < best.odd) best = std::move(trial);
     } catch (const Error& error) {
       // A finer grid than memory allows is no choice.
       if (error.code() != ErrorCode::kOutOfMemory) throw;
-      continue;
     }
-    if (!trial->right) continue;
+    if (best.odd > 0) continue;
     std::rotate(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(i),
                 parts.begin() + static_cast<std::ptrdiff_t>(i) + 1);
-    return trial;
+    return best;
   }
-  return std::nullopt;
+  --searches;
+  return best;
 }
 
 // Whether a trial is better than what there is: a tolerance kept first, then the handles, then few
 // numbers, or the lesser error.
-bool is_better(const TrialSurface& trial, bool met, const Compressed& than) {
-  const auto rank = [](bool is_met, bool is_right) { return 2 * is_met + is_right; };
-  const int change = rank(met, trial.right) - rank(than.report.met, than.report.topology_kept);
-  if (!than.model.errors || change != 0) return !than.model.errors || change > 0;
+bool is_better(const TrialSurface& trial, bool met, const Compressed& than, std::size_t than_odd) {
+  if (!than.model.errors) return true;
+  if (met != than.report.met) return met;
+  if (trial.odd != than_odd) return trial.odd < than_odd;
   return met ? size_of(trial.model.atlas).numbers() < size_of(than.model.atlas).numbers()
              : trial.model.errors->rms() < than.model.errors->rms();
 }
 
 }  // namespace
 
+std::size_t n_odd(const Topology& found, const std::optional<Topology>& wanted) {
+  if (!wanted) return 0;
+  const auto between = [](std::size_t a, std::size_t b) { return std::max(a, b) - std::min(a, b); };
+  return between(found.components, wanted->components) + between(found.genus, wanted->genus);
+}
+
 void fit_atlas(const FitTarget& target, const Atlas& chosen, const Overlap& overlap,
-               Compressed& result, int& searches, const Context& context) {
+               Compressed& result, FitState& state, const Context& context) {
   CompressReport& report = result.report;
   const Atlas covered = overlapping(chosen, overlap);
   const PruneOptions wanted{.tolerance = target.tolerance,
@@ -112,9 +121,10 @@ void fit_atlas(const FitTarget& target, const Atlas& chosen, const Overlap& over
                             .stray = target.stray,
                             .max_degree = target.max_degree};
   std::optional<Pruning> pruning;
-  double aim = target.tolerance, last = 0, last_aim = 0;
+  double aim = state.aim > 0 ? state.aim : target.tolerance, last = 0, last_aim = 0;
   double kept = 0, missed = INFINITY;  // aims
   std::size_t last_numbers = 0;
+  int tightened = 0;
   std::vector<GridParts> parts = all_grid_parts();
   for (int attempt = 0; attempt < kMostTries; ++attempt) {
     AtlasModel model = result.model;
@@ -125,29 +135,39 @@ void fit_atlas(const FitTarget& target, const Atlas& chosen, const Overlap& over
       reached = pruning->to(aim, model.atlas, context).rms;
       model.atlas = rounded(std::move(model.atlas), overlap);
     });
+    const std::size_t numbers = size_of(model.atlas).numbers();
+    if (tightened > 0 && numbers == last_numbers) break;
     const TrialSurface trial = timed(report.times, "surface", [&] {
       TrialSurface first = try_surface(target, model, parts.front(), context);
       const bool worth = first.model.errors->rms() <= kWorthSearching * target.tolerance;
-      if (first.right || !worth || searches == 0) return first;
-      std::optional<TrialSurface> other = search_grid(target, model, parts, context);
-      if (!other) --searches;
-      return other ? std::move(*other) : std::move(first);
+      if (first.odd == 0 || !worth || state.searches == 0) return first;
+      return search_grid(target, model, std::move(first), parts, state.searches, context);
     });
     const double rms = trial.model.errors->rms();
     const bool met = rms <= target.accepted;
     // Where hardly anything was left to be dropped, samples are nearer than was aimed at: what
     // comes next must be nearer than that.
     if (!met && kept == 0) aim = std::min(aim, reached);
-    if (is_better(trial, met, result)) {
+    if (is_better(trial, met, result, n_odd({report.components, report.genus}, target.topology))) {
       result.model = trial.model;
-      report.genus = trial.topology.genus, report.uncovered = target.uncovered;
-      report.met = met, report.topology_kept = trial.right;
+      report.components = trial.topology.components, report.genus = trial.topology.genus;
+      report.uncovered = target.uncovered;
+      report.met = met, report.topology_kept = trial.odd == 0;
     }
     // No number is saved where more than the tolerance would do.
     const bool good = rms >= kGoodEnough * target.tolerance || target.tolerance < target.accepted;
-    if (met && trial.right && good) break;
-    if (met && !trial.right && !overlap.settles) break;
-    const std::size_t numbers = size_of(trial.model.atlas).numbers();
+    if (met && trial.odd == 0 && good) break;
+    const double corrected = aim * kAim * target.tolerance / rms;
+    if (met && trial.odd > 0 && !overlap.settles) {
+      state.aim = std::min(aim, corrected);
+      break;
+    }
+    if (rms <= target.tolerance && trial.odd > 0) {
+      if (++tightened > kTightenings) break;
+      last = rms, last_numbers = numbers, last_aim = aim;
+      aim *= kTighter;
+      continue;
+    }
     const bool stalled = !met && last > target.tolerance
                              ? std::log(rms / last) > kStalled * std::log(aim / last_aim)
                              : numbers == last_numbers;
@@ -155,8 +175,7 @@ void fit_atlas(const FitTarget& target, const Atlas& chosen, const Overlap& over
     last = rms, last_numbers = numbers, last_aim = aim;
     (rms <= target.tolerance ? kept : missed) = aim;
     if (missed < kSameAim * kept) break;
-    aim = kept > 0 && std::isfinite(missed) ? std::sqrt(kept * missed)
-                                            : aim * kAim * target.tolerance / rms;
+    aim = kept > 0 && std::isfinite(missed) ? std::sqrt(kept * missed) : corrected;
   }
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "rholm/compress.h"
+#include "rholm/topology.h"
 #include "transform/cap_samples.h"
 
 namespace rholm {
@@ -15,6 +16,13 @@ struct Topology {
   std::size_t components = 0, genus = 0;
   friend bool operator==(const Topology&, const Topology&) = default;
 };
+inline Topology topology_of(const Inspection& found) { return {found.components, found.genus}; }
+// Parts and handles that one has and the other has not; none where nothing is wanted.
+std::size_t n_odd(const Topology& found, const std::optional<Topology>& wanted);
+
+// With more than these no other grid, and no finer caps, are likely to see the surface as it is:
+// handles are seen as if by chance, and with h in one grid another has none in about exp(-h).
+constexpr std::size_t kFewHandles = 3;
 
 // How far caps speak, of the support they were chosen with, and the power of it that small ones
 // override large ones by.
@@ -36,10 +44,15 @@ struct FitTarget {
   std::function<AtlasErrors(const Mesh&)> measure;
 };
 
+// What a fit leaves to the next.
+struct FitState {
+  int searches = 2;  // for a grid with the right handles, in vain; each takes seven extractions
+  double aim = 0;    // for the same caps, as far as it is known; 0: it is not
+};
+
 // Drops coefficients of the caps until the surface is as far from the shape as allowed; what is
-// better than `result` replaces it. `searches` is how many searches for a grid with the right
-// handles may still find nothing: each takes as long as ten extractions.
+// better than `result` replaces it.
 void fit_atlas(const FitTarget& target, const Atlas& chosen, const Overlap& overlap,
-               Compressed& result, int& searches, const Context& context);
+               Compressed& result, FitState& state, const Context& context);
 
 }  // namespace rholm

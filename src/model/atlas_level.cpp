@@ -12,7 +12,6 @@
 
 #include "model/atlas_fit.h"
 #include "rholm/error.h"
-#include "rholm/topology.h"
 #include "surface/area_samples.h"
 #include "transform/cap_level.h"
 #include "transform/cap_samples.h"
@@ -91,18 +90,14 @@ AtlasLevel LevelMaker::usable_at(int degree) const {
 
 Mesh level_surface(const Atlas& level, const Mesh& whole, const AtlasSurfaceOptions& options,
                    const Context& context) {
-  const auto topology = [](const Mesh& mesh) {
-    const Inspection found = inspect(mesh);
-    return Topology{found.components, found.genus};
-  };
-  const Topology wanted = topology(whole);
+  const Topology wanted = topology_of(inspect(whole));
   Mesh first;
   for (const double part : kBands) {
     Atlas other = level;
     other.band *= part;
     Mesh surface = extract_atlas(other, options, context).mesh;
     if (surface.triangles.empty()) continue;
-    if (topology(surface) == wanted) return surface;
+    if (topology_of(inspect(surface)) == wanted) return surface;
     if (first.triangles.empty()) first = std::move(surface);
   }
   return first;

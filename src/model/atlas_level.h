@@ -22,7 +22,6 @@ class LevelMaker {
  public:
   // Of an atlas and its surface, which is not empty; both are referred to.
   LevelMaker(const Atlas& atlas, const Mesh& surface, const Context& context);
-  AtlasLevel at(int degree) const;
   // Of the least degree from `degree` on that is usable; the highest of the atlas always is.
   AtlasLevel usable_from(int degree) const;
   // Throws Unsupported, with the least degree that will do, for one whose caps would stand beside
@@ -30,6 +29,8 @@ class LevelMaker {
   AtlasLevel usable_at(int degree) const;
 
  private:
+  AtlasLevel at(int degree) const;
+
   const Atlas& atlas_;
   SampleLevels samples_;
   const Context& context_;

@@ -61,7 +61,6 @@ constexpr Attempt kAttempts[] = {{1, 0.005, 0.002, {1.15, 1, false}},
                                  {1, 0.005, 0.002, {1, 3, true}},
                                  {0.5, 0.001, 0, {1.15, 1, false}},
                                  {0.5, 0.001, 0, {1, 3, true}}};
-constexpr int kSearches = 2;  // of a grid, in vain
 // A shape of few vertices may be worth so many numbers; others no more than twice their own.
 constexpr std::size_t kFewNumbers = 12000;
 
@@ -175,10 +174,13 @@ Compressed compress_subject(const Subject& subject, const Lengths& lengths,
   });
   Atlas chosen;
   double chosen_with = 0, uncovered = 1;
-  int searches = kSearches;
+  FitState state;
   for (const Attempt& attempt : kAttempts) {
     const double tolerance = attempt.tolerance * lengths.tolerance;
     if (tolerance != chosen_with) {
+      // Nor do they mend many handles, or thin shapes that are fitted more closely than asked.
+      const std::size_t odd = n_odd({report.components, report.genus}, subject.topology);
+      if (report.met && (odd > kFewHandles || lengths.tolerance < options.tolerance)) break;
       const GreedyCover covered = timed(report.times, "caps", [&] {
         return cover(levels, subject, attempt, tolerance, options, context);
       });
@@ -189,6 +191,7 @@ Compressed compress_subject(const Subject& subject, const Lengths& lengths,
       }
       chosen = atlas_of(covered, levels.finest().spacing, subject.diagonal, lengths.band);
       chosen_with = tolerance;
+      state.aim = 0;
       uncovered = covered.uncovered;
     }
     const FitTarget target{.levels = levels,
@@ -200,16 +203,16 @@ Compressed compress_subject(const Subject& subject, const Lengths& lengths,
                            .max_degree = options.max_degree,
                            .uncovered = uncovered,
                            .measure = subject.measure};
-    fit_atlas(target, chosen, attempt.overlap, result, searches, context);
+    fit_atlas(target, chosen, attempt.overlap, result, state, context);
     if (report.met && report.topology_kept) break;
   }
   return result;
 }
 
 // Of a mesh that bounds a solid; none for others.
-std::optional<Topology> topology_of(const Inspection& found) {
+std::optional<Topology> topology_of_solid(const Inspection& found) {
   if (!found.closed || !found.manifold || !found.oriented) return std::nullopt;
-  return Topology{found.components, found.genus};
+  return topology_of(found);
 }
 
 void check_oriented_alike(const Inspection& found) {
@@ -243,7 +246,7 @@ Compressed compress(const Mesh& mesh, const CompressOptions& options, const Cont
   subject.samples = outer_samples(outer, n_samples(options, lengths, area), context);
   subject.input_numbers = 3 * mesh.vertices.size();
   // What is left of parts that run into each other hangs together in a way of its own.
-  if (probe.hidden == 0) subject.topology = topology_of(found);
+  if (probe.hidden == 0) subject.topology = topology_of_solid(found);
   const std::vector<Vec3>& visible = subject.samples.points;
   subject.measure = [&](const Mesh& surface) {
     const std::size_t n = std::max<std::size_t>(visible.size(), 100000);
