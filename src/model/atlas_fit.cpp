@@ -7,6 +7,7 @@
 
 #include "base/parallel.h"
 #include "base/stopwatch.h"
+#include "model/atlas_aims.h"
 #include "model/atlas_pack.h"
 #include "rholm/error.h"
 #include "transform/cap_blend.h"
@@ -15,17 +16,8 @@
 namespace rholm {
 namespace {
 
-// The surface is a little farther from the shape than the samples' blend tells: the aim is
-// corrected by what is measured, so many times, and left a little below the tolerance. An aim that
-// hardly changes what is measured, or no numbers, is the last.
 constexpr int kMostTries = 8;
-constexpr double kAim = 0.995, kGoodEnough = 0.97;
-constexpr double kStalled = 0.1;         // of the change of the aim, as logarithms
-constexpr double kSameAim = 1.03;        // between one that is kept and one that is not
 constexpr double kWorthSearching = 1.5;  // tolerances: beyond, another aim comes first
-// A surface that is near enough and has handles that the shape has not is tried nearer, so often.
-constexpr double kTighter = 0.7;
-constexpr int kTightenings = 2;
 // Where caps hardly agree, as between fingers, a grid may see a handle that another does not: other
 // steps and bands, in these parts, are tried until the surface is connected as the shape is.
 constexpr double kSteps[] = {1, 0.8};
@@ -121,61 +113,42 @@ void fit_atlas(const FitTarget& target, const Atlas& chosen, const Overlap& over
                             .stray = target.stray,
                             .max_degree = target.max_degree};
   std::optional<Pruning> pruning;
-  double aim = state.aim > 0 ? state.aim : target.tolerance, last = 0, last_aim = 0;
-  double kept = 0, missed = INFINITY;  // aims
-  std::size_t last_numbers = 0;
-  int tightened = 0;
+  Aims aims(target.tolerance, state.aim > 0 ? state.aim : target.tolerance);
   std::vector<GridParts> parts = all_grid_parts();
   for (int attempt = 0; attempt < kMostTries; ++attempt) {
     AtlasModel model = result.model;
-    double reached = aim;
+    AimOutcome outcome;
     model.step = target.step;
     timed(report.times, "fit", [&] {
       if (!pruning) pruning.emplace(target.levels, wanted, covered, context);
-      reached = pruning->to(aim, model.atlas, context).rms;
+      outcome.reached = pruning->to(aims.aim(), model.atlas, context).rms;
       model.atlas = rounded(std::move(model.atlas), overlap);
     });
-    const std::size_t numbers = size_of(model.atlas).numbers();
-    if (tightened > 0 && numbers == last_numbers) break;
+    outcome.numbers = size_of(model.atlas).numbers();
+    if (aims.is_old(outcome.numbers)) break;
     const TrialSurface trial = timed(report.times, "surface", [&] {
       TrialSurface first = try_surface(target, model, parts.front(), context);
       const bool worth = first.model.errors->rms() <= kWorthSearching * target.tolerance;
       if (first.odd == 0 || !worth || state.searches == 0) return first;
       return search_grid(target, model, std::move(first), parts, state.searches, context);
     });
-    const double rms = trial.model.errors->rms();
-    const bool met = rms <= target.accepted;
-    // Where hardly anything was left to be dropped, samples are nearer than was aimed at: what
-    // comes next must be nearer than that.
-    if (!met && kept == 0) aim = std::min(aim, reached);
-    if (is_better(trial, met, result, n_odd({report.components, report.genus}, target.topology))) {
+    outcome.rms = trial.model.errors->rms();
+    outcome.met = outcome.rms <= target.accepted, outcome.odd = trial.odd > 0;
+    if (is_better(trial, outcome.met, result,
+                  n_odd({report.components, report.genus}, target.topology))) {
       result.model = trial.model;
       report.components = trial.topology.components, report.genus = trial.topology.genus;
       report.uncovered = target.uncovered;
-      report.met = met, report.topology_kept = trial.odd == 0;
+      report.met = outcome.met, report.topology_kept = trial.odd == 0;
     }
     // No number is saved where more than the tolerance would do.
-    const bool good = rms >= kGoodEnough * target.tolerance || target.tolerance < target.accepted;
-    if (met && trial.odd == 0 && good) break;
-    const double corrected = aim * kAim * target.tolerance / rms;
-    if (met && trial.odd > 0 && !overlap.settles) {
-      state.aim = std::min(aim, corrected);
+    const bool good = aims.is_close(outcome.rms) || target.tolerance < target.accepted;
+    if (outcome.met && !outcome.odd && good) break;
+    if (outcome.met && outcome.odd && !overlap.settles) {
+      state.aim = std::min(aims.aim(), aims.corrected(outcome.rms));
       break;
     }
-    if (rms <= target.tolerance && trial.odd > 0) {
-      if (++tightened > kTightenings) break;
-      last = rms, last_numbers = numbers, last_aim = aim;
-      aim *= kTighter;
-      continue;
-    }
-    const bool stalled = !met && last > target.tolerance
-                             ? std::log(rms / last) > kStalled * std::log(aim / last_aim)
-                             : numbers == last_numbers;
-    if (stalled) break;
-    last = rms, last_numbers = numbers, last_aim = aim;
-    (rms <= target.tolerance ? kept : missed) = aim;
-    if (missed < kSameAim * kept) break;
-    aim = kept > 0 && std::isfinite(missed) ? std::sqrt(kept * missed) : corrected;
+    if (!aims.advance(outcome)) break;
   }
 }
 
