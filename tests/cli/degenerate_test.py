@@ -80,6 +80,12 @@ SHAPES = {
     "noise.bin": (bytes(range(256)) * 4, REFUSED, REFUSED, REFUSED),
 }
 
+
+def variants(name, *ways):
+    """All of them for what can be read, one for what cannot."""
+    return ways[:1] if SHAPES[name][1] == REFUSED else ways
+
+
 NOT_A_NUMBER = re.compile(rb"\b(nan|inf|infinity)\b", re.I)
 
 
@@ -116,7 +122,7 @@ class Degenerate(CliTest):
 
     def test_center(self):
         for name, (_, _, codes, _) in SHAPES.items():
-            for kind in ("auto", "cosine", "none", "centroid", "volume"):
+            for kind in variants(name, "auto", "cosine", "none", "centroid", "volume"):
                 with self.subTest(f"{name} {kind}"):
                     # "none" may miss the shape.
                     allowed = codes | EITHER if kind == "none" and codes == FINE else codes
@@ -125,7 +131,8 @@ class Degenerate(CliTest):
     def test_analyze(self):
         for name, (_, _, codes, _) in SHAPES.items():
             # Of the same function errors are the same.
-            for method in (["edge"], ["gauge"], ["curl", "--no-errors"], ["area", "--no-errors"]):
+            for method in variants(name, ["edge"], ["gauge"], ["curl", "--no-errors"],
+                                   ["area", "--no-errors"]):
                 with self.subTest(f"{name} {method[0]}"):
                     self.check(codes, "analyze", name, "--degree", "3", "--method", *method,
                                "--rays", "500", output="out.sh")
@@ -156,7 +163,7 @@ class Degenerate(CliTest):
 
     def test_convert(self):
         for name, (_, codes, _, _) in SHAPES.items():
-            for output in ("out.off", "out.obj", "out.ply", "out.stl"):
+            for output in variants(name, "out.off", "out.obj", "out.ply", "out.stl"):
                 with self.subTest(f"{name} to {output}"):
                     # STL is float and has no room for large numbers, nor for points.
                     before = self.files()
@@ -174,15 +181,15 @@ class Degenerate(CliTest):
 
     def test_smooth(self):
         for name in SHAPES:
-            for region in ("ball:0,0,0,3", "vertex:0,1"):
-                for fit in ("robust", "mean", "around"):
+            for region in variants(name, "ball:0,0,0,3", "vertex:0,1"):
+                for fit in variants(name, "robust", "mean", "around"):
                     with self.subTest(f"{name} {region} {fit}"):
                         self.check(EITHER, "smooth", name, "--region", region, "--wavelength", "2",
                                    "--fit", fit, output="out.ply")
 
     def test_transfer(self):
         for name in SHAPES:
-            for region in ("ball:0,0,0,3", "vertex:0,1"):
+            for region in variants(name, "ball:0,0,0,3", "vertex:0,1"):
                 with self.subTest(f"{name} {region}"):
                     for source, target in ((name, "good.off"), ("good.off", name)):
                         self.check(EITHER, "transfer", "--from", source, "--from-region", region,
