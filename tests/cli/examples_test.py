@@ -44,10 +44,11 @@ class Examples(CliTest):
 
     def test_help_texts(self):
         # The examples of one command may use what those of earlier ones made.
-        for command in ("make", "info", "center", "analyze", "synthesize", "spectrum", "compare",
-                        "convert", "render", "report", "filter", "rotate",
-                        "align", "smooth", "transfer", "orient", "reconstruct", "partition", "bench",
-                        "completion"):
+        listed = self.rholm("help").out.split("Commands:\n")[1].split("\n\n")[0]
+        first = ["make", "info", "center", "analyze", "synthesize"]
+        commands = [line.split()[0] for line in listed.splitlines()]
+        self.assertLessEqual(set(first), set(commands))
+        for command in first + [name for name in commands if name not in first]:
             text = self.rholm(command, "--help").out
             for line in re.split(r"\nExamples?:\n", text)[1].splitlines():
                 with self.subTest(line):
