@@ -1,6 +1,8 @@
 """What a mesh goes through: every command of the program, and what comes out through those that
 take it. trial.do(name, words, out=..., codes=...) runs one, checks it, and says whether it was done."""
 
+import json
+
 DONE = {0}
 REFUSED = {3}  # the shape is not one that this command can take
 DONE_OR_REFUSED = DONE | REFUSED
@@ -192,6 +194,9 @@ def caps(trial):
         trial.do(f"analyze --atlas {tolerance}", "analyze", m, "--atlas", "--json", "--tolerance",
                  tolerance, "--unit", "diagonal", out=f"{name}.h5", codes=ANY)
         if trial.has(f"{name}.h5"):
+            said = b"other parts or handles" in trial.last.err
+            if said == json.loads(trial.last.out)["topology_kept"]:
+                trial.faults.append((f"analyze --atlas {tolerance}", "a wrong word on its handles"))
             atlas_model(trial, name)
 
 

@@ -44,6 +44,7 @@ class Trial:
         self.vertices, self.farthest = len(shape.vertices), float(abs(shape.vertices).max())
         (self.folder / self.mesh).write_bytes(content(shape))
         self.names = None  # of the commands to run: all of them
+        self.last = None  # run
         self.runs, self.faults, self.check = [], [], CliTest()
 
     def one_of(self, *choices):
@@ -66,7 +67,7 @@ class Trial:
         if name.split()[0] != words[0]:
             words = (name.split()[0], *words)
         words = [*words, *(["-o", out] if out else []), "--threads", "1"]
-        run = Run([RHOLM, *words], self.folder)
+        self.last = run = Run([RHOLM, *words], self.folder)
         self.runs.append((name, " ".join(words), run.code, run.seconds, run.memory))
         line = " ".join(words)
         for fault in self.faults_of(run, words, codes):
