@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -22,6 +23,7 @@ constexpr double kWorthSearching = 1.5;  // tolerances: beyond, another aim come
 // steps and bands, in these parts, are tried until the surface is connected as the shape is.
 constexpr double kSteps[] = {1, 0.8};
 constexpr double kBands[] = {1, 2, 1.5};
+constexpr std::size_t kAnyHandles = std::numeric_limits<std::size_t>::max();
 
 Atlas overlapping(Atlas atlas, const Overlap& overlap) {
   for (Cap& cap : atlas.caps) set_support(cap, overlap.reach * cap.frame.support);
@@ -54,35 +56,37 @@ struct TrialSurface {
   std::size_t odd = 0;  // parts and handles that the shape has not, or lacks
 };
 
-TrialSurface try_surface(const FitTarget& target, AtlasModel model, const GridParts& parts,
-                         const Context& context) {
+// Nothing of a surface with as many odd parts and handles as `too_many`: it is not measured.
+std::optional<TrialSurface> try_surface(const FitTarget& target, AtlasModel model,
+                                        const GridParts& parts, std::size_t too_many,
+                                        const Context& context) {
   model.step *= parts.step, model.atlas.band *= parts.band;
   const Mesh mesh = synthesize(model, {}, context);
   TrialSurface trial{std::move(model), topology_of(inspect(mesh))};
   trial.odd = n_odd(trial.topology, target.topology);
+  if (trial.odd >= too_many) return std::nullopt;
   trial.model.errors = target.measure(mesh);
   return trial;
 }
 
 // The surface of the first grid, or of another that is nearer to being right, tried in the order of
-// `parts`: a grid that is right comes first from then on.
+// `parts`: that grid comes first from then on.
 TrialSurface search_grid(const FitTarget& target, const AtlasModel& model, TrialSurface best,
                          std::vector<GridParts>& parts, int& searches, const Context& context) {
-  for (std::size_t i = 1; i < parts.size(); ++i) {
-    if (i > 1 && best.odd > kFewHandles) return best;
+  std::size_t best_at = 0;
+  for (std::size_t i = 1; i < parts.size() && best.odd > 0; ++i) {
+    if (i > 1 && best.odd > kFewHandles) break;
     try {
-      TrialSurface trial = try_surface(target, model, parts[i], context);
-      if (trial.odd < best.odd) best = std::move(trial);
+      std::optional<TrialSurface> trial = try_surface(target, model, parts[i], best.odd, context);
+      if (trial) best = std::move(*trial), best_at = i;
     } catch (const Error& error) {
       // A finer grid than memory allows is no choice.
       if (error.code() != ErrorCode::kOutOfMemory) throw;
     }
-    if (best.odd > 0) continue;
-    std::rotate(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(i),
-                parts.begin() + static_cast<std::ptrdiff_t>(i) + 1);
-    return best;
   }
-  --searches;
+  const auto at = parts.begin() + static_cast<std::ptrdiff_t>(best_at);
+  std::rotate(parts.begin(), at, at + 1);
+  if (best.odd > 0 && best.odd <= kFewHandles) --searches;
   return best;
 }
 
@@ -127,7 +131,7 @@ void fit_atlas(const FitTarget& target, const Atlas& chosen, const Overlap& over
     outcome.numbers = size_of(model.atlas).numbers();
     if (aims.is_old(outcome.numbers)) break;
     const TrialSurface trial = timed(report.times, "surface", [&] {
-      TrialSurface first = try_surface(target, model, parts.front(), context);
+      TrialSurface first = *try_surface(target, model, parts.front(), kAnyHandles, context);
       const bool worth = first.model.errors->rms() <= kWorthSearching * target.tolerance;
       if (first.odd == 0 || !worth || state.searches == 0) return first;
       return search_grid(target, model, std::move(first), parts, state.searches, context);
@@ -148,6 +152,7 @@ void fit_atlas(const FitTarget& target, const Atlas& chosen, const Overlap& over
       state.aim = std::min(aims.aim(), aims.corrected(outcome.rms));
       break;
     }
+    if (trial.odd > kFewHandles && outcome.rms <= target.tolerance) break;
     if (!aims.advance(outcome)) break;
   }
 }

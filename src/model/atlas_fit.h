@@ -20,8 +20,9 @@ inline Topology topology_of(const Inspection& found) { return {found.components,
 // Parts and handles that one has and the other has not; none where nothing is wanted.
 std::size_t n_odd(const Topology& found, const std::optional<Topology>& wanted);
 
-// With more than these no other grid, and no finer caps, are likely to see the surface as it is:
-// handles are seen as if by chance, and with h in one grid another has none in about exp(-h).
+// With more than these on a surface that is near enough, no other grid, aim, or finer caps are
+// likely to mend it: handles are seen as if by chance, and with h in one grid another has none in
+// about exp(-h). (A wider band is tried in any case.)
 constexpr std::size_t kFewHandles = 3;
 
 // How far caps speak, of the support they were chosen with, and the power of it that small ones
