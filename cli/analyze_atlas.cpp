@@ -90,11 +90,11 @@ Compressed compress_shape(const AnalyzeCommandOptions& o, ShapeFile file, Sessio
                              text_of(found.report.gap), text_of(found.report.aimed)));
   }
   if (!found.report.topology_kept) {
+    const Inspection shape = inspect(mesh);
     session.warn(fmt::format(
-        "the surface of the model has other parts or handles than the shape (components "
-        "{}, genus {}): some of it is too thin or too small for these caps, or lies "
-        "too close together",
-        found.report.components, found.report.genus));
+        "the surface of the model has {} parts and {} handles (the shape {} and {}): some of it is "
+        "too thin or too small for these caps, or lies too close together",
+        found.report.components, found.report.genus, shape.components, shape.genus));
   }
   return found;
 }

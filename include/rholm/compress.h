@@ -58,7 +58,8 @@ struct CompressReport {
   double uncovered = 0;                   // share of the samples that no cap met by 4 tolerances
   std::size_t components = 0, genus = 0;  // of the extracted surface
   bool met = false;                       // the tolerance
-  // The surface has as many parts and handles as the shape, as far as that is a closed manifold.
+  // The surface has as many parts and handles as the shape, if that is a closed manifold and no
+  // part of it is hidden; true for others.
   bool topology_kept = false;
   StageTimes times = {};  // "samples", "caps", "fit", "surface"
 };
@@ -75,7 +76,8 @@ struct Compressed {
 // they are turned) and are taken as evenly spread (measured from the points only). Throws
 // InvalidInput for shapes without area, triangles that are not oriented alike, and options out of
 // range; Unsupported for shapes too thin for the grid, and where the caps would take more numbers
-// than the shape. The tolerance may be missed: see `met`. Same input, same bits for any number of
+// than the shape. The tolerance may be missed, see `met`, and so may parts and handles, see
+// `topology_kept`. Same input, same bits for any number of
 // threads.
 Compressed compress(const Mesh& mesh, const CompressOptions& options, const Context& context = {});
 Compressed compress(const PointCloud& cloud, const CompressOptions& options,

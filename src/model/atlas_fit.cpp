@@ -1,8 +1,9 @@
 #include "model/atlas_fit.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cstddef>
 #include <limits>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -17,7 +18,7 @@
 namespace rholm {
 namespace {
 
-constexpr int kMostTries = 8;
+constexpr int kMostTries = 8;            // aims, for each overlap
 constexpr double kWorthSearching = 1.5;  // tolerances: beyond, another aim comes first
 // Where caps hardly agree, as between fingers, a grid may see a handle that another does not: other
 // steps and bands, in these parts, are tried until the surface is connected as the shape is.
@@ -53,32 +54,44 @@ std::vector<GridParts> all_grid_parts() {
 struct TrialSurface {
   AtlasModel model;
   Topology topology;
-  std::size_t odd = 0;  // parts and handles that the shape has not, or lacks
+  std::size_t wrong = 0;  // parts and handles
 };
 
-// Nothing of a surface with as many odd parts and handles as `too_many`: it is not measured.
+// Lower is better: first a tolerance that is kept, then the handles, then few numbers; where the
+// tolerance is missed, right handles, then the error.
+using Rank = std::tuple<bool, std::size_t, double>;
+Rank rank(const AtlasModel& model, std::size_t wrong, double accepted) {
+  const double rms = model.errors->rms();
+  if (rms > accepted) return {true, wrong > 0, rms};
+  return {false, wrong, static_cast<double>(size_of(model.atlas).numbers())};
+}
+
+// Nothing of a surface with `too_many` wrong handles or more: it is not measured.
 std::optional<TrialSurface> try_surface(const FitTarget& target, AtlasModel model,
-                                        const GridParts& parts, std::size_t too_many,
-                                        const Context& context) {
+                                        const GridParts& parts, std::size_t too_many) {
   model.step *= parts.step, model.atlas.band *= parts.band;
-  const Mesh mesh = synthesize(model, {}, context);
+  const Mesh mesh = target.surface(model);
   TrialSurface trial{std::move(model), topology_of(inspect(mesh))};
-  trial.odd = n_odd(trial.topology, target.topology);
-  if (trial.odd >= too_many) return std::nullopt;
+  trial.wrong = n_wrong_handles(trial.topology, target.topology);
+  if (trial.wrong >= too_many) return std::nullopt;
   trial.model.errors = target.measure(mesh);
   return trial;
 }
 
-// The surface of the first grid, or of another that is nearer to being right, tried in the order of
-// `parts`: that grid comes first from then on.
+// The surface of the first grid, or a better one of another, tried in the order of `parts`: that
+// grid comes first from then on. Of a surface with many wrong handles only the next grid is tried.
 TrialSurface search_grid(const FitTarget& target, const AtlasModel& model, TrialSurface best,
-                         std::vector<GridParts>& parts, int& searches, const Context& context) {
+                         std::vector<GridParts>& parts, int& searches) {
   std::size_t best_at = 0;
-  for (std::size_t i = 1; i < parts.size() && best.odd > 0; ++i) {
-    if (i > 1 && best.odd > kFewHandles) break;
+  for (std::size_t i = 1; i < parts.size() && best.wrong > 0; ++i) {
+    if (i > 1 && best.wrong > kFewHandles) break;
     try {
-      std::optional<TrialSurface> trial = try_surface(target, model, parts[i], best.odd, context);
-      if (trial) best = std::move(*trial), best_at = i;
+      std::optional<TrialSurface> trial = try_surface(target, model, parts[i], best.wrong);
+      if (!trial || rank(trial->model, trial->wrong, target.accepted) >=
+                        rank(best.model, best.wrong, target.accepted)) {
+        continue;
+      }
+      best = std::move(*trial), best_at = i;
     } catch (const Error& error) {
       // A finer grid than memory allows is no choice.
       if (error.code() != ErrorCode::kOutOfMemory) throw;
@@ -86,23 +99,13 @@ TrialSurface search_grid(const FitTarget& target, const AtlasModel& model, Trial
   }
   const auto at = parts.begin() + static_cast<std::ptrdiff_t>(best_at);
   std::rotate(parts.begin(), at, at + 1);
-  if (best.odd > 0 && best.odd <= kFewHandles) --searches;
+  if (best.wrong > 0 && best.wrong <= kFewHandles) --searches;
   return best;
-}
-
-// Whether a trial is better than what there is: a tolerance kept first, then the handles, then few
-// numbers, or the lesser error.
-bool is_better(const TrialSurface& trial, bool met, const Compressed& than, std::size_t than_odd) {
-  if (!than.model.errors) return true;
-  if (met != than.report.met) return met;
-  if (trial.odd != than_odd) return trial.odd < than_odd;
-  return met ? size_of(trial.model.atlas).numbers() < size_of(than.model.atlas).numbers()
-             : trial.model.errors->rms() < than.model.errors->rms();
 }
 
 }  // namespace
 
-std::size_t n_odd(const Topology& found, const std::optional<Topology>& wanted) {
+std::size_t n_wrong_handles(const Topology& found, const std::optional<Topology>& wanted) {
   if (!wanted) return 0;
   const auto between = [](std::size_t a, std::size_t b) { return std::max(a, b) - std::min(a, b); };
   return between(found.components, wanted->components) + between(found.genus, wanted->genus);
@@ -129,30 +132,39 @@ void fit_atlas(const FitTarget& target, const Atlas& chosen, const Overlap& over
       model.atlas = rounded(std::move(model.atlas), overlap);
     });
     outcome.numbers = size_of(model.atlas).numbers();
-    if (aims.is_old(outcome.numbers)) break;
-    const TrialSurface trial = timed(report.times, "surface", [&] {
-      TrialSurface first = *try_surface(target, model, parts.front(), kAnyHandles, context);
-      const bool worth = first.model.errors->rms() <= kWorthSearching * target.tolerance;
-      if (first.odd == 0 || !worth || state.searches == 0) return first;
-      return search_grid(target, model, std::move(first), parts, state.searches, context);
-    });
-    outcome.rms = trial.model.errors->rms();
-    outcome.met = outcome.rms <= target.accepted, outcome.odd = trial.odd > 0;
-    if (is_better(trial, outcome.met, result,
-                  n_odd({report.components, report.genus}, target.topology))) {
-      result.model = trial.model;
-      report.components = trial.topology.components, report.genus = trial.topology.genus;
+    if (aims.repeats(outcome.numbers)) break;
+    std::optional<TrialSurface> trial;
+    try {
+      trial = timed(report.times, "surface", [&] {
+        TrialSurface first = *try_surface(target, model, parts.front(), kAnyHandles);
+        const bool worth = first.model.errors->rms() <= kWorthSearching * target.tolerance;
+        if (first.wrong == 0 || !worth || state.searches == 0) return first;
+        return search_grid(target, model, std::move(first), parts, state.searches);
+      });
+    } catch (const Error& error) {
+      // What there is already stands.
+      if (error.code() == ErrorCode::kCancelled || !result.model.errors) throw;
+      break;
+    }
+    outcome.rms = trial->model.errors->rms();
+    outcome.met = outcome.rms <= target.accepted, outcome.whole = trial->wrong == 0;
+    const std::size_t wrong = n_wrong_handles({report.components, report.genus}, target.topology);
+    if (!result.model.errors || rank(trial->model, trial->wrong, target.accepted) <
+                                    rank(result.model, wrong, target.accepted)) {
+      result.model = trial->model;
+      report.components = trial->topology.components, report.genus = trial->topology.genus;
       report.uncovered = target.uncovered;
-      report.met = outcome.met, report.topology_kept = trial.odd == 0;
+      report.met = outcome.met, report.topology_kept = outcome.whole;
     }
     // No number is saved where more than the tolerance would do.
     const bool good = aims.is_close(outcome.rms) || target.tolerance < target.accepted;
-    if (outcome.met && !outcome.odd && good) break;
-    if (outcome.met && outcome.odd && !overlap.settles) {
+    if (outcome.met && outcome.whole && good) break;
+    if (outcome.met && !outcome.whole && !overlap.settles) {
       state.aim = std::min(aims.aim(), aims.corrected(outcome.rms));
       break;
     }
-    if (trial.odd > kFewHandles && outcome.rms <= target.tolerance) break;
+    // (Farther than aimed at, they may be due to that.)
+    if (trial->wrong > kFewHandles && outcome.rms <= target.tolerance) break;
     if (!aims.advance(outcome)) break;
   }
 }

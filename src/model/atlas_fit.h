@@ -17,12 +17,11 @@ struct Topology {
   friend bool operator==(const Topology&, const Topology&) = default;
 };
 inline Topology topology_of(const Inspection& found) { return {found.components, found.genus}; }
-// Parts and handles that one has and the other has not; none where nothing is wanted.
-std::size_t n_odd(const Topology& found, const std::optional<Topology>& wanted);
+// Parts and handles too many or too few; none where nothing is wanted.
+std::size_t n_wrong_handles(const Topology& found, const std::optional<Topology>& wanted);
 
-// With more than these on a surface that is near enough, no other grid, aim, or finer caps are
-// likely to mend it: handles are seen as if by chance, and with h in one grid another has none in
-// about exp(-h). (A wider band is tried in any case.)
+// More than these on a surface that is near enough are not mended by other grids, aims or finer
+// caps: handles are seen as if by chance, and with h in one grid another has none in about exp(-h).
 constexpr std::size_t kFewHandles = 3;
 
 // How far caps speak, of the support they were chosen with, and the power of it that small ones
@@ -42,12 +41,13 @@ struct FitTarget {
   double step = 0;                   // of the grid
   int max_degree = 14;
   double uncovered = 0;  // share of the samples that the caps were not chosen for
+  std::function<Mesh(const AtlasModel&)> surface;
   std::function<AtlasErrors(const Mesh&)> measure;
 };
 
 // What a fit leaves to the next.
 struct FitState {
-  int searches = 2;  // for a grid with the right handles, in vain; each takes seven extractions
+  int searches = 2;  // through all grids that may end with wrong handles; each as long as seven
   double aim = 0;    // for the same caps, as far as it is known; 0: it is not
 };
 

@@ -3,6 +3,9 @@ take it. trial.do(name, words, out=..., codes=...) runs one, checks it, and says
 
 import json
 
+from harness import RHOLM
+from limits import Run
+
 DONE = {0}
 REFUSED = {3}  # the shape is not one that this command can take
 DONE_OR_REFUSED = DONE | REFUSED
@@ -194,16 +197,25 @@ def caps(trial):
         trial.do(f"analyze --atlas {tolerance}", "analyze", m, "--atlas", "--json", "--tolerance",
                  tolerance, "--unit", "diagonal", out=f"{name}.h5", codes=ANY)
         if trial.has(f"{name}.h5"):
-            said = b"other parts or handles" in trial.last.err
-            if said == json.loads(trial.last.out)["topology_kept"]:
-                trial.faults.append((f"analyze --atlas {tolerance}", "a wrong word on its handles"))
-            atlas_model(trial, name)
+            reported = trial.last
+            if atlas_model(trial, name):
+                check_handles(trial, name, reported)
+
+
+def check_handles(trial, name, reported):
+    """What was reported of the surface is what its file has, and wrong handles are warned of."""
+    found = json.loads(reported.out)
+    surface = json.loads(Run([RHOLM, "info", f"{name}.off", "--json"], trial.folder).out)
+    if (found["components"], found["genus"]) != (surface["components"], surface["genus"]):
+        trial.faults.append((f"synthesize {name}.h5", "other handles than was reported"))
+    if (b"parts and" in reported.err) == found["topology_kept"]:
+        trial.faults.append((f"analyze --atlas {name}", "a wrong word on its handles"))
 
 
 def atlas_model(trial, name):
     a, words = name + ".h5", ("synthesize", name + ".h5")
     if not trial.do("synthesize atlas", *words, out=f"{name}.off", codes=DONE):
-        return
+        return False
     trial.do("synthesize --degree-limit", *words, "--degree-limit", "2", out=f"{name}-2.off",
              codes=DONE_OR_REFUSED)
     trial.do("synthesize --simplify", *words, "--simplify", "50%", out=f"{name}-half.off",
@@ -211,7 +223,7 @@ def atlas_model(trial, name):
     trial.do("synthesize --resolution", *words, "--resolution", repr(trial.diagonal / 30),
              out=f"{name}-30.off", codes=DONE_OR_REFUSED)
     if name != "atlas-2e-2":
-        return
+        return True
     trial.do("report atlas", "report", a, "--shape", trial.mesh, "--size", "32", out="atlas.html",
              codes=DONE)
     # These take coefficients of one function only.
@@ -220,3 +232,4 @@ def atlas_model(trial, name):
     trial.do("spectrum atlas", "spectrum", a, codes=REFUSED)
     trial.do("rotate atlas", "rotate", a, "--mirror", "x", out="r.h5", codes=REFUSED)
     trial.do("filter atlas", "filter", a, "--low-pass", "2", out="f.h5", codes=REFUSED)
+    return True
