@@ -103,6 +103,7 @@ TEST(compress, shapes_too_thin_for_the_grid_are_refused_at_once) {
   EXPECT_EQ(code_of(box({1, 1, 1e-3}, 20), 2e-2), ErrorCode::kUnsupported);
   EXPECT_EQ(code_of(box({1, 1, 2e-3}, 20), 2e-2), ErrorCode::kUnsupported);
   EXPECT_EQ(code_of(box({1, 1, 1e-9}, 2), 2e-2), ErrorCode::kUnsupported);
+  EXPECT_EQ(code_of(box({1, 1, 1.0 / 95}, 2), 2e-2), ErrorCode::kUnsupported);
   const Mesh flat{.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
                   .triangles = {{0, 1, 2}, {0, 2, 3}, {2, 1, 0}, {3, 2, 0}},
                   .attributes = {}};
