@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
+#include <limits>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -91,16 +93,18 @@ AtlasLevel LevelMaker::usable_at(int degree) const {
 Mesh level_surface(const Atlas& level, const Mesh& whole, const AtlasSurfaceOptions& options,
                    const Context& context) {
   const Topology wanted = topology_of(inspect(whole));
-  Mesh first;
-  for (const double part : kBands) {
+  Mesh best;
+  std::size_t least = std::numeric_limits<std::size_t>::max();  // wrong handles
+  for (std::size_t i = 0; i < std::size(kBands) && least > 0; ++i) {
+    if (i > 1 && least > kFewHandles && !best.triangles.empty()) break;
     Atlas other = level;
-    other.band *= part;
+    other.band *= kBands[i];
     Mesh surface = extract_atlas(other, options, context).mesh;
     if (surface.triangles.empty()) continue;
-    if (topology_of(inspect(surface)) == wanted) return surface;
-    if (first.triangles.empty()) first = std::move(surface);
+    const std::size_t wrong = n_wrong_handles(topology_of(inspect(surface)), wanted);
+    if (wrong < least) least = wrong, best = std::move(surface);
   }
-  return first;
+  return best;
 }
 
 }  // namespace rholm

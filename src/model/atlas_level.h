@@ -38,7 +38,7 @@ class LevelMaker {
 };
 
 // The surface of a level; connected as the surface of the whole model is, if a band can be found
-// within which caps are averaged so.
+// within which caps are averaged so, or as nearly as one that was tried.
 Mesh level_surface(const Atlas& level, const Mesh& whole, const AtlasSurfaceOptions& options,
                    const Context& context);
 
