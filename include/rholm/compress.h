@@ -77,8 +77,7 @@ struct Compressed {
 // InvalidInput for shapes without area, triangles that are not oriented alike, and options out of
 // range; Unsupported for shapes too thin for the grid, and where the caps would take more numbers
 // than the shape. The tolerance may be missed, see `met`, and so may parts and handles, see
-// `topology_kept`. Same input, same bits for any number of
-// threads.
+// `topology_kept`. Same input, same bits for any number of threads.
 Compressed compress(const Mesh& mesh, const CompressOptions& options, const Context& context = {});
 Compressed compress(const PointCloud& cloud, const CompressOptions& options,
                     const Context& context = {});

@@ -142,8 +142,10 @@ void fit_atlas(const FitTarget& target, const Atlas& chosen, const Overlap& over
         return search_grid(target, model, std::move(first), parts, state.searches);
       });
     } catch (const Error& error) {
-      // What there is already stands.
-      if (error.code() == ErrorCode::kCancelled || !result.model.errors) throw;
+      // No surface, or none that memory allows: what there is already stands.
+      const bool none =
+          error.code() == ErrorCode::kInvalidInput || error.code() == ErrorCode::kOutOfMemory;
+      if (!none || !result.model.errors) throw;
       break;
     }
     outcome.rms = trial->model.errors->rms();

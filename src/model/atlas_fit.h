@@ -14,7 +14,6 @@ namespace rholm {
 // How a closed surface hangs together.
 struct Topology {
   std::size_t components = 0, genus = 0;
-  friend bool operator==(const Topology&, const Topology&) = default;
 };
 inline Topology topology_of(const Inspection& found) { return {found.components, found.genus}; }
 // Parts and handles too many or too few; none where nothing is wanted.
