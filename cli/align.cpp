@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/command.h"
+#include "cli/commands.h"
 #include "cli/convention.h"
 #include "cli/inputs.h"
 #include "cli/interrupt.h"

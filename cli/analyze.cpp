@@ -7,7 +7,7 @@
 #include "cli/analyze_options.h"
 #include "cli/analyze_report.h"
 #include "cli/atlas_report.h"
-#include "cli/command.h"
+#include "cli/commands.h"
 #include "cli/inputs.h"
 #include "cli/outputs.h"
 #include "cli/parse.h"

@@ -25,16 +25,6 @@ std::string length_text(double value, double diagonal) {
 
 }  // namespace
 
-bool holds_atlas(const std::string& path) {
-  std::error_code ignored;
-  if (path == "-" || !std::filesystem::is_regular_file(path, ignored)) return false;
-  try {
-    return is_atlas_file(path);
-  } catch (const Error&) {
-    return false;  // whoever reads it says what is wrong
-  }
-}
-
 Json atlas_json(const AtlasModel& model) {
   const AtlasSize size = size_of(model.atlas);
   Json json;

@@ -10,9 +10,6 @@
 
 namespace rholm::cli {
 
-// Whether a file holds an atlas; streams and what cannot be read do not.
-bool holds_atlas(const std::string& path);
-
 // Caps, numbers, errors: what a model says of itself.
 Json atlas_json(const AtlasModel& model);
 std::string atlas_text(const AtlasModel& model);

@@ -8,7 +8,7 @@
 
 #include "cli/bench_mesh.h"
 #include "cli/bench_report.h"
-#include "cli/command.h"
+#include "cli/commands.h"
 #include "cli/inputs.h"
 #include "cli/interrupt.h"
 #include "cli/parse.h"

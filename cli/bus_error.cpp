@@ -3,7 +3,7 @@
 #include <signal.h>
 #include <unistd.h>
 
-#include "cli/program.h"
+#include "cli/exit_code.h"
 #include "rholm/file.h"
 
 namespace rholm::cli {

@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include "cli/command.h"
+#include "cli/commands.h"
+#include "cli/exit_code.h"
 #include "cli/inputs.h"
 #include "cli/parse.h"
 #include "cli/prepare.h"
-#include "cli/program.h"
 #include "cli/report.h"
 #include "cli/session.h"
 #include "rholm/error.h"

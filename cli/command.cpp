@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "cli/session.h"
+
 namespace rholm::cli {
 
 std::vector<Option> common_options(CommonOptions& values) {
@@ -19,17 +21,12 @@ std::vector<Option> common_options(CommonOptions& values) {
   };
 }
 
-void append(std::vector<Option>& list, std::vector<Option> more) {
-  for (Option& option : more) list.push_back(std::move(option));
+Option json_option(bool& json) {
+  return {.name = "json", .help = "the report as JSON on standard output", .target = &json};
 }
 
-std::vector<Command> all_commands() {
-  return {info_command(),        repair_command(),     simplify_command(),   center_command(),
-          analyze_command(),     synthesize_command(), spectrum_command(),   compare_command(),
-          convert_command(),     render_command(),     report_command(),     make_command(),
-          filter_command(),      recenter_command(),   rotate_command(),     align_command(),
-          smooth_command(),      transfer_command(),   orient_command(),     partition_command(),
-          reconstruct_command(), bench_command(),      completion_command(), man_page_command()};
+void append(std::vector<Option>& list, std::vector<Option> more) {
+  for (Option& option : more) list.push_back(std::move(option));
 }
 
 }  // namespace rholm::cli

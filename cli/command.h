@@ -55,41 +55,13 @@ struct Command {
 };
 
 // --threads and --quiet, which every command has.
-struct CommonOptions {
-  int threads = 0;
-  bool quiet = false;
-};
+struct CommonOptions;
 std::vector<Option> common_options(CommonOptions& values);
+
+// --json, which every command that reports has.
+Option json_option(bool& json);
 
 // `more` behind `list`.
 void append(std::vector<Option>& list, std::vector<Option> more);
-
-// The commands in the order of the pipeline, one file each.
-Command info_command();
-Command repair_command();
-Command simplify_command();
-Command center_command();
-Command analyze_command();
-Command synthesize_command();
-Command spectrum_command();
-Command compare_command();
-Command convert_command();
-Command render_command();
-Command report_command();
-Command make_command();
-Command filter_command();
-Command recenter_command();
-Command rotate_command();
-Command align_command();
-Command smooth_command();
-Command transfer_command();
-Command orient_command();
-Command partition_command();
-Command reconstruct_command();
-Command bench_command();
-Command completion_command();
-Command man_page_command();
-
-std::vector<Command> all_commands();
 
 }  // namespace rholm::cli

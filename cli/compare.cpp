@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/command.h"
+#include "cli/commands.h"
 #include "cli/length_units.h"
 #include "cli/report.h"
 #include "cli/session.h"

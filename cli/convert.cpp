@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "cli/command.h"
+#include "cli/commands.h"
 #include "cli/convention.h"
 #include "cli/inputs.h"
 #include "cli/interrupt.h"

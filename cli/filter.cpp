@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/command.h"
+#include "cli/commands.h"
 #include "cli/convention.h"
 #include "cli/gain_file.h"
 #include "cli/inputs.h"

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "cli/session.h"
 #include "rholm/rholm.h"
 
 namespace rholm::cli {

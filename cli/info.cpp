@@ -6,7 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "cli/atlas_report.h"
-#include "cli/command.h"
+#include "cli/commands.h"
 #include "cli/inputs.h"
 #include "cli/prepare.h"
 #include "cli/report.h"

@@ -15,6 +15,7 @@
 #include <fmt/ranges.h>
 
 #include "cli/interrupt.h"
+#include "rholm/compress.h"
 #include "rholm/error.h"
 #include "rholm/model.h"
 
@@ -255,6 +256,16 @@ Input read_surface_input(const std::string& path, Session& session,
     say_what_it_means(*file, path, session, convention);
   }
   return input;
+}
+
+bool holds_atlas(const std::string& path) {
+  std::error_code ignored;
+  if (path == "-" || !std::filesystem::is_regular_file(path, ignored)) return false;
+  try {
+    return is_atlas_file(path);
+  } catch (const Error&) {
+    return false;  // whoever reads it says what is wrong
+  }
 }
 
 Mesh mesh_of(ShapeFile file, const std::string& path, Session& session) {

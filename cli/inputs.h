@@ -31,6 +31,9 @@ Expansion read_expansion(const std::string& path, Session& session,
 Input read_surface_input(const std::string& path, Session& session,
                          const InputConvention& convention);
 
+// Whether a file holds an atlas; streams and what cannot be read do not.
+bool holds_atlas(const std::string& path);
+
 // The mesh of a file, its warnings passed on; points are refused.
 Mesh mesh_of(ShapeFile file, const std::string& path, Session& session);
 Mesh read_mesh(const std::string& path, Session& session);

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/command.h"
+#include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/make_sample.h"
 #include "cli/outputs.h"

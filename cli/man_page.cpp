@@ -1,7 +1,4 @@
 // The manual page, written in troff's man macros.
-#include <cstdio>
-#include <memory>
-
 #include <fmt/format.h>
 
 #include "cli/help.h"
@@ -58,16 +55,6 @@ std::string command_section(const Command& command) {
   return text + ".fi\n";
 }
 
-struct Options {
-  std::string date = "1970-01-01";
-};
-
-int run(const Options& options) {
-  const std::string text = man_page(all_commands(), options.date);
-  std::fwrite(text.data(), 1, text.size(), stdout);
-  return 0;
-}
-
 }  // namespace
 
 std::string man_page(std::span<const Command> commands, const std::string& date) {
@@ -102,20 +89,6 @@ std::string man_page(std::span<const Command> commands, const std::string& date)
       ".SH ENVIRONMENT\n"
       ".TP\n\\fBNO_COLOR\\fR\nIf set and not empty, messages have no colours.\n";
   return text;
-}
-
-Command man_page_command() {
-  auto options = std::make_shared<Options>();
-  return {.name = "man-page",
-          .summary = "Write the manual page",
-          .description = "Writes the manual page in troff's man macros to standard output.",
-          .options = {{.name = "date",
-                       .value = "YYYY-MM-DD",
-                       .help = "the date it bears",
-                       .target = &options->date}},
-          .examples = {"rholm man-page --date 2000-01-01 | man -l -"},
-          .run = [options](Session&) { return run(*options); },
-          .hidden = true};
 }
 
 }  // namespace rholm::cli

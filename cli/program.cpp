@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "cli/commands.h"
+#include "cli/exit_code.h"
 #include "cli/help.h"
 #include "cli/interrupt.h"
 #include "cli/parse.h"

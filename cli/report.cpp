@@ -5,8 +5,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "cli/command.h"
-
 namespace rholm::cli {
 namespace {
 
@@ -33,10 +31,6 @@ Json json_of(const std::vector<Attribute>& attributes) {
     list.push_back({{"name", attribute.name}, {"type", name_of(attribute.type)}});
   }
   return list;
-}
-
-Option json_option(bool& json) {
-  return {.name = "json", .help = "the report as JSON on standard output", .target = &json};
 }
 
 Json json_of(const TruncationErrors& errors) {

@@ -28,10 +28,6 @@ inline Json json_of(const std::optional<TruncationErrors>& errors) {
   return errors ? json_of(*errors) : Json(nullptr);
 }
 
-// "--json" itself.
-struct Option;
-Option json_option(bool& json);
-
 // Writes a report to standard output.
 void print_json(const Json& json);
 void print_text(const std::string& text);

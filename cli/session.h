@@ -6,11 +6,16 @@
 #include <string>
 #include <string_view>
 
-#include "cli/command.h"
 #include "rholm/context.h"
 #include "rholm/model.h"
 
 namespace rholm::cli {
+
+// What every command can be told.
+struct CommonOptions {
+  int threads = 0;  // 0: one per processor
+  bool quiet = false;
+};
 
 // Text on standard error. Colours only on a terminal and without NO_COLOR.
 void print_error(const std::string& message);

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "cli/atlas_report.h"
 #include "rholm/compress.h"
 #include "rholm/primitives.h"
 #include "rholm/synthesize.h"

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/command.h"
+#include "cli/commands.h"
 #include "cli/inputs.h"
 #include "cli/interrupt.h"
 #include "cli/outputs.h"

@@ -281,5 +281,11 @@ VertexRange vertex_range(const MeshView& mesh, std::size_t begin, std::size_t en
   return HWY_DYNAMIC_DISPATCH(Range)(mesh, begin, end);
 }
 
+double diagonal_of(const MeshView& mesh) {
+  const VertexRange range = vertex_range(mesh, 0, mesh.n_vertices);
+  return norm(
+      {range.max[0] - range.min[0], range.max[1] - range.min[1], range.max[2] - range.min[2]});
+}
+
 }  // namespace rholm
 #endif  // HWY_ONCE

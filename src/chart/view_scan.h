@@ -29,6 +29,9 @@ struct VertexRange {
 };
 VertexRange vertex_range(const MeshView& mesh, std::size_t begin, std::size_t end);
 
+// Of the bounding box.
+double diagonal_of(const MeshView& mesh);
+
 // Seen from a point of the unit frame.
 struct ScanLimits {
   double distance = -std::numeric_limits<double>::infinity();  // d_T

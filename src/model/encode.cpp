@@ -10,8 +10,8 @@
 #include "rholm/mapped_mesh.h"
 #include "rholm/model.h"
 #include "rholm/shape_io.h"
+#include "transform/analyze.h"
 #include "transform/exact_norms.h"
-#include "transform/mesh_pass.h"
 #include "transform/tolerance.h"
 
 namespace rholm {
@@ -46,12 +46,6 @@ StarChart chart_of(Topology& topology, const ChartOptions& options, const Contex
                                           "out; then: ") +
                                   error.what());
   }
-}
-
-double diagonal_of(const MeshView& mesh) {
-  const VertexRange range = vertex_range(mesh, 0, mesh.n_vertices);
-  return norm(
-      {range.max[0] - range.min[0], range.max[1] - range.min[1], range.max[2] - range.min[2]});
 }
 
 StarReport star_report(const MeshPassResult& pass, const Vec3& center) {

@@ -11,11 +11,13 @@
 #include <utility>
 
 #include "model/hdf5_handle.h"
-#include "model/model_layout.h"
 #include "rholm/error.h"
 #include "rholm/vec3.h"
 
 namespace rholm::hdf5 {
+
+// Of one object, all in its header (chosen: ample).
+inline constexpr unsigned kMaxAttributes = 64;
 
 class Writer {
  public:
@@ -112,7 +114,7 @@ class Writer {
   Handle quiet_creation(hid_t kind) const {
     Handle creation(checked(H5Pcreate(kind), "create properties"), H5Pclose);
     checked(H5Pset_obj_track_times(creation, false), "leave out times");
-    checked(H5Pset_attr_phase_change(creation, layout::kMaxAttributes, 0), "keep attributes");
+    checked(H5Pset_attr_phase_change(creation, kMaxAttributes, 0), "keep attributes");
     return creation;
   }
 

@@ -58,6 +58,4 @@ inline constexpr const char* kAtlasErrors = "errors";  // rms and max from the s
 inline constexpr std::size_t kErrorNumbers = 4;
 inline constexpr const char* kInputNumbers = "input_numbers";
 
-inline constexpr unsigned kMaxAttributes = 64;  // in the header of an object; chosen: ample
-
 }  // namespace rholm::layout

@@ -1,4 +1,4 @@
-#include "rholm/analyze.h"
+#include "transform/analyze.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,11 +7,9 @@
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "rholm/error.h"
-#include "transform/mesh_pass.h"
 #include "transform/methods.h"
 #include "transform/parseval.h"
 #include "transform/star_geometry.h"
-#include "transform/tolerance.h"
 
 namespace rholm {
 
@@ -140,6 +138,18 @@ void set_pass(MeshPassResult& pass, Analysis& analysis) {
   analysis.fast = pass.report;
   analysis.times.insert(pass.times.begin(), pass.times.end());
   analysis.expansion.coefficients = std::move(pass.coefficients);
+}
+
+double known_error(const Analysis& analysis) {
+  if (!analysis.fast) return analysis.precision;
+  // The fast engine's is relative to the degrees found, which may hold next to nothing.
+  const Coefficients& c = analysis.expansion.coefficients;
+  const double mean = c.c(0, 0);
+  const double varying = analysis.expansion.norm_squared.value_or(0) - mean * mean;
+  if (!(varying > 0)) return analysis.fast->error;
+  double found = 0;
+  for (const double value : c.values().subspan(1)) found += value * value;
+  return analysis.fast->error * std::sqrt(std::min(1.0, found / varying));
 }
 
 void finish_analysis(const AnalyzeOptions& options, const Vec3& center, Analysis& analysis) {

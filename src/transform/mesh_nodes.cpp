@@ -115,8 +115,6 @@ void visit_radius(const std::array<Vec3, 3>& p, double factor, const NodeAllowan
 
 }  // namespace
 
-double grazing_slope(int degree) { return std::min(0.25, 1.0 / (8 * std::max(degree, 1))); }
-
 NodeWriter::NodeWriter(const NodeOptions& options, NodeSink& sink)
     : options_(options),
       grazing_(grazing_slope(options.divided.degree)),

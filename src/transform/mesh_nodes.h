@@ -31,11 +31,6 @@ class NodeSink {
   virtual void add_undivided(const Vec3& x, double weight) = 0;
 };
 
-// Below this d_T / r a triangle is taken out of (M6) and summed by bounded terms (method 3e). Those
-// have gradients, whose error in the windows of the fast sums is some 9 L times that of weights
-// (measured): that much larger the terms of (M6), about r / d_T, may well be.
-double grazing_slope(int degree);
-
 struct NodeOptions {
   NodeAllowance divided;
   NodeAllowance undivided;

@@ -37,14 +37,4 @@ struct MeshPassResult {
 MeshPassResult mesh_pass(const MeshView& mesh, const MeshPassOptions& options,
                          const Context& context);
 
-// The parts of analyze() for those who have no chart, or no need of norms.
-RadialFunction function_of(Method method);
-Analysis analyze_without_norms(const StarChart& chart, const AnalyzeOptions& options,
-                               const Context& context);
-void check(const AnalyzeOptions& options);
-bool uses_mesh_pass(const AnalyzeOptions& options);
-void set_pass(MeshPassResult& pass, Analysis& analysis);
-// All else that is known of the expansion but its norms.
-void finish_analysis(const AnalyzeOptions& options, const Vec3& center, Analysis& analysis);
-
 }  // namespace rholm

@@ -13,7 +13,6 @@
 #include "rholm/error.h"
 #include "transform/mesh_coherence.h"
 #include "transform/mesh_lumping.h"
-#include "transform/mesh_nodes.h"
 #include "transform/star_geometry.h"
 
 namespace rholm {

@@ -239,6 +239,8 @@ HermiteReach hermite_face_reach(double error) {
   return reach_of(kHermiteFaces, kHermiteFaceUnits, error);
 }
 
+double grazing_slope(int degree) { return std::min(0.25, 1.0 / (8 * std::max(degree, 1))); }
+
 double lumping_error(int degree) {
   return kLumpingConstant * degree_factor({.degree = degree, .error = 0, .divided = true}, 4);
 }

@@ -48,6 +48,11 @@ double neighbours_in_step(double wave2);
 EdgeRule edge_rule(const NodeAllowance& allowance, const Extent& z, double weight);
 std::span<const FaceNode> face_rule(const NodeAllowance& allowance, const Extent& z, double weight);
 
+// Below this d_T / r a triangle is taken out of (M6) and summed by bounded terms (method 3e). Those
+// have gradients, whose error in the windows of the fast sums is some 9 L times that of weights
+// (measured): that much larger the terms of (M6), about r / d_T, may well be.
+double grazing_slope(int degree);
+
 // Error of lumping (VG) per unit of weight and z^4 / L: 1/720 of Hermite's rule, the mean of cos^8
 // over directions 35/128, p = 4.
 double lumping_error(int degree);

@@ -4,9 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "chart/view_scan.h"
 #include "rholm/error.h"
+#include "transform/analyze.h"
+#include "transform/exact_norms.h"
 
 namespace rholm {
+
 void check(const Tolerance& tolerance) {
   if (!(tolerance.error > 0 && std::isfinite(tolerance.error))) {
     throw Error(ErrorCode::kInvalidInput,
@@ -50,18 +54,6 @@ Precisions precisions_for(const ToleranceProblem& problem, const Tolerance& tole
   return {.pilot = std::max(final, std::clamp(coarse, 1e-7, 1e-3)), .final = final};
 }
 
-double known_error(const Analysis& analysis) {
-  if (!analysis.fast) return analysis.precision;
-  // The fast engine's is relative to the degrees found, which may hold next to nothing.
-  const Coefficients& c = analysis.expansion.coefficients;
-  const double mean = c.c(0, 0);
-  const double varying = analysis.expansion.norm_squared.value_or(0) - mean * mean;
-  if (!(varying > 0)) return analysis.fast->error;
-  double found = 0;
-  for (const double value : c.values().subspan(1)) found += value * value;
-  return analysis.fast->error * std::sqrt(std::min(1.0, found / varying));
-}
-
 const char* to_string(ErrorNorm norm) { return norm == ErrorNorm::kRms ? "rms" : "max"; }
 
 const char* to_string(ErrorMeasure measure) {
@@ -101,6 +93,41 @@ ErrorMeasure parse_error_measure(const std::string& name) {
     if (name == to_string(measure)) return measure;
   }
   throw Error(ErrorCode::kInvalidInput, "unknown measure '" + name + "': radius or distance");
+}
+
+ToleranceAnalysis analyze(const StarChart& chart, const Tolerance& tolerance,
+                          const AnalyzeOptions& options, const Context& context) {
+  check(tolerance);
+  check(options);
+  if (function_of(options.method) != RadialFunction::kRadius) {
+    throw Error(ErrorCode::kInvalidInput,
+                "a tolerance is one of the radius: the method gauge expands its inverse");
+  }
+  if (!chart.report.star_shaped) {
+    throw Error(ErrorCode::kInvalidInput,
+                "a tolerance needs a surface that every direction meets once: give a degree");
+  }
+  const ExactNorms norms = exact_norms(view_of(chart.mesh), {}, context);
+  const auto analyzed = [&](AnalyzeOptions wanted, int degree, double precision) {
+    wanted.degree = degree;
+    wanted.precision = precision;
+    return analyze_without_norms(chart, wanted, context);
+  };
+  // Pilots by the fast sums whatever the method: the coefficients are the same.
+  const ToleranceProblem problem{
+      .mesh = view_of(chart.mesh),
+      .center = {},
+      .norm_squared = norms.radius_squared,
+      .diagonal = diagonal_of(view_of(chart.mesh)),
+      .precision = options.precision,
+      .pilot = [&](int degree, double p) { return analyzed({}, degree, p); },
+      .transform = [&](int degree, double p) { return analyzed(options, degree, p); }};
+  const Analysis pilot = problem.pilot(first_degree(chart.mesh.triangles.size(), tolerance),
+                                       precisions_for(problem, tolerance).pilot);
+  ToleranceAnalysis result = search_tolerance(problem, tolerance, pilot, context);
+  result.analysis.expansion.tail_strength = tail_strength(chart, RadialFunction::kRadius);
+  finish_analysis(options, chart.report.center, result.analysis);
+  return result;
 }
 
 }  // namespace rholm

@@ -39,9 +39,6 @@ struct Precisions {
 };
 Precisions precisions_for(const ToleranceProblem& problem, const Tolerance& tolerance);
 
-// The relative error of the coefficients, l2 without the mean.
-double known_error(const Analysis& analysis);
-
 // `pilot`: coefficients of first_degree(). Pilots of higher degrees follow until the error of what
 // there is, measured at points, is within the tolerance, and say which degree is the smallest; then
 // coefficients of that degree in full precision. Their `errors` are set where the tolerance is not

@@ -8,6 +8,7 @@
 
 #include "base/compensated_sum.h"
 #include "base/parallel.h"
+#include "transform/analyze.h"
 #include "transform/degree_bracket.h"
 #include "transform/error_of_degree.h"
 #include "transform/error_sites.h"

@@ -7,15 +7,12 @@
 
 #include "base/parallel.h"
 #include "chart/view_scan.h"
-#include "rholm/error.h"
 #include "transform/distance_check.h"
 #include "transform/error_peaks.h"
 #include "transform/error_points.h"
 #include "transform/error_sites.h"
 #include "transform/exact_norms.h"
-#include "transform/mesh_pass.h"
 #include "transform/parseval.h"
-#include "transform/tolerance.h"
 
 namespace rholm {
 namespace {
@@ -27,12 +24,6 @@ std::optional<double> parseval_rms(const Expansion& expansion, double precision)
   const CoefficientErrors errors =
       coefficient_errors(norm_squared, expansion.coefficients, precision, precision);
   return rms_of(parseval_rest(norm_squared, expansion.coefficients, errors), 50);
-}
-
-double diagonal_of(const MeshView& mesh) {
-  const VertexRange range = vertex_range(mesh, 0, mesh.n_vertices);
-  return norm(
-      {range.max[0] - range.min[0], range.max[1] - range.min[1], range.max[2] - range.min[2]});
 }
 
 void predict(const Expansion& expansion, ErrorSites& sites, TruncationErrors& errors) {
@@ -128,41 +119,6 @@ TruncationErrors truncation_errors(const Expansion& expansion, const TruncationO
   report_progress(context, "errors", 0.9);
   if (options.predict) predict(expansion, sites, errors);
   return errors;
-}
-
-ToleranceAnalysis analyze(const StarChart& chart, const Tolerance& tolerance,
-                          const AnalyzeOptions& options, const Context& context) {
-  check(tolerance);
-  check(options);
-  if (function_of(options.method) != RadialFunction::kRadius) {
-    throw Error(ErrorCode::kInvalidInput,
-                "a tolerance is one of the radius: the method gauge expands its inverse");
-  }
-  if (!chart.report.star_shaped) {
-    throw Error(ErrorCode::kInvalidInput,
-                "a tolerance needs a surface that every direction meets once: give a degree");
-  }
-  const ExactNorms norms = exact_norms(view_of(chart.mesh), {}, context);
-  const auto analyzed = [&](AnalyzeOptions wanted, int degree, double precision) {
-    wanted.degree = degree;
-    wanted.precision = precision;
-    return analyze_without_norms(chart, wanted, context);
-  };
-  // Pilots by the fast sums whatever the method: the coefficients are the same.
-  const ToleranceProblem problem{
-      .mesh = view_of(chart.mesh),
-      .center = {},
-      .norm_squared = norms.radius_squared,
-      .diagonal = diagonal_of(view_of(chart.mesh)),
-      .precision = options.precision,
-      .pilot = [&](int degree, double p) { return analyzed({}, degree, p); },
-      .transform = [&](int degree, double p) { return analyzed(options, degree, p); }};
-  const Analysis pilot = problem.pilot(first_degree(chart.mesh.triangles.size(), tolerance),
-                                       precisions_for(problem, tolerance).pilot);
-  ToleranceAnalysis result = search_tolerance(problem, tolerance, pilot, context);
-  result.analysis.expansion.tail_strength = tail_strength(chart, RadialFunction::kRadius);
-  finish_analysis(options, chart.report.center, result.analysis);
-  return result;
 }
 
 }  // namespace rholm

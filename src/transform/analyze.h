@@ -1,0 +1,22 @@
+// What analyze() is made of, for those who have no chart, or no need of norms. Layer: transform.
+#pragma once
+
+#include "rholm/analyze.h"
+#include "rholm/context.h"
+#include "rholm/star.h"
+#include "transform/mesh_pass.h"
+
+namespace rholm {
+
+RadialFunction function_of(Method method);
+Analysis analyze_without_norms(const StarChart& chart, const AnalyzeOptions& options,
+                               const Context& context);
+void check(const AnalyzeOptions& options);
+bool uses_mesh_pass(const AnalyzeOptions& options);
+void set_pass(MeshPassResult& pass, Analysis& analysis);
+// All else that is known of the expansion but its norms.
+void finish_analysis(const AnalyzeOptions& options, const Vec3& center, Analysis& analysis);
+// The relative error of the coefficients, l2 without the mean.
+double known_error(const Analysis& analysis);
+
+}  // namespace rholm
