@@ -7,8 +7,8 @@
 #include <memory>
 #include <vector>
 
-#include "chart/kernel.h"
-#include "chart/view_scan.h"
+#include "chart/center/kernel.h"
+#include "chart/center/view_scan.h"
 #include "rholm/primitives.h"
 
 namespace rholm {

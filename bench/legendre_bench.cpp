@@ -14,7 +14,7 @@
 
 #include "base/aligned_array.h"
 #include "base/parallel.h"
-#include "harmonic/ring_sums.h"
+#include "harmonic/rings/ring_sums.h"
 #include "rholm/grid.h"
 #include "rholm/harmonic.h"
 

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "base/random.h"
-#include "harmonic/fft.h"
-#include "harmonic/nonuniform.h"
+#include "harmonic/fft/fft.h"
+#include "harmonic/nonuniform/nonuniform.h"
 
 namespace rholm {
 namespace {

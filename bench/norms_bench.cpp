@@ -9,10 +9,10 @@
 #include <memory>
 #include <vector>
 
-#include "chart/view_scan.h"
+#include "chart/center/view_scan.h"
 #include "rholm/analyze.h"
 #include "rholm/primitives.h"
-#include "transform/exact_norms.h"
+#include "transform/norms/exact_norms.h"
 
 namespace rholm {
 namespace {

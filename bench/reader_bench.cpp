@@ -17,8 +17,8 @@
 #include <string>
 #include <vector>
 
-#include "io/atomic_file.h"
-#include "io/output_buffer.h"
+#include "io/file/atomic_file.h"
+#include "io/file/output_buffer.h"
 #include "rholm/shape_io.h"
 
 namespace rholm {

@@ -1,7 +1,7 @@
 // The program rholm. Layer: cli.
-#include "cli/bus_error.h"
-#include "cli/interrupt.h"
 #include "cli/program.h"
+#include "cli/terminal/bus_error.h"
+#include "cli/terminal/interrupt.h"
 
 int main(int argc, char** argv) {
   rholm::cli::install_signal_handlers();

@@ -8,12 +8,12 @@
 
 #include <fmt/format.h>
 
-#include "cli/commands.h"
-#include "cli/exit_code.h"
-#include "cli/help.h"
-#include "cli/interrupt.h"
-#include "cli/parse.h"
-#include "cli/session.h"
+#include "cli/commands/commands.h"
+#include "cli/grammar/help.h"
+#include "cli/grammar/parse.h"
+#include "cli/terminal/exit_code.h"
+#include "cli/terminal/interrupt.h"
+#include "cli/terminal/session.h"
 #include "rholm/error.h"
 
 namespace rholm::cli {

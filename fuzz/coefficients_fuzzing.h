@@ -8,8 +8,8 @@
 #include <span>
 #include <string>
 
-#include "io/coefficients_codec.h"
-#include "io/expansion_check.h"
+#include "io/coefficients/codec.h"
+#include "io/coefficients/expansion_check.h"
 #include "rholm/coefficients_io.h"
 #include "rholm/error.h"
 

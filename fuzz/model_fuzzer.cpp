@@ -1,5 +1,5 @@
 #include "coefficients_fuzzing.h"
-#include "model/model_read.h"
+#include "model/file/model_read.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   rholm::Expansion expansion;

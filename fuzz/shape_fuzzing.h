@@ -10,8 +10,8 @@
 #include <variant>
 #include <vector>
 
-#include "io/output_buffer.h"
-#include "io/shape_writers.h"
+#include "io/file/output_buffer.h"
+#include "io/shapes/shape_writers.h"
 #include "rholm/error.h"
 #include "rholm/shape_io.h"
 

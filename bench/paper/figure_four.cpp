@@ -6,10 +6,10 @@
 #include "rholm/analyze.h"
 #include "rholm/monte_carlo.h"
 #include "rholm/primitives.h"
-#include "transform/monte_carlo_edge.h"
-#include "transform/monte_carlo_rules.h"
-#include "transform/quadrature.h"
-#include "transform/star_geometry.h"
+#include "transform/geometry/star_geometry.h"
+#include "transform/monte_carlo/edge_terms.h"
+#include "transform/monte_carlo/rules.h"
+#include "transform/rules/bernstein_rules.h"
 
 namespace rholm::paper {
 namespace {

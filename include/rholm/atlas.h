@@ -1,5 +1,5 @@
 // An atlas: a surface of any genus as overlapping caps, each a function on a sphere of its own.
-// Layer: transform.
+// Layer: atlas.
 //
 // A cap looks at the surface from a centre on its inner side. A point at distance r in direction u
 // from the centre has local direction (sin theta cos phi, sin theta sin phi, cos theta) in the

@@ -1,4 +1,4 @@
-// Pictures of meshes and plots of spectra. Layer: surface.
+// Pictures of meshes and plots of spectra. Layer: report.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// All that is known of a model on one page. Layer: model.
+// All that is known of a model on one page. Layer: report.
 #pragma once
 
 #include <cstdint>

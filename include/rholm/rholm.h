@@ -1,5 +1,5 @@
 // rholm: spherical harmonics of 3D objects. The whole public interface, and its version.
-// Layer: model.
+// Layer: report.
 #pragma once
 
 #include "rholm/analyze.h"

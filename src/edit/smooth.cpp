@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 
 #include "base/refuse.h"
-#include "edit/fading.h"
-#include "edit/local_mesh.h"
-#include "edit/patch_blend.h"
-#include "edit/rim_detail.h"
+#include "edit/patch/patch_blend.h"
+#include "edit/patch/rim_detail.h"
+#include "edit/region/fading.h"
+#include "edit/region/local_mesh.h"
 
 namespace rholm {
 namespace {

@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 
 #include "base/refuse.h"
-#include "edit/cap_swap.h"
-#include "edit/refine.h"
-#include "edit/repeated_map.h"
-#include "edit/textured_patch.h"
+#include "edit/texture/cap_swap.h"
+#include "edit/texture/refine.h"
+#include "edit/texture/repeated_map.h"
+#include "edit/texture/textured_patch.h"
 #include "rholm/topology.h"
 
 namespace rholm {

@@ -8,18 +8,18 @@
 
 #include <fmt/format.h>
 
+#include "atlas/cap/cap_pole.h"
+#include "base/disjoint_sets.h"
 #include "rholm/error.h"
 #include "rholm/topology.h"
-#include "shape/disjoint_sets.h"
-#include "surface/atlas_dipoles.h"
-#include "surface/block_grid.h"
-#include "surface/cap_field.h"
-#include "surface/close_grid.h"
-#include "surface/components.h"
-#include "surface/extract.h"
-#include "surface/hole_fill.h"
-#include "surface/trim.h"
-#include "transform/cap_pole.h"
+#include "surface/field/atlas_dipoles.h"
+#include "surface/field/cap_field.h"
+#include "surface/grid/block_grid.h"
+#include "surface/holes/close_grid.h"
+#include "surface/holes/hole_fill.h"
+#include "surface/level_set/components.h"
+#include "surface/level_set/extract.h"
+#include "surface/level_set/trim.h"
 
 namespace rholm {
 namespace {

@@ -7,9 +7,9 @@
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "rholm/error.h"
-#include "transform/methods.h"
-#include "transform/parseval.h"
-#include "transform/star_geometry.h"
+#include "transform/geometry/star_geometry.h"
+#include "transform/methods/methods.h"
+#include "transform/norms/parseval.h"
 
 namespace rholm {
 

@@ -4,7 +4,7 @@
 #include "rholm/analyze.h"
 #include "rholm/context.h"
 #include "rholm/star.h"
-#include "transform/mesh_pass.h"
+#include "transform/mesh_pass/pass.h"
 
 namespace rholm {
 

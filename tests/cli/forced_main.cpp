@@ -2,9 +2,9 @@
 // full of NaN: for the tests alone.
 #include <cstdio>
 
-#include "cli/bus_error.h"
-#include "cli/interrupt.h"
 #include "cli/program.h"
+#include "cli/terminal/bus_error.h"
+#include "cli/terminal/interrupt.h"
 #include "support/targets.h"
 
 int main(int argc, char** argv) {

@@ -4,8 +4,8 @@
 
 #include <cstdio>
 
-#include "cli/bus_error.h"
-#include "io/atomic_file.h"
+#include "cli/terminal/bus_error.h"
+#include "io/file/atomic_file.h"
 #include "rholm/mapped_mesh.h"
 
 int main(int argc, char** argv) {

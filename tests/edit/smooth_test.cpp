@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
-#include "edit/local_mesh.h"
+#include "edit/region/local_mesh.h"
 #include "edit/sheet.h"
 #include "rholm/error.h"
 #include "rholm/primitives.h"

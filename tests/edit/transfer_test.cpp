@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
-#include "edit/local_mesh.h"
-#include "edit/refine.h"
+#include "edit/region/local_mesh.h"
 #include "edit/sheet.h"
+#include "edit/texture/refine.h"
 #include "rholm/error.h"
 #include "rholm/primitives.h"
 #include "rholm/topology.h"

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "base/aligned_array.h"
-#include "harmonic/circle_kernels.h"
-#include "harmonic/fft.h"
-#include "harmonic/legendre_kernels.h"
-#include "harmonic/legendre_pairs.h"
+#include "harmonic/fft/fft.h"
+#include "harmonic/legendre/legendre_kernels.h"
+#include "harmonic/legendre/legendre_pairs.h"
+#include "harmonic/nonuniform/circle_kernels.h"
 #include "rholm/harmonic.h"
 #include "support/random_data.h"
 #include "support/targets.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "harmonic/legendre_kernels.h"
+#include "harmonic/legendre/legendre_kernels.h"
 #include "rholm/analyze.h"
 #include "rholm/harmonic.h"
 

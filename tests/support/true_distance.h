@@ -14,8 +14,8 @@
 #include "rholm/coefficients.h"
 #include "rholm/harmonic.h"
 #include "rholm/primitives.h"
-#include "shape/closest_point.h"
-#include "shape/point_tree.h"
+#include "shape/points/point_tree.h"
+#include "shape/queries/closest_point.h"
 
 namespace rholm::test {
 

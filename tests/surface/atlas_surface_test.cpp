@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "atlas/cover/cap_cover.h"
 #include "rholm/error.h"
 #include "rholm/topology.h"
 #include "support/test_points.h"
-#include "transform/cap_cover.h"
 
 namespace rholm {
 namespace {

@@ -8,8 +8,8 @@
 #include "support/oracle.h"
 #include "support/random_data.h"
 #include "support/test_shapes.h"
-#include "transform/sources.h"
-#include "transform/star_geometry.h"
+#include "transform/geometry/star_geometry.h"
+#include "transform/methods/sources.h"
 
 namespace rholm {
 namespace {

@@ -1,0 +1,223 @@
+// rholm align: turn one model onto another.
+#include "rholm/align.h"
+
+#include <memory>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "cli/commands/commands.h"
+#include "cli/commands/rotation_report.h"
+#include "cli/files/inputs.h"
+#include "cli/files/length_units.h"
+#include "cli/files/outputs.h"
+#include "cli/grammar/parse.h"
+#include "cli/options/convention.h"
+#include "cli/terminal/interrupt.h"
+#include "cli/terminal/json_text.h"
+#include "cli/terminal/session.h"
+#include "rholm/error.h"
+
+namespace rholm::cli {
+namespace {
+
+struct Options {
+  std::string a, b;
+  std::string method = "correlation";
+  int bandwidth = AlignOptions{}.bandwidth;
+  double margin = AlignOptions{}.margin;
+  bool mirror = false;
+  std::string center = "volume";
+  std::string output;
+  std::string format;
+  ConventionOptions convention;
+  InputConvention input_convention;
+  bool json = false;
+};
+
+AlignOptions library_options(const Options& o) {
+  return {.start = o.method == "axes" ? AlignStart::kPrincipalAxes : AlignStart::kCorrelation,
+          .bandwidth = o.bandwidth,
+          .margin = o.margin,
+          .allow_mirror = o.mirror};
+}
+
+Json json_of_aligned(const AlignedRotation& r) {
+  Json json = json_of(r.rotation);
+  json["mirrored"] = r.mirrored;
+  json["correlation"] = r.correlation;
+  json["distance"] = r.distance;
+  return json;
+}
+
+// From the centroids if both surfaces can be seen from there.
+Placement placement_of(const Options& o, const Expansion& a, const Expansion& b, Session& session) {
+  if (o.center == "volume") {
+    try {
+      return align(a, b, AlignCenters::kVolume, library_options(o), session.context());
+    } catch (const Error& error) {
+      if (error.code() == ErrorCode::kCancelled) throw;
+      session.warn(fmt::format("the models' own centres are taken: {}", error.what()));
+    }
+  }
+  return align(a, b, AlignCenters::kOwn, library_options(o), session.context());
+}
+
+Json report_json(const Options& o, const Placement& placement, const Expansion& a,
+                 const Expansion& b) {
+  const Alignment& found = placement.alignment;
+  Json json;
+  json["files"] = {o.a, o.b};
+  json["method"] = o.method;
+  json.update(json_of_aligned(found.best));
+  json["unaligned_distance"] = found.unaligned_distance;
+  json["descriptor_distance"] = descriptor_distance(a.coefficients, b.coefficients);
+  json["from"] = json_of(placement.from);
+  json["to"] = json_of(placement.to);
+  // The reflection that comes first: p becomes p - 2 ((p - point) . normal) normal.
+  json["reflection"] = found.best.mirrored
+                           ? Json{{"point", json_of(placement.from)}, {"normal", {1, 0, 0}}}
+                           : Json(nullptr);
+  json["ambiguities"] = Json::array();
+  for (const AlignedRotation& r : found.ambiguities) {
+    json["ambiguities"].push_back(json_of_aligned(r));
+  }
+  json["free_axes"] = Json::array();
+  for (const Vec3& axis : found.free_axes) json["free_axes"].push_back(json_of(axis));
+  return json;
+}
+
+std::string report_text(const Options& o, const Placement& placement) {
+  const Alignment& found = placement.alignment;
+  std::string text = fmt::format("{} onto {}\n", display_name(o.a), display_name(o.b));
+  if (found.best.mirrored) {
+    text += line("mirrored",
+                 fmt::format("in the plane x = {}, then turned", text_of(placement.from.x)));
+  }
+  text += text_of(found.best.rotation);
+  text += line("about", text_of(placement.from) + ", laid on " + text_of(placement.to));
+  text += line("correlation", fmt::format("{:.6f}", found.best.correlation));
+  text += line("distance",
+               fmt::format("{} rms over solid angle ({} unaligned)", text_of(found.best.distance),
+                           text_of(found.unaligned_distance)));
+  for (const AlignedRotation& r : found.ambiguities) {
+    text += line("nearly as good", fmt::format("{}{}, distance {}", r.mirrored ? "mirrored, " : "",
+                                               turn_text(r.rotation), text_of(r.distance)));
+  }
+  for (const Vec3& axis : found.free_axes) {
+    text += line("free to turn", "about " + text_of(axis));
+  }
+  return text;
+}
+
+int run(const Options& options, Session& session) {
+  std::optional<CoefficientsOutput> output;
+  if (!options.output.empty()) {
+    output = coefficients_output(options.output, options.format, options.json);
+  }
+  const Convention convention = options.convention.output_convention();
+  check_writable(options.output);
+  if (options.a == "-" && options.b == "-") {
+    throw UsageError("only one of the two models can be standard input");
+  }
+  Expansion a = read_expansion(options.a, session, options.input_convention);
+  const Expansion b = read_expansion(options.b, session, options.input_convention);
+  if (a.function != b.function) {
+    throw Error(ErrorCode::kInvalidInput,
+                fmt::format("{} is of the {}, {} of the {}: analyze both by the same method",
+                            display_name(options.a), to_string(a.function), display_name(options.b),
+                            to_string(b.function)));
+  }
+  bring_to_unit(a, options.a, b.unit, options.b, session);
+  const Placement found = placement_of(options, a, b, session);
+  if (output) {
+    write_coefficients_output(placed(a, found, session.context()), *output, convention, session);
+  }
+  if (options.json) {
+    print_json(report_json(options, found, a, b));
+  } else if (!output) {
+    print_text(report_text(options, found));
+  } else if (options.output != "-") {
+    session.report(report_text(options, found));
+  }
+  return 0;
+}
+
+std::vector<Option> search_options(Options& o) {
+  return {{.name = "A",
+           .help = "file of coefficients to turn, or - for standard input",
+           .target = &o.a,
+           .required = true,
+           .offer = Offer::kCoefficients},
+          {.name = "B",
+           .help = "file of coefficients to turn it onto",
+           .target = &o.b,
+           .required = true,
+           .offer = Offer::kCoefficients},
+          {.name = "method",
+           .help = "where to start: correlation (the default) over all rotations; axes, the four "
+                   "ways to lay principal axes on principal axes, faster and blind where two are "
+                   "equal",
+           .target = &o.method,
+           .choices = {"correlation", "axes"}},
+          {.name = "bandwidth",
+           .value = "L",
+           .help = "degrees used by the search over all rotations, 20 by default",
+           .target = &o.bandwidth,
+           .min = 1,
+           .max = 64},
+          {.name = "margin",
+           .value = "C",
+           .help = "report other rotations with a correlation at most C below; 0.01 by default",
+           .target = &o.margin,
+           .min = 0,
+           .max = 2},
+          {.name = "center",
+           .help = "points laid on each other: volume (the default), the centroids of the "
+                   "solids; own, the centres of the expansions",
+           .target = &o.center,
+           .choices = {"volume", "own"}},
+          {.name = "mirror",
+           .help = "try the mirror image of A too: reflected in the plane through its centre, "
+                   "across the x axis, before it is turned",
+           .target = &o.mirror},
+          output_option(o.output,
+                        "A laid on B, to be written: .h5, .sh, .gfc, .json, .npy; - "
+                        "for standard output",
+                        false),
+          format_option(o.format, coefficients_formats())};
+}
+
+std::vector<Option> option_list(Options& o) {
+  std::vector<Option> list = search_options(o);
+  append(list, convention_options(o.convention));
+  append(list, input_convention_options(o.input_convention));
+  list.push_back(json_option(o.json));
+  return list;
+}
+
+}  // namespace
+
+Command align_command() {
+  auto options = std::make_shared<Options>();
+  return {
+      .name = "align",
+      .summary = "Turn one model onto another",
+      .description =
+          "Lays the centroid of A on that of B and finds the rotation that brings the "
+          "surfaces nearest: by the correlation over all rotations, then by Newton's "
+          "iteration. The distance is the root mean square of the difference of the radii "
+          "over all directions.\n\nOther rotations that are nearly as good are listed: those "
+          "of a symmetric shape; and axes about which the shape turns freely: one of a surface of "
+          "revolution, three of a sphere. Where all that is not round is below what a model is "
+          "known to leave out, it is taken for a sphere and not turned. Size is not changed."
+          "\n\nWith --mirror also the mirror image of A is tried. What is done then is a "
+          "reflection in the plane through the centroid of A across the x axis (x becomes 2 "
+          "from_x - x, y and z stay), followed by the rotation; not an inversion in a point.",
+      .options = option_list(*options),
+      .examples = {"rholm align bumpy.h5 turned.h5",
+                   "rholm align image.h5 bumpy.h5 --mirror --json -o back.h5"},
+      .run = [options](Session& session) { return run(*options, session); }};
+}
+
+}  // namespace rholm::cli

@@ -1,0 +1,254 @@
+// rholm analyze: from a mesh to its coefficients.
+#include <memory>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "cli/commands/analyze_options.h"
+#include "cli/commands/analyze_report.h"
+#include "cli/commands/atlas_report.h"
+#include "cli/commands/commands.h"
+#include "cli/files/inputs.h"
+#include "cli/files/outputs.h"
+#include "cli/files/prepare.h"
+#include "cli/grammar/parse.h"
+#include "cli/terminal/json_text.h"
+#include "rholm/error.h"
+
+namespace rholm::cli {
+namespace {
+
+using Options = AnalyzeCommandOptions;
+using Run = AnalyzeRun;
+
+EncodeOptions encode_options(const Options& options) {
+  EncodeOptions wanted;
+  wanted.analyze.method = parse_method(options.method);
+  if (options.degree) wanted.analyze.degree = *options.degree;
+  if (!options.engine.empty()) wanted.analyze.engine = parse_engine(options.engine);
+  if (options.precision) wanted.analyze.precision = *options.precision;
+  wanted.tolerance = options.tolerance.parsed();
+  wanted.errors = !options.no_errors;
+  wanted.chart.center = parse_center_option(options.center);
+  wanted.chart.center.rays = options.rays;
+  wanted.chart.allow_signed = options.allow_signed;
+  wanted.weld_tolerance = options.weld;
+  return wanted;
+}
+
+// A mesh that can stay where it lies in its file is not read.
+Encoded encode_input(const std::string& path, const EncodeOptions& wanted, Session& session,
+                     StageTimes& times) {
+  const Stopwatch reading;
+  if (path != "-") {
+    const std::optional<MappedMesh> mapped = map_mesh(path, session.context());
+    times["read"] = reading.elapsed();
+    if (mapped) {
+      if (auto encoded = encode_mapped(*mapped, wanted, session.context())) {
+        return std::move(*encoded);
+      }
+    }
+  }
+  const Mesh mesh = read_mesh(path, session);
+  times["read"] = reading.elapsed();
+  return encode(mesh, wanted, session.context());
+}
+
+// Throws NotConverged for what was wanted and not reached; the output is written by then.
+void check_reached(const Options& options, const Encoded& encoded) {
+  if (encoded.tolerance && !encoded.tolerance->met) {
+    throw Error(ErrorCode::kNotConverged,
+                fmt::format("the tolerance of {} is not kept by degree {}, which was written: the "
+                            "error is {}; a higher --max-degree may do",
+                            text_of(encoded.tolerance->allowed),
+                            encoded.analysis.expansion.coefficients.degree(),
+                            text_of(encoded.tolerance->reached)));
+  }
+  const std::optional<FastReport>& fast = encoded.analysis.fast;
+  if (!fast || fast->reached) return;
+  throw Error(ErrorCode::kNotConverged,
+              fmt::format("the wanted precision of {} was not reached in what was written: the "
+                          "estimated error is {}; --engine direct is slower and exact",
+                          text_of(options.precision.value_or(AnalyzeOptions{}.precision)),
+                          text_of(fast->error)));
+}
+
+int run(const Options& options, Session& session) {
+  if (options.atlas) return analyze_atlas(options, session);
+  if (!options.fit.empty() || !options.extension.empty()) {
+    throw UsageError("--fit and --extension go with --atlas");
+  }
+  if (options.degree && options.tolerance.tolerance) {
+    throw UsageError("--degree L or --tolerance E: only one of the two can be kept");
+  }
+  if (!options.degree && !options.tolerance.tolerance) {
+    throw UsageError("--degree L or --tolerance E: one of the two is needed");
+  }
+  if (const auto places = parse_sample_places(options.method)) {
+    return analyze_by_monte_carlo(options, *places, session);
+  }
+  if (options.samples || options.most_samples || options.deviation) {
+    throw UsageError(
+        "--samples, --deviation and --most-samples go with the methods "
+        "monte-carlo-edge and monte-carlo-triangle");
+  }
+  const EncodeOptions wanted = encode_options(options);
+  const CoefficientsOutput output =
+      coefficients_output(options.output, options.format, options.json);
+  const Convention convention = options.convention.output_convention();
+  check_writable(options.output);
+
+  Run run;
+  run.encoded = encode_input(options.input, wanted, session, run.times);
+  run.diagonal = run.encoded.diagonal;
+  run.encoded.analysis.expansion.unit = options.length_unit;
+  run.times.insert(run.encoded.times.begin(), run.encoded.times.end());
+  run.times.insert(run.encoded.analysis.times.begin(), run.encoded.analysis.times.end());
+  if (run.encoded.flipped) session.note(kFlipped);
+  if (!run.encoded.star.star_shaped) {
+    session.warn(
+        "the surface is not star-shaped: the coefficients are those of the alternating "
+        "sum of its radii, of which the exact norm is not one: no errors are given");
+  }
+  const Stopwatch writing;
+  write_coefficients_output(run.encoded.analysis.expansion, output, convention, session);
+  run.times["write"] = writing.elapsed();
+
+  if (options.json) {
+    print_json(analyze_json(options, run));
+  } else {
+    session.note(analyze_text(options, run));
+  }
+  check_reached(options, run.encoded);
+  return 0;
+}
+
+std::vector<Option> transform_options(Options& o) {
+  return {
+      {.name = "method",
+       .value = "METHOD",
+       .help = "edge (the default): the radius, over edges and faces; gauge: 1/radius, over "
+               "edges alone; curl: the radius over edges alone, slow; area: the radius by "
+               "plain cubature, for comparison; monte-carlo-edge, monte-carlo-triangle: by "
+               "random points, with a deviation of each coefficient",
+       .target = &o.method,
+       .choices = {"edge", "gauge", "curl", "area", "monte-carlo-edge", "monte-carlo-triangle"}},
+      {.name = "engine",
+       .help = "fast (the default): sums on an oversampled grid, as exact as --precision says; "
+               "direct: term by term, slow; curl, area and Monte Carlo are always direct",
+       .target = &o.engine,
+       .choices = {"fast", "direct"}},
+      center_option(o.center),
+      {.name = "signed",
+       .help = "accept a surface that is not star-shaped: the alternating sum of its radii",
+       .target = &o.allow_signed},
+      {.name = "precision",
+       .value = "P",
+       .help = "wanted relative error of the coefficients, 1e-14 ... 1e-1; 1e-8 by default, "
+               "finer where a tolerance asks for it",
+       .target = &o.precision,
+       .min = 1e-14,
+       .max = 1e-1},
+      {.name = "no-errors",
+       .help = "do not measure and predict the errors of the surface",
+       .target = &o.no_errors}};
+}
+
+std::vector<Option> monte_carlo_options(Options& o) {
+  return {{.name = "samples",
+           .value = "N",
+           .help = "Monte Carlo: points on each edge or triangle, even",
+           .target = &o.samples,
+           .min = 2,
+           .max = 1 << 30},
+          {.name = "deviation",
+           .value = "S",
+           .help = "Monte Carlo: points are added until the relative deviation of the "
+                   "coefficients is at most S; 0.01 by default",
+           .target = &o.deviation,
+           .min = 1e-8,
+           .max = 1},
+          {.name = "most-samples",
+           .value = "N",
+           .help = "Monte Carlo: where to stop without the wanted deviation, exit code 4; 4096 "
+                   "by default",
+           .target = &o.most_samples,
+           .min = 2,
+           .max = 1 << 30},
+          {.name = "seed",
+           .value = "S",
+           .help = "Monte Carlo: same seed, same points; 1 by default",
+           .target = &o.seed}};
+}
+
+std::vector<Option> option_list(Options& o) {
+  std::vector<Option> list = {{.name = "SHAPE",
+                               .help = "file of a closed mesh, or - for standard input",
+                               .target = &o.input,
+                               .required = true,
+                               .offer = Offer::kShapes},
+                              {.name = "degree",
+                               .value = "L",
+                               .help = "the highest degree; there are (L+1)^2 coefficients",
+                               .target = &o.degree,
+                               .min = 0,
+                               .max = kMaxDegree}};
+  append(list, tolerance_options(o.tolerance));
+  append(
+      list,
+      {{.name = "atlas",
+        .help = "any shape, star-shaped or not, also points with normals: as few large caps that "
+                "keep --tolerance, the rms distance between the surfaces",
+        .target = &o.atlas},
+       {.name = "fit",
+        .help = "of an atlas. least-squares: the default; integral: the paper's way, to compare "
+                "with: patches by a kd-tree, integrals over their points to --degree",
+        .target = &o.fit,
+        .choices = {"least-squares", "integral"}},
+       {.name = "extension",
+        .help = "with --fit integral, what a cap is beyond its points: zero, as the paper has it, "
+                "or the sphere it lies on",
+        .target = &o.extension,
+        .choices = {"zero", "sphere"}}});
+  append(list, transform_options(o));
+  append(list, monte_carlo_options(o));
+  append(list, {rays_option(o.rays), weld_option(o.weld), length_unit_option(o.length_unit),
+                output_option(o.output,
+                              "file of coefficients: .h5 (model file), .sh (SHTOOLS text), "
+                              ".gfc, .json, .npy; - for standard output"),
+                format_option(o.format, coefficients_formats())});
+  append(list, convention_options(o.convention));
+  list.push_back(json_option(o.json));
+  return list;
+}
+
+}  // namespace
+
+Command analyze_command() {
+  auto options = std::make_shared<Options>();
+  return {
+      .name = "analyze",
+      .summary = "From a mesh to its coefficients",
+      .description =
+          "Expands the radius of a star-shaped mesh (or 1/radius, with --method gauge) in "
+          "real spherical harmonics. The mesh is the surface, exactly: no grid, no "
+          "resampling; the number of quadrature nodes follows from --precision and the size "
+          "of the edges.\n\nThe error of the surface is measured and predicted, and kept in the "
+          "model. With --tolerance the smallest degree is found whose error is small "
+          "enough.\n\nIdentical vertices are joined, a mesh that is inside out is "
+          "turned, and said. A mesh that is not star-shaped is refused with exit code 3, "
+          "unless --signed is given; --atlas takes any shape.\n\nThe model file keeps all there is "
+          "to know; of the "
+          "other formats the header says what it can, and the numbers are 4-pi normalised "
+          "without Condon-Shortley phase unless told otherwise.",
+      .options = option_list(*options),
+      .examples = {"rholm analyze bumpy.ply --degree 32 -o bumpy.h5",
+                   "rholm analyze bumpy.ply --tolerance 1e-3 --unit diagonal --norm max -o "
+                   "bumpy.h5",
+                   "rholm analyze bumpy.ply --degree 8 --format shtools -o -",
+                   "rholm analyze bumpy.ply --atlas --tolerance 1e-2 --unit diagonal -o caps.h5"},
+      .run = [options](Session& session) { return run(*options, session); },
+      .if_not_star = "--center auto, --atlas, --signed"};
+}
+
+}  // namespace rholm::cli

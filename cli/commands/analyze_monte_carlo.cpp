@@ -1,0 +1,107 @@
+// rholm analyze by random points.
+#include <fmt/format.h>
+
+#include <string>
+
+#include "cli/commands/analyze_options.h"
+#include "cli/commands/analyze_report.h"
+#include "cli/files/inputs.h"
+#include "cli/files/outputs.h"
+#include "cli/files/prepare.h"
+#include "cli/grammar/parse.h"
+#include "cli/terminal/json_text.h"
+#include "rholm/error.h"
+#include "rholm/star.h"
+
+namespace rholm::cli {
+namespace {
+
+MonteCarloOptions monte_carlo_options(const AnalyzeCommandOptions& options, SamplePlaces places) {
+  if (!options.degree) throw UsageError("Monte Carlo needs --degree: it has no --tolerance");
+  if (options.engine == "fast" || options.precision) {
+    throw UsageError(
+        "Monte Carlo is direct and has a --deviation, no --engine fast, no --precision");
+  }
+  if (options.samples && (options.deviation || options.most_samples)) {
+    throw UsageError("--samples is a fixed number: without --deviation and --most-samples");
+  }
+  MonteCarloOptions wanted{.degree = *options.degree, .places = places};
+  if (options.samples) wanted.samples = static_cast<std::size_t>(*options.samples);
+  if (options.most_samples) wanted.most_samples = static_cast<std::size_t>(*options.most_samples);
+  if (options.deviation) wanted.deviation = *options.deviation;
+  wanted.seed = options.seed;
+  return wanted;
+}
+
+Json json_of_run(const AnalyzeCommandOptions& options, const MonteCarlo& found,
+                 const StarReport& star) {
+  Json json;
+  json["file"] = options.input;
+  json["output"] = options.output;
+  json["degree"] = found.expansion.coefficients.degree();
+  json["method"] = found.expansion.method;
+  json["function"] = to_string(found.expansion.function);
+  add_star_report(star, json);
+  json["places"] = found.places;
+  json["samples"] = found.samples;
+  json["rounds"] = found.rounds;
+  json["relative_deviation"] = json_of(found.relative_deviation);
+  json["deviation_reached"] = found.reached;
+  json["degree_deviation"] = found.degree_deviation;
+  json["norm_squared"] = json_of(found.expansion.norm_squared);
+  json["truncation_rms"] = json_of(found.truncation_rms);
+  json["truncation_rms_doubt"] = json_of(found.truncation_rms_doubt);
+  Json wall, cpu;
+  for (const auto& [stage, time] : found.times) {
+    wall[stage] = time.wall;
+    cpu[stage] = time.cpu;
+  }
+  json["seconds"] = wall;
+  json["cpu_seconds"] = cpu;
+  json["peak_memory_bytes"] = peak_memory_bytes();
+  return json;
+}
+
+std::string text_of_deviation(const MonteCarlo& found) {
+  return found.relative_deviation ? text_of(*found.relative_deviation)
+                                  : "not known: too few points";
+}
+
+}  // namespace
+
+int analyze_by_monte_carlo(const AnalyzeCommandOptions& options, SamplePlaces places,
+                           Session& session) {
+  const MonteCarloOptions wanted = monte_carlo_options(options, places);
+  const CoefficientsOutput output =
+      coefficients_output(options.output, options.format, options.json);
+  const Convention convention = options.convention.output_convention();
+  check_writable(options.output);
+  CenterOptions center = parse_center_option(options.center);
+  center.rays = options.rays;
+
+  const Prepared prepared = prepare(read_mesh(options.input, session), options.weld);
+  if (prepared.flipped) session.note(kFlipped);
+  const StarChart chart = make_star_chart(
+      prepared.mesh, {.center = center, .allow_signed = options.allow_signed}, session.context());
+  MonteCarlo found = monte_carlo(chart, wanted, session.context());
+  found.expansion.unit = options.length_unit;
+  write_coefficients_output(found.expansion, output, convention, session);
+
+  if (options.json) {
+    print_json(json_of_run(options, found, chart.report));
+  } else {
+    session.note(
+        fmt::format("{}: degree {} by {}, {} points on each of {} {}; relative deviation {}",
+                    options.output, *options.degree, options.method, found.samples, found.places,
+                    places == SamplePlaces::kEdges ? "edges" : "faces", text_of_deviation(found)));
+  }
+  if (!found.reached) {
+    throw Error(ErrorCode::kNotConverged,
+                fmt::format("the wanted deviation was not reached with {} points each, which were "
+                            "written: it is {}; more --most-samples may do",
+                            found.samples, text_of_deviation(found)));
+  }
+  return 0;
+}
+
+}  // namespace rholm::cli

@@ -1,0 +1,87 @@
+// rholm center: is a mesh star-shaped, and from where?
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "cli/commands/commands.h"
+#include "cli/files/inputs.h"
+#include "cli/files/prepare.h"
+#include "cli/grammar/parse.h"
+#include "cli/terminal/exit_code.h"
+#include "cli/terminal/json_text.h"
+#include "cli/terminal/session.h"
+#include "rholm/error.h"
+#include "rholm/star.h"
+
+#include "rholm/topology.h"
+
+namespace rholm::cli {
+namespace {
+
+struct Options {
+  std::string input;
+  std::string center = "auto";
+  int rays = 100'000;
+  double weld = 0;
+  bool json = false;
+};
+
+int run(const Options& options, Session& session) {
+  CenterOptions wanted = parse_center_option(options.center);
+  wanted.rays = options.rays;
+  const Prepared prepared = prepare(read_mesh(options.input, session), options.weld);
+  if (prepared.flipped) session.note(kFlipped);
+  const StarReport report = find_center(prepared.mesh, wanted, session.context());
+  const std::size_t duplicates =
+      report.star_shaped ? 0 : inspect(prepared.mesh).duplicate_triangles;
+  if (options.json) {
+    Json json;
+    json["file"] = options.input;
+    json["kind"] = to_string(wanted.kind);
+    add_star_report(report, json);
+    json["flipped"] = prepared.flipped;
+    json["duplicate_faces"] = duplicates;
+    json["diagonal"] = prepared.diagonal;
+    json["relative"] = {{"min_d", prepared.diagonal > 0 ? report.min_d / prepared.diagonal : 0.0}};
+    print_json(json);
+  } else {
+    print_text(fmt::format("{}: {}star-shaped from the centre '{}'\n", display_name(options.input),
+                           report.star_shaped ? "" : "not ", options.center) +
+               star_report_text(report, prepared.diagonal));
+  }
+  if (duplicates > 0) {
+    session.warn(
+        fmt::format("{} of {} faces are duplicates, with the same three vertices as "
+                    "others: 'rholm repair' drops them",
+                    duplicates, prepared.mesh.triangles.size()));
+  }
+  return report.star_shaped ? kDone : kRefused;
+}
+
+}  // namespace
+
+Command center_command() {
+  auto options = std::make_shared<Options>();
+  return {.name = "center",
+          .summary = "Whether a mesh is star-shaped, and its best centre",
+          .description =
+              "Finds the centre from which the whole surface is seen, and measures how well: min "
+              "d is the smallest distance from the centre to the plane of a face (negative if "
+              "the face is seen from behind), min cos gamma the smallest cosine between a face's "
+              "normal and the direction to one of its corners. Rays tell the share of directions "
+              "that meet the surface once, more than once, never.\n\nThe exit code is 0 for a "
+              "star-shaped mesh and 3 for one that is not; the report is given either way.",
+          .options = {{.name = "SHAPE",
+                       .help = "file of a closed mesh, or - for standard input",
+                       .target = &options->input,
+                       .required = true,
+                       .offer = Offer::kShapes},
+                      center_option(options->center),
+                      rays_option(options->rays),
+                      weld_option(options->weld),
+                      json_option(options->json)},
+          .examples = {"rholm center bumpy.ply", "rholm center bumpy.ply --center cosine --json"},
+          .run = [options](Session& session) { return run(*options, session); }};
+}
+
+}  // namespace rholm::cli

@@ -1,0 +1,303 @@
+// rholm info: what a file holds.
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cli/commands/atlas_report.h"
+#include "cli/commands/commands.h"
+#include "cli/files/inputs.h"
+#include "cli/files/prepare.h"
+#include "cli/terminal/json_text.h"
+#include "cli/terminal/session.h"
+#include "rholm/error.h"
+#include "rholm/model.h"
+#include "rholm/repair.h"
+#include "rholm/synthesize.h"
+#include "rholm/topology.h"
+
+namespace rholm::cli {
+namespace {
+
+struct Options {
+  std::string input;
+  double weld = 0;
+  InputConvention convention;
+  bool json = false;
+};
+
+// Above this degree volume and area are left out: they cost O(L^3), a second at 512.
+constexpr int kMaxMeasuredDegree = 512;
+
+struct MeshReport {
+  const ShapeFile& file;
+  const Welded& welded;
+  Inspection inspection;
+  std::size_t vertices_read;
+  std::size_t faces_read;
+  std::optional<double> closes_at;  // a tolerance that welds its borders
+
+  bool solid() const { return inspection.closed && inspection.oriented; }
+  std::size_t isolated() const {
+    return vertices_read - welded.merged_vertices - welded.mesh.vertices.size();
+  }
+};
+
+Json mesh_json(const MeshReport& report, double tolerance) {
+  const Inspection& i = report.inspection;
+  Json json;
+  json["counts"] = {{"vertices", i.vertices}, {"faces", i.triangles}, {"edges", i.edges}};
+  json["as_read"] = {{"vertices", report.vertices_read}, {"faces", report.faces_read}};
+  json["weld"] = {{"tolerance", tolerance},
+                  {"merged_vertices", report.welded.merged_vertices},
+                  {"collapsed_faces", report.welded.collapsed_triangles}};
+  json["closed"] = i.closed;
+  json["boundary_edges"] = i.boundary_edges;
+  json["closes_at"] = json_of(report.closes_at);
+  json["manifold"] = i.manifold;
+  json["non_manifold_edges"] = i.non_manifold_edges;
+  json["non_manifold_vertices"] = i.non_manifold_vertices;
+  json["oriented"] = i.oriented;
+  json["misoriented_edges"] = i.misoriented_edges;
+  json["inside_out"] = i.inside_out;
+  json["components"] = i.components;
+  json["euler_characteristic"] = i.euler_characteristic;
+  json["genus"] = i.closed && i.manifold ? Json(i.genus) : Json(nullptr);
+  json["isolated_vertices"] = report.isolated();
+  json["degenerate_faces"] = i.degenerate_triangles;
+  json["duplicate_faces"] = i.duplicate_triangles;
+  json["bounds"] = json_of(i.bounds);
+  json["area"] = i.area;
+  json["volume"] = report.solid() ? Json(i.volume) : Json(nullptr);
+  json["volume_centroid"] = report.solid() ? json_of(i.volume_centroid) : Json(nullptr);
+  json["attributes"] = json_of(report.welded.mesh.attributes);
+  return json;
+}
+
+std::string manifold_text(const Inspection& i) {
+  return yes_or(i.manifold, fmt::format("{} in three or more faces, {} in more than one fan",
+                                        counted(i.non_manifold_edges, "edge"),
+                                        counted(i.non_manifold_vertices, "vertex", "vertices")));
+}
+
+// Areas and volumes of shapes of 1e150 or 1e-150 are no doubles.
+std::string measure_text(double value, bool must_differ_from_zero) {
+  if (std::isinf(value)) return "beyond 1.8e308, the largest number: take another unit of length";
+  if (value == 0 && must_differ_from_zero) {
+    return "below 4.9e-324, the smallest number: take another unit of length";
+  }
+  return text_of(value);
+}
+
+// What is wrong with a mesh, and what mends it.
+std::string advice_text(const MeshReport& report) {
+  const Inspection& i = report.inspection;
+  std::string text;
+  if (report.closes_at) {
+    text += line("borders", fmt::format("lie within {0:.2g} of each other: --weld {0:.2g} joins "
+                                        "them",
+                                        *report.closes_at));
+  }
+  const bool damaged = i.boundary_edges + i.non_manifold_edges + i.non_manifold_vertices +
+                           i.misoriented_edges + i.degenerate_triangles + i.duplicate_triangles >
+                       0;
+  if (damaged && i.triangles > 0) text += line("mended by", "rholm repair");
+  return text;
+}
+
+std::string mesh_text(const MeshReport& report) {
+  const Inspection& i = report.inspection;
+  std::string text;
+  text += line("vertices",
+               fmt::format("{} ({} in the file, {} merged, {} in no face)", i.vertices,
+                           report.vertices_read, report.welded.merged_vertices, report.isolated()));
+  text += line("faces", fmt::format("{} ({} in the file, {} collapsed)", i.triangles,
+                                    report.faces_read, report.welded.collapsed_triangles));
+  text += line("edges", fmt::format("{}", i.edges));
+  text += line("closed", yes_or(i.closed, counted(i.boundary_edges, "boundary edge")));
+  text += line("manifold", manifold_text(i));
+  text += line("oriented", yes_or(i.oriented, counted(i.misoriented_edges, "edge") +
+                                                  " between faces that disagree"));
+  text += line("inside out", i.inside_out ? "yes (analyze turns it right side out)" : "no");
+  text += line("components", fmt::format("{}", i.components));
+  if (i.closed && i.manifold) text += line("genus", fmt::format("{}", i.genus));
+  text += line("degenerate", counted(i.degenerate_triangles, "face") + " without area");
+  text += line("duplicate", counted(i.duplicate_triangles, "face"));
+  text += line("bounds", fmt::format("{} to {}", text_of(i.bounds.min), text_of(i.bounds.max)));
+  text += line("diagonal", measure_text(i.bounds.diagonal(), false));
+  const bool has_area = i.degenerate_triangles < i.triangles;
+  text += line("area", measure_text(i.area, has_area));
+  // A flat solid has no volume; one too small for its area has none that can be told.
+  text += line("volume", report.solid() ? measure_text(i.volume, has_area && i.area < 1e-200)
+                                        : "none: not a solid");
+  if (report.solid()) text += line("volume centroid", text_of(i.volume_centroid));
+  text += line("attributes", text_of(report.welded.mesh.attributes));
+  return text + advice_text(report);
+}
+
+Json cloud_json(const PointCloud& cloud) {
+  Json json;
+  json["counts"] = {{"points", cloud.points.size()}};
+  json["normals"] = !cloud.normals.empty();
+  json["bounds"] = json_of(bounds(cloud.points));
+  json["attributes"] = json_of(cloud.attributes);
+  return json;
+}
+
+std::string cloud_text(const PointCloud& cloud) {
+  const Bounds box = bounds(cloud.points);
+  return line("points", fmt::format("{}", cloud.points.size())) +
+         line("normals", cloud.normals.empty() ? "no" : "yes") +
+         line("bounds", fmt::format("{} to {}", text_of(box.min), text_of(box.max))) +
+         line("diagonal", text_of(box.diagonal())) + line("attributes", text_of(cloud.attributes));
+}
+
+int report_shape(const Options& options, const ShapeFile& file) {
+  const auto* mesh = std::get_if<Mesh>(&file.shape);
+  Json json;
+  json["file"] = options.input;
+  json["kind"] = mesh ? "mesh" : "points";
+  json["format"] = to_string(file.format);
+  json["encoding"] = file.encoding;
+  std::string text = fmt::format("{}: {}, {}, {}\n", display_name(options.input),
+                                 mesh ? "mesh" : "points", to_string(file.format), file.encoding);
+  if (mesh) {
+    const Welded welded = weld(*mesh, options.weld);
+    const MeshReport report{file,
+                            welded,
+                            inspect(welded.mesh),
+                            mesh->vertices.size(),
+                            mesh->triangles.size(),
+                            closing_tolerance(welded.mesh)};
+    json.update(mesh_json(report, options.weld));
+    text += mesh_text(report);
+  } else {
+    json.update(cloud_json(std::get<PointCloud>(file.shape)));
+    text += cloud_text(std::get<PointCloud>(file.shape));
+  }
+  json["warnings"] = file.warnings;
+  for (const std::string& warning : file.warnings) text += line("warning", warning);
+  options.json ? print_json(json) : print_text(text);
+  return 0;
+}
+
+std::optional<SurfaceMeasures> measures_of(const Expansion& expansion, Session& session) {
+  if (expansion.coefficients.degree() > kMaxMeasuredDegree) return std::nullopt;
+  if (expansion.function == RadialFunction::kOther) return std::nullopt;
+  try {
+    return measure(expansion, session.context());
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::kCancelled) throw;
+    session.note(fmt::format("no volume and area: {}", error.what()));
+    return std::nullopt;
+  }
+}
+
+std::string errors_text(const TruncationErrors& errors) {
+  const auto length = [&](double value) {
+    return errors.diagonal > 0 ? fmt::format("{} ({} of the diagonal)", text_of(value),
+                                             text_of(value / errors.diagonal))
+                               : text_of(value);
+  };
+  std::string text;
+  const auto add = [&](const char* name, const std::optional<double>& value, const char* how) {
+    if (value) text += line(name, length(*value) + how);
+  };
+  add("radial error", errors.rms,
+      errors.rms_is_exact ? " rms over solid angle, exact" : " rms over solid angle, measured");
+  add("", errors.measured_max, " at most, measured");
+  add("", errors.predicted_max, " at most at vertices, predicted");
+  add("distance", errors.distance_rms, " rms over area, measured");
+  add("", errors.measured_max_distance, " at most, measured");
+  add("", errors.predicted_max_distance, " at most at vertices, predicted");
+  return text;
+}
+
+int report_coefficients(const Options& options, const CoefficientsFile& file, Session& session) {
+  const Expansion& expansion = file.expansion;
+  const bool model = options.input != "-" && is_model_file(options.input);
+  const std::string format = model ? "model" : to_string(file.format);
+  const std::string convention = fmt::format(
+      "{}, csphase {}", to_string(file.convention.normalization), file.convention.csphase);
+  const auto measures = measures_of(expansion, session);
+  Json json;
+  json["file"] = options.input;
+  json["kind"] = "coefficients";
+  json["format"] = format;
+  json["degree"] = expansion.coefficients.degree();
+  json["function"] = to_string(expansion.function);
+  json["center"] = json_of(expansion.center);
+  json["unit"] = expansion.unit;
+  json["method"] = expansion.method;
+  json["normalization"] = to_string(file.convention.normalization);
+  json["csphase"] = file.convention.csphase;
+  json["assumed"] = file.assumed;
+  json["product"] = file.product.empty() ? Json(nullptr) : Json(file.product);
+  json["passed_over"] = file.passed_over;
+  json["norm_squared"] = json_of(expansion.norm_squared);
+  json["tail_strength"] = json_of(expansion.tail_strength);
+  json["errors"] = json_of(expansion.errors);
+  json["diagonal"] = expansion.errors ? Json(expansion.errors->diagonal) : Json(nullptr);
+  json["volume"] = measures ? Json(measures->volume) : Json(nullptr);
+  json["area"] = measures ? Json(measures->area) : Json(nullptr);
+  json["volume_centroid"] = measures ? json_of(measures->centroid) : Json(nullptr);
+  std::string text = fmt::format("{}: coefficients, {}\n", display_name(options.input), format);
+  text += line("degree", fmt::format("{}", expansion.coefficients.degree()));
+  text += line("function", to_string(expansion.function));
+  text += line("centre", text_of(expansion.center));
+  text += line("unit", expansion.unit.empty() ? "not said" : expansion.unit);
+  text += line("method", expansion.method.empty() ? "not said" : expansion.method);
+  text += line("numbers in", convention);
+  for (const std::string& assumed : file.assumed) text += line("assumed", assumed);
+  if (!file.product.empty()) text += line("of", file.product + ", no shape");
+  for (const std::string& what : file.passed_over) text += line("not used", what);
+  if (measures) {
+    text += line("volume", text_of(measures->volume));
+    text += line("area", text_of(measures->area));
+    text += line("volume centroid", text_of(measures->centroid));
+  }
+  if (expansion.errors) text += errors_text(*expansion.errors);
+  options.json ? print_json(json) : print_text(text);
+  return 0;
+}
+
+int run(const Options& options, Session& session) {
+  if (holds_atlas(options.input)) return report_atlas(options.input, options.json);
+  const Input input = read_input(options.input, session, options.convention);
+  if (const auto* file = std::get_if<ShapeFile>(&input)) return report_shape(options, *file);
+  return report_coefficients(options, std::get<CoefficientsFile>(input), session);
+}
+
+std::vector<Option> option_list(Options& o) {
+  std::vector<Option> list = {
+      {.name = "SHAPE",
+       .help = "file of a shape or of coefficients, or - for standard input",
+       .target = &o.input,
+       .required = true,
+       .offer = Offer::kShapesAndCoefficients},
+      weld_option(o.weld)};
+  append(list, input_convention_options(o.convention));
+  list.push_back(json_option(o.json));
+  return list;
+}
+
+}  // namespace
+
+Command info_command() {
+  auto options = std::make_shared<Options>();
+  return {.name = "info",
+          .summary = "What a file holds: a mesh, points or coefficients",
+          .description =
+              "Says what is in a file and whether it is fit for more: of a mesh whether it is "
+              "closed, manifold and consistently oriented, its components, genus, area and "
+              "volume; of points their number and whether they have normals; of coefficients "
+              "degree, centre and convention. The content decides what a file is, not its name."
+              "\n\nA mesh that is open or inside out is information, not an error: the exit code "
+              "is 0.",
+          .options = option_list(*options),
+          .examples = {"rholm info bumpy.ply", "rholm info bumpy.ply --json"},
+          .run = [options](Session& session) { return run(*options, session); }};
+}
+
+}  // namespace rholm::cli

@@ -1,0 +1,159 @@
+// rholm orient: normals for points.
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "cli/commands/commands.h"
+#include "cli/files/inputs.h"
+#include "cli/files/outputs.h"
+#include "cli/grammar/parse.h"
+#include "cli/grammar/values.h"
+#include "cli/terminal/interrupt.h"
+#include "cli/terminal/json_text.h"
+#include "cli/terminal/session.h"
+#include "rholm/points.h"
+
+namespace rholm::cli {
+namespace {
+
+struct Options {
+  std::string input;
+  std::optional<int> neighbors;
+  std::string center;
+  std::string sensor;
+  bool keep_directions = false;
+  std::string output;
+  std::string format;
+  bool ascii = false;
+  bool json = false;
+};
+
+OrientOptions library_options(const Options& o) {
+  if (!o.center.empty() && !o.sensor.empty()) {
+    throw UsageError("--center and --sensor exclude each other");
+  }
+  OrientOptions options;
+  options.neighbors = o.neighbors.value_or(0);
+  options.keep_directions = o.keep_directions;
+  if (!o.center.empty()) options.center = parse_vector("--center", o.center);
+  if (!o.sensor.empty()) options.sensor = parse_vector("--sensor", o.sensor);
+  return options;
+}
+
+// A mesh's vertices are points too; what faces knew of their sides is not asked.
+PointCloud points_of(ShapeFile file, const std::string& path, Session& session) {
+  for (const std::string& warning : file.warnings) {
+    session.warn(fmt::format("{}: {}", display_name(path), warning));
+  }
+  if (auto* cloud = std::get_if<PointCloud>(&file.shape)) return std::move(*cloud);
+  Mesh mesh = std::get<Mesh>(std::move(file.shape));
+  session.note(fmt::format("{} is a mesh: its {} vertices are taken as points", display_name(path),
+                           mesh.vertices.size()));
+  std::erase_if(mesh.attributes, [](const Attribute& a) {
+    return a.name == "nx" || a.name == "ny" || a.name == "nz";
+  });
+  return {
+      .points = std::move(mesh.vertices), .normals = {}, .attributes = std::move(mesh.attributes)};
+}
+
+Json json_of(const OrientReport& report) {
+  return {{"points", report.points},
+          {"duplicates", report.duplicates},
+          {"neighbors", report.neighbors},
+          {"components", report.components},
+          {"computed", report.computed},
+          {"flipped", report.flipped},
+          {"undetermined", report.undetermined},
+          {"mean_confidence", report.mean_confidence},
+          {"unsure", report.unsure}};
+}
+
+std::string report_text(const OrientReport& report, bool by_sight, bool had_normals) {
+  std::string text = line("points", fmt::format("{}", report.points));
+  if (report.duplicates > 0) {
+    text += line("duplicates", fmt::format("{}, with the normals of the first", report.duplicates));
+  }
+  text += line("neighbours", fmt::format("{} a fit", report.neighbors));
+  if (!by_sight) text += line("components", fmt::format("{}", report.components));
+  text += line("computed", counted(report.computed, "normal"));
+  if (had_normals) text += line("turned round", counted(report.flipped, "normal"));
+  if (report.undetermined > 0) {
+    text += line("without a plane", counted(report.undetermined, "point"));
+  }
+  text += line("mean confidence", fmt::format("{:.3f}", report.mean_confidence));
+  return text + line("unsure", fmt::format("{:.2f} % of the points", 100 * report.unsure));
+}
+
+int run(const Options& options, Session& session) {
+  const OrientOptions wanted = library_options(options);
+  const ShapeFormat format = points_output(options.output, options.format, options.json);
+  check_writable(options.output);
+  PointCloud cloud = points_of(read_shape_input(options.input, session), options.input, session);
+  const bool had_normals = !cloud.normals.empty();
+  const OrientReport report = orient(cloud, wanted, session.context());
+  stop_if_interrupted();
+  write_shape(cloud, options.output, {format, options.ascii}, session.context());
+  if (options.json) {
+    Json json;
+    json["file"] = options.input;
+    json.update(json_of(report));
+    print_json(json);
+  } else if (options.output != "-") {
+    session.report(fmt::format("{}: oriented\n", display_name(options.input)) +
+                   report_text(report, wanted.center || wanted.sensor, had_normals));
+  }
+  return 0;
+}
+
+std::vector<Option> option_list(Options& o) {
+  return {{.name = "POINTS",
+           .help = "file of points, or - for standard input",
+           .target = &o.input,
+           .required = true,
+           .offer = Offer::kShapes},
+          {.name = "k",
+           .value = "N",
+           .help = "neighbours that a normal is fitted to; chosen from the data by default",
+           .target = &o.neighbors,
+           .min = 3,
+           .max = 1000},
+          {.name = "center",
+           .value = "X,Y,Z",
+           .help = "normals point away from here, a point inside",
+           .target = &o.center,
+           .check = parse_vector},
+          {.name = "sensor",
+           .value = "X,Y,Z",
+           .help = "normals point to here, where the points were measured from",
+           .target = &o.sensor,
+           .check = parse_vector},
+          {.name = "keep-directions",
+           .help = "believe the normals of the file up to their signs",
+           .target = &o.keep_directions},
+          output_option(o.output, "points to write: .ply, .xyz, .obj, .off; - for standard output"),
+          format_option(o.format, {"ply", "obj", "off", "xyz"}),
+          {.name = "ascii", .help = "PLY as text", .target = &o.ascii},
+          json_option(o.json)};
+}
+
+}  // namespace
+
+Command orient_command() {
+  auto options = std::make_shared<Options>();
+  return {.name = "orient",
+          .summary = "Normals for points, all pointing outwards",
+          .description =
+              "Fits a normal to the nearest neighbours of every point, as many as the noise of "
+              "the points asks for, beside sharp edges to those of one side. Signs are carried "
+              "from neighbour to neighbour, and between parts that do not touch decided by the "
+              "winding number of the rest; --center or --sensor decide them at once where one "
+              "place sees all.\n\nThe report says how many components there are, how many "
+              "normals are new or turned round, and how sure their signs are: from 0 for a plane, "
+              "which has no inside, to 1. Colours and other attributes stay as they are.",
+          .options = option_list(*options),
+          .examples = {"rholm orient points.ply -o oriented.ply",
+                       "rholm orient points.ply --center 0,0,0 --json -o radial.ply"},
+          .run = [options](Session& session) { return run(*options, session); }};
+}
+
+}  // namespace rholm::cli

@@ -1,0 +1,147 @@
+// rholm partition: the caps of a shape in colours.
+#include <algorithm>
+#include <memory>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "cli/commands/commands.h"
+#include "cli/files/inputs.h"
+#include "cli/files/outputs.h"
+#include "cli/files/prepare.h"
+#include "cli/grammar/parse.h"
+#include "cli/terminal/json_text.h"
+#include "cli/terminal/session.h"
+#include "rholm/compress.h"
+#include "rholm/patch_atlas.h"
+#include "rholm/topology.h"
+
+namespace rholm::cli {
+namespace {
+
+struct Options {
+  std::string input, output, format;
+  std::string show = "caps";
+  double tolerance = 1e-3;
+  double min_cosine = 0.5;
+  bool json = false;
+};
+
+// Caps as analyze --atlas makes them, on the shape itself.
+template <typename Shape>
+void show_caps(const Options& options, ShapeFormat format, Shape& shape,
+               const std::vector<Vec3>& points, Session& session, Json& json) {
+  const double diagonal = bounds(points).diagonal();
+  const Compressed found =
+      compress(shape, {.tolerance = options.tolerance * diagonal}, session.context());
+  if (found.report.turned_normals) session.note(kTurned);
+  const Atlas& atlas = found.model.atlas;
+  const auto caps = loudest_caps(atlas, points, session.context());
+  if (options.show == "degrees") {
+    set_degree_colors(shape.attributes, atlas, caps);
+  } else {
+    set_cap_colors(shape.attributes, atlas, caps);
+  }
+  write_shape(shape, options.output, {format, false}, session.context());
+  const auto [least, most] =
+      std::minmax_element(atlas.caps.begin(), atlas.caps.end(),
+                          [](const Cap& a, const Cap& b) { return a.degree < b.degree; });
+  json["caps"] = atlas.caps.size();
+  json["degrees"] = {least->degree, most->degree};
+  if (!options.json) {
+    session.note(fmt::format("{} of degrees {} to {}", counted(atlas.caps.size(), "cap"),
+                             least->degree, most->degree));
+  }
+}
+
+// The patches of the paper.
+template <typename Shape>
+void show_patches(const Options& options, ShapeFormat format, const Shape& shape, Session& session,
+                  Json& json) {
+  PatchAtlasOptions wanted;
+  wanted.min_cosine = options.min_cosine;
+  const PatchPicture picture =
+      patch_picture(shape, parse_patch_view(options.show), wanted, session.context());
+  write_shape(picture.mesh, options.output, {format, false}, session.context());
+  json["patches"] = picture.patches;
+  if (!options.json) {
+    session.note(counted(picture.patches, "patch", "patches"));
+  }
+}
+
+int run(const Options& options, Session& session) {
+  const ShapeFormat format = shape_output(options.output, options.format, options.json);
+  if (format != ShapeFormat::kPly) throw UsageError("colours need a .ply file");
+  check_writable(options.output);
+  ShapeFile file = read_shape_input(options.input, session);
+  Json json;
+  json["file"] = options.input;
+  json["output"] = options.output;
+  json["show"] = options.show;
+  const auto finish = [&](auto& shape, const std::vector<Vec3>& points) {
+    if (options.show == "caps" || options.show == "degrees") {
+      show_caps(options, format, shape, points, session, json);
+    } else {
+      show_patches(options, format, shape, session, json);
+    }
+  };
+  if (auto* cloud = std::get_if<PointCloud>(&file.shape)) {
+    finish(*cloud, cloud->points);
+  } else {
+    Mesh mesh = weld(mesh_of(std::move(file), options.input, session)).mesh;
+    if (inspect(mesh).inside_out) {
+      flip(mesh);
+      session.note(kFlipped);
+    }
+    finish(mesh, mesh.vertices);
+  }
+  if (options.json) print_json(json);
+  return 0;
+}
+
+}  // namespace
+
+Command partition_command() {
+  auto options = std::make_shared<Options>();
+  Options& o = *options;
+  return {.name = "partition",
+          .summary = "The caps of a shape in colours",
+          .description =
+              "Covers a shape with few large caps, as 'rholm analyze --atlas' does, and writes it "
+              "with each vertex in the colour of the cap that speaks loudest there. Caps that "
+              "touch have different hues. With '--show degrees' the colour is that of the cap's "
+              "degree, from dark blue for the lowest to yellow for the highest.\n\n"
+              "The other views are of the patches of 'analyze --atlas --fit integral', cut by a "
+              "kd-tree until normals stay within a cone: the points of each patch, joined by their "
+              "Delaunay triangles on its best-fitting sphere; these triangles, apart; or the same "
+              "on the spheres.",
+          .options = {{.name = "SHAPE",
+                       .help = "file of a mesh, or of points with normals, or - for standard input",
+                       .target = &o.input,
+                       .required = true,
+                       .offer = Offer::kShapes},
+                      {.name = "show",
+                       .help = "what is drawn; caps by default",
+                       .target = &o.show,
+                       .choices = {"caps", "degrees", "patches", "triangles", "spheres"}},
+                      {.name = "tolerance",
+                       .value = "E",
+                       .help = "rms distance of the caps, of the diagonal; 0.001 by default",
+                       .target = &o.tolerance,
+                       .above = 0},
+                      {.name = "min-cosine",
+                       .value = "C",
+                       .help = "of patches: the least cosine between a normal and their mean; 0.5 "
+                               "by default",
+                       .target = &o.min_cosine,
+                       .min = 0,
+                       .max = 1},
+                      output_option(o.output, "shape to write: .ply; - for standard output"),
+                      format_option(o.format, {"ply"}),
+                      json_option(o.json)},
+          .examples = {"rholm partition bumpy.ply --tolerance 1e-2 -o caps.ply",
+                       "rholm partition bumpy.ply --show spheres -o spheres.ply"},
+          .run = [options](Session& session) { return run(*options, session); }};
+}
+
+}  // namespace rholm::cli

@@ -1,0 +1,140 @@
+// rholm recenter: the same surface, expanded about another point.
+#include "rholm/recenter.h"
+
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "cli/commands/commands.h"
+#include "cli/files/inputs.h"
+#include "cli/files/outputs.h"
+#include "cli/files/prepare.h"
+#include "cli/files/surfaces.h"
+#include "cli/options/convention.h"
+#include "cli/terminal/interrupt.h"
+#include "cli/terminal/json_text.h"
+#include "cli/terminal/session.h"
+#include "rholm/align.h"
+#include "rholm/error.h"
+
+namespace rholm::cli {
+namespace {
+
+struct Options {
+  std::string input;
+  std::string center = "volume";
+  std::string output;
+  std::string format;
+  ConventionOptions convention;
+  InputConvention input_convention;
+  bool json = false;
+};
+
+// The centre of a solid and that of the file are known; others are looked for on a fine mesh of the
+// surface.
+Vec3 wanted_center(const Options& o, const CenterOptions& wanted, const Expansion& before,
+                   Session& session) {
+  switch (wanted.kind) {
+    case CenterKind::kGiven:
+      return wanted.point;
+    case CenterKind::kNone:
+      return {};
+    case CenterKind::kVolume:
+      return volume_centroid(before, session.context());
+    default: {
+      CoefficientsFile file;
+      file.expansion = before;
+      const Mesh surface = surface_of(Input(std::move(file)), o.input, {}, {}, session);
+      CenterOptions options = wanted;
+      options.rays = 0;
+      return find_center(surface, options, session.context()).center;
+    }
+  }
+}
+
+// What the way there and back changes: nothing but what was lost on the way.
+std::optional<double> there_and_back(const Expansion& before, const Expansion& after,
+                                     Session& session) {
+  try {
+    const Expansion back = recentered(after, before.center, session.context());
+    return distance(before.coefficients, back.coefficients);
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::kCancelled) throw;
+    return std::nullopt;
+  }
+}
+
+int run(const Options& options, Session& session) {
+  const CenterOptions wanted = parse_center_option(options.center);
+  const CoefficientsOutput output =
+      coefficients_output(options.output, options.format, options.json);
+  const Convention convention = options.convention.output_convention();
+  check_writable(options.output);
+  const Expansion before = read_expansion(options.input, session, options.input_convention);
+  const Vec3 center = wanted_center(options, wanted, before, session);
+  const Expansion after = recentered(before, center, session.context());
+  const std::optional<double> lost = there_and_back(before, after, session);
+  write_coefficients_output(after, output, convention, session);
+  const double moved = norm(after.center - before.center);
+  if (options.json) {
+    print_json({{"file", options.input},
+                {"center_before", json_of(before.center)},
+                {"center", json_of(after.center)},
+                {"moved", moved},
+                {"degree", after.coefficients.degree()},
+                {"function", to_string(after.function)},
+                {"there_and_back", json_of(lost)}});
+    return 0;
+  }
+  std::string text = fmt::format("{}: recentered\n", display_name(options.input));
+  text += line("centre", fmt::format("{}, was {}", text_of(after.center), text_of(before.center)));
+  text += line("moved", text_of(moved));
+  text += line("there and back", lost ? text_of(*lost) + " rms over solid angle" : "not possible");
+  text.pop_back();  // the note ends the line
+  session.note(text);
+  return 0;
+}
+
+std::vector<Option> option_list(Options& o) {
+  Option center = center_option(o.center);
+  center.help =
+      "volume (the default): the centroid of the solid; auto: in the middle of all points that see "
+      "the whole surface; cosine: where the surface is seen least aslant; centroid: of the "
+      "surface; none: the origin of the file's coordinates";
+  std::vector<Option> list = {{.name = "MODEL",
+                               .help = "file of coefficients, or - for standard input",
+                               .target = &o.input,
+                               .required = true,
+                               .offer = Offer::kCoefficients}};
+  list.push_back(center);
+  list.push_back(output_option(o.output,
+                               "file of coefficients to write: .h5, .sh, .gfc, .json, .npy; - for "
+                               "standard output"));
+  list.push_back(format_option(o.format, coefficients_formats()));
+  append(list, convention_options(o.convention));
+  append(list, input_convention_options(o.input_convention));
+  list.push_back(json_option(o.json));
+  return list;
+}
+
+}  // namespace
+
+Command recenter_command() {
+  auto options = std::make_shared<Options>();
+  return {
+      .name = "recenter",
+      .summary = "The same surface, expanded about another point",
+      .description =
+          "Writes the coefficients of the same surface as seen from another centre, of the same "
+          "degree; the surface stays where it is. What the change takes to higher degrees is "
+          "lost: the report says how far the way there and back differs from the model, root "
+          "mean square over all directions. What was known of the model's own errors is "
+          "dropped.\n\nA centre from which the surface turns its back is refused. 'rholm align' "
+          "does this by itself.",
+      .options = option_list(*options),
+      .examples = {"rholm recenter bumpy.h5 -o centred.h5",
+                   "rholm recenter bumpy.h5 --center 0.05,0,0 --json -o moved.h5"},
+      .run = [options](Session& session) { return run(*options, session); }};
+}
+
+}  // namespace rholm::cli

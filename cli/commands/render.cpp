@@ -1,0 +1,306 @@
+// rholm render: a picture of shapes and models.
+#include "rholm/render.h"
+
+#include <algorithm>
+#include <deque>
+#include <filesystem>
+#include <limits>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "cli/commands/commands.h"
+#include "cli/files/inputs.h"
+#include "cli/files/length_units.h"
+#include "cli/files/outputs.h"
+#include "cli/files/surfaces.h"
+#include "cli/grammar/parse.h"
+#include "cli/grammar/values.h"
+#include "cli/terminal/interrupt.h"
+#include "cli/terminal/session.h"
+#include "rholm/compare.h"
+#include "rholm/file.h"
+#include "rholm/topology.h"
+
+namespace rholm::cli {
+namespace {
+
+struct Options {
+  std::vector<std::string> inputs;
+  std::string degrees;
+  std::string size;
+  std::string color;
+  std::string against;
+  std::optional<double> scale_max;
+  bool perspective = false;
+  bool flat = false;
+  std::string fit = "scale";
+  std::string view;
+  std::string up;
+  std::string labels;
+  std::optional<int> subdivisions;
+  std::string output;
+  std::string format;
+  InputConvention convention;
+};
+
+// Panels point to their meshes: a deque keeps them where they are.
+struct Scene {
+  std::deque<Mesh> meshes;
+  std::vector<Panel> panels;
+  CommonUnit unit;
+};
+
+// Pixels: one panel is a picture of its own, several share the width.
+constexpr int kMinSize = 16, kMaxSize = 16384;
+constexpr int kSingleWidth = 1024, kSingleHeight = 768, kPanelWidth = 400, kPanelHeight = 460;
+
+// A picture of more pixels than a screen has takes four rays a pixel instead of nine: what one
+// pixel loses the eye has back from its neighbours, in less than half of the time.
+constexpr double kManyPixels = 4e6;
+constexpr int kFewSamples = 2;
+
+// Of the largest: smaller things can hardly be seen at its scale.
+constexpr double kSmall = 0.05;
+
+void check_options(const Options& options) {
+  if (options.output == "-" && options.format.empty()) {
+    throw UsageError("standard output has no extension: say --format png");
+  }
+  if (options.output != "-" && options.format.empty() && extension_of(options.output) != ".png") {
+    throw UsageError(
+        fmt::format("'{}' must end in .png, the one format of pictures", options.output));
+  }
+  if (options.color == "error" && options.against.empty()) {
+    throw UsageError("--color error needs --against SHAPE, the surface to measure from");
+  }
+  if (!options.against.empty() && options.color != "error") {
+    throw UsageError("--against is the surface of --color error, which is missing");
+  }
+}
+
+// Radians between sight and up, below which what is up would be decided by rounding.
+constexpr double kLeastAngle = 1e-6;
+
+RenderOptions render_options(const Options& options, std::size_t panels) {
+  RenderOptions wanted;
+  const int n = static_cast<int>(std::min<std::size_t>(panels, 40));
+  wanted.width = n == 1 ? kSingleWidth : kPanelWidth * n;
+  wanted.height = n == 1 ? kSingleHeight : kPanelHeight;
+  if (!options.size.empty()) {
+    const auto size = parse_size("--size", options.size, kMinSize, kMaxSize);
+    wanted.width = size[0];
+    wanted.height = size[1];
+  }
+  if (double(wanted.width) * wanted.height > kManyPixels) wanted.samples = kFewSamples;
+  wanted.perspective = options.perspective;
+  wanted.fit_each = options.fit == "each";
+  if (!options.view.empty()) wanted.view_direction = parse_direction("--view", options.view);
+  const auto along_view = [&](const Vec3& up) {
+    return norm(cross(normalized(wanted.view_direction), normalized(up))) < kLeastAngle;
+  };
+  if (!options.up.empty()) {
+    wanted.up = parse_direction("--up", options.up);
+    if (along_view(wanted.up)) {
+      throw UsageError(
+          fmt::format("--up is '{}', the direction of --view or its opposite: another "
+                      "one is needed",
+                      options.up));
+    }
+  } else if (along_view(wanted.up)) {
+    wanted.up = {0, 1, 0};  // seen from above or below, as on a map
+  }
+  return wanted;
+}
+
+void add_panel(Mesh mesh, const std::string& label, bool smooth, Scene& scene) {
+  scene.meshes.push_back(std::move(mesh));
+  scene.panels.push_back(
+      {.mesh = &scene.meshes.back(), .label = label, .scalars = {}, .smooth = smooth});
+}
+
+// A shape is one panel, a model one for each degree asked for.
+void add_input(const Options& options, const std::string& path, Session& session, Scene& scene) {
+  Input input = read_surface_input(path, session, options.convention);
+  scene.unit.add(input, path, session);
+  const std::string name = path == "-" ? "input" : std::filesystem::path(path).stem().string();
+  const auto* file = std::get_if<CoefficientsFile>(&input);
+  if (!file || options.degrees.empty()) {
+    const std::string label =
+        file ? fmt::format("{}, L = {}", name, file->expansion.coefficients.degree()) : name;
+    add_panel(surface_of(input, path, {}, options.subdivisions, session), label,
+              file || !options.flat, scene);
+    return;
+  }
+  for (const int degree : parse_degrees("--degree", options.degrees)) {
+    add_panel(surface_of(input, path, degree, options.subdivisions, session),
+              fmt::format("L = {}", degree), true, scene);
+  }
+}
+
+void color_by_error(const Options& options, Session& session, Scene& scene, RenderOptions& wanted) {
+  Input other = read_surface_input(options.against, session, options.convention);
+  scene.unit.add(other, options.against, session);
+  const Mesh surface = surface_of(other, options.against, {}, options.subdivisions, session);
+  for (Panel& panel : scene.panels) {
+    panel.scalars = distances_to_surface(panel.mesh->vertices, surface, session.context());
+  }
+  wanted.scale_min = 0;
+  wanted.scale_max = options.scale_max;
+  wanted.scale_label =
+      fmt::format("distance to {}", std::filesystem::path(options.against).filename().string());
+}
+
+void color_by_own(const Options& options, Session& session, Scene& scene) {
+  for (std::size_t i = 0; i < scene.panels.size(); ++i) {
+    scene.panels[i].colors = vertex_colors(*scene.panels[i].mesh);
+    if (!scene.panels[i].colors.empty()) continue;
+    session.warn(fmt::format("panel {} of {} has no red, green, blue: it stays plain", i + 1,
+                             options.inputs.size()));
+  }
+}
+
+void set_labels(const Options& options, Scene& scene) {
+  if (options.labels.empty()) {
+    if (scene.panels.size() == 1) scene.panels.front().label.clear();
+    return;
+  }
+  const std::vector<std::string> labels = split(options.labels, ',');
+  if (labels.size() != scene.panels.size()) {
+    throw UsageError(
+        fmt::format("--labels has {} names for {} panels", labels.size(), scene.panels.size()));
+  }
+  for (std::size_t i = 0; i < labels.size(); ++i) scene.panels[i].label = labels[i];
+}
+
+// What is invisible beside the others.
+void note_small(const Options& options, const Scene& scene, Session& session) {
+  double largest = 0, smallest = std::numeric_limits<double>::infinity();
+  for (const Mesh& mesh : scene.meshes) {
+    const double size = bounds(mesh.vertices).diagonal();
+    largest = std::max(largest, size);
+    smallest = std::min(smallest, size);
+  }
+  if (options.fit == "each" || !(smallest < kSmall * largest)) return;
+  session.note(
+      fmt::format("the smallest shape has {:.2g} of the size of the largest, and all are "
+                  "drawn at one scale: --fit each fills every picture",
+                  smallest / largest));
+}
+
+int run(const Options& options, Session& session) {
+  check_options(options);
+  render_options(options, 1);  // refuses wrong values before anything is read
+  if (!options.degrees.empty()) parse_degrees("--degree", options.degrees);
+  check_writable(options.output);
+  Scene scene;
+  for (const std::string& path : options.inputs) add_input(options, path, session, scene);
+  set_labels(options, scene);
+  note_small(options, scene, session);
+  RenderOptions wanted = render_options(options, scene.panels.size());
+  if (options.color == "error") color_by_error(options, session, scene, wanted);
+  if (options.color == "own") color_by_own(options, session, scene);
+  const Image image = render(scene.panels, wanted, session.context());
+  stop_if_interrupted();
+  write_png(options.output, image);
+  return 0;
+}
+
+std::vector<Option> picture_options(Options& o) {
+  return {
+      {.name = "INPUT",
+       .help = "files of meshes or coefficients; several stand side by side",
+       .target = &o.inputs,
+       .required = true,
+       .offer = Offer::kShapesAndCoefficients},
+      {.name = "size",
+       .value = "WxH",
+       .help = "pixels of the whole picture; 1024x768 by default, 400x460 for each of several",
+       .target = &o.size,
+       .check = [](const std::string& option,
+                   const std::string& text) { parse_size(option, text, kMinSize, kMaxSize); }},
+      {.name = "color",
+       .help = "error: by the distance to the surface of --against, with a scale bar; own: the "
+               "colours that a file has, red, green, blue at its vertices",
+       .target = &o.color,
+       .choices = {"none", "error", "own"}},
+      {.name = "against",
+       .value = "SHAPE",
+       .help = "mesh or coefficients to measure the error from",
+       .target = &o.against,
+       .offer = Offer::kShapesAndCoefficients},
+      {.name = "scale-max",
+       .value = "D",
+       .help = "distance at the top of the scale bar; by default the largest there is",
+       .target = &o.scale_max,
+       .above = 0},
+      {.name = "degree",
+       .value = "L[,L...]",
+       .help = "cut coefficients off at these degrees, one picture for each",
+       .target = &o.degrees,
+       .check = parse_degrees},
+      {.name = "labels",
+       .value = "TEXT[,TEXT...]",
+       .help = "what stands below each picture, instead of file and degree",
+       .target = &o.labels},
+      {.name = "view",
+       .value = "X,Y,Z",
+       .help = "direction of sight, from the eye into the scene; -0.55,0.75,-0.4 by default",
+       .target = &o.view,
+       .check = parse_direction},
+      {.name = "up",
+       .value = "X,Y,Z",
+       .help = "direction that points up in the picture; 0,0,1 by default, or 0,1,0 where that "
+               "is the direction of sight",
+       .target = &o.up,
+       .check = parse_direction},
+      {.name = "fit",
+       .help = "scale: all at one scale (the default); each: every one as large as it fits",
+       .target = &o.fit,
+       .choices = {"scale", "each"}},
+      {.name = "flat",
+       .help = "show the faces of a mesh, even where its file has normals, which make it smooth",
+       .target = &o.flat},
+      {.name = "perspective",
+       .help = "as a camera sees it, instead of parallel lines of sight",
+       .target = &o.perspective},
+      {.name = "subdivisions",
+       .value = "N",
+       .help = "icosphere on which coefficients are sampled; by default the smallest N of 5 "
+               "... 8 with 16 (L+1)^2 vertices",
+       .target = &o.subdivisions,
+       .min = 0,
+       .max = 12},
+      output_option(o.output, "picture to write: .png; - for standard output"),
+      format_option(o.format, {"png"})};
+}
+
+std::vector<Option> option_list(Options& o) {
+  std::vector<Option> list = picture_options(o);
+  append(list, input_convention_options(o.convention));
+  return list;
+}
+
+}  // namespace
+
+Command render_command() {
+  auto options = std::make_shared<Options>();
+  return {
+      .name = "render",
+      .summary = "A picture of meshes and models",
+      .description =
+          "Draws meshes, and the surfaces of coefficients, as a shaded PNG picture. Several "
+          "inputs, or several degrees of one, stand side by side at one scale, or with --fit each "
+          "as "
+          "large as they fit. A mesh whose file has normals is shaded by them, smooth where they "
+          "are and creased where they differ; --flat shows its faces. Pictures of more than four "
+          "million pixels take four rays a pixel instead of nine.",
+      .options = option_list(*options),
+      .examples =
+          {"rholm render bumpy.h5 --degree 2,8,32 --size 720x240 -o levels.png",
+           "rholm render bumpy.h5 bumpy.ply --fit each --size 480x240 -o both.png",
+           "rholm render bumpy.h5 --color error --against bumpy.ply --size 480x360 -o error.png"},
+      .run = [options](Session& session) { return run(*options, session); }};
+}
+
+}  // namespace rholm::cli

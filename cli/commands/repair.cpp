@@ -1,0 +1,227 @@
+// rholm repair: damaged meshes made fit for work.
+#include "rholm/repair.h"
+
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "cli/commands/commands.h"
+#include "cli/files/inputs.h"
+#include "cli/files/outputs.h"
+#include "cli/files/prepare.h"
+#include "cli/grammar/parse.h"
+#include "cli/terminal/interrupt.h"
+#include "cli/terminal/json_text.h"
+#include "cli/terminal/session.h"
+#include "rholm/error.h"
+
+namespace rholm::cli {
+namespace {
+
+struct Options {
+  std::string input;
+  double weld = 0;
+  int max_hole = static_cast<int>(RepairOptions{}.max_hole);
+  std::string output;
+  std::string format;
+  bool ascii = false;
+  bool json = false;
+};
+
+Json state_json(const Inspection& i) {
+  return {{"vertices", i.vertices},
+          {"faces", i.triangles},
+          {"edges", i.edges},
+          {"closed", i.closed},
+          {"boundary_edges", i.boundary_edges},
+          {"manifold", i.manifold},
+          {"non_manifold_edges", i.non_manifold_edges},
+          {"non_manifold_vertices", i.non_manifold_vertices},
+          {"oriented", i.oriented},
+          {"misoriented_edges", i.misoriented_edges},
+          {"components", i.components},
+          {"genus", i.closed && i.manifold ? Json(i.genus) : Json(nullptr)},
+          {"degenerate_faces", i.degenerate_triangles},
+          {"duplicate_faces", i.duplicate_triangles},
+          {"area", i.area},
+          {"volume", i.closed && i.oriented ? Json(i.volume) : Json(nullptr)}};
+}
+
+Json report_json(const RepairReport& r, const Options& options) {
+  Json json;
+  json["file"] = options.input;
+  json["weld"] = {{"tolerance", options.weld},
+                  {"merged_vertices", r.merged_vertices},
+                  {"collapsed_faces", r.collapsed_triangles}};
+  json["dropped"] = {{"isolated_vertices", r.isolated_vertices},
+                     {"duplicate_faces", r.duplicate_triangles},
+                     {"degenerate_faces", r.degenerate_triangles}};
+  json["split_vertices"] = r.split_vertices;
+  json["turned_faces"] = r.flipped_triangles;
+  json["turned_parts"] = r.inside_out_parts;
+  json["cavities"] = r.cavities;
+  json["holes"] = {
+      {"max_edges", options.max_hole}, {"closed", r.closed_holes}, {"new_faces", r.hole_triangles}};
+  json["left"] = {{"large_holes", r.large_holes},
+                  {"largest_hole_edges", r.largest_hole},
+                  {"open_sheets", r.sheets},
+                  {"one_sided_parts", r.one_sided_parts}};
+  json["closes_at"] = json_of(r.closes_at);
+  json["before"] = state_json(r.before);
+  json["after"] = state_json(r.after);
+  return json;
+}
+
+// "what" where there is nothing else to say.
+std::string list_or(std::string list, const char* nothing) { return list.empty() ? nothing : list; }
+
+void add(std::string& list, std::size_t n, const std::string& text) {
+  if (n > 0) list += (list.empty() ? "" : ", ") + text;
+}
+
+std::string state_of(const Inspection& i) {
+  std::string text = i.closed ? "closed" : "open, " + counted(i.boundary_edges, "boundary edge");
+  text += i.manifold ? ", manifold" : ", not manifold";
+  text += i.oriented ? ", oriented" : ", faces disagree at " + counted(i.misoriented_edges, "edge");
+  add(text, i.duplicate_triangles, counted(i.duplicate_triangles, "duplicate face"));
+  add(text, i.degenerate_triangles, counted(i.degenerate_triangles, "face") + " without area");
+  text += ", " + counted(i.components, "component");
+  if (i.closed && i.oriented) text += ", volume " + text_of(i.volume);
+  return text;
+}
+
+std::string dropped_text(const RepairReport& r) {
+  std::string list;
+  add(list, r.duplicate_triangles, counted(r.duplicate_triangles, "duplicate face"));
+  add(list, r.degenerate_triangles, counted(r.degenerate_triangles, "face") + " without area");
+  add(list, r.isolated_vertices,
+      counted(r.isolated_vertices, "vertex", "vertices") + " in no face");
+  return list_or(list, "nothing");
+}
+
+std::string turned_text(const RepairReport& r) {
+  std::string list;
+  add(list, r.flipped_triangles, counted(r.flipped_triangles, "face"));
+  add(list, r.inside_out_parts, counted(r.inside_out_parts, "closed part") + " as a whole");
+  return list_or(list, "nothing");
+}
+
+std::string report_text(const RepairReport& r) {
+  std::string text;
+  text += line("before", state_of(r.before));
+  text += line("welded",
+               fmt::format("{}, {} collapsed", counted(r.merged_vertices, "vertex", "vertices"),
+                           counted(r.collapsed_triangles, "face")));
+  text += line("dropped", dropped_text(r));
+  if (r.split_vertices > 0) {
+    text += line("split", counted(r.split_vertices, "vertex", "vertices") + " between sheets");
+  }
+  text += line("turned", turned_text(r));
+  if (r.cavities > 0) {
+    text += line("cavities", counted(r.cavities, "part") + " within others, facing inwards");
+  }
+  text += line("holes closed",
+               fmt::format("{}, with {}", r.closed_holes, counted(r.hole_triangles, "new face")));
+  return text + line("after", state_of(r.after));
+}
+
+// What could not be mended, and what would.
+void warn_of_rest(const RepairReport& r, const Options& options, Session& session) {
+  if (r.large_holes > 0) {
+    session.warn(fmt::format("{} left open: more than --max-hole {} edges, the largest has {}",
+                             counted(r.large_holes, "hole"), options.max_hole, r.largest_hole));
+  }
+  if (r.sheets > 0) {
+    session.warn(
+        fmt::format("{} left open: a cover would have more than 3/4 of the area of its "
+                    "part, which is an open sheet",
+                    counted(r.sheets, "border")));
+  }
+  if (r.one_sided_parts > 0) {
+    session.warn(
+        fmt::format("{} left as they are: surfaces with one side only, as a Moebius "
+                    "strip, cannot be oriented",
+                    counted(r.one_sided_parts, "part")));
+  }
+  if (r.after.degenerate_triangles > 0) {
+    session.warn(
+        fmt::format("{} without area left", counted(r.after.degenerate_triangles, "face")));
+  }
+  if (r.after.non_manifold_edges + r.after.non_manifold_vertices > 0) {
+    session.warn(fmt::format("not manifold still: {}, {}",
+                             counted(r.after.non_manifold_edges, "edge"),
+                             counted(r.after.non_manifold_vertices, "vertex", "vertices")));
+  }
+  if (r.closes_at) {
+    session.warn(fmt::format("borders lie within {:.2g} of each other: --weld {:.2g} joins them",
+                             *r.closes_at, *r.closes_at));
+  }
+}
+
+int run(const Options& options, Session& session) {
+  const ShapeFormat format = mesh_output(options.output, options.format, options.json);
+  check_writable(options.output);
+  const Mesh mesh = read_mesh(options.input, session);
+  const Repaired result =
+      repair(mesh, {.weld = options.weld, .max_hole = static_cast<std::size_t>(options.max_hole)},
+             session.context());
+  stop_if_interrupted();
+  if (result.mesh.triangles.empty()) {
+    throw Error(ErrorCode::kInvalidInput,
+                fmt::format("{} has no face with an area: nothing is left to write",
+                            display_name(options.input)));
+  }
+  write_shape(result.mesh, options.output, {format, options.ascii}, session.context());
+  if (options.json) {
+    print_json(report_json(result.report, options));
+  } else if (options.output != "-") {
+    print_text(fmt::format("{}: repaired\n", display_name(options.input)) +
+               report_text(result.report));
+  }
+  warn_of_rest(result.report, options, session);
+  return 0;
+}
+
+std::vector<Option> option_list(Options& o) {
+  std::vector<Option> list = {
+      {.name = "MESH",
+       .help = "file of a mesh, or - for standard input",
+       .target = &o.input,
+       .required = true,
+       .offer = Offer::kShapes},
+      weld_option(o.weld),
+      {.name = "max-hole",
+       .value = "N",
+       .help = "close holes with at most N edges, 100 by default; 0 closes none",
+       .target = &o.max_hole,
+       .min = 0,
+       .max = 500}};
+  append(list, mesh_output_options(o.output, o.format, o.ascii));
+  list.push_back(json_option(o.json));
+  return list;
+}
+
+}  // namespace
+
+Command repair_command() {
+  auto options = std::make_shared<Options>();
+  return {
+      .name = "repair",
+      .summary = "A damaged mesh mended: welded, oriented, small holes closed",
+      .description =
+          "Joins vertices, drops duplicate faces, faces without area and vertices in no face, "
+          "separates sheets that touch where three or more faces meet in an edge or several fans "
+          "in a vertex (they move apart by a millionth of the diagonal, or the next reader would "
+          "join them again), turns the faces of each part alike and closed parts outwards, and "
+          "closes small holes with flat faces. A closed part within another is the wall of a "
+          "cavity and faces inwards. Colours and other properties stay.\n\nThe report counts what "
+          "was done and says what 'info' would say, before and after. What is left is said: "
+          "larger holes, borders of open sheets (a cover would have more than 3/4 of their area), "
+          "surfaces with one side only. The exit code is 0 then too.",
+      .options = option_list(*options),
+      .examples = {"rholm repair bumpy.ply -o repaired.ply",
+                   "rholm repair bumpy.ply --weld 1e-6 --max-hole 20 --json -o repaired.ply"},
+      .run = [options](Session& session) { return run(*options, session); }};
+}
+
+}  // namespace rholm::cli

@@ -1,0 +1,363 @@
+// rholm report: all there is to know of a model, on one page.
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "cli/commands/atlas_report.h"
+#include "cli/commands/commands.h"
+#include "cli/files/inputs.h"
+#include "cli/files/outputs.h"
+#include "cli/files/prepare.h"
+#include "cli/grammar/parse.h"
+#include "cli/options/tolerance_options.h"
+#include "cli/terminal/interrupt.h"
+#include "cli/terminal/json_text.h"
+#include "cli/terminal/session.h"
+#include "rholm/error.h"
+#include "rholm/file.h"
+#include "rholm/model.h"
+#include "rholm/report.h"
+
+namespace rholm::cli {
+namespace {
+
+constexpr int kDefaultDegree = 64;
+
+struct Options {
+  std::string input;
+  std::string shape;
+  std::optional<int> degree;
+  ToleranceOptions tolerance;
+  std::string center;
+  double weld = 0;
+  std::string length_unit;
+  int size = ReportOptions{}.picture_size;
+  std::string output;
+  std::string format;
+  InputConvention convention;
+};
+
+// What the page is made of.
+struct Subject {
+  Expansion expansion;
+  std::optional<Mesh> shape;
+  ReportOptions page;
+  std::string complaint;  // what was wanted and not reached, on the page and at the end
+};
+
+void check_options(const Options& options) {
+  const std::string extension = extension_of(options.output);
+  if (options.output == "-" && options.format.empty()) {
+    throw UsageError("standard output has no extension: say --format html");
+  }
+  if (options.output != "-" && options.format.empty() && extension != ".html" &&
+      extension != ".htm") {
+    throw UsageError(
+        fmt::format("'{}' must end in .html, the one format of reports", options.output));
+  }
+  if (options.degree && options.tolerance.tolerance) {
+    throw UsageError("--degree L or --tolerance E: only one of the two can be kept");
+  }
+  if (options.shape == "-" && options.input == "-") {
+    throw UsageError("standard input can be read once: the model or --shape, not both");
+  }
+}
+
+// As a shell reads it back.
+std::string quoted(const std::string& word) {
+  const auto plain = [](unsigned char c) {
+    return std::isalnum(c) ||
+           std::string_view("_-./:,+=@%").find(static_cast<char>(c)) != std::string_view::npos;
+  };
+  if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+// " --name VALUE".
+std::string option_text(const std::string& name, const std::string& value) {
+  return fmt::format(" --{} {}", name, quoted(value));
+}
+
+std::string tolerance_text(const ToleranceOptions& options) {
+  std::string text = option_text("tolerance", fmt::format("{}", *options.tolerance));
+  if (!options.norm.empty()) text += option_text("norm", options.norm);
+  if (!options.measure.empty()) text += option_text("measure", options.measure);
+  if (!options.unit.empty()) text += option_text("unit", options.unit);
+  if (options.max_degree) text += option_text("max-degree", std::to_string(*options.max_degree));
+  return text;
+}
+
+// The options with which a shape becomes coefficients, as analyze has them too.
+std::string analysis_text(const Options& options) {
+  std::string text =
+      options.tolerance.tolerance
+          ? tolerance_text(options.tolerance)
+          : option_text("degree", std::to_string(options.degree.value_or(kDefaultDegree)));
+  if (!options.center.empty()) text += option_text("center", options.center);
+  if (options.weld > 0) text += option_text("weld", fmt::format("{}", options.weld));
+  if (!options.length_unit.empty()) text += option_text("length-unit", options.length_unit);
+  return text;
+}
+
+std::string page_command(const Options& options, const std::string& choices) {
+  std::string text = "rholm report " + quoted(options.input) + choices;
+  if (options.size != ReportOptions{}.picture_size) {
+    text += option_text("size", std::to_string(options.size));
+  }
+  if (!options.format.empty()) text += option_text("format", options.format);
+  return text + " -o " + quoted(options.output);
+}
+
+std::string name_of(const std::string& path) {
+  return path == "-" ? "standard input" : std::filesystem::path(path).filename().string();
+}
+
+EncodeOptions encode_options(const Options& options) {
+  EncodeOptions wanted;
+  wanted.analyze.degree = options.degree.value_or(kDefaultDegree);
+  wanted.tolerance = options.tolerance.parsed();
+  wanted.chart.center = parse_center_option(options.center.empty() ? "auto" : options.center);
+  wanted.weld_tolerance = options.weld;
+  return wanted;
+}
+
+// A wish that was not kept is said on the page and, when it has been written, as an error.
+void not_kept(const std::string& what, Subject& subject) {
+  subject.page.notes.push_back("Note: " + what + ".");
+  subject.complaint += (subject.complaint.empty() ? "" : "; ") + what;
+}
+
+void add_verdicts(const Encoded& encoded, const EncodeOptions& wanted, Subject& subject) {
+  const std::optional<FastReport>& fast = encoded.analysis.fast;
+  if (fast && !fast->reached) {
+    not_kept(fmt::format("the estimated error of the coefficients is {}, above the wanted {}; "
+                         "'rholm analyze --engine direct' makes a model that is exact",
+                         text_of(fast->error), text_of(wanted.analyze.precision)),
+             subject);
+  }
+  if (!encoded.tolerance) return;
+  const ToleranceReport& tolerance = *encoded.tolerance;
+  const int degree = encoded.analysis.expansion.coefficients.degree();
+  const std::string error = fmt::format("{} error ({})", to_string(wanted.tolerance->norm),
+                                        to_string(wanted.tolerance->measure));
+  if (!tolerance.met) {
+    not_kept(fmt::format("the tolerance of {} was not kept by degree {}: the {} is {}",
+                         text_of(tolerance.allowed), degree, error, text_of(tolerance.reached)),
+             subject);
+  } else {
+    subject.page.notes.push_back(
+        fmt::format("Degree {} is the smallest whose {} is within the tolerance of {}: it is {}.",
+                    degree, error, text_of(tolerance.allowed), text_of(tolerance.reached)));
+  }
+  // The plots are of the radius over solid angle.
+  if (wanted.tolerance->norm == ErrorNorm::kRms &&
+      wanted.tolerance->measure == ErrorMeasure::kRadius && tolerance.allowed > 0) {
+    subject.page.tolerance = tolerance.allowed;
+  }
+}
+
+Subject subject_of_shape(const Options& options, Mesh mesh, Session& session) {
+  if (!options.shape.empty()) {
+    throw UsageError(fmt::format("{} is a shape itself: --shape is for coefficients",
+                                 display_name(options.input)));
+  }
+  Encoded encoded = encode(mesh, encode_options(options), session.context());
+  if (encoded.flipped) session.note(kFlipped);
+  Subject subject;
+  add_verdicts(encoded, encode_options(options), subject);
+  subject.expansion = std::move(encoded.analysis.expansion);
+  subject.expansion.unit = options.length_unit;
+  subject.shape = std::move(mesh);
+  subject.page.shape_name = name_of(options.input);
+  const std::string choices = analysis_text(options);
+  const std::string model = options.input == "-"
+                                ? "model.h5"
+                                : std::filesystem::path(options.input).stem().string() + ".h5";
+  subject.page.commands = {
+      {"The model", "rholm analyze " + quoted(options.input) + choices + " -o " + quoted(model)},
+      {"This page", page_command(options, choices)}};
+  return subject;
+}
+
+// The command that makes a model like this one of the shape; what precision it had, the file does
+// not say.
+std::optional<ReportCommand> model_command(const Options& options, const Expansion& expansion) {
+  const std::vector<std::string> known = {"edge", "gauge", "curl", "area"};
+  if (options.shape.empty() || std::count(known.begin(), known.end(), expansion.method) == 0) {
+    return std::nullopt;
+  }
+  const Vec3& c = expansion.center;
+  std::string text = "rholm analyze " + quoted(options.shape) +
+                     option_text("degree", std::to_string(expansion.coefficients.degree()));
+  if (expansion.method != "edge") text += option_text("method", expansion.method);
+  text += " --center=" + quoted(fmt::format("{},{},{}", c.x, c.y, c.z));
+  if (options.weld > 0) text += option_text("weld", fmt::format("{}", options.weld));
+  if (!expansion.unit.empty()) text += option_text("length-unit", expansion.unit);
+  return ReportCommand{"A model of the same degree, method and centre",
+                       text + " -o " + quoted(options.input)};
+}
+
+Subject subject_of_model(const Options& options, CoefficientsFile file, Session& session) {
+  if (options.degree || options.tolerance.tolerance || !options.center.empty() ||
+      !options.length_unit.empty()) {
+    throw UsageError(fmt::format(
+        "{} holds coefficients: --degree, --tolerance, --center and --length-unit are for "
+        "shapes, which are analysed first",
+        display_name(options.input)));
+  }
+  Subject subject;
+  for (const std::string& assumed : file.assumed) {
+    subject.page.notes.push_back(
+        fmt::format("The file of coefficients does not say everything; assumed was: {}.", assumed));
+  }
+  subject.expansion = std::move(file.expansion);
+  std::string choices;
+  if (!options.shape.empty()) {
+    subject.shape = read_mesh(options.shape, session);
+    subject.page.shape_name = name_of(options.shape);
+    choices = option_text("shape", options.shape);
+    if (options.weld > 0) choices += option_text("weld", fmt::format("{}", options.weld));
+  }
+  if (const auto command = model_command(options, subject.expansion)) {
+    subject.page.commands.push_back(*command);
+  }
+  subject.page.commands.push_back({"This page", page_command(options, choices)});
+  return subject;
+}
+
+Subject subject_of(const Options& options, Session& session) {
+  Input input = read_surface_input(options.input, session, options.convention);
+  if (auto* file = std::get_if<ShapeFile>(&input)) {
+    return subject_of_shape(options, mesh_of(std::move(*file), options.input, session), session);
+  }
+  return subject_of_model(options, std::move(std::get<CoefficientsFile>(input)), session);
+}
+
+// The command that makes a model within the same tolerance of the shape.
+std::optional<ReportCommand> atlas_command(const Options& options, const AtlasModel& model) {
+  if (options.shape.empty() || !(model.tolerance > 0)) return std::nullopt;
+  std::string text = "rholm analyze " + quoted(options.shape) + " --atlas" +
+                     option_text("tolerance", fmt::format("{}", model.tolerance));
+  if (!model.unit.empty()) text += option_text("length-unit", model.unit);
+  return ReportCommand{"A model within the same tolerance", text + " -o " + quoted(options.input)};
+}
+
+std::string page_of_atlas(const Options& options, Session& session) {
+  if (options.degree || options.tolerance.tolerance || !options.center.empty() ||
+      options.weld > 0 || !options.length_unit.empty()) {
+    throw UsageError(
+        fmt::format("{} holds an atlas of caps: --degree, --tolerance, --center, --weld and "
+                    "--length-unit are for shapes, which are analysed first",
+                    display_name(options.input)));
+  }
+  const AtlasModel model = read_atlas(options.input);
+  std::optional<Mesh> shape;
+  ReportOptions page{.title = name_of(options.input), .shape_name = {}};
+  page.picture_size = options.size;
+  page.file_bytes = file_size_of(options.input);
+  std::string choices;
+  if (!options.shape.empty()) {
+    shape = read_mesh(options.shape, session);
+    page.shape_name = name_of(options.shape);
+    choices = option_text("shape", options.shape);
+  }
+  if (const auto command = atlas_command(options, model)) page.commands.push_back(*command);
+  page.commands.push_back({"This page", page_command(options, choices)});
+  return report_html(model, shape ? &*shape : nullptr, page, session.context());
+}
+
+int run(const Options& options, Session& session) {
+  check_options(options);
+  encode_options(options);  // refuses wrong values before anything is read
+  check_writable(options.output);
+  if (holds_atlas(options.input)) {
+    const std::string page = page_of_atlas(options, session);
+    stop_if_interrupted();
+    write_file(options.output, page);
+    return 0;
+  }
+  Subject subject = subject_of(options, session);
+  subject.page.title = name_of(options.input);
+  subject.page.weld_tolerance = options.weld;
+  subject.page.picture_size = options.size;
+  const std::string page = report_html(subject.expansion, subject.shape ? &*subject.shape : nullptr,
+                                       subject.page, session.context());
+  stop_if_interrupted();
+  write_file(options.output, page);
+  if (!subject.complaint.empty()) throw Error(ErrorCode::kNotConverged, subject.complaint);
+  return 0;
+}
+
+std::vector<Option> input_options(Options& o) {
+  return {
+      {.name = "INPUT",
+       .help = "file of coefficients, an atlas, or a closed mesh, which is analysed first; - for "
+               "standard input",
+       .target = &o.input,
+       .required = true,
+       .offer = Offer::kShapesAndCoefficients},
+      {.name = "shape",
+       .value = "SHAPE",
+       .help = "the mesh that the coefficients are of: its picture, where the model differs, "
+               "and the largest errors",
+       .target = &o.shape,
+       .offer = Offer::kShapes},
+      {.name = "degree",
+       .value = "L",
+       .help = "of the analysis of a mesh; 64 by default",
+       .target = &o.degree,
+       .min = 0,
+       .max = kMaxDegree}};
+}
+
+std::vector<Option> shape_and_page_options(Options& o) {
+  return {center_option(o.center),
+          weld_option(o.weld),
+          length_unit_option(o.length_unit),
+          {.name = "size",
+           .value = "N",
+           .help = "pixels of the side of each picture, 16 ... 4096; 480 by default",
+           .target = &o.size,
+           .min = 16,
+           .max = 4096},
+          output_option(o.output, "page to write: .html; - for standard output"),
+          format_option(o.format, {"html"})};
+}
+
+std::vector<Option> option_list(Options& o) {
+  std::vector<Option> list = input_options(o);
+  append(list, tolerance_options(o.tolerance));
+  append(list, shape_and_page_options(o));
+  append(list, input_convention_options(o.convention));
+  return list;
+}
+
+}  // namespace
+
+Command report_command() {
+  auto options = std::make_shared<Options>();
+  return {
+      .name = "report",
+      .summary = "All about a model on one page, with pictures",
+      .description =
+          "Writes a page of HTML that needs no other file and no network: pictures of the shape "
+          "and of the model at a few degrees, a map of where they differ, the spectrum, a "
+          "table of degrees and their errors, what is known of the error and how, figures, "
+          "conventions, and the commands that make model and page again. It can be read on a "
+          "screen of any width and on paper.\n\nA mesh is analysed first, with the method edge. "
+          "Coefficients are taken as they are; with --shape they are set beside the mesh they "
+          "are of; an atlas of caps likewise. There are no dates in the page: the same input gives "
+          "the same bytes.",
+      .options = option_list(*options),
+      .examples = {"rholm report bumpy.ply --degree 32 --size 160 -o report.html",
+                   "rholm report bumpy.h5 --shape bumpy.ply --size 160 -o report.html"},
+      .run = [options](Session& session) { return run(*options, session); },
+      .if_not_star = "'rholm analyze --atlas' makes a model of it, to report on with --shape"};
+}
+
+}  // namespace rholm::cli

@@ -1,0 +1,151 @@
+// rholm simplify: fewer faces for the same surface.
+#include "rholm/simplify.h"
+
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "cli/commands/commands.h"
+#include "cli/files/inputs.h"
+#include "cli/files/outputs.h"
+#include "cli/grammar/parse.h"
+#include "cli/options/simplify_option.h"
+#include "cli/terminal/interrupt.h"
+#include "cli/terminal/json_text.h"
+#include "cli/terminal/session.h"
+#include "rholm/error.h"
+#include "rholm/topology.h"
+
+namespace rholm::cli {
+namespace {
+
+struct Options {
+  std::string input;
+  std::string faces = "auto";
+  std::optional<double> max_error;
+  std::string output;
+  std::string format;
+  bool ascii = false;
+  bool json = false;
+};
+
+// Of the mean edge: as reconstruct allows of the step of its grid.
+constexpr double kHardlyAnything = 0.02;
+
+double mean_edge(const Mesh& mesh) {
+  double sum = 0;
+  const auto n = static_cast<double>(3 * mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles) {
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 edge = mesh.vertices[t[(k + 1) % 3]] - mesh.vertices[t[k]];
+      sum += std::hypot(edge.x, edge.y, edge.z) / n;
+    }
+  }
+  return sum;
+}
+
+SimplifyOptions library_options(const Options& o, SimplifyOptions wanted, const Mesh& mesh) {
+  const bool automatic = wanted.triangles == 0 && wanted.share == 0;
+  if (o.max_error) {
+    wanted.max_error = *o.max_error;
+  } else if (automatic) {
+    wanted.max_error = kHardlyAnything * mean_edge(mesh);
+  }
+  return wanted;
+}
+
+SimplifyOptions parse_faces(const std::string& option, const std::string& text) {
+  const std::optional<SimplifyOptions> faces = parse_simplify(option, text);
+  if (faces) return *faces;
+  throw UsageError(
+      fmt::format("{} is '{}', which changes nothing: give N, P% or auto", option, text));
+}
+
+int run(const Options& options, Session& session) {
+  const SimplifyOptions faces = parse_faces("--faces", options.faces);
+  const ShapeFormat format = mesh_output(options.output, options.format, options.json);
+  check_writable(options.output);
+  Mesh mesh = weld(read_mesh(options.input, session)).mesh;
+  if (mesh.triangles.empty()) {
+    throw Error(
+        ErrorCode::kInvalidInput,
+        fmt::format("{} has no face: there is nothing to simplify", display_name(options.input)));
+  }
+  const std::size_t faces_before = mesh.triangles.size(), vertices_before = mesh.vertices.size();
+  const double diagonal = bounds(mesh.vertices).diagonal();
+  const SimplifyOptions wanted = library_options(options, faces, mesh);
+  const Simplification result = simplify(std::move(mesh), wanted, session.context());
+  stop_if_interrupted();
+  write_shape(result.mesh, options.output, {format, options.ascii}, session.context());
+  const std::size_t n = result.mesh.triangles.size();
+  if (options.json) {
+    print_json({{"file", options.input},
+                {"faces_before", faces_before},
+                {"faces", n},
+                {"vertices_before", vertices_before},
+                {"vertices", result.mesh.vertices.size()},
+                {"error", result.error},
+                {"diagonal", diagonal}});
+  } else if (options.output != "-") {
+    print_text(
+        fmt::format("{}: simplified\n", display_name(options.input)) +
+        line("faces", fmt::format("{} of {}", n, faces_before)) +
+        line("vertices", fmt::format("{} of {}", result.mesh.vertices.size(), vertices_before)) +
+        line("error", fmt::format("{} at most, rms over the planes a vertex stands for "
+                                  "({} of the diagonal)",
+                                  text_of(result.error), text_of(result.error / diagonal))));
+  }
+  if (faces.triangles > 0 && n > faces.triangles) {
+    session.warn(
+        fmt::format("{} faces are left, more than {}: the surface would turn over or lose "
+                    "its shape",
+                    n, faces.triangles));
+  }
+  return 0;
+}
+
+std::vector<Option> option_list(Options& o) {
+  std::vector<Option> list = {
+      {.name = "MESH",
+       .help = "file of a mesh, or - for standard input",
+       .target = &o.input,
+       .required = true,
+       .offer = Offer::kShapes},
+      {.name = "faces",
+       .value = "auto|N|P%",
+       .help = "how many are left: N of them, P per cent, or as few as change the surface by "
+               "at most 1/50 of its mean edge (auto, the default)",
+       .target = &o.faces,
+       .check = parse_faces},
+      {.name = "max-error",
+       .value = "D",
+       .help = "stop where a vertex would move farther than D from the planes it stands for "
+               "(root mean square), in the shape's unit",
+       .target = &o.max_error,
+       .min = 0}};
+  append(list, mesh_output_options(o.output, o.format, o.ascii));
+  list.push_back(json_option(o.json));
+  return list;
+}
+
+}  // namespace
+
+Command simplify_command() {
+  auto options = std::make_shared<Options>();
+  return {.name = "simplify",
+          .summary = "Fewer faces for the same surface",
+          .description =
+              "Edges shrink to one of their ends, those first that change the surface least. A "
+              "surface stays what it is: closed and manifold where it was, of the same genus, with "
+              "the same borders; vertices that stay keep their place and their properties.\n\nIt "
+              "stops at the number of faces asked for, or where an error would become larger than "
+              "--max-error, whichever comes first.",
+          .options = option_list(*options),
+          .examples = {"rholm simplify bumpy.ply -o fewer.ply",
+                       "rholm simplify bumpy.ply --faces 20% --json -o fewer.ply",
+                       "rholm simplify bumpy.ply --faces 5000 --max-error 0.01 -o fewer.ply"},
+          .run = [options](Session& session) { return run(*options, session); }};
+}
+
+}  // namespace rholm::cli

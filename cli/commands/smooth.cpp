@@ -1,0 +1,179 @@
+// rholm smooth: detail taken from a region.
+#include "rholm/smooth.h"
+
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "cli/commands/commands.h"
+#include "cli/files/inputs.h"
+#include "cli/files/outputs.h"
+#include "cli/files/surfaces.h"
+#include "cli/grammar/parse.h"
+#include "cli/options/region_option.h"
+#include "cli/terminal/interrupt.h"
+#include "cli/terminal/json_text.h"
+#include "cli/terminal/session.h"
+#include "rholm/topology.h"
+
+namespace rholm::cli {
+namespace {
+
+struct Options {
+  std::string input;
+  std::vector<std::string> regions;
+  std::optional<double> wavelength, transition;
+  double strength = 1;
+  std::string fit = "robust";
+  bool repair = false;
+  std::string output, format;
+  InputConvention convention;
+  bool ascii = false, json = false;
+};
+
+PatchFitting fitting_of(const Options& o) {
+  if (o.fit == "mean") {
+    if (o.repair) throw UsageError("--repair needs a fit that knows what stands out, not mean");
+    return PatchFitting::kMean;
+  }
+  return o.fit == "around" ? PatchFitting::kAround : PatchFitting::kRobust;
+}
+
+// How far vertices have moved.
+struct Moved {
+  double rms = 0, max = 0;
+};
+
+Moved moved_by(const Patch& patch, const std::vector<Vec3>& positions) {
+  Moved moved;
+  double sum = 0;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const double d = norm(positions[i] - patch.positions[i]);
+    sum += d * d;
+    moved.max = std::max(moved.max, d);
+  }
+  if (!positions.empty()) moved.rms = std::sqrt(sum / static_cast<double>(positions.size()));
+  return moved;
+}
+
+void print_report(const Options& options, const Patch& patch, const Moved& moved, double diagonal,
+                  Session& session) {
+  if (options.json) {
+    print_json({{"file", options.input},
+                {"output", options.output},
+                {"wavelength", patch.wavelength},
+                {"strength", options.strength},
+                {"fit", options.fit},
+                {"repair", options.repair},
+                {"vertices", patch.vertices.size()},
+                {"caps", patch.caps},
+                {"unreached", patch.unreached},
+                {"rms_move", moved.rms},
+                {"max_move", moved.max},
+                {"diagonal", diagonal}});
+  } else if (options.output != "-") {
+    session.report(
+        fmt::format("{}: smoothed\n", display_name(options.input)) +
+        line("vertices",
+             fmt::format("{}, of {}", patch.vertices.size(), counted(patch.caps, "cap"))) +
+        line("moved by",
+             fmt::format("{:.3g} rms, {:.3g} at most ({:.2g} of the diagonal)", moved.rms,
+                         moved.max, diagonal > 0 ? moved.max / diagonal : 0.0)));
+  }
+}
+
+int run(const Options& options, Session& session) {
+  const PatchFitting fitting = fitting_of(options);
+  const std::vector<Region> regions = parse_regions(options.regions);
+  const ShapeFormat format = mesh_output(options.output, options.format, options.json);
+  check_writable(options.output);
+  Mesh mesh = read_surface(options.input, session, options.convention);
+  const double diagonal = bounds(mesh.vertices).diagonal();
+  const Patch patch = analyze_patch(mesh, regions,
+                                    {.wavelength = *options.wavelength,
+                                     .transition = options.transition.value_or(-1),
+                                     .fitting = fitting,
+                                     .repair = options.repair},
+                                    session.context());
+  const std::vector<Vec3> positions = update(patch, {.strength = options.strength});
+  apply(patch, positions, mesh);
+  stop_if_interrupted();
+  write_shape(mesh, options.output, {format, options.ascii}, session.context());
+  if (patch.unreached > 0) {
+    session.warn(fmt::format("{} of the region were left: no cap sees them",
+                             counted(patch.unreached, "vertex", "vertices")));
+  }
+  if (options.repair && patch.vertices.empty())
+    session.note("nothing stands out: nothing was moved");
+  print_report(options, patch, moved_by(patch, positions), diagonal, session);
+  return 0;
+}
+
+std::vector<Option> edit_options(Options& o) {
+  return {
+      {.name = "SHAPE",
+       .help = "file of a mesh, or of a model, whose surface is taken; - for standard input",
+       .target = &o.input,
+       .required = true,
+       .offer = Offer::kShapesAndCoefficients},
+      region_option("region", "where: ball, vertex, box, property or color, see above", o.regions),
+      {.name = "wavelength",
+       .value = "W",
+       .help = "detail finer than this goes, in the unit of the file",
+       .target = &o.wavelength,
+       .required = true,
+       .above = 0},
+      {.name = "strength",
+       .value = "S",
+       .help = "1 (default) takes the detail away, 0.5 half of it, -1 doubles it",
+       .target = &o.strength,
+       .min = -10,
+       .max = 1},
+      {.name = "fit",
+       .help = "robust (default): without what stands out; mean: to all; around: to what is "
+               "outside the region",
+       .target = &o.fit,
+       .choices = {"robust", "mean", "around"}},
+      {.name = "repair",
+       .help = "move only what stands out, scratches and spikes; texture stays",
+       .target = &o.repair},
+      {.name = "transition",
+       .value = "T",
+       .help = "width over which the edit fades outside the region; W by default",
+       .target = &o.transition,
+       .min = 0}};
+}
+
+std::vector<Option> option_list(Options& o) {
+  std::vector<Option> list = edit_options(o);
+  append(list, mesh_output_options(o.output, o.format, o.ascii));
+  append(list, input_convention_options(o.convention));
+  list.push_back(json_option(o.json));
+  return list;
+}
+
+}  // namespace
+
+Command smooth_command() {
+  auto options = std::make_shared<Options>();
+  return {.name = "smooth",
+          .summary = "Detail taken from a region of a mesh",
+          .description =
+              std::string(
+                  "Covers the region with overlapping caps, fits harmonics to each up to the "
+                  "degree whose waves have the wavelength asked for, and moves vertices there, "
+                  "less and less in the transition around the region. Other vertices, triangles, "
+                  "colours stay as they are, to the last bit.\n\nScratches, cracks, spikes: "
+                  "--repair with a wavelength of two to three times their width. Where they are "
+                  "painted, --fit around bridges them. Scan noise, pores: a wavelength above "
+                  "theirs.\n\n") +
+              kRegionHelp,
+          .options = option_list(*options),
+          .examples = {"rholm smooth bumpy.ply --region ball:0,0,1,0.4 --wavelength 0.3 "
+                       "-o smooth.ply",
+                       "rholm smooth bumpy.ply --region vertex:7,0.3 --wavelength 0.25 --repair "
+                       "--json -o repaired.ply"},
+          .run = [options](Session& session) { return run(*options, session); }};
+}
+
+}  // namespace rholm::cli

@@ -1,0 +1,200 @@
+// rholm synthesize: from coefficients to meshes.
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "cli/commands/atlas_report.h"
+#include "cli/commands/commands.h"
+#include "cli/commands/synthesize_atlas.h"
+#include "cli/files/inputs.h"
+#include "cli/files/outputs.h"
+#include "cli/files/surfaces.h"
+#include "cli/grammar/parse.h"
+#include "cli/grammar/values.h"
+#include "cli/options/simplify_option.h"
+#include "cli/terminal/interrupt.h"
+#include "cli/terminal/json_text.h"
+#include "cli/terminal/session.h"
+#include "rholm/primitives.h"
+#include "rholm/synthesize.h"
+
+namespace rholm::cli {
+namespace {
+
+struct Options {
+  std::string input;
+  std::string degrees;
+  std::optional<int> subdivisions;
+  std::string grid;
+  std::string like;
+  std::optional<double> resolution;  // of an atlas
+  std::optional<int> degree_limit;
+  std::string simplify = kNotSimplified;
+  std::string output;
+  std::string format;
+  InputConvention convention;
+  bool ascii = false;
+  bool json = false;
+};
+
+// One degree writes to the output itself, several to names with the degree in them:
+// out.ply becomes out-L16.ply.
+std::string output_for(const std::string& output, int degree, bool several) {
+  if (!several) return output;
+  std::filesystem::path path(output);
+  const std::string name =
+      fmt::format("{}-L{}{}", path.stem().string(), degree, path.extension().string());
+  return path.replace_filename(name).string();
+}
+
+void check_options(const Options& options, bool several) {
+  const int samplings =
+      options.subdivisions.has_value() + !options.grid.empty() + !options.like.empty();
+  if (samplings > 1) {
+    throw UsageError("--subdivisions, --grid and --like exclude one another: give one of them");
+  }
+  if (several && options.output == "-") {
+    throw UsageError("several degrees make several files: -o must be a name, not -");
+  }
+}
+
+int run_atlas(const Options& o, ShapeFormat format, Session& session) {
+  if (!o.degrees.empty() || o.subdivisions || !o.grid.empty() || !o.like.empty()) {
+    throw UsageError(
+        "--degree, --subdivisions, --grid and --like do not go with an atlas of caps: see "
+        "--resolution and --degree-limit");
+  }
+  const std::optional<SimplifyOptions> simplify = parse_simplify("--simplify", o.simplify);
+  check_writable(o.output);
+  return synthesize_atlas(
+      {o.input, o.output, format, o.ascii, o.json, o.resolution, o.degree_limit, simplify},
+      session);
+}
+
+std::array<int, 2> parse_rings(const std::string& option, const std::string& text) {
+  return parse_grid(option, text, {1, 3});
+}
+
+// The sphere whose directions the surface is computed at.
+Mesh sphere_of(const Options& options, int degree, const Expansion& expansion, Session& session) {
+  if (!options.grid.empty()) {
+    const auto [n_theta, n_phi] = parse_rings("--grid", options.grid);
+    return latitude_longitude_sphere(n_theta, n_phi);
+  }
+  if (!options.like.empty()) {
+    return directions_of(read_mesh(options.like, session), expansion.center);
+  }
+  return icosphere(options.subdivisions.value_or(subdivisions_for(degree, kForFiles)));
+}
+
+int run(const Options& options, Session& session) {
+  const ShapeFormat format = mesh_output(options.output, options.format, options.json);
+  if (holds_atlas(options.input)) return run_atlas(options, format, session);
+  if (options.resolution || options.degree_limit || options.simplify != kNotSimplified) {
+    throw UsageError("--resolution, --degree-limit and --simplify go with an atlas of caps");
+  }
+  std::vector<int> degrees;
+  if (!options.degrees.empty()) degrees = parse_degrees("--degree", options.degrees);
+  const bool several = degrees.size() > 1;
+  check_options(options, several);
+  check_writable(options.output);
+  for (const int degree : degrees) check_writable(output_for(options.output, degree, several));
+
+  const Expansion expansion = read_expansion(options.input, session, options.convention);
+  const int highest = expansion.coefficients.degree();
+  if (degrees.empty()) degrees.push_back(highest);
+  for (const int degree : degrees) {
+    if (degree <= highest) continue;
+    session.warn(fmt::format("{} has coefficients up to degree {} only: {} is cut to it",
+                             display_name(options.input), highest, degree));
+  }
+  const int needed = std::min(highest, *std::max_element(degrees.begin(), degrees.end()));
+  const Mesh sphere = sphere_of(options, needed, expansion, session);
+  const std::vector<Mesh> surfaces = synthesize(expansion, sphere, degrees, session.context());
+
+  Json json;
+  json["file"] = options.input;
+  json["counts"] = {{"vertices", sphere.vertices.size()}, {"faces", sphere.triangles.size()}};
+  json["outputs"] = Json::array();
+  for (std::size_t i = 0; i < degrees.size(); ++i) {
+    const std::string path = output_for(options.output, degrees[i], several);
+    warn_of_crossings(surfaces[i], sphere, expansion.center, path, session);
+    stop_if_interrupted();
+    write_shape(surfaces[i], path, {format, options.ascii}, session.context());
+    json["outputs"].push_back({{"degree", std::min(degrees[i], highest)}, {"file", path}});
+    if (several) session.note(fmt::format("degree {} is in {}", degrees[i], path));
+  }
+  if (options.json) print_json(json);
+  return 0;
+}
+
+std::vector<Option> synthesis_options(Options& o) {
+  return {{.name = "MODEL",
+           .help = "file of coefficients",
+           .target = &o.input,
+           .required = true,
+           .offer = Offer::kCoefficients},
+          {.name = "degree",
+           .value = "L[,L...]",
+           .help = "degrees at which the series is cut off; by default its own. Several degrees "
+                   "make several files: OUT-L4.ply, OUT-L16.ply",
+           .target = &o.degrees,
+           .check = parse_degrees},
+          {.name = "subdivisions",
+           .value = "N",
+           .help = "sample on an icosphere of 10 4^N + 2 vertices; by default the smallest N of 4 "
+                   "... 7 with 2 (L+1)^2 vertices",
+           .target = &o.subdivisions,
+           .min = 0,
+           .max = 12},
+          {.name = "grid",
+           .value = "NTHETAxNPHI",
+           .help = "sample on rings of equal latitude and the poles instead",
+           .target = &o.grid,
+           .check = parse_rings},
+          {.name = "like",
+           .value = "SHAPE",
+           .help = "sample in the directions of this mesh's vertices, and keep its connectivity",
+           .target = &o.like,
+           .offer = Offer::kShapes},
+          {.name = "resolution",
+           .value = "STEP",
+           .help = "of an atlas: edge of the grid's cubes, in the shape's unit; by default the one "
+                   "it was measured at",
+           .target = &o.resolution,
+           .above = 0},
+          {.name = "degree-limit",
+           .value = "L",
+           .help = "of an atlas: caps of no higher degrees, fitted to its surface: less detail; a "
+                   "limit too low for caps to agree is refused with the least that will do",
+           .target = &o.degree_limit,
+           .min = 0,
+           .max = 24},
+          simplify_option(o.simplify)};
+}
+
+std::vector<Option> option_list(Options& o) {
+  std::vector<Option> list = synthesis_options(o);
+  append(list, mesh_output_options(o.output, o.format, o.ascii));
+  append(list, input_convention_options(o.convention));
+  list.push_back(json_option(o.json));
+  return list;
+}
+
+}  // namespace
+
+Command synthesize_command() {
+  auto options = std::make_shared<Options>();
+  return {.name = "synthesize",
+          .summary = "From coefficients to a mesh",
+          .description =
+              "Computes the surface of the coefficients, at one degree or at several in one "
+              "run (levels of detail). The mesh has the exact normals of the smooth surface.",
+          .options = option_list(*options),
+          .examples = {"rholm synthesize bumpy.h5 -o smooth.ply",
+                       "rholm synthesize bumpy.h5 --degree 4,8,16 --grid 90x180 -o level.obj"},
+          .run = [options](Session& session) { return run(*options, session); }};
+}
+
+}  // namespace rholm::cli

@@ -1,0 +1,288 @@
+#include "cli/files/inputs.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cli/terminal/interrupt.h"
+#include "rholm/compress.h"
+#include "rholm/error.h"
+#include "rholm/model.h"
+
+namespace rholm::cli {
+namespace {
+
+using Bytes = std::vector<char>;
+
+constexpr std::size_t kChunk = std::size_t{1} << 20;  // chosen: large against a system call
+constexpr std::size_t kHead = 4096;                   // enough for every signature and header
+
+enum class Guess { kShape, kCoefficients, kModel, kUnknown };
+
+std::string reason() { return std::strerror(errno); }
+
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() {
+    if (number_ > STDERR_FILENO) ::close(number_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int number() const { return number_; }
+
+ private:
+  int number_;
+};
+
+// At most `limit` bytes from the start of a file or stream.
+Bytes read_bytes(const std::string& path, std::size_t limit) {
+  const Descriptor file(path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  stop_if_interrupted();
+  if (file.number() < 0) {
+    throw Error(ErrorCode::kIo, fmt::format("{} cannot be opened: {}", path, reason()));
+  }
+  Bytes bytes;
+  while (bytes.size() < limit) {
+    const std::size_t old_size = bytes.size();
+    bytes.resize(old_size + std::min(kChunk, limit - old_size));
+    const ssize_t n = ::read(file.number(), bytes.data() + old_size, bytes.size() - old_size);
+    bytes.resize(old_size + static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
+    stop_if_interrupted();
+    if (n == 0) break;
+    if (n < 0 && errno != EINTR) {
+      throw Error(ErrorCode::kIo,
+                  fmt::format("{} cannot be read: {}", display_name(path), reason()));
+    }
+  }
+  return bytes;
+}
+
+// A file whose bytes can be had only once: standard input, a pipe.
+bool is_stream(const std::string& path) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(path, ignored);
+  return path == "-" || std::filesystem::is_fifo(status) ||
+         std::filesystem::is_character_file(status) || std::filesystem::is_socket(status);
+}
+
+bool begins_with(std::span<const char> bytes, std::string_view text) {
+  return bytes.size() >= text.size() && std::equal(text.begin(), text.end(), bytes.begin());
+}
+
+Guess guess_by_extension(const std::string& extension) {
+  for (const char* shape : {".ply", ".obj", ".off", ".stl", ".xyz", ".pwn"}) {
+    if (extension == shape) return Guess::kShape;
+  }
+  if (extension == ".h5") return Guess::kModel;
+  if (extension != ".txt" && coefficients_format_of("x" + extension)) return Guess::kCoefficients;
+  return Guess::kUnknown;
+}
+
+// By the first bytes; by the name where they do not tell.
+Guess guess(std::span<const char> head, const std::string& path) {
+  if (begins_with(head, "\x89HDF\r\n\x1a\n")) return Guess::kModel;
+  if (looks_like_coefficients(head)) return Guess::kCoefficients;
+  for (const char* mark : {"ply", "OFF", "solid"}) {
+    if (begins_with(head, mark)) return Guess::kShape;
+  }
+  return guess_by_extension(extension_of(path));
+}
+
+// "a gravity_field, no shape".
+std::string not_a_shape(const CoefficientsFile& file) {
+  return file.product.empty() ? "no shape (its function is 'other')"
+                              : fmt::format("a {}, no shape", file.product);
+}
+
+// A file that may be looked at several times: its bytes if it is a stream, else its beginning.
+struct Source {
+  std::string path;
+  std::optional<Bytes> stream;
+  Guess guess = Guess::kUnknown;
+};
+
+Source look_at(const std::string& path) {
+  Source source{.path = path, .stream = {}};
+  Bytes head;
+  if (is_stream(path)) {
+    source.stream = read_bytes(path, std::numeric_limits<std::size_t>::max());
+  } else {
+    head = read_bytes(path, kHead);
+  }
+  source.guess = guess(source.stream ? *source.stream : head, path);
+  return source;
+}
+
+ShapeFile read_shape_of(const Source& source, Session& session) {
+  if (source.stream) {
+    return parse_shape(*source.stream, display_name(source.path), {}, session.context());
+  }
+  return read_shape(source.path, {}, session.context());
+}
+
+// What a reader of the numbers has to know, once for each file.
+void say_what_it_means(const CoefficientsFile& file, const std::string& path, Session& session,
+                       const InputConvention& convention) {
+  const std::vector<std::string> open = convention.left_open(file.assumed);
+  if (!open.empty()) {
+    session.note(
+        fmt::format("{} does not say it, assumed: {}", display_name(path), fmt::join(open, ", ")));
+  }
+  if (file.expansion.function == RadialFunction::kOther) {
+    session.note(fmt::format("{} is {}: its coefficients are taken as they are{}{}",
+                             display_name(path), not_a_shape(file),
+                             file.passed_over.empty() ? "" : ", without ",
+                             fmt::join(file.passed_over, ", ")));
+  }
+}
+
+CoefficientsFile read_coefficients_of(const Source& source, Session& session,
+                                      const CoefficientsReadOptions& options) {
+  if (source.stream && source.guess == Guess::kModel) {
+    throw Error(ErrorCode::kUnsupported,
+                fmt::format("{} is a model file (HDF5), which cannot be read from a stream; give "
+                            "its name instead",
+                            display_name(source.path)));
+  }
+  if (source.stream) {
+    return parse_coefficients(*source.stream, display_name(source.path), options);
+  }
+  return read_any_coefficients(source.path, options, session.context());
+}
+
+void check_surface(const CoefficientsFile& file, const std::string& path) {
+  if (file.expansion.function != RadialFunction::kOther) return;
+  throw Error(ErrorCode::kUnsupported,
+              fmt::format("{} is {}: its coefficients are not the radius of a surface; 'spectrum', "
+                          "'filter', 'rotate' and 'convert' take them{}",
+                          display_name(path), not_a_shape(file),
+                          file.product.empty() ? ""
+                                               : "; if they are radii all the same, write "
+                                                 "'product_type shape' into its header"));
+}
+
+bool is_coefficients(Guess guess) {
+  return guess == Guess::kCoefficients || guess == Guess::kModel;
+}
+
+CoefficientsFile read_file(const std::string& path, Session& session,
+                           const InputConvention& convention) {
+  const Source source = look_at(path);
+  if (source.guess == Guess::kShape) {
+    throw Error(ErrorCode::kInvalidInput,
+                fmt::format("{} is a shape, and coefficients are needed; make them with 'rholm "
+                            "analyze {} --degree L -o OUT.h5'",
+                            display_name(path), path));
+  }
+  return read_coefficients_of(source, session, convention.reading());
+}
+
+Input read_either(const std::string& path, Session& session, const InputConvention& convention) {
+  const Source source = look_at(path);
+  if (source.guess == Guess::kShape) return read_shape_of(source, session);
+  if (is_coefficients(source.guess)) {
+    return read_coefficients_of(source, session, convention.reading());
+  }
+  // Bare text: lines `l m C S` are coefficients, anything else is taken for points.
+  try {
+    return read_coefficients_of(source, session, convention.reading());
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::kIo || error.code() == ErrorCode::kCancelled) throw;
+    return read_shape_of(source, session);
+  }
+}
+
+}  // namespace
+
+std::string display_name(const std::string& path) { return path == "-" ? "standard input" : path; }
+
+std::string extension_of(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+ShapeFile read_shape_input(const std::string& path, Session& session) {
+  const Source source = look_at(path);
+  if (is_coefficients(source.guess)) {
+    throw Error(ErrorCode::kInvalidInput,
+                fmt::format("{} holds coefficients, and a shape is needed; make one with 'rholm "
+                            "synthesize {} -o OUT.ply'",
+                            display_name(path), path));
+  }
+  return read_shape_of(source, session);
+}
+
+CoefficientsFile read_coefficients_input(const std::string& path, Session& session,
+                                         const InputConvention& convention) {
+  CoefficientsFile file = read_file(path, session, convention);
+  say_what_it_means(file, path, session, convention);
+  return file;
+}
+
+Expansion read_expansion(const std::string& path, Session& session,
+                         const InputConvention& convention) {
+  CoefficientsFile file = read_file(path, session, convention);
+  check_surface(file, path);
+  say_what_it_means(file, path, session, convention);
+  return std::move(file.expansion);
+}
+
+Input read_input(const std::string& path, Session& session, const InputConvention& convention) {
+  Input input = read_either(path, session, convention);
+  if (const auto* file = std::get_if<CoefficientsFile>(&input)) {
+    say_what_it_means(*file, path, session, convention);
+  }
+  return input;
+}
+
+Input read_surface_input(const std::string& path, Session& session,
+                         const InputConvention& convention) {
+  Input input = read_either(path, session, convention);
+  if (const auto* file = std::get_if<CoefficientsFile>(&input)) {
+    check_surface(*file, path);
+    say_what_it_means(*file, path, session, convention);
+  }
+  return input;
+}
+
+bool holds_atlas(const std::string& path) {
+  std::error_code ignored;
+  if (path == "-" || !std::filesystem::is_regular_file(path, ignored)) return false;
+  try {
+    return is_atlas_file(path);
+  } catch (const Error&) {
+    return false;  // whoever reads it says what is wrong
+  }
+}
+
+Mesh mesh_of(ShapeFile file, const std::string& path, Session& session) {
+  for (const std::string& warning : file.warnings) {
+    session.warn(fmt::format("{}: {}", display_name(path), warning));
+  }
+  if (const auto* cloud = std::get_if<PointCloud>(&file.shape)) {
+    throw Error(ErrorCode::kInvalidInput,
+                fmt::format("{} holds {} points without faces, and a mesh is needed; 'rholm "
+                            "reconstruct' makes a surface of them",
+                            display_name(path), cloud->points.size()));
+  }
+  return std::get<Mesh>(std::move(file.shape));
+}
+
+Mesh read_mesh(const std::string& path, Session& session) {
+  return mesh_of(read_shape_input(path, session), path, session);
+}
+
+}  // namespace rholm::cli

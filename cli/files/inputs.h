@@ -1,0 +1,47 @@
+// Reading what the command line names: shapes, coefficients, either. Layer: cli.
+//
+// A regular file is read by the library; standard input ("-") and pipes are read here, once, so
+// that their content can be looked at and Ctrl-C ends the wait.
+#pragma once
+
+#include <string>
+#include <variant>
+
+#include "cli/options/convention.h"
+#include "cli/terminal/session.h"
+#include "rholm/coefficients_io.h"
+#include "rholm/mesh.h"
+#include "rholm/shape_io.h"
+
+namespace rholm::cli {
+
+using Input = std::variant<ShapeFile, CoefficientsFile>;
+
+// Each throws what the readers throw; the wrong kind of file is InvalidInput, and the message
+// names the command that makes the right one. What a file of coefficients does not say, and was
+// assumed, is said, and if it is of no surface.
+ShapeFile read_shape_input(const std::string& path, Session& session);
+CoefficientsFile read_coefficients_input(const std::string& path, Session& session,
+                                         const InputConvention& convention);
+Input read_input(const std::string& path, Session& session, const InputConvention& convention);
+
+// The same where a surface is needed: coefficients of something else are Unsupported.
+Expansion read_expansion(const std::string& path, Session& session,
+                         const InputConvention& convention);
+Input read_surface_input(const std::string& path, Session& session,
+                         const InputConvention& convention);
+
+// Whether a file holds an atlas; streams and what cannot be read do not.
+bool holds_atlas(const std::string& path);
+
+// The mesh of a file, its warnings passed on; points are refused.
+Mesh mesh_of(ShapeFile file, const std::string& path, Session& session);
+Mesh read_mesh(const std::string& path, Session& session);
+
+// What a person calls it: "standard input" for "-".
+std::string display_name(const std::string& path);
+
+// Lower case, with the dot: ".ply"; empty without one.
+std::string extension_of(const std::string& path);
+
+}  // namespace rholm::cli

@@ -1,0 +1,165 @@
+#include "cli/files/outputs.h"
+
+#include <errno.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "cli/files/inputs.h"
+#include "cli/grammar/parse.h"
+#include "cli/options/convention.h"
+#include "cli/terminal/interrupt.h"
+#include "rholm/error.h"
+#include "rholm/model.h"
+
+namespace rholm::cli {
+namespace {
+
+constexpr const char* kModelFormat = "h5";
+
+[[noreturn]] void throw_unknown_format(const std::string& path, const std::string& known) {
+  if (path == "-") throw UsageError("standard output has no extension: say --format");
+  throw UsageError(fmt::format(
+      "'{}' has no extension that names a format; known are {}, or say --format", path, known));
+}
+
+// All that a NumPy array does not hold, as words.
+std::string unsaid_by_npy(const Expansion& expansion, const Convention& convention) {
+  const Vec3& c = expansion.center;
+  std::string text = fmt::format("{}; function {}; centre ({}, {}, {})", text_of(convention),
+                                 to_string(expansion.function), c.x, c.y, c.z);
+  if (!expansion.unit.empty()) text += "; unit " + expansion.unit;
+  if (!expansion.method.empty()) text += "; method " + expansion.method;
+  if (expansion.norm_squared || expansion.errors) text += "; their norm and errors are lost too";
+  return text;
+}
+
+}  // namespace
+
+Option output_option(std::string& path, const std::string& help, bool required) {
+  return {.name = "output",
+          .letter = 'o',
+          .value = "OUT",
+          .help = help,
+          .target = &path,
+          .required = required,
+          .offer = Offer::kAnyFile};
+}
+
+Option format_option(std::string& format, std::vector<std::string> choices) {
+  return {.name = "format",
+          .help = "format of the output, instead of the one its extension names",
+          .target = &format,
+          .choices = std::move(choices)};
+}
+
+std::vector<std::string> shape_formats() { return {"ply", "obj", "off", "stl", "xyz"}; }
+
+std::vector<std::string> mesh_formats() { return {"ply", "obj", "off", "stl"}; }
+
+std::vector<Option> mesh_output_options(std::string& path, std::string& format, bool& ascii) {
+  return {output_option(path, "mesh to write: .ply, .obj, .off, .stl; - for standard output"),
+          format_option(format, mesh_formats()),
+          {.name = "ascii", .help = "PLY and STL as text", .target = &ascii}};
+}
+
+std::vector<std::string> coefficients_formats() {
+  return {kModelFormat, "shtools", "icgem", "json", "npy"};
+}
+
+void check_not_shared(const std::string& path, bool json) {
+  if (path == "-" && json) {
+    throw UsageError("-o - and --json both want standard output: give one of them a file");
+  }
+}
+
+ShapeFormat shape_output(const std::string& path, const std::string& format, bool json) {
+  check_not_shared(path, json);
+  std::string name = format;
+  if (name.empty() && path != "-") {
+    const std::string extension = extension_of(path);
+    name =
+        extension == ".pwn" || extension == ".txt" ? "xyz" : extension.substr(!extension.empty());
+  }
+  for (const std::string& known : shape_formats()) {
+    if (name == known) return parse_shape_format(name);
+  }
+  throw_unknown_format(path, ".ply, .obj, .off, .stl, .xyz");
+}
+
+ShapeFormat mesh_output(const std::string& path, const std::string& format, bool json) {
+  const ShapeFormat found = shape_output(path, format, json);
+  if (found != ShapeFormat::kXyz) return found;
+  throw UsageError(
+      fmt::format("{} has no faces, and a mesh has them: take .ply, .obj, .off or .stl",
+                  format.empty() ? fmt::format("'{}' is a file of points, which", path)
+                                 : "--format " + format));
+}
+
+ShapeFormat points_output(const std::string& path, const std::string& format, bool json) {
+  const ShapeFormat found = shape_output(path, format, json);
+  if (found != ShapeFormat::kStl) return found;
+  throw UsageError("STL has triangles only, no points: take .ply, .xyz, .obj or .off");
+}
+
+CoefficientsOutput coefficients_output(const std::string& path, const std::string& format,
+                                       bool json) {
+  check_not_shared(path, json);
+  const bool by_name = format.empty() && path != "-";
+  if (format == kModelFormat || (by_name && extension_of(path) == ".h5")) {
+    if (path == "-") throw UsageError("a model file (HDF5) cannot go to standard output");
+    return {path, std::nullopt};
+  }
+  if (!format.empty()) return {path, parse_coefficients_format(format)};
+  const auto known = by_name ? coefficients_format_of(path) : std::nullopt;
+  if (!known) throw_unknown_format(path, ".h5, .sh, .gfc, .json, .npy");
+  return {path, known};
+}
+
+void check_writable(const std::string& path) {
+  if (path == "-" || path.empty()) return;
+  struct stat status = {};
+  if (::stat(path.c_str(), &status) != 0) {
+    // A file that is not there is what is wanted, a folder that is not is said below. A name that
+    // is too long, or a circle of links, would only be noticed by the writer.
+    if (errno != ENOENT && errno != ENOTDIR && errno != EACCES) {
+      throw Error(ErrorCode::kIo,
+                  fmt::format("{} cannot be written: {}", path, std::strerror(errno)));
+    }
+  } else if (S_ISDIR(status.st_mode)) {
+    throw Error(ErrorCode::kIo, fmt::format("{} cannot be written: it is a folder", path));
+  }
+  std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  if (folder.empty()) folder = ".";
+  if (::access(folder.c_str(), W_OK | X_OK) != 0) {
+    throw Error(ErrorCode::kIo, fmt::format("{} cannot be written: folder {}: {}", path,
+                                            folder.string(), std::strerror(errno)));
+  }
+}
+
+void write_coefficients_output(const Expansion& expansion, const CoefficientsOutput& output,
+                               const Convention& convention, Session& session) {
+  stop_if_interrupted();
+  if (!output.format) return write_model(expansion, output.path);
+  write_coefficients(expansion, output.path, {output.format, convention});
+  const std::string name = output.path == "-" ? "standard output" : output.path;
+  if (output.format == CoefficientsFormat::kNpy) {
+    session.note(fmt::format("{} has numbers alone and cannot say that they are of {}", name,
+                             unsaid_by_npy(expansion, convention)));
+  } else if (expansion.errors) {
+    session.note(
+        fmt::format("{} has no room for the errors of the model: a model file (.h5) has", name));
+  }
+}
+
+std::optional<std::uintmax_t> file_size_of(const std::string& path) {
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  return error ? std::nullopt : std::optional(size);
+}
+
+}  // namespace rholm::cli

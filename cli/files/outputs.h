@@ -1,0 +1,58 @@
+// Writing where the command line says. Everything that can be refused is refused before the work
+// begins. Layer: cli.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "cli/grammar/command.h"
+#include "cli/terminal/session.h"
+#include "rholm/coefficients_io.h"
+#include "rholm/mesh.h"
+#include "rholm/shape_io.h"
+
+namespace rholm::cli {
+
+// "-o, --output OUT", required or not, and "--format".
+Option output_option(std::string& path, const std::string& help, bool required = true);
+Option format_option(std::string& format, std::vector<std::string> choices);
+// --output, --format and --ascii of commands that write a mesh.
+std::vector<Option> mesh_output_options(std::string& path, std::string& format, bool& ascii);
+
+// What a file of coefficients is to be: a model file, or one of the library's text formats.
+struct CoefficientsOutput {
+  std::string path;
+  std::optional<CoefficientsFormat> format;  // none: the model file
+};
+
+// Names for --format.
+std::vector<std::string> shape_formats();         // ply, obj, off, stl, xyz
+std::vector<std::string> mesh_formats();          // the same without xyz, which has no faces
+std::vector<std::string> coefficients_formats();  // h5, shtools, icgem, json, npy
+
+// The format by `format` (an option's value, may be empty), else by the extension. Throws
+// UsageError if neither says it, or if "-" stands without a format. `json` is whether a report
+// wants standard output too.
+ShapeFormat shape_output(const std::string& path, const std::string& format, bool json = false);
+// The same for a mesh: xyz, which has no faces, is refused.
+ShapeFormat mesh_output(const std::string& path, const std::string& format, bool json = false);
+// The same for points: stl, which has triangles only, is refused.
+ShapeFormat points_output(const std::string& path, const std::string& format, bool json = false);
+CoefficientsOutput coefficients_output(const std::string& path, const std::string& format,
+                                       bool json = false);
+
+// Throws UsageError for "-" where a name is needed, or together with --json.
+void check_not_shared(const std::string& path, bool json);
+
+// Throws Io if a file cannot be made there: no such folder, no permission. Asked before hours of
+// work, the answer of the writer itself counts.
+void check_writable(const std::string& path);
+
+// Says what of the expansion the format has no room for.
+void write_coefficients_output(const Expansion& expansion, const CoefficientsOutput& output,
+                               const Convention& convention, Session& session);
+
+// The file's size, if it is a file.
+std::optional<std::uintmax_t> file_size_of(const std::string& path);
+
+}  // namespace rholm::cli

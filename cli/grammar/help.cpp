@@ -1,0 +1,130 @@
+#include "cli/grammar/help.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cli/terminal/session.h"
+#include "rholm/rholm.h"
+
+namespace rholm::cli {
+namespace {
+
+constexpr std::size_t kWidth = 80;       // chosen: the narrowest terminal in use
+constexpr std::size_t kHelpColumn = 30;  // chosen: most headings fit before it
+
+std::string value_name(const Option& option) {
+  if (!option.value.empty()) return option.value;
+  return option.choices.empty() ? "" : fmt::format("{}", fmt::join(option.choices, "|"));
+}
+
+// "[--method edge|gauge]", "--degree L", "SHAPE...".
+std::string usage_word(const Option& option) {
+  std::string word = option.is_operand() ? option.name
+                     : option.letter     ? fmt::format("-{}", option.letter)
+                                         : "--" + option.name;
+  if (!option.is_operand() && !option.is_switch()) word += " " + value_name(option);
+  if (std::holds_alternative<std::vector<std::string>*>(option.target)) word += "...";
+  return option.required ? word : "[" + word + "]";
+}
+
+std::string option_entry(const Option& option) {
+  const std::string heading = "  " + option_heading(option);
+  const std::string help = wrap(option.help, kHelpColumn, kWidth);
+  if (heading.size() + 2 > kHelpColumn) return heading + "\n" + help;
+  return heading + help.substr(heading.size());  // both begin with spaces up to the column
+}
+
+std::string option_section(const std::string& title, std::span<const Option> options,
+                           bool operands) {
+  std::string text;
+  for (const Option& option : options) {
+    if (option.is_operand() == operands) text += option_entry(option);
+  }
+  return text.empty() ? "" : "\n" + title + ":\n" + text;
+}
+
+}  // namespace
+
+std::string wrap(const std::string& text, std::size_t indent, std::size_t width) {
+  const std::string margin(indent, ' ');
+  std::string result;
+  std::istringstream paragraphs(text);
+  for (std::string paragraph; std::getline(paragraphs, paragraph);) {
+    std::istringstream words(paragraph);
+    std::string line;
+    for (std::string word; words >> word;) {
+      if (!line.empty() && indent + line.size() + 1 + word.size() > width) {
+        result += margin + line + "\n";
+        line.clear();
+      }
+      line += (line.empty() ? "" : " ") + word;
+    }
+    result += line.empty() ? "\n" : margin + line + "\n";
+  }
+  return result;
+}
+
+std::string version_text() { return fmt::format("rholm {}\n", kVersion); }
+
+std::string option_heading(const Option& option) {
+  if (option.is_operand()) return option.name;
+  std::string heading = option.letter ? fmt::format("-{}, ", option.letter) : "";
+  heading += "--" + option.name;
+  return option.is_switch() ? heading : heading + " " + value_name(option);
+}
+
+std::string usage_line(const Command& command, std::size_t width) {
+  std::string result, line = "rholm " + command.name;
+  const std::size_t indent = line.size() + 1;
+  for (const Option& option : command.options) {
+    const std::string word = usage_word(option);
+    if (line.size() + 1 + word.size() > width) {
+      result += line + "\n";
+      line = std::string(indent - 1, ' ');
+    }
+    line += " " + word;
+  }
+  return result + line;
+}
+
+std::string program_help(std::span<const Command> commands) {
+  std::string text =
+      "rholm: spherical harmonics of 3D objects, from a mesh to coefficients and back\n\n"
+      "Usage: rholm COMMAND ... [--threads N] [--quiet]\n\nCommands:\n";
+  for (const Command& command : commands) {
+    if (!command.hidden) text += fmt::format("  {:<12} {}\n", command.name, command.summary);
+  }
+  text +=
+      "\n'rholm help COMMAND' tells more, 'rholm --version' the version.\n"
+      "A file named - is standard input or output.\n"
+      "Exit codes: 0 done, 1 failure (a file cannot be read or written, no memory),\n"
+      "2 wrong usage, 3 input refused, 4 precision not reached, 130 interrupted,\n"
+      "141 nobody reads standard output any more.\n"
+      "\nExample:\n"
+      "  rholm make bumpy -o bumpy.ply\n"
+      "  rholm analyze bumpy.ply --degree 32 -o bumpy.h5\n"
+      "  rholm synthesize bumpy.h5 --degree 4,16,32 -o smooth.ply\n";
+  return text;
+}
+
+std::string command_help(const Command& command) {
+  CommonOptions common;
+  std::string text = fmt::format("rholm {}: {}\n\nUsage: ", command.name, command.summary);
+  // The first line of the usage stands after "Usage: ".
+  std::string usage = usage_line(command, kWidth - 7);
+  for (std::size_t at = 0; (at = usage.find('\n', at)) != std::string::npos; at += 8) {
+    usage.insert(at + 1, 7, ' ');
+  }
+  text += usage + "\n\n" + wrap(command.description, 0, kWidth);
+  text += option_section("Operands", command.options, true);
+  text += option_section("Options", command.options, false);
+  text += option_section("Options of every command", common_options(common), false);
+  text += command.examples.size() == 1 ? "\nExample:\n" : "\nExamples:\n";
+  for (const std::string& example : command.examples) text += "  " + example + "\n";
+  return text;
+}
+
+}  // namespace rholm::cli

@@ -1,0 +1,94 @@
+// The manual page, written in troff's man macros.
+#include <fmt/format.h>
+
+#include "cli/grammar/help.h"
+#include "cli/terminal/session.h"
+#include "rholm/rholm.h"
+
+namespace rholm::cli {
+namespace {
+
+// Text that troff shows as it is: backslashes, hyphens that must stay hyphens, leading dots.
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '\\') {
+      result += "\\e";
+    } else if (c == '-') {
+      result += "\\-";
+    } else if ((c == '.' || c == '\'') && (result.empty() || result.back() == '\n')) {
+      result += std::string("\\&") + c;
+    } else {
+      result += c;
+    }
+  }
+  return result;
+}
+
+std::string paragraphs(const std::string& text) {
+  std::string result;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find("\n\n", begin), text.size());
+    if (begin > 0) result += ".PP\n";
+    result += escaped(wrap(text.substr(begin, end - begin), 0, 78));
+    begin = end + 2;
+  }
+  return result;
+}
+
+std::string option_items(const std::vector<Option>& options) {
+  std::string text;
+  for (const Option& option : options) {
+    text += fmt::format(".TP\n\\fB{}\\fR\n{}.\n", escaped(option_heading(option)),
+                        escaped(option.help));
+  }
+  return text;
+}
+
+std::string command_section(const Command& command) {
+  std::string text = fmt::format(".SS rholm {}\n", command.name);
+  text += ".nf\n" + escaped(usage_line(command, 76)) + "\n.fi\n.PP\n";
+  text += escaped(command.summary) + ".\n.PP\n" + paragraphs(command.description);
+  text += option_items(command.options);
+  text += ".PP\nExample:\n.PP\n.nf\n";
+  for (const std::string& example : command.examples) text += escaped("    " + example) + "\n";
+  return text + ".fi\n";
+}
+
+}  // namespace
+
+std::string man_page(std::span<const Command> commands, const std::string& date) {
+  CommonOptions common;
+  std::string text =
+      fmt::format(".TH RHOLM 1 \"{}\" \"rholm {}\" \"User Commands\"\n", date, kVersion);
+  text +=
+      ".SH NAME\nrholm \\- spherical harmonics of 3D objects\n"
+      ".SH SYNOPSIS\n.B rholm\n.I COMMAND\n\\&... [\\fB\\-\\-threads\\fR \\fIN\\fR] "
+      "[\\fB\\-\\-quiet\\fR]\n"
+      ".SH DESCRIPTION\n"
+      "Turns closed triangle meshes into coefficients of spherical harmonics, exactly and with an\n"
+      "error that is known, and coefficients into meshes, pictures and reports.\n"
+      "A file named \\- is standard input or output; standard output needs\n\\fB\\-\\-format\\fR.\n"
+      "Data and reports go to standard output, everything else to standard error.\n"
+      ".SH OPTIONS OF EVERY COMMAND\n";
+  text += option_items(common_options(common));
+  text += ".TP\n\\fB\\-\\-help\\fR\nWhat the command does, its options and an example.\n";
+  text += ".SH COMMANDS\n";
+  for (const Command& command : commands) {
+    if (!command.hidden) text += command_section(command);
+  }
+  text +=
+      ".SH EXIT STATUS\n"
+      ".TP\n0\nDone.\n"
+      ".TP\n1\nFailure: a file cannot be read or written, memory is refused.\n"
+      ".TP\n2\nThe command line is wrong.\n"
+      ".TP\n3\nThe input is malformed, not supported, or not star\\-shaped.\n"
+      ".TP\n4\nA precision was not reached.\n"
+      ".TP\n130\nInterrupted; files that were there are whole.\n"
+      ".TP\n141\nWho read standard output has gone (SIGPIPE).\n"
+      ".SH ENVIRONMENT\n"
+      ".TP\n\\fBNO_COLOR\\fR\nIf set and not empty, messages have no colours.\n";
+  return text;
+}
+
+}  // namespace rholm::cli

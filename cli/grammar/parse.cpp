@@ -1,0 +1,134 @@
+// The one user of CLI11. It splits words into options; values are converted and checked here, so
+// that a message always has the option, the value and the limit, and NaN is refused.
+#include "cli/grammar/parse.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <deque>
+#include <limits>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cli/grammar/values.h"
+
+namespace rholm::cli {
+namespace {
+
+// An option as CLI11 knows it: a switch and a list are filled there, any other value is a text.
+struct Word {
+  const Option* option;
+  CLI::Option* known = nullptr;
+  std::string text = {};
+};
+
+std::string cli11_name(const Option& option) {
+  if (option.is_operand()) return option.name;
+  return option.letter ? fmt::format("-{},--{}", option.letter, option.name) : "--" + option.name;
+}
+
+void add(CLI::App& app, Word& word) {
+  const Option& option = *word.option;
+  const std::string name = cli11_name(option);
+  if (std::holds_alternative<std::monostate>(option.target)) {
+    throw std::logic_error("option without a target: " + name);
+  }
+  if (const auto* target = std::get_if<bool*>(&option.target)) {
+    word.known = app.add_flag(name, **target);
+  } else if (const auto* list = std::get_if<std::vector<std::string>*>(&option.target)) {
+    // An option that may come several times has one value each time.
+    word.known = app.add_option(name, **list)->allow_extra_args(option.is_operand());
+  } else {
+    word.known = app.add_option(name, word.text)->type_name("value");
+  }
+  if (option.required) word.known->required();
+}
+
+[[noreturn]] void refuse(const Option& option, const std::string& text, const std::string& limits) {
+  throw UsageError(fmt::format("{} is '{}'; it must be {}", option.typed(), text, limits));
+}
+
+void check_text(const Option& option, const std::string& text) {
+  if (text.empty()) {
+    throw UsageError(fmt::format("{} is empty; it needs a value{}", option.typed(),
+                                 option.value.empty() ? "" : ", " + option.value));
+  }
+  if (!option.choices.empty() &&
+      std::find(option.choices.begin(), option.choices.end(), text) == option.choices.end()) {
+    refuse(option, text, fmt::format("one of {}", fmt::join(option.choices, ", ")));
+  }
+  if (option.check) option.check(option.typed(), text);
+}
+
+// Inclusive limits; every int and every seed is exact as a double, or far from the limits.
+template <typename Number>
+Number whole_number(const Option& option, const std::string& text) {
+  const double min = option.min.value_or(static_cast<double>(std::numeric_limits<Number>::min()));
+  const double max = option.max.value_or(static_cast<double>(std::numeric_limits<Number>::max()));
+  Number number = 0;
+  const bool read = read_whole(text, number);
+  if (read && static_cast<double>(number) >= min && static_cast<double>(number) <= max) {
+    return number;
+  }
+  refuse(option, text, fmt::format("a whole number within {:.0f} ... {:.0f}", min, max));
+}
+
+double real_number(const Option& option, const std::string& text) {
+  const std::optional<double> number = read_number(text);
+  const double min = option.min.value_or(-std::numeric_limits<double>::max());
+  const double max = option.max.value_or(std::numeric_limits<double>::max());
+  const bool inside =
+      number && *number >= min && *number <= max && !(option.above && *number <= *option.above);
+  if (inside) return *number;
+  const std::string limits = option.above ? fmt::format("a finite number above {}", *option.above) +
+                                                (option.max ? fmt::format(", at most {}", max) : "")
+                             : option.max ? fmt::format("a number within {} ... {}", min, max)
+                             : option.min ? fmt::format("a finite number from {} up", min)
+                                          : std::string("a finite number");
+  refuse(option, text, limits);
+}
+
+void take(const Option& option, const std::string& text) {
+  check_text(option, text);
+  std::visit(
+      [&](auto target) {
+        using T = decltype(target);
+        if constexpr (std::is_same_v<T, int*> || std::is_same_v<T, std::optional<int>*>) {
+          *target = whole_number<int>(option, text);
+        } else if constexpr (std::is_same_v<T, std::uint64_t*>) {
+          *target = whole_number<std::uint64_t>(option, text);
+        } else if constexpr (std::is_same_v<T, double*> ||
+                             std::is_same_v<T, std::optional<double>*>) {
+          *target = real_number(option, text);
+        } else if constexpr (std::is_same_v<T, std::string*>) {
+          *target = text;
+        }
+      },
+      option.target);
+}
+
+}  // namespace
+
+void parse(const Command& command, std::span<const std::string> words, CommonOptions& common) {
+  CLI::App app(command.summary, command.name);
+  app.set_help_flag();  // --help is answered before the parser is asked
+  std::vector<Option> options = command.options;
+  for (Option& option : common_options(common)) options.push_back(std::move(option));
+  std::deque<Word> known;  // CLI11 keeps references to the texts
+  for (const Option& option : options) add(app, known.emplace_back(Word{&option}));
+  try {
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 wants them reversed
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(error.what());
+  }
+  for (const Word& word : known) {
+    if (word.known->count() == 0 || word.option->is_switch()) continue;
+    if (const auto* list = std::get_if<std::vector<std::string>*>(&word.option->target)) {
+      for (const std::string& text : **list) check_text(*word.option, text);
+    } else {
+      take(*word.option, word.text);
+    }
+  }
+}
+
+}  // namespace rholm::cli

@@ -1,0 +1,25 @@
+// "--region": parts of a shape, for edits. Layer: cli.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/grammar/command.h"
+#include "rholm/region.h"
+
+namespace rholm::cli {
+
+// "--NAME R", required, as often as wanted.
+Option region_option(const std::string& name, const std::string& help,
+                     std::vector<std::string>& texts);
+
+// Of texts that the option has checked.
+std::vector<Region> parse_regions(const std::vector<std::string>& texts);
+
+// What a region may be, for the descriptions of commands.
+inline constexpr const char* kRegionHelp =
+    "A region is ball:X,Y,Z,RADIUS; vertex:INDEX,RADIUS, a disc along the surface around a vertex "
+    "(counted from 0); box:X0,Y0,Z0,X1,Y1,Z1; color:RRGGBB, vertices painted so in another "
+    "program; or property:NAME, a weight 0 ... 1 in the file. Several are taken together.";
+
+}  // namespace rholm::cli

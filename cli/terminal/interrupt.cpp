@@ -1,0 +1,57 @@
+#include "cli/terminal/interrupt.h"
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <atomic>
+
+#include "rholm/error.h"
+#include "rholm/file.h"
+
+namespace rholm::cli {
+namespace {
+
+std::atomic<int> caught_signal = 0;
+static_assert(std::atomic<int>::is_always_lock_free, "used in a signal handler");
+
+// Exit codes of shells: 128 + signal, 130 for SIGINT.
+void on_stop(int signal) {
+  if (caught_signal.exchange(signal) == 0) return;
+  discard_unfinished_files();
+  _exit(128 + signal);
+}
+
+// A reader that went away (rholm ... | head): leave silently, as programs do, but leave no litter.
+void on_broken_pipe(int signal) {
+  discard_unfinished_files();
+  ::signal(signal, SIG_DFL);
+  ::raise(signal);
+}
+
+// Without SA_RESTART, so that a read from a terminal or a pipe ends. A signal that the parent
+// chose to ignore (nohup, a background job) stays ignored.
+void install(int signal, void (*handler)(int)) {
+  struct sigaction old = {};
+  if (sigaction(signal, nullptr, &old) == 0 && old.sa_handler == SIG_IGN) return;
+  struct sigaction action = {};
+  action.sa_handler = handler;
+  sigemptyset(&action.sa_mask);
+  sigaction(signal, &action, nullptr);
+}
+
+}  // namespace
+
+void install_signal_handlers() {
+  install(SIGINT, on_stop);
+  install(SIGTERM, on_stop);
+  install(SIGHUP, on_stop);
+  install(SIGPIPE, on_broken_pipe);
+}
+
+int interrupting_signal() { return caught_signal.load(); }
+
+void stop_if_interrupted() {
+  if (interrupting_signal() != 0) throw Error(ErrorCode::kCancelled, "interrupted");
+}
+
+}  // namespace rholm::cli

@@ -1,0 +1,116 @@
+#include "cli/terminal/json_text.h"
+
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace rholm::cli {
+namespace {
+
+const char* name_of(ScalarType type) {
+  constexpr const char* kNames[] = {"int8",  "uint8",  "int16",   "uint16",
+                                    "int32", "uint32", "float32", "float64"};
+  return kNames[static_cast<int>(type)];
+}
+
+std::string percent(double share) { return fmt::format("{:.4g} %", 100 * share); }
+
+}  // namespace
+
+Json json_of(const Vec3& v) { return {v.x, v.y, v.z}; }
+
+Json json_of(const Bounds& bounds) {
+  return {
+      {"min", json_of(bounds.min)}, {"max", json_of(bounds.max)}, {"diagonal", bounds.diagonal()}};
+}
+
+Json json_of(const std::vector<Attribute>& attributes) {
+  Json list = Json::array();
+  for (const Attribute& attribute : attributes) {
+    list.push_back({{"name", attribute.name}, {"type", name_of(attribute.type)}});
+  }
+  return list;
+}
+
+Json json_of(const TruncationErrors& errors) {
+  return {{"rms", json_of(errors.rms)},
+          {"rms_is_exact", errors.rms_is_exact},
+          {"predicted_max", json_of(errors.predicted_max)},
+          {"predicted_max_distance", json_of(errors.predicted_max_distance)},
+          {"measured_max", json_of(errors.measured_max)},
+          {"measured_max_distance", json_of(errors.measured_max_distance)},
+          {"distance_rms", json_of(errors.distance_rms)},
+          {"distances_are_closest", errors.distances_are_closest},
+          {"points", errors.points}};
+}
+
+void print_json(const Json& json) {
+  // Names of files may hold any bytes: those that are not UTF-8 are replaced.
+  print_text(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+void print_text(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stdout); }
+
+std::string line(const std::string& name, const std::string& value) {
+  return fmt::format("  {:<18} {}\n", name, value);
+}
+
+std::string yes_or(bool yes, const std::string& otherwise) {
+  return yes ? "yes" : "no, " + otherwise;
+}
+
+std::string text_of(double value) { return fmt::format("{:.7g}", value + 0.0); }
+
+std::string text_of(const Vec3& v) {
+  return fmt::format("({}, {}, {})", text_of(v.x), text_of(v.y), text_of(v.z));
+}
+
+std::string text_of(const std::vector<Attribute>& attributes) {
+  std::vector<std::string> names;
+  for (const Attribute& attribute : attributes) {
+    names.push_back(fmt::format("{} ({})", attribute.name, name_of(attribute.type)));
+  }
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::string counted(std::size_t n, const std::string& one, const std::string& many) {
+  return fmt::format("{} {}", n, n == 1 ? one : many.empty() ? one + "s" : many);
+}
+
+void add_star_report(const StarReport& report, Json& json) {
+  json["center"] = json_of(report.center);
+  json["min_d"] = report.min_d;
+  json["min_cos_gamma"] = report.min_cos_gamma;
+  json["star_shaped"] = report.star_shaped;
+  json["bad_faces"] = report.bad_triangles;
+  json["rays"] = report.rays;
+  json["once_share"] = report.once_share;
+  json["multiple_share"] = report.multiple_share;
+  json["missed_share"] = report.missed_share;
+  json["center_fell_back"] = report.center_fell_back;
+}
+
+std::string star_report_text(const StarReport& report, double diagonal) {
+  std::string text = line("centre", text_of(report.center));
+  if (report.center_fell_back) {
+    text += line("", "(no point sees the whole surface: the best of two guesses)");
+  }
+  text += line("star-shaped",
+               yes_or(report.star_shaped, counted(report.bad_triangles, "face turns its back",
+                                                  "faces turn their backs") +
+                                              " to the centre"));
+  text += line("min d", fmt::format("{} ({:.3g} of the diagonal)", text_of(report.min_d),
+                                    diagonal > 0 ? report.min_d / diagonal : 0.0));
+  text += line("min cos gamma", text_of(report.min_cos_gamma));
+  if (report.rays > 0) {
+    text += line("directions",
+                 fmt::format("{} tried: {} meet the surface once, {} more than "
+                             "once, {} never",
+                             report.rays, percent(report.once_share),
+                             percent(report.multiple_share), percent(report.missed_share)));
+  }
+  return text;
+}
+
+}  // namespace rholm::cli

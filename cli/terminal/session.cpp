@@ -1,0 +1,97 @@
+#include "cli/terminal/session.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include "cli/terminal/interrupt.h"
+
+namespace rholm::cli {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto kBarDelay = 500ms;     // chosen: a shorter run needs no bar
+constexpr auto kBarInterval = 100ms;  // chosen: smooth to the eye, cheap for the terminal
+constexpr int kBarLength = 30;
+
+bool environment_has(const char* name) {
+  const char* value = std::getenv(name);
+  return value && *value;
+}
+
+bool stderr_is_terminal() {
+  const char* terminal = std::getenv("TERM");
+  return isatty(STDERR_FILENO) && !(terminal && std::string_view(terminal) == "dumb");
+}
+
+bool colours() { return stderr_is_terminal() && !environment_has("NO_COLOR"); }
+
+// "rholm: error: text", the second part in a colour of the terminal.
+void print_message(const char* kind, const char* colour, const std::string& text) {
+  const std::string label =
+      colours() ? fmt::format("\x1b[{}m{}:\x1b[0m", colour, kind) : fmt::format("{}:", kind);
+  const std::string line = fmt::format("rholm: {} {}\n", label, text);
+  std::fwrite(line.data(), 1, line.size(), stderr);
+}
+
+}  // namespace
+
+void print_error(const std::string& message) { print_message("error", "1;31", message); }
+
+Session::Session(const CommonOptions& options)
+    : options_(options),
+      bar_wanted_(stderr_is_terminal() && !options.quiet),
+      bar_due_(std::chrono::steady_clock::now() + kBarDelay) {
+  context_.threads = options.threads;
+  context_.progress = [this](std::string_view stage, double fraction) {
+    return on_progress(stage, fraction);
+  };
+}
+
+Session::~Session() { erase_bar(); }
+
+void Session::note(const std::string& message) {
+  erase_bar();
+  if (!options_.quiet) print_message("note", "36", message);
+}
+
+void Session::warn(const std::string& message) {
+  erase_bar();
+  if (!options_.quiet) print_message("warning", "1;33", message);
+}
+
+void Session::report(const std::string& text) {
+  erase_bar();
+  if (!options_.quiet) std::fwrite(text.data(), 1, text.size(), stdout);
+}
+
+bool Session::on_progress(std::string_view stage, double fraction) {
+  const auto now = std::chrono::steady_clock::now();
+  if (bar_wanted_ && !stage.empty() && now >= bar_due_) {
+    bar_due_ = now + kBarInterval;
+    const double part = std::clamp(fraction, 0.0, 1.0);
+    const auto filled = static_cast<std::size_t>(part * kBarLength);
+    const std::string bar = fmt::format("{:<14} [{:<{}}] {:3.0f} %", stage,
+                                        std::string(filled, '#'), kBarLength, 100 * part);
+    std::fprintf(stderr, "\r%-*s", static_cast<int>(bar_width_), bar.c_str());
+    bar_width_ = bar.size();
+  }
+  return interrupting_signal() == 0;
+}
+
+void Session::erase_bar() {
+  if (bar_width_ > 0) std::fprintf(stderr, "\r%*s\r", static_cast<int>(bar_width_), "");
+  bar_width_ = 0;
+}
+
+StageTime Stopwatch::elapsed() const {
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - wall_;
+  return {wall.count(), static_cast<double>(std::clock() - cpu_) / CLOCKS_PER_SEC};
+}
+
+}  // namespace rholm::cli

@@ -1,0 +1,83 @@
+// Least squares of points and normals on one cap. Layer: atlas.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "base/aligned_array.h"
+#include "rholm/atlas.h"
+
+namespace rholm {
+
+// Points to fit, as arrays that are reused: positions relative to the seed, unit normals, and the
+// weights of values (squared, w^2 of method 7.4).
+class CapPoints {
+ public:
+  void clear() { n_ = 0; }
+  std::size_t size() const { return n_; }
+  std::size_t padded() const { return (n_ + 7) / 8 * 8; }
+  void add(const Vec3& offset, const Vec3& normal, double weight);
+  void set_weight(std::size_t i, double weight) { data_[6 * capacity_ + i] = weight; }
+  // x, y, z of positions, of normals, weight; beyond size() up to padded() zeros.
+  const double* row(std::size_t which) const { return data_.data() + which * capacity_; }
+  double weight(std::size_t i) const { return row(6)[i]; }
+  Vec3 offset(std::size_t i) const { return {row(0)[i], row(1)[i], row(2)[i]}; }
+  Vec3 normal(std::size_t i) const { return {row(3)[i], row(4)[i], row(5)[i]}; }
+  void pad();  // after the last add()
+
+ private:
+  std::size_t n_ = 0, capacity_ = 0;
+  AlignedArray<double> data_;
+};
+
+struct CapFitOptions {
+  CapBasis basis = CapBasis::kFull;
+  int degree = 3;
+  double gradient_weight = 1;  // of normals against values, both in the frame of the opened sphere
+  double penalty = 2e-7;       // of (l (l + 1))^2, relative to the sum of the weights (method 7.4)
+};
+
+struct CapFit {
+  std::vector<double> coefficients;
+  double rms = 0;        // of the distances along rays, weighted
+  double slope_rms = 0;  // of the differences of slopes, tangents of angles, weighted
+  double usable = 0;     // share of the points that face away from the centre
+  double deviation = 0;  // largest distance of a point from the tangent plane of the seed
+};
+
+// Scratch memory of fits, one per thread.
+struct CapFitScratch {
+  AlignedArray<double> rows;  // [coefficient + 2][value, slope 1, slope 2][points padded]
+  std::vector<double> matrix, factor, right;
+};
+
+// The frame of a cap around `seed`: its centre lies below, where the support is seen under
+// `half_angle`, and the sphere is opened so that this becomes `opened`. Radians.
+CapFrame cap_frame(const Vec3& seed, const Vec3& axis, double support, double half_angle,
+                   double opened);
+
+// The least squares of a fit before it is solved: rows and matrix are in the scratch memory. The
+// coefficients of a lower degree are the first ones, so its system is the leading block.
+struct CapSystem {
+  std::size_t n = 0;       // unknowns
+  std::size_t third = 0;   // points, padded: values' rows are third long
+  std::size_t stride = 0;  // from one row to the next: value, slope 1, slope 2
+  std::size_t usable = 0;  // points that face away from the centre
+  double weights = 0;      // their sum
+  bool solvable = false;   // enough points; else there is no matrix
+};
+// scratch.matrix is then [n + 1][n + 1], lower triangle, penalty included; its last row is the
+// right-hand side.
+CapSystem make_system(const CapFrame& frame, const CapPoints& points, const CapFitOptions& options,
+                      CapFitScratch& scratch);
+// What the first coefficients leave, times the rows' weights: the first `length` of a row, a
+// multiple of third. In the scratch memory.
+const double* residuals(const CapSystem& system, std::span<const double> coefficients,
+                        std::size_t length, CapFitScratch& scratch);
+
+// Fits; false if the matrix is singular to working precision. `points` are padded.
+bool fit_cap(const CapFrame& frame, const CapPoints& points, const CapFitOptions& options,
+             CapFitScratch& scratch, CapFit& fit);
+
+}  // namespace rholm

@@ -1,0 +1,263 @@
+#include "atlas/cover/cap_cover.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "atlas/cap/cap_fit.h"
+#include "atlas/cover/cap_seed.h"
+#include "base/parallel.h"
+
+namespace rholm {
+namespace {
+
+// Seeds are chosen within blocks of so many points, so that blocks can be worked on at once; at
+// their borders a cap too many here and there.
+constexpr std::size_t kBlock = 4096;
+
+// A fit is good when its residuals are below this part of the support (method 7.4), or of the
+// noise.
+// Measured on sharp edges: 0.01 and 0.02 leave more of them round or horned, below 0.01 good points
+// of rough shapes look like outliers.
+constexpr double kGoodFit = 0.014;
+constexpr double kGoodNoise = 1.12;  // method 7.11
+constexpr double kGoodShare = 0.85;
+constexpr double kShrink = 0.65;
+constexpr double kAlone = 0.7;
+// The last resort, of the fewest points: what is worse is no surface.
+constexpr double kAnyFit = 0.1;
+constexpr double kAnyNoise = 2;
+// A cap's own residuals are part of the error only, and grow to the next size by about as much.
+constexpr double kOfTolerance = 0.5;
+constexpr double kGrow = 1.6;
+constexpr std::size_t kMost = 4000;  // points of a cap of low degree
+constexpr std::size_t kFewest = 8;   // points: 24 rows for 16 unknowns and a penalty
+// Ellipses are not thinner than this part of the support, squared.
+constexpr double kThinnest = 0.1;
+// Of 24 random points of a disc the third nearest is nearer than a tenth of the farthest twice in
+// a thousand times.
+constexpr std::size_t kInner = 3;
+constexpr double kClose = 0.1;
+// Residuals of this part of the support halve the weight of a cap: a crease or a fold is left to
+// caps that do not see it. Measured: 0.001 to 0.01 are alike.
+constexpr double kTrusted = 0.002;
+// Caps of noisy points count by this power of the number of their points. With 1, their variance,
+// small ones still make spikes at tips, where few others speak; 2 and 3 are alike.
+constexpr double kTrustInPoints = 2;
+// Points that the cap speaks for.
+constexpr double kCovered = 0.7;
+
+// s^2 of CapSupport at an offset from the seed.
+double place(const Cap& cap, const Vec3& offset) {
+  const CapFrame& f = cap.frame;
+  const double p = dot(offset, f.x) - cap.where.px, q = dot(offset, f.y) - cap.where.py;
+  const double h = dot(offset, f.z) / f.support;
+  return cap.where.xx * p * p + 2 * cap.where.xy * p * q + cap.where.yy * q * q + h * h;
+}
+
+// Mean and covariance of points in a frame's plane.
+struct Moments {
+  double p = 0, q = 0;
+  double xx = 0, xy = 0, yy = 0;
+  double middle = 0, radius = 0;  // eigenvalues of the covariance: middle +- radius
+};
+
+Moments moments_of(const CapFrame& frame, const CapPoints& points) {
+  Moments m;
+  const auto n = static_cast<double>(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3 offset = points.offset(i);
+    const double x = dot(offset, frame.x), y = dot(offset, frame.y);
+    m.p += x, m.q += y, m.xx += x * x, m.xy += x * y, m.yy += y * y;
+  }
+  m.p /= n, m.q /= n;
+  m.xx = m.xx / n - m.p * m.p, m.xy = m.xy / n - m.p * m.q, m.yy = m.yy / n - m.q * m.q;
+  m.middle = (m.xx + m.yy) / 2, m.radius = std::hypot((m.xx - m.yy) / 2, m.xy);
+  return m;
+}
+
+// Of a disc's covariance, both are R^2 / 4.
+double eigenvalue_of_disc(const CapFrame& frame) { return frame.support * frame.support / 4; }
+
+// The ellipse with the mean and the covariance of the points: those of a full disc give its circle.
+CapSupport ellipse_of(const CapFrame& frame, const Moments& m) {
+  // Axes between kThinnest and 1 of the support.
+  const double most = eigenvalue_of_disc(frame), least = kThinnest * most;
+  const double large = std::clamp(m.middle + m.radius, least, most);
+  const double small = std::clamp(m.middle - m.radius, least, most);
+  // Directions of the axes.
+  const double angle = 0.5 * std::atan2(2 * m.xy, m.xx - m.yy);
+  const double c = std::cos(angle), s = std::sin(angle);
+  const double a = 1 / (4 * large), b = 1 / (4 * small);
+  return {m.p, m.q, a * c * c + b * s * s, (a - b) * c * s, a * s * s + b * c * c};
+}
+
+struct Candidate {
+  Cap cap;
+  std::vector<double> coefficients;
+};
+
+// Whether the points of a cap fill its disc. Along a line, or in two places far apart, they leave
+// open what lies between: needles, and ridges thinner than the spacing, have such caps.
+bool fills_disc(const Cap& cap, std::size_t k, const CapWorker& worker) {
+  const double inner2 = worker.near[std::min(kInner, k - 1)].distance2;
+  if (inner2 < kClose * kClose * worker.near[k - 1].distance2) return false;
+  const Moments m = moments_of(cap.frame, worker.points);
+  return m.middle - m.radius > kThinnest * eigenvalue_of_disc(cap.frame);
+}
+
+bool good(const CapFit& fit, double support, const CoverOptions& options) {
+  return fit.usable >= kGoodShare &&
+         fit.rms <= std::max(kGoodFit * support, kGoodNoise * options.noise);
+}
+
+// The cap of the k nearest points; false if there is none.
+bool fit_nearest(const OrderedPoints& all, std::size_t seed, std::size_t k, CapSide side,
+                 const CoverOptions& options, CapWorker& worker, Cap& cap) {
+  const double support = std::sqrt(static_cast<double>(worker.near[k - 1].distance2));
+  if (!(support > 0)) return false;
+  const Vec3 axis = take_points(all, seed, k, support, side, false, worker);
+  cap.frame = cap_frame(worker.middle, axis, support, kHalfAngle, kOpened);
+  const CapFitOptions wanted{.degree = options.degree, .gradient_weight = options.gradient_weight};
+  return fit_cap(cap.frame, worker.points, wanted, worker.scratch, worker.fit);
+}
+
+// Larger caps while they keep the tolerance; worker.fit and worker.points are those of the last
+// good one.
+void grow_cap(const OrderedPoints& all, std::size_t seed, std::size_t k,
+              const CoverOptions& options, CapWorker& worker, Cap& cap) {
+  const double allowed = kOfTolerance * options.tolerance;
+  for (std::size_t more = k; worker.fit.rms <= allowed && more < kMost;) {
+    const std::size_t kept = more;
+    more = static_cast<std::size_t>(kGrow * static_cast<double>(more));
+    all.tree.nearest(worker.middle, more, worker.near);
+    const std::size_t found = worker.near.size();
+    const bool fitted =
+        found > kept && fit_nearest(all, seed, found, CapSide::kSheet, options, worker, cap);
+    if (fitted && worker.fit.rms <= allowed && worker.fit.usable >= kGoodShare) continue;
+    worker.near.resize(std::min(found, kept));
+    fit_nearest(all, seed, worker.near.size(), CapSide::kSheet, options, worker, cap);
+    return;
+  }
+}
+
+// Whether a point is alone amid a surface's gap: of 24 random points 12 lie nearer than 0.7 of the
+// farthest, and fewer than two others once in ten thousand times.
+bool is_isolated(const std::vector<Neighbor>& near) {
+  return near.size() > 3 && near[2].distance2 > kAlone * kAlone * near.back().distance2;
+}
+
+// The largest good cap around a point.
+bool make_cap(const OrderedPoints& all, std::size_t seed, const CoverOptions& options,
+              CapWorker& worker, Cap& cap) {
+  worker.middle = all.points[seed];
+  all.tree.nearest_to(seed, options.neighbours, worker.near);
+  if (is_isolated(worker.near)) return false;
+  if (options.noise > 0) settle(all, seed, worker);
+  for (std::size_t k = worker.near.size(); k > 0;) {
+    bool fitted = fit_nearest(all, seed, k, CapSide::kSheet, options, worker, cap);
+    const auto fewer = static_cast<std::size_t>(kShrink * static_cast<double>(k));
+    const double support = cap.frame.support;
+    const bool full = fitted && fills_disc(cap, k, worker);
+    if (full && good(worker.fit, support, options)) {
+      if (options.tolerance > 0) grow_cap(all, seed, k, options, worker, cap);
+      return true;
+    }
+    // Perhaps there is a crease: one of its sides alone, where normals can tell.
+    if (options.noise == 0) {
+      fitted = fit_nearest(all, seed, k, CapSide::kFace, options, worker, cap);
+      if (fitted && full && worker.points.size() >= kFewest && good(worker.fit, support, options))
+        return true;
+    }
+    if (fewer < kFewest) {
+      return fitted && worker.fit.rms <= std::max(kAnyFit * support, kAnyNoise * options.noise);
+    }
+    k = fewer;
+  }
+  return false;
+}
+
+// What is known of a cap once it is fitted.
+void describe_cap(const CoverOptions& options, const CapWorker& worker, Cap& cap) {
+  cap.degree = static_cast<std::uint16_t>(options.degree);
+  cap.error = worker.fit.rms;
+  cap.deviation = worker.fit.deviation;
+  cap.where = ellipse_of(cap.frame, moments_of(cap.frame, worker.points));
+  // Noise is no fault of the cap's.
+  const double noise = kGoodNoise * options.noise;
+  const double excess = std::sqrt(std::max(0.0, worker.fit.rms * worker.fit.rms - noise * noise));
+  const double part = excess / (kTrusted * cap.frame.support);
+  cap.weight = 1 / (1 + part * part);
+  if (options.noise == 0) return;
+  const double share =
+      static_cast<double>(worker.points.size()) / static_cast<double>(options.neighbours);
+  cap.weight *= std::pow(std::min(1.0, share), kTrustInPoints);
+}
+
+// Marks what the cap speaks for within a block of points; returns how many are new.
+std::size_t mark(const OrderedPoints& all, const Cap& cap, std::size_t seed, std::size_t begin,
+                 double core, const CapWorker& worker, std::vector<std::uint8_t>& covered) {
+  std::size_t n_new = 1;
+  covered[seed - begin] = 1;
+  for (const Neighbor& near : worker.near) {
+    if (near.index < begin || near.index - begin >= covered.size()) continue;
+    std::uint8_t& flag = covered[near.index - begin];
+    if (flag != 0 || dot(all.normals[near.index], cap.frame.z) < kCovered) continue;
+    if (place(cap, all.points[near.index] - worker.middle) > core * core) continue;
+    flag = 1;
+    ++n_new;
+  }
+  return n_new;
+}
+
+struct Block {
+  std::vector<Candidate> caps;
+  std::vector<std::uint32_t> rejected;
+};
+
+void cover_block(const OrderedPoints& all, std::size_t begin, std::size_t end,
+                 const CoverOptions& options, Block& block) {
+  CapWorker worker;
+  std::vector<std::uint8_t> covered(end - begin, 0);
+  for (std::size_t seed = begin; seed < end; ++seed) {
+    if (covered[seed - begin] != 0) continue;
+    Candidate made;
+    if (!make_cap(all, seed, options, worker, made.cap)) {
+      block.rejected.push_back(static_cast<std::uint32_t>(seed));
+      continue;
+    }
+    describe_cap(options, worker, made.cap);
+    made.coefficients = worker.fit.coefficients;
+    const std::size_t n_new = mark(all, made.cap, seed, begin, options.core, worker, covered);
+    const double disc = std::numbers::pi * made.cap.frame.support * made.cap.frame.support;
+    made.cap.area = disc * static_cast<double>(n_new) / static_cast<double>(worker.points.size());
+    block.caps.push_back(std::move(made));
+  }
+}
+
+}  // namespace
+
+Cover cover(const OrderedPoints& points, const CoverOptions& options, const Context& context) {
+  const std::size_t n = points.points.size(), n_blocks = (n + kBlock - 1) / kBlock;
+  std::vector<Block> made(n_blocks);
+  parallel_for(n_blocks, 1, context, {.name = "caps"}, [&](std::size_t first, std::size_t last) {
+    for (std::size_t b = first; b < last; ++b) {
+      cover_block(points, b * kBlock, std::min(n, (b + 1) * kBlock), options, made[b]);
+    }
+  });
+  Cover result;
+  for (Block& block : made) {
+    result.rejected.insert(result.rejected.end(), block.rejected.begin(), block.rejected.end());
+    for (Candidate& candidate : block.caps) {
+      candidate.cap.first = result.coefficients.size();
+      result.coefficients.insert(result.coefficients.end(), candidate.coefficients.begin(),
+                                 candidate.coefficients.end());
+      result.caps.push_back(candidate.cap);
+    }
+    block = {};
+  }
+  return result;
+}
+
+}  // namespace rholm

@@ -1,0 +1,39 @@
+// Covers points with caps, each fitted by least squares (method 7.4). Layer: atlas.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rholm/atlas.h"
+#include "rholm/context.h"
+#include "shape/points/point_tree.h"
+
+namespace rholm {
+
+// Points and unit normals in the order of a tree.
+struct OrderedPoints {
+  const PointTree& tree;
+  std::span<const Vec3> points;
+  std::span<const Vec3> normals;
+};
+
+struct CoverOptions {
+  std::size_t neighbours = 24;  // of a cap; fewer where the fit is bad
+  int degree = 3;
+  double noise = 0;  // standard deviation of the points along their normals
+  double gradient_weight = 0.3;
+  double tolerance = 0;  // caps grow while their residuals stay below it; 0: they do not grow
+  double core = 0.5;     // points nearer than this part of the support need no cap of their own
+};
+
+struct Cover {
+  std::vector<Cap> caps;
+  std::vector<double> coefficients;
+  // Points (in the order of the tree) that no cap fits: outliers, or where there are too few.
+  std::vector<std::uint32_t> rejected;
+};
+Cover cover(const OrderedPoints& points, const CoverOptions& options, const Context& context);
+
+}  // namespace rholm

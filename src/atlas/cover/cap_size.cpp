@@ -1,0 +1,188 @@
+#include "atlas/cover/cap_size.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "atlas/cap/cap_pole.h"
+#include "atlas/cover/cap_seed.h"
+#include "base/parallel.h"
+
+namespace rholm {
+namespace {
+
+struct Trial {
+  double slope_error = 1, rms = 0, level_rms = 0, slope_rms = 0, support = 0;
+};
+
+// Seeds of a trial: the mean of their errors is then known to a few hundredths. Where points are
+// noisy sizes differ by less.
+constexpr std::size_t kSeeds = 400, kSeedsNoisy = 800;
+// Numbers of points that are tried, method 7.11; the smallest gives 72 equations for 16 unknowns.
+constexpr std::size_t kFewest = 24, kMost = 4000;
+constexpr double kLadder = 1.5;
+// Part of the seeds that counts, those with the least errors: seeds may be outliers, or on creases.
+constexpr double kCounted = 0.8;
+constexpr double kClearlyBetter = 0.8;
+// Trials end when errors have grown by this factor, of noisy points clearly.
+constexpr double kGrown = 1.15, kGrownNoisy = 1.05;
+// Errors of noisy points hardly change between two sizes near the best, and which of them is the
+// least is chance: so the lowest point of a parabola in log k through all that are within this
+// factor of it.
+constexpr double kNearBest = 1.1;
+// Normals count for so much more than by their residuals, which creases enlarge (method 7.11).
+constexpr double kNormalsFavoured = 1.6;
+// Residuals of the smallest caps are noise from this part of their support on: no shape that caps
+// can show has as much. Below the other they are of no account (a fit of cap_cover.cpp is good).
+constexpr double kSurelyNoise = 0.1;
+constexpr double kNoticed = 0.02;
+// Between, they are noise if they do not grow with the caps: with the power 0.2 ... 0.5 of the
+// support those of noise do, since small fits follow it, with 1 those of creases, with 1.4 ... 3
+// those of whole shapes; measured between caps of k and of 9/4 k points.
+constexpr double kShapeGrows = 0.85;
+constexpr double kWide = 2.25;
+
+// Slopes on the opened sphere are those of the surface over the dilation a, over 1 + t^2 more at
+// t = s tan(kOpened / 2), s the part of the support from the seed: with the weights of
+// take_points() over a disc the mean square of (1 + t^2) is 1 + 2/3 0.257 + 1/9 0.107.
+constexpr double kSlopesGrow = 1.088;
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+Trial try_seed(const OrderedPoints& all, std::size_t seed, std::size_t k,
+               const CapFitOptions& options, CapWorker& worker) {
+  Trial trial;
+  worker.middle = all.points[seed];
+  all.tree.nearest_to(seed, k, worker.near);
+  trial.support = std::sqrt(static_cast<double>(worker.near.back().distance2));
+  if (!(trial.support > 0)) return trial;
+  const Vec3 axis =
+      take_points(all, seed, worker.near.size(), trial.support, CapSide::kSheet, true, worker);
+  const CapFrame frame = cap_frame(worker.middle, axis, trial.support, kHalfAngle, kOpened);
+  if (!fit_cap(frame, worker.points, options, worker.scratch, worker.fit)) return trial;
+  trial.rms = worker.fit.rms;
+  trial.level_rms = worker.fit.rms / frame.radius;
+  trial.slope_rms = worker.fit.slope_rms;
+  const Vec3& n = all.normals[seed];
+  const double up = dot(n, frame.z);
+  if (!(up > 0)) return trial;
+  const CapPole pole = cap_pole(frame, options.basis, options.degree, worker.fit.coefficients);
+  const double e1 = pole.slope1 + dot(n, frame.x) / up, e2 = pole.slope2 + dot(n, frame.y) / up;
+  trial.slope_error = std::min(1.0, e1 * e1 + e2 * e2);
+  return trial;
+}
+
+// Whether the residuals of the smallest caps are noise and not shape.
+bool is_noise(const OrderedPoints& points, const CapSizeTrial& first, int degree, double weight,
+              const Context& context) {
+  if (!(first.rms > kNoticed * first.support)) return false;
+  if (first.rms > kSurelyNoise * first.support) return true;
+  const auto more = static_cast<std::size_t>(kWide * static_cast<double>(first.neighbours));
+  const CapSizeTrial wide = try_cap_size(points, more, degree, weight, kSeeds, context);
+  return wide.rms < first.rms * std::pow(wide.support / first.support, kShapeGrows);
+}
+
+}  // namespace
+
+double least_of_parabola(std::span<const double> x, std::span<const double> y) {
+  // y = c0 + c1 t + c2 t^2 with t = x - mean(x): normal equations of the centred t and t^2.
+  const auto n = static_cast<double>(x.size());
+  double mean = 0, mean_y = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) mean += x[i] / n, mean_y += y[i] / n;
+  double s2 = 0, s3 = 0, s4 = 0, sy = 0, s2y = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double t = x[i] - mean, v = y[i] - mean_y;
+    s2 += t * t, s3 += t * t * t, s4 += t * t * t * t, sy += t * v, s2y += t * t * v;
+  }
+  const double square = s4 - s2 * s2 / n, determinant = s2 * square - s3 * s3;
+  if (!(determinant > 1e-9 * s2 * s4)) return std::numeric_limits<double>::quiet_NaN();
+  const double c1 = (sy * square - s2y * s3) / determinant, c2 = (s2 * s2y - s3 * sy) / determinant;
+  if (!(c2 > 0)) return std::numeric_limits<double>::quiet_NaN();
+  const auto [low, high] = std::minmax_element(x.begin(), x.end());
+  return std::clamp(mean - c1 / (2 * c2), *low, *high);
+}
+
+namespace {
+
+// The best number of points by all trials; 0 if they do not show one.
+std::size_t steady_size(std::span<const CapSizeTrial> trials, double least) {
+  std::vector<double> sizes, errors;
+  for (const CapSizeTrial& trial : trials) {
+    if (trial.slope_error > kNearBest * least) continue;
+    sizes.push_back(std::log(static_cast<double>(trial.neighbours)));
+    errors.push_back(trial.slope_error);
+  }
+  const double best = least_of_parabola(sizes, errors);
+  return std::isfinite(best) ? static_cast<std::size_t>(std::exp(best)) : 0;
+}
+
+}  // namespace
+
+CapSizeTrial try_cap_size(const OrderedPoints& points, std::size_t neighbours, int degree,
+                          double gradient_weight, std::size_t n_seeds, const Context& context) {
+  const std::size_t n = points.points.size();
+  n_seeds = std::min(n_seeds, n);
+  std::vector<Trial> trials(n_seeds);
+  const CapFitOptions options{.degree = degree, .gradient_weight = gradient_weight};
+  parallel_for(n_seeds, 16, context, {.name = "cap size"}, [&](std::size_t begin, std::size_t end) {
+    CapWorker worker;
+    for (std::size_t j = begin; j < end; ++j) {
+      trials[j] = try_seed(points, j * n / n_seeds, neighbours, options, worker);
+    }
+  });
+  CapSizeTrial mean{.neighbours = neighbours};
+  std::vector<double> rms, level, slope, support;
+  std::sort(trials.begin(), trials.end(),
+            [](const Trial& a, const Trial& b) { return a.slope_error < b.slope_error; });
+  const auto counted = static_cast<std::size_t>(kCounted * static_cast<double>(n_seeds)) + 1;
+  for (std::size_t j = 0; j < std::min(counted, n_seeds); ++j) {
+    mean.slope_error += trials[j].slope_error / static_cast<double>(counted);
+  }
+  for (const Trial& t : trials) {
+    if (t.slope_error >= 1) mean.disagreeing += 1 / static_cast<double>(n_seeds);
+    rms.push_back(t.rms), level.push_back(t.level_rms);
+    slope.push_back(t.slope_rms), support.push_back(t.support);
+  }
+  mean.rms = median(rms), mean.level_rms = median(level);
+  mean.slope_rms = median(slope), mean.support = median(support);
+  return mean;
+}
+
+CapSize choose_cap_size(const OrderedPoints& points, int degree, const Context& context) {
+  CapSize best;
+  CapSizeTrial chosen;
+  std::vector<CapSizeTrial> trials;
+  bool noisy = false;
+  double weight = best.gradient_weight;
+  const std::size_t most = std::min(kMost, points.points.size() / 4);
+  for (double k = kFewest; chosen.neighbours == 0 || k < static_cast<double>(most); k *= kLadder) {
+    const CapSizeTrial trial = try_cap_size(points, static_cast<std::size_t>(k), degree, weight,
+                                            noisy ? kSeedsNoisy : kSeeds, context);
+    trials.push_back(trial);
+    if (trial.slope_rms > 0) weight = kNormalsFavoured * trial.level_rms / trial.slope_rms;
+    if (chosen.neighbours == 0) noisy = is_noise(points, trial, degree, weight, context);
+    // Clean points show no minimum: only a clear gain is worth larger caps.
+    const double better = noisy ? 1 : kClearlyBetter;
+    if (chosen.neighbours == 0 || trial.slope_error < better * chosen.slope_error) chosen = trial;
+    if (trial.slope_error > (noisy ? kGrownNoisy : kGrown) * chosen.slope_error) break;
+  }
+  if (const std::size_t k = noisy ? steady_size(trials, chosen.slope_error) : 0; k > 0) {
+    chosen = try_cap_size(points, k, degree, weight, kSeedsNoisy, context);
+  }
+  best.neighbours = chosen.neighbours;
+  best.disagreeing = chosen.disagreeing;
+  if (chosen.slope_rms > 0) {
+    best.gradient_weight =
+        std::clamp(kNormalsFavoured * chosen.level_rms / chosen.slope_rms, 0.01, 10.0);
+  }
+  if (noisy) best.noise = chosen.rms;
+  const double dilation = std::tan(kOpened / 2) / std::tan(kHalfAngle / 2);
+  best.normal_noise = chosen.slope_rms * dilation / kSlopesGrow;
+  return best;
+}
+
+}  // namespace rholm

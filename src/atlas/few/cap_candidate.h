@@ -1,0 +1,65 @@
+// A large cap around a sample: the smallest degree that meets a tolerance (method 7.8).
+// Layer: atlas.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "atlas/cap/cap_fit.h"
+#include "atlas/cap/degree_fits.h"
+#include "atlas/few/cap_samples.h"
+#include "rholm/atlas.h"
+
+namespace rholm {
+
+struct CandidateOptions {
+  double tolerance = 0;  // rms distance of samples, their unit
+  double stray = 0;      // a cap's surface farther from all samples would be a sheet of its own
+  int max_degree = 14;
+  std::size_t samples = 1000;  // of a fit, about
+};
+
+// Numbers that a model keeps of a cap beside its coefficients: seed, rotation, radius, dilation,
+// support.
+inline constexpr std::size_t kFrameNumbers = 9;
+
+struct Candidate {
+  Cap cap;  // Cap::first is not set
+  std::vector<double> coefficients;
+  double inside = 0;  // samples of the finest level that it speaks for, estimated
+  double rms = 0;     // of those samples it covers
+  // Samples it covers, of the level it was fitted to, by their indices in the finest one.
+  std::vector<std::uint32_t> covered;
+  double share = 1;  // samples of the finest level that one of these stands for
+  std::size_t cost() const { return coefficients.size() + kFrameNumbers; }
+};
+
+// Memory that is used again, one per thread.
+struct CandidateScratch {
+  PatchSearch search;
+  CapPoints points, probes;
+  std::vector<std::uint32_t> indices;  // of the points, in their level
+  std::vector<double> distance2;       // of the points from the seed
+  CapFitScratch fit;
+  DegreeFits degrees;
+  std::vector<double> coefficients, values, surface;
+  std::vector<Neighbor> near;
+};
+
+// Tries a cap that speaks within `radius` of a sample; false if no degree meets the tolerance.
+bool make_candidate(const SampleLevels& samples, std::uint32_t seed, double radius,
+                    double half_angle, const CandidateOptions& options, CandidateScratch& scratch,
+                    Candidate& candidate);
+
+// Whether a point of its surface within its support is farther than `band` off the surface of the
+// samples, or where they have ended, or faces the other way; at probes about `spacing` apart.
+// Samples may be random: voids between them are not their end.
+bool strays(const SampleLevels& samples, const Cap& cap, std::span<const double> coefficients,
+            double band, double spacing, CandidateScratch& scratch);
+
+// The samples of the finest level that a cap covers.
+std::vector<std::uint32_t> covered_by(const SampleLevels& samples, const Candidate& candidate,
+                                      std::uint32_t seed, double tolerance,
+                                      CandidateScratch& scratch);
+
+}  // namespace rholm

@@ -1,0 +1,231 @@
+#include "atlas/few/cap_prune.h"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+
+#include "atlas/cap/cap_fit.h"
+#include "atlas/cap/degree_fits.h"
+#include "atlas/few/cap_blend.h"
+#include "atlas/few/cap_candidate.h"
+#include "atlas/few/cap_shares.h"
+#include "base/parallel.h"
+
+namespace rholm {
+
+// The quadratic form of one cap's error over its coefficients, while some are dropped: the error
+// grows by c_i^2 / (M^-1)_ii when c_i becomes zero and the others make the best of it.
+struct CapForm {
+  std::vector<double> coefficients, inverse;  // M^-1 [n][n]
+  std::vector<std::uint8_t> kept;
+  double error = 0;  // with all coefficients
+  double worth = 1;  // of this cap's errors beside those of others
+  std::size_t n = 0;
+
+  double price(std::size_t i) const {
+    return coefficients[i] * coefficients[i] / inverse[i * n + i];
+  }
+  void drop(std::size_t i) {
+    const double pivot = inverse[i * n + i], c = coefficients[i] / pivot;
+    const std::vector<double> column(&inverse[i * n], &inverse[i * n] + n);
+    for (std::size_t j = 0; j < n; ++j) {
+      if (kept[j] == 0) continue;
+      coefficients[j] -= c * column[j];
+      const double factor = column[j] / pivot;
+      for (std::size_t k = 0; k < n; ++k) inverse[j * n + k] -= factor * column[k];
+    }
+    coefficients[i] = 0;
+    kept[i] = 0;
+  }
+};
+
+namespace {
+
+constexpr double kShrink = 0.94;  // of a support that its surface leaves
+constexpr int kMostShrinks = 8;   // to 0.6: what still strays then is closed and dropped later
+constexpr int kMostSteps = 5;     // to the budget
+// A cap that is to shrink to less than 0.7 has lost coefficients that it needs: those it has are
+// dearer from then on. Chosen by scripts/atlas-figures: half as many shrinks take 6 % more numbers,
+// without a bound the caps at rims, as of ears, are cut to pieces.
+constexpr int kFreeShrinks = 6;
+constexpr double kDearer = 4;
+
+// Fits a cap to the points it answers for; false if they do not tell its coefficients.
+bool fit_form(const Cap& cap, const CapPoints& points, int degree, CapForm& form) {
+  CapFitScratch scratch;
+  if (points.size() == 0) return false;
+  const CapSystem system = make_system(cap.frame, points, share_fit(cap.basis, degree), scratch);
+  if (!system.solvable) return false;
+  DegreeFits fits;
+  fits.factor(system, scratch.matrix);
+  form.n = fits.regular();
+  // Degrees as a whole.
+  while (degree > 0 && n_coefficients(cap.basis, degree) > form.n) --degree;
+  form.n = std::min(form.n, n_coefficients(cap.basis, degree));
+  fits.solve(form.n, form.coefficients);
+  fits.invert(form.n, form.inverse);
+  const double square = cap.frame.radius * cap.frame.radius;
+  for (double& x : form.inverse) x /= square;  // errors as lengths
+  const double* const rest = residuals(system, form.coefficients, system.third, scratch);
+  for (std::size_t i = 0; i < points.size(); ++i) form.error += rest[i] * rest[i];
+  form.error *= square;
+  return true;
+}
+
+CapForm make_form(const Atlas& atlas, const Cap& cap, const CapPoints& points,
+                  const PruneOptions& options) {
+  CapForm form;
+  const int degree = std::min(options.max_degree, cap.degree + options.more_degrees);
+  if (!fit_form(cap, points, degree, form)) {
+    const auto own = atlas.coefficients_of(cap);
+    form.n = own.size();
+    form.coefficients.assign(own.begin(), own.end());
+    form.inverse.assign(form.n * form.n, 0);
+  }
+  form.kept.assign(form.n, 1);
+  return form;
+}
+
+struct Drop {
+  double price = 0;  // squared error times the cap's worth
+  std::uint32_t cap = 0, coefficient = 0;
+  bool operator<(const Drop& other) const {
+    if (price != other.price) return price > other.price;  // the cheapest on top
+    if (cap != other.cap) return cap > other.cap;
+    return coefficient > other.coefficient;
+  }
+};
+
+Drop cheapest(const CapForm& form, std::uint32_t cap) {
+  Drop drop{INFINITY, cap, 0};
+  for (std::uint32_t i = 0; i < form.n; ++i) {
+    if (form.kept[i] == 0) continue;
+    const double price = form.worth * form.price(i);
+    if (price < drop.price) drop = {price, cap, i};
+  }
+  return drop;
+}
+
+// Drops the cheapest of all caps until the sum of errors would exceed `budget`; the last price.
+double drop_until(double budget, std::vector<CapForm>& forms) {
+  double error = 0, price = 0;
+  std::priority_queue<Drop> queue;
+  for (std::uint32_t c = 0; c < forms.size(); ++c) {
+    error += forms[c].error;
+    const Drop drop = cheapest(forms[c], c);
+    if (std::isfinite(drop.price)) queue.push(drop);
+  }
+  while (!queue.empty()) {
+    const Drop drop = queue.top();
+    const double more = drop.price / forms[drop.cap].worth;
+    if (error + more > budget) break;
+    queue.pop();
+    error += more;
+    price = more;
+    forms[drop.cap].drop(drop.coefficient);
+    const Drop next = cheapest(forms[drop.cap], drop.cap);
+    if (std::isfinite(next.price)) queue.push(next);
+  }
+  return price;
+}
+
+// The atlas with the coefficients of the forms, each cap of the least degree that holds them.
+Atlas with_forms(const Atlas& atlas, const std::vector<CapForm>& forms) {
+  Atlas result = atlas;
+  result.coefficients.clear();
+  for (std::size_t c = 0; c < forms.size(); ++c) {
+    std::size_t used = 1;
+    for (std::size_t i = 0; i < forms[c].n; ++i) {
+      if (forms[c].kept[i] != 0) used = i + 1;
+    }
+    Cap& cap = result.caps[c];
+    int degree = 0;
+    while (n_coefficients(cap.basis, degree) < used) ++degree;
+    cap.degree = static_cast<std::uint16_t>(degree);
+    cap.first = result.coefficients.size();
+    const auto first = forms[c].coefficients.begin();
+    result.coefficients.insert(
+        result.coefficients.end(), first,
+        first + static_cast<std::ptrdiff_t>(n_coefficients(cap.basis, degree)));
+  }
+  return result;
+}
+
+// Supports shrink until their caps' surfaces do not leave the samples there; how often each did.
+std::vector<int> shrink_stray(const SampleLevels& samples, double stray, Atlas& atlas,
+                              const Context& context) {
+  std::vector<int> shrinks(atlas.caps.size());
+  parallel_for(atlas.caps.size(), 16, context, {}, [&](std::size_t begin, std::size_t end) {
+    CandidateScratch scratch;
+    for (std::size_t c = begin; c < end; ++c) {
+      Cap& cap = atlas.caps[c];
+      for (int& k = shrinks[c]; k < kMostShrinks; ++k) {
+        if (!strays(samples, cap, atlas.coefficients_of(cap), stray, stray, scratch)) break;
+        set_support(cap, kShrink * cap.frame.support);
+      }
+    }
+  });
+  return shrinks;
+}
+
+}  // namespace
+
+Pruning::Pruning(const SampleLevels& samples, const PruneOptions& options, const Atlas& atlas,
+                 const Context& context)
+    : samples_(samples), options_(options), atlas_(atlas), forms_(atlas.caps.size()) {
+  const SampleLevel& finest = samples.finest();
+  const CapShares shares = shares_of(atlas, finest, options.band, context);
+  parallel_for(forms_.size(), 1, context, {.name = "fits"},
+               [&](std::size_t begin, std::size_t end) {
+                 CapPoints points;
+                 for (std::size_t c = begin; c < end; ++c) {
+                   share_points(atlas, c, atlas.coefficients_of(atlas.caps[c]), finest, shares,
+                                {.tolerance = options.tolerance}, points);
+                   forms_[c] = make_form(atlas, atlas.caps[c], points, options);
+                 }
+               });
+}
+
+Pruning::~Pruning() = default;
+
+// The sum of errors bounds the blend's, which is measured: a few steps to the budget that uses up
+// the aim.
+PruneReport Pruning::to(double aim, Atlas& pruned, const Context& context) const {
+  const SampleLevel& finest = samples_.finest();
+  PruneReport report;
+  std::vector<double> worth(forms_.size(), 1);
+  double budget = aim * aim * static_cast<double>(finest.points.size());
+  for (int step = 0; step < kMostSteps; ++step) {
+    std::vector<CapForm> forms = forms_;
+    for (std::size_t c = 0; c < forms.size(); ++c) forms[c].worth = worth[c];
+    const double price = drop_until(budget, forms);
+    Atlas trial = with_forms(atlas_, forms);
+    const std::vector<int> shrinks = shrink_stray(samples_, options_.stray, trial, context);
+    for (std::size_t c = 0; c < forms_.size(); ++c) {
+      if (shrinks[c] > kFreeShrinks) worth[c] *= kDearer;
+    }
+    agree(finest, {.tolerance = options_.tolerance, .band = options_.band}, trial, context);
+    const Blend after = blend(trial, finest, options_.band, context);
+    const double ratio = aim / after.rms;
+    if (after.rms <= aim || step == 0 || after.rms < report.rms) {
+      pruned = std::move(trial);
+      report = {after.rms, n_kept(pruned), price};
+    }
+    if (std::abs(ratio - 1) < 0.003) break;
+    budget *= ratio * ratio;
+  }
+  return report;
+}
+
+PruneReport prune(const SampleLevels& samples, const PruneOptions& options, Atlas& atlas,
+                  const Context& context) {
+  Pruning pruning(samples, options, atlas, context);
+  return pruning.to(options.tolerance, atlas, context);
+}
+
+std::size_t n_kept(const Atlas& atlas) {
+  return static_cast<std::size_t>(std::count_if(
+      atlas.coefficients.begin(), atlas.coefficients.end(), [](double c) { return c != 0; }));
+}
+
+}  // namespace rholm

@@ -1,0 +1,216 @@
+#include "atlas/few/cap_shares.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "atlas/cap/cap_eval.h"
+#include "atlas/cap/degree_fits.h"
+#include "base/parallel.h"
+
+namespace rholm {
+namespace {
+
+constexpr std::size_t kMostSamples = 6000;  // of a fit; of more every second, third ... is taken
+// Least share in the blend that a sample counts with, where the cap is not overridden: so that it
+// stays defined where others speak louder.
+constexpr double kLeastShare = 0.02;
+// The same where it is overridden, or misses: there it must not stray, but may be wrong.
+constexpr double kMissedShare = 0.003;
+constexpr double kMissed = 4;  // tolerances
+// And for its own surface where it may have no samples: chosen, ten times more costs 1 % of the
+// coefficients, ten times less lets a third of the caps stray.
+constexpr double kOwnShare = 0.03;
+constexpr double kGradientWeight = 0.1;
+constexpr double kPenalty = 2e-9;
+
+// Tolerances that a ledge of slope 1 counts as. Chosen by scripts/atlas-figures: one of 5 degrees
+// then counts as an error of a tolerance; 20 takes 3 % more numbers, for a fifth fewer badly turned
+// normals on a bunny and no fewer on the Armadillo.
+constexpr double kLedge = 12;
+// Of shares: where supports end between two samples, slopes have no bound.
+constexpr double kMostLedge = 10;
+
+// grad w along the surface; of its factors the one of the place, (1 - s^2)^3.
+Vec3 weight_slope(const Cap& cap, double weight, const Vec3& at, const Vec3& normal) {
+  const CapFrame& f = cap.frame;
+  const CapSupport& where = cap.where;
+  const Vec3 offset = at - f.seed();
+  const double p = dot(offset, f.x) - where.px, q = dot(offset, f.y) - where.py;
+  const double h = dot(offset, f.z) / (f.support * f.support);
+  const Vec3 half = (where.xx * p + where.xy * q) * f.x + (where.xy * p + where.yy * q) * f.y +
+                    h * f.z;  // of grad s^2
+  const double rest = 1 - place(cap, offset);
+  if (!(rest > 0)) return {};
+  const Vec3 slope = (-6 * weight / rest) * half;
+  return slope - dot(slope, normal) * normal;
+}
+
+// Points on a sunflower in the plane of the seed, carried along the rays.
+void add_own_surface(const Cap& cap, std::span<const double> coefficients, double spacing,
+                     CapPoints& points) {
+  const CapFrame& f = cap.frame;
+  const double samples = std::numbers::pi * f.support * f.support / (spacing * spacing);
+  const auto n = static_cast<std::size_t>(std::clamp(samples / 4, 100.0, 2000.0));
+  CapPoints plane;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double r = f.support * std::sqrt((static_cast<double>(k) + 0.5) / static_cast<double>(n));
+    const double angle = static_cast<double>(k) * std::numbers::pi * (3 - std::sqrt(5.0));
+    plane.add(r * std::cos(angle) * f.x + r * std::sin(angle) * f.y, f.z, 1);
+  }
+  plane.pad();
+  const std::size_t stride = plane.padded();
+  std::vector<double> at(3 * stride), across(3 * stride);
+  cap_surface(cap, coefficients, plane, at, across);
+  for (std::size_t k = 0; k < n; ++k) {
+    const Vec3 offset{at[k], at[stride + k], at[2 * stride + k]};
+    const Vec3 normal{across[k], across[stride + k], across[2 * stride + k]};
+    const Vec3 ray = offset + f.radius * f.z;
+    const double cosine = dot(normal, ray) / norm(ray);
+    if (!(cosine > 0.1)) continue;  // also where there is none
+    points.add(offset, normal, kOwnShare * cosine * cosine * samples / static_cast<double>(n));
+  }
+}
+
+// The equations of some coefficients alone, solved; false if they are singular.
+bool solve_some(const CapSystem& system, const std::vector<double>& matrix,
+                const std::vector<std::size_t>& some, std::vector<double>& solution) {
+  CapSystem part = system;
+  part.n = some.size();
+  std::vector<double> block((part.n + 1) * (part.n + 1));
+  const std::size_t all = system.n + 1, stride = part.n + 1;
+  for (std::size_t i = 0; i < part.n; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) block[i * stride + j] = matrix[some[i] * all + some[j]];
+    block[part.n * stride + i] = matrix[system.n * all + some[i]];
+  }
+  DegreeFits fits;
+  fits.factor(part, block);
+  if (fits.regular() < part.n) return false;
+  fits.solve(part.n, solution);
+  return true;
+}
+
+// Fits one cap anew: what is not zero, or all.
+void refit(const Cap& cap, const CapPoints& points, bool all, std::span<double> coefficients) {
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < coefficients.size(); ++i) {
+    if (all || coefficients[i] != 0) kept.push_back(i);
+  }
+  if (kept.empty() || points.size() == 0) return;
+  CapFitScratch scratch;
+  const CapSystem system =
+      make_system(cap.frame, points, share_fit(cap.basis, cap.degree), scratch);
+  std::vector<double> solution;
+  if (!system.solvable || !solve_some(system, scratch.matrix, kept, solution)) return;
+  for (std::size_t i = 0; i < kept.size(); ++i) coefficients[kept[i]] = solution[i];
+}
+
+}  // namespace
+
+CapShares shares_of(const Atlas& atlas, const SampleLevel& samples, double band,
+                    const Context& context) {
+  CapShares shares{blend(atlas, samples, band, context), {}};
+  const Blend& all = shares.blend;
+  const std::size_t n = atlas.caps.size();
+  const auto each = [&](const auto& visit) {
+    parallel_for(n, 1, context, {}, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t c = begin; c < end; ++c) visit(c);
+    });
+  };
+  std::vector<std::vector<Vec3>> of_caps(n);
+  each([&](std::size_t c) {
+    const CapVoice& voice = all.caps[c];
+    of_caps[c].resize(voice.samples.size());
+    for (std::size_t i = 0; i < voice.samples.size(); ++i) {
+      const std::uint32_t s = voice.samples[i];
+      of_caps[c][i] =
+          weight_slope(atlas.caps[c], voice.weights[i], samples.points[s], samples.normals[s]);
+    }
+  });
+  std::vector<Vec3> sums(samples.points.size());
+  for (std::size_t c = 0; c < n; ++c) {
+    for (std::size_t i = 0; i < of_caps[c].size(); ++i)
+      sums[all.caps[c].samples[i]] += of_caps[c][i];
+  }
+  shares.slopes.resize(n);
+  each([&](std::size_t c) {
+    const CapVoice& voice = all.caps[c];
+    shares.slopes[c].resize(voice.samples.size());
+    for (std::size_t i = 0; i < voice.samples.size(); ++i) {
+      const std::uint32_t s = voice.samples[i];
+      if (all.is_silent(s)) continue;
+      const double sum = all.weight[s];
+      const Vec3 slope = (of_caps[c][i] - (voice.weights[i] / sum) * sums[s]) / sum;
+      shares.slopes[c][i] = static_cast<float>(dot(slope, slope));
+    }
+  });
+  return shares;
+}
+
+double share_of_ledges(const CapShares& shares, double slope) {
+  const Blend& all = shares.blend;
+  std::vector<double> leans(all.weight.size());
+  for (std::size_t c = 0; c < all.caps.size(); ++c) {
+    const CapVoice& voice = all.caps[c];
+    for (std::size_t i = 0; i < voice.samples.size(); ++i) {
+      const std::uint32_t s = voice.samples[i];
+      if (all.is_silent(s)) continue;
+      const double part = std::sqrt(double{shares.slopes[c][i]});
+      leans[s] += part * std::abs(voice.distances[i] - all.error(s));
+    }
+  }
+  const auto n = std::count_if(leans.begin(), leans.end(), [&](double l) { return l > slope; });
+  const std::size_t heard = leans.size() - all.silent;
+  return heard > 0 ? static_cast<double>(n) / static_cast<double>(heard) : 0;
+}
+
+void share_points(const Atlas& atlas, std::size_t index, std::span<const double> coefficients,
+                  const SampleLevel& samples, const CapShares& shares, const ShareWeights& weights,
+                  CapPoints& points) {
+  const Cap& cap = atlas.caps[index];
+  const CapFrame& f = cap.frame;
+  const CapVoice& voice = shares.blend.caps[index];
+  const double ledge = kLedge * weights.tolerance, ledge2 = ledge * ledge;
+  const std::size_t step = (voice.samples.size() + kMostSamples - 1) / kMostSamples;
+  points.clear();
+  for (std::size_t i = 0; i < voice.samples.size(); i += step) {
+    const std::uint32_t s = voice.samples[i];
+    if (shares.blend.is_silent(s)) continue;
+    const bool missed = std::abs(voice.distances[i]) >= kMissed * weights.tolerance;
+    const double share =
+        std::max(voice.weights[i] / shares.blend.weight[s], missed ? kMissedShare : kLeastShare);
+    const double meets = std::min(kMostLedge, ledge2 * shares.slopes[index][i]);
+    // Of two squares, share e^2 and meets (e - G)^2, the mean.
+    const double moved = weights.agree ? meets / (share + meets) * shares.blend.error(s) : 0;
+    const Vec3 at = samples.points[s] - moved * samples.normals[s];
+    const Vec3 ray = at - f.center;
+    const double cosine = dot(samples.normals[s], ray) / norm(ray);
+    if (cosine < 0.1) continue;
+    points.add(at - f.seed(), samples.normals[s],
+               (share + meets) * cosine * cosine * static_cast<double>(step));
+  }
+  add_own_surface(cap, coefficients, samples.spacing, points);
+  points.pad();
+}
+
+CapFitOptions share_fit(CapBasis basis, int degree) {
+  return {basis, degree, kGradientWeight, kPenalty};
+}
+
+void agree(const SampleLevel& samples, const AgreeOptions& options, Atlas& atlas,
+           const Context& context) {
+  const CapShares shares = shares_of(atlas, samples, options.band, context);
+  parallel_for(atlas.caps.size(), 1, context, {}, [&](std::size_t begin, std::size_t end) {
+    CapPoints points;
+    for (std::size_t c = begin; c < end; ++c) {
+      const Cap& cap = atlas.caps[c];
+      const std::span<double> own(atlas.coefficients.data() + cap.first,
+                                  n_coefficients(cap.basis, cap.degree));
+      share_points(atlas, c, own, samples, shares, {.tolerance = options.tolerance, .agree = true},
+                   points);
+      refit(cap, points, options.all, own);
+    }
+  });
+}
+
+}  // namespace rholm

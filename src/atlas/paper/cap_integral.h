@@ -1,0 +1,62 @@
+// Coefficients of a patch by integrals over its triangles, the paper's way; kept for comparison
+// with least squares (cap_fit.h). Layer: atlas.
+//
+// The function is r(u), the distance of the patch from the centre of its sphere, where the patch
+// is, and zero elsewhere, or the sphere's radius. It jumps at the border of the patch, so its
+// series converges slowly and not at the border itself, where it tends to the mean of both sides:
+// r/2 (method 7.1).
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "chart/patches/sphere_fit.h"
+#include "rholm/atlas.h"
+#include "rholm/coefficients.h"
+#include "rholm/context.h"
+#include "rholm/mesh.h"
+
+namespace rholm {
+
+// The frame of a patch on its own sphere: z is the axis, the support reaches from the seed to the
+// farthest point. Dilation 1; or with an angle `opened`, radians below pi, the one that brings the
+// farthest direction from the axis there.
+CapFrame patch_frame(const PatchSphere& seen, std::span<const Vec3> points, double opened = 0);
+
+// Triangles in space, counter-clockwise as seen from outside; the centre is on their inner side.
+struct PatchMesh {
+  std::span<const Vec3> points;
+  std::span<const Triangle> triangles;
+};
+
+struct CapIntegralOptions {
+  int degree = 64;  // 0 ... kMaxIntegralDegree
+  CapExtension extension = CapExtension::kZero;
+  double precision = 1e-10;  // of the nodes: l2 error of all coefficients over the integral of r
+};
+inline constexpr int kMaxIntegralDegree = 512;  // beyond, caps have more numbers than shapes
+
+struct CapIntegral {
+  Coefficients coefficients;  // of r, the points' unit, on the dilated sphere of the frame
+  double solid_angle = 0;     // of the patch from the centre, undilated
+  std::size_t nodes = 0;
+};
+
+// Throws InvalidInput for options out of range, a triangle with an index out of range, and a frame
+// whose centre lies on a triangle; NotStarShaped for a triangle that turns its outer side to the
+// centre. Triangles seen edge on have no solid angle and are passed over.
+CapIntegral cap_integral(const CapFrame& frame, const PatchMesh& patch,
+                         const CapIntegralOptions& options = {}, const Context& context = {});
+
+// How far points are from r_L(u), along rays from the centre.
+struct CapErrors {
+  std::vector<double> along_rays;  // |p - c| - r_L(u), per point
+  double sum = 0;                  // root of the sum of squares, (P42)
+  double rms = 0;
+  double max = 0;
+};
+CapErrors cap_errors(const CapFrame& frame, const Coefficients& coefficients,
+                     std::span<const Vec3> points, const Context& context = {});
+
+}  // namespace rholm

@@ -1,0 +1,67 @@
+#include "chart/center/local_view.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "base/parallel.h"
+#include "chart/center/view_scan.h"
+#include "rholm/error.h"
+
+namespace rholm {
+namespace {
+
+Bounds finite_bounds(const MeshView& mesh, const Context& context) {
+  constexpr std::size_t kGrain = 1 << 15;  // chosen: some 10 us
+  std::vector<VertexRange> parts((mesh.n_vertices + kGrain - 1) / kGrain);
+  parallel_for(mesh.n_vertices, kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
+    parts[begin / kGrain] = vertex_range(mesh, begin, end);
+  });
+  if (parts.empty()) return {};
+  VertexRange all;
+  for (const VertexRange& part : parts) {
+    for (std::size_t k = 0; k < 3; ++k) all.add(k, part.min[k], part.max[k]);
+    all.finite = all.finite && part.finite;
+  }
+  if (!all.finite) validate(mesh);  // throws, and says which
+  return {.min = {all.min[0], all.min[1], all.min[2]}, .max = {all.max[0], all.max[1], all.max[2]}};
+}
+
+void require_surface(const LocalView& view) {
+  for (std::size_t t = 0; t < view.mesh.n_triangles; ++t) {
+    if (view.plane(t).exists()) return;
+  }
+  throw Error(ErrorCode::kInvalidInput,
+              "none of the mesh's " + std::to_string(view.mesh.n_triangles) +
+                  " triangles has an area above zero: there is no surface to look at from a "
+                  "centre");
+}
+
+}  // namespace
+
+Vec3 unit_normal(const std::array<Vec3, 3>& corners) {
+  const FaceNormal face = face_normal(corners);
+  return face.degenerate ? Vec3{} : normalized(face.twice_area);
+}
+
+std::array<Vec3, 3> LocalView::corners(std::size_t triangle) const {
+  const Triangle indices = mesh.triangle(triangle);
+  if (std::max({indices[0], indices[1], indices[2]}) >= mesh.n_vertices) {
+    validate(mesh);  // throws, and says which
+  }
+  return scaled_corners(mesh, indices, frame.scale);
+}
+
+FacePlane LocalView::plane(std::size_t triangle) const {
+  const std::array<Vec3, 3> scaled = corners(triangle);
+  const Vec3 normal = unit_normal(scaled);
+  return {.normal = normal, .offset = dot(normal, scaled[0] - frame.center)};
+}
+
+LocalView local_view(const MeshView& mesh, const Context& context) {
+  LocalView view{.mesh = mesh, .frame = unit_frame(finite_bounds(mesh, context))};
+  require_surface(view);
+  return view;
+}
+
+}  // namespace rholm

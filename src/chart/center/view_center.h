@@ -1,0 +1,25 @@
+// The centre and the star check in parts, for those who check the faces on a pass of their own.
+// Source: method 6. Layer: chart.
+#pragma once
+
+#include "chart/center/local_view.h"
+#include "rholm/context.h"
+#include "rholm/star.h"
+
+namespace rholm {
+
+struct FoundCenter {
+  Vec3 point;                 // in the shape's coordinates
+  bool kernel_empty = false;  // auto, cosine: find_center() weighs this point against the volume's
+  double scans = 0;           // passes over all triangles; those over some of them count in part
+};
+
+// The centre alone; whether the surface is star-shaped from there is not asked. options.rays is not
+// used.
+FoundCenter search_center(const LocalView& view, const CenterOptions& options,
+                          const Context& context);
+
+// check_star() of rholm/star.h.
+StarReport check_star(const LocalView& view, const Vec3& center, int rays, const Context& context);
+
+}  // namespace rholm

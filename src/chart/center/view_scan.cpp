@@ -1,0 +1,291 @@
+#include "chart/center/view_scan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "chart/center/view_scan.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "shape/queries/corner_rows-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace rholm {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using M = hn::Mask<D>;
+
+// Triangles whose indices are checked, and corners asked for, ahead of use; measured: 32 to 256 are
+// alike.
+constexpr std::size_t kBlock = 128;
+// Below, the squares of a normal in the unit frame lose their digits.
+constexpr double kSmallestSquare = 1e-280;
+// sin^2 of an angle below which the plain product of double edges has lost 7 bits: left to the
+// visitor's exact one. Edges between floats are exact in double, and so are their products.
+constexpr double kIllConditioned = 0x1p-14;
+
+HWY_INLINE Vector3 Same(D d, const Vec3& v) {
+  return {hn::Set(d, v.x), hn::Set(d, v.y), hn::Set(d, v.z)};
+}
+
+// Visits the triangles t ... t + n - 1 of a vector that are chosen.
+HWY_NOINLINE void VisitChosen(D d, M chosen, std::size_t t, std::size_t n,
+                              const VisitTriangle& visit) {
+  alignas(64) double flags[hn::MaxLanes(d)];
+  hn::Store(hn::IfThenElseZero(chosen, hn::Set(d, 1.0)), d, flags);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (flags[i] > 0) visit(t + i);
+  }
+}
+
+// Visits the triangles for which test.Choose(corners) is true; corners are as they stand in the
+// view. After visits comes test.Refresh().
+template <class T, class Test>
+HWY_INLINE void VisitIf(const MeshView& mesh, std::size_t begin, std::size_t end, Test test,
+                        const VisitTriangle& visit) {
+  const D d;
+  const auto look = [&](const Vector3& a, const Vector3& b, const Vector3& c, std::size_t t,
+                        std::size_t n) HWY_ATTR {
+    const M chosen = test.Choose(d, a, b, c);
+    if (HWY_LIKELY(hn::AllFalse(d, chosen))) return;
+    VisitChosen(d, chosen, t, n, visit);
+    test.Refresh(d);
+  };
+  const std::size_t lanes = hn::Lanes(d);
+  std::size_t t = begin, block_end = std::min(end, begin + kBlock);
+  std::uint32_t next_largest = LookAhead(mesh, t, block_end);
+  while (t < end) {
+    const std::uint32_t largest = next_largest;
+    if (largest >= mesh.n_vertices) validate(mesh);  // throws, and says which
+    next_largest = LookAhead(mesh, block_end, std::min(end, block_end + kBlock));
+    const std::byte* at = mesh.triangles + t * mesh.triangle_stride;
+    // Rows of floats are read with 4 bytes more: not the last one.
+    if (kWholeVectors && (sizeof(T) == 8 || largest + 1 < mesh.n_vertices)) {
+      for (; t + lanes <= block_end; t += lanes, at += lanes * mesh.triangle_stride) {
+        look(LoadWhole(d, mesh, at, T()), LoadWhole(d, mesh, at + 4, T()),
+             LoadWhole(d, mesh, at + 8, T()), t, lanes);
+      }
+    }
+    for (; t < block_end; t += lanes, at += lanes * mesh.triangle_stride) {
+      const std::size_t n = std::min(lanes, block_end - t);
+      look(LoadFew<T>(d, mesh, at, n), LoadFew<T>(d, mesh, at + 4, n),
+           LoadFew<T>(d, mesh, at + 8, n), t, n);
+    }
+    t = block_end;
+    block_end = std::min(end, block_end + kBlock);
+  }
+}
+
+// Doubles are scaled to the unit frame, so that nothing over- or underflows; of floats no product
+// here can, so that the frame is scaled to them.
+template <class T>
+constexpr bool kScaled = sizeof(T) == 8;
+
+struct Lookout {
+  Vector3 middle, center;  // of the frame; of the look, from there
+  V scale;
+
+  HWY_INLINE Lookout(D d, const UnitFrame& frame, double unit, const Vec3& from)
+      : middle(Same(d, frame.center / unit)),
+        center(Same(d, from / unit)),
+        scale(hn::Set(d, frame.scale)) {}
+  HWY_INLINE Vector3 Ray(const Vector3& corner) const {
+    return Minus(Minus(corner, middle), center);
+  }
+  template <class T>
+  HWY_INLINE Vector3 Scaled(const Vector3& v) const {
+    if constexpr (!kScaled<T>) return v;
+    return {hn::Mul(v.x, scale), hn::Mul(v.y, scale), hn::Mul(v.z, scale)};
+  }
+};
+
+HWY_INLINE double SignedSquare(double x) { return x * std::abs(x); }
+
+template <class T, bool kCosine>
+struct BelowTest {
+  Lookout from;
+  double unit;
+  const ScanLimits& limits;
+  V distance, cosine;  // signed squares of the limits
+
+  HWY_INLINE BelowTest(D d, const LocalView& view, const Vec3& center, const ScanLimits& l)
+      : from(d, view.frame, kScaled<T> ? 1 : view.frame.scale, center),
+        unit(kScaled<T> ? 1 : view.frame.scale),
+        limits(l) {
+    Refresh(d);
+  }
+  HWY_INLINE void Refresh(D d) {
+    distance = hn::Set(d, SignedSquare(limits.distance / unit));
+    if constexpr (kCosine) cosine = hn::Set(d, SignedSquare(limits.cosine));
+  }
+  HWY_INLINE M Choose(D d, const Vector3& raw0, const Vector3& raw1, const Vector3& raw2) const {
+    const Vector3 corner0 = from.Scaled<T>(raw0);
+    const Vector3 corner1 = from.Scaled<T>(raw1), corner2 = from.Scaled<T>(raw2);
+    const Vector3 edge1 = Minus(corner1, corner0), edge2 = Minus(corner2, corner0);
+    const Vector3 normal = Cross(edge1, edge2), ray = from.Ray(corner0);
+    const V height = Dot(normal, ray), square = Dot(normal, normal);
+    // d_T < limit, both sides squared with their signs.
+    const V signed_height = hn::Mul(height, hn::Abs(height));
+    M chosen = hn::Lt(signed_height, hn::Mul(distance, square));
+    if constexpr (kScaled<T>) {
+      const V product = hn::Mul(Dot(edge1, edge1), Dot(edge2, edge2));
+      const V least = hn::MulAdd(product, hn::Set(d, kIllConditioned), hn::Set(d, kSmallestSquare));
+      chosen = hn::Or(chosen, hn::Lt(square, least));
+    }
+    if constexpr (kCosine) {
+      const Vector3 ray1 = from.Ray(corner1), ray2 = from.Ray(corner2);
+      const V a = Dot(ray, ray), b = Dot(ray1, ray1), c = Dot(ray2, ray2);
+      // cos gamma is smallest on the farthest corner, or on the nearest if negative.
+      const V length = hn::IfThenElse(hn::Gt(height, hn::Zero(d)), hn::Max(a, hn::Max(b, c)),
+                                      hn::Min(a, hn::Min(b, c)));
+      chosen = hn::Or(chosen, hn::Lt(signed_height, hn::Mul(cosine, hn::Mul(square, length))));
+    }
+    return chosen;
+  }
+};
+
+template <class T, bool kCosine>
+HWY_INLINE void BelowOf(const LocalView& view, std::size_t begin, std::size_t end,
+                        const Vec3& center, const ScanLimits& limits, const VisitTriangle& visit) {
+  VisitIf<T>(view.mesh, begin, end, BelowTest<T, kCosine>(D(), view, center, limits), visit);
+}
+
+void Below(const LocalView& view, std::size_t begin, std::size_t end, const Vec3& center,
+           const ScanLimits& limits, const VisitTriangle& visit) {
+  const bool cosine = limits.cosine > -std::numeric_limits<double>::infinity();
+  if (view.mesh.coordinate == ScalarType::kFloat32) {
+    if (cosine) return BelowOf<float, true>(view, begin, end, center, limits, visit);
+    return BelowOf<float, false>(view, begin, end, center, limits, visit);
+  }
+  if (cosine) return BelowOf<double, true>(view, begin, end, center, limits, visit);
+  BelowOf<double, false>(view, begin, end, center, limits, visit);
+}
+
+template <class T>
+struct ConeTest {
+  Lookout from;
+  Vector3 along;
+
+  HWY_INLINE ConeTest(D d, const LocalView& view, const Vec3& center, const Vec3& direction)
+      : from(d, view.frame, kScaled<T> ? 1 : view.frame.scale, center), along(Same(d, direction)) {}
+  HWY_INLINE void Refresh(D) const {}
+  HWY_INLINE M Inside(D d, const Vector3& a, const Vector3& b) const {
+    const V side = Dot(Cross(a, b), along);
+    // The rounding of the product, 8 2^-53 of the lengths, twice: a^2 + b^2 >= 2 a b.
+    const V rounding = hn::Mul(hn::Add(Dot(a, a), Dot(b, b)), hn::Set(d, 8 * 0x1p-53));
+    return hn::Ge(hn::Add(side, rounding), hn::Zero(d));
+  }
+  HWY_INLINE M Choose(D d, const Vector3& raw0, const Vector3& raw1, const Vector3& raw2) const {
+    const Vector3 a = from.Ray(from.Scaled<T>(raw0)), b = from.Ray(from.Scaled<T>(raw1));
+    const Vector3 c = from.Ray(from.Scaled<T>(raw2));
+    return hn::And(Inside(d, a, b), hn::And(Inside(d, b, c), Inside(d, c, a)));
+  }
+};
+
+template <class T>
+HWY_INLINE void ConesOf(const LocalView& view, std::size_t begin, std::size_t end,
+                        const Vec3& center, const Vec3& direction, const VisitTriangle& visit) {
+  VisitIf<T>(view.mesh, begin, end, ConeTest<T>(D(), view, center, direction), visit);
+}
+
+void Cones(const LocalView& view, std::size_t begin, std::size_t end, const Vec3& center,
+           const Vec3& direction, const VisitTriangle& visit) {
+  if (view.mesh.coordinate == ScalarType::kFloat32) {
+    return ConesOf<float>(view, begin, end, center, direction, visit);
+  }
+  ConesOf<double>(view, begin, end, center, direction, visit);
+}
+
+// Rows without gaps: vectors of scalars, in which x, y, z take turns.
+template <class T>
+HWY_INLINE std::size_t PackedRange(const std::byte* at, std::size_t n, VertexRange& range) {
+  const hn::CappedTag<T, 16> d;
+  using W = hn::Vec<decltype(d)>;
+  constexpr T kInfinity = std::numeric_limits<T>::infinity();
+  W low[3], high[3], nothing[3];
+  for (int k = 0; k < 3; ++k) {
+    low[k] = hn::Set(d, kInfinity);
+    high[k] = hn::Set(d, -kInfinity);
+    nothing[k] = hn::Zero(d);
+  }
+  const std::size_t lanes = hn::Lanes(d), rounds = n / lanes;
+  const T* scalars = reinterpret_cast<const T*>(at);
+  for (std::size_t i = 0; i < rounds; ++i, scalars += 3 * lanes) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const W v = hn::LoadU(d, scalars + k * lanes);
+      low[k] = hn::Min(low[k], v);
+      high[k] = hn::Max(high[k], v);
+      nothing[k] = hn::Add(nothing[k], hn::Sub(v, v));  // NaN for what is not finite
+    }
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    alignas(64) T lows[hn::MaxLanes(d)], highs[hn::MaxLanes(d)], nothings[hn::MaxLanes(d)];
+    hn::Store(low[k], d, lows);
+    hn::Store(high[k], d, highs);
+    hn::Store(nothing[k], d, nothings);
+    for (std::size_t i = 0; i < lanes; ++i) {
+      range.add((k * lanes + i) % 3, lows[i], highs[i]);
+      range.finite = range.finite && nothings[i] == 0;
+    }
+  }
+  return rounds * lanes;
+}
+
+template <class T>
+HWY_INLINE VertexRange RangeOf(const MeshView& mesh, std::size_t begin, std::size_t end) {
+  VertexRange range;
+  if (mesh.vertex_stride == 3 * sizeof(T)) {
+    begin += PackedRange<T>(mesh.vertices + begin * mesh.vertex_stride, end - begin, range);
+  }
+  for (std::size_t i = begin; i < end; ++i) {
+    const Vec3 v = mesh.vertex(i);
+    range.add(0, v.x, v.x);
+    range.add(1, v.y, v.y);
+    range.add(2, v.z, v.z);
+    range.finite = range.finite && is_finite(v);
+  }
+  return range;
+}
+
+VertexRange Range(const MeshView& mesh, std::size_t begin, std::size_t end) {
+  return mesh.coordinate == ScalarType::kFloat32 ? RangeOf<float>(mesh, begin, end)
+                                                 : RangeOf<double>(mesh, begin, end);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace rholm
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace rholm {
+
+HWY_EXPORT(Below);
+HWY_EXPORT(Cones);
+HWY_EXPORT(Range);
+
+void scan_below(const LocalView& view, std::size_t begin, std::size_t end, const Vec3& center,
+                const ScanLimits& limits, const VisitTriangle& visit) {
+  HWY_DYNAMIC_DISPATCH(Below)(view, begin, end, center, limits, visit);
+}
+
+void scan_cones(const LocalView& view, std::size_t begin, std::size_t end, const Vec3& center,
+                const Vec3& direction, const VisitTriangle& visit) {
+  HWY_DYNAMIC_DISPATCH(Cones)(view, begin, end, center, direction, visit);
+}
+
+VertexRange vertex_range(const MeshView& mesh, std::size_t begin, std::size_t end) {
+  return HWY_DYNAMIC_DISPATCH(Range)(mesh, begin, end);
+}
+
+double diagonal_of(const MeshView& mesh) {
+  const VertexRange range = vertex_range(mesh, 0, mesh.n_vertices);
+  return norm(
+      {range.max[0] - range.min[0], range.max[1] - range.min[1], range.max[2] - range.min[2]});
+}
+
+}  // namespace rholm
+#endif  // HWY_ONCE

@@ -1,0 +1,224 @@
+// The star check from a given centre. Source: method 6.
+//
+// A closed mesh is star-shaped from c when every face turns its front to c (d_T > 0) and the
+// faces cover every direction once. Given d_T > 0, the cover is the same for all directions, so
+// one of them tells it: two nested spheres have all d_T > 0, but cover everything twice.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "base/parallel.h"
+#include "chart/center/view_center.h"
+#include "chart/center/view_scan.h"
+#include "rholm/error.h"
+#include "shape/queries/ray_scene.h"
+
+namespace rholm {
+namespace {
+
+// d = n . (v - c): 2^-53 for each difference, 3 2^-53 for the product, about 6 2^-53 for the
+// normal of a well-shaped triangle, all relative to |v - c|; below 16 2^-53 the sign means nothing.
+constexpr double kDistanceRounding = 16 * 0x1p-53;
+
+struct FaceFigures {
+  double min_d = std::numeric_limits<double>::infinity();
+  double min_cos_gamma = 1;
+  std::size_t bad = 0;
+
+  void merge(const FaceFigures& other) {
+    min_d = std::min(min_d, other.min_d);
+    min_cos_gamma = std::min(min_cos_gamma, other.min_cos_gamma);
+    bad += other.bad;
+  }
+};
+
+// Corners relative to the centre.
+void add_face(const std::array<Vec3, 3>& corners, const Vec3& normal, FaceFigures& figures) {
+  double nearest = std::numeric_limits<double>::infinity(), farthest = 0, d = 0;
+  for (const Vec3& corner : corners) {
+    const double distance = norm(corner);
+    farthest = std::max(farthest, distance);
+    if (distance < nearest) {
+      nearest = distance;
+      d = dot(normal, corner);
+    }
+  }
+  figures.min_d = std::min(figures.min_d, d);
+  figures.bad += d <= kDistanceRounding * nearest;
+  // cos gamma = d / |v - c| is smallest on the farthest corner, or on the nearest if negative.
+  const double distance = d > 0 ? farthest : nearest;
+  figures.min_cos_gamma = std::min(figures.min_cos_gamma, distance > 0 ? d / distance : 0.0);
+}
+
+// Corners of a triangle relative to a centre in the shape's coordinates.
+std::array<Vec3, 3> rays_to(const LocalView& view, std::size_t triangle, const Vec3& center) {
+  std::array<Vec3, 3> corners = view.corners(triangle);
+  for (Vec3& corner : corners) corner -= view.frame.scale * center;
+  return corners;
+}
+
+FaceFigures check_faces(const LocalView& view, const Vec3& center, const Context& context) {
+  const std::size_t n = view.mesh.n_triangles, grain = triangle_grain(n);
+  const Vec3 local = view.frame.to_local(center);
+  // What rounding may make bad, from any corner of the unit frame; twice, for it is a bound.
+  const double unclear = 2 * kDistanceRounding * (norm(local) + 2);
+  std::vector<FaceFigures> parts((n + grain - 1) / grain);
+  parallel_for(n, grain, context, {}, [&](std::size_t begin, std::size_t end) {
+    FaceFigures& figures = parts[begin / grain];
+    ScanLimits limits{.distance = figures.min_d, .cosine = figures.min_cos_gamma};
+    scan_below(view, begin, end, local, limits, [&](std::size_t triangle) {
+      const Vec3 normal = unit_normal(view.corners(triangle));
+      if (normal == Vec3{}) return;
+      add_face(rays_to(view, triangle, center), normal, figures);
+      limits = {.distance = std::max(figures.min_d, unclear), .cosine = figures.min_cos_gamma};
+    });
+  });
+  FaceFigures total;
+  for (const FaceFigures& part : parts) total.merge(part);
+  return total;
+}
+
+// 1 if the direction lies inside the triangle's cone, 0 if outside, -1 if rounding hides it.
+int cone_contains(const std::array<Vec3, 3>& corners, const Vec3& direction) {
+  bool unclear = false;
+  for (int k = 0; k < 3; ++k) {
+    const Vec3& a = corners[k];
+    const Vec3& b = corners[k == 2 ? 0 : k + 1];
+    const double side = dot(cross(a, b), direction);
+    // Six products of three factors: below 8 2^-53 of the lengths.
+    const double rounding = 8 * 0x1p-53 * norm(a) * norm(b);
+    if (side < -rounding) return 0;
+    unclear = unclear || side <= rounding;
+  }
+  return unclear ? -1 : 1;
+}
+
+// How often the faces, all with d_T > 0, cover the direction; -1 if it meets an edge.
+long long cover_of(const LocalView& view, const Vec3& center, const Vec3& direction,
+                   const Context& context) {
+  const std::size_t n = view.mesh.n_triangles, grain = triangle_grain(n);
+  struct Cover {
+    long long times = 0;
+    bool unclear = false;
+  };
+  std::vector<Cover> parts((n + grain - 1) / grain);
+  parallel_for(n, grain, context, {}, [&](std::size_t begin, std::size_t end) {
+    Cover& cover = parts[begin / grain];
+    scan_cones(view, begin, end, view.frame.to_local(center), direction, [&](std::size_t triangle) {
+      if (unit_normal(view.corners(triangle)) == Vec3{}) return;
+      const int contains = cone_contains(rays_to(view, triangle, center), direction);
+      cover.unclear = cover.unclear || contains < 0;
+      cover.times += contains;
+    });
+  });
+  long long times = 0;
+  for (const Cover& cover : parts) {
+    if (cover.unclear) return -1;
+    times += cover.times;
+  }
+  return times;
+}
+
+// Direction i of n, spread evenly: a Fibonacci lattice.
+Vec3 lattice_direction(std::size_t i, std::size_t n) {
+  const double z = 1 - (2.0 * static_cast<double>(i) + 1) / static_cast<double>(n);
+  const double turns = static_cast<double>(i) * (std::numbers::phi - 1);
+  const double phi = 2 * std::numbers::pi * (turns - std::floor(turns));
+  const double s = std::sqrt(std::max(0.0, 1 - z * z));
+  return {s * std::cos(phi), s * std::sin(phi), z};
+}
+
+struct RayCounts {
+  std::size_t once = 0;
+  std::size_t multiple = 0;
+};
+
+// Embree works in single precision: it is given coordinates near 1.
+Mesh local_copy(const LocalView& view) {
+  Mesh local;
+  local.vertices.reserve(view.mesh.n_vertices);
+  for (std::size_t i = 0; i < view.mesh.n_vertices; ++i) {
+    local.vertices.push_back(view.frame.to_local(view.mesh.vertex(i)));
+  }
+  local.triangles.reserve(view.mesh.n_triangles);
+  for (std::size_t t = 0; t < view.mesh.n_triangles; ++t) {
+    local.triangles.push_back(view.mesh.triangle(t));
+  }
+  return local;
+}
+
+void shoot_rays(const LocalView& view, const Vec3& center, const Context& context,
+                StarReport& report) {
+  const Mesh local = local_copy(view);  // which the scene refers to
+  const RayScene scene(local);
+  const Vec3 origin = view.frame.to_local(center);
+  const auto n = static_cast<std::size_t>(report.rays);
+  constexpr std::size_t kGrain = 1024;  // chosen: about a millisecond
+  std::vector<RayCounts> parts((n + kGrain - 1) / kGrain);
+  parallel_for(n, kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const int hits = scene.count_hits(origin, lattice_direction(i, n));
+      parts[begin / kGrain].once += hits == 1;
+      parts[begin / kGrain].multiple += hits > 1;
+    }
+  });
+  RayCounts total;
+  for (const RayCounts& part : parts) {
+    total.once += part.once;
+    total.multiple += part.multiple;
+  }
+  const double all = report.rays;
+  report.once_share = static_cast<double>(total.once) / all;
+  report.multiple_share = static_cast<double>(total.multiple) / all;
+  report.missed_share = static_cast<double>(n - total.once - total.multiple) / all;
+}
+
+// From farther away the shape is a point to double precision, and its middle to a ray.
+void require_center_near(const UnitFrame& frame, const Vec3& center) {
+  constexpr double kFarthest = 1e15;  // sizes of the shape
+  if (is_finite(center) && norm(1e-150 * frame.to_local(center)) < 1e-150 * kFarthest) return;
+  throw Error(ErrorCode::kInvalidInput,
+              fmt::format("the centre ({:.9g}, {:.9g}, {:.9g}) is not a point within {:g} sizes of "
+                          "the shape",
+                          center.x, center.y, center.z, kFarthest));
+}
+
+// Whether a surface whose faces all turn outwards meets every direction once.
+bool covers_once(const LocalView& view, const Vec3& center, const Context& context) {
+  // Eight directions in general position (chosen): all of them on edges would be a coincidence
+  // that only a mesh finer than rounding brings about.
+  for (std::size_t i = 0; i < 8; ++i) {
+    const long long cover = cover_of(view, center, lattice_direction(i, 8), context);
+    if (cover >= 0) return cover == 1;
+  }
+  return false;
+}
+
+}  // namespace
+
+StarReport check_star(const LocalView& view, const Vec3& center, int rays, const Context& context) {
+  require_center_near(view.frame, center);
+  const FaceFigures figures = check_faces(view, center, context);
+  StarReport report;
+  report.center = center;
+  report.min_d = figures.min_d / view.frame.scale;
+  report.min_cos_gamma = figures.min_cos_gamma;
+  report.bad_triangles = figures.bad;
+  report.star_shaped = figures.bad == 0 && covers_once(view, center, context);
+  report.rays = std::max(0, rays);
+  if (report.rays > 0) shoot_rays(view, center, context, report);
+  return report;
+}
+
+StarReport check_star(const MeshView& mesh, const Vec3& center, int rays, const Context& context) {
+  return check_star(local_view(mesh, context), center, rays, context);
+}
+
+StarReport check_star(const Mesh& mesh, const Vec3& center, int rays, const Context& context) {
+  return check_star(view_of(mesh), center, rays, context);
+}
+
+}  // namespace rholm

@@ -1,0 +1,324 @@
+// The least squares of a cap's points: phi = r / R_0 - 1 by the patch harmonics of the opened
+// sphere, weighted by area there, so that the fit is close to a projection onto them.
+//
+// The robust fit reweights, from coarse to fine: a low degree cannot follow a scratch, so that what
+// lies off it far more than the rest, and what is near that, is left out (Tukey's measure), and
+// comes back only if a higher degree, fitted without it, agrees. The first solutions take Huber's
+// measure, which is convex: whatever the start, it finds the same.
+#include "edit/patch/patch_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/poison.h"
+#include "base/random.h"
+#include "edit/patch/patch_kernels.h"
+
+namespace rholm {
+namespace {
+
+// Points per coefficient: of the fits that only tell what stands out, and of the last, which
+// averages over what is left: what n of them leave of finer detail is 1 / sqrt(n) of it, half of
+// that where caps overlap. Every cap draws its own.
+constexpr double kPointsForWeights = 6;
+constexpr double kPointsPerCoefficient = 400;
+// Up to this many times the first, all are taken at once: one set of rows serves both.
+constexpr double kFew = 1.5;
+// Of (l (l + 1))^2 against the weights: only where points leave a fit undetermined it matters.
+constexpr double kPenalty = 1e-8;
+// With fewer points around it than this, a region is not bridged but guessed. Half a wavelength
+// across a cap is a sixth, and a third where caps had to shrink.
+constexpr double kMostIgnored = 0.45;
+// A pivot that has lost so many digits is none.
+constexpr double kLeastPivot = 1e-12;
+constexpr int kFirstDegree = 2, kDegreeStep = 2, kConvex = 3;
+// Where Huber's measure turns linear, in medians of |e|; 1.48 medians are a standard deviation.
+constexpr double kTurn = 1;
+// Where Tukey's has forgotten, likewise, and how near to such a point others are left out with it,
+// in half wavelengths. Measured on scratches four tenths of a wavelength wide: 4 ... 7 and 0.5 ...
+// 1 are alike, the scratch disappears five times as well as with the convex measure alone.
+constexpr double kForgotten = 5;
+constexpr double kHalo = 0.8;
+// No less than this part of the detail that the fit has found: where the surroundings are
+// perfectly smooth the smallest misfit of a wide feature would stand out.
+constexpr double kLeastScale = 0.05;
+
+// About `wanted` of the points, all over the cap.
+void choose_points(const PatchCap& cap, double wanted, std::span<const std::uint8_t> ignored,
+                   PatchScratch& scratch) {
+  const double share = wanted / static_cast<double>(cap.points.size());
+  scratch.taken.clear();
+  for (const std::uint32_t v : cap.points) {
+    if (!ignored.empty() && ignored[v] != 0) continue;
+    if (share >= 1 || random_uniform(cap.points.front(), v) < share) scratch.taken.push_back(v);
+  }
+}
+
+// Few enough points are one block, whose rows are made once.
+std::size_t block_length(std::size_t n) { return n <= 2 * kPatchBlock ? n : kPatchBlock; }
+
+void fill_offsets(const LocalMesh& local, const CapFrame& frame,
+                  std::span<const std::uint32_t> points, PatchScratch& scratch) {
+  const std::size_t n = padded(points.size());
+  const Vec3 seed = frame.seed();
+  scratch.offsets.resize(3 * n);
+  poison_scratch(std::span(scratch.offsets));
+  for (std::size_t first = 0; first < n; first += block_length(n)) {
+    const std::size_t m = std::min(block_length(n), n - first);
+    double* const x = &scratch.offsets[3 * first];
+    for (std::size_t i = 0; i < m; ++i) {
+      const std::size_t at = first + i;
+      const Vec3 offset = at < points.size() ? local.points[points[at]] - seed : Vec3{};
+      x[i] = offset.x, x[m + i] = offset.y, x[2 * m + i] = offset.z;
+    }
+  }
+}
+
+// Weights before any robustness of the block's m points: area on the opened sphere, less at the
+// rim, 0 for the padding.
+void base_weights(const LocalMesh& local, const PatchCap& cap, std::size_t first, std::size_t m,
+                  PatchScratch& scratch) {
+  const double support2 = cap.frame.support * cap.frame.support;
+  const double* const x = &scratch.offsets[3 * first];
+  for (std::size_t i = 0; i < m; ++i) {
+    double& weight = scratch.base[first + i];
+    weight = 0;
+    if (first + i >= scratch.taken.size()) continue;
+    const Vec3 offset = {x[i], x[m + i], x[2 * m + i]};
+    const double rim = 1.15 - std::min(1.0, dot(offset, offset) / support2);  // method 7.8
+    weight = local.areas[scratch.taken[first + i]] * scratch.area[first + i] * rim;
+  }
+}
+
+// Calls visit(first, m) for the blocks of the points taken, with their rows and base weights made.
+// Those of several blocks are made each time: that is quicker than to fetch them from memory.
+template <class Visit>
+void for_each_block(const LocalMesh& local, const PatchCap& cap, PatchScratch& scratch,
+                    const Visit& visit) {
+  const std::size_t n = padded(scratch.taken.size());
+  for (std::size_t first = 0; first < n; first += block_length(n)) {
+    const std::size_t m = std::min(block_length(n), n - first);
+    if (!scratch.rows_made) {
+      patch_rows(cap.frame, cap.degree, &scratch.offsets[3 * first], m, scratch.rows.data(),
+                 &scratch.area[first]);
+      base_weights(local, cap, first, m, scratch);
+    }
+    scratch.rows_made = m == n;
+    visit(first, m);
+  }
+}
+
+// The solution of all n equations.
+void back_substitute(std::size_t n, PatchScratch& scratch) {
+  std::vector<double>& x = scratch.solution;
+  x.resize(n);
+  for (std::size_t i = n; i-- > 0;) {
+    const double* const row = &scratch.factor[i * padded(n + 1)];
+    double value = row[n];
+    for (std::size_t j = i + 1; j < n; ++j) value -= row[j] * x[j];
+    x[i] = value / row[i];
+  }
+}
+
+// The solutions of the leading equations of degree 0, 1, ... `degree`, one after the other.
+std::vector<double> solve_family(int degree, PatchScratch& scratch) {
+  const std::size_t n = patch_basis(degree), n_sets = static_cast<std::size_t>(degree) + 1;
+  scratch.family.resize(n * padded(n_sets));
+  poison_scratch(std::span(scratch.family));
+  patch_family(scratch.factor.data(), degree, scratch.family.data());
+  std::vector<double> coefficients(n * n_sets);
+  for (std::size_t d = 0; d < n_sets; ++d) {
+    for (std::size_t i = 0; i < n; ++i) {
+      coefficients[d * n + i] = scratch.family[i * padded(n_sets) + d];
+    }
+  }
+  return coefficients;
+}
+
+// The normal equations of the points taken, factored.
+bool make_equations(const LocalMesh& local, const PatchCap& cap, int degree,
+                    PatchScratch& scratch) {
+  const std::size_t n = patch_basis(degree);
+  if (scratch.taken.size() < n) return false;
+  scratch.matrix.assign((n + 1) * (n + 1), 0);
+  const std::vector<double>& weights = scratch.weights.empty() ? scratch.base : scratch.weights;
+  for_each_block(local, cap, scratch, [&](std::size_t first, std::size_t m) {
+    patch_gram(scratch.rows.data(), n + 1, &weights[first], m, scratch.matrix.data());
+  });
+  double sum = 0;
+  for (const double w : weights) sum += w;
+  for (int l = 1; l <= degree; ++l) {
+    const double square = static_cast<double>(l) * (l + 1) * l * (l + 1);
+    for (std::size_t i = patch_basis(l - 1); i < patch_basis(l); ++i) {
+      scratch.matrix[(i + 1) * (n + 2)] += kPenalty * sum * square;
+    }
+  }
+  scratch.factor.resize(n * padded(n + 1));
+  poison_scratch(std::span(scratch.factor));
+  return patch_factorize(scratch.matrix.data(), n, kLeastPivot, scratch.factor.data());
+}
+
+bool solve(const LocalMesh& local, const PatchCap& cap, int degree, PatchScratch& scratch) {
+  if (!make_equations(local, cap, degree, scratch)) return false;
+  back_substitute(patch_basis(degree), scratch);
+  return true;
+}
+
+// Points, all with their base weights.
+void take_points(const LocalMesh& local, const PatchCap& cap, double per_coefficient,
+                 std::span<const std::uint8_t> ignored, PatchScratch& scratch) {
+  const std::size_t n = patch_basis(cap.degree);
+  choose_points(cap, per_coefficient * static_cast<double>(n), ignored, scratch);
+  const std::size_t n_points = padded(scratch.taken.size());
+  fill_offsets(local, cap.frame, scratch.taken, scratch);
+  scratch.rows.resize((n + 5) * block_length(n_points));
+  scratch.area.resize(n_points);
+  poison_scratch(std::span(scratch.rows));
+  poison_scratch(std::span(scratch.area));
+  scratch.base.resize(n_points);
+  poison_scratch(std::span(scratch.base));
+  scratch.weights.clear();
+  scratch.rows_made = false;
+}
+
+double halo_of(const PatchCap& cap) { return kHalo * cap.frame.support / cap.degree; }
+
+// |e| of the solution at the points.
+void find_residuals(const LocalMesh& local, const PatchCap& cap, PatchScratch& scratch) {
+  scratch.residual.resize(padded(scratch.taken.size()));
+  poison_scratch(std::span(scratch.residual));
+  for_each_block(local, cap, scratch, [&](std::size_t first, std::size_t m) {
+    double* const residual = &scratch.residual[first];
+    const double* const wanted = scratch.rows.data();
+    patch_sum(wanted + m, scratch.solution.data(), scratch.solution.size(), m, residual);
+    for (std::size_t i = 0; i < m; ++i) residual[i] = std::abs(residual[i] - wanted[i]);
+  });
+}
+
+double median_residual(PatchScratch& scratch) {
+  scratch.order.assign(
+      scratch.residual.begin(),
+      scratch.residual.begin() + static_cast<std::ptrdiff_t>(scratch.taken.size()));
+  const auto middle = scratch.order.begin() + static_cast<std::ptrdiff_t>(scratch.order.size() / 2);
+  std::nth_element(scratch.order.begin(), middle, scratch.order.end());
+  return *middle;
+}
+
+// The rms of what the solution has beyond degree 2, by Parseval on the opened hemisphere.
+double detail_of(std::size_t n, const PatchScratch& scratch) {
+  double sum = 0;
+  for (std::size_t i = patch_basis(2); i < n; ++i) sum += scratch.solution[i] * scratch.solution[i];
+  return std::sqrt(sum / (4 * std::numbers::pi));
+}
+
+void weigh_by_huber(double turn, PatchScratch& scratch) {
+  scratch.weights = scratch.base;
+  for (std::size_t i = 0; i < scratch.taken.size(); ++i) {
+    const double e = scratch.residual[i];
+    scratch.weights[i] = scratch.base[i] * (e > turn ? turn / e : 1);
+  }
+}
+
+void weigh_by_tukey(double forgotten, double halo, PatchScratch& scratch) {
+  scratch.weights = scratch.base;
+  for (std::size_t i = 0; i < scratch.taken.size(); ++i) {
+    const double part = scratch.residual[i] / forgotten;
+    const double rest = std::max(0.0, 1 - part * part);
+    scratch.weights[i] *= rest * rest;
+  }
+  // The flanks of what stands out would hold the fit where its middle was.
+  const std::size_t n = padded(scratch.taken.size()), length = block_length(n);
+  for (std::size_t i = 0; i < scratch.taken.size(); ++i) {
+    if (!(scratch.residual[i] > forgotten)) continue;
+    const std::size_t own = i / length * length, own_m = std::min(length, n - own);
+    const double* const x = &scratch.offsets[3 * own + i - own];
+    const double at[3] = {x[0], x[own_m], x[2 * own_m]};
+    for (std::size_t first = 0; first < n; first += length) {
+      const std::size_t m = std::min(length, n - first);
+      patch_silence(&scratch.offsets[3 * first], m, at, halo, &scratch.weights[first]);
+    }
+  }
+}
+
+// Weights for the next solution, from what the last one leaves; returns the residual from which
+// on points are forgotten, 0 if every point is fitted exactly.
+double weigh_again(const LocalMesh& local, const PatchCap& cap, bool convex,
+                   PatchScratch& scratch) {
+  find_residuals(local, cap, scratch);
+  const double median = median_residual(scratch);
+  if (!(median > 0)) return 0;
+  const double forgotten =
+      std::max(kForgotten * median, kLeastScale * detail_of(scratch.solution.size(), scratch));
+  if (convex) {
+    weigh_by_huber(kTurn * median, scratch);
+  } else {
+    weigh_by_tukey(forgotten, halo_of(cap), scratch);
+  }
+  return forgotten;
+}
+
+// The solution of the robust fit of the points taken; false if there is none.
+bool solve_robustly(const LocalMesh& local, const PatchCap& cap, PatchScratch& scratch,
+                    double& forgotten) {
+  const int first = std::min(kFirstDegree, cap.degree);
+  if (!solve(local, cap, first, scratch)) return false;
+  for (int i = 0; i < kConvex; ++i) {
+    if (weigh_again(local, cap, true, scratch) == 0) break;
+    if (!solve(local, cap, first, scratch)) return false;
+  }
+  for (int degree = first;; degree = std::min(cap.degree, degree + kDegreeStep)) {
+    forgotten = weigh_again(local, cap, false, scratch);
+    if (!solve(local, cap, degree, scratch)) return false;
+    if (degree == cap.degree) break;
+  }
+  return true;
+}
+
+}  // namespace
+
+PatchFit fit_patch_cap(const LocalMesh& local, const PatchCap& cap, bool robust,
+                       std::span<const std::uint8_t> ignored, PatchScratch& scratch) {
+  PatchFit fit;
+  const auto count = std::count_if(cap.points.begin(), cap.points.end(), [&](std::uint32_t v) {
+    return !ignored.empty() && ignored[v] != 0;
+  });
+  const double share = static_cast<double>(count) / static_cast<double>(cap.points.size());
+  if (share > kMostIgnored) return fit;
+  const double some = kPointsForWeights * static_cast<double>(patch_basis(cap.degree));
+  const bool few = static_cast<double>(cap.points.size()) <= kFew * some;
+  double forgotten = 0;
+  if (robust) {
+    take_points(local, cap, few ? kPointsPerCoefficient : kPointsForWeights, ignored, scratch);
+    if (!solve_robustly(local, cap, scratch, forgotten)) return fit;
+  }
+  if (!robust || !few) take_points(local, cap, kPointsPerCoefficient, ignored, scratch);
+  if (forgotten > 0) {
+    find_residuals(local, cap, scratch);
+    weigh_by_tukey(forgotten, halo_of(cap), scratch);
+  }
+  if (!make_equations(local, cap, cap.degree, scratch)) return fit;
+  fit.coefficients = solve_family(cap.degree, scratch);
+  fit.forgotten = forgotten * cap.frame.radius;
+  fit.solved = true;
+  return fit;
+}
+
+void evaluate_patch_cap(const LocalMesh& local, const PatchCap& cap, const PatchFit& fit,
+                        std::span<const std::uint32_t> points, PatchScratch& scratch,
+                        double* values, std::size_t stride) {
+  const std::size_t n = patch_basis(cap.degree), n_points = padded(points.size());
+  fill_offsets(local, cap.frame, points, scratch);
+  scratch.rows.resize((n + 5) * block_length(n_points));
+  scratch.area.resize(n_points);
+  poison_scratch(std::span(scratch.rows));
+  poison_scratch(std::span(scratch.area));
+  for (std::size_t first = 0; first < n_points; first += block_length(n_points)) {
+    const std::size_t m = std::min(block_length(n_points), n_points - first);
+    patch_rows(cap.frame, cap.degree, &scratch.offsets[3 * first], m, scratch.rows.data(),
+               &scratch.area[first]);
+    patch_sums(&scratch.rows[m], fit.coefficients.data(), cap.degree, m, values + first, stride);
+  }
+}
+
+}  // namespace rholm

@@ -1,0 +1,247 @@
+#include "edit/patch/patch_kernels.h"
+
+#include <cmath>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "edit/patch/patch_kernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "harmonic/legendre/low_harmonics-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace rholm {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::CappedTag<double, kPatchLanes>;
+using V = hn::Vec<D>;
+
+// Directions this close to the one opposite the axis, where the plane ends, are taken as there.
+constexpr double kLowest = 1e-3;
+
+HWY_INLINE V Along(D d, const Vec3& a, V x, V y, V z) {
+  return hn::MulAdd(hn::Set(d, a.x), x,
+                    hn::MulAdd(hn::Set(d, a.y), y, hn::Mul(hn::Set(d, a.z), z)));
+}
+
+void Rows(const CapFrame& frame, int degree, const double* offsets, std::size_t n, double* rows,
+          double* area) {
+  const D d;
+  const V one = hn::Set(d, 1.0);
+  const V a = hn::Set(d, frame.dilation);
+  for (std::size_t i = 0; i < n; i += hn::Lanes(d)) {
+    const V x = hn::LoadU(d, offsets + i), y = hn::LoadU(d, offsets + n + i);
+    const V z = hn::LoadU(d, offsets + 2 * n + i);
+    const V lx = Along(d, frame.x, x, y, z), ly = Along(d, frame.y, x, y, z);
+    const V lz = hn::Add(Along(d, frame.z, x, y, z), hn::Set(d, frame.radius));
+    const V rho = hn::Sqrt(hn::MulAdd(lx, lx, hn::MulAdd(ly, ly, hn::Mul(lz, lz))));
+    const V least = hn::Set(d, kLowest * frame.radius);
+    const V below = hn::Div(one, hn::Max(least, hn::Add(rho, lz)));
+    const V t1 = hn::Mul(lx, below), t2 = hn::Mul(ly, below);
+    LowDirection<V> at;
+    at.s1 = hn::Mul(a, t1), at.s2 = hn::Mul(a, t2);
+    const V opened = hn::MulAdd(at.s1, at.s1, hn::MulAdd(at.s2, at.s2, one));
+    const V over = hn::Div(hn::Set(d, 2.0), opened);
+    at.x = hn::Mul(at.s1, over), at.y = hn::Mul(at.s2, over), at.z = hn::Sub(over, one);
+    const V closed = hn::MulAdd(t1, t1, hn::MulAdd(t2, t2, one));
+    const V factor = hn::Div(hn::Mul(a, closed), opened);
+    hn::StoreU(hn::MulSub(rho, hn::Set(d, 1 / frame.radius), one), d, rows + i);
+    hn::StoreU(hn::Mul(factor, factor), d, area + i);
+    V re = one, im = one;
+    VisitLowHarmonics(
+        d, degree, at, [&](int, V b0, V b1, V, V) HWY_ATTR { re = b0, im = b1; },
+        [&](int l, int m, V p, V) HWY_ATTR {
+          if (!in_patch_basis(l, m)) return;
+          double* const row = rows + (1 + patch_index(l, m)) * n + i;
+          hn::StoreU(hn::Mul(p, re), d, row);
+          if (m > 0) hn::StoreU(hn::Mul(p, im), d, row + n);
+        });
+  }
+}
+
+void Gram(const double* rows, std::size_t count, const double* weights, std::size_t n,
+          double* matrix) {
+  const D d;
+  for (std::size_t i = 0; i < count; i += 4) {
+    for (std::size_t j = 0; j <= i; j += 4) {
+      V sum[4][4];
+      for (auto& row : sum) {
+        for (V& v : row) v = hn::Zero(d);
+      }
+      for (std::size_t k = 0; k < n; k += hn::Lanes(d)) {
+        const V weight = hn::LoadU(d, weights + k);
+        V left[4], right[4];
+        for (std::size_t r = 0; r < 4; ++r) {
+          left[r] = hn::Mul(weight, hn::LoadU(d, rows + (i + r) * n + k));
+          right[r] = hn::LoadU(d, rows + (j + r) * n + k);
+        }
+        for (std::size_t r = 0; r < 4; ++r) {
+          for (std::size_t c = 0; c < 4; ++c) sum[r][c] = hn::MulAdd(left[r], right[c], sum[r][c]);
+        }
+      }
+      for (std::size_t r = 0; r < 4 && i + r < count; ++r) {
+        for (std::size_t c = 0; c < 4 && j + c < count; ++c) {
+          matrix[(i + r) * count + j + c] += hn::GetLane(hn::SumOfLanes(d, sum[r][c]));
+        }
+      }
+    }
+  }
+}
+
+void Sum(const double* rows, const double* coefficients, std::size_t count, std::size_t n,
+         double* out) {
+  const D d;
+  for (std::size_t i = 0; i < n; i += hn::Lanes(d)) {
+    V sum = hn::Zero(d);
+    for (std::size_t k = 0; k < count; ++k) {
+      sum = hn::MulAdd(hn::Set(d, coefficients[k]), hn::LoadU(d, rows + k * n + i), sum);
+    }
+    hn::StoreU(sum, d, out + i);
+  }
+}
+
+// A row is loaded once for four sets.
+void Sums(const double* rows, const double* coefficients, int degree, std::size_t n, double* out,
+          std::size_t stride) {
+  const D d;
+  const std::size_t count = patch_basis(degree);
+  for (int top = degree; top >= 0; top -= 4) {
+    const int low = top < 3 ? 0 : top - 3;
+    // Those below the lowest are the lowest once more.
+    const double* set[4];
+    for (int s = 0; s < 4; ++s) {
+      set[s] = coefficients + count * static_cast<std::size_t>(top - s < low ? low : top - s);
+    }
+    for (std::size_t i = 0; i < n; i += hn::Lanes(d)) {
+      V sum0 = hn::Zero(d), sum1 = sum0, sum2 = sum0, sum3 = sum0;
+      for (std::size_t k = 0; k < patch_basis(top); ++k) {
+        const V row = hn::LoadU(d, rows + k * n + i);
+        sum0 = hn::MulAdd(hn::Set(d, set[0][k]), row, sum0);
+        sum1 = hn::MulAdd(hn::Set(d, set[1][k]), row, sum1);
+        sum2 = hn::MulAdd(hn::Set(d, set[2][k]), row, sum2);
+        sum3 = hn::MulAdd(hn::Set(d, set[3][k]), row, sum3);
+      }
+      double* const to = out + stride * static_cast<std::size_t>(top) + i;
+      hn::StoreU(sum0, d, to);
+      if (top - 1 >= low) hn::StoreU(sum1, d, to - stride);
+      if (top - 2 >= low) hn::StoreU(sum2, d, to - 2 * stride);
+      if (top - 3 >= low) hn::StoreU(sum3, d, to - 3 * stride);
+    }
+  }
+}
+
+bool Factorize(const double* matrix, std::size_t n, double least, double* upper) {
+  const D d;
+  const std::size_t length = padded(n + 1);
+  for (std::size_t i = 0; i < n; ++i) {
+    double* const row = upper + i * length;
+    for (std::size_t j = 0; j < length; ++j) row[j] = 0;
+    for (std::size_t j = i; j < n; ++j) row[j] = matrix[(j + 1) * (n + 1) + i + 1];
+    row[n] = matrix[(i + 1) * (n + 1)];
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    double* const row = upper + k * length;
+    if (!(row[k] > least * matrix[(k + 1) * (n + 2)])) return false;
+    const double inverse = 1 / std::sqrt(row[k]);
+    for (std::size_t j = k; j <= n; ++j) row[j] *= inverse;
+    for (std::size_t i = k + 1; i < n; ++i) {
+      double* const below = upper + i * length;
+      const V times = hn::Set(d, row[i]);
+      for (std::size_t j = i / hn::Lanes(d) * hn::Lanes(d); j < length; j += hn::Lanes(d)) {
+        hn::StoreU(hn::NegMulAdd(times, hn::LoadU(d, row + j), hn::LoadU(d, below + j)), d,
+                   below + j);
+      }
+    }
+  }
+  return true;
+}
+
+// Degrees side by side: one alone is a chain of operations that wait for one another.
+void Family(const double* upper, int degree, double* x) {
+  const D d;
+  const std::size_t n = patch_basis(degree), length = padded(n + 1);
+  const std::size_t sets = padded(static_cast<std::size_t>(degree) + 1);
+  int lowest = degree;  // that has an i
+  for (std::size_t i = n; i-- > 0;) {
+    while (lowest > 0 && i < patch_basis(lowest - 1)) --lowest;
+    const double* const row = upper + i * length;
+    for (std::size_t s = 0; s < sets; s += hn::Lanes(d)) {
+      V sum = hn::Set(d, row[n]);
+      for (std::size_t j = i + 1; j < n; ++j) {
+        sum = hn::NegMulAdd(hn::Set(d, row[j]), hn::LoadU(d, x + j * sets + s), sum);
+      }
+      const V here = hn::Iota(d, static_cast<double>(s));
+      const auto has = hn::Ge(here, hn::Set(d, static_cast<double>(lowest)));
+      sum = hn::IfThenElseZero(has, hn::Div(sum, hn::Set(d, row[i])));
+      hn::StoreU(sum, d, x + i * sets + s);
+    }
+  }
+}
+
+void Silence(const double* offsets, std::size_t n, const double* at, double radius,
+             double* weights) {
+  const D d;
+  const V x = hn::Set(d, at[0]), y = hn::Set(d, at[1]), z = hn::Set(d, at[2]);
+  const V square = hn::Set(d, radius * radius);
+  for (std::size_t i = 0; i < n; i += hn::Lanes(d)) {
+    const V dx = hn::Sub(hn::LoadU(d, offsets + i), x);
+    const V dy = hn::Sub(hn::LoadU(d, offsets + n + i), y);
+    const V dz = hn::Sub(hn::LoadU(d, offsets + 2 * n + i), z);
+    const V far = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
+    const V weight = hn::LoadU(d, weights + i);
+    hn::StoreU(hn::IfThenZeroElse(hn::Lt(far, square), weight), d, weights + i);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace rholm
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace rholm {
+namespace {
+HWY_EXPORT(Rows);
+HWY_EXPORT(Gram);
+HWY_EXPORT(Sum);
+HWY_EXPORT(Sums);
+HWY_EXPORT(Factorize);
+HWY_EXPORT(Family);
+HWY_EXPORT(Silence);
+}  // namespace
+
+void patch_rows(const CapFrame& frame, int degree, const double* offsets, std::size_t n,
+                double* rows, double* area) {
+  HWY_DYNAMIC_DISPATCH(Rows)(frame, degree, offsets, n, rows, area);
+}
+
+void patch_gram(const double* rows, std::size_t count, const double* weights, std::size_t n,
+                double* matrix) {
+  HWY_DYNAMIC_DISPATCH(Gram)(rows, count, weights, n, matrix);
+}
+
+void patch_sum(const double* rows, const double* coefficients, std::size_t count, std::size_t n,
+               double* out) {
+  HWY_DYNAMIC_DISPATCH(Sum)(rows, coefficients, count, n, out);
+}
+
+void patch_sums(const double* rows, const double* coefficients, int degree, std::size_t n,
+                double* out, std::size_t stride) {
+  HWY_DYNAMIC_DISPATCH(Sums)(rows, coefficients, degree, n, out, stride);
+}
+
+bool patch_factorize(const double* matrix, std::size_t n, double least, double* upper) {
+  return HWY_DYNAMIC_DISPATCH(Factorize)(matrix, n, least, upper);
+}
+
+void patch_family(const double* upper, int degree, double* x) {
+  HWY_DYNAMIC_DISPATCH(Family)(upper, degree, x);
+}
+
+void patch_silence(const double* offsets, std::size_t n, const double* at, double radius,
+                   double* weights) {
+  HWY_DYNAMIC_DISPATCH(Silence)(offsets, n, at, radius, weights);
+}
+
+}  // namespace rholm
+#endif

@@ -1,0 +1,124 @@
+#include "edit/region/local_mesh.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "shape/topology/identical.h"
+
+namespace rholm {
+namespace {
+
+bool inside(const Bounds& box, const Vec3& p) {
+  return p.x >= box.min.x && p.y >= box.min.y && p.z >= box.min.z && p.x <= box.max.x &&
+         p.y <= box.max.y && p.z <= box.max.z;
+}
+
+// Vertices of the chosen corners in order, and the place of each among them.
+std::vector<std::uint32_t> used_vertices(std::size_t n_vertices,
+                                         std::span<const std::uint32_t> corners,
+                                         std::vector<std::uint32_t>& place) {
+  place.assign(n_vertices, 0);
+  for (const std::uint32_t v : corners) place[v] = 1;
+  std::vector<std::uint32_t> used;
+  for (std::uint32_t v = 0; v < n_vertices; ++v) {
+    if (place[v] == 0) continue;
+    place[v] = static_cast<std::uint32_t>(used.size());
+    used.push_back(v);
+  }
+  return used;
+}
+
+// Makes corners, indices of vertices, indices of points.
+void number_points(const Mesh& mesh, std::vector<std::uint32_t>& corners, LocalMesh& local) {
+  std::vector<std::uint32_t> place;
+  const std::vector<std::uint32_t> used = used_vertices(mesh.vertices.size(), corners, place);
+  std::vector<Vec3> positions;
+  positions.reserve(used.size());
+  for (const std::uint32_t v : used) positions.push_back(mesh.vertices[v]);
+  const std::vector<std::uint32_t> first = first_identical(positions);
+  std::vector<std::uint32_t> point(used.size());
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (first[i] != i) {
+      point[i] = point[first[i]];
+      continue;
+    }
+    point[i] = static_cast<std::uint32_t>(local.points.size());
+    local.points.push_back(positions[i]);
+  }
+  local.members_begin.assign(local.points.size() + 1, 0);
+  for (const std::uint32_t p : point) ++local.members_begin[p + 1];
+  std::partial_sum(local.members_begin.begin(), local.members_begin.end(),
+                   local.members_begin.begin());
+  local.members.resize(used.size());
+  std::vector<std::uint32_t> next(local.members_begin.begin(), local.members_begin.end() - 1);
+  for (std::size_t i = 0; i < used.size(); ++i) local.members[next[point[i]]++] = used[i];
+  for (std::uint32_t& corner : corners) corner = point[place[corner]];
+}
+
+}  // namespace
+
+double median_edge(std::span<const Vec3> points, std::span<const Triangle> triangles,
+                   std::span<const double> weights) {
+  std::vector<double> lengths;
+  for (const Triangle& t : triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t from = t[k], to = t[(k + 1) % 3];
+      if (weights[from] > 0) lengths.push_back(norm(points[to] - points[from]));
+    }
+  }
+  if (lengths.empty()) return 0;
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  return *middle;
+}
+
+LocalMesh cut_out(const Mesh& mesh, const Bounds& box) {
+  std::vector<std::uint8_t> in(mesh.vertices.size());
+  for (std::size_t i = 0; i < in.size(); ++i) in[i] = inside(box, mesh.vertices[i]) ? 1 : 0;
+  std::vector<std::uint32_t> corners;
+  for (const Triangle& t : mesh.triangles) {
+    if ((in[t[0]] | in[t[1]] | in[t[2]]) != 0) corners.insert(corners.end(), t.begin(), t.end());
+  }
+  LocalMesh local;
+  number_points(mesh, corners, local);
+  for (std::size_t i = 0; i < corners.size(); i += 3) {
+    const Triangle t = {corners[i], corners[i + 1], corners[i + 2]};
+    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) local.triangles.push_back(t);
+  }
+  local.stars = make_vertex_stars(local.points.size(), local.triangles);
+  local.areas.assign(local.points.size(), 0);
+  for (const Triangle& t : local.triangles) {
+    const double area = norm(cross(local.points[t[1]] - local.points[t[0]],
+                                   local.points[t[2]] - local.points[t[0]])) /
+                        2;
+    for (const std::uint32_t v : t) local.areas[v] += area / 3;
+  }
+  local.normals = point_normals(local, local.points);
+  return local;
+}
+
+std::vector<Vec3> point_normals(const LocalMesh& local, std::span<const Vec3> positions) {
+  std::vector<Vec3> normals = area_normals(positions, local.triangles);
+  for (Vec3& n : normals) n = normalized(n);
+  return normals;
+}
+
+void update_normals(Mesh& mesh, std::span<const std::uint32_t> vertices) {
+  const auto values_of = [&](const char* name) -> std::vector<double>* {
+    for (Attribute& a : mesh.attributes) {
+      if (a.name == name) return &a.values;
+    }
+    return nullptr;
+  };
+  std::vector<double>* const x = values_of("nx");
+  std::vector<double>* const y = values_of("ny");
+  std::vector<double>* const z = values_of("nz");
+  if (x == nullptr || y == nullptr || z == nullptr) return;
+  const std::vector<Vec3> sums = area_normals(mesh.vertices, mesh.triangles);
+  for (const std::uint32_t v : vertices) {
+    const Vec3 n = normalized(sums[v]);
+    (*x)[v] = n.x, (*y)[v] = n.y, (*z)[v] = n.z;
+  }
+}
+
+}  // namespace rholm

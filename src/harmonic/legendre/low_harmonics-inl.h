@@ -1,0 +1,108 @@
+// Harmonics of low degree in the lanes of a vector. Included once per target, by kernels.
+
+#if defined(RHOLM_HARMONIC_LOW_HARMONICS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RHOLM_HARMONIC_LOW_HARMONICS_INL_H_
+#undef RHOLM_HARMONIC_LOW_HARMONICS_INL_H_
+#else
+#define RHOLM_HARMONIC_LOW_HARMONICS_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include "harmonic/legendre/low_harmonics.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace rholm {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Where lanes look: a point of the sphere, and its place in the plane of the stereographic
+// projection from the south pole, (s1, s2) = (X, Y) / (1 + Z).
+template <class V>
+struct LowDirection {
+  V x, y, z, s1, s2;
+};
+
+// Calls visit(l, m, p, dp) for all orders and degrees, p_lm(Z) and its derivative, degrees of one
+// order after the other; before each order begin(m, re, im, re_below, im_below) with (X + iY)^m and
+// (X + iY)^(m-1).
+template <class D, class Begin, class Visit>
+HWY_INLINE void VisitLowHarmonics(D d, int degree, const LowDirection<hn::Vec<D>>& at,
+                                  const Begin& begin, const Visit& visit) {
+  using V = hn::Vec<D>;
+  using T = hn::TFromD<D>;
+  const LowHarmonics& h = low_harmonics();
+  V re = hn::Set(d, T(1)), im = hn::Zero(d), re_below = hn::Zero(d), im_below = hn::Zero(d);
+  for (int m = 0; m <= degree; ++m) {
+    begin(m, re, im, re_below, im_below);
+    V p0 = hn::Zero(d), p1 = hn::Set(d, static_cast<T>(h.start[m]));
+    V d0 = hn::Zero(d), d1 = hn::Zero(d);
+    visit(m, m, p1, d1);
+    for (int l = m + 1; l <= degree; ++l) {
+      const V a = hn::Set(d, static_cast<T>(h.a[m][l])), b = hn::Set(d, static_cast<T>(h.b[m][l]));
+      const V p2 = hn::Mul(a, hn::MulSub(at.z, p1, hn::Mul(b, p0)));
+      const V d2 = hn::Mul(a, hn::Add(p1, hn::MulSub(at.z, d1, hn::Mul(b, d0))));
+      visit(l, m, p2, d2);
+      p0 = p1, p1 = p2, d0 = d1, d1 = d2;
+    }
+    re_below = re, im_below = im;
+    const V next = hn::MulSub(at.x, re, hn::Mul(at.y, im));
+    im = hn::MulAdd(at.x, im, hn::Mul(at.y, re));
+    re = next;
+  }
+}
+
+// A sum of harmonics and its derivatives along the two unit tangents of the plane's axes.
+template <class V>
+struct LowSum {
+  V value, d1, d2;
+};
+
+// sum_i c_i Y_i for coefficients in the order of atlas.h, even basis or full.
+template <class D>
+HWY_INLINE LowSum<hn::Vec<D>> SumLowHarmonics(D d, int degree, bool even, const hn::TFromD<D>* c,
+                                              const LowDirection<hn::Vec<D>>& at) {
+  using V = hn::Vec<D>;
+  LowSum<V> sum{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+  // Of one order: sum of p c, sum of p s, and of the derivatives.
+  V re = hn::Zero(d), im = re, re_below = re, im_below = re;
+  V pc = hn::Zero(d), ps = pc, dc = pc, ds = pc;
+  const V up = hn::Add(at.z, hn::Set(d, hn::TFromD<D>(1)));
+  const auto finish = [&](int m) HWY_ATTR {
+    // f = A pc + B ps, A + iB = (X + iY)^m; along e_1: pc dA/dX + ps dB/dX - s1 (m f + (1 + Z) f').
+    const V order = hn::Set(d, static_cast<hn::TFromD<D>>(m));
+    const V f = hn::MulAdd(pc, re, hn::Mul(ps, im));
+    const V slope = hn::MulAdd(order, f, hn::Mul(up, hn::MulAdd(dc, re, hn::Mul(ds, im))));
+    const V along1 = hn::Mul(order, hn::MulAdd(pc, re_below, hn::Mul(ps, im_below)));
+    const V along2 = hn::Mul(order, hn::MulSub(ps, re_below, hn::Mul(pc, im_below)));
+    sum.value = hn::Add(sum.value, f);
+    sum.d1 = hn::Add(sum.d1, hn::NegMulAdd(at.s1, slope, along1));
+    sum.d2 = hn::Add(sum.d2, hn::NegMulAdd(at.s2, slope, along2));
+  };
+  VisitLowHarmonics(
+      d, degree, at,
+      [&](int m, V a, V b, V a_below, V b_below) HWY_ATTR {
+        if (m > 0) finish(m - 1);
+        re = a, im = b, re_below = a_below, im_below = b_below;
+        pc = ps = dc = ds = hn::Zero(d);
+      },
+      [&](int l, int m, V p, V dp) HWY_ATTR {
+        if (even && ((l + m) & 1) != 0) return;
+        const hn::TFromD<D>* const at_lm = c + (even ? even_index(l, m) : low_index(l, m));
+        const V cosine = hn::Set(d, at_lm[0]);
+        pc = hn::MulAdd(p, cosine, pc);
+        dc = hn::MulAdd(dp, cosine, dc);
+        if (m == 0) return;
+        const V sine = hn::Set(d, at_lm[1]);
+        ps = hn::MulAdd(p, sine, ps);
+        ds = hn::MulAdd(dp, sine, ds);
+      });
+  finish(degree);
+  return sum;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace rholm
+HWY_AFTER_NAMESPACE();
+
+#endif

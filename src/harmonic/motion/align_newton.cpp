@@ -1,0 +1,115 @@
+#include "harmonic/motion/align_newton.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+namespace rholm {
+namespace {
+
+constexpr int kMaxSteps = 40;
+// Radians: a quarter of the wave of degree 8, and where rounding of the gradient ends the way.
+constexpr double kLongestStep = 0.2, kShortestStep = 1e-11;
+// Curvatures below this part of the largest are noise, steps along them are held back.
+constexpr double kFlat = 1e-9;
+
+// With Z_m = C_m - i S_m for m > 0 and Z_0 = sqrt2 C_0, lambda_m = sqrt((l-m)(l+m+1)):
+//   L_x Z_m = (i/2) (lambda_{m-1} Z_{m-1} + lambda_m Z_{m+1}),    L_x C_0 = lambda_0 S_1 / sqrt2,
+//   L_y Z_m = (1/2) (lambda_{m-1} Z_{m-1} - lambda_m Z_{m+1}),    L_y C_0 = -lambda_0 C_1 / sqrt2,
+//   L_z Z_m = -i m Z_m.
+void derivatives_of_degree(const Coefficients& f, int l, std::array<Coefficients, 3>& result) {
+  using Complex = std::complex<double>;
+  const auto z = [&](int m) {
+    return m == 0 ? Complex(std::numbers::sqrt2 * f.c(l, 0)) : Complex(f.c(l, m), -f.s(l, m));
+  };
+  const auto lambda = [&](int m) { return std::sqrt((l - m) * (l + m + 1.0)); };
+  result[0].c(l, 0) = lambda(0) * f.s(l, 1) / std::numbers::sqrt2;
+  result[1].c(l, 0) = -lambda(0) * f.c(l, 1) / std::numbers::sqrt2;
+  for (int m = 1; m <= l; ++m) {
+    const Complex below = lambda(m - 1) * z(m - 1);
+    const Complex above = m < l ? lambda(m) * z(m + 1) : Complex(0);
+    const Complex parts[3] = {Complex(0, 0.5) * (below + above), 0.5 * (below - above),
+                              Complex(0, -m) * z(m)};
+    for (int k = 0; k < 3; ++k) {
+      result[k].c(l, m) = parts[k].real();
+      result[k].s(l, m) = -parts[k].imag();
+    }
+  }
+}
+
+Vec3 newton_step(const Vec3& gradient, const Eigen3& curvature) {
+  double largest = 0;
+  for (const double value : curvature.values) largest = std::max(largest, std::abs(value));
+  Vec3 step;
+  for (int i = 0; i < 3; ++i) {
+    // Uphill also where the surface is curved the other way.
+    const double bend = std::max(std::abs(curvature.values[i]), kFlat * largest);
+    if (bend > 0) step += dot(gradient, curvature.vectors[i]) / bend * curvature.vectors[i];
+  }
+  const double length = norm(step);
+  return length > kLongestStep ? kLongestStep / length * step : step;
+}
+
+Rotation stepped(const Vec3& step, const Rotation& from) {
+  const double length = norm(step);
+  return length > 0 ? compose(rotation_about(step, length), from) : from;
+}
+
+}  // namespace
+
+std::array<Coefficients, 3> rotation_derivatives(const Coefficients& f) {
+  std::array<Coefficients, 3> result;
+  result.fill(Coefficients(f.degree()));
+  for (int l = 1; l <= f.degree(); ++l) derivatives_of_degree(f, l, result);
+  return result;
+}
+
+double correlation(const Coefficients& a, const Coefficients& b) {
+  double sum = 0;
+  for (int l = 1; l <= a.degree(); ++l) {
+    double of_degree = 0;
+    for (int m = 0; m <= l; ++m) of_degree += a.c(l, m) * b.c(l, m) + a.s(l, m) * b.s(l, m);
+    sum += of_degree;
+  }
+  return sum;
+}
+
+CorrelationMaximum refine_rotation(const Coefficients& a, const Coefficients& b,
+                                   const Rotation& start, const Context& context) {
+  const auto of_b = rotation_derivatives(b);
+  CorrelationMaximum best{.rotation = start, .value = 0, .curvature = {}};
+  Coefficients turned = rotate(a, start, context);
+  best.value = correlation(turned, b);
+  for (int n = 0; n < kMaxSteps; ++n) {
+    const auto of_a = rotation_derivatives(turned);
+    std::array<std::array<double, 3>, 3> bend{};
+    for (int j = 0; j < 3; ++j) {
+      for (int k = j; k < 3; ++k) {
+        bend[j][k] = (correlation(of_a[j], of_b[k]) + correlation(of_a[k], of_b[j])) / 2;
+      }
+    }
+    const Vec3 gradient = {correlation(of_a[0], b), correlation(of_a[1], b),
+                           correlation(of_a[2], b)};
+    best.curvature = eigen_of_symmetric(bend);
+    Vec3 step = newton_step(gradient, best.curvature);
+    bool higher = false;
+    for (; norm(step) > kShortestStep && !higher; step *= 0.5) {
+      const Rotation next = stepped(step, best.rotation);
+      Coefficients there = rotate(a, next, context);
+      const double value = correlation(there, b);
+      if (value > best.value) {
+        best.rotation = next;
+        best.value = value;
+        turned = std::move(there);
+        higher = true;
+      } else if (norm(step) < 1e-7) {
+        return best;  // the rest changes the correlation by less than rounding
+      }
+    }
+    if (!higher) return best;
+  }
+  return best;
+}
+
+}  // namespace rholm

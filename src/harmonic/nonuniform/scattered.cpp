@@ -1,0 +1,80 @@
+// Sums at scattered directions: which engine does them.
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "harmonic/legendre/direct_sums.h"
+#include "harmonic/nonuniform/nonuniform.h"
+#include "rholm/error.h"
+
+namespace rholm {
+namespace {
+
+void check_options(const SumOptions& options) {
+  if (!(options.precision >= 1e-14 && options.precision <= 0.1)) {
+    throw Error(ErrorCode::kInvalidInput,
+                fmt::format("the precision of sums must be within 1e-14 ... 0.1, not {:g}",
+                            options.precision));
+  }
+}
+
+void check_size(std::size_t directions, std::size_t values, const char* what) {
+  if (values == 0 || directions == values) return;
+  throw Error(ErrorCode::kInvalidInput,
+              fmt::format("there are {} directions but {} {}", directions, values, what));
+}
+
+// The plan for the fast engine, if that is wanted and cheaper.
+std::optional<NonuniformPlan> fast_plan(int degree, std::size_t sources, int derivatives,
+                                        const SumOptions& options) {
+  check_options(options);
+  if (options.engine == Engine::kDirect || sources == 0) return std::nullopt;
+  const NonuniformNeeds needs{
+      .degree = degree, .error = options.precision, .sources = sources, .derivatives = derivatives};
+  NonuniformPlan plan = plan_nonuniform(needs);
+  if (direct_cost(needs) <= plan.cost) return std::nullopt;
+  return plan;
+}
+
+}  // namespace
+
+const char* to_string(Engine engine) { return engine == Engine::kFast ? "fast" : "direct"; }
+
+Engine parse_engine(const std::string& name) {
+  for (const Engine engine : {Engine::kFast, Engine::kDirect}) {
+    if (name == to_string(engine)) return engine;
+  }
+  throw Error(ErrorCode::kInvalidInput, "unknown engine '" + name + "': fast or direct");
+}
+
+std::vector<double> evaluate(const Coefficients& coefficients, std::span<const Vec3> directions,
+                             const SumOptions& options, const Context& context) {
+  const auto plan = fast_plan(coefficients.degree(), directions.size(), 0, options);
+  if (!plan) return direct_evaluate(coefficients, directions, context);
+  return nonuniform_evaluate(*plan, coefficients, directions, false, context).values;
+}
+
+ValuesAndGradients evaluate_with_gradient(const Coefficients& coefficients,
+                                          std::span<const Vec3> directions,
+                                          const SumOptions& options, const Context& context) {
+  const auto plan = fast_plan(coefficients.degree(), directions.size(), 1, options);
+  if (!plan) return direct_evaluate_with_gradient(coefficients, directions, context);
+  return nonuniform_evaluate(*plan, coefficients, directions, true, context);
+}
+
+void add_adjoint(const ScatteredSources& sources, Coefficients& sum, const SumOptions& options,
+                 const Context& context) {
+  const std::size_t n = sources.directions.size();
+  check_size(n, sources.weights.size(), "weights");
+  check_size(n, sources.gradients.size(), "gradients");
+  check_size(n, sources.hessians.size(), "Hessians");
+  const int derivatives = !sources.hessians.empty() ? 2 : !sources.gradients.empty() ? 1 : 0;
+  const auto plan = fast_plan(sum.degree(), n, derivatives, options);
+  if (plan) {
+    nonuniform_add_adjoint(*plan, sources, derivatives, sum, context);
+  } else {
+    direct_add_adjoint(sources, sum, context);
+  }
+}
+
+}  // namespace rholm

@@ -1,0 +1,44 @@
+// Between the grid of scattered sources (spread.h) and coefficients: Fourier transforms along both
+// angles, then Legendre sums on rings.
+//
+// A harmonic of order m is, along the great circle through the poles, a trigonometric polynomial of
+// degree l, even in theta for even m and odd for odd m. Its values on n > L rings theta_q = (q +
+// 1/2) pi / n fix it: with them continued to the circle, a Fourier transform gives its
+// coefficients, division by the windows' transforms and another one the values on the grid. All
+// steps are linear; the way from the grid to coefficients is their transpose, backwards.
+#pragma once
+
+#include <complex>
+#include <span>
+#include <vector>
+
+#include "base/parallel.h"
+#include "harmonic/nonuniform/spread.h"
+#include "harmonic/rings/ring_sums.h"
+#include "rholm/coefficients.h"
+#include "rholm/context.h"
+
+namespace rholm {
+
+struct SphereFourier {
+  int degree = 0;
+  GridLayout layout;
+  SpreadWindow theta, phi;
+  std::size_t n_rings = 0;  // n: above the degree, even, 2 n fast to transform, at least 32
+};
+SphereFourier sphere_fourier(int degree, const GridLayout& layout);
+
+template <typename T>
+GridKernel<T> grid_kernel(const SphereFourier& fourier);
+
+// sum += the transpose of coefficients_to_grid() applied to the sum of the grids, which are
+// destroyed.
+void grid_to_coefficients(const SphereFourier& fourier, std::span<double* const> grids,
+                          Coefficients& sum, const Context& context, const ParallelStage& stage);
+
+// Fills the whole grid, all rows and columns that taps can reach.
+template <typename T>
+void coefficients_to_grid(const SphereFourier& fourier, const Coefficients& coefficients, T* grid,
+                          const Context& context, const ParallelStage& stage);
+
+}  // namespace rholm

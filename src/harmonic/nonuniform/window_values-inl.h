@@ -1,0 +1,170 @@
+// The windows of sources by their polynomials: inner loops of spread.cpp, compiled for each target.
+#include <cstddef>
+
+#include "harmonic/nonuniform/source_place-inl.h"
+#include "harmonic/nonuniform/spread.h"
+
+#if defined(RHOLM_HARMONIC_WINDOWS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RHOLM_HARMONIC_WINDOWS_INL_H_
+#undef RHOLM_HARMONIC_WINDOWS_INL_H_
+#else
+#define RHOLM_HARMONIC_WINDOWS_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace rholm {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr int kMaxTaps = kMaxSpreadWidth;
+
+// Windows and derivatives of a block of sources. In theta one array per tap, ready to be broadcast;
+// in phi four taps of a source together, ready to be loaded as vectors.
+template <typename T>
+struct Windows {
+  alignas(64) T theta[3][kMaxTaps][kBlock<T>];
+  alignas(64) T phi[3][kMaxTaps / 4][kBlock<T>][4];
+};
+
+// The window and its derivatives at one tap, lanes are sources.
+template <class V>
+struct Tap {
+  V value, slope, curvature;
+};
+
+// Evaluates the windows at u: calls store(tap number, Tap). The taps of the window's other half are
+// those of -u.
+template <int kTerms, int kOrders, class D, typename T, class Store>
+HWY_INLINE void windows_at(D d, const SpreadTable<T>& table, hn::Vec<D> u, const Store& store) {
+  using V = hn::Vec<D>;
+  const V uu = hn::Mul(u, u);
+  const int width = table.width;
+  const size_t next = table.row(1, 0) - table.row(0, 0);
+  for (int i = 0; 2 * i < width; ++i) {
+    const T* c = table.row(0, i);
+    V even[kOrders], odd[kOrders];
+    for (int order = 0; order < kOrders; ++order, c += next) {
+      even[order] = hn::Set(d, c[kTerms - 2]);
+      odd[order] = hn::Set(d, c[kTerms - 1]);
+      for (int q = kTerms - 4; q >= 0; q -= 2) {
+        even[order] = hn::MulAdd(even[order], uu, hn::Set(d, c[q]));
+        odd[order] = hn::MulAdd(odd[order], uu, hn::Set(d, c[q + 1]));
+      }
+    }
+    Tap<V> tap, mirrored;
+    tap.value = hn::MulAdd(odd[0], u, even[0]);
+    mirrored.value = hn::NegMulAdd(odd[0], u, even[0]);
+    if constexpr (kOrders > 1) {
+      tap.slope = hn::MulAdd(odd[1], u, even[1]);
+      mirrored.slope = hn::MulSub(odd[1], u, even[1]);
+    }
+    if constexpr (kOrders > 2) {
+      tap.curvature = hn::MulAdd(odd[2], u, even[2]);
+      mirrored.curvature = hn::NegMulAdd(odd[2], u, even[2]);
+    }
+    store(i, tap);
+    if (2 * i + 1 < width) store(width - 1 - i, mirrored);
+  }
+}
+
+// What multiplies the window in phi and its derivatives, for one tap in theta.
+template <int kOrders, class D, typename T = hn::TFromD<D>, class V = hn::Vec<D>>
+HWY_INLINE Tap<V> apply_factors(D d, const Placed<T>& p, size_t at, const Tap<V>& tap) {
+  Tap<V> by;
+  by.value = hn::Mul(hn::Load(d, p.value + at), tap.value);
+  if constexpr (kOrders > 1) {
+    by.value = hn::MulAdd(hn::Load(d, p.theta + at), tap.slope, by.value);
+    by.slope = hn::Mul(hn::Load(d, p.phi + at), tap.value);
+  }
+  if constexpr (kOrders > 2) {
+    by.value = hn::MulAdd(hn::Load(d, p.theta_theta + at), tap.curvature, by.value);
+    by.slope = hn::MulAdd(hn::Load(d, p.theta_phi + at), tap.slope, by.slope);
+    by.curvature = hn::Mul(hn::Load(d, p.phi_phi + at), tap.value);
+  }
+  return by;
+}
+
+template <int kOrders, class D, class V = hn::Vec<D>>
+HWY_INLINE void store_tap(D d, const Tap<V>& tap, hn::TFromD<D>* to, size_t stride) {
+  hn::Store(tap.value, d, to);
+  if constexpr (kOrders > 1) hn::Store(tap.slope, d, to + stride);
+  if constexpr (kOrders > 2) hn::Store(tap.curvature, d, to + 2 * stride);
+}
+
+// Windows of n placed sources, rounded up to whole vectors; those in theta times the factors of
+// the sources if kFactors.
+template <int kTerms, int kOrders, bool kFactors, typename T>
+void evaluate_windows(const GridKernel<T>& kernel, const Placed<T>& p, size_t n, Windows<T>& out) {
+  const hn::CappedTag<T, 16> d;
+  using V = hn::Vec<decltype(d)>;
+  constexpr size_t kLanes = hn::MaxLanes(hn::CappedTag<T, 16>());
+  constexpr size_t kThetaStride = kMaxTaps * kBlock<T>, kPhiStride = kMaxTaps * kLanes;
+  // As many as spread_rows() and interpolate_rows() load, zeros beyond the width.
+  const int blocks = padded_width(kernel.layout.width) / 4;
+  alignas(64) T taps[kOrders * kPhiStride] = {};
+  for (size_t at = 0; at < n; at += kLanes) {
+    windows_at<kTerms, kOrders>(
+        d, kernel.theta, hn::Load(d, p.u_theta + at), [&](int i, const Tap<V>& tap) HWY_ATTR {
+          T* to = out.theta[0][i] + at;
+          if constexpr (kFactors) {
+            store_tap<kOrders>(d, apply_factors<kOrders>(d, p, at, tap), to, kThetaStride);
+          } else {
+            store_tap<kOrders>(d, tap, to, kThetaStride);
+          }
+        });
+    windows_at<kTerms, kOrders>(d, kernel.phi, hn::Load(d, p.u_phi + at),
+                                [&](int i, const Tap<V>& tap) HWY_ATTR {
+                                  store_tap<kOrders>(d, tap, taps + i * kLanes, kPhiStride);
+                                });
+    for (int order = 0; order < kOrders; ++order) {
+      for (int block = 0; block < blocks; ++block) {
+        const T* first = taps + order * kPhiStride + 4 * block * kLanes;
+        hn::StoreInterleaved4(hn::Load(d, first), hn::Load(d, first + kLanes),
+                              hn::Load(d, first + 2 * kLanes), hn::Load(d, first + 3 * kLanes), d,
+                              out.phi[order][block][at]);
+      }
+    }
+  }
+}
+
+// The same for the number of terms of the kernel.
+template <int kOrders, bool kFactors, typename T>
+HWY_INLINE void evaluate_windows(const GridKernel<T>& kernel, const Placed<T>& p, size_t n,
+                                 Windows<T>& out) {
+  static_assert(kMaxSpreadTerms == 14);
+  switch (kernel.phi.terms) {
+    case 4:
+      return evaluate_windows<4, kOrders, kFactors>(kernel, p, n, out);
+    case 6:
+      return evaluate_windows<6, kOrders, kFactors>(kernel, p, n, out);
+    case 8:
+      return evaluate_windows<8, kOrders, kFactors>(kernel, p, n, out);
+    case 10:
+      return evaluate_windows<10, kOrders, kFactors>(kernel, p, n, out);
+    case 12:
+      return evaluate_windows<12, kOrders, kFactors>(kernel, p, n, out);
+    default:
+      return evaluate_windows<14, kOrders, kFactors>(kernel, p, n, out);
+  }
+}
+
+// Taps lane ... lane + Lanes(d) - 1 of source j in phi.
+template <class D, typename T = hn::TFromD<D>>
+HWY_INLINE hn::Vec<D> load_taps(D d, const T (*phi)[kBlock<T>][4], size_t j, size_t lane) {
+#if HWY_TARGET != HWY_SCALAR
+  if constexpr (hn::MaxLanes(D()) > 4) {
+    const hn::Half<D> half;
+    return hn::Combine(d, load_taps(half, phi, j, lane + hn::MaxLanes(half)),
+                       load_taps(half, phi, j, lane));
+  }
+#endif
+  return hn::LoadU(d, phi[lane / 4][j] + lane % 4);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace rholm
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard, for each target

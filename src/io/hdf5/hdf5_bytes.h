@@ -1,0 +1,46 @@
+// Little-endian bytes of an HDF5 file, every access checked. Layer: io, private.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "io/hdf5/hdf5_reader.h"
+
+namespace rholm::hdf5 {
+
+constexpr std::uint64_t kUndefined = ~std::uint64_t{0};  // the address of what does not exist
+
+[[noreturn]] void damaged(const File& file, const std::string& what);      // InvalidInput
+[[noreturn]] void unsupported(const File& file, const std::string& what);  // Unsupported
+
+// Reads a block from its beginning. Throws InvalidInput where the block ends.
+class ByteReader {
+ public:
+  ByteReader(const File& file, std::string_view block) : file_(file), block_(block) {}
+
+  std::string_view take(std::uint64_t size);
+  std::uint64_t number(std::size_t size);  // of 1 to 8 bytes
+  std::uint8_t u8() { return static_cast<std::uint8_t>(number(1)); }
+  std::uint16_t u16() { return static_cast<std::uint16_t>(number(2)); }
+  std::uint32_t u32() { return static_cast<std::uint32_t>(number(4)); }
+  std::uint64_t u64() { return number(8); }
+  void skip(std::uint64_t size) { take(size); }
+  void expect(std::string_view signature);
+  std::size_t left() const { return block_.size() - at_; }
+  std::string_view passed() const { return block_.substr(0, at_); }
+
+ private:
+  const File& file_;
+  std::string_view block_;
+  std::size_t at_ = 0;
+};
+
+// The bytes from `address` on, or exactly `size` of them; InvalidInput if the file has them not.
+std::string_view bytes_from(const File& file, std::uint64_t address);
+std::string_view bytes_at(const File& file, std::uint64_t address, std::uint64_t size);
+
+// Bob Jenkins' lookup3 (public domain), as HDF5 protects its metadata by it.
+std::uint32_t lookup3(std::string_view bytes);
+
+}  // namespace rholm::hdf5

@@ -1,0 +1,71 @@
+// The part of HDF5 that a model file uses, read from memory. Layer: io, private.
+//
+// Models are written by the HDF5 library but not read by it: on files that are damaged or made to
+// harm it reads outside its buffers and loops (seen with 1.10.8, most in the global heap that
+// holds strings and in the older metadata, which have no checksums). Here every access is checked
+// against the file, and nothing is allocated that the file does not hold.
+//
+// Source: HDF5 File Format Specification, version 3.0. Read are: superblocks 0 to 3; object headers
+// 1 and 2; groups as symbol tables or compact links; compact attributes; contiguous and compact
+// datasets; integers, IEEE numbers and strings. That is what the library and h5py write by default
+// for plain arrays. Everything else throws Unsupported: compression, chunks, links
+// to other places, "dense" storage of many attributes or links.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rholm::hdf5 {
+
+struct File {
+  std::string_view bytes;
+  std::string name;  // for messages
+  std::uint64_t root = 0;
+};
+
+// Checks the superblock and that the file is as long as it says. Throws InvalidInput, Unsupported.
+File open(std::string_view bytes, const std::string& name);
+bool has_signature(std::string_view bytes);
+
+// A group or dataset: the messages of its object header.
+struct Message {
+  unsigned type = 0;
+  std::string_view data;
+};
+struct Object {
+  std::string path;  // for messages
+  std::vector<Message> messages;
+};
+Object root_group(const File& file);
+bool has_member(const File& file, const Object& group, std::string_view name);
+// Throws InvalidInput if the group has no such member, Unsupported if it is a soft or external
+// link.
+Object open_member(const File& file, const Object& group, std::string_view name);
+
+enum class Kind { kInteger, kFloat, kFixedString, kVariableString };
+struct Type {
+  Kind kind = Kind::kInteger;
+  std::size_t size = 0;  // of a value, bytes
+  bool big_endian = false;
+  bool is_signed = false;
+};
+// The array of an attribute or dataset, as it stands in the file.
+struct Array {
+  std::string path;  // for messages
+  Type type = {};
+  std::vector<std::uint64_t> extents = {};  // empty for a scalar
+  std::string_view data = {};               // product of the extents times type.size bytes
+};
+std::optional<Array> find_attribute(const File& file, const Object& object, std::string_view name);
+Array read_dataset(const File& file, const Object& dataset);
+
+// The values, as many as the array has. Throw InvalidInput for an array of another kind.
+std::string to_text(const File& file, const Array& array);  // of exactly one string
+std::vector<double> to_doubles(const File& file, const Array& array);
+std::vector<std::int64_t> to_integers(const File& file, const Array& array);
+std::int64_t to_integer(const File& file, const Array& array);  // of exactly one integer
+
+}  // namespace rholm::hdf5

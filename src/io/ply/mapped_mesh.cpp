@@ -1,0 +1,162 @@
+#include "rholm/mapped_mesh.h"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "io/ply/ply_header.h"
+#include "io/shapes/shape_source.h"
+
+namespace rholm {
+namespace {
+
+constexpr std::size_t kFaceBytes = 1 + 3 * 4;  // the length 3 and three indices
+
+// The content of a regular file that is not empty, else nothing.
+std::span<std::byte> map_file(const std::filesystem::path& path) {
+  // O_NONBLOCK: a pipe without a writer is not waited for.
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (file < 0) return {};
+  struct stat status = {};
+  void* map = MAP_FAILED;
+  if (::fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_size > 0) {
+    map =
+        ::mmap(nullptr, static_cast<std::size_t>(status.st_size), PROT_READ, MAP_PRIVATE, file, 0);
+  }
+  ::close(file);
+  if (map == MAP_FAILED) return {};
+  return {static_cast<std::byte*>(map), static_cast<std::size_t>(status.st_size)};
+}
+
+struct VertexRow {
+  ScalarType coordinate = ScalarType::kFloat64;
+  std::size_t offset = 0;  // of x
+  std::size_t stride = 0;
+};
+
+std::optional<VertexRow> row_of(const PlyElement& vertex) {
+  const std::size_t x = find_property(vertex, "x");
+  if (x == kNoProperty || find_property(vertex, "y") != x + 1 ||
+      find_property(vertex, "z") != x + 2) {
+    return {};
+  }
+  VertexRow row{.coordinate = vertex.properties[x].type};
+  if (row.coordinate != ScalarType::kFloat32 && row.coordinate != ScalarType::kFloat64) return {};
+  for (std::size_t i = 0; i < vertex.properties.size(); ++i) {
+    const PlyProperty& property = vertex.properties[i];
+    const bool is_coordinate = i >= x && i < x + 3;
+    if (property.is_list || (is_coordinate && property.type != row.coordinate)) return {};
+    if (i < x) row.offset += size_of(property.type);
+    row.stride += size_of(property.type);
+  }
+  return row;
+}
+
+bool is_plain_list(const PlyElement& face) {
+  if (face.properties.size() != 1) return false;
+  const PlyProperty& list = face.properties[0];
+  return list.is_list && size_of(list.count_type) == 1 &&
+         (list.type == ScalarType::kInt32 || list.type == ScalarType::kUint32) &&
+         (list.name == "vertex_indices" || list.name == "vertex_index");
+}
+
+// What the bytes hold, if it can be used where it lies.
+std::optional<MeshView> view_in(const ShapeSource& source) {
+  if (!looks_like_ply(source.bytes)) return {};
+  const PlyHeader header = parse_ply_header(source);
+  const PlyEncoding native = std::endian::native == std::endian::little ? PlyEncoding::kLittleEndian
+                                                                        : PlyEncoding::kBigEndian;
+  if (header.encoding != native || header.elements.size() != 2) return {};
+  const PlyElement &vertex = header.elements[0], &face = header.elements[1];
+  if (vertex.name != "vertex" || face.name != "face" || !is_plain_list(face)) return {};
+  const std::optional<VertexRow> row = row_of(vertex);
+  if (!row || vertex.count == 0 || vertex.count > std::numeric_limits<std::uint32_t>::max()) {
+    return {};
+  }
+  // The size must be right to the byte; counts are as claimed and may be anything.
+  const std::uint64_t left = source.bytes.size() - header.body;
+  if (vertex.count > left / row->stride) return {};
+  const std::uint64_t face_bytes = left - vertex.count * row->stride;
+  if (face.count == 0 || face_bytes % kFaceBytes != 0 || face_bytes / kFaceBytes != face.count) {
+    return {};
+  }
+  const auto* body = reinterpret_cast<const std::byte*>(source.bytes.data()) + header.body;
+  return MeshView{.vertices = body + row->offset,
+                  .n_vertices = vertex.count,
+                  .vertex_stride = row->stride,
+                  .coordinate = row->coordinate,
+                  .triangles = body + vertex.count * row->stride + 1,
+                  .n_triangles = face.count,
+                  .triangle_stride = kFaceBytes};
+}
+
+// In 16 faces the lengths come back to the same places of 16-byte vectors: whole vectors of bytes
+// are compared, of which only lengths count.
+constexpr std::size_t kRound = 16;
+constexpr auto kLengths = [] {
+  std::array<std::uint8_t, kRound * kFaceBytes> mask{};
+  for (std::size_t i = 0; i < kRound; ++i) mask[i * kFaceBytes] = 0xff;
+  return mask;
+}();
+
+}  // namespace
+
+MappedMesh& MappedMesh::operator=(MappedMesh&& other) noexcept {
+  std::swap(map_, other.map_);
+  std::swap(size_, other.size_);
+  std::swap(view_, other.view_);
+  return *this;
+}
+
+MappedMesh::~MappedMesh() {
+  if (map_ != nullptr) ::munmap(map_, size_);
+}
+
+bool MappedMesh::counts_are_three(std::size_t first, std::size_t n) const {
+  const auto* at = reinterpret_cast<const std::uint8_t*>(view_.triangles) - 1 + first * kFaceBytes;
+  unsigned bad = 0;
+  for (; n >= kRound; n -= kRound, at += kRound * kFaceBytes) {
+    std::uint8_t different = 0;
+    for (std::size_t i = 0; i < kLengths.size(); ++i) {
+      different = static_cast<std::uint8_t>(different | ((at[i] ^ 3) & kLengths[i]));
+    }
+    bad |= different;
+  }
+  for (; n > 0; --n, at += kFaceBytes) bad |= *at ^ 3u;
+  return bad == 0;
+}
+
+void MappedMesh::release(std::size_t first, std::size_t n) const {
+  const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+  const auto faces = static_cast<std::size_t>(view_.triangles - static_cast<std::byte*>(map_)) - 1;
+  // Whole pages: the first from its start on, for what is before has been worked through, but not
+  // the last, unless it is the file's.
+  const std::size_t begin = (faces + first * kFaceBytes) / page * page;
+  const std::size_t end = faces + (first + n) * kFaceBytes;
+  const std::size_t last = end == size_ ? end : end / page * page;
+  // A wish that may be refused without harm.
+  if (last > begin) ::madvise(static_cast<std::byte*>(map_) + begin, last - begin, MADV_DONTNEED);
+}
+
+std::optional<MappedMesh> map_mesh(const std::filesystem::path& path, const Context& context) {
+  if (path == "-") return {};
+  const std::span<std::byte> bytes = map_file(path);
+  if (bytes.empty()) return {};
+  MappedMesh mesh(bytes.data(), bytes.size());
+  const ShapeSource source({reinterpret_cast<const char*>(bytes.data()), bytes.size()},
+                           path.string(), {}, context, 0);
+  const std::optional<MeshView> view = view_in(source);
+  if (!view) return {};
+  mesh.view_ = *view;
+  return mesh;
+}
+
+}  // namespace rholm

@@ -1,0 +1,47 @@
+// The header of a PLY file. Layer: io.
+// Source: G. Turk, The PLY Polygon File Format (1994), and the type names of later writers.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "io/shapes/shape_source.h"
+#include "rholm/mesh.h"
+
+namespace rholm {
+
+struct PlyProperty {
+  std::string name;
+  ScalarType type = ScalarType::kFloat32;  // of the value, or of a list's items
+  bool is_list = false;
+  ScalarType count_type = ScalarType::kUint8;  // of a list's length
+};
+
+struct PlyElement {
+  std::string name;
+  std::uint64_t count = 0;  // as claimed, not yet checked
+  std::vector<PlyProperty> properties;
+};
+
+enum class PlyEncoding { kAscii, kLittleEndian, kBigEndian };
+
+struct PlyHeader {
+  PlyEncoding encoding = PlyEncoding::kAscii;
+  std::vector<PlyElement> elements;
+  std::size_t body = 0;  // where the data begin
+};
+
+// Throws InvalidInput with the line.
+PlyHeader parse_ply_header(const ShapeSource& source);
+
+// The element of that name or nullptr; the place of a property or kNoProperty.
+const PlyElement* find_element(const PlyHeader& header, const char* name);
+inline constexpr std::size_t kNoProperty = SIZE_MAX;
+std::size_t find_property(const PlyElement& element, const std::string& name);
+
+std::size_t size_of(ScalarType type);        // in bytes
+const char* ply_type_name(ScalarType type);  // "uchar", "float", ...
+
+}  // namespace rholm

@@ -1,0 +1,49 @@
+// Where the values of a PLY vertex go. Layer: io.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "io/ply/ply_header.h"
+#include "rholm/mesh.h"
+
+namespace rholm {
+
+// Collects vertices by blocks of rows: a reader writes the values of a block into the slots of its
+// properties, then the block is checked and appended. (Appending blocks that are in the cache
+// saves clearing the large arrays first.)
+class PlyVertices {
+ public:
+  // One place to write a property's values: row i goes to first[i * stride]; nullptr: not wanted.
+  struct Slot {
+    double* first = nullptr;
+    std::size_t stride = 1;
+  };
+
+  // `points`: normals are those of points, not attributes. Throws InvalidInput without x, y, z.
+  PlyVertices(const ShapeSource& source, const PlyElement& element, bool points);
+
+  std::size_t block_rows() const { return block_rows_; }
+  const std::vector<Slot>& slots() const { return slots_; }  // one per property of the element
+  void reserve(std::size_t rows);
+  void append_block(std::size_t rows);  // throws InvalidInput if a position is not finite
+
+  std::vector<Vec3> positions;
+  std::vector<Vec3> normals;
+  std::vector<Attribute> attributes;
+  std::vector<std::string> warnings;
+
+ private:
+  bool claim_vector(const PlyElement& element, const char* const (&names)[3],
+                    std::vector<Vec3>& block);
+
+  const ShapeSource& source_;
+  std::size_t block_rows_;
+  std::vector<Slot> slots_;
+  std::vector<Vec3> position_block_;
+  std::vector<Vec3> normal_block_;
+  std::vector<std::vector<double>> attribute_blocks_;
+};
+
+}  // namespace rholm

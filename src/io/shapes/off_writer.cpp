@@ -1,0 +1,37 @@
+// OFF with normals and colours: [C][N]OFF.
+#include "io/shapes/shape_writers.h"
+
+namespace rholm {
+
+void format_off(const ShapeView& shape, OutputBuffer& out) {
+  const std::vector<Vec3> normals = normals_of(shape);
+  std::vector<const Attribute*> colors;
+  if (const auto group = find_group<4>(shape.attributes, {"red", "green", "blue", "alpha"})) {
+    colors.assign(group->begin(), group->end());
+  } else if (const auto opaque = find_group<3>(shape.attributes, {"red", "green", "blue"})) {
+    colors.assign(opaque->begin(), opaque->end());
+  }
+  if (!colors.empty()) out.text("C");
+  if (!normals.empty()) out.text("N");
+  out.text("OFF\n");
+  out.number(shape.points.size(), ' ');
+  out.number(shape.triangles.size(), ' ');
+  out.text("0\n");
+  for (std::size_t i = 0; i < shape.points.size(); ++i) {
+    put_vector(shape.points[i], normals.empty() && colors.empty() ? '\n' : ' ', out);
+    if (!normals.empty()) put_vector(normals[i], colors.empty() ? '\n' : ' ', out);
+    for (const Attribute* color : colors) {
+      out.number(color->values[i], color == colors.back() ? '\n' : ' ');
+    }
+    out.rows(1);
+  }
+  for (const Triangle& t : shape.triangles) {
+    out.text("3 ");
+    out.number(t[0], ' ');
+    out.number(t[1], ' ');
+    out.number(t[2], '\n');
+    out.rows(1);
+  }
+}
+
+}  // namespace rholm

@@ -1,0 +1,58 @@
+// From chosen caps to a model whose extracted surface keeps a tolerance (method 7.8). Layer: model,
+// private.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "atlas/few/cap_samples.h"
+#include "rholm/compress.h"
+#include "rholm/topology.h"
+
+namespace rholm {
+
+// How a closed surface hangs together.
+struct Topology {
+  std::size_t components = 0, genus = 0;
+};
+inline Topology topology_of(const Inspection& found) { return {found.components, found.genus}; }
+// Parts and handles too many or too few; none where nothing is wanted.
+std::size_t n_wrong_handles(const Topology& found, const std::optional<Topology>& wanted);
+
+// More than these on a surface that is near enough are not mended by other grids, aims or finer
+// caps: handles are seen as if by chance, and with h in one grid another has none in about exp(-h).
+constexpr std::size_t kFewHandles = 3;
+
+// How far caps speak, of the support they were chosen with, and the power of it that small ones
+// override large ones by.
+struct Overlap {
+  double reach = 1, power = 1;
+  bool settles = false;  // whether other handles than the shape's are put up with
+};
+
+// What a model is made for.
+struct FitTarget {
+  const SampleLevels& levels;
+  std::optional<Topology> topology;  // of the shape, if it has one
+  double tolerance = 0;              // that is aimed at
+  double accepted = 0;               // that will do, at least as much
+  double stray = 0;                  // caps' surfaces farther from all samples are cut back
+  double step = 0;                   // of the grid
+  int max_degree = 14;
+  double uncovered = 0;  // share of the samples that the caps were not chosen for
+  std::function<Mesh(const AtlasModel&)> surface;
+  std::function<AtlasErrors(const Mesh&)> measure;
+};
+
+// What a fit leaves to the next.
+struct FitState {
+  int searches = 2;  // through all grids that may end with wrong handles; each as long as seven
+  double aim = 0;    // for the same caps, as far as it is known; 0: it is not
+};
+
+// Drops coefficients of the caps until the surface is as far from the shape as allowed; what is
+// better than `result` replaces it.
+void fit_atlas(const FitTarget& target, const Atlas& chosen, const Overlap& overlap,
+               Compressed& result, FitState& state, const Context& context);
+
+}  // namespace rholm

@@ -1,0 +1,33 @@
+// Samples of the outer surface of a mesh, where parts of it may run into each other. Layer: model,
+// private.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "model/points/oriented_points.h"
+#include "rholm/context.h"
+#include "rholm/mesh.h"
+#include "shape/queries/ray_scene.h"
+
+namespace rholm {
+
+struct OuterSurface {
+  const Mesh& mesh;
+  const RayScene& scene;  // of it
+  bool closed = false;    // of an open mesh all is outside
+  std::uint64_t seed = 1;
+};
+
+struct SheetProbe {
+  double gap = 0;     // between sheets that face each other: less on the share `thin` of the area
+  double hidden = 0;  // share of the area that lies inside of the solid
+};
+
+// From five thousand points. Throws InvalidInput if parts of the mesh are inside out.
+SheetProbe probe_sheets(const OuterSurface& surface, double thin, const Context& context);
+
+// What lies on the outside of `n` points spread by area, with the normals of their triangles.
+OrientedPoints outer_samples(const OuterSurface& surface, std::size_t n, const Context& context);
+
+}  // namespace rholm

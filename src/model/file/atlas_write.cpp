@@ -1,0 +1,94 @@
+// The model file of an atlas, written. Layout: docs/model-file.md.
+#include <array>
+#include <bit>
+#include <string>
+#include <string_view>
+
+#include "io/file/atomic_file.h"
+#include "io/hdf5/hdf5_writer.h"
+#include "model/file/atlas_crc32.h"
+#include "model/file/atlas_pack.h"
+#include "model/file/model_layout.h"
+#include "rholm/compress.h"
+#include "rholm/rholm.h"
+
+namespace rholm {
+namespace {
+
+using hdf5::Handle;
+using hdf5::Writer;
+
+template <class T>
+void write_table(const Writer& writer, hid_t group, const char* name, const std::vector<T>& values,
+                 std::size_t columns, hid_t file_type, hid_t memory_type) {
+  if (columns == 1) {
+    const std::array<hsize_t, 1> extents = {values.size()};
+    writer.write_dataset(group, name, extents, file_type, memory_type, values.data());
+    return;
+  }
+  const std::array<hsize_t, 2> extents = {values.size() / columns, columns};
+  writer.write_dataset(group, name, extents, file_type, memory_type, values.data());
+}
+
+void write_group(const Writer& writer, hid_t group, const AtlasModel& model) {
+  const PackedAtlas packed = pack(model.atlas);
+  const auto floats = [&](const char* name, const std::vector<float>& values, std::size_t columns) {
+    if (values.empty()) return;
+    write_table(writer, group, name, values, columns, H5T_IEEE_F32LE, H5T_NATIVE_FLOAT);
+  };
+  floats(layout::kCaps, packed.caps, kPackedCap);
+  floats(layout::kEllipses, packed.ellipses, 5);
+  floats(layout::kWeights, packed.weights, 1);
+  write_table(writer, group, layout::kDegrees, packed.degrees, 1, H5T_STD_U8LE, H5T_NATIVE_UINT8);
+  write_table(writer, group, layout::kKept, packed.kept, 1, H5T_STD_U8LE, H5T_NATIVE_UINT8);
+  write_table(writer, group, layout::kValues, packed.values, 1, H5T_STD_I16LE, H5T_NATIVE_INT16);
+  writer.write_fixed_text(group, layout::kBasis, packed.basis == CapBasis::kEven ? "even" : "full");
+  if (packed.blend != CapBlend::kSmooth) {
+    writer.write_fixed_text(group, layout::kBlend, to_string(packed.blend));
+  }
+  writer.write_attribute(group, layout::kOrigin, packed.origin);
+  const std::array<double, layout::kScaleNumbers> scales = {
+      packed.spacing, packed.noise, packed.band, model.step, model.tolerance};
+  writer.write_attribute(group, layout::kScales, scales);
+  writer.write_attribute(group, layout::kDiagonal, packed.diagonal);
+  writer.write_attribute(group, layout::kWeightPower, packed.weight_power);
+  if (model.errors) {
+    const AtlasErrors& e = *model.errors;
+    const std::array<double, layout::kErrorNumbers> errors = {e.rms_from, e.max_from, e.rms_to,
+                                                              e.max_to};
+    writer.write_attribute(group, layout::kAtlasErrors, errors);
+  }
+  writer.write_attribute(group, layout::kInputNumbers, static_cast<double>(model.input_numbers));
+  if (!model.unit.empty()) writer.write_fixed_text(group, layout::kUnit, model.unit);
+  if (!model.method.empty()) writer.write_fixed_text(group, layout::kMethod, model.method);
+  writer.write_attribute(group, layout::kCrc32, atlas_crc32(packed));
+}
+
+}  // namespace
+
+void write_atlas(const AtlasModel& model, const std::filesystem::path& path) {
+  const std::string name = path.string();
+  if (model.atlas.caps.empty()) {
+    throw Error(ErrorCode::kInvalidInput, name + ": an atlas without caps is not written");
+  }
+  AtomicFile output(path);
+  if (output.temporary_path().empty()) {
+    throw Error(ErrorCode::kUnsupported,
+                name + ": a model file needs a file that can be rewound, not a pipe");
+  }
+  const hdf5::QuietErrors quiet;
+  const Writer writer(name);
+  Handle file = writer.create_file(output.temporary_path().string());
+  {
+    const Handle root(writer.checked(H5Gopen2(file, "/", H5P_DEFAULT), "open the root"), H5Gclose);
+    writer.write_fixed_text(root, layout::kFormat, layout::kFormatName);
+    writer.write_attribute(root, layout::kVersionMajor, layout::kMajor);
+    writer.write_attribute(root, layout::kVersionMinor, layout::kMinor);
+    writer.write_fixed_text(root, layout::kProgram, std::string("rholm ") + kVersion);
+    write_group(writer, writer.create_group(file, layout::kAtlas), model);
+  }
+  if (!file.close()) writer.checked(-1, "close the file");
+  output.commit();
+}
+
+}  // namespace rholm

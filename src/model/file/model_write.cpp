@@ -1,0 +1,98 @@
+// The model file, written. Layout: docs/model-file.md.
+#include <fmt/format.h>
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "base/crc32.h"
+#include "io/coefficients/expansion_check.h"
+#include "io/file/atomic_file.h"
+#include "io/hdf5/hdf5_writer.h"
+#include "model/file/model_layout.h"
+#include "rholm/model.h"
+#include "rholm/rholm.h"
+
+namespace rholm {
+namespace {
+
+using hdf5::Handle;
+using hdf5::Writer;
+
+// Over the coefficients as they stand in the file, unit and method: what HDF5 itself leaves
+// without a checksum.
+std::uint32_t model_crc32(const Expansion& expansion) {
+  static_assert(std::endian::native == std::endian::little, "the file is little endian");
+  const std::span<const double> values = expansion.coefficients.values();
+  const std::string_view bytes(reinterpret_cast<const char*>(values.data()), values.size_bytes());
+  return crc32(expansion.method, crc32(expansion.unit, crc32(bytes)));
+}
+
+void write_errors(const Writer& writer, hid_t group, const TruncationErrors& errors) {
+  const auto write = [&](const char* name, const std::optional<double>& value) {
+    if (value) writer.write_attribute(group, name, *value);
+  };
+  write(layout::kErrorRms, errors.rms);
+  writer.write_attribute(group, layout::kErrorRmsIsExact, errors.rms_is_exact ? 1 : 0);
+  writer.write_attribute(group, layout::kDistancesAreClosest, errors.distances_are_closest ? 1 : 0);
+  write(layout::kPredictedMax, errors.predicted_max);
+  write(layout::kPredictedMaxDistance, errors.predicted_max_distance);
+  write(layout::kMeasuredMax, errors.measured_max);
+  write(layout::kMeasuredMaxDistance, errors.measured_max_distance);
+  write(layout::kDistanceRms, errors.distance_rms);
+  writer.write_attribute(group, layout::kErrorPoints, static_cast<double>(errors.points));
+  writer.write_attribute(group, layout::kDiagonal, errors.diagonal);
+}
+
+void write_expansion(const Writer& writer, hid_t group, const Expansion& expansion) {
+  const hsize_t side = static_cast<hsize_t>(expansion.coefficients.degree()) + 1;
+  const std::array<hsize_t, 3> extents = {2, side, side};
+  writer.write_dataset(group, layout::kCoefficients, extents, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE,
+                       expansion.coefficients.values().data());
+  writer.write_attribute(group, layout::kDegree, expansion.coefficients.degree());
+  writer.write_attribute(group, layout::kNormalization, to_string(Normalization::kOrthonormal));
+  writer.write_attribute(group, layout::kCsphase, 1);
+  writer.write_attribute(group, layout::kFunction, to_string(expansion.function));
+  writer.write_attribute(group, layout::kCenter, expansion.center);
+  writer.write_attribute(group, layout::kUnit, expansion.unit);
+  writer.write_attribute(group, layout::kMethod, expansion.method);
+  writer.write_attribute(group, layout::kCrc32, model_crc32(expansion));
+  if (expansion.norm_squared) {
+    writer.write_attribute(group, layout::kNormSquared, *expansion.norm_squared);
+  }
+  if (expansion.tail_strength) {
+    writer.write_attribute(group, layout::kTailStrength, *expansion.tail_strength);
+  }
+  if (expansion.errors) write_errors(writer, group, *expansion.errors);
+}
+
+}  // namespace
+
+void write_model(const Expansion& expansion, const std::filesystem::path& path) {
+  const std::string name = path.string();
+  check_expansion(expansion, name);
+  AtomicFile output(path);
+  if (output.temporary_path().empty()) {
+    throw Error(ErrorCode::kUnsupported, name +
+                                             ": a model file needs a file that can be "
+                                             "rewound, not a pipe: write .json instead");
+  }
+  const hdf5::QuietErrors quiet;
+  const Writer writer(name);
+  Handle file = writer.create_file(output.temporary_path().string());
+  {
+    const Handle root(writer.checked(H5Gopen2(file, "/", H5P_DEFAULT), "open the root"), H5Gclose);
+    writer.write_attribute(root, layout::kFormat, layout::kFormatName);
+    writer.write_attribute(root, layout::kVersionMajor, layout::kMajor);
+    writer.write_attribute(root, layout::kVersionMinor, layout::kMinor);
+    writer.write_attribute(root, layout::kProgram, std::string("rholm ") + kVersion);
+    write_expansion(writer, writer.create_group(file, layout::kExpansion), expansion);
+  }
+  if (!file.close()) writer.checked(-1, "close the file");
+  output.commit();
+}
+
+}  // namespace rholm

@@ -1,0 +1,193 @@
+#include "rholm/reconstruct.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "atlas/cover/cap_cover.h"
+#include "atlas/cover/cap_size.h"
+#include "base/stopwatch.h"
+#include "model/points/reconstruct_points.h"
+#include "rholm/error.h"
+#include "rholm/topology.h"
+#include "surface/atlas_surface.h"
+
+namespace rholm {
+namespace {
+
+constexpr int kDegree = 3;  // of small caps: method 7.3
+// Steps of the grid. Of the spacing (method 7.7): from 0.7 to 0.6 normals gain 3 %, faces and time
+// grow by a third; below distances gain nothing more. Of a cap's support: its surface has no waves
+// shorter than a third of it, and a step of half of that shows them.
+constexpr double kStepOfSpacing = 0.6;
+constexpr double kStepOfSupport = 0.15;
+// Where points are a thousand times sparser than elsewhere caps differ by more than the band of 2.5
+// fine steps: all but this share of the surface has smaller errors, and they may be this part of a
+// step. Measured: 0.07 steps on even points, 0.25 where density falls 30 times, both untouched; 2
+// where it falls 1000 times, torn to sheets below 1.2 steps of their error.
+constexpr double kSparseShare = 0.02;
+constexpr double kStepOfError = 2;
+// Points that no cap fits, or whose normals disagree, before all are searched for outliers: creases
+// and folds of clean shapes have fewer.
+constexpr double kSuspicious = 1e-3;
+constexpr double kDisagreeing = 0.04, kDisagreeingNoisy = 0.08;
+// Standard deviations of the noise within which caps are averaged: one that is off by as much must
+// not be heard alone.
+constexpr double kBandOfNoise = 3;
+
+// Of a point with its normal, its part of trees and caps: measured on 50 000 to 500 000.
+constexpr std::size_t kMemoryOfPoint = 300;
+
+void check(const ReconstructOptions& options) {
+  const auto refuse = [](const char* what, double value, const char* limit) {
+    throw Error(ErrorCode::kInvalidInput, fmt::format("{} is {}: {}", what, value, limit));
+  };
+  if (!(options.step >= 0) || !std::isfinite(options.step)) {
+    refuse("the step of the grid", options.step, "it must be positive, or 0 to choose it");
+  }
+  if (!(options.tolerance >= 0) || !std::isfinite(options.tolerance)) {
+    refuse("the tolerance", options.tolerance, "it must be positive, or 0 for none");
+  }
+  if (options.noise && !(*options.noise >= 0 && std::isfinite(*options.noise))) {
+    refuse("the noise", *options.noise, "it must be 0 or positive");
+  }
+  if (!(options.min_component >= 0 && options.min_component <= 1)) {
+    refuse("the least component", options.min_component, "it must be 0 ... 1 of the largest");
+  }
+}
+
+CoverOptions cover_options(const ReconstructOptions& options, const CapSize& size) {
+  return {.neighbours = size.neighbours,
+          .degree = kDegree,
+          .noise = size.noise,
+          .gradient_weight = size.gradient_weight,
+          .tolerance = options.tolerance};
+}
+
+// Caps for the points, once or twice: points that belong to no surface show in the caps they spoil.
+Cover fit_caps(WorkingPoints& points, const ReconstructOptions& options, CapSize& size,
+               ReconstructReport& report, const Context& context) {
+  const auto measure = [&] {
+    size = choose_cap_size(points.ordered(), kDegree, context);
+    if (options.noise) size.noise = *options.noise;
+  };
+  measure();
+  Cover caps;
+  const auto n = static_cast<double>(points.size());
+  if (!options.remove_outliers ||
+      size.disagreeing <= (size.noise > 0 ? kDisagreeingNoisy : kDisagreeing)) {
+    caps = cover(points.ordered(), cover_options(options, size), context);
+    const bool clean = static_cast<double>(caps.rejected.size()) <= kSuspicious * n;
+    if (!options.remove_outliers || clean) return caps;
+  }
+  report.outliers = points.remove_outliers(size.noise, caps.rejected, context);
+  if (report.outliers == 0 && !caps.caps.empty()) return caps;
+  measure();
+  return cover(points.ordered(), cover_options(options, size), context);
+}
+
+// The supports of most caps are at least this.
+double typical_support(const Atlas& atlas) {
+  std::vector<double> supports;
+  for (const Cap& cap : atlas.caps) supports.push_back(cap.frame.support);
+  const auto fifth = supports.begin() + static_cast<std::ptrdiff_t>(supports.size() / 5);
+  std::nth_element(supports.begin(), fifth, supports.end());
+  return *fifth;
+}
+
+// The area with larger errors is kSparseShare of the whole.
+double error_of_sparse(const Atlas& atlas) {
+  std::vector<const Cap*> caps;
+  double area = 0;
+  for (const Cap& cap : atlas.caps) {
+    caps.push_back(&cap);
+    area += cap.area;
+  }
+  std::sort(caps.begin(), caps.end(),
+            [](const Cap* a, const Cap* b) { return a->error > b->error; });
+  double sum = 0;
+  for (const Cap* cap : caps) {
+    sum += cap->area;
+    if (sum > kSparseShare * area) return cap->error;
+  }
+  return 0;
+}
+
+double choose_step(const ReconstructOptions& options, const CapSize& size, double fine_spacing,
+                   const Atlas& atlas) {
+  if (options.step > 0) return options.step;
+  const double step = kStepOfSpacing * fine_spacing;
+  if (size.noise == 0 && options.tolerance == 0) {
+    return std::max(step, kStepOfError * error_of_sparse(atlas));
+  }
+  return std::max(step, kStepOfSupport * typical_support(atlas));
+}
+
+}  // namespace
+
+const char* to_string(HolePolicy policy) { return policy == HolePolicy::kFill ? "fill" : "keep"; }
+
+HolePolicy parse_hole_policy(const std::string& name) {
+  for (const HolePolicy policy : {HolePolicy::kFill, HolePolicy::kKeep}) {
+    if (name == to_string(policy)) return policy;
+  }
+  throw Error(ErrorCode::kInvalidInput, "unknown way with holes '" + name + "': fill or keep");
+}
+
+Reconstruction reconstruct(PointCloud cloud, const ReconstructOptions& options,
+                           const Context& context) {
+  check(options);
+  Reconstruction result;
+  ReconstructReport& report = result.report;
+  StageTimes& times = report.times;
+  WorkingPoints points =
+      timed(times, "points", [&] { return WorkingPoints(std::move(cloud), report, context); });
+  CapSize size;
+  Cover caps =
+      timed(times, "caps", [&] { return fit_caps(points, options, size, report, context); });
+  if (caps.caps.empty()) {
+    throw Error(ErrorCode::kInvalidInput,
+                fmt::format("no surface goes with these {} points: no cap fits any of them; are "
+                            "their normals right (rholm orient)?",
+                            points.size()));
+  }
+  Atlas& atlas = result.atlas;
+  atlas.caps = std::move(caps.caps);
+  atlas.coefficients = std::move(caps.coefficients);
+  const Spacing spacing = points.spacing(context);
+  atlas.spacing = spacing.median, atlas.noise = size.noise;
+  atlas.diagonal = points.diagonal();
+  atlas.blend = options.blend, atlas.band = kBandOfNoise * size.noise;
+  report.caps = atlas.caps.size();
+  report.spacing = spacing.median, report.noise = size.noise;
+  report.normal_noise_degrees = size.normal_noise * 180 / std::numbers::pi;
+  report.neighbours = size.neighbours;
+  report.step = choose_step(options, size, spacing.fine, atlas);
+
+  const AtlasSurfaceOptions wanted{.step = report.step,
+                                   .keep_holes = options.holes == HolePolicy::kKeep,
+                                   .min_component = options.min_component,
+                                   .simplify = options.simplify,
+                                   .max_memory = options.max_memory,
+                                   .memory_in_use = kMemoryOfPoint * points.size()};
+  AtlasSurface surface =
+      timed(times, "surface", [&] { return extract_atlas(atlas, wanted, context); });
+  if (surface.mesh.triangles.empty()) {
+    throw Error(ErrorCode::kInvalidInput,
+                fmt::format("a grid with steps of {:.3g} finds no surface of these points, {:.3g} "
+                            "apart, with a diagonal of {:.3g}: take smaller steps",
+                            report.step, spacing.median, atlas.diagonal));
+  }
+  result.mesh = std::move(surface.mesh);
+  report.holes = surface.holes, report.smooth_holes = surface.smooth_holes;
+  report.dropped_components = surface.dropped_components;
+  report.faces = surface.faces, report.simplify_error = surface.simplify_error;
+  report.memory = surface.memory;
+  timed(times, "attributes", [&] { points.carry_attributes(result.mesh, context); });
+  return result;
+}
+
+}  // namespace rholm

@@ -1,0 +1,210 @@
+#include "model/points/reconstruct_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/parallel.h"
+#include "rholm/error.h"
+#include "rholm/points.h"
+#include "rholm/topology.h"
+#include "shape/on_line.h"
+#include "shape/points/face_inwards.h"
+#include "shape/points/outliers.h"
+
+namespace rholm {
+namespace {
+
+constexpr std::size_t kFewestPoints = 16;  // as many as a cap has coefficients
+// The circle around a point that holds its 8 nearest has 8 squares of the spacing.
+constexpr std::size_t kCircle = 8;
+constexpr std::size_t kSpacingSeeds = 2000;
+// Of even random points the tenth lies at 0.8 of the median; a finer part of uneven ones below.
+constexpr double kTenthOfEven = 0.8;
+// Of the diagonal: points no farther from one line than this have no surface, whatever their
+// normals; far above what single precision does to a line.
+constexpr double kLine = 1e-5;
+// Diagonals: squares of distances between neighbours must stay within single precision.
+constexpr double kSmallest = 1e-12, kLargest = 1e12;
+// Each sees what the one before has left (method 7.4).
+constexpr int kOutlierPasses = 3;
+// Random points are seldom fitted: as many are suspected as there are.
+constexpr double kOfSuspects = 2;
+// Of the points; smaller groups, where there are outliers, are made of them.
+constexpr double kLeastGroup = 0.002;
+
+// Points without a direction are of no use here.
+void drop_zero_normals(PointCloud& cloud) {
+  std::size_t kept = 0;
+  const std::size_t n = cloud.points.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!(norm(cloud.normals[i]) > 0)) continue;
+    cloud.points[kept] = cloud.points[i];
+    cloud.normals[kept] = cloud.normals[i];
+    for (Attribute& attribute : cloud.attributes) attribute.values[kept] = attribute.values[i];
+    ++kept;
+  }
+  cloud.points.resize(kept), cloud.normals.resize(kept);
+  for (Attribute& attribute : cloud.attributes) attribute.values.resize(kept);
+}
+
+void check_spread(const PointCloud& cloud, double diagonal) {
+  if (cloud.points.size() < kFewestPoints) {
+    throw Error(
+        ErrorCode::kInvalidInput,
+        fmt::format("{} different {} too few for a surface: {} at least", cloud.points.size(),
+                    cloud.points.size() == 1 ? "point with a normal is" : "points with normals are",
+                    kFewestPoints));
+  }
+  if (!(diagonal > kSmallest && diagonal < kLargest)) {
+    throw Error(ErrorCode::kInvalidInput,
+                fmt::format("the points span {}: {} ... {} can be worked with; take another unit",
+                            diagonal, kSmallest, kLargest));
+  }
+}
+
+void check_width(const std::vector<Vec3>& points, double diagonal) {
+  if (!lie_on_line(points, kLine * diagonal)) return;
+  throw Error(ErrorCode::kInvalidInput,
+              fmt::format("all {} points lie on one line, within {:.0e} of its length: give "
+                          "points of a surface",
+                          points.size(), kLine));
+}
+
+}  // namespace
+
+WorkingPoints::WorkingPoints(PointCloud cloud, ReconstructReport& report, const Context& context)
+    : cloud_(std::move(cloud)) {
+  report.points = cloud_.points.size();
+  clean(cloud_);
+  const bool directed = std::any_of(cloud_.normals.begin(), cloud_.normals.end(),
+                                    [](const Vec3& n) { return norm(n) > 0; });
+  diagonal_ = bounds(cloud_.points).diagonal();
+  if (!directed) {
+    check_spread(cloud_, diagonal_);
+    check_width(cloud_.points, diagonal_);
+    orient(cloud_, {}, context);
+    report.computed_normals = true;
+  }
+  drop_zero_normals(cloud_);
+  diagonal_ = bounds(cloud_.points).diagonal();
+  check_spread(cloud_, diagonal_);
+  check_width(cloud_.points, diagonal_);
+  report.dropped_points = report.points - cloud_.points.size();
+  order(context);
+  report.turned_normals = directed && face_inwards(*tree_, points_, normals_, context);
+  if (report.turned_normals) {
+    for (Vec3& normal : cloud_.normals) normal = -normal;
+    for (Vec3& normal : normals_) normal = -normal;
+  }
+}
+
+void WorkingPoints::order(const Context& context) {
+  tree_ = std::make_unique<PointTree>(cloud_.points, context);
+  const std::size_t n = tree_->size();
+  points_.resize(n), normals_.resize(n);
+  parallel_for(n, 8192, context, {}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t from = tree_->order()[i];
+      points_[i] = cloud_.points[from];
+      normals_[i] = normalized(cloud_.normals[from]);
+    }
+  });
+}
+
+Spacing WorkingPoints::spacing(const Context& context) const {
+  const std::size_t n = size(), seeds = std::min(n, kSpacingSeeds);
+  std::vector<double> all(seeds);
+  parallel_for(seeds, 256, context, {}, [&](std::size_t begin, std::size_t end) {
+    std::vector<Neighbor> near;
+    for (std::size_t j = begin; j < end; ++j) {
+      tree_->nearest_to(j * n / seeds, kCircle + 1, near);
+      all[j] = std::sqrt(std::numbers::pi * near.back().distance2 / kCircle);
+    }
+  });
+  std::sort(all.begin(), all.end());
+  const double median = all[seeds / 2];
+  return {median, std::min(median, all[seeds / 10] / kTenthOfEven)};
+}
+
+bool WorkingPoints::remove(const std::vector<std::uint8_t>& gone, const Context& context) {
+  const auto n = static_cast<std::size_t>(std::count(gone.begin(), gone.end(), 1));
+  if (n == 0 || size() - n < kFewestPoints) return false;
+  // A normal of zero is how points are dropped.
+  for (std::size_t i = 0; i < gone.size(); ++i) {
+    if (gone[i] != 0) cloud_.normals[tree_->order()[i]] = {};
+  }
+  drop_zero_normals(cloud_);
+  diagonal_ = bounds(cloud_.points).diagonal();
+  order(context);
+  return true;
+}
+
+std::size_t WorkingPoints::remove_outliers(double noise, std::span<const std::uint32_t> suspects,
+                                           const Context& context) {
+  const std::size_t before = size();
+  std::vector<std::uint8_t> gone = find_outliers(*tree_, points_, normals_, noise, context);
+  const auto found = static_cast<double>(std::count(gone.begin(), gone.end(), 1));
+  if (!suspects.empty() && found > kOfSuspects * static_cast<double>(suspects.size())) {
+    std::vector<std::uint8_t> both(size(), 0);
+    for (const std::uint32_t i : suspects) both[i] = gone[i];
+    remove(both, context);
+    return before - size();
+  }
+  for (int pass = 1; remove(gone, context) && pass < kOutlierPasses; ++pass) {
+    gone = find_outliers(*tree_, points_, normals_, noise, context);
+  }
+  const auto least = static_cast<std::size_t>(kLeastGroup * static_cast<double>(size()));
+  remove(find_small_groups(*tree_, normals_, std::max(kFewestPoints, least), context), context);
+  return before - size();
+}
+
+void WorkingPoints::carry_attributes(Mesh& mesh, const Context& context) const {
+  const std::size_t n = mesh.vertices.size(), first = mesh.attributes.size();
+  for (const Attribute& attribute : cloud_.attributes) {
+    mesh.attributes.push_back({attribute.name, attribute.type, std::vector<double>(n)});
+  }
+  if (mesh.attributes.size() == first) return;
+  parallel_for(n, 1024, context, {.name = "attributes"}, [&](std::size_t begin, std::size_t end) {
+    std::vector<Neighbor> near;
+    std::vector<double> weights;
+    const auto blended = [&](const Attribute& attribute) {
+      // Where a scanner had no value there may be no number: the others speak alone.
+      double value = 0, sum = 0;
+      for (std::size_t j = 0; j < near.size(); ++j) {
+        const double own = attribute.values[tree_->order()[near[j].index]];
+        if (!std::isfinite(own)) continue;
+        value += weights[j] * own;
+        sum += weights[j];
+      }
+      return value / sum;
+    };
+    for (std::size_t v = begin; v < end; ++v) {
+      tree_->nearest(mesh.vertices[v], kCircle, near);
+      // The weight of method 7.5, its support a little beyond the farthest.
+      const double support2 = 1.3 * std::max(1e-300, static_cast<double>(near.back().distance2));
+      weights.clear();
+      for (const Neighbor& p : near) {
+        const double rest = 1 - p.distance2 / support2;
+        weights.push_back(rest * rest * rest);
+      }
+      for (std::size_t a = 0; a < cloud_.attributes.size(); ++a) {
+        mesh.attributes[first + a].values[v] = blended(cloud_.attributes[a]);
+      }
+    }
+  });
+  // Values keep to their type: whole numbers stay whole, floats floats.
+  for (std::size_t a = first; a < mesh.attributes.size(); ++a) {
+    Attribute& attribute = mesh.attributes[a];
+    if (attribute.type == ScalarType::kFloat64) continue;
+    const bool real = attribute.type == ScalarType::kFloat32;
+    for (double& value : attribute.values) {
+      value = real ? static_cast<double>(static_cast<float>(value)) : std::round(value);
+    }
+  }
+}
+
+}  // namespace rholm

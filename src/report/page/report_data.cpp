@@ -1,0 +1,194 @@
+#include "report/page/report_data.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "base/parallel.h"
+#include "rholm/analyze.h"
+#include "rholm/error.h"
+#include "rholm/truncation.h"
+
+namespace rholm::report {
+namespace {
+
+constexpr int kRays = 20'000;  // chosen: the share of directions to a hundredth, in 20 ms
+
+// What a computation finds, or nothing where the surface does not exist (a gauge that is not
+// positive, coordinates that overflow).
+template <typename Function>
+auto unless_refused(const Function& function) -> std::optional<decltype(function())> {
+  try {
+    return function();
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::kInvalidInput) throw;
+    return std::nullopt;
+  }
+}
+
+// What lies above the model's own degree. Parseval's difference of two large numbers means
+// something while the error of the coefficients, 1e-8 by default and twice that in squares, leaves
+// 1/50 of it; else what was measured at points does.
+struct Tail {
+  double energy = 0;
+  bool known = false;
+  bool exact = false;
+  double floor = 0;  // it may be up to this; 0 where it is known better
+};
+Tail tail_of(const Expansion& expansion, double sum,
+             const std::optional<TruncationErrors>& errors) {
+  constexpr double kDoubt = 2e-8;
+  const auto energy_of = [](double rms) { return 4 * std::numbers::pi * rms * rms; };
+  if (expansion.function == RadialFunction::kRadius && errors && errors->rms) {
+    return {energy_of(*errors->rms), true, errors->rms_is_exact, 0};
+  }
+  if (!expansion.norm_squared) return {};
+  const double doubt = kDoubt * *expansion.norm_squared;
+  const double rest = std::max(0.0, *expansion.norm_squared - sum);
+  return {rest, true, rest > 50 * doubt, rest > doubt ? 0 : doubt};
+}
+
+// Summed from the top, so that small remainders are not lost against the large first degrees.
+void find_spectrum(const Expansion& expansion, Data& data) {
+  double sum = 0;
+  for (const double energy : data.energy) sum += energy;
+  const Tail tail = tail_of(expansion, sum, data.errors);
+  data.includes_tail = tail.known;
+  data.rms_floor = std::sqrt(tail.floor / (4 * std::numbers::pi));
+  data.rms_beyond.resize(data.energy.size());
+  data.is_exact.resize(data.energy.size());
+  double beyond = tail.energy;
+  for (std::size_t l = data.energy.size(); l-- > 0;) {
+    data.rms_beyond[l] = std::sqrt(beyond / (4 * std::numbers::pi));
+    // A tail of a thousandth of the whole that is known to a per cent is a few 1e-6 of the rms.
+    data.is_exact[l] = tail.known && (tail.exact || tail.energy + tail.floor < 1e-3 * beyond);
+    beyond += data.energy[l];
+  }
+}
+
+// By points of the shape, and Parseval where it applies.
+std::optional<TruncationErrors> measured_errors(const ShapeFigures& shape,
+                                                const Expansion& expansion, int degree,
+                                                bool predict, const Context& context) {
+  if (!shape.is_star() || degree > kHighestDrawn) return std::nullopt;
+  return unless_refused([&] {
+    return truncation_errors(view_of(shape.mesh), cut_off(expansion, degree), {.predict = predict},
+                             context);
+  });
+}
+
+DegreeRow row_of(int degree, const Expansion& expansion, const Data& data,
+                 const std::optional<TruncationErrors>& errors) {
+  DegreeRow row;
+  row.degree = degree;
+  if (errors) {
+    row.rms = errors->rms;
+    row.rms_is_exact = errors->rms_is_exact;
+    row.max = errors->measured_max;
+    row.max_distance = errors->measured_max_distance;
+  }
+  if (data.includes_tail && expansion.function == RadialFunction::kRadius) {
+    row.rms = data.rms_beyond[static_cast<std::size_t>(degree)];
+    row.rms_is_exact = data.is_exact[static_cast<std::size_t>(degree)];
+  }
+  return row;
+}
+
+}  // namespace
+
+void check(const Mesh* shape, const ReportOptions& options) {
+  constexpr int kMin = 16, kMax = 4096;
+  if (options.picture_size < kMin || options.picture_size > kMax) {
+    throw Error(ErrorCode::kInvalidInput,
+                fmt::format("the size of the pictures is {}, it must be {} ... {} pixels",
+                            options.picture_size, kMin, kMax));
+  }
+  if (options.tolerance && !(*options.tolerance > 0)) {
+    throw Error(ErrorCode::kInvalidInput,
+                fmt::format("the tolerance is {}, it must be above 0", *options.tolerance));
+  }
+  if (shape != nullptr && shape->triangles.empty()) {
+    throw Error(ErrorCode::kInvalidInput, "the shape has no triangle: there is nothing to draw");
+  }
+}
+
+ShapeFigures shape_figures(const Mesh& mesh, const Vec3& center, double weld_tolerance,
+                           const Context& context) {
+  validate(mesh);
+  ShapeFigures figures;
+  figures.mesh = weld(mesh, weld_tolerance).mesh;
+  figures.mesh.attributes.clear();
+  figures.inspection = inspect(figures.mesh);
+  if (figures.inspection.inside_out) {
+    flip(figures.mesh);
+    figures.inspection = inspect(figures.mesh);
+  }
+  figures.star = check_star(figures.mesh, center, kRays, context);
+  return figures;
+}
+
+bool may_be_of(const Expansion& expansion, const ShapeFigures& shape) {
+  // Chosen: a format of floats rounds lengths to 6e-8, twice that in their squares.
+  constexpr double kSame = 1e-6;
+  const auto same = [](double a, double b) { return std::abs(a - b) <= kSame * std::abs(b); };
+  if (expansion.errors && expansion.errors->diagonal > 0 &&
+      !same(shape.inspection.bounds.diagonal(), expansion.errors->diagonal)) {
+    return false;
+  }
+  if (!expansion.norm_squared) return true;
+  // Only a star-shaped surface has one.
+  if (!shape.is_star()) return false;
+  return expansion.function != RadialFunction::kRadius ||
+         same(radius_norm_squared(view_of(shape.mesh), expansion.center), *expansion.norm_squared);
+}
+
+std::vector<int> degree_ladder(int degree) {
+  std::vector<int> degrees;
+  for (int l = 1; l < degree; l *= 2) degrees.push_back(l);
+  degrees.push_back(degree);
+  return degrees;
+}
+
+Expansion cut_off(const Expansion& expansion, int degree) {
+  if (degree >= expansion.coefficients.degree()) return expansion;
+  Expansion cut = expansion;
+  cut.coefficients = expansion.coefficients.resized(degree);
+  cut.errors.reset();
+  return cut;
+}
+
+Data find_data(const Expansion& expansion, std::optional<ShapeFigures> shape,
+               const Context& context) {
+  const int degree = expansion.coefficients.degree();
+  Data data;
+  data.errors = expansion.errors;
+  data.diagonal = expansion.errors ? expansion.errors->diagonal : 0;
+  report_progress(context, "figures", 0);
+  data.shape = std::move(shape);
+  if (data.shape) data.diagonal = data.shape->inspection.bounds.diagonal();
+  // What the model knows of itself was found with the precision of its coefficients.
+  if (!data.errors && data.shape) {
+    data.errors = measured_errors(*data.shape, expansion, degree, true, context);
+  }
+  data.energy = power_spectrum(expansion.coefficients);
+  find_spectrum(expansion, data);
+  for (const int l : degree_ladder(degree)) {
+    std::optional<TruncationErrors> errors = l == degree ? data.errors : std::nullopt;
+    if (l < degree && data.shape) {
+      errors = measured_errors(*data.shape, expansion, l, false, context);
+    }
+    data.rows.push_back(row_of(l, expansion, data, errors));
+  }
+  if (degree <= kHighestDrawn) {
+    data.model = unless_refused([&] { return measure(expansion, context); });
+  }
+  if (expansion.function == RadialFunction::kRadius) {
+    data.mean_radius = expansion.coefficients.c(0, 0) / std::sqrt(4 * std::numbers::pi);
+  }
+  return data;
+}
+
+}  // namespace rholm::report

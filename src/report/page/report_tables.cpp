@@ -1,0 +1,188 @@
+#include "report/page/report_tables.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "report/page/html.h"
+#include "report/page/report_markup.h"
+
+namespace rholm::report {
+namespace {
+
+constexpr const char* kDash = "&#8211;";
+
+std::string length_cell(const std::optional<double>& value, const Data& data) {
+  return two_lines(html::length(value, ""), of_diagonal(value, data));
+}
+
+Row degree_row(const DegreeRow& row, const Data& data, bool own) {
+  const std::size_t n = (row.degree + std::size_t{1}) * (row.degree + std::size_t{1});
+  return {{std::to_string(row.degree), html::count(n), html::count(8 * n),
+           two_lines(rms_text(row, data, ""), of_diagonal(row.rms, data)),
+           length_cell(row.max, data), length_cell(row.max_distance, data)},
+          own};
+}
+
+// What a value is, and how it is known.
+struct Known {
+  const char* what;
+  std::optional<double> value;
+  std::string how;
+};
+
+std::vector<Known> known_errors(const TruncationErrors& e) {
+  const std::string measured = fmt::format("measured at {} points", html::count(e.points));
+  const char* parseval = "exact, by Parseval&#8217;s identity";
+  const char* predicted = "predicted from the edges at the vertices";
+  return {{"rms of the radius, over solid angle", e.rms, e.rms_is_exact ? parseval : measured},
+          {"rms distance of the surfaces, over area", e.distance_rms, measured},
+          {"largest error of the radius", e.measured_max, measured},
+          {"largest error of the radius", e.predicted_max, predicted},
+          {"largest distance of the surfaces", e.measured_max_distance, measured},
+          {"largest distance of the surfaces", e.predicted_max_distance, predicted}};
+}
+
+std::string yes_or_no(bool yes) { return yes ? "yes" : "no"; }
+
+// A value of the model, and how far it is from the shape's.
+std::string beside(double model, const std::optional<double>& shape) {
+  std::string text = html::number(model, 6);
+  if (!shape || !(*shape != 0) || !std::isfinite(model / *shape)) return text;
+  const double difference = 100 * (model / *shape - 1);
+  const char* sign = difference < 0 ? "&#8722;" : "+";
+  return two_lines(text, fmt::format("{}{}&nbsp;%", sign, html::number(std::abs(difference), 2)));
+}
+
+void add_measures(const Data& data, const std::string& unit, std::vector<Row>& rows) {
+  std::optional<double> volume, area;
+  std::string shape_volume = kDash, shape_area = kDash, shape_centre = kDash;
+  if (data.shape) {
+    const Inspection& shape = data.shape->inspection;
+    shape_area = html::number(*(area = shape.area), 6);
+    if (shape.closed && shape.oriented) {
+      shape_volume = html::number(*(volume = shape.volume), 6);
+      shape_centre = point_text(shape.volume_centroid, data.diagonal);
+    }
+  }
+  const auto row = [&](const std::string& name, const std::string& shape,
+                       const std::string& model) {
+    rows.push_back({{name, shape, model}});
+  };
+  const std::string power = unit.empty() ? "" : html::escaped(unit);
+  const auto of_unit = [&](const char* name, const char* exponent) {
+    return power.empty() ? name : fmt::format("{}, {}{}", name, power, exponent);
+  };
+  const bool model = data.model.has_value();
+  row(of_unit("volume", "&#179;"), shape_volume,
+      model ? beside(data.model->volume, volume) : kDash);
+  row(of_unit("area", "&#178;"), shape_area, model ? beside(data.model->area, area) : kDash);
+  row(of_unit("centre of the solid (<i>x</i>, <i>y</i>, <i>z</i>)", ""), shape_centre,
+      model ? point_text(data.model->centroid, std::max(data.diagonal, data.mean_radius)) : kDash);
+}
+
+}  // namespace
+
+std::string of_diagonal(const std::optional<double>& length, const Data& data) {
+  return part_of(length, data.diagonal);
+}
+
+std::string point_text(const Vec3& p, double size) {
+  const int power = size > 0 ? static_cast<int>(std::floor(std::log10(size))) : 0;
+  const auto coordinate = [&](double x) {
+    // As many decimals as six digits of the size have.
+    if (power >= -4 && power < 7) return html::decimal(x, std::max(0, 5 - power));
+    return html::number(std::abs(x) < 1e-12 * size ? 0 : x, 6);
+  };
+  return fmt::format("{}<br>{}<br>{}", coordinate(p.x), coordinate(p.y), coordinate(p.z));
+}
+
+std::string rms_text(const DegreeRow& row, const Data& data, const std::string& unit, int digits) {
+  if (!row.rms) return kDash;
+  if (data.rms_floor > 0 && *row.rms <= data.rms_floor) {
+    return "&lt;&nbsp;" + html::length(data.rms_floor, unit, 1);
+  }
+  return (row.rms_is_exact ? "" : "&#8776;&nbsp;") + html::length(row.rms, unit, digits);
+}
+
+std::string degree_table(const Expansion& expansion, const Data& data) {
+  const std::string& unit = expansion.unit;
+  Table table{.label = "Errors by degree",
+              .columns = {{"degree <i>L</i>", true},
+                          {"coefficients", true},
+                          {"bytes", true},
+                          {with_unit("rms error", unit), true},
+                          {with_unit("largest error<br>of the radius", unit), true},
+                          {with_unit("largest distance<br>of the surfaces", unit), true}},
+              .rows = {}};
+  for (const DegreeRow& row : data.rows) {
+    table.rows.push_back(degree_row(row, data, row.degree == data.rows.back().degree));
+  }
+  return markup_of(table);
+}
+
+std::string error_table(const Expansion& expansion, const Data& data) {
+  Table table{.label = "What is known of the error",
+              .columns = {{"error", false},
+                          {with_unit("value", expansion.unit), true},
+                          {"how it is known", false}},
+              .rows = {}};
+  if (data.errors) {
+    for (const Known& known : known_errors(*data.errors)) {
+      if (!known.value) continue;
+      table.rows.push_back({{known.what, length_cell(known.value, data), known.how}});
+    }
+  } else if (data.includes_tail) {
+    const bool gauge = expansion.function == RadialFunction::kGauge;
+    table.columns[1].heading = gauge ? "value" : table.columns[1].heading;
+    table.rows.push_back(
+        {{gauge ? "rms of 1/<i>r</i>, over solid angle" : "rms of the radius, over solid angle",
+          (data.rms_floor > 0 ? "&lt;&nbsp;" + html::number(data.rms_floor, 1)
+                              : html::number(data.rms_beyond.back())),
+          data.is_exact.back() ? "exact, by Parseval&#8217;s identity"
+                               : "by Parseval&#8217;s identity, as far as the precision of the "
+                                 "coefficients allows"}});
+  }
+  return table.rows.empty() ? "" : markup_of(table);
+}
+
+std::string figure_table(const Expansion& expansion, const Data& data) {
+  const std::string& unit = expansion.unit;
+  Table table{.label = "Figures of shape and model",
+              .columns = {{"figure", false}, {"shape", true}, {"model", true}},
+              .rows = {}};
+  std::vector<Row>& rows = table.rows;
+  if (data.shape) {
+    const Inspection& shape = data.shape->inspection;
+    rows.push_back({{"vertices", html::count(shape.vertices), kDash}});
+    rows.push_back({{"faces", html::count(shape.triangles), kDash}});
+  }
+  if (data.diagonal > 0) {
+    rows.push_back({{with_unit("diagonal <i>d</i> of the bounding box", unit),
+                     html::number(data.diagonal, 6), kDash}});
+  }
+  add_measures(data, unit, rows);
+  if (data.mean_radius != 0) {
+    rows.push_back({{with_unit("mean radius, over solid angle", unit), kDash,
+                     html::number(data.mean_radius, 6)}});
+  }
+  const std::string centre =
+      point_text(expansion.center, std::max(data.diagonal, data.mean_radius));
+  rows.push_back(
+      {{with_unit("centre of the expansion (<i>x</i>, <i>y</i>, <i>z</i>)", unit), kDash, centre}});
+  if (data.shape) {
+    const StarReport& star = data.shape->star;
+    rows.push_back({{"closed", yes_or_no(data.shape->inspection.closed), kDash}});
+    rows.push_back({{"star-shaped from the centre", yes_or_no(data.shape->is_star()), kDash}});
+    rows.push_back({{with_unit("min <i>d<sub>T</sub></i>: the nearest plane of a face", unit),
+                     html::number(star.min_d, 6), kDash}});
+    rows.push_back({{"min cos &#947;: the face seen most aslant",
+                     html::number(star.min_cos_gamma, 4), kDash}});
+  }
+  return markup_of(table);
+}
+
+}  // namespace rholm::report

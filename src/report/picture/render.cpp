@@ -1,0 +1,307 @@
+#include "rholm/render.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "base/parallel.h"
+#include "base/random.h"
+#include "base/refuse.h"
+#include "report/picture/canvas.h"
+#include "report/picture/scale_bar.h"
+#include "report/picture/shade.h"
+#include "report/picture/view.h"
+#include "rholm/topology.h"
+#include "shape/face.h"
+
+namespace rholm {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+const Color kPaper = {1, 1, 1};
+const Color kInk = {0.03f, 0.03f, 0.035f};
+
+void require_between(int value, int low, int high, const char* what) {
+  if (value >= low && value <= high) return;
+  refuse(std::string(what) + " is " + std::to_string(value) + ", it must be " +
+         std::to_string(low) + " ... " + std::to_string(high));
+}
+
+void check(std::span<const Panel> panels, const RenderOptions& options) {
+  require_between(options.width, 16, 16384, "the picture's width");
+  require_between(options.height, 16, 16384, "the picture's height");
+  require_between(options.samples, 1, 16, "the number of samples along a pixel's side");
+  require_between(options.occlusion_rays, 0, 256, "the number of occlusion rays");
+  if (panels.empty()) refuse("a picture needs at least 1 panel");
+  if (panels.size() > static_cast<std::size_t>(options.width) / 16) {
+    refuse(std::to_string(panels.size()) + " panels do not fit into a width of " +
+           std::to_string(options.width) + " pixels; each needs at least 16");
+  }
+  for (const Panel& panel : panels) {
+    if (panel.mesh == nullptr || panel.mesh->triangles.empty()) {
+      refuse("a panel needs a mesh with at least 1 triangle");
+    }
+    validate(*panel.mesh);
+    if (!panel.colors.empty() && panel.colors.size() != panel.mesh->vertices.size()) {
+      refuse("a panel has " + std::to_string(panel.colors.size()) + " colours for " +
+             std::to_string(panel.mesh->vertices.size()) + " vertices");
+    }
+    if (panel.scalars.empty()) continue;
+    if (panel.scalars.size() != panel.mesh->vertices.size()) {
+      refuse("a panel has " + std::to_string(panel.scalars.size()) + " scalars for " +
+             std::to_string(panel.mesh->vertices.size()) + " vertices");
+    }
+    const auto finite = [](double s) { return std::isfinite(s); };
+    if (!std::all_of(panel.scalars.begin(), panel.scalars.end(), finite)) {
+      refuse("a panel has a scalar that is not a finite number");
+    }
+  }
+}
+
+// The wanted range, or that of all scalars; at a single value one that is not empty, by an end that
+// nobody chose. None without scalars.
+std::optional<ColorScale> color_scale(std::span<const Panel> panels, const RenderOptions& options) {
+  double min = kInfinity, max = -kInfinity;
+  for (const Panel& panel : panels) {
+    for (const double s : panel.scalars) {
+      min = std::min(min, s);
+      max = std::max(max, s);
+    }
+  }
+  if (min > max) return std::nullopt;
+  ColorScale scale = {options.scale_min.value_or(min), options.scale_max.value_or(max)};
+  if (scale.min == scale.max) {
+    const double margin = scale.min == 0 ? 1 : std::abs(scale.min) / 2;
+    if (!options.scale_min) scale.min = std::min(scale.max - (options.scale_max ? margin : 0), 0.0);
+    if (!options.scale_max) scale.max += margin;
+  }
+  if (!(scale.min < scale.max) || !std::isfinite(scale.max - scale.min)) {
+    refuse("the colour scale runs from " + std::to_string(scale.min) + " to " +
+           std::to_string(scale.max) + "; its lower end must be below the upper one");
+  }
+  return scale;
+}
+
+// All panels share one scale, a power of two, so that rounding does not depend on the unit; each
+// is moved to its own middle.
+double common_scale(std::span<const Panel> panels) {
+  Vec3 largest;
+  for (const Panel& panel : panels) {
+    const Bounds box = bounds(panel.mesh->vertices);
+    const Vec3 half = 0.5 * box.max - 0.5 * box.min;
+    largest = {std::max(largest.x, half.x), std::max(largest.y, half.y),
+               std::max(largest.z, half.z)};
+  }
+  return unit_frame({-largest, largest}).scale;
+}
+
+std::vector<Vec3> vertex_normals(const Mesh& mesh) {
+  const Attribute* x = find_attribute(mesh.attributes, "nx");
+  const Attribute* y = find_attribute(mesh.attributes, "ny");
+  const Attribute* z = find_attribute(mesh.attributes, "nz");
+  std::vector<Vec3> normals;
+  if (x == nullptr || y == nullptr || z == nullptr) return normals;
+  normals.reserve(mesh.vertices.size());
+  for (std::size_t k = 0; k < mesh.vertices.size(); ++k) {
+    const Vec3 normal = normalized({x->values[k], y->values[k], z->values[k]});
+    normals.push_back(is_finite(normal) ? normal : Vec3{});
+  }
+  return normals;
+}
+
+Subject make_subject(const Panel& panel, double scale) {
+  Subject subject{{panel.mesh->vertices, panel.mesh->triangles, {}}, {}, nullptr, 0};
+  const Bounds box = bounds(panel.mesh->vertices);
+  const UnitFrame frame = {scale * (0.5 * box.min) + scale * (0.5 * box.max), scale};
+  for (Vec3& vertex : subject.mesh.vertices) {
+    vertex = frame.to_local(vertex);
+    subject.radius = std::max(subject.radius, norm(vertex));
+  }
+  if (panel.smooth) subject.normals = vertex_normals(*panel.mesh);
+  if (!panel.scalars.empty()) subject.scalars = &panel.scalars;
+  for (const std::array<float, 3>& c : panel.colors) {
+    subject.colors.push_back({from_srgb(c[0]), from_srgb(c[1]), from_srgb(c[2])});
+  }
+  return subject;
+}
+
+// Where things stand in the picture, in pixels.
+struct Layout {
+  double panel_width = 0;
+  double panel_height = 0;
+  double text_size = 0;
+  double label_baseline = 0;
+  double bar_top = 0;
+};
+
+Layout make_layout(std::span<const Panel> panels, const RenderOptions& options, bool bar) {
+  Layout layout;
+  const double width = options.width, height = options.height;
+  layout.panel_width = width / static_cast<double>(panels.size());
+  double size = 0.024 * std::min(height, width);  // chosen: reads well in a README's column
+  bool labels = false;
+  for (const Panel& panel : panels) {
+    labels = labels || !panel.label.empty();
+    size = std::min(size, 0.9 * layout.panel_width / std::max(1.0, text_width(panel.label, 1)));
+  }
+  layout.text_size = size;
+  const double bar_height = bar ? scale_bar_height(size, options.scale_label) + 1.2 * size : 0;
+  const double label_height = labels ? 3 * size : 0;
+  layout.panel_height = height - bar_height - label_height;
+  layout.label_baseline = layout.panel_height + 1.6 * size;
+  layout.bar_top = layout.panel_height + label_height;
+  return layout;
+}
+
+// The largest number of pixels per unit at which every panel's box fits, with a margin.
+double pixels_per_unit(const std::vector<PlaneBox>& boxes, const Layout& layout) {
+  constexpr double kFilled = 0.90;
+  double scale = kInfinity;
+  for (const PlaneBox& box : boxes) {
+    if (box.width() > 0) scale = std::min(scale, kFilled * layout.panel_width / box.width());
+    if (box.height() > 0) scale = std::min(scale, kFilled * layout.panel_height / box.height());
+  }
+  return std::isfinite(scale) ? scale : 1;
+}
+
+// A panel's thing, and how it is seen.
+struct Sight {
+  Subject subject;
+  View view;
+  PlaneBox box;
+  double pixels_per_unit = 1;
+};
+
+// Of panels that have one scale.
+std::vector<Sight> sights_at_one_scale(std::span<const Panel> panels, const RenderOptions& options,
+                                       const Layout& layout) {
+  const double to_unit = common_scale(panels);
+  std::vector<Sight> sights;
+  double radius = 0;
+  for (const Panel& panel : panels) {
+    sights.push_back({.subject = make_subject(panel, to_unit), .view = {}, .box = {}});
+    radius = std::max(radius, sights.back().subject.radius);
+  }
+  std::vector<PlaneBox> boxes;
+  for (Sight& sight : sights) {
+    sight.view = make_view(options, radius > 0 ? radius : 1);
+    sight.box = projected_box(sight.view, sight.subject.mesh);
+    boxes.push_back(sight.box);
+  }
+  for (Sight& sight : sights) sight.pixels_per_unit = pixels_per_unit(boxes, layout);
+  return sights;
+}
+
+std::vector<Sight> make_sights(std::span<const Panel> panels, const RenderOptions& options,
+                               const Layout& layout) {
+  if (!options.fit_each) return sights_at_one_scale(panels, options, layout);
+  std::vector<Sight> sights;
+  for (const Panel& panel : panels) {
+    sights.push_back(std::move(sights_at_one_scale({&panel, 1}, options, layout).front()));
+  }
+  return sights;
+}
+
+struct PanelPicture {
+  const Subject& subject;
+  const View& view;
+  const ColorScale& scale;
+  PlaneBox box;
+  double pixels_per_unit;
+  double center_x, center_y;  // pixels
+  int left, right, height;    // pixels
+};
+
+Color pixel_color(const PanelPicture& p, const RayScene& scene, const LightSamples& lights,
+                  int side, int x, int y) {
+  const std::uint64_t seed =
+      random_bits(static_cast<std::uint64_t>(x), static_cast<std::uint64_t>(y));
+  const PixelShift shift = pixel_shift(seed);
+  const PlanePoint middle = {0.5 * (p.box.min.x + p.box.max.x), 0.5 * (p.box.min.y + p.box.max.y)};
+  Color sum;
+  for (int sample = 0; sample < side * side; ++sample) {
+    const auto jitter = [&](int cell, int k) {  // numbers 0 and 1 belong to pixel_shift()
+      return (cell + random_uniform(seed, 2 + 2 * sample + k)) / side;
+    };
+    const double px = x + jitter(sample % side, 0), py = y + jitter(sample / side, 1);
+    const ViewRay ray = p.view.ray({middle.x + (px - p.center_x) / p.pixels_per_unit,
+                                    middle.y - (py - p.center_y) / p.pixels_per_unit});
+    const auto seen = shade(p.subject, scene, p.view, p.scale, lights, shift, ray, sample);
+    sum = sum + seen.value_or(kPaper);
+  }
+  return (1.0f / static_cast<float>(side * side)) * sum;
+}
+
+void draw_panel(Canvas& canvas, const PanelPicture& p, const RenderOptions& options,
+                const Context& context, const ParallelStage& stage) {
+  // Far below a pixel, beside something large, there is nothing to see; rays that start at the
+  // large thing's distance would overflow in units of the small one.
+  constexpr double kVisible = 1e-3;
+  if (p.subject.radius * p.pixels_per_unit < kVisible) return;
+  const RayScene scene(p.subject.mesh);
+  const LightSamples lights =
+      make_light_samples(options.samples * options.samples, options.occlusion_rays);
+  constexpr std::size_t kRows = 8;  // of a chunk: some 10 ms
+  parallel_for(static_cast<std::size_t>(p.height), kRows, context, stage,
+               [&](std::size_t begin, std::size_t end) {
+                 for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+                   for (int x = p.left; x < p.right; ++x) {
+                     canvas.at(x, y) = pixel_color(p, scene, lights, options.samples, x, y);
+                   }
+                 }
+               });
+}
+
+}  // namespace
+
+std::vector<std::array<float, 3>> vertex_colors(const Mesh& mesh) {
+  const char* names[] = {"red", "green", "blue"};
+  std::vector<std::array<float, 3>> colors;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Attribute* channel = find_attribute(mesh.attributes, names[k]);
+    if (channel == nullptr) return {};
+    const bool real =
+        channel->type == ScalarType::kFloat32 || channel->type == ScalarType::kFloat64;
+    colors.resize(channel->values.size());
+    for (std::size_t i = 0; i < colors.size(); ++i) {
+      const double value = channel->values[i] / (real ? 1 : 255);
+      colors[i][k] = std::isfinite(value) ? static_cast<float>(std::clamp(value, 0.0, 1.0)) : 0;
+    }
+  }
+  return colors;
+}
+
+Image render(std::span<const Panel> panels, const RenderOptions& options, const Context& context) {
+  check(panels, options);
+  const std::optional<ColorScale> scale = color_scale(panels, options);
+  const Layout layout = make_layout(panels, options, scale && options.scale_bar);
+  const std::vector<Sight> sights = make_sights(panels, options, layout);
+
+  Canvas canvas = make_canvas(options.width, options.height, kPaper);
+  const auto n = static_cast<double>(panels.size());
+  for (std::size_t k = 0; k < panels.size(); ++k) {
+    const auto first = static_cast<double>(k);
+    const double left = first * layout.panel_width, right = left + layout.panel_width;
+    const PanelPicture picture = {sights[k].subject,
+                                  sights[k].view,
+                                  scale.value_or(ColorScale{}),
+                                  sights[k].box,
+                                  sights[k].pixels_per_unit,
+                                  0.5 * (left + right),
+                                  0.5 * layout.panel_height,
+                                  static_cast<int>(left),
+                                  static_cast<int>(right),
+                                  static_cast<int>(layout.panel_height)};
+    draw_panel(canvas, picture, options, context, {"render", first / n, (first + 1) / n});
+    draw_text(canvas, panels[k].label, picture.center_x, layout.label_baseline, layout.text_size,
+              kInk);
+  }
+  if (scale && options.scale_bar) {
+    draw_scale_bar(canvas, *scale, options.scale_label, 0.5 * options.width, layout.bar_top,
+                   0.5 * options.width, layout.text_size);
+  }
+  return to_image(canvas);
+}
+
+}  // namespace rholm

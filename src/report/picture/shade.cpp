@@ -1,0 +1,202 @@
+// A key light from the upper left with soft shadows, a fill light from the right, and the light of
+// a bright sky that reaches a point from all free directions (ambient occlusion).
+#include "report/picture/shade.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "base/random.h"
+
+namespace rholm {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// All chosen by eye; sky, key and fill together give 1.1 to 1.2 on a face turned to the key.
+constexpr double kSky = 0.48, kSkySlope = 0.26;  // more from above by that part
+constexpr double kKey = 0.70, kFill = 0.06;
+constexpr double kBounce = 0.05;  // reaches every nook: the inside of an open shape is not black
+// Part of the light that does not depend on the surface where colours stand for numbers.
+constexpr double kFlatLight = 0.45;
+constexpr double kKeyRadius = 0.18;  // of the key's disc at distance 1: 10 degrees
+
+// Rays start this far (in radii) off the surface: 1000 times the rounding of Embree's floats.
+constexpr double kRayOffset = 1e-4;
+
+// Made once: they are asked for at every sample.
+Color plain_color() {
+  static const Color color = from_oklch(0.83, 0.045, 75);  // sandstone
+  return color;
+}
+Color back_color() {
+  static const Color color = from_oklch(0.55, 0.14, 28);  // brick: seen from inside
+  return color;
+}
+
+struct Frame {
+  Vec3 x, y, z;
+};
+// An orthonormal frame about z without a jump but at z = -1 (Duff et al. 2017).
+Frame frame_about(const Vec3& n) {
+  const double sign = std::copysign(1.0, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
+  return {{1 + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, n};
+}
+
+struct Place {
+  Vec3 point;   // from where secondary rays start
+  Vec3 face;    // unit normal of the face, towards the eye
+  Vec3 normal;  // unit normal for shading, towards the eye
+  bool back = false;
+  double scalar = 0;
+  Color color;
+};
+
+// Of the interpolated surface: the mean of the projections onto the planes of the corners (Hanika
+// 2021, "Hacking the shadow terminator"), so that facets do not show in the shadow's border.
+Vec3 rounded_point(const Subject& subject, const Triangle& t, const double (&weights)[3],
+                   const Vec3& point, double side) {
+  Vec3 result;
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 normal = side * subject.normals[t[k]];
+    const double depth = std::min(0.0, dot(point - subject.mesh.vertices[t[k]], normal));
+    result += weights[k] * (point - depth * normal);
+  }
+  return result;
+}
+
+Place place_of(const Subject& subject, const ViewRay& ray, const RayHit& hit) {
+  const Triangle& t = subject.mesh.triangles[hit.triangle];
+  const double weights[3] = {1.0 - hit.u - hit.v, hit.u, hit.v};
+  const auto mix = [&](const std::vector<Vec3>& of) {
+    return weights[0] * of[t[0]] + weights[1] * of[t[1]] + weights[2] * of[t[2]];
+  };
+  const std::vector<Vec3>& v = subject.mesh.vertices;
+  Place place;
+  place.face = normalized(cross(v[t[1]] - v[t[0]], v[t[2]] - v[t[0]]));
+  place.back = dot(place.face, ray.direction) > 0;
+  const double side = place.back ? -1 : 1;
+  place.face = side * place.face;
+  place.point = mix(v);
+  place.normal = place.face;
+  if (!subject.normals.empty()) {
+    const Vec3 mixed = normalized(side * mix(subject.normals));
+    // Normals that contradict the face are not believed.
+    if (dot(mixed, place.face) > 0) {
+      place.normal = mixed;
+      place.point = rounded_point(subject, t, weights, place.point, side);
+    }
+  }
+  place.point += (kRayOffset * subject.radius) * place.face;
+  if (subject.scalars != nullptr) {
+    const std::vector<double>& s = *subject.scalars;
+    place.scalar = weights[0] * s[t[0]] + weights[1] * s[t[1]] + weights[2] * s[t[2]];
+  }
+  if (!subject.colors.empty()) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      place.color = place.color + static_cast<float>(weights[k]) * subject.colors[t[k]];
+    }
+  }
+  return place;
+}
+
+double wrapped(double x) { return x - std::floor(x); }
+
+// The point of a set as this pixel sees it: turned by the pixel's angle, and shifted in squared
+// radius (Cranley, Patterson 1976). Both keep the set evenly spread over the disc.
+LightSamples::Polar shifted(const LightSamples::Polar& p, const PixelShift& pixel) {
+  return {wrapped(p.radius2 + pixel.shift), p.cosine * pixel.cosine - p.sine * pixel.sine,
+          p.sine * pixel.cosine + p.cosine * pixel.sine};
+}
+
+// Part of the sky that is free, weighted by the cosine: a point of the disc, lifted to the
+// hemisphere above it, is a direction of that density.
+double free_sky(const RayScene& scene, const Place& place, const LightSamples& lights,
+                const PixelShift& pixel, int sample) {
+  if (lights.sky.empty()) return 1;
+  const std::size_t rays = lights.sky.size() / lights.key.size();
+  const Frame frame = frame_about(place.normal);
+  int free = 0;
+  for (std::size_t r = 0; r < rays; ++r) {
+    const auto p = shifted(lights.sky[static_cast<std::size_t>(sample) * rays + r], pixel);
+    const double radius = std::sqrt(p.radius2);
+    Vec3 direction = (radius * p.cosine) * frame.x + (radius * p.sine) * frame.y +
+                     std::sqrt(1 - p.radius2) * frame.z;
+    // Below the flat face but above the rounded surface: mirrored up again.
+    const double below = dot(direction, place.face);
+    if (below < 0) direction += (-2 * below) * place.face;
+    free += !scene.occluded(place.point, direction, 0, kInfinity);
+  }
+  return static_cast<double>(free) / static_cast<double>(rays);
+}
+
+// Lambert's cosine of the key light, 0 in its shadow.
+double key_light(const RayScene& scene, const View& view, const Place& place,
+                 const LightSamples& lights, const PixelShift& pixel, int sample) {
+  const Vec3 centre = normalized(-0.5 * view.right + 0.62 * view.up - 0.6 * view.forward);
+  if (dot(centre, place.normal) < -kKeyRadius) return 0;
+  const Frame frame = frame_about(centre);
+  const auto p = shifted(lights.key[static_cast<std::size_t>(sample)], pixel);
+  const double radius = kKeyRadius * std::sqrt(p.radius2);
+  const Vec3 direction =
+      normalized(centre + (radius * p.cosine) * frame.x + (radius * p.sine) * frame.y);
+  const double cosine = dot(direction, place.normal);
+  if (cosine <= 0) return 0;
+  // A flat face that turns its back while the rounded surface does not (yet) would shadow itself.
+  const bool own_shadow = dot(direction, place.face) <= 0;
+  return !own_shadow && scene.occluded(place.point, direction, 0, kInfinity) ? 0 : cosine;
+}
+
+// The Hammersley set of n points on the disc. The angle follows the bits of k reversed.
+std::vector<LightSamples::Polar> hammersley_disc(std::uint32_t n) {
+  std::vector<LightSamples::Polar> points;
+  for (std::uint32_t k = 0; k < n; ++k) {
+    std::uint32_t reversed = 0;
+    for (std::uint32_t bits = k, place = 0x80000000u; bits != 0; bits >>= 1, place >>= 1) {
+      if (bits & 1u) reversed |= place;
+    }
+    const double phi = 2 * std::numbers::pi * (reversed * 0x1p-32);
+    points.push_back({(k + 0.5) / n, std::cos(phi), std::sin(phi)});
+  }
+  return points;
+}
+
+}  // namespace
+
+LightSamples make_light_samples(int samples_per_pixel, int occlusion_rays) {
+  const auto samples = static_cast<std::uint32_t>(samples_per_pixel);
+  const auto rays = static_cast<std::uint32_t>(occlusion_rays);
+  std::vector<LightSamples::Polar> spread = hammersley_disc(samples * rays);
+  // Sample s takes every samples-th point from s on, so that each sample sees the whole sky.
+  LightSamples lights = {{}, hammersley_disc(samples)};
+  for (std::uint32_t s = 0; s < samples; ++s) {
+    for (std::uint32_t r = 0; r < rays; ++r) lights.sky.push_back(spread[r * samples + s]);
+  }
+  return lights;
+}
+
+PixelShift pixel_shift(std::uint64_t pixel_seed) {
+  const double angle = 2 * std::numbers::pi * random_uniform(pixel_seed, 0);
+  return {random_uniform(pixel_seed, 1), std::cos(angle), std::sin(angle)};
+}
+
+std::optional<Color> shade(const Subject& subject, const RayScene& scene, const View& view,
+                           const ColorScale& scale, const LightSamples& lights,
+                           const PixelShift& pixel, const ViewRay& ray, int sample) {
+  const RayHit hit = scene.first_hit(ray.origin, ray.direction, 0, kInfinity);
+  if (!hit.hit) return std::nullopt;
+  const Place place = place_of(subject, ray, hit);
+  const Vec3 fill = normalized(0.75 * view.right + 0.1 * view.up - 0.65 * view.forward);
+  const double sky = free_sky(scene, place, lights, pixel, sample) *
+                     (1 - kSkySlope + kSkySlope * dot(place.normal, view.up));
+  const double light = kBounce + kSky * sky +
+                       kKey * key_light(scene, view, place, lights, pixel, sample) +
+                       kFill * std::max(0.0, dot(fill, place.normal));
+  if (place.back) return static_cast<float>(light) * back_color();
+  if (!subject.colors.empty()) return static_cast<float>(light) * place.color;
+  if (subject.scalars == nullptr) return static_cast<float>(light) * plain_color();
+  return static_cast<float>(kFlatLight + (1 - kFlatLight) * light) * scale.color(place.scalar);
+}
+
+}  // namespace rholm

@@ -1,0 +1,71 @@
+#include "report/picture/view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "rholm/error.h"
+
+namespace rholm {
+namespace {
+
+// The eye's distance in radii of the scene. Chosen: at 4 the scene fills 29 degrees, the angle of
+// a picture looked at from arm's length.
+constexpr double kEyeDistance = 4;
+
+Vec3 unit_direction(const Vec3& v, const char* what) {
+  const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  if (!is_finite(v) || !(largest > 0)) {
+    throw Error(ErrorCode::kInvalidInput,
+                std::string(what) + " must be a finite vector other than 0");
+  }
+  return normalized(v / largest);
+}
+
+// Any unit vector across `axis`.
+Vec3 across(const Vec3& axis) {
+  const Vec3 other = std::abs(axis.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+  return normalized(cross(axis, other));
+}
+
+}  // namespace
+
+View make_view(const RenderOptions& options, double radius) {
+  View view;
+  view.forward = unit_direction(options.view_direction, "the view direction");
+  const Vec3 side = cross(view.forward, unit_direction(options.up, "the upward direction"));
+  // Looking along `up` there is no upright picture: any will do. 1e-9 is far above rounding.
+  view.right = norm(side) > 1e-9 ? normalized(side) : across(view.forward);
+  view.up = cross(view.right, view.forward);
+  view.distance = kEyeDistance * radius;
+  view.perspective = options.perspective;
+  return view;
+}
+
+PlanePoint View::project(const Vec3& p) const {
+  const double shrink = perspective ? distance / (distance + dot(p, forward)) : 1;
+  return {shrink * dot(p, right), shrink * dot(p, up)};
+}
+
+ViewRay View::ray(const PlanePoint& p) const {
+  const Vec3 target = p.x * right + p.y * up;
+  const Vec3 eye = -distance * forward;
+  if (perspective) return {eye, normalized(target - eye)};
+  return {target + eye, forward};
+}
+
+PlaneBox projected_box(const View& view, const Mesh& mesh) {
+  if (mesh.triangles.empty()) return {};
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  PlaneBox box{{kInfinity, kInfinity}, {-kInfinity, -kInfinity}};
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t corner : t) {
+      const PlanePoint p = view.project(mesh.vertices[corner]);
+      box.min = {std::min(box.min.x, p.x), std::min(box.min.y, p.y)};
+      box.max = {std::max(box.max.x, p.x), std::max(box.max.y, p.y)};
+    }
+  }
+  return box;
+}
+
+}  // namespace rholm

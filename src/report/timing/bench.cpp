@@ -1,0 +1,163 @@
+// Runs of the whole way, from a file to coefficients.
+#include "rholm/bench.h"
+
+#include <unistd.h>
+
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "report/timing/bench_timing.h"
+#include "report/timing/peak_memory.h"
+#include "rholm/error.h"
+#include "rholm/shape_io.h"
+
+namespace rholm {
+namespace {
+
+using Runs = std::map<std::string, std::vector<StageTime>>;
+
+EncodeOptions encode_options(const BenchOptions& options) {
+  EncodeOptions wanted;
+  wanted.analyze = {.degree = options.degree, .precision = options.precision};
+  wanted.errors = false;  // a stage of its own, not of the transform
+  wanted.chart.allow_signed = options.allow_signed;
+  return wanted;
+}
+
+EncodeOptions about(const Vec3& center, EncodeOptions wanted) {
+  wanted.chart.center = {.kind = CenterKind::kGiven, .point = center, .rays = 0};
+  return wanted;
+}
+
+const Mesh& mesh_of(const ShapeFile& file, const std::filesystem::path& path) {
+  if (const Mesh* mesh = std::get_if<Mesh>(&file.shape)) return *mesh;
+  throw Error(ErrorCode::kInvalidInput, path.string() + " holds points, not a mesh");
+}
+
+// encode_file(), with the time of looking at the file or of reading it.
+Encoded encode_timed(const std::filesystem::path& path, const EncodeOptions& wanted,
+                     const Context& context) {
+  StageTimes times;
+  if (const auto mapped = timed(times, "read", [&] { return map_mesh(path, context); })) {
+    if (std::optional<Encoded> encoded = encode_mapped(*mapped, wanted, context)) {
+      encoded->times.merge(times);
+      return std::move(*encoded);
+    }
+  }
+  const ShapeFile file = timed(times, "read", [&] { return read_shape(path, {}, context); });
+  Encoded encoded = encode(mesh_of(file, path), wanted, context);
+  encoded.times.merge(times);
+  return encoded;
+}
+
+StageTime minus(const StageTime& a, const StageTime& b) { return {a.wall - b.wall, a.cpu - b.cpu}; }
+
+// One run, its stages noted.
+Encoded run(const std::filesystem::path& path, const EncodeOptions& wanted, const Context& context,
+            Runs& runs) {
+  StageTimes times;
+  Encoded encoded =
+      timed(times, "coefficients", [&] { return encode_timed(path, wanted, context); });
+  times.insert(encoded.times.begin(), encoded.times.end());
+  times.insert(encoded.analysis.times.begin(), encoded.analysis.times.end());
+  times["coefficients"] = minus(times["coefficients"], times["norms"]);
+  times.erase("transform");  // what it holds beside its parts is small
+  for (const auto& [name, time] : times) runs[name].push_back(time);
+  return encoded;
+}
+
+// Removes a file however it is left.
+struct FileRemoval {
+  std::filesystem::path path;
+  ~FileRemoval() {
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+  }
+};
+
+void write_once(const Expansion& expansion, const std::filesystem::path& path, Runs& runs) {
+  const FileRemoval removal{path};
+  runs["write"].push_back(time_once([&] { write_model(expansion, path); }));
+}
+
+std::optional<std::filesystem::path> model_path(const BenchOptions& options) {
+  if (options.folder.empty()) return std::nullopt;
+  // A name of its own for each process and case: what is there is not ours.
+  std::filesystem::path path;
+  for (int i = 0; path.empty() || std::filesystem::exists(path); ++i) {
+    path = options.folder /
+           ("rholm-bench-" + std::to_string(getpid()) + "-" + std::to_string(i) + ".h5");
+  }
+  return path;
+}
+
+double median_speedup(const std::vector<StageTime>& base, const std::vector<StageTime>& runs) {
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < runs.size(); ++i) ratios.push_back(base[i].wall / runs[i].wall);
+  return median(ratios);
+}
+
+BenchRuns summary(int threads, const Runs& runs, const std::vector<StageTime>& base) {
+  BenchRuns result{.threads = threads, .stages = {}};
+  for (const auto& [name, times] : runs) {
+    if (name != "center" || runs.contains("topology")) result.stages[name] = timing_of(times);
+  }
+  result.speedup = median_speedup(base, runs.at("coefficients"));
+  return result;
+}
+
+// The search for a centre: runs with it beside those without.
+void summarise_center(const Runs& searched, const Runs& given, FileBench& bench) {
+  bench.center = timing_of(searched.at("center"));
+  std::vector<double> extra;
+  const auto &with = searched.at("coefficients"), &without = given.at("coefficients");
+  for (std::size_t i = 0; i < with.size(); ++i) extra.push_back(with[i].cpu - without[i].cpu);
+  bench.center_extra_cpu = median(extra);
+}
+
+}  // namespace
+
+void check(const BenchOptions& options) {
+  const auto least = [](int value, int limit, const char* what) {
+    if (value >= limit) return;
+    throw Error(ErrorCode::kInvalidInput, std::string(what) + " must be at least " +
+                                              std::to_string(limit) + ", not " +
+                                              std::to_string(value));
+  };
+  least(options.repeat, 1, "the number of runs");
+  least(static_cast<int>(options.threads.size()), 1, "the number of thread counts");
+  for (const int threads : options.threads) least(threads, 1, "a number of threads");
+}
+
+FileBench bench_file(const std::filesystem::path& path, const BenchOptions& options,
+                     const Context& context) {
+  check(options);
+  FileBench bench;
+  bench.file_bytes = std::filesystem::file_size(path);
+  const EncodeOptions search = encode_options(options);
+  // Not counted: brings the file into memory, plans transforms, starts threads.
+  Runs first, searched;
+  const EncodeOptions given =
+      about(run(path, search, measured(context, 0, 0), first).star.center, search);
+  std::vector<Runs> runs(options.threads.size());
+  const auto model = model_path(options);
+  for (int i = 0; i < options.repeat; ++i) {
+    const double fraction = static_cast<double>(i) / options.repeat;
+    for (std::size_t t = 0; t < runs.size(); ++t) {
+      const bool watched = i == 0 && t == 0 && restart_peak_memory();
+      if (watched) bench.memory_before = resident_memory();
+      bench.encoded = run(path, given, measured(context, options.threads[t], fraction), runs[t]);
+      if (watched) bench.memory_peak = peak_memory();
+    }
+    if (model) write_once(bench.encoded.analysis.expansion, *model, runs[0]);
+    run(path, search, measured(context, options.threads[0], fraction), searched);
+  }
+  for (std::size_t t = 0; t < runs.size(); ++t) {
+    bench.runs.push_back(summary(options.threads[t], runs[t], runs[0].at("coefficients")));
+  }
+  summarise_center(searched, runs[0], bench);
+  return bench;
+}
+
+}  // namespace rholm

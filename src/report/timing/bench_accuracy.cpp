@@ -1,0 +1,95 @@
+// How far coefficients are from better ones.
+#include <algorithm>
+#include <cmath>
+
+#include "report/timing/bench_timing.h"
+#include "rholm/bench.h"
+#include "rholm/error.h"
+#include "rholm/primitives.h"
+
+namespace rholm {
+namespace {
+
+// Rounding of directions and sums leaves little less.
+constexpr double kFastReference = 1e-12, kLeastPrecision = 1e-14;
+constexpr double kDirectReference = 1e-13;
+
+// Direct sums of fewer terms take some 4 s: 0.35 ns a term.
+constexpr double kMostTerms = 1e10;
+// Nodes that a precision of 1e-13 takes on a triangle of a mesh that resolves its degrees, and its
+// share of edges.
+constexpr double kNodesPerTriangle = 12;
+
+struct Energy {
+  double whole = 0, top = 0;
+  void add(int l, int degree, double value) {
+    whole += value * value;
+    if (4 * l > 3 * degree) top += value * value;
+  }
+};
+
+double ratio(double error2, double norm2) { return norm2 > 0 ? std::sqrt(error2 / norm2) : 0; }
+
+}  // namespace
+
+CoefficientsError compare_coefficients(const Coefficients& found, const Coefficients& reference) {
+  const int degree = reference.degree();
+  if (found.degree() != degree) {
+    throw Error(ErrorCode::kInvalidInput,
+                "coefficients to degree " + std::to_string(found.degree()) +
+                    " cannot be compared with such to degree " + std::to_string(degree));
+  }
+  Energy error, norm;
+  for (int l = 1; l <= degree; ++l) {
+    for (int m = 0; m <= l; ++m) {
+      error.add(l, degree, found.c(l, m) - reference.c(l, m));
+      error.add(l, degree, found.s(l, m) - reference.s(l, m));
+      norm.add(l, degree, reference.c(l, m));
+      norm.add(l, degree, reference.s(l, m));
+    }
+  }
+  const double mean = reference.c(0, 0);
+  return {.error = ratio(error.whole, norm.whole),
+          .top_error = ratio(error.top, norm.top),
+          .mean = mean != 0 ? std::abs(found.c(0, 0) / mean - 1) : 0};
+}
+
+Reference bench_reference(const std::filesystem::path& path, const Vec3& center,
+                          const BenchOptions& options, const Context& context) {
+  check(options);
+  const double terms = (options.degree + 1.0) * (options.degree + 2.0) / 2;
+  // Looking at the file counts its triangles where it matters: small files may be read twice.
+  const auto mapped = map_mesh(path, context);
+  const double triangles =
+      mapped ? static_cast<double>(mapped->view().n_triangles)
+             : static_cast<double>(std::filesystem::file_size(path)) / 13;  // the least per face
+  Reference reference;
+  const bool direct = kNodesPerTriangle * triangles * terms <= kMostTerms;
+  reference.engine = direct ? Engine::kDirect : Engine::kFast;
+  reference.precision =
+      direct ? kDirectReference
+             : std::max(kLeastPrecision, std::min(kFastReference, options.precision / 10));
+  EncodeOptions wanted;
+  wanted.analyze = {
+      .degree = options.degree, .engine = reference.engine, .precision = reference.precision};
+  wanted.chart.center = {.kind = CenterKind::kGiven, .point = center, .rays = 0};
+  wanted.chart.allow_signed = options.allow_signed;
+  wanted.errors = false;
+  reference.coefficients = encode_file(path, wanted, context).analysis.expansion.coefficients;
+  return reference;
+}
+
+CoefficientsError bench_reference_error(const Context& context) {
+  const Mesh mesh = bumpy_sphere(4);
+  const auto coefficients = [&](Engine engine, double precision) {
+    EncodeOptions wanted;
+    wanted.analyze = {.degree = 64, .engine = engine, .precision = precision};
+    wanted.chart.center.kind = CenterKind::kNone;
+    wanted.errors = false;
+    return encode(mesh, wanted, context).analysis.expansion.coefficients;
+  };
+  return compare_coefficients(coefficients(Engine::kFast, kFastReference),
+                              coefficients(Engine::kDirect, kDirectReference));
+}
+
+}  // namespace rholm

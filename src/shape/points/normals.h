@@ -1,0 +1,55 @@
+// Directions of normals by local fits. Layer: shape.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rholm/context.h"
+#include "rholm/vec3.h"
+#include "shape/points/point_tree.h"
+
+namespace rholm {
+
+inline constexpr int kGraphNeighbors = 10;  // chosen: Hoppe's graph holds together, and is small
+
+// Everything is in the order of the tree; points are distinct.
+struct LocalFits {
+  std::vector<Vec3> normals;    // unit, of either sign; zero where the neighbours have no plane
+  std::vector<float> radius;    // distance to the last neighbour of the fit
+  std::vector<float> residual;  // rms distance of the neighbours to their plane, over the radius
+  std::vector<std::uint32_t> neighbors;  // kGraphNeighbors nearest of each, itself where fewer
+  int n_neighbors = 0;                   // of a fit
+  double typical_residual = 0;           // median
+  bool noisy = false;  // the residual is that of the points, not of the shape's curvature
+};
+
+// Weighted planes, then paraboloids, over the `n_neighbors` nearest points, or as many as the data
+// ask for if that is 0; where two smooth parts meet, planes through one of them (see
+// refine_at_edges). Keeps `given` normals that are not zero, if there are any.
+LocalFits fit_normals(const PointTree& tree, std::span<const Vec3> points,
+                      std::span<const Vec3> given, int n_neighbors, const Context& context);
+
+// The number of neighbours that makes the error of normals least: the sum of a variance, from two
+// disjoint halves of the neighbours, and of a bias, from the change against smaller
+// neighbourhoods.
+int choose_neighbors(const PointTree& tree, std::span<const Vec3> points, const Context& context);
+
+// Points near an edge have neighbours on both sides, and a fit across. They take the plane through
+// themselves and one side, if there is one: that of a neighbour's normal which most neighbours lie
+// in closely.
+void refine_at_edges(const PointTree& tree, std::span<const Vec3> points, LocalFits& fits,
+                     const Context& context);
+
+// The neighbours of a point, relative to it, in units of the distance of the last.
+struct Neighborhood {
+  std::vector<Neighbor> found;
+  std::vector<Vec3> points;
+  std::vector<double> weights;
+  double radius = 0;
+
+  void gather(const PointTree& tree, std::span<const Vec3> all, std::size_t i, std::size_t k);
+};
+
+}  // namespace rholm

@@ -1,0 +1,227 @@
+// Signs of parts by volume and winding number.
+//
+// The dipole layer of the other parts has the winding number w at a part. If all are turned right,
+// w continues without a jump where one part ends and another begins, so it rises towards the
+// inside, against the part's normals, from its border on (the fixed point of Lin, Shi, Liu 2024,
+// for whole parts instead of points: a part decides by the sum over its points). Where the others
+// are closed, w is constant and says whether the part lies inside them.
+#include "shape/points/orient_sides.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/parallel.h"
+#include "shape/queries/winding_tree.h"
+
+namespace rholm {
+namespace {
+
+// All chosen. Smaller parts have no say of their own; the time for one part is a pass over all
+// points.
+constexpr std::size_t kLeastPart = 30;
+constexpr std::size_t kMostParts = 64;
+constexpr std::size_t kSamples = 1000;  // points of a part at which the winding number is asked
+constexpr int kRounds = 3;
+// A part of which volume over area and size is less is open: 1/3 for a sphere, 0.05 for a closed
+// box that is fifteen times as wide as thick.
+constexpr double kOpen = 0.02;
+constexpr double kNoChange =
+    0.02;  // of the winding number across a part: the rest is far or closed
+
+// Points of each part, in order.
+struct Members {
+  std::vector<std::uint32_t> begin;  // n_parts + 1
+  std::vector<std::uint32_t> points;
+
+  Members(std::span<const std::uint32_t> part, std::size_t n_parts)
+      : begin(n_parts + 1, 0), points(part.size()) {
+    for (const std::uint32_t p : part) ++begin[p + 1];
+    for (std::size_t p = 0; p < n_parts; ++p) begin[p + 1] += begin[p];
+    std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
+    for (std::uint32_t i = 0; i < part.size(); ++i) points[next[part[i]]++] = i;
+  }
+  std::span<const std::uint32_t> of(std::size_t p) const {
+    return std::span(points).subspan(begin[p], begin[p + 1] - begin[p]);
+  }
+  // The largest parts that have a say, largest first.
+  std::vector<std::uint32_t> largest() const {
+    std::vector<std::uint32_t> parts;
+    for (std::uint32_t p = 0; p + 1 < begin.size(); ++p) {
+      if (of(p).size() >= kLeastPart) parts.push_back(p);
+    }
+    std::stable_sort(parts.begin(), parts.end(),
+                     [&](auto a, auto b) { return of(a).size() > of(b).size(); });
+    if (parts.size() > kMostParts) parts.resize(kMostParts);
+    return parts;
+  }
+};
+
+class Sides {
+ public:
+  Sides(std::span<const Vec3> points, std::span<const double> areas, const OrientedParts& parts,
+        std::vector<Vec3>& normals, const Context& context)
+      : points_(points),
+        areas_(areas),
+        parts_(parts),
+        normals_(normals),
+        context_(context),
+        pieces_(parts.piece, parts.n_pieces),
+        components_(parts.component, parts.n_components) {
+    std::vector<std::uint32_t> all(points.size());
+    for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
+    middle_ = centroid(all);
+  }
+
+  void enclose_volume() {
+    for (std::size_t c = 0; c < parts_.n_components; ++c) {
+      const std::span<const std::uint32_t> part = components_.of(c);
+      double volume = relative_volume(part, centroid(part));
+      if (std::abs(volume) < kOpen) volume = relative_volume(part, middle_);
+      // What is flat, and alone, has no inside.
+      if (std::abs(volume) < kOpen) volume = largest_coordinate(area_normal(part));
+      if (volume < 0) turn(part);
+    }
+  }
+
+  // Pieces one by one against all the others, until none wants to turn.
+  void agree_on_winding() {
+    const std::vector<std::uint32_t> pieces = pieces_.largest();
+    if (pieces.size() < 2) return;
+    WindingTree tree(points_, area_normals({}));
+    for (int round = 0; round < kRounds; ++round) {
+      bool changed = false;
+      for (std::size_t k = 1; k < pieces.size(); ++k) {
+        const std::span<const std::uint32_t> piece = pieces_.of(pieces[k]);
+        tree.set_area_normals(area_normals(piece));
+        if (!wants_to_turn(tree, piece)) continue;
+        turn(piece);
+        changed = true;
+      }
+      if (!changed) return;
+    }
+  }
+
+  // 1 where the winding number is 1 behind and 0 before every point, 0 for a plane.
+  std::vector<double> trust() {
+    std::vector<double> result(parts_.n_components, 0.0);
+    const WindingTree tree(points_, area_normals({}));
+    for (const std::uint32_t c : components_.largest()) {
+      const std::vector<Sample> samples = sample(tree, components_.of(c));
+      for (const Sample& s : samples) {
+        result[c] += std::max(0.0, 1 - std::abs(1 - s.behind) - std::abs(s.before));
+      }
+      result[c] = std::min(1.0, result[c] / static_cast<double>(samples.size()));
+    }
+    return result;
+  }
+
+ private:
+  struct Sample {
+    double area = 0;
+    double behind = 0, before = 0;  // the winding number there
+  };
+
+  Vec3 centroid(std::span<const std::uint32_t> part) const {
+    Vec3 sum;
+    double area = 0;
+    for (const std::uint32_t i : part) {
+      sum += areas_[i] * points_[i];
+      area += areas_[i];
+    }
+    return area > 0 ? sum / area : points_[part[0]];
+  }
+
+  // The volume enclosed with `apex`, over area times rms distance from it.
+  double relative_volume(std::span<const std::uint32_t> part, const Vec3& apex) const {
+    double volume = 0, area = 0, moment = 0;
+    for (const std::uint32_t i : part) {
+      const Vec3 d = points_[i] - apex;
+      volume += areas_[i] * dot(normals_[i], d) / 3;
+      area += areas_[i];
+      moment += areas_[i] * dot(d, d);
+    }
+    const double size = std::sqrt(area * moment);
+    return size > 0 ? volume / size : 0;
+  }
+
+  Vec3 area_normal(std::span<const std::uint32_t> part) const {
+    Vec3 sum;
+    for (const std::uint32_t i : part) sum += areas_[i] * normals_[i];
+    return sum;
+  }
+
+  static double largest_coordinate(const Vec3& v) {
+    const double yz = std::abs(v.y) > std::abs(v.z) ? v.y : v.z;
+    return std::abs(v.x) > std::abs(yz) ? v.x : yz;
+  }
+
+  void turn(std::span<const std::uint32_t> part) {
+    for (const std::uint32_t i : part) normals_[i] = -normals_[i];
+  }
+
+  // Of all points but some.
+  std::vector<Vec3> area_normals(std::span<const std::uint32_t> without) const {
+    std::vector<Vec3> result(points_.size());
+    for (std::size_t i = 0; i < result.size(); ++i) result[i] = areas_[i] * normals_[i];
+    for (const std::uint32_t i : without) result[i] = {};
+    return result;
+  }
+
+  std::vector<Sample> sample(const WindingTree& tree, std::span<const std::uint32_t> part) const {
+    const std::size_t n = std::min(part.size(), kSamples);
+    std::vector<Sample> samples(n);
+    std::vector<Vec3> x(2 * n);
+    for (std::size_t s = 0; s < n; ++s) {
+      const std::uint32_t i = part[s * part.size() / n];
+      // Twice the radius of the point's own patch, whose field has no jump closer to it.
+      const double step = 2 * std::sqrt(areas_[i] / std::numbers::pi);
+      samples[s].area = areas_[i];
+      x[2 * s] = points_[i] - step * normals_[i];
+      x[2 * s + 1] = points_[i] + step * normals_[i];
+    }
+    const std::vector<double> w = tree.winding(x, context_);
+    for (std::size_t s = 0; s < n; ++s) {
+      samples[s].behind = w[2 * s];
+      samples[s].before = w[2 * s + 1];
+    }
+    return samples;
+  }
+
+  // `others` is the field of all but the piece.
+  bool wants_to_turn(const WindingTree& others, std::span<const std::uint32_t> piece) const {
+    double fall = 0, mean = 0, area = 0;
+    for (const Sample& s : sample(others, piece)) {
+      fall += s.area * (s.behind - s.before);
+      mean += s.area * (s.behind + s.before) / 2;
+      area += s.area;
+    }
+    if (!(area > 0)) return false;
+    if (std::abs(fall) > kNoChange * area) return fall < 0;
+    const bool alone = piece.size() == components_.of(parts_.component[piece[0]]).size();
+    const double volume = relative_volume(piece, centroid(piece));
+    if (!alone || std::abs(volume) < kOpen) return false;
+    return (mean > 0.5 * area) == (volume > 0);  // inside the others it bounds a cavity
+  }
+
+  std::span<const Vec3> points_;
+  std::span<const double> areas_;
+  const OrientedParts& parts_;
+  std::vector<Vec3>& normals_;
+  const Context& context_;
+  Members pieces_, components_;
+  Vec3 middle_;
+};
+
+}  // namespace
+
+std::vector<double> turn_outwards(std::span<const Vec3> points, std::span<const double> areas,
+                                  const OrientedParts& parts, std::vector<Vec3>& normals,
+                                  const Context& context) {
+  Sides sides(points, areas, parts, normals, context);
+  sides.enclose_volume();
+  sides.agree_on_winding();
+  return sides.trust();
+}
+
+}  // namespace rholm

@@ -1,0 +1,28 @@
+// Points that belong to no surface (method 7.4). Layer: shape.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rholm/context.h"
+#include "rholm/vec3.h"
+#include "shape/points/point_tree.h"
+
+namespace rholm {
+
+// One flag per point, in the order of the tree: 1 for a point whose neighbours' normals disagree
+// with its own (unit, in the same order), that lies off the planes of its neighbours, or that is
+// much farther from them than they are from theirs. `noise` is the standard deviation of the points
+// about the surface: within it nothing is off. Once the ones found are gone, a second and a third
+// look find those that they have hidden.
+std::vector<std::uint8_t> find_outliers(const PointTree& tree, std::span<const Vec3> points,
+                                        std::span<const Vec3> normals, double noise,
+                                        const Context& context = {});
+
+// One flag per point: 1 for a point of a group of fewer than `least`. Points are of one group if
+// they are near neighbours, as near as both have others, and their normals agree.
+std::vector<std::uint8_t> find_small_groups(const PointTree& tree, std::span<const Vec3> normals,
+                                            std::size_t least, const Context& context = {});
+
+}  // namespace rholm

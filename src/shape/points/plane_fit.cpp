@@ -1,0 +1,138 @@
+#include "shape/points/plane_fit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace rholm {
+namespace {
+
+struct Symmetric3 {
+  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+};
+
+Symmetric3 covariance(std::span<const Vec3> points, std::span<const double> weights) {
+  double total = 0;
+  Vec3 mean;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    total += weights[i];
+    mean += weights[i] * points[i];
+  }
+  mean = mean / total;
+  Symmetric3 c;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3 d = points[i] - mean;
+    const Vec3 wd = weights[i] / total * d;
+    c.xx += wd.x * d.x;
+    c.xy += wd.x * d.y;
+    c.xz += wd.x * d.z;
+    c.yy += wd.y * d.y;
+    c.yz += wd.y * d.z;
+    c.zz += wd.z * d.z;
+  }
+  return c;
+}
+
+struct Eigenvalues {
+  double least = 0, largest = 0;
+};
+
+// By the trigonometric solution of the cubic (Smith 1961). Errors are some 1e-8 of the largest
+// where the two smaller ones are nearly equal, and a few ulp elsewhere.
+Eigenvalues eigenvalues(const Symmetric3& m) {
+  const double mean = (m.xx + m.yy + m.zz) / 3;
+  const double x = m.xx - mean, y = m.yy - mean, z = m.zz - mean;
+  const double off = m.xy * m.xy + m.xz * m.xz + m.yz * m.yz;
+  const double p = std::sqrt((x * x + y * y + z * z + 2 * off) / 6);
+  const double determinant =
+      x * (y * z - m.yz * m.yz) - m.xy * (m.xy * z - m.yz * m.xz) + m.xz * (m.xy * m.yz - y * m.xz);
+  const double p3 = p * p * p;
+  if (!(p3 > 0)) return {mean, mean};
+  const double angle = std::acos(std::clamp(determinant / (2 * p3), -1.0, 1.0)) / 3;
+  return {mean + 2 * p * std::cos(angle + 2 * std::numbers::pi / 3),
+          mean + 2 * p * std::cos(angle)};
+}
+
+// The sum of the products of two eigenvalues each; unlike these exact to an ulp of the largest
+// one's square.
+double sum_of_minors(const Symmetric3& m) {
+  return (m.xx * m.yy - m.xy * m.xy) + (m.xx * m.zz - m.xz * m.xz) + (m.yy * m.zz - m.yz * m.yz);
+}
+
+// The direction that M - value leaves at 0: the longest cross product of two of its rows.
+Vec3 eigenvector(const Symmetric3& m, double value) {
+  const Vec3 rows[3] = {
+      {m.xx - value, m.xy, m.xz}, {m.xy, m.yy - value, m.yz}, {m.xz, m.yz, m.zz - value}};
+  const Vec3 products[3] = {cross(rows[0], rows[1]), cross(rows[1], rows[2]),
+                            cross(rows[2], rows[0])};
+  return normalized(*std::max_element(
+      products, products + 3, [](const Vec3& a, const Vec3& b) { return dot(a, a) < dot(b, b); }));
+}
+
+constexpr int kTerms = 6;  // 1, x, y, x^2, x y, y^2
+
+// Solves A c = b, A positive definite, by Cholesky; false if it is not. Only the lower triangle of
+// A is read.
+bool solve(std::array<std::array<double, kTerms>, kTerms>& a, std::array<double, kTerms>& b) {
+  for (int i = 0; i < kTerms; ++i) {
+    const double diagonal = a[i][i];
+    for (int j = 0; j <= i; ++j) {
+      double sum = a[i][j];
+      for (int k = 0; k < j; ++k) sum -= a[i][k] * a[j][k];
+      if (i != j) {
+        a[i][j] = sum / a[j][j];
+      } else {
+        // Below this share of the diagonal nothing but rounding of some 30 sums is left.
+        if (!(sum > 1e-12 * diagonal)) return false;
+        a[i][i] = std::sqrt(sum);
+      }
+    }
+  }
+  for (int i = 0; i < kTerms; ++i) {
+    for (int k = 0; k < i; ++k) b[i] -= a[i][k] * b[k];
+    b[i] /= a[i][i];
+  }
+  for (int i = kTerms - 1; i >= 0; --i) {
+    for (int k = i + 1; k < kTerms; ++k) b[i] -= a[k][i] * b[k];
+    b[i] /= a[i][i];
+  }
+  return true;
+}
+
+}  // namespace
+
+PlaneFit fit_plane(std::span<const Vec3> points, std::span<const double> weights) {
+  const Symmetric3 m = covariance(points, weights);
+  const Eigenvalues values = eigenvalues(m);
+  PlaneFit fit{.normal = eigenvector(m, values.least)};
+  if (!(values.largest > 0)) return fit;
+  fit.length = values.largest;
+  fit.width = std::max(sum_of_minors(m) / values.largest, 0.0);
+  return fit;
+}
+
+Vec3 fit_paraboloid(std::span<const Vec3> points, std::span<const double> weights,
+                    const Vec3& normal) {
+  const Vec3 u = perpendicular(normal), v = cross(normal, u);
+  std::array<std::array<double, kTerms>, kTerms> a{};
+  std::array<double, kTerms> b{};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double x = dot(points[i], u), y = dot(points[i], v), z = dot(points[i], normal);
+    const double terms[kTerms] = {1, x, y, x * x, x * y, y * y};
+    for (int j = 0; j < kTerms; ++j) {
+      const double wj = weights[i] * terms[j];
+      for (int k = 0; k <= j; ++k) a[j][k] += wj * terms[k];
+      b[j] += wj * z;
+    }
+  }
+  if (!solve(a, b)) return normal;
+  return normalized(normal - b[1] * u - b[2] * v);
+}
+
+Vec3 perpendicular(const Vec3& n) {
+  // The coordinate axis farther from n makes a well-conditioned cross product.
+  return normalized(cross(n, std::abs(n.x) <= 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
+}
+
+}  // namespace rholm

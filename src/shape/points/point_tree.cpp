@@ -1,0 +1,362 @@
+#include "shape/points/point_tree.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include "base/parallel.h"
+#include "rholm/error.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "shape/points/point_tree.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+namespace rholm {
+namespace {
+
+// Of n points the k nearest come first; the square of the distance to the last of them.
+float keep_nearest(Neighbor* found, std::size_t n, std::size_t k);
+
+}  // namespace
+}  // namespace rholm
+
+HWY_BEFORE_NAMESPACE();
+namespace rholm {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::CappedTag<float, 16>;
+using V = hn::Vec<D>;
+
+// Appends the points of a leaf within radius2 of `at`.
+HWY_INLINE std::size_t ScanLeaf(const PointTree::View& tree, std::uint32_t leaf, const V (&at)[3],
+                                float radius2, Neighbor* out) {
+  const D d;
+  const std::size_t begin = tree.leaf_begin[leaf], end = tree.leaf_begin[leaf + 1];
+  alignas(64) float distances[16];
+  std::size_t n = 0;
+  for (std::size_t i = begin; i < end; i += hn::Lanes(d)) {
+    const V dx = hn::Sub(hn::LoadU(d, tree.x + i), at[0]);
+    const V dy = hn::Sub(hn::LoadU(d, tree.y + i), at[1]);
+    const V dz = hn::Sub(hn::LoadU(d, tree.z + i), at[2]);
+    const V square = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
+    const auto near = hn::And(hn::Le(square, hn::Set(d, radius2)), hn::FirstN(d, end - i));
+    hn::Store(square, d, distances);
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(d, near, bytes);
+    for (unsigned bits = bytes[0] | (unsigned{bytes[1]} << 8); bits != 0; bits &= bits - 1) {
+      const unsigned lane = static_cast<unsigned>(std::countr_zero(bits));
+      out[n++] = {distances[lane], static_cast<std::uint32_t>(i + lane)};
+    }
+  }
+  return n;
+}
+
+// The children of a wide node whose boxes come within radius2 of `at`, as bits.
+HWY_INLINE unsigned NearChildren(const float* boxes, const V (&at)[3], float radius2) {
+  const D d;
+  unsigned bits = 0;
+  for (std::size_t i = 0; i < 16; i += hn::Lanes(d)) {
+    V square = hn::Zero(d);
+    for (int axis = 0; axis < 3; ++axis) {
+      const V below = hn::Sub(hn::LoadU(d, boxes + 16 * axis + i), at[axis]);
+      const V above = hn::Sub(at[axis], hn::LoadU(d, boxes + 16 * (axis + 3) + i));
+      const V outside = hn::Max(hn::Max(below, above), hn::Zero(d));
+      square = hn::MulAdd(outside, outside, square);
+    }
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(d, hn::Le(square, hn::Set(d, radius2)), bytes);
+    bits |= (bytes[0] | (unsigned{bytes[1]} << 8)) << i;
+  }
+  return bits;
+}
+
+// Every point within radius2 of `at`, in the order of the tree; with k > 0 at least the k nearest
+// of them, in any order.
+void Gather(const PointTree::View& tree, const float* at, float radius2, std::size_t k,
+            std::vector<Neighbor>& found) {
+  // A radius that is far too large is cut as soon as so many points tell.
+  const std::size_t many = k > 0 ? std::max<std::size_t>(64, 4 * k) : ~std::size_t{0};
+  const D d;
+  const V x[3] = {hn::Set(d, at[0]), hn::Set(d, at[1]), hn::Set(d, at[2])};
+  // One frame a level: the children still to visit.
+  struct Frame {
+    std::uint32_t node;
+    unsigned bits;
+  } stack[9];
+  std::size_t n = 0;
+  found.resize(std::max<std::size_t>(found.capacity(), 64));
+  int depth = 0;
+  stack[0] = {0, NearChildren(tree.boxes, x, radius2)};
+  while (depth >= 0) {
+    Frame& frame = stack[depth];
+    if (frame.bits == 0) {
+      --depth;
+      continue;
+    }
+    const std::uint32_t child =
+        16 * frame.node + static_cast<std::uint32_t>(std::countr_zero(frame.bits));
+    frame.bits &= frame.bits - 1;
+    if (depth + 1 == tree.levels) {
+      const std::size_t most = n + tree.leaf_begin[child + 1] - tree.leaf_begin[child];
+      if (most > found.size()) found.resize(2 * most);
+      n += ScanLeaf(tree, child, x, radius2, found.data() + n);
+      if (n >= many) {
+        radius2 = keep_nearest(found.data(), n, k);
+        n = k;
+      }
+      continue;
+    }
+    ++depth;
+    stack[depth] = {
+        child,
+        NearChildren(tree.boxes + 96 * (std::size_t{tree.level_begin[depth]} + child), x, radius2)};
+  }
+  found.resize(n);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace rholm
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace rholm {
+namespace {
+HWY_EXPORT(Gather);
+
+// Points of a leaf, at most: a vector of the widest machines.
+constexpr std::size_t kLeafSize = 16;
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+// How many circles of area A hold k points of density n / A: radius squared.
+float radius2_for(double k, double density) {
+  return static_cast<float>(k / (density * std::numbers::pi));
+}
+
+bool nearer(const Neighbor& a, const Neighbor& b) {
+  return a.distance2 != b.distance2 ? a.distance2 < b.distance2 : a.index < b.index;
+}
+
+float keep_nearest(Neighbor* found, std::size_t n, std::size_t k) {
+  if (n > k) std::nth_element(found, found + (k - 1), found + n, nearer);
+  return found[k - 1].distance2;
+}
+
+struct Box {
+  std::array<float, 3> lower = {kInfinity, kInfinity, kInfinity};
+  std::array<float, 3> upper = {-kInfinity, -kInfinity, -kInfinity};
+  void add(const std::array<float, 3>& p) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      lower[a] = std::min(lower[a], p[a]);
+      upper[a] = std::max(upper[a], p[a]);
+    }
+  }
+  std::size_t widest() const {
+    std::size_t best = 0;
+    for (std::size_t a = 1; a < 3; ++a) {
+      if (upper[a] - lower[a] > upper[best] - lower[best]) best = a;
+    }
+    return best;
+  }
+};
+
+}  // namespace
+
+PointTree::PointTree(std::span<const Vec3> points, const Context& context) : order_(points.size()) {
+  if (points.size() >= std::size_t{1} << 31) {
+    throw Error(ErrorCode::kInvalidInput,
+                std::to_string(points.size()) + " points are too many: 2147483647 is the limit");
+  }
+  Vec3 lower{kInfinity, kInfinity, kInfinity}, upper{-kInfinity, -kInfinity, -kInfinity};
+  for (const Vec3& p : points) {
+    lower = {std::min(lower.x, p.x), std::min(lower.y, p.y), std::min(lower.z, p.z)};
+    upper = {std::max(upper.x, p.x), std::max(upper.y, p.y), std::max(upper.z, p.z)};
+  }
+  if (!points.empty()) middle_ = 0.5 * (lower + upper);
+  // Coordinates of order 1: their squares stay within single precision at every scale.
+  const double extent = points.empty() ? 0 : norm(upper - lower);
+  scale_ = extent > 0 ? 1 / extent : 1;
+  std::vector<Item> items(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3 p = scale_ * (points[i] - middle_);
+    items[i] = {{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)},
+                static_cast<std::uint32_t>(i)};
+  }
+  split(items, context);
+  store(items, context);
+}
+
+// Halves ranges along their widest extent until leaves are small; the tree is complete, so that a
+// leaf's place says its parents.
+void PointTree::split(std::vector<Item>& items, const Context& context) {
+  int depth = 0;
+  while ((items.size() >> depth) > kLeafSize) ++depth;
+  levels_ = std::max(1, (depth + 3) / 4);
+  std::vector<std::uint32_t> begin = {0, static_cast<std::uint32_t>(items.size())};
+  for (int level = 0; level < depth; ++level) {
+    std::vector<std::uint32_t> finer(2 * begin.size() - 1);
+    parallel_for(begin.size() - 1, std::max<std::size_t>(1, (begin.size() - 1) / 64), context, {},
+                 [&](std::size_t first, std::size_t last) {
+                   for (std::size_t j = first; j < last; ++j) {
+                     const std::uint32_t middle = begin[j] + (begin[j + 1] - begin[j]) / 2;
+                     finer[2 * j] = begin[j];
+                     finer[2 * j + 1] = middle;
+                     Box box;
+                     for (std::uint32_t i = begin[j]; i < begin[j + 1]; ++i) box.add(items[i].at);
+                     const std::size_t axis = box.widest();
+                     std::nth_element(items.begin() + begin[j], items.begin() + middle,
+                                      items.begin() + begin[j + 1],
+                                      [axis](const Item& a, const Item& b) {
+                                        return a.at[axis] != b.at[axis] ? a.at[axis] < b.at[axis]
+                                                                        : a.index < b.index;
+                                      });
+                   }
+                 });
+    finer.back() = begin.back();
+    begin = std::move(finer);
+  }
+  leaf_begin_ = std::move(begin);
+}
+
+void PointTree::store(const std::vector<Item>& items, const Context& context) {
+  const std::size_t n = items.size(), leaves = leaf_begin_.size() - 1;
+  stride_ = n + kLeafSize;  // vectors may be read beyond the last point
+  coordinates_ = AlignedArray<float>(3 * stride_);
+  for (std::size_t a = 0; a < 3; ++a) {
+    for (std::size_t i = n; i < stride_; ++i) coordinates_[a * stride_ + i] = 0;
+  }
+  leaf_of_.resize(n);
+  leaf_density_.resize(leaves);
+  std::vector<float> flat(6 * leaves);
+  parallel_for(leaves, 1024, context, {}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t j = begin; j < end; ++j) {
+      Box box;
+      for (std::uint32_t i = leaf_begin_[j]; i < leaf_begin_[j + 1]; ++i) {
+        const Item& item = items[i];
+        for (std::size_t a = 0; a < 3; ++a) coordinates_[a * stride_ + i] = item.at[a];
+        order_[i] = item.index;
+        leaf_of_[i] = static_cast<std::uint32_t>(j);
+        box.add(item.at);
+      }
+      std::array<float, 3> extent{};
+      for (std::size_t a = 0; a < 3; ++a) {
+        extent[a] = box.upper[a] - box.lower[a];
+        flat[6 * j + a] = box.lower[a];
+        flat[6 * j + a + 3] = box.upper[a];
+      }
+      std::sort(extent.begin(), extent.end());
+      const float least = 1e-6f;  // of the whole: a line or a point has no area
+      const float area = std::max(extent[2], least) * std::max(extent[1], least);
+      leaf_density_[j] = static_cast<float>(leaf_begin_[j + 1] - leaf_begin_[j]) / area;
+    }
+  });
+  make_boxes(std::move(flat));
+}
+
+// From the leaves up: 16 boxes become the sides of one wide node and one box above.
+void PointTree::make_boxes(std::vector<float> below) {
+  const auto levels = static_cast<std::size_t>(levels_);
+  std::size_t n_nodes = 0;
+  for (std::size_t level = 0; level < levels; ++level) {
+    level_begin_[level] = static_cast<std::uint32_t>(n_nodes);
+    const std::size_t shift = 4 * (levels - level);
+    n_nodes += (n_leaves() + (std::size_t{1} << shift) - 1) >> shift;
+  }
+  boxes_ = AlignedArray<float>(96 * n_nodes);
+  for (std::size_t i = 0; i < boxes_.size(); ++i) boxes_[i] = i % 96 < 48 ? kInfinity : -kInfinity;
+  for (std::size_t level = levels; level-- > 0;) {
+    const std::size_t n = below.size() / 6;
+    std::vector<float> above;
+    for (std::size_t j = 0; j < n; ++j) {
+      if (j % 16 == 0) {
+        for (int a = 0; a < 6; ++a) above.push_back(a < 3 ? kInfinity : -kInfinity);
+      }
+      float* const node = boxes_.data() + 96 * (level_begin_[level] + j / 16);
+      for (std::size_t a = 0; a < 6; ++a) {
+        const float side = below[6 * j + a];
+        node[16 * a + j % 16] = side;
+        float& whole = above[above.size() - 6 + a];
+        whole = a < 3 ? std::min(whole, side) : std::max(whole, side);
+      }
+    }
+    below = std::move(above);
+  }
+}
+
+Vec3 PointTree::point(std::size_t i) const {
+  return middle_ +
+         Vec3{coordinates_[i], coordinates_[stride_ + i], coordinates_[2 * stride_ + i]} / scale_;
+}
+
+PointTree::View PointTree::view() const {
+  return {coordinates_.data(),
+          coordinates_.data() + stride_,
+          coordinates_.data() + 2 * stride_,
+          leaf_begin_.data(),
+          boxes_.data(),
+          levels_,
+          level_begin_.data()};
+}
+
+// Circles around `at` are widened until they hold k points, then cut to the k nearest.
+void PointTree::search(const std::array<float, 3>& at, float radius2, std::size_t k,
+                       std::vector<Neighbor>& found) const {
+  k = std::min(k, size());
+  found.clear();
+  if (k == 0) return;
+  const View tree = view();
+  for (;;) {
+    HWY_DYNAMIC_DISPATCH(Gather)(tree, at.data(), radius2, k, found);
+    if (found.size() >= k) break;
+    const float wanted =
+        static_cast<float>(k) / static_cast<float>(std::max<std::size_t>(1, found.size()));
+    radius2 *= std::clamp(1.3f * wanted, 1.5f, 8.0f);
+  }
+  keep_nearest(found.data(), found.size(), k);
+  found.resize(k);
+  std::sort(found.begin(), found.end(), nearer);
+  const float unit2 = static_cast<float>(1 / (scale_ * scale_));
+  for (Neighbor& neighbor : found) neighbor.distance2 *= unit2;
+}
+
+void PointTree::nearest_to(std::size_t i, std::size_t k, std::vector<Neighbor>& found) const {
+  // A third more than the density asks for: rarely too few, not many too many.
+  const float radius2 = radius2_for(1.35 * static_cast<double>(k), leaf_density_[leaf_of_[i]]);
+  search({coordinates_[i], coordinates_[stride_ + i], coordinates_[2 * stride_ + i]}, radius2, k,
+         found);
+}
+
+std::array<float, 3> PointTree::local(const Vec3& x) const {
+  const Vec3 p = scale_ * (x - middle_);
+  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+}
+
+void PointTree::nearest(const Vec3& x, std::size_t k, std::vector<Neighbor>& found) const {
+  found.clear();
+  if (size() == 0) return;
+  const std::array<float, 3> at = local(x);
+  // The distance to the whole, and a circle of mean density around it.
+  double outside2 = 0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double out = std::max(0.0, std::abs(static_cast<double>(at[a])) - 0.5);
+    outside2 += out * out;
+  }
+  const double circle2 = radius2_for(static_cast<double>(k), static_cast<double>(size()));
+  search(at, static_cast<float>(1.2 * (outside2 + circle2)), k, found);
+}
+
+void PointTree::within(const Vec3& x, double radius, std::vector<Neighbor>& found) const {
+  found.clear();
+  if (size() == 0) return;
+  const double r = radius * scale_;
+  HWY_DYNAMIC_DISPATCH(Gather)(view(), local(x).data(), static_cast<float>(r * r), 0, found);
+  const float unit2 = static_cast<float>(1 / (scale_ * scale_));
+  for (Neighbor& neighbor : found) neighbor.distance2 *= unit2;
+}
+
+}  // namespace rholm
+#endif

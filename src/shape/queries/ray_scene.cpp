@@ -1,0 +1,318 @@
+// Embree 3 (https://www.embree.org) keeps the tree and walks it. What it sees are float
+// coordinates in the mesh's UnitFrame, at most 1 in modulus.
+#include "shape/queries/ray_scene.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <string>
+
+#include "rholm/error.h"
+#include "rholm/topology.h"
+#include "shape/face.h"
+#include "shape/queries/closest_point.h"
+
+namespace rholm {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kFloatRounding = 0x1p-24;  // relative error of a conversion to float
+
+// Beyond this (in units of the mesh) squares of float coordinates come near overflow at 2^128, and
+// the float boxes cannot tell the triangles apart anyway: every triangle is visited.
+constexpr double kFarthest = 0x1p50;
+
+// And queries are drawn in to here, so that their squares are finite in double.
+constexpr double kDrawnIn = 0x1p400;
+
+constexpr std::uint32_t kNoTriangle = std::numeric_limits<std::uint32_t>::max();
+
+[[noreturn]] void throw_embree_error(RTCError code, const std::string& what) {
+  if (code == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+  const bool cpu = code == RTC_ERROR_UNSUPPORTED_CPU;
+  throw Error(ErrorCode::kUnsupported,
+              what + " failed with Embree's error " + std::to_string(code) +
+                  (cpu ? ": this processor lacks SSE4.2, which Embree 3 needs" : ""));
+}
+
+struct DeviceDeleter {
+  void operator()(RTCDeviceTy* device) const { rtcReleaseDevice(device); }
+};
+struct SceneDeleter {
+  void operator()(RTCSceneTy* scene) const { rtcReleaseScene(scene); }
+};
+using Device = std::unique_ptr<RTCDeviceTy, DeviceDeleter>;
+using Scene = std::unique_ptr<RTCSceneTy, SceneDeleter>;
+
+double largest_component(const Vec3& a) {
+  return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
+}
+
+float clamped_to_float(double x) {
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  return static_cast<float>(std::clamp(x, -kLargest, kLargest));
+}
+
+}  // namespace
+
+struct RayScene::Impl {
+  const Mesh& mesh;
+  UnitFrame frame;
+  Device device;
+  Scene scene;
+
+  explicit Impl(const Mesh& m) : mesh(m), frame(unit_frame(bounds(m.vertices))) {
+    device.reset(rtcNewDevice(nullptr));
+    if (!device) throw_embree_error(rtcGetDeviceError(nullptr), "starting the ray tracer");
+    build();
+  }
+  void build();
+  RTCRay ray(const Vec3& origin, const Vec3& direction, double near, double far) const;
+};
+
+void RayScene::Impl::build() {
+  scene.reset(rtcNewScene(device.get()));
+  RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+  if (!mesh.triangles.empty()) {
+    auto* positions = static_cast<float*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                3 * sizeof(float), mesh.vertices.size()));
+    auto* indices = static_cast<std::uint32_t*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                3 * sizeof(std::uint32_t), mesh.triangles.size()));
+    if (positions == nullptr || indices == nullptr) throw std::bad_alloc();
+    for (const Vec3& vertex : mesh.vertices) {
+      const Vec3 q = frame.to_local(vertex);
+      for (const double x : {q.x, q.y, q.z}) *positions++ = static_cast<float>(x);
+    }
+    for (const Triangle& triangle : mesh.triangles) {
+      indices = std::copy(triangle.begin(), triangle.end(), indices);
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene.get(), geometry);
+  }
+  rtcReleaseGeometry(geometry);
+  // Robust: rays do not slip through shared edges. The filters below travel with each query.
+  rtcSetSceneFlags(scene.get(), static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST |
+                                                           RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+  rtcCommitScene(scene.get());
+  const RTCError error = rtcGetDeviceError(device.get());
+  if (error != RTC_ERROR_NONE) throw_embree_error(error, "building the search tree");
+}
+
+RTCRay RayScene::Impl::ray(const Vec3& origin, const Vec3& direction, double near,
+                           double far) const {
+  const Vec3 q = frame.to_local(origin);
+  RTCRay r = {};
+  r.org_x = clamped_to_float(q.x);
+  r.org_y = clamped_to_float(q.y);
+  r.org_z = clamped_to_float(q.z);
+  r.dir_x = static_cast<float>(direction.x);
+  r.dir_y = static_cast<float>(direction.y);
+  r.dir_z = static_cast<float>(direction.z);
+  r.tnear = clamped_to_float(std::max(near * frame.scale, 0.0));
+  r.tfar = std::isinf(far) ? std::numeric_limits<float>::infinity()
+                           : clamped_to_float(far * frame.scale);
+  r.mask = ~0u;
+  return r;
+}
+
+RayScene::RayScene(const Mesh& mesh) : impl_(std::make_unique<Impl>(mesh)) {}
+RayScene::~RayScene() = default;
+
+// --- Closest point -------------------------------------------------------------------------
+
+namespace {
+
+struct ClosestSearch {
+  const Mesh* mesh = nullptr;
+  const UnitFrame* frame = nullptr;
+  Vec3 query;  // in that frame
+  bool far = false;
+  double best2 = kInfinity;
+  Vec3 best;
+  std::uint32_t triangle = kNoTriangle;
+};
+
+// Squared distance of a point to the corners' bounding box: cheap, and never above that to the
+// triangle.
+double box_distance2(const Vec3& p, const std::array<Vec3, 3>& c) {
+  const auto outside = [](double x, double a, double b, double d) {
+    return std::max({std::min({a, b, d}) - x, x - std::max({a, b, d}), 0.0});
+  };
+  const Vec3 gap = {outside(p.x, c[0].x, c[1].x, c[2].x), outside(p.y, c[0].y, c[1].y, c[2].y),
+                    outside(p.z, c[0].z, c[1].z, c[2].z)};
+  return dot(gap, gap);
+}
+
+// The radius, in float, within which Embree must look so that no triangle at distance d or less is
+// lost. Box corners are off by at most kFloatRounding per coordinate (they are at most 1), the
+// query by kFloatRounding |query|; sqrt(3) per vector, and 2 is more. The float arithmetic of the
+// squared distance has fewer than 16 roundings, as has this function.
+float search_radius(double d, double query_size) {
+  const double shifted = d + 2 * kFloatRounding * (1 + query_size);
+  return clamped_to_float(shifted * (1 + 32 * kFloatRounding));
+}
+
+bool visit_triangle(RTCPointQueryFunctionArguments* args) {
+  auto& search = *static_cast<ClosestSearch*>(args->userPtr);
+  Triangle t = search.mesh->triangles[args->primID];
+  // In the order of the indices, an edge gives the same bits to both of its triangles: ties are
+  // ties.
+  std::sort(t.begin(), t.end());
+  std::array<Vec3, 3> corners;
+  for (int k = 0; k < 3; ++k) {
+    corners[k] = search.frame->to_local(search.mesh->vertices[t[k]]);
+  }
+  if (box_distance2(search.query, corners) > search.best2) return false;
+  const Vec3 candidate = closest_point_of_triangle(search.query, corners);
+  const Vec3 offset = search.query - candidate;
+  const double d2 = dot(offset, offset);
+  const bool tie = d2 == search.best2 && args->primID < search.triangle;
+  if (!(d2 < search.best2) && !tie) return false;
+  search.best2 = d2;
+  search.best = candidate;
+  search.triangle = args->primID;
+  if (search.far) return false;
+  const float radius = search_radius(std::sqrt(d2), largest_component(search.query));
+  if (!(radius < args->query->radius)) return false;
+  args->query->radius = radius;
+  return true;
+}
+
+}  // namespace
+
+ClosestPoint RayScene::closest(const Vec3& point) const {
+  if (impl_->mesh.triangles.empty() || !is_finite(point)) {
+    throw Error(ErrorCode::kInvalidInput,
+                "a closest point needs a mesh with at least 1 triangle and finite coordinates; "
+                "this mesh has " +
+                    std::to_string(impl_->mesh.triangles.size()) + " triangles");
+  }
+  const Vec3 q = impl_->frame.to_local(point);
+  const auto drawn_in = [](double x) { return std::clamp(x, -kDrawnIn, kDrawnIn); };
+  ClosestSearch search;
+  search.mesh = &impl_->mesh;
+  search.frame = &impl_->frame;
+  search.query = {drawn_in(q.x), drawn_in(q.y), drawn_in(q.z)};
+  search.far = !(largest_component(q) < kFarthest);
+  const auto coordinate = [&](double x) { return search.far ? 0.0f : static_cast<float>(x); };
+  RTCPointQuery query = {coordinate(q.x), coordinate(q.y), coordinate(q.z), 0,
+                         std::numeric_limits<float>::infinity()};
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(impl_->scene.get(), &query, &context, visit_triangle, &search);
+  const Vec3 result = impl_->frame.to_shape(search.best);
+  if (search.far) {
+    const Vec3 offset = point - result;
+    return {result, search.triangle, std::hypot(offset.x, offset.y, offset.z)};
+  }
+  return {result, search.triangle, norm(search.query - search.best) / impl_->frame.scale};
+}
+
+// --- Rays ----------------------------------------------------------------------------------
+
+namespace {
+
+// Embree's context with our own data behind it.
+struct FirstHitContext {
+  RTCIntersectContext base;
+  float distance = std::numeric_limits<float>::infinity();
+  std::uint32_t triangle = 0;
+};
+
+// Of several triangles at the same distance (a shared edge) the smallest index wins, whatever the
+// order of the tree.
+void prefer_smaller_index(const RTCFilterFunctionNArguments* args) {
+  auto& first = *reinterpret_cast<FirstHitContext*>(args->context);
+  const float distance = reinterpret_cast<const RTCRay*>(args->ray)->tfar;
+  const std::uint32_t triangle = reinterpret_cast<const RTCHit*>(args->hit)->primID;
+  if (distance == first.distance && triangle > first.triangle) {
+    args->valid[0] = 0;
+    return;
+  }
+  first.distance = distance;
+  first.triangle = triangle;
+}
+
+struct AllHitsContext {
+  RTCIntersectContext base;
+  std::vector<std::uint32_t> triangles;
+};
+
+// Notes the triangle and refuses the hit, so that the ray goes on.
+void note_triangle(const RTCFilterFunctionNArguments* args) {
+  auto& all = *reinterpret_cast<AllHitsContext*>(args->context);
+  all.triangles.push_back(reinterpret_cast<const RTCHit*>(args->hit)->primID);
+  args->valid[0] = 0;
+}
+
+// Distance along the ray to the plane of a triangle that the ray meets: the float hit is good to
+// 1e-7 of the mesh's size only, which is too near to the 1e-6 that tell hits apart.
+double plane_distance(const std::array<Vec3, 3>& corners, const Vec3& origin,
+                      const Vec3& direction) {
+  const Vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+  return dot(normal, corners[0] - origin) / dot(normal, direction);
+}
+
+}  // namespace
+
+RayHit RayScene::first_hit(const Vec3& origin, const Vec3& direction, double near,
+                           double far) const {
+  RTCRayHit query = {impl_->ray(origin, direction, near, far), {}};
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  FirstHitContext context;
+  rtcInitIntersectContext(&context.base);
+  context.base.filter = prefer_smaller_index;
+  rtcIntersect1(impl_->scene.get(), &context.base, &query);
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+  return {true, query.hit.primID, query.hit.u, query.hit.v, query.ray.tfar / impl_->frame.scale};
+}
+
+bool RayScene::occluded(const Vec3& origin, const Vec3& direction, double near, double far) const {
+  RTCRay query = impl_->ray(origin, direction, near, far);
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(impl_->scene.get(), &context, &query);
+  return query.tfar < 0;  // Embree's sign for occluded
+}
+
+std::vector<RayCrossing> RayScene::crossings(const Vec3& origin, const Vec3& direction) const {
+  RTCRayHit query = {impl_->ray(origin, direction, 0, kInfinity), {}};
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  AllHitsContext context;
+  rtcInitIntersectContext(&context.base);
+  context.base.filter = note_triangle;
+  rtcIntersect1(impl_->scene.get(), &context.base, &query);
+  const UnitFrame& frame = impl_->frame;
+  const Vec3 q = frame.to_local(origin);
+  std::vector<RayCrossing> crossings;
+  for (const std::uint32_t triangle : context.triangles) {
+    const auto& [a, b, c] = impl_->mesh.triangles[triangle];
+    const std::vector<Vec3>& vertices = impl_->mesh.vertices;
+    const double t = plane_distance(
+        {frame.to_local(vertices[a]), frame.to_local(vertices[b]), frame.to_local(vertices[c])}, q,
+        direction);
+    if (std::isfinite(t)) crossings.push_back({triangle, t / frame.scale});
+  }
+  std::sort(crossings.begin(), crossings.end(), [](const RayCrossing& a, const RayCrossing& b) {
+    return a.distance != b.distance ? a.distance < b.distance : a.triangle < b.triangle;
+  });
+  return crossings;
+}
+
+int RayScene::count_hits(const Vec3& origin, const Vec3& direction) const {
+  int count = 0;
+  double last = -kInfinity;
+  for (const RayCrossing& crossing : crossings(origin, direction)) {
+    count += crossing.distance - last > 1e-6 * std::abs(crossing.distance);
+    last = crossing.distance;
+  }
+  return count;
+}
+
+}  // namespace rholm

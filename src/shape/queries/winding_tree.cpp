@@ -1,0 +1,200 @@
+#include "shape/queries/winding_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "base/parallel.h"
+#include "rholm/error.h"
+#include "rholm/topology.h"
+#include "shape/queries/morton.h"
+
+namespace rholm {
+namespace {
+
+using std::numbers::pi;
+
+// Measured at 200 000 points: 4 to 16 are within a tenth of each other.
+constexpr std::uint32_t kLeafSize = 8;
+// A patch of no area still has a radius, relative to the points' extent: its term, 0 / radius^3,
+// must not become 0 / 0.
+constexpr double kLeastRadius = 1e-30;
+// Queries that are worked on at a time; a multiple of any vector's length.
+constexpr std::size_t kGrain = 1024;
+
+void check_finite(std::span<const Vec3> vectors, const char* what) {
+  for (std::size_t i = 0; i < vectors.size(); ++i) {
+    if (is_finite(vectors[i])) continue;
+    throw Error(ErrorCode::kInvalidInput,
+                std::string(what) + " " + std::to_string(i) + " is not finite: remove it");
+  }
+}
+
+// (a . r) (b . r)
+QuadraticForm product(const Vec3& a, const Vec3& b) {
+  return {a.x * b.x,
+          a.y * b.y,
+          a.z * b.z,
+          a.x * b.y + a.y * b.x,
+          a.x * b.z + a.z * b.x,
+          a.y * b.z + a.z * b.y};
+}
+
+// p(r) (b . r)
+CubicForm product(const QuadraticForm& p, const Vec3& b) {
+  return {p[0] * b.x,
+          p[1] * b.y,
+          p[2] * b.z,
+          p[0] * b.y + p[3] * b.x,
+          p[0] * b.z + p[4] * b.x,
+          p[1] * b.x + p[3] * b.y,
+          p[1] * b.z + p[5] * b.y,
+          p[2] * b.x + p[4] * b.z,
+          p[2] * b.y + p[5] * b.z,
+          p[3] * b.z + p[4] * b.y + p[5] * b.x};
+}
+
+template <typename Form>
+void add(Form& sum, const Form& form, double factor = 1) {
+  for (std::size_t k = 0; k < form.size(); ++k) sum[k] += factor * form[k];
+}
+
+// Moments around a center of what has these around center + offset:
+// sum a (o + offset) and sum a (o + offset)^2.
+void add_moments(WindingNode& sum, const WindingNode& part, const Vec3& offset) {
+  const QuadraticForm moved = product(part.area_normal, offset);
+  sum.area_normal += part.area_normal;
+  add(sum.first, part.first);
+  add(sum.first, moved);
+  add(sum.second, part.second);
+  add(sum.second, product(part.first, offset), 2);
+  add(sum.second, product(moved, offset));
+}
+
+Vec3 laplacian(const CubicForm& q) {
+  return {6 * q[0] + 2 * (q[5] + q[7]), 6 * q[1] + 2 * (q[3] + q[8]), 6 * q[2] + 2 * (q[4] + q[6])};
+}
+
+}  // namespace
+
+WindingTree::WindingTree(std::span<const Vec3> points, std::span<const Vec3> area_normals) {
+  check_finite(points, "point");
+  std::vector<Vec3> local(points.begin(), points.end());
+  const Bounds box = bounds(local);
+  middle_ = 0.5 * box.min + 0.5 * box.max;
+  const Vec3 half = box.max - middle_;
+  const double extent = std::max({half.x, half.y, half.z});
+  scale_ = extent > 0 ? 1 / extent : 1;
+  for (Vec3& p : local) p = scale_ * (p - middle_);
+  const std::vector<Key> keys = sorted_keys(local);
+  order_.resize(keys.size());
+  points_.resize(keys.size());
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    order_[i] = keys[i].index;
+    points_[i].at = local[keys[i].index];
+  }
+  if (!keys.empty()) split(keys, 0, static_cast<std::uint32_t>(keys.size()), kMortonLevels);
+  set_area_normals(area_normals);
+}
+
+std::vector<WindingTree::Key> WindingTree::sorted_keys(std::span<const Vec3> local) const {
+  std::vector<Key> keys(local.size());
+  for (std::size_t i = 0; i < local.size(); ++i) {
+    keys[i] = {morton(local[i]), static_cast<std::uint32_t>(i)};
+  }
+  std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
+    return a.morton != b.morton ? a.morton < b.morton : a.index < b.index;
+  });
+  return keys;
+}
+
+// Appends the node of points begin ... end - 1, whose keys agree above 3 `level` bits, and those
+// below it. A node with one child only is left out.
+void WindingTree::split(std::span<const Key> keys, std::uint32_t begin, std::uint32_t end,
+                        int level) {
+  const auto digit = [&](std::uint32_t i) { return keys[i].morton >> 3 * (level - 1) & 7; };
+  const bool leaf = end - begin <= kLeafSize || level == 0;
+  if (!leaf && digit(begin) == digit(end - 1)) return split(keys, begin, end, level - 1);
+  const std::size_t self = nodes_.size();
+  WindingNode node;
+  node.begin = begin;
+  node.end = end;
+  node.leaf = leaf;
+  nodes_.push_back(node);
+  while (!leaf && begin < end) {
+    std::uint32_t next = begin;
+    while (next < end && digit(next) == digit(begin)) ++next;
+    split(keys, begin, next, level - 1);
+    begin = next;
+  }
+  WindingNode& done = nodes_[self];
+  done.skip = static_cast<std::uint32_t>(nodes_.size());
+  for (std::size_t j = done.begin; j < done.end; ++j) done.center += points_[j].at;
+  done.center = done.center / (done.end - done.begin);
+}
+
+void WindingTree::set_area_normals(std::span<const Vec3> area_normals) {
+  if (area_normals.size() != points_.size()) {
+    throw Error(ErrorCode::kInvalidInput, std::to_string(area_normals.size()) +
+                                              " normals were given for " +
+                                              std::to_string(points_.size()) + " points");
+  }
+  check_finite(area_normals, "normal");
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const Vec3 a = scale_ * (scale_ * area_normals[order_[i]]);
+    points_[i].area_normal = a;
+    points_[i].least2 = std::max(norm(a) / pi, kLeastRadius * kLeastRadius);
+  }
+  sum_moments();
+}
+
+// Radii hold the patches, within which the far field is not meant.
+void WindingTree::sum_moments() {
+  for (std::size_t i = nodes_.size(); i-- > 0;) {
+    WindingNode& node = nodes_[i];
+    node.area_normal = {};
+    node.first = {};
+    node.second = {};
+    node.radius = 0;
+    const auto add_part = [&](const WindingNode& part) {
+      const Vec3 offset = part.center - node.center;
+      add_moments(node, part, offset);
+      node.radius = std::max(node.radius, norm(offset) + part.radius);
+    };
+    if (node.leaf) {
+      for (std::size_t j = node.begin; j < node.end; ++j) {
+        WindingNode point;
+        point.center = points_[j].at;
+        point.area_normal = points_[j].area_normal;
+        point.radius = std::sqrt(points_[j].least2);
+        add_part(point);
+      }
+    } else {
+      for (std::size_t c = i + 1; c < node.skip; c = nodes_[c].skip) add_part(nodes_[c]);
+    }
+    node.second_laplacian = laplacian(node.second);
+  }
+}
+
+std::vector<double> WindingTree::winding(std::span<const Vec3> x, const Context& context,
+                                         double opening) const {
+  std::vector<Vec3> local(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) local[i] = scale_ * (x[i] - middle_);
+  // Queries that lie near each other walk through the tree together.
+  const std::vector<Key> keys = sorted_keys(local);
+  std::vector<double> result(x.size());
+  parallel_for(x.size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
+    std::vector<Vec3> at;
+    for (std::size_t i = begin; i < end; ++i) at.push_back(local[keys[i].index]);
+    std::vector<double> sums(at.size());
+    sum_winding(nodes_, points_, at, opening, sums.data());
+    for (std::size_t i = begin; i < end; ++i) {
+      result[keys[i].index] = sums[i - begin] / (4 * pi);
+    }
+  });
+  return result;
+}
+
+}  // namespace rholm

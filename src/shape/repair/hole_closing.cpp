@@ -1,0 +1,192 @@
+#include "shape/repair/hole_closing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <span>
+#include <utility>
+
+#include "shape/repair/hole_triangles.h"
+#include "shape/topology/vertex_stars.h"
+
+namespace rholm {
+namespace {
+
+// Of a part's area: a larger cover would not close a hole but double a sheet. A hemisphere's is a
+// half, that of a flat sheet 1.
+constexpr double kLargestCover = 0.75;
+
+Vec3 unit_normal_of(const Mesh& mesh, std::uint32_t t) {
+  const Triangle& c = mesh.triangles[t];
+  const Vec3& a = mesh.vertices[c[0]];
+  return normalized(cross(mesh.vertices[c[1]] - a, mesh.vertices[c[2]] - a));
+}
+
+double area_of(const std::vector<Vec3>& at, const Triangle& t) {
+  return norm(cross(at[t[1]] - at[t[0]], at[t[2]] - at[t[0]])) / 2;
+}
+
+// Half-edges of a border, each beginning where the one before it ends.
+using Border = std::vector<std::uint32_t>;
+
+std::vector<Border> find_borders(const Mesh& mesh, const Parts& parts,
+                                 const std::vector<char>& one_sided,
+                                 const std::vector<std::uint32_t>& mates) {
+  std::vector<std::uint32_t> from(mesh.vertices.size(), kNoMate);  // the half-edge that leaves
+  const auto is_border = [&](std::uint32_t h) {
+    return mates[h] == kNoMate && !one_sided[parts.part[h / 3]];
+  };
+  for (std::uint32_t h = 0; h < mates.size(); ++h) {
+    if (is_border(h)) from[start_of(mesh.triangles, h)] = h;
+  }
+  std::vector<Border> borders;
+  std::vector<char> seen(mates.size(), 0);
+  for (std::uint32_t h = 0; h < mates.size(); ++h) {
+    if (!is_border(h) || seen[h]) continue;
+    Border border;
+    std::uint32_t at = h;
+    while (at != kNoMate && !seen[at]) {
+      seen[at] = 1;
+      border.push_back(at);
+      at = from[end_of(mesh.triangles, at)];
+    }
+    if (at == h) borders.push_back(std::move(border));
+  }
+  return borders;
+}
+
+// The border of a hole run through by what closes it.
+struct Rim {
+  std::vector<std::uint32_t> vertices;
+  std::vector<Vec3> at;
+  std::vector<Vec3> beyond;  // normals at the edge from each to the next
+};
+
+Rim rim_of(const Mesh& mesh, const Border& border) {
+  Rim rim;
+  const std::size_t n = border.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    rim.vertices.push_back(start_of(mesh.triangles, border[n - 1 - i]));
+    rim.at.push_back(mesh.vertices[rim.vertices.back()]);
+    rim.beyond.push_back(unit_normal_of(mesh, border[(2 * n - 2 - i) % n] / 3));
+  }
+  return rim;
+}
+
+using Pair = std::pair<std::uint32_t, std::uint32_t>;
+
+// Edges between vertices of the rim that there are already, sorted.
+std::vector<Pair> edges_within(const Mesh& mesh, const VertexStars& stars, const Rim& rim) {
+  std::vector<Pair> place;  // vertex, its index in the rim
+  for (std::uint32_t i = 0; i < rim.vertices.size(); ++i) place.push_back({rim.vertices[i], i});
+  std::sort(place.begin(), place.end());
+  std::vector<Pair> edges;
+  for (std::uint32_t i = 0; i < rim.vertices.size(); ++i) {
+    for (const std::uint32_t t : stars.of(rim.vertices[i])) {
+      for (const std::uint32_t v : mesh.triangles[t]) {
+        const auto found = std::lower_bound(place.begin(), place.end(), Pair{v, 0});
+        if (found != place.end() && found->first == v && i < found->second) {
+          edges.push_back({i, found->second});
+        }
+      }
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  return edges;
+}
+
+// Around a new vertex, whose attributes are the means of the rim's; whole numbers stay whole.
+HoleTriangles fan(const Rim& rim, Mesh& mesh) {
+  const auto n = static_cast<std::uint32_t>(rim.vertices.size());
+  Vec3 middle;
+  for (const Vec3& p : rim.at) middle += p / n;
+  HoleTriangles hole;
+  std::vector<Vec3> at = rim.at;
+  at.push_back(middle);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    hole.triangles.push_back({i, (i + 1) % n, n});
+    hole.area += area_of(at, hole.triangles.back());
+  }
+  mesh.vertices.push_back(middle);
+  for (Attribute& attribute : mesh.attributes) {
+    double mean = 0;
+    for (const std::uint32_t v : rim.vertices) mean += attribute.values[v] / n;
+    const bool real =
+        attribute.type == ScalarType::kFloat32 || attribute.type == ScalarType::kFloat64;
+    attribute.values.push_back(real ? mean : std::round(mean));
+  }
+  return hole;
+}
+
+void drop_last_vertex(Mesh& mesh) {
+  mesh.vertices.pop_back();
+  for (Attribute& attribute : mesh.attributes) attribute.values.pop_back();
+}
+
+// What closes holes one after the other.
+class Closer {
+ public:
+  Closer(const Parts& parts, Mesh& mesh, RepairReport& report)
+      : mesh_(mesh),
+        report_(report),
+        stars_(make_vertex_stars(mesh.vertices.size(), mesh.triangles)),
+        areas_(parts.n, 0.0) {
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      areas_[parts.part[t]] += area_of(mesh.vertices, mesh.triangles[t]);
+    }
+  }
+
+  void close(const Border& border, std::uint32_t part) {
+    Rim rim = rim_of(mesh_, border);
+    const std::vector<Pair> edges = edges_within(mesh_, stars_, rim);
+    const auto taken = [&](std::uint32_t i, std::uint32_t j) {
+      return std::binary_search(edges.begin(), edges.end(), Pair{i, j}) ||
+             new_edges_.contains(std::minmax(rim.vertices[i], rim.vertices[j]));
+    };
+    std::optional<HoleTriangles> hole = triangulate_hole(rim.at, rim.beyond, taken);
+    const bool around = !hole;
+    if (around) hole = fan(rim, mesh_);
+    if (hole->area > kLargestCover * areas_[part]) {
+      if (around) drop_last_vertex(mesh_);
+      ++report_.sheets;
+      return;
+    }
+    if (around) rim.vertices.push_back(static_cast<std::uint32_t>(mesh_.vertices.size() - 1));
+    for (const Triangle& t : hole->triangles) {
+      const Triangle corners = {rim.vertices[t[0]], rim.vertices[t[1]], rim.vertices[t[2]]};
+      for (int k = 0; k < 3; ++k) {
+        new_edges_.insert(std::minmax(corners[k], corners[(k + 1) % 3]));
+      }
+      mesh_.triangles.push_back(corners);
+    }
+    ++report_.closed_holes;
+    report_.hole_triangles += hole->triangles.size();
+  }
+
+ private:
+  Mesh& mesh_;
+  RepairReport& report_;
+  VertexStars stars_;
+  std::vector<double> areas_;  // per part
+  std::set<Pair> new_edges_;
+};
+
+}  // namespace
+
+void close_holes(const Parts& parts, const std::vector<char>& one_sided,
+                 const std::vector<std::uint32_t>& mates, std::size_t max_hole, Mesh& mesh,
+                 RepairReport& report) {
+  const std::vector<Border> borders = find_borders(mesh, parts, one_sided, mates);
+  if (borders.empty()) return;
+  Closer closer(parts, mesh, report);
+  for (const Border& border : borders) {
+    if (border.size() > max_hole) {
+      ++report.large_holes;
+      report.largest_hole = std::max(report.largest_hole, border.size());
+    } else {
+      closer.close(border, parts.part[border[0] / 3]);
+    }
+  }
+}
+
+}  // namespace rholm

@@ -1,0 +1,326 @@
+// Each step leaves what the next one counts on: no duplicates before triangles are paired, alike
+// senses before sheets are told apart, single fans before borders are followed, and closed parts
+// before their insides are looked for.
+#include "rholm/repair.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/disjoint_sets.h"
+#include "base/parallel.h"
+#include "base/refuse.h"
+#include "shape/face.h"
+#include "shape/repair/hole_closing.h"
+#include "shape/repair/outwards.h"
+#include "shape/repair/sheets.h"
+#include "shape/topology/half_edges.h"
+
+namespace rholm {
+namespace {
+
+constexpr std::size_t kMostHoleEdges = 500;  // chosen: closing one takes some seconds
+// Of the diagonal: copies of a vertex move so far apart. Chosen: readers that weld do not see them
+// as one, eyes do.
+constexpr double kApart = 1e-6;
+// Of the largest coordinate: four steps of single precision, in which most formats keep it.
+constexpr double kApartSingle = 0x1p-21;
+// Of the largest coordinate: shorter edges of triangles without area are points. Twice what
+// face_normal() calls rounding.
+constexpr double kPoint = 16 * 0x1p-53;
+constexpr int kSwapPasses = 16;  // a row of so many slivers is swapped away
+
+double largest_modulus(const Bounds& box) {
+  double largest = 0;
+  for (const Vec3& v : {box.min, box.max}) {
+    largest = std::max({largest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  }
+  return largest;
+}
+
+// A mesh under repair. `mesh_` has coordinates times a power of two, near 1.
+class Repairer {
+ public:
+  Repairer(Mesh mesh, const RepairOptions& options, const Context& context)
+      : options_(options), context_(context), given_(mesh.vertices), mesh_(std::move(mesh)) {
+    const Bounds box = bounds(given_);
+    scale_ = unit_frame(box).scale;
+    for (Vec3& v : mesh_.vertices) v *= scale_;
+    local_ = mesh_.vertices;
+    diagonal_ = norm(scale_ * box.max - scale_ * box.min);
+    largest_ = scale_ * largest_modulus(box);
+  }
+
+  void run() {
+    const auto at = [&](double share) { report_progress(context_, "repair", share); };
+    at(0);
+    collapse_needles();
+    drop_duplicates();
+    at(0.2);
+    orient();
+    separate();
+    at(0.4);
+    swap_slivers();
+    at(0.5);
+    close();
+    at(0.8);
+    turn();
+  }
+
+  Repaired result() {
+    report_.flipped_triangles =
+        static_cast<std::size_t>(std::count(turned_.begin(), turned_.end(), 1));
+    turn_normals();
+    for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
+      const bool stayed = v < local_.size() && mesh_.vertices[v] == local_[v];
+      mesh_.vertices[v] = stayed ? given_[v] : mesh_.vertices[v] / scale_;
+    }
+    return {weld(mesh_).mesh, report_};
+  }
+
+ private:
+  FaceNormal normal_of(const Triangle& t) const {
+    return face_normal({mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]});
+  }
+
+  // Triangles without area, one of whose edges is a point.
+  void collapse_needles() {
+    DisjointSets same(mesh_.vertices.size());
+    bool found = false;
+    for (const Triangle& t : mesh_.triangles) {
+      if (!normal_of(t).degenerate) continue;
+      for (int k = 0; k < 3; ++k) {
+        const std::uint32_t a = t[k], b = t[(k + 1) % 3];
+        if (norm(mesh_.vertices[a] - mesh_.vertices[b]) > kPoint * largest_) continue;
+        same.unite(a, b);
+        found = true;
+      }
+    }
+    if (!found) return;
+    for (Triangle& t : mesh_.triangles) {
+      for (std::uint32_t& v : t) v = same.find(v);
+    }
+    report_.degenerate_triangles += std::erase_if(mesh_.triangles, has_repeated_corner);
+  }
+
+  void drop_duplicates() {
+    std::vector<std::pair<Triangle, std::uint32_t>> sorted;
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+      Triangle corners = mesh_.triangles[t];
+      std::sort(corners.begin(), corners.end());
+      sorted.push_back({corners, t});
+    }
+    std::sort(sorted.begin(), sorted.end());
+    std::vector<char> again(mesh_.triangles.size(), 0);
+    for (std::size_t i = 1; i < sorted.size(); ++i) {
+      again[sorted[i].second] = sorted[i].first == sorted[i - 1].first;
+    }
+    report_.duplicate_triangles = drop(again);
+  }
+
+  std::size_t drop(const std::vector<char>& gone) {
+    std::size_t kept = 0;
+    const std::size_t n = mesh_.triangles.size();
+    for (std::size_t t = 0; t < n; ++t) {
+      if (gone[t]) continue;
+      if (!turned_.empty()) turned_[kept] = turned_[t];
+      mesh_.triangles[kept++] = mesh_.triangles[t];
+    }
+    mesh_.triangles.resize(kept);
+    if (!turned_.empty()) turned_.resize(kept);
+    return n - kept;
+  }
+
+  void find_all_mates() {
+    mates_ = find_mates(mesh_.vertices, mesh_.triangles, MatesAt::kAllEdges);
+    parts_ = find_parts(mesh_.triangles.size(), mates_);
+  }
+
+  // Alike first across edges of two triangles, so that those of more can be told apart.
+  void orient() {
+    mates_ = find_mates(mesh_.vertices, mesh_.triangles, MatesAt::kPairsOnly);
+    parts_ = find_parts(mesh_.triangles.size(), mates_);
+    turned_ = orient_alike(mesh_.vertices, parts_, mesh_.triangles, mates_).flipped;
+    find_all_mates();
+    const Orienting second = orient_alike(mesh_.vertices, parts_, mesh_.triangles, mates_);
+    for (std::size_t t = 0; t < turned_.size(); ++t) turned_[t] ^= second.flipped[t];
+    one_sided_ = second.one_sided;
+    report_.one_sided_parts =
+        static_cast<std::size_t>(std::count(one_sided_.begin(), one_sided_.end(), 1));
+  }
+
+  void separate() {
+    const std::vector<std::uint32_t> copies =
+        separate_fans(mesh_.vertices.size(), mates_, mesh_.triangles);
+    if (copies.empty()) return;
+    report_.split_vertices = copies.size();
+    const std::size_t n = mesh_.vertices.size();
+    std::vector<char> moves(n + copies.size(), 0);
+    for (std::size_t i = 0; i < copies.size(); ++i) {
+      mesh_.vertices.push_back(mesh_.vertices[copies[i]]);
+      for (Attribute& a : mesh_.attributes) a.values.push_back(a.values[copies[i]]);
+      moves[copies[i]] = moves[n + i] = 1;
+    }
+    move_into_sheets(moves);
+  }
+
+  // Towards the mean of the other corners of a vertex's triangles.
+  void move_into_sheets(const std::vector<char>& moves) {
+    const double apart = std::max(kApart * diagonal_, kApartSingle * largest_);
+    std::vector<Vec3> sums(moves.size());
+    std::vector<double> counts(moves.size(), 0);
+    for (const Triangle& t : mesh_.triangles) {
+      for (int k = 0; k < 3; ++k) {
+        if (!moves[t[k]]) continue;
+        sums[t[k]] += mesh_.vertices[t[(k + 1) % 3]] + mesh_.vertices[t[(k + 2) % 3]];
+        counts[t[k]] += 2;
+      }
+    }
+    for (std::size_t v = 0; v < moves.size(); ++v) {
+      if (!moves[v]) continue;
+      const Vec3 way = sums[v] / counts[v] - mesh_.vertices[v];
+      mesh_.vertices[v] += std::min(0.5, apart / std::max(norm(way), 1e-300)) * way;
+    }
+  }
+
+  // A triangle without area has a corner on its longest edge: that edge is swapped for the one
+  // from there to the corner beyond, or the triangle dropped where the edge is a border.
+  void swap_slivers() {
+    for (int pass = 0; pass < kSwapPasses; ++pass) {
+      std::vector<std::uint32_t> slivers;
+      for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+        if (normal_of(mesh_.triangles[t]).degenerate) slivers.push_back(t);
+      }
+      if (slivers.empty() || !swap(slivers)) return;
+      find_all_mates();
+      one_sided_.assign(parts_.n, 0);
+      orient_again();
+    }
+  }
+
+  // Mates of swapped triangles are in order; parts may have new numbers.
+  void orient_again() {
+    Parts parts = parts_;
+    const Orienting again = orient_alike(mesh_.vertices, parts, mesh_.triangles, mates_);
+    for (std::size_t t = 0; t < turned_.size(); ++t) turned_[t] ^= again.flipped[t];
+    one_sided_ = again.one_sided;
+  }
+
+  bool swap(const std::vector<std::uint32_t>& slivers) {
+    std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
+    for (const Triangle& t : mesh_.triangles) {
+      for (int k = 0; k < 3; ++k) edges.insert(std::minmax(t[k], t[(k + 1) % 3]));
+    }
+    std::vector<char> touched(mesh_.triangles.size(), 0), gone(mesh_.triangles.size(), 0);
+    bool changed = false;
+    for (const std::uint32_t t : slivers) {
+      const std::uint32_t h = longest_edge(t), mate = mates_[h];
+      if (touched[t] || (mate != kNoMate && touched[mate / 3])) continue;
+      if (mate == kNoMate) {
+        gone[t] = touched[t] = 1;
+      } else {
+        const std::uint32_t a = start_of(mesh_.triangles, h), b = end_of(mesh_.triangles, h);
+        const std::uint32_t c = mesh_.triangles[t][(h + 2) % 3];
+        const std::uint32_t d = mesh_.triangles[mate / 3][(mate + 2) % 3];
+        const Triangle first = {c, a, d}, second = {d, b, c};
+        const bool better = normal_of(first).degenerate + normal_of(second).degenerate <
+                            1 + normal_of(mesh_.triangles[mate / 3]).degenerate;
+        const bool opposite = start_of(mesh_.triangles, mate) == b;
+        if (!better || !opposite || c == d || edges.contains(std::minmax(c, d))) continue;
+        edges.erase(std::minmax(a, b));
+        edges.insert(std::minmax(c, d));
+        mesh_.triangles[t] = first;
+        mesh_.triangles[mate / 3] = second;
+        touched[t] = touched[mate / 3] = 1;
+      }
+      ++report_.degenerate_triangles;
+      changed = true;
+    }
+    drop(gone);
+    return changed;
+  }
+
+  std::uint32_t longest_edge(std::uint32_t t) const {
+    std::uint32_t longest = 3 * t;
+    double length = -1;
+    for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
+      const double l = norm(mesh_.vertices[end_of(mesh_.triangles, h)] -
+                            mesh_.vertices[start_of(mesh_.triangles, h)]);
+      if (l > length) longest = h, length = l;
+    }
+    return longest;
+  }
+
+  void close() {
+    close_holes(parts_, one_sided_, mates_, options_.max_hole, mesh_, report_);
+    turned_.resize(mesh_.triangles.size(), 0);
+    find_all_mates();
+  }
+
+  void turn() {
+    std::vector<char> wrong(mesh_.triangles.size(), 0);
+    turn_outwards(mesh_, parts_, mates_, wrong, report_, context_);
+    flip_marked(wrong, mesh_.triangles, mates_);
+    for (std::size_t t = 0; t < wrong.size(); ++t) turned_[t] ^= wrong[t];
+  }
+
+  // Normals of the file at turned triangles, where they contradict these now.
+  void turn_normals() {
+    std::array<std::vector<double>*, 3> normals{};
+    for (Attribute& a : mesh_.attributes) {
+      if (a.name == "nx") normals[0] = &a.values;
+      if (a.name == "ny") normals[1] = &a.values;
+      if (a.name == "nz") normals[2] = &a.values;
+    }
+    if (!normals[0] || !normals[1] || !normals[2]) return;
+    const std::vector<Vec3> faces = area_normals(mesh_.vertices, mesh_.triangles);
+    std::vector<char> at_turned(mesh_.vertices.size(), 0);
+    for (std::size_t t = 0; t < turned_.size(); ++t) {
+      for (const std::uint32_t v : mesh_.triangles[t]) at_turned[v] |= turned_[t];
+    }
+    for (std::size_t v = 0; v < at_turned.size(); ++v) {
+      const Vec3 normal = {(*normals[0])[v], (*normals[1])[v], (*normals[2])[v]};
+      if (!at_turned[v] || !(dot(normal, faces[v]) < 0)) continue;
+      for (std::vector<double>* values : normals) (*values)[v] = -(*values)[v];
+    }
+  }
+
+  const RepairOptions& options_;
+  const Context& context_;
+  std::vector<Vec3> given_, local_;  // as they came: what stays comes back to the last bit
+  Mesh mesh_;
+  double scale_ = 1, diagonal_ = 0, largest_ = 0;
+  std::vector<std::uint32_t> mates_;
+  Parts parts_;
+  std::vector<char> one_sided_;  // per part
+  std::vector<char> turned_;     // per triangle, against the mesh given
+  RepairReport report_;
+};
+
+}  // namespace
+
+Repaired repair(const Mesh& mesh, const RepairOptions& options, const Context& context) {
+  if (options.max_hole > kMostHoleEdges) {
+    refuse("holes of " + std::to_string(options.max_hole) + " edges are too large to be closed; " +
+           std::to_string(kMostHoleEdges) + " at most");
+  }
+  const Welded exact = weld(mesh);
+  const Welded welded = options.weld > 0 ? weld(mesh, options.weld) : exact;
+  Repairer repairer(welded.mesh, options, context);
+  repairer.run();
+  Repaired result = repairer.result();
+  RepairReport& report = result.report;
+  report.before = inspect(exact.mesh);
+  report.merged_vertices = welded.merged_vertices;
+  report.collapsed_triangles = welded.collapsed_triangles;
+  report.isolated_vertices =
+      mesh.vertices.size() - exact.merged_vertices - exact.mesh.vertices.size();
+  report.after = inspect(result.mesh);
+  if (report.after.boundary_edges > 0) report.closes_at = closing_tolerance(result.mesh);
+  return result;
+}
+
+}  // namespace rholm

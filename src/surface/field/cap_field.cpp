@@ -1,0 +1,545 @@
+#include "surface/field/cap_field.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "base/parallel.h"
+#include "base/poison.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "surface/field/cap_field.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "harmonic/legendre/low_harmonics-inl.h"
+#include "surface/field/cap_lane.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace rholm {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::CappedTag<float, 16>;
+using V = hn::Vec<D>;
+using M = hn::Mask<D>;
+
+// A cap in steps, relative to the first node of a block.
+struct LaneCap {
+  const CapLane& cap;
+  V sx, sy, sz;  // seed
+
+  HWY_INLINE LaneCap(D d, const CapLane& c, const Vec3& origin, double step) : cap(c) {
+    const Vec3 s = (c.seed - origin) / step;
+    sx = hn::Set(d, static_cast<float>(s.x));
+    sy = hn::Set(d, static_cast<float>(s.y));
+    sz = hn::Set(d, static_cast<float>(s.z));
+  }
+};
+
+HWY_INLINE V DotLane(D d, const float* a, V x, V y, V z) {
+  return hn::MulAdd(hn::Set(d, a[0]), x,
+                    hn::MulAdd(hn::Set(d, a[1]), y, hn::Mul(hn::Set(d, a[2]), z)));
+}
+
+// (1 - s^2)^3, or the quadratic B-spline of t = 3 s / 2: 3/4 - t^2 up to 1/2, then (3/2 - t)^2 / 2,
+// both over its value at 0.
+HWY_INLINE V WeightAt(D d, bool spline, V near) {
+  if (!spline) return hn::Mul(near, hn::Mul(near, near));
+  const V square = hn::Sub(hn::Set(d, 1.0f), near);
+  const V rest = hn::Sub(hn::Set(d, 1.0f), hn::Sqrt(hn::Max(square, hn::Zero(d))));
+  const V inner = hn::NegMulAdd(hn::Set(d, 3.0f), square, hn::Set(d, 1.0f));
+  const V outer = hn::Mul(hn::Set(d, 1.5f), hn::Mul(rest, rest));
+  return hn::IfThenElse(hn::Lt(square, hn::Set(d, 1.0f / 9)), inner, outer);
+}
+
+// What a cap says at points: potential and weight, and the normal in space where asked for.
+struct Said {
+  V g, w;
+  V nx, ny, nz;
+};
+
+// Where points lie with respect to a cap: in its frame, 1 - s^2 of its support, and whether they
+// are within that and not too far from the tangent plane.
+struct Place {
+  V lx, ly, height, near;
+  M within;
+};
+
+HWY_INLINE Place PlaceOf(D d, const LaneCap& lane, V px, V py, V pz) {
+  const CapLane& cap = lane.cap;
+  const V one = hn::Set(d, 1.0f);
+  const V dx = hn::Sub(px, lane.sx), dy = hn::Sub(py, lane.sy), dz = hn::Sub(pz, lane.sz);
+  Place at;
+  at.height = DotLane(d, cap.z, dx, dy, dz);
+  at.lx = DotLane(d, cap.x, dx, dy, dz), at.ly = DotLane(d, cap.y, dx, dy, dz);
+  const V p = hn::Sub(at.lx, hn::Set(d, cap.px)), q = hn::Sub(at.ly, hn::Set(d, cap.py));
+  V square =
+      hn::MulAdd(hn::Set(d, cap.xx), hn::Mul(p, p), hn::Mul(hn::Set(d, cap.xy2), hn::Mul(p, q)));
+  square = hn::MulAdd(hn::Set(d, cap.yy), hn::Mul(q, q), square);
+  at.near = hn::Sub(one, hn::MulAdd(hn::Set(d, cap.hh), hn::Mul(at.height, at.height), square));
+  at.within =
+      hn::And(hn::Gt(at.near, hn::Zero(d)), hn::Lt(hn::Abs(at.height), hn::Set(d, cap.reach)));
+  return at;
+}
+
+template <bool kNormals>
+HWY_INLINE void Say(D d, const CapLane& cap, const Place& place, Said& said) {
+  const V one = hn::Set(d, 1.0f);
+  const V lx = place.lx, ly = place.ly;
+  const V lz = hn::Add(place.height, hn::Set(d, cap.radius));
+  const V rho2 = hn::MulAdd(lx, lx, hn::MulAdd(ly, ly, hn::Mul(lz, lz)));
+  const V rho = hn::Sqrt(rho2);
+  // (s1, s2) = a (ux, uy) / (1 + uz)
+  const V below = hn::Div(one, hn::Add(rho, lz));
+  const V t1 = hn::Mul(lx, below), t2 = hn::Mul(ly, below);
+  const V a = hn::Set(d, cap.dilation);
+  LowDirection<V> at;
+  at.s1 = hn::Mul(a, t1), at.s2 = hn::Mul(a, t2);
+  const V opened = hn::Div(one, hn::MulAdd(at.s1, at.s1, hn::MulAdd(at.s2, at.s2, one)));
+  const V over = hn::Add(opened, opened);
+  at.x = hn::Mul(at.s1, over), at.y = hn::Mul(at.s2, over), at.z = hn::Sub(over, one);
+  const LowSum<V> sum = SumLowHarmonics(d, cap.degree, cap.even, cap.coefficients, at);
+  const V level = hn::Add(one, sum.value);
+  // |grad f| / f = factor |grad phi| / (1 + phi)
+  const V factor = hn::Mul(hn::Mul(a, hn::MulAdd(t1, t1, hn::MulAdd(t2, t2, one))), opened);
+  const V slope = hn::Div(factor, level);
+  const V g1 = hn::Mul(slope, sum.d1), g2 = hn::Mul(slope, sum.d2);
+  const V flat = hn::Div(one, hn::Sqrt(hn::MulAdd(g1, g1, hn::MulAdd(g2, g2, one))));
+  said.g = hn::Mul(hn::NegMulAdd(hn::Set(d, cap.radius), level, rho), flat);
+  const V band = hn::Mul(said.g, hn::Set(d, cap.inverse_band));
+  const V rest = hn::NegMulAdd(band, band, one);
+  M speaks =
+      hn::And(place.within, hn::And(hn::Gt(rest, hn::Zero(d)), hn::Gt(level, hn::Set(d, 0.2f))));
+  speaks = hn::And(speaks, hn::Gt(lz, hn::Mul(rho, hn::Set(d, 0.3f))));
+  said.w = hn::IfThenElseZero(speaks, hn::Mul(WeightAt(d, cap.spline, place.near),
+                                              hn::Mul(hn::Set(d, cap.trust), hn::Mul(rest, rest))));
+  if (cap.noisy) said.w = hn::Mul(said.w, hn::Mul(flat, flat));
+  said.g = hn::IfThenElseZero(speaks, said.g);
+  if constexpr (kNormals) {
+    // u - grad f / f, in the frame: the tangents of the plane's axes are e_i - t_i (u + e_3).
+    const V inverse = hn::Div(one, rho);
+    const V ux = hn::Mul(lx, inverse), uy = hn::Mul(ly, inverse), uz = hn::Mul(lz, inverse);
+    const V both = hn::MulAdd(g1, t1, hn::Mul(g2, t2));
+    const V fx = hn::Mul(flat, hn::Sub(hn::MulAdd(both, ux, ux), g1));
+    const V fy = hn::Mul(flat, hn::Sub(hn::MulAdd(both, uy, uy), g2));
+    const V fz = hn::Mul(flat, hn::MulAdd(both, hn::Add(uz, one), uz));
+    const auto turn = [&](int axis) HWY_ATTR {
+      return hn::IfThenElseZero(speaks,
+                                hn::MulAdd(hn::Set(d, cap.x[axis]), fx,
+                                           hn::MulAdd(hn::Set(d, cap.y[axis]), fy,
+                                                      hn::Mul(hn::Set(d, cap.z[axis]), fz))));
+    };
+    said.nx = turn(0), said.ny = turn(1), said.nz = turn(2);
+  }
+}
+
+// The nodes of a block that lie within a cap, by their indices; how many. A cap is a disc, and
+// fills little more than a third of the vectors it touches. `chosen` has room for a vector more.
+HWY_INLINE std::size_t NodesWithin(D d, const LaneCap& lane, const NodeRange& range,
+                                   const NodeTable& nodes, std::int32_t* chosen) {
+  const hn::RebindToSigned<D> di;
+  std::size_t count = 0;
+  for (std::size_t z = range.first_z; z < range.end_z; ++z) {
+    const std::size_t end = 64 * z + 8 * range.end_y;
+    for (std::size_t i = 64 * z + 8 * range.first_y; i < end; i += hn::Lanes(d)) {
+      const M within = PlaceOf(d, lane, hn::Load(d, nodes.x + i), hn::Load(d, nodes.y + i),
+                               hn::Load(d, nodes.z + i))
+                           .within;
+      if (hn::AllFalse(d, within)) continue;
+      const auto all = hn::Iota(di, static_cast<std::int32_t>(i));
+      hn::StoreU(hn::Compress(all, hn::RebindMask(di, within)), di, chosen + count);
+      count += hn::CountTrue(d, within);
+    }
+  }
+  return count;
+}
+
+void FillBlock(const CapLane* caps, const std::uint32_t* list, std::size_t n_caps,
+               const Vec3& origin, double step, const NodeTable& nodes, float* values,
+               std::uint64_t* doubtful) {
+  const D d;
+  const hn::RebindToSigned<D> di;
+  alignas(64) float sum_g[512], sum_w[512], said_g[16], said_w[16];
+  std::int32_t chosen[512 + 16];
+  for (std::size_t i = 0; i < 512; i += hn::Lanes(d)) {
+    hn::Store(hn::Zero(d), d, sum_g + i);
+    hn::Store(hn::Zero(d), d, sum_w + i);
+  }
+  for (std::size_t c = 0; c < n_caps; ++c) {
+    const CapLane& cap = caps[list[c]];
+    const LaneCap lane(d, cap, origin, step);
+    const std::size_t n = NodesWithin(d, lane, nodes_near(cap, origin, step), nodes, chosen);
+    hn::StoreU(hn::Zero(di), di, chosen + n);
+    for (std::size_t first = 0; first < n; first += hn::Lanes(d)) {
+      const auto index = hn::LoadU(di, chosen + first);
+      const auto coordinate = [&](auto bits) HWY_ATTR {
+        return hn::ConvertTo(d, hn::And(bits, hn::Set(di, 7)));
+      };
+      const Place place = PlaceOf(d, lane, coordinate(index), coordinate(hn::ShiftRight<3>(index)),
+                                  coordinate(hn::ShiftRight<6>(index)));
+      Said said{};
+      Say<false>(d, cap, place, said);
+      hn::Store(hn::Mul(said.w, said.g), d, said_g);
+      hn::Store(said.w, d, said_w);
+      const std::size_t end = std::min(n - first, hn::Lanes(d));
+      for (std::size_t k = 0; k < end; ++k) {
+        sum_g[chosen[first + k]] += said_g[k];
+        sum_w[chosen[first + k]] += said_w[k];
+      }
+    }
+  }
+  for (std::size_t i = 0; i < 512; i += hn::Lanes(d)) {
+    const V w = hn::Load(d, sum_w + i);
+    const V g = hn::Div(hn::Load(d, sum_g + i), w);
+    hn::StoreU(hn::IfThenElse(hn::Gt(w, hn::Set(d, kLeastWeight)),
+                              hn::Mul(g, hn::Set(d, static_cast<float>(step))),
+                              hn::Set(d, BlockGrid::kUnknown)),
+               d, values + i);
+  }
+  const auto near = static_cast<float>(kDoubtfulSteps * step);
+  for (std::size_t i = 0; i < 512; ++i) {
+    const bool weak = sum_w[i] > kLeastWeight && sum_w[i] < kDoubtfulWeight;
+    if (weak && std::abs(values[i]) < near) doubtful[i >> 6] |= std::uint64_t{1} << (i & 63);
+  }
+}
+
+// The same at scattered points, in steps from the origin; sums of w g, w and w n, five rows.
+void SayAt(const CapLane* caps, const std::uint32_t* list, std::size_t n_caps, const Vec3& origin,
+           double step, const float* points, std::size_t n, std::size_t stride, float* sums) {
+  const D d;
+  for (std::size_t row = 0; row < 5; ++row) {
+    for (std::size_t i = 0; i < n; i += hn::Lanes(d))
+      hn::Store(hn::Zero(d), d, sums + row * stride + i);
+  }
+  for (std::size_t c = 0; c < n_caps; ++c) {
+    const LaneCap lane(d, caps[list[c]], origin, step);
+    for (std::size_t i = 0; i < n; i += hn::Lanes(d)) {
+      const Place place =
+          PlaceOf(d, lane, hn::Load(d, points + i), hn::Load(d, points + stride + i),
+                  hn::Load(d, points + 2 * stride + i));
+      if (hn::AllFalse(d, place.within)) continue;
+      Said said{};
+      Say<true>(d, lane.cap, place, said);
+      const auto add = [&](std::size_t row, V value) HWY_ATTR {
+        float* const at = sums + row * stride + i;
+        hn::Store(hn::MulAdd(said.w, value, hn::Load(d, at)), d, at);
+      };
+      add(0, said.g);
+      add(1, hn::Set(d, 1.0f));
+      add(2, said.nx);
+      add(3, said.ny);
+      add(4, said.nz);
+    }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace rholm
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace rholm {
+namespace {
+HWY_EXPORT(FillBlock);
+HWY_EXPORT(SayAt);
+
+NodeTable make_nodes() {
+  NodeTable nodes{};
+  for (std::size_t i = 0; i < 512; ++i) {
+    nodes.x[i] = static_cast<float>(i & 7);
+    nodes.y[i] = static_cast<float>((i >> 3) & 7);
+    nodes.z[i] = static_cast<float>(i >> 6);
+  }
+  return nodes;
+}
+
+struct Lanes {
+  std::vector<CapLane> caps;
+  std::vector<float> coefficients;
+};
+
+// The longer half axis of the ellipse.
+double ellipse_reach(const Cap& cap) {
+  const CapSupport& where = cap.where;
+  const double middle = (where.xx + where.yy) / 2;
+  return 1 / std::sqrt(middle - std::hypot((where.xx - where.yy) / 2, where.xy));
+}
+
+Lanes make_lanes(const Atlas& atlas, double step) {
+  Lanes lanes;
+  lanes.coefficients.assign(atlas.coefficients.begin(), atlas.coefficients.end());
+  lanes.caps.reserve(atlas.caps.size());
+  for (const Cap& cap : atlas.caps) {
+    CapLane lane;
+    const CapFrame& f = cap.frame;
+    lane.seed = f.seed();
+    const auto put = [](float* to, const Vec3& v) {
+      to[0] = static_cast<float>(v.x), to[1] = static_cast<float>(v.y),
+      to[2] = static_cast<float>(v.z);
+    };
+    put(lane.x, f.x), put(lane.y, f.y), put(lane.z, f.z);
+    const double support = f.support / step;
+    lane.radius = static_cast<float>(f.radius / step);
+    lane.dilation = static_cast<float>(f.dilation);
+    const double step2 = step * step;
+    lane.px = static_cast<float>(cap.where.px / step),
+    lane.py = static_cast<float>(cap.where.py / step);
+    lane.xx = static_cast<float>(cap.where.xx * step2),
+    lane.yy = static_cast<float>(cap.where.yy * step2);
+    lane.xy2 = static_cast<float>(2 * cap.where.xy * step2);
+    lane.hh = static_cast<float>(1 / (support * support));
+    lane.reach = static_cast<float>((band_of(atlas, step) + cap_deviation(atlas, cap)) / step);
+    // A disc of radius e and half thickness t across n reaches e sqrt(1 - n_x^2) + t |n_x| along x.
+    const Vec3 n = f.z;
+    const double edge = ellipse_reach(cap) / step;
+    const auto extent = [&](double along) {
+      return static_cast<float>(edge * std::sqrt(std::max(0.0, 1 - along * along)) +
+                                lane.reach * std::abs(along));
+    };
+    lane.middle = lane.seed + cap.where.px * f.x + cap.where.py * f.y;
+    lane.box[0] = extent(n.x), lane.box[1] = extent(n.y), lane.box[2] = extent(n.z);
+    lane.inverse_band = static_cast<float>(step / band_of(atlas, step));
+    lane.trust = static_cast<float>(cap.weight);
+    lane.degree = cap.degree;
+    lane.spline = atlas.blend == CapBlend::kSpline;
+    lane.noisy = atlas.noise > 0;
+    lane.even = cap.basis == CapBasis::kEven;
+    lane.coefficients = lanes.coefficients.data() + cap.first;
+    lanes.caps.push_back(lane);
+  }
+  return lanes;
+}
+
+}  // namespace
+
+NodeRange nodes_near(const CapLane& cap, const Vec3& origin, double step) {
+  const Vec3 at = (cap.middle - origin) / step;
+  const auto first = [](double x) {
+    return static_cast<std::size_t>(std::clamp(std::ceil(x), 0.0, 8.0));
+  };
+  const auto end = [](double x) {
+    return static_cast<std::size_t>(std::clamp(std::floor(x) + 1, 0.0, 8.0));
+  };
+  return {first(at.y - cap.box[1]) & ~std::size_t{1},
+          (end(at.y + cap.box[1]) + 1) & ~std::size_t{1}, first(at.z - cap.box[2]),
+          end(at.z + cap.box[2])};
+}
+
+double band_of(const Atlas& atlas, double step) { return std::max(kBandSteps * step, atlas.band); }
+
+double cap_deviation(const Atlas&, const Cap& cap) { return cap.deviation; }
+
+std::vector<Disc> discs_of(const Atlas& atlas, double step, const Context&) {
+  std::vector<Disc> discs;
+  discs.reserve(atlas.caps.size());
+  for (const Cap& cap : atlas.caps) {
+    const CapFrame& f = cap.frame;
+    discs.push_back({f.seed() + cap.where.px * f.x + cap.where.py * f.y, f.z, ellipse_reach(cap),
+                     band_of(atlas, step) + cap_deviation(atlas, cap)});
+  }
+  return discs;
+}
+
+namespace {
+
+// Calls visit(block) for the blocks of the grid, one step wider than their nodes, that a disc may
+// touch.
+template <class Visit>
+void visit_blocks(const BlockGrid& grid, const Disc& disc, const Visit& visit) {
+  const double side = BlockGrid::kSide;
+  const Vec3 c = (disc.center - grid.origin) / grid.step;
+  const double radius = disc.radius / grid.step, thickness = disc.half_thickness / grid.step;
+  // Nodes 0 ... 8 of block b: 8 b <= c + radius and 8 b + 8 >= c - radius.
+  const auto low = [&](double x) {
+    return static_cast<std::int32_t>(std::ceil((x - radius - side) / side));
+  };
+  const auto high = [&](double x) {
+    return static_cast<std::int32_t>(std::floor((x + radius) / side));
+  };
+  const double half = side / 2;
+  const double spread =
+      half * (std::abs(disc.normal.x) + std::abs(disc.normal.y) + std::abs(disc.normal.z));
+  for (std::int32_t bz = low(c.z); bz <= high(c.z); ++bz) {
+    for (std::int32_t by = low(c.y); by <= high(c.y); ++by) {
+      for (std::int32_t bx = low(c.x); bx <= high(c.x); ++bx) {
+        const Vec3 middle{side * bx + half, side * by + half, side * bz + half};
+        if (std::abs(dot(disc.normal, middle - c)) > thickness + spread) continue;
+        const std::int32_t block = find_block(grid, {bx, by, bz});
+        if (block != kNoBlock) visit(static_cast<std::size_t>(block));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+CapLists list_caps(const BlockGrid& grid, const std::vector<Disc>& discs) {
+  CapLists lists;
+  lists.first.assign(grid.n_blocks() + 1, 0);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;  // block, cap
+  pairs.reserve(8 * discs.size());
+  for (std::size_t c = 0; c < discs.size(); ++c) {
+    visit_blocks(grid, discs[c], [&](std::size_t block) {
+      ++lists.first[block + 1];
+      pairs.emplace_back(static_cast<std::uint32_t>(block), static_cast<std::uint32_t>(c));
+    });
+  }
+  for (std::size_t b = 0; b < grid.n_blocks(); ++b) lists.first[b + 1] += lists.first[b];
+  lists.caps.resize(pairs.size());
+  std::vector<std::size_t> next(lists.first.begin(), lists.first.end() - 1);
+  for (const auto& [block, cap] : pairs) lists.caps[next[block]++] = cap;
+  return lists;
+}
+
+std::vector<std::uint64_t> fill_grid(const Atlas& atlas, const CapLists& lists, BlockGrid& grid,
+                                     const Context& context) {
+  const Lanes lanes = make_lanes(atlas, grid.step);
+  static const NodeTable nodes = make_nodes();
+  std::vector<std::uint64_t> doubtful(8 * grid.n_blocks(), 0);
+  parallel_for(lists.first.size() - 1, 64, context, {.name = "grid"},
+               [&](std::size_t begin, std::size_t end) {
+                 for (std::size_t b = begin; b < end; ++b) {
+                   HWY_DYNAMIC_DISPATCH(FillBlock)
+                   (lanes.caps.data(), lists.caps.data() + lists.first[b],
+                    lists.first[b + 1] - lists.first[b], grid.node(b, 0), grid.step, nodes,
+                    grid.block_values(b), &doubtful[8 * b]);
+                 }
+               });
+  return doubtful;
+}
+
+namespace {
+
+// s^2 of CapSupport on the rim of the data: half a disc of points, at the edge of a hole, has a
+// mean at 0.42 R from it, and an ellipse of half axis 0.53 R.
+constexpr double kRim = 0.63;
+// Beyond the rim caps hand over to the fill of a hole, up to here. Measured: a tenth farther they
+// bend on their own, and flares and steps stand around the fill.
+constexpr double kEnd = 0.7;
+
+double place(const Cap& cap, const Vec3& x) {
+  const CapFrame& f = cap.frame;
+  const Vec3 offset = x - f.seed();
+  const double p = dot(offset, f.x) - cap.where.px, q = dot(offset, f.y) - cap.where.py;
+  const double h = dot(offset, f.z) / f.support;
+  return cap.where.xx * p * p + 2 * cap.where.xy * p * q + cap.where.yy * q * q + h * h;
+}
+
+// Steps that a vertex may move, and the squared mean of normals below which caps contradict each
+// other.
+constexpr double kLargestMove = 0.5;
+constexpr double kLeastNormal = 0.25;
+
+struct VertexRows {
+  AlignedArray<float> points, sums;
+  std::size_t stride = 0;
+
+  void resize(std::size_t n) {
+    if (n + 16 > stride) {
+      stride = (2 * n + 63) / 16 * 16;
+      points = AlignedArray<float>(3 * stride);
+      sums = AlignedArray<float>(5 * stride);
+    }
+    poison_scratch(std::span(points.begin(), points.end()));
+    poison_scratch(std::span(sums.begin(), sums.end()));
+  }
+};
+
+// nx, ny, nz of `mesh`, zero.
+std::array<double*, 3> add_vertex_normals(Mesh& mesh) {
+  for (const char* name : {"nx", "ny", "nz"}) {
+    mesh.attributes.push_back(
+        {name, ScalarType::kFloat32, std::vector<double>(mesh.vertices.size())});
+  }
+  const auto axis = mesh.attributes.end() - 3;
+  return {axis[0].values.data(), axis[1].values.data(), axis[2].values.data()};
+}
+
+}  // namespace
+
+void project_vertices(const Atlas& atlas, const CapLists& lists, const BlockGrid& grid,
+                      ExtractedSurface& surface, const Context& context) {
+  const Lanes lanes = make_lanes(atlas, grid.step);
+  const std::array<double*, 3> normals = add_vertex_normals(surface.mesh);
+  const std::size_t n_blocks = std::min(lists.first.size(), surface.first_vertex.size()) - 1;
+  parallel_for(n_blocks, 64, context, {.name = "vertices"},
+               [&](std::size_t begin, std::size_t end) {
+                 VertexRows rows;
+                 for (std::size_t b = begin; b < end; ++b) {
+                   const std::size_t first = surface.first_vertex[b],
+                                     n = surface.first_vertex[b + 1] - first;
+                   if (n == 0) continue;
+                   rows.resize(n);
+                   const Vec3 origin = grid.node(b, 0);
+                   for (std::size_t i = 0; i < n; ++i) {
+                     const Vec3 p = (surface.mesh.vertices[first + i] - origin) / grid.step;
+                     rows.points[i] = static_cast<float>(p.x);
+                     rows.points[rows.stride + i] = static_cast<float>(p.y);
+                     rows.points[2 * rows.stride + i] = static_cast<float>(p.z);
+                   }
+                   HWY_DYNAMIC_DISPATCH(SayAt)
+                   (lanes.caps.data(), lists.caps.data() + lists.first[b],
+                    lists.first[b + 1] - lists.first[b], origin, grid.step, rows.points.data(), n,
+                    rows.stride, rows.sums.data());
+                   for (std::size_t i = 0; i < n; ++i) {
+                     const float* s = rows.sums.data() + i;
+                     const double w = s[rows.stride];
+                     if (!(w > kLeastWeight)) continue;
+                     const Vec3 normal =
+                         Vec3{s[2 * rows.stride], s[3 * rows.stride], s[4 * rows.stride]} / w;
+                     // The vertex moves by a small part of a step: its normal is that of where it
+                     // was.
+                     const Vec3 unit = normalized(normal);
+                     normals[0][first + i] = unit.x, normals[1][first + i] = unit.y;
+                     normals[2][first + i] = unit.z;
+                     const bool filled = !surface.filled.empty() && surface.filled[first + i] != 0;
+                     const double square = dot(normal, normal);
+                     if (filled || !(square > kLeastNormal)) continue;
+                     const double g = std::clamp(s[0] / w, -kLargestMove, kLargestMove);
+                     surface.mesh.vertices[first + i] += -(g * grid.step / square) * normal;
+                   }
+                 }
+               });
+}
+
+NodeSupport node_support(const Atlas& atlas, const CapLists& lists, const BlockGrid& grid,
+                         const Context& context) {
+  return [&, context](std::span<const Vec3> x, std::span<double> support) {
+    parallel_for(x.size(), 1024, context, {}, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const Vec3 p = (x[i] - grid.origin) / (8 * grid.step);
+        const auto cell = [](double c) { return static_cast<std::int32_t>(std::floor(c + 1e-6)); };
+        const std::int32_t b = find_block(grid, {cell(p.x), cell(p.y), cell(p.z)});
+        support[i] = 0;
+        if (b == kNoBlock || static_cast<std::size_t>(b) + 1 >= lists.first.size()) continue;
+        double nearest = 2;
+        for (std::size_t c = lists.first[b]; c < lists.first[b + 1]; ++c) {
+          nearest = std::min(nearest, place(atlas.caps[lists.caps[c]], x[i]));
+        }
+        support[i] = std::clamp((kEnd - nearest) / (kEnd - kRim), 0.0, 1.0);
+      }
+    });
+  };
+}
+
+std::vector<double> data_support(const Atlas& atlas, const CapLists& lists,
+                                 const ExtractedSurface& surface, const Context& context) {
+  std::vector<double> support(surface.mesh.vertices.size(), -1);
+  parallel_for(lists.first.size() - 1, 64, context, {}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      for (std::size_t v = surface.first_vertex[b]; v < surface.first_vertex[b + 1]; ++v) {
+        double nearest = 2;
+        for (std::size_t c = lists.first[b]; c < lists.first[b + 1]; ++c) {
+          nearest = std::min(nearest, place(atlas.caps[lists.caps[c]], surface.mesh.vertices[v]));
+        }
+        support[v] = 1 - nearest / kRim;
+      }
+    }
+  });
+  return support;
+}
+
+}  // namespace rholm
+#endif

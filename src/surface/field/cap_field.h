@@ -1,0 +1,56 @@
+// The blended potential of an atlas on a grid, and on the vertices extracted from it (method 7.5).
+// Layer: surface.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "rholm/atlas.h"
+#include "rholm/context.h"
+#include "surface/grid/block_grid.h"
+#include "surface/holes/hole_fill.h"
+#include "surface/level_set/extract.h"
+
+namespace rholm {
+
+// Nodes within so many steps of a cap hear it.
+inline constexpr double kBandSteps = 2.5;
+// The same as a length: at least Atlas::band.
+double band_of(const Atlas& atlas, double step);
+
+// The caps that reach each block, in their order: those of block b are
+// caps[first[b]] ... caps[first[b + 1] - 1].
+struct CapLists {
+  std::vector<std::size_t> first;
+  std::vector<std::uint32_t> caps;
+};
+
+// How far a cap's surface departs from the tangent plane of its seed, within its support.
+double cap_deviation(const Atlas& atlas, const Cap& cap);
+
+// The part of space that a cap speaks for.
+std::vector<Disc> discs_of(const Atlas& atlas, double step, const Context& context);
+CapLists list_caps(const BlockGrid& grid, const std::vector<Disc>& discs);
+
+// Sets values to G = sum w g / sum w, w = (1 - d^2/R^2)^3 (1 - g^2/T^2)^2, or with the weight of
+// the paper in the place of the first factor: CapBlend. Returns one bit per node, 8 words per
+// block: 1 where the value is doubtful, near the surface but at the very end of all caps.
+std::vector<std::uint64_t> fill_grid(const Atlas& atlas, const CapLists& lists, BlockGrid& grid,
+                                     const Context& context);
+
+// Moves vertices to G = 0 by one Newton step, and sets their normals nx, ny, nz; those beside
+// filled nodes stay, with normals of their triangles.
+void project_vertices(const Atlas& atlas, const CapLists& lists, const BlockGrid& grid,
+                      ExtractedSurface& surface, const Context& context);
+
+// For each vertex, how far within the data it is: 1 in the middle of a cap's points, 0 on their
+// rim, negative beyond all.
+std::vector<double> data_support(const Atlas& atlas, const CapLists& lists,
+                                 const ExtractedSurface& surface, const Context& context);
+
+// The same at nodes of the grid, as what they are worth to a hole beside them: 1 within the data, 0
+// where caps end. Refers to its arguments.
+NodeSupport node_support(const Atlas& atlas, const CapLists& lists, const BlockGrid& grid,
+                         const Context& context);
+
+}  // namespace rholm

@@ -1,0 +1,349 @@
+#include "surface/holes/hole_fill.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "base/parallel.h"
+#include "surface/holes/close_grid.h"
+#include "surface/holes/hermite_rbf.h"
+#include "surface/holes/hole_sets.h"
+
+namespace rholm {
+namespace {
+
+using std::numbers::pi;
+
+// Centres (method 7.10): within this part of the hole's radius of its rim,
+constexpr double kBorder = 0.4;
+// so far apart: as the caps allow, 36 around a round hole, and wider away from the rim.
+constexpr double kCapSpacing = 0.6;
+constexpr double kAroundRim = 36;
+constexpr double kWidening = 0.4;
+// Values are distances, to first order, if their slope is near 1.
+constexpr double kLeastSteep = 0.6;
+constexpr double kMostSteep = 1.5;
+// Too many are thinned out by this until they fit. Chosen: a few rounds at most.
+constexpr double kThinning = 1.2;
+// Fewer cannot tell more than a plane.
+constexpr std::size_t kLeastCenters = 6;
+// Smaller holes are left to the winding number: there its roughness is below a step or two, and a
+// surface full of gaps has very many. Chosen.
+constexpr std::size_t kLeastNodes = 64;
+constexpr double kLeastRadiusSteps = 2.5;
+// The distance to a rim is that to so many of its nodes: 1/40 of the radius apart on a round hole.
+constexpr std::size_t kRimSamples = 256;
+// The fill fades to the winding number from here to there, in units of the hole's reach.
+constexpr double kFadeFrom = 1.3;
+constexpr double kFadeTo = 1.8;
+// The winding number is sure of its side if it differs from 1/2 by more (method 7.10).
+constexpr double kSure = 0.3;
+// Where it is unsure its bounds are this many times as far as its own values, beyond a step: they
+// must not cut values next to the surface, from which its place is interpolated.
+constexpr double kBoundSlope = 2;
+// A slope of less is a saddle's or an extremum's: no distance follows from it.
+constexpr double kLeastSlope = 0.05;
+// Fills are cut off at so many steps: a distance beyond means nothing.
+constexpr double kLargestSteps = 2.5;
+
+// Foot points by the block they lie in.
+bool is_large(const Hole& hole, double step) {
+  return hole.nodes.size() >= kLeastNodes && hole.radius >= kLeastRadiusSteps * step;
+}
+
+struct FeetOfBlocks {
+  std::vector<std::uint32_t> first;  // n_blocks + 1
+  std::vector<std::uint32_t> feet;
+};
+
+FeetOfBlocks sort_feet(const BlockGrid& grid, std::span<const FootPoint> feet) {
+  FeetOfBlocks result;
+  result.first.assign(grid.n_blocks() + 1, 0);
+  std::vector<std::int32_t> block_of(feet.size());
+  for (std::size_t f = 0; f < feet.size(); ++f) {
+    const Vec3 p = (feet[f].at - grid.origin) / (8 * grid.step);
+    const auto cell = [](double c) {
+      return static_cast<std::int32_t>(
+          std::floor(std::clamp(c, -1.0 * kBlockLimit, 1.0 * kBlockLimit)));
+    };
+    block_of[f] = is_finite(p) ? find_block(grid, {cell(p.x), cell(p.y), cell(p.z)}) : kNoBlock;
+    if (block_of[f] != kNoBlock) ++result.first[block_of[f] + 1];
+  }
+  for (std::size_t b = 0; b < grid.n_blocks(); ++b) result.first[b + 1] += result.first[b];
+  result.feet.resize(result.first.back());
+  std::vector<std::uint32_t> next(result.first.begin(), result.first.end() - 1);
+  for (std::size_t f = 0; f < feet.size(); ++f) {
+    if (block_of[f] != kNoBlock) {
+      result.feet[next[block_of[f]]++] = static_cast<std::uint32_t>(f);
+    }
+  }
+  return result;
+}
+
+struct Candidate {
+  double rim_distance = 0;
+  std::uint32_t foot = 0;
+};
+
+// Foot points near the rim, nearest first.
+std::vector<Candidate> candidates_of(const BlockGrid& grid, const Hole& hole,
+                                     std::span<const FootPoint> feet, const FeetOfBlocks& feet_of) {
+  std::vector<Vec3> rim;
+  const std::size_t stride = (hole.rim.size() + kRimSamples - 1) / kRimSamples;
+  for (std::size_t i = 0; i < hole.rim.size(); i += stride) {
+    rim.push_back(grid.node(hole.rim[i].block, hole.rim[i].node));
+  }
+  std::vector<Candidate> found;
+  for (std::size_t b = 0; b < grid.n_blocks(); ++b) {
+    if (feet_of.first[b] == feet_of.first[b + 1]) continue;
+    const Vec3 middle = grid.node(b, 0, 0, 0) + 3.5 * grid.step * Vec3{1, 1, 1};
+    // 14 steps is a block's diagonal: supports of caps are shorter.
+    if (norm(middle - hole.center) > hole.reach + kBorder * hole.radius + 28 * grid.step) continue;
+    for (std::uint32_t i = feet_of.first[b]; i < feet_of.first[b + 1]; ++i) {
+      const FootPoint& foot = feet[feet_of.feet[i]];
+      double square = std::numeric_limits<double>::infinity();
+      for (const Vec3& at : rim) square = std::min(square, dot(at - foot.at, at - foot.at));
+      const double d = std::sqrt(square);
+      // Caps end up to their support before the rim.
+      if (d < kBorder * hole.radius + foot.support) found.push_back({d, feet_of.feet[i]});
+    }
+  }
+  std::sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
+    return a.rim_distance != b.rim_distance ? a.rim_distance < b.rim_distance : a.foot < b.foot;
+  });
+  return found;
+}
+
+// The candidates that keep their distance from those before them.
+std::vector<std::uint32_t> thin_out(const std::vector<Candidate>& candidates, double radius,
+                                    std::span<const FootPoint> feet, double widen) {
+  std::vector<std::uint32_t> chosen;
+  for (const Candidate& c : candidates) {
+    const FootPoint& foot = feet[c.foot];
+    const double spacing =
+        widen * (std::max(kCapSpacing * foot.support, 2 * pi * radius / kAroundRim) +
+                 kWidening * c.rim_distance);
+    const bool free = std::none_of(chosen.begin(), chosen.end(), [&](std::uint32_t other) {
+      const Vec3 d = feet[other].at - foot.at;
+      return dot(d, d) < spacing * spacing;
+    });
+    if (free) chosen.push_back(c.foot);
+    if (chosen.size() > HermiteRbf::kMaxCenters) break;
+  }
+  return chosen;
+}
+
+// A hole and its smooth function.
+struct Fill {
+  Hole hole;
+  std::optional<HermiteRbf> smooth;
+};
+
+// Measured nodes in the blocks of the rims and next to them.
+std::vector<NodeId> nodes_around(const BlockGrid& grid, const std::vector<Fill>& fills) {
+  std::vector<char> near(grid.n_blocks(), 0);
+  for (const Fill& fill : fills) {
+    for (const NodeId& id : fill.hole.rim) {
+      for (const std::int32_t b : grid.neighbours[id.block]) {
+        if (b != kNoBlock) near[b] = 1;
+      }
+    }
+  }
+  std::vector<NodeId> nodes;
+  for (std::uint32_t b = 0; b < grid.n_blocks(); ++b) {
+    if (!near[b]) continue;
+    for (std::uint16_t n = 0; n < BlockGrid::kNodes; ++n) {
+      if (std::isfinite(grid.block_values(b)[n]) && !grid.is_filled(b, n)) nodes.push_back({b, n});
+    }
+  }
+  return nodes;
+}
+
+// The value of a measured node; not finite for others.
+float measured(const BlockGrid& grid, const NodeId& id, int dx, int dy, int dz) {
+  NodeId at;
+  if (!step_to(grid, id, dx, dy, dz, at) || grid.is_filled(at.block, at.node)) {
+    return BlockGrid::kUnknown;
+  }
+  return grid.block_values(at.block)[at.node];
+}
+
+// By the six nodes around a measured one; not finite if one is not measured. Differences to one
+// side only would tilt all normals of a rim the same way.
+Vec3 gradient_at(const BlockGrid& grid, const NodeId& id) {
+  const auto slope = [&](int dx, int dy, int dz) {
+    return (measured(grid, id, dx, dy, dz) - measured(grid, id, -dx, -dy, -dz)) / (2 * grid.step);
+  };
+  return {slope(1, 0, 0), slope(0, 1, 0), slope(0, 0, 1)};
+}
+
+// The surface as the grid has it up to the end of the data: the feet of caps end before.
+void add_feet_of_grid(const BlockGrid& grid, const std::vector<Fill>& fills,
+                      const NodeSupport& support_of, std::vector<FootPoint>& feet) {
+  std::vector<FootPoint> found;
+  std::vector<Vec3> around;  // seven for each
+  for (const NodeId& id : nodes_around(grid, fills)) {
+    const float value = grid.block_values(id.block)[id.node];
+    if (std::abs(value) >= grid.step) continue;
+    const Vec3 gradient = gradient_at(grid, id);
+    const double steepness = norm(gradient);
+    if (!(steepness > kLeastSteep && steepness < kMostSteep)) continue;
+    const Vec3 x = grid.node(id.block, id.node);
+    const Vec3 normal = gradient / steepness;
+    found.push_back({x - value * normal, normal, 0});
+    for (const Vec3& d : {Vec3{}, Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
+      around.push_back(x + grid.step * d);
+      if (norm(d) > 0) around.push_back(x - grid.step * d);
+    }
+  }
+  std::vector<double> support(around.size());
+  if (!around.empty()) support_of(around, support);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const auto seven = support.begin() + static_cast<std::ptrdiff_t>(7 * i);
+    if (*std::min_element(seven, seven + 7) >= 1) feet.push_back(found[i]);
+  }
+}
+
+void make_smooth(const BlockGrid& grid, std::span<const FootPoint> feet,
+                 const FeetOfBlocks& feet_of, Fill& fill) {
+  const Hole& hole = fill.hole;
+  if (!is_large(hole, grid.step)) return;
+  const std::vector<Candidate> candidates = candidates_of(grid, hole, feet, feet_of);
+  double widen = 1;
+  std::vector<std::uint32_t> chosen = thin_out(candidates, hole.radius, feet, widen);
+  while (chosen.size() > HermiteRbf::kMaxCenters) {
+    widen *= kThinning;
+    chosen = thin_out(candidates, hole.radius, feet, widen);
+  }
+  if (chosen.size() < kLeastCenters) return;
+  std::vector<Vec3> centers;
+  std::vector<Vec3> normals;
+  for (const std::uint32_t f : chosen) {
+    centers.push_back(feet[f].at);
+    normals.push_back(feet[f].normal);
+  }
+  HermiteRbf smooth(centers, normals);
+  if (smooth.valid()) fill.smooth.emplace(std::move(smooth));
+}
+
+double smooth_step(double t) {
+  t = std::clamp(t, 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+// The smooth function, faded to the winding number away from the hole, and where that is sure.
+double fill_value(const Fill& fill, const Vec3& x, double winding, double step) {
+  const double by_winding = winding_value(winding, step);
+  const double away = norm(x - fill.hole.center) / fill.hole.reach;
+  const double share = 1 - smooth_step((away - kFadeFrom) / (kFadeTo - kFadeFrom));
+  if (share == 0) return by_winding;
+  // Far from its centres the function is steep or flat: a distance, to first order.
+  const HermiteRbf::Value smooth = fill.smooth->at(x);
+  const double distance = smooth.value / std::max(norm(smooth.gradient), kLeastSlope);
+  const double s = std::clamp(distance, -kLargestSteps * step, kLargestSteps * step);
+  // Never inside where the winding number is sure of outside, nor the other way round: bounds that
+  // cross zero where it becomes sure, so that the surface is as smooth there as the number.
+  const double outside = kBoundSlope * winding_value(winding + kSure, step);
+  const double inside = kBoundSlope * winding_value(winding - kSure, step);
+  const double bounded = std::min(std::max(s, outside), inside);
+  return share * bounded + (1 - share) * by_winding;
+}
+
+// The smooth fill whose hole is nearest, relative to its reach; nullptr if x is far from all.
+const Fill* fill_at(const std::vector<Fill>& fills, const Vec3& x) {
+  const Fill* nearest = nullptr;
+  double least = kFadeTo;
+  for (const Fill& fill : fills) {
+    const double away = norm(x - fill.hole.center) / fill.hole.reach;
+    if (away >= least) continue;
+    least = away;
+    nearest = &fill;
+  }
+  return nearest;
+}
+
+NodeValues smooth_values(const std::vector<Fill>& fills, const WindingTree& tree, double step,
+                         const Context& context) {
+  return [&fills, &tree, step, context](std::span<const Vec3> x, std::span<double> values) {
+    const std::vector<double> w = tree.winding(x, context);
+    parallel_for(x.size(), 64, context, {}, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const Fill* const fill = fill_at(fills, x[i]);
+        values[i] = fill ? fill_value(*fill, x[i], w[i], step) : winding_value(w[i], step);
+      }
+    });
+  };
+}
+
+void forget(BlockGrid& grid, const Hole& hole) {
+  for (const NodeId& id : hole.nodes) {
+    grid.block_values(id.block)[id.node] = BlockGrid::kUnknown;
+    grid.filled[8 * std::size_t{id.block} + (id.node >> 6)] &=
+        ~(std::uint64_t{1} << (id.node & 63));
+  }
+}
+
+// Values that are guesses of caps are handed over to the fill. Those count as filled from then on:
+// a vertex there is where the blend is zero, not where the caps are.
+void hand_over(BlockGrid& grid, const std::vector<Fill>& fills, const NodeSupport& support_of,
+               const NodeValues& values) {
+  const std::vector<NodeId> nodes = nodes_around(grid, fills);
+  std::vector<Vec3> x;
+  for (const NodeId& id : nodes) x.push_back(grid.node(id.block, id.node));
+  std::vector<double> support(x.size(), 1);
+  if (!x.empty()) support_of(x, support);
+  std::vector<std::size_t> weak;
+  std::vector<Vec3> weak_x;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (support[i] >= 1 || fill_at(fills, x[i]) == nullptr) continue;
+    weak.push_back(i);
+    weak_x.push_back(x[i]);
+  }
+  std::vector<double> filled(weak.size());
+  if (!weak.empty()) values(weak_x, filled);
+  for (std::size_t i = 0; i < weak.size(); ++i) {
+    const NodeId& id = nodes[weak[i]];
+    const double share = std::max(support[weak[i]], 0.0);
+    float& value = grid.block_values(id.block)[id.node];
+    value = static_cast<float>(share * value + (1 - share) * filled[i]);
+    grid.filled[8 * std::size_t{id.block} + (id.node >> 6)] |= std::uint64_t{1} << (id.node & 63);
+  }
+}
+
+}  // namespace
+
+HoleFilling fill_holes(BlockGrid& grid, std::span<const FootPoint> feet, const WindingTree& tree,
+                       const HoleFillOptions& options, const Context& context) {
+  HoleFilling result;
+  result.filled_nodes =
+      close_grid(grid, winding_values(tree, grid.step, context), options.max_blocks, context)
+          .filled_nodes;
+  if (result.filled_nodes == 0) return result;
+  std::vector<Fill> fills;
+  for (Hole& hole : find_holes(grid)) fills.push_back({std::move(hole), {}});
+  result.holes = fills.size();
+  std::vector<FootPoint> all_feet(feet.begin(), feet.end());
+  if (options.support) {
+    std::erase_if(fills, [&](const Fill& fill) { return !is_large(fill.hole, grid.step); });
+    add_feet_of_grid(grid, fills, options.support, all_feet);
+  }
+  const FeetOfBlocks feet_of = sort_feet(grid, all_feet);
+  parallel_for(fills.size(), 1, context, {}, [&](std::size_t begin, std::size_t) {
+    make_smooth(grid, all_feet, feet_of, fills[begin]);
+  });
+  std::erase_if(fills, [](const Fill& fill) { return !fill.smooth; });
+  result.smooth = fills.size();
+  if (fills.empty()) return result;
+  const NodeValues values = smooth_values(fills, tree, grid.step, context);
+  for (const Fill& fill : fills) {
+    forget(grid, fill.hole);
+    result.filled_nodes -= fill.hole.nodes.size();
+  }
+  if (options.support) hand_over(grid, fills, options.support, values);
+  result.filled_nodes += close_grid(grid, values, options.max_blocks, context).filled_nodes;
+  return result;
+}
+
+}  // namespace rholm

@@ -1,0 +1,151 @@
+#include "surface/level_set/components.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "base/disjoint_sets.h"
+
+namespace rholm {
+namespace {
+
+// The area vectors of a closed surface cancel. What rounding leaves of them is far below this part
+// of the area, what an opening leaves is far above unless it is of no account.
+constexpr double kClosed = 1e-9;
+
+struct Component {
+  Vec3 origin;  // one of its vertices
+  Vec3 area_vector;
+  double area = 0;
+  double volume = 0;
+};
+
+// Component of each vertex, numbered by their first vertices.
+std::vector<std::uint32_t> number_components(const Mesh& mesh, std::size_t& n) {
+  DisjointSets sets(mesh.vertices.size());
+  for (const Triangle& t : mesh.triangles) {
+    sets.unite(t[0], t[1]);
+    sets.unite(t[1], t[2]);
+  }
+  std::vector<std::uint32_t> component(mesh.vertices.size());
+  n = 0;
+  for (std::uint32_t v = 0; v < component.size(); ++v) {
+    const std::uint32_t first = sets.find(v);
+    component[v] = first == v ? static_cast<std::uint32_t>(n++) : component[first];
+  }
+  return component;
+}
+
+std::vector<Component> measure(const Mesh& mesh, const std::vector<std::uint32_t>& component,
+                               std::size_t n) {
+  std::vector<Component> measures(n);
+  for (std::size_t v = mesh.vertices.size(); v-- > 0;) {
+    measures[component[v]].origin = mesh.vertices[v];
+  }
+  for (const Triangle& t : mesh.triangles) {
+    Component& c = measures[component[t[0]]];
+    const Vec3 a = mesh.vertices[t[0]] - c.origin;
+    const Vec3 b = mesh.vertices[t[1]] - c.origin;
+    const Vec3 d = mesh.vertices[t[2]] - c.origin;
+    const Vec3 twice = cross(b - a, d - a);
+    c.area_vector += 0.5 * twice;
+    c.area += 0.5 * norm(twice);
+    c.volume += dot(a, cross(b, d)) / 6;
+  }
+  return measures;
+}
+
+// Which components stay.
+std::vector<char> choose(const std::vector<Component>& measures, double least_share) {
+  double largest_area = 0;
+  double largest_volume = 0;
+  const auto is_closed = [](const Component& c) { return norm(c.area_vector) <= kClosed * c.area; };
+  for (const Component& c : measures) {
+    largest_area = std::max(largest_area, c.area);
+    if (is_closed(c)) largest_volume = std::max(largest_volume, std::abs(c.volume));
+  }
+  const double least_volume = std::pow(least_share, 1.5) * largest_volume;
+  std::vector<char> stays(measures.size());
+  for (std::size_t i = 0; i < measures.size(); ++i) {
+    const Component& c = measures[i];
+    // A vertex without a triangle has no area.
+    stays[i] = c.area > 0 && c.area >= least_share * largest_area &&
+               (!is_closed(c) || std::abs(c.volume) >= least_volume);
+  }
+  return stays;
+}
+
+// Keeps the vertices of components that stay, and tells the new index of each.
+std::vector<std::uint32_t> renumber(const std::vector<std::uint32_t>& component,
+                                    const std::vector<char>& stays) {
+  std::vector<std::uint32_t> renumbered(component.size() + 1);
+  std::uint32_t next = 0;
+  for (std::size_t v = 0; v < component.size(); ++v) {
+    renumbered[v] = next;
+    next += stays[component[v]] != 0;
+  }
+  renumbered.back() = next;
+  return renumbered;
+}
+
+template <typename T>
+void keep(std::vector<T>& values, const std::vector<std::uint32_t>& renumbered) {
+  if (values.empty()) return;
+  for (std::size_t v = 0; v + 1 < renumbered.size(); ++v) {
+    if (renumbered[v + 1] != renumbered[v]) values[renumbered[v]] = values[v];
+  }
+  values.resize(renumbered.back());
+}
+
+bool has_area(const Mesh& mesh) {
+  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
+    const Vec3& a = mesh.vertices[t[0]];
+    return norm(cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a)) > 0;
+  });
+}
+
+// As the public function; `renumbered` is empty if nothing was dropped.
+DroppedComponents drop(Mesh& mesh, double least_share, std::vector<std::uint32_t>& renumbered) {
+  DroppedComponents result;
+  std::size_t n = 0;
+  const std::vector<std::uint32_t> component = number_components(mesh, n);
+  if (n == 1 && has_area(mesh)) return {.components = 1};
+  const std::vector<Component> measures = measure(mesh, component, n);
+  const std::vector<char> stays = choose(measures, least_share);
+  double area = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    result.components += measures[i].area > 0;
+    result.dropped += measures[i].area > 0 && !stays[i];
+    result.dropped_area += stays[i] ? 0 : measures[i].area;
+    area += measures[i].area;
+  }
+  if (area > 0) result.dropped_area /= area;
+  if (std::find(stays.begin(), stays.end(), 0) == stays.end()) return result;
+  renumbered = renumber(component, stays);
+  std::erase_if(mesh.triangles, [&](const Triangle& t) { return !stays[component[t[0]]]; });
+  for (Triangle& t : mesh.triangles) {
+    for (std::uint32_t& v : t) v = renumbered[v];
+  }
+  keep(mesh.vertices, renumbered);
+  for (Attribute& attribute : mesh.attributes) keep(attribute.values, renumbered);
+  return result;
+}
+
+}  // namespace
+
+DroppedComponents drop_small_components(Mesh& mesh, double least_share) {
+  std::vector<std::uint32_t> renumbered;
+  return drop(mesh, least_share, renumbered);
+}
+
+DroppedComponents drop_small_components(ExtractedSurface& surface, double least_share) {
+  std::vector<std::uint32_t> renumbered;
+  const DroppedComponents result = drop(surface.mesh, least_share, renumbered);
+  if (renumbered.empty()) return result;
+  keep(surface.filled, renumbered);
+  for (std::uint32_t& first : surface.first_vertex) first = renumbered[first];
+  return result;
+}
+
+}  // namespace rholm

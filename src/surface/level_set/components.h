@@ -1,0 +1,24 @@
+// Pieces of an extracted surface that are too small to be meant. Layer: surface.
+#pragma once
+
+#include <cstddef>
+
+#include "rholm/mesh.h"
+#include "surface/level_set/extract.h"
+
+namespace rholm {
+
+struct DroppedComponents {
+  std::size_t components = 0;  // before
+  std::size_t dropped = 0;
+  double dropped_area = 0;  // as a part of the area before
+};
+
+// Drops components (of triangles connected through vertices) whose area is below `least_share` of
+// the largest area, and closed ones whose enclosed volume is below least_share^(3/2) of the largest
+// volume: of bodies of one shape, both speak of the same size, but a flat bubble has little
+// volume. 0 drops nothing. What is left keeps its order, vertices in no triangle go.
+DroppedComponents drop_small_components(Mesh& mesh, double least_share);
+DroppedComponents drop_small_components(ExtractedSurface& surface, double least_share);
+
+}  // namespace rholm

@@ -1,0 +1,267 @@
+#include "surface/level_set/trim.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "rholm/error.h"
+
+namespace rholm {
+namespace {
+
+// Part of an edge that is left at least on either side of a cut: the border is off by a tenth of a
+// triangle at most, and no triangle is thinner than a tenth of another by the cut.
+constexpr double kLeastPart = 0.1;
+// Averages along the border that take away the zigzag of the cuts. Chosen: it is of the length of
+// an edge or two, and a border of many edges does not shrink by them.
+constexpr int kBorderRounds = 3;
+// A triangle may shrink to this part of its area meanwhile.
+constexpr double kLeastShrink = 0.2;
+
+// An edge with one end on each side, by its lower and upper vertex.
+std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
+  return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
+}
+
+void check(const Mesh& mesh, std::span<const double> support) {
+  if (support.size() != mesh.vertices.size()) {
+    throw Error(ErrorCode::kInvalidInput, std::to_string(support.size()) +
+                                              " values of support were given for " +
+                                              std::to_string(mesh.vertices.size()) + " vertices");
+  }
+  for (std::size_t v = 0; v < support.size(); ++v) {
+    if (std::isfinite(support[v])) continue;
+    throw Error(ErrorCode::kInvalidInput,
+                "the support of vertex " + std::to_string(v) + " is not finite");
+  }
+}
+
+// Means over the triangles around a vertex, weighted with their areas: tiny triangles, of which a
+// mesh of marching cubes has many, do not pull.
+std::vector<double> smoothed(const Mesh& mesh, std::span<const double> support, int rounds) {
+  std::vector<double> values(support.begin(), support.end());
+  std::vector<double> sums(values.size());
+  std::vector<double> weights(values.size());
+  for (int round = 0; round < rounds; ++round) {
+    std::fill(sums.begin(), sums.end(), 0.0);
+    std::fill(weights.begin(), weights.end(), 0.0);
+    for (const Triangle& t : mesh.triangles) {
+      const Vec3& a = mesh.vertices[t[0]];
+      const double area = norm(cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a));
+      const double mean = (values[t[0]] + values[t[1]] + values[t[2]]) / 3;
+      for (const std::uint32_t v : t) {
+        sums[v] += area * mean;
+        weights[v] += area;
+      }
+    }
+    for (std::size_t v = 0; v < values.size(); ++v) {
+      if (weights[v] > 0) values[v] = sums[v] / weights[v];
+    }
+  }
+  return values;
+}
+
+// Cuts, sorted by edge: their place is the place of their vertex behind those that stay.
+std::vector<std::uint64_t> find_cuts(const Mesh& mesh, const std::vector<double>& support) {
+  std::vector<std::uint64_t> cuts;
+  for (const Triangle& t : mesh.triangles) {
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t a = t[k];
+      const std::uint32_t b = t[(k + 1) % 3];
+      if ((support[a] > 0) != (support[b] > 0)) cuts.push_back(edge_key(a, b));
+    }
+  }
+  std::sort(cuts.begin(), cuts.end());
+  cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
+  return cuts;
+}
+
+// Where the vertices of the result come from: from + part (to - from).
+struct Source {
+  std::uint32_t from = 0;
+  std::uint32_t to = 0;
+  double part = 0;
+};
+
+class Trimmer {
+ public:
+  Trimmer(const Mesh& mesh, std::vector<double> support)
+      : mesh_(mesh), support_(std::move(support)), cuts_(find_cuts(mesh, support_)) {}
+
+  Mesh run() {
+    number_vertices();
+    for (const Triangle& t : mesh_.triangles) cut(t);
+    result_.vertices.reserve(sources_.size());
+    for (const Source& s : sources_) {
+      const Vec3& from = mesh_.vertices[s.from];
+      result_.vertices.push_back(from + s.part * (mesh_.vertices[s.to] - from));
+    }
+    for (const Attribute& attribute : mesh_.attributes) {
+      Attribute trimmed{.name = attribute.name, .type = attribute.type, .values = {}};
+      trimmed.values.reserve(sources_.size());
+      for (const Source& s : sources_) {
+        const double from = attribute.values[s.from];
+        trimmed.values.push_back(from + s.part * (attribute.values[s.to] - from));
+      }
+      result_.attributes.push_back(std::move(trimmed));
+    }
+    return std::move(result_);
+  }
+
+  // Edges along the cut, by the vertices of the result.
+  const std::vector<std::array<std::uint32_t, 2>>& border() const { return border_; }
+
+ private:
+  bool stays(std::uint32_t v) const { return support_[v] > 0; }
+
+  void number_vertices() {
+    std::vector<char> used(mesh_.vertices.size(), 0);
+    for (const Triangle& t : mesh_.triangles) {
+      for (const std::uint32_t v : t) used[v] = 1;
+    }
+    renumbered_.resize(mesh_.vertices.size());
+    for (std::uint32_t v = 0; v < used.size(); ++v) {
+      if (!used[v] || !stays(v)) continue;
+      renumbered_[v] = static_cast<std::uint32_t>(sources_.size());
+      sources_.push_back({v, v, 0});
+    }
+    n_old_ = static_cast<std::uint32_t>(sources_.size());
+    for (const std::uint64_t key : cuts_) {
+      const auto a = static_cast<std::uint32_t>(key >> 32);
+      const auto b = static_cast<std::uint32_t>(key);
+      const double part = support_[a] / (support_[a] - support_[b]);
+      sources_.push_back({a, b, std::clamp(part, kLeastPart, 1 - kLeastPart)});
+    }
+  }
+
+  std::uint32_t cut_vertex(std::uint32_t a, std::uint32_t b) const {
+    const auto place = std::lower_bound(cuts_.begin(), cuts_.end(), edge_key(a, b));
+    return n_old_ + static_cast<std::uint32_t>(place - cuts_.begin());
+  }
+
+  void cut(const Triangle& t) {
+    const int n = stays(t[0]) + stays(t[1]) + stays(t[2]);
+    if (n == 0) return;
+    if (n == 3) {
+      result_.triangles.push_back({renumbered_[t[0]], renumbered_[t[1]], renumbered_[t[2]]});
+      return;
+    }
+    // a is the corner that is alone on its side; b and c follow it.
+    int lone = 0;
+    while (stays(t[lone]) != (n == 1)) ++lone;
+    const std::uint32_t a = t[lone];
+    const std::uint32_t b = t[(lone + 1) % 3];
+    const std::uint32_t c = t[(lone + 2) % 3];
+    const std::uint32_t ab = cut_vertex(a, b);
+    const std::uint32_t ca = cut_vertex(c, a);
+    border_.push_back({ab, ca});
+    if (n == 1) {
+      result_.triangles.push_back({renumbered_[a], ab, ca});
+    } else {
+      push_quad(ab, renumbered_[b], renumbered_[c], ca);
+    }
+  }
+
+  Vec3 place(std::uint32_t v) const {
+    const Vec3& from = mesh_.vertices[sources_[v].from];
+    return from + sources_[v].part * (mesh_.vertices[sources_[v].to] - from);
+  }
+
+  // Two triangles along the shorter diagonal.
+  void push_quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    if (norm(place(a) - place(c)) <= norm(place(b) - place(d))) {
+      result_.triangles.push_back({a, b, c});
+      result_.triangles.push_back({a, c, d});
+    } else {
+      result_.triangles.push_back({a, b, d});
+      result_.triangles.push_back({b, c, d});
+    }
+  }
+
+  const Mesh& mesh_;
+  std::vector<double> support_;
+  std::vector<std::uint64_t> cuts_;
+  std::vector<std::uint32_t> renumbered_;
+  std::vector<Source> sources_;
+  std::uint32_t n_old_ = 0;
+  std::vector<std::array<std::uint32_t, 2>> border_;
+  Mesh result_;
+};
+
+// Neighbours along the border, and triangles, of the vertices of a cut.
+struct BorderVertex {
+  std::vector<std::uint32_t> neighbours;
+  std::vector<std::uint32_t> triangles;
+};
+using BorderVertices = std::map<std::uint32_t, BorderVertex>;
+
+BorderVertices find_border(const Mesh& mesh,
+                           const std::vector<std::array<std::uint32_t, 2>>& edges) {
+  BorderVertices border;
+  for (const auto& [a, b] : edges) {
+    border[a].neighbours.push_back(b);
+    border[b].neighbours.push_back(a);
+  }
+  if (border.empty()) return border;
+  const std::uint32_t first = border.begin()->first;  // vertices of cuts stand last
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (const std::uint32_t v : mesh.triangles[t]) {
+      if (v >= first) border[v].triangles.push_back(t);
+    }
+  }
+  return border;
+}
+
+// Moves a vertex unless a triangle would turn over, or shrink to less than a part of its height.
+void move_vertex(Mesh& mesh, std::uint32_t vertex, const BorderVertex& around, const Vec3& to) {
+  const auto twice_area = [&](std::uint32_t t) {
+    const Triangle& c = mesh.triangles[t];
+    const Vec3& a = mesh.vertices[c[0]];
+    return cross(mesh.vertices[c[1]] - a, mesh.vertices[c[2]] - a);
+  };
+  std::vector<Vec3> before;
+  for (const std::uint32_t t : around.triangles) before.push_back(twice_area(t));
+  const Vec3 from = std::exchange(mesh.vertices[vertex], to);
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const Vec3 after = twice_area(around.triangles[i]);
+    if (dot(after, before[i]) < kLeastShrink * dot(before[i], before[i])) {
+      mesh.vertices[vertex] = from;
+      return;
+    }
+  }
+}
+
+void smooth_border(Mesh& mesh, const std::vector<std::array<std::uint32_t, 2>>& edges) {
+  const BorderVertices border = find_border(mesh, edges);
+  for (int round = 0; round < kBorderRounds; ++round) {
+    std::vector<Vec3> targets;
+    for (const auto& [v, around] : border) {
+      // One neighbour only where the cut ends at a border the mesh had before.
+      Vec3 target = mesh.vertices[v];
+      if (around.neighbours.size() == 2) {
+        target = 0.5 * target +
+                 0.25 * (mesh.vertices[around.neighbours[0]] + mesh.vertices[around.neighbours[1]]);
+      }
+      targets.push_back(target);
+    }
+    std::size_t i = 0;
+    for (const auto& [v, around] : border) move_vertex(mesh, v, around, targets[i++]);
+  }
+}
+
+}  // namespace
+
+Mesh trim(const Mesh& mesh, std::span<const double> support, int smoothing) {
+  check(mesh, support);
+  Trimmer trimmer(mesh, smoothed(mesh, support, smoothing));
+  Mesh result = trimmer.run();
+  smooth_border(result, trimmer.border());
+  return result;
+}
+
+}  // namespace rholm

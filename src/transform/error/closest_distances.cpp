@@ -1,0 +1,297 @@
+#include "transform/error/closest_distances.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/parallel.h"
+#include "rholm/primitives.h"
+#include "transform/error/error_peaks.h"
+
+namespace rholm {
+namespace {
+
+constexpr std::size_t kQueriesPerTask = 256;
+// Steps from the closest point of the model's triangles, which is off by their flatness: each step
+// leaves the distance times the curvature of what there is (0.001 of the distance after three on
+// random polyhedra to degree 64, measured against pattern search).
+constexpr int kSteps = 3;
+// Edges of the model's triangles are 1.1 / 2^level; waves of degree L have five of them.
+constexpr double kEdge = 1.3;
+constexpr int kCoarsest = 4, kFinest = 7;
+// So many times more points to first order, which cost a hundredth.
+constexpr std::size_t kDense = 12;
+// Coarse meshes have a peak at each vertex and others along their edges.
+constexpr std::size_t kPeaks = 16;
+// Extreme points are taken so many at a time.
+constexpr std::size_t kBatch = 500, kMostExtreme = 10'000;
+
+std::vector<double> closest(const RayScene& scene, const std::vector<Vec3>& points,
+                            const Context& context) {
+  std::vector<double> distances(points.size());
+  parallel_for(points.size(), kQueriesPerTask, context, {},
+               [&](std::size_t begin, std::size_t end) {
+                 for (std::size_t i = begin; i < end; ++i) {
+                   distances[i] = scene.closest(points[i]).distance;
+                 }
+               });
+  return distances;
+}
+
+double squared_norm(const Vec3& v) { return dot(v, v); }
+
+}  // namespace
+
+RadialSurface::RadialSurface(const Expansion& expansion, int degree, double scale, double precision,
+                             const Context& context)
+    : cut_(expansion.coefficients.resized(degree)),
+      is_gauge_(expansion.function == RadialFunction::kGauge),
+      scale_(scale),
+      sums_{.precision = precision},
+      context_(context) {}
+
+std::vector<Vec3> RadialSurface::points(const std::vector<Vec3>& directions) const {
+  const std::vector<double> values = evaluate(cut_, directions, sums_, context_);
+  std::vector<Vec3> points(directions.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double r = scale_ * (is_gauge_ ? 1 / values[i] : values[i]);
+    points[i] = r * directions[i];
+  }
+  return points;
+}
+
+RadialPoints RadialSurface::at(const std::vector<Vec3>& directions) const {
+  const ValuesAndGradients found = evaluate_with_gradient(cut_, directions, sums_, context_);
+  RadialPoints result;
+  result.points.resize(directions.size());
+  result.normals.resize(directions.size());
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    const double value = found.values[i], r = is_gauge_ ? 1 / value : value;
+    const Vec3 slope = is_gauge_ ? -r * r * found.gradients[i] : found.gradients[i];
+    result.points[i] = scale_ * r * directions[i];
+    const Vec3 normal = r * directions[i] - slope;
+    result.normals[i] = squared_norm(normal) > 0 ? normalized(normal) : directions[i];
+  }
+  return result;
+}
+
+std::vector<double> RadialSurface::distances(const std::vector<Vec3>& x, std::vector<Vec3> from,
+                                             int steps) const {
+  RadialPoints here = at(from);
+  std::vector<double> distances(x.size()), lengths(x.size(), 1.0);
+  for (std::size_t i = 0; i < x.size(); ++i) distances[i] = norm(x[i] - here.points[i]);
+  for (int step = 0; step < steps; ++step) {
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const Vec3 away = x[i] - here.points[i];
+      const Vec3 along = away - dot(away, here.normals[i]) * here.normals[i];
+      const Vec3 to = here.points[i] + lengths[i] * along;
+      from[i] = squared_norm(to) > 0 ? normalized(to) : from[i];
+    }
+    const RadialPoints there = at(from);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const double distance = norm(x[i] - there.points[i]);
+      if (distance < distances[i]) {
+        distances[i] = distance;
+        here.points[i] = there.points[i];
+        here.normals[i] = there.normals[i];
+      } else {
+        lengths[i] /= 2;
+      }
+    }
+  }
+  return distances;
+}
+
+namespace {
+
+// Means of squares over the shape and over the model.
+struct Squares {
+  double there = 0, back = 0;
+};
+
+// What pieces of the mesh are of the model: area, and distances to first order.
+struct PieceModel {
+  const SurfacePieces& pieces;
+  std::vector<double> model_areas, to_model, to_shape;
+
+  PieceModel(const SurfacePieces& p, const RadialPoints& opposite)
+      : pieces(p), model_areas(p.size()), to_model(p.size()), to_shape(p.size()) {
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      const Vec3& u = p.directions[i];
+      const double angle = p.areas[i] * p.cosines[i] / (p.radii[i] * p.radii[i]);
+      const double cosine = std::max(std::abs(dot(opposite.normals[i], u)), 1e-6);
+      const double radial = norm(p.radii[i] * u - opposite.points[i]);
+      model_areas[i] = angle * squared_norm(opposite.points[i]) / cosine;
+      to_model[i] = radial * cosine;
+      to_shape[i] = radial * p.cosines[i];
+    }
+  }
+  Squares squares(const std::vector<double>& there, const std::vector<double>& back) const {
+    Squares sum;
+    double area = 0, model_area = 0;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      sum.there += pieces.areas[i] * there[i] * there[i];
+      sum.back += model_areas[i] * back[i] * back[i];
+      area += pieces.areas[i];
+      model_area += model_areas[i];
+    }
+    return {area > 0 ? sum.there / area : 0, model_area > 0 ? sum.back / model_area : 0};
+  }
+};
+
+}  // namespace
+
+// A model as triangles: where to begin on its surface.
+struct ClosestDistances::Model {
+  const RadialSurface& surface;
+  const Context& context;
+  Mesh mesh;
+  std::unique_ptr<RayScene> scene;
+
+  Model(const RadialSurface& s, const Mesh& sphere, const Context& c) : surface(s), context(c) {
+    mesh.vertices = surface.points(sphere.vertices);
+    mesh.triangles = sphere.triangles;
+    scene = std::make_unique<RayScene>(mesh);
+  }
+
+  // Of points on rays, the model's point on the same ray being `opposite`.
+  std::vector<double> distances(const std::vector<Vec3>& x,
+                                const std::vector<Vec3>& opposite) const {
+    std::vector<Vec3> from(x.size());
+    parallel_for(x.size(), kQueriesPerTask, context, {}, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const Vec3 point = scene->closest(x[i]).point;
+        from[i] = normalized(squared_norm(point) > 0 ? point : x[i]);
+      }
+    });
+    std::vector<double> found = surface.distances(x, std::move(from), kSteps);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      found[i] = std::min(found[i], norm(x[i] - opposite[i]));
+    }
+    return found;
+  }
+};
+
+ClosestDistances::ClosestDistances(const MeshView& mesh, const Vec3& center, std::size_t n_points)
+    : pieces_(surface_pieces(mesh, center, n_points)),
+      dense_(surface_pieces(mesh, center, kDense * n_points)) {
+  shape_.vertices.resize(mesh.n_vertices);
+  shape_.triangles.resize(mesh.n_triangles);
+  for (std::size_t i = 0; i < mesh.n_vertices; ++i) {
+    shape_.vertices[i] = pieces_.scale * (mesh.vertex(i) - center);
+  }
+  for (std::size_t t = 0; t < mesh.n_triangles; ++t) shape_.triangles[t] = mesh.triangle(t);
+  scene_ = std::make_unique<RayScene>(shape_);
+}
+
+const Mesh& ClosestDistances::sphere(int degree) {
+  int level = kCoarsest;
+  while (level < kFinest && 1.1 / (1 << level) * degree > kEdge) ++level;
+  if (level != level_) sphere_ = icosphere(level);
+  level_ = level;
+  return sphere_;
+}
+
+namespace {
+
+// Where distances of both ways were found: the model's at points of the mesh, and back at the
+// points of the model opposite to them.
+struct Seen {
+  ErrorPoints points;  // lengths scaled
+  std::vector<double> to_model, to_shape;
+  double most() const { return std::max(largest(to_model), largest(to_shape)); }
+};
+
+// The larger of both ways. First order at many points tells what few leave out: it is much the same
+// for closest points.
+double rms_of(const Seen& at_few, const PieceModel& few, const PieceModel& many) {
+  const Squares first_few = few.squares(few.to_model, few.to_shape);
+  const Squares first_many = many.squares(many.to_model, many.to_shape);
+  const Squares found = few.squares(at_few.to_model, at_few.to_shape);
+  const auto scaled = [](double square, double of_few, double of_many) {
+    return of_few > 0 ? square * of_many / of_few : square;
+  };
+  return std::sqrt(std::max(scaled(found.there, first_few.there, first_many.there),
+                            scaled(found.back, first_few.back, first_many.back)));
+}
+
+// Those of the largest values, in descending order.
+std::vector<std::size_t> largest_first(const std::vector<double>& values, std::size_t most) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const std::size_t last = std::min(order.size(), most);
+  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(last), order.end(),
+                    [&](std::size_t a, std::size_t b) {
+                      return values[a] != values[b] ? values[a] > values[b] : a < b;
+                    });
+  order.resize(last);
+  return order;
+}
+
+}  // namespace
+
+SurfaceDistances ClosestDistances::measure(const Expansion& expansion, int degree,
+                                           const ErrorPoints& extreme, double precision,
+                                           const Context& context) {
+  const Context silent{.threads = context.threads};
+  const RadialSurface surface(expansion, degree, pieces_.scale, precision, silent);
+  const Model model(surface, sphere(degree), silent);
+  std::vector<Vec3> x(pieces_.size());
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = pieces_.radii[i] * pieces_.directions[i];
+  const RadialPoints opposite = surface.at(pieces_.directions);
+  Seen seen;
+  seen.points.directions = pieces_.directions;
+  seen.points.radii = pieces_.radii;
+  seen.points.owners = pieces_.faces;
+  seen.to_model = model.distances(x, opposite.points);
+  seen.to_shape = closest(*scene_, opposite.points, silent);
+  SurfaceDistances result;
+  result.rms = rms_of(seen, PieceModel(pieces_, opposite),
+                      PieceModel(dense_, surface.at(dense_.directions))) /
+               pieces_.scale;
+
+  // No distance is above the radial error: the largest of these first.
+  const std::vector<Vec3> models = surface.points(extreme.directions);
+  std::vector<double> radial(extreme.size());
+  for (std::size_t i = 0; i < extreme.size(); ++i) {
+    radial[i] = std::abs(pieces_.scale * extreme.radii[i] - dot(models[i], extreme.directions[i]));
+  }
+  const std::vector<std::size_t> order = largest_first(radial, kMostExtreme);
+  double most = seen.most();
+  for (std::size_t first = 0; first < order.size() && radial[order[first]] > most;
+       first += kBatch) {
+    std::vector<Vec3> points, across;
+    for (std::size_t k = first; k < std::min(order.size(), first + kBatch); ++k) {
+      const std::size_t i = order[k];
+      points.push_back(pieces_.scale * extreme.radii[i] * extreme.directions[i]);
+      across.push_back(models[i]);
+      seen.points.directions.push_back(extreme.directions[i]);
+      seen.points.radii.push_back(pieces_.scale * extreme.radii[i]);
+      seen.points.owners.push_back(extreme.owners[i]);
+    }
+    const std::vector<double> there = model.distances(points, across);
+    const std::vector<double> back = closest(*scene_, across, silent);
+    seen.to_model.insert(seen.to_model.end(), there.begin(), there.end());
+    seen.to_shape.insert(seen.to_shape.end(), back.begin(), back.end());
+    most = std::max({most, largest(there), largest(back)});
+  }
+
+  const Context alone{.threads = 1};  // a hundred points at a time
+  const RadialSurface near(expansion, degree, pieces_.scale, precision, alone);
+  const auto there_at = [&](const ErrorPoints& at) {
+    std::vector<Vec3> points(at.size());
+    for (std::size_t i = 0; i < points.size(); ++i) points[i] = at.radii[i] * at.directions[i];
+    return model.distances(points, near.points(at.directions));
+  };
+  const auto back_at = [&](const ErrorPoints& at) {
+    return closest(*scene_, near.points(at.directions), alone);
+  };
+  const MeshView view = view_of(shape_);
+  most =
+      std::max({most, highest_peak(view, {}, seen.points, seen.to_model, degree, kPeaks, there_at),
+                highest_peak(view, {}, seen.points, seen.to_shape, degree, kPeaks, back_at)});
+  result.max = most / pieces_.scale;
+  return result;
+}
+
+}  // namespace rholm

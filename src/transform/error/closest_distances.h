@@ -1,0 +1,75 @@
+// Distances between a mesh and the surface of an expansion by closest points, where those to first
+// order are not enough: method 5.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "rholm/coefficients.h"
+#include "rholm/context.h"
+#include "rholm/harmonic.h"
+#include "rholm/mesh_view.h"
+#include "shape/queries/ray_scene.h"
+#include "transform/error/error_points.h"
+#include "transform/error/surface_pieces.h"
+
+namespace rholm {
+
+// Points on rays and the outward unit normals there.
+struct RadialPoints {
+  std::vector<Vec3> points, normals;
+};
+
+// The surface of the first degrees of an expansion, about its centre, lengths times `scale`. The
+// context must outlive it.
+class RadialSurface {
+ public:
+  RadialSurface(const Expansion& expansion, int degree, double scale, double precision,
+                const Context& context);
+
+  std::vector<Vec3> points(const std::vector<Vec3>& directions) const;
+  RadialPoints at(const std::vector<Vec3>& directions) const;
+  // How far points x are from the surface, beginning at the directions `from`: so many steps along
+  // its tangent planes, each halved until it comes nearer. From near the closest point to second
+  // order after one step; never too small but for the rounding.
+  std::vector<double> distances(const std::vector<Vec3>& x, std::vector<Vec3> from,
+                                int steps) const;
+
+ private:
+  Coefficients cut_;
+  bool is_gauge_;
+  double scale_;
+  SumOptions sums_;
+  const Context& context_;
+};
+
+struct SurfaceDistances {
+  double rms = 0, max = 0;  // the larger of both ways
+};
+
+// Keeps the tree of a mesh for several models. Memory: about 200 bytes per face of the mesh, and
+// 70 MB for the model's tree at most.
+class ClosestDistances {
+ public:
+  // `n_points`: about so many on each surface, see surface_pieces().
+  ClosestDistances(const MeshView& mesh, const Vec3& center, std::size_t n_points);
+
+  // In the mesh's unit. Model and mesh must have sizes that compare. The largest is one over the
+  // pieces and over `extreme`, points of the mesh.
+  SurfaceDistances measure(const Expansion& expansion, int degree, const ErrorPoints& extreme,
+                           double precision, const Context& context);
+
+ private:
+  struct Model;
+  const Mesh& sphere(int degree);
+
+  SurfacePieces pieces_, dense_;
+  Mesh shape_;  // about the centre, scaled
+  std::unique_ptr<RayScene> scene_;
+  int level_ = -1;
+  Mesh sphere_;
+};
+
+}  // namespace rholm

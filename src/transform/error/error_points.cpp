@@ -1,0 +1,273 @@
+#include "transform/error/error_points.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/random.h"
+#include "chart/center/view_scan.h"
+#include "rholm/error.h"
+#include "rholm/harmonic.h"
+#include "shape/face.h"
+
+namespace rholm {
+namespace {
+
+// Points are added inside faces whose edges are longer than this many 1/L: waves of degree L are
+// 2 pi / L long (chosen).
+constexpr double kDense = 1.5;
+constexpr int kMostDivisions = 3;
+
+struct Face {
+  std::array<Vec3, 3> corners;  // from the centre
+  FaceNormal normal;
+  double twice_area = 0;
+};
+
+// A power of two that brings lengths near 1, so that areas and their squares are in range. It
+// rounds nothing.
+double scale_of(const MeshView& mesh) {
+  const VertexRange r = vertex_range(mesh, 0, mesh.n_vertices);
+  return unit_frame({{r.min[0], r.min[1], r.min[2]}, {r.max[0], r.max[1], r.max[2]}}).scale;
+}
+
+// Times `scale`.
+Face face_of(const MeshView& mesh, std::size_t t, const Vec3& center, double scale) {
+  const Triangle triangle = mesh.triangle(t);
+  Face face;
+  for (int i = 0; i < 3; ++i) face.corners[i] = scale * (mesh.vertex(triangle[i]) - center);
+  face.normal = face_normal(face.corners);
+  face.twice_area = norm(face.normal.twice_area);
+  return face;
+}
+
+// At a distance r from the centre, where nobody sees it if that is 0.
+void add_point(ErrorPoints& points, const Vec3& x, double r, double cosine, std::int64_t owner) {
+  if (!(r > 0)) return;
+  points.directions.push_back(x / r);
+  points.radii.push_back(r);
+  points.cosines.push_back(cosine);
+  points.owners.push_back(owner);
+}
+
+void add_on_face(ErrorPoints& points, const Face& face, const Vec3& x, std::size_t t) {
+  const double r = norm(x), size = r * face.twice_area;
+  if (!(size > 0)) return;
+  add_point(points, x, r, std::abs(dot(face.normal.twice_area, x)) / size,
+            static_cast<std::int64_t>(t));
+}
+
+// Into how many parts the edges of a face are divided.
+int divisions(const Face& face, int degree) {
+  double angle2 = 0;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 &a = face.corners[i], &b = face.corners[(i + 1) % 3];
+    const Vec3 e = b - a;
+    const double distance2 = std::min(dot(a, a), dot(b, b));
+    angle2 = std::max(angle2, distance2 > 0 ? dot(e, e) / distance2 : 0.0);
+  }
+  const double parts = std::ceil(std::min(1e3, degree * std::sqrt(angle2) / kDense));
+  return std::clamp(static_cast<int>(parts), 1, kMostDivisions);
+}
+
+}  // namespace
+
+void ErrorPoints::reserve(std::size_t n) {
+  directions.reserve(n);
+  radii.reserve(n);
+  cosines.reserve(n);
+  owners.reserve(n);
+}
+
+ErrorPoints ErrorPoints::subset(const std::vector<std::size_t>& indices) const {
+  ErrorPoints result;
+  result.reserve(indices.size());
+  for (const std::size_t i : indices) {
+    result.directions.push_back(directions[i]);
+    result.radii.push_back(radii[i]);
+    result.cosines.push_back(cosines[i]);
+    if (!owners.empty()) result.owners.push_back(owners[i]);
+  }
+  return result;
+}
+
+ErrorPoints ErrorPoints::first(std::size_t n) const {
+  const auto end = static_cast<std::ptrdiff_t>(n);
+  return {{directions.begin(), directions.begin() + end},
+          {radii.begin(), radii.begin() + end},
+          {cosines.begin(), cosines.begin() + end},
+          {owners.begin(), owners.begin() + std::min(end, std::ssize(owners))}};
+}
+
+void ErrorPoints::append(const ErrorPoints& more) {
+  directions.insert(directions.end(), more.directions.begin(), more.directions.end());
+  radii.insert(radii.end(), more.radii.begin(), more.radii.end());
+  cosines.insert(cosines.end(), more.cosines.begin(), more.cosines.end());
+  owners.insert(owners.end(), more.owners.begin(), more.owners.end());
+}
+
+ErrorPoints extreme_points(const MeshView& mesh, const Vec3& center, int degree) {
+  ErrorPoints points;
+  const double scale = scale_of(mesh);
+  // A vertex of no face is no point of the surface.
+  std::vector<bool> used(mesh.n_vertices);
+  for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
+    for (const std::uint32_t i : mesh.triangle(t)) used[i] = true;
+  }
+  for (std::size_t i = 0; i < mesh.n_vertices; ++i) {
+    const Vec3 x = scale * (mesh.vertex(i) - center);
+    if (used[i]) add_point(points, x, norm(x), 0, -1 - static_cast<std::int64_t>(i));
+  }
+  for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
+    const Face face = face_of(mesh, t, center, scale);
+    if (face.normal.degenerate) continue;
+    const int n = divisions(face, degree);
+    for (int i = 0; i < n; ++i) {
+      for (int j = i == 0 ? 1 : 0; i + j <= n; ++j) {
+        if (j == n) continue;
+        const double a = static_cast<double>(i) / n, b = static_cast<double>(j) / n;
+        add_on_face(points, face,
+                    a * face.corners[0] + b * face.corners[1] + (1 - a - b) * face.corners[2], t);
+      }
+    }
+  }
+  for (double& r : points.radii) r /= scale;
+  return points;
+}
+
+ErrorPoints area_points(const MeshView& mesh, const Vec3& center, std::size_t n) {
+  const double scale = scale_of(mesh);
+  double whole = 0;
+  for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
+    const Face face = face_of(mesh, t, center, scale);
+    if (!face.normal.degenerate) whole += face.twice_area;
+  }
+  ErrorPoints points;
+  const double part = whole / static_cast<double>(n);
+  double sum = 0;
+  std::size_t next = 0;
+  constexpr std::uint64_t kSeed = 1;
+  for (std::size_t t = 0; t < mesh.n_triangles && next < n; ++t) {
+    const Face face = face_of(mesh, t, center, scale);
+    if (face.normal.degenerate) continue;
+    sum += face.twice_area;
+    while (next < n && (static_cast<double>(next) + random_uniform(kSeed, 3 * next)) * part < sum) {
+      // Uniform on the triangle.
+      const double s = std::sqrt(random_uniform(kSeed, 3 * next + 1));
+      const double b = s * random_uniform(kSeed, 3 * next + 2);
+      add_on_face(points, face,
+                  (1 - s) * face.corners[0] + b * face.corners[1] + (s - b) * face.corners[2], t);
+      ++next;
+    }
+  }
+  for (double& r : points.radii) r /= scale;
+  return points;
+}
+
+namespace {
+
+// The model along the points' directions, and the square of the tangent of its slope.
+struct ModelSurface {
+  std::vector<double> radii, tangents2;
+};
+
+ModelSurface model_surface(const ErrorPoints& points, const Expansion& expansion, int degree,
+                           bool slopes, double precision, const Context& context) {
+  const Coefficients cut = expansion.coefficients.resized(degree);
+  const SumOptions options{.precision = precision};
+  ModelSurface model;
+  if (slopes) {
+    ValuesAndGradients found = evaluate_with_gradient(cut, points.directions, options, context);
+    model.radii = std::move(found.values);
+    model.tangents2.resize(points.size());
+    // |grad r| / r is the same for r and 1/r.
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double r2 = model.radii[i] * model.radii[i];
+      model.tangents2[i] = dot(found.gradients[i], found.gradients[i]) / std::max(r2, 1e-300);
+    }
+  } else {
+    model.radii = evaluate(cut, points.directions, options, context);
+  }
+  if (expansion.function == RadialFunction::kGauge) {
+    for (double& q : model.radii) {
+      if (!(q > 0)) {
+        throw Error(ErrorCode::kInvalidInput,
+                    "the gauge of degree " + std::to_string(degree) +
+                        " is not positive everywhere: it has no surface; take another degree");
+      }
+      q = 1 / q;
+    }
+  }
+  return model;
+}
+
+}  // namespace
+
+PointErrors point_errors(const ErrorPoints& points, const Expansion& expansion, int degree,
+                         bool slopes, double precision, const Context& context) {
+  const ModelSurface model = model_surface(points, expansion, degree, slopes, precision, context);
+  PointErrors errors;
+  errors.radial.resize(points.size());
+  if (slopes) {
+    errors.to_model.resize(points.size());
+    errors.to_shape.resize(points.size());
+    errors.stretch.resize(points.size());
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double radial = std::abs(points.radii[i] - model.radii[i]);
+    errors.radial[i] = radial;
+    if (!slopes) continue;
+    const double cosine = 1 / std::sqrt(1 + model.tangents2[i]);
+    const double face = points.cosines[i] > 0 ? points.cosines[i] : cosine;
+    errors.to_model[i] = radial * cosine;
+    errors.to_shape[i] = radial * face;
+    const double ratio = model.radii[i] / points.radii[i];
+    errors.stretch[i] = ratio * ratio * face / cosine;
+  }
+  return errors;
+}
+
+double largest(const std::vector<double>& values) {
+  double most = 0;
+  for (const double value : values) most = std::max(most, value);
+  return most;
+}
+
+std::vector<std::size_t> indices_of_largest(const std::vector<double>& values, std::size_t n) {
+  const double least = 0.5 * largest(values);
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (values[i] >= least) indices.push_back(i);
+  }
+  const auto end = indices.begin() + static_cast<std::ptrdiff_t>(std::min(n, indices.size()));
+  std::partial_sort(indices.begin(), end, indices.end(), [&](std::size_t a, std::size_t b) {
+    return values[a] != values[b] ? values[a] > values[b] : a < b;
+  });
+  indices.erase(end, indices.end());
+  return indices;
+}
+
+double rms_over_solid_angle(const ErrorPoints& points, const PointErrors& errors,
+                            std::size_t first) {
+  double sum = 0, weights = 0;
+  for (std::size_t i = first; i < points.size(); ++i) {
+    const double weight = points.cosines[i] / (points.radii[i] * points.radii[i]);
+    sum += weight * errors.radial[i] * errors.radial[i];
+    weights += weight;
+  }
+  return weights > 0 ? std::sqrt(sum / weights) : 0;
+}
+
+double rms_distance(const PointErrors& errors, std::size_t first) {
+  if (first >= errors.radial.size()) return 0;
+  double there = 0, back = 0, weights = 0;
+  for (std::size_t i = first; i < errors.radial.size(); ++i) {
+    there += errors.to_model[i] * errors.to_model[i];
+    back += errors.stretch[i] * errors.to_shape[i] * errors.to_shape[i];
+    weights += errors.stretch[i];
+  }
+  there /= static_cast<double>(errors.radial.size() - first);
+  return std::sqrt(std::max(there, weights > 0 ? back / weights : 0.0));
+}
+
+}  // namespace rholm

@@ -1,0 +1,124 @@
+#include "transform/mesh_pass/grid_sources.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "rholm/harmonic.h"
+
+namespace rholm {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr std::size_t kMostKept = std::size_t{1} << 20;  // nodes, 32 MB
+constexpr std::size_t kMostUndivided = std::size_t{1} << 18;
+
+template <typename T>
+void put(SourceBatch<T>& batch, std::size_t n, const Vec3& x, double weight) {
+  batch.x[0][n] = x.x;
+  batch.x[1][n] = x.y;
+  batch.x[2][n] = x.z;
+  batch.value[n] = static_cast<T>(weight);
+}
+
+}  // namespace
+
+double gradient_cost(const MeshPlan& plan) { return 9.0 * std::max(plan.divided.degree, 1); }
+
+template <typename T>
+void GridSources<T>::add(std::span<const Node> nodes) {
+  for (const Node& node : nodes) {
+    put(values_, n_values_++, node.x, node.weight);
+    source2_ += node.weight * node.weight;
+    if (n_values_ == kSize) flush_values();
+  }
+}
+
+template <typename T>
+void GridSources<T>::add(const GradientNode& node) {
+  put(gradients_, n_gradients_, node.x, 0);
+  const double g[3] = {node.weight.x, node.weight.y, node.weight.z};
+  for (int k = 0; k < 3; ++k) gradients_.gradient[k][n_gradients_] = static_cast<T>(g[k]);
+  source2_ += cost2_ * dot(node.weight, node.weight);
+  if (++n_gradients_ == kSize) flush_gradients();
+}
+
+template <typename T>
+void GridSources<T>::add_vertices(const MeshView& mesh, std::size_t first, std::size_t n,
+                                  const BlockParameters& parameters,
+                                  const VertexLump<LumpOf<T>>* lumps) {
+  flush_gradients();
+  const LumpSums sums = load_vertices(mesh, first, n, parameters, lumps, gradients_);
+  if (parameters.hessians) {
+    source2_ += sums.weight2 + cost2_ * sums.gradient2;
+    hessian2_ += std::pow(parameters.degree, 4) * sums.hessian2;
+  }
+  spreader_.add(gradients_, n, parameters.hessians ? 2 : 1);
+}
+
+template <typename T>
+void GridSources<T>::flush() {
+  flush_values();
+  flush_gradients();
+}
+
+template <typename T>
+void GridSources<T>::flush_values() {
+  if (n_values_ > 0) spreader_.add(values_, n_values_, 0);
+  n_values_ = 0;
+}
+
+template <typename T>
+void GridSources<T>::flush_gradients() {
+  if (n_gradients_ > 0) spreader_.add(gradients_, n_gradients_, 1);
+  n_gradients_ = 0;
+}
+
+template <typename T>
+void PartSink<T>::add(std::span<const Node> nodes) {
+  part_.nodes += nodes.size();
+  for (const Node& node : nodes) part_.weight += node.weight;
+  if (grid_ != nullptr) return grid_->add(nodes);
+  for (const Node& node : nodes) part_.source2 += node.weight * node.weight;
+  part_.too_many = part_.too_many || part_.kept.size() + nodes.size() > kMostKept;
+  if (!part_.too_many) part_.kept.insert(part_.kept.end(), nodes.begin(), nodes.end());
+}
+
+template <typename T>
+void PartSink<T>::add_gradient(const GradientNode& node) {
+  ++part_.nodes;
+  if (grid_ != nullptr) return grid_->add(node);
+  part_.source2 += std::pow(gradient_cost(plan_), 2) * dot(node.weight, node.weight);
+  part_.too_many = part_.too_many || part_.kept_gradients.size() >= kMostKept;
+  if (!part_.too_many) part_.kept_gradients.push_back(node);
+}
+
+template <typename T>
+void PartSink<T>::add_undivided(const Vec3& x, double weight) {
+  ++part_.nodes;
+  undivided_.push_back(x / norm(x));
+  undivided_weights_.push_back(weight);
+  if (undivided_.size() >= kMostUndivided) sum_undivided();
+}
+
+template <typename T>
+void PartSink<T>::sum_undivided() {
+  if (undivided_.empty()) return;
+  const int degree = plan_.divided.degree;
+  if (part_.undivided.degree() != degree) part_.undivided = Coefficients(degree);
+  double square = 0;
+  for (const double w : undivided_weights_) square += w * w;
+  // Generic sums of these have the l2 norm L sqrt(sum w^2 / 4 pi).
+  const double relative = plan_.window / ((degree + 1.0) * std::sqrt(square / (4 * kPi)));
+  add_adjoint({.directions = undivided_, .weights = undivided_weights_}, part_.undivided,
+              {.precision = std::clamp(0.5 * relative, 1e-14, 0.1)}, {.threads = 1});
+  undivided_.clear();
+  undivided_weights_.clear();
+}
+
+template class GridSources<float>;
+template class GridSources<double>;
+template class PartSink<float>;
+template class PartSink<double>;
+
+}  // namespace rholm

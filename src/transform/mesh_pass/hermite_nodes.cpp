@@ -1,0 +1,67 @@
+#include "transform/mesh_pass/hermite_nodes.h"
+
+namespace rholm {
+
+NodesBetween::NodesBetween(NodeSink& sink) : nodes_(sink) {}
+
+template <typename T>
+void NodesBetween::add(const MeshView& mesh, std::size_t first, std::size_t n,
+                       const TriangleBlock<T>& block) {
+  for (std::size_t t = 0; t < n; ++t) {
+    const int rules[3] = {block.edge_rule[0][t], block.edge_rule[1][t], block.edge_rule[2][t]};
+    if ((block.flag[t] & kNodes) != 0) continue;
+    if ((rules[0] | rules[1] | rules[2] | block.face_rule[t]) == 0) continue;
+    std::array<Vec3, 3> p;
+    for (int i = 0; i < 3; ++i) {
+      p[i] = {block.corner[i][0][t], block.corner[i][1][t], block.corner[i][2][t]};
+    }
+    const Triangle vertices = mesh.triangle(first + t);
+    for (int i = 0; i < 3; ++i) {
+      if (rules[i] == 0) continue;
+      const int j = i == 2 ? 0 : i + 1;
+      add_edge(vertices[i], vertices[j],
+               {.rule = static_cast<std::uint32_t>(rules[i]),
+                .weight = block.edge_node[i][t],
+                .a = p[i],
+                .b = p[j]});
+    }
+    if (block.face_rule[t] != 0) write_face(p, block.center_node[t], block.orbit_node[t]);
+  }
+}
+
+void NodesBetween::add_edge(std::uint32_t i, std::uint32_t j, const HalfEdge& edge) {
+  const auto join = [](HalfEdge& twin, const HalfEdge& other) {
+    if (twin.rule != other.rule) return false;
+    twin.weight += other.weight;
+    return true;
+  };
+  waiting_.add(i, j, edge, join, [&](const HalfEdge& whole) { write_edge(whole); });
+}
+
+void NodesBetween::write_edge(const HalfEdge& edge) {
+  const Vec3 sum = edge.a + edge.b;
+  if (edge.rule == 1) return nodes_.add(sum, edge.weight);  // a direction is what counts
+  nodes_.add(sum + edge.a, edge.weight);
+  nodes_.add(sum + edge.b, edge.weight);
+}
+
+void NodesBetween::write_face(const std::array<Vec3, 3>& p, double center, double orbit) {
+  const Vec3 sum = p[0] + p[1] + p[2];
+  nodes_.add(sum, center);
+  if (orbit == 0) return;
+  // (5 p_i + 5 p_j + p_k) / 11, 11/5 times as far.
+  constexpr double kLess = (3 * kHermiteOrbit - 1) / kHermiteOrbit;
+  for (const Vec3& corner : p) nodes_.add(sum - kLess * corner, orbit);
+}
+
+void NodesBetween::flush() {
+  waiting_.flush([&](const HalfEdge& edge) { write_edge(edge); });
+  nodes_.flush();
+}
+
+template void NodesBetween::add(const MeshView&, std::size_t, std::size_t,
+                                const TriangleBlock<std::int32_t>&);
+template void NodesBetween::add(const MeshView&, std::size_t, std::size_t,
+                                const TriangleBlock<double>&);
+
+}  // namespace rholm

@@ -1,0 +1,230 @@
+#include "transform/mesh_pass/own_nodes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rholm/error.h"
+#include "shape/face.h"
+#include "transform/geometry/star_geometry.h"
+#include "transform/rules/bernstein_rules.h"
+
+namespace rholm {
+namespace {
+
+// Elements longer than half their distance are halved: beyond, x/|x| bends so much that rules
+// for plane waves say little.
+constexpr double kLongest = 0.5;
+constexpr int kMaxDepth = 100;  // after so many halvings doubles resolve nothing
+
+[[noreturn]] void throw_on_surface() {
+  throw Error(ErrorCode::kInvalidInput,
+              "the surface passes through the centre of the expansion: choose a centre inside it");
+}
+
+Extent extent(const Vec3& a, const Vec3& b, double distance, int degree) {
+  const Vec3 across = cross(a, b), e = b - a;
+  const double over = 1 / (distance * distance);
+  const double l = degree * over;
+  return {l * l * dot(across, across), over * dot(e, e)};
+}
+
+Extent extent(const std::array<Vec3, 3>& p, double distance, int degree) {
+  Extent most;
+  for (int i = 0; i < 3; ++i) {
+    const Extent z = extent(p[i], p[(i + 1) % 3], distance, degree);
+    most.wave2 = std::max(most.wave2, z.wave2);
+    most.bend2 = std::max(most.bend2, z.bend2);
+  }
+  return most;
+}
+
+int longest_edge(const std::array<Vec3, 3>& p) {
+  const std::array<double, 3> e = {norm(p[1] - p[0]), norm(p[2] - p[1]), norm(p[0] - p[2])};
+  return static_cast<int>(std::max_element(e.begin(), e.end()) - e.begin());
+}
+
+// Calls visit on both halves of a triangle, cut through its longest edge.
+template <typename Visit>
+void halve(const std::array<Vec3, 3>& p, const Visit& visit) {
+  const int k = longest_edge(p);
+  const Vec3 &from = p[k], &to = p[(k + 1) % 3], &opposite = p[(k + 2) % 3];
+  const Vec3 middle = 0.5 * (from + to);
+  visit(std::array<Vec3, 3>{from, middle, opposite});
+  visit(std::array<Vec3, 3>{middle, to, opposite});
+}
+
+// A lower bound of the distance from the centre, close where edges are short.
+double distance_of(const Vec3& a, const Vec3& b) {
+  const double nearest = std::sqrt(std::min(dot(a, a), dot(b, b)));
+  const Vec3 e = b - a;
+  const double half = 0.5 * std::sqrt(dot(e, e));
+  return half < 0.1 * nearest ? nearest - half : segment_distance(a, b);
+}
+
+double distance_of(const std::array<Vec3, 3>& p) {
+  const double nearest = std::sqrt(std::min({dot(p[0], p[0]), dot(p[1], p[1]), dot(p[2], p[2])}));
+  const Vec3 a = p[1] - p[0], b = p[2] - p[1], c = p[0] - p[2];
+  // No point is farther from its nearest corner than 1/sqrt(3) of the longest edge.
+  const double reach = 0.58 * std::sqrt(std::max({dot(a, a), dot(b, b), dot(c, c)}));
+  return reach < 0.1 * nearest ? nearest - reach : triangle_distance(p);
+}
+
+bool is_long(const std::array<Vec3, 3>& p, double distance) {
+  const int k = longest_edge(p);
+  return !(norm(p[(k + 1) % 3] - p[k]) <= kLongest * distance);
+}
+
+// Pieces leave errors of their own, which add up in squares: of `share` of an element.
+NodeAllowance part_of(NodeAllowance allowance, double share) {
+  allowance.error *= std::sqrt(share);
+  return allowance;
+}
+
+// Nodes of r dOmega = d_T dS / |x|^2; `factor`: d_T times the area. A piece may have its part of
+// `allowance`, or the part `relative` of its own integral: all have one sign, and near a plane
+// through the centre no share of the whole is as small as what is to be kept there.
+template <typename Visit>
+void visit_radius(const std::array<Vec3, 3>& p, double factor, const NodeAllowance& allowance,
+                  double relative, int depth, const Visit& visit) {
+  const double distance = distance_of(p);
+  if (depth == 0 && distance == 0) throw_on_surface();
+  if (factor == 0) return;
+  std::span<const FaceNode> rule;
+  if (!is_long(p, distance)) {
+    // 1/|x|^2 counts for two degrees more.
+    Extent z = extent(p, distance, allowance.degree);
+    z.wave2 = std::pow(std::sqrt(z.wave2) + 2 * std::sqrt(z.bend2), 2);
+    const double weight = factor / (distance * distance);
+    NodeAllowance allowed = allowance;
+    // A piece that is not long reaches to 3/2 of its distance.
+    allowed.error = std::max(allowed.error, relative * std::abs(weight) / 2.25);
+    rule = face_rule(allowed, z, weight);
+  }
+  if (rule.empty()) {
+    if (depth == kMaxDepth) throw_on_surface();
+    halve(p, [&](const std::array<Vec3, 3>& half) {
+      visit_radius(half, factor / 2, part_of(allowance, 0.5), relative, depth + 1, visit);
+    });
+    return;
+  }
+  for (const FaceNode& node : rule) {
+    const Vec3 x = node.at[0] * p[0] + node.at[1] * p[1] + node.at[2] * p[2];
+    visit(x, node.weight * factor / dot(x, x));
+  }
+}
+
+}  // namespace
+
+NodeWriter::NodeWriter(const NodeOptions& options, NodeSink& sink)
+    : options_(options),
+      grazing_(grazing_slope(options.divided.degree)),
+      sink_(sink),
+      nodes_(sink) {}
+
+void NodeWriter::add_triangle(const std::array<Vec3, 3>& p,
+                              const std::array<std::uint32_t, 3>& vertices) {
+  const FaceNormal normal = face_normal(p);
+  if (normal.degenerate) return;
+  const Vec3& n = normal.twice_area;
+  // The corner nearest to the centre loses least.
+  const Vec3& nearest = *std::min_element(
+      p.begin(), p.end(), [](const Vec3& a, const Vec3& b) { return dot(a, a) < dot(b, b); });
+  const double d2 = dot(n, nearest);
+  const bool grazing = std::abs(d2) < grazing_ * norm(n) * norm(nearest);
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    const double weight = grazing ? 0 : dot(n, cross(p[i], p[j])) / d2;
+    add_edge(vertices[i], vertices[j], p[i], p[j], weight, grazing ? 1 : 0);
+  }
+  if (grazing) {
+    visit_radius(p, d2 / 2, options_.undivided, 0, 0,
+                 [&](const Vec3& x, double weight) { sink_.add_undivided(x, weight); });
+  } else {
+    write_face(p, -dot(n, n) / d2, 0);
+  }
+}
+
+void NodeWriter::add_edge(std::uint32_t i, std::uint32_t j, const Vec3& a, const Vec3& b,
+                          double weight, double gradient) {
+  // The edge as seen from its lower vertex: a weight knows no direction, a gradient changes sign.
+  const bool swapped = j < i;
+  const HalfEdge edge{.a = swapped ? b : a,
+                      .b = swapped ? a : b,
+                      .weight = weight,
+                      .gradient = swapped ? -gradient : gradient};
+  const auto join = [](HalfEdge& twin, const HalfEdge& other) {
+    twin.weight += other.weight;
+    twin.gradient += other.gradient;
+    return true;
+  };
+  waiting_.add(i, j, edge, join, [&](const HalfEdge& whole) { write_edge(whole); });
+}
+
+void NodeWriter::flush() {
+  waiting_.flush([&](const HalfEdge& edge) { write_edge(edge); });
+  nodes_.flush();
+}
+
+void NodeWriter::write_edge(const HalfEdge& edge) {
+  if (edge.weight != 0 || edge.gradient != 0) write_piece(edge, edge.a, edge.b, 1);
+}
+
+void NodeWriter::write_piece(const HalfEdge& edge, const Vec3& a, const Vec3& b, double share) {
+  const double distance = distance_of(a, b);
+  const double length = norm(b - a);
+  const Vec3 across = -edge.gradient * cross(edge.a, edge.b);
+  EdgeRule rule;
+  if (length <= kLongest * distance) {
+    // A gradient is up to L / |x| times the harmonic, and bends more (6 measured).
+    const double slope = 2 * norm(across) * options_.divided.degree / distance;
+    rule =
+        edge_rule(part_of(options_.divided, share), extent(a, b, distance, options_.divided.degree),
+                  share * (std::abs(edge.weight) + slope));
+  }
+  if (rule.nodes.empty()) {
+    if (!(share > std::exp2(-kMaxDepth))) throw_on_surface();
+    const Vec3 middle = 0.5 * (a + b);
+    write_piece(edge, a, middle, share / 2);
+    write_piece(edge, middle, b, share / 2);
+    return;
+  }
+  for (std::size_t k = 0; k < rule.nodes.size(); ++k) {
+    const Vec3 x = a + rule.nodes[k] * (b - a);
+    const double weight = share * rule.weights[k];
+    if (edge.weight != 0) nodes_.add(x, weight * edge.weight);
+    if (edge.gradient != 0) sink_.add_gradient({x, weight * across});
+  }
+}
+
+void NodeWriter::write_face(const std::array<Vec3, 3>& p, double weight, int depth) {
+  const double distance = distance_of(p);
+  std::span<const FaceNode> rule;
+  if (!is_long(p, distance)) {
+    rule = face_rule(part_of(options_.divided, std::exp2(-depth)),
+                     extent(p, distance, options_.divided.degree), weight);
+  }
+  if (rule.empty()) {
+    if (depth == kMaxDepth) throw_on_surface();
+    halve(p, [&](const std::array<Vec3, 3>& half) { write_face(half, weight / 2, depth + 1); });
+    return;
+  }
+  for (const FaceNode& node : rule) {
+    nodes_.add(node.at[0] * p[0] + node.at[1] * p[1] + node.at[2] * p[2], node.weight * weight);
+  }
+}
+
+double radius_integral(const std::array<Vec3, 3>& corners, double relative_error) {
+  const FaceNormal normal = face_normal(corners);
+  if (normal.degenerate) return 0;
+  const double factor = dot(normal.twice_area, corners[0]) / 2;
+  const double distance = triangle_distance(corners);
+  // int r dOmega is at least this part of the sphere times the smallest radius.
+  const double least = std::abs(solid_angle(corners)) * distance;
+  const NodeAllowance allowance{.degree = 0, .error = relative_error * least, .divided = false};
+  double sum = 0;
+  visit_radius(corners, factor, allowance, relative_error, 0,
+               [&](const Vec3&, double weight) { sum += weight; });
+  return sum;
+}
+
+}  // namespace rholm

@@ -1,0 +1,279 @@
+#include "transform/mesh_pass/plan/lumping.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace rholm {
+namespace {
+
+// Costs beside kNodedCost: a node between vertices; Hessians of a triangle, and of its half of a
+// vertex (measured).
+constexpr double kBetweenCost = 50, kHessianCost = 25;
+
+// Sum of squares of what lumping leaves if triangles up to a tolerance are lumped: of an edge the
+// sum of its half-edges, or the one that is lumped. No further than `enough`.
+double lumped_error2(const MeshSample& sample, double tolerance2, double enough) {
+  double faces = 0, edges = 0;
+  for (const MeshSample::Entry& entry : sample.entries) {
+    if (entry.error2 > tolerance2) break;
+    faces += entry.face_error2;
+  }
+  faces *= sample.share;
+  // Where no neighbours are known, the edges' part is a guess until a pass has told it.
+  const double unseen = (sample.edge_share > 0 ? sample.measured_ratio : sample.edge_ratio) * faces;
+  for (const MeshSample::Edge& edge : sample.edges) {
+    if (edge.lower2 > tolerance2) continue;
+    const double error = edge.upper2 > tolerance2 ? edge.lower : edge.lower + edge.upper;
+    edges += error * error;
+    if (sample.edge_share * edges > enough) break;
+  }
+  return faces + std::max(unseen, sample.edge_share * edges);
+}
+
+// Energy of all errors if everything is lumped, in units of what triangles have on their own: small
+// where the half-edges of each edge nearly cancel.
+double cancellation(const MeshSample& sample) {
+  constexpr double kAll = std::numeric_limits<double>::infinity();
+  double own = 0;
+  for (const MeshSample::Entry& entry : sample.entries) own += entry.error2;
+  const double whole = lumped_error2(sample, kAll, kAll);
+  return sample.edge_share > 0 && own > 0 ? std::min(1.0, whole / (sample.share * own)) : 1;
+}
+
+// The sample does not know the worst: of what it has none of there may be three times what one of
+// its triangles stands for, at 95 %. They may take a seventh of it all, and cancel as others do,
+// ten times at most: if they do not, they take one and a half times what all may, and with windows
+// and quanta still no more than 0.9 of the wish. A single one may always take a forty-fifth of the
+// error: the pass sees the sum, and there is a second try.
+double largest_tolerance(const MeshSample& sample, double allowed2) {
+  constexpr double kMostCancelled = 0.1;
+  return allowed2 * std::max(0.15 / (3 * sample.share), 1.0 / 2000) /
+         std::max(cancellation(sample), kMostCancelled);
+}
+
+// Entries in any order.
+bool may_all_be_lumped(const MeshSample& sample, double allowed2) {
+  const double most = largest_tolerance(sample, allowed2);
+  for (const MeshSample::Entry& entry : sample.entries) {
+    if (entry.error2 > most) return false;
+  }
+  const double lumps2 = (1 - node_share2(false)) * allowed2;
+  return lumped_error2(sample, most, lumps2) <= lumps2;
+}
+
+}  // namespace
+
+double node_share2(bool some_noded) { return some_noded ? 0.5 : 0.1; }
+
+double tolerance_of(const MeshSample& sample, double allowed2) {
+  const double most = largest_tolerance(sample, allowed2);
+  if (may_all_be_lumped(sample, allowed2)) return most;
+  const std::size_t n = sample.entries.size();
+  // Triangles that are left out: half as many more each time, then a twelfth of all.
+  std::vector<double> tolerances;
+  for (std::size_t out = 0; out < n; out += std::clamp<std::size_t>(out / 2, 1, n / 12 + 1)) {
+    tolerances.push_back(out == 0 ? most : sample.entries[n - 1 - out].error2);
+  }
+  const double lumps2 = (1 - node_share2(true)) * allowed2;
+  // The fewer are lumped the less they leave.
+  const auto first = std::partition_point(tolerances.begin(), tolerances.end(), [&](double t2) {
+    return t2 > most || lumped_error2(sample, t2, lumps2) > lumps2;
+  });
+  return first == tolerances.end() ? 0 : *first;
+}
+
+namespace {
+
+double power(double z2, int p) {
+  double result = p % 2 == 0 ? 1 : std::sqrt(z2);
+  for (int k = 0; k < p / 2; ++k) result *= z2;
+  return result;
+}
+
+// L^2 times what the Hessians of an edge are multiplied by, for the half-edges of the triangle with
+// the smaller and with the larger error.
+struct EdgeHessian {
+  double lower2, upper2;
+  double lower, upper;
+};
+
+// What each rule leaves of a triangle's half-edges, and of its face, whose z^2 is the largest of
+// theirs.
+struct RuleErrors {
+  std::array<std::array<double, kHermiteRules>, 3> edges;
+  std::array<double, kHermiteRules> face;
+  double z2;
+};
+std::vector<RuleErrors> rule_errors(const MeshSample& sample) {
+  std::vector<RuleErrors> all;
+  all.reserve(sample.triangles.size());
+  for (const MeshSample::Triangle& t : sample.triangles) {
+    RuleErrors errors = {
+        .edges = {}, .face = {}, .z2 = *std::max_element(t.z2.begin(), t.z2.end())};
+    for (std::size_t k = 0; k < kHermiteRules; ++k) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        errors.edges[i][k] =
+            t.weight[i] * kHermiteEdgeUnits[k] * power(t.z2[i], kHermiteEdges[k].power);
+      }
+      errors.face[k] = t.face * kHermiteFaceUnits[k] * power(errors.z2, kHermiteFaces[k].power);
+    }
+    all.push_back(errors);
+  }
+  return all;
+}
+
+// The sample as rules with Hessians see it.
+struct Seen {
+  MeshSample sample;
+  std::vector<EdgeHessian> hessians;
+};
+Seen with_hessians(const MeshSample& sample, const std::vector<RuleErrors>& rules,
+                   HermiteLumps& lumps) {
+  Seen result;
+  MeshSample& seen = result.sample;
+  seen.share = sample.share;
+  seen.edge_share = sample.edge_share;
+  seen.edge_ratio = 0;
+  seen.measured_ratio = sample.measured_ratio;
+  std::vector<std::array<double, 3>> errors;  // of half-edges
+  std::vector<double> errors2;
+  errors.reserve(sample.triangles.size());
+  errors2.reserve(sample.triangles.size());
+  seen.entries.reserve(sample.triangles.size());
+  seen.edges.reserve(sample.edges.size());
+  double nodes = 0;
+  for (std::size_t n = 0; n < rules.size(); ++n) {
+    const MeshSample::Triangle& t = sample.triangles[n];
+    std::array<double, 3> error;
+    double edges2 = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t k = hermite_rule(lumps.edge_reach2, t.z2[i]);
+      error[i] = rules[n].edges[i][k];
+      edges2 += error[i] * error[i];
+      nodes += kHermiteEdges[k].nodes / 2.0;
+    }
+    const std::size_t k = hermite_rule(lumps.face_reach2, rules[n].z2);
+    nodes += (kHermiteFaces[k].center != 0) + 3 * (kHermiteFaces[k].orbit != 0);
+    const double face2 = rules[n].face[k] * rules[n].face[k];
+    errors.push_back(error);
+    errors2.push_back(edges2 + face2);
+    if (!std::isfinite(edges2 + face2)) continue;
+    // Where no neighbours are known: (a + b)^2 <= 2 (a^2 + b^2).
+    const double own2 = sample.edge_share > 0 ? face2 : face2 + 2 * edges2;
+    seen.entries.push_back({edges2 + face2, own2, t.face * t.face});
+  }
+  lumps.between = nodes / static_cast<double>(std::max<std::size_t>(sample.triangles.size(), 1));
+  for (const auto& [first, second] : sample.twins) {
+    const double a = errors[first / 3][first % 3], b = errors[second / 3][second % 3];
+    const double a2 = errors2[first / 3], b2 = errors2[second / 3];
+    const MeshSample::Triangle &t = sample.triangles[first / 3], &u = sample.triangles[second / 3];
+    const double z2 = t.z2[first % 3];
+    const double factor = kHermiteEdges[hermite_rule(lumps.edge_reach2, z2)].hessian * z2;
+    const double ta = t.weight[first % 3], tb = u.weight[second % 3];
+    if (a2 <= b2) {
+      seen.edges.push_back({a2, b2, a, b, ta + tb});
+      result.hessians.push_back({a2, b2, factor * ta, factor * tb});
+    } else {
+      seen.edges.push_back({b2, a2, b, a, ta + tb});
+      result.hessians.push_back({b2, a2, factor * tb, factor * ta});
+    }
+  }
+  return result;
+}
+
+void sort_entries(MeshSample& sample) {
+  std::sort(sample.entries.begin(), sample.entries.end(),
+            [](const auto& a, const auto& b) { return a.error2 < b.error2; });
+}
+
+// Sum of squares over edges of lumped triangles, at both ends.
+double hessians2(const Seen& seen, double tolerance2) {
+  double sum = 0;
+  for (const EdgeHessian& edge : seen.hessians) {
+    if (edge.lower2 > tolerance2) continue;
+    const double h = edge.upper2 > tolerance2 ? edge.lower : edge.lower + edge.upper;
+    sum += 2 * h * h;
+  }
+  return seen.sample.edge_share * sum;
+}
+
+// Mean moduli of the weights of edges (of half-edges where no neighbours are known) and faces.
+struct MeanWeights {
+  double edge = 0, face = 0;
+};
+MeanWeights mean_weights(const MeshSample& sample) {
+  MeanWeights mean;
+  double faces = 0, halves = 0;
+  for (const MeshSample::Triangle& t : sample.triangles) {
+    const double sum = std::abs(t.weight[0]) + std::abs(t.weight[1]) + std::abs(t.weight[2]);
+    if (!std::isfinite(sum + t.face)) continue;
+    mean.face += std::abs(t.face);
+    halves += sum / 3;
+    ++faces;
+  }
+  for (const MeshSample::Edge& edge : sample.edges) mean.edge += std::abs(edge.weight);
+  mean.edge = sample.edge_share > 0
+                  ? mean.edge / static_cast<double>(std::max<std::size_t>(sample.edges.size(), 1))
+                  : halves / std::max(faces, 1.0);
+  mean.face /= std::max(faces, 1.0);
+  return mean;
+}
+
+}  // namespace
+
+double noded_share(const MeshSample& sample, double tolerance2) {
+  double noded = 0;
+  for (const MeshSample::Entry& entry : sample.entries) noded += entry.error2 > tolerance2;
+  return noded / static_cast<double>(std::max<std::size_t>(sample.entries.size(), 1));
+}
+
+std::optional<HermiteLumps> hermite_lumps(const MeshSample& sample, double allowed2) {
+  const MeanWeights mean = mean_weights(sample);
+  if (!(mean.edge > 0) || !(mean.face > 0) || !(allowed2 > 0)) return {};
+  // The error of an edge and of a face if all were alike: one and a half edges a triangle.
+  const double triangles = sample.share * static_cast<double>(sample.triangles.size());
+  const double edge = std::sqrt(allowed2 / (3 * triangles)) / mean.edge;
+  const double face = std::sqrt(allowed2 / (2 * triangles)) / mean.face;
+  const std::vector<RuleErrors> rules = rule_errors(sample);
+  // The more a rule may leave the fewer nodes between vertices, and the more triangles that have to
+  // be taken out.
+  const auto with_errors = [&](double factor) {
+    HermiteLumps lumps{.edge_reach2 = hermite_edge_reach(factor * edge),
+                       .face_reach2 = hermite_face_reach(factor * face)};
+    Seen seen = with_hessians(sample, rules, lumps);
+    if (!may_all_be_lumped(seen.sample, allowed2)) sort_entries(seen.sample);
+    lumps.tolerance2 = tolerance_of(seen.sample, allowed2);
+    lumps.hessian2 = hessians2(seen, lumps.tolerance2);
+    lumps.node_share = noded_share(seen.sample, lumps.tolerance2);
+    lumps.cost = kHessianCost + kBetweenCost * lumps.between + kNodedCost * lumps.node_share;
+    return lumps;
+  };
+  HermiteLumps best;
+  best.cost = std::numeric_limits<double>::infinity();
+  double at = 1;
+  // Whether to go on in this direction.
+  const auto take = [&](double factor) {
+    const HermiteLumps lumps = with_errors(factor);
+    if (lumps.cost < best.cost) best = lumps, at = factor;
+    return lumps.cost <= 1.2 * best.cost;
+  };
+  constexpr double kStart = 8, kMost = 1e4, kLeast = 0.1;
+  bool better = take(kStart);
+  if (best.node_share == 0) {
+    // Nodes between vertices alone: where errors cancel many fewer may do.
+    for (double f = 2 * kStart; better && best.between > 0 && f < kMost; f *= 2) better = take(f);
+  } else {
+    for (double f = kStart / 2; better && best.node_share > 0 && f > kLeast; f /= 2) {
+      better = take(f);
+    }
+  }
+  if (best.between == 0 && best.node_share == 0) return best;
+  for (const double step : {1.7, 1.4, 1.2, 0.85}) {
+    const HermiteLumps lumps = with_errors(step * at);
+    if (lumps.cost < best.cost) best = lumps;
+  }
+  return best;
+}
+
+}  // namespace rholm

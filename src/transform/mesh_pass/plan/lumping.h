@@ -1,0 +1,37 @@
+// Which triangles of a mesh are lumped, and by which rules: chosen on the sample.
+#pragma once
+
+#include <optional>
+
+#include "transform/mesh_pass/plan/plan.h"
+
+namespace rholm {
+
+// Of the squares that rules may leave, the part of triangles with nodes of their own. Where the
+// sample has none, there may be a few all the same.
+double node_share2(bool some_noded);
+
+// The largest tolerance (squared, in units of lumping) of a few dozen that keeps lumps within their
+// part of the sum of squares allowed; 0 if none does.
+double tolerance_of(const MeshSample& sample, double allowed2);
+
+// The part of the triangles that is beyond it.
+double noded_share(const MeshSample& sample, double tolerance2);
+
+// What a triangle with nodes of its own costs, nanoseconds; only ratios matter (measured on rough
+// meshes: some ten nodes, of which the half is for finding them).
+inline constexpr double kNodedCost = 600;
+
+// Rules with Hessians.
+struct HermiteLumps {
+  HermiteReach edge_reach2, face_reach2;
+  double tolerance2 = 0;
+  double node_share = 0;  // triangles that get nodes all the same
+  double between = 0;     // nodes between the vertices of the others, per triangle
+  double hessian2 = 0;    // sum of squares of L^2 times the Hessians' factors
+  double cost = 0;        // per triangle, nanoseconds
+};
+// The cheapest that keep the sum of squares allowed.
+std::optional<HermiteLumps> hermite_lumps(const MeshSample& sample, double allowed2);
+
+}  // namespace rholm

@@ -1,0 +1,115 @@
+// The gauge q = 1/r by integrals over the arcs of the edges alone:
+//   c_lm(q) = 1/(2 - l(l+1)) sum_e s_e int_arc conj(Y_lm) ds,  l != 1      (M4)
+// and degree 1 in closed form (M5).
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/compensated_sum.h"
+#include "rholm/error.h"
+#include "transform/methods/methods.h"
+#include "transform/methods/sources.h"
+
+namespace rholm {
+namespace {
+
+// A face whose plane passes within this part of the radius from the centre has a gauge beyond
+// what double precision can sum with the others: 1/d against 1/r, squared in the norm.
+constexpr double kSmallestSlope = 1e-12;
+
+void check_planes(const StarGeometry& geometry) {
+  for (std::size_t t = 0; t < geometry.faces.size(); ++t) {
+    const FaceGeometry& face = geometry.faces[t];
+    if (!face.degenerate && std::abs(face.d) < kSmallestSlope) {
+      throw Error(ErrorCode::kInvalidInput,
+                  "the plane of triangle " + std::to_string(t) +
+                      " passes through the centre, where the gauge 1/r is not defined: choose "
+                      "another centre, or the method edge");
+    }
+  }
+}
+
+Vec3 degree_one(const StarGeometry& geometry) {
+  CompensatedSum x, y, z;
+  for (std::size_t t = 0; t < geometry.faces.size(); ++t) {
+    const FaceGeometry& face = geometry.faces[t];
+    if (face.degenerate) continue;
+    const Vec3 a = face.twice_area / (norm(face.twice_area) * face.d);
+    const Vec3 v = second_moment(geometry.corners(t), face.solid_angle, a);
+    x.add(v.x);
+    y.add(v.y);
+    z.add(v.z);
+  }
+  return {x.value(), y.value(), z.value()};
+}
+
+}  // namespace
+
+MethodResult gauge_method(const StarGeometry& geometry, const MethodOptions& options,
+                          const Context& context) {
+  check_planes(geometry);
+  const auto& edges = geometry.chart->edges;
+  std::vector<EdgeJump> jumps;
+  jumps.reserve(edges.size());
+  double total = 0;
+  for (const Edge& edge : edges) {
+    jumps.push_back(edge_jump(geometry, edge));
+    total += std::abs(jumps.back().jump) * jumps.back().angle;
+  }
+  // As for the radius, with |2 - l(l+1)| >= 2/3 l(l+1) from l = 2 on; on an arc nothing is lost
+  // at low degrees that is not lost at L.
+  const double root = std::sqrt(4 * std::numbers::pi);
+  const Allowance allowance{.target = options.error / std::max(total, 1e-300),
+                            .first = 0,
+                            .last = 1.5 / (root * std::max(options.degree, 1)),
+                            .degree = options.degree,
+                            .growth = Growth::kArc};
+  // Half of the error may come from the sums: the others' rule is generous. Sums of squares as if
+  // each edge had one node; dividing by l(l+1) - 2 brings generic sums down to 1 / sqrt(4 pi).
+  double square = 0;
+  for (const EdgeJump& jump : jumps) square += std::pow(jump.jump * jump.angle, 2);
+  const double generic = 1.5 * std::sqrt(std::max(square, 1e-300)) / root;
+  Sources sources({.degree = options.degree,
+                   .engine = options.engine,
+                   .error = 0.5 * options.error / generic,
+                   .sources = 4 * edges.size()},
+                  context);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const EdgeJump& jump = jumps[e];
+    if (jump.jump == 0) continue;
+    sources.set_progress(static_cast<double>(e) / static_cast<double>(edges.size()));
+    const Vec3 p = normalized(geometry.vertices[edges[e].a]);
+    const Vec3 q = cross(jump.normal, p);
+    // Arcs too long for one rule are cut into equal parts.
+    int parts = 1, exactness = 0;
+    while ((exactness = exactness_for(allowance, jump.angle / (2 * parts), 1)) == 0) parts *= 2;
+    const GaussRule& rule = segment_rule(exactness);
+    for (int part = 0; part < parts; ++part) {
+      for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
+        const double s = (part + rule.nodes[i]) / parts * jump.angle;
+        sources.add(std::cos(s) * p + std::sin(s) * q,
+                    rule.weights[i] / parts * jump.angle * jump.jump);
+      }
+    }
+  }
+  MethodResult result;
+  result.edge_nodes = sources.count();
+  result.coefficients = sources.finish();
+  Coefficients& c = result.coefficients;
+  for (int l = 0; l <= options.degree; ++l) {
+    const double factor = l == 1 ? 0.0 : 1 / (2 - static_cast<double>(l) * (l + 1));
+    for (int m = 0; m <= l; ++m) {
+      c.c(l, m) *= factor;
+      c.s(l, m) *= factor;
+    }
+  }
+  if (options.degree >= 1) {
+    const Vec3 v = std::sqrt(3 / (4 * std::numbers::pi)) * degree_one(geometry);
+    c.c(1, 0) = v.z;
+    c.c(1, 1) = v.x;
+    c.s(1, 1) = v.y;
+  }
+  return result;
+}
+
+}  // namespace rholm

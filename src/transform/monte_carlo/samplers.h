@@ -1,0 +1,23 @@
+// What to sample and how: edges by the field, triangles by r conj(Y).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "transform/geometry/star_geometry.h"
+#include "transform/monte_carlo/edge_terms.h"
+#include "transform/monte_carlo/moments.h"
+
+namespace rholm {
+
+struct Sampler {
+  std::size_t places = 0;
+  DrawSample draw;
+};
+
+// Uniform along the flat edge, (P40).
+Sampler edge_sampler(const StarGeometry& geometry, std::uint64_t seed, FieldStart start);
+// Uniform on the spherical triangle.
+Sampler triangle_sampler(const StarGeometry& geometry, std::uint64_t seed);
+
+}  // namespace rholm

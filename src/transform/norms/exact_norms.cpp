@@ -1,0 +1,369 @@
+#include "transform/norms/exact_norms.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "transform/norms/exact_norms.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "base/compensated_sum.h"
+#include "base/parallel.h"
+#include "base/poison.h"
+#include "shape/queries/corner_rows-inl.h"
+#include "transform/geometry/star_geometry.h"
+#include "transform/norms/exact_norms_rules.h"
+
+#ifndef RHOLM_EXACT_NORMS_ONCE
+#define RHOLM_EXACT_NORMS_ONCE
+namespace rholm {
+namespace {
+
+// Triangles whose indices are checked, and corners asked for, ahead of use; and whose sums are
+// plain ones, as in view_scan.cpp.
+constexpr std::size_t kBlock = 128;
+
+// binomial(-1/2, k): (1 + v)^(-1/2) = sum of them times v^k.
+struct Binomials {
+  double value[kTerms8 + 1] = {1};
+  constexpr Binomials() {
+    for (int k = 1; k <= kTerms8; ++k) value[k] = value[k - 1] * (0.5 - k) / k;
+  }
+};
+constexpr Binomials kBinomials;
+
+// From the mesh to where sums are made.
+struct Frame {
+  Vec3 shift;        // -scale * center
+  double scale = 1;  // a power of two
+};
+
+// What the means need of a block's triangles, in units of g: squares of corners less 1, squares of
+// edges, and the longest of these; 1/sqrt(g) and d2.
+struct Block {
+  alignas(64) double r[3][kBlock], l[3][kBlock];
+  alignas(64) double longest[kBlock];  // infinite for a normal that is all rounding
+  alignas(64) double inverse[kBlock], d2[kBlock];
+};
+
+std::array<Vec3, 3> corners_of(const MeshView& mesh, const Frame& frame, std::size_t t) {
+  const Triangle triangle = mesh.triangle(t);
+  std::array<Vec3, 3> p;
+  for (std::size_t i = 0; i < 3; ++i) p[i] = frame.scale * mesh.vertex(triangle[i]) + frame.shift;
+  return p;
+}
+
+void add_sums(const NormSums& part, CompensatedSum* sums) {
+  sums[0].add(part.first);
+  sums[1].add(part.third);
+  sums[2].add(part.volume6);
+}
+
+}  // namespace
+}  // namespace rholm
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace rholm {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using M = hn::Mask<D>;
+
+// Squares in units of g, as in Block.
+struct LaneSquares {
+  V r0, r1, r2, l0, l1, l2;
+};
+// Powers of g^(1/2) left out: <1/|x|>, <1/|x|^3>.
+struct Means {
+  V first, third;
+};
+HWY_INLINE V CenterSquare(D d, V r0, V r1, V r2, V edges) {
+  return hn::NegMulAdd(hn::Set(d, 1.0 / 9), edges,
+                       hn::Mul(hn::Set(d, 1.0 / 3), hn::Add(hn::Add(r0, r1), r2)));
+}
+
+// f = (1+v)^(-1/2) - 1.
+template <int kTerms>
+HWY_INLINE V InverseRoot(D d, V v) {
+  V p = hn::Set(d, kBinomials.value[kTerms]);
+  for (int k = kTerms - 1; k >= 1; --k) p = hn::MulAdd(p, v, hn::Set(d, kBinomials.value[k]));
+  return hn::Mul(p, v);
+}
+
+// Sums over the nodes of an orbit: of f and of (1+f)^3 - 1 = f (3 + f (3 + f)).
+struct OrbitSums {
+  V first, third;
+  HWY_INLINE void Add(D d, V f) {
+    const V three = hn::Set(d, 3.0);
+    first = hn::Add(first, f);
+    third = hn::MulAdd(hn::MulAdd(hn::Add(f, three), f, three), f, third);
+  }
+  HWY_INLINE void AddTo(D d, double weight, OrbitSums& all) const {
+    all.first = hn::MulAdd(hn::Set(d, weight), first, all.first);
+    all.third = hn::MulAdd(hn::Set(d, weight), third, all.third);
+  }
+};
+
+template <int kTerms>
+HWY_INLINE void AddTriples(D d, const TripleOrbit& orbit, const LaneSquares& s, V edges,
+                           OrbitSums& all) {
+  const double a = orbit.a, b = 1 - 2 * a;
+  // a sum(r - 1) - a b sum(l), where sum(r - 1) = sum(l) / 3.
+  const V common = hn::Mul(edges, hn::Set(d, a * (1.0 / 3 - b)));
+  const V of_corner = hn::Set(d, b - a), of_edge = hn::Set(d, (b - a) * a);
+  const auto f = [&](V r, V l) HWY_ATTR {
+    return InverseRoot<kTerms>(d, hn::MulAdd(of_corner, r, hn::MulAdd(of_edge, l, common)));
+  };
+  OrbitSums sums = {hn::Zero(d), hn::Zero(d)};
+  sums.Add(d, f(s.r0, s.l0));
+  sums.Add(d, f(s.r1, s.l1));
+  sums.Add(d, f(s.r2, s.l2));
+  sums.AddTo(d, orbit.weight, all);
+}
+
+// The two points of a sextuple at which the first corner of those given has the part a.
+template <int kTerms>
+HWY_INLINE void AddTwins(D d, V r0, V r1, V r2, V l0, V l1, V l2, OrbitSums& sums) {
+  constexpr double a = kDegree8Six.a, b = kDegree8Six.b, c = 1 - a - b;
+  const V common = hn::NegMulAdd(hn::Set(d, b * c), l0, hn::Mul(hn::Set(d, a), r0));
+  const auto f = [&](double b1, double b2) HWY_ATTR {
+    const V corners = hn::MulAdd(hn::Set(d, b1), r1, hn::MulAdd(hn::Set(d, b2), r2, common));
+    return InverseRoot<kTerms>(
+        d, hn::NegMulAdd(hn::Set(d, a * b1), l2, hn::NegMulAdd(hn::Set(d, a * b2), l1, corners)));
+  };
+  sums.Add(d, f(b, c));
+  sums.Add(d, f(c, b));
+}
+
+template <bool kHigh>
+HWY_INLINE Means MeansOf(D d, const LaneSquares& s) {
+  constexpr int kTerms = kHigh ? kTerms8 : kTerms5;
+  const V edges = hn::Add(hn::Add(s.l0, s.l1), s.l2), one = hn::Set(d, 1.0), zero = hn::Zero(d);
+  OrbitSums sums = {zero, zero};
+  if constexpr (kHigh) {
+    for (const TripleOrbit& orbit : kDegree8) AddTriples<kTerms>(d, orbit, s, edges, sums);
+    OrbitSums six = {zero, zero};
+    AddTwins<kTerms>(d, s.r0, s.r1, s.r2, s.l0, s.l1, s.l2, six);
+    AddTwins<kTerms>(d, s.r1, s.r2, s.r0, s.l1, s.l2, s.l0, six);
+    AddTwins<kTerms>(d, s.r2, s.r0, s.r1, s.l2, s.l0, s.l1, six);
+    six.AddTo(d, kDegree8Six.weight, sums);
+  } else {
+    for (const TripleOrbit& orbit : kDegree5) AddTriples<kTerms>(d, orbit, s, edges, sums);
+  }
+  return {hn::Add(sums.first, one), hn::Add(sums.third, one)};
+}
+
+// The same by the four triangles between the edges' midpoints.
+HWY_NOINLINE Means MeansOfQuarters(D d, const LaneSquares& s) {
+  const V quarter = hn::Set(d, 0.25), half = hn::Set(d, 0.5), one = hn::Set(d, 1.0);
+  const V l0 = hn::Mul(quarter, s.l0), l1 = hn::Mul(quarter, s.l1), l2 = hn::Mul(quarter, s.l2);
+  const V edges = hn::Add(hn::Add(l0, l1), l2);
+  const V m0 = hn::MulSub(half, hn::Add(s.r1, s.r2), l0);
+  const V m1 = hn::MulSub(half, hn::Add(s.r2, s.r0), l1);
+  const V m2 = hn::MulSub(half, hn::Add(s.r0, s.r1), l2);
+  Means sum = {hn::Zero(d), hn::Zero(d)};
+  const auto add = [&](V r0, V r1, V r2) HWY_ATTR {
+    const V g = CenterSquare(d, r0, r1, r2, edges);  // less 1
+    const V inverse = hn::Div(one, hn::Sqrt(hn::Add(one, g))), q = hn::Mul(inverse, inverse);
+    const auto unit = [&](V r) HWY_ATTR { return hn::Mul(hn::Sub(r, g), q); };
+    const Means means = MeansOf<true>(
+        d, {unit(r0), unit(r1), unit(r2), hn::Mul(l0, q), hn::Mul(l1, q), hn::Mul(l2, q)});
+    const V weight = hn::Mul(quarter, inverse);
+    sum.first = hn::MulAdd(weight, means.first, sum.first);
+    sum.third = hn::MulAdd(hn::Mul(weight, q), means.third, sum.third);
+  };
+  add(m0, m1, m2);
+  add(s.r0, m2, m1);
+  add(m2, s.r1, m0);
+  add(m1, m0, s.r2);
+  return sum;
+}
+
+// Prepares one vector of triangles.
+HWY_INLINE void Prepare(D d, const Vector3& p0, const Vector3& p1, const Vector3& p2,
+                        std::size_t at, Block& block) {
+  const Vector3 e0 = Minus(p2, p1), e1 = Minus(p0, p2), e2 = Minus(p1, p0);
+  const Vector3 normal = Cross(e1, e2);
+  const V d2 = Dot(normal, p0), nn = Dot(normal, normal);
+  const V r0 = Dot(p0, p0), r1 = Dot(p1, p1), r2 = Dot(p2, p2);
+  const V l0 = Dot(e0, e0), l1 = Dot(e1, e1), l2 = Dot(e2, e2);
+  const V g = CenterSquare(d, r0, r1, r2, hn::Add(hn::Add(l0, l1), l2));
+  const V longest = hn::Max(l0, hn::Max(l1, l2)), farthest = hn::Max(r0, hn::Max(r1, r2));
+  // Corners are exact to 2^-53 r, so a normal to about 2^-52 r |e|: beyond, the exact one decides.
+  const M clear = hn::Gt(nn, hn::Mul(hn::Set(d, 0x1p-90), hn::Mul(farthest, longest)));
+  const V one = hn::Set(d, 1.0), inverse = hn::Div(one, hn::Sqrt(g)), q = hn::Mul(inverse, inverse);
+  hn::Store(hn::MulSub(r0, q, one), d, block.r[0] + at);
+  hn::Store(hn::MulSub(r1, q, one), d, block.r[1] + at);
+  hn::Store(hn::MulSub(r2, q, one), d, block.r[2] + at);
+  hn::Store(hn::Mul(l0, q), d, block.l[0] + at);
+  hn::Store(hn::Mul(l1, q), d, block.l[1] + at);
+  hn::Store(hn::Mul(l2, q), d, block.l[2] + at);
+  const V infinite = hn::Set(d, std::numeric_limits<double>::infinity());
+  hn::Store(hn::IfThenElse(clear, hn::Mul(longest, q), infinite), d, block.longest + at);
+  hn::Store(inverse, d, block.inverse + at);
+  hn::Store(d2, d, block.d2 + at);
+}
+
+struct LaneSums {
+  V first, third, volume6;
+};
+
+// Adds one vector of triangles and returns those left out.
+HWY_INLINE M AddTriangles(D d, const Block& block, std::size_t at, LaneSums& sums) {
+  const LaneSquares s = {hn::Load(d, block.r[0] + at), hn::Load(d, block.r[1] + at),
+                         hn::Load(d, block.r[2] + at), hn::Load(d, block.l[0] + at),
+                         hn::Load(d, block.l[1] + at), hn::Load(d, block.l[2] + at)};
+  const V longest = hn::Load(d, block.longest + at);
+  const auto beyond = [&](double reach)
+                          HWY_ATTR { return hn::Not(hn::Le(longest, hn::Set(d, reach))); };
+  Means means;
+  M left = beyond(kReach5);
+  if (HWY_LIKELY(hn::AllFalse(d, left))) {
+    means = MeansOf<false>(d, s);
+  } else {
+    left = beyond(kReach8);
+    if (HWY_LIKELY(hn::AllFalse(d, left))) {
+      means = MeansOf<true>(d, s);
+    } else {
+      // Quarters are half as long, and at most (theta/2)^2 nearer.
+      left = beyond(3.9 * kReach8);
+      means = MeansOfQuarters(d, s);
+    }
+  }
+  const V inverse = hn::Load(d, block.inverse + at), d2 = hn::Load(d, block.d2 + at);
+  const V first = hn::Mul(d2, inverse), third = hn::Mul(first, hn::Mul(inverse, inverse));
+  sums.volume6 = hn::Add(sums.volume6, hn::IfThenZeroElse(left, d2));
+  sums.first = hn::Add(sums.first, hn::IfThenZeroElse(left, hn::Mul(first, means.first)));
+  sums.third = hn::Add(sums.third, hn::IfThenZeroElse(left, hn::Mul(third, means.third)));
+  return left;
+}
+
+template <class T>
+HWY_INLINE void PrepareBlock(const MeshView& mesh, const Frame& frame, std::size_t begin,
+                             std::size_t n, bool whole, Block& block) {
+  const D d;
+  const std::size_t lanes = hn::Lanes(d);
+  const V scale = hn::Set(d, frame.scale);
+  const Vector3 shift = {hn::Set(d, frame.shift.x), hn::Set(d, frame.shift.y),
+                         hn::Set(d, frame.shift.z)};
+  const auto local = [&](const Vector3& v) HWY_ATTR {
+    return Vector3{hn::MulAdd(v.x, scale, shift.x), hn::MulAdd(v.y, scale, shift.y),
+                   hn::MulAdd(v.z, scale, shift.z)};
+  };
+  const std::byte* indices = mesh.triangles + begin * mesh.triangle_stride;
+  poison_all(block);
+  std::size_t at = 0;
+  if (whole) {
+    for (; at + lanes <= n; at += lanes, indices += lanes * mesh.triangle_stride) {
+      Prepare(d, local(LoadWhole(d, mesh, indices, T())),
+              local(LoadWhole(d, mesh, indices + 4, T())),
+              local(LoadWhole(d, mesh, indices + 8, T())), at, block);
+    }
+  }
+  for (; at < n; at += lanes, indices += lanes * mesh.triangle_stride) {
+    const std::size_t few = HWY_MIN(lanes, n - at);
+    Prepare(d, local(LoadFew<T>(d, mesh, indices, few)),
+            local(LoadFew<T>(d, mesh, indices + 4, few)),
+            local(LoadFew<T>(d, mesh, indices + 8, few)), at, block);
+  }
+  // Beyond the last triangle a vector repeats it. Triangles of size 0 at distance 1 count for
+  // nothing instead; weights of 0 would not do where the last one has its centre at the mesh's.
+  for (double* row : {block.r[0], block.r[1], block.r[2], block.l[0], block.l[1], block.l[2],
+                      block.longest, block.inverse, block.d2}) {
+    for (std::size_t i = n; i < at; ++i) row[i] = 0;
+  }
+}
+
+// Sums of n triangles but for those whose numbers come into `left`; returns how many these are.
+HWY_INLINE std::size_t SumBlock(const Block& block, std::size_t n, NormSums& result,
+                                std::size_t* left) {
+  const D d;
+  const V zero = hn::Zero(d);
+  LaneSums sums = {zero, zero, zero};
+  std::size_t n_left = 0;
+  for (std::size_t at = 0; at < n; at += hn::Lanes(d)) {
+    const M others = AddTriangles(d, block, at, sums);
+    if (HWY_LIKELY(hn::AllFalse(d, others))) continue;
+    alignas(64) double flags[hn::MaxLanes(d)];
+    hn::Store(hn::IfThenElseZero(others, hn::Set(d, 1.0)), d, flags);
+    for (std::size_t i = 0; i < hn::Lanes(d); ++i) {
+      if (flags[i] > 0) left[n_left++] = at + i;
+    }
+  }
+  const auto total = [&](V v) HWY_ATTR { return hn::GetLane(hn::SumOfLanes(d, v)); };
+  result = {.first = total(sums.first), .third = total(sums.third), .volume6 = total(sums.volume6)};
+  return n_left;
+}
+
+template <class T>
+HWY_INLINE void SumRangeOf(const MeshView& mesh, const Frame& frame, std::size_t begin,
+                           std::size_t end, CompensatedSum* sums) {
+  Block block;
+  std::size_t left[kBlock];
+  std::uint32_t next_largest = LookAhead(mesh, begin, HWY_MIN(end, begin + kBlock));
+  for (std::size_t first = begin; first < end; first += kBlock) {
+    const std::size_t last = HWY_MIN(end, first + kBlock);
+    const std::uint32_t largest = next_largest;
+    if (largest >= mesh.n_vertices) validate(mesh);  // throws, and says which
+    next_largest = LookAhead(mesh, last, HWY_MIN(end, last + kBlock));
+    // Rows of floats are read with 4 bytes more: not the last one.
+    const bool whole = kWholeVectors && (sizeof(T) == 8 || largest + 1 < mesh.n_vertices);
+    PrepareBlock<T>(mesh, frame, first, last - first, whole, block);
+    NormSums plain;
+    const std::size_t n_left = SumBlock(block, last - first, plain, left);
+    add_sums(plain, sums);
+    for (std::size_t i = 0; i < n_left; ++i) {
+      add_sums(norms_of_triangle(corners_of(mesh, frame, first + left[i])), sums);
+    }
+  }
+}
+
+void SumRange(const MeshView& mesh, const Frame& frame, std::size_t begin, std::size_t end,
+              CompensatedSum* sums) {
+  if (mesh.coordinate == ScalarType::kFloat32) {
+    SumRangeOf<float>(mesh, frame, begin, end, sums);
+  } else {
+    SumRangeOf<double>(mesh, frame, begin, end, sums);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace rholm
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace rholm {
+
+HWY_EXPORT(SumRange);
+
+ExactNorms exact_norms(const MeshView& mesh, const Vec3& center, const Context& context) {
+  const double scale = unit_scale(mesh, center);
+  const Frame frame = {.shift = -scale * center, .scale = scale};
+  constexpr std::size_t kGrain = 32 * kBlock;  // chosen: about 50 us
+  std::vector<NormSums> parts((mesh.n_triangles + kGrain - 1) / kGrain);
+  parallel_for(mesh.n_triangles, kGrain, context, {"norms", 0, 1},
+               [&](std::size_t begin, std::size_t end) {
+                 CompensatedSum sums[3];
+                 HWY_DYNAMIC_DISPATCH(SumRange)(mesh, frame, begin, end, sums);
+                 parts[begin / kGrain] = {sums[0].value(), sums[1].value(), sums[2].value()};
+               });
+  CompensatedSum sums[3];
+  for (const NormSums& part : parts) add_sums(part, sums);
+  return {.radius_squared = sums[0].value() / 2 / (scale * scale),
+          .solid_angle = sums[1].value() / 2,
+          .volume = sums[2].value() / 6 / (scale * scale * scale)};
+}
+
+bool covers_once(const ExactNorms& norms) {
+  // A whole multiple of 4 pi but for rounding.
+  return std::abs(norms.solid_angle / (4 * std::numbers::pi) - 1) < 1e-3;
+}
+
+}  // namespace rholm
+#endif  // HWY_ONCE

@@ -1,0 +1,53 @@
+#include "transform/norms/parseval.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/compensated_sum.h"
+
+namespace rholm {
+namespace {
+
+// Norms are sums of up to millions of terms, each exact to a few roundings, by compensated sums:
+// some ten roundings of the whole (chosen).
+constexpr double kRounding = 4e-15;
+
+double varying_norm(double norm_squared, const Coefficients& coefficients) {
+  const double mean = coefficients.c(0, 0);
+  return std::sqrt(std::max(0.0, norm_squared - mean * mean));
+}
+
+double rms(double energy) { return std::sqrt(std::max(0.0, energy) / (4 * std::numbers::pi)); }
+
+}  // namespace
+
+CoefficientErrors coefficient_errors(double norm_squared, const Coefficients& coefficients,
+                                     double mean, double varying) {
+  return {.mean = mean * std::abs(coefficients.c(0, 0)),
+          .varying = varying * varying_norm(norm_squared, coefficients)};
+}
+
+ParsevalRest parseval_rest(double norm_squared, const Coefficients& coefficients,
+                           const CoefficientErrors& errors) {
+  CompensatedSum rest, varying;
+  rest.add(norm_squared);
+  const double mean = std::abs(coefficients.c(0, 0));
+  for (const double value : coefficients.values()) rest.add(-value * value);
+  for (const double value : coefficients.values().subspan(1)) varying.add(value * value);
+  const double size = std::sqrt(varying.value());
+  return {.value = rest.value(),
+          .doubt = 2 * mean * errors.mean + errors.mean * errors.mean + 2 * size * errors.varying +
+                   errors.varying * errors.varying + kRounding * norm_squared};
+}
+
+std::optional<double> rms_of(const ParsevalRest& rest, double least) {
+  if (!(rest.value >= least * rest.doubt)) return std::nullopt;
+  return rms(rest.value);
+}
+
+double rms_doubt(const ParsevalRest& rest) {
+  return rms(rest.value) - rms(rest.value - rest.doubt);
+}
+
+}  // namespace rholm

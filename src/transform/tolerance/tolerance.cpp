@@ -1,0 +1,133 @@
+#include "transform/tolerance/tolerance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "chart/center/view_scan.h"
+#include "rholm/error.h"
+#include "transform/analyze.h"
+#include "transform/norms/exact_norms.h"
+
+namespace rholm {
+
+void check(const Tolerance& tolerance) {
+  if (!(tolerance.error > 0 && std::isfinite(tolerance.error))) {
+    throw Error(ErrorCode::kInvalidInput,
+                "the tolerance must be above 0, not " + std::to_string(tolerance.error));
+  }
+  if (tolerance.max_degree < 0 || tolerance.max_degree > kMaxDegree) {
+    throw Error(ErrorCode::kInvalidInput, "the largest degree must be between 0 and " +
+                                              std::to_string(kMaxDegree) + ", not " +
+                                              std::to_string(tolerance.max_degree));
+  }
+}
+
+int first_degree(std::size_t n_triangles, const Tolerance& tolerance) {
+  // The edges' angle times this is about 0.6: most triangles are lumped (performance.md).
+  const double degree = 0.15 * std::sqrt(static_cast<double>(n_triangles));
+  return std::min(static_cast<int>(std::clamp(degree, 12.0, 96.0)), tolerance.max_degree);
+}
+
+double absolute_error(const ToleranceProblem& problem, const Tolerance& tolerance, double mean) {
+  switch (tolerance.unit) {
+    case ToleranceUnit::kAbsolute:
+      return tolerance.error;
+    case ToleranceUnit::kDiagonal:
+      return tolerance.error * problem.diagonal;
+    case ToleranceUnit::kRadius:
+      return tolerance.error * mean;
+  }
+  return tolerance.error;
+}
+
+Precisions precisions_for(const ToleranceProblem& problem, const Tolerance& tolerance) {
+  const double size = std::sqrt(problem.norm_squared / (4 * std::numbers::pi));
+  const double relative = absolute_error(problem, tolerance, size) / size;
+  // Parseval's difference of squares must hold a few parts in a thousand.
+  const bool parseval =
+      tolerance.norm == ErrorNorm::kRms && tolerance.measure == ErrorMeasure::kRadius;
+  const double needed = parseval ? 1e-3 * relative * relative : 1e-3 * relative;
+  const double final = std::min(problem.precision, std::clamp(needed, 1e-13, 1e-2));
+  // At single points errors of coefficients add up to more than their root mean square (measured).
+  const double coarse = (tolerance.norm == ErrorNorm::kMax ? 0.02 : 0.1) * relative;
+  return {.pilot = std::max(final, std::clamp(coarse, 1e-7, 1e-3)), .final = final};
+}
+
+const char* to_string(ErrorNorm norm) { return norm == ErrorNorm::kRms ? "rms" : "max"; }
+
+const char* to_string(ErrorMeasure measure) {
+  return measure == ErrorMeasure::kRadius ? "radius" : "distance";
+}
+
+const char* to_string(ToleranceUnit unit) {
+  switch (unit) {
+    case ToleranceUnit::kAbsolute:
+      return "absolute";
+    case ToleranceUnit::kDiagonal:
+      return "diagonal";
+    case ToleranceUnit::kRadius:
+      return "radius";
+  }
+  return "unknown";
+}
+
+ToleranceUnit parse_tolerance_unit(const std::string& name) {
+  for (const ToleranceUnit unit :
+       {ToleranceUnit::kAbsolute, ToleranceUnit::kDiagonal, ToleranceUnit::kRadius}) {
+    if (name == to_string(unit)) return unit;
+  }
+  throw Error(ErrorCode::kInvalidInput,
+              "unknown unit '" + name + "': absolute, diagonal or radius");
+}
+
+ErrorNorm parse_error_norm(const std::string& name) {
+  for (const ErrorNorm norm : {ErrorNorm::kRms, ErrorNorm::kMax}) {
+    if (name == to_string(norm)) return norm;
+  }
+  throw Error(ErrorCode::kInvalidInput, "unknown norm '" + name + "': rms or max");
+}
+
+ErrorMeasure parse_error_measure(const std::string& name) {
+  for (const ErrorMeasure measure : {ErrorMeasure::kRadius, ErrorMeasure::kDistance}) {
+    if (name == to_string(measure)) return measure;
+  }
+  throw Error(ErrorCode::kInvalidInput, "unknown measure '" + name + "': radius or distance");
+}
+
+ToleranceAnalysis analyze(const StarChart& chart, const Tolerance& tolerance,
+                          const AnalyzeOptions& options, const Context& context) {
+  check(tolerance);
+  check(options);
+  if (function_of(options.method) != RadialFunction::kRadius) {
+    throw Error(ErrorCode::kInvalidInput,
+                "a tolerance is one of the radius: the method gauge expands its inverse");
+  }
+  if (!chart.report.star_shaped) {
+    throw Error(ErrorCode::kInvalidInput,
+                "a tolerance needs a surface that every direction meets once: give a degree");
+  }
+  const ExactNorms norms = exact_norms(view_of(chart.mesh), {}, context);
+  const auto analyzed = [&](AnalyzeOptions wanted, int degree, double precision) {
+    wanted.degree = degree;
+    wanted.precision = precision;
+    return analyze_without_norms(chart, wanted, context);
+  };
+  // Pilots by the fast sums whatever the method: the coefficients are the same.
+  const ToleranceProblem problem{
+      .mesh = view_of(chart.mesh),
+      .center = {},
+      .norm_squared = norms.radius_squared,
+      .diagonal = diagonal_of(view_of(chart.mesh)),
+      .precision = options.precision,
+      .pilot = [&](int degree, double p) { return analyzed({}, degree, p); },
+      .transform = [&](int degree, double p) { return analyzed(options, degree, p); }};
+  const Analysis pilot = problem.pilot(first_degree(chart.mesh.triangles.size(), tolerance),
+                                       precisions_for(problem, tolerance).pilot);
+  ToleranceAnalysis result = search_tolerance(problem, tolerance, pilot, context);
+  result.analysis.expansion.tail_strength = tail_strength(chart, RadialFunction::kRadius);
+  finish_analysis(options, chart.report.center, result.analysis);
+  return result;
+}
+
+}  // namespace rholm

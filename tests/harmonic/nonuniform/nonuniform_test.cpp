@@ -1,0 +1,476 @@
+#include "harmonic/nonuniform/nonuniform.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "harmonic/fft/fft.h"
+#include "harmonic/legendre/direct_sums.h"
+#include "harmonic/legendre/legendre_kernels.h"
+#include "rholm/error.h"
+#include "support/random_data.h"
+#include "support/targets.h"
+
+namespace rholm {
+namespace {
+
+using test::inner;
+using test::norm_of;
+using test::random_coefficients;
+using test::random_in;
+using test::random_values;
+
+constexpr double kPi = std::numbers::pi;
+const Context kOneThread = {.threads = 1, .progress = {}};
+
+// Random directions with the poles, the axes, and what is a rounding or less away from them: the
+// ends of longitudes and of colatitudes.
+std::vector<Vec3> hard_directions(std::size_t n) {
+  std::vector<Vec3> directions = test::random_directions(n, 1);
+  const std::vector<Vec3> special = {
+      {1, -1e-17, 0}, {1, -1e-9, 0},   {1, 1e-300, 0}, {-1, 0, 0},      {0, 1, 0},
+      {1e-17, 0, 1},  {0, -1e-17, -1}, {0, 1e-16, 1},  {-1, -1e-17, 0}, {1e-8, -1e-8, -1}};
+  std::copy(special.begin(), special.end(), directions.end() - special.size());
+  for (Vec3& u : directions) u = normalized(u);
+  return directions;
+}
+
+std::vector<Vec3> random_vectors(std::size_t n, std::uint64_t seed) {
+  std::vector<Vec3> vectors;
+  for (std::size_t j = 0; j < n; ++j) {
+    vectors.push_back({random_in(-1, 1, seed, 3 * j), random_in(-1, 1, seed, 3 * j + 1),
+                       random_in(-1, 1, seed, 3 * j + 2)});
+  }
+  return vectors;
+}
+
+std::vector<std::array<double, 6>> random_matrices(std::size_t n, std::uint64_t seed) {
+  std::vector<std::array<double, 6>> matrices(n);
+  for (std::size_t j = 0; j < n; ++j) {
+    for (int i = 0; i < 6; ++i) matrices[j][i] = random_in(-1, 1, seed, 6 * j + i);
+  }
+  return matrices;
+}
+
+double distance(const Coefficients& a, const Coefficients& b) {
+  double square = 0;
+  for (std::size_t i = 0; i < a.values().size(); ++i) {
+    square += std::pow(a.values()[i] - b.values()[i], 2);
+  }
+  return std::sqrt(square);
+}
+
+// Sources, and what direct sums make of their weights, gradients and Hessians alone, and of random
+// coefficients.
+struct Problem {
+  Problem(int L, std::size_t n)
+      : degree(L),
+        directions(hard_directions(n)),
+        weights(random_values(n, 2)),
+        gradients(random_vectors(n, 3)),
+        hessians(random_matrices(n, 4)),
+        function(random_coefficients(L, 5)),
+        values(direct_evaluate_with_gradient(function, directions, kOneThread)) {
+    for (int derivatives = 0; derivatives < 3; ++derivatives) {
+      sums.emplace_back(L);
+      direct_add_adjoint(sources(derivatives), sums.back(), kOneThread);
+    }
+  }
+
+  // Of one kind only.
+  ScatteredSources sources(int derivatives) const {
+    ScatteredSources s{.directions = directions};
+    if (derivatives == 0) s.weights = weights;
+    if (derivatives == 1) s.gradients = gradients;
+    if (derivatives == 2) s.hessians = hessians;
+    return s;
+  }
+
+  // Error of the adjoint as SumOptions::precision counts it.
+  double adjoint_error(const NonuniformPlan& plan, int derivatives) const {
+    Coefficients sum(degree);
+    nonuniform_add_adjoint(plan, sources(derivatives), derivatives, sum, kOneThread);
+    double square = 0;
+    for (std::size_t j = 0; j < directions.size(); ++j) {
+      const auto& h = hessians[j];
+      if (derivatives == 0) square += weights[j] * weights[j];
+      if (derivatives == 1) square += dot(gradients[j], gradients[j]);
+      if (derivatives == 2) {
+        square +=
+            h[0] * h[0] + h[3] * h[3] + h[5] * h[5] + 2 * (h[1] * h[1] + h[2] * h[2] + h[4] * h[4]);
+      }
+    }
+    const double generic = (degree + 1.0) * std::sqrt(square / (4 * kPi));
+    return distance(sum, sums[derivatives]) / (generic * std::pow(degree, derivatives));
+  }
+
+  // Of values, or of gradients.
+  double forward_error(const NonuniformPlan& plan, bool of_gradient) const {
+    const ValuesAndGradients found =
+        nonuniform_evaluate(plan, function, directions, of_gradient, kOneThread);
+    double square = 0;
+    for (std::size_t j = 0; j < directions.size(); ++j) {
+      const Vec3 g = of_gradient ? found.gradients[j] - values.gradients[j] : Vec3{};
+      square += of_gradient ? dot(g, g) : std::pow(found.values[j] - values.values[j], 2);
+    }
+    const double generic =
+        norm_of(function.values()) * std::sqrt(static_cast<double>(directions.size()) / (4 * kPi));
+    return std::sqrt(square) / (generic * (of_gradient ? degree : 1));
+  }
+
+  int degree;
+  std::vector<Vec3> directions;
+  std::vector<double> weights;
+  std::vector<Vec3> gradients;
+  std::vector<std::array<double, 6>> hessians;
+  Coefficients function;
+  ValuesAndGradients values;
+  std::vector<Coefficients> sums;
+};
+
+// A plan with a given window, whatever its error.
+NonuniformPlan plan_of(int degree, int width, double sigma, int derivatives, bool single = false) {
+  const double wanted = std::max(32.0, std::ceil(2 * sigma * degree));
+  const std::size_t points = smooth_length(static_cast<std::size_t>(wanted), 4);
+  NonuniformPlan plan;
+  plan.fourier = sphere_fourier(degree, grid_layout(width, points, points));
+  plan.single = single;
+  plan.polar_sine = static_cast<double>(derivatives) / std::max(degree, 1);
+  return plan;
+}
+
+// The promise: the error is below the wish for every window the library chooses, and not wastefully
+// so. 30 000 sources, so that grids pay.
+TEST(nonuniform, true_error_follows_the_wish) {
+  constexpr int kKinds = 5;
+  std::array<double, kKinds> log_slack{};
+  int count = 0;
+  for (const int L : {3, 16, 64, 180}) {
+    const Problem problem(L, L == 180 ? 200 : 600);
+    for (double wish = 1e-3; wish > 0.5e-12; wish /= 10) {
+      std::array<double, kKinds> error{};
+      for (int derivatives = 0; derivatives < 3; ++derivatives) {
+        const NonuniformPlan plan = plan_nonuniform(
+            {.degree = L, .error = wish, .sources = 30000, .derivatives = derivatives});
+        EXPECT_EQ(plan.single, wish >= least_single_error(L, derivatives));
+        error[derivatives] = problem.adjoint_error(plan, derivatives);
+        if (derivatives < 2) error[3 + derivatives] = problem.forward_error(plan, derivatives == 1);
+      }
+      ++count;
+      for (int kind = 0; kind < kKinds; ++kind) {
+        EXPECT_LT(error[kind], wish) << "degree " << L << " kind " << kind;
+        log_slack[kind] += std::log(wish / error[kind]);
+      }
+    }
+  }
+  for (const double slack : log_slack) EXPECT_LT(std::exp(slack / count), 30);
+}
+
+// What the discrete operators do is transposed to rounding, however coarse the window.
+TEST(nonuniform, forward_and_adjoint_are_transposes_for_every_width) {
+  for (const int L : {1, 20, 65}) {
+    const Problem problem(L, 300);
+    const auto n = problem.directions.size();
+    for (int width = kMinSpreadWidth; width <= kMaxSpreadWidth; ++width) {
+      for (const bool gradients : {false, true}) {
+        const NonuniformPlan plan = plan_of(L, width, 1.3, gradients);
+        const ValuesAndGradients found =
+            nonuniform_evaluate(plan, problem.function, problem.directions, gradients, kOneThread);
+        Coefficients sum(L);
+        const ScatteredSources sources{
+            .directions = problem.directions,
+            .weights = problem.weights,
+            .gradients = gradients ? problem.gradients : std::span<const Vec3>{}};
+        nonuniform_add_adjoint(plan, sources, gradients, sum, kOneThread);
+        double product = inner(found.values, problem.weights), scale = norm_of(found.values);
+        for (std::size_t j = 0; gradients && j < n; ++j) {
+          product += dot(found.gradients[j], problem.gradients[j]);
+          scale += norm(found.gradients[j]);
+        }
+        EXPECT_NEAR(product, inner(problem.function.values(), sum.values()),
+                    1e-13 * scale * norm_of(problem.weights))
+            << L << " " << width << " " << gradients;
+      }
+    }
+  }
+}
+
+// Weights, gradients and Hessians together are the sum of each alone.
+TEST(nonuniform, sources_of_all_kinds_add_up) {
+  constexpr int L = 24;
+  const Problem problem(L, 200);
+  const NonuniformPlan plan = plan_of(L, 14, 2, 2);
+  Coefficients together(L), apart(L);
+  nonuniform_add_adjoint(plan,
+                         {problem.directions, problem.weights, problem.gradients, problem.hessians},
+                         2, together, kOneThread);
+  for (const Coefficients& sum : problem.sums) {
+    for (std::size_t i = 0; i < sum.values().size(); ++i) apart.values()[i] += sum.values()[i];
+  }
+  EXPECT_LT(distance(together, apart), 1e-9 * norm_of(apart.values()));
+}
+
+// Single precision adds what it is said to add, for every padded width; next to the poles it takes
+// differences over wider steps, which narrow windows answer with a few per cent more error.
+TEST(nonuniform, single_precision_keeps_its_rounding_error) {
+  for (const int L : {16, 64, 180}) {
+    const Problem problem(L, 400);
+    for (const int width : {4, 7, 10}) {
+      for (const int derivatives : {0, 1}) {
+        const double rounded =
+            problem.adjoint_error(plan_of(L, width, 2, derivatives, true), derivatives);
+        const double exact = problem.adjoint_error(plan_of(L, width, 2, derivatives), derivatives);
+        EXPECT_LT(rounded, std::hypot(1.05 * exact, 1.4 * single_rounding(L))) << L << " " << width;
+      }
+    }
+  }
+}
+
+// Coefficients have the unit of the shape: 1e60 of it is beyond single precision.
+TEST(nonuniform, single_precision_has_the_same_bits_for_every_size) {
+  constexpr int L = 16;
+  const Problem problem(L, 400);
+  const NonuniformPlan plan = plan_of(L, 7, 2, 1, true);
+  const auto add = [&](double size) {
+    std::vector<double> weights = problem.weights;
+    for (double& w : weights) w *= size;
+    Coefficients sum(L);
+    nonuniform_add_adjoint(plan, {.directions = problem.directions, .weights = weights}, 0, sum,
+                           kOneThread);
+    return sum;
+  };
+  const auto evaluated = [&](double size) {
+    Coefficients function = problem.function;
+    for (double& c : function.values()) c *= size;
+    return nonuniform_evaluate(plan, function, problem.directions, true, kOneThread);
+  };
+  for (const double size : {0x1p-300, 0x1p200, 0x1p900}) {
+    const Coefficients sum = add(size), expected = add(1);
+    for (std::size_t i = 0; i < sum.values().size(); ++i) {
+      EXPECT_EQ(sum.values()[i], size * expected.values()[i]) << size;
+    }
+    const ValuesAndGradients found = evaluated(size), plain = evaluated(1);
+    for (std::size_t i = 0; i < found.values.size(); ++i) {
+      EXPECT_EQ(found.values[i], size * plain.values[i]) << size;
+      EXPECT_EQ(found.gradients[i].x, size * plain.gradients[i].x) << size;
+    }
+  }
+}
+
+// Single coefficients of high degree by Legendre rows: (l, m) near 0, near the diagonal, between.
+TEST(nonuniform, high_degrees_agree_with_legendre_rows) {
+  constexpr int L = 4096;
+  constexpr std::size_t kSources = 40;
+  const auto directions = hard_directions(kSources);
+  const auto weights = random_values(kSources, 2);
+  constexpr double kWish = 1e-9;
+  const NonuniformPlan plan = plan_nonuniform({.degree = L, .error = kWish, .sources = 1000});
+  Coefficients sum(L);
+  nonuniform_add_adjoint(plan, {.directions = directions, .weights = weights}, 0, sum, {});
+  const std::vector<double> mu = legendre_mu(L);
+  // Root mean square of one coefficient's error.
+  const double error = kWish * norm_of(weights) / std::sqrt(4 * kPi);
+  for (const int m : {0, 1, 700, 2048, 4000, 4096}) {
+    const LegendreOrder order = legendre_order(m, L, mu[m]);
+    std::vector<double> c(L + 1 - m, 0.0), s(L + 1 - m, 0.0);
+    for (std::size_t j = 0; j < kSources; ++j) {
+      const Vec3& u = directions[j];
+      const auto row = legendre_row(order, u.z, std::hypot(u.x, u.y));
+      const double phi = std::atan2(u.y, u.x);
+      for (int l = m; l <= L; ++l) {
+        c[l - m] += weights[j] * row[l - m] * std::cos(m * phi);
+        s[l - m] += weights[j] * row[l - m] * std::sin(m * phi);
+      }
+    }
+    // Five deviations for each of some thousand numbers.
+    for (int l = m; l <= L; l += 1 + (L - m) / 50) {
+      EXPECT_NEAR(sum.c(l, m), c[l - m], 5 * error) << l << " " << m;
+      EXPECT_NEAR(sum.s(l, m), s[l - m], 5 * error) << l << " " << m;
+    }
+  }
+}
+
+// f = x^T B x / |x|^2 with B = z z^T / 1, (x y^T + y x^T) / 2, (x z^T + z x^T) / 2 in turn has few
+// coefficients; its Hessian at |x| = 1 is
+//   2 B - 4 (B x x^T + x x^T B) - 2 q 1 + 8 q x x^T,  q = x^T B x.
+TEST(direct_sums, hessians_of_quadratic_forms_have_their_closed_form) {
+  const auto directions = hard_directions(40);
+  const auto hessians = random_matrices(40, 6);
+  Coefficients sum(2);
+  direct_add_adjoint({.directions = directions, .hessians = hessians}, sum, kOneThread);
+  std::array<Coefficients, 3> forms = {Coefficients(2), Coefficients(2), Coefficients(2)};
+  forms[0].c(0, 0) = std::sqrt(4 * kPi) / 3;  // z^2 = 1/3 + 2/3 P_2
+  forms[0].c(2, 0) = 2 * std::sqrt(4 * kPi / 5) / 3;
+  forms[1].s(2, 2) = std::sqrt(4 * kPi / 15);  // x y
+  forms[2].c(2, 1) = std::sqrt(4 * kPi / 15);  // x z
+  const std::array<std::array<double, 6>, 3> b = {
+      {{0, 0, 0, 0, 0, 1}, {0, 0.5, 0, 0, 0, 0}, {0, 0, 0.5, 0, 0, 0}}};
+  for (int form = 0; form < 3; ++form) {
+    double expected = 0;
+    for (std::size_t j = 0; j < directions.size(); ++j) {
+      const auto times = [](const std::array<double, 6>& h, const Vec3& v) {
+        return Vec3{h[0] * v.x + h[1] * v.y + h[2] * v.z, h[1] * v.x + h[3] * v.y + h[4] * v.z,
+                    h[2] * v.x + h[4] * v.y + h[5] * v.z};
+      };
+      const auto& h = hessians[j];
+      const Vec3& u = directions[j];
+      const Vec3 bu = times(b[form], u), hu = times(h, u);
+      const double q = dot(u, bu);
+      double contracted = 0;  // h : B
+      for (int i = 0; i < 6; ++i) {
+        contracted += (i == 0 || i == 3 || i == 5 ? 1 : 2) * h[i] * b[form][i];
+      }
+      expected +=
+          2 * contracted - 8 * dot(hu, bu) - 2 * q * (h[0] + h[3] + h[5]) + 8 * q * dot(hu, u);
+    }
+    EXPECT_NEAR(inner(forms[form].values(), sum.values()), expected, 1e-12) << form;
+  }
+}
+
+// Second differences with step h along random lines: error h^2 L^4 / 12 of the amplitude and
+// rounding 4 eps / h^2.
+TEST(direct_sums, hessians_agree_with_second_differences) {
+  constexpr int L = 12;
+  constexpr double kStep = 2e-4;
+  const Coefficients f = random_coefficients(L, 7);
+  for (std::size_t j = 0; j < 30; ++j) {
+    const Vec3 u = test::random_direction(8, j), v = test::random_direction(9, j);
+    const std::array<Vec3, 3> points = {normalized(u - kStep * v), u, normalized(u + kStep * v)};
+    const auto at = direct_evaluate(f, points, kOneThread);
+    const std::array<double, 6> h = {v.x * v.x, v.x * v.y, v.x * v.z,
+                                     v.y * v.y, v.y * v.z, v.z * v.z};
+    Coefficients sum(L);
+    direct_add_adjoint({.directions = {&u, 1}, .hessians = {&h, 1}}, sum, kOneThread);
+    EXPECT_NEAR(inner(f.values(), sum.values()), (at[0] - 2 * at[1] + at[2]) / (kStep * kStep),
+                3e-3);
+  }
+}
+
+// The public functions choose a grid here, and keep the wish.
+TEST(fast_engine, keeps_the_wish) {
+  constexpr int L = 48;
+  constexpr std::size_t kSources = 20000;
+  const Problem problem(L, kSources);
+  const SumOptions options{.engine = Engine::kFast, .precision = 1e-9};
+  Coefficients sum(L);
+  add_adjoint(problem.sources(0), sum, options);
+  const double difference = distance(sum, problem.sums[0]);
+  EXPECT_GT(difference, 0);
+  EXPECT_LT(difference, 1e-9 * (L + 1) * norm_of(problem.weights) / std::sqrt(4 * kPi));
+  const auto values = evaluate(problem.function, problem.directions, options);
+  const auto both = evaluate_with_gradient(problem.function, problem.directions, options);
+  const double largest = 1e-8 * norm_of(problem.function.values());
+  for (std::size_t j = 0; j < kSources; ++j) {
+    EXPECT_NEAR(values[j], problem.values.values[j], largest);
+    EXPECT_LT(norm(both.gradients[j] - problem.values.gradients[j]), L * largest);
+  }
+}
+
+TEST(fast_engine, gives_the_same_bits_for_any_number_of_threads) {
+  constexpr int L = 70;
+  const auto directions = hard_directions(60000);
+  const auto weights = random_values(directions.size(), 2);
+  const auto vectors = random_vectors(directions.size(), 3);
+  const Coefficients f = random_coefficients(L, 5);
+  for (const double precision : {1e-4, 1e-10}) {
+    const SumOptions options{.engine = Engine::kFast, .precision = precision};
+    const auto run = [&](int threads) {
+      const Context context{.threads = threads, .progress = {}};
+      Coefficients sum(L);
+      add_adjoint({.directions = directions, .weights = weights, .gradients = vectors}, sum,
+                  options, context);
+      std::vector<double> numbers(sum.values().begin(), sum.values().end());
+      const auto found = evaluate_with_gradient(f, directions, options, context);
+      numbers.insert(numbers.end(), found.values.begin(), found.values.end());
+      for (const Vec3& g : found.gradients) numbers.insert(numbers.end(), {g.x, g.y, g.z});
+      return numbers;
+    };
+    const auto expected = run(1);
+    EXPECT_EQ(run(2), expected);
+    EXPECT_EQ(run(4), expected);
+  }
+}
+
+TEST(fast_engine, keeps_the_promise_on_every_instruction_set) {
+  test::for_each_target([](const char* target) {
+    for (const int L : {5, 40}) {
+      const Problem problem(L, 300);
+      for (const double wish : {1e-4, 1e-7, 1e-11}) {
+        for (int derivatives = 0; derivatives < 3; ++derivatives) {
+          const NonuniformPlan plan = plan_nonuniform(
+              {.degree = L, .error = wish, .sources = 30000, .derivatives = derivatives});
+          EXPECT_LT(problem.adjoint_error(plan, derivatives), wish) << target;
+          if (derivatives == 2) continue;
+          EXPECT_LT(problem.forward_error(plan, derivatives == 1), wish) << target;
+        }
+      }
+    }
+  });
+}
+
+TEST(fast_engine, can_be_cancelled) {
+  const Context context{.threads = 1, .progress = [](std::string_view, double) { return false; }};
+  const auto directions = hard_directions(20000);
+  const Coefficients f = random_coefficients(64, 5);
+  const SumOptions options{.engine = Engine::kFast, .precision = 1e-6};
+  Coefficients sum(64);
+  EXPECT_THROW(evaluate(f, directions, options, context), Error);
+  EXPECT_THROW(evaluate_with_gradient(f, directions, options, context), Error);
+  EXPECT_THROW(add_adjoint({.directions = directions, .weights = random_values(20000, 2)}, sum,
+                           options, context),
+               Error);
+}
+
+TEST(nonuniform, tiny_problems_give_numbers) {
+  for (const int L : {0, 1}) {
+    for (const std::size_t n : {std::size_t{0}, std::size_t{1}}) {
+      for (const bool single : {false, true}) {
+        const std::vector<Vec3> directions(n, Vec3{0, 0, -1});
+        const std::vector<double> weights(n, 2.0);
+        const std::vector<Vec3> gradients(n, Vec3{1, 2, 3});
+        const NonuniformPlan plan = plan_of(L, 5, 2, 1, single);
+        Coefficients sum(L);
+        nonuniform_add_adjoint(plan, {directions, weights, gradients, {}}, 1, sum, kOneThread);
+        // Differences next to a pole divide the window's 1e-7 and rounding by their step.
+        EXPECT_NEAR(sum.c(0, 0), n == 0 ? 0 : 2 / std::sqrt(4 * kPi), 2e-5);
+        for (const double v : sum.values()) EXPECT_TRUE(std::isfinite(v));
+        const auto found = nonuniform_evaluate(plan, sum, directions, true, kOneThread);
+        ASSERT_EQ(found.values.size(), n);
+        for (const double v : found.values) EXPECT_TRUE(std::isfinite(v));
+        for (const Vec3& g : found.gradients) EXPECT_TRUE(std::isfinite(norm(g)));
+      }
+    }
+  }
+  EXPECT_TRUE(evaluate(Coefficients(5), std::vector<Vec3>{}).empty());
+}
+
+// They spoil the result and nothing else.
+TEST(nonuniform, directions_that_are_no_numbers_stay_within_the_grid) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const std::vector<Vec3> directions = {{kNaN, 0, 1},         {kInfinity, 1, 0}, {0, 0, 0},
+                                        {0, kInfinity, kNaN}, {1e300, 1e300, 1}, {0, 0, 1}};
+  const std::vector<double> weights(directions.size(), 1.0);
+  for (const bool single : {false, true}) {
+    for (const int width : {4, 8, 16}) {
+      const NonuniformPlan plan = plan_of(20, width, 1.5, 0, single);
+      Coefficients sum(20);
+      nonuniform_add_adjoint(plan, {.directions = directions, .weights = weights}, 0, sum,
+                             kOneThread);
+      const auto found =
+          nonuniform_evaluate(plan, random_coefficients(20, 5), directions, false, kOneThread);
+      EXPECT_TRUE(std::isfinite(found.values.back()));
+    }
+  }
+}
+
+TEST(nonuniform, refuses_single_precision_where_it_is_forbidden) {
+  EXPECT_FALSE(
+      plan_nonuniform({.degree = 20, .error = 1e-3, .sources = 10, .forbid_single = true}).single);
+}
+
+}  // namespace
+}  // namespace rholm

@@ -1,0 +1,190 @@
+// The search for caps, and for a grid, whose surface hangs together as the shape does: on surfaces
+// that are made up.
+#include "model/atlas/atlas_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <utility>
+
+#include "rholm/error.h"
+#include "rholm/primitives.h"
+
+namespace rholm {
+namespace {
+
+constexpr double kTolerance = 0.03, kBand = 0.3, kStep = 0.1;
+
+// What the surface of a grid is said to be.
+struct Seen {
+  double rms = kTolerance / 2;
+  bool handle = false;
+  bool fits = true;  // into memory
+};
+
+// A sphere covered with caps whose surfaces are as `see` says; `handles` more are wanted than a
+// sphere has.
+class Fit {
+ public:
+  using See = std::function<Seen(const AtlasModel&)>;
+  Fit(std::size_t handles, See see) : handles_(handles), see_(std::move(see)) {}
+
+  void run(const Overlap& overlap) {
+    const Mesh sphere = icosphere(4);
+    static const Atlas atlas = [&] {
+      Atlas a = compress(sphere, {.tolerance = kTolerance, .samples = 2000}).model.atlas;
+      a.band = kBand;
+      return a;
+    }();
+    const SampleLevels levels = make_levels(sphere.vertices, sphere.vertices, {});
+    Seen seen;
+    const FitTarget target{.levels = levels,
+                           .topology = Topology{1, handles_},
+                           .tolerance = kTolerance,
+                           .accepted = accepted,
+                           .stray = 1.5 * kTolerance,
+                           .step = kStep,
+                           .max_degree = 14,
+                           .uncovered = 0,
+                           .surface =
+                               [&](const AtlasModel& model) {
+                                 ++surfaces;
+                                 grids.insert({model.step, model.atlas.band});
+                                 seen = see_(model);
+                                 if (!seen.fits) throw Error(ErrorCode::kOutOfMemory, "too fine");
+                                 return seen.handle ? torus(1, 0.4, 8, 8) : icosphere(1);
+                               },
+                           .measure =
+                               [&](const Mesh&) {
+                                 ++measured;
+                                 return AtlasErrors{seen.rms, seen.rms, seen.rms, seen.rms};
+                               }};
+    fit_atlas(target, atlas, overlap, found, state, {});
+  }
+
+  double accepted = kTolerance;
+  Compressed found;
+  FitState state;
+  int surfaces = 0, measured = 0;
+  std::set<std::pair<double, double>> grids;
+
+ private:
+  std::size_t handles_;
+  See see_;
+};
+
+constexpr Overlap kNarrow{1, 3, true}, kWide{1.15, 1, false};
+
+// Bands go to the file in single precision.
+bool is_first(const AtlasModel& model) {
+  return model.step == kStep && model.atlas.band < 1.01 * kBand;
+}
+
+TEST(fit_atlas, parts_and_handles_that_differ_are_counted) {
+  EXPECT_EQ(n_wrong_handles({3, 0}, std::nullopt), 0u);
+  EXPECT_EQ(n_wrong_handles({3, 2}, Topology{3, 2}), 0u);
+  EXPECT_EQ(n_wrong_handles({3, 2}, Topology{1, 7}), 7u);
+}
+
+TEST(fit_atlas, one_surface_does_where_it_is_right) {
+  for (const Overlap& overlap : {kNarrow, kWide}) {
+    Fit fit(0, [](const AtlasModel&) { return Seen{.rms = 0.99 * kTolerance}; });
+    fit.run(overlap);
+    EXPECT_TRUE(fit.found.report.met && fit.found.report.topology_kept);
+    EXPECT_EQ(fit.surfaces, 1);
+    EXPECT_EQ(fit.state.searches, 2);
+  }
+}
+
+TEST(fit_atlas, many_handles_are_looked_for_on_one_other_grid) {
+  Fit fit(40, [](const AtlasModel&) { return Seen{}; });
+  fit.run(kNarrow);
+  EXPECT_TRUE(fit.found.report.met);
+  EXPECT_FALSE(fit.found.report.topology_kept);
+  EXPECT_EQ(fit.found.report.components, 1u);
+  EXPECT_EQ(fit.found.report.genus, 0u);
+  EXPECT_EQ(fit.surfaces, 2);
+  EXPECT_EQ(fit.state.searches, 2);
+}
+
+// On six grids at each of two aims, on one at the third; grids that are no better are not measured.
+TEST(fit_atlas, one_handle_is_looked_for_on_all_grids_twice) {
+  Fit fit(1, [](const AtlasModel&) { return Seen{}; });
+  fit.run(kNarrow);
+  EXPECT_FALSE(fit.found.report.topology_kept);
+  EXPECT_EQ(fit.grids.size(), 6u);
+  EXPECT_EQ(fit.surfaces, 13);
+  EXPECT_EQ(fit.measured, 3);
+  EXPECT_EQ(fit.state.searches, 0);
+}
+
+TEST(fit_atlas, the_grid_that_sees_the_handle_comes_first_from_then_on) {
+  // Too far at first, so that another aim comes.
+  int calls = 0;
+  Fit fit(1, [&](const AtlasModel& model) {
+    return Seen{.rms = (++calls > 2 ? 0.99 : 1.2) * kTolerance, .handle = !is_first(model)};
+  });
+  fit.run(kNarrow);
+  EXPECT_TRUE(fit.found.report.met && fit.found.report.topology_kept);
+  EXPECT_EQ(fit.found.report.genus, 1u);
+  EXPECT_EQ(fit.surfaces, 3);
+  EXPECT_EQ(fit.grids.size(), 2u);
+  EXPECT_EQ(fit.state.searches, 2);
+}
+
+// A surface that keeps the tolerance is not given up for the handles.
+TEST(fit_atlas, a_grid_with_the_handle_that_is_too_far_is_no_better) {
+  Fit fit(1, [](const AtlasModel& model) {
+    return Seen{.rms = is_first(model) ? kTolerance : 1.2 * kTolerance, .handle = !is_first(model)};
+  });
+  fit.run(kWide);
+  EXPECT_TRUE(fit.found.report.met);
+  EXPECT_FALSE(fit.found.report.topology_kept);
+  EXPECT_LE(fit.found.model.errors->rms(), kTolerance);
+}
+
+TEST(fit_atlas, a_grid_that_memory_does_not_allow_is_no_choice) {
+  Fit fit(1, [](const AtlasModel& model) { return Seen{.fits = is_first(model)}; });
+  fit.run(kNarrow);
+  EXPECT_TRUE(fit.found.report.met);
+  EXPECT_EQ(fit.grids.size(), 6u);
+  Fit none(1, [](const AtlasModel&) { return Seen{.fits = false}; });
+  EXPECT_THROW(none.run(kNarrow), Error);
+}
+
+// At the second aim no surface is left: that of the first stands.
+TEST(fit_atlas, what_there_is_stands_where_another_aim_has_no_surface) {
+  int calls = 0;
+  Fit fit(0,
+          [&](const AtlasModel&) { return Seen{.rms = 1.4 * kTolerance, .fits = ++calls == 1}; });
+  fit.run(kNarrow);
+  EXPECT_EQ(calls, 2);
+  EXPECT_FALSE(fit.found.report.met);
+  EXPECT_TRUE(fit.found.model.errors.has_value());
+}
+
+TEST(fit_atlas, a_wider_overlap_is_given_up_after_one_aim_and_leaves_it_to_the_next) {
+  Fit near(40, [](const AtlasModel&) { return Seen{}; });
+  near.run(kWide);
+  EXPECT_EQ(near.measured, 1);
+  EXPECT_DOUBLE_EQ(near.state.aim, kTolerance);
+  Fit far(40, [](const AtlasModel&) { return Seen{.rms = 1.6 * kTolerance}; });
+  far.accepted = 2 * kTolerance;
+  far.run(kWide);
+  EXPECT_EQ(far.surfaces, 1);  // no grid mends what another aim must
+  EXPECT_NEAR(far.state.aim, kTolerance / 1.6, 0.01 * kTolerance);
+}
+
+// A fit begins at the aim that was left: fewer coefficients are dropped for a nearer one.
+TEST(fit_atlas, an_aim_that_was_left_is_the_first) {
+  const auto numbers_from = [](double aim) {
+    Fit fit(0, [](const AtlasModel&) { return Seen{.rms = 0.99 * kTolerance}; });
+    fit.state.aim = aim;
+    fit.run(kNarrow);
+    return size_of(fit.found.model.atlas).numbers();
+  };
+  EXPECT_GT(numbers_from(kTolerance / 20), numbers_from(0));
+}
+
+}  // namespace
+}  // namespace rholm

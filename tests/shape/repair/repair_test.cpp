@@ -1,0 +1,333 @@
+#include "rholm/repair.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "rholm/error.h"
+#include "rholm/primitives.h"
+#include "shape/repair/hole_triangles.h"
+#include "shape/repair/sheets.h"
+#include "support/random_data.h"
+#include "support/test_meshes.h"
+
+namespace rholm {
+namespace {
+
+using test::exploded;
+using test::joined;
+using test::random_in;
+using test::tetrahedron;
+
+// Closed, manifold, oriented, outwards: what 'repair' promises of a damaged solid.
+void expect_solid(const Inspection& i, std::size_t components) {
+  EXPECT_TRUE(i.closed);
+  EXPECT_TRUE(i.manifold);
+  EXPECT_TRUE(i.oriented);
+  EXPECT_FALSE(i.inside_out);
+  EXPECT_EQ(i.duplicate_triangles, 0u);
+  EXPECT_EQ(i.degenerate_triangles, 0u);
+  EXPECT_EQ(i.components, components);
+}
+
+Mesh shifted(Mesh mesh, const Vec3& by) {
+  for (Vec3& v : mesh.vertices) v += by;
+  return mesh;
+}
+
+Mesh scaled(Mesh mesh, double factor) {
+  for (Vec3& v : mesh.vertices) v *= factor;
+  return mesh;
+}
+
+TEST(repair, leaves_a_good_mesh_as_it_is) {
+  const Mesh mesh = icosphere(3);
+  const Repaired result = repair(mesh);
+  EXPECT_EQ(result.mesh.vertices, mesh.vertices);
+  EXPECT_EQ(result.mesh.triangles, mesh.triangles);
+  EXPECT_EQ(result.report.flipped_triangles, 0u);
+  EXPECT_EQ(result.report.closed_holes, 0u);
+}
+
+TEST(repair, of_mixed_orientation_turns_the_smaller_part_and_keeps_the_volume) {
+  const Mesh mesh = icosphere(3);
+  for (const double share : {0.1, 0.3, 0.9}) {
+    Mesh mixed = mesh;
+    std::size_t turned = 0;
+    for (std::size_t t = 0; t < mixed.triangles.size(); ++t) {
+      if (random_in(0, 1, 7, t) > share) continue;
+      std::swap(mixed.triangles[t][1], mixed.triangles[t][2]);
+      ++turned;
+    }
+    const Repaired result = repair(mixed);
+    expect_solid(result.report.after, 1);
+    EXPECT_EQ(result.report.flipped_triangles, turned) << share;
+    EXPECT_EQ(enclosed_volume(result.mesh), enclosed_volume(mesh));
+  }
+}
+
+TEST(repair, drops_duplicates_of_either_sense_needles_and_stray_vertices) {
+  Mesh mesh = icosphere(2);
+  const std::size_t n = mesh.triangles.size();
+  for (std::size_t t = 0; t < n; t += 2) {
+    Triangle again = mesh.triangles[t];
+    if (t % 4 == 0) std::swap(again[0], again[1]);
+    mesh.triangles.push_back(again);
+  }
+  mesh.vertices.push_back({9, 9, 9});
+  const Repaired result = repair(mesh);
+  expect_solid(result.report.after, 1);
+  EXPECT_EQ(result.report.duplicate_triangles, n / 2);
+  EXPECT_EQ(result.report.isolated_vertices, 1u);
+  EXPECT_EQ(result.mesh.triangles.size(), n);
+}
+
+// The edge from 0 to 1 of a tetrahedron has a vertex in its middle on one side only: between them a
+// triangle without area.
+TEST(repair, swaps_a_sliver_for_two_triangles_with_area) {
+  const Mesh mesh{.vertices = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {1, 0, 0}},
+                  .triangles = {{0, 2, 4}, {4, 2, 1}, {0, 4, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}},
+                  .attributes = {}};
+  ASSERT_EQ(inspect(mesh).degenerate_triangles, 1u);
+  ASSERT_TRUE(inspect(mesh).closed);
+  const Repaired result = repair(mesh);
+  expect_solid(result.report.after, 1);
+  EXPECT_EQ(result.report.degenerate_triangles, 1u);
+  EXPECT_EQ(result.mesh.triangles.size(), 6u);
+  EXPECT_NEAR(enclosed_volume(result.mesh), 8.0 / 6, 1e-15);
+}
+
+// Two corners apart by the last bit: a needle, and the hole of its neighbour beyond the short edge.
+TEST(repair, makes_one_of_corners_that_rounding_keeps_apart) {
+  Mesh mesh = tetrahedron();
+  for (Vec3& v : mesh.vertices) v += {1, 1, 1};
+  mesh.vertices.push_back({1, 1, std::nextafter(1.0, 2.0)});  // beside vertex 0
+  mesh.triangles = {{0, 2, 1}, {4, 3, 2}, {4, 1, 3}, {1, 2, 3}, {0, 4, 2}, {0, 1, 4}};
+  ASSERT_TRUE(inspect(mesh).closed);
+  const Repaired result = repair(mesh);
+  expect_solid(result.report.after, 1);
+  EXPECT_EQ(result.mesh.vertices.size(), 4u);
+  EXPECT_EQ(result.report.degenerate_triangles, 2u);
+}
+
+TEST(repair, closes_small_holes_and_keeps_the_genus) {
+  Mesh mesh = torus(1, 0.4, 24, 12);
+  const double volume = enclosed_volume(mesh);
+  // Two triangles of one square, and one elsewhere.
+  mesh.triangles.erase(mesh.triangles.begin() + 100, mesh.triangles.begin() + 102);
+  mesh.triangles.erase(mesh.triangles.begin() + 300);
+  const Repaired result = repair(mesh);
+  expect_solid(result.report.after, 1);
+  EXPECT_EQ(result.report.after.genus, 1u);
+  EXPECT_EQ(result.report.closed_holes, 2u);
+  EXPECT_EQ(result.report.hole_triangles, 3u);
+  EXPECT_NEAR(enclosed_volume(result.mesh), volume, 1e-2 * volume);
+}
+
+// Without one face (two triangles) of every kind of box; flat covers are exact.
+TEST(repair, gives_a_box_its_missing_side_back) {
+  for (const int cells : {1, 4, 8}) {
+    Mesh mesh = box({1, 2, 3}, cells);
+    std::erase_if(mesh.triangles, [&](const Triangle& t) {
+      return std::all_of(t.begin(), t.end(),
+                         [&](std::uint32_t v) { return mesh.vertices[v].z > 1.5 - 1e-9; });
+    });
+    ASSERT_EQ(inspect(mesh).boundary_edges, 4u * cells);
+    const Repaired result = repair(mesh);
+    expect_solid(result.report.after, 1);
+    EXPECT_NEAR(enclosed_volume(result.mesh), 6, 1e-12) << cells;
+    EXPECT_NEAR(surface_area(result.mesh), 22, 1e-12) << cells;
+  }
+}
+
+TEST(repair, leaves_large_holes_and_open_sheets_and_says_so) {
+  Mesh half = icosphere(4);
+  std::erase_if(half.triangles, [&](const Triangle& t) {
+    return half.vertices[t[0]].z + half.vertices[t[1]].z + half.vertices[t[2]].z < 0;
+  });
+  const std::size_t rim = inspect(weld(half).mesh).boundary_edges;
+  const Repaired kept = repair(half, {.max_hole = rim - 1});
+  EXPECT_EQ(kept.report.large_holes, 1u);
+  EXPECT_EQ(kept.report.largest_hole, rim);
+  EXPECT_FALSE(kept.report.after.closed);
+  // Half a ball with a lid is no sheet: pi / 2 pi.
+  expect_solid(repair(half, {.max_hole = rim}).report.after, 1);
+  // A square, one triangle: covers as large as they are.
+  const Mesh square{.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
+                    .triangles = {{0, 1, 2}, {0, 2, 3}},
+                    .attributes = {}};
+  Mesh triangle = square;
+  triangle.triangles.pop_back();
+  for (const Mesh& sheet : {square, triangle}) {
+    const Repaired result = repair(sheet);
+    EXPECT_EQ(result.report.sheets, 1u);
+    EXPECT_EQ(result.mesh.triangles, weld(sheet).mesh.triangles);
+  }
+}
+
+TEST(repair, separates_solids_that_touch_in_an_edge_or_a_corner) {
+  const Mesh cube = box({1, 1, 1}, 1);
+  for (const Vec3 by : {Vec3{1, 1, 0}, Vec3{1, 1, 1}}) {
+    const Mesh touching = weld(joined(cube, shifted(cube, by))).mesh;
+    ASSERT_FALSE(inspect(touching).manifold);
+    const Repaired result = repair(touching);
+    expect_solid(result.report.after, 2);
+    EXPECT_EQ(result.report.split_vertices, by.z == 0 ? 2u : 1u);
+    EXPECT_NEAR(enclosed_volume(result.mesh), 2, 1e-5);
+    // Single precision must not join them again.
+    Mesh rounded = result.mesh;
+    for (Vec3& v : rounded.vertices) {
+      v = {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+    }
+    EXPECT_TRUE(inspect(weld(rounded).mesh).manifold);
+  }
+}
+
+TEST(repair, takes_a_fin_off_a_solid) {
+  Mesh mesh = tetrahedron();
+  mesh.vertices.push_back({2, 2, 2});
+  mesh.triangles.push_back({1, 2, 4});  // three triangles in the edge from 1 to 2
+  const Repaired result = repair(mesh);
+  EXPECT_EQ(result.report.after.components, 2u);
+  EXPECT_EQ(result.report.after.boundary_edges, 3u);
+  EXPECT_TRUE(result.report.after.manifold);
+  EXPECT_EQ(result.report.sheets, 1u);
+}
+
+TEST(repair, of_nested_solids_makes_cavities) {
+  // Ball in shell in ball, all inside out or not: depths 0, 1, 2.
+  const double sizes[] = {3, 2, 1};
+  for (int wrong = 0; wrong < 8; ++wrong) {
+    Mesh all;
+    for (int k = 0; k < 3; ++k) {
+      Mesh ball = scaled(icosphere(2), sizes[k]);
+      if ((wrong >> k) & 1) flip(ball);
+      all = joined(all, ball);
+    }
+    const Repaired result = repair(all);
+    expect_solid(result.report.after, 3);
+    EXPECT_EQ(result.report.cavities, 1u);
+    const double ball = enclosed_volume(icosphere(2));
+    EXPECT_NEAR(enclosed_volume(result.mesh), (27 - 8 + 1) * ball, 1e-12) << wrong;
+  }
+}
+
+TEST(repair, leaves_a_moebius_strip_one_sided) {
+  Mesh strip;
+  constexpr std::uint32_t kSteps = 24;
+  for (std::uint32_t i = 0; i < kSteps; ++i) {
+    const double phi = 2 * std::numbers::pi * i / kSteps;
+    for (const double w : {-0.3, 0.3}) {
+      const double r = 1 + w * std::cos(phi / 2);
+      strip.vertices.push_back({r * std::cos(phi), r * std::sin(phi), w * std::sin(phi / 2)});
+    }
+    const std::uint32_t a = 2 * i, b = a + 1;
+    const bool last = i + 1 == kSteps;
+    const std::uint32_t c = last ? 1 : a + 2, d = last ? 0 : a + 3;
+    strip.triangles.push_back({a, c, b});
+    strip.triangles.push_back({b, c, d});
+  }
+  const Repaired result = repair(strip);
+  EXPECT_EQ(result.report.one_sided_parts, 1u);
+  EXPECT_EQ(result.mesh.triangles, strip.triangles);
+}
+
+TEST(repair, does_not_depend_on_size_or_place) {
+  Mesh mesh = icosphere(2);
+  mesh.triangles.erase(mesh.triangles.begin() + 5);
+  std::swap(mesh.triangles[9][0], mesh.triangles[9][1]);
+  const Repaired expected = repair(mesh);
+  for (const double size : {0x1p-332, 0x1p332, 0x1p1000, 0x1p-990}) {
+    const Repaired result = repair(scaled(mesh, size));
+    EXPECT_EQ(result.mesh.triangles, expected.mesh.triangles) << size;
+    EXPECT_EQ(result.mesh.vertices, scaled(expected.mesh, size).vertices) << size;
+  }
+}
+
+TEST(repair, carries_attributes_and_turns_normals_with_their_faces) {
+  Mesh mesh = icosphere(2);
+  mesh.attributes = {{.name = "nx", .values = {}},
+                     {.name = "ny", .values = {}},
+                     {.name = "nz", .values = {}},
+                     {.name = "quality", .values = {}}};
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const Vec3& n = mesh.vertices[v];
+    mesh.attributes[0].values.push_back(n.x), mesh.attributes[1].values.push_back(n.y);
+    mesh.attributes[2].values.push_back(n.z), mesh.attributes[3].values.push_back(double(v));
+  }
+  Mesh wrong = mesh;
+  flip(wrong);
+  const Repaired result = repair(wrong);
+  EXPECT_EQ(result.report.inside_out_parts, 1u);
+  for (int k = 0; k < 4; ++k) {
+    EXPECT_EQ(result.mesh.attributes[k].values, mesh.attributes[k].values) << k;
+  }
+}
+
+TEST(repair, refuses_holes_that_cost_too_much) {
+  EXPECT_THROW(repair(icosphere(1), {.max_hole = 501}), Error);
+  EXPECT_NO_THROW(repair(Mesh{}));
+}
+
+// A sphere cut in two along its equator, a gap between the halves.
+TEST(closing_tolerance, is_just_above_the_gap_of_a_seam) {
+  const Mesh mesh = ellipsoid({1, 1, 1}, 4);
+  for (const double gap : {1e-12, 1e-6, 1e-3}) {
+    Mesh soup = exploded(mesh);
+    for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+      double z = 0;
+      for (int k = 0; k < 3; ++k) z += soup.vertices[3 * t + k].z;
+      if (z < 0) {
+        for (int k = 0; k < 3; ++k) soup.vertices[3 * t + k].z -= gap;
+      }
+    }
+    const Mesh open = weld(soup).mesh;
+    ASSERT_FALSE(inspect(open).closed);
+    const std::optional<double> tolerance = closing_tolerance(open);
+    ASSERT_TRUE(tolerance) << gap;
+    EXPECT_TRUE(inspect(weld(open, *tolerance).mesh).closed) << gap;
+    EXPECT_LE(*tolerance, std::max(2.2 * gap, 1e-6)) << gap;
+  }
+}
+
+TEST(closing_tolerance, is_none_for_holes_and_for_closed_meshes) {
+  Mesh mesh = icosphere(3);
+  EXPECT_FALSE(closing_tolerance(mesh));
+  mesh.triangles.resize(mesh.triangles.size() - 40);
+  EXPECT_FALSE(closing_tolerance(mesh));
+  EXPECT_FALSE(closing_tolerance(Mesh{}));
+}
+
+// n points on a circle: n - 2 triangles, the area of the polygon, whatever diagonals are taken.
+TEST(triangulate_hole, of_a_convex_polygon_has_its_area) {
+  for (const std::uint32_t n : {3u, 4u, 7u, 40u}) {
+    std::vector<Vec3> rim;
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const double phi = 2 * std::numbers::pi * i / n;
+      rim.push_back({std::cos(phi), std::sin(phi), 0});
+    }
+    const std::vector<Vec3> beyond(n, Vec3{0, 0, 1});
+    const auto free = [](std::uint32_t, std::uint32_t) { return false; };
+    const auto hole = triangulate_hole(rim, beyond, free);
+    ASSERT_TRUE(hole);
+    EXPECT_EQ(hole->triangles.size(), n - 2);
+    EXPECT_NEAR(hole->area, n * std::sin(2 * std::numbers::pi / n) / 2, 1e-13);
+    const auto taken = [](std::uint32_t, std::uint32_t) { return true; };
+    EXPECT_EQ(triangulate_hole(rim, beyond, taken).has_value(), n == 3);
+  }
+}
+
+// An L: a diagonal across the notch would add area.
+TEST(triangulate_hole, of_a_polygon_with_a_notch_stays_inside) {
+  const std::vector<Vec3> rim = {{0, 0, 0}, {4, 0, 0}, {4, 1, 0}, {1, 1, 0}, {1, 4, 0}, {0, 4, 0}};
+  const std::vector<Vec3> beyond(rim.size(), Vec3{0, 0, 1});
+  const auto hole =
+      triangulate_hole(rim, beyond, [](std::uint32_t, std::uint32_t) { return false; });
+  ASSERT_TRUE(hole);
+  EXPECT_NEAR(hole->area, 7, 1e-14);
+}
+
+}  // namespace
+}  // namespace rholm

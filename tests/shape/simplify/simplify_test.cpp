@@ -1,0 +1,282 @@
+#include "rholm/simplify.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <set>
+#include <string_view>
+#include <vector>
+
+#include "rholm/error.h"
+#include "rholm/primitives.h"
+#include "rholm/topology.h"
+#include "shape/topology/vertex_stars.h"
+#include "support/random_data.h"
+#include "support/test_meshes.h"
+
+namespace rholm {
+namespace {
+
+using test::joined;
+using test::moved;
+using test::tetrahedron;
+
+// The unit square as n x n cells of two triangles.
+Mesh square(int n) {
+  Mesh mesh;
+  for (int j = 0; j <= n; ++j) {
+    for (int i = 0; i <= n; ++i) {
+      mesh.vertices.push_back({static_cast<double>(i) / n, static_cast<double>(j) / n, 0});
+    }
+  }
+  const auto at = [&](int i, int j) { return static_cast<std::uint32_t>(j * (n + 1) + i); };
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < n; ++i) {
+      mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  }
+  return mesh;
+}
+
+Inspection expect_closed_manifold(const Mesh& mesh, long long euler) {
+  const Inspection found = inspect(mesh);
+  EXPECT_TRUE(found.closed && found.manifold && found.oriented);
+  EXPECT_EQ(found.duplicate_triangles, 0U);
+  EXPECT_EQ(found.isolated_vertices, 0U);
+  EXPECT_EQ(found.euler_characteristic, euler);
+  return found;
+}
+
+ErrorCode code_of(const std::function<void()>& run) {
+  try {
+    run();
+  } catch (const Error& error) {
+    return error.code();
+  }
+  return {};
+}
+
+TEST(simplify, a_box_of_many_cells_becomes_twelve_triangles_without_error) {
+  const Simplification simple = simplify(box({1, 2, 3}, 16), {.triangles = 12});
+  const Inspection found = expect_closed_manifold(simple.mesh, 2);
+  EXPECT_EQ(found.triangles, 12U);
+  EXPECT_NEAR(found.volume, 6, 1e-12);
+  EXPECT_NEAR(found.area, 22, 1e-12);
+  EXPECT_LT(simple.error, 1e-6);
+}
+
+TEST(simplify, an_error_of_zero_takes_what_is_flat_and_no_more) {
+  const Simplification simple = simplify(box({1, 1, 1}, 8), {.max_error = 1e-6});
+  EXPECT_EQ(simple.mesh.triangles.size(), 12U);
+  EXPECT_EQ(simplify(icosphere(2), {.max_error = 1e-6}).mesh.triangles, icosphere(2).triangles);
+}
+
+TEST(simplify, a_square_becomes_two_triangles_within_its_border) {
+  const Simplification simple = simplify(square(24), {.triangles = 2});
+  EXPECT_EQ(simple.mesh.triangles.size(), 2U);
+  EXPECT_NEAR(surface_area(simple.mesh), 1, 1e-12);
+  const Inspection found = inspect(simple.mesh);
+  EXPECT_TRUE(found.manifold && found.oriented);
+  EXPECT_EQ(found.boundary_edges, 4U);
+}
+
+TEST(simplify, topology_stays_down_to_the_smallest_meshes_there_are) {
+  // A closed surface has no fewer triangles than a tetrahedron, a torus than that of Csaszar.
+  const Mesh sphere = simplify(icosphere(3), {.triangles = 1}).mesh;
+  EXPECT_EQ(expect_closed_manifold(sphere, 2).triangles, 4U);
+  const Mesh ring = simplify(torus(1, 0.3, 48, 24), {.triangles = 1}).mesh;
+  EXPECT_GE(expect_closed_manifold(ring, 0).triangles, 14U);
+  EXPECT_LE(ring.triangles.size(), 60U);  // the turn of triangles is limited as well
+  const Mesh two = simplify(joined(icosphere(2), torus(5, 1, 40, 20)), {.triangles = 1}).mesh;
+  EXPECT_EQ(expect_closed_manifold(two, 2).components, 2U);
+}
+
+TEST(simplify, vertices_stay_on_a_sphere_and_triangles_near_it) {
+  for (const std::size_t wanted : {8000U, 2000U, 500U}) {
+    const Simplification simple = simplify(icosphere(5), {.triangles = wanted});
+    const Inspection found = expect_closed_manifold(simple.mesh, 2);
+    EXPECT_LE(found.triangles, wanted);
+    EXPECT_GE(found.triangles, wanted - 2);
+    for (const Vec3& v : simple.mesh.vertices) EXPECT_NEAR(norm(v), 1, 1e-12);
+    // Equilateral triangles would miss least of the ball. With edges a there are 4 pi / (sqrt(3)/4
+    // a^2) of them, and the mean gap over one is (a^2/3 - a^2/12) / 2.
+    const double least = 2 * std::numbers::pi * std::sqrt(3.0) / static_cast<double>(wanted);
+    const double missing = 1 - found.volume / (4 * std::numbers::pi / 3);
+    EXPECT_GT(missing, 0.98 * least);
+    EXPECT_LT(missing, 1.6 * least);  // 1.1 ... 1.55
+  }
+}
+
+TEST(simplify, the_error_allowed_is_kept_and_used) {
+  const Mesh mesh = bumpy_sphere(5, 0.2, 3);
+  std::size_t last = mesh.triangles.size() + 1;
+  for (const double allowed : {1e-4, 1e-3, 1e-2}) {
+    const Simplification simple = simplify(mesh, {.max_error = allowed});
+    EXPECT_LE(simple.error, allowed * (1 + 1e-5));
+    EXPECT_GT(simple.error, allowed / 3);
+    EXPECT_LT(simple.mesh.triangles.size(), last);
+    last = simple.mesh.triangles.size();
+  }
+}
+
+TEST(simplify, edges_of_more_triangles_and_touching_fans_stay) {
+  // Two boxes that share an edge, and two that share a corner.
+  const auto shift = [](double x, double y, double z) {
+    test::Motion motion;
+    motion.shift = {x, y, z};
+    return motion;
+  };
+  const Mesh cube = box({1, 1, 1}, 4);
+  for (const double z : {0.0, 1.0}) {
+    const Mesh both = weld(joined(cube, moved(cube, shift(1, 1, z)))).mesh;
+    const Inspection before = inspect(both);
+    const Mesh simple = simplify(both, {.max_error = 1e-6}).mesh;
+    const Inspection after = inspect(simple);
+    EXPECT_EQ(after.non_manifold_edges, before.non_manifold_edges);
+    EXPECT_EQ(after.non_manifold_vertices, before.non_manifold_vertices);
+    EXPECT_EQ(after.boundary_edges, 0U);
+    EXPECT_EQ(after.duplicate_triangles, 0U);
+    EXPECT_NEAR(after.volume, 2, 1e-12);
+    EXPECT_LT(after.triangles, before.triangles / 2);
+  }
+}
+
+// Closed, open and torn, with vertices and edges that touch.
+Mesh random_complex(std::uint64_t seed) {
+  std::uint64_t next = 0;
+  const auto below = [&](std::size_t n) {
+    return static_cast<std::uint32_t>(test::random_in(0, 1, seed, next++) * static_cast<double>(n) *
+                                      (1 - 1e-12));
+  };
+  Mesh mesh = seed % 3 == 0 ? Mesh{} : seed % 3 == 1 ? icosphere(1) : torus(1, 0.4, 6, 5);
+  if (seed % 3 == 0) {
+    for (std::uint64_t v = 0; v < 10; ++v) mesh.vertices.push_back(test::random_direction(seed, v));
+    for (int t = 0; t < 16; ++t) mesh.triangles.push_back({below(10), below(10), below(10)});
+  } else {
+    for (std::uint32_t n = below(6); n > 0; --n) {
+      mesh.triangles.erase(mesh.triangles.begin() + below(mesh.triangles.size()));
+    }
+    const std::uint32_t a = below(mesh.vertices.size()), b = below(mesh.vertices.size());
+    for (Triangle& t : mesh.triangles) std::replace(t.begin(), t.end(), a, b);
+  }
+  std::set<Triangle> seen;  // no repeated corners, no triangle twice
+  std::erase_if(mesh.triangles, [&](Triangle t) {
+    std::sort(t.begin(), t.end());
+    return t[0] == t[1] || t[1] == t[2] || !seen.insert(t).second;
+  });
+  return mesh;
+}
+
+TEST(simplify, connectivity_stays_whatever_the_mesh) {
+  // Shrinking an edge under the link condition keeps the homotopy type.
+  std::size_t shrunk = 0;
+  for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
+    const Mesh mesh = random_complex(seed);
+    const Inspection before = inspect(mesh);
+    const Inspection after = inspect(simplify(mesh, {.triangles = 1}, {.threads = 1}).mesh);
+    ASSERT_EQ(after.euler_characteristic, before.euler_characteristic) << seed;
+    ASSERT_EQ(after.components, before.components) << seed;
+    ASSERT_EQ(after.boundary_edges == 0, before.boundary_edges == 0) << seed;
+    ASSERT_LE(after.non_manifold_edges, before.non_manifold_edges) << seed;
+    ASSERT_LE(after.non_manifold_vertices, before.non_manifold_vertices) << seed;
+    ASSERT_LE(after.misoriented_edges, before.misoriented_edges) << seed;
+    ASSERT_EQ(after.duplicate_triangles, 0U) << seed;
+    shrunk += after.triangles < before.triangles ? 1 : 0;
+  }
+  EXPECT_GT(shrunk, 1500U);
+}
+
+TEST(simplify, units_do_not_matter) {
+  const Mesh mesh = bumpy_sphere(4, 0.3, 5);
+  const Mesh simple = simplify(mesh, {.share = 0.2}).mesh;
+  for (const int power : {-60, -20, 20, 60}) {
+    Mesh scaled = mesh;
+    for (Vec3& v : scaled.vertices) v *= std::ldexp(1.0, power);
+    EXPECT_EQ(simplify(scaled, {.share = 0.2}).mesh.triangles, simple.triangles) << power;
+  }
+}
+
+TEST(simplify, attributes_are_those_of_the_vertices_that_stay) {
+  Mesh mesh = icosphere(4);
+  Attribute height{.name = "height", .type = ScalarType::kFloat64, .values = {}};
+  for (const Vec3& v : mesh.vertices) height.values.push_back(v.z);
+  mesh.attributes = {height};
+  const Mesh simple = simplify(mesh, {.share = 0.1}).mesh;
+  ASSERT_EQ(simple.attributes.size(), 1U);
+  ASSERT_EQ(simple.attributes[0].values.size(), simple.vertices.size());
+  for (std::size_t v = 0; v < simple.vertices.size(); ++v) {
+    EXPECT_EQ(simple.attributes[0].values[v], simple.vertices[v].z);
+  }
+}
+
+TEST(simplify, is_the_same_for_every_number_of_threads) {
+  const Mesh mesh = bumpy_sphere(5, 0.3, 7);
+  const Mesh one = simplify(mesh, {.share = 0.1}, {.threads = 1}).mesh;
+  const Mesh two = simplify(mesh, {.share = 0.1}, {.threads = 2}).mesh;
+  EXPECT_EQ(one.vertices, two.vertices);
+  EXPECT_EQ(one.triangles, two.triangles);
+}
+
+TEST(simplify, what_is_small_or_degenerate_comes_back) {
+  EXPECT_TRUE(simplify(Mesh{}, {.triangles = 1}).mesh.triangles.empty());
+  Mesh one;
+  one.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 5, 5}};
+  one.triangles = {{0, 1, 2}, {1, 1, 2}};
+  const Mesh same = simplify(one, {.share = 1e-9}).mesh;
+  EXPECT_EQ(same.triangles, (std::vector<Triangle>{{0, 1, 2}}));
+  EXPECT_EQ(same.vertices.size(), 3U);
+  Mesh point = icosphere(1);
+  for (Vec3& v : point.vertices) v = {1, 2, 3};
+  EXPECT_NO_THROW(simplify(point, {.triangles = 1}));
+  EXPECT_EQ(simplify(tetrahedron(), {.triangles = 1}).mesh.triangles, tetrahedron().triangles);
+}
+
+TEST(simplify, options_out_of_range_are_refused) {
+  const Mesh mesh = icosphere(1);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const SimplifyOptions& options :
+       {SimplifyOptions{}, SimplifyOptions{.share = -0.1}, SimplifyOptions{.share = 1.1},
+        SimplifyOptions{.share = nan}, SimplifyOptions{.max_error = -1},
+        SimplifyOptions{.max_error = nan}}) {
+    EXPECT_EQ(code_of([&] { simplify(mesh, options); }), ErrorCode::kInvalidInput);
+  }
+}
+
+TEST(simplify, can_be_cancelled) {
+  const Context context{.threads = 1, .progress = [](std::string_view, double) { return false; }};
+  EXPECT_EQ(code_of([&] { simplify(icosphere(4), {.triangles = 10}, context); }),
+            ErrorCode::kCancelled);
+}
+
+Ring ring_of(const Mesh& mesh, std::uint32_t v) {
+  Ring ring;
+  find_ring(mesh.triangles, make_vertex_stars(mesh.vertices.size(), mesh.triangles), v, ring);
+  return ring;
+}
+
+TEST(find_ring, follows_the_fan) {
+  const Mesh mesh = square(2);
+  const Ring inner = ring_of(mesh, 4);  // the middle
+  EXPECT_EQ(inner.kind, RingKind::kClosed);
+  EXPECT_EQ(inner.neighbours.size(), 6U);
+  const Ring corner = ring_of(mesh, 0);
+  EXPECT_EQ(corner.kind, RingKind::kOpen);
+  EXPECT_EQ(corner.neighbours, (std::vector<std::uint32_t>{1, 4, 3}));  // counter-clockwise
+  Mesh fans = joined(tetrahedron(), tetrahedron());
+  for (Triangle& t : fans.triangles) {
+    for (std::uint32_t& v : t) v = v == 4 ? 0 : v;
+  }
+  EXPECT_EQ(ring_of(fans, 0).kind, RingKind::kComplex);
+  EXPECT_EQ(ring_of(fans, 4).kind, RingKind::kComplex);  // in no triangle
+  EXPECT_EQ(ring_of(fans, 1).kind, RingKind::kClosed);
+}
+
+}  // namespace
+}  // namespace rholm

@@ -1,0 +1,206 @@
+// The blended potential on a grid and at vertices. Oracle: the same sums in double precision, cap
+// by cap, from evaluate().
+#include "surface/field/cap_field.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "atlas/cover/cap_cover.h"
+#include "atlas/few/cap_blend.h"
+#include "rholm/topology.h"
+#include "support/targets.h"
+#include "support/test_points.h"
+
+namespace rholm {
+namespace {
+
+// The atlas of a unit sphere, or of what `keep` leaves of it.
+template <typename Keep>
+Atlas sphere_atlas(std::size_t n, const Keep& keep) {
+  std::vector<Vec3> all, points;
+  for (const Vec3& p : test::sphere_points(n).points) {
+    if (keep(p)) all.push_back(p);
+  }
+  const PointTree tree(all);
+  for (const std::uint32_t i : tree.order()) points.push_back(all[i]);
+  Cover made = cover({tree, points, points}, {}, {});
+  Atlas atlas;
+  atlas.caps = std::move(made.caps);
+  atlas.coefficients = std::move(made.coefficients);
+  atlas.spacing = std::sqrt(4 * std::numbers::pi / static_cast<double>(n));
+  atlas.diagonal = 2 * std::sqrt(3.0);
+  return atlas;
+}
+
+Atlas whole_sphere(std::size_t n) {
+  return sphere_atlas(n, [](const Vec3&) { return true; });
+}
+
+double largest_support(const Atlas& atlas) {
+  double largest = 0;
+  for (const Cap& cap : atlas.caps) largest = std::max(largest, cap.frame.support);
+  return largest;
+}
+
+struct Field {
+  BlockGrid grid;
+  CapLists lists;
+};
+
+Field make_field(const Atlas& atlas, double step) {
+  const std::vector<Disc> discs = discs_of(atlas, step, {});
+  const Vec3 origin{-1.3, -1.2, -1.25};
+  Field field;
+  field.grid = make_block_grid(origin, step, list_blocks(origin, step, discs, 1000000));
+  field.lists = list_caps(field.grid, discs);
+  return field;
+}
+
+// Quadratic B-spline of (P44), 1 at 0.
+double spline(double t) { return (t < 0.5 ? 0.75 - t * t : 0.5 * (1.5 - t) * (1.5 - t)) / 0.75; }
+
+// The square of the cosine between a cap's surface and the sphere it is on: that of the angle
+// between the surface's normal and the direction from the centre.
+double squared_cosine(const Atlas& atlas, const Cap& cap, const Vec3& x) {
+  const CapValue value = evaluate(cap, atlas.coefficients_of(cap), x);
+  const double out = dot(value.gradient, normalized(x - cap.frame.center));
+  return out * out / dot(value.gradient, value.gradient);
+}
+
+// Method: G = sum w g / sum w, w = trust (1 - s^2)^3 (1 - g^2/T^2)^2, and the squared cosine where
+// points are noisy.
+struct Sum {
+  double weight = 0, value = 0;
+};
+Sum blend_at(const Atlas& atlas, double band, const Vec3& x) {
+  Sum sum;
+  for (const Cap& cap : atlas.caps) {
+    const double near = 1 - place(cap, x - cap.frame.seed());
+    if (!(near > 0)) continue;
+    const CapValue value = evaluate(cap, atlas.coefficients_of(cap), x);
+    const double rest = 1 - std::pow(value.distance / band, 2);
+    if (!value.valid || !(rest > 0)) continue;
+    const double by_place =
+        atlas.blend == CapBlend::kSpline ? spline(1.5 * std::sqrt(1 - near)) : near * near * near;
+    const double lean = atlas.noise > 0 ? squared_cosine(atlas, cap, x) : 1;
+    const double w = cap.weight * by_place * rest * rest * lean;
+    sum.weight += w;
+    sum.value += w * value.distance;
+  }
+  return sum;
+}
+
+void expect_blend(const Atlas& atlas, double step, double band) {
+  Field field = make_field(atlas, step);
+  const std::vector<std::uint64_t> doubtful = fill_grid(atlas, field.lists, field.grid, {});
+  std::size_t known = 0;
+  for (std::size_t b = 0; b < field.grid.n_blocks(); b += 3) {
+    for (std::size_t i = 0; i < BlockGrid::kNodes; i += 5) {
+      const Sum sum = blend_at(atlas, band, field.grid.node(b, i));
+      const float value = field.grid.block_values(b)[i];
+      // Doubtful: a weight below 0.1 within a step of the surface.
+      const bool doubted = (doubtful[8 * b + (i >> 6)] >> (i & 63) & 1) != 0;
+      if (sum.weight > 0.101 || !(std::abs(value) < 1.001 * step)) {
+        EXPECT_FALSE(doubted);
+      } else if (sum.weight > 1e-3 && sum.weight < 0.099 && std::abs(value) < 0.999 * step) {
+        EXPECT_TRUE(doubted);
+      }
+      if (sum.weight < 1e-6) {
+        EXPECT_FALSE(std::isfinite(value));
+      } else if (sum.weight > 1e-3) {
+        ++known;
+        ASSERT_TRUE(std::isfinite(value));
+        // Single precision, in steps; weights near the rim of a cap are differences.
+        EXPECT_NEAR(value, sum.value / sum.weight, 1e-4 * step);
+      }
+    }
+  }
+  EXPECT_GT(known, 300U);
+}
+
+TEST(CapField, nodes_have_the_blend_of_the_caps_that_reach_them) {
+  Atlas atlas = whole_sphere(800);
+  const double step = 0.7 * atlas.spacing, band = kBandSteps * step;
+  test::for_each_target([&](const char* target) {
+    SCOPED_TRACE(target);
+    atlas.blend = CapBlend::kSmooth;
+    expect_blend(atlas, step, band);
+    atlas.noise = step;
+    expect_blend(atlas, step, band);
+    atlas.noise = 0;
+    atlas.blend = CapBlend::kSpline;
+    expect_blend(atlas, step, band);
+  });
+}
+TEST(CapField, is_a_signed_distance_to_first_order) {
+  const Atlas atlas = whole_sphere(4000);
+  const double step = 0.7 * atlas.spacing;
+  Field field = make_field(atlas, step);
+  fill_grid(atlas, field.lists, field.grid, {});
+  const double missed = 0.0037 * largest_support(atlas);  // as in cap_cover_test.cpp
+  for (std::size_t b = 0; b < field.grid.n_blocks(); ++b) {
+    for (std::size_t i = 0; i < BlockGrid::kNodes; ++i) {
+      const float value = field.grid.block_values(b)[i];
+      if (!std::isfinite(value)) continue;
+      const double d = norm(field.grid.node(b, i)) - 1;
+      EXPECT_NEAR(value, d, d * d + 2 * missed);
+    }
+  }
+}
+
+// Blocks have any number of vertices.
+TEST(CapField, vertices_are_moved_to_the_surface_with_its_normals) {
+  const Atlas atlas = whole_sphere(4000);
+  const double step = 0.7 * atlas.spacing;
+  Field field = make_field(atlas, step);
+  fill_grid(atlas, field.lists, field.grid, {});
+  const ExtractedSurface extracted = extract_surface(field.grid);
+  ASSERT_TRUE(inspect(extracted.mesh).closed);
+  const double support = largest_support(atlas);
+  test::for_each_target([&](const char* target) {
+    SCOPED_TRACE(target);
+    ExtractedSurface surface = extracted;
+    project_vertices(atlas, field.lists, field.grid, surface, {});
+    const Mesh& mesh = surface.mesh;
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+      EXPECT_NEAR(norm(mesh.vertices[v]), 1, std::pow(support, 4) / 8 + 1e-5 * support);
+      const Sum sum = blend_at(atlas, kBandSteps * step, mesh.vertices[v]);
+      EXPECT_NEAR(sum.value / sum.weight, 0, 1e-4 * step);
+      const Vec3 n{find_attribute(mesh.attributes, "nx")->values[v],
+                   find_attribute(mesh.attributes, "ny")->values[v],
+                   find_attribute(mesh.attributes, "nz")->values[v]};
+      EXPECT_NEAR(norm(n), 1, 1e-6);
+      EXPECT_LT(norm(n - mesh.vertices[v]), std::pow(support, 3) + 1e-4);
+    }
+  });
+}
+
+TEST(CapField, support_is_positive_within_the_data_and_negative_beyond) {
+  constexpr double kBorder = 0.5;
+  const Atlas atlas = sphere_atlas(8000, [](const Vec3& p) { return p.z < kBorder; });
+  const double step = 0.7 * atlas.spacing;
+  Field field = make_field(atlas, step);
+  fill_grid(atlas, field.lists, field.grid, {});
+  ExtractedSurface surface = extract_surface(field.grid);
+  const std::vector<double> support = data_support(atlas, field.lists, surface, {});
+  const double margin = largest_support(atlas);
+  std::size_t inside = 0, doubtful = 0;
+  for (std::size_t v = 0; v < support.size(); ++v) {
+    const double z = surface.mesh.vertices[v].z;
+    EXPECT_LE(support[v], 1);
+    if (z < kBorder - margin) {
+      ++inside;
+      doubtful += support[v] <= 0;
+    } else if (z > kBorder + margin) {
+      EXPECT_LT(support[v], 0);
+    }
+  }
+  EXPECT_GT(inside, 1000U);
+  EXPECT_LT(100 * doubtful, inside);  // gaps that random points leave
+}
+
+}  // namespace
+}  // namespace rholm

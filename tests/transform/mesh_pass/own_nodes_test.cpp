@@ -1,0 +1,52 @@
+#include "transform/mesh_pass/own_nodes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace rholm {
+namespace {
+
+// int r dOmega of an equilateral triangle at the height d above its middle. In polar coordinates of
+// its plane d int dS / (rho^2 + d^2) is six times d/2 int_0^(pi/3) ln(1 + h^2 / (d cos phi)^2)
+// dphi, h the radius of the inscribed circle: smooth, by Simpson's rule.
+double radius_integral_above_the_middle(double d, double h) {
+  constexpr int kSteps = 1000;
+  double sum = 0;
+  for (int k = 0; k <= kSteps; ++k) {
+    const double cosine = std::cos(std::numbers::pi / 3 * k / kSteps);
+    const double weight = k == 0 || k == kSteps ? 1 : k % 2 == 0 ? 2 : 4;
+    sum += weight * std::log1p(std::pow(h / (d * cosine), 2));
+  }
+  return 3 * d * sum * std::numbers::pi / 3 / kSteps / 3;
+}
+
+// As flat meshes have them, whose planes miss the centre by rounding only.
+TEST(radius_integral, keeps_its_relative_error_at_any_height_above_the_triangle) {
+  const double h = 0.5;
+  for (const double d : {1.0, 1e-2, 1e-5, 1e-8, 1e-11, 1e-13}) {
+    const std::array<Vec3, 3> corners = {
+        {{1, 0, d}, {-0.5, std::sqrt(0.75), d}, {-0.5, -std::sqrt(0.75), d}}};
+    for (const double error : {1e-4, 1e-8, 1e-11}) {
+      const double expected = radius_integral_above_the_middle(d, h);
+      EXPECT_NEAR(radius_integral(corners, error) / expected, 1, error + 1e-12) << d;
+    }
+  }
+}
+
+// The solid angle may come out as zero where the height does not: a part of nothing is no
+// allowance.
+TEST(radius_integral, of_triangles_whose_planes_miss_the_centre_by_rounding_is_that_small) {
+  for (int k = 0; k < 300; ++k) {
+    const double a = 0.1 * k, b = 0.37 * k;
+    const Vec3 u = {std::cos(a), std::sin(a), 0};
+    const Vec3 v = {-std::sin(a) * std::cos(b), std::cos(a) * std::cos(b), std::sin(b)};
+    // Half the size of their distance, at least 1.
+    const std::array<Vec3, 3> corners = {u, 1.5 * u, 1.2 * u + 0.5 * v};
+    EXPECT_LT(std::abs(radius_integral(corners, 1e-14)), 1e-16) << k;
+  }
+}
+
+}  // namespace
+}  // namespace rholm
