@@ -14,7 +14,9 @@
 #include "cli/grammar/values.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/session.h"
-#include "rholm/rholm.h"
+#include "rholm/error.h"
+#include "rholm/primitives.h"
+#include "rholm/version.h"
 
 namespace rholm::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "cli/terminal/json_text.h"
-#include "rholm/bench.h"
+#include "report/timing/bench.h"
 
 namespace rholm::cli {
 

@@ -7,7 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "cli/terminal/session.h"
-#include "rholm/rholm.h"
+#include "rholm/version.h"
 
 namespace rholm::cli {
 namespace {

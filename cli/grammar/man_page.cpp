@@ -3,7 +3,7 @@
 
 #include "cli/grammar/help.h"
 #include "cli/terminal/session.h"
-#include "rholm/rholm.h"
+#include "rholm/version.h"
 
 namespace rholm::cli {
 namespace {

@@ -1,34 +1,44 @@
-// rholm: spherical harmonics of 3D objects. The whole public interface, and its version.
+// rholm: spherical harmonics of 3D objects. The whole public interface.
 // Layer: report.
 #pragma once
 
+#include "rholm/align.h"
 #include "rholm/analyze.h"
-#include "rholm/bench.h"
+#include "rholm/atlas.h"
 #include "rholm/coefficients.h"
 #include "rholm/coefficients_io.h"
 #include "rholm/compare.h"
+#include "rholm/compress.h"
 #include "rholm/context.h"
 #include "rholm/error.h"
 #include "rholm/file.h"
+#include "rholm/filter.h"
+#include "rholm/grid.h"
 #include "rholm/harmonic.h"
 #include "rholm/image.h"
+#include "rholm/length_unit.h"
 #include "rholm/mapped_mesh.h"
 #include "rholm/mesh.h"
 #include "rholm/mesh_view.h"
 #include "rholm/model.h"
 #include "rholm/monte_carlo.h"
+#include "rholm/patch_atlas.h"
+#include "rholm/points.h"
 #include "rholm/primitives.h"
+#include "rholm/recenter.h"
+#include "rholm/reconstruct.h"
+#include "rholm/region.h"
 #include "rholm/render.h"
+#include "rholm/repair.h"
 #include "rholm/report.h"
+#include "rholm/rotate.h"
 #include "rholm/shape_io.h"
+#include "rholm/simplify.h"
+#include "rholm/smooth.h"
 #include "rholm/star.h"
 #include "rholm/synthesize.h"
 #include "rholm/topology.h"
+#include "rholm/transfer.h"
 #include "rholm/truncation.h"
 #include "rholm/vec3.h"
-
-namespace rholm {
-
-inline constexpr const char* kVersion = "0.1.0";
-
-}  // namespace rholm
+#include "rholm/version.h"

@@ -16,7 +16,7 @@ COMMANDS = ["info", "center", "analyze", "synthesize", "spectrum", "compare", "c
 
 class Help(CliTest):
     def test_version_is_that_of_the_header(self):
-        header = (SOURCE / "include/rholm/rholm.h").read_text()
+        header = (SOURCE / "include/rholm/version.h").read_text()
         version = re.search(r'kVersion = "([^"]+)"', header)[1]
         self.assertEqual(self.rholm("--version").out, f"rholm {version}\n")
 

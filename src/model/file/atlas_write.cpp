@@ -10,7 +10,7 @@
 #include "model/file/atlas_pack.h"
 #include "model/file/model_layout.h"
 #include "rholm/compress.h"
-#include "rholm/rholm.h"
+#include "rholm/version.h"
 
 namespace rholm {
 namespace {

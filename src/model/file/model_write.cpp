@@ -14,7 +14,7 @@
 #include "io/hdf5/hdf5_writer.h"
 #include "model/file/model_layout.h"
 #include "rholm/model.h"
-#include "rholm/rholm.h"
+#include "rholm/version.h"
 
 namespace rholm {
 namespace {

@@ -7,7 +7,7 @@
 #include "report/page/html.h"
 #include "report/page/report_plot.h"
 #include "report/page/report_style.h"
-#include "rholm/rholm.h"
+#include "rholm/version.h"
 
 namespace rholm::report {
 namespace {

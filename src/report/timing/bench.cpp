@@ -1,5 +1,5 @@
 // Runs of the whole way, from a file to coefficients.
-#include "rholm/bench.h"
+#include "report/timing/bench.h"
 
 #include <unistd.h>
 

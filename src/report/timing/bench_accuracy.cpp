@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "report/timing/bench_timing.h"
-#include "rholm/bench.h"
+#include "report/timing/bench.h"
 #include "rholm/error.h"
 #include "rholm/primitives.h"
 

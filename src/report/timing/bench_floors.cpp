@@ -12,7 +12,7 @@
 #include "harmonic/rings/ring_sums.h"
 #include "report/timing/bench_rows.h"
 #include "report/timing/bench_timing.h"
-#include "rholm/bench.h"
+#include "report/timing/bench.h"
 #include "rholm/error.h"
 
 namespace rholm {

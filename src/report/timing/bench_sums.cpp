@@ -4,7 +4,7 @@
 
 #include "base/random.h"
 #include "report/timing/bench_timing.h"
-#include "rholm/bench.h"
+#include "report/timing/bench.h"
 #include "rholm/synthesize.h"
 
 namespace rholm {

@@ -6,7 +6,7 @@
 
 #include "base/parallel.h"
 #include "base/stopwatch.h"
-#include "rholm/bench.h"
+#include "report/timing/bench.h"
 
 namespace rholm {
 

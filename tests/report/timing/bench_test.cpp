@@ -1,4 +1,4 @@
-#include "rholm/bench.h"
+#include "report/timing/bench.h"
 
 #include <gtest/gtest.h>
 #include <sys/mman.h>

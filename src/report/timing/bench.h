@@ -1,5 +1,5 @@
-// How long the way from a mesh to its coefficients takes on this machine, and what bounds it.
-// Layer: report.
+// How long the way from a mesh to its coefficients takes on this machine, and what bounds it: what
+// `rholm bench` is made of. Layer: report, private.
 //
 // Everything is measured, nothing printed. Each kind of run is repeated; kinds that are compared
 // take turns, so that what else the machine does meets all of them.
