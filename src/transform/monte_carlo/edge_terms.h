@@ -40,7 +40,7 @@ FieldEdges field_edges(const StarGeometry& geometry);
 // d/dphi matters): that changes no mean, but it does change the scatter.
 enum class FieldStart {
   kNormal,  // at phi_n, as in (M2)
-  kFace     // within the face's own longitudes: the least scatter, see monte_carlo_edge.cpp
+  kFace     // within the face's own longitudes: the least scatter, see edge_terms.cpp
 };
 
 // Room to work in, one for each thread.

@@ -1,5 +1,5 @@
 // Hashes of corners and of half-edges: tell in the pass whether a surface is closed, and name
-// edges. Inner loops of mesh_block.cpp, compiled for each target.
+// edges. Inner loops of block.cpp, compiled for each target.
 #include <cstddef>
 #include <cstdint>
 #include <cstring>

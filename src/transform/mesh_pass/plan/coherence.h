@@ -1,6 +1,6 @@
 // How far the errors of lumping cancel between neighbours.
 //
-// What a rule leaves on one edge or face is known (node_rules.h), and on rough surfaces these
+// What a rule leaves on one edge or face is known (plane_wave_rules.h), and on rough surfaces these
 // errors add up like random numbers. On smooth ones those of neighbours are alike and cancel in the
 // sum with a wave: by a factor of hundreds on fine meshes. That is measured: for a few wave packets
 //   exp(-|x|^2 / 2 s^2) exp(i L k . u),

@@ -329,7 +329,7 @@ MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& c
                 .largest = std::exp2(plan.single ? 28 : 48),
                 .hessians = hermite.has_value(),
                 // Nothing makes up for their rounding: finer. Still they are smaller than weights
-                // by kFarthest of node_rules.cpp.
+                // by kFarthest of plane_wave_rules.cpp.
                 .per_hessian = 4 * std::pow(std::max(degree, 1), 2) / quantum,
                 .edge_reach2 = hermite ? hermite->edge_reach2 : HermiteReach{},
                 .face_reach2 = hermite ? hermite->face_reach2 : HermiteReach{},
