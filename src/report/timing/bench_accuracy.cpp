@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "report/timing/bench_timing.h"
 #include "report/timing/bench.h"
+#include "report/timing/bench_timing.h"
 #include "rholm/error.h"
 #include "rholm/primitives.h"
 

@@ -10,9 +10,9 @@
 #include "base/aligned_array.h"
 #include "harmonic/nonuniform/sphere_fourier.h"
 #include "harmonic/rings/ring_sums.h"
+#include "report/timing/bench.h"
 #include "report/timing/bench_rows.h"
 #include "report/timing/bench_timing.h"
-#include "report/timing/bench.h"
 #include "rholm/error.h"
 
 namespace rholm {

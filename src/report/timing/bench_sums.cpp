@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "report/timing/bench_timing.h"
 #include "report/timing/bench.h"
+#include "report/timing/bench_timing.h"
 #include "rholm/synthesize.h"
 
 namespace rholm {

@@ -76,8 +76,8 @@ struct TriangleBlock {
   static constexpr std::size_t kSize = kTrianglesPerBlock;
   alignas(64) std::uint32_t hash[3][kSize];
   alignas(64) double corner[3][3][kSize];  // [corner][x, y, z], relative to the centre, scaled
-  // Of lumping, see lumping_error() in plane_wave_rules.h: W z^4 of the half-edges, F z^4, and the sum of
-  // their squares.
+  // Of lumping, see lumping_error() in plane_wave_rules.h: W z^4 of the half-edges, F z^4, and the
+  // sum of their squares.
   alignas(64) double edge_error[3][kSize];
   alignas(64) double face_error[kSize];
   alignas(64) double error2[kSize];
