@@ -19,6 +19,12 @@ class Help(CliTest):
         header = (SOURCE / "include/rholm/version.h").read_text()
         version = re.search(r'kVersion = "([^"]+)"', header)[1]
         self.assertEqual(self.rholm("--version").out, f"rholm {version}\n")
+        # And that of the files that people cite and read.
+        citation = (SOURCE / "CITATION.cff").read_text()
+        self.assertEqual(re.search(r"^version: (.+)$", citation, re.M)[1], version)
+        released = re.search(r"^## \[(\d.*?)\] - (.+)$", (SOURCE / "CHANGELOG.md").read_text(), re.M)
+        self.assertEqual(released[1], version)
+        self.assertEqual(re.search(r"^date-released: (.+)$", citation, re.M)[1], released[2])
 
     def test_help_lists_every_command(self):
         for words in (["help"], ["--help"], ["-h"]):
