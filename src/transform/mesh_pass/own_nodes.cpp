@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 #include "rholm/error.h"
 #include "shape/face.h"
@@ -25,7 +27,7 @@ Extent extent(const Vec3& a, const Vec3& b, double distance, int degree) {
   const Vec3 across = cross(a, b), e = b - a;
   const double over = 1 / (distance * distance);
   const double l = degree * over;
-  return {l * l * dot(across, across), over * dot(e, e)};
+  return {.wave2 = l * l * dot(across, across), .bend2 = over * dot(e, e)};
 }
 
 Extent extent(const std::array<Vec3, 3>& p, double distance, int degree) {
@@ -69,6 +71,21 @@ double distance_of(const std::array<Vec3, 3>& p) {
   return reach < 0.1 * nearest ? nearest - reach : triangle_distance(p);
 }
 
+// Of the triangle and its edges; d2: normal times a corner, twice the area.
+Crowd crowd_of(const std::array<Vec3, 3>& p, double d2, int degree) {
+  const std::array<Vec3, 3> u = {normalized(p[0]), normalized(p[1]), normalized(p[2])};
+  double chord2 = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 e = u[(i + 1) % 3] - u[i];
+    chord2 = std::max(chord2, dot(e, e));
+  }
+  const double length = degree * std::sqrt(chord2), distance = distance_of(p);
+  // A triangle's height is twice its area over its length.
+  const double twice_area = std::pow(degree, 2) * std::abs(d2) / std::pow(distance, 3);
+  return {.per_wave = twice_area > 0 ? length / twice_area : 0,
+          .needle = length > 2 * std::numbers::pi};
+}
+
 bool is_long(const std::array<Vec3, 3>& p, double distance) {
   const int k = longest_edge(p);
   return !(norm(p[(k + 1) % 3] - p[k]) <= kLongest * distance);
@@ -83,13 +100,14 @@ NodeAllowance part_of(NodeAllowance allowance, double share) {
 // Nodes of r dOmega = d_T dS / |x|^2; `factor`: d_T times the area. A piece may have its part of
 // `allowance`, or the part `relative` of its own integral: all have one sign, and near a plane
 // through the centre no share of the whole is as small as what is to be kept there.
+// Returns the sum of the squares of what is left.
 template <typename Visit>
-void visit_radius(const std::array<Vec3, 3>& p, double factor, const NodeAllowance& allowance,
-                  double relative, int depth, const Visit& visit) {
+double visit_radius(const std::array<Vec3, 3>& p, double factor, const NodeAllowance& allowance,
+                    double relative, int depth, const Visit& visit) {
   const double distance = distance_of(p);
   if (depth == 0 && distance == 0) throw_on_surface();
-  if (factor == 0) return;
-  std::span<const FaceNode> rule;
+  if (factor == 0) return 0;
+  FaceRule rule;
   if (!is_long(p, distance)) {
     // 1/|x|^2 counts for two degrees more.
     Extent z = extent(p, distance, allowance.degree);
@@ -100,17 +118,19 @@ void visit_radius(const std::array<Vec3, 3>& p, double factor, const NodeAllowan
     allowed.error = std::max(allowed.error, relative * std::abs(weight) / 2.25);
     rule = face_rule(allowed, z, weight);
   }
-  if (rule.empty()) {
+  if (rule.nodes.empty()) {
     if (depth == kMaxDepth) throw_on_surface();
+    double error2 = 0;
     halve(p, [&](const std::array<Vec3, 3>& half) {
-      visit_radius(half, factor / 2, part_of(allowance, 0.5), relative, depth + 1, visit);
+      error2 += visit_radius(half, factor / 2, part_of(allowance, 0.5), relative, depth + 1, visit);
     });
-    return;
+    return error2;
   }
-  for (const FaceNode& node : rule) {
+  for (const FaceNode& node : rule.nodes) {
     const Vec3 x = node.at[0] * p[0] + node.at[1] * p[1] + node.at[2] * p[2];
     visit(x, node.weight * factor / dot(x, x));
   }
+  return rule.error * rule.error;
 }
 
 }  // namespace
@@ -131,30 +151,32 @@ void NodeWriter::add_triangle(const std::array<Vec3, 3>& p,
       p.begin(), p.end(), [](const Vec3& a, const Vec3& b) { return dot(a, a) < dot(b, b); });
   const double d2 = dot(n, nearest);
   const bool grazing = std::abs(d2) < grazing_ * norm(n) * norm(nearest);
+  const Crowd crowd = crowd_of(p, d2, options_.divided.degree);
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;
     const double weight = grazing ? 0 : dot(n, cross(p[i], p[j])) / d2;
-    add_edge(vertices[i], vertices[j], p[i], p[j], weight, grazing ? 1 : 0);
+    add_edge(
+        vertices[i], vertices[j],
+        {.a = p[i], .b = p[j], .weight = weight, .gradient = grazing ? 1.0 : 0.0, .crowd = crowd});
   }
   if (grazing) {
-    visit_radius(p, d2 / 2, options_.undivided, 0, 0,
-                 [&](const Vec3& x, double weight) { sink_.add_undivided(x, weight); });
+    error2_ += visit_radius(p, d2 / 2, options_.undivided, 0, 0,
+                            [&](const Vec3& x, double weight) { sink_.add_undivided(x, weight); });
   } else {
-    write_face(p, -dot(n, n) / d2, 0);
+    write_face(p, -dot(n, n) / d2, crowd, 0);
   }
 }
 
-void NodeWriter::add_edge(std::uint32_t i, std::uint32_t j, const Vec3& a, const Vec3& b,
-                          double weight, double gradient) {
-  // The edge as seen from its lower vertex: a weight knows no direction, a gradient changes sign.
-  const bool swapped = j < i;
-  const HalfEdge edge{.a = swapped ? b : a,
-                      .b = swapped ? a : b,
-                      .weight = weight,
-                      .gradient = swapped ? -gradient : gradient};
+void NodeWriter::add_edge(std::uint32_t i, std::uint32_t j, HalfEdge edge) {
+  // As seen from its lower vertex: a weight knows no direction, a gradient changes sign.
+  if (j < i) {
+    std::swap(edge.a, edge.b);
+    edge.gradient = -edge.gradient;
+  }
   const auto join = [](HalfEdge& twin, const HalfEdge& other) {
     twin.weight += other.weight;
     twin.gradient += other.gradient;
+    if (other.crowd.per_wave > twin.crowd.per_wave) twin.crowd = other.crowd;
     return true;
   };
   waiting_.add(i, j, edge, join, [&](const HalfEdge& whole) { write_edge(whole); });
@@ -177,9 +199,9 @@ void NodeWriter::write_piece(const HalfEdge& edge, const Vec3& a, const Vec3& b,
   if (length <= kLongest * distance) {
     // A gradient is up to L / |x| times the harmonic, and bends more (6 measured).
     const double slope = 2 * norm(across) * options_.divided.degree / distance;
-    rule =
-        edge_rule(part_of(options_.divided, share), extent(a, b, distance, options_.divided.degree),
-                  share * (std::abs(edge.weight) + slope));
+    Extent z = extent(a, b, distance, options_.divided.degree);
+    z.crowd = edge.crowd;
+    rule = edge_rule(part_of(options_.divided, share), z, share * (std::abs(edge.weight) + slope));
   }
   if (rule.nodes.empty()) {
     if (!(share > std::exp2(-kMaxDepth))) throw_on_surface();
@@ -188,6 +210,7 @@ void NodeWriter::write_piece(const HalfEdge& edge, const Vec3& a, const Vec3& b,
     write_piece(edge, middle, b, share / 2);
     return;
   }
+  error2_ += rule.error * rule.error;
   for (std::size_t k = 0; k < rule.nodes.size(); ++k) {
     const Vec3 x = a + rule.nodes[k] * (b - a);
     const double weight = share * rule.weights[k];
@@ -196,19 +219,23 @@ void NodeWriter::write_piece(const HalfEdge& edge, const Vec3& a, const Vec3& b,
   }
 }
 
-void NodeWriter::write_face(const std::array<Vec3, 3>& p, double weight, int depth) {
+void NodeWriter::write_face(const std::array<Vec3, 3>& p, double weight, const Crowd& crowd,
+                            int depth) {
   const double distance = distance_of(p);
-  std::span<const FaceNode> rule;
+  FaceRule rule;
   if (!is_long(p, distance)) {
-    rule = face_rule(part_of(options_.divided, std::exp2(-depth)),
-                     extent(p, distance, options_.divided.degree), weight);
+    Extent z = extent(p, distance, options_.divided.degree);
+    z.crowd = crowd;
+    rule = face_rule(part_of(options_.divided, std::exp2(-depth)), z, weight);
   }
-  if (rule.empty()) {
+  if (rule.nodes.empty()) {
     if (depth == kMaxDepth) throw_on_surface();
-    halve(p, [&](const std::array<Vec3, 3>& half) { write_face(half, weight / 2, depth + 1); });
+    halve(p,
+          [&](const std::array<Vec3, 3>& half) { write_face(half, weight / 2, crowd, depth + 1); });
     return;
   }
-  for (const FaceNode& node : rule) {
+  error2_ += rule.error * rule.error;
+  for (const FaceNode& node : rule.nodes) {
     nodes_.add(node.at[0] * p[0] + node.at[1] * p[1] + node.at[2] * p[2], node.weight * weight);
   }
 }

@@ -64,23 +64,27 @@ class NodeWriter {
                     const std::array<std::uint32_t, 3>& vertices);
   // Half-edges and nodes that are left.
   void flush();
+  // Sum of the squares of what the rules leave of the elements written so far: the square of the
+  // l2 norm of their errors, which add up like random numbers.
+  double error2() const { return error2_; }
 
  private:
   struct HalfEdge {
     Vec3 a, b;
     double weight = 0;    // W
     double gradient = 0;  // of -(a x b) . grad
+    Crowd crowd;
   };
-  void add_edge(std::uint32_t i, std::uint32_t j, const Vec3& a, const Vec3& b, double weight,
-                double gradient);
+  void add_edge(std::uint32_t i, std::uint32_t j, HalfEdge edge);
   void write_edge(const HalfEdge& edge);
   void write_piece(const HalfEdge& edge, const Vec3& a, const Vec3& b, double share);
-  void write_face(const std::array<Vec3, 3>& p, double weight, int depth);
+  void write_face(const std::array<Vec3, 3>& p, double weight, const Crowd& crowd, int depth);
 
   NodeOptions options_;
   double grazing_;  // d_T / r
   NodeSink& sink_;
   NodeBuffer nodes_;
+  double error2_ = 0;
   TwinCache<HalfEdge> waiting_;
 };
 

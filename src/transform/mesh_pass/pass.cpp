@@ -203,6 +203,7 @@ class Pass {
       }
     }
     writer.flush();
+    part.node_error2 = writer.error2();
     between.flush();
     sink.sum_undivided();
     arrays_.give_back(std::move(lumps));
@@ -219,7 +220,7 @@ class Pass {
       if ((block.flag[t] & kNodes) != 0) {
         writer.add_triangle(p, mesh_.triangle(first + t));
       }
-      if ((block.flag[t] & kMeanNodes) != 0) part.mean += radius_integral(p, plan_.mean_error);
+      if ((block.flag[t] & kMeanNodes) != 0) part.mean += radius_integral(p, plan_.shares.mean);
     }
   }
 
@@ -332,13 +333,13 @@ class Pass {
 
   void set_error(const BlockSums& sums, double lumps2, MeshPassResult& result) {
     PassFacts facts{.face_error2 = sums.face_error2,
-                    .noded = sums.nodes,
                     .half_edges = {},
                     .source2 = source2_ + lumps2,
                     .hessian2 = hessian2_,
                     .vertices = mesh_.n_vertices,
                     .transform = transform_};
     for (const MeshPart& part : parts_) {
+      facts.node_error2 += part.node_error2;
       facts.half_edges.insert(facts.half_edges.end(), part.half_edges.begin(),
                               part.half_edges.end());
     }
@@ -350,7 +351,6 @@ class Pass {
     };
     result.report.error = relative(error.whole, 1);
     result.report.band_error = relative(error.band, 3 * degree / 4 + 1);
-    result.edge_ratio = error.edge_ratio;
   }
 
   const MeshView& mesh_;
@@ -409,20 +409,13 @@ PassInput pass_input(const MeshView& mesh, const MeshPassOptions& options, const
   return input;
 }
 
-// What a pass that fell short of the wish teaches the next one.
-void learn(const MeshPassResult& result, const MeshPlan& plan, double wish, double norm,
-           PassInput& input, PlanLimits& limits) {
-  MeshSample& sample = input.sample;
-  sample.edge_ratio = std::max(sample.edge_ratio, result.edge_ratio);
-  sample.measured_ratio = std::max(sample.measured_ratio, result.edge_ratio);
-  // Where edges nobody had seen were what was wrong, a plan that knows of them is enough.
-  const MeshPlan wiser = plan_mesh(input.mesh, sample, input.options.center, input.options.degree,
-                                   input.options.precision, limits);
-  if (wiser.block.tolerance2 < 0.5 * plan.block.tolerance2) return;
-  // What the plan allowed may be far above what came of it, and has to come below that.
-  const double planned = std::hypot(plan.rules, plan.window, plan.quanta) / plan.block.scale;
+// What a pass that fell short of the wish allows the next one. What the plan allowed may be far
+// above what came of it, and has to come below that; a fifth more, as not all errors follow.
+double tightened(const MeshPassResult& result, const MeshPlan& plan, double wish, double norm) {
+  const double planned =
+      std::hypot(plan.shares.rules, plan.shares.window, plan.quanta) / plan.block.scale;
   const double slack = std::max(1.0, planned / (result.report.error * norm));
-  limits.tighten *= 1.5 * slack * result.report.error / wish;
+  return 1.2 * slack * result.report.error / wish;
 }
 
 }  // namespace
@@ -457,10 +450,10 @@ MeshPassResult mesh_pass(const MeshView& mesh, const MeshPassOptions& options,
     if (outcome == Outcome::kDone) {
       // The sample may have missed what matters, or taken the norm for larger than it is.
       const double norm = norm_of_degrees(result.coefficients, 1, options.degree);
-      const double wish = std::max(options.precision, norm > 0 ? plan.rounding / norm : 1.0);
+      const double wish = std::max(options.precision, norm > 0 ? plan.shares.rounding / norm : 1.0);
       result.report.reached = !(result.report.error > wish);
       if (result.report.reached || tries++ == kMostTries) return result;
-      learn(result, plan, wish, norm, input, limits);
+      limits.tighten *= tightened(result, plan, wish, norm);
     }
     times = std::move(result.times);
   }

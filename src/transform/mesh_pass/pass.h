@@ -28,8 +28,7 @@ struct MeshPassResult {
   double min_cos_gamma = 0;
   std::size_t bad_triangles = 0;
   FastReport report;
-  double edge_ratio = 0;  // energy of the errors of lumped edges in units of that of lumped faces
-  StageTimes times;       // "triangles", "spread", "fourier"; "order" if triangles were sorted
+  StageTimes times;  // "triangles", "spread", "fourier"; "order" if triangles were sorted
 };
 
 // Throws InvalidInput for coordinates that are not finite, indices out of range, `check` that

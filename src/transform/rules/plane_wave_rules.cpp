@@ -178,8 +178,18 @@ double extent_power(const Extent& z, int p) {
 
 namespace {
 
+// By how much more the errors of an element count for its neighbours.
 double in_step(const NodeAllowance& allowance, const Extent& z) {
-  return allowance.degree == 0 ? 1 : neighbours_in_step(z.wave2);
+  if (allowance.degree == 0 || z.crowd.needle) return 1;
+  const double along = neighbours_in_step(z.wave2), across = kInStep * z.crowd.per_wave;
+  return across > along ? std::min(kMostInStep, std::sqrt(along * across)) : along;
+}
+
+// Those of needles that go as z^p.
+double in_row(const Extent& z, int p) {
+  if (!z.crowd.needle) return 1;
+  const double energy = 2 * std::sqrt(std::numbers::pi * p) * z.crowd.per_wave;
+  return energy > 1 ? std::min(kMostInStep, std::sqrt(energy)) : 1;
 }
 
 }  // namespace
@@ -195,22 +205,20 @@ EdgeRule edge_rule(const NodeAllowance& allowance, const Extent& z, double weigh
   const double error = std::abs(weight) * in_step(allowance, z);
   for (std::size_t k = 0; k < rules.size(); ++k) {
     const int p = 2 * static_cast<int>(k + 1);
-    if (error * factors[k] * extent_power(z, p) <= allowance.error) {
-      return {rules[k].nodes, rules[k].weights};
-    }
+    const double left = error * factors[k] * extent_power(z, p) * in_row(z, p);
+    if (left <= allowance.error) return {rules[k].nodes, rules[k].weights, left};
   }
   return {};
 }
 
-std::span<const FaceNode> face_rule(const NodeAllowance& allowance, const Extent& z,
-                                    double weight) {
+FaceRule face_rule(const NodeAllowance& allowance, const Extent& z, double weight) {
   const auto& rules = triangle_rules();
   const std::vector<double>& factors = factors_for(allowance).face;
   const double error = std::abs(weight) * in_step(allowance, z);
   for (std::size_t k = 0; k < rules.size(); ++k) {
-    if (error * factors[k] * extent_power(z, rules[k].power) <= allowance.error) {
-      return rules[k].nodes;
-    }
+    const double left =
+        error * factors[k] * extent_power(z, rules[k].power) * in_row(z, rules[k].power);
+    if (left <= allowance.error) return {rules[k].nodes, left};
   }
   return {};
 }

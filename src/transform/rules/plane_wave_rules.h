@@ -23,10 +23,27 @@ struct NodeAllowance {
 
 struct EdgeRule {
   std::span<const double> nodes, weights;  // on [0, 1], weights of sum 1
+  double error = 0;                        // what it leaves, as NodeAllowance has it
 };
 struct FaceNode {
   std::array<double, 3> at;  // barycentric
   double weight;             // sum 1
+};
+struct FaceRule {
+  std::span<const FaceNode> nodes;
+  double error = 0;
+};
+
+// Side by side with elements that are narrow, b wide as seen from the centre, lie others that are
+// alike, and what they leave adds up as it is in waves across them: as many as fit into a wave, as
+// neighbours_in_step() has it. Needles longer than the shortest wave are worse: rows of them add up
+// in all waves that run along them, and vanish in all others. For elements whose error goes as
+// (k cos psi)^p, k <= L, psi the angle between wave and element, and M rows b apart, the energy is
+//   M (2 pi / b) int_-L^L (k/L)^2p dk,  instead of  M int_{k < L} (k/L)^2p cos^2p psi d^2k,
+// that is 2 / (L b <cos^2p>) times as much, <cos^2p> about 1 / sqrt(pi p).
+struct Crowd {
+  double per_wave = 0;  // 1 / (L b)
+  bool needle = false;  // a wave fits along
 };
 
 // How far an edge or face extends. Along a straight piece, x/|x| bends: derivative p of
@@ -36,6 +53,7 @@ struct FaceNode {
 struct Extent {
   double wave2 = 0;  // (L theta)^2
   double bend2 = 0;  // (length / distance)^2
+  Crowd crowd = {};
 };
 
 // Errors of elements add up in squares where each is as long as a wave. Shorter neighbours on a
@@ -43,10 +61,10 @@ struct Extent {
 // factor an element counts more, for a (L theta)^2.
 double neighbours_in_step(double wave2);
 
-// The smallest rule for an element of extent z and total weight `weight`; empty if it is better cut
-// in halves.
+// The smallest rule for an element of extent z and total weight `weight`; without nodes if it is
+// better cut in halves.
 EdgeRule edge_rule(const NodeAllowance& allowance, const Extent& z, double weight);
-std::span<const FaceNode> face_rule(const NodeAllowance& allowance, const Extent& z, double weight);
+FaceRule face_rule(const NodeAllowance& allowance, const Extent& z, double weight);
 
 // Below this d_T / r a triangle is taken out of (M6) and summed by bounded terms (method 3e). Those
 // have gradients, whose error in the windows of the fast sums is some 9 L times that of weights

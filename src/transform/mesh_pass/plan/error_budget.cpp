@@ -6,6 +6,22 @@
 
 namespace rholm {
 
+double sampled_error2(std::vector<SampledHalfEdge>& sample, std::uint32_t sampled_names) {
+  std::sort(sample.begin(), sample.end(), [](const SampledHalfEdge& a, const SampledHalfEdge& b) {
+    return a.name != b.name ? a.name < b.name : a.error < b.error;
+  });
+  double sum = 0;
+  for (std::size_t i = 0; i < sample.size();) {
+    double error = 0;
+    const std::uint64_t name = sample[i].name;
+    for (; i < sample.size() && sample[i].name == name; ++i) {
+      if (sample[i].lumped) error += sample[i].error;
+    }
+    sum += error * error;
+  }
+  return sum * 4294967296.0 / std::max(1.0, static_cast<double>(sampled_names));
+}
+
 double norm_of_degrees(const Coefficients& c, int first, int last) {
   double sum = 0;
   for (int l = first; l <= last; ++l) {
@@ -17,9 +33,9 @@ double norm_of_degrees(const Coefficients& c, int first, int last) {
 PassError error_of_pass(const MeshPlan& plan, PassFacts& facts, const Coefficients& coefficients) {
   const int degree = plan.divided.degree;
   const double edges2 = sampled_error2(facts.half_edges, plan.block.sampled_names);
-  const double lumped2 =
-      plan.coherence > 0 ? plan.coherence * facts.face_error2 : facts.face_error2 + edges2;
-  const double rules = rule_error(plan, lumped2, static_cast<double>(facts.noded));
+  const double lumps = lumping_error(degree) * plan.in_step;
+  const double rules = plan.shares.caution *
+                       std::sqrt(lumps * lumps * (facts.face_error2 + edges2) + facts.node_error2);
   const GridLayout& layout = facts.transform.fourier.layout;
   const double relative_window =
       spread_error(layout.width, static_cast<double>(layout.n_phi) / (2.0 * std::max(degree, 1)));
@@ -31,14 +47,16 @@ PassError error_of_pass(const MeshPlan& plan, PassFacts& facts, const Coefficien
                         rounding * generic(facts.source2 + facts.hessian2);
   const double scale = plan.block.scale;
   // Vertices in step with the grid leave the window's error of the whole, see
-  // MeshPlan::most_window.
-  const double in_step = 0.5 * relative_window * scale * norm_of_degrees(coefficients, 1, degree);
+  // ErrorShares::most_window: of values half of it (measured as kLatticeShare of plan.cpp), of
+  // Hessians all, as much more as these count.
+  const double whole = relative_window * scale * norm_of_degrees(coefficients, 1, degree);
+  const double in_step =
+      whole * std::hypot(0.5, std::sqrt(amplified / std::max(facts.source2, 1e-300)));
   PassError error;
   error.whole = std::hypot(rules, window, std::hypot(in_step, plan.quanta)) / scale;
   // Of l^6, as the error of lumping grows, 0.82 lies above 3L/4; of (2l+1)/(l(l+1))^2, as that of
   // windows falls, 0.78 / L^2.
   error.band = std::hypot(0.9 * rules, 0.88 / std::max(degree, 1) * window) / scale;
-  if (facts.face_error2 > 0) error.edge_ratio = edges2 / facts.face_error2;
   return error;
 }
 

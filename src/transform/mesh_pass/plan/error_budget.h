@@ -2,6 +2,7 @@
 // it.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "harmonic/nonuniform/nonuniform.h"
@@ -13,7 +14,7 @@ namespace rholm {
 
 struct PassFacts {
   double face_error2 = 0;  // see BlockSums
-  std::size_t noded = 0;   // triangles with nodes
+  double node_error2 = 0;  // of all elements with nodes, see NodeWriter
   std::vector<SampledHalfEdge> half_edges;
   double source2 = 0;   // sum of squares of all that was spread
   double hessian2 = 0;  // and of L^2 times Hessians, at the vertices
@@ -25,10 +26,12 @@ struct PassFacts {
 struct PassError {
   double whole = 0;  // l2 over 1 <= l <= L
   double band = 0;   // over the degrees above 3L/4
-  // Energy of the errors of lumped edges in units of that of lumped faces; 0 if there are none.
-  double edge_ratio = 0;
 };
 PassError error_of_pass(const MeshPlan& plan, PassFacts& facts, const Coefficients& coefficients);
+
+// Sum of squares of W z^4 over all edges between lumped triangles, from the sample of half-edges
+// the pass took. Sorts it.
+double sampled_error2(std::vector<SampledHalfEdge>& sample, std::uint32_t sampled_names);
 
 // l2 norm of the degrees first ... last of the function.
 double norm_of_degrees(const Coefficients& c, int first, int last);

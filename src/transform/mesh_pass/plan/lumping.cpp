@@ -20,15 +20,14 @@ double lumped_error2(const MeshSample& sample, double tolerance2, double enough)
     faces += entry.face_error2;
   }
   faces *= sample.share;
-  // Where no neighbours are known, the edges' part is a guess until a pass has told it.
-  const double unseen = (sample.edge_share > 0 ? sample.measured_ratio : sample.edge_ratio) * faces;
+  if (!(sample.edge_share > 0)) return (1 + sample.unseen_edges) * faces;
   for (const MeshSample::Edge& edge : sample.edges) {
     if (edge.lower2 > tolerance2) continue;
     const double error = edge.upper2 > tolerance2 ? edge.lower : edge.lower + edge.upper;
     edges += error * error;
     if (sample.edge_share * edges > enough) break;
   }
-  return faces + std::max(unseen, sample.edge_share * edges);
+  return faces + sample.edge_share * edges;
 }
 
 // Energy of all errors if everything is lumped, in units of what triangles have on their own: small
@@ -134,8 +133,7 @@ Seen with_hessians(const MeshSample& sample, const std::vector<RuleErrors>& rule
   MeshSample& seen = result.sample;
   seen.share = sample.share;
   seen.edge_share = sample.edge_share;
-  seen.edge_ratio = 0;
-  seen.measured_ratio = sample.measured_ratio;
+  seen.unseen_edges = 0;                      // they are in the entries
   std::vector<std::array<double, 3>> errors;  // of half-edges
   std::vector<double> errors2;
   errors.reserve(sample.triangles.size());

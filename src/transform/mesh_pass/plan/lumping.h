@@ -3,7 +3,8 @@
 
 #include <optional>
 
-#include "transform/mesh_pass/plan/plan.h"
+#include "transform/mesh_pass/plan/sample.h"
+#include "transform/rules/plane_wave_rules.h"
 
 namespace rholm {
 

@@ -1,0 +1,57 @@
+// A look at some of a mesh's triangles, before a pass over all of them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "rholm/mesh_view.h"
+
+namespace rholm {
+
+// Triangles spread over the mesh, in runs of neighbours in the file's order; scaled lengths.
+struct MeshSample {
+  // In units of lumping_error(L): see TriangleBlock.
+  struct Entry {
+    double error2;        // of the triangle by itself: what the pass decides by
+    double face_error2;   // (F z^4)^2
+    double face_weight2;  // F^2
+  };
+  // An edge whose triangles both are in the sample: error2 of the triangles, the lower first, and
+  // W z^4 of the half-edges in the same order; W of both together.
+  struct Edge {
+    double lower2, upper2;
+    double lower, upper;
+    double weight;
+  };
+  std::vector<Entry> entries;  // error2 ascending
+  std::vector<Edge> edges;
+  // What rules with Hessians need to know of a triangle: W and z^2 of the half-edges, see
+  // kHermiteBend, and F; and the half-edges 3 t + i that are of one edge.
+  struct Triangle {
+    std::array<double, 3> weight, z2;
+    double face;
+  };
+  std::vector<Triangle> triangles;
+  std::vector<std::array<std::uint32_t, 2>> twins;
+  double edge_share = 0;  // edges of the mesh per edge of the sample; 0: none is known
+  // Energy of the edges' errors in units of the faces' where none is known: as on smooth meshes. On
+  // others the pass finds more, and is repeated.
+  double unseen_edges = 3;
+  double scale = 1;       // a power of two that brings lengths to about 1
+  double mean = 0;        // of r over directions
+  double norm = 0;        // sqrt(int (r - mean)^2 dOmega)
+  double share = 1;       // triangles of the mesh per triangle of the sample
+  bool overlaps = false;  // some faces turn their back
+  double angle = 0;       // of an edge as seen from the centre, on average
+  double aligned = 0;     // share of the edges, by weight, along meridians or parallels
+};
+MeshSample sample_mesh(const MeshView& mesh, const Vec3& center, int degree);
+
+// What the sample says of the whole, in squares and moduli that are known to some tens of per cent.
+// Of what is spread, edges in some three nodes or two lumps, faces in some six or three, with
+// gradients that count about as much again:
+double source2_of(const MeshSample& sample);  // the sum of squares
+double moduli_of(const MeshSample& sample);   // the sum of moduli
+
+}  // namespace rholm

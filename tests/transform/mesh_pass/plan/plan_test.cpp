@@ -1,0 +1,170 @@
+#include "transform/mesh_pass/plan/plan.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "rholm/error.h"
+#include "rholm/primitives.h"
+#include "support/adversarial_meshes.h"
+
+namespace rholm {
+namespace {
+
+MeshSample unit_sample() {
+  MeshSample sample;
+  sample.mean = 1;
+  sample.norm = 0.5;
+  return sample;
+}
+
+TEST(divide_error, shares_add_up_in_squares_to_no_more_than_the_wish) {
+  for (const double precision : {1e-2, 1e-6, 1e-10}) {
+    const ErrorShares shares = divide_error(unit_sample(), precision, 1);
+    const double sum = std::hypot(shares.caution * shares.rules, shares.window, shares.quanta);
+    EXPECT_LE(sum, precision * 0.5);
+    EXPECT_GT(sum, precision * 0.25);
+    EXPECT_EQ(shares.mean, precision);
+  }
+}
+
+TEST(divide_error, asks_for_no_more_than_rounding_leaves) {
+  const ErrorShares shares = divide_error(unit_sample(), 1e-30, 1);
+  EXPECT_GT(shares.rules, 0.1 * kRounding);
+  EXPECT_EQ(shares.mean, kRounding);
+}
+
+TEST(divide_error, tightens_all_shares_alike) {
+  const ErrorShares loose = divide_error(unit_sample(), 1e-5, 1);
+  const ErrorShares tight = divide_error(unit_sample(), 1e-5, 4);
+  EXPECT_DOUBLE_EQ(tight.rules, loose.rules / 4);
+  EXPECT_DOUBLE_EQ(tight.window, loose.window / 4);
+  EXPECT_DOUBLE_EQ(tight.quanta, loose.quanta / 4);
+  EXPECT_DOUBLE_EQ(tight.most_window, loose.most_window / 4);
+}
+
+TEST(divide_error, is_careful_with_sheets_that_overlap_and_edges_along_the_grid) {
+  MeshSample sample = unit_sample();
+  const ErrorShares plain = divide_error(sample, 1e-5, 1);
+  sample.overlaps = true;
+  sample.aligned = 1;
+  const ErrorShares careful = divide_error(sample, 1e-5, 1);
+  EXPECT_GT(careful.caution, 1);
+  EXPECT_LT(careful.rules, plain.rules);
+  EXPECT_LT(careful.most_window, plain.most_window / 5);
+}
+
+TEST(divide_error, refuses_a_surface_that_no_direction_sees) {
+  EXPECT_THROW(divide_error(MeshSample{}, 1e-5, 1), Error);
+}
+
+TEST(choose_lumps, lumps_fine_meshes_whole_and_coarse_ones_less) {
+  const Mesh mesh = bumpy_sphere(5);
+  const auto share_at = [&](int degree) {
+    const MeshSample sample = sample_mesh(view_of(mesh), {}, degree);
+    return choose_lumps(sample, divide_error(sample, 1e-4, 1), degree).node_share;
+  };
+  EXPECT_EQ(share_at(8), 0);
+  EXPECT_GT(share_at(200), 0.5);
+}
+
+// Elements much shorter than a wave are in step with their neighbours.
+TEST(choose_lumps, counts_short_elements_as_in_step) {
+  const Mesh mesh = icosphere(5);
+  const MeshSample sample = sample_mesh(view_of(mesh), {}, 1);
+  const LumpChoice choice = choose_lumps(sample, divide_error(sample, 1e-6, 1), 1);
+  EXPECT_GT(choice.in_step, 5);
+  EXPECT_DOUBLE_EQ(choice.in_step, neighbours_in_step(sample.angle * sample.angle));
+}
+
+TEST(choose_hessians, takes_none_where_all_is_lumped_and_what_is_cheaper_elsewhere) {
+  const Mesh mesh = bumpy_sphere(5);
+  for (const int degree : {8, 64, 128}) {
+    const MeshSample sample = sample_mesh(view_of(mesh), {}, degree);
+    const LumpChoice lumps = choose_lumps(sample, divide_error(sample, 1e-5, 1), degree);
+    const auto hermite = choose_hessians(sample, lumps);
+    if (lumps.node_share == 0) {
+      EXPECT_FALSE(hermite.has_value());
+    } else if (hermite) {
+      EXPECT_LT(hermite->cost, kNodedCost * lumps.node_share);
+    }
+    EXPECT_EQ(hermite.has_value(), degree > 8) << degree;
+  }
+}
+
+TEST(single_suffices, only_where_its_rounding_is_below_the_windows_share) {
+  const Mesh mesh = bumpy_sphere(4);
+  const MeshSample sample = sample_mesh(view_of(mesh), {}, 32);
+  bool before = true;
+  for (double precision = 1e-2; precision > 1e-12; precision /= 10) {
+    const bool single = single_suffices(sample, divide_error(sample, precision, 1), 32, false);
+    EXPECT_LE(single, before) << precision;
+    before = single;
+  }
+  EXPECT_TRUE(single_suffices(sample, divide_error(sample, 1e-3, 1), 32, false));
+  EXPECT_FALSE(before);
+}
+
+TEST(choose_quantum, is_a_power_of_two_within_its_share) {
+  for (const std::size_t vertices : {4ul, 1000ul, 10'000'000ul}) {
+    for (const double precision : {1e-2, 1e-8}) {
+      const ErrorShares shares = divide_error(unit_sample(), precision, 1);
+      const Quantum fine = choose_quantum(shares, vertices, false);
+      const Quantum coarse = choose_quantum(shares, vertices, true);
+      int exponent;
+      EXPECT_EQ(std::frexp(coarse.size, &exponent), 0.5);
+      EXPECT_LE(coarse.error, shares.quanta);
+      EXPECT_GT(coarse.error, shares.quanta / 2);
+      EXPECT_EQ(coarse.size, 64 * fine.size);
+      EXPECT_EQ(coarse.error, 64 * fine.error);
+      // Of q^2 / 12 at four corners of six and twice that at the others, over 4 pi.
+      const double variance = coarse.size * coarse.size * 2 / 3 * static_cast<double>(vertices);
+      EXPECT_NEAR(coarse.error, std::sqrt(variance / (4 * 3.14159265358979)), 1e-9 * coarse.error);
+    }
+  }
+}
+
+MeshPlan plan_of(const Mesh& mesh, int degree, double precision, const PlanLimits& limits = {}) {
+  const MeshView view = view_of(mesh);
+  return plan_mesh(view, sample_mesh(view, {}, degree), {}, degree, precision, limits);
+}
+
+TEST(plan_mesh, lumps_a_fine_smooth_mesh_in_single_precision) {
+  const MeshPlan plan = plan_of(bumpy_sphere(6), 32, 1e-4);
+  EXPECT_EQ(plan.node_share, 0);
+  EXPECT_TRUE(plan.single);
+  EXPECT_FALSE(plan.block.hessians);
+  EXPECT_EQ(plan.hessian2, 0);
+}
+
+TEST(plan_mesh, gives_a_coarse_mesh_hessians_or_nodes) {
+  const MeshPlan plan = plan_of(bumpy_sphere(4), 64, 1e-6);
+  EXPECT_TRUE(plan.block.hessians || plan.node_share > 0);
+  EXPECT_GT(plan.divided.error, 0);
+  EXPECT_TRUE(plan.divided.divided);
+  EXPECT_FALSE(plan.undivided.divided);
+}
+
+TEST(plan_mesh, minds_what_a_first_try_has_taught) {
+  const Mesh mesh = bumpy_sphere(6);
+  EXPECT_FALSE(plan_of(mesh, 32, 1e-4, {.forbid_single = true}).single);
+  EXPECT_EQ(plan_of(mesh, 32, 1e-4, {.many_nodes = true}).node_share, 1);
+  const MeshPlan loose = plan_of(mesh, 32, 1e-4), tight = plan_of(mesh, 32, 1e-4, {.tighten = 3});
+  EXPECT_DOUBLE_EQ(tight.shares.rules, loose.shares.rules / 3);
+  EXPECT_LT(tight.block.tolerance2, loose.block.tolerance2);
+}
+
+TEST(window_error, keeps_the_share_for_sources_of_any_size) {
+  const MeshPlan plan = plan_of(bumpy_sphere(5), 32, 1e-5);
+  for (const double source2 : {1e-6, 1.0, 1e6}) {
+    const double relative = window_error(plan, source2);
+    EXPECT_LE(relative * std::sqrt(source2 / (4 * 3.14159265358979)),
+              plan.shares.window * (1 + 1e-12));
+    EXPECT_LE(relative, plan.shares.most_window);
+  }
+  EXPECT_EQ(window_error(plan, 0), plan.shares.most_window);
+}
+
+}  // namespace
+}  // namespace rholm
