@@ -35,19 +35,6 @@ std::size_t sources_of(const Analysis& analysis) {
                        : analysis.edge_nodes + analysis.face_nodes;
 }
 
-Json fast_json(const FastReport& fast) {
-  return {{"precision", fast.single ? "single" : "double"},
-          {"window_width", fast.width},
-          {"oversampling", fast.oversampling},
-          {"lumped_faces", fast.lumped_triangles},
-          {"vertices", fast.vertices},
-          {"nodes", fast.nodes},
-          {"passes", fast.passes},
-          {"precision_reached", fast.reached},
-          {"estimated_error", fast.error},
-          {"estimated_error_of_top_quarter", fast.band_error}};
-}
-
 Json tolerance_json(const AnalyzeCommandOptions& options, const ToleranceReport& report) {
   const Tolerance tolerance = *options.tolerance.parsed();
   return {{"wanted", tolerance.error},
@@ -80,7 +67,7 @@ Json analyze_json(const AnalyzeCommandOptions& options, const AnalyzeRun& run) {
                     {"nodes", sources_of(analysis)}};
   json["engine"] = analysis.fast ? "fast" : options.engine.empty() ? "direct" : options.engine;
   if (analysis.fast) {
-    json["fast"] = fast_json(*analysis.fast);
+    json["fast"] = json_of(*analysis.fast);
   } else {
     json["edge_nodes"] = analysis.edge_nodes;
     json["face_nodes"] = analysis.face_nodes;
@@ -93,6 +80,8 @@ Json analyze_json(const AnalyzeCommandOptions& options, const AnalyzeRun& run) {
   json["tail_strength"] = json_of(analysis.expansion.tail_strength);
   json["truncation_rms"] = json_of(analysis.truncation_rms);
   json["truncation_rms_doubt"] = json_of(analysis.truncation_rms_doubt);
+  // The difference of the exact norm and that of the coefficients, within the doubt.
+  json["kinds"] = {{"truncation_rms", "exact"}, {"truncation_rms_doubt", "bound"}};
   json["errors"] = json_of(analysis.expansion.errors);
   json["tolerance"] =
       encoded.tolerance ? tolerance_json(options, *encoded.tolerance) : Json(nullptr);

@@ -92,17 +92,6 @@ Json memory_json(const BenchCase& run) {
   return json;
 }
 
-Json fast_json(const FastReport& fast) {
-  return {{"precision", fast.single ? "single" : "double"},
-          {"window_width", fast.width},
-          {"oversampling", fast.oversampling},
-          {"lumped_faces", fast.lumped_triangles},
-          {"nodes", fast.nodes},
-          {"passes", fast.passes},
-          {"estimated_error", fast.error},
-          {"estimated_error_of_top_quarter", fast.band_error}};
-}
-
 void add_floors(const BenchCase& run, std::size_t faces, Json& json) {
   const FloorsBench& floors = *run.floors;
   const double bytes = static_cast<double>(run.file.file_bytes);
@@ -241,7 +230,11 @@ std::string floors_text(const BenchCase& run) {
 Json json_of(const CoefficientsError& error) {
   return {{"error", error.error},
           {"error_of_top_quarter", error.top_error},
-          {"error_of_mean", error.mean}};
+          {"error_of_mean", error.mean},
+          {"kinds",
+           {{"error", "measured"},
+            {"error_of_top_quarter", "measured"},
+            {"error_of_mean", "measured"}}}};
 }
 
 Json machine_json() {
@@ -266,7 +259,7 @@ Json case_json(const BenchCase& run) {
   json["counts"] = {{"vertices", file.encoded.vertices}, {"faces", faces}, {"sources", sources}};
   json["degree"] = run.degree;
   json["precision"] = run.precision;
-  if (file.encoded.analysis.fast) json["fast"] = fast_json(*file.encoded.analysis.fast);
+  if (file.encoded.analysis.fast) json["fast"] = json_of(*file.encoded.analysis.fast);
   json["accuracy"] = json_of(run.error);
   json["accuracy"]["reference"] = run.reference;
   json["runs"] = Json::array();

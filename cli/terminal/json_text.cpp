@@ -42,7 +42,29 @@ Json json_of(const TruncationErrors& errors) {
           {"measured_max_distance", json_of(errors.measured_max_distance)},
           {"distance_rms", json_of(errors.distance_rms)},
           {"distances_are_closest", errors.distances_are_closest},
-          {"points", errors.points}};
+          {"points", errors.points},
+          {"kinds",
+           {{"rms", errors.rms_is_exact ? "exact" : "measured"},
+            {"predicted_max", "estimate"},
+            {"predicted_max_distance", "estimate"},
+            {"measured_max", "measured"},
+            {"measured_max_distance", "measured"},
+            {"distance_rms", "measured"}}}};
+}
+
+Json json_of(const FastReport& fast) {
+  return {
+      {"precision", fast.single ? "single" : "double"},
+      {"window_width", fast.width},
+      {"oversampling", fast.oversampling},
+      {"lumped_faces", fast.lumped_triangles},
+      {"vertices", fast.vertices},
+      {"nodes", fast.nodes},
+      {"passes", fast.passes},
+      {"precision_reached", fast.reached},
+      {"estimated_error", fast.error},
+      {"estimated_error_of_top_quarter", fast.band_error},
+      {"kinds", {{"estimated_error", "estimate"}, {"estimated_error_of_top_quarter", "estimate"}}}};
 }
 
 void print_json(const Json& json) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "rholm/analyze.h"
 #include "rholm/coefficients.h"
 #include "rholm/mesh.h"
 #include "rholm/star.h"
@@ -19,7 +20,10 @@ using Json = nlohmann::ordered_json;
 Json json_of(const Vec3& v);  // [x, y, z]
 Json json_of(const Bounds& bounds);
 Json json_of(const std::vector<Attribute>& attributes);
+// Both with "kinds", what each figure of an error is worth: "exact" but for rounding, "measured"
+// against the shape, or an "estimate" by a model of what is left.
 Json json_of(const TruncationErrors& errors);
+Json json_of(const FastReport& fast);
 template <typename T>
 Json json_of(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);

@@ -112,6 +112,14 @@ class Analyze(CliTest):
         self.assertEqual(report["engine"], "fast")
         self.assertIsNone(report["closure_residual"])
         self.assertLess(report["fast"]["estimated_error"], 1e-8)
+        # What each figure of an error is worth.
+        self.assertEqual(report["fast"]["kinds"]["estimated_error"], "estimate")
+        self.assertEqual(report["errors"]["kinds"]["rms"], "exact")
+        self.assertEqual(report["errors"]["kinds"]["measured_max"], "measured")
+        for part in (report, report["fast"], report["errors"]):
+            for figure, kind in part["kinds"].items():
+                self.assertIn(figure, part)
+                self.assertIn(kind, ("exact", "bound", "measured", "estimate"))
         direct = self.rholm("analyze", "a.off", "--degree", "4", "--engine", "direct", "-o",
                             "b.h5", "--json").json()
         self.assertEqual(direct["engine"], "direct")
