@@ -153,6 +153,12 @@ inline Mesh lattice(int n_theta, int n_phi) {
   return shaped(latitude_longitude_sphere(n_theta, n_phi), smooth_radius);
 }
 
+// Nearly a ball.
+inline Mesh planet(int n_theta, int n_phi) {
+  return shaped(latitude_longitude_sphere(n_theta, n_phi),
+                [](const Vec3& u) { return 1 + 1e-2 * (smooth_radius(u) - 1); });
+}
+
 // The northern third bent out of its rows.
 inline Mesh half_lattice(int n_theta, int n_phi) {
   Mesh mesh = lattice(n_theta, n_phi);
@@ -223,6 +229,12 @@ inline std::vector<AdversarialMesh> adversarial_meshes(Adversaries which) {
   add("lattice turned over", turned(lattice(80, 160), 1.5707963267948966), 64, 1e-5);
   add("lattice, half of it", half_lattice(90, 180), 64, 1e-5);
   add("lattice of a ball", latitude_longitude_sphere(80, 160), 64, 1e-6);
+  add("lattice of a ball", latitude_longitude_sphere(80, 160), 32, 1e-6);
+  add("lattice of a ball", latitude_longitude_sphere(64, 128), 64, 1e-3);
+  add("lattice of a ball", latitude_longitude_sphere(80, 160), 16, 1e-6);
+  add("lattice of a planet", planet(80, 160), 48, 1e-6);
+  add("lattice of a planet", planet(64, 128), 64, 1e-4);
+  add("ball", icosphere(5), 48, 1e-4);
   add("prism", box({2, 2, 2}, 40), 64, 1e-4);
   add("prism, long", box({1, 1, 6}, 40), 48, 1e-4);
   // Needles.

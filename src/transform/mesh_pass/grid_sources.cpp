@@ -77,7 +77,10 @@ void GridSources<T>::flush_gradients() {
 template <typename T>
 void PartSink<T>::add(std::span<const Node> nodes) {
   part_.nodes += nodes.size();
-  for (const Node& node : nodes) part_.weight += node.weight;
+  for (const Node& node : nodes) {
+    part_.weight += node.weight;
+    part_.modulus += std::abs(node.weight);
+  }
   if (grid_ != nullptr) return grid_->add(nodes);
   for (const Node& node : nodes) part_.source2 += node.weight * node.weight;
   part_.too_many = part_.too_many || part_.kept.size() + nodes.size() > kMostKept;

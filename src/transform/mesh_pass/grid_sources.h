@@ -66,6 +66,7 @@ struct MeshPart {
   bool too_many = false;
   double source2 = 0;      // of those kept
   double weight = 0;       // sum of weights, of all that are divided by l(l+1)
+  double modulus = 0;      // and of their moduli
   std::size_t nodes = 0;   // of all
   double node_error2 = 0;  // see NodeWriter::error2()
   Coefficients undivided;  // of nodes that are not divided by l(l+1), if there are any

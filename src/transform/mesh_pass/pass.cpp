@@ -30,7 +30,7 @@ constexpr std::size_t kVerticesPerStep = 256 * kVerticesPerBlock;
 // exactly; above, they are spread as they come, to a window chosen from the sample.
 constexpr double kFewNodes = 0.05;
 constexpr double kNodesEach = 5;  // of a triangle that has some, roughly
-// Tries to keep the precision: a second is rare, a third should not be needed.
+// Tries to keep the precision: a second is rare, a third needs no sample.
 constexpr int kMostTries = 3;
 
 // Progress of several threads.
@@ -340,6 +340,7 @@ class Pass {
                     .transform = transform_};
     for (const MeshPart& part : parts_) {
       facts.node_error2 += part.node_error2;
+      facts.node_modulus += part.modulus;
       facts.half_edges.insert(facts.half_edges.end(), part.half_edges.begin(),
                               part.half_edges.end());
     }
@@ -409,13 +410,14 @@ PassInput pass_input(const MeshView& mesh, const MeshPassOptions& options, const
   return input;
 }
 
-// What a pass that fell short of the wish allows the next one. What the plan allowed may be far
-// above what came of it, and has to come below that; a fifth more, as not all errors follow.
+// By how much less the next pass may leave than one that fell short of the wish. What the plan
+// allowed may be far above what came of it, and has to come below that; half as much again, as not
+// all errors follow.
 double tightened(const MeshPassResult& result, const MeshPlan& plan, double wish, double norm) {
   const double planned =
       std::hypot(plan.shares.rules, plan.shares.window, plan.quanta) / plan.block.scale;
   const double slack = std::max(1.0, planned / (result.report.error * norm));
-  return 1.2 * slack * result.report.error / wish;
+  return 1.5 * slack * result.report.error / wish;
 }
 
 }  // namespace
@@ -454,6 +456,7 @@ MeshPassResult mesh_pass(const MeshView& mesh, const MeshPassOptions& options,
       result.report.reached = !(result.report.error > wish);
       if (result.report.reached || tries++ == kMostTries) return result;
       limits.tighten *= tightened(result, plan, wish, norm);
+      limits.no_lumps = tries == kMostTries;  // and no longer what the sample says of them
     }
     times = std::move(result.times);
   }

@@ -13,8 +13,9 @@
 namespace rholm {
 
 struct PassFacts {
-  double face_error2 = 0;  // see BlockSums
-  double node_error2 = 0;  // of all elements with nodes, see NodeWriter
+  double face_error2 = 0;   // see BlockSums
+  double node_error2 = 0;   // of all elements with nodes, see NodeWriter
+  double node_modulus = 0;  // sum of the moduli of nodes' weights
   std::vector<SampledHalfEdge> half_edges;
   double source2 = 0;   // sum of squares of all that was spread
   double hessian2 = 0;  // and of L^2 times Hessians, at the vertices

@@ -25,6 +25,7 @@ struct PlanLimits {
   double tighten = 1;  // divides what is allowed
   bool forbid_single = false;
   bool many_nodes = false;  // more than the sample said
+  bool no_lumps = false;    // the sample misleads: nodes for every triangle
 };
 
 // The first decision: how the wanted error is divided among what leaves errors.
@@ -76,11 +77,18 @@ struct MeshPlan {
   double between = 0;     // nodes between the vertices of lumped triangles, per triangle, likewise
   double source2 = 0;     // sum of squares of the nodes' weights, as the sample has it
   double hessian2 = 0;    // and of L^2 times Hessians
-  bool single = false;    // single precision will do
+  double node_modulus = 0;  // sum of the moduli of the nodes' weights
+  double aligned = 0;       // part of the edges along meridians or parallels
+  bool single = false;      // single precision will do
 };
 // All of them.
 MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& center, int degree,
                    double precision, const PlanLimits& limits);
+
+// What windows leave, relative to their own error, of nodes in rows along meridians and parallels,
+// whose moduli have that sum: edges and faces have rows of their own, and what cancels between
+// them in the sum, as on a ball, does not cancel there.
+double rows_in_step(const MeshPlan& plan, double node_modulus);
 
 // The window error that keeps the plan's share for sources whose squared weights have that sum.
 double window_error(const MeshPlan& plan, double source2);

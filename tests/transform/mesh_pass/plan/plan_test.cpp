@@ -150,6 +150,10 @@ TEST(plan_mesh, minds_what_a_first_try_has_taught) {
   const Mesh mesh = bumpy_sphere(6);
   EXPECT_FALSE(plan_of(mesh, 32, 1e-4, {.forbid_single = true}).single);
   EXPECT_EQ(plan_of(mesh, 32, 1e-4, {.many_nodes = true}).node_share, 1);
+  const MeshPlan certain = plan_of(mesh, 32, 1e-4, {.no_lumps = true});
+  EXPECT_EQ(certain.block.tolerance2, 0);
+  EXPECT_EQ(certain.node_share, 1);
+  EXPECT_FALSE(certain.block.hessians);
   const MeshPlan loose = plan_of(mesh, 32, 1e-4), tight = plan_of(mesh, 32, 1e-4, {.tighten = 3});
   EXPECT_DOUBLE_EQ(tight.shares.rules, loose.shares.rules / 3);
   EXPECT_LT(tight.block.tolerance2, loose.block.tolerance2);
