@@ -76,16 +76,17 @@ struct TruncationErrors {
 
 // A surface as coefficients: what a model file holds.
 struct Expansion {
-  Coefficients coefficients;
+  Coefficients coefficients = {};
   RadialFunction function = RadialFunction::kRadius;
-  Vec3 center;         // of the expansion, in the coordinates of the original shape
-  std::string unit;    // of lengths, free text; empty if unknown
-  std::string method;  // how the coefficients were found: "edge", "area", ...; empty if unknown
+  Vec3 center = {};       // of the expansion, in the coordinates of the original shape
+  std::string unit = {};  // of lengths, free text; empty if unknown
+  // How the coefficients were found: "edge", "area", ...; empty if unknown.
+  std::string method = {};
   // int f^2 dOmega of the expanded function itself, not only of its first degrees: by Parseval
   // ||f - f_L||^2 = norm_squared - sum |c_lm|^2, (M7).
-  std::optional<double> norm_squared;
+  std::optional<double> norm_squared = {};
   // S of the predicted tail E_l ~ S / (pi l^4), method 5.
-  std::optional<double> tail_strength;
+  std::optional<double> tail_strength = {};
   // Of all its degrees; they do not hold when it is cut off.
   std::optional<TruncationErrors> errors = {};
 };

@@ -9,7 +9,7 @@ namespace rholm {
 struct Image {
   int width = 0;
   int height = 0;
-  std::vector<std::uint8_t> rgb;  // row-major from the top left, 3 bytes per pixel
+  std::vector<std::uint8_t> rgb = {};  // row-major from the top left, 3 bytes per pixel
 };
 
 }  // namespace rholm

@@ -26,23 +26,23 @@ enum class ScalarType : std::uint8_t {
 // (and alpha), normals nx, ny, nz, texture coordinates u, v, as in PLY files. Every type above
 // is exact in a double.
 struct Attribute {
-  std::string name;
+  std::string name = {};
   ScalarType type = ScalarType::kFloat32;
-  std::vector<double> values;  // one per vertex or point
+  std::vector<double> values = {};  // one per vertex or point
 };
 
 using Triangle = std::array<std::uint32_t, 3>;  // vertex indices, counter-clockwise from outside
 
 struct Mesh {
-  std::vector<Vec3> vertices;
-  std::vector<Triangle> triangles;
-  std::vector<Attribute> attributes;  // per vertex, each of vertices.size() values
+  std::vector<Vec3> vertices = {};
+  std::vector<Triangle> triangles = {};
+  std::vector<Attribute> attributes = {};  // per vertex, each of vertices.size() values
 };
 
 struct PointCloud {
-  std::vector<Vec3> points;
-  std::vector<Vec3> normals;          // empty, or one per point (as in the file, not normalised)
-  std::vector<Attribute> attributes;  // per point; normals are not repeated here
+  std::vector<Vec3> points = {};
+  std::vector<Vec3> normals = {};  // empty, or one per point (as in the file, not normalised)
+  std::vector<Attribute> attributes = {};  // per point; normals are not repeated here
 };
 
 // The attribute of that name, or nullptr.

@@ -18,7 +18,7 @@ namespace rholm {
 
 // Vertices within `radius` of a point in space. Distance is in space.
 struct BallRegion {
-  Vec3 center;
+  Vec3 center = {};
   double radius = 0;
 };
 // Vertices within `radius` of a vertex, along the surface, and so is the distance.
@@ -28,13 +28,13 @@ struct DiscRegion {
 };
 // Vertices in a box. Distance is in space.
 struct BoxRegion {
-  Vec3 min, max;
+  Vec3 min = {}, max = {};
 };
 // By an attribute. Values other than 0 and 1 make it a weight: it is the edit's, kept within 0 ...
 // 1, and there is no further transition. Else the vertices of value 1, and distance along the
 // surface.
 struct PropertyRegion {
-  std::string name;
+  std::string name = {};
 };
 // Vertices painted in this colour, 0xRRGGBB (attributes red, green, blue; 0 ... 255, or 0 ... 1
 // where they are no whole numbers). Distance along the surface.

@@ -17,9 +17,9 @@ namespace rholm {
 // One thing in the picture. Panels stand side by side.
 struct Panel {
   const Mesh* mesh = nullptr;
-  std::string label;            // below the panel; may be empty
-  std::vector<double> scalars;  // per vertex, coloured by the colour map; empty: plain
-  bool smooth = false;          // shade with vertex normals nx, ny, nz if the mesh has them
+  std::string label = {};            // below the panel; may be empty
+  std::vector<double> scalars = {};  // per vertex, coloured by the colour map; empty: plain
+  bool smooth = false;               // shade with vertex normals nx, ny, nz if the mesh has them
   // Per vertex, red, green, blue 0 ... 1 as a screen shows them (sRGB); instead of scalars.
   std::vector<std::array<float, 3>> colors = {};
 };
@@ -38,10 +38,10 @@ struct RenderOptions {
   int samples = 3;         // per pixel side: samples^2 rays a pixel, 1 ... 16
   int occlusion_rays = 4;  // per sample, 0 ... 256; 0 switches ambient occlusion off
   // Range of the colour map; by default the range of all scalars.
-  std::optional<double> scale_min;
-  std::optional<double> scale_max;
+  std::optional<double> scale_min = {};
+  std::optional<double> scale_max = {};
   bool scale_bar = true;  // drawn below the panels, with its label
-  std::string scale_label;
+  std::string scale_label = {};
 };
 
 // Throws InvalidInput for no panel, an empty mesh, or sizes out of range.

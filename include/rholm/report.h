@@ -15,13 +15,13 @@ namespace rholm {
 
 // How to get something again: "This page", "rholm report ...".
 struct ReportCommand {
-  std::string what;
-  std::string command;
+  std::string what = {};
+  std::string command = {};
 };
 
 struct ReportOptions {
-  std::string title;                         // what the page is of, as a rule a file's name
-  std::string shape_name;                    // of the shape, as a rule a file's name
+  std::string title = {};                    // what the page is of, as a rule a file's name
+  std::string shape_name = {};               // of the shape, as a rule a file's name
   std::vector<ReportCommand> commands = {};  // shown as they are, in this order
   std::vector<std::string> notes = {};       // what must be known of the input, a sentence each
   std::optional<double> tolerance = {};  // wanted rms error of the function: a line in the plots
