@@ -1,0 +1,70 @@
+// Vectors, errors, cancellation, pictures, version; and the header that has them all.
+#include <rholm/rholm.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "check.h"
+
+namespace {
+
+void vec3() {
+  expect(rholm::cross({1, 0, 0}, {0, 1, 0}) == rholm::Vec3{0, 0, 1}, "x cross y is z");
+  expect(rholm::norm({2, 3, 6}) == 7, "|(2, 3, 6)| is 7");
+}
+
+void error() {
+  try {
+    rholm::icosphere(-1);
+  } catch (const rholm::Error& refused) {
+    expect(refused.code() == rholm::ErrorCode::kInvalidInput, "the code says what is wrong");
+    expect(rholm::to_string(refused.code()) == std::string("InvalidInput"), "codes have names");
+    return;
+  }
+  expect(false, "an icosphere of -1 subdivisions is refused");
+}
+
+void context() {
+  rholm::Context context{.threads = 1};
+  context.progress = [](std::string_view, double) { return false; };
+  try {
+    rholm::encode(rholm::icosphere(3), {}, context);
+  } catch (const rholm::Error& stopped) {
+    expect(stopped.code() == rholm::ErrorCode::kCancelled, "a callback's false cancels");
+    return;
+  }
+  expect(false, "a callback's false stops a computation");
+}
+
+void image() {
+  const rholm::Image image{2, 1, {255, 0, 0, 0, 0, 255}};
+  const std::vector<char> png = rholm::encode_png(image);
+  // A PNG file begins with 8 bytes, length and name of the first chunk, width, height.
+  expect(png.size() > 24 && std::string(png.data() + 1, 3) == "PNG", "a PNG file says so");
+  expect(png[19] == 2 && png[23] == 1, "it has the image's width and height");
+}
+
+void version() {
+  expect(std::string(rholm::kVersion) == RHOLM_PACKAGE_VERSION,
+         "the package has the version of its header");
+}
+
+// From a box to coefficients and back by the one header.
+void rholm_h() {
+  rholm::EncodeOptions options;
+  options.analyze.degree = 8;
+  const rholm::Encoded encoded = rholm::encode(rholm::box({1, 1, 1}), options);
+  const rholm::Expansion& expansion = encoded.analysis.expansion;
+  const double mean_radius = expansion.coefficients.c(0, 0) / std::sqrt(4 * std::numbers::pi);
+  expect(mean_radius > 0.5 && mean_radius < std::sqrt(0.75),
+         "a box lies between its inscribed and its circumscribed sphere");
+  expect(rholm::synthesize(expansion, rholm::icosphere(2)).vertices.size() == 162,
+         "a surface has the vertices of its sphere");
+}
+
+}  // namespace
+
+std::vector<HeaderCheck> base_checks() {
+  return {{"vec3.h", vec3},   {"error.h", error},     {"context.h", context},
+          {"image.h", image}, {"version.h", version}, {"rholm.h", rholm_h}};
+}

@@ -1,0 +1,61 @@
+// Bytes in and out.
+#include <rholm/coefficients_io.h>
+#include <rholm/file.h>
+#include <rholm/mapped_mesh.h>
+#include <rholm/primitives.h>
+#include <rholm/shape_io.h>
+
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+#include "check.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void file() {
+  const fs::path path = "written.bin";
+  const std::string_view text = "r, l, m";
+  rholm::write_file(path, text);
+  expect(fs::file_size(path) == text.size(), "all bytes are written");
+}
+
+void shape_io() {
+  const rholm::Mesh box = rholm::box({1, 2, 3});
+  rholm::write_shape(box, "box.obj");
+  const rholm::ShapeFile file = rholm::read_shape("box.obj");
+  expect(file.format == rholm::ShapeFormat::kObj, "the content says the format");
+  const auto& read = std::get<rholm::Mesh>(file.shape);
+  expect(read.vertices == box.vertices && read.triangles == box.triangles,
+         "what is written is read");
+}
+
+void coefficients_io() {
+  const std::string_view sphere = "0 0 2 0\n1 0 0 0\n1 1 0 0\n";  // 4-pi: C_00 is the radius
+  const rholm::CoefficientsFile file = rholm::parse_coefficients(sphere, "sphere.sh");
+  expect_near(file.expansion.coefficients.c(0, 0), 2 * std::sqrt(4 * std::numbers::pi), 1e-12,
+              "C_00 of a sphere of radius 2");
+  rholm::write_coefficients(file.expansion, "sphere.json");
+  expect(rholm::read_coefficients("sphere.json").format == rholm::CoefficientsFormat::kJson,
+         "the content says the format");
+}
+
+void mapped_mesh() {
+  const rholm::Mesh sphere = rholm::icosphere(3);
+  rholm::write_shape(sphere, "sphere.ply");
+  const auto mapped = rholm::map_mesh("sphere.ply");
+  expect(mapped && mapped->view().n_triangles == sphere.triangles.size(), "a mesh is mapped");
+  expect(mapped->counts_are_three(0, sphere.triangles.size()), "faces are triangles");
+  expect(mapped->view().vertex(5) == sphere.vertices[5], "vertices lie where they should");
+}
+
+}  // namespace
+
+std::vector<HeaderCheck> file_checks() {
+  return {{"file.h", file},
+          {"shape_io.h", shape_io},
+          {"coefficients_io.h", coefficients_io},
+          {"mapped_mesh.h", mapped_mesh}};
+}

@@ -1,0 +1,70 @@
+// Whole pipelines.
+#include <rholm/compress.h>
+#include <rholm/model.h>
+#include <rholm/patch_atlas.h>
+#include <rholm/points.h>
+#include <rholm/primitives.h>
+#include <rholm/reconstruct.h>
+#include <rholm/synthesize.h>
+#include <rholm/topology.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "check.h"
+
+namespace {
+
+const double kPi = std::numbers::pi;
+
+void model() {
+  rholm::EncodeOptions options;
+  options.analyze.degree = 32;
+  const rholm::Encoded encoded = rholm::encode(rholm::ellipsoid({1, 2, 3}, 5), options);
+  const rholm::Expansion& expansion = encoded.analysis.expansion;
+  // Flat triangles with edges of 1/30 of the radius lie 1e-4 of it within the ellipsoid.
+  expect_near(rholm::measure(expansion).volume, 8 * kPi, 0.005 * 8 * kPi,
+              "the volume of an ellipsoid");
+  rholm::write_model(expansion, "ellipsoid.h5");
+  expect(rholm::read_model("ellipsoid.h5").coefficients.c(2, 2) == expansion.coefficients.c(2, 2),
+         "what is written is read");
+}
+
+void compress() {
+  const rholm::Mesh torus = rholm::torus(1, 0.4, 96, 48);
+  const rholm::Compressed few = rholm::compress(torus, {.tolerance = 0.02});
+  expect(few.report.met && few.report.genus == 1, "a torus becomes caps");
+  expect(rholm::size_of(few.model.atlas).numbers() < 3 * torus.vertices.size(),
+         "which are fewer numbers");
+  expect(rholm::inspect(rholm::synthesize(few.model)).genus == 1, "and a torus again");
+}
+
+void reconstruct() {
+  const rholm::Mesh torus = rholm::torus(1, 0.4, 96, 48);
+  const rholm::Reconstruction surface =
+      rholm::reconstruct(rholm::sample_surface(torus, {.points = 5000}));
+  const rholm::Inspection found = rholm::inspect(surface.mesh);
+  expect(found.closed && found.manifold && found.genus == 1, "points of a torus are a torus");
+  expect_near(found.volume, 2 * kPi * kPi * 0.16, 0.02 * 2 * kPi * kPi * 0.16,
+              "the volume of a torus");
+}
+
+void patch_atlas() {
+  const rholm::Mesh sphere = rholm::icosphere(4);
+  const rholm::PatchPicture picture = rholm::patch_picture(sphere, rholm::PatchView::kPatches);
+  expect(picture.patches > 1, "a sphere has several sides");
+  // The points of each patch lie on the sphere that fits it; triangles between them with edges e <
+  // 0.08 lie at most e^2 / 6 = 1.1e-3 within it.
+  const rholm::PatchAtlas made =
+      rholm::patch_atlas(sphere, {.degree = 4, .extension = rholm::CapExtension::kSphere});
+  expect_near(made.rms_along_rays, 0, 1.1e-3, "what caps miss of a sphere");
+}
+
+}  // namespace
+
+std::vector<HeaderCheck> model_checks() {
+  return {{"model.h", model},
+          {"compress.h", compress},
+          {"reconstruct.h", reconstruct},
+          {"patch_atlas.h", patch_atlas}};
+}

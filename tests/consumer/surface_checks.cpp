@@ -1,0 +1,50 @@
+// From coefficients to surfaces.
+#include <rholm/atlas.h>
+#include <rholm/compare.h>
+#include <rholm/primitives.h>
+#include <rholm/synthesize.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "check.h"
+
+namespace {
+
+void atlas() {
+  expect(rholm::n_coefficients(rholm::CapBasis::kFull, 3) == 16, "(L + 1)^2");
+  expect(rholm::n_coefficients(rholm::CapBasis::kEven, 3) == 10, "(L + 1) (L + 2) / 2");
+  rholm::Cap cap;  // all coefficients zero: a sphere of radius 2 about the origin
+  cap.frame = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 2, 1, 1};
+  const std::vector<double> zero = {0};
+  const rholm::CapValue outside = rholm::evaluate(cap, zero, {0, 1.8, 2.4});
+  expect(outside.valid, "a cap speaks in front of its centre");
+  expect_near(outside.distance, 1, 1e-12, "the distance to a sphere of radius 2");
+}
+
+void compare() {
+  const rholm::Mesh box = rholm::box({1, 1, 1});
+  rholm::Mesh raised = box;
+  for (rholm::Vec3& vertex : raised.vertices) vertex.z += 0.25;
+  expect_near(rholm::compare(box, raised, {.samples = 10000}).hausdorff, 0.25, 1e-12,
+              "the distance between a box and itself, moved");
+  expect_near(rholm::distances_to_surface({{0, 0, 2}}, box)[0], 1.5, 1e-12,
+              "the distance of a point to a box");
+}
+
+void synthesize() {
+  rholm::Expansion sphere;
+  sphere.coefficients.c(0, 0) = 2 * std::sqrt(4 * std::numbers::pi);
+  sphere.center = {5, 0, 0};
+  const rholm::SurfaceMeasures measures = rholm::measure(sphere);
+  expect_near(measures.volume, 32 * std::numbers::pi / 3, 1e-10, "the volume of a sphere");
+  expect_near(measures.area, 16 * std::numbers::pi, 1e-10, "the area of a sphere");
+  const rholm::Mesh surface = rholm::synthesize(sphere, rholm::icosphere(1));
+  expect_near(rholm::norm(surface.vertices[7] - sphere.center), 2, 1e-12, "a vertex of a sphere");
+}
+
+}  // namespace
+
+std::vector<HeaderCheck> surface_checks() {
+  return {{"atlas.h", atlas}, {"compare.h", compare}, {"synthesize.h", synthesize}};
+}
