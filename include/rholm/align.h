@@ -34,13 +34,15 @@ struct PrincipalAxes {
 PrincipalAxes principal_axes(const Coefficients& coefficients,
                              RadialFunction function = RadialFunction::kRadius);
 
+// Where the search for a rotation begins.
 enum class AlignStart {
   kCorrelation,   // all rotations, by Fourier transforms over SO(3)
   kPrincipalAxes  // the four ways to lay axes on axes: faster, wrong where two are nearly equal
 };
 
+// How the rotation is sought, and what counts as equal.
 struct AlignOptions {
-  AlignStart start = AlignStart::kCorrelation;
+  AlignStart start = AlignStart::kCorrelation;  // of the search
   int bandwidth = 20;  // degrees used by the search, 1 ... 64; its grid has steps of about 6 deg
   int refine_degree = 64;  // degrees used by Newton's iteration
   // Other rotations are reported if their correlation (-1 ... 1) is at most this below the best.
@@ -48,10 +50,10 @@ struct AlignOptions {
   bool allow_mirror = false;  // also try the mirror image of a (x -> -x, then rotated)
   // Root mean square over the sphere of what is not known of a and b. A function that is constant
   // but for this, or for 1e-10 of its mean, has nothing to turn: three free axes, no rotation.
-  double unknown_a = 0;
-  double unknown_b = 0;
+  double unknown_a = 0, unknown_b = 0;
 };
 
+// A rotation of a, and how well it lays a on b.
 struct AlignedRotation {
   Rotation rotation;       // of the mirror image, if mirrored
   bool mirrored = false;   // the reflection x -> -x comes first; y and z stay
@@ -59,6 +61,7 @@ struct AlignedRotation {
   double distance = 0;     // root mean square of R a - b over the sphere, all degrees
 };
 
+// The best rotation, and those that are nearly as good.
 struct Alignment {
   AlignedRotation best;  // of several that are equal to rounding the smallest turn, no mirror image
   // Others that are nearly as good, best first: symmetries of the shape. At most 32.
@@ -69,7 +72,8 @@ struct Alignment {
   double unaligned_distance = 0;  // before any rotation
 };
 
-// Throws InvalidInput for options out of range or coefficients that are not finite; Cancelled.
+// Turns a onto b. Throws InvalidInput for options out of range or coefficients that are not finite;
+// Cancelled.
 Alignment align(const Coefficients& a, const Coefficients& b, const AlignOptions& options = {},
                 const Context& context = {});
 
@@ -82,8 +86,8 @@ enum class AlignCenters {
 // The point p becomes R (p - from) + to; mirrored, R M (p - from) + to, with M = diag(-1, 1, 1):
 // the reflection in the plane through `from` across the x axis.
 struct Placement {
-  Alignment alignment;
-  Vec3 from, to;
+  Alignment alignment;  // R and whether it is mirrored
+  Vec3 from, to;        // the points laid on each other, of a and of b
 };
 
 // The same for surfaces; with kVolume as they are seen from there, up to degree 256 (recentered(),

@@ -16,6 +16,7 @@
 
 namespace rholm {
 
+// Which function is expanded, and by which integrals.
 enum class Method {
   kEdge,   // r by integrals over flat edges and faces, divided by l(l+1), (M6)
   kGauge,  // q = 1/r by integrals over the arcs of the edges alone, (M4)-(M5)
@@ -27,24 +28,25 @@ Method parse_method(const std::string& name);  // throws InvalidInput
 
 // How the fast engine did it.
 struct FastReport {
-  bool single = false;      // sources spread in single precision
-  int width = 0;            // grid points of the window
-  double oversampling = 0;  // of the grid
-  std::size_t lumped_triangles = 0;
-  std::size_t nodes = 0;     // sources of their own
-  std::size_t vertices = 0;  // sources at vertices
-  // Estimates of the error: l2 over 1 <= l <= L, relative to the norm of the function without its
-  // mean; and of the degrees above 3L/4 relative to that band's own norm.
+  bool single = false;               // sources spread in single precision
+  int width = 0;                     // grid points of the window
+  double oversampling = 0;           // of the grid
+  std::size_t lumped_triangles = 0;  // whose sources are those of their vertices
+  std::size_t nodes = 0;             // sources of their own
+  std::size_t vertices = 0;          // sources at vertices
+  // Estimate of the error: l2 over 1 <= l <= L, relative to the norm of the function without its
+  // mean.
   double error = 0;
-  double band_error = 0;
+  double band_error = 0;  // of the degrees above 3L/4 relative to that band's own norm
   int passes = 0;  // over the triangles: more than one if the estimate from a sample was too low
   // Whether the estimate is within the wanted precision, or within what rounding leaves at best.
   bool reached = true;
 };
 
+// What is wanted of analyze(), and how.
 struct AnalyzeOptions {
-  int degree = 64;  // L, 0 ... kMaxDegree
-  Method method = Method::kEdge;
+  int degree = 64;                // L, 0 ... kMaxDegree
+  Method method = Method::kEdge;  // kGauge expands 1/r, the others r
   // How sums are done: fast ones keep the wanted precision, direct ones are the oracle. The methods
   // curl and area are always direct.
   Engine engine = Engine::kFast;
@@ -54,8 +56,9 @@ struct AnalyzeOptions {
   double precision = 1e-8;
 };
 
+// Coefficients, and how they were found.
 struct Analysis {
-  Expansion expansion;
+  Expansion expansion;         // with centre and method, norm and tail where they are known
   std::size_t edge_nodes = 0;  // quadrature nodes on edges
   std::size_t face_nodes = 0;  // and on faces
   // |sum_e s_e int_arc u ds| / sum_e |s_e| int_arc ds: zero for a closed, consistently
@@ -75,8 +78,8 @@ struct Analysis {
   std::optional<double> truncation_rms, truncation_rms_doubt;
 };
 
-// Throws InvalidInput for a degree or precision out of range, a centre on a vertex, or (gauge) a
-// face seen edge on.
+// The coefficients of the surface by the method that is asked for. Throws InvalidInput for a degree
+// or precision out of range, a centre on a vertex, or (gauge) a face seen edge on.
 Analysis analyze(const StarChart& chart, const AnalyzeOptions& options = {},
                  const Context& context = {});
 
@@ -107,6 +110,7 @@ struct ErrorStrengths {
 // Of a closed mesh where it lies: identical vertices count as one. Throws InvalidInput as
 // validate() does. 12 bytes of memory per vertex for places, 32 for sums.
 ErrorStrengths vertex_error_strengths(const MeshView& mesh, const Vec3& center);
+// That of the radius, or of the gauge, alone.
 double vertex_error_strength(const StarChart& chart, RadialFunction function);
 
 }  // namespace rholm

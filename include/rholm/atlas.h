@@ -26,6 +26,7 @@ struct CapFrame {
   double radius = 1;    // R_0 > 0; the seed is center + radius z
   double dilation = 1;  // a >= 1
   double support = 0;   // radius of the points around the seed that it was made of
+  // The point of the sphere in the middle of the cap.
   Vec3 seed() const { return center + radius * z; }
 };
 
@@ -33,22 +34,25 @@ struct CapFrame {
 //   s^2 = xx (p - px)^2 + 2 xy (p - px)(q - py) + yy (q - py)^2 + (h / support)^2 < 1:
 // the ellipse of its points, so that it is silent where it has none.
 struct CapSupport {
-  double px = 0, py = 0;
-  double xx = 0, xy = 0, yy = 0;
+  double px = 0, py = 0;          // middle of the ellipse
+  double xx = 0, xy = 0, yy = 0;  // its form, in 1/unit^2
 };
 
-// Which harmonics a cap uses: all up to its degree, (L+1)^2, or those with l + m even,
-// (L+1)(L+2)/2: complete on a hemisphere (method 7.8).
-enum class CapBasis : std::uint8_t { kFull, kEven };
+// Which harmonics a cap uses.
+enum class CapBasis : std::uint8_t {
+  kFull,  // all up to its degree, (L+1)^2
+  kEven   // those with l + m even, (L+1)(L+2)/2: complete on a hemisphere (method 7.8)
+};
 
 // The number of coefficients of a cap.
 std::size_t n_coefficients(CapBasis basis, int degree);
 
+// One cap: its sphere, where it speaks, and where its coefficients are.
 struct Cap {
-  CapFrame frame;
-  CapSupport where;
-  CapBasis basis = CapBasis::kFull;
-  std::uint16_t degree = 0;
+  CapFrame frame;                    // of its sphere, in the coordinates of the shape
+  CapSupport where;                  // an ellipse about its seed
+  CapBasis basis = CapBasis::kFull;  // says how many coefficients it has
+  std::uint16_t degree = 0;          // L
   // Its coefficients start here in Atlas::coefficients. Order: l = 0, 1, ..., in each l the orders
   // m = 0, then C and S of m = 1, 2, ..., l; the even basis leaves out those with l + m odd.
   std::size_t first = 0;
@@ -58,24 +62,30 @@ struct Cap {
   double deviation = 0;  // largest distance of its surface from the tangent plane of the seed
 };
 
-// How much a cap has to say at s^2 < 1 of CapSupport: (1 - s^2)^3, or the paper's quadratic
-// B-spline of 3 s / 2 (P44). Either is multiplied by (1 - g^2 / T^2)^2 of its potential g, T the
-// band, and where points are noisy by 1 / (1 + |grad r|^2 / r^2), the squared cosine of the angle
-// between its surface and the sphere: where a cap leans, others see better.
-enum class CapBlend : std::uint8_t { kSmooth, kSpline };
+// How much a cap has to say at s^2 < 1 of CapSupport. Either is multiplied by (1 - g^2 / T^2)^2 of
+// its potential g, T the band, and where points are noisy by 1 / (1 + |grad r|^2 / r^2), the
+// squared cosine of the angle between its surface and the sphere: where a cap leans, others see
+// better.
+enum class CapBlend : std::uint8_t {
+  kSmooth,  // (1 - s^2)^3
+  kSpline   // the paper's quadratic B-spline of 3 s / 2 (P44)
+};
 const char* to_string(CapBlend blend);              // "smooth", "spline"
 CapBlend parse_cap_blend(const std::string& name);  // throws InvalidInput
 
-// What a cap that is found by integrals over its points is beyond them: zero as the paper has it,
-// or the sphere it lies on, so that it jumps by its height over the sphere only.
-enum class CapExtension : std::uint8_t { kZero, kSphere };
+// What a cap that is found by integrals over its points is beyond them.
+enum class CapExtension : std::uint8_t {
+  kZero,   // zero, as the paper has it
+  kSphere  // the sphere it lies on, so that it jumps by its height over the sphere only
+};
 const char* to_string(CapExtension extension);              // "zero", "sphere"
 CapExtension parse_cap_extension(const std::string& name);  // throws InvalidInput
 
+// The caps of a surface. Lengths are in the unit of the points it was made of.
 struct Atlas {
-  std::vector<Cap> caps;
-  std::vector<double> coefficients;
-  CapBlend blend = CapBlend::kSmooth;
+  std::vector<Cap> caps;               // in any order
+  std::vector<double> coefficients;    // of all caps, each from its Cap::first on
+  CapBlend blend = CapBlend::kSmooth;  // of caps where several speak
   double spacing = 0;   // of the points: median distance to the nearest neighbours' circle
   double noise = 0;     // standard deviation of the points' distances to the surface; 0 if clean
   double diagonal = 0;  // of the points' bounding box
@@ -83,6 +93,7 @@ struct Atlas {
   // within 2.5 steps of the grid if that is more.
   double band = 0;
 
+  // Those of one of these caps; good as long as the atlas.
   std::span<const double> coefficients_of(const Cap& cap) const {
     return {coefficients.data() + cap.first, n_coefficients(cap.basis, cap.degree)};
   }
@@ -91,13 +102,15 @@ struct Atlas {
 // Of all caps; 0 without caps.
 int highest_degree(const Atlas& atlas);
 
-// The surface's potential as one cap sees it: a signed distance to first order, positive outside
-// (method 7.5), g = (|x - c| - r(u)) / sqrt(1 + |grad r|^2 / r^2), and its gradient in space.
+// The surface's potential as one cap sees it, and its gradient in space.
 struct CapValue {
+  // g = (|x - c| - r(u)) / sqrt(1 + |grad r|^2 / r^2): a signed distance to first order, positive
+  // outside (method 7.5).
   double distance = 0;
   Vec3 gradient;       // of g, to first order: a unit vector across the surface
   bool valid = false;  // false at the centre, behind it, and where r(u) <= 0
 };
+// At the point x, of a cap with these coefficients. Anywhere, also where the cap has no weight.
 CapValue evaluate(const Cap& cap, std::span<const double> coefficients, const Vec3& x);
 
 }  // namespace rholm

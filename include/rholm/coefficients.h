@@ -18,14 +18,16 @@ namespace rholm {
 
 inline constexpr int kMaxDegree = 16384;  // 4 GiB of coefficients: chosen as the sanity limit
 
+// C_lm and S_lm of degrees 0 ... L.
 class Coefficients {
  public:
+  // A zero of degree 0.
   Coefficients() : Coefficients(0) {}
   // Zeros up to degree L >= 0. Throws InvalidInput for L < 0 or L > kMaxDegree.
   explicit Coefficients(int degree);
 
-  int degree() const { return degree_; }
-  // 0 <= m <= l <= degree(); not checked. S_l0 exists and is zero.
+  int degree() const { return degree_; }  // L
+  // C_lm and S_lm, 0 <= m <= l <= degree(); not checked. S_l0 exists and is zero.
   double& c(int l, int m) { return values_[index(l, m)]; }
   double c(int l, int m) const { return values_[index(l, m)]; }
   double& s(int l, int m) { return values_[plane() + index(l, m)]; }
@@ -62,22 +64,22 @@ RadialFunction parse_radial_function(const std::string& name);  // throws Invali
 struct TruncationErrors {
   std::optional<double> rms;  // radial, over solid angle
   bool rms_is_exact = false;  // by Parseval (M7), not measured
-  // Radial, at the vertices, in closed form (method 5), where edges are long against 1/L.
-  std::optional<double> predicted_max;
-  std::optional<double> predicted_max_distance;
-  // At `points` points of the shape: its vertices, and more where faces are long against 1/L.
-  std::optional<double> measured_max;
-  std::optional<double> measured_max_distance;
+  // Radial and as a distance, at the vertices, in closed form (method 5), where edges are long
+  // against 1/L.
+  std::optional<double> predicted_max, predicted_max_distance;
+  // Radial and as a distance, at `points` points of the shape: its vertices, and more where faces
+  // are long against 1/L.
+  std::optional<double> measured_max, measured_max_distance;
   std::optional<double> distance_rms;  // over area, the larger of both ways
   bool distances_are_closest = false;  // by closest points
-  std::size_t points = 0;
-  double diagonal = 0;  // of the shape's bounding box; 0 if unknown
+  std::size_t points = 0;              // at which was measured
+  double diagonal = 0;                 // of the shape's bounding box; 0 if unknown
 };
 
 // A surface as coefficients: what a model file holds.
 struct Expansion {
-  Coefficients coefficients = {};
-  RadialFunction function = RadialFunction::kRadius;
+  Coefficients coefficients = {};  // in the unit of lengths; of a gauge in 1/unit
+  RadialFunction function = RadialFunction::kRadius;  // which function of directions it is
   Vec3 center = {};       // of the expansion, in the coordinates of the original shape
   std::string unit = {};  // of lengths, free text; empty if unknown
   // How the coefficients were found: "edge", "area", ...; empty if unknown.
@@ -94,15 +96,20 @@ struct Expansion {
 // Throws Unsupported for coefficients that are not of a surface (kOther).
 void require_surface(const Expansion& expansion);
 
-// How numbers of a file are scaled. Factors are relative to the orthonormal basis: 4-pi
-// normalised functions have mean square 1, Schmidt semi-normalised ones 1/(2l+1).
-enum class Normalization { kOrthonormal, kFourPi, kSchmidt };
+// How numbers of a file are scaled: what the mean square of each harmonic over the sphere is.
+enum class Normalization {
+  kOrthonormal,  // 1/(4 pi), so that its square integrates to 1
+  kFourPi,       // 1
+  kSchmidt       // 1/(2l+1): semi-normalised
+};
 const char* to_string(Normalization normalization);          // "orthonormal", "4pi", "schmidt"
 Normalization parse_normalization(const std::string& name);  // throws InvalidInput
 
+// What the numbers of a file multiply. The default is that of SHTOOLS.
 struct Convention {
-  Normalization normalization = Normalization::kFourPi;
+  Normalization normalization = Normalization::kFourPi;  // of the harmonics
   int csphase = 1;  // 1: without Condon-Shortley phase, -1: with the factor (-1)^m
+  // Whether the same function has the same numbers in both.
   friend bool operator==(const Convention&, const Convention&) = default;
 };
 

@@ -13,6 +13,7 @@
 
 namespace rholm {
 
+// How coefficients are laid out in a file.
 enum class CoefficientsFormat {
   kShtools,  // text, a line `l m C S` per pair; comment lines "# key: value" say the rest
   kIcgem,    // text with ICGEM-like header and lines `gfc l m C S`
@@ -27,14 +28,15 @@ std::optional<CoefficientsFormat> coefficients_format_of(const std::filesystem::
 // What a file that does not say it (bare text, .npy) is taken to mean; what it does say wins unless
 // `override_file` is set.
 struct CoefficientsReadOptions {
-  Convention convention = {};
-  bool override_file = false;
+  Convention convention = {};  // of files that say none
+  bool override_file = false;  // of all files, whatever they say
 };
 
+// What was read, and what of it the file said.
 struct CoefficientsFile {
-  Expansion expansion;
-  CoefficientsFormat format = CoefficientsFormat::kShtools;
-  Convention convention;             // in which the numbers stood
+  Expansion expansion;                                       // in the library's own convention
+  CoefficientsFormat format = CoefficientsFormat::kShtools;  // as its content showed
+  Convention convention;                                     // in which the numbers stood
   std::vector<std::string> assumed;  // what the file did not say: "normalization 4pi", ...
   // What the file says it is of, if that is no shape: "gravity_field"; the function is then kOther.
   std::string product;
@@ -46,6 +48,7 @@ struct CoefficientsFile {
 CoefficientsFile read_coefficients(const std::filesystem::path& path,
                                    const CoefficientsReadOptions& options = {},
                                    const Context& context = {});
+// The same for bytes in memory; `name` serves messages and the extension.
 CoefficientsFile parse_coefficients(std::span<const char> bytes, const std::string& name,
                                     const CoefficientsReadOptions& options = {});
 
@@ -53,9 +56,10 @@ CoefficientsFile parse_coefficients(std::span<const char> bytes, const std::stri
 // from points by its lines).
 bool looks_like_coefficients(std::span<const char> bytes);
 
+// How coefficients are written.
 struct CoefficientsWriteOptions {
   std::optional<CoefficientsFormat> format = {};  // by default from the extension
-  Convention convention = {};
+  Convention convention = {};                     // of the numbers; the file says it if it can
 };
 // Numbers are written with the shortest digits that read back the same. "-" is standard output.
 void write_coefficients(const Expansion& expansion, const std::filesystem::path& path,

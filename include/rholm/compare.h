@@ -12,33 +12,33 @@ namespace rholm {
 
 inline constexpr std::size_t kMaxSamples = 100000000;  // some 8 GB of memory: the sanity limit
 
+// Where distances are measured.
 struct CompareOptions {
   std::size_t samples = 200000;  // on each surface, area-weighted, 1 ... kMaxSamples
-  std::uint64_t seed = 1;
-  double threshold = 0.01;  // of the F-score, as a fraction of A's bounding-box diagonal
+  std::uint64_t seed = 1;        // of the samples
+  double threshold = 0.01;       // of the F-score, as a fraction of A's bounding-box diagonal
 };
 
+// Of all samples: root mean square, mean and largest distance, in the shape's unit.
 struct Distances {
-  double rms = 0;
-  double mean = 0;
-  double max = 0;
+  double rms = 0, mean = 0, max = 0;  // >= 0
 };
 
+// How far two surfaces lie apart. Lengths are in the shape's unit.
 struct Comparison {
-  std::size_t samples = 0;
-  std::uint64_t seed = 0;
-  double diagonal = 0;  // of A's bounding box
-  Distances a_to_b;     // from samples of A to their exact closest points on B; shape's unit
-  Distances b_to_a;
-  double hausdorff = 0;  // the larger of the two max: a lower bound of the Hausdorff distance
-  double threshold = 0;  // shape's unit
-  double precision = 0;  // share of B's samples within the threshold of A
-  double recall = 0;     // share of A's samples within the threshold of B
-  double f_score = 0;    // harmonic mean of the two
-  // Angle between the oriented normal at a sample and that at its closest point, both
-  // directions together, degrees 0 ... 180.
-  double normal_median_degrees = 0;
-  double normal_mean_degrees = 0;
+  std::size_t samples = 0;  // on each surface
+  std::uint64_t seed = 0;   // they were drawn with
+  double diagonal = 0;      // of A's bounding box
+  Distances a_to_b;         // from samples of A to their exact closest points on B; shape's unit
+  Distances b_to_a;         // and the other way
+  double hausdorff = 0;     // the larger of the two max: a lower bound of the Hausdorff distance
+  double threshold = 0;     // shape's unit
+  double precision = 0;     // share of B's samples within the threshold of A
+  double recall = 0;        // share of A's samples within the threshold of B
+  double f_score = 0;       // harmonic mean of the two
+  // Median and mean of the angle between the oriented normal at a sample and that at its closest
+  // point, both directions together, degrees 0 ... 180.
+  double normal_median_degrees = 0, normal_mean_degrees = 0;
 };
 
 // Closest points are exact (double precision) on the triangles of the other mesh. Throws

@@ -15,6 +15,7 @@
 
 namespace rholm {
 
+// What a model is to keep, and how it is sought.
 struct CompressOptions {
   double tolerance = 0;  // rms distance between the surfaces, both ways, in the shape's unit; > 0
   std::size_t samples = 0;  // that caps are fitted to; 0: by the tolerance
@@ -26,14 +27,16 @@ struct CompressOptions {
 struct AtlasErrors {
   double rms_from = 0, max_from = 0;  // from the shape to the model's surface
   double rms_to = 0, max_to = 0;      // from the model's surface to the shape; 0 if that is points
+  // The larger of both ways.
   double rms() const { return rms_from > rms_to ? rms_from : rms_to; }
   double max() const { return max_from > max_to ? max_from : max_to; }
+  // Whether both ways were measured.
   bool two_sided() const { return max_to > 0; }
 };
 
 // An atlas and what its file says of it.
 struct AtlasModel {
-  Atlas atlas;
+  Atlas atlas;                             // the caps
   double step = 0;                         // of the grid its surface was measured at
   double tolerance = 0;                    // that was asked for; 0: none
   std::optional<AtlasErrors> errors = {};  // as measured on the extracted surface
@@ -43,13 +46,15 @@ struct AtlasModel {
 
 // How large a model is: coefficients that are not zero, and the numbers of the caps' frames.
 struct AtlasSize {
-  std::size_t caps = 0, coefficients = 0, frame_numbers = 0;
-  std::size_t numbers() const { return coefficients + frame_numbers; }
+  std::size_t caps = 0, coefficients = 0, frame_numbers = 0;            // how many of each
+  std::size_t numbers() const { return coefficients + frame_numbers; }  // of the whole model
 };
+// Counts them.
 AtlasSize size_of(const Atlas& atlas);
 
+// How a model came about, and what it keeps.
 struct CompressReport {
-  std::size_t samples = 0;
+  std::size_t samples = 0;      // that caps were fitted to
   bool turned_normals = false;  // of points: all of them, they pointed into the solid
   double hidden = 0;  // share of a mesh that lies inside of its solid, where parts run into each
                       // other: left out, and not measured
@@ -64,9 +69,10 @@ struct CompressReport {
   StageTimes times = {};  // "samples", "caps", "fit", "surface"
 };
 
+// A shape as few caps.
 struct Compressed {
-  AtlasModel model;
-  CompressReport report;
+  AtlasModel model;       // with the errors of its surface
+  CompressReport report;  // how it was found
 };
 
 // Covers the shape with few caps, fits them, drops the coefficients its error can do without,
@@ -82,13 +88,14 @@ Compressed compress(const Mesh& mesh, const CompressOptions& options, const Cont
 Compressed compress(const PointCloud& cloud, const CompressOptions& options,
                     const Context& context = {});
 
+// How a surface is extracted from a model.
 struct AtlasSynthesisOptions {
   double step = 0;  // edge of the grid's cubes; 0: the model's
   // The caps have no higher degrees, and are fitted to the model's own surface with those they
   // have.
   std::optional<int> degree = {};
-  std::optional<SimplifyOptions> simplify = {};  // fewer triangles for the same surface
-  std::size_t max_memory = std::size_t{8} << 30;
+  std::optional<SimplifyOptions> simplify = {};   // fewer triangles for the same surface
+  std::size_t max_memory = std::size_t{8} << 30;  // bytes: refused if more is foreseen
 };
 // The surface of a model, from it alone: closed, oriented outwards, with normals nx, ny, nz. Throws
 // InvalidInput for a step so large that no surface is left, OutOfMemory for one too small, and
@@ -97,9 +104,9 @@ struct AtlasSynthesisOptions {
 Mesh synthesize(const AtlasModel& model, const AtlasSynthesisOptions& options = {},
                 const Context& context = {});
 
+inline constexpr std::uint32_t kNoCap = ~std::uint32_t{0};  // where a cap's number is wanted
 // The cap that speaks loudest at each point, in small gaps between caps the nearest one; kNoCap for
 // an atlas without caps.
-inline constexpr std::uint32_t kNoCap = ~std::uint32_t{0};
 std::vector<std::uint32_t> loudest_caps(const Atlas& atlas, const std::vector<Vec3>& points,
                                         const Context& context = {});
 // Sets red, green, blue: a colour per cap, caps that touch of different hues; grey without a cap.

@@ -15,15 +15,16 @@ using ProgressCallback = std::function<bool(std::string_view stage, double fract
 
 // Results are the same bits for every number of threads.
 struct Context {
-  int threads = 0;  // worker threads; 0 means one per processor
-  ProgressCallback progress = {};
+  int threads = 0;                 // worker threads; 0 means one per processor
+  ProgressCallback progress = {};  // none: nobody is told, nothing is cancelled
 };
 
-// Wall and processor time of a stage, seconds, and those of all stages by their names.
+// Time of a stage, seconds.
 struct StageTime {
-  double wall = 0;
-  double cpu = 0;
+  double wall = 0;  // on the clock
+  double cpu = 0;   // of all processors together
 };
+// Times of stages by their names.
 using StageTimes = std::map<std::string, StageTime>;
 
 }  // namespace rholm

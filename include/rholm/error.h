@@ -9,6 +9,7 @@
 
 namespace rholm {
 
+// What kind of thing went wrong.
 enum class ErrorCode {
   kInvalidInput,   // the data cannot mean what was asked (malformed file, NaN, open mesh, ...)
   kIo,             // the operating system refused to read or write
@@ -22,10 +23,12 @@ enum class ErrorCode {
 // The code's name as it appears in reports: "InvalidInput", "Io", ...
 const char* to_string(ErrorCode code);
 
+// What the library throws. what() is for people: the value, the limit, what to do next.
 class Error : public std::runtime_error {
  public:
+  // An error of that kind with that message.
   Error(ErrorCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
-  ErrorCode code() const { return code_; }
+  ErrorCode code() const { return code_; }  // for programs
 
  private:
   ErrorCode code_;

@@ -16,20 +16,21 @@ namespace rholm {
 // How a low-pass filter falls from 1 at degree 0 to 0 above its degree L. Sharper is closer to the
 // shape and rings more at edges: overshoot() of each at L = 64, in parts of the step.
 enum class Window {
-  kIdeal,        // 1 to L                                                       8.8 %
-  kLanczos,      // sigma: sin(x)/x, x = pi l/(L + 1)                            1.4 %
-  kLanczos2,     // its square                                                   0.46 %
-  kGaussian,     // exp(-2.4 l(l+1) / (L(L+1))), cut off at L                    0.26 %
-  kHeat,         // exp(-t l(l+1)): the surface of heat after time t, not cut off: none
-  kExponential,  // exp(-36 (l/(L+1))^p): rounding noise at L + 1                5.7 % for p = 4
-  kPlateau       // 1 to L/2, then an infinitely smooth step as of needlets      8.6 %
+  kIdeal,        // 1 to L: 8.8 %
+  kLanczos,      // sigma, sin(x)/x with x = pi l/(L + 1): 1.4 %
+  kLanczos2,     // its square: 0.46 %
+  kGaussian,     // exp(-2.4 l(l+1) / (L(L+1))), cut off at L: 0.26 %
+  kHeat,         // exp(-t l(l+1)), the surface of heat after time t, not cut off: none
+  kExponential,  // exp(-36 (l/(L+1))^p), rounding noise at L + 1: 5.7 % for p = 4
+  kPlateau       // 1 to L/2, then an infinitely smooth step as of needlets: 8.6 %
 };
 const char* to_string(Window window);          // "ideal", "lanczos", "lanczos2", ...
 Window parse_window(const std::string& name);  // throws InvalidInput
 
+// A window, and its parameter if it has one.
 struct WindowOptions {
-  Window window = Window::kLanczos;
-  int order = 4;  // p of kExponential, 1 ... 64
+  Window window = Window::kLanczos;  // how it falls
+  int order = 4;                     // p of kExponential, 1 ... 64
   // t of kHeat, above 0. By default the gain at L is 1/2, t = ln 2 / (L(L+1)).
   std::optional<double> time = {};
 };
@@ -55,13 +56,14 @@ Coefficients filter(const Coefficients& coefficients, std::span<const double> ga
 Expansion filter(const Expansion& expansion, std::span<const double> gains,
                  const std::string& name);
 
-// What the filter makes of a step, in parts of its height: the function that is 1 within 60
-// degrees of the pole and 0 beyond, whose coefficients are known in closed form, (P_{l-1}(1/2) -
-// P_{l+1}(1/2)) / 2. Each 0 where there is none (below 1e-12).
+// How far a filtered step leaves 0 ... 1, in parts of its height. Each 0 where it does not (below
+// 1e-12).
 struct Overshoot {
   double above = 0;  // largest value - 1
   double below = 0;  // - smallest value
 };
+// Of the function that is 1 within 60 degrees of the pole and 0 beyond, whose coefficients are
+// known in closed form, (P_{l-1}(1/2) - P_{l+1}(1/2)) / 2.
 Overshoot overshoot(std::span<const double> gains);
 Overshoot overshoot(Window window, int degree);  // of low_pass(degree), kHeat to 8 times the degree
 

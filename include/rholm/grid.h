@@ -13,16 +13,18 @@
 
 namespace rholm {
 
+// Where the rings of a grid are, i = 0 ... n_theta - 1.
 enum class GridKind {
   kGaussLegendre,        // theta_i = arccos of the Gauss-Legendre nodes
   kEquiangular,          // theta_i = (i + 1/2) pi / n_theta
   kEquiangularWithPoles  // theta_i = i pi / (n_theta - 1): the first and last ring are poles
 };
 
+// A grid of n_theta n_phi directions.
 struct Grid {
-  GridKind kind = GridKind::kGaussLegendre;
-  int n_theta = 0;
-  int n_phi = 0;
+  GridKind kind = GridKind::kGaussLegendre;  // where its rings are
+  int n_theta = 0;                           // how many rings
+  int n_phi = 0;                             // directions on each
 };
 
 // The highest degree to which functions on this grid are analyzed exactly: n_theta - 1, with poles

@@ -19,12 +19,17 @@
 
 namespace rholm {
 
-enum class Engine { kFast, kDirect };
+// How sums over directions are done.
+enum class Engine {
+  kFast,   // on a grid, to a wanted precision
+  kDirect  // term by term: the oracle
+};
 const char* to_string(Engine engine);          // "fast", "direct"
 Engine parse_engine(const std::string& name);  // throws InvalidInput
 
+// How sums are done, and how exactly.
 struct SumOptions {
-  Engine engine = Engine::kFast;
+  Engine engine = Engine::kFast;  // kDirect does not look at the precision
   // Of the fast engine, 1e-14 ... 1e-1. The l2 norm of the error of all values (coefficients) is at
   // most about this part of that of sums with random signs: sqrt(n_values sum C^2 / 4 pi) for
   // evaluate(), sqrt((L+1)^2 sum w^2 / 4 pi) for add_adjoint(). Gradients relative to
@@ -36,10 +41,12 @@ struct SumOptions {
 std::vector<double> evaluate(const Coefficients& coefficients, std::span<const Vec3> directions,
                              const SumOptions& options = {}, const Context& context = {});
 
+// For every direction u_j.
 struct ValuesAndGradients {
-  std::vector<double> values;
+  std::vector<double> values;   // f(u_j)
   std::vector<Vec3> gradients;  // surface gradient on the unit sphere, tangential at u_j
 };
+// The same with the gradients.
 ValuesAndGradients evaluate_with_gradient(const Coefficients& coefficients,
                                           std::span<const Vec3> directions,
                                           const SumOptions& options = {},
@@ -48,10 +55,10 @@ ValuesAndGradients evaluate_with_gradient(const Coefficients& coefficients,
 // Weights of the values, gradients and Hessians of Y(x/|x|) at x = u_j: each empty, or as long as
 // `directions`.
 struct ScatteredSources {
-  std::span<const Vec3> directions;
-  std::span<const double> weights = {};
-  std::span<const Vec3> gradients = {};  // contracted with the gradient in space
-  // Symmetric matrices xx, xy, xz, yy, yz, zz.
+  std::span<const Vec3> directions;      // u_j, unit vectors
+  std::span<const double> weights = {};  // w_j
+  std::span<const Vec3> gradients = {};  // g_j, contracted with the gradient in space
+  // h_j, symmetric matrices xx, xy, xz, yy, yz, zz.
   std::span<const std::array<double, 6>> hessians = {};
 };
 
@@ -67,11 +74,12 @@ std::vector<double> evaluate_rings(const Coefficients& coefficients,
                                    std::span<const double> colatitudes, int n_phi,
                                    const Context& context = {});
 
-// Gauss-Legendre nodes (descending cos theta) and weights on [-1, 1], n >= 1.
+// A rule for integrals over [-1, 1].
 struct GaussRule {
-  std::vector<double> nodes;
-  std::vector<double> weights;
+  std::vector<double> nodes;    // descending: cosines of colatitudes from north to south
+  std::vector<double> weights;  // one per node, their sum is 2
 };
+// Gauss-Legendre's with n >= 1 nodes, exact for polynomials of degree 2 n - 1.
 GaussRule gauss_legendre(int n);
 
 }  // namespace rholm

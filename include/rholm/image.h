@@ -6,9 +6,9 @@
 
 namespace rholm {
 
+// Pixels as a screen shows them (sRGB).
 struct Image {
-  int width = 0;
-  int height = 0;
+  int width = 0, height = 0;           // pixels
   std::vector<std::uint8_t> rgb = {};  // row-major from the top left, 3 bytes per pixel
 };
 

@@ -19,6 +19,7 @@ namespace rholm {
 // handles the signal, or reads the file with read_shape().
 class MappedMesh {
  public:
+  // The two exchange what they hold: a new one leaves nothing to the other.
   MappedMesh(MappedMesh&& other) noexcept { *this = std::move(other); }
   MappedMesh& operator=(MappedMesh&& other) noexcept;
   MappedMesh(const MappedMesh&) = delete;

@@ -12,35 +12,37 @@ namespace rholm {
 
 // The type a scalar had in its file; kept so that a writer can give it back.
 enum class ScalarType : std::uint8_t {
-  kInt8,
-  kUint8,
-  kInt16,
-  kUint16,
-  kInt32,
-  kUint32,
-  kFloat32,
-  kFloat64
+  kInt8,     // -2^7 ... 2^7 - 1
+  kUint8,    // 0 ... 2^8 - 1
+  kInt16,    // -2^15 ... 2^15 - 1
+  kUint16,   // 0 ... 2^16 - 1
+  kInt32,    // -2^31 ... 2^31 - 1
+  kUint32,   // 0 ... 2^32 - 1
+  kFloat32,  // IEEE 754 single
+  kFloat64   // IEEE 754 double
 };
 
 // One named scalar per vertex or point: "red", "nx", "quality", ... Colours are red, green, blue
 // (and alpha), normals nx, ny, nz, texture coordinates u, v, as in PLY files. Every type above
 // is exact in a double.
 struct Attribute {
-  std::string name = {};
-  ScalarType type = ScalarType::kFloat32;
-  std::vector<double> values = {};  // one per vertex or point
+  std::string name = {};                   // any but the coordinates'
+  ScalarType type = ScalarType::kFloat32;  // in its file, and in files it is written to
+  std::vector<double> values = {};         // one per vertex or point
 };
 
 using Triangle = std::array<std::uint32_t, 3>;  // vertex indices, counter-clockwise from outside
 
+// Triangles that share vertices.
 struct Mesh {
-  std::vector<Vec3> vertices = {};
-  std::vector<Triangle> triangles = {};
+  std::vector<Vec3> vertices = {};         // in any unit
+  std::vector<Triangle> triangles = {};    // of them
   std::vector<Attribute> attributes = {};  // per vertex, each of vertices.size() values
 };
 
+// Points without faces.
 struct PointCloud {
-  std::vector<Vec3> points = {};
+  std::vector<Vec3> points = {};   // in any unit
   std::vector<Vec3> normals = {};  // empty, or one per point (as in the file, not normalised)
   std::vector<Attribute> attributes = {};  // per point; normals are not repeated here
 };

@@ -9,19 +9,21 @@
 
 namespace rholm {
 
-// Vertex i has its coordinates x, y, z one after the other at vertices + i * vertex_stride, of type
-// float32 or float64; triangle t its three 32-bit vertex indices one after the other at triangles +
-// t * triangle_stride, counter-clockwise from outside. Native byte order; nothing needs to be
+// Vertices and triangles at fixed distances in memory. Native byte order; nothing needs to be
 // aligned. The view owns nothing.
 struct MeshView {
+  // Vertex i has its coordinates x, y, z one after the other at vertices + i * vertex_stride.
   const std::byte* vertices = nullptr;
-  std::size_t n_vertices = 0;
-  std::size_t vertex_stride = 0;
-  ScalarType coordinate = ScalarType::kFloat64;
+  std::size_t n_vertices = 0;                    // how many
+  std::size_t vertex_stride = 0;                 // bytes from one to the next
+  ScalarType coordinate = ScalarType::kFloat64;  // or kFloat32
+  // Triangle t has its three 32-bit vertex indices one after the other at triangles + t *
+  // triangle_stride, counter-clockwise from outside.
   const std::byte* triangles = nullptr;
-  std::size_t n_triangles = 0;
-  std::size_t triangle_stride = 0;
+  std::size_t n_triangles = 0;      // how many
+  std::size_t triangle_stride = 0;  // bytes from one to the next
 
+  // Vertex i < n_vertices; not checked.
   Vec3 vertex(std::size_t i) const {
     const std::byte* at = vertices + i * vertex_stride;
     if (coordinate == ScalarType::kFloat32) {
@@ -33,6 +35,7 @@ struct MeshView {
     std::memcpy(v, at, sizeof v);
     return {v[0], v[1], v[2]};
   }
+  // Triangle t < n_triangles; not checked, nor are its indices.
   Triangle triangle(std::size_t t) const {
     Triangle corners;
     std::memcpy(corners.data(), triangles + t * triangle_stride, sizeof corners);
@@ -40,6 +43,7 @@ struct MeshView {
   }
 };
 
+// Good as long as the mesh is there and does not change.
 MeshView view_of(const Mesh& mesh);
 
 // Throws InvalidInput unless every coordinate is finite and every index is below the number of

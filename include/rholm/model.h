@@ -19,33 +19,33 @@
 
 namespace rholm {
 
+// What is wanted of a model, and what may be done to the mesh.
 struct EncodeOptions {
-  AnalyzeOptions analyze = {};
+  AnalyzeOptions analyze = {};  // degree, method, precision
   // The smallest degree that keeps it, instead of analyze.degree.
   std::optional<Tolerance> tolerance = {};
-  bool errors = true;  // measure and predict them: Expansion::errors of a star-shaped surface
-  ChartOptions chart = {};
+  bool errors = true;       // measure and predict them: Expansion::errors of a star-shaped surface
+  ChartOptions chart = {};  // the centre, and whether others than star-shaped are taken
   double weld_tolerance = 0;  // in the shape's unit; 0 welds bit-identical vertices
 };
 
 // How a tolerance was kept: see ToleranceAnalysis.
 struct ToleranceReport {
-  double allowed = 0, reached = 0;
-  bool met = false;
-  std::vector<int> degrees;
+  double allowed = 0, reached = 0;  // errors, in the mesh's unit
+  bool met = false;                 // the tolerance
+  std::vector<int> degrees;         // that were tried, the last one is the model's
 };
 
+// A mesh as coefficients, and what was found out on the way.
 struct Encoded {
-  Analysis analysis;
-  std::optional<ToleranceReport> tolerance;
-  StarReport star;
-  double diagonal = 0;       // of the bounding box
-  std::size_t vertices = 0;  // after welding, where that was needed
-  std::size_t faces = 0;
-  std::size_t edges = 0;
-  std::size_t merged_vertices = 0;
-  std::size_t collapsed_triangles = 0;
-  bool flipped = false;  // the mesh was inside out
+  Analysis analysis;                         // analysis.expansion is the model
+  std::optional<ToleranceReport> tolerance;  // if one was asked for
+  StarReport star;                           // the centre, and how well it sees the surface
+  double diagonal = 0;                       // of the bounding box
+  std::size_t vertices = 0;                  // after welding, where that was needed
+  std::size_t faces = 0, edges = 0;          // likewise
+  std::size_t merged_vertices = 0, collapsed_triangles = 0;  // by welding, as in Welded
+  bool flipped = false;                                      // the mesh was inside out
   // "read", "topology", "center", "transform" and its parts, "rays" of a surface that is not
   // star-shaped.
   StageTimes times;

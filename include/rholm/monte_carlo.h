@@ -32,14 +32,19 @@
 
 namespace rholm {
 
-enum class SamplePlaces { kEdges, kTriangles };
+// Where the random points are.
+enum class SamplePlaces {
+  kEdges,     // on the flat edges
+  kTriangles  // on the spherical triangles
+};
 const char* to_string(SamplePlaces places);  // "monte-carlo-edge", "monte-carlo-triangle"
 std::optional<SamplePlaces> parse_sample_places(const std::string& method);  // none: another method
 
+// How much is wanted, and when to stop.
 struct MonteCarloOptions {
-  int degree = 64;  // L, 0 ... kMaxDegree
-  SamplePlaces places = SamplePlaces::kEdges;
-  std::uint64_t seed = 1;
+  int degree = 64;                             // L, 0 ... kMaxDegree
+  SamplePlaces places = SamplePlaces::kEdges;  // of the points
+  std::uint64_t seed = 1;                      // of their random numbers
   // Points on each edge / triangle, 2 ... kMostSamples; an odd number is taken as the next even
   // one. None: rounds of samples are added until `deviation` is reached.
   std::optional<std::size_t> samples = {};
@@ -50,13 +55,14 @@ struct MonteCarloOptions {
 };
 inline constexpr std::size_t kMostSamples = std::size_t{1} << 30;  // chosen: a sanity limit
 
+// Coefficients, and how far they may be off.
 struct MonteCarlo {
   Expansion expansion;  // the mean
   // Of each coefficient: 3 of it hold the true error in about 99.7 % of all seeds.
   Coefficients deviation;
   std::size_t places = 0;   // edges or triangles that were sampled
   std::size_t samples = 0;  // on each of them
-  int rounds = 0;
+  int rounds = 0;           // in which they were added
   // sqrt(V / (M - V)): V the sum of the squared standard errors over 1 <= l <= L, M that of the
   // squared coefficients found (V of which is scatter). For L = 0 that of c_00. None above 1, or
   // above 1/2 with fewer than 100 pairs of points: M - V is itself no more than scatter there.

@@ -12,15 +12,17 @@
 
 namespace rholm {
 
+// The paper's parameters.
 struct PatchAtlasOptions {
-  int degree = 16;  // of every cap, 0 ... 24
-  CapExtension extension = CapExtension::kZero;
+  int degree = 16;                               // of every cap, 0 ... 24
+  CapExtension extension = CapExtension::kZero;  // of caps beyond their points
   double min_cosine = 0.5;  // of normals to the mean normal of their patch (P36), 0 ... 1
   // A patch is widened by the points around it: the radius of its cell over that of its own points,
   // 1 ... 4. Caps are silent at the rims of their cells, where their series are wrong.
   double overlap = 1.5;
 };
 
+// The caps, and the surface they make.
 struct PatchAtlas {
   AtlasModel model;           // blended by the paper's weights; errors as measured on its surface
   Mesh surface;               // with normals nx, ny, nz
@@ -44,9 +46,10 @@ enum class PatchView {
 const char* to_string(PatchView view);                // "patches", "triangles", "spheres"
 PatchView parse_patch_view(const std::string& name);  // throws InvalidInput
 
+// Patches to look at.
 struct PatchPicture {
-  Mesh mesh;  // with red, green, blue; patches share no vertices
-  std::size_t patches = 0;
+  Mesh mesh;                // with red, green, blue; patches share no vertices
+  std::size_t patches = 0;  // how many
 };
 // options.degree, extension and overlap are not used. Throws as patch_atlas().
 PatchPicture patch_picture(const Mesh& mesh, PatchView view, const PatchAtlasOptions& options = {},

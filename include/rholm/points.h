@@ -28,12 +28,12 @@ struct SampleOptions {
   double outliers = 0;
   // Balls about points uniform on the surface; what lies in one is removed, after all the above.
   int holes = 0;
-  double hole_radius = 0;
+  double hole_radius = 0;  // of these balls, 0 ... 1
   // The density falls exponentially along the longest axis of the bounding box, from the low
   // coordinate to the high, to 1 / density_ratio; 1 ... kMaxDensityRatio.
   double density_ratio = 1;
-  bool normals = true;
-  std::uint64_t seed = 1;
+  bool normals = true;     // given with the points
+  std::uint64_t seed = 1;  // of all random numbers
 };
 
 // Independent random points on the surface, uniform by area (unless the density falls), with the
@@ -42,6 +42,7 @@ struct SampleOptions {
 PointCloud sample_surface(const Mesh& mesh, const SampleOptions& options = {},
                           const Context& context = {});
 
+// What clean() found.
 struct CleanReport {
   std::size_t points = 0;            // before
   std::size_t not_finite = 0;        // points dropped: a coordinate is NaN or infinite
@@ -57,16 +58,20 @@ struct CleanReport {
 // normals or attributes are not one per point.
 CleanReport clean(PointCloud& cloud);
 
+// How normals are found and which side is outside.
 struct OrientOptions {
   int neighbors = 0;             // of a fit, 3 ... 1000; 0: chosen from the data
   bool keep_directions = false;  // of the normals there are (zero ones are computed): signs only
-  // At most one of these. They decide every sign alone.
-  std::optional<Vec3> center = {};  // the surface is seen from here from inside: normals point away
-  std::optional<Vec3> sensor = {};  // it has been measured from here: normals point to it
+  // The surface is seen from here from inside: normals point away. Decides every sign alone.
+  std::optional<Vec3> center = {};
+  // It has been measured from here: normals point to it. Decides every sign alone, so that there is
+  // a centre, or a sensor, or none.
+  std::optional<Vec3> sensor = {};
 };
 
+// What orient() did, and how sure it is.
 struct OrientReport {
-  std::size_t points = 0;
+  std::size_t points = 0;        // given
   std::size_t duplicates = 0;    // points at the place of an earlier one; they share its normal
   int neighbors = 0;             // of a fit
   std::size_t components = 0;    // of the graph of neighbours; 0 with a centre or a sensor

@@ -13,51 +13,58 @@
 
 namespace rholm {
 
-enum class HolePolicy { kFill, kKeep };
+// What becomes of places without points.
+enum class HolePolicy {
+  kFill,  // they are closed smoothly
+  kKeep   // they are cut open
+};
 const char* to_string(HolePolicy policy);               // "fill", "keep"
 HolePolicy parse_hole_policy(const std::string& name);  // throws InvalidInput
 
+// What is wanted of the surface; by default the data decide.
 struct ReconstructOptions {
   // Edge of the grid's cubes, in the unit of the points; 0: from their spacing and their noise.
   double step = 0;
   // Caps grow while their points fit to within this rms distance, in the unit of the points; 0: as
   // exact as the points are.
   double tolerance = 0;
-  std::optional<double> noise = {};  // standard deviation of the points; estimated if not given
-  HolePolicy holes = HolePolicy::kFill;
-  CapBlend blend = CapBlend::kSmooth;  // kSpline: the paper's weights, for comparison
-  double min_component =
-      0.01;  // parts of the surface with less of the largest one's area are dropped
-  bool remove_outliers = true;
+  std::optional<double> noise = {};      // standard deviation of the points; estimated if not given
+  HolePolicy holes = HolePolicy::kFill;  // where points are missing
+  CapBlend blend = CapBlend::kSmooth;    // kSpline: the paper's weights, for comparison
+  // Parts of the surface with less than this share of the largest one's area are dropped.
+  double min_component = 0.01;
+  bool remove_outliers = true;  // points that belong to no surface, where caps do not fit
   std::optional<SimplifyOptions> simplify = {};   // fewer triangles for the same surface
   std::size_t max_memory = std::size_t{8} << 30;  // bytes: refused if more is foreseen
 };
 
+// What was found in the points, and what became of them. Lengths are in their unit.
 struct ReconstructReport {
   std::size_t points = 0;          // given
   std::size_t dropped_points = 0;  // not finite, at the place of another, without a normal
   std::size_t outliers = 0;        // removed
-  bool computed_normals = false;
-  bool turned_normals = false;  // all of them: they pointed into the solid
-  double spacing = 0;           // median distance between neighbours, as if on a square grid
-  double noise = 0;             // standard deviation along the normal, 0 if within the shape's own
-  double normal_noise_degrees = 0;  // of the normals against the surface
-  std::size_t neighbours = 0;       // points of a typical cap
-  std::size_t caps = 0;
-  double step = 0;
-  std::size_t holes = 0;         // places without points that were closed, or cut out
-  std::size_t smooth_holes = 0;  // of those closed, by a surface that continues the rim
-  std::size_t dropped_components = 0;
-  std::size_t faces = 0;      // of the surface before it was simplified
-  double simplify_error = 0;  // by simplify(), as Simplification::error
-  std::size_t memory = 0;     // foreseen for points, grid and surface, bytes
-  StageTimes times;
+  bool computed_normals = false;   // the points had none
+  bool turned_normals = false;     // all of them: they pointed into the solid
+  double spacing = 0;              // median distance between neighbours, as if on a square grid
+  double noise = 0;  // standard deviation along the normal, 0 if within the shape's own
+  double normal_noise_degrees = 0;     // of the normals against the surface
+  std::size_t neighbours = 0;          // points of a typical cap
+  std::size_t caps = 0;                // of the atlas
+  double step = 0;                     // edge of the grid's cubes
+  std::size_t holes = 0;               // places without points that were closed, or cut out
+  std::size_t smooth_holes = 0;        // of those closed, by a surface that continues the rim
+  std::size_t dropped_components = 0;  // parts of the surface that were too small
+  std::size_t faces = 0;               // of the surface before it was simplified
+  double simplify_error = 0;           // by simplify(), as Simplification::error
+  std::size_t memory = 0;              // foreseen for points, grid and surface, bytes
+  StageTimes times;                    // "points", "caps", "surface", "attributes"
 };
 
+// A surface, its caps, and how they were found.
 struct Reconstruction {
   Mesh mesh;  // closed and oriented outwards (open with HolePolicy::kKeep), with normals nx, ny, nz
-  Atlas atlas;
-  ReconstructReport report;
+  Atlas atlas;               // that the mesh was extracted from
+  ReconstructReport report;  // what happened on the way
 };
 
 // Points with normals that point outwards (any length; computed by orient() if there are none; if

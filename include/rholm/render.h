@@ -16,7 +16,7 @@ namespace rholm {
 
 // One thing in the picture. Panels stand side by side.
 struct Panel {
-  const Mesh* mesh = nullptr;
+  const Mesh* mesh = nullptr;        // not owned; must be there while the picture is made
   std::string label = {};            // below the panel; may be empty
   std::vector<double> scalars = {};  // per vertex, coloured by the colour map; empty: plain
   bool smooth = false;               // shade with vertex normals nx, ny, nz if the mesh has them
@@ -28,23 +28,23 @@ struct Panel {
 // 1; empty if the mesh has none.
 std::vector<std::array<float, 3>> vertex_colors(const Mesh& mesh);
 
+// Size, point of view, light and colours of a picture.
 struct RenderOptions {
-  int width = 1024;  // of the whole picture, pixels, 16 ... 16384
-  int height = 768;
-  bool perspective = false;
-  bool fit_each = false;  // every panel is filled; otherwise all have the same scale
+  int width = 1024, height = 768;  // of the whole picture, pixels, 16 ... 16384
+  bool perspective = false;        // otherwise parallel lines stay parallel
+  bool fit_each = false;           // every panel is filled; otherwise all have the same scale
   Vec3 view_direction = {-0.55, 0.75, -0.4};  // from the eye into the scene
-  Vec3 up = {0, 0, 1};
-  int samples = 3;         // per pixel side: samples^2 rays a pixel, 1 ... 16
+  Vec3 up = {0, 0, 1};                        // upwards in the picture, as far as the view allows
+  int samples = 3;                            // per pixel side: samples^2 rays a pixel, 1 ... 16
   int occlusion_rays = 4;  // per sample, 0 ... 256; 0 switches ambient occlusion off
   // Range of the colour map; by default the range of all scalars.
-  std::optional<double> scale_min = {};
-  std::optional<double> scale_max = {};
-  bool scale_bar = true;  // drawn below the panels, with its label
-  std::string scale_label = {};
+  std::optional<double> scale_min = {}, scale_max = {};
+  bool scale_bar = true;         // drawn below the panels, with its label
+  std::string scale_label = {};  // what the scalars are
 };
 
-// Throws InvalidInput for no panel, an empty mesh, or sizes out of range.
+// All panels side by side, their labels below. Throws InvalidInput for no panel, an empty mesh, or
+// sizes out of range.
 Image render(std::span<const Panel> panels, const RenderOptions& options = {},
              const Context& context = {});
 

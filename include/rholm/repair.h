@@ -10,6 +10,7 @@
 
 namespace rholm {
 
+// What may be done to a mesh.
 struct RepairOptions {
   double weld = 0;  // tolerance of weld(), in the mesh's unit; 0 joins identical vertices
   // Holes with at most so many edges are closed, 0 ... 500. Chosen: what scanners and exports
@@ -29,19 +30,20 @@ struct RepairReport {
   std::size_t inside_out_parts = 0;      // closed parts turned as a whole, flipped_triangles too
   std::size_t cavities = 0;              // closed parts that lie within another: face inwards
   std::size_t split_vertices = 0;        // new vertices where sheets met in one
-  std::size_t closed_holes = 0;
-  std::size_t hole_triangles = 0;     // put into them
-  std::size_t large_holes = 0;        // left: more edges than allowed
-  std::size_t largest_hole = 0;       // edges of the largest of these
-  std::size_t sheets = 0;             // holes left: borders of open sheets, see repair()
-  std::size_t one_sided_parts = 0;    // left: they have no orientation (Moebius strips)
-  std::optional<double> closes_at{};  // what closing_tolerance() says of what is left open
-  Inspection after;                   // of the result, welded exactly
+  std::size_t closed_holes = 0;          // by new triangles
+  std::size_t hole_triangles = 0;        // put into them
+  std::size_t large_holes = 0;           // left: more edges than allowed
+  std::size_t largest_hole = 0;          // edges of the largest of these
+  std::size_t sheets = 0;                // holes left: borders of open sheets, see repair()
+  std::size_t one_sided_parts = 0;       // left: they have no orientation (Moebius strips)
+  std::optional<double> closes_at{};     // what closing_tolerance() says of what is left open
+  Inspection after;                      // of the result, welded exactly
 };
 
+// The mesh as far as it could be mended.
 struct Repaired {
-  Mesh mesh;
-  RepairReport report;
+  Mesh mesh;            // closed parts face outwards, cavities inwards
+  RepairReport report;  // what was wrong, and what still is
 };
 
 // In this order: welds; drops vertices in no triangle, duplicate and degenerate triangles;

@@ -15,10 +15,11 @@ namespace rholm {
 
 // How to get something again: "This page", "rholm report ...".
 struct ReportCommand {
-  std::string what = {};
-  std::string command = {};
+  std::string what = {};     // that is got
+  std::string command = {};  // to type in a shell
 };
 
+// What the page says beside its figures.
 struct ReportOptions {
   std::string title = {};                    // what the page is of, as a rule a file's name
   std::string shape_name = {};               // of the shape, as a rule a file's name

@@ -15,12 +15,11 @@ namespace rholm {
 
 // A unit quaternion: cos(a/2), sin(a/2) times the axis. The same rotation as its negative.
 struct Rotation {
-  double w = 1;
-  double x = 0;
-  double y = 0;
-  double z = 0;
+  double w = 1;                // cos(a/2)
+  double x = 0, y = 0, z = 0;  // sin(a/2) times the axis
 };
 
+// A turn by an angle about an axis.
 struct AxisAngle {
   Vec3 axis = {0, 0, 1};  // unit vector
   double angle = 0;       // 0 ... pi
@@ -28,9 +27,9 @@ struct AxisAngle {
 
 // Rz(alpha) Ry(beta) Rz(gamma): by gamma about z first, about the fixed axes.
 struct EulerAngles {
-  double alpha = 0;
-  double beta = 0;  // 0 ... pi
-  double gamma = 0;
+  double alpha = 0;  // about z, last
+  double beta = 0;   // about y, 0 ... pi
+  double gamma = 0;  // about z, first
 };
 
 // Rows of an orthogonal matrix: (R x)_i = rows[i] . x.
@@ -42,16 +41,20 @@ Rotation rotation_about(const Vec3& axis, double angle);
 Rotation rotation_of(const EulerAngles& angles);
 Rotation rotation_of(const RotationMatrix& matrix);
 
+// The same rotation in other words. For an angle of 0 the axis is z. For beta = 0 or pi, where only
+// alpha + gamma or alpha - gamma counts, both are given half of it.
 AxisAngle axis_angle_of(const Rotation& rotation);
 EulerAngles euler_angles_of(const Rotation& rotation);
 RotationMatrix matrix_of(const Rotation& rotation);
 
 // `second` after `first`.
 Rotation compose(const Rotation& second, const Rotation& first);
+// Back again.
 Rotation inverse(const Rotation& rotation);
 // The angle of the rotation that takes one to the other, 0 ... pi.
 double angle_between(const Rotation& a, const Rotation& b);
 
+// The point R x.
 Vec3 rotate(const Vec3& x, const Rotation& rotation);
 
 // O(L^3), errors a few hundred rounding units of the norm at degree 512. Throws Cancelled,
@@ -64,8 +67,13 @@ Coefficients rotate(const Coefficients& coefficients, const Rotation& rotation,
 Expansion rotate(const Expansion& expansion, const Rotation& rotation, const Vec3& about = {},
                  const Context& context = {});
 
+// A coordinate axis.
+enum class Axis {
+  kX,  // (1, 0, 0)
+  kY,  // (0, 1, 0)
+  kZ   // (0, 0, 1)
+};
 // The mirror image in the plane through `about` across an axis: kX changes the sign of x.
-enum class Axis { kX, kY, kZ };
 Coefficients mirror(const Coefficients& coefficients, Axis axis);
 Expansion mirror(const Expansion& expansion, Axis axis, const Vec3& about = {});
 

@@ -18,17 +18,26 @@
 
 namespace rholm {
 
-enum class ShapeFormat { kPly, kObj, kOff, kStl, kXyz };
+// Files of shapes.
+enum class ShapeFormat {
+  kPly,  // Stanford's: meshes and points with any attributes
+  kObj,  // Wavefront's, text
+  kOff,  // Geomview's, text
+  kStl,  // triangles one by one, float
+  kXyz   // a point a line
+};
 const char* to_string(ShapeFormat format);                // "ply", "obj", "off", "stl", "xyz"
 ShapeFormat parse_shape_format(const std::string& name);  // throws Unsupported
 
+// What was read.
 struct ShapeFile {
-  std::variant<Mesh, PointCloud> shape;  // a mesh if the file has faces, else points
-  ShapeFormat format = ShapeFormat::kPly;
-  std::string encoding;               // "ascii", "binary little endian", "binary big endian"
-  std::vector<std::string> warnings;  // what was passed over, with counts
+  std::variant<Mesh, PointCloud> shape;    // a mesh if the file has faces, else points
+  ShapeFormat format = ShapeFormat::kPly;  // as its content showed
+  std::string encoding;                    // "ascii", "binary little endian", "binary big endian"
+  std::vector<std::string> warnings;       // what was passed over, with counts
 };
 
+// How much is read.
 struct ShapeReadOptions {
   bool attributes = true;  // false: positions and faces (and normals of points) only
 };
@@ -43,6 +52,7 @@ ShapeFile read_shape(const std::filesystem::path& path, const ShapeReadOptions& 
 ShapeFile parse_shape(std::span<const char> bytes, const std::string& name,
                       const ShapeReadOptions& options = {}, const Context& context = {});
 
+// How a shape is written.
 struct ShapeWriteOptions {
   std::optional<ShapeFormat> format = {};  // by default from the extension
   bool ascii = false;                      // PLY and STL: text instead of binary little endian

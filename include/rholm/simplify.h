@@ -20,6 +20,7 @@ struct SimplifyOptions {
   double max_error = std::numeric_limits<double>::infinity();
 };
 
+// The mesh with fewer triangles.
 struct Simplification {
   Mesh mesh;  // its vertices are some of the given ones, with their attributes, in their order
   double error = 0;  // the largest that was allowed, as max_error counts it

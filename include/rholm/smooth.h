@@ -25,13 +25,14 @@ enum class PatchFitting : std::uint8_t {
             // rim carried in; it may be half a wavelength wide, and nothing else moves
 };
 
+// What is to go from a region.
 struct PatchOptions {
   // The finest detail that may stay: waves of this length keep their height, of 0.8 of it half,
   // of 0.6 nothing (docs/editing.md has the curve). In the unit of the vertices, > 0.
   double wavelength = 0;
   // Width of the region's transition; by default the wavelength. kAround needs none.
   double transition = -1;
-  PatchFitting fitting = PatchFitting::kRobust;
+  PatchFitting fitting = PatchFitting::kRobust;  // of the caps
   // Moves only what stands out from a robust fit, and fades a quarter of a wavelength beyond:
   // scratches go, the texture around them stays.
   bool repair = false;
@@ -39,26 +40,29 @@ struct PatchOptions {
 
 // What an analysis knows: the vertices that may move, and where fits of each degree want them.
 struct Patch {
-  double wavelength = 0;
-  int degree = 0;  // of the fits for that wavelength
-  std::vector<std::uint32_t> vertices;
-  std::vector<Vec3> positions;  // as they are
-  std::vector<double> weights;  // in the region, above 0
+  double wavelength = 0;                // of the analysis, in the unit of the vertices
+  int degree = 0;                       // of the fits for that wavelength
+  std::vector<std::uint32_t> vertices;  // those that may move
+  std::vector<Vec3> positions;          // as they are
+  std::vector<double> weights;          // in the region, above 0
   // From there to the fit of degree d at [i (degree + 1) + d].
   std::vector<Vec3> moves;
-  std::size_t caps = 0;
+  std::size_t caps = 0;       // that cover the region
   std::size_t unreached = 0;  // vertices that no cap sees: they stay
 };
 
-// Throws InvalidInput for a wavelength that is not positive or not above the mesh's spacing
-// there, for a region that is too wide to be bridged, and what region_weights() throws.
+// Covers the region with caps and fits them: the slow part. Throws InvalidInput for a wavelength
+// that is not positive or not above the mesh's spacing there, for a region that is too wide to be
+// bridged, and what region_weights() throws.
 Patch analyze_patch(const Mesh& mesh, std::span<const Region> regions, const PatchOptions& options,
                     const Context& context = {});
 
+// What a slider moves.
 struct PatchUpdate {
   double wavelength = 0;  // by default the analysis'; longer ones up to longest_wavelength()
   double strength = 1;    // 0 leaves all as it is, 1 takes the detail away, -1 doubles it
 };
+// That of the lowest degree that is fitted.
 double longest_wavelength(const Patch& patch);
 
 // New positions of patch.vertices. Throws InvalidInput for a wavelength the patch was not analysed

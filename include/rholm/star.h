@@ -12,6 +12,7 @@
 
 namespace rholm {
 
+// Where the centre is sought.
 enum class CenterKind {
   kAuto,      // Chebyshev centre of the kernel: maximises the smallest d_T
   kCosine,    // maximises the smallest cos gamma = n . (v - c) / |v - c| over all corners
@@ -21,18 +22,20 @@ enum class CenterKind {
   kGiven      // CenterOptions::point
 };
 
+// Which centre is wanted, and how closely directions are looked at.
 struct CenterOptions {
-  CenterKind kind = CenterKind::kAuto;
-  Vec3 point = {};    // for kGiven
-  int rays = 100000;  // directions tried by check_star; 0 leaves them out
+  CenterKind kind = CenterKind::kAuto;  // how it is chosen
+  Vec3 point = {};                      // for kGiven
+  int rays = 100000;                    // directions tried by check_star; 0 leaves them out
 };
 
 // "auto", "cosine", "none", "centroid", "volume" or "X,Y,Z". Throws InvalidInput.
 CenterOptions parse_center(const std::string& text);
-const char* to_string(CenterKind kind);
+const char* to_string(CenterKind kind);  // these names; "given" for a point
 
+// How a mesh is seen from a centre.
 struct StarReport {
-  Vec3 center;
+  Vec3 center;  // in the coordinates of the mesh
   // min over triangles of d_T = n_T . (v - c): the distance of the nearest face plane, negative if
   // some face turns its back to the centre. For kAuto this is the radius of the kernel's
   // inscribed ball. In the shape's unit.
@@ -63,12 +66,13 @@ StarReport check_star(const MeshView& mesh, const Vec3& center, int rays,
 // A mesh seen from a centre: what the transforms work on. Vertices are relative to the centre.
 struct StarChart {
   Mesh mesh;  // welded, closed, outward, vertices relative to report.center; no attributes
-  std::vector<Edge> edges;
-  StarReport report;
+  std::vector<Edge> edges;  // of the mesh, as pair_edges() gives them
+  StarReport report;        // the centre, and how well it sees the surface
 };
 
+// Which centre, and which surfaces.
 struct ChartOptions {
-  CenterOptions center = {};
+  CenterOptions center = {};  // sought, or given
   bool allow_signed = false;  // accept a surface that is not star-shaped: the alternating sum
 };
 

@@ -25,13 +25,14 @@ Mesh synthesize(const Expansion& expansion, const Mesh& sphere, const Context& c
 // a vertex lies on the centre.
 Mesh directions_of(const Mesh& mesh, const Vec3& center);
 
-// Of the solid bounded by the surface of an expansion, by quadrature on a grid: exact for
-// volume and centroid of a radius, converged to about 1e-12 for area (smooth, star-shaped).
+// Of the solid bounded by the surface of an expansion, in its unit.
 struct SurfaceMeasures {
-  double volume = 0;
-  double area = 0;
-  Vec3 centroid;
+  double volume = 0;  // cubed
+  double area = 0;    // squared; of the surface
+  Vec3 centroid;      // of the solid, in the coordinates of the shape
 };
+// By quadrature on a grid: exact for volume and centroid of a radius, converged to about 1e-12 for
+// area (smooth, star-shaped).
 SurfaceMeasures measure(const Expansion& expansion, const Context& context = {});
 
 }  // namespace rholm

@@ -11,8 +11,9 @@
 
 namespace rholm {
 
+// A mesh whose triangles share vertices.
 struct Welded {
-  Mesh mesh;
+  Mesh mesh;                            // with the vertices that stay
   std::size_t merged_vertices = 0;      // vertices that became one with another
   std::size_t collapsed_triangles = 0;  // triangles dropped because two corners became one
 };
@@ -26,10 +27,8 @@ Welded weld(const Mesh& mesh, double tolerance = 0);
 
 // An edge between two triangles. `left` has the half-edge a -> b, `right` has b -> a.
 struct Edge {
-  std::uint32_t a = 0;
-  std::uint32_t b = 0;
-  std::uint32_t left = 0;   // triangle index
-  std::uint32_t right = 0;  // triangle index
+  std::uint32_t a = 0, b = 0;         // vertex indices
+  std::uint32_t left = 0, right = 0;  // triangle indices
 };
 
 // All edges of a closed, consistently oriented mesh, each once, ordered by (min, max) vertex.
@@ -37,10 +36,10 @@ struct Edge {
 // Throws InvalidInput, with the number of offending edges, if some half-edge has no partner.
 std::vector<Edge> pair_edges(const Mesh& mesh);
 
+// A box along the axes.
 struct Bounds {
-  Vec3 min;
-  Vec3 max;
-  // Right for all coordinates up to a quarter of the largest double.
+  Vec3 min, max;  // the corners with the smallest and the largest coordinates
+  // Its length. Right for all coordinates up to a quarter of the largest double.
   double diagonal() const {
     const Vec3 size = max - min;
     const double plain = norm(size);
@@ -51,11 +50,10 @@ Bounds bounds(const std::vector<Vec3>& points);  // {0,0,0} twice for no points
 
 // What a mesh is. Counts are those of the mesh given: weld first to close seams.
 struct Inspection {
-  std::size_t vertices = 0;
-  std::size_t triangles = 0;
-  std::size_t edges = 0;
-  std::size_t boundary_edges = 0;         // in one triangle only
-  std::size_t non_manifold_edges = 0;     // in three or more
+  std::size_t vertices = 0, triangles = 0;  // used or not, with an area or not
+  std::size_t edges = 0;                    // pairs of vertices that a triangle joins
+  std::size_t boundary_edges = 0;           // in one triangle only
+  std::size_t non_manifold_edges = 0;       // in three or more
   std::size_t misoriented_edges = 0;      // in two triangles that run through it in the same sense
   std::size_t non_manifold_vertices = 0;  // whose triangles do not form one fan
   std::size_t isolated_vertices = 0;      // in no triangle
@@ -68,12 +66,13 @@ struct Inspection {
   bool manifold = false;    // no non-manifold edge or vertex
   bool oriented = false;    // no misoriented edge
   bool inside_out = false;  // closed and oriented, but the enclosed volume is negative
-  Bounds bounds;
-  double area = 0;
-  double volume = 0;     // signed; meaningful if closed and oriented
-  Vec3 vertex_centroid;  // mean of the used vertices
-  Vec3 volume_centroid;  // of the solid; meaningful if closed and the volume is not zero
+  Bounds bounds;            // of all vertices
+  double area = 0;          // of all triangles
+  double volume = 0;        // signed; meaningful if closed and oriented
+  Vec3 vertex_centroid;     // mean of the used vertices
+  Vec3 volume_centroid;     // of the solid; meaningful if closed and the volume is not zero
 };
+// Counts and measures. Throws InvalidInput as validate() does.
 Inspection inspect(const Mesh& mesh);
 
 // The component (of triangles connected through edges, as counted above: weld first to close
@@ -87,6 +86,7 @@ void flip(Mesh& mesh);
 // normalised, and zero where no triangle is. Indices of triangles are below the number of vertices.
 std::vector<Vec3> area_normals(std::span<const Vec3> vertices, std::span<const Triangle> triangles);
 
+// Sum of the areas of the triangles.
 double surface_area(const Mesh& mesh);
 // Signed volume of a closed mesh (positive if triangles are counter-clockwise from outside).
 double enclosed_volume(const Mesh& mesh);

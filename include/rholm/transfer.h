@@ -21,6 +21,7 @@
 
 namespace rholm {
 
+// How detail is laid on the target.
 enum class TransferMode : std::uint8_t {
   kDisplacement,  // along the target's base normals
   kCoefficients   // the coefficients above from_degree of one cap are put into the other's, raw:
@@ -30,6 +31,7 @@ enum class TransferMode : std::uint8_t {
 inline constexpr int kMaxTransferDegree = 64;  // from_degree of kDisplacement
 inline constexpr int kMaxSwapDegree = 24;      // degree of a cap with kCoefficients
 
+// What counts as detail, and how large it is laid.
 struct TransferOptions {
   // The texture is what harmonics up to this degree on a cap over the source region leave:
   // wavelengths below 4 radii / from_degree. 2 ... kMaxTransferDegree.
@@ -54,14 +56,14 @@ struct TransferUpdate {
   // alike, where neighbours agree best; they meet along the lines where they differ least.
   bool repeat = false;
   bool remove_own = false;  // the target's own detail of the same wavelengths goes first
-  TransferMode mode = TransferMode::kDisplacement;
+  TransferMode mode = TransferMode::kDisplacement;  // kCoefficients is there to compare with
 };
 
+// What the analysis found. Lengths are in the units of the two meshes.
 struct TransferReport {
   double source_radius = 0, target_radius = 0;  // of discs with the areas of the bases
   double scale = 1;                             // lengths on the target per length on the source
-  double source_wavelength = 0;                 // of the bases
-  double target_wavelength = 0;
+  double source_wavelength = 0, target_wavelength = 0;  // of the bases
   double source_edge = 0, target_edge = 0;  // median lengths, the target's after refinement
   double source_rms = 0;                    // height of the texture in its region
   double angle = 0;                         // of best correlation, radians
@@ -69,15 +71,17 @@ struct TransferReport {
   std::size_t new_vertices = 0;             // by refinement
 };
 
-// What an analysis knows.
 struct TransferState;
+
+// What an analysis knows.
 struct TransferAnalysis {
-  Mesh mesh;    // the target, refined if that was wanted
-  Patch patch;  // the vertices that may move, and the base under them
-  TransferReport report;
-  std::shared_ptr<const TransferState> state;
+  Mesh mesh;              // the target, refined if that was wanted
+  Patch patch;            // the vertices that may move, and the base under them
+  TransferReport report;  // in figures
+  std::shared_ptr<const TransferState> state;  // what update() needs besides; shared by copies
 };
 
+// Covers both regions, takes the detail of one and looks at that of the other: the slow part.
 // Throws InvalidInput for options out of range, for regions that one view cannot show (see the
 // message), for bases finer than the mesh, and what region_weights() throws.
 TransferAnalysis analyze_transfer(const Mesh& source, std::span<const Region> from,

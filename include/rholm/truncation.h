@@ -18,6 +18,7 @@
 
 namespace rholm {
 
+// How exact the coefficients are, and what is wanted.
 struct TruncationOptions {
   // Relative error of the coefficients, l2 without the mean: decides whether Parseval's difference
   // of two large numbers still means something.
@@ -33,7 +34,12 @@ TruncationErrors truncation_errors(const MeshView& mesh, const Expansion& expans
                                    const TruncationOptions& options = {},
                                    const Context& context = {});
 
-enum class ErrorNorm { kRms, kMax };
+// Which error of all those over the surface counts.
+enum class ErrorNorm {
+  kRms,  // root mean square
+  kMax   // the largest
+};
+// Between what it is measured.
 enum class ErrorMeasure {
   kRadius,   // rms over solid angle: exact, by Parseval
   kDistance  // rms over area, the larger of both ways
@@ -43,6 +49,7 @@ const char* to_string(ErrorMeasure measure);                // "radius", "distan
 ErrorNorm parse_error_norm(const std::string& name);        // throws InvalidInput
 ErrorMeasure parse_error_measure(const std::string& name);  // throws InvalidInput
 
+// What an error is given in.
 enum class ToleranceUnit {
   kAbsolute,  // the mesh's own
   kDiagonal,  // of the bounding box
@@ -51,21 +58,23 @@ enum class ToleranceUnit {
 const char* to_string(ToleranceUnit unit);                    // "absolute", "diagonal", "radius"
 ToleranceUnit parse_tolerance_unit(const std::string& name);  // throws InvalidInput
 
+// The largest error that is allowed.
 struct Tolerance {
-  double error = 0;  // above 0
-  ToleranceUnit unit = ToleranceUnit::kAbsolute;
-  ErrorNorm norm = ErrorNorm::kRms;
-  ErrorMeasure measure = ErrorMeasure::kRadius;
-  int max_degree = 1024;  // 0 ... kMaxDegree
+  double error = 0;                               // above 0
+  ToleranceUnit unit = ToleranceUnit::kAbsolute;  // of `error`
+  ErrorNorm norm = ErrorNorm::kRms;               // of all errors
+  ErrorMeasure measure = ErrorMeasure::kRadius;   // of each
+  int max_degree = 1024;                          // 0 ... kMaxDegree
 };
 
+// The degree for a tolerance, with its coefficients.
 struct ToleranceAnalysis {
   // Of the smallest degree that keeps the tolerance, or of max_degree. The errors of its expansion
   // are set where the tolerance is one of the largest error or of distances: they were measured.
   Analysis analysis;
-  double allowed = 0;  // in the mesh's unit
-  double reached = 0;  // the error of that degree in the norm and measure of the tolerance
-  bool met = false;
+  double allowed = 0;        // in the mesh's unit
+  double reached = 0;        // the error of that degree in the norm and measure of the tolerance
+  bool met = false;          // reached <= allowed
   std::vector<int> degrees;  // that were computed on the way, the last one in full precision
 };
 

@@ -3,6 +3,7 @@
 
 namespace rholm {
 
+// Major, minor and patch: packages of one minor version fit each other.
 inline constexpr const char* kVersion = "0.2.0";
 
 }  // namespace rholm
