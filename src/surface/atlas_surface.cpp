@@ -58,7 +58,7 @@ Vec3 lowest_corner(const std::vector<Disc>& discs) {
 std::vector<BlockCoordinates> blocks_of(const Atlas& atlas, double step,
                                         const AtlasSurfaceOptions& options,
                                         const Context& context) {
-  const std::vector<Disc> discs = discs_of(atlas, step, context);
+  const std::vector<Disc> discs = discs_of(atlas, step);
   return list_blocks(lowest_corner(discs), step, discs, blocks_within(options), context);
 }
 
@@ -202,7 +202,7 @@ AtlasSurface extract_atlas(const Atlas& atlas, const AtlasSurfaceOptions& option
     throw Error(ErrorCode::kInvalidInput, "an atlas without caps has no surface");
   }
   AtlasSurface result;
-  const std::vector<Disc> discs = discs_of(atlas, options.step, context);
+  const std::vector<Disc> discs = discs_of(atlas, options.step);
   BlockGrid grid = make_grid(atlas, discs, options, context);
   result.memory = memory_of(grid.n_blocks(), options);
   const CapLists lists = list_caps(grid, discs);

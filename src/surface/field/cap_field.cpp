@@ -290,7 +290,7 @@ Lanes make_lanes(const Atlas& atlas, double step) {
     lane.yy = static_cast<float>(cap.where.yy * step2);
     lane.xy2 = static_cast<float>(2 * cap.where.xy * step2);
     lane.hh = static_cast<float>(1 / (support * support));
-    lane.reach = static_cast<float>((band_of(atlas, step) + cap_deviation(atlas, cap)) / step);
+    lane.reach = static_cast<float>((band_of(atlas, step) + cap.deviation) / step);
     // A disc of radius e and half thickness t across n reaches e sqrt(1 - n_x^2) + t |n_x| along x.
     const Vec3 n = f.z;
     const double edge = ellipse_reach(cap) / step;
@@ -329,15 +329,13 @@ NodeRange nodes_near(const CapLane& cap, const Vec3& origin, double step) {
 
 double band_of(const Atlas& atlas, double step) { return std::max(kBandSteps * step, atlas.band); }
 
-double cap_deviation(const Atlas&, const Cap& cap) { return cap.deviation; }
-
-std::vector<Disc> discs_of(const Atlas& atlas, double step, const Context&) {
+std::vector<Disc> discs_of(const Atlas& atlas, double step) {
   std::vector<Disc> discs;
   discs.reserve(atlas.caps.size());
   for (const Cap& cap : atlas.caps) {
     const CapFrame& f = cap.frame;
     discs.push_back({f.seed() + cap.where.px * f.x + cap.where.py * f.y, f.z, ellipse_reach(cap),
-                     band_of(atlas, step) + cap_deviation(atlas, cap)});
+                     band_of(atlas, step) + cap.deviation});
   }
   return discs;
 }

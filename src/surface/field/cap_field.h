@@ -25,11 +25,8 @@ struct CapLists {
   std::vector<std::uint32_t> caps;
 };
 
-// How far a cap's surface departs from the tangent plane of its seed, within its support.
-double cap_deviation(const Atlas& atlas, const Cap& cap);
-
 // The part of space that a cap speaks for.
-std::vector<Disc> discs_of(const Atlas& atlas, double step, const Context& context);
+std::vector<Disc> discs_of(const Atlas& atlas, double step);
 CapLists list_caps(const BlockGrid& grid, const std::vector<Disc>& discs);
 
 // Sets values to G = sum w g / sum w, w = (1 - d^2/R^2)^3 (1 - g^2/T^2)^2, or with the weight of
