@@ -108,6 +108,7 @@ std::optional<Encoded> encode_as_it_lies(const MeshView& mesh, const EncodeOptio
     return std::nullopt;
   }
   check(options.analyze);
+  if (options.tolerance) check(*options.tolerance);
   Encoded encoded;
   report_progress(context, "center", 0);
   const std::optional<Vec3> center = timed(encoded.times, "center", [&]() -> std::optional<Vec3> {

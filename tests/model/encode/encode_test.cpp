@@ -201,6 +201,10 @@ TEST(encode, refuses_what_has_no_coefficients_with_a_code_and_words) {
   EXPECT_EQ(code_of(torus(1, 0.3, 24, 12)), ErrorCode::kNotStarShaped);
   EncodeOptions on_face{.chart = {.center = {.kind = CenterKind::kGiven, .point = {1, 0, 0}}}};
   EXPECT_EQ(code_of(box({2, 2, 2}), on_face), ErrorCode::kNotStarShaped);
+  for (const Tolerance& wrong :
+       {Tolerance{}, Tolerance{.error = -1}, Tolerance{.error = 0.1, .max_degree = -1}}) {
+    EXPECT_EQ(code_of(icosphere(2), {.tolerance = wrong}), ErrorCode::kInvalidInput);
+  }
 }
 
 TEST(encode, tells_its_stages_and_can_be_cancelled) {
