@@ -15,20 +15,10 @@
 #include <string>
 #include <vector>
 
+#include "rholm/cap_frame.h"
 #include "rholm/vec3.h"
 
 namespace rholm {
-
-// Where a cap is. x, y, z are orthonormal and right-handed; z points outwards.
-struct CapFrame {
-  Vec3 center;          // of the sphere
-  Vec3 x, y, z;         // axes of the local frame
-  double radius = 1;    // R_0 > 0; the seed is center + radius z
-  double dilation = 1;  // a >= 1
-  double support = 0;   // radius of the points around the seed that it was made of
-  // The point of the sphere in the middle of the cap.
-  Vec3 seed() const { return center + radius * z; }
-};
 
 // Where a cap speaks: with (p, q, h) = x - seed along the frame's axes, where
 //   s^2 = xx (p - px)^2 + 2 xy (p - px)(q - py) + yy (q - py)^2 + (h / support)^2 < 1:

@@ -5,6 +5,7 @@
 #include "rholm/align.h"
 #include "rholm/analyze.h"
 #include "rholm/atlas.h"
+#include "rholm/cap_frame.h"
 #include "rholm/coefficients.h"
 #include "rholm/coefficients_io.h"
 #include "rholm/compare.h"

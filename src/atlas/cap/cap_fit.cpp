@@ -194,13 +194,6 @@ void solve(const std::vector<double>& lower, std::size_t n, std::vector<double>&
   }
 }
 
-// Any unit vector across z: x = the axis farthest from z, made orthogonal.
-Vec3 across(const Vec3& z) {
-  const double ax = std::abs(z.x), ay = std::abs(z.y), az = std::abs(z.z);
-  const Vec3 axis = ax <= ay && ax <= az ? Vec3{1, 0, 0} : ay <= az ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
-  return normalized(axis - dot(axis, z) * z);
-}
-
 double sum_of_squares(const double* values, std::size_t n) {
   double sum = 0;
   for (std::size_t i = 0; i < n; ++i) sum += values[i] * values[i];
@@ -230,19 +223,6 @@ void CapPoints::pad() {
     // A point on the axis, without weight: nothing to divide by zero.
     for (std::size_t which = 0; which < 7; ++which) data_[which * capacity_ + i] = 0;
   }
-}
-
-CapFrame cap_frame(const Vec3& seed, const Vec3& axis, double support, double half_angle,
-                   double opened) {
-  CapFrame frame;
-  frame.z = normalized(axis);
-  frame.x = across(frame.z);
-  frame.y = cross(frame.z, frame.x);
-  frame.radius = support / std::tan(half_angle);
-  frame.center = seed - frame.radius * frame.z;
-  frame.dilation = std::tan(opened / 2) / std::tan(half_angle / 2);
-  frame.support = support;
-  return frame;
 }
 
 CapSystem make_system(const CapFrame& frame, const CapPoints& points, const CapFitOptions& options,

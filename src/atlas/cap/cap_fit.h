@@ -52,11 +52,6 @@ struct CapFitScratch {
   std::vector<double> matrix, factor, right;
 };
 
-// The frame of a cap around `seed`: its centre lies below, where the support is seen under
-// `half_angle`, and the sphere is opened so that this becomes `opened`. Radians.
-CapFrame cap_frame(const Vec3& seed, const Vec3& axis, double support, double half_angle,
-                   double opened);
-
 // The least squares of a fit before it is solved: rows and matrix are in the scratch memory. The
 // coefficients of a lower degree are the first ones, so its system is the leading block.
 struct CapSystem {

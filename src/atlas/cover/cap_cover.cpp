@@ -8,6 +8,7 @@
 #include "atlas/cap/cap_fit.h"
 #include "atlas/cover/cap_seed.h"
 #include "base/parallel.h"
+#include "chart/cap/cap_frame.h"
 
 namespace rholm {
 namespace {

@@ -7,6 +7,8 @@
 #include "atlas/cap/cap_pole.h"
 #include "atlas/cover/cap_seed.h"
 #include "base/parallel.h"
+#include "chart/cap/cap_frame.h"
+#include "chart/cap/dilation.h"
 
 namespace rholm {
 namespace {
@@ -180,8 +182,7 @@ CapSize choose_cap_size(const OrderedPoints& points, int degree, const Context& 
         std::clamp(kNormalsFavoured * chosen.level_rms / chosen.slope_rms, 0.01, 10.0);
   }
   if (noisy) best.noise = chosen.rms;
-  const double dilation = std::tan(kOpened / 2) / std::tan(kHalfAngle / 2);
-  best.normal_noise = chosen.slope_rms * dilation / kSlopesGrow;
+  best.normal_noise = chosen.slope_rms * dilation_between(kHalfAngle, kOpened) / kSlopesGrow;
   return best;
 }
 

@@ -7,6 +7,8 @@
 #include "atlas/cap/cap_eval.h"
 #include "atlas/few/cap_blend.h"
 #include "base/poison.h"
+#include "chart/cap/cap_frame.h"
+#include "chart/cap/dilation.h"
 
 namespace rholm {
 namespace {
@@ -45,7 +47,7 @@ CapFrame gather(const SampleLevel& level, std::uint32_t start, const Vec3& seed,
     axis += level.normals[i];
   }
   CapFrame frame = cap_frame(seed, norm(axis) > 0 ? axis : normal, radius, half_angle, kOpened);
-  frame.dilation = std::tan(kOpened / 2) / std::tan(std::atan(kOverlap * std::tan(half_angle)) / 2);
+  frame.dilation = dilation_between(std::atan(kOverlap * std::tan(half_angle)), kOpened);
   scratch.points.clear();
   scratch.indices.clear();
   scratch.distance2.clear();

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <string>
 
+#include "chart/cap/cap_frame.h"
+#include "chart/cap/dilation.h"
 #include "rholm/error.h"
 #include "rholm/harmonic.h"
 #include "shape/points/plane_fit.h"
@@ -17,25 +19,6 @@
 
 namespace rholm {
 namespace {
-
-// Seen from the frame, in units of its radius.
-Vec3 local(const CapFrame& frame, const Vec3& x) {
-  const Vec3 ray = (x - frame.center) / frame.radius;
-  return {dot(ray, frame.x), dot(ray, frame.y), dot(ray, frame.z)};
-}
-
-// d theta' / d theta at a cosine, of tan(theta'/2) = a tan(theta/2).
-double conformal_factor(double a, double cosine) {
-  return 2 * a / (1 + cosine + a * a * (1 - cosine));
-}
-
-// A unit vector on the dilated sphere.
-Vec3 dilated(double a, const Vec3& u) {
-  if (a == 1) return u;
-  const double factor = conformal_factor(a, u.z);
-  const double up = 1 + u.z, down = a * a * (1 - u.z);
-  return {factor * u.x, factor * u.y, (up - down) / (up + down)};
-}
 
 using Corners = std::array<Vec3, 3>;
 
@@ -74,7 +57,7 @@ Corners corners_of(const CapFrame& frame, const PatchMesh& patch, std::size_t t)
                                                 std::to_string(v) + " of " +
                                                 std::to_string(patch.points.size()) + " points");
     }
-    corners[k] = local(frame, patch.points[v]);
+    corners[k] = in_frame(frame, patch.points[v]);
     // Far from the sphere's own size squares of lengths would overflow.
     const double length = norm(corners[k]);
     if (!(length > 1e-100 && length < 1e100)) {
@@ -158,11 +141,11 @@ CapFrame patch_frame(const PatchSphere& seen, std::span<const Vec3> points, doub
   double half_angle = 0;
   for (const Vec3& p : points) {
     frame.support = std::max(frame.support, norm(p - frame.seed()));
-    const Vec3 u = normalized(local(frame, p));
+    const Vec3 u = normalized(in_frame(frame, p));
     half_angle = std::max(half_angle, std::atan2(std::hypot(u.x, u.y), u.z));
   }
   if (opened > 0 && opened < std::numbers::pi && half_angle > 0 && half_angle < opened) {
-    frame.dilation = std::tan(opened / 2) / std::tan(half_angle / 2);
+    frame.dilation = dilation_between(half_angle, opened);
   }
   return frame;
 }
@@ -207,7 +190,7 @@ CapErrors cap_errors(const CapFrame& frame, const Coefficients& coefficients,
   std::vector<Vec3> directions;
   directions.reserve(points.size());
   for (const Vec3& p : points) {
-    directions.push_back(dilated(frame.dilation, normalized(local(frame, p))));
+    directions.push_back(dilated(frame.dilation, normalized(in_frame(frame, p))));
   }
   CapErrors errors;
   errors.along_rays = evaluate(coefficients, directions, {}, context);

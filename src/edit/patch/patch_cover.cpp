@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "atlas/cap/cap_fit.h"
+#include "chart/cap/cap_frame.h"
 #include "edit/patch/patch_kernels.h"
 
 namespace rholm {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "edit/region/local_mesh.h"
-#include "rholm/atlas.h"
+#include "rholm/cap_frame.h"
 
 namespace rholm {
 

@@ -13,6 +13,7 @@
 #include "atlas/cap/cap_pole.h"
 #include "atlas/cap/degree_fits.h"
 #include "atlas/cover/cap_seed.h"
+#include "chart/cap/cap_frame.h"
 #include "rholm/harmonic.h"
 #include "support/random_data.h"
 #include "support/targets.h"

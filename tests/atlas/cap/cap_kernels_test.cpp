@@ -11,6 +11,7 @@
 #include "atlas/cap/cap_fit.h"
 #include "atlas/cover/cap_seed.h"
 #include "base/poison.h"
+#include "chart/cap/cap_frame.h"
 #include "support/random_data.h"
 #include "support/targets.h"
 

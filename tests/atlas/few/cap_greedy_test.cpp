@@ -11,6 +11,7 @@
 #include "atlas/cap/degree_fits.h"
 #include "atlas/few/cap_blend.h"
 #include "atlas/few/cap_prune.h"
+#include "chart/cap/cap_frame.h"
 #include "support/random_data.h"
 
 namespace rholm {

@@ -10,6 +10,7 @@
 #include "atlas/cap/cap_eval.h"
 #include "atlas/cap/cap_fit.h"
 #include "atlas/few/cap_blend.h"
+#include "chart/cap/cap_frame.h"
 
 namespace rholm {
 namespace {

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <vector>
 
+#include "chart/cap/cap_frame.h"
+
 namespace rholm {
 namespace {
 
