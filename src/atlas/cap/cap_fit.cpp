@@ -8,9 +8,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "atlas/cap/cap_limits.h"
+#include "atlas/cap/opened_sphere-inl.h"
 #include "base/poison.h"
-#include "harmonic/legendre/low_harmonics-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace rholm {
@@ -20,64 +19,46 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<double, kCapLanes>;
 using V = hn::Vec<D>;
 
-HWY_INLINE V Dot(D d, const Vec3& a, V x, V y, V z) {
-  return hn::MulAdd(hn::Set(d, a.x), x,
-                    hn::MulAdd(hn::Set(d, a.y), y, hn::Mul(hn::Set(d, a.z), z)));
-}
-
 // Rows of the least squares, each multiplied by its weight: for every harmonic its value and two
 // slopes at each point, then the right-hand sides. All of a row is written, zeros beyond the last
 // point: what takes rows reads them whole, whatever the lanes.
 std::size_t FillRows(const CapFrame& frame, const CapPoints& points, const CapFitOptions& options,
                      double* rows, std::size_t stride) {
   const D d;
-  const V one = hn::Set(d, 1.0), two = hn::Set(d, 2.0);
+  const LaneFrame<double> f = lane_frame<double>(frame);
+  const V one = hn::Set(d, 1.0);
   const bool even = options.basis == CapBasis::kEven;
   const std::size_t n_basis = n_coefficients(options.basis, options.degree), third = stride / 3;
   V usable = hn::Zero(d);
   for (std::size_t i = 0; i < third; i += hn::Lanes(d)) {
     const std::size_t left = points.size() - HWY_MIN(i, points.size());
-    const V px = hn::Load(d, points.row(0) + i), py = hn::Load(d, points.row(1) + i);
-    const V pz = hn::Load(d, points.row(2) + i), nx = hn::Load(d, points.row(3) + i);
-    const V ny = hn::Load(d, points.row(4) + i), nz = hn::Load(d, points.row(5) + i);
-    // From the centre, which is R_0 below the seed.
-    const V lx = Dot(d, frame.x, px, py, pz), ly = Dot(d, frame.y, px, py, pz);
-    const V lz = hn::Add(Dot(d, frame.z, px, py, pz), hn::Set(d, frame.radius));
-    const V rho = hn::Sqrt(hn::MulAdd(lx, lx, hn::MulAdd(ly, ly, hn::Mul(lz, lz))));
-    const V inverse = hn::Div(one, rho);
-    V ux = hn::Mul(lx, inverse), uy = hn::Mul(ly, inverse), uz = hn::Mul(lz, inverse);
-    const V n1 = Dot(d, frame.x, nx, ny, nz), n2 = Dot(d, frame.y, nx, ny, nz);
-    const V n3 = Dot(d, frame.z, nx, ny, nz);
-    V facing = hn::MulAdd(n1, ux, hn::MulAdd(n2, uy, hn::Mul(n3, uz)));
-    auto good = hn::And(hn::Gt(facing, hn::Set(d, kLeastFacing)), hn::Gt(uz, hn::Set(d, -0.9)));
+    const auto row = [&](std::size_t which) HWY_ATTR { return hn::Load(d, points.row(which) + i); };
+    CapRay<V> ray = RayTo(d, f, ToFrame(d, f, row(0), row(1), row(2)));
+    const Lanes3<V> n = ToFrame(d, f, row(3), row(4), row(5));
+    V facing =
+        hn::Div(hn::MulAdd(n.x, ray.x, hn::MulAdd(n.y, ray.y, hn::Mul(n.z, ray.z))), ray.rho);
+    auto good = hn::And(hn::Gt(facing, hn::Set(d, kLeastFacing)),
+                        hn::Gt(ray.z, hn::Mul(ray.rho, hn::Set(d, kLowest))));
     good = hn::And(good, hn::FirstN(d, left));
-    const V weight = hn::IfThenElseZero(good, hn::Sqrt(hn::Load(d, points.row(6) + i)));
+    const V weight = hn::IfThenElseZero(good, hn::Sqrt(row(6)));
     usable = hn::Add(usable, hn::IfThenElseZero(good, one));
     // What is left out counts as on the axis: a weight of zero does not undo a division by it.
-    ux = hn::IfThenElseZero(good, ux), uy = hn::IfThenElseZero(good, uy);
-    uz = hn::IfThenElse(good, uz, one), facing = hn::IfThenElseZero(good, facing);
-    // Stereographic plane, opened, and the conformal factor.
-    const V below = hn::Div(one, hn::Add(one, uz));
-    const V s1 = hn::Mul(ux, below), s2 = hn::Mul(uy, below);
-    const V q = hn::MulAdd(s1, s1, hn::MulAdd(s2, s2, one));
-    const V a = hn::Set(d, frame.dilation);
-    LowDirection<V> at;
-    at.s1 = hn::Mul(a, s1), at.s2 = hn::Mul(a, s2);
-    const V opened = hn::MulAdd(at.s1, at.s1, hn::MulAdd(at.s2, at.s2, one));
-    const V over = hn::Div(two, opened);
-    at.x = hn::Mul(at.s1, over), at.y = hn::Mul(at.s2, over), at.z = hn::Sub(over, one);
-    const V factor = hn::Div(hn::Mul(a, q), opened);
+    ray = {hn::IfThenElseZero(good, ray.x), hn::IfThenElseZero(good, ray.y),
+           hn::IfThenElse(good, ray.z, one), hn::IfThenElse(good, ray.rho, one)};
+    facing = hn::IfThenElseZero(good, facing);
+    const OpenedPlace<V> place = Open(d, f, ray);
+    const LowDirection<V>& at = place.at;
     // grad phi = (r / R_0) (u - n / (n . u)), method 7.4, along the tangents of the plane's axes.
-    const V level = hn::Mul(rho, hn::Set(d, 1 / frame.radius));
-    const V n_below = hn::Add(facing, n3);
+    const V level = hn::Mul(ray.rho, hn::Set(d, 1 / f.radius));
+    const V n_below = hn::Add(facing, n.z);
     const V steep = hn::IfThenElseZero(
-        good, hn::Div(level, hn::Mul(hn::Mul(facing, factor), hn::Set(d, -1.0))));
+        good, hn::Div(level, hn::Neg(hn::Mul(facing, ConformalFactor(d, f, place)))));
     const V slope_weight = hn::Mul(weight, hn::Set(d, options.gradient_weight));
     double* const right = rows + n_basis * stride + i;
     hn::Store(hn::IfThenElseZero(good, hn::Mul(weight, hn::Sub(level, one))), d, right);
-    hn::Store(hn::Mul(hn::Mul(slope_weight, steep), hn::NegMulAdd(s1, n_below, n1)), d,
+    hn::Store(hn::Mul(hn::Mul(slope_weight, steep), hn::NegMulAdd(place.s1, n_below, n.x)), d,
               right + third);
-    hn::Store(hn::Mul(hn::Mul(slope_weight, steep), hn::NegMulAdd(s2, n_below, n2)), d,
+    hn::Store(hn::Mul(hn::Mul(slope_weight, steep), hn::NegMulAdd(place.s2, n_below, n.y)), d,
               right + 2 * third);
     V re = one, im = one, re_below = one, im_below = one;
     const V up = hn::Add(at.z, one);
@@ -88,25 +69,25 @@ std::size_t FillRows(const CapFrame& frame, const CapPoints& points, const CapFi
         [&](int l, int m, V p, V dp) HWY_ATTR {
           if (even && ((l + m) & 1) != 0) return;
           const std::size_t index = even ? even_index(l, m) : low_index(l, m);
-          double* row = rows + index * stride + i;
+          double* to = rows + index * stride + i;
           const V order = hn::Set(d, static_cast<double>(m));
           const V turn = hn::MulAdd(order, p, hn::Mul(up, dp)), pm = hn::Mul(order, p);
-          hn::Store(hn::Mul(weight, hn::Mul(p, re)), d, row);
+          hn::Store(hn::Mul(weight, hn::Mul(p, re)), d, to);
           hn::Store(
               hn::Mul(slope_weight, hn::NegMulAdd(at.s1, hn::Mul(turn, re), hn::Mul(pm, re_below))),
-              d, row + third);
+              d, to + third);
           hn::Store(
               hn::Mul(slope_weight, hn::NegMulSub(at.s2, hn::Mul(turn, re), hn::Mul(pm, im_below))),
-              d, row + 2 * third);
+              d, to + 2 * third);
           if (m == 0) return;
-          row += stride;
-          hn::Store(hn::Mul(weight, hn::Mul(p, im)), d, row);
+          to += stride;
+          hn::Store(hn::Mul(weight, hn::Mul(p, im)), d, to);
           hn::Store(
               hn::Mul(slope_weight, hn::NegMulAdd(at.s1, hn::Mul(turn, im), hn::Mul(pm, im_below))),
-              d, row + third);
+              d, to + third);
           hn::Store(
               hn::Mul(slope_weight, hn::NegMulAdd(at.s2, hn::Mul(turn, im), hn::Mul(pm, re_below))),
-              d, row + 2 * third);
+              d, to + 2 * third);
         });
   }
   return static_cast<std::size_t>(hn::GetLane(hn::SumOfLanes(d, usable)) + 0.5);

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "atlas/cap/cap_limits.h"
 #include "atlas/few/cap_samples.h"
 #include "rholm/atlas.h"
 #include "rholm/context.h"
@@ -24,8 +25,7 @@ struct Blend {
   double rms = 0, max = 0;          // of the blended distance, over samples that a cap speaks for
   std::size_t silent = 0;           // samples that none speaks for
   double error(std::uint32_t sample) const { return sum[sample] / weight[sample]; }
-  bool is_silent(std::uint32_t sample) const { return !(weight[sample] > kSilence); }
-  static constexpr double kSilence = 1e-5;  // as kLeastWeight of the grid
+  bool is_silent(std::uint32_t sample) const { return !(weight[sample] > kLeastWeight); }
 };
 
 // Caps farther from a sample than `band` do not speak for it.

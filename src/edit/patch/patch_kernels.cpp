@@ -7,7 +7,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "harmonic/legendre/low_harmonics-inl.h"
+#include "atlas/cap/opened_sphere-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace rholm {
@@ -18,39 +18,27 @@ using D = hn::CappedTag<double, kPatchLanes>;
 using V = hn::Vec<D>;
 
 // Directions this close to the one opposite the axis, where the plane ends, are taken as there.
-constexpr double kLowest = 1e-3;
-
-HWY_INLINE V Along(D d, const Vec3& a, V x, V y, V z) {
-  return hn::MulAdd(hn::Set(d, a.x), x,
-                    hn::MulAdd(hn::Set(d, a.y), y, hn::Mul(hn::Set(d, a.z), z)));
-}
+constexpr double kLeastBelow = 1e-3;
 
 void Rows(const CapFrame& frame, int degree, const double* offsets, std::size_t n, double* rows,
           double* area) {
   const D d;
   const V one = hn::Set(d, 1.0);
-  const V a = hn::Set(d, frame.dilation);
+  const LaneFrame<double> f = lane_frame<double>(frame);
+  const V least = hn::Set(d, kLeastBelow * frame.radius);
   for (std::size_t i = 0; i < n; i += hn::Lanes(d)) {
-    const V x = hn::LoadU(d, offsets + i), y = hn::LoadU(d, offsets + n + i);
-    const V z = hn::LoadU(d, offsets + 2 * n + i);
-    const V lx = Along(d, frame.x, x, y, z), ly = Along(d, frame.y, x, y, z);
-    const V lz = hn::Add(Along(d, frame.z, x, y, z), hn::Set(d, frame.radius));
-    const V rho = hn::Sqrt(hn::MulAdd(lx, lx, hn::MulAdd(ly, ly, hn::Mul(lz, lz))));
-    const V least = hn::Set(d, kLowest * frame.radius);
-    const V below = hn::Div(one, hn::Max(least, hn::Add(rho, lz)));
-    const V t1 = hn::Mul(lx, below), t2 = hn::Mul(ly, below);
-    LowDirection<V> at;
-    at.s1 = hn::Mul(a, t1), at.s2 = hn::Mul(a, t2);
-    const V opened = hn::MulAdd(at.s1, at.s1, hn::MulAdd(at.s2, at.s2, one));
-    const V over = hn::Div(hn::Set(d, 2.0), opened);
-    at.x = hn::Mul(at.s1, over), at.y = hn::Mul(at.s2, over), at.z = hn::Sub(over, one);
-    const V closed = hn::MulAdd(t1, t1, hn::MulAdd(t2, t2, one));
-    const V factor = hn::Div(hn::Mul(a, closed), opened);
-    hn::StoreU(hn::MulSub(rho, hn::Set(d, 1 / frame.radius), one), d, rows + i);
+    const CapRay<V> ray =
+        RayTo(d, f,
+              ToFrame(d, f, hn::LoadU(d, offsets + i), hn::LoadU(d, offsets + n + i),
+                      hn::LoadU(d, offsets + 2 * n + i)));
+    const V below = hn::Div(one, hn::Max(least, hn::Add(ray.rho, ray.z)));
+    const OpenedPlace<V> place = OpenBelow(d, f, ray, below);
+    const V factor = ConformalFactor(d, f, place);
+    hn::StoreU(hn::MulSub(ray.rho, hn::Set(d, 1 / frame.radius), one), d, rows + i);
     hn::StoreU(hn::Mul(factor, factor), d, area + i);
     V re = one, im = one;
     VisitLowHarmonics(
-        d, degree, at, [&](int, V b0, V b1, V, V) HWY_ATTR { re = b0, im = b1; },
+        d, degree, place.at, [&](int, V b0, V b1, V, V) HWY_ATTR { re = b0, im = b1; },
         [&](int l, int m, V p, V) HWY_ATTR {
           if (!in_patch_basis(l, m)) return;
           double* const row = rows + (1 + patch_index(l, m)) * n + i;

@@ -13,7 +13,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "harmonic/legendre/low_harmonics-inl.h"
+#include "atlas/cap/opened_sphere-inl.h"
 #include "surface/field/cap_lane.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -38,11 +38,6 @@ struct LaneCap {
   }
 };
 
-HWY_INLINE V DotLane(D d, const float* a, V x, V y, V z) {
-  return hn::MulAdd(hn::Set(d, a[0]), x,
-                    hn::MulAdd(hn::Set(d, a[1]), y, hn::Mul(hn::Set(d, a[2]), z)));
-}
-
 // (1 - s^2)^3, or the quadratic B-spline of t = 3 s / 2: 3/4 - t^2 up to 1/2, then (3/2 - t)^2 / 2,
 // both over its value at 0.
 HWY_INLINE V WeightAt(D d, bool spline, V near) {
@@ -63,7 +58,8 @@ struct Said {
 // Where points lie with respect to a cap: in its frame, 1 - s^2 of its support, and whether they
 // are within that and not too far from the tangent plane.
 struct Place {
-  V lx, ly, height, near;
+  Lanes3<V> at;
+  V near;
   M within;
 };
 
@@ -71,67 +67,40 @@ HWY_INLINE Place PlaceOf(D d, const LaneCap& lane, V px, V py, V pz) {
   const CapLane& cap = lane.cap;
   const V one = hn::Set(d, 1.0f);
   const V dx = hn::Sub(px, lane.sx), dy = hn::Sub(py, lane.sy), dz = hn::Sub(pz, lane.sz);
-  Place at;
-  at.height = DotLane(d, cap.z, dx, dy, dz);
-  at.lx = DotLane(d, cap.x, dx, dy, dz), at.ly = DotLane(d, cap.y, dx, dy, dz);
-  const V p = hn::Sub(at.lx, hn::Set(d, cap.px)), q = hn::Sub(at.ly, hn::Set(d, cap.py));
+  Place place;
+  place.at = ToFrame(d, cap.frame, dx, dy, dz);
+  const V p = hn::Sub(place.at.x, hn::Set(d, cap.px)), q = hn::Sub(place.at.y, hn::Set(d, cap.py));
+  const V height = place.at.z;
   V square =
       hn::MulAdd(hn::Set(d, cap.xx), hn::Mul(p, p), hn::Mul(hn::Set(d, cap.xy2), hn::Mul(p, q)));
   square = hn::MulAdd(hn::Set(d, cap.yy), hn::Mul(q, q), square);
-  at.near = hn::Sub(one, hn::MulAdd(hn::Set(d, cap.hh), hn::Mul(at.height, at.height), square));
-  at.within =
-      hn::And(hn::Gt(at.near, hn::Zero(d)), hn::Lt(hn::Abs(at.height), hn::Set(d, cap.reach)));
-  return at;
+  place.near = hn::Sub(one, hn::MulAdd(hn::Set(d, cap.hh), hn::Mul(height, height), square));
+  place.within =
+      hn::And(hn::Gt(place.near, hn::Zero(d)), hn::Lt(hn::Abs(height), hn::Set(d, cap.reach)));
+  return place;
 }
 
 template <bool kNormals>
 HWY_INLINE void Say(D d, const CapLane& cap, const Place& place, Said& said) {
   const V one = hn::Set(d, 1.0f);
-  const V lx = place.lx, ly = place.ly;
-  const V lz = hn::Add(place.height, hn::Set(d, cap.radius));
-  const V rho2 = hn::MulAdd(lx, lx, hn::MulAdd(ly, ly, hn::Mul(lz, lz)));
-  const V rho = hn::Sqrt(rho2);
-  // (s1, s2) = a (ux, uy) / (1 + uz)
-  const V below = hn::Div(one, hn::Add(rho, lz));
-  const V t1 = hn::Mul(lx, below), t2 = hn::Mul(ly, below);
-  const V a = hn::Set(d, cap.dilation);
-  LowDirection<V> at;
-  at.s1 = hn::Mul(a, t1), at.s2 = hn::Mul(a, t2);
-  const V opened = hn::Div(one, hn::MulAdd(at.s1, at.s1, hn::MulAdd(at.s2, at.s2, one)));
-  const V over = hn::Add(opened, opened);
-  at.x = hn::Mul(at.s1, over), at.y = hn::Mul(at.s2, over), at.z = hn::Sub(over, one);
-  const LowSum<V> sum = SumLowHarmonics(d, cap.degree, cap.even, cap.coefficients, at);
-  const V level = hn::Add(one, sum.value);
-  // |grad f| / f = factor |grad phi| / (1 + phi)
-  const V factor = hn::Mul(hn::Mul(a, hn::MulAdd(t1, t1, hn::MulAdd(t2, t2, one))), opened);
-  const V slope = hn::Div(factor, level);
-  const V g1 = hn::Mul(slope, sum.d1), g2 = hn::Mul(slope, sum.d2);
-  const V flat = hn::Div(one, hn::Sqrt(hn::MulAdd(g1, g1, hn::MulAdd(g2, g2, one))));
-  said.g = hn::Mul(hn::NegMulAdd(hn::Set(d, cap.radius), level, rho), flat);
+  const CapRay<V> ray = RayTo(d, cap.frame, place.at);
+  const OpenedPlace<V> opened = Open(d, cap.frame, ray);
+  const LowSum<V> phi = SumLowHarmonics(d, cap.degree, cap.even, cap.coefficients, opened.at);
+  const CapLevel<V> here = LevelOf(d, cap.frame, opened, phi);
+  said.g = Potential(d, cap.frame, ray, here);
   const V band = hn::Mul(said.g, hn::Set(d, cap.inverse_band));
   const V rest = hn::NegMulAdd(band, band, one);
-  M speaks =
-      hn::And(place.within, hn::And(hn::Gt(rest, hn::Zero(d)), hn::Gt(level, hn::Set(d, 0.2f))));
-  speaks = hn::And(speaks, hn::Gt(lz, hn::Mul(rho, hn::Set(d, 0.3f))));
+  const M speaks =
+      hn::And(hn::And(place.within, hn::Gt(rest, hn::Zero(d))), HasPotential(d, ray, here));
   said.w = hn::IfThenElseZero(speaks, hn::Mul(WeightAt(d, cap.spline, place.near),
                                               hn::Mul(hn::Set(d, cap.trust), hn::Mul(rest, rest))));
-  if (cap.noisy) said.w = hn::Mul(said.w, hn::Mul(flat, flat));
+  if (cap.noisy) said.w = hn::Mul(said.w, hn::Mul(here.flatness, here.flatness));
   said.g = hn::IfThenElseZero(speaks, said.g);
   if constexpr (kNormals) {
-    // u - grad f / f, in the frame: the tangents of the plane's axes are e_i - t_i (u + e_3).
-    const V inverse = hn::Div(one, rho);
-    const V ux = hn::Mul(lx, inverse), uy = hn::Mul(ly, inverse), uz = hn::Mul(lz, inverse);
-    const V both = hn::MulAdd(g1, t1, hn::Mul(g2, t2));
-    const V fx = hn::Mul(flat, hn::Sub(hn::MulAdd(both, ux, ux), g1));
-    const V fy = hn::Mul(flat, hn::Sub(hn::MulAdd(both, uy, uy), g2));
-    const V fz = hn::Mul(flat, hn::MulAdd(both, hn::Add(uz, one), uz));
-    const auto turn = [&](int axis) HWY_ATTR {
-      return hn::IfThenElseZero(speaks,
-                                hn::MulAdd(hn::Set(d, cap.x[axis]), fx,
-                                           hn::MulAdd(hn::Set(d, cap.y[axis]), fy,
-                                                      hn::Mul(hn::Set(d, cap.z[axis]), fz))));
-    };
-    said.nx = turn(0), said.ny = turn(1), said.nz = turn(2);
+    const Lanes3<V> normal = NormalOf(d, DirectionOf(d, ray), opened, here);
+    said.nx = hn::IfThenElseZero(speaks, FromFrame(d, cap.frame, 0, normal));
+    said.ny = hn::IfThenElseZero(speaks, FromFrame(d, cap.frame, 1, normal));
+    said.nz = hn::IfThenElseZero(speaks, FromFrame(d, cap.frame, 2, normal));
   }
 }
 
@@ -193,14 +162,14 @@ void FillBlock(const CapLane* caps, const std::uint32_t* list, std::size_t n_cap
   for (std::size_t i = 0; i < 512; i += hn::Lanes(d)) {
     const V w = hn::Load(d, sum_w + i);
     const V g = hn::Div(hn::Load(d, sum_g + i), w);
-    hn::StoreU(hn::IfThenElse(hn::Gt(w, hn::Set(d, kLeastWeight)),
+    hn::StoreU(hn::IfThenElse(hn::Gt(w, hn::Set(d, kNoWeight)),
                               hn::Mul(g, hn::Set(d, static_cast<float>(step))),
                               hn::Set(d, BlockGrid::kUnknown)),
                d, values + i);
   }
   const auto near = static_cast<float>(kDoubtfulSteps * step);
   for (std::size_t i = 0; i < 512; ++i) {
-    const bool weak = sum_w[i] > kLeastWeight && sum_w[i] < kDoubtfulWeight;
+    const bool weak = sum_w[i] > kNoWeight && sum_w[i] < kDoubtfulWeight;
     if (weak && std::abs(values[i]) < near) doubtful[i >> 6] |= std::uint64_t{1} << (i & 63);
   }
 }
@@ -275,14 +244,8 @@ Lanes make_lanes(const Atlas& atlas, double step) {
     CapLane lane;
     const CapFrame& f = cap.frame;
     lane.seed = f.seed();
-    const auto put = [](float* to, const Vec3& v) {
-      to[0] = static_cast<float>(v.x), to[1] = static_cast<float>(v.y),
-      to[2] = static_cast<float>(v.z);
-    };
-    put(lane.x, f.x), put(lane.y, f.y), put(lane.z, f.z);
+    lane.frame = lane_frame<float>(f, step);
     const double support = f.support / step;
-    lane.radius = static_cast<float>(f.radius / step);
-    lane.dilation = static_cast<float>(f.dilation);
     const double step2 = step * step;
     lane.px = static_cast<float>(cap.where.px / step),
     lane.py = static_cast<float>(cap.where.py / step);
@@ -484,7 +447,7 @@ void project_vertices(const Atlas& atlas, const CapLists& lists, const BlockGrid
                    for (std::size_t i = 0; i < n; ++i) {
                      const float* s = rows.sums.data() + i;
                      const double w = s[rows.stride];
-                     if (!(w > kLeastWeight)) continue;
+                     if (!(w > kNoWeight)) continue;
                      const Vec3 normal =
                          Vec3{s[2 * rows.stride], s[3 * rows.stride], s[4 * rows.stride]} / w;
                      // The vertex moves by a small part of a step: its normal is that of where it

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 
+#include "atlas/cap/cap_limits.h"
+#include "atlas/cap/lane_frame.h"
 #include "rholm/vec3.h"
 
 namespace rholm {
@@ -10,8 +12,7 @@ namespace rholm {
 struct CapLane {
   Vec3 seed;
   Vec3 middle;  // of the ellipse
-  float x[3], y[3], z[3];
-  float radius, dilation;
+  LaneFrame<float> frame;
   float px, py, xx, xy2, yy, hh;  // CapSupport, hh = 1 / support^2
   float box[3];  // half extents of the part of space where it speaks, about the ellipse's middle
   float reach;   // from the tangent plane: nodes beyond cannot be within the band
@@ -38,8 +39,7 @@ struct NodeTable {
   alignas(64) float z[512];
 };
 
-// Sums of weights below it are silence: a thousandth of a cap's own.
-inline constexpr float kLeastWeight = 1e-5f;
+inline constexpr auto kNoWeight = static_cast<float>(kLeastWeight);
 // Sums of weights below it, within so many steps of the surface, are those of caps that end there.
 // Measured: three times the weight finds few more and asks for far more winding numbers.
 inline constexpr float kDoubtfulWeight = 0.1f;

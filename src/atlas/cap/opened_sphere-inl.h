@@ -1,0 +1,158 @@
+// Points beside a cap, in the lanes of a vector: where they are in its frame and on its opened
+// sphere, and what its surface is there (method 7.1, 7.5). In single or double precision. Included
+// once per target, by kernels.
+
+#if defined(RHOLM_ATLAS_OPENED_SPHERE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RHOLM_ATLAS_OPENED_SPHERE_INL_H_
+#undef RHOLM_ATLAS_OPENED_SPHERE_INL_H_
+#else
+#define RHOLM_ATLAS_OPENED_SPHERE_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include "atlas/cap/cap_limits.h"
+#include "atlas/cap/lane_frame.h"
+#include "harmonic/legendre/low_harmonics-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace rholm {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+template <class V>
+struct Lanes3 {
+  V x, y, z;
+};
+
+// Three numbers times a vector of each.
+template <class D, class V = hn::Vec<D>, class T = hn::TFromD<D>>
+HWY_INLINE V Dot(D d, T a, T b, T c, V x, V y, V z) {
+  return hn::MulAdd(hn::Set(d, a), x, hn::MulAdd(hn::Set(d, b), y, hn::Mul(hn::Set(d, c), z)));
+}
+
+// A vector in space along a cap's axes.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Lanes3<V> ToFrame(D d, const LaneFrame<hn::TFromD<D>>& f, V x, V y, V z) {
+  return {Dot(d, f.x[0], f.x[1], f.x[2], x, y, z), Dot(d, f.y[0], f.y[1], f.y[2], x, y, z),
+          Dot(d, f.z[0], f.z[1], f.z[2], x, y, z)};
+}
+
+// And back: its component along an axis of space.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V FromFrame(D d, const LaneFrame<hn::TFromD<D>>& f, int axis, const Lanes3<V>& v) {
+  return Dot(d, f.x[axis], f.y[axis], f.z[axis], v.x, v.y, v.z);
+}
+
+// From the centre, along the cap's axes, and how far that is.
+template <class V>
+struct CapRay {
+  V x, y, z, rho;
+};
+
+// To offsets from the seed, given along the axes: the seed is R_0 above the centre.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE CapRay<V> RayTo(D d, const LaneFrame<hn::TFromD<D>>& f, const Lanes3<V>& at) {
+  CapRay<V> ray{at.x, at.y, hn::Add(at.z, hn::Set(d, f.radius)), at.z};
+  ray.rho = hn::Sqrt(hn::MulAdd(ray.x, ray.x, hn::MulAdd(ray.y, ray.y, hn::Mul(ray.z, ray.z))));
+  return ray;
+}
+
+// Where a ray meets the sphere.
+template <class V>
+struct OpenedPlace {
+  V s1, s2;            // in the stereographic plane, not opened
+  LowDirection<V> at;  // on the opened sphere, and in its plane
+  V shrink;            // 1 / (1 + |a s|^2)
+};
+
+// `below` is 1 / (rho + z): s = (x, y) / (rho + z). No number opposite the axis, and at the centre,
+// unless the caller bounds it.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE OpenedPlace<V> OpenBelow(D d, const LaneFrame<hn::TFromD<D>>& f, const CapRay<V>& ray,
+                                    V below) {
+  const V one = hn::Set(d, hn::TFromD<D>(1)), a = hn::Set(d, f.dilation);
+  OpenedPlace<V> place;
+  place.s1 = hn::Mul(ray.x, below), place.s2 = hn::Mul(ray.y, below);
+  LowDirection<V>& at = place.at;
+  at.s1 = hn::Mul(a, place.s1), at.s2 = hn::Mul(a, place.s2);
+  place.shrink = hn::Div(one, hn::MulAdd(at.s1, at.s1, hn::MulAdd(at.s2, at.s2, one)));
+  const V twice = hn::Add(place.shrink, place.shrink);
+  at.x = hn::Mul(at.s1, twice), at.y = hn::Mul(at.s2, twice), at.z = hn::Sub(twice, one);
+  return place;
+}
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE OpenedPlace<V> Open(D d, const LaneFrame<hn::TFromD<D>>& f, const CapRay<V>& ray) {
+  const V one = hn::Set(d, hn::TFromD<D>(1));
+  return OpenBelow(d, f, ray, hn::Div(one, hn::Add(ray.rho, ray.z)));
+}
+
+// kappa of (K1): how much lengths on the sphere grow when it is opened.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V ConformalFactor(D d, const LaneFrame<hn::TFromD<D>>& f, const OpenedPlace<V>& place) {
+  const V one = hn::Set(d, hn::TFromD<D>(1));
+  const V closed = hn::MulAdd(place.s1, place.s1, hn::MulAdd(place.s2, place.s2, one));
+  return hn::Mul(hn::Mul(hn::Set(d, f.dilation), closed), place.shrink);
+}
+
+// The cap's surface on a ray.
+template <class V>
+struct CapLevel {
+  V level;     // r / R_0
+  V g1, g2;    // grad_u r / r along the tangents of the plane's axes, not opened
+  V flatness;  // 1 / sqrt(1 + |grad_u r|^2 / r^2)
+};
+
+// From phi and its slopes on the opened sphere.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE CapLevel<V> LevelOf(D d, const LaneFrame<hn::TFromD<D>>& f, const OpenedPlace<V>& place,
+                               const LowSum<V>& phi) {
+  const V one = hn::Set(d, hn::TFromD<D>(1));
+  CapLevel<V> here;
+  here.level = hn::Add(one, phi.value);
+  const V slope = hn::Div(ConformalFactor(d, f, place), here.level);
+  here.g1 = hn::Mul(slope, phi.d1), here.g2 = hn::Mul(slope, phi.d2);
+  here.flatness =
+      hn::Div(one, hn::Sqrt(hn::MulAdd(here.g1, here.g1, hn::MulAdd(here.g2, here.g2, one))));
+  return here;
+}
+
+// g of (K3).
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V Potential(D d, const LaneFrame<hn::TFromD<D>>& f, const CapRay<V>& ray,
+                       const CapLevel<V>& here) {
+  return hn::Mul(hn::NegMulAdd(hn::Set(d, f.radius), here.level, ray.rho), here.flatness);
+}
+
+// Where there is one: ahead of the centre, and the surface too.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE hn::Mask<D> HasPotential(D d, const CapRay<V>& ray, const CapLevel<V>& here) {
+  using T = hn::TFromD<D>;
+  return hn::And(hn::Gt(ray.z, hn::Mul(ray.rho, hn::Set(d, static_cast<T>(kLeastAhead)))),
+                 hn::Gt(here.level, hn::Set(d, static_cast<T>(kLeastLevel))));
+}
+
+// The unit vector along the ray.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Lanes3<V> DirectionOf(D d, const CapRay<V>& ray) {
+  const V inverse = hn::Div(hn::Set(d, hn::TFromD<D>(1)), ray.rho);
+  return {hn::Mul(ray.x, inverse), hn::Mul(ray.y, inverse), hn::Mul(ray.z, inverse)};
+}
+
+// The unit normal of the surface in the direction u, along the cap's axes: u - grad_u r / r, where
+// the tangents of the plane's axes are e_i - s_i (u + e_3).
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Lanes3<V> NormalOf(D d, const Lanes3<V>& u, const OpenedPlace<V>& place,
+                              const CapLevel<V>& here) {
+  const V one = hn::Set(d, hn::TFromD<D>(1));
+  const V both = hn::MulAdd(here.g1, place.s1, hn::Mul(here.g2, place.s2));
+  return {hn::Mul(here.flatness, hn::Sub(hn::MulAdd(both, u.x, u.x), here.g1)),
+          hn::Mul(here.flatness, hn::Sub(hn::MulAdd(both, u.y, u.y), here.g2)),
+          hn::Mul(here.flatness, hn::MulAdd(both, hn::Add(u.z, one), u.z))};
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace rholm
+HWY_AFTER_NAMESPACE();
+
+#endif
