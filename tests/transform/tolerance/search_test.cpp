@@ -1,0 +1,98 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "rholm/analyze.h"
+#include "rholm/primitives.h"
+#include "rholm/star.h"
+#include "support/test_shapes.h"
+#include "transform/tolerance/tolerance.h"
+
+namespace rholm {
+namespace {
+
+StarChart chart_of(const Mesh& mesh) {
+  return make_star_chart(mesh, {.center = {.kind = CenterKind::kNone, .point = {}, .rays = 0}});
+}
+
+std::vector<Tolerance> tolerances() {
+  std::vector<Tolerance> all;
+  for (const ErrorNorm norm : {ErrorNorm::kRms, ErrorNorm::kMax}) {
+    for (const ErrorMeasure measure : {ErrorMeasure::kRadius, ErrorMeasure::kDistance}) {
+      for (const double error : {3e-2, 3e-3}) {
+        all.push_back({.error = error, .norm = norm, .measure = measure, .max_degree = 200});
+      }
+    }
+  }
+  return all;
+}
+
+// What was computed: degrees, each twice the one before, until one is good; then the one found.
+TEST(search_tolerance, doubles_the_degree_until_it_is_good) {
+  for (const Mesh& mesh : {box({2, 1.6, 1.2}), test::rotated(bumpy_sphere(3, 0.3))}) {
+    const StarChart chart = chart_of(mesh);
+    for (const Tolerance& tolerance : tolerances()) {
+      const ToleranceAnalysis found = analyze(chart, tolerance);
+      const std::vector<int>& degrees = found.degrees;
+      ASSERT_GE(degrees.size(), 2u);
+      EXPECT_EQ(degrees[0], first_degree(mesh.triangles.size(), tolerance));
+      const auto is_next = [&](int a, int b) {
+        return b > a && b == std::min(2 * (a + 1), tolerance.max_degree);
+      };
+      const auto last = std::adjacent_find(degrees.begin(), degrees.end(),
+                                           [&](int a, int b) { return !is_next(a, b); });
+      // All that follows are final ones: the first may have to be a little higher.
+      ASSERT_NE(last, degrees.end());
+      EXPECT_LE(degrees.end() - last, 3);
+      for (auto it = last + 1; it != degrees.end(); ++it) EXPECT_LE(*it, 1.03 * *last + 1);
+      // And the degree before the last was not enough.
+      if (last != degrees.begin() && found.met) {
+        EXPECT_GT(*(last + 1), *(last - 1));
+      }
+    }
+  }
+}
+
+// By Parseval with coefficients that are far more precise than the tolerance.
+TEST(search_tolerance, finds_the_smallest_degree_exactly_for_the_rms_radius) {
+  for (const Mesh& mesh : {box({2, 1.6, 1.2}), test::rotated(bumpy_sphere(3, 0.3))}) {
+    const StarChart chart = chart_of(mesh);
+    const Analysis exact = analyze(chart, {.degree = 200, .precision = 1e-12});
+    for (const double error : {0.2, 3e-2, 3e-3, 1e-3}) {
+      const ToleranceAnalysis found = analyze(chart, Tolerance{.error = error, .max_degree = 200});
+      ASSERT_TRUE(found.met);
+      const int degree = found.analysis.expansion.coefficients.degree();
+      const auto tail = [&](int l) {
+        const Coefficients first = exact.expansion.coefficients.resized(l);
+        double rest = *exact.expansion.norm_squared;
+        for (const double c : first.values()) rest -= c * c;
+        return std::sqrt(rest / (4 * std::numbers::pi));
+      };
+      EXPECT_NEAR(found.reached, tail(degree), 1e-3 * error);
+      EXPECT_LE(tail(degree), 1.001 * error);
+      if (degree > 0) {
+        EXPECT_GT(tail(degree - 1), 0.999 * error);
+      }
+    }
+  }
+}
+
+TEST(search_tolerance, ends_with_the_largest_degree_where_none_is_good) {
+  const StarChart chart = chart_of(box({2, 1.6, 1.2}));
+  for (Tolerance tolerance : tolerances()) {
+    tolerance.error = 1e-6;
+    for (const int most : {0, 20}) {
+      tolerance.max_degree = most;
+      const ToleranceAnalysis found = analyze(chart, tolerance);
+      EXPECT_FALSE(found.met);
+      EXPECT_EQ(found.analysis.expansion.coefficients.degree(), most);
+      EXPECT_GT(found.reached, found.allowed);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace rholm
