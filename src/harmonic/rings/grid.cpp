@@ -98,8 +98,7 @@ HalfRings north_of(const std::vector<double>& colatitudes) {
 class OrderAnalysis {
  public:
   OrderAnalysis(const Grid& grid, int degree)
-      : degree_(degree),
-        rule_(grid.kind == GridKind::kGaussLegendre
+      : rule_(grid.kind == GridKind::kGaussLegendre
                   ? gauss_ring_rule(static_cast<std::size_t>(grid.n_theta))
                   : RingRule{}),
         resampler_(grid.kind == GridKind::kGaussLegendre
@@ -168,7 +167,6 @@ class OrderAnalysis {
     }
   }
 
-  int degree_;
   RingRule rule_;
   std::optional<RingResampler> resampler_;
   HalfRings rings_;
