@@ -12,6 +12,7 @@ struct CapFrame {
   double radius = 1;    // R_0 > 0; the seed is center + radius z
   double dilation = 1;  // a >= 1: tan(theta'/2) = a tan(theta/2)
   double support = 0;   // radius of the points around the seed that it was made of
+  // The point of the sphere in the middle of the cap.
   Vec3 seed() const { return center + radius * z; }
 };
 

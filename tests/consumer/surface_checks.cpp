@@ -1,5 +1,6 @@
 // From coefficients to surfaces.
 #include <rholm/atlas.h>
+#include <rholm/cap_frame.h>
 #include <rholm/compare.h>
 #include <rholm/primitives.h>
 #include <rholm/synthesize.h>
@@ -20,6 +21,11 @@ void atlas() {
   const rholm::CapValue outside = rholm::evaluate(cap, zero, {0, 1.8, 2.4});
   expect(outside.valid, "a cap speaks in front of its centre");
   expect_near(outside.distance, 1, 1e-12, "the distance to a sphere of radius 2");
+}
+
+void cap_frame() {
+  const rholm::CapFrame frame = {{1, 2, 3}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 2, 1, 1};
+  expect_near(rholm::norm(frame.seed() - rholm::Vec3{1, 2, 5}), 0, 1e-15, "the seed of a cap");
 }
 
 void compare() {
@@ -46,5 +52,8 @@ void synthesize() {
 }  // namespace
 
 std::vector<HeaderCheck> surface_checks() {
-  return {{"atlas.h", atlas}, {"compare.h", compare}, {"synthesize.h", synthesize}};
+  return {{"atlas.h", atlas},
+          {"cap_frame.h", cap_frame},
+          {"compare.h", compare},
+          {"synthesize.h", synthesize}};
 }
