@@ -4,6 +4,7 @@
 
 #include "base/parallel.h"
 #include "harmonic/legendre/direct_sums.h"
+#include "harmonic/nonuniform/cost_model.h"
 
 namespace rholm {
 
@@ -14,7 +15,7 @@ AdjointBlocks::AdjointBlocks(const AdjointNeeds& needs) : sum_(needs.degree) {
                                .sources = needs.sources,
                                .forbid_single = true};
   plan_ = plan_nonuniform(wanted);
-  fast_ = plan_.cost < direct_cost(wanted);
+  fast_ = plan_.cost < direct_cost(wanted.sources, wanted.degree, wanted.derivatives);
   if (!fast_) return;
   kernel_ = grid_kernel<double>(plan_.fourier);
   const std::size_t grids = grid_count(plan_, needs.sources);

@@ -210,14 +210,6 @@ void GridSpreader<T>::add_polar(const SourceBatch<T>& batch, const PolarSources&
   }
 }
 
-std::size_t grid_count(const NonuniformPlan& plan, std::size_t sources) {
-  // Adding a grid costs about 2 ns per cell (clearing, reading), a source about 15 ns: a second
-  // grid is taken where it costs less than a twentieth of the work, up to eight.
-  const double work = 15 * static_cast<double>(sources);
-  const double grid = 2 * static_cast<double>(plan.fourier.layout.cells());
-  return static_cast<std::size_t>(std::clamp(work / (20 * grid), 1.0, 7.0)) + (work > 4e5);
-}
-
 template <typename T>
 void finish_adjoint(const NonuniformPlan& plan, std::span<GridSpreader<T>> spreaders,
                     Coefficients& sum, const Context& context, const ParallelStage& stage) {

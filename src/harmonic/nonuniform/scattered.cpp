@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "harmonic/legendre/direct_sums.h"
+#include "harmonic/nonuniform/cost_model.h"
 #include "harmonic/nonuniform/nonuniform.h"
 #include "rholm/error.h"
 
@@ -32,7 +33,7 @@ std::optional<NonuniformPlan> fast_plan(int degree, std::size_t sources, int der
   const NonuniformNeeds needs{
       .degree = degree, .error = options.precision, .sources = sources, .derivatives = derivatives};
   NonuniformPlan plan = plan_nonuniform(needs);
-  if (direct_cost(needs) <= plan.cost) return std::nullopt;
+  if (direct_cost(needs.sources, needs.degree, needs.derivatives) <= plan.cost) return std::nullopt;
   return plan;
 }
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/parallel.h"
+#include "harmonic/nonuniform/cost_model.h"
 #include "transform/error/distance_check.h"
 
 namespace rholm {
@@ -28,10 +29,9 @@ constexpr double kDenseUpTo = 1.2;
 // say that it is within the limit, but not well within.
 constexpr double kWorst = 0.3, kWellWithin = 0.9;
 
-// Whether the points cost more than the grid that they are interpolated on: 60 ns each, 45 L^2 ns
-// (measured).
+// Whether the points cost more than twice the grid that they are interpolated on.
 bool points_dominate(std::size_t n, int degree) {
-  return 60.0 * static_cast<double>(n) > 90.0 * degree * degree;
+  return error_point_cost() * static_cast<double>(n) > 2 * error_grid_cost(degree);
 }
 
 ErrorPoints every(const ErrorPoints& points, std::size_t step) {

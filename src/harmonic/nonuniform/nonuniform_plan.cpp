@@ -1,0 +1,130 @@
+#include "harmonic/nonuniform/nonuniform_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "harmonic/fft/fft.h"
+#include "harmonic/nonuniform/cost_model.h"
+
+namespace rholm {
+namespace {
+
+// Oversampling that is tried (chosen: plans of the table in docs/performance.md have 1.5 to 3.2).
+constexpr double kSmallSigma = 1.15, kLargeSigma = 4;
+
+// Sine of the colatitude below which derivatives are taken from values around them (chosen: 16
+// values for a gradient, 34 for a Hessian, which adds 1 to 3 ns to the mean source).
+double polar_sine(int degree, int derivatives) {
+  const double least = static_cast<double>(derivatives) / std::max(degree, 1);
+  return derivatives > 1 ? std::max(least, 0.05) : least;
+}
+
+// How much larger than that of values the error of derivatives is, measured on even directions,
+// relative to L for gradients and L^2 for Hessians. Aliases have wave numbers around n - L, and
+// longitudes near the poles count 1 / sin(theta) times: the l2 norm of 1 / sin^2 down to a polar
+// sine is 0.7 times its inverse, and three times that where few sources are so near: fewer than
+// thirty within twice the polar sine (chosen).
+double gradient_factor(double sigma) { return 2.6 * sigma * sigma; }
+double hessian_factor(double sigma, int degree, std::size_t sources) {
+  const double sine = polar_sine(degree, 2);
+  const bool few = 2 * sine * sine * static_cast<double>(sources) < 30;
+  const double near = (few ? 70 : 24) * std::pow(sigma - 1, 1.8);
+  return 4 + near / sine;
+}
+
+double predicted_error(const NonuniformNeeds& needs, int width, double sigma) {
+  const double degree = std::max(needs.degree, 1);
+  // The largest of many draws is 1.3 times the typical one; few degrees make for less average.
+  const double error = spread_error(width, sigma) * 1.3 * (1 + 4 / degree);
+  double derivatives = 1;
+  if (needs.derivatives > 0) {
+    derivatives = std::max(derivatives, needs.gradient_size * gradient_factor(sigma));
+  }
+  if (needs.derivatives > 1) {
+    derivatives = std::max(
+        derivatives, needs.hessian_size * hessian_factor(sigma, needs.degree, needs.spread_out));
+  }
+  return error * derivatives;
+}
+
+// What the windows may add to the rounding of single precision.
+double window_share(double error, double rounding) {
+  return std::sqrt(std::max(error * error - rounding * rounding, 0.0));
+}
+
+// The grids that a width has to be tried with: the smallest that is good enough and the next.
+template <typename Visit>
+void visit_grids(const NonuniformNeeds& needs, int width, double error, const Visit& visit) {
+  constexpr std::size_t kLeastPoints = 32;  // caps of 16 rows must not meet
+  const double turn = 2.0 * std::max(needs.degree, 1);
+  std::size_t points = smooth_length(
+      std::max(kLeastPoints, static_cast<std::size_t>(std::ceil(kSmallSigma * turn))), 4);
+  for (int found = 0; found < 2; points = smooth_length(points + 1, 4)) {
+    const double sigma = static_cast<double>(points) / turn;
+    if (sigma > kLargeSigma && points > kLeastPoints) return;
+    if (predicted_error(needs, width, sigma) > error) continue;
+    visit(points);
+    ++found;
+  }
+}
+
+}  // namespace
+
+double hessian_factor(const NonuniformPlan& plan, std::size_t sources) {
+  const double turn = 2.0 * std::max(plan.fourier.degree, 1);
+  const double sigma = static_cast<double>(plan.fourier.layout.n_phi) / turn;
+  return hessian_factor(sigma, plan.fourier.degree, sources);
+}
+
+// Second differences near the poles divide the rounding of values by the square of their step.
+double single_rounding(int degree, int derivatives) {
+  constexpr double kValues = 2.5e-7;
+  return derivatives > 1 ? kValues + 3.5e-6 * polar_sine(degree, derivatives) : kValues;
+}
+double least_single_error(int degree, int derivatives) {
+  return 1.4 * single_rounding(degree, derivatives);
+}
+
+std::size_t grid_count(const NonuniformPlan& plan, std::size_t sources) {
+  // A second grid is taken where it costs less than a twentieth of the work, up to eight, and
+  // always from 0.4 ms of work on (chosen).
+  const double work = typical_source_cost() * static_cast<double>(sources);
+  const double grid = typical_cell_cost() * static_cast<double>(plan.fourier.layout.cells());
+  return static_cast<std::size_t>(std::clamp(work / (20 * grid), 1.0, 7.0)) + (work > 4e5);
+}
+
+NonuniformPlan plan_nonuniform(const NonuniformNeeds& needs) {
+  NonuniformPlan best;
+  best.cost = std::numeric_limits<double>::infinity();
+  best.single =
+      !needs.forbid_single && needs.error >= least_single_error(needs.degree, needs.derivatives);
+  best.polar_sine = polar_sine(needs.degree, needs.derivatives);
+  const double error =
+      best.single ? window_share(needs.error, single_rounding(needs.degree, needs.derivatives))
+                  : needs.error;
+  // Wide windows on coarse grids range over so many powers of ten that single precision loses
+  // another digit.
+  constexpr int kMaxSingleWidth = 10;
+  const int widest = best.single ? kMaxSingleWidth : kMaxSpreadWidth;
+  for (int width = kMinSpreadWidth; width <= widest; ++width) {
+    visit_grids(needs, width, error, [&](std::size_t points) {
+      NonuniformPlan plan = best;
+      plan.fourier = sphere_fourier(needs.degree, grid_layout(width, points, points));
+      const std::size_t grids = grid_count(plan, needs.sources);
+      plan.cost =
+          grid_cost(plan.fourier, plan.single, grids) +
+          static_cast<double>(needs.sources) * source_cost(width, plan.single, needs.derivatives);
+      if (plan.cost < best.cost) best = plan;
+    });
+  }
+  if (best.fourier.layout.width == 0) {
+    // Beyond what windows can do: the best there is, at a price that lets direct sums be taken.
+    const std::size_t points = smooth_length(
+        std::max<std::size_t>(32, 5 * static_cast<std::size_t>(std::max(needs.degree, 1))), 4);
+    best.fourier = sphere_fourier(needs.degree, grid_layout(kMaxSpreadWidth, points, points));
+  }
+  return best;
+}
+
+}  // namespace rholm
