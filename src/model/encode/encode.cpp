@@ -120,8 +120,7 @@ std::optional<Encoded> encode_as_it_lies(const MeshView& mesh, const EncodeOptio
   });
   if (!center) return std::nullopt;
   MeshPassOptions wanted = hooks;
-  wanted.degree = options.tolerance ? first_degree(mesh.n_triangles, *options.tolerance)
-                                    : options.analyze.degree;
+  wanted.degree = options.analyze.degree;
   wanted.precision = options.analyze.precision;
   wanted.center = *center;
   Analysis& analysis = encoded.analysis;
@@ -131,14 +130,12 @@ std::optional<Encoded> encode_as_it_lies(const MeshView& mesh, const EncodeOptio
     norms = timed(analysis.times, "norms", [&] { return exact_norms(mesh, *center, context); });
   };
   ToleranceProblem problem;
-  problem.mesh = mesh;
-  problem.center = *center;
   if (options.tolerance) {
     find_norms();
-    problem.norm_squared = norms->radius_squared;
-    problem.diagonal = diagonal_of(mesh);
-    problem.precision = options.analyze.precision;
-    wanted.precision = precisions_for(problem, *options.tolerance).pilot;
+    problem = tolerance_problem(mesh, *center, *norms, options.analyze.precision);
+    const TransformTarget pilot = first_pilot(problem, *options.tolerance);
+    wanted.degree = pilot.degree;
+    wanted.precision = pilot.precision;
   }
   MeshPassResult pass =
       timed(encoded.times, "transform", [&] { return mesh_pass(mesh, wanted, context); });
@@ -159,13 +156,13 @@ std::optional<Encoded> encode_as_it_lies(const MeshView& mesh, const EncodeOptio
   set_pass(pass, analysis);
   analysis.precision = wanted.precision;
   if (options.tolerance) {
-    problem.transform = [&](int degree, double precision) {
-      wanted.degree = degree;
-      wanted.precision = precision;
+    problem.transform = [&](const TransformTarget& target) {
+      wanted.degree = target.degree;
+      wanted.precision = target.precision;
       MeshPassResult next = mesh_pass(mesh, wanted, context);
       Analysis result;
       set_pass(next, result);
-      result.precision = precision;
+      result.precision = target.precision;
       return result;
     };
     problem.pilot = problem.transform;

@@ -66,7 +66,7 @@ class Search {
     expansion().center = problem_.center;
     expansion().norm_squared = problem_.norm_squared;
     const double mean = expansion().coefficients.c(0, 0) / std::sqrt(4 * std::numbers::pi);
-    result_.allowed = absolute_error(problem_, wanted_, mean);
+    result_.allowed = absolute_tolerance(problem_, wanted_, mean);
   }
   int within_most(double degree) const {
     return static_cast<int>(std::min<double>(degree, wanted_.max_degree));
@@ -78,7 +78,7 @@ class Search {
   }
   // Coarse coefficients of twice as many degrees.
   void double_degree() {
-    take(problem_.pilot(within_most(2.0 * (highest() + 1)), precisions_.pilot));
+    take(problem_.pilot({within_most(2.0 * (highest() + 1)), precisions_.pilot}));
   }
 
   // Parseval's tails are known at every degree at once, but for what is beyond all of them.
@@ -113,7 +113,7 @@ class Search {
 
   // Final coefficients, and their error as it is measured for any model.
   void finish(double degree) {
-    take(problem_.transform(within_most(degree), precisions_.final));
+    take(problem_.transform({within_most(degree), precisions_.final}));
     if (by_energies()) {
       cut_by_parseval(expansion().coefficients);
       return;

@@ -24,12 +24,25 @@ void check(const Tolerance& tolerance) {
 }
 
 int first_degree(std::size_t n_triangles, const Tolerance& tolerance) {
-  // The edges' angle times this is about 0.6: most triangles are lumped (performance.md).
+  // The edges' angle times this is about 0.6: most triangles are lumped (performance.md). Within 12
+  // and 96 (chosen: lower ones are no cheaper, higher ones seldom needed).
   const double degree = 0.15 * std::sqrt(static_cast<double>(n_triangles));
   return std::min(static_cast<int>(std::clamp(degree, 12.0, 96.0)), tolerance.max_degree);
 }
 
-double absolute_error(const ToleranceProblem& problem, const Tolerance& tolerance, double mean) {
+ToleranceProblem tolerance_problem(const MeshView& mesh, const Vec3& center,
+                                   const ExactNorms& norms, double precision) {
+  return {.mesh = mesh,
+          .center = center,
+          .norm_squared = norms.radius_squared,
+          .diagonal = diagonal_of(mesh),
+          .precision = precision,
+          .pilot = {},
+          .transform = {}};
+}
+
+double absolute_tolerance(const ToleranceProblem& problem, const Tolerance& tolerance,
+                          double mean) {
   switch (tolerance.unit) {
     case ToleranceUnit::kAbsolute:
       return tolerance.error;
@@ -43,7 +56,7 @@ double absolute_error(const ToleranceProblem& problem, const Tolerance& toleranc
 
 Precisions precisions_for(const ToleranceProblem& problem, const Tolerance& tolerance) {
   const double size = std::sqrt(problem.norm_squared / (4 * std::numbers::pi));
-  const double relative = absolute_error(problem, tolerance, size) / size;
+  const double relative = absolute_tolerance(problem, tolerance, size) / size;
   // Parseval's difference of squares must hold a few parts in a thousand.
   const bool parseval =
       tolerance.norm == ErrorNorm::kRms && tolerance.measure == ErrorMeasure::kRadius;
@@ -52,6 +65,11 @@ Precisions precisions_for(const ToleranceProblem& problem, const Tolerance& tole
   // At single points errors of coefficients add up to more than their root mean square (measured).
   const double coarse = (tolerance.norm == ErrorNorm::kMax ? 0.02 : 0.1) * relative;
   return {.pilot = std::max(final, std::clamp(coarse, 1e-7, 1e-3)), .final = final};
+}
+
+TransformTarget first_pilot(const ToleranceProblem& problem, const Tolerance& tolerance) {
+  return {.degree = first_degree(problem.mesh.n_triangles, tolerance),
+          .precision = precisions_for(problem, tolerance).pilot};
 }
 
 const char* to_string(ErrorNorm norm) { return norm == ErrorNorm::kRms ? "rms" : "max"; }
@@ -107,23 +125,18 @@ ToleranceAnalysis analyze(const StarChart& chart, const Tolerance& tolerance,
     throw Error(ErrorCode::kInvalidInput,
                 "a tolerance needs a surface that every direction meets once: give a degree");
   }
-  const ExactNorms norms = exact_norms(view_of(chart.mesh), {}, context);
-  const auto analyzed = [&](AnalyzeOptions wanted, int degree, double precision) {
-    wanted.degree = degree;
-    wanted.precision = precision;
+  const MeshView mesh = view_of(chart.mesh);
+  ToleranceProblem problem =
+      tolerance_problem(mesh, {}, exact_norms(mesh, {}, context), options.precision);
+  const auto analyzed = [&](AnalyzeOptions wanted, const TransformTarget& target) {
+    wanted.degree = target.degree;
+    wanted.precision = target.precision;
     return analyze_without_norms(chart, wanted, context);
   };
   // Pilots by the fast sums whatever the method: the coefficients are the same.
-  const ToleranceProblem problem{
-      .mesh = view_of(chart.mesh),
-      .center = {},
-      .norm_squared = norms.radius_squared,
-      .diagonal = diagonal_of(view_of(chart.mesh)),
-      .precision = options.precision,
-      .pilot = [&](int degree, double p) { return analyzed({}, degree, p); },
-      .transform = [&](int degree, double p) { return analyzed(options, degree, p); }};
-  const Analysis pilot = problem.pilot(first_degree(chart.mesh.triangles.size(), tolerance),
-                                       precisions_for(problem, tolerance).pilot);
+  problem.pilot = [&](const TransformTarget& target) { return analyzed({}, target); };
+  problem.transform = [&](const TransformTarget& target) { return analyzed(options, target); };
+  const Analysis pilot = problem.pilot(first_pilot(problem, tolerance));
   ToleranceAnalysis result = search_tolerance(problem, tolerance, pilot, context);
   result.analysis.expansion.tail_strength = tail_strength(chart, RadialFunction::kRadius);
   finish_analysis(options, chart.report.center, result.analysis);

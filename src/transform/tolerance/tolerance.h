@@ -5,6 +5,7 @@
 
 #include "rholm/mesh_view.h"
 #include "rholm/truncation.h"
+#include "transform/norms/exact_norms.h"
 
 namespace rholm {
 
@@ -12,8 +13,13 @@ namespace rholm {
 // and as a rule so short that their jumps say nothing of the error (method 5).
 inline constexpr std::size_t kMostPredicted = std::size_t{1} << 18;
 
+// What coefficients are to be.
+struct TransformTarget {
+  int degree = 0;
+  double precision = 0;  // as in AnalyzeOptions
+};
 // Coefficients of the mesh about the centre, without norms.
-using TransformTo = std::function<Analysis(int degree, double precision)>;
+using TransformTo = std::function<Analysis(const TransformTarget&)>;
 
 struct ToleranceProblem {
   MeshView mesh;
@@ -23,6 +29,9 @@ struct ToleranceProblem {
   double precision = 0;          // wanted by the caller, at least
   TransformTo pilot, transform;  // coarse coefficients, as fast as can be; those that are wanted
 };
+// All but how to transform. The mesh must outlive it.
+ToleranceProblem tolerance_problem(const MeshView& mesh, const Vec3& center,
+                                   const ExactNorms& norms, double precision);
 
 // Throws InvalidInput for values out of range.
 void check(const Tolerance& tolerance);
@@ -31,7 +40,7 @@ void check(const Tolerance& tolerance);
 int first_degree(std::size_t n_triangles, const Tolerance& tolerance);
 
 // In the mesh's unit. `mean`: of the radius.
-double absolute_error(const ToleranceProblem& problem, const Tolerance& tolerance, double mean);
+double absolute_tolerance(const ToleranceProblem& problem, const Tolerance& tolerance, double mean);
 
 // How exact coefficients must be: for an estimate of the degree, and in the end.
 struct Precisions {
@@ -39,7 +48,10 @@ struct Precisions {
 };
 Precisions precisions_for(const ToleranceProblem& problem, const Tolerance& tolerance);
 
-// `pilot`: coefficients of first_degree(). Pilots of higher degrees follow until the error of what
+// The coefficients to begin with.
+TransformTarget first_pilot(const ToleranceProblem& problem, const Tolerance& tolerance);
+
+// `pilot`: coefficients of first_pilot(). Pilots of higher degrees follow until the error of what
 // there is, measured at points, is within the tolerance, and say which degree is the smallest; then
 // coefficients of that degree in full precision. Their `errors` are set where the tolerance is not
 // one of Parseval's.
