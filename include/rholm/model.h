@@ -51,11 +51,14 @@ struct Encoded {
   StageTimes times;
 };
 
-// Welds, turns right side out, checks, finds the centre, transforms. Throws what its stages throw.
+// Welds, turns right side out, checks, finds the centre, transforms: a mesh that needs neither of
+// the first is worked through where it lies. Throws InvalidInput for options out of range, and what
+// its stages throw.
 Encoded encode(const Mesh& mesh, const EncodeOptions& options = {}, const Context& context = {});
 // The same for a mesh in a mapped file, worked through where it lies; none if it must be read
 // and changed first: not closed and oriented outwards as it is, not star-shaped (unless that is
 // allowed and the centre given), other methods than edge by the fast engine, or welding asked for.
+// What is no fault of the mesh (options, memory, Cancelled) is thrown.
 std::optional<Encoded> encode_mapped(const MappedMesh& mesh, const EncodeOptions& options = {},
                                      const Context& context = {});
 // The same for a file. A large binary PLY file is mapped, not read, and worked through where it

@@ -1,0 +1,185 @@
+#include "model/encode/as_it_lies.h"
+
+#include <optional>
+#include <utility>
+
+#include "base/parallel.h"
+#include "base/stopwatch.h"
+#include "chart/center/view_center.h"
+#include "chart/center/view_scan.h"
+#include "model/encode/encoded_parts.h"
+#include "rholm/error.h"
+#include "transform/analyze.h"
+#include "transform/norms/exact_norms.h"
+#include "transform/tolerance/tolerance.h"
+
+namespace rholm {
+namespace {
+
+StarReport star_report(const MeshPassResult& pass, const Vec3& center) {
+  StarReport report;
+  report.center = center;
+  report.min_d = pass.min_d;
+  report.min_cos_gamma = pass.min_cos_gamma;
+  report.bad_triangles = pass.bad_triangles;
+  report.star_shaped = pass.bad_triangles == 0;
+  report.once_share = report.star_shaped ? 1 : 0;
+  return report;
+}
+
+// What a pass finds wrong with the mesh.
+std::optional<NotAsItLies> fault_in(const MeshPassResult& pass, const EncodeOptions& options) {
+  if (!pass.closed) return NotAsItLies::kNotClosed;
+  if (!(pass.volume > 0)) return NotAsItLies::kInsideOut;
+  const bool may_fold = options.chart.allow_signed && !options.tolerance;
+  if (pass.bad_triangles > 0 && !may_fold) return NotAsItLies::kFolded;
+  return std::nullopt;
+}
+
+// One mesh on its way.
+class AsItLies {
+ public:
+  AsItLies(const MeshView& mesh, const EncodeOptions& options, const MeshPassOptions& hooks,
+           const Context& context)
+      : mesh_(mesh), options_(options), pass_options_(hooks), context_(context) {}
+
+  std::variant<Encoded, NotAsItLies> run() {
+    if (!find_center()) return NotAsItLies::kNoCenter;
+    const std::optional<ToleranceProblem> problem = tolerance_problem();
+    const TransformTarget first =
+        problem ? first_pilot(*problem, *options_.tolerance)
+                : TransformTarget{options_.analyze.degree, options_.analyze.precision};
+    MeshPassResult pass = timed(encoded_.times, "transform", [&] { return pass_to(first); });
+    if (const std::optional<NotAsItLies> fault = fault_in(pass, options_)) return *fault;
+    // Faces that all turn outwards cover every direction equally often: a second sheet may have
+    // few.
+    const bool star_shaped = pass.bad_triangles == 0;
+    if (star_shaped && !covers_once(norms())) return NotAsItLies::kCoveredTwice;
+    encoded_.star = star_report(pass, center());
+    set_pass(pass, analysis());
+    analysis().precision = first.precision;
+    if (problem) search(*problem);
+    if (star_shaped) {
+      finish_star();
+    } else {
+      finish_signed();
+    }
+    set_counts();
+    return std::move(encoded_);
+  }
+
+ private:
+  Analysis& analysis() { return encoded_.analysis; }
+  const Vec3& center() const { return pass_options_.center; }
+
+  // Whether there is one.
+  bool find_center() {
+    report_progress(context_, "center", 0);
+    const StageTimer timer(encoded_.times, "center");
+    const CenterOptions& wanted = options_.chart.center;
+    if (wanted.kind == CenterKind::kNone) return true;
+    if (wanted.kind == CenterKind::kGiven) {
+      pass_options_.center = wanted.point;
+      return true;
+    }
+    const FoundCenter found = search_center(local_view(mesh_, context_), wanted, context_);
+    pass_options_.center = found.point;
+    return !found.kernel_empty;
+  }
+
+  // A tolerance needs them before the first pass, all else after it.
+  const ExactNorms& norms() {
+    if (!norms_) {
+      norms_ =
+          timed(analysis().times, "norms", [&] { return exact_norms(mesh_, center(), context_); });
+    }
+    return *norms_;
+  }
+
+  MeshPassResult pass_to(const TransformTarget& target) {
+    pass_options_.degree = target.degree;
+    pass_options_.precision = target.precision;
+    return mesh_pass(mesh_, pass_options_, context_);
+  }
+
+  std::optional<ToleranceProblem> tolerance_problem() {
+    if (!options_.tolerance) return std::nullopt;
+    ToleranceProblem problem =
+        rholm::tolerance_problem(mesh_, center(), norms(), options_.analyze.precision);
+    problem.transform = [this](const TransformTarget& target) {
+      MeshPassResult pass = pass_to(target);
+      Analysis result;
+      set_pass(pass, result);
+      result.precision = target.precision;
+      return result;
+    };
+    problem.pilot = problem.transform;
+    return problem;
+  }
+
+  void search(const ToleranceProblem& problem) {
+    timed(encoded_.times, "transform", [&] {
+      set_found(search_tolerance(problem, *options_.tolerance, analysis(), context_), options_,
+                encoded_);
+    });
+  }
+
+  void finish_star() {
+    Expansion& expansion = analysis().expansion;
+    expansion.norm_squared = norms().radius_squared;
+    const bool paired = mesh_.n_triangles <= kMostPredicted;
+    if (paired) {
+      expansion.tail_strength =
+          timed(analysis().times, "norms", [&] { return tail_strength(mesh_, center()); });
+    }
+    finish_analysis(options_.analyze, center(), analysis());
+    add_errors(mesh_, paired, options_, context_, encoded_);
+  }
+
+  // The alternating sum of a surface some of whose faces turn their backs: no norms, no errors, but
+  // how many directions meet it more than once.
+  void finish_signed() {
+    const int rays = options_.chart.center.rays;
+    if (rays > 0) {
+      encoded_.star = timed(encoded_.times, "rays",
+                            [&] { return check_star(mesh_, center(), rays, context_); });
+    }
+    finish_analysis(options_.analyze, center(), analysis());
+  }
+
+  void set_counts() {
+    encoded_.diagonal = diagonal_of(mesh_);
+    encoded_.vertices = mesh_.n_vertices;
+    encoded_.faces = mesh_.n_triangles;
+    encoded_.edges = mesh_.n_triangles / 2 * 3;
+  }
+
+  const MeshView& mesh_;
+  const EncodeOptions& options_;
+  MeshPassOptions pass_options_;  // with the centre, once it is found
+  const Context& context_;
+  std::optional<ExactNorms> norms_;
+  Encoded encoded_;
+};
+
+}  // namespace
+
+std::variant<Encoded, NotAsItLies> encode_as_it_lies(const MeshView& mesh,
+                                                     const EncodeOptions& options,
+                                                     const MeshPassOptions& hooks,
+                                                     const Context& context) {
+  check(options.analyze);
+  if (options.tolerance) check(*options.tolerance);
+  if (!uses_mesh_pass(options.analyze) || options.weld_tolerance != 0) return NotAsItLies::kOptions;
+  if (mesh.n_triangles == 0) return NotAsItLies::kUnusable;
+  try {
+    return AsItLies(mesh, options, hooks, context).run();
+  } catch (const Error& error) {
+    // The loops over triangles cannot go on where one makes no sense, and end by an exception in
+    // whatever thread it is. With all checks of options done, that is what InvalidInput means here.
+    if (error.code() != ErrorCode::kInvalidInput) throw;
+    return NotAsItLies::kUnusable;
+  }
+}
+
+}  // namespace rholm

@@ -1,0 +1,208 @@
+// Why a mesh cannot be taken as it lies, and what becomes of it then.
+#include "model/encode/as_it_lies.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include "io/shapes/test_support.h"
+#include "rholm/error.h"
+#include "rholm/primitives.h"
+#include "rholm/shape_io.h"
+#include "rholm/topology.h"
+#include "support/test_meshes.h"
+#include "support/test_shapes.h"
+
+namespace rholm {
+namespace {
+
+constexpr EncodeOptions kOptions{.analyze = {.degree = 8, .precision = 1e-9}};
+
+EncodeOptions about(const Vec3& center) {
+  EncodeOptions options = kOptions;
+  options.chart.center = {.kind = CenterKind::kGiven, .point = center, .rays = 0};
+  return options;
+}
+
+// How often stages were begun, which report 0.
+struct Stages {
+  int center = 0, topology = 0;
+  Context context() {
+    return {.threads = 1, .progress = [this](std::string_view stage, double fraction) {
+              center += stage == "center" && fraction == 0;
+              topology += stage == "topology" && fraction == 0;
+              return true;
+            }};
+  }
+};
+
+NotAsItLies reason_of(const Mesh& mesh, const EncodeOptions& options = kOptions) {
+  const auto result = encode_as_it_lies(view_of(mesh), options, {}, {});
+  if (const NotAsItLies* reason = std::get_if<NotAsItLies>(&result)) return *reason;
+  ADD_FAILURE() << "taken as it lies";
+  return {};
+}
+
+ErrorCode code_of(const Mesh& mesh, const EncodeOptions& options = kOptions) {
+  try {
+    encode(mesh, options);
+  } catch (const Error& error) {
+    return error.code();
+  }
+  ADD_FAILURE() << "not refused";
+  return {};
+}
+
+TEST(encode_as_it_lies, leaves_what_only_a_chart_can_do_to_the_chart) {
+  const Mesh mesh = bumpy_sphere(2);
+  EncodeOptions welding = kOptions, direct = kOptions, gauge = kOptions;
+  welding.weld_tolerance = 1e-9;
+  direct.analyze.engine = Engine::kDirect;
+  gauge.analyze.method = Method::kGauge;
+  for (const EncodeOptions& options : {welding, direct, gauge}) {
+    EXPECT_EQ(reason_of(mesh, options), NotAsItLies::kOptions);
+    Stages stages;
+    EXPECT_TRUE(encode(mesh, options, stages.context()).star.star_shaped);
+    EXPECT_EQ(stages.topology, 1);
+  }
+}
+
+TEST(encode_as_it_lies, has_no_use_for_what_is_no_surface) {
+  Mesh none = bumpy_sphere(2), far = none, unnumbered = none, flat = none;
+  none.triangles.clear();
+  far.triangles[7][1] = static_cast<std::uint32_t>(far.vertices.size());
+  unnumbered.vertices[7].y = std::numeric_limits<double>::quiet_NaN();
+  for (Vec3& v : flat.vertices) v = {1, 2, 3};
+  for (const Mesh& mesh : {none, far, unnumbered, flat}) {
+    EXPECT_EQ(reason_of(mesh), NotAsItLies::kUnusable);
+    EXPECT_EQ(code_of(mesh), ErrorCode::kInvalidInput);
+  }
+  // The passes alone, without the search for a centre.
+  for (const Mesh& mesh : {none, far, unnumbered}) {
+    EXPECT_EQ(reason_of(mesh, about({})), NotAsItLies::kUnusable);
+  }
+}
+
+TEST(encode_as_it_lies, has_no_use_for_faces_that_a_hook_refuses) {
+  const Mesh mesh = bumpy_sphere(2);
+  MeshPassOptions hooks;
+  hooks.check = [](std::size_t, std::size_t) -> bool {
+    throw Error(ErrorCode::kInvalidInput, "a face is not a triangle");
+  };
+  const auto result = encode_as_it_lies(view_of(mesh), kOptions, hooks, {});
+  EXPECT_EQ(std::get<NotAsItLies>(result), NotAsItLies::kUnusable);
+}
+
+TEST(encode_as_it_lies, needs_a_point_that_sees_all_faces) {
+  const Mesh mesh = torus(1, 0.3, 24, 12);
+  EXPECT_EQ(reason_of(mesh), NotAsItLies::kNoCenter);
+  EXPECT_EQ(code_of(mesh), ErrorCode::kNotStarShaped);
+}
+
+TEST(encode_as_it_lies, needs_a_closed_surface_that_is_oriented_alike) {
+  Mesh open = bumpy_sphere(3), misoriented = open;
+  open.triangles.pop_back();
+  std::swap(misoriented.triangles[5][0], misoriented.triangles[5][1]);
+  EXPECT_EQ(reason_of(open), NotAsItLies::kNotClosed);
+  EXPECT_EQ(code_of(open), ErrorCode::kInvalidInput);
+  EXPECT_EQ(reason_of(misoriented, about({})), NotAsItLies::kNotClosed);
+  EXPECT_EQ(code_of(misoriented, about({})), ErrorCode::kInvalidInput);
+}
+
+TEST(encode_as_it_lies, leaves_turning_to_the_chart) {
+  Mesh mesh = bumpy_sphere(3);
+  flip(mesh);
+  EXPECT_EQ(reason_of(mesh, about({})), NotAsItLies::kInsideOut);
+  EXPECT_TRUE(encode(mesh, about({})).flipped);
+}
+
+TEST(encode_as_it_lies, takes_folds_where_they_are_allowed) {
+  const Mesh prism = test::l_prism(1);
+  EncodeOptions options = about({2, 0.5, 0.1});
+  EXPECT_EQ(reason_of(prism, options), NotAsItLies::kFolded);
+  EXPECT_EQ(code_of(prism, options), ErrorCode::kNotStarShaped);
+  options.chart.allow_signed = true;
+  EXPECT_TRUE(std::holds_alternative<Encoded>(encode_as_it_lies(view_of(prism), options, {}, {})));
+  // Of an alternating sum there is no error to be kept within a tolerance.
+  options.tolerance = Tolerance{.error = 0.1};
+  EXPECT_EQ(reason_of(prism, options), NotAsItLies::kFolded);
+  EXPECT_EQ(code_of(prism, options), ErrorCode::kInvalidInput);
+}
+
+TEST(encode_as_it_lies, sees_a_second_sheet) {
+  Mesh around = icosphere(0);
+  for (Vec3& v : around.vertices) v *= 3;
+  const Mesh mesh = test::joined(bumpy_sphere(4), around);
+  EXPECT_EQ(reason_of(mesh, about({})), NotAsItLies::kCoveredTwice);
+  EXPECT_EQ(code_of(mesh, about({})), ErrorCode::kNotStarShaped);
+}
+
+constexpr ErrorCode kNotOfTheMesh[] = {ErrorCode::kIo, ErrorCode::kOutOfMemory,
+                                       ErrorCode::kUnsupported, ErrorCode::kNotConverged,
+                                       ErrorCode::kCancelled};
+
+// A file that can no longer be read, memory that is refused: nothing is tried again.
+TEST(encode_as_it_lies, passes_on_at_once_what_is_no_fault_of_the_mesh) {
+  const Mesh mesh = bumpy_sphere(3);
+  for (const ErrorCode code : kNotOfTheMesh) {
+    MeshPassOptions hooks;
+    hooks.check = [&](std::size_t, std::size_t) -> bool { throw Error(code, "of the hook"); };
+    try {
+      encode_as_it_lies(view_of(mesh), kOptions, hooks, {});
+      ADD_FAILURE() << to_string(code);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), code);
+      EXPECT_STREQ(error.what(), "of the hook");
+    }
+  }
+}
+
+TEST(encode, passes_on_at_once_what_is_no_fault_of_the_mesh) {
+  const Mesh mesh = bumpy_sphere(3);
+  for (const ErrorCode code : kNotOfTheMesh) {
+    bool again = false;
+    const Context context{.progress = [&](std::string_view stage, double) -> bool {
+      again = again || stage == "topology";
+      if (stage == "transform") throw Error(code, "of the caller");
+      return true;
+    }};
+    try {
+      encode(mesh, kOptions, context);
+      ADD_FAILURE() << to_string(code);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), code);
+    }
+    EXPECT_FALSE(again) << to_string(code);
+  }
+}
+
+TEST(encode, refuses_options_out_of_range_before_all_work) {
+  const Mesh mesh = bumpy_sphere(3);
+  EncodeOptions degree = kOptions, precision = kOptions, tolerance = kOptions, most = kOptions;
+  degree.analyze.degree = -1;
+  precision.analyze.precision = 1;
+  tolerance.tolerance = Tolerance{.error = 0};
+  most.tolerance = Tolerance{.error = 1, .max_degree = -1};
+  for (const EncodeOptions& options : {degree, precision, tolerance, most}) {
+    Stages stages;
+    EXPECT_THROW(encode(mesh, options, stages.context()), Error);
+    EXPECT_EQ(stages.center + stages.topology, 0);
+  }
+}
+
+// What is wrong with the mesh in the file is wrong with it in memory: it goes to the chart.
+TEST(encode_file, does_not_try_a_second_time_what_the_mesh_cannot) {
+  Mesh open = bumpy_sphere(3);
+  open.triangles.pop_back();
+  const testing::TemporaryFolder folder;
+  write_shape(open, folder / "m.ply");
+  Stages stages;
+  EXPECT_THROW(encode_file(folder / "m.ply", kOptions, stages.context()), Error);
+  EXPECT_EQ(stages.center, 1);  // the chart has no use for one
+  EXPECT_EQ(stages.topology, 1);
+}
+
+}  // namespace
+}  // namespace rholm
