@@ -18,10 +18,7 @@ std::variant<Encoded, NotAsItLies> encode_in_file(const MappedMesh& mesh,
                                                   const EncodeOptions& options,
                                                   const Context& context) {
   MeshPassOptions hooks;
-  hooks.check = [&](std::size_t first, std::size_t n) {
-    if (mesh.counts_are_three(first, n)) return true;
-    throw Error(ErrorCode::kInvalidInput, "a face is not a triangle");
-  };
+  hooks.check = [&](std::size_t first, std::size_t n) { return mesh.counts_are_three(first, n); };
   hooks.release = [&](std::size_t first, std::size_t n) { mesh.release(first, n); };
   return encode_as_it_lies(mesh.view(), options, hooks, context);
 }

@@ -55,7 +55,7 @@ class SharedProgress {
 
 void check_triangles(const MeshPassOptions& options, std::size_t first, std::size_t n) {
   if (options.check && !options.check(first, n)) {
-    throw Error(ErrorCode::kUnsupported, "a face is not a triangle");
+    throw Error(ErrorCode::kInvalidInput, "a face is not a triangle");
   }
 }
 

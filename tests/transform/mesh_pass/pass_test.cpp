@@ -442,7 +442,7 @@ TEST(mesh_pass, asks_the_hooks_about_every_triangle_and_stops_when_one_is_none) 
     const MeshPassOptions refusing{.degree = 4, .check = [&](std::size_t first, std::size_t n) {
                                      return last < first || last >= first + n;
                                    }};
-    EXPECT_EQ(code_of(view_of(mesh), refusing), ErrorCode::kUnsupported);
+    EXPECT_EQ(code_of(view_of(mesh), refusing), ErrorCode::kInvalidInput);
   }
 }
 
