@@ -1,7 +1,6 @@
 // What the inner loops take: nanoseconds of one core, by which windows, grids, rules and points are
-// chosen. The constants stand in cost_model.cpp, those by which the mesh pass chooses between nodes
-// and Hessians in plan/lumping as well; bench/cost_model_bench measures each anew and prints it
-// beside the one in use. Only their ratios matter.
+// chosen. All constants of the kind stand in cost_model.cpp; bench/cost_model_bench measures each
+// anew and prints it beside the one in use. Only their ratios matter.
 #pragma once
 
 #include <cstddef>

@@ -4,12 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "harmonic/nonuniform/cost_model.h"
+
 namespace rholm {
 namespace {
-
-// Costs beside kNodedCost: a node between vertices; Hessians of a triangle, and of its half of a
-// vertex (measured).
-constexpr double kBetweenCost = 50, kHessianCost = 25;
 
 // Sum of squares of what lumping leaves if triangles up to a tolerance are lumped: of an edge the
 // sum of its half-edges, or the one that is lumped. No further than `enough`.
@@ -244,7 +242,8 @@ std::optional<HermiteLumps> hermite_lumps(const MeshSample& sample, double allow
     lumps.tolerance2 = tolerance_of(seen.sample, allowed2);
     lumps.hessian2 = hessians2(seen, lumps.tolerance2);
     lumps.node_share = noded_share(seen.sample, lumps.tolerance2);
-    lumps.cost = kHessianCost + kBetweenCost * lumps.between + kNodedCost * lumps.node_share;
+    lumps.cost =
+        hessians_cost() + common_node_cost() * lumps.between + own_nodes_cost() * lumps.node_share;
     return lumps;
   };
   HermiteLumps best;

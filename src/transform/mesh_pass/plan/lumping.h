@@ -19,10 +19,6 @@ double tolerance_of(const MeshSample& sample, double allowed2);
 // The part of the triangles that is beyond it.
 double noded_share(const MeshSample& sample, double tolerance2);
 
-// What a triangle with nodes of its own costs, nanoseconds; only ratios matter (measured on rough
-// meshes: some ten nodes, of which the half is for finding them).
-inline constexpr double kNodedCost = 600;
-
 // Rules with Hessians.
 struct HermiteLumps {
   HermiteReach edge_reach2, face_reach2;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include "harmonic/nonuniform/cost_model.h"
 #include "harmonic/nonuniform/nonuniform.h"
 #include "rholm/error.h"
 
@@ -107,7 +108,7 @@ LumpChoice choose_lumps(const MeshSample& sample, const ErrorShares& shares, int
 std::optional<HermiteLumps> choose_hessians(const MeshSample& sample, const LumpChoice& lumps) {
   if (lumps.node_share == 0) return std::nullopt;
   std::optional<HermiteLumps> hermite = hermite_lumps(sample, lumps.allowed2);
-  if (hermite && !(hermite->cost < kNodedCost * lumps.node_share)) hermite.reset();
+  if (hermite && !(hermite->cost < own_nodes_cost() * lumps.node_share)) hermite.reset();
   return hermite;
 }
 

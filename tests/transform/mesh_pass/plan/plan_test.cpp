@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "harmonic/nonuniform/cost_model.h"
 #include "rholm/error.h"
 #include "rholm/primitives.h"
 #include "support/adversarial_meshes.h"
@@ -87,7 +88,7 @@ TEST(choose_hessians, takes_none_where_all_is_lumped_and_what_is_cheaper_elsewhe
     if (lumps.node_share == 0) {
       EXPECT_FALSE(hermite.has_value());
     } else if (hermite) {
-      EXPECT_LT(hermite->cost, kNodedCost * lumps.node_share);
+      EXPECT_LT(hermite->cost, own_nodes_cost() * lumps.node_share);
     }
     EXPECT_EQ(hermite.has_value(), degree > 8) << degree;
   }
