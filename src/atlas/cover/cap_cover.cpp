@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "atlas/cap/cap_fit.h"
+#include "atlas/cap/cap_support.h"
 #include "atlas/cover/cap_seed.h"
 #include "base/parallel.h"
 #include "chart/cap/cap_frame.h"
@@ -34,8 +35,6 @@ constexpr double kOfTolerance = 0.5;
 constexpr double kGrow = 1.6;
 constexpr std::size_t kMost = 4000;  // points of a cap of low degree
 constexpr std::size_t kFewest = 8;   // points: 24 rows for 16 unknowns and a penalty
-// Ellipses are not thinner than this part of the support, squared.
-constexpr double kThinnest = 0.1;
 // Of 24 random points of a disc the third nearest is nearer than a tenth of the farthest twice in
 // a thousand times.
 constexpr std::size_t kInner = 3;
@@ -49,51 +48,6 @@ constexpr double kTrustInPoints = 2;
 // Points that the cap speaks for.
 constexpr double kCovered = 0.7;
 
-// s^2 of CapSupport at an offset from the seed.
-double place(const Cap& cap, const Vec3& offset) {
-  const CapFrame& f = cap.frame;
-  const double p = dot(offset, f.x) - cap.where.px, q = dot(offset, f.y) - cap.where.py;
-  const double h = dot(offset, f.z) / f.support;
-  return cap.where.xx * p * p + 2 * cap.where.xy * p * q + cap.where.yy * q * q + h * h;
-}
-
-// Mean and covariance of points in a frame's plane.
-struct Moments {
-  double p = 0, q = 0;
-  double xx = 0, xy = 0, yy = 0;
-  double middle = 0, radius = 0;  // eigenvalues of the covariance: middle +- radius
-};
-
-Moments moments_of(const CapFrame& frame, const CapPoints& points) {
-  Moments m;
-  const auto n = static_cast<double>(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vec3 offset = points.offset(i);
-    const double x = dot(offset, frame.x), y = dot(offset, frame.y);
-    m.p += x, m.q += y, m.xx += x * x, m.xy += x * y, m.yy += y * y;
-  }
-  m.p /= n, m.q /= n;
-  m.xx = m.xx / n - m.p * m.p, m.xy = m.xy / n - m.p * m.q, m.yy = m.yy / n - m.q * m.q;
-  m.middle = (m.xx + m.yy) / 2, m.radius = std::hypot((m.xx - m.yy) / 2, m.xy);
-  return m;
-}
-
-// Of a disc's covariance, both are R^2 / 4.
-double eigenvalue_of_disc(const CapFrame& frame) { return frame.support * frame.support / 4; }
-
-// The ellipse with the mean and the covariance of the points: those of a full disc give its circle.
-CapSupport ellipse_of(const CapFrame& frame, const Moments& m) {
-  // Axes between kThinnest and 1 of the support.
-  const double most = eigenvalue_of_disc(frame), least = kThinnest * most;
-  const double large = std::clamp(m.middle + m.radius, least, most);
-  const double small = std::clamp(m.middle - m.radius, least, most);
-  // Directions of the axes.
-  const double angle = 0.5 * std::atan2(2 * m.xy, m.xx - m.yy);
-  const double c = std::cos(angle), s = std::sin(angle);
-  const double a = 1 / (4 * large), b = 1 / (4 * small);
-  return {m.p, m.q, a * c * c + b * s * s, (a - b) * c * s, a * s * s + b * c * c};
-}
-
 struct Candidate {
   Cap cap;
   std::vector<double> coefficients;
@@ -104,8 +58,7 @@ struct Candidate {
 bool fills_disc(const Cap& cap, std::size_t k, const CapWorker& worker) {
   const double inner2 = worker.near[std::min(kInner, k - 1)].distance2;
   if (inner2 < kClose * kClose * worker.near[k - 1].distance2) return false;
-  const Moments m = moments_of(cap.frame, worker.points);
-  return m.middle - m.radius > kThinnest * eigenvalue_of_disc(cap.frame);
+  return fills_ellipse(cap.frame, moments_of(cap.frame, worker.points));
 }
 
 bool good(const CapFit& fit, double support, const CoverOptions& options) {

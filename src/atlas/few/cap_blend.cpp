@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "atlas/cap/cap_eval.h"
+#include "atlas/cap/cap_support.h"
 #include "base/parallel.h"
 
 namespace rholm {
@@ -11,19 +12,11 @@ namespace {
 
 // Of all points with s < 1 about the seed.
 double reach(const Cap& cap) {
-  const CapSupport& w = cap.where;
-  const double least = (w.xx + w.yy) / 2 - std::hypot((w.xx - w.yy) / 2, w.xy);
-  return std::hypot(std::hypot(w.px, w.py) + 1 / std::sqrt(least), cap.frame.support);
+  const CapSupport& where = cap.where;
+  return std::hypot(std::hypot(where.px, where.py) + longer_half_axis(where), cap.frame.support);
 }
 
 }  // namespace
-
-double place(const Cap& cap, const Vec3& offset) {
-  const CapFrame& f = cap.frame;
-  const double p = dot(offset, f.x) - cap.where.px, q = dot(offset, f.y) - cap.where.py;
-  const double h = dot(offset, f.z) / f.support;
-  return cap.where.xx * p * p + 2 * cap.where.xy * p * q + cap.where.yy * q * q + h * h;
-}
 
 CapVoice voice_of(const Cap& cap, std::span<const double> coefficients, const PointTree& tree,
                   std::span<const Vec3> all, double band) {
@@ -96,12 +89,6 @@ void set_weights(std::span<Cap> caps, double power) {
   double largest = 0;
   for (const Cap& cap : caps) largest = std::max(largest, cap.frame.support);
   for (Cap& cap : caps) cap.weight = std::pow(largest / cap.frame.support, power);
-}
-
-void set_support(Cap& cap, double support) {
-  cap.frame.support = support;
-  const double square = 1 / (support * support);
-  cap.where = {0, 0, square, 0, square};
 }
 
 }  // namespace rholm

@@ -32,14 +32,9 @@ struct Blend {
 // `points` are in the order of the tree.
 CapVoice voice_of(const Cap& cap, std::span<const double> coefficients, const PointTree& tree,
                   std::span<const Vec3> points, double band);
-// s^2 of CapSupport at an offset from the seed.
-double place(const Cap& cap, const Vec3& offset);
 Blend blend(const Atlas& atlas, const SampleLevel& samples, double band, const Context& context);
 
 // Weights that let small caps override large ones: (largest support / support)^power.
 void set_weights(std::span<Cap> caps, double power);
-
-// A circle around the seed.
-void set_support(Cap& cap, double support);
 
 }  // namespace rholm

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "atlas/cap/cap_eval.h"
-#include "atlas/few/cap_blend.h"
+#include "atlas/cap/cap_support.h"
 #include "base/poison.h"
 #include "chart/cap/cap_frame.h"
 #include "chart/cap/dilation.h"

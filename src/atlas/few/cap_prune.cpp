@@ -5,6 +5,7 @@
 #include <queue>
 
 #include "atlas/cap/cap_fit.h"
+#include "atlas/cap/cap_support.h"
 #include "atlas/cap/degree_fits.h"
 #include "atlas/few/cap_blend.h"
 #include "atlas/few/cap_candidate.h"

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "atlas/cap/cap_eval.h"
+#include "atlas/cap/cap_support.h"
 #include "atlas/cap/degree_fits.h"
 #include "base/parallel.h"
 
@@ -33,16 +34,10 @@ constexpr double kMostLedge = 10;
 
 // grad w along the surface; of its factors the one of the place, (1 - s^2)^3.
 Vec3 weight_slope(const Cap& cap, double weight, const Vec3& at, const Vec3& normal) {
-  const CapFrame& f = cap.frame;
-  const CapSupport& where = cap.where;
-  const Vec3 offset = at - f.seed();
-  const double p = dot(offset, f.x) - where.px, q = dot(offset, f.y) - where.py;
-  const double h = dot(offset, f.z) / (f.support * f.support);
-  const Vec3 half = (where.xx * p + where.xy * q) * f.x + (where.xy * p + where.yy * q) * f.y +
-                    h * f.z;  // of grad s^2
+  const Vec3 offset = at - cap.frame.seed();
   const double rest = 1 - place(cap, offset);
   if (!(rest > 0)) return {};
-  const Vec3 slope = (-6 * weight / rest) * half;
+  const Vec3 slope = (-3 * weight / rest) * support_gradient(cap, offset);
   return slope - dot(slope, normal) * normal;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "atlas/cap/cap_support.h"
 #include "atlas/few/cap_blend.h"
 #include "atlas/few/cap_prune.h"
 #include "base/parallel.h"

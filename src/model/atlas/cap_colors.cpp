@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "atlas/cap/cap_support.h"
 #include "atlas/few/cap_blend.h"
 #include "rholm/compress.h"
 #include "shape/points/point_tree.h"

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "atlas/cap/cap_support.h"
 #include "atlas/paper/cap_integral.h"
 #include "base/parallel.h"
 #include "chart/patches/kd_partition.h"
@@ -143,8 +144,7 @@ MadeCap make_cap(const Cell& cell, const KdPatch& patch, const PatchAtlasOptions
   const CapErrors errors = cap_errors(made.cap.frame, integral.coefficients, cell.points, context);
   made.squares = errors.sum * errors.sum;
   made.points = cell.points.size();
-  const double support = made.cap.frame.support;
-  made.cap.where.xx = made.cap.where.yy = 1 / (support * support);
+  set_support(made.cap, made.cap.frame.support);
   made.cap.degree = static_cast<std::uint16_t>(options.degree);
   made.cap.error = errors.rms;
   made.cap.area = area_of(cell.points, triangles);

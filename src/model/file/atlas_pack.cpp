@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "atlas/cap/cap_eval.h"
+#include "atlas/cap/cap_support.h"
 #include "atlas/few/cap_blend.h"
 #include "harmonic/legendre/low_harmonics.h"
 #include "rholm/error.h"
@@ -174,10 +175,9 @@ Cap unpack_cap(const PackedAtlas& p, std::size_t c) {
   cap.frame.x = rotate({1, 0, 0}, turn);
   cap.frame.y = rotate({0, 1, 0}, turn);
   cap.frame.z = rotate({0, 0, 1}, turn);
-  cap.frame.radius = f[6], cap.frame.dilation = f[7], cap.frame.support = f[8];
+  cap.frame.radius = f[6], cap.frame.dilation = f[7];
   cap.frame.center = p.origin + Vec3{f[0], f[1], f[2]} - cap.frame.radius * cap.frame.z;
-  const double square = 1 / (cap.frame.support * cap.frame.support);
-  cap.where = {0, 0, square, 0, square};
+  set_support(cap, f[8]);
   if (!p.ellipses.empty()) {
     const float* const e = &p.ellipses[5 * c];
     cap.where = {e[0], e[1], e[2], e[3], e[4]};

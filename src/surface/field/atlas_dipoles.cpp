@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "atlas/cap/cap_eval.h"
+#include "atlas/cap/cap_support.h"
 #include "atlas/few/cap_blend.h"
 #include "base/parallel.h"
 #include "shape/points/point_tree.h"
@@ -26,10 +27,8 @@ struct Feet {
 // surface, q the distance from the centre to the point in the plane.
 Feet feet_of(const Cap& cap, std::span<const double> coefficients, double spacing) {
   const CapFrame& f = cap.frame;
-  const double middle = (cap.where.xx + cap.where.yy) / 2;
-  const double spread = std::hypot((cap.where.xx - cap.where.yy) / 2, cap.where.xy);
   const double radius =
-      std::min(f.support, std::hypot(cap.where.px, cap.where.py) + 1 / std::sqrt(middle - spread));
+      std::min(f.support, std::hypot(cap.where.px, cap.where.py) + longer_half_axis(cap.where));
   const double wanted = std::numbers::pi * radius * radius / (spacing * spacing);
   const auto n = static_cast<std::size_t>(std::ceil(std::clamp(wanted, 1.0, kMostPoints)));
   CapPoints plane;

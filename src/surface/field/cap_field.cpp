@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "atlas/cap/cap_support.h"
 #include "base/parallel.h"
 #include "base/poison.h"
 
@@ -229,13 +230,6 @@ struct Lanes {
   std::vector<float> coefficients;
 };
 
-// The longer half axis of the ellipse.
-double ellipse_reach(const Cap& cap) {
-  const CapSupport& where = cap.where;
-  const double middle = (where.xx + where.yy) / 2;
-  return 1 / std::sqrt(middle - std::hypot((where.xx - where.yy) / 2, where.xy));
-}
-
 Lanes make_lanes(const Atlas& atlas, double step) {
   Lanes lanes;
   lanes.coefficients.assign(atlas.coefficients.begin(), atlas.coefficients.end());
@@ -256,12 +250,12 @@ Lanes make_lanes(const Atlas& atlas, double step) {
     lane.reach = static_cast<float>((band_of(atlas, step) + cap.deviation) / step);
     // A disc of radius e and half thickness t across n reaches e sqrt(1 - n_x^2) + t |n_x| along x.
     const Vec3 n = f.z;
-    const double edge = ellipse_reach(cap) / step;
+    const double edge = longer_half_axis(cap.where) / step;
     const auto extent = [&](double along) {
       return static_cast<float>(edge * std::sqrt(std::max(0.0, 1 - along * along)) +
                                 lane.reach * std::abs(along));
     };
-    lane.middle = lane.seed + cap.where.px * f.x + cap.where.py * f.y;
+    lane.middle = support_middle(cap);
     lane.box[0] = extent(n.x), lane.box[1] = extent(n.y), lane.box[2] = extent(n.z);
     lane.inverse_band = static_cast<float>(step / band_of(atlas, step));
     lane.trust = static_cast<float>(cap.weight);
@@ -296,8 +290,7 @@ std::vector<Disc> discs_of(const Atlas& atlas, double step) {
   std::vector<Disc> discs;
   discs.reserve(atlas.caps.size());
   for (const Cap& cap : atlas.caps) {
-    const CapFrame& f = cap.frame;
-    discs.push_back({f.seed() + cap.where.px * f.x + cap.where.py * f.y, f.z, ellipse_reach(cap),
+    discs.push_back({support_middle(cap), cap.frame.z, longer_half_axis(cap.where),
                      band_of(atlas, step) + cap.deviation});
   }
   return discs;
@@ -379,14 +372,6 @@ constexpr double kRim = 0.63;
 // Beyond the rim caps hand over to the fill of a hole, up to here. Measured: a tenth farther they
 // bend on their own, and flares and steps stand around the fill.
 constexpr double kEnd = 0.7;
-
-double place(const Cap& cap, const Vec3& x) {
-  const CapFrame& f = cap.frame;
-  const Vec3 offset = x - f.seed();
-  const double p = dot(offset, f.x) - cap.where.px, q = dot(offset, f.y) - cap.where.py;
-  const double h = dot(offset, f.z) / f.support;
-  return cap.where.xx * p * p + 2 * cap.where.xy * p * q + cap.where.yy * q * q + h * h;
-}
 
 // Steps that a vertex may move, and the squared mean of normals below which caps contradict each
 // other.
@@ -477,7 +462,8 @@ NodeSupport node_support(const Atlas& atlas, const CapLists& lists, const BlockG
         if (b == kNoBlock || static_cast<std::size_t>(b) + 1 >= lists.first.size()) continue;
         double nearest = 2;
         for (std::size_t c = lists.first[b]; c < lists.first[b + 1]; ++c) {
-          nearest = std::min(nearest, place(atlas.caps[lists.caps[c]], x[i]));
+          const Cap& cap = atlas.caps[lists.caps[c]];
+          nearest = std::min(nearest, place(cap, x[i] - cap.frame.seed()));
         }
         support[i] = std::clamp((kEnd - nearest) / (kEnd - kRim), 0.0, 1.0);
       }
@@ -493,7 +479,8 @@ std::vector<double> data_support(const Atlas& atlas, const CapLists& lists,
       for (std::size_t v = surface.first_vertex[b]; v < surface.first_vertex[b + 1]; ++v) {
         double nearest = 2;
         for (std::size_t c = lists.first[b]; c < lists.first[b + 1]; ++c) {
-          nearest = std::min(nearest, place(atlas.caps[lists.caps[c]], surface.mesh.vertices[v]));
+          const Cap& cap = atlas.caps[lists.caps[c]];
+          nearest = std::min(nearest, place(cap, surface.mesh.vertices[v] - cap.frame.seed()));
         }
         support[v] = 1 - nearest / kRim;
       }

@@ -9,8 +9,8 @@
 #include <numbers>
 #include <vector>
 
+#include "atlas/cap/cap_support.h"
 #include "atlas/cover/cap_seed.h"
-#include "atlas/few/cap_blend.h"
 #include "support/test_points.h"
 
 namespace rholm {

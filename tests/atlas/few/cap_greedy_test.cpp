@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "atlas/cap/cap_eval.h"
+#include "atlas/cap/cap_support.h"
 #include "atlas/cap/degree_fits.h"
 #include "atlas/few/cap_blend.h"
 #include "atlas/few/cap_prune.h"

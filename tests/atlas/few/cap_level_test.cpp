@@ -9,6 +9,7 @@
 
 #include "atlas/cap/cap_eval.h"
 #include "atlas/cap/cap_fit.h"
+#include "atlas/cap/cap_support.h"
 #include "atlas/few/cap_blend.h"
 #include "chart/cap/cap_frame.h"
 

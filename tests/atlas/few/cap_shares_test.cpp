@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "atlas/cap/cap_support.h"
 #include "chart/cap/cap_frame.h"
 
 namespace rholm {

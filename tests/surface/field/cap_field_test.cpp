@@ -8,8 +8,8 @@
 #include <numbers>
 #include <vector>
 
+#include "atlas/cap/cap_support.h"
 #include "atlas/cover/cap_cover.h"
-#include "atlas/few/cap_blend.h"
 #include "rholm/topology.h"
 #include "support/targets.h"
 #include "support/test_points.h"
