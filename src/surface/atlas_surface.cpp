@@ -14,6 +14,7 @@
 #include "rholm/topology.h"
 #include "surface/field/atlas_dipoles.h"
 #include "surface/field/cap_field.h"
+#include "surface/field/data_support.h"
 #include "surface/grid/block_grid.h"
 #include "surface/holes/close_grid.h"
 #include "surface/holes/hole_fill.h"

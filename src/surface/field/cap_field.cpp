@@ -366,13 +366,6 @@ std::vector<std::uint64_t> fill_grid(const Atlas& atlas, const CapLists& lists, 
 
 namespace {
 
-// s^2 of CapSupport on the rim of the data: half a disc of points, at the edge of a hole, has a
-// mean at 0.42 R from it, and an ellipse of half axis 0.53 R.
-constexpr double kRim = 0.63;
-// Beyond the rim caps hand over to the fill of a hole, up to here. Measured: a tenth farther they
-// bend on their own, and flares and steps stand around the fill.
-constexpr double kEnd = 0.7;
-
 // Steps that a vertex may move, and the squared mean of normals below which caps contradict each
 // other.
 constexpr double kLargestMove = 0.5;
@@ -448,45 +441,6 @@ void project_vertices(const Atlas& atlas, const CapLists& lists, const BlockGrid
                    }
                  }
                });
-}
-
-NodeSupport node_support(const Atlas& atlas, const CapLists& lists, const BlockGrid& grid,
-                         const Context& context) {
-  return [&, context](std::span<const Vec3> x, std::span<double> support) {
-    parallel_for(x.size(), 1024, context, {}, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        const Vec3 p = (x[i] - grid.origin) / (8 * grid.step);
-        const auto cell = [](double c) { return static_cast<std::int32_t>(std::floor(c + 1e-6)); };
-        const std::int32_t b = find_block(grid, {cell(p.x), cell(p.y), cell(p.z)});
-        support[i] = 0;
-        if (b == kNoBlock || static_cast<std::size_t>(b) + 1 >= lists.first.size()) continue;
-        double nearest = 2;
-        for (std::size_t c = lists.first[b]; c < lists.first[b + 1]; ++c) {
-          const Cap& cap = atlas.caps[lists.caps[c]];
-          nearest = std::min(nearest, place(cap, x[i] - cap.frame.seed()));
-        }
-        support[i] = std::clamp((kEnd - nearest) / (kEnd - kRim), 0.0, 1.0);
-      }
-    });
-  };
-}
-
-std::vector<double> data_support(const Atlas& atlas, const CapLists& lists,
-                                 const ExtractedSurface& surface, const Context& context) {
-  std::vector<double> support(surface.mesh.vertices.size(), -1);
-  parallel_for(lists.first.size() - 1, 64, context, {}, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t b = begin; b < end; ++b) {
-      for (std::size_t v = surface.first_vertex[b]; v < surface.first_vertex[b + 1]; ++v) {
-        double nearest = 2;
-        for (std::size_t c = lists.first[b]; c < lists.first[b + 1]; ++c) {
-          const Cap& cap = atlas.caps[lists.caps[c]];
-          nearest = std::min(nearest, place(cap, surface.mesh.vertices[v] - cap.frame.seed()));
-        }
-        support[v] = 1 - nearest / kRim;
-      }
-    }
-  });
-  return support;
 }
 
 }  // namespace rholm

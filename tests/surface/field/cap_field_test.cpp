@@ -5,59 +5,19 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "atlas/cap/cap_support.h"
-#include "atlas/cover/cap_cover.h"
 #include "rholm/topology.h"
 #include "support/targets.h"
-#include "support/test_points.h"
+#include "surface/field/sphere_field.h"
 
 namespace rholm {
 namespace {
 
-// The atlas of a unit sphere, or of what `keep` leaves of it.
-template <typename Keep>
-Atlas sphere_atlas(std::size_t n, const Keep& keep) {
-  std::vector<Vec3> all, points;
-  for (const Vec3& p : test::sphere_points(n).points) {
-    if (keep(p)) all.push_back(p);
-  }
-  const PointTree tree(all);
-  for (const std::uint32_t i : tree.order()) points.push_back(all[i]);
-  Cover made = cover({tree, points, points}, {}, {});
-  Atlas atlas;
-  atlas.caps = std::move(made.caps);
-  atlas.coefficients = std::move(made.coefficients);
-  atlas.spacing = std::sqrt(4 * std::numbers::pi / static_cast<double>(n));
-  atlas.diagonal = 2 * std::sqrt(3.0);
-  return atlas;
-}
-
-Atlas whole_sphere(std::size_t n) {
-  return sphere_atlas(n, [](const Vec3&) { return true; });
-}
-
-double largest_support(const Atlas& atlas) {
-  double largest = 0;
-  for (const Cap& cap : atlas.caps) largest = std::max(largest, cap.frame.support);
-  return largest;
-}
-
-struct Field {
-  BlockGrid grid;
-  CapLists lists;
-};
-
-Field make_field(const Atlas& atlas, double step) {
-  const std::vector<Disc> discs = discs_of(atlas, step);
-  const Vec3 origin{-1.3, -1.2, -1.25};
-  Field field;
-  field.grid = make_block_grid(origin, step, list_blocks(origin, step, discs, 1000000));
-  field.lists = list_caps(field.grid, discs);
-  return field;
-}
+using test::Field;
+using test::largest_support;
+using test::make_field;
 
 // Quadratic B-spline of (P44), 1 at 0.
 double spline(double t) { return (t < 0.5 ? 0.75 - t * t : 0.5 * (1.5 - t) * (1.5 - t)) / 0.75; }
@@ -122,7 +82,7 @@ void expect_blend(const Atlas& atlas, double step, double band) {
 }
 
 TEST(CapField, nodes_have_the_blend_of_the_caps_that_reach_them) {
-  Atlas atlas = whole_sphere(800);
+  Atlas atlas = test::whole_sphere(800);
   const double step = 0.7 * atlas.spacing, band = kBandSteps * step;
   test::for_each_target([&](const char* target) {
     SCOPED_TRACE(target);
@@ -136,7 +96,7 @@ TEST(CapField, nodes_have_the_blend_of_the_caps_that_reach_them) {
   });
 }
 TEST(CapField, is_a_signed_distance_to_first_order) {
-  const Atlas atlas = whole_sphere(4000);
+  const Atlas atlas = test::whole_sphere(4000);
   const double step = 0.7 * atlas.spacing;
   Field field = make_field(atlas, step);
   fill_grid(atlas, field.lists, field.grid, {});
@@ -153,7 +113,7 @@ TEST(CapField, is_a_signed_distance_to_first_order) {
 
 // Blocks have any number of vertices.
 TEST(CapField, vertices_are_moved_to_the_surface_with_its_normals) {
-  const Atlas atlas = whole_sphere(4000);
+  const Atlas atlas = test::whole_sphere(4000);
   const double step = 0.7 * atlas.spacing;
   Field field = make_field(atlas, step);
   fill_grid(atlas, field.lists, field.grid, {});
@@ -176,30 +136,6 @@ TEST(CapField, vertices_are_moved_to_the_surface_with_its_normals) {
       EXPECT_LT(norm(n - mesh.vertices[v]), std::pow(support, 3) + 1e-4);
     }
   });
-}
-
-TEST(CapField, support_is_positive_within_the_data_and_negative_beyond) {
-  constexpr double kBorder = 0.5;
-  const Atlas atlas = sphere_atlas(8000, [](const Vec3& p) { return p.z < kBorder; });
-  const double step = 0.7 * atlas.spacing;
-  Field field = make_field(atlas, step);
-  fill_grid(atlas, field.lists, field.grid, {});
-  ExtractedSurface surface = extract_surface(field.grid);
-  const std::vector<double> support = data_support(atlas, field.lists, surface, {});
-  const double margin = largest_support(atlas);
-  std::size_t inside = 0, doubtful = 0;
-  for (std::size_t v = 0; v < support.size(); ++v) {
-    const double z = surface.mesh.vertices[v].z;
-    EXPECT_LE(support[v], 1);
-    if (z < kBorder - margin) {
-      ++inside;
-      doubtful += support[v] <= 0;
-    } else if (z > kBorder + margin) {
-      EXPECT_LT(support[v], 0);
-    }
-  }
-  EXPECT_GT(inside, 1000U);
-  EXPECT_LT(100 * doubtful, inside);  // gaps that random points leave
 }
 
 }  // namespace
