@@ -35,7 +35,10 @@ struct CapFitOptions {
   CapBasis basis = CapBasis::kFull;
   int degree = 3;
   double gradient_weight = 1;  // of normals against values, both in the frame of the opened sphere
-  double penalty = 2e-7;       // of (l (l + 1))^2, relative to the sum of the weights (method 7.4)
+  // Of (l (l + 1))^2, relative to the sum of the weights (method 7.4). It differs with the degrees
+  // that are fitted: at the highest, (L (L + 1))^2 times it is 3e-5 here (L = 3), 5e-5 for patches
+  // of edits (1e-8, L = 8), 9e-5 for few large caps (2e-9, L = 14).
+  double penalty = 2e-7;
 };
 
 struct CapFit {

@@ -17,6 +17,7 @@ constexpr std::size_t kMeanOf = 12;
 // more noise, a half moves seeds inwards where the sheet is bent.
 constexpr double kSettledBy = 0.25;
 
+// Falls faster than that of few large caps, which do worse with this one (cap_candidate.cpp).
 double value_weight(double d2, double support2) {
   const double rest = std::max(0.0, 1 - d2 / support2);
   return rest * rest + 0.01;  // method 7.4

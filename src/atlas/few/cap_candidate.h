@@ -19,6 +19,9 @@ struct CandidateOptions {
   std::size_t samples = 1000;  // of a fit, about
 };
 
+// CapFitOptions::penalty of few large caps.
+inline constexpr double kFewPenalty = 2e-9;
+
 // Numbers that a model keeps of a cap beside its coefficients: seed, rotation, radius, dilation,
 // support.
 inline constexpr std::size_t kFrameNumbers = 9;

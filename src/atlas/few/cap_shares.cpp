@@ -7,6 +7,7 @@
 #include "atlas/cap/cap_eval.h"
 #include "atlas/cap/cap_support.h"
 #include "atlas/cap/degree_fits.h"
+#include "atlas/few/cap_candidate.h"
 #include "base/parallel.h"
 
 namespace rholm {
@@ -23,7 +24,6 @@ constexpr double kMissed = 4;  // tolerances
 // coefficients, ten times less lets a third of the caps stray.
 constexpr double kOwnShare = 0.03;
 constexpr double kGradientWeight = 0.1;
-constexpr double kPenalty = 2e-9;
 
 // Tolerances that a ledge of slope 1 counts as. Chosen by scripts/atlas-figures: one of 5 degrees
 // then counts as an error of a tolerance; 20 takes 3 % more numbers, for a fifth fewer badly turned
@@ -189,7 +189,7 @@ void share_points(const Atlas& atlas, std::size_t index, std::span<const double>
 }
 
 CapFitOptions share_fit(CapBasis basis, int degree) {
-  return {basis, degree, kGradientWeight, kPenalty};
+  return {basis, degree, kGradientWeight, kFewPenalty};
 }
 
 void agree(const SampleLevel& samples, const AgreeOptions& options, Atlas& atlas,
