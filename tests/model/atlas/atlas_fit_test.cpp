@@ -13,7 +13,7 @@
 namespace rholm {
 namespace {
 
-constexpr double kTolerance = 0.03, kBand = 0.3, kStep = 0.1;
+constexpr double kTolerance = 0.1, kBand = 0.3, kStep = 0.1;
 
 // What the surface of a grid is said to be.
 struct Seen {
@@ -30,7 +30,7 @@ class Fit {
   Fit(std::size_t handles, See see) : handles_(handles), see_(std::move(see)) {}
 
   void run(const Overlap& overlap) {
-    const Mesh sphere = icosphere(4);
+    const Mesh sphere = icosphere(2);
     static const Atlas atlas = [&] {
       Atlas a = compress(sphere, {.tolerance = kTolerance, .samples = 2000}).model.atlas;
       a.band = kBand;
