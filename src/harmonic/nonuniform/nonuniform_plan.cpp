@@ -20,11 +20,11 @@ double polar_sine(int degree, int derivatives) {
   return derivatives > 1 ? std::max(least, 0.05) : least;
 }
 
-// How much larger than that of values the error of derivatives is, measured on even directions,
-// relative to L for gradients and L^2 for Hessians. Aliases have wave numbers around n - L, and
-// longitudes near the poles count 1 / sin(theta) times: the l2 norm of 1 / sin^2 down to a polar
-// sine is 0.7 times its inverse, and three times that where few sources are so near: fewer than
-// thirty within twice the polar sine (chosen).
+// How much larger than that of values the error of derivatives is, on even directions
+// (window_bench), relative to L for gradients and L^2 for Hessians. Aliases have wave numbers
+// around n - L, and longitudes near the poles count 1 / sin(theta) times: the l2 norm of 1 / sin^2
+// down to a polar sine is 0.7 times its inverse, and three times that where few sources are so
+// near: fewer than thirty within twice the polar sine (chosen).
 double gradient_factor(double sigma) { return 2.6 * sigma * sigma; }
 double hessian_factor(double sigma, int degree, std::size_t sources) {
   const double sine = polar_sine(degree, 2);

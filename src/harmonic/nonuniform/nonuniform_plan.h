@@ -39,8 +39,8 @@ NonuniformPlan plan_nonuniform(const NonuniformNeeds& needs);
 // `sources` of them all over the sphere.
 double hessian_factor(const NonuniformPlan& plan, std::size_t sources);
 
-// What windows in single precision add to the error of generic sums (measured for L = 16 ... 2000,
-// up to 2.2e-7 for values and gradients, with windows up to 10 wide).
+// What windows in single precision add to the error of generic sums (bench/window_bench; L = 16 ...
+// 2000, up to 2.2e-7 for values and gradients, with windows up to 10 wide).
 double single_rounding(int degree, int derivatives = 0);
 // Least error that single precision is taken for.
 double least_single_error(int degree, int derivatives = 0);

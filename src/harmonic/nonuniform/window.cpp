@@ -76,22 +76,23 @@ double SpreadWindow::fourier(double k) const {
 }
 
 // The transform is large up to omega = beta: set to the lowest alias, n - band, it would be ideal
-// for white sums; 1 % less gives a little to the jump at the window's ends (measured).
+// for white sums; 1 % less gives a little to the jump at the window's ends
+// (bench/window_bench with 1 in its place).
 SpreadWindow spread_window(int width, std::size_t band, std::size_t points) {
   const double share = 1 - static_cast<double>(band) / static_cast<double>(points);
   const double beta = 0.99 * kPi * width * share;
   return {.width = width, .beta = beta, .points = points, .scale = bessel_i0(beta)};
 }
 
-// The rate is that of the header; the factor was measured on random sources and weights: 1.3 at
+// The rate is that of the header; the factor is that of bench/window_bench: 1.3 at
 // sigma = 1.25, 1.9 at 1.5, 3 at 2, 4.7 at 2.8, within 30 % for widths 3 ... 16.
 double spread_error(int width, double sigma) {
   return (2.1 * sigma - 1.2) * std::exp(-kPi * width * std::sqrt(1 - 1 / sigma));
 }
 
 int spread_terms(int width) {
-  // A tap spans 2/w of the window, so that powers fall fast. Measured, for oversampling 1.25 ... 3:
-  // fewer would add more than a tenth to the error of values or derivatives.
+  // A tap spans 2/w of the window, so that powers fall fast. bench/window_bench, oversampling 1.25
+  // ... 3: fewer would add more than a tenth to the error of values or derivatives.
   constexpr int kTerms[] = {4, 6, 6, 6, 8, 8, 10, 10, 10, 12, 12, 12, 14, 14};
   return kTerms[width - kMinSpreadWidth];
 }

@@ -15,7 +15,7 @@
 
 namespace rholm {
 
-// What a gradient counts against a weight in a window's error: some 9 L (measured at twofold
+// What a gradient counts against a weight in a window's error: some 9 L (window_bench, twofold
 // oversampling).
 double gradient_cost(const MeshPlan& plan);
 

@@ -143,8 +143,9 @@ class Pass {
 
   // `hessian2`: L^2 times Hessians, whose part in the error depends on the grid.
   void choose_window(double source2, double hessian2, std::size_t sources) {
+    const double error = options_.window_share * window_error(plan_, source2);
     NonuniformNeeds needs{.degree = plan_.divided.degree,
-                          .error = std::clamp(window_error(plan_, source2), 1e-15, 1e-2),
+                          .error = std::clamp(error, 1e-15, 1e-2),
                           .sources = sources,
                           .derivatives = plan_.block.hessians ? 2 : 1,
                           .forbid_single = sizeof(T) == 8,

@@ -14,6 +14,7 @@ struct MeshPassOptions {
   int degree = 0;
   double precision = 1e-6;
   Vec3 center = {};
+  double window_share = 1;  // what windows may leave, times this; for benchmarks of the plan
   // Called with blocks of triangles, in order within a thread, before and after they are used:
   // the first returns false if they are not triangles after all.
   std::function<bool(std::size_t first, std::size_t n)> check = {};
