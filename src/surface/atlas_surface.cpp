@@ -32,7 +32,8 @@ constexpr std::size_t kSurfaceOfBlock = 45 * 56 + 90 * 12 + 32 * 4;
 // Of the mesh at a block meanwhile: planes, stars and lists of some 45 vertices (96 bytes each).
 // The values of the grid are gone by then.
 constexpr std::size_t kSimplifyOfBlock = 45 * 96 - BlockGrid::kNodes * sizeof(float);
-// Measured on clean bodies: a sixth of the triangles, distances a tenth above those of all.
+// On clean bodies (scripts/constants) a sixth of the triangles, distances a tenth above those of
+// all.
 constexpr double kSimplifyError = 0.02;
 
 constexpr double kDipoleSteps = 2;  // between dipoles; their winding is smooth over as much

@@ -20,8 +20,8 @@ constexpr std::size_t kBlock = 4096;
 
 // A fit is good when its residuals are below this part of the support (method 7.4), or of the
 // noise.
-// Measured on sharp edges: 0.01 and 0.02 leave more of them round or horned, below 0.01 good points
-// of rough shapes look like outliers.
+// On sharp edges (scripts/constants): 0.01 and 0.02 leave more of them round or horned, below 0.01
+// good points of rough shapes look like outliers.
 constexpr double kGoodFit = 0.014;
 constexpr double kGoodNoise = 1.12;  // method 7.11
 constexpr double kGoodShare = 0.85;
@@ -40,7 +40,7 @@ constexpr std::size_t kFewest = 8;   // points: 24 rows for 16 unknowns and a pe
 constexpr std::size_t kInner = 3;
 constexpr double kClose = 0.1;
 // Residuals of this part of the support halve the weight of a cap: a crease or a fold is left to
-// caps that do not see it. Measured: 0.001 to 0.01 are alike.
+// caps that do not see it. From 0.001 to 0.01 all are alike (scripts/constants).
 constexpr double kTrusted = 0.002;
 // Caps of noisy points count by this power of the number of their points. With 1, their variance,
 // small ones still make spikes at tips, where few others speak; 2 and 3 are alike.

@@ -40,7 +40,7 @@ constexpr double kSurelyNoise = 0.1;
 constexpr double kNoticed = 0.02;
 // Between, they are noise if they do not grow with the caps: with the power 0.2 ... 0.5 of the
 // support those of noise do, since small fits follow it, with 1 those of creases, with 1.4 ... 3
-// those of whole shapes; measured between caps of k and of 9/4 k points.
+// those of whole shapes; between caps of k and of 9/4 k points (scripts/constants).
 constexpr double kShapeGrows = 0.85;
 constexpr double kWide = 2.25;
 

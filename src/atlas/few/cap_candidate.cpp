@@ -111,8 +111,8 @@ bool good(const Misses& misses, double tolerance) {
          static_cast<double>(misses.missed) <= kMostMissed * static_cast<double>(misses.within);
 }
 
-// At the low degree: the high one has never been seen to make up for so many (measured on four
-// shapes: 0.3 is met in 2 of 1000 cases).
+// At the low degree: the high one has never been seen to make up for so many (0.3 is met in 2 of
+// 1000 cases; scripts/constants).
 bool hopeless(const Misses& misses) {
   return static_cast<double>(misses.missed) > kHopeless * static_cast<double>(misses.within);
 }

@@ -39,9 +39,9 @@ constexpr int kMaxScans = 200;
 // changes no d_T by more than 1e-9 of the size.
 constexpr double kParallel = 1e-9;
 
-// Measured on smooth and rough shapes of 30 000 to 5 million faces, of which a pass costs 5 to 8 ns
-// each. The first pool: one face in kSampled, but at least and at most so many; fewer give a first
-// optimum that is farther off, more cost as much as a pass.
+// Measured (scripts/constants) on smooth and rough shapes of 30 000 to 5 million faces, of which a
+// pass costs 5 to 8 ns each. The first pool: one face in kSampled, but at least and at most so
+// many; fewer give a first optimum that is farther off, more cost as much as a pass.
 constexpr std::size_t kSampled = 64;
 constexpr std::size_t kFewestSampled = 1000;
 constexpr std::size_t kMostSampled = 4000;

@@ -19,8 +19,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using M = hn::Mask<D>;
 
-// Triangles whose indices are checked, and corners asked for, ahead of use; measured: 32 to 256 are
-// alike.
+// Triangles whose indices are checked, and corners asked for, ahead of use; measured
+// (scripts/constants): 32 to 256 are alike.
 constexpr std::size_t kBlock = 128;
 // Below, the squares of a normal in the unit frame lose their digits.
 constexpr double kSmallestSquare = 1e-280;

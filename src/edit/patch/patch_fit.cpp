@@ -36,8 +36,9 @@ constexpr int kFirstDegree = 2, kDegreeStep = 2, kConvex = 3;
 // Where Huber's measure turns linear, in medians of |e|; 1.48 medians are a standard deviation.
 constexpr double kTurn = 1;
 // Where Tukey's has forgotten, likewise, and how near to such a point others are left out with it,
-// in half wavelengths. Measured on scratches four tenths of a wavelength wide: 4 ... 7 and 0.5 ...
-// 1 are alike, the scratch disappears five times as well as with the convex measure alone.
+// in half wavelengths. On scratches four tenths of a wavelength wide (scripts/constants) 4 ... 7
+// and 0.5 ... 1 are alike, the scratch disappears five times as well as with the convex measure
+// alone.
 constexpr double kForgotten = 5;
 constexpr double kHalo = 0.8;
 // No less than this part of the detail that the fit has found: where the surroundings are

@@ -18,8 +18,8 @@ inline constexpr std::size_t padded(std::size_t n) {
 
 // The harmonics of a patch: all up to degree 3, beyond those with l + m even. The even ones are
 // complete on a hemisphere, but slow where a function does not meet the equator at a right angle,
-// and a plane does not: a few odd ones take that part. (Measured on a paraboloid: the error of
-// degree 8 falls from 6e-3 to 2e-5 wavelengths.) Ordered by degree.
+// and a plane does not: a few odd ones take that part. (scripts/constants; on a paraboloid the
+// error of degree 8 falls from 6e-3 to 2e-5 wavelengths.) Ordered by degree.
 inline constexpr int kPatchOdd = 3;
 constexpr std::size_t patch_basis(int degree) {
   const auto d = static_cast<std::size_t>(degree + 1);

@@ -3,7 +3,7 @@
 // Plans are estimated, not measured, so that a size gives the same bits in every run; made under
 // FFTW's own lock and kept for the life of the process. Executing them needs no lock. Only complex
 // transforms out of place are planned: planning real ones takes FFTW ten times as long (5 to 15
-// ms, measured) as small problems take in all.
+// ms) as small problems take in all.
 #pragma once
 
 #include <complex>

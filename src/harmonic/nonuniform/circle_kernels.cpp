@@ -27,7 +27,7 @@ HWY_INLINE void visit_rows(const GridLayout& layout, const Visit& visit) {
 }
 
 // Rows lie a page or more apart, which the processor's own prefetching does not follow.
-constexpr size_t kRowsAhead = 12;  // measured: 8 to 16 are equally good
+constexpr size_t kRowsAhead = 12;  // measured (scripts/constants): 8 to 16 are alike
 
 template <typename T>
 HWY_INLINE void GatherAny(const GridLayout& layout, const T* HWY_RESTRICT rows,

@@ -12,7 +12,7 @@ namespace rholm {
 struct NonuniformPlan {
   SphereFourier fourier;
   bool single = false;  // spread and transformed along phi in single precision
-  double cost = 0;      // predicted, nanoseconds on the machine the model was measured on
+  double cost = 0;      // predicted, nanoseconds on the machine of cost_model_bench's figures
   // Derivatives nearer to a pole are taken from values around them (polar_nodes.h): longitudes
   // there multiply the window's error by 1 / (L sin theta).
   double polar_sine = 0;

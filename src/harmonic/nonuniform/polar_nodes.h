@@ -18,8 +18,8 @@ inline constexpr std::array<double, 4> kSecondDifference = {8.0 / 5, -1.0 / 5, 8
                                                             -1.0 / 560};
 inline constexpr double kSecondMiddle = -205.0 / 72;
 
-// Measured for L = 4 ... 150: truncation stays below 1e-13 in double and 1e-7 in single precision,
-// rounding of values, divided by the step or its square, below 2e-13 and 1e-6.
+// For L = 4 ... 150 (nonuniform_test): truncation stays below 1e-13 in double and 1e-7 in single
+// precision, rounding of values, divided by the step or its square, below 2e-13 and 1e-6.
 template <typename T>
 double difference_step(int degree) {
   return (sizeof(T) == 4 ? 0.2 : 0.06) / std::max(degree, 1);

@@ -21,7 +21,7 @@ namespace rholm {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Sources worked on together: their windows stay in the first-level cache (measured).
+// Sources worked on together: their windows stay in the first-level cache (scripts/constants).
 template <typename T>
 constexpr size_t kBlock = 512 / sizeof(T);
 

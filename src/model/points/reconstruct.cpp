@@ -26,8 +26,8 @@ constexpr double kStepOfSpacing = 0.6;
 constexpr double kStepOfSupport = 0.15;
 // Where points are a thousand times sparser than elsewhere caps differ by more than the band of 2.5
 // fine steps: all but this share of the surface has smaller errors, and they may be this part of a
-// step. Measured: 0.07 steps on even points, 0.25 where density falls 30 times, both untouched; 2
-// where it falls 1000 times, torn to sheets below 1.2 steps of their error.
+// step (scripts/constants): 0.07 steps on even points, 0.25 where density falls 30 times, both
+// untouched; 2 where it falls 1000 times, torn to sheets below 1.2 steps of their error.
 constexpr double kSparseShare = 0.02;
 constexpr double kStepOfError = 2;
 // Points that no cap fits, or whose normals disagree, before all are searched for outliers: creases

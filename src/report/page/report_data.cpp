@@ -31,7 +31,7 @@ auto unless_refused(const Function& function) -> std::optional<decltype(function
 
 // What lies above the model's own degree. Parseval's difference of two large numbers means
 // something while the error of the coefficients, 1e-8 by default and twice that in squares, leaves
-// 1/50 of it; else what was measured at points does.
+// 1/50 of it; else the points decide.
 struct Tail {
   double energy = 0;
   bool known = false;

@@ -21,7 +21,7 @@ constexpr double kCalmShare = 0.9;    // see choose_neighbors
 constexpr std::size_t kSeeds = 1000;  // chosen: the error of the mean is 3 %
 
 // Where noise asks for more than that, planes are as good as paraboloids and edges cannot be told
-// (measured at noise of 0.2 % of the diagonal: no gain, half the time).
+// (scripts/constants, noise of 0.2 % of the diagonal: no gain, half the time).
 constexpr std::size_t kMostForCurvature = 50;
 
 // Neighbours on nearly a line (ten times as long as wide), as on the lines of a scanner: more are
@@ -159,9 +159,10 @@ int choose_neighbors(const PointTree& tree, std::span<const Vec3> points, const 
   std::size_t base = 0;
   while (base + 1 < rungs && difference(base, base) > 0.18) ++base;
   // Noise makes half fits differ by a variance that falls as 1 / k^2, curvature and edges more
-  // slowly. Measured from 10 to 22 neighbours, where noise alone gives 4.8 or more: clean samples
-  // of meshes have 0.7 (of flat faces) to 3, with noise a twentieth of the spacing it is 3.4 or
-  // more, 3.1 of the most detailed. Clean points want the smallest neighbourhood.
+  // slowly. Measured (scripts/constants) from 10 to 22 neighbours, where noise alone gives 4.8 or
+  // more: clean samples of meshes have 0.7 (of flat faces) to 3, with noise a twentieth of the
+  // spacing it is 3.4 or more, 3.1 of the most detailed. Clean points want the smallest
+  // neighbourhood.
   if (base == 0 && calm_difference(0) < kCleanFall * calm_difference(2)) return kLadder[0];
   std::size_t best = base;
   double least = 1;

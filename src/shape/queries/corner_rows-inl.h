@@ -51,8 +51,8 @@ HWY_INLINE const std::byte* Row(const MeshView& mesh, const std::byte* index) {
   return mesh.vertices + i * mesh.vertex_stride;
 }
 
-// Bytes of triangles asked for ahead of the one looked at; measured: a tenth of a large mesh's
-// pass.
+// Bytes of triangles asked for ahead of the one looked at: a tenth of a large mesh's pass
+// (scripts/constants).
 constexpr std::size_t kFarAhead = 2048;
 // Returns the largest index of the triangles [begin, end), and asks for one corner of each:
 // neighbours bring the others.

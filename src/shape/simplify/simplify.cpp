@@ -22,7 +22,7 @@ namespace {
 constexpr std::size_t kGrain = 8192;
 // Vertices that may go in one pass: the cheapest 0.3 of them, first the cheaper half of those. In
 // each half they go in the order of the mesh, which is some three times as fast as the order of
-// their costs and moves the surface by a hundredth more (measured on reconstructed bodies).
+// their costs and moves the surface by a hundredth more (scripts/constants).
 constexpr double kShareOfPass = 0.3;
 constexpr std::size_t kClasses = 2;
 constexpr std::size_t kMoreOfPass = 8;  // times as many where none of the cheapest may go

@@ -17,11 +17,11 @@ namespace rholm {
 namespace {
 
 constexpr std::size_t kGrain = 64;  // blocks
-// The winding number refutes a side if it is so far beyond 1/2. Measured: horns at edges are fewer
-// with 0.15 than with 0.2 or 0.3; with 0.1 corners are cut as well.
+// The winding number refutes a side if it is so far beyond 1/2. Horns at edges are fewer with 0.15
+// than with 0.2 or 0.3; with 0.1 corners are cut as well (scripts/constants).
 constexpr double kRefuted = 0.15;
-// That bound is coarse: the winding number may be off by a few hundredths. Measured: 2, the
-// default, takes three times as long and refutes the same but for some nodes in a thousand.
+// That bound is coarse: the winding number may be off by a few hundredths. 2, the default, takes
+// three times as long and refutes the same but for some nodes in a thousand (scripts/constants).
 constexpr double kRefutingOpening = 1.3;
 
 bool is_complete(const BlockGrid& grid, const std::vector<char>& fully_known, std::size_t b) {

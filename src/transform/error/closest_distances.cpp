@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kQueriesPerTask = 256;
 // Steps from the closest point of the model's triangles, which is off by their flatness: each step
 // leaves the distance times the curvature of what there is (0.001 of the distance after three on
-// random polyhedra to degree 64, measured against pattern search).
+// random polyhedra to degree 64 against pattern search; scripts/constants).
 constexpr int kSteps = 3;
 // Edges of the model's triangles are 1.1 / 2^level; waves of degree L have five of them.
 constexpr double kEdge = 1.3;

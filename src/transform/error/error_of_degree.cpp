@@ -18,7 +18,7 @@ constexpr std::size_t kFew = 100;
 constexpr double kNear = 2.5;
 // Few closest points differ from many by a per cent.
 constexpr double kCloseFew = 1.04;
-// What some points find is at most this much less than what all do (measured: 1.9).
+// What some points find is at most this much less than what all do (scripts/constants: 1.9).
 constexpr double kDoubt = 2;
 // Root mean squares of some points differ from those of all by 0.7 %.
 constexpr double kClose = 1.05;

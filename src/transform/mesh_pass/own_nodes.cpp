@@ -197,7 +197,8 @@ void NodeWriter::write_piece(const HalfEdge& edge, const Vec3& a, const Vec3& b,
   const Vec3 across = -edge.gradient * cross(edge.a, edge.b);
   EdgeRule rule;
   if (length <= kLongest * distance) {
-    // A gradient is up to L / |x| times the harmonic, and bends more (6 measured).
+    // A gradient is up to L / |x| times the harmonic, and bends more (6 times;
+    // adversarial_test judges).
     const double slope = 2 * norm(across) * options_.divided.degree / distance;
     Extent z = extent(a, b, distance, options_.divided.degree);
     z.crowd = edge.crowd;

@@ -10,7 +10,8 @@ namespace rholm {
 namespace {
 
 constexpr double kBend = 0.6;  // see Extent
-// Measured on spheres, ellipsoids and bumpy bodies of up to 80 000 faces, L = 1 ... 64.
+// On spheres, ellipsoids and bumpy bodies of up to 80 000 faces, L = 1 ... 64; adversarial_test
+// judges.
 constexpr double kInStep = 1.2;
 constexpr double kMostInStep = 50;  // chosen: edges seen end on have no extent at all
 constexpr int kMaxEdgeNodes = 24;   // pieces of extent up to about 30 at any precision
@@ -96,8 +97,8 @@ std::vector<FaceNode> product_nodes(int n) {
 }
 
 // Symmetric rules of Strang and Fix (1973) and Dunavant (1985), then products. The constants of the
-// error were measured with plane waves in all directions on the equilateral triangle of edge z;
-// those of products follow 0.55/n times that of Gauss's rule.
+// error (plane_wave_rules_test) were found with plane waves in all directions on the equilateral
+// triangle of edge z; those of products follow 0.55/n times that of Gauss's rule.
 const std::vector<TriangleNodes>& triangle_rules() {
   static const std::vector<TriangleNodes> rules = [] {
     std::vector<TriangleNodes> all(5);

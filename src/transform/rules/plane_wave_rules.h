@@ -68,7 +68,7 @@ FaceRule face_rule(const NodeAllowance& allowance, const Extent& z, double weigh
 
 // Below this d_T / r a triangle is taken out of (M6) and summed by bounded terms (method 3e). Those
 // have gradients, whose error in the windows of the fast sums is some 9 L times that of weights
-// (measured): that much larger the terms of (M6), about r / d_T, may well be.
+// (bench/window_bench): that much larger the terms of (M6), about r / d_T, may well be.
 double grazing_slope(int degree);
 
 // Error of lumping (VG) per unit of weight and z^4 / L: 1/720 of Hermite's rule, the mean of cos^8
@@ -97,7 +97,7 @@ inline constexpr std::array<HermiteEdge, kHermiteRules> kHermiteEdges = {{
 // The mean over a face, a and b the edges that leave a corner:
 //   sum over corners of value f + gradient (a + b) . f' + square (aa + bb) : f''
 //     + product (ab + ba) : f''  and of orbit f((5 p_i + 5 p_j + p_k) / 11),  + center f(centroid),
-// exact to degree 4, 5, 6 with none, one, four nodes; constants measured with plane waves as those
+// exact to degree 4, 5, 6 with none, one, four nodes; constants found with plane waves as those
 // of the other rules, the largest for z = 1 ... 8.
 struct HermiteFace {
   double value, gradient, square, product;
