@@ -235,6 +235,10 @@ inline std::vector<AdversarialMesh> adversarial_meshes(Adversaries which) {
   add("lattice of a planet", planet(80, 160), 48, 1e-6);
   add("lattice of a planet", planet(64, 128), 64, 1e-4);
   add("ball", icosphere(5), 48, 1e-4);
+  // Vertices with Hessians, in step with the windows.
+  add("Hessians", bumpy_sphere(5, 0.2), 48, 1e-8);
+  add("Hessians", bumpy_sphere(6, 0.2), 64, 1e-9);
+  add("Hessians", bumpy_sphere(6, 0.2), 128, 1e-7);
   add("prism", box({2, 2, 2}, 40), 64, 1e-4);
   add("prism, long", box({1, 1, 6}, 40), 48, 1e-4);
   // Needles.
