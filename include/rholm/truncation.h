@@ -80,7 +80,8 @@ struct ToleranceAnalysis {
 
 // The smallest degree whose error is within the tolerance, to a few hundredths, exactly so for the
 // rms radius: found with coarse coefficients, then computed as analyze() computes it.
-// options.degree is not used; the precision is as fine as the tolerance asks for, and
+// Largest errors need not fall with every degree: then one at which they fall through the
+// tolerance. options.degree is not used; the precision is as fine as the tolerance asks for, and
 // options.precision at most. Throws InvalidInput for a tolerance out of range, the method gauge,
 // and a surface that is not star-shaped.
 ToleranceAnalysis analyze(const StarChart& chart, const Tolerance& tolerance,
