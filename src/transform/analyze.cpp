@@ -30,8 +30,8 @@ MethodOptions method_options(const StarGeometry& geometry, const AnalyzeOptions&
   }
   return {.degree = options.degree,
           .engine = options.engine,
-          .error = std::max(options.precision * scale.norm, kRounding * c00),
-          .mean_error = std::max(options.precision, kRounding) * c00};
+          .allowed = std::max(options.precision * scale.norm, kRounding * c00),
+          .mean_allowed = std::max(options.precision, kRounding) * c00};
 }
 
 MethodResult run_method(const StarGeometry& geometry, const AnalyzeOptions& options,

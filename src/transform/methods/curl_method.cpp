@@ -140,7 +140,7 @@ MethodResult curl_method(const StarGeometry& geometry, const MethodOptions& opti
         by_area[t] ? radius_weight(geometry, t) : boundary_weight(geometry.corners(t));
   }
   Allowance allowance =
-      undivided_allowance(options.error / 2, std::max(boundary, 1e-300), options.degree);
+      undivided_allowance(options.allowed / 2, std::max(boundary, 1e-300), options.degree);
   allowance.growth = Growth::kFlat;
   // The node's function has the singular set of theta and phi, the axis, and besides e^{-i m phi}
   // the phases of K_m at both ends of its integral: twice the degree.
@@ -163,7 +163,7 @@ MethodResult curl_method(const StarGeometry& geometry, const MethodOptions& opti
   }
   flush(n);
   if (area > 0) {
-    const Allowance cubature = undivided_allowance(options.error / 2, area, options.degree);
+    const Allowance cubature = undivided_allowance(options.allowed / 2, area, options.degree);
     Sources sources({.degree = options.degree}, Context{.threads = context.threads});
     for (std::size_t t = 0; t < n; ++t) {
       if (!by_area[t]) continue;

@@ -132,7 +132,7 @@ Coefficients grazing_faces(const StarGeometry& geometry, const Weights& w,
   const Context silent{.threads = context.threads};
   Sources sources({.degree = options.degree}, silent);
   if (weight > 0) {
-    const Allowance allowance = undivided_allowance(options.error / 4, weight, options.degree);
+    const Allowance allowance = undivided_allowance(options.allowed / 4, weight, options.degree);
     for (std::size_t t = 0; t < geometry.faces.size(); ++t) {
       if (w.kind[t] != FaceKind::kGrazing) continue;
       visit_radius(geometry, t, allowance,
@@ -148,7 +148,7 @@ Coefficients grazing_faces(const StarGeometry& geometry, const Weights& w,
 MethodResult edge_method(const StarGeometry& geometry, const MethodOptions& options,
                          const Context& context) {
   const Weights w = weights_of(geometry);
-  const Allowance allowance = divided_allowance(options.error / 2, w.total, options.degree);
+  const Allowance allowance = divided_allowance(options.allowed / 2, w.total, options.degree);
   const auto& edges = geometry.chart->edges;
   const double work = static_cast<double>(edges.size() + geometry.faces.size());
   MethodResult result;
@@ -173,7 +173,7 @@ MethodResult edge_method(const StarGeometry& geometry, const MethodOptions& opti
       gradient_terms(geometry, w, options, allowance, result.edge_nodes, context));
   divide_by_eigenvalue(result.coefficients);
   add(result.coefficients, grazing_faces(geometry, w, options, result.face_nodes, context));
-  result.coefficients.c(0, 0) = radius_mean_coefficient(geometry, options.mean_error);
+  result.coefficients.c(0, 0) = radius_mean_coefficient(geometry, options.mean_allowed);
   return result;
 }
 

@@ -14,8 +14,8 @@ namespace rholm {
 struct MethodOptions {
   int degree = 0;
   Engine engine = Engine::kDirect;  // of the gauge's sums; the others are direct
-  double error = 0;                 // allowed l2 norm of the error over 1 <= l <= L
-  double mean_error = 0;            // allowed error of c_00
+  double allowed = 0;               // l2 norm of the error over 1 <= l <= L
+  double mean_allowed = 0;          // error of c_00
 };
 
 struct MethodResult {
@@ -33,13 +33,13 @@ MethodResult curl_method(const StarGeometry& geometry, const MethodOptions& opti
 MethodResult area_method(const StarGeometry& geometry, const MethodOptions& options,
                          const Context& context);
 
-// c_00 of r: (1/sqrt(4 pi)) sum_T d_T int_T dS / |x|^2, within `error`.
-double radius_mean_coefficient(const StarGeometry& geometry, double error);
+// c_00 of r: (1/sqrt(4 pi)) sum_T d_T int_T dS / |x|^2, within `allowed`.
+double radius_mean_coefficient(const StarGeometry& geometry, double allowed);
 
 // What cubature of r conj(Y) dOmega, undivided by l(l+1), may lose on sources of total weight
 // `weight`: an error of E(p; l) <= E(p; L) (l/L)^2 in each Y_lm adds up to
 // sqrt(sum (2l+1)/(4 pi) (l/L)^4) <= (L+1) / sqrt(12 pi), its part at low degrees to
 // sqrt(sum (2l+1)/(4 pi)) = (L+1) / sqrt(4 pi).
-Allowance undivided_allowance(double error, double weight, int degree);
+Allowance undivided_allowance(double allowed, double weight, int degree);
 
 }  // namespace rholm

@@ -31,13 +31,14 @@ constexpr double kFinalByEnergies = 1.014;
 
 class Search {
  public:
-  Search(const ToleranceProblem& problem, const Tolerance& wanted, const Context& context)
+  Search(const ToleranceProblem& problem, const Tolerance& tolerance, const Context& context)
       : problem_(problem),
-        wanted_(wanted),
-        precisions_(precisions_for(problem, wanted)),
+        tolerance_(tolerance),
+        precisions_(precisions_for(problem, tolerance)),
         context_(context),
         sites_(problem.mesh, problem.center),
-        error_(wanted, sites_, std::sqrt(problem.norm_squared / (4 * std::numbers::pi)), context) {}
+        error_(tolerance, sites_, std::sqrt(problem.norm_squared / (4 * std::numbers::pi)),
+               context) {}
 
   ToleranceAnalysis run(const Analysis& first) {
     take(first);
@@ -46,15 +47,15 @@ class Search {
     for (;;) {
       finish(degree);
       result_.met = result_.reached <= result_.allowed;
-      if (result_.met || highest() == wanted_.max_degree) return std::move(result_);
+      if (result_.met || highest() == tolerance_.max_degree) return std::move(result_);
       // Coarse ones were a little too good.
       degree = std::ceil((highest() + 1) * result_.reached / result_.allowed);
     }
   }
 
  private:
-  bool is_largest() const { return wanted_.norm == ErrorNorm::kMax; }
-  bool is_distance() const { return wanted_.measure == ErrorMeasure::kDistance; }
+  bool is_largest() const { return tolerance_.norm == ErrorNorm::kMax; }
+  bool is_distance() const { return tolerance_.measure == ErrorMeasure::kDistance; }
   bool by_energies() const { return !is_largest() && !is_distance(); }
   Expansion& expansion() { return result_.analysis.expansion; }
   // Degree of the coefficients there are.
@@ -66,15 +67,15 @@ class Search {
     expansion().center = problem_.center;
     expansion().norm_squared = problem_.norm_squared;
     const double mean = expansion().coefficients.c(0, 0) / std::sqrt(4 * std::numbers::pi);
-    result_.allowed = absolute_tolerance(problem_, wanted_, mean);
+    result_.allowed = absolute_tolerance(problem_, tolerance_, mean);
   }
   int within_most(double degree) const {
-    return static_cast<int>(std::min<double>(degree, wanted_.max_degree));
+    return static_cast<int>(std::min<double>(degree, tolerance_.max_degree));
   }
 
   // Whether the error of the coefficients there are is too large, and higher ones may be had.
   bool goes_on(double error, double limit) {
-    return error > limit && highest() < wanted_.max_degree;
+    return error > limit && highest() < tolerance_.max_degree;
   }
   // Coarse coefficients of twice as many degrees.
   void double_degree() {
@@ -122,7 +123,7 @@ class Search {
     const double precision = known_error(result_.analysis);
     expansion().errors = truncation_errors(
         expansion(), {.precision = precision, .predict = predict}, sites_, context_);
-    result_.reached = error_in(*expansion().errors, wanted_);
+    result_.reached = error_in(*expansion().errors, tolerance_);
   }
 
   void cut_by_parseval(Coefficients& coefficients) {
@@ -136,7 +137,7 @@ class Search {
   }
 
   const ToleranceProblem& problem_;
-  const Tolerance& wanted_;
+  const Tolerance& tolerance_;
   Precisions precisions_;
   const Context& context_;
   ErrorSites sites_;
@@ -146,9 +147,9 @@ class Search {
 
 }  // namespace
 
-ToleranceAnalysis search_tolerance(const ToleranceProblem& problem, const Tolerance& wanted,
+ToleranceAnalysis search_tolerance(const ToleranceProblem& problem, const Tolerance& tolerance,
                                    const Analysis& pilot, const Context& context) {
-  return Search(problem, wanted, context).run(pilot);
+  return Search(problem, tolerance, context).run(pilot);
 }
 
 }  // namespace rholm
