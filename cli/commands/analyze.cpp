@@ -37,21 +37,15 @@ EncodeOptions encode_options(const Options& options) {
 }
 
 // A mesh that can stay where it lies in its file is not read.
-Encoded encode_input(const std::string& path, const EncodeOptions& wanted, Session& session,
-                     StageTimes& times) {
+Encoded encode_input(const std::string& path, const EncodeOptions& wanted, Session& session) {
+  const auto read = [&] { return read_mesh(path, session); };
+  if (path != "-") return encode_file(path, wanted, session.context(), read);
   const Stopwatch reading;
-  if (path != "-") {
-    const std::optional<MappedMesh> mapped = map_mesh(path, session.context());
-    times["read"] = reading.elapsed();
-    if (mapped) {
-      if (auto encoded = encode_mapped(*mapped, wanted, session.context())) {
-        return std::move(*encoded);
-      }
-    }
-  }
-  const Mesh mesh = read_mesh(path, session);
-  times["read"] = reading.elapsed();
-  return encode(mesh, wanted, session.context());
+  const Mesh mesh = read();
+  const StageTime read_in = reading.elapsed();
+  Encoded encoded = encode(mesh, wanted, session.context());
+  encoded.times["read"] = read_in;
+  return encoded;
 }
 
 // Throws NotConverged for what was wanted and not reached; the output is written by then.
@@ -99,7 +93,7 @@ int run(const Options& options, Session& session) {
   check_writable(options.output);
 
   Run run;
-  run.encoded = encode_input(options.input, wanted, session, run.times);
+  run.encoded = encode_input(options.input, wanted, session);
   run.diagonal = run.encoded.diagonal;
   run.encoded.analysis.expansion.unit = options.length_unit;
   run.times.insert(run.encoded.times.begin(), run.encoded.times.end());

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -63,9 +64,13 @@ std::optional<Encoded> encode_mapped(const MappedMesh& mesh, const EncodeOptions
                                      const Context& context = {});
 // The same for a file. A large binary PLY file is mapped, not read, and worked through where it
 // lies (see mapped_mesh.h), if nothing has to be changed: its triangles closed and oriented
-// outwards, no welding asked for. `warnings` of the reader are appended.
+// outwards, no welding asked for. What cannot be taken as it lies is not tried so again once it is
+// read. Encoded::times has "read", too. `warnings` of the reader are appended.
 Encoded encode_file(const std::filesystem::path& path, const EncodeOptions& options = {},
                     const Context& context = {}, std::vector<std::string>* warnings = nullptr);
+// The same where the caller reads what cannot stay in the file.
+Encoded encode_file(const std::filesystem::path& path, const EncodeOptions& options,
+                    const Context& context, const std::function<Mesh()>& read);
 
 // The model file: HDF5, layout in docs/model-file.md. Written to a temporary file that replaces
 // `path` when complete; "-" can be read but not written (HDF5 seeks). Throws Io, InvalidInput,

@@ -1,3 +1,4 @@
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -23,25 +24,6 @@ std::variant<Encoded, NotAsItLies> encode_in_file(const MappedMesh& mesh,
   return encode_as_it_lies(mesh.view(), options, hooks, context);
 }
 
-Encoded encode_read(const std::filesystem::path& path, bool as_it_lies,
-                    const EncodeOptions& options, const Context& context,
-                    std::vector<std::string>* warnings) {
-  StageTimes times;
-  ShapeFile file = timed(times, "read", [&] { return read_shape(path, {}, context); });
-  if (warnings != nullptr) {
-    warnings->insert(warnings->end(), file.warnings.begin(), file.warnings.end());
-  }
-  const Mesh* mesh = std::get_if<Mesh>(&file.shape);
-  if (mesh == nullptr) {
-    throw Error(ErrorCode::kInvalidInput, path.string() + " holds points, not a mesh");
-  }
-  validate(*mesh);
-  Encoded encoded =
-      as_it_lies ? encode(*mesh, options, context) : encode_by_chart(*mesh, options, context);
-  encoded.times.merge(times);
-  return encoded;
-}
-
 }  // namespace
 
 std::optional<Encoded> encode_mapped(const MappedMesh& mesh, const EncodeOptions& options,
@@ -52,15 +34,36 @@ std::optional<Encoded> encode_mapped(const MappedMesh& mesh, const EncodeOptions
 }
 
 Encoded encode_file(const std::filesystem::path& path, const EncodeOptions& options,
-                    const Context& context, std::vector<std::string>* warnings) {
+                    const Context& context, const std::function<Mesh()>& read) {
+  StageTimes times;
+  const auto with_times = [&](Encoded encoded) {
+    encoded.times.merge(times);
+    return encoded;
+  };
   // What the reader hands on of faces that no pass can use, a pass may be able to use.
   bool as_it_lies = true;
-  if (const std::optional<MappedMesh> mapped = map_mesh(path, context)) {
+  if (const auto mapped = timed(times, "read", [&] { return map_mesh(path, context); })) {
     auto result = encode_in_file(*mapped, options, context);
-    if (Encoded* encoded = std::get_if<Encoded>(&result)) return std::move(*encoded);
+    if (Encoded* encoded = std::get_if<Encoded>(&result)) return with_times(std::move(*encoded));
     as_it_lies = std::get<NotAsItLies>(result) == NotAsItLies::kUnusable;
   }
-  return encode_read(path, as_it_lies, options, context, warnings);
+  const Mesh mesh = timed(times, "read", read);
+  if (as_it_lies) return with_times(encode(mesh, options, context));
+  validate(mesh);
+  return with_times(encode_by_chart(mesh, options, context));
+}
+
+Encoded encode_file(const std::filesystem::path& path, const EncodeOptions& options,
+                    const Context& context, std::vector<std::string>* warnings) {
+  const std::function<Mesh()> read = [&] {
+    ShapeFile file = read_shape(path, {}, context);
+    if (warnings != nullptr) {
+      warnings->insert(warnings->end(), file.warnings.begin(), file.warnings.end());
+    }
+    if (Mesh* mesh = std::get_if<Mesh>(&file.shape)) return std::move(*mesh);
+    throw Error(ErrorCode::kInvalidInput, path.string() + " holds points, not a mesh");
+  };
+  return encode_file(path, options, context, read);
 }
 
 Encoded encode(const Mesh& mesh, const EncodeOptions& options, const Context& context) {

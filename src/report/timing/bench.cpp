@@ -5,12 +5,11 @@
 
 #include <string>
 #include <utility>
-#include <variant>
 
 #include "report/timing/bench_timing.h"
 #include "report/timing/peak_memory.h"
 #include "rholm/error.h"
-#include "rholm/shape_io.h"
+#include "rholm/model.h"
 
 namespace rholm {
 namespace {
@@ -30,27 +29,6 @@ EncodeOptions about(const Vec3& center, EncodeOptions wanted) {
   return wanted;
 }
 
-const Mesh& mesh_of(const ShapeFile& file, const std::filesystem::path& path) {
-  if (const Mesh* mesh = std::get_if<Mesh>(&file.shape)) return *mesh;
-  throw Error(ErrorCode::kInvalidInput, path.string() + " holds points, not a mesh");
-}
-
-// encode_file(), with the time of looking at the file or of reading it.
-Encoded encode_timed(const std::filesystem::path& path, const EncodeOptions& wanted,
-                     const Context& context) {
-  StageTimes times;
-  if (const auto mapped = timed(times, "read", [&] { return map_mesh(path, context); })) {
-    if (std::optional<Encoded> encoded = encode_mapped(*mapped, wanted, context)) {
-      encoded->times.merge(times);
-      return std::move(*encoded);
-    }
-  }
-  const ShapeFile file = timed(times, "read", [&] { return read_shape(path, {}, context); });
-  Encoded encoded = encode(mesh_of(file, path), wanted, context);
-  encoded.times.merge(times);
-  return encoded;
-}
-
 StageTime minus(const StageTime& a, const StageTime& b) { return {a.wall - b.wall, a.cpu - b.cpu}; }
 
 // One run, its stages noted.
@@ -58,7 +36,7 @@ Encoded run(const std::filesystem::path& path, const EncodeOptions& wanted, cons
             Runs& runs) {
   StageTimes times;
   Encoded encoded =
-      timed(times, "coefficients", [&] { return encode_timed(path, wanted, context); });
+      timed(times, "coefficients", [&] { return encode_file(path, wanted, context); });
   times.insert(encoded.times.begin(), encoded.times.end());
   times.insert(encoded.analysis.times.begin(), encoded.analysis.times.end());
   times["coefficients"] = minus(times["coefficients"], times["norms"]);

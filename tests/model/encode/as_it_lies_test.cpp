@@ -204,5 +204,22 @@ TEST(encode_file, does_not_try_a_second_time_what_the_mesh_cannot) {
   EXPECT_EQ(stages.topology, 1);
 }
 
+TEST(encode_file, asks_the_caller_to_read_only_what_cannot_stay_in_the_file) {
+  const testing::TemporaryFolder folder;
+  Mesh closed = bumpy_sphere(3), open = closed;
+  open.triangles.pop_back();
+  write_shape(closed, folder / "closed.ply");
+  write_shape(open, folder / "open.ply");
+  int reads = 0;
+  const auto reader = [&](const Mesh& mesh) { return [&reads, &mesh] { return ++reads, mesh; }; };
+  const Encoded encoded = encode_file(folder / "closed.ply", kOptions, {}, reader(closed));
+  EXPECT_EQ(reads, 0);
+  EXPECT_TRUE(encoded.times.contains("read"));
+  Stages stages;
+  EXPECT_THROW(encode_file(folder / "open.ply", kOptions, stages.context(), reader(open)), Error);
+  EXPECT_EQ(reads, 1);
+  EXPECT_EQ(stages.center, 1);
+}
+
 }  // namespace
 }  // namespace rholm
