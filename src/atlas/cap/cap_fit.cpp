@@ -19,8 +19,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<double, kCapLanes>;
 using V = hn::Vec<D>;
 
-// Rows of the least squares, each multiplied by its weight: for every harmonic its value and two
-// slopes at each point, then the right-hand sides. All of a row is written, zeros beyond the last
+// Rows of the least squares, each multiplied by its weight: the right-hand sides, then for every
+// harmonic its value and two slopes at each point. All of a row is written, zeros beyond the last
 // point: what takes rows reads them whole, whatever the lanes.
 std::size_t FillRows(const CapFrame& frame, const CapPoints& points, const CapFitOptions& options,
                      double* rows, std::size_t stride) {
@@ -28,7 +28,7 @@ std::size_t FillRows(const CapFrame& frame, const CapPoints& points, const CapFi
   const LaneFrame<double> f = lane_frame<double>(frame);
   const V one = hn::Set(d, 1.0);
   const bool even = options.basis == CapBasis::kEven;
-  const std::size_t n_basis = n_coefficients(options.basis, options.degree), third = stride / 3;
+  const std::size_t third = stride / 3;
   V usable = hn::Zero(d);
   for (std::size_t i = 0; i < third; i += hn::Lanes(d)) {
     const std::size_t left = points.size() - HWY_MIN(i, points.size());
@@ -54,7 +54,7 @@ std::size_t FillRows(const CapFrame& frame, const CapPoints& points, const CapFi
     const V steep = hn::IfThenElseZero(
         good, hn::Div(level, hn::Neg(hn::Mul(facing, ConformalFactor(d, f, place)))));
     const V slope_weight = hn::Mul(weight, hn::Set(d, options.gradient_weight));
-    double* const right = rows + n_basis * stride + i;
+    double* const right = rows + i;
     hn::Store(hn::IfThenElseZero(good, hn::Mul(weight, hn::Sub(level, one))), d, right);
     hn::Store(hn::Mul(hn::Mul(slope_weight, steep), hn::NegMulAdd(place.s1, n_below, n.x)), d,
               right + third);
@@ -69,7 +69,7 @@ std::size_t FillRows(const CapFrame& frame, const CapPoints& points, const CapFi
         [&](int l, int m, V p, V dp) HWY_ATTR {
           if (even && ((l + m) & 1) != 0) return;
           const std::size_t index = even ? even_index(l, m) : low_index(l, m);
-          double* to = rows + index * stride + i;
+          double* to = rows + (1 + index) * stride + i;
           const V order = hn::Set(d, static_cast<double>(m));
           const V turn = hn::MulAdd(order, p, hn::Mul(up, dp)), pm = hn::Mul(order, p);
           hn::Store(hn::Mul(weight, hn::Mul(p, re)), d, to);
@@ -93,42 +93,14 @@ std::size_t FillRows(const CapFrame& frame, const CapPoints& points, const CapFi
   return static_cast<std::size_t>(hn::GetLane(hn::SumOfLanes(d, usable)) + 0.5);
 }
 
-// The lower triangle of rows rows^T, n rows of `length`; matrix [n][n].
-void NormalMatrix(const double* rows, std::size_t n, std::size_t length, std::size_t stride,
-                  double* matrix) {
-  const D d;
-  for (std::size_t i = 0; i < n; i += 4) {
-    for (std::size_t j = 0; j <= i; j += 4) {
-      V sum[4][4];
-      for (auto& row : sum) {
-        for (V& v : row) v = hn::Zero(d);
-      }
-      // Rows beyond the last may hold anything: their sums are not taken.
-      for (std::size_t k = 0; k < length; k += hn::Lanes(d)) {
-        V left[4], right[4];
-        for (std::size_t r = 0; r < 4; ++r) left[r] = hn::Load(d, rows + (i + r) * stride + k);
-        for (std::size_t r = 0; r < 4; ++r) right[r] = hn::Load(d, rows + (j + r) * stride + k);
-        for (std::size_t r = 0; r < 4; ++r) {
-          for (std::size_t c = 0; c < 4; ++c) sum[r][c] = hn::MulAdd(left[r], right[c], sum[r][c]);
-        }
-      }
-      for (std::size_t r = 0; r < 4 && i + r < n; ++r) {
-        for (std::size_t c = 0; c < 4 && j + c < n; ++c) {
-          matrix[(i + r) * n + j + c] = hn::GetLane(hn::SumOfLanes(d, sum[r][c]));
-        }
-      }
-    }
-  }
-}
-
 // target = rows' sum with the coefficients, minus the right-hand side.
-void Residuals(const double* rows, const double* coefficients, std::size_t n, const double* right,
-               std::size_t length, std::size_t stride, double* target) {
+void Residuals(const double* rows, const double* coefficients, std::size_t n, std::size_t length,
+               std::size_t stride, double* target) {
   const D d;
   for (std::size_t k = 0; k < length; k += hn::Lanes(d)) {
-    V sum = hn::Neg(hn::Load(d, right + k));
+    V sum = hn::Neg(hn::Load(d, rows + k));
     for (std::size_t i = 0; i < n; ++i) {
-      sum = hn::MulAdd(hn::Set(d, coefficients[i]), hn::Load(d, rows + i * stride + k), sum);
+      sum = hn::MulAdd(hn::Set(d, coefficients[i]), hn::Load(d, rows + (1 + i) * stride + k), sum);
     }
     hn::Store(sum, d, target + k);
   }
@@ -142,38 +114,10 @@ HWY_AFTER_NAMESPACE();
 namespace rholm {
 namespace {
 HWY_EXPORT(FillRows);
-HWY_EXPORT(NormalMatrix);
 HWY_EXPORT(Residuals);
 
-// matrix = L L^T in place, lower triangle; false if a pivot has lost all digits.
-bool factor(std::vector<double>& matrix, std::size_t n) {
-  for (std::size_t j = 0; j < n; ++j) {
-    double* const row_j = &matrix[j * n];
-    double pivot = row_j[j];
-    for (std::size_t k = 0; k < j; ++k) pivot -= row_j[k] * row_j[k];
-    if (!(pivot > 1e-14 * row_j[j])) return false;
-    const double root = std::sqrt(pivot), inverse = 1 / root;
-    row_j[j] = root;
-    for (std::size_t i = j + 1; i < n; ++i) {
-      double* const row_i = &matrix[i * n];
-      double sum = row_i[j];
-      for (std::size_t k = 0; k < j; ++k) sum -= row_i[k] * row_j[k];
-      row_i[j] = sum * inverse;
-    }
-  }
-  return true;
-}
-
-void solve(const std::vector<double>& lower, std::size_t n, std::vector<double>& x) {
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t k = 0; k < i; ++k) x[i] -= lower[i * n + k] * x[k];
-    x[i] /= lower[i * n + i];
-  }
-  for (std::size_t i = n; i-- > 0;) {
-    x[i] /= lower[i * n + i];
-    for (std::size_t k = 0; k < i; ++k) x[k] -= lower[i * n + k] * x[i];
-  }
-}
+// Pivots below that part of their diagonal element have lost all digits.
+constexpr double kLeastPivot = 1e-14;
 
 double sum_of_squares(const double* values, std::size_t n) {
   double sum = 0;
@@ -211,7 +155,7 @@ CapSystem make_system(const CapFrame& frame, const CapPoints& points, const CapF
   CapSystem system;
   const std::size_t n = n_coefficients(options.basis, options.degree);
   system.n = n;
-  system.third = (points.size() + kCapLanes - 1) / kCapLanes * kCapLanes;
+  system.third = padded(points.size());
   system.stride = 3 * system.third;
   const std::size_t wanted = (n + 6) * system.stride;
   if (scratch.rows.size() < wanted) scratch.rows = AlignedArray<double>(2 * wanted);
@@ -220,15 +164,16 @@ CapSystem make_system(const CapFrame& frame, const CapPoints& points, const CapF
   system.usable = HWY_DYNAMIC_DISPATCH(FillRows)(frame, points, options, rows, system.stride);
   for (std::size_t i = 0; i < points.size(); ++i) system.weights += points.weight(i);
   if (3 * system.usable < n) return system;
-  // The right-hand side is one more row of the matrix.
   scratch.matrix.resize((n + 1) * (n + 1));
-  HWY_DYNAMIC_DISPATCH(NormalMatrix)
-  (rows, n + 1, system.stride, system.stride, scratch.matrix.data());
+  poison_scratch(std::span(scratch.matrix));
+  make_normal_matrix(
+      {.rows = rows, .count = n + 1, .length = system.stride, .stride = system.stride},
+      scratch.matrix.data());
   for (int l = 0; l <= options.degree; ++l) {
     const double square = static_cast<double>(l) * (l + 1) * l * (l + 1);
     const std::size_t end = n_coefficients(options.basis, l);
     for (std::size_t i = l == 0 ? 0 : n_coefficients(options.basis, l - 1); i < end; ++i) {
-      scratch.matrix[i * (n + 2)] += options.penalty * system.weights * square;
+      scratch.matrix[normal_diagonal(i, n)] += options.penalty * system.weights * square;
     }
   }
   system.solvable = true;
@@ -240,8 +185,7 @@ const double* residuals(const CapSystem& system, std::span<const double> coeffic
   double* const rows = scratch.rows.data();
   double* const target = rows + (system.n + 1) * system.stride;
   HWY_DYNAMIC_DISPATCH(Residuals)
-  (rows, coefficients.data(), coefficients.size(), rows + system.n * system.stride, length,
-   system.stride, target);
+  (rows, coefficients.data(), coefficients.size(), length, system.stride, target);
   return target;
 }
 
@@ -252,14 +196,8 @@ bool fit_cap(const CapFrame& frame, const CapPoints& points, const CapFitOptions
   fit.usable = static_cast<double>(system.usable) /
                static_cast<double>(std::max<std::size_t>(1, points.size()));
   if (!system.solvable) return false;
-  scratch.factor.resize(n * n);
-  fit.coefficients.assign(n, 0);
-  for (std::size_t i = 0; i < n; ++i) {
-    std::copy_n(&scratch.matrix[i * (n + 1)], i + 1, &scratch.factor[i * n]);
-    fit.coefficients[i] = scratch.matrix[n * (n + 1) + i];
-  }
-  if (!factor(scratch.factor, n)) return false;
-  solve(scratch.factor, n, fit.coefficients);
+  if (scratch.factor.factor(scratch.matrix.data(), n, kLeastPivot) < n) return false;
+  scratch.factor.solve(n, fit.coefficients);
   const double* const rest = residuals(system, fit.coefficients, system.stride, scratch);
   fit.rms = frame.radius * std::sqrt(sum_of_squares(rest, third) / system.weights);
   fit.slope_rms = std::sqrt(sum_of_squares(rest + third, 2 * third) /

@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "atlas/cap/cap_limits.h"
+#include "atlas/cap/normal_equations.h"
 #include "base/aligned_array.h"
 #include "rholm/atlas.h"
 
@@ -16,7 +18,7 @@ class CapPoints {
  public:
   void clear() { n_ = 0; }
   std::size_t size() const { return n_; }
-  std::size_t padded() const { return (n_ + 7) / 8 * 8; }
+  std::size_t padded() const { return rholm::padded(n_); }
   void add(const Vec3& offset, const Vec3& normal, double weight);
   void set_weight(std::size_t i, double weight) { data_[6 * capacity_ + i] = weight; }
   // x, y, z of positions, of normals, weight; beyond size() up to padded() zeros.
@@ -51,8 +53,10 @@ struct CapFit {
 
 // Scratch memory of fits, one per thread.
 struct CapFitScratch {
-  AlignedArray<double> rows;  // [coefficient + 2][value, slope 1, slope 2][points padded]
-  std::vector<double> matrix, factor, right;
+  // [right-hand side, coefficients, residuals][value, slope 1, slope 2][points padded]
+  AlignedArray<double> rows;
+  std::vector<double> matrix;
+  NormalFactor factor;
 };
 
 // The least squares of a fit before it is solved: rows and matrix are in the scratch memory. The
@@ -65,8 +69,7 @@ struct CapSystem {
   double weights = 0;      // their sum
   bool solvable = false;   // enough points; else there is no matrix
 };
-// scratch.matrix is then [n + 1][n + 1], lower triangle, penalty included; its last row is the
-// right-hand side.
+// scratch.matrix is then [n + 1][n + 1] as normal_equations.h has it, penalty included.
 CapSystem make_system(const CapFrame& frame, const CapPoints& points, const CapFitOptions& options,
                       CapFitScratch& scratch);
 // What the first coefficients leave, times the rows' weights: the first `length` of a row, a

@@ -5,8 +5,9 @@
 
 namespace rholm {
 
-inline constexpr std::size_t kCapLanes =
-    8;  // doubles of the widest vectors; arrays are padded to it
+// Doubles of the widest vectors: arrays are padded to a multiple of it.
+inline constexpr std::size_t kCapLanes = 8;
+constexpr std::size_t padded(std::size_t n) { return (n + kCapLanes - 1) / kCapLanes * kCapLanes; }
 // n . u of a point that can be fitted: 84 degrees off the ray; steeper, slopes are all one sees.
 inline constexpr double kLeastFacing = 0.1;
 // And the cosine of its angle to the axis: 154 degrees. Chosen: the plane ends at 180, and is four

@@ -137,8 +137,8 @@ bool make_candidate(const SampleLevels& samples, std::uint32_t seed, double radi
   CapSystem system;
   const auto try_degree = [&](int degree) {
     const std::size_t n = n_coefficients(CapBasis::kEven, degree);
-    if (n > scratch.degrees.regular()) return Misses{};
-    scratch.degrees.solve(n, scratch.coefficients);
+    if (n > scratch.fit.factor.regular()) return Misses{};
+    scratch.fit.factor.solve(n, scratch.coefficients);
     return misses_of(system, frame, options, scratch);
   };
   // A matrix of low degree first: it costs a tenth, often does, and tells the hopeless.
@@ -147,7 +147,7 @@ bool make_candidate(const SampleLevels& samples, std::uint32_t seed, double radi
     const CapFitOptions fit{CapBasis::kEven, degree, kGradientWeight, kFewPenalty};
     system = make_system(frame, scratch.points, fit, scratch.fit);
     if (!system.solvable) return false;
-    scratch.degrees.factor(system, scratch.fit.matrix);
+    scratch.fit.factor.factor(scratch.fit.matrix.data(), system.n, kFewPivot);
     const Misses misses = try_degree(degree);
     if (good(misses, options.tolerance)) {
       high = degree;

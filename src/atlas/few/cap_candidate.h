@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "atlas/cap/cap_fit.h"
-#include "atlas/cap/degree_fits.h"
+#include "atlas/cap/normal_equations.h"
 #include "atlas/few/cap_samples.h"
 #include "rholm/atlas.h"
 
@@ -21,6 +21,8 @@ struct CandidateOptions {
 
 // CapFitOptions::penalty of few large caps.
 inline constexpr double kFewPenalty = 2e-9;
+// Pivots of their normal matrices below that part of their diagonal element are rounding.
+inline constexpr double kFewPivot = 1e-13;
 
 // Numbers that a model keeps of a cap beside its coefficients: seed, rotation, radius, dilation,
 // support.
@@ -44,7 +46,6 @@ struct CandidateScratch {
   std::vector<std::uint32_t> indices;  // of the points, in their level
   std::vector<double> distance2;       // of the points from the seed
   CapFitScratch fit;
-  DegreeFits degrees;
   std::vector<double> coefficients, values, surface;
   std::vector<Neighbor> near;
 };

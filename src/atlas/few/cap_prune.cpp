@@ -6,7 +6,6 @@
 
 #include "atlas/cap/cap_fit.h"
 #include "atlas/cap/cap_support.h"
-#include "atlas/cap/degree_fits.h"
 #include "atlas/few/cap_blend.h"
 #include "atlas/few/cap_candidate.h"
 #include "atlas/few/cap_shares.h"
@@ -57,14 +56,12 @@ bool fit_form(const Cap& cap, const CapPoints& points, int degree, CapForm& form
   if (points.size() == 0) return false;
   const CapSystem system = make_system(cap.frame, points, share_fit(cap.basis, degree), scratch);
   if (!system.solvable) return false;
-  DegreeFits fits;
-  fits.factor(system, scratch.matrix);
-  form.n = fits.regular();
+  form.n = scratch.factor.factor(scratch.matrix.data(), system.n, kFewPivot);
   // Degrees as a whole.
   while (degree > 0 && n_coefficients(cap.basis, degree) > form.n) --degree;
   form.n = std::min(form.n, n_coefficients(cap.basis, degree));
-  fits.solve(form.n, form.coefficients);
-  fits.invert(form.n, form.inverse);
+  scratch.factor.solve(form.n, form.coefficients);
+  scratch.factor.invert(form.n, form.inverse);
   const double square = cap.frame.radius * cap.frame.radius;
   for (double& x : form.inverse) x /= square;  // errors as lengths
   const double* const rest = residuals(system, form.coefficients, system.third, scratch);

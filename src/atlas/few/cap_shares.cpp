@@ -6,7 +6,6 @@
 
 #include "atlas/cap/cap_eval.h"
 #include "atlas/cap/cap_support.h"
-#include "atlas/cap/degree_fits.h"
 #include "atlas/few/cap_candidate.h"
 #include "base/parallel.h"
 
@@ -68,20 +67,19 @@ void add_own_surface(const Cap& cap, std::span<const double> coefficients, doubl
 }
 
 // The equations of some coefficients alone, solved; false if they are singular.
-bool solve_some(const CapSystem& system, const std::vector<double>& matrix,
-                const std::vector<std::size_t>& some, std::vector<double>& solution) {
-  CapSystem part = system;
-  part.n = some.size();
-  std::vector<double> block((part.n + 1) * (part.n + 1));
-  const std::size_t all = system.n + 1, stride = part.n + 1;
-  for (std::size_t i = 0; i < part.n; ++i) {
-    for (std::size_t j = 0; j <= i; ++j) block[i * stride + j] = matrix[some[i] * all + some[j]];
-    block[part.n * stride + i] = matrix[system.n * all + some[i]];
+bool solve_some(const CapSystem& system, const std::vector<std::size_t>& some,
+                CapFitScratch& scratch, std::vector<double>& solution) {
+  std::vector<std::size_t> rows = {0};  // the right-hand side
+  for (const std::size_t i : some) rows.push_back(1 + i);
+  const std::size_t n = some.size(), stride = n + 1;
+  std::vector<double> block(stride * stride);
+  for (std::size_t i = 0; i < stride; ++i) {
+    for (std::size_t j = i; j < stride; ++j) {
+      block[i * stride + j] = scratch.matrix[rows[i] * (system.n + 1) + rows[j]];
+    }
   }
-  DegreeFits fits;
-  fits.factor(part, block);
-  if (fits.regular() < part.n) return false;
-  fits.solve(part.n, solution);
+  if (scratch.factor.factor(block.data(), n, kFewPivot) < n) return false;
+  scratch.factor.solve(n, solution);
   return true;
 }
 
@@ -96,7 +94,7 @@ void refit(const Cap& cap, const CapPoints& points, bool all, std::span<double> 
   const CapSystem system =
       make_system(cap.frame, points, share_fit(cap.basis, cap.degree), scratch);
   std::vector<double> solution;
-  if (!system.solvable || !solve_some(system, scratch.matrix, kept, solution)) return;
+  if (!system.solvable || !solve_some(system, kept, scratch, solution)) return;
   for (std::size_t i = 0; i < kept.size(); ++i) coefficients[kept[i]] = solution[i];
 }
 

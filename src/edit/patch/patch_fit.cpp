@@ -110,30 +110,12 @@ void for_each_block(const LocalMesh& local, const PatchCap& cap, PatchScratch& s
   }
 }
 
-// The solution of all n equations.
-void back_substitute(std::size_t n, PatchScratch& scratch) {
-  std::vector<double>& x = scratch.solution;
-  x.resize(n);
-  for (std::size_t i = n; i-- > 0;) {
-    const double* const row = &scratch.factor[i * padded(n + 1)];
-    double value = row[n];
-    for (std::size_t j = i + 1; j < n; ++j) value -= row[j] * x[j];
-    x[i] = value / row[i];
-  }
-}
-
 // The solutions of the leading equations of degree 0, 1, ... `degree`, one after the other.
 std::vector<double> solve_family(int degree, PatchScratch& scratch) {
-  const std::size_t n = patch_basis(degree), n_sets = static_cast<std::size_t>(degree) + 1;
-  scratch.family.resize(n * padded(n_sets));
-  poison_scratch(std::span(scratch.family));
-  patch_family(scratch.factor.data(), degree, scratch.family.data());
-  std::vector<double> coefficients(n * n_sets);
-  for (std::size_t d = 0; d < n_sets; ++d) {
-    for (std::size_t i = 0; i < n; ++i) {
-      coefficients[d * n + i] = scratch.family[i * padded(n_sets) + d];
-    }
-  }
+  std::vector<std::size_t> sizes;
+  for (int d = 0; d <= degree; ++d) sizes.push_back(patch_basis(d));
+  std::vector<double> coefficients;
+  scratch.factor.solve_nested(sizes, coefficients);
   return coefficients;
 }
 
@@ -145,24 +127,27 @@ bool make_equations(const LocalMesh& local, const PatchCap& cap, int degree,
   scratch.matrix.assign((n + 1) * (n + 1), 0);
   const std::vector<double>& weights = scratch.weights.empty() ? scratch.base : scratch.weights;
   for_each_block(local, cap, scratch, [&](std::size_t first, std::size_t m) {
-    patch_gram(scratch.rows.data(), n + 1, &weights[first], m, scratch.matrix.data());
+    add_normal_matrix({.rows = scratch.rows.data(),
+                       .count = n + 1,
+                       .length = m,
+                       .stride = m,
+                       .weights = &weights[first]},
+                      scratch.matrix.data());
   });
   double sum = 0;
   for (const double w : weights) sum += w;
   for (int l = 1; l <= degree; ++l) {
     const double square = static_cast<double>(l) * (l + 1) * l * (l + 1);
     for (std::size_t i = patch_basis(l - 1); i < patch_basis(l); ++i) {
-      scratch.matrix[(i + 1) * (n + 2)] += kPenalty * sum * square;
+      scratch.matrix[normal_diagonal(i, n)] += kPenalty * sum * square;
     }
   }
-  scratch.factor.resize(n * padded(n + 1));
-  poison_scratch(std::span(scratch.factor));
-  return patch_factorize(scratch.matrix.data(), n, kLeastPivot, scratch.factor.data());
+  return scratch.factor.factor(scratch.matrix.data(), n, kLeastPivot) == n;
 }
 
 bool solve(const LocalMesh& local, const PatchCap& cap, int degree, PatchScratch& scratch) {
   if (!make_equations(local, cap, degree, scratch)) return false;
-  back_substitute(patch_basis(degree), scratch);
+  scratch.factor.solve(patch_basis(degree), scratch.solution);
   return true;
 }
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "atlas/cap/normal_equations.h"
 #include "edit/patch/patch_cover.h"
 
 namespace rholm {
@@ -19,8 +20,8 @@ struct PatchFit {
 // Scratch memory, one per thread. Points are worked on in blocks: `offsets` and `rows` as
 // patch_kernels.h has them, one block after the other, rows of one block only.
 struct PatchScratch {
-  std::vector<double> offsets, rows, area, weights, base, matrix, factor, solution, residual, order;
-  std::vector<double> family;  // solutions of all degrees
+  std::vector<double> offsets, rows, area, weights, base, matrix, solution, residual, order;
+  NormalFactor factor;
   std::vector<std::uint32_t> taken;
   bool rows_made = false;  // of the only block
 };

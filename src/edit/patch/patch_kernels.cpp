@@ -1,7 +1,5 @@
 #include "edit/patch/patch_kernels.h"
 
-#include <cmath>
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "edit/patch/patch_kernels.cpp"
 #include <hwy/foreach_target.h>
@@ -14,7 +12,7 @@ namespace rholm {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using D = hn::CappedTag<double, kPatchLanes>;
+using D = hn::CappedTag<double, kCapLanes>;
 using V = hn::Vec<D>;
 
 // Directions this close to the one opposite the axis, where the plane ends, are taken as there.
@@ -45,35 +43,6 @@ void Rows(const CapFrame& frame, int degree, const double* offsets, std::size_t 
           hn::StoreU(hn::Mul(p, re), d, row);
           if (m > 0) hn::StoreU(hn::Mul(p, im), d, row + n);
         });
-  }
-}
-
-void Gram(const double* rows, std::size_t count, const double* weights, std::size_t n,
-          double* matrix) {
-  const D d;
-  for (std::size_t i = 0; i < count; i += 4) {
-    for (std::size_t j = 0; j <= i; j += 4) {
-      V sum[4][4];
-      for (auto& row : sum) {
-        for (V& v : row) v = hn::Zero(d);
-      }
-      for (std::size_t k = 0; k < n; k += hn::Lanes(d)) {
-        const V weight = hn::LoadU(d, weights + k);
-        V left[4], right[4];
-        for (std::size_t r = 0; r < 4; ++r) {
-          left[r] = hn::Mul(weight, hn::LoadU(d, rows + (i + r) * n + k));
-          right[r] = hn::LoadU(d, rows + (j + r) * n + k);
-        }
-        for (std::size_t r = 0; r < 4; ++r) {
-          for (std::size_t c = 0; c < 4; ++c) sum[r][c] = hn::MulAdd(left[r], right[c], sum[r][c]);
-        }
-      }
-      for (std::size_t r = 0; r < 4 && i + r < count; ++r) {
-        for (std::size_t c = 0; c < 4 && j + c < count; ++c) {
-          matrix[(i + r) * count + j + c] += hn::GetLane(hn::SumOfLanes(d, sum[r][c]));
-        }
-      }
-    }
   }
 }
 
@@ -119,54 +88,6 @@ void Sums(const double* rows, const double* coefficients, int degree, std::size_
   }
 }
 
-bool Factorize(const double* matrix, std::size_t n, double least, double* upper) {
-  const D d;
-  const std::size_t length = padded(n + 1);
-  for (std::size_t i = 0; i < n; ++i) {
-    double* const row = upper + i * length;
-    for (std::size_t j = 0; j < length; ++j) row[j] = 0;
-    for (std::size_t j = i; j < n; ++j) row[j] = matrix[(j + 1) * (n + 1) + i + 1];
-    row[n] = matrix[(i + 1) * (n + 1)];
-  }
-  for (std::size_t k = 0; k < n; ++k) {
-    double* const row = upper + k * length;
-    if (!(row[k] > least * matrix[(k + 1) * (n + 2)])) return false;
-    const double inverse = 1 / std::sqrt(row[k]);
-    for (std::size_t j = k; j <= n; ++j) row[j] *= inverse;
-    for (std::size_t i = k + 1; i < n; ++i) {
-      double* const below = upper + i * length;
-      const V times = hn::Set(d, row[i]);
-      for (std::size_t j = i / hn::Lanes(d) * hn::Lanes(d); j < length; j += hn::Lanes(d)) {
-        hn::StoreU(hn::NegMulAdd(times, hn::LoadU(d, row + j), hn::LoadU(d, below + j)), d,
-                   below + j);
-      }
-    }
-  }
-  return true;
-}
-
-// Degrees side by side: one alone is a chain of operations that wait for one another.
-void Family(const double* upper, int degree, double* x) {
-  const D d;
-  const std::size_t n = patch_basis(degree), length = padded(n + 1);
-  const std::size_t sets = padded(static_cast<std::size_t>(degree) + 1);
-  int lowest = degree;  // that has an i
-  for (std::size_t i = n; i-- > 0;) {
-    while (lowest > 0 && i < patch_basis(lowest - 1)) --lowest;
-    const double* const row = upper + i * length;
-    for (std::size_t s = 0; s < sets; s += hn::Lanes(d)) {
-      V sum = hn::Set(d, row[n]);
-      for (std::size_t j = i + 1; j < n; ++j) {
-        sum = hn::NegMulAdd(hn::Set(d, row[j]), hn::LoadU(d, x + j * sets + s), sum);
-      }
-      const V here = hn::Iota(d, static_cast<double>(s));
-      const auto has = hn::Ge(here, hn::Set(d, static_cast<double>(lowest)));
-      sum = hn::IfThenElseZero(has, hn::Div(sum, hn::Set(d, row[i])));
-      hn::StoreU(sum, d, x + i * sets + s);
-    }
-  }
-}
-
 void Silence(const double* offsets, std::size_t n, const double* at, double radius,
              double* weights) {
   const D d;
@@ -190,22 +111,14 @@ HWY_AFTER_NAMESPACE();
 namespace rholm {
 namespace {
 HWY_EXPORT(Rows);
-HWY_EXPORT(Gram);
 HWY_EXPORT(Sum);
 HWY_EXPORT(Sums);
-HWY_EXPORT(Factorize);
-HWY_EXPORT(Family);
 HWY_EXPORT(Silence);
 }  // namespace
 
 void patch_rows(const CapFrame& frame, int degree, const double* offsets, std::size_t n,
                 double* rows, double* area) {
   HWY_DYNAMIC_DISPATCH(Rows)(frame, degree, offsets, n, rows, area);
-}
-
-void patch_gram(const double* rows, std::size_t count, const double* weights, std::size_t n,
-                double* matrix) {
-  HWY_DYNAMIC_DISPATCH(Gram)(rows, count, weights, n, matrix);
 }
 
 void patch_sum(const double* rows, const double* coefficients, std::size_t count, std::size_t n,
@@ -216,14 +129,6 @@ void patch_sum(const double* rows, const double* coefficients, std::size_t count
 void patch_sums(const double* rows, const double* coefficients, int degree, std::size_t n,
                 double* out, std::size_t stride) {
   HWY_DYNAMIC_DISPATCH(Sums)(rows, coefficients, degree, n, out, stride);
-}
-
-bool patch_factorize(const double* matrix, std::size_t n, double least, double* upper) {
-  return HWY_DYNAMIC_DISPATCH(Factorize)(matrix, n, least, upper);
-}
-
-void patch_family(const double* upper, int degree, double* x) {
-  HWY_DYNAMIC_DISPATCH(Family)(upper, degree, x);
 }
 
 void patch_silence(const double* offsets, std::size_t n, const double* at, double radius,

@@ -3,18 +3,15 @@
 
 #include <cstddef>
 
+#include "atlas/cap/cap_limits.h"
 #include "harmonic/legendre/low_harmonics.h"
 #include "rholm/atlas.h"
 
 namespace rholm {
 
-// Points are worked on in whole vectors: arrays of them are padded to a multiple of this.
-inline constexpr std::size_t kPatchLanes = 8;
-// And this many at a time: the rows of degree 8 at them, 104 KiB, stay in a second-level cache.
+// Points are worked on in whole vectors: arrays of them are padded to a multiple of kCapLanes. And
+// this many at a time: the rows of degree 8 at them, 104 KiB, stay in a second-level cache.
 inline constexpr std::size_t kPatchBlock = 256;
-inline constexpr std::size_t padded(std::size_t n) {
-  return (n + kPatchLanes - 1) / kPatchLanes * kPatchLanes;
-}
 
 // The harmonics of a patch: all up to degree 3, beyond those with l + m even. The even ones are
 // complete on a hemisphere, but slow where a function does not meet the equator at a right angle,
@@ -44,17 +41,12 @@ void for_each_patch_harmonic(int degree, const Visit& visit) {
   }
 }
 
-// At n points (a multiple of kPatchLanes), given by their offsets from the cap's seed, offsets[axis
+// At n points (a multiple of kCapLanes), given by their offsets from the cap's seed, offsets[axis
 // * n + i]: rows[i] is phi = |x - c| / R_0 - 1, rows[(1 + k) * n + i] the k-th harmonic, area[i]
 // the area on the opened sphere per area across the ray, in units of R_0^2. Points at the centre or
 // behind it give numbers without meaning, never NaN.
 void patch_rows(const CapFrame& frame, int degree, const double* offsets, std::size_t n,
                 double* rows, double* area);
-
-// Adds the lower triangle of sum_i weight_i row_a(i) row_b(i) over `count` rows to
-// matrix [count][count]. rows must be readable up to a multiple of four rows.
-void patch_gram(const double* rows, std::size_t count, const double* weights, std::size_t n,
-                double* matrix);
 
 // out_i = sum_k coefficients_k row_k(i).
 void patch_sum(const double* rows, const double* coefficients, std::size_t count, std::size_t n,
@@ -64,15 +56,6 @@ void patch_sum(const double* rows, const double* coefficients, std::size_t count
 // beyond patch_basis(d): out[d * stride + i].
 void patch_sums(const double* rows, const double* coefficients, int degree, std::size_t n,
                 double* out, std::size_t stride);
-
-// Factors the normal equations of n unknowns: matrix [n + 1][n + 1] as patch_gram() makes it, the
-// right-hand side in its first column. U^T U = A, upper [n][padded(n + 1)], with U^-T b in column
-// n; what is left of the diagonal has no meaning. False if a pivot loses all but `least` of itself.
-bool patch_factorize(const double* matrix, std::size_t n, double least, double* upper);
-
-// From that, solutions of the leading equations of degree 0, 1, ... `degree`, n = patch_basis(
-// degree): x[i padded(degree + 1) + d], 0 where degree d has no i.
-void patch_family(const double* upper, int degree, double* x);
 
 // Weights of the points nearer than `radius` to (x, y, z) become 0; offsets as above.
 void patch_silence(const double* offsets, std::size_t n, const double* at, double radius,

@@ -41,18 +41,20 @@ CapPoints some_points(const CapFrame& frame, std::size_t n) {
   return points;
 }
 
-// The lower triangle of the normal equations.
+// What counts of the normal equations.
 std::vector<double> matrix_of(const CapFrame& frame, const CapPoints& points, int degree,
                               CapFitScratch& scratch) {
   const CapFitOptions options{.degree = degree, .penalty = 0};
   const CapSystem system = make_system(frame, points, options, scratch);
   EXPECT_TRUE(system.solvable);
   EXPECT_EQ(system.usable, points.size());
-  std::vector<double> lower;
+  std::vector<double> upper;
   for (std::size_t i = 0; i <= system.n; ++i) {
-    for (std::size_t j = 0; j <= i; ++j) lower.push_back(scratch.matrix[i * (system.n + 1) + j]);
+    for (std::size_t j = i; j <= system.n; ++j) {
+      upper.push_back(scratch.matrix[i * (system.n + 1) + j]);
+    }
   }
-  return lower;
+  return upper;
 }
 
 // Eight times the same point fill the vectors of every target: nothing is left over.

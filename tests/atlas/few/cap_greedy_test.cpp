@@ -9,7 +9,6 @@
 
 #include "atlas/cap/cap_eval.h"
 #include "atlas/cap/cap_support.h"
-#include "atlas/cap/degree_fits.h"
 #include "atlas/few/cap_blend.h"
 #include "atlas/few/cap_prune.h"
 #include "chart/cap/cap_frame.h"
@@ -72,32 +71,6 @@ Atlas atlas_of(const GreedyCover& cover, double band) {
   set_weights(atlas.caps, 3);
   atlas.band = band;
   return atlas;
-}
-
-TEST(degree_fits, leading_blocks_are_the_fits_of_lower_degrees) {
-  const Samples s = sphere(400);
-  CapPoints points;
-  const CapFrame frame = cap_frame({0, 0, 1}, {0, 0, 1}, 0.6, 0.5, 1.5);
-  for (std::size_t i = 0; i < s.points.size(); ++i) {
-    const Vec3 offset = s.points[i] - Vec3{0, 0, 1};
-    if (norm(offset) < 0.7) points.add(offset, s.normals[i], 1 + 0.1 * s.points[i].x);
-  }
-  points.pad();
-  CapFitScratch scratch;
-  CapFitOptions options{CapBasis::kEven, 8, 0.3, 2e-9};
-  DegreeFits fits;
-  fits.factor(make_system(frame, points, options, scratch), scratch.matrix);
-  for (const int degree : {0, 1, 3, 8}) {
-    options.degree = degree;
-    CapFit alone;
-    ASSERT_TRUE(fit_cap(frame, points, options, scratch, alone));
-    std::vector<double> leading;
-    fits.solve(n_coefficients(CapBasis::kEven, degree), leading);
-    ASSERT_EQ(leading.size(), alone.coefficients.size());
-    for (std::size_t i = 0; i < leading.size(); ++i) {
-      EXPECT_NEAR(leading[i], alone.coefficients[i], 1e-9);  // condition below 1e6
-    }
-  }
 }
 
 TEST(greedy_cover, is_given_up_where_too_many_numbers_are_foreseen) {
