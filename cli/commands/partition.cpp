@@ -36,7 +36,7 @@ void show_caps(const Options& options, ShapeFormat format, Shape& shape,
       compress(shape, {.tolerance = options.tolerance * diagonal}, session.context());
   if (found.report.turned_normals) session.note(kTurned);
   const Atlas& atlas = found.model.atlas;
-  const auto caps = loudest_caps(atlas, points, session.context());
+  const auto caps = dominant_caps(atlas, points, session.context());
   if (options.show == "degrees") {
     set_degree_colors(shape.attributes, atlas, caps);
   } else {
@@ -108,7 +108,7 @@ Command partition_command() {
           .summary = "The caps of a shape in colours",
           .description =
               "Covers a shape with few large caps, as 'rholm analyze --atlas' does, and writes it "
-              "with each vertex in the colour of the cap that speaks loudest there. Caps that "
+              "with each vertex in the colour of the cap of the largest weight there. Caps that "
               "touch have different hues. With '--show degrees' the colour is that of the cap's "
               "degree, from dark blue for the lowest to yellow for the highest.\n\n"
               "The other views are of the patches of 'analyze --atlas --fit integral', cut by a "

@@ -20,9 +20,9 @@
 
 namespace rholm {
 
-// Where a cap speaks: with (p, q, h) = x - seed along the frame's axes, where
+// The support of a cap: with (p, q, h) = x - seed along the frame's axes, where
 //   s^2 = xx (p - px)^2 + 2 xy (p - px)(q - py) + yy (q - py)^2 + (h / support)^2 < 1:
-// the ellipse of its points, so that it is silent where it has none.
+// the ellipse of its points, so that it has no weight where it has none.
 struct CapSupport {
   double px = 0, py = 0;          // middle of the ellipse
   double xx = 0, xy = 0, yy = 0;  // its form, in 1/unit^2
@@ -37,7 +37,7 @@ enum class CapBasis : std::uint8_t {
 // The number of coefficients of a cap.
 std::size_t n_coefficients(CapBasis basis, int degree);
 
-// One cap: its sphere, where it speaks, and where its coefficients are.
+// One cap: its sphere, its support, and where its coefficients are.
 struct Cap {
   CapFrame frame;                    // of its sphere, in the coordinates of the shape
   CapSupport where;                  // an ellipse about its seed
@@ -48,11 +48,11 @@ struct Cap {
   std::size_t first = 0;
   double error = 0;      // rms distance of the fitted points to the cap
   double area = 0;       // of the surface that it was made for: all caps' add up to the whole
-  double weight = 1;     // of its potential where others speak as well
+  double weight = 1;     // of its potential, a factor of its blend weight
   double deviation = 0;  // largest distance of its surface from the tangent plane of the seed
 };
 
-// How much a cap has to say at s^2 < 1 of CapSupport. Either is multiplied by (1 - g^2 / T^2)^2 of
+// The blend weight of a cap at s^2 < 1 of CapSupport. Either is multiplied by (1 - g^2 / T^2)^2 of
 // its potential g, T the band, and where points are noisy by 1 / (1 + |grad r|^2 / r^2), the
 // squared cosine of the angle between its surface and the sphere: where a cap leans, others see
 // better.
@@ -75,12 +75,12 @@ CapExtension parse_cap_extension(const std::string& name);  // throws InvalidInp
 struct Atlas {
   std::vector<Cap> caps;               // in any order
   std::vector<double> coefficients;    // of all caps, each from its Cap::first on
-  CapBlend blend = CapBlend::kSmooth;  // of caps where several speak
+  CapBlend blend = CapBlend::kSmooth;  // of caps where supports overlap
   double spacing = 0;   // of the points: median distance to the nearest neighbours' circle
   double noise = 0;     // standard deviation of the points' distances to the surface; 0 if clean
   double diagonal = 0;  // of the points' bounding box
-  // Where caps disagree by less they are averaged, so a grid's points hear caps within it, or
-  // within 2.5 steps of the grid if that is more.
+  // Where caps disagree by less they are averaged, so caps have a weight within it of a grid's
+  // points, or within 2.5 steps of the grid if that is more.
   double band = 0;
 
   // Those of one of these caps; good as long as the atlas.

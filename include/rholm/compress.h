@@ -105,10 +105,10 @@ Mesh synthesize(const AtlasModel& model, const AtlasSynthesisOptions& options = 
                 const Context& context = {});
 
 inline constexpr std::uint32_t kNoCap = ~std::uint32_t{0};  // where a cap's number is wanted
-// The cap that speaks loudest at each point, in small gaps between caps the nearest one; kNoCap for
-// an atlas without caps.
-std::vector<std::uint32_t> loudest_caps(const Atlas& atlas, const std::vector<Vec3>& points,
-                                        const Context& context = {});
+// The cap of the largest blend weight at each point, in small gaps between caps the nearest one;
+// kNoCap for an atlas without caps.
+std::vector<std::uint32_t> dominant_caps(const Atlas& atlas, const std::vector<Vec3>& points,
+                                         const Context& context = {});
 // Sets red, green, blue: a colour per cap, caps that touch of different hues; grey without a cap.
 void set_cap_colors(std::vector<Attribute>& attributes, const Atlas& atlas,
                     const std::vector<std::uint32_t>& caps);

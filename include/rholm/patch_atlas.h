@@ -18,7 +18,7 @@ struct PatchAtlasOptions {
   CapExtension extension = CapExtension::kZero;  // of caps beyond their points
   double min_cosine = 0.5;  // of normals to the mean normal of their patch (P36), 0 ... 1
   // A patch is widened by the points around it: the radius of its cell over that of its own points,
-  // 1 ... 4. Caps are silent at the rims of their cells, where their series are wrong.
+  // 1 ... 4. Caps have no weight at the rims of their cells, where their series are wrong.
   double overlap = 1.5;
 };
 

@@ -38,8 +38,8 @@ void keep_outstanding(const Blend& blend, double wavelength, Site& site) {
   for (std::size_t i = 0; i < distance.size(); ++i) {
     if (!(site.weights[i] > 0)) continue;
     const double off = norm(blend.moves[blend.row[i] * kPatchDegrees + kPatchDegree]);
-    // Fits that are exact have forgotten nothing, but rounding.
-    const double enough = std::max(blend.forgotten[blend.row[i]], kRounding * wavelength);
+    // Fits that are exact reject nothing, but leave rounding.
+    const double enough = std::max(blend.rejection[blend.row[i]], kRounding * wavelength);
     if (off > enough) distance[i] = 0;
   }
   const double reach = kRepairReach * wavelength;
@@ -160,7 +160,7 @@ Patch analyze_patch(const Mesh& mesh, std::span<const Region> regions, const Pat
     if (!(site.weights[i] > 0)) continue;
     const std::size_t row = blend.row[i];
     for (const std::uint32_t v : site.local.members_of(i)) {
-      if (!(blend.voices[row] > 0)) {
+      if (!(blend.weight_sums[row] > 0)) {
         ++patch.unreached;
         continue;
       }

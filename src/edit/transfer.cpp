@@ -180,7 +180,7 @@ TransferAnalysis analyze_transfer(const Mesh& source, std::span<const Region> fr
   state->target = texture_of(mesh, regions, report.target_wavelength, transition, context);
   count_azimuths_like(state->source.chart, state->target.chart);
   report.target_edge = median_edge(state->target);
-  // Of the bases: the detail on them has no say in how large they are.
+  // Of the bases: the detail on them does not count in how large they are.
   report.source_radius = state->source.chart.unit;
   report.target_radius = state->target.chart.unit;
   report.scale = options.scale * report.target_radius / report.source_radius;

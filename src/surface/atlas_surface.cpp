@@ -114,7 +114,7 @@ BlockGrid make_grid(const Atlas& atlas, const std::vector<Disc>& discs,
   }
 }
 
-// Many small caps that overlap by half, as points have; few large ones do not say where data end.
+// Many small caps that overlap by half, as points have; few large ones do not show where data end.
 bool are_small(const Atlas& atlas) {
   return std::all_of(atlas.caps.begin(), atlas.caps.end(),
                      [](const Cap& cap) { return cap.area > 0; });
@@ -168,7 +168,7 @@ void bridge_gaps(const Mesh& mesh, double least, std::vector<double>& support) {
   }
 }
 
-// Vertices that no cap speaks for have the normals of their triangles.
+// Vertices in no cap's support have the normals of their triangles.
 void complete_normals(Mesh& mesh) {
   const auto axis = [&](const char* name) -> std::vector<double>& {
     return std::find_if(mesh.attributes.begin(), mesh.attributes.end(),
@@ -211,7 +211,7 @@ AtlasSurface extract_atlas(const Atlas& atlas, const AtlasSurfaceOptions& option
   const std::vector<std::uint64_t> doubtful = fill_grid(atlas, lists, grid, context);
   const AtlasDipoles dipoles = dipoles_of(atlas, options.step, context);
   const WindingTree winding(dipoles.points, dipoles.area_normals);
-  forget_refuted(grid, doubtful, winding, context);
+  clear_refuted(grid, doubtful, winding, context);
   HoleFillOptions filled{.max_blocks = blocks_within(options), .support = {}};
   if (are_small(atlas)) filled.support = node_support(atlas, lists, grid, context);
   const HoleFilling filling = fill_holes(grid, dipoles.feet, winding, filled, context);

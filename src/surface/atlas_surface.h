@@ -13,7 +13,7 @@ namespace rholm {
 
 struct AtlasSurfaceOptions {
   double step = 0;          // edge of the grid's cubes
-  bool keep_holes = false;  // cut away what no cap speaks for, instead of closing it
+  bool keep_holes = false;  // cut away what is in no support, instead of closing it
   double min_component = 0.01;
   std::optional<SimplifyOptions> simplify = {};  // with nothing in it: 1/50 of the step
   std::size_t max_memory = std::size_t{8} << 30;

@@ -19,7 +19,7 @@ void atlas() {
   cap.frame = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 2, 1, 1};
   const std::vector<double> zero = {0};
   const rholm::CapValue outside = rholm::evaluate(cap, zero, {0, 1.8, 2.4});
-  expect(outside.valid, "a cap speaks in front of its centre");
+  expect(outside.valid, "a cap has a potential in front of its centre");
   expect_near(outside.distance, 1, 1e-12, "the distance to a sphere of radius 2");
 }
 

@@ -1,4 +1,4 @@
-// What a cap says at many points. Layer: atlas.
+// Potential and surface of a cap at many points. Layer: atlas.
 #pragma once
 
 #include <span>

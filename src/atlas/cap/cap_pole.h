@@ -1,4 +1,4 @@
-// The surface of a cap over its seed, where only orders 0 and 1 speak. Layer: atlas.
+// The surface of a cap over its seed, where only orders 0 and 1 contribute. Layer: atlas.
 #pragma once
 
 #include <span>

@@ -43,9 +43,9 @@ constexpr double kClose = 0.1;
 // caps that do not see it. From 0.001 to 0.01 all are alike (scripts/constants).
 constexpr double kTrusted = 0.002;
 // Caps of noisy points count by this power of the number of their points. With 1, their variance,
-// small ones still make spikes at tips, where few others speak; 2 and 3 are alike.
+// small ones still make spikes at tips, where few others contribute; 2 and 3 are alike.
 constexpr double kTrustInPoints = 2;
-// Points that the cap speaks for.
+// Points in the support of the cap.
 constexpr double kCovered = 0.7;
 
 struct Candidate {
@@ -149,7 +149,7 @@ void describe_cap(const CoverOptions& options, const CapWorker& worker, Cap& cap
   cap.weight *= std::pow(std::min(1.0, share), kTrustInPoints);
 }
 
-// Marks what the cap speaks for within a block of points; returns how many are new.
+// Marks what is in the support of the cap within a block of points; returns how many are new.
 std::size_t mark(const OrderedPoints& all, const Cap& cap, std::size_t seed, std::size_t begin,
                  double core, const CapWorker& worker, std::vector<std::uint8_t>& covered) {
   std::size_t n_new = 1;

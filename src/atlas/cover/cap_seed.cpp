@@ -13,7 +13,7 @@ constexpr double kSameSheet = -0.2;
 constexpr double kSameFace = 0.7;
 // The mean is of so many nearest points: one sheet, and enough to average noisy normals.
 constexpr std::size_t kMeanOf = 12;
-// Part of the neighbours that say where the sheet is. Measured on noisy bodies: an eighth leaves
+// Part of the neighbours that show where the sheet is. Measured on noisy bodies: an eighth leaves
 // more noise, a half moves seeds inwards where the sheet is bent.
 constexpr double kSettledBy = 0.25;
 

@@ -18,9 +18,9 @@ double reach(const Cap& cap) {
 
 }  // namespace
 
-CapVoice voice_of(const Cap& cap, std::span<const double> coefficients, const PointTree& tree,
-                  std::span<const Vec3> all, double band) {
-  CapVoice voice;
+CapWeights weights_of(const Cap& cap, std::span<const double> coefficients, const PointTree& tree,
+                      std::span<const Vec3> all, double band) {
+  CapWeights own;
   CapPoints points;
   std::vector<Neighbor> near;
   std::vector<double> rests;
@@ -31,10 +31,10 @@ CapVoice voice_of(const Cap& cap, std::span<const double> coefficients, const Po
     const double rest = 1 - place(cap, offset);
     if (!(rest > 0)) continue;
     points.add(offset, cap.frame.z, 1);
-    voice.samples.push_back(n.index);
+    own.samples.push_back(n.index);
     rests.push_back(rest);
   }
-  if (points.size() == 0) return voice;
+  if (points.size() == 0) return own;
   points.pad();
   std::vector<double> distances(points.padded());
   cap_distances(cap, coefficients, points, distances);
@@ -42,13 +42,13 @@ CapVoice voice_of(const Cap& cap, std::span<const double> coefficients, const Po
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double part = distances[i] / band, in_band = 1 - part * part;
     if (!(in_band > 0)) continue;  // also where the cap has no potential
-    voice.samples[kept++] = voice.samples[i];
-    voice.weights.push_back(
+    own.samples[kept++] = own.samples[i];
+    own.weights.push_back(
         static_cast<float>(cap.weight * rests[i] * rests[i] * rests[i] * in_band * in_band));
-    voice.distances.push_back(static_cast<float>(distances[i]));
+    own.distances.push_back(static_cast<float>(distances[i]));
   }
-  voice.samples.resize(kept);
-  return voice;
+  own.samples.resize(kept);
+  return own;
 }
 
 Blend blend(const Atlas& atlas, const SampleLevel& samples, double band, const Context& context) {
@@ -58,30 +58,31 @@ Blend blend(const Atlas& atlas, const SampleLevel& samples, double band, const C
     for (std::size_t c = begin; c < end; ++c) {
       const Cap& cap = atlas.caps[c];
       result.caps[c] =
-          voice_of(cap, atlas.coefficients_of(cap), samples.tree, samples.points, band);
+          weights_of(cap, atlas.coefficients_of(cap), samples.tree, samples.points, band);
     }
   });
   const std::size_t n = samples.points.size();
   result.weight.assign(n, 0);
   result.sum.assign(n, 0);
-  for (const CapVoice& voice : result.caps) {
-    for (std::size_t i = 0; i < voice.samples.size(); ++i) {
-      const double w = voice.weights[i];
-      result.weight[voice.samples[i]] += w;
-      result.sum[voice.samples[i]] += w * voice.distances[i];
+  for (const CapWeights& own : result.caps) {
+    for (std::size_t i = 0; i < own.samples.size(); ++i) {
+      const double w = own.weights[i];
+      result.weight[own.samples[i]] += w;
+      result.sum[own.samples[i]] += w * own.distances[i];
     }
   }
   double squares = 0;
   for (std::uint32_t i = 0; i < n; ++i) {
-    if (result.is_silent(i)) {
-      ++result.silent;
+    if (result.is_weightless(i)) {
+      ++result.weightless;
       continue;
     }
     const double e = std::abs(result.error(i));
     squares += e * e;
     result.max = std::max(result.max, e);
   }
-  if (n > result.silent) result.rms = std::sqrt(squares / static_cast<double>(n - result.silent));
+  if (n > result.weightless)
+    result.rms = std::sqrt(squares / static_cast<double>(n - result.weightless));
   return result;
 }
 

@@ -13,25 +13,25 @@
 
 namespace rholm {
 
-// What one cap says of the samples it reaches.
-struct CapVoice {
+// Blend weights and distances of one cap at the samples it contributes to.
+struct CapWeights {
   std::vector<std::uint32_t> samples;
   std::vector<float> weights, distances;
 };
 
 struct Blend {
-  std::vector<CapVoice> caps;
+  std::vector<CapWeights> caps;
   std::vector<double> weight, sum;  // per sample: sum of w, of w g
-  double rms = 0, max = 0;          // of the blended distance, over samples that a cap speaks for
-  std::size_t silent = 0;           // samples that none speaks for
+  double rms = 0, max = 0;          // of the blended distance, over samples with a weight
+  std::size_t weightless = 0;       // samples without one
   double error(std::uint32_t sample) const { return sum[sample] / weight[sample]; }
-  bool is_silent(std::uint32_t sample) const { return !(weight[sample] > kLeastWeight); }
+  bool is_weightless(std::uint32_t sample) const { return !(weight[sample] > kLeastWeight); }
 };
 
-// Caps farther from a sample than `band` do not speak for it.
+// Caps farther from a sample than `band` have no weight there.
 // `points` are in the order of the tree.
-CapVoice voice_of(const Cap& cap, std::span<const double> coefficients, const PointTree& tree,
-                  std::span<const Vec3> points, double band);
+CapWeights weights_of(const Cap& cap, std::span<const double> coefficients, const PointTree& tree,
+                      std::span<const Vec3> points, double band);
 Blend blend(const Atlas& atlas, const SampleLevel& samples, double band, const Context& context);
 
 // Weights that let small caps override large ones: (largest support / support)^power.

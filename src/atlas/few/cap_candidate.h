@@ -31,7 +31,7 @@ inline constexpr std::size_t kFrameNumbers = 9;
 struct Candidate {
   Cap cap;  // Cap::first is not set
   std::vector<double> coefficients;
-  double inside = 0;  // samples of the finest level that it speaks for, estimated
+  double inside = 0;  // samples of the finest level in its support, estimated
   double rms = 0;     // of those samples it covers
   // Samples it covers, of the level it was fitted to, by their indices in the finest one.
   std::vector<std::uint32_t> covered;
@@ -50,7 +50,7 @@ struct CandidateScratch {
   std::vector<Neighbor> near;
 };
 
-// Tries a cap that speaks within `radius` of a sample; false if no degree meets the tolerance.
+// Tries a cap whose support is `radius` about a sample; false if no degree meets the tolerance.
 bool make_candidate(const SampleLevels& samples, std::uint32_t seed, double radius,
                     double half_angle, const CandidateOptions& options, CandidateScratch& scratch,
                     Candidate& candidate);

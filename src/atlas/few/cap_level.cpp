@@ -10,7 +10,7 @@ namespace {
 // Standard deviations of the disagreement of two caps that are averaged: nearly all.
 constexpr double kDisagree = 3;
 
-// rms over the cap of what the coefficients from `first` on say.
+// rms over the cap of what the coefficients from `first` on make.
 double lost(const Cap& cap, std::span<const double> coefficients, std::size_t first) {
   double sum = 0;
   for (std::size_t i = first; i < coefficients.size(); ++i)

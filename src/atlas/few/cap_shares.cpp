@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kMostSamples = 6000;  // of a fit; of more every second, third ... is taken
 // Least share in the blend that a sample counts with, where the cap is not overridden: so that it
-// stays defined where others speak louder.
+// stays defined where others outweigh it.
 constexpr double kLeastShare = 0.02;
 // The same where it is overridden, or misses: there it must not stray, but may be wrong.
 constexpr double kMissedShare = 0.003;
@@ -112,12 +112,12 @@ CapShares shares_of(const Atlas& atlas, const SampleLevel& samples, double band,
   };
   std::vector<std::vector<Vec3>> of_caps(n);
   each([&](std::size_t c) {
-    const CapVoice& voice = all.caps[c];
-    of_caps[c].resize(voice.samples.size());
-    for (std::size_t i = 0; i < voice.samples.size(); ++i) {
-      const std::uint32_t s = voice.samples[i];
+    const CapWeights& own = all.caps[c];
+    of_caps[c].resize(own.samples.size());
+    for (std::size_t i = 0; i < own.samples.size(); ++i) {
+      const std::uint32_t s = own.samples[i];
       of_caps[c][i] =
-          weight_slope(atlas.caps[c], voice.weights[i], samples.points[s], samples.normals[s]);
+          weight_slope(atlas.caps[c], own.weights[i], samples.points[s], samples.normals[s]);
     }
   });
   std::vector<Vec3> sums(samples.points.size());
@@ -127,13 +127,13 @@ CapShares shares_of(const Atlas& atlas, const SampleLevel& samples, double band,
   }
   shares.slopes.resize(n);
   each([&](std::size_t c) {
-    const CapVoice& voice = all.caps[c];
-    shares.slopes[c].resize(voice.samples.size());
-    for (std::size_t i = 0; i < voice.samples.size(); ++i) {
-      const std::uint32_t s = voice.samples[i];
-      if (all.is_silent(s)) continue;
+    const CapWeights& own = all.caps[c];
+    shares.slopes[c].resize(own.samples.size());
+    for (std::size_t i = 0; i < own.samples.size(); ++i) {
+      const std::uint32_t s = own.samples[i];
+      if (all.is_weightless(s)) continue;
       const double sum = all.weight[s];
-      const Vec3 slope = (of_caps[c][i] - (voice.weights[i] / sum) * sums[s]) / sum;
+      const Vec3 slope = (of_caps[c][i] - (own.weights[i] / sum) * sums[s]) / sum;
       shares.slopes[c][i] = static_cast<float>(dot(slope, slope));
     }
   });
@@ -144,17 +144,17 @@ double share_of_ledges(const CapShares& shares, double slope) {
   const Blend& all = shares.blend;
   std::vector<double> leans(all.weight.size());
   for (std::size_t c = 0; c < all.caps.size(); ++c) {
-    const CapVoice& voice = all.caps[c];
-    for (std::size_t i = 0; i < voice.samples.size(); ++i) {
-      const std::uint32_t s = voice.samples[i];
-      if (all.is_silent(s)) continue;
+    const CapWeights& own = all.caps[c];
+    for (std::size_t i = 0; i < own.samples.size(); ++i) {
+      const std::uint32_t s = own.samples[i];
+      if (all.is_weightless(s)) continue;
       const double part = std::sqrt(double{shares.slopes[c][i]});
-      leans[s] += part * std::abs(voice.distances[i] - all.error(s));
+      leans[s] += part * std::abs(own.distances[i] - all.error(s));
     }
   }
   const auto n = std::count_if(leans.begin(), leans.end(), [&](double l) { return l > slope; });
-  const std::size_t heard = leans.size() - all.silent;
-  return heard > 0 ? static_cast<double>(n) / static_cast<double>(heard) : 0;
+  const std::size_t weighted = leans.size() - all.weightless;
+  return weighted > 0 ? static_cast<double>(n) / static_cast<double>(weighted) : 0;
 }
 
 void share_points(const Atlas& atlas, std::size_t index, std::span<const double> coefficients,
@@ -162,16 +162,16 @@ void share_points(const Atlas& atlas, std::size_t index, std::span<const double>
                   CapPoints& points) {
   const Cap& cap = atlas.caps[index];
   const CapFrame& f = cap.frame;
-  const CapVoice& voice = shares.blend.caps[index];
+  const CapWeights& own = shares.blend.caps[index];
   const double ledge = kLedge * weights.tolerance, ledge2 = ledge * ledge;
-  const std::size_t step = (voice.samples.size() + kMostSamples - 1) / kMostSamples;
+  const std::size_t step = (own.samples.size() + kMostSamples - 1) / kMostSamples;
   points.clear();
-  for (std::size_t i = 0; i < voice.samples.size(); i += step) {
-    const std::uint32_t s = voice.samples[i];
-    if (shares.blend.is_silent(s)) continue;
-    const bool missed = std::abs(voice.distances[i]) >= kMissed * weights.tolerance;
+  for (std::size_t i = 0; i < own.samples.size(); i += step) {
+    const std::uint32_t s = own.samples[i];
+    if (shares.blend.is_weightless(s)) continue;
+    const bool missed = std::abs(own.distances[i]) >= kMissed * weights.tolerance;
     const double share =
-        std::max(voice.weights[i] / shares.blend.weight[s], missed ? kMissedShare : kLeastShare);
+        std::max(own.weights[i] / shares.blend.weight[s], missed ? kMissedShare : kLeastShare);
     const double meets = std::min(kMostLedge, ledge2 * shares.slopes[index][i]);
     // Of two squares, share e^2 and meets (e - G)^2, the mean.
     const double moved = weights.agree ? meets / (share + meets) * shares.blend.error(s) : 0;

@@ -14,7 +14,7 @@
 
 namespace rholm {
 
-// Of an atlas at the samples its caps speak for, in the order of Blend::caps.
+// Of an atlas at the samples its caps contribute to, in the order of Blend::caps.
 struct CapShares {
   Blend blend;
   // |grad p|^2 along the surface, p = w / sum w the share of the cap: neighbours that disagree by d
@@ -35,9 +35,9 @@ struct ShareWeights {
   bool agree = false;    // whether caps are drawn to the blend where shares change
 };
 
-// The points that cap `index` with these coefficients is fitted to: the samples it speaks for, by
-// its share of the blend and by the ledges it may leave, and its own surface with little weight, so
-// that it stays where it is where it has no samples or leaves them to others. Padded.
+// The points that cap `index` with these coefficients is fitted to: the samples it contributes to,
+// by its share of the blend and by the ledges it may leave, and its own surface with little weight,
+// so that it stays where it is where it has no samples or leaves them to others. Padded.
 void share_points(const Atlas& atlas, std::size_t index, std::span<const double> coefficients,
                   const SampleLevel& samples, const CapShares& shares, const ShareWeights& weights,
                   CapPoints& points);

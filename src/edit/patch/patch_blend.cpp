@@ -14,46 +14,47 @@ namespace {
 
 // Caps whose contributions are held at once.
 constexpr std::size_t kBatch = 64;
-// What a cap says: for each point that it speaks for, its voice and how far along the ray through
-// it the fit of each degree lies.
-struct Speech {
+// What a cap adds to the blend: at each point with a blend weight, how far along the ray through it
+// the fit of each degree lies.
+struct CapContribution {
   std::vector<std::uint32_t> points;
-  std::vector<double> voices;
+  std::vector<double> blend_weights;
   std::vector<double> heights;  // over the centre
   std::vector<Vec3> rays;
   std::vector<double> lengths;  // [degree][point]
   std::size_t stride = 0;       // from one degree to the next
-  double forgotten = 0;
+  double rejection = 0;         // of PatchFit
 };
 
-void speak(const Site& site, const PatchCap& cap, bool robust, PatchScratch& scratch,
-           Speech& speech) {
-  speech.points.clear();
-  speech.voices.clear();
-  speech.rays.clear();
+void contribute(const Site& site, const PatchCap& cap, bool robust, PatchScratch& scratch,
+                CapContribution& contribution) {
+  contribution.points.clear();
+  contribution.blend_weights.clear();
+  contribution.rays.clear();
   const PatchFit fit = fit_patch_cap(site.local, cap, robust, site.ignored, scratch);
   if (!fit.solved) return;
-  speech.forgotten = fit.forgotten;
+  contribution.rejection = fit.rejection;
   for (std::size_t i = 0; i < cap.points.size(); ++i) {
-    if (!(cap.voices[i] > 0) || !(site.weights[cap.points[i]] > 0)) continue;
-    speech.points.push_back(cap.points[i]);
-    speech.voices.push_back(cap.voices[i]);
+    if (!(cap.blend_weights[i] > 0) || !(site.weights[cap.points[i]] > 0)) continue;
+    contribution.points.push_back(cap.points[i]);
+    contribution.blend_weights.push_back(cap.blend_weights[i]);
   }
-  speech.stride = padded(speech.points.size());
-  speech.lengths.resize((static_cast<std::size_t>(cap.degree) + 1) * speech.stride);
-  evaluate_patch_cap(site.local, cap, fit, speech.points, scratch, speech.lengths.data(),
-                     speech.stride);
-  const std::size_t n = speech.points.size();
-  speech.heights.resize(n);
+  contribution.stride = padded(contribution.points.size());
+  contribution.lengths.resize((static_cast<std::size_t>(cap.degree) + 1) * contribution.stride);
+  evaluate_patch_cap(site.local, cap, fit, contribution.points, scratch,
+                     contribution.lengths.data(), contribution.stride);
+  const std::size_t n = contribution.points.size();
+  contribution.heights.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
-    const Vec3 offset = site.local.points[speech.points[i]] - cap.frame.center;
-    speech.heights[i] = norm(offset);
-    speech.rays.push_back(speech.heights[i] > 0 ? offset / speech.heights[i] : Vec3{});
+    const Vec3 offset = site.local.points[contribution.points[i]] - cap.frame.center;
+    contribution.heights[i] = norm(offset);
+    contribution.rays.push_back(contribution.heights[i] > 0 ? offset / contribution.heights[i]
+                                                            : Vec3{});
   }
   for (std::size_t d = 0; d <= static_cast<std::size_t>(cap.degree); ++d) {
-    double* const lengths = &speech.lengths[d * speech.stride];
+    double* const lengths = &contribution.lengths[d * contribution.stride];
     for (std::size_t i = 0; i < n; ++i) {
-      lengths[i] = cap.frame.radius * (1 + lengths[i]) - speech.heights[i];
+      lengths[i] = cap.frame.radius * (1 + lengths[i]) - contribution.heights[i];
     }
   }
 }
@@ -69,26 +70,26 @@ std::array<std::size_t, kPatchDegrees> own_degrees(const PatchCap& cap) {
 }
 
 // Sums in the order of the caps, whatever the threads did.
-void add(const Speech& speech, const PatchCap& cap, Blend& blend) {
+void add(const CapContribution& contribution, const PatchCap& cap, Blend& blend) {
   const std::array<std::size_t, kPatchDegrees> own = own_degrees(cap);
-  for (std::size_t i = 0; i < speech.points.size(); ++i) {
-    const std::size_t row = blend.row[speech.points[i]];
-    blend.voices[row] += speech.voices[i];
-    blend.forgotten[row] += speech.voices[i] * speech.forgotten;
-    const Vec3 said = speech.voices[i] * speech.rays[i];
+  for (std::size_t i = 0; i < contribution.points.size(); ++i) {
+    const std::size_t row = blend.row[contribution.points[i]];
+    blend.weight_sums[row] += contribution.blend_weights[i];
+    blend.rejection[row] += contribution.blend_weights[i] * contribution.rejection;
+    const Vec3 weighted_ray = contribution.blend_weights[i] * contribution.rays[i];
     for (std::size_t d = 0; d < kPatchDegrees; ++d) {
-      blend.moves[row * kPatchDegrees + d] += speech.lengths[own[d] * speech.stride + i] * said;
+      blend.moves[row * kPatchDegrees + d] +=
+          contribution.lengths[own[d] * contribution.stride + i] * weighted_ray;
     }
   }
 }
 
 void divide(Blend& blend) {
-  for (std::size_t row = 0; row < blend.voices.size(); ++row) {
-    const double voice = blend.voices[row];
-    if (!(voice > 0)) continue;
-    blend.forgotten[row] /= voice;
-    for (std::size_t d = 0; d < kPatchDegrees; ++d)
-      blend.moves[row * kPatchDegrees + d] *= 1 / voice;
+  for (std::size_t row = 0; row < blend.weight_sums.size(); ++row) {
+    const double sum = blend.weight_sums[row];
+    if (!(sum > 0)) continue;
+    blend.rejection[row] /= sum;
+    for (std::size_t d = 0; d < kPatchDegrees; ++d) blend.moves[row * kPatchDegrees + d] *= 1 / sum;
   }
 }
 
@@ -102,10 +103,10 @@ Blend blend_caps(const Site& site, const std::vector<PatchCap>& caps, bool robus
   for (std::size_t i = 0; i < site.weights.size(); ++i) {
     if (site.weights[i] > 0) blend.row[i] = rows++;
   }
-  blend.voices.assign(rows, 0);
-  blend.forgotten.assign(rows, 0);
+  blend.weight_sums.assign(rows, 0);
+  blend.rejection.assign(rows, 0);
   blend.moves.assign(rows * kPatchDegrees, {});
-  std::vector<Speech> speeches(std::min(kBatch, caps.size()));
+  std::vector<CapContribution> contributions(std::min(kBatch, caps.size()));
   for (std::size_t first = 0; first < caps.size(); first += kBatch) {
     const std::size_t count = std::min(kBatch, caps.size() - first);
     const auto part = [&](std::size_t i) {
@@ -115,10 +116,10 @@ Blend blend_caps(const Site& site, const std::vector<PatchCap>& caps, bool robus
     parallel_for(count, 4, context, stage, [&](std::size_t begin, std::size_t end) {
       PatchScratch scratch;
       for (std::size_t i = begin; i < end; ++i) {
-        speak(site, caps[first + i], robust, scratch, speeches[i]);
+        contribute(site, caps[first + i], robust, scratch, contributions[i]);
       }
     });
-    for (std::size_t i = 0; i < count; ++i) add(speeches[i], caps[first + i], blend);
+    for (std::size_t i = 0; i < count; ++i) add(contributions[i], caps[first + i], blend);
   }
   divide(blend);
   return blend;
@@ -127,7 +128,7 @@ Blend blend_caps(const Site& site, const std::vector<PatchCap>& caps, bool robus
 void follow_neighbours(const Site& site, Blend& blend) {
   std::vector<std::uint32_t> open;
   for (std::uint32_t i = 0; i < site.weights.size(); ++i) {
-    if (site.weights[i] > 0 && !(blend.voices[blend.row[i]] > 0)) open.push_back(i);
+    if (site.weights[i] > 0 && !(blend.weight_sums[blend.row[i]] > 0)) open.push_back(i);
   }
   for (std::size_t before = open.size() + 1; !open.empty() && open.size() < before;) {
     before = open.size();
@@ -136,7 +137,7 @@ void follow_neighbours(const Site& site, Blend& blend) {
       double count = 0;
       for (const std::uint32_t t : site.local.triangles_at(i)) {
         for (const std::uint32_t v : site.local.triangles[t]) {
-          if (!(site.weights[v] > 0) || !(blend.voices[blend.row[v]] > 0)) continue;
+          if (!(site.weights[v] > 0) || !(blend.weight_sums[blend.row[v]] > 0)) continue;
           const Vec3* const moves = &blend.moves[blend.row[v] * kPatchDegrees];
           const Vec3 apart = site.local.points[v] - site.local.points[i];
           for (std::size_t d = 0; d < kPatchDegrees; ++d) sum[d] += apart + moves[d];
@@ -147,7 +148,7 @@ void follow_neighbours(const Site& site, Blend& blend) {
       const std::size_t row = blend.row[i];
       for (std::size_t d = 0; d < kPatchDegrees; ++d)
         blend.moves[row * kPatchDegrees + d] = sum[d] / count;
-      blend.voices[row] = 1;
+      blend.weight_sums[row] = 1;
       return true;
     });
   }

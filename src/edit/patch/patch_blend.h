@@ -18,15 +18,15 @@ inline constexpr auto kPatchDegrees = static_cast<std::size_t>(kPatchDegree + 1)
 struct Site {
   LocalMesh local;
   std::vector<double> weights;        // of its points; those above 0 may move
-  std::vector<std::uint8_t> ignored;  // points without a say in the fits; empty if none
+  std::vector<std::uint8_t> ignored;  // points left out of the fits; empty if none
 };
 
 // Where fits want the points: a row for each point that may move.
 struct Blend {
-  std::vector<std::uint32_t> row;  // of each point
-  std::vector<double> voices;      // 0 where no cap says anything
-  std::vector<Vec3> moves;         // [row][degree]: from the point to the fit of that degree
-  std::vector<double> forgotten;   // residual from which on a robust fit has forgotten a point
+  std::vector<std::uint32_t> row;   // of each point
+  std::vector<double> weight_sums;  // of caps; 0 where none contributes
+  std::vector<Vec3> moves;          // [row][degree]: from the point to the fit of that degree
+  std::vector<double> rejection;    // residual from which on robust fits have rejected a point
 };
 Blend blend_caps(const Site& site, const std::vector<PatchCap>& caps, bool robust,
                  const Context& context);

@@ -16,8 +16,8 @@ constexpr double kFarthest = 3.7, kNearest = 0.6;
 // The support's rim on the opened sphere: the even harmonics are those of a hemisphere (method
 // 7.8), and need some room beyond the last points.
 constexpr double kOpened = 1.4835;  // 85 degrees
-// Points that a cap speaks for are within this part of its support: fits are worst at the rim.
-constexpr double kVoice = 0.75;
+// Blend weights fall to 0 at this part of the support: fits are worst at the rim.
+constexpr double kBlendReach = 0.75;
 // Points that need no other cap are within this part. Chosen: four caps at each point; 0.5 takes
 // twice the time, and 0.6 averages less.
 constexpr double kCovered = 0.55;
@@ -95,9 +95,9 @@ double make_cap(const LocalMesh& local, std::uint32_t seed, double radius,
   cap.frame = patch_frame({local.points, local.normals, local.areas, found}, local.points[seed],
                           axis, radius);
   cap.points.clear();
-  cap.voices.clear();
+  cap.blend_weights.clear();
   cap.points.reserve(found.size());
-  cap.voices.reserve(found.size());
+  cap.blend_weights.reserve(found.size());
   double area = 0, good = 0;
   for (const std::uint32_t v : found) {
     area += local.areas[v];
@@ -108,9 +108,9 @@ double make_cap(const LocalMesh& local, std::uint32_t seed, double radius,
     if (std::abs(off) > kOffSphere * radius) continue;
     good += local.areas[v];
     cap.points.push_back(v);
-    const double d2 = dot(offset, offset) / (kVoice * kVoice * radius * radius);
+    const double d2 = dot(offset, offset) / (kBlendReach * kBlendReach * radius * radius);
     const double fall = std::max(0.0, 1 - d2);
-    cap.voices.push_back(fall * fall * fall * facing * facing);
+    cap.blend_weights.push_back(fall * fall * fall * facing * facing);
   }
   return area > 0 ? good / area : 0;
 }

@@ -10,13 +10,13 @@
 
 namespace rholm {
 
-// Points that a cap sees, and how much it has to say about each.
+// Points that a cap sees, and its weight in the blend at each.
 struct PatchCap {
   CapFrame frame;
   int degree = 0;
   double size = 1;                    // of its radius, against one that did not have to shrink
   std::vector<std::uint32_t> points;  // within the support, facing outwards along the axis
-  std::vector<double> voices;         // of each point: weight of the cap in the blend
+  std::vector<double> blend_weights;  // of each point
 };
 
 // Points of a surface: some of them, with normals and areas.

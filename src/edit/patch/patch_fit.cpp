@@ -35,11 +35,11 @@ constexpr double kLeastPivot = 1e-12;
 constexpr int kFirstDegree = 2, kDegreeStep = 2, kConvex = 3;
 // Where Huber's measure turns linear, in medians of |e|; 1.48 medians are a standard deviation.
 constexpr double kTurn = 1;
-// Where Tukey's has forgotten, likewise, and how near to such a point others are left out with it,
+// Where Tukey's rejects points, likewise, and how near to such a point others are left out with it,
 // in half wavelengths. On scratches four tenths of a wavelength wide (scripts/constants) 4 ... 7
 // and 0.5 ... 1 are alike, the scratch disappears five times as well as with the convex measure
 // alone.
-constexpr double kForgotten = 5;
+constexpr double kRejection = 5;
 constexpr double kHalo = 0.8;
 // No less than this part of the detail that the fit has found: where the surroundings are
 // perfectly smooth the smallest misfit of a wide feature would stand out.
@@ -206,47 +206,47 @@ void weigh_by_huber(double turn, PatchScratch& scratch) {
   }
 }
 
-void weigh_by_tukey(double forgotten, double halo, PatchScratch& scratch) {
+void weigh_by_tukey(double rejection, double halo, PatchScratch& scratch) {
   scratch.weights = scratch.base;
   for (std::size_t i = 0; i < scratch.taken.size(); ++i) {
-    const double part = scratch.residual[i] / forgotten;
+    const double part = scratch.residual[i] / rejection;
     const double rest = std::max(0.0, 1 - part * part);
     scratch.weights[i] *= rest * rest;
   }
   // The flanks of what stands out would hold the fit where its middle was.
   const std::size_t n = padded(scratch.taken.size()), length = block_length(n);
   for (std::size_t i = 0; i < scratch.taken.size(); ++i) {
-    if (!(scratch.residual[i] > forgotten)) continue;
+    if (!(scratch.residual[i] > rejection)) continue;
     const std::size_t own = i / length * length, own_m = std::min(length, n - own);
     const double* const x = &scratch.offsets[3 * own + i - own];
     const double at[3] = {x[0], x[own_m], x[2 * own_m]};
     for (std::size_t first = 0; first < n; first += length) {
       const std::size_t m = std::min(length, n - first);
-      patch_silence(&scratch.offsets[3 * first], m, at, halo, &scratch.weights[first]);
+      zero_weights_within(&scratch.offsets[3 * first], m, at, halo, &scratch.weights[first]);
     }
   }
 }
 
 // Weights for the next solution, from what the last one leaves; returns the residual from which
-// on points are forgotten, 0 if every point is fitted exactly.
+// on points are rejected, 0 if every point is fitted exactly.
 double weigh_again(const LocalMesh& local, const PatchCap& cap, bool convex,
                    PatchScratch& scratch) {
   find_residuals(local, cap, scratch);
   const double median = median_residual(scratch);
   if (!(median > 0)) return 0;
-  const double forgotten =
-      std::max(kForgotten * median, kLeastScale * detail_of(scratch.solution.size(), scratch));
+  const double rejection =
+      std::max(kRejection * median, kLeastScale * detail_of(scratch.solution.size(), scratch));
   if (convex) {
     weigh_by_huber(kTurn * median, scratch);
   } else {
-    weigh_by_tukey(forgotten, halo_of(cap), scratch);
+    weigh_by_tukey(rejection, halo_of(cap), scratch);
   }
-  return forgotten;
+  return rejection;
 }
 
 // The solution of the robust fit of the points taken; false if there is none.
 bool solve_robustly(const LocalMesh& local, const PatchCap& cap, PatchScratch& scratch,
-                    double& forgotten) {
+                    double& rejection) {
   const int first = std::min(kFirstDegree, cap.degree);
   if (!solve(local, cap, first, scratch)) return false;
   for (int i = 0; i < kConvex; ++i) {
@@ -254,7 +254,7 @@ bool solve_robustly(const LocalMesh& local, const PatchCap& cap, PatchScratch& s
     if (!solve(local, cap, first, scratch)) return false;
   }
   for (int degree = first;; degree = std::min(cap.degree, degree + kDegreeStep)) {
-    forgotten = weigh_again(local, cap, false, scratch);
+    rejection = weigh_again(local, cap, false, scratch);
     if (!solve(local, cap, degree, scratch)) return false;
     if (degree == cap.degree) break;
   }
@@ -273,19 +273,19 @@ PatchFit fit_patch_cap(const LocalMesh& local, const PatchCap& cap, bool robust,
   if (share > kMostIgnored) return fit;
   const double some = kPointsForWeights * static_cast<double>(patch_basis(cap.degree));
   const bool few = static_cast<double>(cap.points.size()) <= kFew * some;
-  double forgotten = 0;
+  double rejection = 0;
   if (robust) {
     take_points(local, cap, few ? kPointsPerCoefficient : kPointsForWeights, ignored, scratch);
-    if (!solve_robustly(local, cap, scratch, forgotten)) return fit;
+    if (!solve_robustly(local, cap, scratch, rejection)) return fit;
   }
   if (!robust || !few) take_points(local, cap, kPointsPerCoefficient, ignored, scratch);
-  if (forgotten > 0) {
+  if (rejection > 0) {
     find_residuals(local, cap, scratch);
-    weigh_by_tukey(forgotten, halo_of(cap), scratch);
+    weigh_by_tukey(rejection, halo_of(cap), scratch);
   }
   if (!make_equations(local, cap, cap.degree, scratch)) return fit;
   fit.coefficients = solve_family(cap.degree, scratch);
-  fit.forgotten = forgotten * cap.frame.radius;
+  fit.rejection = rejection * cap.frame.radius;
   fit.solved = true;
   return fit;
 }

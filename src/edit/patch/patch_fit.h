@@ -13,7 +13,7 @@ namespace rholm {
 // patch_basis(cap.degree) numbers: a nested family of least squares.
 struct PatchFit {
   std::vector<double> coefficients;
-  double forgotten = 0;  // distance along rays from which on points had no say; 0 if all had
+  double rejection = 0;  // distance along rays from which on points were rejected; 0 if none was
   bool solved = false;
 };
 
@@ -26,7 +26,7 @@ struct PatchScratch {
   bool rows_made = false;  // of the only block
 };
 
-// Points marked as ignored have no say, if there are any marks.
+// Points marked as ignored are left out, if there are any marks.
 PatchFit fit_patch_cap(const LocalMesh& local, const PatchCap& cap, bool robust,
                        std::span<const std::uint8_t> ignored, PatchScratch& scratch);
 

@@ -88,8 +88,8 @@ void Sums(const double* rows, const double* coefficients, int degree, std::size_
   }
 }
 
-void Silence(const double* offsets, std::size_t n, const double* at, double radius,
-             double* weights) {
+void ZeroWeightsWithin(const double* offsets, std::size_t n, const double* at, double radius,
+                       double* weights) {
   const D d;
   const V x = hn::Set(d, at[0]), y = hn::Set(d, at[1]), z = hn::Set(d, at[2]);
   const V square = hn::Set(d, radius * radius);
@@ -113,7 +113,7 @@ namespace {
 HWY_EXPORT(Rows);
 HWY_EXPORT(Sum);
 HWY_EXPORT(Sums);
-HWY_EXPORT(Silence);
+HWY_EXPORT(ZeroWeightsWithin);
 }  // namespace
 
 void patch_rows(const CapFrame& frame, int degree, const double* offsets, std::size_t n,
@@ -131,9 +131,9 @@ void patch_sums(const double* rows, const double* coefficients, int degree, std:
   HWY_DYNAMIC_DISPATCH(Sums)(rows, coefficients, degree, n, out, stride);
 }
 
-void patch_silence(const double* offsets, std::size_t n, const double* at, double radius,
-                   double* weights) {
-  HWY_DYNAMIC_DISPATCH(Silence)(offsets, n, at, radius, weights);
+void zero_weights_within(const double* offsets, std::size_t n, const double* at, double radius,
+                         double* weights) {
+  HWY_DYNAMIC_DISPATCH(ZeroWeightsWithin)(offsets, n, at, radius, weights);
 }
 
 }  // namespace rholm

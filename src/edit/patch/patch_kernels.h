@@ -58,7 +58,7 @@ void patch_sums(const double* rows, const double* coefficients, int degree, std:
                 double* out, std::size_t stride);
 
 // Weights of the points nearer than `radius` to (x, y, z) become 0; offsets as above.
-void patch_silence(const double* offsets, std::size_t n, const double* at, double radius,
-                   double* weights);
+void zero_weights_within(const double* offsets, std::size_t n, const double* at, double radius,
+                         double* weights);
 
 }  // namespace rholm

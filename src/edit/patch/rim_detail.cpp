@@ -23,7 +23,7 @@ struct Rim {
 
 Rim make_rim(const Site& site, const Blend& blend) {
   const auto known = [&](std::uint32_t v) {
-    return site.ignored[v] != 0 || (site.weights[v] > 0 && blend.voices[blend.row[v]] > 0);
+    return site.ignored[v] != 0 || (site.weights[v] > 0 && blend.weight_sums[blend.row[v]] > 0);
   };
   Rim rim;
   for (std::uint32_t i = 0; i < site.ignored.size(); ++i) {

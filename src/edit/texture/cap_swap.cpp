@@ -23,7 +23,7 @@ FittedCap fit_region(const TexturedPatch& textured, PatchScratch& scratch) {
     const std::uint32_t row = textured.row[i];
     if (row == kNoRow || textured.patch.weights[row] < 1) continue;
     fitted.cap.points.push_back(i);
-    fitted.cap.voices.push_back(1);
+    fitted.cap.blend_weights.push_back(1);
   }
   fitted.cap.degree = kMaxSwapDegree;
   while (fitted.cap.degree > 0 && 1.5 * static_cast<double>(patch_basis(fitted.cap.degree)) >

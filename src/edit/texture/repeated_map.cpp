@@ -185,10 +185,10 @@ double length_of_change(const DetailMap& map) {
   return slopes > 0 ? std::sqrt(heights / slopes) : 0;
 }
 
-// How much the tile at 0 has to say, its outline faded: boxes along the three directions of the
+// The blend weight of the tile at 0, its outline faded: boxes along the three directions of the
 // lattice, twice, are round enough.
-Plane voices_of(const std::vector<Place2>& outline, const TileLattice& lattice, int n,
-                double fade) {
+Plane blend_weights_of(const std::vector<Place2>& outline, const TileLattice& lattice, int n,
+                       double fade) {
   Plane plane;
   plane.n = n;
   plane.reach = n + n / 4;  // tiles reach 1.04, the fade 0.05 beyond
@@ -240,20 +240,21 @@ RepeatedMap repeat(const DetailMap& map) {
   const int n = static_cast<int>(std::clamp(std::ceil(wanted), 16.0, 1.0 * kMostSamples));
   repeated.n = n;
   const double fade = std::min(kWidestFade, kFade * length_of_change(map));
-  const Plane voices = voices_of(outline_of(map, repeated.lattice), repeated.lattice, n, fade);
+  const Plane weights =
+      blend_weights_of(outline_of(map, repeated.lattice), repeated.lattice, n, fade);
   repeated.values.assign(static_cast<std::size_t>(n * n), 0);
-  std::vector<double> said(repeated.values.size(), 0);
-  for (int j = -voices.reach; j <= voices.reach; ++j) {
-    for (int i = -voices.reach; i <= voices.reach; ++i) {
-      const double voice = voices.values[voices.index(i, j)];
-      if (!(voice > 0)) continue;
+  std::vector<double> weight_sums(repeated.values.size(), 0);
+  for (int j = -weights.reach; j <= weights.reach; ++j) {
+    for (int i = -weights.reach; i <= weights.reach; ++i) {
+      const double weight = weights.values[weights.index(i, j)];
+      if (!(weight > 0)) continue;
       const auto at = static_cast<std::size_t>((j + 2 * n) % n * n + (i + 2 * n) % n);
-      repeated.values[at] += voice * map((1.0 * i / n) * a + (1.0 * j / n) * b);
-      said[at] += voice;
+      repeated.values[at] += weight * map((1.0 * i / n) * a + (1.0 * j / n) * b);
+      weight_sums[at] += weight;
     }
   }
-  for (std::size_t i = 0; i < said.size(); ++i) {
-    if (said[i] > 0) repeated.values[i] /= said[i];
+  for (std::size_t i = 0; i < weight_sums.size(); ++i) {
+    if (weight_sums[i] > 0) repeated.values[i] /= weight_sums[i];
   }
   return repeated;
 }

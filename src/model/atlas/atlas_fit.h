@@ -23,7 +23,7 @@ std::size_t n_wrong_handles(const Topology& found, const std::optional<Topology>
 // caps: handles are seen as if by chance, and with h in one grid another has none in about exp(-h).
 constexpr std::size_t kFewHandles = 3;
 
-// How far caps speak, of the support they were chosen with, and the power of it that small ones
+// Radii of supports over those that caps were chosen with, and the power of them that small ones
 // override large ones by.
 struct Overlap {
   double reach = 1, power = 1;

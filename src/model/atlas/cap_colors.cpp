@@ -59,10 +59,10 @@ std::uint32_t nearest_cap(const Atlas& atlas, const Vec3& x) {
 
 }  // namespace
 
-std::vector<std::uint32_t> loudest_caps(const Atlas& atlas, const std::vector<Vec3>& points,
-                                        const Context& context) {
-  std::vector<std::uint32_t> loudest(points.size(), kNoCap);
-  if (points.empty()) return loudest;
+std::vector<std::uint32_t> dominant_caps(const Atlas& atlas, const std::vector<Vec3>& points,
+                                         const Context& context) {
+  std::vector<std::uint32_t> dominant(points.size(), kNoCap);
+  if (points.empty()) return dominant;
   const PointTree tree(points, context);
   std::vector<Vec3> ordered;
   for (const std::uint32_t i : tree.order()) ordered.push_back(points[i]);
@@ -70,18 +70,18 @@ std::vector<std::uint32_t> loudest_caps(const Atlas& atlas, const std::vector<Ve
   const double band = atlas.band > 0 ? atlas.band : INFINITY;
   for (std::uint32_t c = 0; c < atlas.caps.size(); ++c) {
     const Cap& cap = atlas.caps[c];
-    const CapVoice voice = voice_of(cap, atlas.coefficients_of(cap), tree, ordered, band);
-    for (std::size_t i = 0; i < voice.samples.size(); ++i) {
-      const std::uint32_t at = tree.order()[voice.samples[i]];
-      if (voice.weights[i] <= best[at]) continue;
-      best[at] = voice.weights[i];
-      loudest[at] = c;
+    const CapWeights own = weights_of(cap, atlas.coefficients_of(cap), tree, ordered, band);
+    for (std::size_t i = 0; i < own.samples.size(); ++i) {
+      const std::uint32_t at = tree.order()[own.samples[i]];
+      if (own.weights[i] <= best[at]) continue;
+      best[at] = own.weights[i];
+      dominant[at] = c;
     }
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (loudest[i] == kNoCap) loudest[i] = nearest_cap(atlas, points[i]);
+    if (dominant[i] == kNoCap) dominant[i] = nearest_cap(atlas, points[i]);
   }
-  return loudest;
+  return dominant;
 }
 
 namespace {

@@ -35,7 +35,7 @@ constexpr double kStepOfError = 2;
 constexpr double kSuspicious = 1e-3;
 constexpr double kDisagreeing = 0.04, kDisagreeingNoisy = 0.08;
 // Standard deviations of the noise within which caps are averaged: one that is off by as much must
-// not be heard alone.
+// not count alone.
 constexpr double kBandOfNoise = 3;
 
 // Of a point with its normal, its part of trees and caps: measured on 50 000 to 500 000.

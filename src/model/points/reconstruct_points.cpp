@@ -172,7 +172,7 @@ void WorkingPoints::carry_attributes(Mesh& mesh, const Context& context) const {
     std::vector<Neighbor> near;
     std::vector<double> weights;
     const auto blended = [&](const Attribute& attribute) {
-      // Where a scanner had no value there may be no number: the others speak alone.
+      // Where a scanner had no value there may be no number: the others count alone.
       double value = 0, sum = 0;
       for (std::size_t j = 0; j < near.size(); ++j) {
         const double own = attribute.values[tree_->order()[near[j].index]];

@@ -111,7 +111,7 @@ std::string levels_section(const AtlasData& data, const Context& context) {
 std::string caps_section(const AtlasData& data, const Context& context) {
   Mesh colored = data.levels.back().mesh;
   const Atlas& atlas = data.model.atlas;
-  set_cap_colors(colored.attributes, atlas, loudest_caps(atlas, colored.vertices, context));
+  set_cap_colors(colored.attributes, atlas, dominant_caps(atlas, colored.vertices, context));
   Panel panel = panel_of(colored, true);
   panel.colors = vertex_colors(colored);
   const std::vector<Picture> sides =

@@ -14,7 +14,7 @@ namespace rholm {
 namespace {
 
 constexpr double kMostPoints = 20000;  // of a cap: bounds memory for odd resolutions
-constexpr double kLeastShare = 1e-3;   // of a point's area: less says nothing
+constexpr double kLeastShare = 1e-3;   // of a point's area: less does not matter
 
 struct Feet {
   std::vector<Vec3> points, normals;
@@ -81,17 +81,17 @@ AtlasDipoles spread_dipoles(const Atlas& atlas, double spacing, double band,
   const PointTree tree(points, context);
   std::vector<Vec3> ordered;
   for (const std::uint32_t i : tree.order()) ordered.push_back(points[i]);
-  std::vector<CapVoice> voices(atlas.caps.size());
-  parallel_for(voices.size(), 16, context, {}, [&](std::size_t begin, std::size_t end) {
+  std::vector<CapWeights> of_caps(atlas.caps.size());
+  parallel_for(of_caps.size(), 16, context, {}, [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) {
-      voices[c] =
-          voice_of(atlas.caps[c], atlas.coefficients_of(atlas.caps[c]), tree, ordered, band);
+      of_caps[c] =
+          weights_of(atlas.caps[c], atlas.coefficients_of(atlas.caps[c]), tree, ordered, band);
     }
   });
   std::vector<double> weights(points.size());
-  for (const CapVoice& voice : voices) {
-    for (std::size_t i = 0; i < voice.samples.size(); ++i) {
-      weights[tree.order()[voice.samples[i]]] += voice.weights[i];
+  for (const CapWeights& own : of_caps) {
+    for (std::size_t i = 0; i < own.samples.size(); ++i) {
+      weights[tree.order()[own.samples[i]]] += own.weights[i];
     }
   }
   std::size_t next = 0;

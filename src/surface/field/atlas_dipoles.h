@@ -9,15 +9,16 @@
 
 namespace rholm {
 
-// What an atlas says to those that ask where no cap speaks: foot points for the borders of holes,
-// and dipoles for the winding number, area_normals[i] at feet[i].at.
+// What takes the place of an atlas's potential where no cap has a weight: foot points for the
+// borders of holes, and dipoles for the winding number, area_normals[i] at feet[i].at.
 struct AtlasDipoles {
   std::vector<FootPoint> feet;
   std::vector<Vec3> points, area_normals;
 };
 
-// Points about `spacing` apart on each cap's surface, where it speaks within `band` of itself;
-// where several caps speak they share the area by their weights. A support is the spacing at most.
+// Points about `spacing` apart on each cap's surface, where it has a weight within `band` of
+// itself; where several caps have one they share the area by their weights. A support is the
+// spacing at most.
 AtlasDipoles spread_dipoles(const Atlas& atlas, double spacing, double band,
                             const Context& context);
 

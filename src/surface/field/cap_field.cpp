@@ -50,8 +50,8 @@ HWY_INLINE V WeightAt(D d, bool spline, V near) {
   return hn::IfThenElse(hn::Lt(square, hn::Set(d, 1.0f / 9)), inner, outer);
 }
 
-// What a cap says at points: potential and weight, and the normal in space where asked for.
-struct Said {
+// A cap's potential and blend weight at points, and the normal in space where asked for.
+struct Contribution {
   V g, w;
   V nx, ny, nz;
 };
@@ -82,26 +82,26 @@ HWY_INLINE Place PlaceOf(D d, const LaneCap& lane, V px, V py, V pz) {
 }
 
 template <bool kNormals>
-HWY_INLINE void Say(D d, const CapLane& cap, const Place& place, Said& said) {
+HWY_INLINE void Contribute(D d, const CapLane& cap, const Place& place, Contribution& own) {
   const V one = hn::Set(d, 1.0f);
   const CapRay<V> ray = RayTo(d, cap.frame, place.at);
   const OpenedPlace<V> opened = Open(d, cap.frame, ray);
   const LowSum<V> phi = SumLowHarmonics(d, cap.degree, cap.even, cap.coefficients, opened.at);
   const CapLevel<V> here = LevelOf(d, cap.frame, opened, phi);
-  said.g = Potential(d, cap.frame, ray, here);
-  const V band = hn::Mul(said.g, hn::Set(d, cap.inverse_band));
+  own.g = Potential(d, cap.frame, ray, here);
+  const V band = hn::Mul(own.g, hn::Set(d, cap.inverse_band));
   const V rest = hn::NegMulAdd(band, band, one);
-  const M speaks =
+  const M counts =
       hn::And(hn::And(place.within, hn::Gt(rest, hn::Zero(d))), HasPotential(d, ray, here));
-  said.w = hn::IfThenElseZero(speaks, hn::Mul(WeightAt(d, cap.spline, place.near),
-                                              hn::Mul(hn::Set(d, cap.trust), hn::Mul(rest, rest))));
-  if (cap.noisy) said.w = hn::Mul(said.w, hn::Mul(here.flatness, here.flatness));
-  said.g = hn::IfThenElseZero(speaks, said.g);
+  own.w = hn::IfThenElseZero(counts, hn::Mul(WeightAt(d, cap.spline, place.near),
+                                             hn::Mul(hn::Set(d, cap.trust), hn::Mul(rest, rest))));
+  if (cap.noisy) own.w = hn::Mul(own.w, hn::Mul(here.flatness, here.flatness));
+  own.g = hn::IfThenElseZero(counts, own.g);
   if constexpr (kNormals) {
     const Lanes3<V> normal = NormalOf(d, DirectionOf(d, ray), opened, here);
-    said.nx = hn::IfThenElseZero(speaks, FromFrame(d, cap.frame, 0, normal));
-    said.ny = hn::IfThenElseZero(speaks, FromFrame(d, cap.frame, 1, normal));
-    said.nz = hn::IfThenElseZero(speaks, FromFrame(d, cap.frame, 2, normal));
+    own.nx = hn::IfThenElseZero(counts, FromFrame(d, cap.frame, 0, normal));
+    own.ny = hn::IfThenElseZero(counts, FromFrame(d, cap.frame, 1, normal));
+    own.nz = hn::IfThenElseZero(counts, FromFrame(d, cap.frame, 2, normal));
   }
 }
 
@@ -131,7 +131,7 @@ void FillBlock(const CapLane* caps, const std::uint32_t* list, std::size_t n_cap
                std::uint64_t* doubtful) {
   const D d;
   const hn::RebindToSigned<D> di;
-  alignas(64) float sum_g[512], sum_w[512], said_g[16], said_w[16];
+  alignas(64) float sum_g[512], sum_w[512], own_g[16], own_w[16];
   std::int32_t chosen[512 + 16];
   for (std::size_t i = 0; i < 512; i += hn::Lanes(d)) {
     hn::Store(hn::Zero(d), d, sum_g + i);
@@ -149,14 +149,14 @@ void FillBlock(const CapLane* caps, const std::uint32_t* list, std::size_t n_cap
       };
       const Place place = PlaceOf(d, lane, coordinate(index), coordinate(hn::ShiftRight<3>(index)),
                                   coordinate(hn::ShiftRight<6>(index)));
-      Said said{};
-      Say<false>(d, cap, place, said);
-      hn::Store(hn::Mul(said.w, said.g), d, said_g);
-      hn::Store(said.w, d, said_w);
+      Contribution own{};
+      Contribute<false>(d, cap, place, own);
+      hn::Store(hn::Mul(own.w, own.g), d, own_g);
+      hn::Store(own.w, d, own_w);
       const std::size_t end = std::min(n - first, hn::Lanes(d));
       for (std::size_t k = 0; k < end; ++k) {
-        sum_g[chosen[first + k]] += said_g[k];
-        sum_w[chosen[first + k]] += said_w[k];
+        sum_g[chosen[first + k]] += own_g[k];
+        sum_w[chosen[first + k]] += own_w[k];
       }
     }
   }
@@ -176,8 +176,9 @@ void FillBlock(const CapLane* caps, const std::uint32_t* list, std::size_t n_cap
 }
 
 // The same at scattered points, in steps from the origin; sums of w g, w and w n, five rows.
-void SayAt(const CapLane* caps, const std::uint32_t* list, std::size_t n_caps, const Vec3& origin,
-           double step, const float* points, std::size_t n, std::size_t stride, float* sums) {
+void ContributeAt(const CapLane* caps, const std::uint32_t* list, std::size_t n_caps,
+                  const Vec3& origin, double step, const float* points, std::size_t n,
+                  std::size_t stride, float* sums) {
   const D d;
   for (std::size_t row = 0; row < 5; ++row) {
     for (std::size_t i = 0; i < n; i += hn::Lanes(d))
@@ -190,17 +191,17 @@ void SayAt(const CapLane* caps, const std::uint32_t* list, std::size_t n_caps, c
           PlaceOf(d, lane, hn::Load(d, points + i), hn::Load(d, points + stride + i),
                   hn::Load(d, points + 2 * stride + i));
       if (hn::AllFalse(d, place.within)) continue;
-      Said said{};
-      Say<true>(d, lane.cap, place, said);
+      Contribution own{};
+      Contribute<true>(d, lane.cap, place, own);
       const auto add = [&](std::size_t row, V value) HWY_ATTR {
         float* const at = sums + row * stride + i;
-        hn::Store(hn::MulAdd(said.w, value, hn::Load(d, at)), d, at);
+        hn::Store(hn::MulAdd(own.w, value, hn::Load(d, at)), d, at);
       };
-      add(0, said.g);
+      add(0, own.g);
       add(1, hn::Set(d, 1.0f));
-      add(2, said.nx);
-      add(3, said.ny);
-      add(4, said.nz);
+      add(2, own.nx);
+      add(3, own.ny);
+      add(4, own.nz);
     }
   }
 }
@@ -213,7 +214,7 @@ HWY_AFTER_NAMESPACE();
 namespace rholm {
 namespace {
 HWY_EXPORT(FillBlock);
-HWY_EXPORT(SayAt);
+HWY_EXPORT(ContributeAt);
 
 NodeTable make_nodes() {
   NodeTable nodes{};
@@ -418,7 +419,7 @@ void project_vertices(const Atlas& atlas, const CapLists& lists, const BlockGrid
                      rows.points[rows.stride + i] = static_cast<float>(p.y);
                      rows.points[2 * rows.stride + i] = static_cast<float>(p.z);
                    }
-                   HWY_DYNAMIC_DISPATCH(SayAt)
+                   HWY_DYNAMIC_DISPATCH(ContributeAt)
                    (lanes.caps.data(), lists.caps.data() + lists.first[b],
                     lists.first[b + 1] - lists.first[b], origin, grid.step, rows.points.data(), n,
                     rows.stride, rows.sums.data());

@@ -12,7 +12,7 @@
 
 namespace rholm {
 
-// Nodes within so many steps of a cap hear it.
+// A cap has a weight at nodes within so many steps of it.
 inline constexpr double kBandSteps = 2.5;
 // The same as a length: at least Atlas::band.
 double band_of(const Atlas& atlas, double step);
@@ -24,7 +24,7 @@ struct CapLists {
   std::vector<std::uint32_t> caps;
 };
 
-// The part of space that a cap speaks for.
+// The part of space in a cap's support.
 std::vector<Disc> discs_of(const Atlas& atlas, double step);
 CapLists list_caps(const BlockGrid& grid, const std::vector<Disc>& discs);
 

@@ -14,14 +14,14 @@ struct CapLane {
   Vec3 middle;  // of the ellipse
   LaneFrame<float> frame;
   float px, py, xx, xy2, yy, hh;  // CapSupport, hh = 1 / support^2
-  float box[3];  // half extents of the part of space where it speaks, about the ellipse's middle
+  float box[3];  // half extents of the part of space in its support, about the ellipse's middle
   float reach;   // from the tangent plane: nodes beyond cannot be within the band
   float inverse_band;  // 1 / T
   float trust;         // times the weight: less for a cap that fits its points worse
   int degree;
   bool even;
   bool spline;  // CapBlend::kSpline
-  bool noisy;   // less is heard of it where it leans
+  bool noisy;   // its weight falls where it leans
   const float* coefficients;
 };
 
@@ -29,7 +29,7 @@ struct CapLane {
 struct NodeRange {
   std::size_t first_y = 0, end_y = 8, first_z = 0, end_z = 8;
 };
-// Those where a cap may speak. `origin` is the block's first node.
+// Those that may be in a cap's support. `origin` is the block's first node.
 NodeRange nodes_near(const CapLane& cap, const Vec3& origin, double step);
 
 // Nodes of a block in their order.

@@ -175,8 +175,8 @@ Closing close_grid(BlockGrid& grid, const NodeValues& values, std::size_t max_bl
   }
 }
 
-std::size_t forget_refuted(BlockGrid& grid, std::span<const std::uint64_t> doubtful,
-                           const WindingTree& tree, const Context& context) {
+std::size_t clear_refuted(BlockGrid& grid, std::span<const std::uint64_t> doubtful,
+                          const WindingTree& tree, const Context& context) {
   std::vector<float*> values;
   std::vector<Vec3> places;
   for (std::size_t word = 0; word < doubtful.size(); ++word) {
@@ -187,14 +187,14 @@ std::size_t forget_refuted(BlockGrid& grid, std::span<const std::uint64_t> doubt
     }
   }
   const std::vector<double> w = tree.winding(places, context, kRefutingOpening);
-  std::size_t forgotten = 0;
+  std::size_t cleared = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double inside = *values[i] < 0 ? w[i] : 1 - w[i];
     if (inside >= 0.5 - kRefuted) continue;
     *values[i] = BlockGrid::kUnknown;
-    ++forgotten;
+    ++cleared;
   }
-  return forgotten;
+  return cleared;
 }
 
 double winding_value(double winding, double step) { return (0.5 - winding) * 2 * step; }

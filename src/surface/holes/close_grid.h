@@ -30,11 +30,11 @@ struct Closing {
 Closing close_grid(BlockGrid& grid, const NodeValues& values, std::size_t max_blocks,
                    const Context& context = {});
 
-// Forgets doubtful values (one bit per node, 8 words per block) that the winding number refutes: it
+// Clears doubtful values (one bit per node, 8 words per block) that the winding number refutes: it
 // is sure of the other side. A cap that ends beyond a sharp edge or a thin tip has such, and makes
 // horns of them. Returns their number.
-std::size_t forget_refuted(BlockGrid& grid, std::span<const std::uint64_t> doubtful,
-                           const WindingTree& tree, const Context& context = {});
+std::size_t clear_refuted(BlockGrid& grid, std::span<const std::uint64_t> doubtful,
+                          const WindingTree& tree, const Context& context = {});
 
 // (1/2 - w) 2 step: one step where the winding number is sure. In a hole it crosses zero over the
 // hole's own size, so only its sign and its zero mean something.

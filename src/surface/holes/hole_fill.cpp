@@ -277,7 +277,7 @@ NodeValues smooth_values(const std::vector<Fill>& fills, const WindingTree& tree
   };
 }
 
-void forget(BlockGrid& grid, const Hole& hole) {
+void clear(BlockGrid& grid, const Hole& hole) {
   for (const NodeId& id : hole.nodes) {
     grid.block_values(id.block)[id.node] = BlockGrid::kUnknown;
     grid.filled[8 * std::size_t{id.block} + (id.node >> 6)] &=
@@ -338,7 +338,7 @@ HoleFilling fill_holes(BlockGrid& grid, std::span<const FootPoint> feet, const W
   if (fills.empty()) return result;
   const NodeValues values = smooth_values(fills, tree, grid.step, context);
   for (const Fill& fill : fills) {
-    forget(grid, fill.hole);
+    clear(grid, fill.hole);
     result.filled_nodes -= fill.hole.nodes.size();
   }
   if (options.support) hand_over(grid, fills, options.support, values);

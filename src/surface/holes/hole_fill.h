@@ -1,4 +1,4 @@
-// Smooth values where only the winding number speaks (method 7.10). Layer: surface.
+// Smooth values where there is only the winding number (method 7.10). Layer: surface.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 namespace rholm {
 
 // The surface near a hole, as a cap has it: a point of the cap's surface, its unit outward normal
-// there, and the radius within which the cap speaks.
+// there, and the radius of its cap's support.
 struct FootPoint {
   Vec3 at;
   Vec3 normal;

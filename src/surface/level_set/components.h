@@ -16,7 +16,7 @@ struct DroppedComponents {
 
 // Drops components (of triangles connected through vertices) whose area is below `least_share` of
 // the largest area, and closed ones whose enclosed volume is below least_share^(3/2) of the largest
-// volume: of bodies of one shape, both speak of the same size, but a flat bubble has little
+// volume: of bodies of one shape, the two agree, but a flat bubble has little
 // volume. 0 drops nothing. What is left keeps its order, vertices in no triangle go.
 DroppedComponents drop_small_components(Mesh& mesh, double least_share);
 DroppedComponents drop_small_components(ExtractedSurface& surface, double least_share);

@@ -1,5 +1,5 @@
-// Least squares on a cap and what a cap says. Oracles: surfaces made from coefficients by the sums
-// of harmonic.h, with normals from differences; the sphere.
+// Least squares on a cap, its potential and surface. Oracles: surfaces made from coefficients by
+// the sums of harmonic.h, with normals from differences; the sphere.
 #include "atlas/cap/cap_fit.h"
 
 #include <gtest/gtest.h>
@@ -246,7 +246,7 @@ TEST(CapFit, too_few_points_or_none_that_face_the_sphere_are_refused) {
   EXPECT_EQ(fit.usable, 0);
 }
 
-// ---- What a cap says ----
+// ---- Potential and surface ----
 
 TEST(CapEval, its_surface_is_that_of_the_coefficients) {
   const CapFrame frame = make_frame();

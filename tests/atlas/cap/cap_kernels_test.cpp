@@ -126,7 +126,7 @@ TEST(CapKernels, points_that_cannot_be_fitted_do_not_matter) {
   });
 }
 
-TEST(CapKernels, what_a_cap_says_at_a_point_does_not_depend_on_those_beside_it) {
+TEST(CapKernels, values_at_a_point_do_not_depend_on_those_beside_it) {
   const CapFrame frame = make_frame();
   Cap cap;
   cap.frame = frame;
@@ -135,7 +135,7 @@ TEST(CapKernels, what_a_cap_says_at_a_point_does_not_depend_on_those_beside_it) 
   for (std::size_t i = 0; i < coefficients.size(); ++i)
     coefficients[i] = random_in(-0.01, 0.01, 7, i);
   // Positions, normals, distances: seven rows, the length of each.
-  const auto say = [&](const CapPoints& points) {
+  const auto values = [&](const CapPoints& points) {
     const std::size_t stride = points.padded();
     std::vector<double> all(7 * stride);
     poison_scratch(std::span(all));
@@ -151,7 +151,7 @@ TEST(CapKernels, what_a_cap_says_at_a_point_does_not_depend_on_those_beside_it) 
       CapPoints alone;
       alone.add(points.offset(n - 1), points.normal(n - 1), 1);
       alone.pad();
-      const std::vector<double> all = say(points), one = say(alone);
+      const std::vector<double> all = values(points), one = values(alone);
       for (std::size_t row = 0; row < 7; ++row) {
         EXPECT_EQ(all[row * points.padded() + n - 1], one[row * alone.padded()]) << target << n;
       }

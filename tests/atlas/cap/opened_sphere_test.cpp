@@ -21,7 +21,7 @@
 #ifndef RHOLM_OPENED_SPHERE_TEST_ROWS
 #define RHOLM_OPENED_SPHERE_TEST_ROWS
 namespace rholm::test {
-// What the kernel says of a point, one row of each.
+// What the kernel gives at a point, one row of each.
 enum Row {
   kX,
   kY,

@@ -44,7 +44,7 @@ TEST(CapCover, every_point_of_a_sphere_lies_within_a_cap_and_on_it) {
   const Ordered points = ordered(test::sphere_points(10000));
   const Cover made = cover(points.view(), {}, {});
   EXPECT_EQ(made.rejected.size(), 0U);
-  std::vector<char> heard(10000, 0);
+  std::vector<char> covered(10000, 0);
   double area = 0;
   for (const Cap& cap : made.caps) {
     EXPECT_LT(cap.error, kMissed * cap.frame.support);
@@ -56,12 +56,12 @@ TEST(CapCover, every_point_of_a_sphere_lies_within_a_cap_and_on_it) {
     for (const Neighbor& n : near) {
       const Vec3& p = points.points[n.index];
       if (place(cap, p - cap.frame.seed()) >= 1) continue;
-      heard[n.index] = 1;
+      covered[n.index] = 1;
       EXPECT_NEAR(evaluate(cap, coefficients_of(made, cap), p).distance, 0,
                   2 * kMissed * cap.frame.support);
     }
   }
-  EXPECT_EQ(std::count(heard.begin(), heard.end(), 1), 10000);
+  EXPECT_EQ(std::count(covered.begin(), covered.end(), 1), 10000);
   // Each point is in the area of one cap; discs of random points scatter by a fifth (24 points),
   // their mean over hundreds of caps hardly.
   EXPECT_NEAR(area, 4 * std::numbers::pi, 0.1 * 4 * std::numbers::pi);
@@ -130,7 +130,7 @@ PointCloud strip(double width, std::size_t n) {
   return cloud;
 }
 
-TEST(CapCover, caps_of_a_strip_are_silent_beside_it) {
+TEST(CapCover, caps_of_a_strip_have_no_weight_beside_it) {
   // One point wide: the 24 nearest points reach 12 widths to either side, where the thinnest
   // ellipse is 12 sqrt(0.1) = 3.8 widths from the middle; the 9 nearest 4.5, where it is 1.4.
   constexpr double kWidth = 0.004;

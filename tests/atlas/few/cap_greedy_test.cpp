@@ -146,7 +146,7 @@ TEST(prune, keeps_the_tolerance_and_drops_coefficients) {
     EXPECT_LT(report.coefficients, before);
     const Blend after = blend(atlas, levels.finest(), atlas.band, {});
     EXPECT_DOUBLE_EQ(after.rms, report.rms);
-    EXPECT_LT(static_cast<double>(after.silent), 0.02 * static_cast<double>(levels.size()));
+    EXPECT_LT(static_cast<double>(after.weightless), 0.02 * static_cast<double>(levels.size()));
   }
 }
 
@@ -220,7 +220,7 @@ TEST(prune, leaves_no_gaps_between_caps_of_random_samples) {
   Atlas atlas = atlas_of(cover, 10 * tolerance);
   prune(levels, {.tolerance = tolerance, .band = atlas.band, .stray = 3 * tolerance}, atlas, {});
   const Blend after = blend(atlas, levels.finest(), atlas.band, {});
-  EXPECT_LT(static_cast<double>(after.silent), 0.005 * static_cast<double>(levels.size()));
+  EXPECT_LT(static_cast<double>(after.weightless), 0.005 * static_cast<double>(levels.size()));
 }
 
 TEST(greedy_cover, cancels) {

@@ -81,7 +81,7 @@ double ledges(const Atlas& atlas, const SampleLevel& samples) {
     first[shares.blend.caps[0].samples[i]] = shares.blend.caps[0].distances[i];
   double sum = 0;
   std::size_t n = 0;
-  const CapVoice& second = shares.blend.caps[1];
+  const CapWeights& second = shares.blend.caps[1];
   for (std::size_t i = 0; i < second.samples.size(); ++i) {
     const double apart = second.distances[i] - first[second.samples[i]];
     if (std::isnan(apart)) continue;
@@ -99,9 +99,9 @@ TEST(shares_of, slopes_are_those_of_shares_along_the_surface) {
   const CapShares shares = shares_of(atlas, samples, atlas.band, {});
   std::size_t compared = 0;
   for (std::size_t c = 0; c < 2; ++c) {
-    const CapVoice& voice = shares.blend.caps[c];
-    for (std::size_t i = 0; i < voice.samples.size(); ++i) {
-      const Vec3 at = samples.points[voice.samples[i]], n = samples.normals[voice.samples[i]];
+    const CapWeights& own = shares.blend.caps[c];
+    for (std::size_t i = 0; i < own.samples.size(); ++i) {
+      const Vec3 at = samples.points[own.samples[i]], n = samples.normals[own.samples[i]];
       if (!(share(atlas, c, at) > 0.01 && share(atlas, c, at) < 0.99)) continue;
       const Vec3 u = normalized(cross(n, Vec3{0, 1, 0})), v = cross(n, u);
       const double h = 1e-5;
@@ -127,11 +127,11 @@ TEST(share_of_ledges, is_the_part_where_shares_change_fast_for_what_caps_disagre
   EXPECT_EQ(share_of_ledges(shares_of(same, samples, 1e3, {}), 1e-3), 0);
   const double slope = 0.1;
   atlas.caps[1].frame.center.z += 0.03;
-  std::size_t leaning = 0, heard = 0;
+  std::size_t leaning = 0, weighted = 0;
   for (const Vec3& at : samples.points) {
     const double own = share(atlas, 0, at);
     if (std::isnan(own)) continue;  // beyond both
-    ++heard;
+    ++weighted;
     if (!(own > 0 && own < 1)) continue;
     CapValue values[2];
     for (std::size_t c = 0; c < 2; ++c)
@@ -143,9 +143,9 @@ TEST(share_of_ledges, is_the_part_where_shares_change_fast_for_what_caps_disagre
     const double steepness = std::hypot(along({1, 0, 0}), along({0, 1, 0}));
     leaning += steepness * std::abs(values[0].distance - values[1].distance) > slope;
   }
-  EXPECT_GT(leaning, heard / 20);
+  EXPECT_GT(leaning, weighted / 20);
   EXPECT_NEAR(share_of_ledges(shares_of(atlas, samples, 1e3, {}), slope),
-              static_cast<double>(leaning) / static_cast<double>(heard), 0.01);
+              static_cast<double>(leaning) / static_cast<double>(weighted), 0.01);
 }
 
 TEST(agree, brings_caps_together_where_they_meet) {

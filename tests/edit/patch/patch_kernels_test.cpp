@@ -88,14 +88,14 @@ TEST(PatchKernels, sums_of_all_degrees_are_those_of_one_after_the_other) {
   });
 }
 
-TEST(PatchKernels, what_is_nearer_than_the_radius_is_silent) {
+TEST(PatchKernels, weights_within_the_radius_become_zero) {
   test::for_each_target([](const char* target) {
     SCOPED_TRACE(target);
     const std::size_t n = 8;
     std::vector<double> offsets(3 * n, 0), weights(n, 2);
     for (std::size_t i = 0; i < n; ++i) offsets[i] = static_cast<double>(i);
     const double at[3] = {2, 0, 0};
-    patch_silence(offsets.data(), n, at, 1.5, weights.data());
+    zero_weights_within(offsets.data(), n, at, 1.5, weights.data());
     EXPECT_EQ(weights, (std::vector<double>{2, 0, 0, 0, 2, 2, 2, 2}));
   });
 }

@@ -88,7 +88,7 @@ TEST(CloseGrid, a_hole_is_closed_by_the_winding_number) {
   }
 }
 
-TEST(CloseGrid, doubtful_values_on_the_wrong_side_are_forgotten) {
+TEST(CloseGrid, doubtful_values_on_the_wrong_side_become_unknown) {
   OpenSphere sphere = open_sphere(0, 0.04, 8000);
   const WindingTree tree(sphere.points, sphere.area_normals);
   BlockGrid& grid = sphere.grid;
@@ -109,7 +109,7 @@ TEST(CloseGrid, doubtful_values_on_the_wrong_side_are_forgotten) {
     }
   }
   EXPECT_GT(n_wrong, 1000U);
-  EXPECT_EQ(forget_refuted(grid, doubtful, tree), n_wrong);
+  EXPECT_EQ(clear_refuted(grid, doubtful, tree), n_wrong);
   for (std::size_t i = 0; i < expected.size(); ++i) {
     const float value = grid.block_values(i / BlockGrid::kNodes)[i % BlockGrid::kNodes];
     EXPECT_TRUE(value == expected[i] || (std::isnan(value) && std::isnan(expected[i]))) << i;
@@ -129,7 +129,7 @@ TEST(CloseGrid, a_side_is_refuted_beyond_0_15_from_a_half) {
     const float side = w < 0.5 ? -0.5F : 0.5F;  // what is less likely
     grid.block_values(0)[0] = side;
     const bool refuted = w < 0.35 || w > 0.65;
-    EXPECT_EQ(forget_refuted(grid, doubtful, tree), refuted ? 1U : 0U);
+    EXPECT_EQ(clear_refuted(grid, doubtful, tree), refuted ? 1U : 0U);
     EXPECT_EQ(std::isnan(grid.block_values(0)[0]), refuted);
   }
 }
