@@ -28,7 +28,9 @@ constexpr double kWidestBridge = 0.8;
 // A repair moves what is this near to what stands out, in wavelengths, and fades over the second
 // length: the flanks of a scratch stand out less than its middle.
 constexpr double kRepairCore = 0.25, kRepairReach = 0.25;
-constexpr double kRounding = 1e-6;
+// What lies off a fit by no more than this part of the wavelength does not stand out of it, however
+// exact the fit (chosen: far below any detail, far above the rounding of coordinates).
+constexpr double kLeastOutstanding = 1e-6;
 // Squares of squares of coordinates are formed.
 constexpr double kLargest = 1e70;
 
@@ -38,8 +40,7 @@ void keep_outstanding(const Blend& blend, double wavelength, Site& site) {
   for (std::size_t i = 0; i < distance.size(); ++i) {
     if (!(site.weights[i] > 0)) continue;
     const double off = norm(blend.moves[blend.row[i] * kPatchDegrees + kPatchDegree]);
-    // Fits that are exact reject nothing, but leave rounding.
-    const double enough = std::max(blend.rejection[blend.row[i]], kRounding * wavelength);
+    const double enough = std::max(blend.rejection[blend.row[i]], kLeastOutstanding * wavelength);
     if (off > enough) distance[i] = 0;
   }
   const double reach = kRepairReach * wavelength;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/parallel.h"
+#include "base/rounding.h"
 #include "base/stopwatch.h"
 #include "rholm/error.h"
 #include "transform/geometry/star_geometry.h"
@@ -22,8 +23,8 @@ namespace {
 MethodOptions method_options(const StarGeometry& geometry, const AnalyzeOptions& options) {
   const MeanAndNorm scale = mean_and_norm(geometry, function_of(options.method));
   const double c00 = std::abs(scale.mean) * std::sqrt(4 * std::numbers::pi);
-  // Below the rounding of c_00 there is nothing to gain.
-  constexpr double kRounding = 1e-16;
+  // Below the rounding of c_00, of however exact a sum, there is nothing to gain.
+  constexpr double kRounding = rounding_of_sum(0);
   if (!std::isfinite(scale.norm) || !(c00 > 0)) {
     throw Error(ErrorCode::kInvalidInput,
                 "no direction sees the surface from the centre: its faces have no area");

@@ -69,12 +69,12 @@ Series energy_series(const Data& data, const Expansion& expansion) {
                 .points = {}};
   // The square of the default precision of coefficients: below, as a rule where a symmetry makes
   // degrees vanish, energies are rounding, and lines down to them would hide the rest.
-  constexpr double kRounding = 1e-16;
+  constexpr double kLeastPart = 1e-8 * 1e-8;
   double whole = 0;
   std::size_t left_out = 0;
   for (std::size_t l = 1; l < data.energy.size(); ++l) whole += data.energy[l];
   for (std::size_t l = 1; l < data.energy.size(); ++l) {
-    if (data.energy[l] > kRounding * whole) {
+    if (data.energy[l] > kLeastPart * whole) {
       series.points.push_back({static_cast<double>(l), data.energy[l]});
     } else {
       ++left_out;

@@ -5,13 +5,14 @@
 #include <numbers>
 
 #include "base/compensated_sum.h"
+#include "base/rounding.h"
 
 namespace rholm {
 namespace {
 
-// Norms are sums of up to millions of terms, each exact to a few roundings, by compensated sums:
-// some ten roundings of the whole (chosen).
-constexpr double kRounding = 4e-15;
+// Norms are compensated sums of triangles' parts, each of which its rule may leave 4e-15 off
+// (exact_norms_rules.h): as much as 35 roundings.
+constexpr double kNormRounding = rounding_of_sum(35);
 
 double varying_norm(double norm_squared, const Coefficients& coefficients) {
   const double mean = coefficients.c(0, 0);
@@ -38,7 +39,7 @@ ParsevalRest parseval_rest(double norm_squared, const Coefficients& coefficients
   const double size = std::sqrt(varying.value());
   return {.value = rest.value(),
           .doubt = 2 * mean * errors.mean + errors.mean * errors.mean + 2 * size * errors.varying +
-                   errors.varying * errors.varying + kRounding * norm_squared};
+                   errors.varying * errors.varying + kNormRounding * norm_squared};
 }
 
 std::optional<double> rms_of(const ParsevalRest& rest, double least) {

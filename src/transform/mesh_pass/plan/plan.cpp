@@ -85,7 +85,7 @@ ErrorShares divide_error(const MeshSample& sample, double precision, double tigh
                 "no direction sees the surface from the centre: its faces have no area");
   }
   const double c00 = sample.mean * std::sqrt(4 * kPi);
-  const double allowed = std::max(precision * sample.norm, kRounding * c00) / tighten;
+  const double allowed = std::max(precision * sample.norm, kLumpRounding * c00) / tighten;
   ErrorShares shares;
   // Where sheets overlap the norm of their alternating sum is below what the sample says.
   shares.caution = sample.overlaps ? 1.5 : 1;
@@ -93,8 +93,8 @@ ErrorShares divide_error(const MeshSample& sample, double precision, double tigh
   shares.window = kWindowShare * allowed;
   shares.quanta = kQuantumShare * allowed;
   shares.most_window = lattice_share(sample.aligned) * precision / tighten;
-  shares.mean = std::max(precision, kRounding);
-  shares.rounding = 4 * kRounding * c00 / sample.scale;
+  shares.mean = std::max(precision, kLumpRounding);
+  shares.rounding = 4 * kLumpRounding * c00 / sample.scale;
   return shares;
 }
 

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "base/rounding.h"
 #include "rholm/mesh_view.h"
 #include "transform/mesh_pass/block/block.h"
 #include "transform/mesh_pass/plan/lumping.h"
@@ -17,8 +18,9 @@
 
 namespace rholm {
 
-// Rounding of the double sums against c_00.
-inline constexpr double kRounding = 1e-15;
+// What double precision leaves of c_00. Lumps are whole quanta; a triangle's is the outcome of some
+// eight roundings: corners, their cross product, squares of lengths, a root, a quotient.
+inline constexpr double kLumpRounding = rounding_of_sum(8);
 
 // What a first try has taught.
 struct PlanLimits {

@@ -32,8 +32,8 @@ TEST(divide_error, shares_add_up_in_squares_to_no_more_than_the_wish) {
 
 TEST(divide_error, asks_for_no_more_than_rounding_leaves) {
   const ErrorShares shares = divide_error(unit_sample(), 1e-30, 1);
-  EXPECT_GT(shares.rules, 0.1 * kRounding);
-  EXPECT_EQ(shares.mean, kRounding);
+  EXPECT_GT(shares.rules, 0.1 * kLumpRounding);
+  EXPECT_EQ(shares.mean, kLumpRounding);
 }
 
 TEST(divide_error, tightens_all_shares_alike) {
