@@ -38,6 +38,11 @@ StarGeometry star_geometry(const StarChart& chart);
 // Solid angle of a triangle seen from the origin (Van Oosterom and Strackee 1983), signed.
 double solid_angle(const std::array<Vec3, 3>& corners);
 
+// Below this d_T / r a triangle is taken out of (M6) and summed by bounded terms (method 3e). Those
+// have gradients, whose error in the windows of the fast sums is some 9 L times that of weights
+// (bench/window_bench): that much larger the terms of (M6), about r / d_T, may well be.
+double grazing_slope(int degree);
+
 // M_T v = int_T u (u . v) dOmega
 //       = (Omega/3) v - (1/6) sum_edges (nu (w.v) + w (nu.v)), (M5), nu = -N.
 Vec3 second_moment(const std::array<Vec3, 3>& corners, double omega, const Vec3& v);

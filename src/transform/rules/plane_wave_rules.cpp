@@ -3,27 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "rholm/harmonic.h"
 
 namespace rholm {
 namespace {
 
-constexpr double kBend = 0.6;  // see Extent
-// On spheres, ellipsoids and bumpy bodies of up to 80 000 faces, L = 1 ... 64; adversarial_test
-// judges.
-constexpr double kInStep = 1.2;
-constexpr double kMostInStep = 50;  // chosen: edges seen end on have no extent at all
-constexpr int kMaxEdgeNodes = 24;   // pieces of extent up to about 30 at any precision
+constexpr double kBend = 0.6;      // see Extent
+constexpr int kMaxEdgeNodes = 24;  // pieces of extent up to about 30 at any precision
 constexpr int kMaxProductOrder = 14;
-
-// l2 factor over the degrees; undivided, sum (2l+1)/(4 pi) (l/L)^2p = L^2 / (4 pi (p + 1)).
-double degree_factor(const NodeAllowance& allowance, double p) {
-  if (allowance.degree == 0 && !allowance.divided) return 1;  // what is asked for is the integral
-  const double l = std::max(allowance.degree, 1);
-  return allowance.divided ? std::sqrt(1 / (4 * std::numbers::pi * (p - 1))) / l
-                           : std::sqrt(1 / (4 * std::numbers::pi * (p + 1))) * (l + 1);
-}
 
 // Gauss's rule of n nodes on an edge: (n!)^4 / ((2n+1) ((2n)!)^3) z^2n (remainder term), times the
 // root mean square of cos^2n over directions: 0.61 for n = 1, 0.52 for n = 2, then less.
@@ -195,11 +184,6 @@ double in_row(const Extent& z, int p) {
 
 }  // namespace
 
-double neighbours_in_step(double wave2) {
-  if (wave2 >= kInStep * kInStep) return 1;
-  return std::min(kMostInStep, kInStep / std::sqrt(wave2));
-}
-
 EdgeRule edge_rule(const NodeAllowance& allowance, const Extent& z, double weight) {
   const auto& rules = segment_rules();
   const std::vector<double>& factors = factors_for(allowance).edge;
@@ -222,36 +206,6 @@ FaceRule face_rule(const NodeAllowance& allowance, const Extent& z, double weigh
     if (left <= allowance.error) return {rules[k].nodes, left};
   }
   return {};
-}
-
-namespace {
-
-// Beyond z^2 of this, the derivatives of a rule weigh as much as its values.
-constexpr HermiteReach kFarthest = {30, 120};
-
-template <typename Rules, typename Units>
-HermiteReach reach_of(const Rules& rules, const Units& units, double error) {
-  HermiteReach reach;
-  for (std::size_t k = 0; k < reach.size(); ++k) {
-    reach[k] = std::min(kFarthest[k], std::pow(error / units[k], 2.0 / rules[k].power));
-  }
-  reach[1] = std::max(reach[0], reach[1]);
-  return reach;
-}
-
-}  // namespace
-
-HermiteReach hermite_edge_reach(double error) {
-  return reach_of(kHermiteEdges, kHermiteEdgeUnits, error);
-}
-HermiteReach hermite_face_reach(double error) {
-  return reach_of(kHermiteFaces, kHermiteFaceUnits, error);
-}
-
-double grazing_slope(int degree) { return std::min(0.25, 1.0 / (8 * std::max(degree, 1))); }
-
-double lumping_error(int degree) {
-  return kLumpingConstant * degree_factor({.degree = degree, .error = 0, .divided = true}, 4);
 }
 
 }  // namespace rholm

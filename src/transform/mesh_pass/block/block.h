@@ -4,7 +4,7 @@
 //   n = e_01 x e_02,  d2 = n . p_0,  W_ij = n . (p_i x p_j) / d2,  F = -n . n / d2.
 // Lumped at the vertices by Hermite's rule (VG): the weight 1/2 (W of both half-edges) + F/3 and
 // the gradient (W/12 + F/24) e for both edge vectors e that leave the vertex. With Hessians (VGH)
-// by the rules of plane_wave_rules.h, which have nodes between the vertices where edges are long.
+// by the rules of hermite_rules.h, which have nodes between the vertices where edges are long.
 //
 // Lumps are rounded to whole multiples of a quantum, so that their sums are exact: the same in any
 // order and for any number of threads.
@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "rholm/mesh_view.h"
-#include "transform/rules/plane_wave_rules.h"
+#include "transform/rules/hermite_rules.h"
 
 namespace rholm {
 
@@ -76,7 +76,7 @@ struct TriangleBlock {
   static constexpr std::size_t kSize = kTrianglesPerBlock;
   alignas(64) std::uint32_t hash[3][kSize];
   alignas(64) double corner[3][3][kSize];  // [corner][x, y, z], relative to the centre, scaled
-  // Of lumping, see lumping_error() in plane_wave_rules.h: W z^4 of the half-edges, F z^4, and the
+  // Of lumping, see lumping_error() in hermite_rules.h: W z^4 of the half-edges, F z^4, and the
   // sum of their squares.
   alignas(64) double edge_error[3][kSize];
   alignas(64) double face_error[kSize];

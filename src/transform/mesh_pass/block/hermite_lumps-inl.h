@@ -1,5 +1,5 @@
 // Lumps of triangles at their corners, by Hermite's rules with gradients (VG) or Hessians as well
-// (VGH, plane_wave_rules.h), in whole quanta. Inner loops of block.cpp, compiled for each target.
+// (VGH, hermite_rules.h), in whole quanta. Inner loops of block.cpp, compiled for each target.
 #include <array>
 #include <cstddef>
 #include <cstdint>

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "transform/rules/hermite_rules.h"
+
 namespace rholm {
 
 double sampled_error2(std::vector<SampledHalfEdge>& sample, std::uint32_t sampled_names) {

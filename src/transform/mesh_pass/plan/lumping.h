@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "transform/mesh_pass/plan/sample.h"
-#include "transform/rules/plane_wave_rules.h"
+#include "transform/rules/hermite_rules.h"
 
 namespace rholm {
 

@@ -8,6 +8,8 @@
 #include "harmonic/nonuniform/cost_model.h"
 #include "harmonic/nonuniform/nonuniform.h"
 #include "rholm/error.h"
+#include "transform/geometry/star_geometry.h"
+#include "transform/rules/hermite_rules.h"
 
 namespace rholm {
 namespace {
@@ -72,7 +74,7 @@ BlockParameters block_parameters(const MeshView& mesh, const MeshSample& sample,
           // weights of neighbours cancel.
           .largest = std::exp2(plan.single ? 28 : 48),
           // Nothing makes up for their rounding: finer. Still they are smaller than weights
-          // by kFarthest of plane_wave_rules.cpp.
+          // by kFarthest of hermite_rules.cpp.
           .per_hessian = 4 * std::pow(std::max(degree, 1), 2) / quantum.size,
           .sampled_names = sampled_names(mesh.n_triangles)};
 }

@@ -14,7 +14,7 @@
 #include "transform/mesh_pass/block/block.h"
 #include "transform/mesh_pass/plan/lumping.h"
 #include "transform/mesh_pass/plan/sample.h"
-#include "transform/rules/plane_wave_rules.h"
+#include "transform/rules/error_model.h"
 
 namespace rholm {
 

@@ -8,7 +8,7 @@
 
 #include "transform/geometry/star_geometry.h"
 #include "transform/mesh_pass/block/block.h"
-#include "transform/rules/plane_wave_rules.h"
+#include "transform/rules/hermite_rules.h"
 
 namespace rholm {
 namespace {
