@@ -16,6 +16,7 @@
 #include "transform/mesh_pass/hermite_nodes.h"
 #include "transform/mesh_pass/plan/error_budget.h"
 #include "transform/mesh_pass/plan/plan.h"
+#include "transform/mesh_pass/scatter.h"
 #include "transform/mesh_pass/vertex_lumps.h"
 #include "transform/methods/sources.h"
 

@@ -13,7 +13,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "rholm/mesh_view.h"
 #include "transform/rules/hermite_rules.h"
@@ -122,18 +121,7 @@ template <typename T>
 void work_block(const MeshView& mesh, std::size_t first, std::size_t n,
                 const BlockParameters& parameters, TriangleBlock<T>& block, BlockSums& sums);
 
-// Appends the sampled half-edges of the block's first n triangles.
-template <typename T>
-void sample_half_edges(const TriangleBlock<T>& block, std::size_t n,
-                       std::vector<SampledHalfEdge>& sample);
-
 // The largest vertex index of n triangles from `first` on.
 std::uint32_t largest_index(const MeshView& mesh, std::size_t first, std::size_t n);
-
-// Adds the lumps of the block's first n triangles that are lumped; lumps_per_vertex(hessians) of a
-// vertex follow each other.
-template <typename T>
-void scatter_lumps(const MeshView& mesh, std::size_t first, std::size_t n, bool hessians,
-                   const TriangleBlock<T>& block, VertexLump<T>* vertices);
 
 }  // namespace rholm

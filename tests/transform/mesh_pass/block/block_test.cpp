@@ -309,59 +309,6 @@ TEST(mesh_block, lumps_with_hessians_are_exact_for_polynomials) {
   }
 }
 
-// Vertex sums of lumps, the blocks taken forwards or backwards.
-template <typename T>
-std::vector<VertexLump<T>> scattered(const Mesh& mesh, const Worked<T>& worked, bool backwards,
-                                     bool hessians = false) {
-  std::vector<VertexLump<T>> lumps(lumps_per_vertex(hessians) * mesh.vertices.size(),
-                                   VertexLump<T>{});
-  const std::size_t blocks = worked.blocks.size();
-  for (std::size_t k = 0; k < blocks; ++k) {
-    const std::size_t b = backwards ? blocks - 1 - k : k;
-    const std::size_t n =
-        std::min(kTrianglesPerBlock, mesh.triangles.size() - b * kTrianglesPerBlock);
-    scatter_lumps(view_of(mesh), b * kTrianglesPerBlock, n, hessians, *worked.blocks[b],
-                  lumps.data());
-  }
-  return lumps;
-}
-
-template <typename T>
-void expect_exact_sums(bool hessians) {
-  const Mesh mesh = test::rotated(bumpy_sphere(4));
-  BlockParameters parameters = parameters_about({0.1, 0.2, 0.1});
-  parameters.per_weight = parameters.per_gradient = 0x1p26;
-  if (hessians) with_rule(parameters, 0);
-  const Worked<T> worked = work<T>(view_of(mesh), parameters);
-  const auto forwards = scattered(mesh, worked, false, hessians);
-  const auto backwards = scattered(mesh, worked, true, hessians);
-  double sum = 0;
-  for (std::size_t i = 0; i < forwards.size(); ++i) {
-    for (int k = 0; k < 4; ++k) EXPECT_EQ(forwards[i].value[k], backwards[i].value[k]);
-    if (i % lumps_per_vertex(hessians) == 0) sum += static_cast<double>(forwards[i].value[0]);
-  }
-  // Each of the three corners of each triangle is rounded by half a quantum at most.
-  EXPECT_LT(std::abs(sum), 1.5 * static_cast<double>(mesh.triangles.size()));
-}
-
-TEST(mesh_block, sums_at_vertices_are_the_same_in_any_order) {
-  for (const bool hessians : {false, true}) {
-    expect_exact_sums<std::int32_t>(hessians);
-    expect_exact_sums<double>(hessians);
-  }
-}
-
-TEST(mesh_block, triangles_that_need_nodes_do_not_reach_the_vertices) {
-  const Mesh mesh = icosphere(2);
-  BlockParameters parameters = parameters_about({});
-  parameters.tolerance2 = 0;
-  const auto worked = work<double>(view_of(mesh), parameters);
-  EXPECT_EQ(worked.sums.nodes, mesh.triangles.size());
-  for (const auto& lump : scattered(mesh, worked, false)) {
-    for (const double value : lump.value) EXPECT_EQ(value, 0);
-  }
-}
-
 bool closes(const MeshView& mesh) {
   const BlockSums sums = work<double>(mesh, parameters_about({})).sums;
   return sums.hash1 == 0 && sums.hash2 == 0;

@@ -1,0 +1,101 @@
+#include "transform/mesh_pass/scatter.h"
+
+#include <bit>
+#include <cstring>
+#include <type_traits>
+
+namespace rholm {
+namespace {
+
+// Sums beyond 32 bits wrap around, which the pass finds out.
+template <typename T>
+void add_lump(const T* lump, T* sum) {
+  using Unit = std::conditional_t<sizeof(T) == 4, std::uint32_t, double>;
+  using Four [[gnu::vector_size(4 * sizeof(T))]] = Unit;
+  Four a, b;
+  std::memcpy(&a, sum, sizeof a);
+  std::memcpy(&b, lump, sizeof b);
+  a += b;
+  std::memcpy(sum, &a, sizeof a);
+}
+
+template <bool kHessians, typename T>
+void add_triangle(const std::byte* record, const TriangleBlock<T>& block, std::size_t t,
+                  VertexLump<T>* vertices) {
+  const std::size_t slot = lump_slot<T>(t);
+  for (int i = 0; i < 3; ++i) {
+    std::uint32_t corner;
+    std::memcpy(&corner, record + 4 * i, sizeof corner);
+    VertexLump<T>* vertex = vertices + lumps_per_vertex(kHessians) * corner;
+    add_lump(block.lump[i][slot].value, vertex[0].value);
+    if constexpr (kHessians) {
+      add_lump(block.hessian[0][i][slot].value, vertex[1].value);
+      add_lump(block.hessian[1][i][slot].value, vertex[2].value);
+    }
+  }
+}
+
+template <bool kHessians, typename T>
+void scatter(const std::byte* record, std::size_t stride, std::size_t n,
+             const TriangleBlock<T>& block, VertexLump<T>* vertices) {
+  for (std::size_t at = 0; at < n; at += 8, record += 8 * stride) {
+    std::uint64_t flags;
+    std::memcpy(&flags, block.flag + at, sizeof flags);
+    if (at + 8 <= n && flags == 0) {
+      for (std::size_t odd = 0; odd < 2; ++odd) {
+        const std::byte* one = record + odd * stride;
+#pragma GCC unroll 4
+        for (std::size_t t = odd; t < 8; t += 2, one += 2 * stride) {
+          add_triangle<kHessians>(one, block, at + t, vertices);
+        }
+      }
+      continue;
+    }
+    for (std::size_t t = 0; t < 8 && at + t < n; ++t) {
+      if ((block.flag[at + t] & kNodes) == 0) {
+        add_triangle<kHessians>(record + t * stride, block, at + t, vertices);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+template <typename T>
+void scatter_lumps(const MeshView& mesh, std::size_t first, std::size_t n, bool hessians,
+                   const TriangleBlock<T>& block, VertexLump<T>* vertices) {
+  const std::size_t stride = mesh.triangle_stride;
+  const std::byte* record = mesh.triangles + first * stride;
+  if (hessians) return scatter<true>(record, stride, n, block, vertices);
+  scatter<false>(record, stride, n, block, vertices);
+}
+
+template <typename T>
+void sample_half_edges(const TriangleBlock<T>& block, std::size_t n,
+                       std::vector<SampledHalfEdge>& sample) {
+  for (int i = 0; i < 3; ++i) {
+    const std::uint32_t *a = block.hash[i], *b = block.hash[i == 2 ? 0 : i + 1];
+    for (std::size_t first = 0; first < n; first += 64) {
+      std::uint64_t bits;
+      static_assert(std::endian::native == std::endian::little);
+      std::memcpy(&bits, block.sampled[i] + first / 8, sizeof bits);
+      for (; bits != 0; bits &= bits - 1) {
+        const std::size_t t = first + static_cast<std::size_t>(std::countr_zero(bits));
+        sample.push_back({.name = std::uint64_t{a[t] * b[t]} << 32 | (a[t] + b[t]),
+                          .error = block.edge_error[i][t],
+                          .lumped = (block.flag[t] & kNodes) == 0});
+      }
+    }
+  }
+}
+
+template void scatter_lumps(const MeshView&, std::size_t, std::size_t, bool,
+                            const TriangleBlock<std::int32_t>&, VertexLump<std::int32_t>*);
+template void scatter_lumps(const MeshView&, std::size_t, std::size_t, bool,
+                            const TriangleBlock<double>&, VertexLump<double>*);
+template void sample_half_edges(const TriangleBlock<std::int32_t>&, std::size_t,
+                                std::vector<SampledHalfEdge>&);
+template void sample_half_edges(const TriangleBlock<double>&, std::size_t,
+                                std::vector<SampledHalfEdge>&);
+
+}  // namespace rholm

@@ -1,0 +1,22 @@
+// What a block of worked triangles hands on: lumps to their vertices, and a sample of half-edges.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "transform/mesh_pass/block/block.h"
+
+namespace rholm {
+
+// Adds the lumps of the block's first n triangles that are lumped; lumps_per_vertex(hessians) of a
+// vertex follow each other.
+template <typename T>
+void scatter_lumps(const MeshView& mesh, std::size_t first, std::size_t n, bool hessians,
+                   const TriangleBlock<T>& block, VertexLump<T>* vertices);
+
+// Appends the sampled half-edges of the block's first n triangles.
+template <typename T>
+void sample_half_edges(const TriangleBlock<T>& block, std::size_t n,
+                       std::vector<SampledHalfEdge>& sample);
+
+}  // namespace rholm
