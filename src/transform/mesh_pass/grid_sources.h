@@ -9,7 +9,7 @@
 #include "harmonic/nonuniform/nonuniform.h"
 #include "rholm/coefficients.h"
 #include "transform/mesh_pass/block/block.h"
-#include "transform/mesh_pass/own_nodes.h"
+#include "transform/mesh_pass/node_sink.h"
 #include "transform/mesh_pass/plan/plan.h"
 #include "transform/mesh_pass/vertex_lumps.h"
 

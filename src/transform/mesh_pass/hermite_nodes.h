@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "transform/mesh_pass/block/block.h"
-#include "transform/mesh_pass/own_nodes.h"
+#include "transform/mesh_pass/node_sink.h"
 #include "transform/mesh_pass/twin_cache.h"
 
 namespace rholm {

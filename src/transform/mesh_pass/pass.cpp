@@ -14,6 +14,7 @@
 #include "shape/queries/triangle_order.h"
 #include "transform/mesh_pass/grid_sources.h"
 #include "transform/mesh_pass/hermite_nodes.h"
+#include "transform/mesh_pass/own_nodes.h"
 #include "transform/mesh_pass/plan/error_budget.h"
 #include "transform/mesh_pass/plan/plan.h"
 #include "transform/mesh_pass/scatter.h"
