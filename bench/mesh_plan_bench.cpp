@@ -54,7 +54,7 @@ void measure(const Case& given, int degree, double precision) {
   const MeshSample sample = sample_mesh(mesh, {}, degree);
   const MeshPlan plan = plan_mesh(mesh, sample, {}, degree, precision, {});
   const double norm = norm_of_degrees(exact.coefficients, 1, degree);
-  const double moduli = moduli_of(sample) / sample.scale;
+  const double moduli = sample.modulus / sample.scale;
   const double rows =
       plan.aligned * plan.node_modulus / (sample.scale * std::sqrt(4 * std::numbers::pi));
   std::printf("| %-22s | %8zu | %3d | %.0e | %.1e | %.3f | %.2f | %2d%s | %.3g | %.3g | %.1e |\n",

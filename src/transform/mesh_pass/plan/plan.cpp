@@ -118,9 +118,9 @@ std::optional<HermiteLumps> choose_hessians(const MeshSample& sample, const Lump
 
 bool single_suffices(const MeshSample& sample, const ErrorShares& shares, int degree,
                      bool hessians) {
-  const double generic = std::sqrt(source2_of(sample) / (4 * kPi));
+  const double generic = std::sqrt(sample.source2 / (4 * kPi));
   return single_rounding(degree, hessians ? 2 : 1) * generic < 0.3 * shares.window &&
-         kSingleInStep * moduli_of(sample) < shares.window;
+         kSingleInStep * sample.modulus < shares.window;
 }
 
 Quantum choose_quantum(const ErrorShares& shares, std::size_t n_vertices, bool single) {
@@ -140,7 +140,7 @@ MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& c
   const std::optional<HermiteLumps> hermite =
       limits.no_lumps ? std::nullopt : choose_hessians(sample, lumps);
   plan.in_step = lumps.in_step;
-  plan.source2 = source2_of(sample);
+  plan.source2 = sample.source2;
   plan.node_share = hermite ? hermite->node_share : lumps.node_share;
   if (limits.many_nodes) plan.node_share = 1;
   plan.single =
@@ -158,7 +158,7 @@ MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& c
     plan.block.face_reach2 = hermite->face_reach2;
   }
   plan.aligned = sample.aligned;
-  plan.node_modulus = std::min(1.0, plan.node_share + plan.between) * moduli_of(sample);
+  plan.node_modulus = std::min(1.0, plan.node_share + plan.between) * sample.modulus;
   const double element = element_allowance(plan, sample, mesh.n_triangles);
   plan.divided = {.degree = degree, .error = element, .divided = true};
   plan.undivided = {.degree = degree, .error = element, .divided = false};

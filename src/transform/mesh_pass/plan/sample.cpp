@@ -137,6 +137,23 @@ void add_triangles(const TriangleBlock<double>& block, std::size_t n, int degree
   }
 }
 
+double source2_of(const MeshSample& sample) {
+  double faces = 0, edges = 0;
+  for (const MeshSample::Entry& entry : sample.entries) faces += entry.face_weight2;
+  for (const MeshSample::Edge& edge : sample.edges) edges += edge.weight * edge.weight;
+  // Edges nobody knows are taken for as smooth as faces.
+  const double whole = sample.edge_share > 0 ? sample.edge_share * edges : sample.share * faces;
+  return whole / 2 + sample.share * faces / 3;
+}
+
+double modulus_of(const MeshSample& sample) {
+  double faces = 0, edges = 0;
+  for (const MeshSample::Entry& entry : sample.entries) faces += std::sqrt(entry.face_weight2);
+  for (const MeshSample::Edge& edge : sample.edges) edges += std::abs(edge.weight);
+  faces *= sample.share;
+  return faces + (sample.edge_share > 0 ? sample.edge_share * edges : faces);
+}
+
 void set_statistics(const Moments& moments, const EdgeStatistics& edges, std::size_t n_triangles,
                     MeshSample& sample) {
   if (moments.solid > 0) {
@@ -153,6 +170,8 @@ void set_statistics(const Moments& moments, const EdgeStatistics& edges, std::si
   // A tenth of the edges should meet; in a mesh of random order none does.
   const double met = static_cast<double>(sample.edges.size());
   if (met > 0.1 * n) sample.edge_share = 1.5 * all / met;
+  sample.source2 = source2_of(sample);
+  sample.modulus = modulus_of(sample);
 }
 
 }  // namespace
@@ -181,23 +200,6 @@ MeshSample sample_mesh(const MeshView& mesh, const Vec3& center, int degree) {
             [](const auto& a, const auto& b) { return a.error2 < b.error2; });
   set_statistics(moments, edges, mesh.n_triangles, sample);
   return sample;
-}
-
-double source2_of(const MeshSample& sample) {
-  double faces = 0, edges = 0;
-  for (const MeshSample::Entry& entry : sample.entries) faces += entry.face_weight2;
-  for (const MeshSample::Edge& edge : sample.edges) edges += edge.weight * edge.weight;
-  // Edges nobody knows are taken for as smooth as faces.
-  const double whole = sample.edge_share > 0 ? sample.edge_share * edges : sample.share * faces;
-  return whole / 2 + sample.share * faces / 3;
-}
-
-double moduli_of(const MeshSample& sample) {
-  double faces = 0, edges = 0;
-  for (const MeshSample::Entry& entry : sample.entries) faces += std::sqrt(entry.face_weight2);
-  for (const MeshSample::Edge& edge : sample.edges) edges += std::abs(edge.weight);
-  faces *= sample.share;
-  return faces + (sample.edge_share > 0 ? sample.edge_share * edges : faces);
 }
 
 }  // namespace rholm

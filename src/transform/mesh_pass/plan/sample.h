@@ -45,13 +45,12 @@ struct MeshSample {
   bool overlaps = false;  // some faces turn their back
   double angle = 0;       // of an edge as seen from the centre, on average
   double aligned = 0;     // share of the edges, by weight, along meridians or parallels
+  // What the sample says of the whole, in sums that are known to some tens of per cent. Of what is
+  // spread, edges in some three nodes or two lumps, faces in some six or three, with gradients that
+  // count about as much again:
+  double source2 = 0;  // the sum of squares
+  double modulus = 0;  // the sum of moduli
 };
 MeshSample sample_mesh(const MeshView& mesh, const Vec3& center, int degree);
-
-// What the sample says of the whole, in squares and moduli that are known to some tens of per cent.
-// Of what is spread, edges in some three nodes or two lumps, faces in some six or three, with
-// gradients that count about as much again:
-double source2_of(const MeshSample& sample);  // the sum of squares
-double moduli_of(const MeshSample& sample);   // the sum of moduli
 
 }  // namespace rholm

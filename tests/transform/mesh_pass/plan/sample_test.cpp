@@ -105,8 +105,8 @@ TEST(sample_mesh, sums_of_what_is_spread_are_those_of_all_faces_and_edges) {
     edges += std::abs(edge.weight);
     edges2 += edge.weight * edge.weight;
   }
-  EXPECT_NEAR(moduli_of(sample), faces + sample.edge_share * edges, 1e-9 * faces);
-  EXPECT_NEAR(source2_of(sample), faces2 / 3 + sample.edge_share * edges2 / 2, 1e-9 * faces2);
+  EXPECT_NEAR(sample.modulus, faces + sample.edge_share * edges, 1e-9 * faces);
+  EXPECT_NEAR(sample.source2, faces2 / 3 + sample.edge_share * edges2 / 2, 1e-9 * faces2);
 }
 
 }  // namespace
