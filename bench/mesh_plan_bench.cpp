@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "harmonic/nonuniform/window.h"
+#include "harmonic/nonuniform/window_error.h"
 #include "rholm/primitives.h"
 #include "support/adversarial_meshes.h"
 #include "transform/mesh_pass/pass.h"
@@ -50,7 +50,7 @@ void measure(const Case& given, int degree, double precision) {
     return;
   }
   const double error = distance(found.coefficients, exact.coefficients);
-  const double window = spread_error(found.report.width, found.report.oversampling);
+  const double window = window_error(found.report.width, found.report.oversampling);
   const MeshSample sample = sample_mesh(mesh, {}, degree);
   const MeshPlan plan = plan_mesh(mesh, sample, {}, degree, precision, {});
   const double norm = norm_of_degrees(exact.coefficients, 1, degree);

@@ -1,9 +1,9 @@
 // What windows leave of sums over scattered directions, against direct sums: random weights, even
 // directions, l2 over all coefficients relative to the norm of such a sum. In units of what
-// spread_error() says, for values (the model's factor, src/harmonic/nonuniform/window.cpp), and for
-// gradients and Hessians that count as much as weights (gradient_factor(), hessian_factor() of
-// nonuniform_plan.cpp, and what a gradient counts in plans of the mesh pass); at the end in single
-// precision, with windows whose own error is below it, in units of 1 (single_rounding()).
+// window_error() says, for values, and for gradients and Hessians that count as much as weights
+// (gradient_factor(), hessian_factor(), gradient_as_weight()); at the end in single precision, with
+// windows whose own error is below it, in units of 1 (single_rounding()): all that
+// src/harmonic/nonuniform/window_error.h says.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -14,7 +14,7 @@
 #include "base/random.h"
 #include "harmonic/legendre/direct_sums.h"
 #include "harmonic/nonuniform/nonuniform.h"
-#include "harmonic/nonuniform/window.h"
+#include "harmonic/nonuniform/window_error.h"
 #include "mesh_sources.h"
 
 namespace rholm {
@@ -103,14 +103,14 @@ class Judge {
 
 void doubles() {
   std::printf(
-      "| L | sigma | width | spread_error | values | gradients | Hessians |\n"
+      "| L | sigma | width | window_error | values | gradients | Hessians |\n"
       "|---|---|---|---|---|---|---|\n");
   for (const int degree : {32, 128}) {
     const Judge judge(3000, degree);
     for (const double wished : {1.25, 1.5, 2.0, 2.8}) {
       const double sigma = judge.sigma_of(wished);
       for (const int width : {3, 5, 8, 11, 14}) {
-        const double unit = spread_error(width, sigma);
+        const double unit = window_error(width, sigma);
         if (unit < 1e-12) continue;
         std::printf("| %d | %.2f | %d | %.1e |", degree, sigma, width, unit);
         for (int d = 0; d < 3; ++d) {

@@ -6,6 +6,8 @@
 
 #include "harmonic/fft/fft.h"
 #include "harmonic/nonuniform/cost_model.h"
+#include "harmonic/nonuniform/polar_nodes.h"
+#include "harmonic/nonuniform/window_error.h"
 
 namespace rholm {
 namespace {
@@ -13,30 +15,10 @@ namespace {
 // Oversampling that is tried (chosen: plans of the table in docs/performance.md have 1.5 to 3.2).
 constexpr double kSmallSigma = 1.15, kLargeSigma = 4;
 
-// Sine of the colatitude below which derivatives are taken from values around them (chosen: 16
-// values for a gradient, 34 for a Hessian, which adds 1 to 3 ns to the mean source).
-double polar_sine(int degree, int derivatives) {
-  const double least = static_cast<double>(derivatives) / std::max(degree, 1);
-  return derivatives > 1 ? std::max(least, 0.05) : least;
-}
-
-// How much larger than that of values the error of derivatives is, on even directions
-// (window_bench), relative to L for gradients and L^2 for Hessians. Aliases have wave numbers
-// around n - L, and longitudes near the poles count 1 / sin(theta) times: the l2 norm of 1 / sin^2
-// down to a polar sine is 0.7 times its inverse, and three times that where few sources are so
-// near: fewer than thirty within twice the polar sine (chosen).
-double gradient_factor(double sigma) { return 2.6 * sigma * sigma; }
-double hessian_factor(double sigma, int degree, std::size_t sources) {
-  const double sine = polar_sine(degree, 2);
-  const bool few = 2 * sine * sine * static_cast<double>(sources) < 30;
-  const double near = (few ? 70 : 24) * std::pow(sigma - 1, 1.8);
-  return 4 + near / sine;
-}
-
 double predicted_error(const NonuniformNeeds& needs, int width, double sigma) {
   const double degree = std::max(needs.degree, 1);
   // The largest of many draws is 1.3 times the typical one; few degrees make for less average.
-  const double error = spread_error(width, sigma) * 1.3 * (1 + 4 / degree);
+  const double error = window_error(width, sigma) * 1.3 * (1 + 4 / degree);
   double derivatives = 1;
   if (needs.derivatives > 0) {
     derivatives = std::max(derivatives, needs.gradient_size * gradient_factor(sigma));
@@ -70,21 +52,6 @@ void visit_grids(const NonuniformNeeds& needs, int width, double error, const Vi
 }
 
 }  // namespace
-
-double hessian_factor(const NonuniformPlan& plan, std::size_t sources) {
-  const double turn = 2.0 * std::max(plan.fourier.degree, 1);
-  const double sigma = static_cast<double>(plan.fourier.layout.n_phi) / turn;
-  return hessian_factor(sigma, plan.fourier.degree, sources);
-}
-
-// Second differences near the poles divide the rounding of values by the square of their step.
-double single_rounding(int degree, int derivatives) {
-  constexpr double kValues = 2.5e-7;
-  return derivatives > 1 ? kValues + 3.5e-6 * polar_sine(degree, derivatives) : kValues;
-}
-double least_single_error(int degree, int derivatives) {
-  return 1.4 * single_rounding(degree, derivatives);
-}
 
 std::size_t grid_count(const NonuniformPlan& plan, std::size_t sources) {
   // A second grid is taken where it costs less than a twentieth of the work, up to eight, and

@@ -35,16 +35,6 @@ struct NonuniformNeeds {
 };
 // The cheapest plan by the cost model (docs/performance.md).
 NonuniformPlan plan_nonuniform(const NonuniformNeeds& needs);
-// How much larger than that of values the plan's error of Hessians is, relative to L^2: for
-// `sources` of them all over the sphere.
-double hessian_factor(const NonuniformPlan& plan, std::size_t sources);
-
-// What windows in single precision add to the error of generic sums (bench/window_bench; L = 16 ...
-// 2000, up to 2.2e-7 for values and gradients, with windows up to 10 wide).
-double single_rounding(int degree, int derivatives = 0);
-// Least error that single precision is taken for.
-double least_single_error(int degree, int derivatives = 0);
-
 // Grids that sources are split over, one thread each: as many as pay for the summing of grids,
 // whatever the number of threads.
 std::size_t grid_count(const NonuniformPlan& plan, std::size_t sources);

@@ -84,12 +84,6 @@ SpreadWindow spread_window(int width, std::size_t band, std::size_t points) {
   return {.width = width, .beta = beta, .points = points, .scale = bessel_i0(beta)};
 }
 
-// The rate is that of the header; the factor is that of bench/window_bench: 1.3 at
-// sigma = 1.25, 1.9 at 1.5, 3 at 2, 4.7 at 2.8, within 30 % for widths 3 ... 16.
-double spread_error(int width, double sigma) {
-  return (2.1 * sigma - 1.2) * std::exp(-kPi * width * std::sqrt(1 - 1 / sigma));
-}
-
 int spread_terms(int width) {
   // A tap spans 2/w of the window, so that powers fall fast. bench/window_bench, oversampling 1.25
   // ... 3: fewer would add more than a tenth to the error of values or derivatives.

@@ -31,10 +31,6 @@ struct SpreadWindow {
 };
 SpreadWindow spread_window(int width, std::size_t band, std::size_t points);
 
-// Relative error (l2, of generic sums in two dimensions) that windows of this width leave at
-// oversampling sigma = n / (2 L).
-double spread_error(int width, double sigma);
-
 // The window as polynomials: taps i = 0 ... w - 1 are the grid points c0 + i of a source at x,
 // c0 = ceil(x), at distance c0 + i - w/2 - x from it (the grid point c stands for the position c -
 // w/2). With u = 2 (c0 - x) - 1 in [-1, 1]

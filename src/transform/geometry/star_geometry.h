@@ -39,8 +39,8 @@ StarGeometry star_geometry(const StarChart& chart);
 double solid_angle(const std::array<Vec3, 3>& corners);
 
 // Below this d_T / r a triangle is taken out of (M6) and summed by bounded terms (method 3e). Those
-// have gradients, whose error in the windows of the fast sums is some 9 L times that of weights
-// (bench/window_bench): that much larger the terms of (M6), about r / d_T, may well be.
+// have gradients, which count gradient_as_weight() times as much in the error of the windows of the
+// fast sums: that much larger the terms of (M6), about r / d_T, may well be.
 double grazing_slope(int degree);
 
 // M_T v = int_T u (u . v) dOmega

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
 
 #include "harmonic/nonuniform/nonuniform.h"
+#include "harmonic/nonuniform/window_error.h"
 #include "rholm/coefficients.h"
 #include "transform/mesh_pass/block/block.h"
 #include "transform/mesh_pass/node_sink.h"
@@ -14,10 +16,6 @@
 #include "transform/mesh_pass/vertex_lumps.h"
 
 namespace rholm {
-
-// What a gradient counts against a weight in a window's error: some 9 L (window_bench, twofold
-// oversampling).
-double gradient_cost(const MeshPlan& plan);
 
 // Single precision goes with sums in whole quanta of 32 bits.
 template <typename T>
@@ -27,9 +25,8 @@ using LumpOf = std::conditional_t<sizeof(T) == 4, std::int32_t, double>;
 template <typename T>
 class GridSources {
  public:
-  // `gradient_cost`: see above.
-  GridSources(const NonuniformPlan& plan, const GridKernel<T>& kernel, double gradient_cost)
-      : spreader_(plan, kernel), cost2_(gradient_cost * gradient_cost) {}
+  GridSources(const NonuniformPlan& plan, const GridKernel<T>& kernel)
+      : spreader_(plan, kernel), gradient2_(std::pow(gradient_as_weight(plan.fourier.degree), 2)) {}
 
   void add(std::span<const Node> nodes);
   void add(const GradientNode& node);
@@ -38,7 +35,7 @@ class GridSources {
                     const BlockParameters& parameters, const VertexLump<LumpOf<T>>* lumps);
   void flush();
 
-  // Sum of squares of all weights that were counted, gradients as much as they cost.
+  // Sum of squares of all weights that were counted, gradients by gradient_as_weight().
   double source2() const { return source2_; }
   // And of L^2 times Hessians.
   double hessian2() const { return hessian2_; }
@@ -50,7 +47,8 @@ class GridSources {
   void flush_gradients();
 
   GridSpreader<T> spreader_;
-  double source2_ = 0, hessian2_ = 0, cost2_;
+  double source2_ = 0, hessian2_ = 0;
+  double gradient2_;  // square of gradient_as_weight()
   SourceBatch<T> values_, gradients_;
   std::size_t n_values_ = 0, n_gradients_ = 0;
 };

@@ -10,6 +10,7 @@
 
 #include "base/parallel.h"
 #include "base/stopwatch.h"
+#include "harmonic/nonuniform/window_error.h"
 #include "rholm/error.h"
 #include "shape/queries/triangle_order.h"
 #include "transform/mesh_pass/grid_sources.h"
@@ -145,7 +146,7 @@ class Pass {
 
   // `hessian2`: L^2 times Hessians, whose part in the error depends on the grid.
   void choose_window(double source2, double hessian2, std::size_t sources) {
-    const double error = options_.window_share * window_error(plan_, source2);
+    const double error = options_.window_share * allowed_window_error(plan_, source2);
     NonuniformNeeds needs{.degree = plan_.divided.degree,
                           .error = std::clamp(error, 1e-15, 1e-2),
                           .sources = sources,
@@ -163,7 +164,7 @@ class Pass {
   void make_grids() {
     const std::size_t n = grid_count(transform_, estimated_sources());
     for (std::size_t i = 0; i < n; ++i) {
-      grids_.push_back(std::make_unique<GridSources<T>>(transform_, kernel_, gradient_cost(plan_)));
+      grids_.push_back(std::make_unique<GridSources<T>>(transform_, kernel_));
     }
   }
 
@@ -264,7 +265,7 @@ class Pass {
   // Gradients as much as they count in a window's error.
   double squares_of(const LumpSums& lumps) const {
     const double weight = 1 / plan_.block.per_weight,
-                 slope = gradient_cost(plan_) / plan_.block.per_gradient;
+                 slope = gradient_as_weight(plan_.divided.degree) / plan_.block.per_gradient;
     return weight * weight * lumps.weight2 + slope * slope * lumps.gradient2;
   }
 

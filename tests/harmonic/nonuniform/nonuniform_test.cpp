@@ -1,4 +1,5 @@
 #include "harmonic/nonuniform/nonuniform.h"
+#include "harmonic/nonuniform/window_error.h"
 
 #include <gtest/gtest.h>
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "harmonic/nonuniform/window_error.h"
 #include "transform/rules/hermite_rules.h"
 
 namespace rholm {
@@ -39,12 +40,12 @@ PassError error_of_pass(const MeshPlan& plan, PassFacts& facts, const Coefficien
   const double rules = plan.shares.caution *
                        std::sqrt(lumps * lumps * (facts.face_error2 + edges2) + facts.node_error2);
   const GridLayout& layout = facts.transform.fourier.layout;
-  const double relative_window =
-      spread_error(layout.width, static_cast<double>(layout.n_phi) / (2.0 * std::max(degree, 1)));
+  const double sigma = static_cast<double>(layout.n_phi) / (2.0 * std::max(degree, 1));
+  const double relative_window = window_error(layout.width, sigma);
   const double rounding = plan.single ? single_rounding(degree, plan.block.hessians ? 2 : 1) : 0.0;
   const auto generic = [](double square) { return std::sqrt(square / (4 * std::numbers::pi)); };
   const double amplified =
-      std::pow(hessian_factor(facts.transform, facts.vertices), 2) * facts.hessian2;
+      std::pow(hessian_factor(sigma, degree, facts.vertices), 2) * facts.hessian2;
   const double window = relative_window * generic(facts.source2 + amplified) +
                         rounding * generic(facts.source2 + facts.hessian2);
   const double scale = plan.block.scale;

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "harmonic/nonuniform/nonuniform.h"
+#include "harmonic/nonuniform/nonuniform_plan.h"
 #include "rholm/coefficients.h"
 #include "transform/mesh_pass/block/block.h"
 #include "transform/mesh_pass/plan/plan.h"

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "harmonic/nonuniform/cost_model.h"
-#include "harmonic/nonuniform/nonuniform.h"
+#include "harmonic/nonuniform/window_error.h"
 #include "rholm/error.h"
 #include "transform/geometry/star_geometry.h"
 #include "transform/rules/hermite_rules.h"
@@ -169,7 +169,7 @@ double rows_in_step(const MeshPlan& plan, double node_modulus) {
   return kRowsInStep * plan.aligned * node_modulus / std::sqrt(4 * kPi);
 }
 
-double window_error(const MeshPlan& plan, double source2) {
+double allowed_window_error(const MeshPlan& plan, double source2) {
   const double generic = std::sqrt(std::max(source2, 1e-300) / (4 * kPi));
   const double most = std::max(generic, rows_in_step(plan, plan.node_modulus));
   return std::min(plan.shares.most_window, plan.shares.window / most);

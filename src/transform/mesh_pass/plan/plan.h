@@ -93,6 +93,6 @@ MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& c
 double rows_in_step(const MeshPlan& plan, double node_modulus);
 
 // The window error that keeps the plan's share for sources whose squared weights have that sum.
-double window_error(const MeshPlan& plan, double source2);
+double allowed_window_error(const MeshPlan& plan, double source2);
 
 }  // namespace rholm

@@ -160,15 +160,15 @@ TEST(plan_mesh, minds_what_a_first_try_has_taught) {
   EXPECT_LT(tight.block.tolerance2, loose.block.tolerance2);
 }
 
-TEST(window_error, keeps_the_share_for_sources_of_any_size) {
+TEST(allowed_window_error, keeps_the_share_for_sources_of_any_size) {
   const MeshPlan plan = plan_of(bumpy_sphere(5), 32, 1e-5);
   for (const double source2 : {1e-6, 1.0, 1e6}) {
-    const double relative = window_error(plan, source2);
+    const double relative = allowed_window_error(plan, source2);
     EXPECT_LE(relative * std::sqrt(source2 / (4 * 3.14159265358979)),
               plan.shares.window * (1 + 1e-12));
     EXPECT_LE(relative, plan.shares.most_window);
   }
-  EXPECT_EQ(window_error(plan, 0), plan.shares.most_window);
+  EXPECT_EQ(allowed_window_error(plan, 0), plan.shares.most_window);
 }
 
 }  // namespace
