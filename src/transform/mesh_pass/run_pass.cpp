@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "base/stopwatch.h"
+#include "harmonic/coefficients/laplacian.h"
 #include "harmonic/nonuniform/window_error.h"
 #include "rholm/error.h"
 #include "transform/mesh_pass/grid_sources.h"
@@ -17,7 +18,6 @@
 #include "transform/mesh_pass/plan/error_budget.h"
 #include "transform/mesh_pass/scatter.h"
 #include "transform/mesh_pass/vertex_lumps.h"
-#include "transform/methods/sources.h"
 
 namespace rholm {
 namespace {

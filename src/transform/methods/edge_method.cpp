@@ -10,6 +10,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "harmonic/coefficients/laplacian.h"
 #include "transform/methods/methods.h"
 #include "transform/methods/radius_cubature.h"
 #include "transform/methods/sources.h"

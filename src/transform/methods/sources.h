@@ -37,10 +37,6 @@ class Sources {
   std::size_t count_ = 0;
 };
 
-// Divides the degrees l >= 1 by l(l+1), which the Laplacian of the sphere has multiplied them by;
-// c_00, which it has lost, becomes 0.
-void divide_by_eigenvalue(Coefficients& c);
-
 // Calls visit(x, w) for the nodes of a rule on the segment a-b whose weights sum to 1 and that
 // keeps the allowance; halves the segment where it comes near the singular set. `distance` gives
 // the distance of a piece from that set. Throws InvalidInput if the segment touches it.

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/random.h"
+#include "harmonic/coefficients/laplacian.h"
 #include "rholm/error.h"
 
 namespace rholm {
@@ -182,6 +183,19 @@ TEST(power_spectrum, is_the_energy_of_each_degree) {
   f.c(3, 2) = 1;
   f.s(3, 3) = 2;
   EXPECT_EQ(power_spectrum(f), (std::vector<double>{0, 25, 0, 5}));
+}
+
+TEST(divide_by_eigenvalue, undoes_the_laplacian_but_for_the_mean_which_it_has_lost) {
+  const Coefficients given = random_coefficients(9);
+  Coefficients c = given;
+  divide_by_eigenvalue(c);
+  EXPECT_EQ(c.c(0, 0), 0);
+  for (int l = 1; l <= c.degree(); ++l) {
+    for (int m = 0; m <= l; ++m) {
+      EXPECT_DOUBLE_EQ(c.c(l, m) * (l * (l + 1)), given.c(l, m));
+      EXPECT_DOUBLE_EQ(c.s(l, m) * (l * (l + 1)), given.s(l, m));
+    }
+  }
 }
 
 }  // namespace
