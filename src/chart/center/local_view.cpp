@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "chart/center/view_scan.h"
 #include "rholm/error.h"
+#include "shape/vertex_range.h"
 
 namespace rholm {
 namespace {

@@ -200,62 +200,6 @@ void Cones(const LocalView& view, std::size_t begin, std::size_t end, const Vec3
   ConesOf<double>(view, begin, end, center, direction, visit);
 }
 
-// Rows without gaps: vectors of scalars, in which x, y, z take turns.
-template <class T>
-HWY_INLINE std::size_t PackedRange(const std::byte* at, std::size_t n, VertexRange& range) {
-  const hn::CappedTag<T, 16> d;
-  using W = hn::Vec<decltype(d)>;
-  constexpr T kInfinity = std::numeric_limits<T>::infinity();
-  W low[3], high[3], nothing[3];
-  for (int k = 0; k < 3; ++k) {
-    low[k] = hn::Set(d, kInfinity);
-    high[k] = hn::Set(d, -kInfinity);
-    nothing[k] = hn::Zero(d);
-  }
-  const std::size_t lanes = hn::Lanes(d), rounds = n / lanes;
-  const T* scalars = reinterpret_cast<const T*>(at);
-  for (std::size_t i = 0; i < rounds; ++i, scalars += 3 * lanes) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const W v = hn::LoadU(d, scalars + k * lanes);
-      low[k] = hn::Min(low[k], v);
-      high[k] = hn::Max(high[k], v);
-      nothing[k] = hn::Add(nothing[k], hn::Sub(v, v));  // NaN for what is not finite
-    }
-  }
-  for (std::size_t k = 0; k < 3; ++k) {
-    alignas(64) T lows[hn::MaxLanes(d)], highs[hn::MaxLanes(d)], nothings[hn::MaxLanes(d)];
-    hn::Store(low[k], d, lows);
-    hn::Store(high[k], d, highs);
-    hn::Store(nothing[k], d, nothings);
-    for (std::size_t i = 0; i < lanes; ++i) {
-      range.add((k * lanes + i) % 3, lows[i], highs[i]);
-      range.finite = range.finite && nothings[i] == 0;
-    }
-  }
-  return rounds * lanes;
-}
-
-template <class T>
-HWY_INLINE VertexRange RangeOf(const MeshView& mesh, std::size_t begin, std::size_t end) {
-  VertexRange range;
-  if (mesh.vertex_stride == 3 * sizeof(T)) {
-    begin += PackedRange<T>(mesh.vertices + begin * mesh.vertex_stride, end - begin, range);
-  }
-  for (std::size_t i = begin; i < end; ++i) {
-    const Vec3 v = mesh.vertex(i);
-    range.add(0, v.x, v.x);
-    range.add(1, v.y, v.y);
-    range.add(2, v.z, v.z);
-    range.finite = range.finite && is_finite(v);
-  }
-  return range;
-}
-
-VertexRange Range(const MeshView& mesh, std::size_t begin, std::size_t end) {
-  return mesh.coordinate == ScalarType::kFloat32 ? RangeOf<float>(mesh, begin, end)
-                                                 : RangeOf<double>(mesh, begin, end);
-}
-
 }  // namespace HWY_NAMESPACE
 }  // namespace rholm
 HWY_AFTER_NAMESPACE();
@@ -265,7 +209,6 @@ namespace rholm {
 
 HWY_EXPORT(Below);
 HWY_EXPORT(Cones);
-HWY_EXPORT(Range);
 
 void scan_below(const LocalView& view, std::size_t begin, std::size_t end, const Vec3& center,
                 const ScanLimits& limits, const VisitTriangle& visit) {
@@ -275,16 +218,6 @@ void scan_below(const LocalView& view, std::size_t begin, std::size_t end, const
 void scan_cones(const LocalView& view, std::size_t begin, std::size_t end, const Vec3& center,
                 const Vec3& direction, const VisitTriangle& visit) {
   HWY_DYNAMIC_DISPATCH(Cones)(view, begin, end, center, direction, visit);
-}
-
-VertexRange vertex_range(const MeshView& mesh, std::size_t begin, std::size_t end) {
-  return HWY_DYNAMIC_DISPATCH(Range)(mesh, begin, end);
-}
-
-double diagonal_of(const MeshView& mesh) {
-  const VertexRange range = vertex_range(mesh, 0, mesh.n_vertices);
-  return norm(
-      {range.max[0] - range.min[0], range.max[1] - range.min[1], range.max[2] - range.min[2]});
 }
 
 }  // namespace rholm

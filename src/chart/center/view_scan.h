@@ -1,12 +1,10 @@
-// Passes over the vertices of a view, and over its triangles that stop at few of them. Layer:
-// chart.
+// Passes over the triangles of a view that stop at few of them. Layer: chart.
 //
 // Vectors of triangles are tested in double precision without square root or division; those that
 // may matter are handed, one by one and in their order, to a visitor, which does the exact work.
 // Nothing is kept per triangle. Vectors differ between machines, the visitors' results do not.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <limits>
@@ -14,23 +12,6 @@
 #include "chart/center/local_view.h"
 
 namespace rholm {
-
-// The smallest and largest x, y and z.
-struct VertexRange {
-  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  double min[3] = {kInfinity, kInfinity, kInfinity};
-  double max[3] = {-kInfinity, -kInfinity, -kInfinity};
-  bool finite = true;  // every coordinate is
-
-  void add(std::size_t k, double low, double high) {
-    min[k] = std::min(min[k], low);
-    max[k] = std::max(max[k], high);
-  }
-};
-VertexRange vertex_range(const MeshView& mesh, std::size_t begin, std::size_t end);
-
-// Of the bounding box.
-double diagonal_of(const MeshView& mesh);
 
 // Seen from a point of the unit frame.
 struct ScanLimits {

@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "harmonic/nonuniform/cost_model.h"
+#include "shape/vertex_range.h"
 #include "transform/error/distance_check.h"
 
 namespace rholm {
@@ -87,7 +88,8 @@ double ErrorOfDegree::of(const Expansion& expansion, int degree, double limit) {
 
 bool ErrorOfDegree::may_be_refined(const Expansion& expansion, int degree, double limit) {
   const PointErrors errors = measured(few_points(), expansion, degree, limit);
-  return rholm::may_be_refined(sites_.mesh(), expansion, largest(errors.radial), sites_.diagonal());
+  return rholm::may_be_refined(sites_.mesh(), expansion, largest(errors.radial),
+                               diagonal_of(sites_.mesh()));
 }
 
 // What the error to first order is to be multiplied by, unless closest points rule from now on:

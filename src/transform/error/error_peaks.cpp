@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "chart/center/view_scan.h"
 #include "shape/face.h"
+#include "shape/vertex_range.h"
 
 namespace rholm {
 namespace {

@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "chart/center/view_scan.h"
 #include "rholm/error.h"
 #include "rholm/harmonic.h"
 #include "shape/face.h"
+#include "shape/vertex_range.h"
 
 namespace rholm {
 namespace {

@@ -3,8 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "chart/center/view_scan.h"
-
 namespace rholm {
 namespace {
 
@@ -18,12 +16,6 @@ bool shows_its_edges(const MeshView& mesh, int degree) {
       1.5 * std::sqrt(4 * std::numbers::pi / static_cast<double>(mesh.n_triangles));
   constexpr double kCoarse = 6;  // scripts/constants: 20 % at 5, few from 10 on
   return degree * angle > kCoarse;
-}
-
-double ErrorSites::diagonal() const {
-  const VertexRange range = vertex_range(mesh_, 0, mesh_.n_vertices);
-  return norm(
-      {range.max[0] - range.min[0], range.max[1] - range.min[1], range.max[2] - range.min[2]});
 }
 
 const ErrorPoints& ErrorSites::vertices() {

@@ -24,7 +24,6 @@ class ErrorSites {
 
   const MeshView& mesh() const { return mesh_; }
   const Vec3& center() const { return center_; }
-  double diagonal() const;  // of the bounding box
 
   // That belong to faces.
   const ErrorPoints& vertices();

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "chart/center/view_scan.h"
 #include "shape/face.h"
+#include "shape/vertex_range.h"
 
 namespace rholm {
 namespace {

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "base/parallel.h"
-#include "chart/center/view_scan.h"
+#include "shape/vertex_range.h"
 #include "transform/error/distance_check.h"
 #include "transform/error/error_peaks.h"
 #include "transform/error/error_points.h"

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "base/compensated_sum.h"
-#include "chart/center/view_scan.h"
 #include "rholm/error.h"
 #include "shape/face.h"
+#include "shape/vertex_range.h"
 
 namespace rholm {
 namespace {

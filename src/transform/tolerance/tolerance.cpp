@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "chart/center/view_scan.h"
 #include "rholm/error.h"
+#include "shape/vertex_range.h"
 #include "transform/analyze.h"
 #include "transform/norms/exact_norms.h"
 
