@@ -59,7 +59,7 @@ void measure(const Case& given, int degree, double precision) {
       plan.aligned * plan.node_modulus / (sample.scale * std::sqrt(4 * std::numbers::pi));
   std::printf("| %-22s | %8zu | %3d | %.0e | %.1e | %.3f | %.2f | %2d%s | %.3g | %.3g | %.1e |\n",
               given.name.c_str(), given.mesh.triangles.size(), degree, precision, error / norm,
-              error / (plan.shares.window / sample.scale), plan.aligned, found.report.width,
+              error / (plan.allowed.window / sample.scale), plan.aligned, found.report.width,
               found.report.single ? " single" : "", error / (window * norm),
               rows > 0 ? error / (window * rows) : 0.0, found.report.single ? error / moduli : 0.0);
   std::fflush(stdout);

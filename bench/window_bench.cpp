@@ -78,7 +78,7 @@ class Judge {
   // l2 of what windows leave, relative to the sum of values.
   double error(int derivatives, int width, double sigma, bool single) const {
     NonuniformPlan plan = plan_nonuniform({.degree = degree_,
-                                           .error = single ? 1e-4 : 1e-6,
+                                           .allowed = single ? 1e-4 : 1e-6,
                                            .sources = sources_.directions.size(),
                                            .derivatives = derivatives,
                                            .forbid_single = !single});

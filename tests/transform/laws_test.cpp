@@ -70,7 +70,7 @@ TEST(visit_triangle, integrates_u_over_a_spherical_triangle_as_lambert_says) {
     // dOmega = d dS / |x|^3; the bound is for 1/|x|^2, so one more power is asked 100-fold.
     const double volume = dot(p[0], cross(p[1], p[2]));
     Vec3 sum;
-    visit_triangle(p, {.target = 1e-14, .degree = 1, .growth = Growth::kFlatInverseSquare},
+    visit_triangle(p, {.allowed = 1e-14, .degree = 1, .growth = Growth::kFlatInverseSquare},
                    [&](const Vec3& x, double w) {
                      const double r = norm(x);
                      sum += w * volume / 2 / (r * r * r) * (x / r);

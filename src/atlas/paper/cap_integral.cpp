@@ -167,7 +167,7 @@ CapIntegral cap_integral(const CapFrame& frame, const PatchMesh& patch,
   }
   Sources sources({.degree = options.degree,
                    .engine = Engine::kFast,
-                   .error = options.precision,
+                   .allowed = options.precision,
                    .sources = result.nodes},
                   context);
   for (std::size_t t = 0; t < faces.size(); ++t) {

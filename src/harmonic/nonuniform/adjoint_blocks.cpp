@@ -11,7 +11,7 @@ namespace rholm {
 AdjointBlocks::AdjointBlocks(const AdjointNeeds& needs) : sum_(needs.degree) {
   if (needs.engine == Engine::kDirect || needs.sources == 0) return;
   const NonuniformNeeds wanted{.degree = needs.degree,
-                               .error = std::clamp(needs.error, 1e-14, 1e-1),
+                               .allowed = std::clamp(needs.allowed, 1e-14, 1e-1),
                                .sources = needs.sources,
                                .forbid_single = true};
   plan_ = plan_nonuniform(wanted);

@@ -13,7 +13,7 @@ namespace rholm {
 struct AdjointNeeds {
   int degree = 0;
   Engine engine = Engine::kDirect;
-  double error = 1e-12;     // wanted relative error of generic sums, see NonuniformNeeds
+  double allowed = 1e-12;   // to be left of generic sums, relative: see NonuniformNeeds
   std::size_t sources = 0;  // about how many will come
 };
 

@@ -31,13 +31,13 @@ double predicted_error(const NonuniformNeeds& needs, int width, double sigma) {
 }
 
 // What the windows may add to the rounding of single precision.
-double window_share(double error, double rounding) {
-  return std::sqrt(std::max(error * error - rounding * rounding, 0.0));
+double window_share(double allowed, double rounding) {
+  return std::sqrt(std::max(allowed * allowed - rounding * rounding, 0.0));
 }
 
 // The grids that a width has to be tried with: the smallest that is good enough and the next.
 template <typename Visit>
-void visit_grids(const NonuniformNeeds& needs, int width, double error, const Visit& visit) {
+void visit_grids(const NonuniformNeeds& needs, int width, double allowed, const Visit& visit) {
   constexpr std::size_t kLeastPoints = 32;  // caps of 16 rows must not meet
   const double turn = 2.0 * std::max(needs.degree, 1);
   std::size_t points = smooth_length(
@@ -45,7 +45,7 @@ void visit_grids(const NonuniformNeeds& needs, int width, double error, const Vi
   for (int found = 0; found < 2; points = smooth_length(points + 1, 4)) {
     const double sigma = static_cast<double>(points) / turn;
     if (sigma > kLargeSigma && points > kLeastPoints) return;
-    if (predicted_error(needs, width, sigma) > error) continue;
+    if (predicted_error(needs, width, sigma) > allowed) continue;
     visit(points);
     ++found;
   }
@@ -65,17 +65,17 @@ NonuniformPlan plan_nonuniform(const NonuniformNeeds& needs) {
   NonuniformPlan best;
   best.cost = std::numeric_limits<double>::infinity();
   best.single =
-      !needs.forbid_single && needs.error >= least_single_error(needs.degree, needs.derivatives);
+      !needs.forbid_single && needs.allowed >= least_single_error(needs.degree, needs.derivatives);
   best.polar_sine = polar_sine(needs.degree, needs.derivatives);
-  const double error =
-      best.single ? window_share(needs.error, single_rounding(needs.degree, needs.derivatives))
-                  : needs.error;
+  const double allowed =
+      best.single ? window_share(needs.allowed, single_rounding(needs.degree, needs.derivatives))
+                  : needs.allowed;
   // Wide windows on coarse grids range over so many powers of ten that single precision loses
   // another digit.
   constexpr int kMaxSingleWidth = 10;
   const int widest = best.single ? kMaxSingleWidth : kMaxSpreadWidth;
   for (int width = kMinSpreadWidth; width <= widest; ++width) {
-    visit_grids(needs, width, error, [&](std::size_t points) {
+    visit_grids(needs, width, allowed, [&](std::size_t points) {
       NonuniformPlan plan = best;
       plan.fourier = sphere_fourier(needs.degree, grid_layout(width, points, points));
       const std::size_t grids = grid_count(plan, needs.sources);

@@ -20,8 +20,8 @@ struct NonuniformPlan {
 
 struct NonuniformNeeds {
   int degree = 0;
-  // Wanted relative error of generic sums (random signs, even directions), l2.
-  double error = 1e-12;
+  // What may be left of generic sums (random signs, even directions): relative, l2.
+  double allowed = 1e-12;
   std::size_t sources = 0;
   int derivatives = 0;
   bool forbid_single = false;

@@ -30,8 +30,10 @@ std::optional<NonuniformPlan> fast_plan(int degree, std::size_t sources, int der
                                         const SumOptions& options) {
   check_options(options);
   if (options.engine == Engine::kDirect || sources == 0) return std::nullopt;
-  const NonuniformNeeds needs{
-      .degree = degree, .error = options.precision, .sources = sources, .derivatives = derivatives};
+  const NonuniformNeeds needs{.degree = degree,
+                              .allowed = options.precision,
+                              .sources = sources,
+                              .derivatives = derivatives};
   NonuniformPlan plan = plan_nonuniform(needs);
   if (direct_cost(needs.sources, needs.degree, needs.derivatives) <= plan.cost) return std::nullopt;
   return plan;

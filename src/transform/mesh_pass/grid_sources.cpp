@@ -111,7 +111,7 @@ void PartSink<T>::sum_undivided() {
   double square = 0;
   for (const double w : undivided_weights_) square += w * w;
   // Generic sums of these have the l2 norm L sqrt(sum w^2 / 4 pi).
-  const double relative = plan_.shares.window / ((degree + 1.0) * std::sqrt(square / (4 * kPi)));
+  const double relative = plan_.allowed.window / ((degree + 1.0) * std::sqrt(square / (4 * kPi)));
   add_adjoint({.directions = undivided_, .weights = undivided_weights_}, part_.undivided,
               {.precision = std::clamp(0.5 * relative, 1e-14, 0.1)}, {.threads = 1});
   undivided_.clear();

@@ -93,7 +93,7 @@ bool is_long(const std::array<Vec3, 3>& p, double distance) {
 
 // Pieces leave errors of their own, which add up in squares: of `share` of an element.
 NodeAllowance part_of(NodeAllowance allowance, double share) {
-  allowance.error *= std::sqrt(share);
+  allowance.allowed *= std::sqrt(share);
   return allowance;
 }
 
@@ -113,10 +113,10 @@ double visit_radius(const std::array<Vec3, 3>& p, double factor, const NodeAllow
     Extent z = extent(p, distance, allowance.degree);
     z.wave2 = std::pow(std::sqrt(z.wave2) + 2 * std::sqrt(z.bend2), 2);
     const double weight = factor / (distance * distance);
-    NodeAllowance allowed = allowance;
+    NodeAllowance piece = allowance;
     // A piece that is not long reaches to 3/2 of its distance.
-    allowed.error = std::max(allowed.error, relative * std::abs(weight) / 2.25);
-    rule = face_rule(allowed, z, weight);
+    piece.allowed = std::max(piece.allowed, relative * std::abs(weight) / 2.25);
+    rule = face_rule(piece, z, weight);
   }
   if (rule.nodes.empty()) {
     if (depth == kMaxDepth) throw_on_surface();
@@ -241,16 +241,16 @@ void NodeWriter::write_face(const std::array<Vec3, 3>& p, double weight, const C
   }
 }
 
-double radius_integral(const std::array<Vec3, 3>& corners, double relative_error) {
+double radius_integral(const std::array<Vec3, 3>& corners, double allowed) {
   const FaceNormal normal = face_normal(corners);
   if (normal.degenerate) return 0;
   const double factor = dot(normal.twice_area, corners[0]) / 2;
   const double distance = triangle_distance(corners);
   // int r dOmega is at least this part of the sphere times the smallest radius.
   const double least = std::abs(solid_angle(corners)) * distance;
-  const NodeAllowance allowance{.degree = 0, .error = relative_error * least, .divided = false};
+  const NodeAllowance allowance{.degree = 0, .allowed = allowed * least, .divided = false};
   double sum = 0;
-  visit_radius(corners, factor, allowance, relative_error, 0,
+  visit_radius(corners, factor, allowance, allowed, 0,
                [&](const Vec3&, double weight) { sum += weight; });
   return sum;
 }

@@ -49,7 +49,7 @@ class NodeWriter {
   TwinCache<HalfEdge> waiting_;
 };
 
-// d_T int_T dS/|x|^2 of a triangle, its part of int r dOmega, to the relative error wanted.
-double radius_integral(const std::array<Vec3, 3>& corners, double relative_error);
+// d_T int_T dS/|x|^2 of a triangle, its part of int r dOmega, but for the part `allowed` of it.
+double radius_integral(const std::array<Vec3, 3>& corners, double allowed);
 
 }  // namespace rholm

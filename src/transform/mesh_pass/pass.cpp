@@ -56,11 +56,12 @@ PassInput pass_input(const MeshView& mesh, const MeshPassOptions& options, const
 // By how much less the next pass may leave than one that fell short of the wish. What the plan
 // allowed may be far above what came of it, and has to come below that; half as much again, as not
 // all errors follow.
-double tightened(const MeshPassResult& result, const MeshPlan& plan, double wish, double norm) {
+double tightened(const MeshPassResult& result, const MeshPlan& plan, double precision,
+                 double norm) {
   const double planned =
-      std::hypot(plan.shares.rules, plan.shares.window, plan.quanta) / plan.block.scale;
+      std::hypot(plan.allowed.rules, plan.allowed.window, plan.quanta_error) / plan.block.scale;
   const double slack = std::max(1.0, planned / (result.report.error * norm));
-  return 1.5 * slack * result.report.error / wish;
+  return 1.5 * slack * result.report.error / precision;
 }
 
 }  // namespace
@@ -95,10 +96,11 @@ MeshPassResult mesh_pass(const MeshView& mesh, const MeshPassOptions& options,
     if (outcome == Outcome::kDone) {
       // The sample may have missed what matters, or taken the norm for larger than it is.
       const double norm = norm_of_degrees(result.coefficients, 1, options.degree);
-      const double wish = std::max(options.precision, norm > 0 ? plan.shares.rounding / norm : 1.0);
-      result.report.reached = !(result.report.error > wish);
+      const double precision =
+          std::max(options.precision, norm > 0 ? plan.allowed.rounding / norm : 1.0);
+      result.report.reached = !(result.report.error > precision);
       if (result.report.reached || tries++ == kMostTries) return result;
-      limits.tighten *= tightened(result, plan, wish, norm);
+      limits.tighten *= tightened(result, plan, precision, norm);
       limits.no_lumps = tries == kMostTries;  // and no longer what the sample says of them
     }
     times = std::move(result.times);

@@ -109,9 +109,9 @@ class Pass {
 
   // `hessian2`: L^2 times Hessians, whose part in the error depends on the grid.
   void choose_window(double source2, double hessian2, std::size_t sources) {
-    const double error = options_.window_share * allowed_window_error(plan_, source2);
+    const double allowed = options_.window_share * allowed_window_error(plan_, source2);
     NonuniformNeeds needs{.degree = plan_.divided.degree,
-                          .error = std::clamp(error, 1e-15, 1e-2),
+                          .allowed = std::clamp(allowed, 1e-15, 1e-2),
                           .sources = sources,
                           .derivatives = plan_.block.hessians ? 2 : 1,
                           .forbid_single = sizeof(T) == 8,
@@ -187,7 +187,7 @@ class Pass {
       if ((block.flag[t] & kNodes) != 0) {
         writer.add_triangle(p, mesh_.triangle(first + t));
       }
-      if ((block.flag[t] & kMeanNodes) != 0) part.mean += radius_integral(p, plan_.shares.mean);
+      if ((block.flag[t] & kMeanNodes) != 0) part.mean += radius_integral(p, plan_.allowed.mean);
     }
   }
 

@@ -20,7 +20,7 @@ double total_weight(const StarGeometry& geometry) {
 
 Allowance undivided_allowance(double allowed, double weight, int degree) {
   const double pi = std::numbers::pi;
-  return {.target = allowed / weight,
+  return {.allowed = allowed / weight,
           .first = (degree + 1) / std::sqrt(4 * pi),
           .last = (degree + 1) / std::sqrt(12 * pi),
           .degree = degree,

@@ -83,9 +83,9 @@ Weights weights_of(const StarGeometry& geometry) {
 // (l/L)^2 E(p; L) the l2 norm over all degrees is at most
 //   E(p; 1) sqrt(sum (2l+1)/(4 pi l^2 (l+1)^2)) + E(p; L) sqrt(sum (2l+1)/(4 pi L^4))
 //   <= (E(p; 1) + E(p; L) / L) / sqrt(4 pi).
-Allowance divided_allowance(double error, double weight, int degree) {
+Allowance divided_allowance(double allowed, double weight, int degree) {
   const double root = std::sqrt(4 * std::numbers::pi);
-  return {.target = error / std::max(weight, 1e-300),
+  return {.allowed = allowed / std::max(weight, 1e-300),
           .first = 1 / root,
           .last = 1 / (root * std::max(degree, 1)),
           .degree = degree,

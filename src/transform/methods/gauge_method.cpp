@@ -59,7 +59,7 @@ MethodResult gauge_method(const StarGeometry& geometry, const MethodOptions& opt
   // As for the radius, with |2 - l(l+1)| >= 2/3 l(l+1) from l = 2 on; on an arc nothing is lost
   // at low degrees that is not lost at L.
   const double root = std::sqrt(4 * std::numbers::pi);
-  const Allowance allowance{.target = options.allowed / std::max(total, 1e-300),
+  const Allowance allowance{.allowed = options.allowed / std::max(total, 1e-300),
                             .first = 0,
                             .last = 1.5 / (root * std::max(options.degree, 1)),
                             .degree = options.degree,
@@ -71,7 +71,7 @@ MethodResult gauge_method(const StarGeometry& geometry, const MethodOptions& opt
   const double generic = 1.5 * std::sqrt(std::max(square, 1e-300)) / root;
   Sources sources({.degree = options.degree,
                    .engine = options.engine,
-                   .error = 0.5 * options.allowed / generic,
+                   .allowed = 0.5 * options.allowed / generic,
                    .sources = 4 * edges.size()},
                   context);
   for (std::size_t e = 0; e < edges.size(); ++e) {

@@ -54,7 +54,7 @@ int exactness_for(const Allowance& allowance, double half_length, double distanc
     if (allowance.first > 0 && allowance.degree > 1) {
       error += allowance.first * quadrature_error(p, half_length, distance, 1, allowance.growth);
     }
-    if (error <= allowance.target) return p;
+    if (error <= allowance.allowed) return p;
   }
   return 0;
 }

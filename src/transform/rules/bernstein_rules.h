@@ -37,7 +37,7 @@ double quadrature_error(int exactness, double half_length, double distance, int 
 //   first * E(p; l = 1) + last * E(p; l = L).
 // The two weights say how the error of a low and of the highest degree enters the result.
 struct Allowance {
-  double target = 0;
+  double allowed = 0;
   double first = 1;
   double last = 1;
   int degree = 0;

@@ -12,7 +12,7 @@ namespace rholm {
 // What rules may leave: l2 norm over the degrees of the error of one edge or face.
 struct NodeAllowance {
   int degree = 0;
-  double error = 0;     // of one element
+  double allowed = 0;   // of one element
   bool divided = true;  // by l(l+1); else every degree counts in full
 };
 

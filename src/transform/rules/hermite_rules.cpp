@@ -12,10 +12,10 @@ namespace {
 constexpr HermiteReach kFarthest = {30, 120};
 
 template <typename Rules, typename Units>
-HermiteReach reach_of(const Rules& rules, const Units& units, double error) {
+HermiteReach reach_of(const Rules& rules, const Units& units, double allowed) {
   HermiteReach reach;
   for (std::size_t k = 0; k < reach.size(); ++k) {
-    reach[k] = std::min(kFarthest[k], std::pow(error / units[k], 2.0 / rules[k].power));
+    reach[k] = std::min(kFarthest[k], std::pow(allowed / units[k], 2.0 / rules[k].power));
   }
   reach[1] = std::max(reach[0], reach[1]);
   return reach;
@@ -23,15 +23,15 @@ HermiteReach reach_of(const Rules& rules, const Units& units, double error) {
 
 }  // namespace
 
-HermiteReach hermite_edge_reach(double error) {
-  return reach_of(kHermiteEdges, kHermiteEdgeUnits, error);
+HermiteReach hermite_edge_reach(double allowed) {
+  return reach_of(kHermiteEdges, kHermiteEdgeUnits, allowed);
 }
-HermiteReach hermite_face_reach(double error) {
-  return reach_of(kHermiteFaces, kHermiteFaceUnits, error);
+HermiteReach hermite_face_reach(double allowed) {
+  return reach_of(kHermiteFaces, kHermiteFaceUnits, allowed);
 }
 
 double lumping_error(int degree) {
-  return kLumpingConstant * degree_factor({.degree = degree, .error = 0, .divided = true}, 4);
+  return kLumpingConstant * degree_factor({.degree = degree, .allowed = 0, .divided = true}, 4);
 }
 
 }  // namespace rholm

@@ -73,9 +73,10 @@ inline constexpr auto kHermiteFaceUnits = hermite_units(kHermiteFaces);
 
 // The number of the cheapest rule for an extent: those reach to z^2 = reach2[k], the last to any.
 using HermiteReach = std::array<double, kHermiteRules - 1>;
-// Up to where each rule leaves at most `error` of its weight, in units of lumping_error(L).
-HermiteReach hermite_edge_reach(double error);
-HermiteReach hermite_face_reach(double error);
+// Up to where each rule leaves at most the part `allowed` of its weight, in units of
+// lumping_error(L).
+HermiteReach hermite_edge_reach(double allowed);
+HermiteReach hermite_face_reach(double allowed);
 inline std::size_t hermite_rule(const HermiteReach& reach2, double z2) {
   std::size_t k = 0;
   for (const double limit : reach2) k += z2 > limit;

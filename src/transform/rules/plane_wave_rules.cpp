@@ -169,7 +169,7 @@ double extent_power(const Extent& z, int p) {
 namespace {
 
 // By how much more the errors of an element count for its neighbours.
-double in_step(const NodeAllowance& allowance, const Extent& z) {
+double crowding(const NodeAllowance& allowance, const Extent& z) {
   if (allowance.degree == 0 || z.crowd.needle) return 1;
   const double along = neighbours_in_step(z.wave2), across = kInStep * z.crowd.per_wave;
   return across > along ? std::min(kMostInStep, std::sqrt(along * across)) : along;
@@ -187,11 +187,11 @@ double in_row(const Extent& z, int p) {
 EdgeRule edge_rule(const NodeAllowance& allowance, const Extent& z, double weight) {
   const auto& rules = segment_rules();
   const std::vector<double>& factors = factors_for(allowance).edge;
-  const double error = std::abs(weight) * in_step(allowance, z);
+  const double error = std::abs(weight) * crowding(allowance, z);
   for (std::size_t k = 0; k < rules.size(); ++k) {
     const int p = 2 * static_cast<int>(k + 1);
     const double left = error * factors[k] * extent_power(z, p) * in_row(z, p);
-    if (left <= allowance.error) return {rules[k].nodes, rules[k].weights, left};
+    if (left <= allowance.allowed) return {rules[k].nodes, rules[k].weights, left};
   }
   return {};
 }
@@ -199,11 +199,11 @@ EdgeRule edge_rule(const NodeAllowance& allowance, const Extent& z, double weigh
 FaceRule face_rule(const NodeAllowance& allowance, const Extent& z, double weight) {
   const auto& rules = triangle_rules();
   const std::vector<double>& factors = factors_for(allowance).face;
-  const double error = std::abs(weight) * in_step(allowance, z);
+  const double error = std::abs(weight) * crowding(allowance, z);
   for (std::size_t k = 0; k < rules.size(); ++k) {
     const double left =
         error * factors[k] * extent_power(z, rules[k].power) * in_row(z, rules[k].power);
-    if (left <= allowance.error) return {rules[k].nodes, left};
+    if (left <= allowance.allowed) return {rules[k].nodes, left};
   }
   return {};
 }

@@ -155,7 +155,7 @@ TEST(nonuniform, true_error_follows_the_wish) {
       std::array<double, kKinds> error{};
       for (int derivatives = 0; derivatives < 3; ++derivatives) {
         const NonuniformPlan plan = plan_nonuniform(
-            {.degree = L, .error = wish, .sources = 30000, .derivatives = derivatives});
+            {.degree = L, .allowed = wish, .sources = 30000, .derivatives = derivatives});
         EXPECT_EQ(plan.single, wish >= least_single_error(L, derivatives));
         error[derivatives] = problem.adjoint_error(plan, derivatives);
         if (derivatives < 2) error[3 + derivatives] = problem.forward_error(plan, derivatives == 1);
@@ -268,7 +268,7 @@ TEST(nonuniform, high_degrees_agree_with_legendre_rows) {
   const auto directions = hard_directions(kSources);
   const auto weights = random_values(kSources, 2);
   constexpr double kWish = 1e-9;
-  const NonuniformPlan plan = plan_nonuniform({.degree = L, .error = kWish, .sources = 1000});
+  const NonuniformPlan plan = plan_nonuniform({.degree = L, .allowed = kWish, .sources = 1000});
   Coefficients sum(L);
   nonuniform_add_adjoint(plan, {.directions = directions, .weights = weights}, 0, sum, {});
   const std::vector<double> mu = legendre_mu(L);
@@ -402,7 +402,7 @@ TEST(fast_engine, keeps_the_promise_on_every_instruction_set) {
       for (const double wish : {1e-4, 1e-7, 1e-11}) {
         for (int derivatives = 0; derivatives < 3; ++derivatives) {
           const NonuniformPlan plan = plan_nonuniform(
-              {.degree = L, .error = wish, .sources = 30000, .derivatives = derivatives});
+              {.degree = L, .allowed = wish, .sources = 30000, .derivatives = derivatives});
           EXPECT_LT(problem.adjoint_error(plan, derivatives), wish) << target;
           if (derivatives == 2) continue;
           EXPECT_LT(problem.forward_error(plan, derivatives == 1), wish) << target;
@@ -470,7 +470,8 @@ TEST(nonuniform, directions_that_are_no_numbers_stay_within_the_grid) {
 
 TEST(nonuniform, refuses_single_precision_where_it_is_forbidden) {
   EXPECT_FALSE(
-      plan_nonuniform({.degree = 20, .error = 1e-3, .sources = 10, .forbid_single = true}).single);
+      plan_nonuniform({.degree = 20, .allowed = 1e-3, .sources = 10, .forbid_single = true})
+          .single);
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ constexpr double kPi = std::numbers::pi;
 std::vector<EdgeRule> all_edge_rules() {
   std::vector<EdgeRule> rules;
   for (double error = 10; error > 1e-90; error /= 1.2) {
-    const EdgeRule rule = edge_rule({.degree = 100, .error = error}, {.wave2 = 1}, 1.0);
+    const EdgeRule rule = edge_rule({.degree = 100, .allowed = error}, {.wave2 = 1}, 1.0);
     if (rule.nodes.empty()) break;
     if (rules.empty() || rules.back().nodes.data() != rule.nodes.data()) rules.push_back(rule);
   }
@@ -29,7 +29,7 @@ std::vector<EdgeRule> all_edge_rules() {
 std::vector<std::span<const FaceNode>> all_face_rules() {
   std::vector<std::span<const FaceNode>> rules;
   for (double error = 10; error > 1e-90; error /= 1.2) {
-    const auto rule = face_rule({.degree = 100, .error = error}, {.wave2 = 1}, 1.0).nodes;
+    const auto rule = face_rule({.degree = 100, .allowed = error}, {.wave2 = 1}, 1.0).nodes;
     if (rule.empty()) break;
     if (rules.empty() || rules.back().data() != rule.data()) rules.push_back(rule);
   }
@@ -182,7 +182,7 @@ TEST(plane_wave_rules, edges_get_rules_that_leave_no_more_than_allowed) {
   for (const bool divided : {true, false}) {
     for (const double z : {0.1, 0.5, 1.0, 3.0, 10.0, 20.0}) {
       for (double error = 0.1; error > 1e-14; error /= 4) {
-        const NodeAllowance allowance{.degree = kDegree, .error = error, .divided = divided};
+        const NodeAllowance allowance{.degree = kDegree, .allowed = error, .divided = divided};
         const EdgeRule rule = edge_rule(allowance, {.wave2 = z * z}, -1.0);
         if (rule.nodes.empty()) continue;
         EXPECT_LT(error_left(edge_element(rule), z, kDegree, divided),
@@ -202,7 +202,7 @@ TEST(plane_wave_rules, faces_of_any_shape_get_rules_that_leave_no_more_than_allo
     for (const Corners& corners : {equilateral, right, needle, flat}) {
       for (const double z : {0.1, 0.5, 1.0, 3.0, 10.0}) {
         for (double error = 0.1; error > 1e-14; error /= 10) {
-          const NodeAllowance allowance{.degree = kDegree, .error = error, .divided = divided};
+          const NodeAllowance allowance{.degree = kDegree, .allowed = error, .divided = divided};
           const auto rule = face_rule(allowance, {.wave2 = z * z}, 1.0).nodes;
           if (rule.empty()) continue;
           EXPECT_LT(error_left(face_element(rule, corners), z, kDegree, divided),

@@ -36,8 +36,8 @@ double norm_of_degrees(const Coefficients& c, int first, int last) {
 PassError error_of_pass(const MeshPlan& plan, PassFacts& facts, const Coefficients& coefficients) {
   const int degree = plan.divided.degree;
   const double edges2 = sampled_error2(facts.half_edges, plan.block.sampled_names);
-  const double lumps = lumping_error(degree) * plan.in_step;
-  const double rules = plan.shares.caution *
+  const double lumps = lumping_error(degree) * plan.neighbours;
+  const double rules = plan.allowed.caution *
                        std::sqrt(lumps * lumps * (facts.face_error2 + edges2) + facts.node_error2);
   const GridLayout& layout = facts.transform.fourier.layout;
   const double sigma = static_cast<double>(layout.n_phi) / (2.0 * std::max(degree, 1));
@@ -50,14 +50,14 @@ PassError error_of_pass(const MeshPlan& plan, PassFacts& facts, const Coefficien
                         rounding * generic(facts.source2 + facts.hessian2);
   const double scale = plan.block.scale;
   // Vertices in step with the grid leave the window's error of the whole, see
-  // ErrorShares::most_window: of values half of it (measured as kLatticeShare of plan.cpp), of
+  // AllowedErrors::most_window: of values half of it (measured as kLatticeShare of plan.cpp), of
   // Hessians all, as much more as these count.
   const double whole = relative_window * scale * norm_of_degrees(coefficients, 1, degree);
-  const double in_step =
+  const double lattice =
       whole * std::hypot(0.5, std::sqrt(amplified / std::max(facts.source2, 1e-300)));
   const double rows = rows_in_step(plan, facts.node_modulus) * relative_window;
   PassError error;
-  error.whole = std::hypot(rules, window, std::hypot(in_step, rows, plan.quanta)) / scale;
+  error.whole = std::hypot(rules, window, std::hypot(lattice, rows, plan.quanta_error)) / scale;
   // Of l^6, as the error of lumping grows, 0.82 lies above 3L/4; of (2l+1)/(l(l+1))^2, as that of
   // windows falls, 0.78 / L^2.
   error.band = std::hypot(0.9 * rules, 0.88 / std::max(degree, 1) * window) / scale;

@@ -53,10 +53,10 @@ std::uint32_t sampled_names(std::size_t n_triangles) {
 
 // What each edge and face with nodes may leave. What the sample has none of counts as three of its
 // triangles, as in largest_tolerance().
-double element_allowance(const MeshPlan& plan, const MeshSample& sample, std::size_t n_triangles) {
+double allowed_of_element(const MeshPlan& plan, const MeshSample& sample, std::size_t n_triangles) {
   const double noded = std::max(plan.node_share * static_cast<double>(n_triangles),
                                 std::max(3 * sample.share, 10.0));
-  return plan.shares.rules * std::sqrt(node_share2(plan.node_share > 0) / (kElements * noded)) /
+  return plan.allowed.rules * std::sqrt(node_share2(plan.node_share > 0) / (kElements * noded)) /
          kTypicalShare;
 }
 
@@ -67,7 +67,7 @@ BlockParameters block_parameters(const MeshView& mesh, const MeshSample& sample,
           .degree = static_cast<double>(degree),
           .grazing2 = std::pow(grazing_slope(degree), 2),
           // 1/|x|^2 by the rule of lumping leaves 5!/720 z^4 and less.
-          .mean_reach2 = std::sqrt(6 * plan.shares.mean),
+          .mean_reach2 = std::sqrt(6 * plan.allowed.mean),
           .per_weight = 1 / quantum.size,
           .per_gradient = std::max(degree, 1) / quantum.size,
           // Sums wrap around: only those of whole vertices must fit into 31 bits, where the
@@ -81,29 +81,29 @@ BlockParameters block_parameters(const MeshView& mesh, const MeshSample& sample,
 
 }  // namespace
 
-ErrorShares divide_error(const MeshSample& sample, double precision, double tighten) {
+AllowedErrors divide_error(const MeshSample& sample, double precision, double tighten) {
   if (!(sample.mean > 0)) {
     throw Error(ErrorCode::kInvalidInput,
                 "no direction sees the surface from the centre: its faces have no area");
   }
   const double c00 = sample.mean * std::sqrt(4 * kPi);
-  const double allowed = std::max(precision * sample.norm, kLumpRounding * c00) / tighten;
-  ErrorShares shares;
+  const double whole = std::max(precision * sample.norm, kLumpRounding * c00) / tighten;
+  AllowedErrors allowed;
   // Where sheets overlap the norm of their alternating sum is below what the sample says.
-  shares.caution = sample.overlaps ? 1.5 : 1;
-  shares.rules = kRuleShare * allowed / shares.caution;
-  shares.window = kWindowShare * allowed;
-  shares.quanta = kQuantumShare * allowed;
-  shares.most_window = lattice_share(sample.aligned) * precision / tighten;
-  shares.mean = std::max(precision, kLumpRounding);
-  shares.rounding = 4 * kLumpRounding * c00 / sample.scale;
-  return shares;
+  allowed.caution = sample.overlaps ? 1.5 : 1;
+  allowed.rules = kRuleShare * whole / allowed.caution;
+  allowed.window = kWindowShare * whole;
+  allowed.quanta = kQuantumShare * whole;
+  allowed.most_window = lattice_share(sample.aligned) * precision / tighten;
+  allowed.mean = std::max(precision, kLumpRounding);
+  allowed.rounding = 4 * kLumpRounding * c00 / sample.scale;
+  return allowed;
 }
 
-LumpChoice choose_lumps(const MeshSample& sample, const ErrorShares& shares, int degree) {
+LumpChoice choose_lumps(const MeshSample& sample, const AllowedErrors& allowed, int degree) {
   LumpChoice choice;
-  choice.in_step = neighbours_in_step(std::pow(degree * sample.angle, 2));
-  choice.allowed2 = std::pow(shares.rules / (lumping_error(degree) * choice.in_step), 2);
+  choice.neighbours = neighbours_in_step(std::pow(degree * sample.angle, 2));
+  choice.allowed2 = std::pow(allowed.rules / (lumping_error(degree) * choice.neighbours), 2);
   choice.tolerance2 = tolerance_of(sample, choice.allowed2);
   choice.node_share = noded_share(sample, choice.tolerance2);
   return choice;
@@ -116,37 +116,37 @@ std::optional<HermiteLumps> choose_hessians(const MeshSample& sample, const Lump
   return hermite;
 }
 
-bool single_suffices(const MeshSample& sample, const ErrorShares& shares, int degree,
+bool single_suffices(const MeshSample& sample, const AllowedErrors& allowed, int degree,
                      bool hessians) {
   const double generic = std::sqrt(sample.source2 / (4 * kPi));
-  return single_rounding(degree, hessians ? 2 : 1) * generic < 0.3 * shares.window &&
-         kSingleInStep * sample.modulus < shares.window;
+  return single_rounding(degree, hessians ? 2 : 1) * generic < 0.3 * allowed.window &&
+         kSingleInStep * sample.modulus < allowed.window;
 }
 
-Quantum choose_quantum(const ErrorShares& shares, std::size_t n_vertices, bool single) {
+Quantum choose_quantum(const AllowedErrors& allowed, std::size_t n_vertices, bool single) {
   // Rounding to quanta adds variance q^2 / 12 at two corners of a triangle and twice that at the
   // third: at six corners a vertex 2/3 q^2.
-  const double largest = shares.quanta * std::sqrt(6 * kPi / static_cast<double>(n_vertices));
+  const double largest = allowed.quanta * std::sqrt(6 * kPi / static_cast<double>(n_vertices));
   const double size = std::exp2(std::floor(std::log2(largest)) - (single ? 0 : 6));
-  return {.size = size, .error = shares.quanta * size / largest};
+  return {.size = size, .error = allowed.quanta * size / largest};
 }
 
 MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& center, int degree,
                    double precision, const PlanLimits& limits) {
   MeshPlan plan;
-  plan.shares = divide_error(sample, precision, limits.tighten);
-  LumpChoice lumps = choose_lumps(sample, plan.shares, degree);
+  plan.allowed = divide_error(sample, precision, limits.tighten);
+  LumpChoice lumps = choose_lumps(sample, plan.allowed, degree);
   if (limits.no_lumps) lumps.tolerance2 = 0, lumps.node_share = 1;
   const std::optional<HermiteLumps> hermite =
       limits.no_lumps ? std::nullopt : choose_hessians(sample, lumps);
-  plan.in_step = lumps.in_step;
+  plan.neighbours = lumps.neighbours;
   plan.source2 = sample.source2;
   plan.node_share = hermite ? hermite->node_share : lumps.node_share;
   if (limits.many_nodes) plan.node_share = 1;
   plan.single =
-      !limits.forbid_single && single_suffices(sample, plan.shares, degree, hermite.has_value());
-  const Quantum quantum = choose_quantum(plan.shares, mesh.n_vertices, plan.single);
-  plan.quanta = quantum.error;
+      !limits.forbid_single && single_suffices(sample, plan.allowed, degree, hermite.has_value());
+  const Quantum quantum = choose_quantum(plan.allowed, mesh.n_vertices, plan.single);
+  plan.quanta_error = quantum.error;
   plan.block = block_parameters(mesh, sample, center, degree, plan, quantum);
   plan.block.tolerance2 = lumps.tolerance2;
   if (hermite) {
@@ -159,9 +159,9 @@ MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& c
   }
   plan.aligned = sample.aligned;
   plan.node_modulus = std::min(1.0, plan.node_share + plan.between) * sample.modulus;
-  const double element = element_allowance(plan, sample, mesh.n_triangles);
-  plan.divided = {.degree = degree, .error = element, .divided = true};
-  plan.undivided = {.degree = degree, .error = element, .divided = false};
+  const double element = allowed_of_element(plan, sample, mesh.n_triangles);
+  plan.divided = {.degree = degree, .allowed = element, .divided = true};
+  plan.undivided = {.degree = degree, .allowed = element, .divided = false};
   return plan;
 }
 
@@ -172,7 +172,7 @@ double rows_in_step(const MeshPlan& plan, double node_modulus) {
 double allowed_window_error(const MeshPlan& plan, double source2) {
   const double generic = std::sqrt(std::max(source2, 1e-300) / (4 * kPi));
   const double most = std::max(generic, rows_in_step(plan, plan.node_modulus));
-  return std::min(plan.shares.most_window, plan.shares.window / most);
+  return std::min(plan.allowed.most_window, plan.allowed.window / most);
 }
 
 }  // namespace rholm

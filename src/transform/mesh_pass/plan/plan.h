@@ -31,7 +31,7 @@ struct PlanLimits {
 };
 
 // The first decision: how the wanted error is divided among what leaves errors.
-struct ErrorShares {
+struct AllowedErrors {
   double rules = 0;    // may leave this
   double caution = 1;  // what the rules' errors may exceed their model by
   double window = 0;   // and the windows of the transform
@@ -44,22 +44,22 @@ struct ErrorShares {
   double rounding = 0;  // what double precision leaves at best, in the mesh's unit
 };
 // Throws InvalidInput if no direction sees the surface.
-ErrorShares divide_error(const MeshSample& sample, double precision, double tighten);
+AllowedErrors divide_error(const MeshSample& sample, double precision, double tighten);
 
 // The second: up to which error triangles are lumped with values and gradients alone.
 struct LumpChoice {
-  double in_step = 1;     // see neighbours_in_step(), of lumped triangles
+  double neighbours = 1;  // see neighbours_in_step(), of lumped triangles
   double allowed2 = 0;    // sum of squares of their errors, in units of lumping
   double tolerance2 = 0;  // of a triangle
   double node_share = 0;  // part of the triangles that is beyond it
 };
-LumpChoice choose_lumps(const MeshSample& sample, const ErrorShares& shares, int degree);
+LumpChoice choose_lumps(const MeshSample& sample, const AllowedErrors& allowed, int degree);
 
 // The third: whether vertices get Hessians, because nodes for so many triangles would cost more.
 std::optional<HermiteLumps> choose_hessians(const MeshSample& sample, const LumpChoice& lumps);
 
 // The fourth: whether sources may be spread in single precision.
-bool single_suffices(const MeshSample& sample, const ErrorShares& shares, int degree,
+bool single_suffices(const MeshSample& sample, const AllowedErrors& allowed, int degree,
                      bool hessians);
 
 // The fifth: what lumps are whole multiples of.
@@ -67,18 +67,18 @@ struct Quantum {
   double size = 0;   // of weights
   double error = 0;  // what rounding to it leaves
 };
-Quantum choose_quantum(const ErrorShares& shares, std::size_t n_vertices, bool single);
+Quantum choose_quantum(const AllowedErrors& allowed, std::size_t n_vertices, bool single);
 
 struct MeshPlan {
   BlockParameters block;
   NodeAllowance divided, undivided;
-  ErrorShares shares;
-  double in_step = 1;     // see LumpChoice
-  double quanta = 0;      // what rounding of lumps to quanta leaves
-  double node_share = 0;  // part of the triangles that get nodes, as the sample has it
-  double between = 0;     // nodes between the vertices of lumped triangles, per triangle, likewise
-  double source2 = 0;     // sum of squares of the nodes' weights, as the sample has it
-  double hessian2 = 0;    // and of L^2 times Hessians
+  AllowedErrors allowed;
+  double neighbours = 1;    // see LumpChoice
+  double quanta_error = 0;  // what rounding of lumps to quanta leaves
+  double node_share = 0;    // part of the triangles that get nodes, as the sample has it
+  double between = 0;   // nodes between the vertices of lumped triangles, per triangle, likewise
+  double source2 = 0;   // sum of squares of the nodes' weights, as the sample has it
+  double hessian2 = 0;  // and of L^2 times Hessians
   double node_modulus = 0;  // sum of the moduli of the nodes' weights
   double aligned = 0;       // part of the edges along meridians or parallels
   bool single = false;      // single precision will do

@@ -60,10 +60,10 @@ TEST(norm_of_degrees, is_the_root_of_the_squares_of_those_degrees) {
 // Errors of parts add up in squares: each part that is named is in the whole.
 TEST(error_of_pass, grows_with_what_lumps_nodes_windows_and_quanta_leave) {
   MeshPlan plan;
-  plan.divided = {.degree = 20, .error = 1, .divided = true};
+  plan.divided = {.degree = 20, .allowed = 1, .divided = true};
   plan.block.scale = 2;
   plan.block.sampled_names = kAllNames;
-  plan.quanta = 3e-7;
+  plan.quanta_error = 3e-7;
   Coefficients none(20);
   const auto whole_of = [&](double face_error2, double node_error2, double source2) {
     PassFacts facts;
@@ -71,7 +71,7 @@ TEST(error_of_pass, grows_with_what_lumps_nodes_windows_and_quanta_leave) {
     facts.node_error2 = node_error2;
     facts.source2 = source2;
     facts.vertices = 100;
-    facts.transform = plan_nonuniform({.degree = 20, .error = 1e-6, .sources = 100});
+    facts.transform = plan_nonuniform({.degree = 20, .allowed = 1e-6, .sources = 100});
     return error_of_pass(plan, facts, none).whole;
   };
   EXPECT_DOUBLE_EQ(whole_of(0, 0, 0), 3e-7 / 2);

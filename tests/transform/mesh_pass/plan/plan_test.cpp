@@ -22,23 +22,23 @@ MeshSample unit_sample() {
 
 TEST(divide_error, shares_add_up_in_squares_to_no_more_than_the_wish) {
   for (const double precision : {1e-2, 1e-6, 1e-10}) {
-    const ErrorShares shares = divide_error(unit_sample(), precision, 1);
-    const double sum = std::hypot(shares.caution * shares.rules, shares.window, shares.quanta);
+    const AllowedErrors allowed = divide_error(unit_sample(), precision, 1);
+    const double sum = std::hypot(allowed.caution * allowed.rules, allowed.window, allowed.quanta);
     EXPECT_LE(sum, precision * 0.5);
     EXPECT_GT(sum, precision * 0.25);
-    EXPECT_EQ(shares.mean, precision);
+    EXPECT_EQ(allowed.mean, precision);
   }
 }
 
 TEST(divide_error, asks_for_no_more_than_rounding_leaves) {
-  const ErrorShares shares = divide_error(unit_sample(), 1e-30, 1);
-  EXPECT_GT(shares.rules, 0.1 * kLumpRounding);
-  EXPECT_EQ(shares.mean, kLumpRounding);
+  const AllowedErrors allowed = divide_error(unit_sample(), 1e-30, 1);
+  EXPECT_GT(allowed.rules, 0.1 * kLumpRounding);
+  EXPECT_EQ(allowed.mean, kLumpRounding);
 }
 
 TEST(divide_error, tightens_all_shares_alike) {
-  const ErrorShares loose = divide_error(unit_sample(), 1e-5, 1);
-  const ErrorShares tight = divide_error(unit_sample(), 1e-5, 4);
+  const AllowedErrors loose = divide_error(unit_sample(), 1e-5, 1);
+  const AllowedErrors tight = divide_error(unit_sample(), 1e-5, 4);
   EXPECT_DOUBLE_EQ(tight.rules, loose.rules / 4);
   EXPECT_DOUBLE_EQ(tight.window, loose.window / 4);
   EXPECT_DOUBLE_EQ(tight.quanta, loose.quanta / 4);
@@ -47,10 +47,10 @@ TEST(divide_error, tightens_all_shares_alike) {
 
 TEST(divide_error, is_careful_with_sheets_that_overlap_and_edges_along_the_grid) {
   MeshSample sample = unit_sample();
-  const ErrorShares plain = divide_error(sample, 1e-5, 1);
+  const AllowedErrors plain = divide_error(sample, 1e-5, 1);
   sample.overlaps = true;
   sample.aligned = 1;
-  const ErrorShares careful = divide_error(sample, 1e-5, 1);
+  const AllowedErrors careful = divide_error(sample, 1e-5, 1);
   EXPECT_GT(careful.caution, 1);
   EXPECT_LT(careful.rules, plain.rules);
   EXPECT_LT(careful.most_window, plain.most_window / 5);
@@ -75,8 +75,8 @@ TEST(choose_lumps, counts_short_elements_as_in_step) {
   const Mesh mesh = icosphere(5);
   const MeshSample sample = sample_mesh(view_of(mesh), {}, 1);
   const LumpChoice choice = choose_lumps(sample, divide_error(sample, 1e-6, 1), 1);
-  EXPECT_GT(choice.in_step, 5);
-  EXPECT_DOUBLE_EQ(choice.in_step, neighbours_in_step(sample.angle * sample.angle));
+  EXPECT_GT(choice.neighbours, 5);
+  EXPECT_DOUBLE_EQ(choice.neighbours, neighbours_in_step(sample.angle * sample.angle));
 }
 
 TEST(choose_hessians, takes_none_where_all_is_lumped_and_what_is_cheaper_elsewhere) {
@@ -110,13 +110,13 @@ TEST(single_suffices, only_where_its_rounding_is_below_the_windows_share) {
 TEST(choose_quantum, is_a_power_of_two_within_its_share) {
   for (const std::size_t vertices : {4ul, 1000ul, 10'000'000ul}) {
     for (const double precision : {1e-2, 1e-8}) {
-      const ErrorShares shares = divide_error(unit_sample(), precision, 1);
-      const Quantum fine = choose_quantum(shares, vertices, false);
-      const Quantum coarse = choose_quantum(shares, vertices, true);
+      const AllowedErrors allowed = divide_error(unit_sample(), precision, 1);
+      const Quantum fine = choose_quantum(allowed, vertices, false);
+      const Quantum coarse = choose_quantum(allowed, vertices, true);
       int exponent;
       EXPECT_EQ(std::frexp(coarse.size, &exponent), 0.5);
-      EXPECT_LE(coarse.error, shares.quanta);
-      EXPECT_GT(coarse.error, shares.quanta / 2);
+      EXPECT_LE(coarse.error, allowed.quanta);
+      EXPECT_GT(coarse.error, allowed.quanta / 2);
       EXPECT_EQ(coarse.size, 64 * fine.size);
       EXPECT_EQ(coarse.error, 64 * fine.error);
       // Of q^2 / 12 at four corners of six and twice that at the others, over 4 pi.
@@ -142,7 +142,7 @@ TEST(plan_mesh, lumps_a_fine_smooth_mesh_in_single_precision) {
 TEST(plan_mesh, gives_a_coarse_mesh_hessians_or_nodes) {
   const MeshPlan plan = plan_of(bumpy_sphere(4), 64, 1e-6);
   EXPECT_TRUE(plan.block.hessians || plan.node_share > 0);
-  EXPECT_GT(plan.divided.error, 0);
+  EXPECT_GT(plan.divided.allowed, 0);
   EXPECT_TRUE(plan.divided.divided);
   EXPECT_FALSE(plan.undivided.divided);
 }
@@ -156,7 +156,7 @@ TEST(plan_mesh, minds_what_a_first_try_has_taught) {
   EXPECT_EQ(certain.node_share, 1);
   EXPECT_FALSE(certain.block.hessians);
   const MeshPlan loose = plan_of(mesh, 32, 1e-4), tight = plan_of(mesh, 32, 1e-4, {.tighten = 3});
-  EXPECT_DOUBLE_EQ(tight.shares.rules, loose.shares.rules / 3);
+  EXPECT_DOUBLE_EQ(tight.allowed.rules, loose.allowed.rules / 3);
   EXPECT_LT(tight.block.tolerance2, loose.block.tolerance2);
 }
 
@@ -165,10 +165,10 @@ TEST(allowed_window_error, keeps_the_share_for_sources_of_any_size) {
   for (const double source2 : {1e-6, 1.0, 1e6}) {
     const double relative = allowed_window_error(plan, source2);
     EXPECT_LE(relative * std::sqrt(source2 / (4 * 3.14159265358979)),
-              plan.shares.window * (1 + 1e-12));
-    EXPECT_LE(relative, plan.shares.most_window);
+              plan.allowed.window * (1 + 1e-12));
+    EXPECT_LE(relative, plan.allowed.most_window);
   }
-  EXPECT_EQ(allowed_window_error(plan, 0), plan.shares.most_window);
+  EXPECT_EQ(allowed_window_error(plan, 0), plan.allowed.most_window);
 }
 
 }  // namespace
