@@ -7,11 +7,11 @@
 
 #include "harmonic/nonuniform/spread.h"
 
-#if defined(RHOLM_HARMONIC_PLACE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef RHOLM_HARMONIC_PLACE_INL_H_
-#undef RHOLM_HARMONIC_PLACE_INL_H_
+#if defined(RHOLM_HARMONIC_SOURCE_PLACE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RHOLM_HARMONIC_SOURCE_PLACE_INL_H_
+#undef RHOLM_HARMONIC_SOURCE_PLACE_INL_H_
 #else
-#define RHOLM_HARMONIC_PLACE_INL_H_
+#define RHOLM_HARMONIC_SOURCE_PLACE_INL_H_
 #endif
 
 #include <hwy/highway.h>

@@ -4,11 +4,11 @@
 #include "harmonic/nonuniform/source_place-inl.h"
 #include "harmonic/nonuniform/spread.h"
 
-#if defined(RHOLM_HARMONIC_WINDOWS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef RHOLM_HARMONIC_WINDOWS_INL_H_
-#undef RHOLM_HARMONIC_WINDOWS_INL_H_
+#if defined(RHOLM_HARMONIC_WINDOW_VALUES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RHOLM_HARMONIC_WINDOW_VALUES_INL_H_
+#undef RHOLM_HARMONIC_WINDOW_VALUES_INL_H_
 #else
-#define RHOLM_HARMONIC_WINDOWS_INL_H_
+#define RHOLM_HARMONIC_WINDOW_VALUES_INL_H_
 #endif
 
 #include <hwy/highway.h>

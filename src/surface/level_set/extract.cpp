@@ -85,7 +85,7 @@ CornerSlices corner_slices(const std::vector<BlockSurface>& blocks, const Octet&
 std::uint64_t all_of(const Corners& c) { return c[0] & c[1] & c[2] & c[3]; }
 std::uint64_t any_of(const Corners& c) { return c[0] | c[1] | c[2] | c[3]; }
 
-// The case (see surface_table.h) of the cube whose bit is `bit` of slice z.
+// The case (see marching_cubes_table.h) of the cube whose bit is `bit` of slice z.
 unsigned case_of(const CornerSlices& inside, int z, int bit) {
   unsigned result = 0;
   for (int o = 0; o < 4; ++o) {

@@ -33,7 +33,7 @@ TEST(tail_strength, of_a_cube_is_that_of_its_twelve_edges) {
   EXPECT_NEAR(tail_strength(view_of(chart.mesh), {}), expected, 1e-12);
 }
 
-TEST(error_measures, seams_count_as_welded) {
+TEST(chart_norms, seams_count_as_welded) {
   const Mesh mesh = bumpy_sphere(3, 0.3), soup = test::exploded(mesh);
   const Vec3 center = {0.1, 0.05, 0};
   const ErrorStrengths a = vertex_error_strengths(view_of(mesh), center);
@@ -44,7 +44,7 @@ TEST(error_measures, seams_count_as_welded) {
   EXPECT_EQ(tail_strength(view_of(mesh), center), tail_strength(view_of(soup), center));
 }
 
-TEST(error_measures, have_units) {
+TEST(chart_norms, have_units) {
   const Mesh mesh = bumpy_sphere(2, 0.3);
   const Mesh larger = test::moved(mesh, {.scale = 8, .shift = {}});
   const ErrorStrengths a = vertex_error_strengths(view_of(mesh), {});

@@ -6,11 +6,11 @@
 
 #include "transform/mesh_pass/block/block.h"
 
-#if defined(RHOLM_TRANSFORM_MESH_HASH_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef RHOLM_TRANSFORM_MESH_HASH_INL_H_
-#undef RHOLM_TRANSFORM_MESH_HASH_INL_H_
+#if defined(RHOLM_TRANSFORM_EDGE_HASH_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RHOLM_TRANSFORM_EDGE_HASH_INL_H_
+#undef RHOLM_TRANSFORM_EDGE_HASH_INL_H_
 #else
-#define RHOLM_TRANSFORM_MESH_HASH_INL_H_
+#define RHOLM_TRANSFORM_EDGE_HASH_INL_H_
 #endif
 
 #include <hwy/highway.h>

@@ -6,11 +6,11 @@
 
 #include "transform/mesh_pass/block/block.h"
 
-#if defined(RHOLM_TRANSFORM_MESH_LUMPS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef RHOLM_TRANSFORM_MESH_LUMPS_INL_H_
-#undef RHOLM_TRANSFORM_MESH_LUMPS_INL_H_
+#if defined(RHOLM_TRANSFORM_HERMITE_LUMPS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RHOLM_TRANSFORM_HERMITE_LUMPS_INL_H_
+#undef RHOLM_TRANSFORM_HERMITE_LUMPS_INL_H_
 #else
-#define RHOLM_TRANSFORM_MESH_LUMPS_INL_H_
+#define RHOLM_TRANSFORM_HERMITE_LUMPS_INL_H_
 #endif
 
 #include <hwy/highway.h>

@@ -125,7 +125,7 @@ struct Exact {
 };
 
 // In whole quanta: in a lattice, where all triangles are rounded alike, errors would add up.
-TEST(mesh_block, lumps_of_a_triangle_add_up_to_nothing) {
+TEST(block, lumps_of_a_triangle_add_up_to_nothing) {
   const Mesh mesh = random_triangles(300, 2);
   BlockParameters parameters = parameters_about({});
   parameters.per_weight = parameters.per_gradient = 1 << 20;
@@ -144,7 +144,7 @@ TEST(mesh_block, lumps_of_a_triangle_add_up_to_nothing) {
   }
 }
 
-TEST(mesh_block, lumps_are_what_the_rule_makes_of_the_definition) {
+TEST(block, lumps_are_what_the_rule_makes_of_the_definition) {
   const Mesh mesh = random_triangles(1000, 1);
   const auto worked = work<double>(view_of(mesh), parameters_about({}));
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -170,7 +170,7 @@ TEST(mesh_block, lumps_are_what_the_rule_makes_of_the_definition) {
   }
 }
 
-TEST(mesh_block, weights_of_a_triangle_sum_to_zero) {
+TEST(block, weights_of_a_triangle_sum_to_zero) {
   const Mesh mesh = random_triangles(300, 2);
   const auto worked = work<double>(view_of(mesh), parameters_about({}));
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -182,7 +182,7 @@ TEST(mesh_block, weights_of_a_triangle_sum_to_zero) {
 }
 
 // Means of quadratic polynomials: Simpson's rule on edges, mid-edge values on faces, both exact.
-TEST(mesh_block, lumps_are_exact_for_quadratic_functions) {
+TEST(block, lumps_are_exact_for_quadratic_functions) {
   const Mesh mesh = random_triangles(200, 3);
   const auto worked = work<double>(view_of(mesh), parameters_about({}));
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -214,7 +214,7 @@ TEST(mesh_block, lumps_are_exact_for_quadratic_functions) {
 }
 
 // Together with the nodes between the corners, which are whole quanta as well.
-TEST(mesh_block, lumps_and_nodes_of_a_triangle_add_up_to_nothing) {
+TEST(block, lumps_and_nodes_of_a_triangle_add_up_to_nothing) {
   const Mesh mesh = random_triangles(300, 2);
   for (std::size_t rule = 0; rule < kHermiteRules; ++rule) {
     BlockParameters parameters = parameters_about({});
@@ -247,7 +247,7 @@ TEST(mesh_block, lumps_and_nodes_of_a_triangle_add_up_to_nothing) {
 
 // Means of (k . x)^d by Gauss's rules, far beyond the degrees wanted: edges are exact to degree 5,
 // 7, 9, faces to 4, 5, 6.
-TEST(mesh_block, lumps_with_hessians_are_exact_for_polynomials) {
+TEST(block, lumps_with_hessians_are_exact_for_polynomials) {
   const Mesh mesh = random_triangles(100, 3);
   const GaussRule gauss = gauss_legendre(8);
   const auto mean = [&](const auto& f) {
@@ -315,7 +315,7 @@ bool closes(const MeshView& mesh) {
 }
 bool closes(const Mesh& mesh) { return closes(view_of(mesh)); }
 
-TEST(mesh_block, closed_meshes_have_hash_sums_of_zero) {
+TEST(block, closed_meshes_have_hash_sums_of_zero) {
   const Mesh sphere = bumpy_sphere(2), cube = box({1, 2, 3}, 4);
   for (const Mesh& mesh : {sphere, cube, icosphere(0), latitude_longitude_sphere(9, 14),
                            test::tetrahedron(), test::l_prism(1), test::joined(sphere, cube)}) {
@@ -330,7 +330,7 @@ TEST(mesh_block, closed_meshes_have_hash_sums_of_zero) {
 }
 
 // A seam: some triangles have copies of their vertices, with zeros of the other sign.
-TEST(mesh_block, zero_and_minus_zero_are_one_place) {
+TEST(block, zero_and_minus_zero_are_one_place) {
   Mesh mesh = test::random_octahedron(3);
   for (std::size_t t = 0; t < 4; ++t) {
     for (std::uint32_t& corner : mesh.triangles[t]) {
@@ -348,7 +348,7 @@ TEST(mesh_block, zero_and_minus_zero_are_one_place) {
   EXPECT_TRUE(closes(test::packed<float>(mesh).view));
 }
 
-TEST(mesh_block, meshes_that_are_not_closed_or_oriented_have_other_hash_sums) {
+TEST(block, meshes_that_are_not_closed_or_oriented_have_other_hash_sums) {
   for (const int subdivisions : {0, 1, 3}) {
     const Mesh mesh = bumpy_sphere(subdivisions);
     for (std::size_t t = 0; t < mesh.triangles.size(); t += 7) {
@@ -367,7 +367,7 @@ TEST(mesh_block, meshes_that_are_not_closed_or_oriented_have_other_hash_sums) {
 }
 
 // Round numbers, whose last bits are all zeros.
-TEST(mesh_block, holes_in_a_lattice_have_other_hash_sums) {
+TEST(block, holes_in_a_lattice_have_other_hash_sums) {
   Mesh open = box({8, 8, 8}, 8);
   for (std::size_t holes = 0; holes < 100; ++holes) {
     open.triangles.erase(open.triangles.begin() + static_cast<std::ptrdiff_t>(3 * holes));
@@ -378,7 +378,7 @@ TEST(mesh_block, holes_in_a_lattice_have_other_hash_sums) {
 
 double signed_root(double x) { return std::copysign(std::sqrt(std::abs(x)), x); }
 
-TEST(mesh_block, volume_distances_and_bad_faces_are_those_of_the_star_check) {
+TEST(block, volume_distances_and_bad_faces_are_those_of_the_star_check) {
   const struct {
     Mesh mesh;
     Vec3 center;
@@ -401,7 +401,7 @@ TEST(mesh_block, volume_distances_and_bad_faces_are_those_of_the_star_check) {
 }
 
 // 1/|x|^2 by the rule of lumping leaves at most 5!/720 of the fourth power of edge / radius.
-TEST(mesh_block, lumps_integrate_the_radius_to_a_sixth_of_the_fourth_power_of_the_edge) {
+TEST(block, lumps_integrate_the_radius_to_a_sixth_of_the_fourth_power_of_the_edge) {
   for (const int subdivisions : {2, 4}) {
     const Mesh mesh = test::rotated(bumpy_sphere(subdivisions));
     const Vec3 center = {0.1, -0.2, 0.1};
@@ -417,7 +417,7 @@ TEST(mesh_block, lumps_integrate_the_radius_to_a_sixth_of_the_fourth_power_of_th
 }
 
 // Blocks that are not full, down to one triangle: lanes without a triangle do not count.
-TEST(mesh_block, sums_do_not_depend_on_how_triangles_are_dealt_out) {
+TEST(block, sums_do_not_depend_on_how_triangles_are_dealt_out) {
   const Mesh mesh = test::rotated(bumpy_sphere(2, 0.4));
   const BlockParameters parameters = parameters_about({0.5, 0.3, 0});
   const BlockSums whole = work<double>(view_of(mesh), parameters).sums;
@@ -435,7 +435,7 @@ TEST(mesh_block, sums_do_not_depend_on_how_triangles_are_dealt_out) {
   }
 }
 
-TEST(mesh_block, float_coordinates_give_the_same_bits_as_the_same_numbers_in_double) {
+TEST(block, float_coordinates_give_the_same_bits_as_the_same_numbers_in_double) {
   const auto single = test::packed<float>(test::rotated(bumpy_sphere(2)));
   const Mesh same = test::unpacked(single.view);
   const BlockParameters parameters = parameters_about({0.1, 0, 0});
@@ -453,7 +453,7 @@ TEST(mesh_block, float_coordinates_give_the_same_bits_as_the_same_numbers_in_dou
   }
 }
 
-TEST(mesh_block, every_instruction_set_agrees_to_rounding) {
+TEST(block, every_instruction_set_agrees_to_rounding) {
   const Mesh mesh = random_triangles(500, 6);
   const BlockParameters parameters = parameters_about({});
   const auto expected = work<double>(view_of(mesh), parameters);
@@ -482,7 +482,7 @@ TEST(mesh_block, every_instruction_set_agrees_to_rounding) {
   });
 }
 
-TEST(mesh_block, flags_what_cannot_be_lumped) {
+TEST(block, flags_what_cannot_be_lumped) {
   Mesh mesh;
   mesh.vertices = {{1, 0, 0},  {1, 0.1, 0}, {1, 0, 0.1},  // plain
                    {1, 0, 0},  {2, 0, 0},   {1, 0, 0.1},  // edge on
@@ -504,7 +504,7 @@ TEST(mesh_block, flags_what_cannot_be_lumped) {
   EXPECT_TRUE(std::isfinite(worked.sums.min_cos2));
 }
 
-TEST(mesh_block, the_probe_tells_of_coordinates_that_are_not_finite) {
+TEST(block, the_probe_tells_of_coordinates_that_are_not_finite) {
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), kInfinity, -kInfinity}) {
     Mesh mesh = icosphere(2);
     mesh.vertices[77].y = bad;
