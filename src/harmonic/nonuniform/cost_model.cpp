@@ -35,6 +35,7 @@ double source_cost(int width, bool single, int derivatives) {
 
 double typical_source_cost() { return 15; }
 double typical_cell_cost() { return 2; }
+double second_thread_cost() { return 4e5; }  // chosen: 0.4 ms
 
 double cell_cost(bool single, std::size_t grids) {
   return (single ? kCellSingle : kCellDouble) +

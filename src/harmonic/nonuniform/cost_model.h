@@ -14,6 +14,8 @@ double source_cost(int width, bool single, int derivatives);
 // The same where the window is not known yet, and adding a cell of one grid to another.
 double typical_source_cost();
 double typical_cell_cost();
+// Work that two threads are worth it for.
+double second_thread_cost();
 
 // One cell between so many grids and their transforms: cleared, added up, folded, gathered.
 double cell_cost(bool single, std::size_t grids);

@@ -55,10 +55,12 @@ void visit_grids(const NonuniformNeeds& needs, int width, double allowed, const 
 
 std::size_t grid_count(const NonuniformPlan& plan, std::size_t sources) {
   // A second grid is taken where it costs less than a twentieth of the work, up to eight, and
-  // always from 0.4 ms of work on (chosen).
+  // always where a second thread is worth it (chosen).
+  constexpr double kWorkPerGrid = 20;
   const double work = typical_source_cost() * static_cast<double>(sources);
   const double grid = typical_cell_cost() * static_cast<double>(plan.fourier.layout.cells());
-  return static_cast<std::size_t>(std::clamp(work / (20 * grid), 1.0, 7.0)) + (work > 4e5);
+  return static_cast<std::size_t>(std::clamp(work / (kWorkPerGrid * grid), 1.0, 7.0)) +
+         (work > second_thread_cost());
 }
 
 NonuniformPlan plan_nonuniform(const NonuniformNeeds& needs) {

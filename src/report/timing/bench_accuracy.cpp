@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harmonic/nonuniform/cost_model.h"
 #include "report/timing/bench.h"
 #include "report/timing/bench_timing.h"
 #include "rholm/error.h"
@@ -14,8 +15,8 @@ namespace {
 constexpr double kFastReference = 1e-12, kLeastPrecision = 1e-14;
 constexpr double kDirectReference = 1e-13;
 
-// Direct sums of fewer terms take some 4 s: 0.35 ns a term.
-constexpr double kMostTerms = 1e10;
+// The most that direct sums may cost, nanoseconds by the cost model: some 4 s.
+constexpr double kMostDirect = 3.5e9;
 // Nodes that a precision of 1e-13 takes on a triangle of a mesh that resolves its degrees, and its
 // share of edges.
 constexpr double kNodesPerTriangle = 12;
@@ -57,14 +58,14 @@ CoefficientsError compare_coefficients(const Coefficients& found, const Coeffici
 Reference bench_reference(const std::filesystem::path& path, const Vec3& center,
                           const BenchOptions& options, const Context& context) {
   check(options);
-  const double terms = (options.degree + 1.0) * (options.degree + 2.0) / 2;
   // Looking at the file counts its triangles where it matters: small files may be read twice.
   const auto mapped = map_mesh(path, context);
   const double triangles =
       mapped ? static_cast<double>(mapped->view().n_triangles)
              : static_cast<double>(std::filesystem::file_size(path)) / 13;  // the least per face
   Reference reference;
-  const bool direct = kNodesPerTriangle * triangles * terms <= kMostTerms;
+  const auto nodes = static_cast<std::size_t>(kNodesPerTriangle * triangles);
+  const bool direct = direct_cost(nodes, options.degree, 0) <= kMostDirect;
   reference.engine = direct ? Engine::kDirect : Engine::kFast;
   reference.precision =
       direct ? kDirectReference

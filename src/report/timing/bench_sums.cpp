@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/random.h"
+#include "harmonic/nonuniform/cost_model.h"
 #include "report/timing/bench.h"
 #include "report/timing/bench_timing.h"
 #include "rholm/synthesize.h"
@@ -10,8 +11,8 @@
 namespace rholm {
 namespace {
 
-// Direct sums of a sample: about 0.1 s, at 0.35 ns a term, and whole vectors.
-constexpr double kSampledTerms = 3e8;
+// Direct sums of a sample: nanoseconds by the cost model, about 0.1 s, and whole vectors.
+constexpr double kSampledCost = 1e8;
 constexpr std::size_t kLeastSample = 64;
 
 struct RandomSources {
@@ -42,10 +43,10 @@ RandomSources sources_of(const Mesh& mesh, const Vec3& center) {
 
 // Every n-th one.
 RandomSources sample_of(const RandomSources& all, int degree) {
-  const double terms = (degree + 1.0) * (degree + 2.0) / 2;
+  const double most = kSampledCost / direct_cost(1, degree, 0);
   const std::size_t n = all.directions.size();
-  const std::size_t size = std::min(
-      n, std::max(kLeastSample, static_cast<std::size_t>(kSampledTerms / terms) / 32 * 32));
+  const std::size_t size =
+      std::min(n, std::max(kLeastSample, static_cast<std::size_t>(most) / 32 * 32));
   RandomSources sample;
   for (std::size_t i = 0; i < size; ++i) {
     sample.directions.push_back(all.directions[i * n / size]);
