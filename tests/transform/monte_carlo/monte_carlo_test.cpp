@@ -14,7 +14,6 @@
 #include "support/test_meshes.h"
 #include "support/test_shapes.h"
 #include "transform/monte_carlo/moments.h"
-#include "transform/monte_carlo/rules.h"
 #include "transform/monte_carlo/samplers.h"
 #include "transform/monte_carlo/spherical_triangle.h"
 
@@ -87,18 +86,6 @@ TEST(monte_carlo_edge, the_field_integrates_to_the_coefficients_wherever_it_star
       EXPECT_NEAR(found.c(0, 0) / expected.c(0, 0), 1, 5e-4) << trial.name;
     }
   }
-}
-
-// Of this turned mesh no edge comes so near to the axis that Gauss nodes would not converge.
-TEST(monte_carlo_edge, gauss_nodes_on_the_edges_converge_at_all_orders) {
-  const StarChart chart = chart_about(test::rotated(bumpy_sphere(2, 0.2)), {0, 0, 0});
-  const StarGeometry geometry = star_geometry(chart);
-  Coefficients found = edge_rule_sum(geometry, 96, 60, {});
-  for (double& value : found.values()) value /= geometry.scale;
-  const Coefficients expected =
-      analyze(chart, {.degree = 96, .method = Method::kArea, .precision = 1e-10})
-          .expansion.coefficients;
-  EXPECT_LT(relative_error(found, expected), 1e-8);
 }
 
 TEST(monte_carlo_triangle, points_are_uniform_on_large_and_on_tiny_triangles) {

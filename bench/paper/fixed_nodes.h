@@ -7,7 +7,7 @@
 #include "rholm/context.h"
 #include "transform/geometry/star_geometry.h"
 
-namespace rholm {
+namespace rholm::paper {
 
 // Of the scaled geometry. `points` Gauss nodes on each edge, the field started as in (M2): smooth
 // along an edge but near the axis, where this converges slowly.
@@ -19,4 +19,4 @@ Coefficients triangle_rule_sum(const StarGeometry& geometry, int degree, int exa
                                const Context& context);
 std::size_t triangle_rule_points(int exactness);
 
-}  // namespace rholm
+}  // namespace rholm::paper

@@ -1,4 +1,4 @@
-#include "transform/monte_carlo/rules.h"
+#include "fixed_nodes.h"
 
 #include <vector>
 
@@ -7,7 +7,7 @@
 #include "transform/monte_carlo/edge_terms.h"
 #include "transform/rules/bernstein_rules.h"
 
-namespace rholm {
+namespace rholm::paper {
 
 Coefficients edge_rule_sum(const StarGeometry& geometry, int degree, int points,
                            const Context& context) {
@@ -64,4 +64,4 @@ std::size_t triangle_rule_points(int exactness) {
   return points;
 }
 
-}  // namespace rholm
+}  // namespace rholm::paper
