@@ -215,12 +215,6 @@ PruneReport Pruning::to(double aim, Atlas& pruned, const Context& context) const
   return report;
 }
 
-PruneReport prune(const SampleLevels& samples, const PruneOptions& options, Atlas& atlas,
-                  const Context& context) {
-  Pruning pruning(samples, options, atlas, context);
-  return pruning.to(options.tolerance, atlas, context);
-}
-
 std::size_t n_kept(const Atlas& atlas) {
   return static_cast<std::size_t>(std::count_if(
       atlas.coefficients.begin(), atlas.coefficients.end(), [](double c) { return c != 0; }));

@@ -25,14 +25,10 @@ struct PruneReport {
   double price = 0;  // squared error, summed over samples, that the last one dropped cost
 };
 
-// Fits the coefficients of all caps anew, by their shares in the blend, and sets to zero those that
-// matter least until the blend's error is the tolerance, if the caps can meet it (see rms). What is
-// left is fitted once more, so that caps agree where they meet. Caps lose the degrees that are all
-// zero; supports shrink where caps stray.
-PruneReport prune(const SampleLevels& samples, const PruneOptions& options, Atlas& atlas,
-                  const Context& context);
-
-// The same to several aims from the same fits. Refers to the samples.
+// Fits the coefficients of all caps anew, by their shares in the blend; then, to one aim or
+// several, sets to zero those that matter least until the blend's error is the aim, if the caps can
+// meet it (see rms). What is left is fitted once more, so that caps agree where they meet. Caps
+// lose the degrees that are all zero; supports shrink where caps stray. Refers to the samples.
 class Pruning {
  public:
   // `options.tolerance` is the scale of what caps miss; aims are near it.

@@ -115,6 +115,13 @@ TEST(greedy_cover, covered_samples_of_a_sphere_are_within_four_tolerances) {
   }
 }
 
+// To the tolerance that the caps were fitted to.
+PruneReport prune(const SampleLevels& samples, const PruneOptions& options, Atlas& atlas,
+                  const Context& context) {
+  const Pruning pruning(samples, options, atlas, context);
+  return pruning.to(options.tolerance, atlas, context);
+}
+
 TEST(greedy_cover, threads_do_not_change_a_bit) {
   const Samples s = torus(8000);
   std::vector<double> found[2];
@@ -131,7 +138,7 @@ TEST(greedy_cover, threads_do_not_change_a_bit) {
   EXPECT_EQ(found[0], found[1]);
 }
 
-TEST(prune, keeps_the_tolerance_and_drops_coefficients) {
+TEST(pruning, keeps_the_tolerance_and_drops_coefficients) {
   const Samples s = torus(6000);
   const SampleLevels levels = make_levels(s.points, s.normals, {});
   for (const double tolerance : {1e-2, 5e-3}) {
@@ -211,7 +218,7 @@ TEST(strays, surfaces_that_go_on_where_samples_end_do) {
   EXPECT_GE(tried, 2U);
 }
 
-TEST(prune, leaves_no_gaps_between_caps_of_random_samples) {
+TEST(pruning, leaves_no_gaps_between_caps_of_random_samples) {
   const Samples s = random_sphere(30000);
   const SampleLevels levels = make_levels(s.points, s.normals, {});
   const double tolerance = levels.finest().spacing / 7;
