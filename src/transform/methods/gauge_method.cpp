@@ -43,72 +43,100 @@ Vec3 degree_one(const StarGeometry& geometry) {
   return {x.value(), y.value(), z.value()};
 }
 
-}  // namespace
+struct ArcJumps {
+  std::vector<EdgeJump> of_edge;
+  double total = 0;   // sum of |s_e| times the arcs
+  double square = 0;  // sum of the squares of s_e times the arcs
+};
 
-MethodResult gauge_method(const StarGeometry& geometry, const MethodOptions& options,
-                          const Context& context) {
-  check_planes(geometry);
-  const auto& edges = geometry.chart->edges;
-  std::vector<EdgeJump> jumps;
-  jumps.reserve(edges.size());
-  double total = 0;
-  for (const Edge& edge : edges) {
-    jumps.push_back(edge_jump(geometry, edge));
-    total += std::abs(jumps.back().jump) * jumps.back().angle;
+ArcJumps jumps_of(const StarGeometry& geometry) {
+  ArcJumps jumps;
+  jumps.of_edge.reserve(geometry.chart->edges.size());
+  for (const Edge& edge : geometry.chart->edges) {
+    const EdgeJump jump = edge_jump(geometry, edge);
+    jumps.of_edge.push_back(jump);
+    jumps.total += std::abs(jump.jump) * jump.angle;
+    jumps.square += std::pow(jump.jump * jump.angle, 2);
   }
-  // As for the radius, with |2 - l(l+1)| >= 2/3 l(l+1) from l = 2 on; on an arc nothing is lost
-  // at low degrees that is not lost at L.
+  return jumps;
+}
+
+// As for the radius, with |2 - l(l+1)| >= 2/3 l(l+1) from l = 2 on; on an arc nothing is lost at
+// low degrees that is not lost at L.
+Allowance arc_allowance(const MethodOptions& options, double total) {
   const double root = std::sqrt(4 * std::numbers::pi);
-  const Allowance allowance{.allowed = options.allowed / std::max(total, 1e-300),
-                            .first = 0,
-                            .last = 1.5 / (root * std::max(options.degree, 1)),
-                            .degree = options.degree,
-                            .growth = Growth::kArc};
-  // Half of the error may come from the sums: the others' rule is generous. Sums of squares as if
-  // each edge had one node; dividing by l(l+1) - 2 brings generic sums down to 1 / sqrt(4 pi).
-  double square = 0;
-  for (const EdgeJump& jump : jumps) square += std::pow(jump.jump * jump.angle, 2);
-  const double generic = 1.5 * std::sqrt(std::max(square, 1e-300)) / root;
-  Sources sources({.degree = options.degree,
-                   .engine = options.engine,
-                   .allowed = 0.5 * options.allowed / generic,
-                   .sources = 4 * edges.size()},
-                  context);
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    const EdgeJump& jump = jumps[e];
-    if (jump.jump == 0) continue;
-    sources.set_progress(static_cast<double>(e) / static_cast<double>(edges.size()));
-    const Vec3 p = normalized(geometry.vertices[edges[e].a]);
-    const Vec3 q = cross(jump.normal, p);
-    // Arcs too long for one rule are cut into equal parts.
-    int parts = 1, exactness = 0;
-    while ((exactness = exactness_for(allowance, jump.angle / (2 * parts), 1)) == 0) parts *= 2;
-    const GaussRule& rule = segment_rule(exactness);
-    for (int part = 0; part < parts; ++part) {
-      for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
-        const double s = (part + rule.nodes[i]) / parts * jump.angle;
-        sources.add(std::cos(s) * p + std::sin(s) * q,
-                    rule.weights[i] / parts * jump.angle * jump.jump);
-      }
+  return {.allowed = options.allowed / std::max(total, 1e-300),
+          .first = 0,
+          .last = 1.5 / (root * std::max(options.degree, 1)),
+          .degree = options.degree,
+          .growth = Growth::kArc};
+}
+
+// Half of the error may come from the sums: the others' rule is generous. Sums of squares as if
+// each edge had one node; dividing by l(l+1) - 2 brings generic sums down to 1 / sqrt(4 pi).
+AdjointNeeds sum_needs(const MethodOptions& options, const ArcJumps& jumps) {
+  const double root = std::sqrt(4 * std::numbers::pi);
+  const double generic = 1.5 * std::sqrt(std::max(jumps.square, 1e-300)) / root;
+  return {.degree = options.degree,
+          .engine = options.engine,
+          .allowed = 0.5 * options.allowed / generic,
+          .sources = 4 * jumps.of_edge.size()};
+}
+
+// int_arc conj(Y) ds times the jump, from p on. Arcs too long for one rule are cut into equal
+// parts.
+void add_arc(const Vec3& p, const EdgeJump& jump, const Allowance& allowance, Sources& sources) {
+  const Vec3 q = cross(jump.normal, p);
+  int parts = 1, exactness = 0;
+  while ((exactness = exactness_for(allowance, jump.angle / (2 * parts), 1)) == 0) parts *= 2;
+  const GaussRule& rule = segment_rule(exactness);
+  for (int part = 0; part < parts; ++part) {
+    for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
+      const double s = (part + rule.nodes[i]) / parts * jump.angle;
+      sources.add(std::cos(s) * p + std::sin(s) * q,
+                  rule.weights[i] / parts * jump.angle * jump.jump);
     }
   }
-  MethodResult result;
-  result.edge_nodes = sources.count();
-  result.coefficients = sources.finish();
-  Coefficients& c = result.coefficients;
-  for (int l = 0; l <= options.degree; ++l) {
+}
+
+// By 2 - l(l+1); degree 1, which has lost all, becomes 0.
+void divide_by_eigenvalue_of_gauge(Coefficients& c) {
+  for (int l = 0; l <= c.degree(); ++l) {
     const double factor = l == 1 ? 0.0 : 1 / (2 - static_cast<double>(l) * (l + 1));
     for (int m = 0; m <= l; ++m) {
       c.c(l, m) *= factor;
       c.s(l, m) *= factor;
     }
   }
-  if (options.degree >= 1) {
-    const Vec3 v = std::sqrt(3 / (4 * std::numbers::pi)) * degree_one(geometry);
-    c.c(1, 0) = v.z;
-    c.c(1, 1) = v.x;
-    c.s(1, 1) = v.y;
+}
+
+void set_degree_one(const StarGeometry& geometry, Coefficients& c) {
+  const Vec3 v = std::sqrt(3 / (4 * std::numbers::pi)) * degree_one(geometry);
+  c.c(1, 0) = v.z;
+  c.c(1, 1) = v.x;
+  c.s(1, 1) = v.y;
+}
+
+}  // namespace
+
+MethodResult gauge_method(const StarGeometry& geometry, const MethodOptions& options,
+                          const Context& context) {
+  check_planes(geometry);
+  const auto& edges = geometry.chart->edges;
+  const ArcJumps jumps = jumps_of(geometry);
+  const Allowance allowance = arc_allowance(options, jumps.total);
+  Sources sources(sum_needs(options, jumps), context);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const EdgeJump& jump = jumps.of_edge[e];
+    if (jump.jump == 0) continue;
+    sources.set_progress(static_cast<double>(e) / static_cast<double>(edges.size()));
+    add_arc(normalized(geometry.vertices[edges[e].a]), jump, allowance, sources);
   }
+  MethodResult result;
+  result.edge_nodes = sources.count();
+  result.coefficients = sources.finish();
+  divide_by_eigenvalue_of_gauge(result.coefficients);
+  if (options.degree >= 1) set_degree_one(geometry, result.coefficients);
   return result;
 }
 
