@@ -192,28 +192,28 @@ const Mesh& ClosestDistances::sphere(int degree) {
   return sphere_;
 }
 
-namespace {
-
 // Where distances of both ways were found: the model's at points of the mesh, and back at the
 // points of the model opposite to them.
-struct Seen {
+struct ClosestDistances::Seen {
   ErrorPoints points;  // lengths scaled
   std::vector<double> to_model, to_shape;
   double most() const { return std::max(largest(to_model), largest(to_shape)); }
+
+  // The larger of both ways. First order at many points tells what few leave out: it is much the
+  // same for closest points.
+  double rms(const PieceModel& few, const PieceModel& many) const {
+    const Squares first_few = few.squares(few.to_model, few.to_shape);
+    const Squares first_many = many.squares(many.to_model, many.to_shape);
+    const Squares found = few.squares(to_model, to_shape);
+    const auto scaled = [](double square, double of_few, double of_many) {
+      return of_few > 0 ? square * of_many / of_few : square;
+    };
+    return std::sqrt(std::max(scaled(found.there, first_few.there, first_many.there),
+                              scaled(found.back, first_few.back, first_many.back)));
+  }
 };
 
-// The larger of both ways. First order at many points tells what few leave out: it is much the same
-// for closest points.
-double rms_of(const Seen& at_few, const PieceModel& few, const PieceModel& many) {
-  const Squares first_few = few.squares(few.to_model, few.to_shape);
-  const Squares first_many = many.squares(many.to_model, many.to_shape);
-  const Squares found = few.squares(at_few.to_model, at_few.to_shape);
-  const auto scaled = [](double square, double of_few, double of_many) {
-    return of_few > 0 ? square * of_many / of_few : square;
-  };
-  return std::sqrt(std::max(scaled(found.there, first_few.there, first_many.there),
-                            scaled(found.back, first_few.back, first_many.back)));
-}
+namespace {
 
 // Those of the largest values, in descending order.
 std::vector<std::size_t> largest_first(const std::vector<double>& values, std::size_t most) {
@@ -230,28 +230,24 @@ std::vector<std::size_t> largest_first(const std::vector<double>& values, std::s
 
 }  // namespace
 
-SurfaceDistances ClosestDistances::measure(const Expansion& expansion, int degree,
-                                           const ErrorPoints& extreme, double precision,
-                                           const Context& context) {
-  const Context silent{.threads = context.threads};
-  const RadialSurface surface(expansion, degree, pieces_.scale, precision, silent);
-  const Model model(surface, sphere(degree), silent);
+ClosestDistances::Seen ClosestDistances::see_pieces(const Model& model,
+                                                    const RadialPoints& opposite,
+                                                    const Context& context) const {
   std::vector<Vec3> x(pieces_.size());
   for (std::size_t i = 0; i < x.size(); ++i) x[i] = pieces_.radii[i] * pieces_.directions[i];
-  const RadialPoints opposite = surface.at(pieces_.directions);
   Seen seen;
   seen.points.directions = pieces_.directions;
   seen.points.radii = pieces_.radii;
   seen.points.owners = pieces_.faces;
   seen.to_model = model.distances(x, opposite.points);
-  seen.to_shape = closest(*scene_, opposite.points, silent);
-  SurfaceDistances result;
-  result.rms = rms_of(seen, PieceModel(pieces_, opposite),
-                      PieceModel(dense_, surface.at(dense_.directions))) /
-               pieces_.scale;
+  seen.to_shape = closest(*scene_, opposite.points, context);
+  return seen;
+}
 
-  // No distance is above the radial error: the largest of these first.
-  const std::vector<Vec3> models = surface.points(extreme.directions);
+// No distance is above the radial error: the largest of these first.
+void ClosestDistances::see_extreme(const Model& model, const ErrorPoints& extreme,
+                                   const Context& context, Seen& seen) const {
+  const std::vector<Vec3> models = model.surface.points(extreme.directions);
   std::vector<double> radial(extreme.size());
   for (std::size_t i = 0; i < extreme.size(); ++i) {
     radial[i] = std::abs(pieces_.scale * extreme.radii[i] - dot(models[i], extreme.directions[i]));
@@ -270,27 +266,45 @@ SurfaceDistances ClosestDistances::measure(const Expansion& expansion, int degre
       seen.points.owners.push_back(extreme.owners[i]);
     }
     const std::vector<double> there = model.distances(points, across);
-    const std::vector<double> back = closest(*scene_, across, silent);
+    const std::vector<double> back = closest(*scene_, across, context);
     seen.to_model.insert(seen.to_model.end(), there.begin(), there.end());
     seen.to_shape.insert(seen.to_shape.end(), back.begin(), back.end());
     most = std::max({most, largest(there), largest(back)});
   }
+}
 
+double ClosestDistances::highest(const Model& model, const RadialSurface& surface, int degree,
+                                 const Seen& seen) const {
   const Context alone{.threads = 1};  // a hundred points at a time
-  const RadialSurface near(expansion, degree, pieces_.scale, precision, alone);
   const auto there_at = [&](const ErrorPoints& at) {
     std::vector<Vec3> points(at.size());
     for (std::size_t i = 0; i < points.size(); ++i) points[i] = at.radii[i] * at.directions[i];
-    return model.distances(points, near.points(at.directions));
+    return model.distances(points, surface.points(at.directions));
   };
   const auto back_at = [&](const ErrorPoints& at) {
-    return closest(*scene_, near.points(at.directions), alone);
+    return closest(*scene_, surface.points(at.directions), alone);
   };
   const MeshView view = view_of(shape_);
-  most =
-      std::max({most, highest_peak(view, {}, seen.points, seen.to_model, degree, kPeaks, there_at),
-                highest_peak(view, {}, seen.points, seen.to_shape, degree, kPeaks, back_at)});
-  result.max = most / pieces_.scale;
+  return std::max({seen.most(),
+                   highest_peak(view, {}, seen.points, seen.to_model, degree, kPeaks, there_at),
+                   highest_peak(view, {}, seen.points, seen.to_shape, degree, kPeaks, back_at)});
+}
+
+SurfaceDistances ClosestDistances::measure(const Expansion& expansion, int degree,
+                                           const ErrorPoints& extreme, double precision,
+                                           const Context& context) {
+  const Context silent{.threads = context.threads}, alone{.threads = 1};
+  const RadialSurface surface(expansion, degree, pieces_.scale, precision, silent);
+  const Model model(surface, sphere(degree), silent);
+  const RadialPoints opposite = surface.at(pieces_.directions);
+  Seen seen = see_pieces(model, opposite, silent);
+  SurfaceDistances result;
+  result.rms =
+      seen.rms(PieceModel(pieces_, opposite), PieceModel(dense_, surface.at(dense_.directions))) /
+      pieces_.scale;
+  see_extreme(model, extreme, silent, seen);
+  const RadialSurface near(expansion, degree, pieces_.scale, precision, alone);
+  result.max = highest(model, near, degree, seen) / pieces_.scale;
   return result;
 }
 

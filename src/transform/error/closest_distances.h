@@ -63,7 +63,15 @@ class ClosestDistances {
 
  private:
   struct Model;
+  struct Seen;
   const Mesh& sphere(int degree);
+  // At the pieces; then at extreme points, those that may be farther than what has been seen; then
+  // the largest distance uphill from there.
+  Seen see_pieces(const Model& model, const RadialPoints& opposite, const Context& context) const;
+  void see_extreme(const Model& model, const ErrorPoints& extreme, const Context& context,
+                   Seen& seen) const;
+  double highest(const Model& model, const RadialSurface& surface, int degree,
+                 const Seen& seen) const;
 
   SurfacePieces pieces_, dense_;
   Mesh shape_;  // about the centre, scaled
