@@ -124,16 +124,14 @@ std::uint32_t start_of(const SampleLevels& samples, const SampleLevel& level, st
   return scratch.near.front().index;
 }
 
-}  // namespace
+struct Fitted {
+  int degree = 0;  // 0: none meets the tolerance
+  Misses misses;
+};
 
-bool make_candidate(const SampleLevels& samples, std::uint32_t seed, double radius,
-                    double half_angle, const CandidateOptions& options, CandidateScratch& scratch,
-                    Candidate& candidate) {
-  const SampleLevel& level = samples.level_for(radius, options.samples);
-  const Vec3& at = samples.finest().points[seed];
-  const std::uint32_t start = start_of(samples, level, seed, scratch);
-  const CapFrame frame =
-      gather(level, start, at, samples.finest().normals[seed], radius, half_angle, scratch);
+// The least degree that meets the tolerance; its coefficients and distances stay in the scratch.
+Fitted fit_least_degree(const CapFrame& frame, const CandidateOptions& options,
+                        CandidateScratch& scratch) {
   CapSystem system;
   const auto try_degree = [&](int degree) {
     const std::size_t n = n_coefficients(CapBasis::kEven, degree);
@@ -146,40 +144,63 @@ bool make_candidate(const SampleLevels& samples, std::uint32_t seed, double radi
   for (const int degree : {std::min(kLowDegree, options.max_degree), options.max_degree}) {
     const CapFitOptions fit{CapBasis::kEven, degree, kGradientWeight, kFewPenalty};
     system = make_system(frame, scratch.points, fit, scratch.fit);
-    if (!system.solvable) return false;
+    if (!system.solvable) return {};
     scratch.fit.factor.factor(scratch.fit.matrix.data(), system.n, kFewPivot);
     const Misses misses = try_degree(degree);
     if (good(misses, options.tolerance)) {
       high = degree;
       break;
     }
-    if (hopeless(misses)) return false;
+    if (hopeless(misses)) return {};
     low = degree;
   }
-  if (high == 0) return false;
+  if (high == 0) return {};
   while (high - low > 1) {
     const int middle = (low + high) / 2;
     (good(try_degree(middle), options.tolerance) ? high : low) = middle;
   }
-  const Misses misses = try_degree(high);
-  candidate.covered.clear();
+  return {high, try_degree(high)};
+}
+
+// The samples within the support that are not missed; returns how far those within it are from the
+// plane of the seed.
+double list_covered(const SampleLevel& level, const CapFrame& frame, double radius,
+                    double tolerance, const CandidateScratch& scratch,
+                    std::vector<std::uint32_t>& covered) {
+  covered.clear();
   double deviation = 0;
   for (std::size_t i = 0; i < scratch.points.size(); ++i) {
     if (scratch.distance2[i] > radius * radius) continue;
     deviation = std::max(deviation, std::abs(dot(scratch.points.offset(i), frame.z)));
-    if (std::abs(scratch.values[i]) > kMiss * options.tolerance) continue;
-    candidate.covered.push_back(level.base[scratch.indices[i]]);
+    if (std::abs(scratch.values[i]) > kMiss * tolerance) continue;
+    covered.push_back(level.base[scratch.indices[i]]);
   }
+  return deviation;
+}
+
+}  // namespace
+
+bool make_candidate(const SampleLevels& samples, std::uint32_t seed, double radius,
+                    double half_angle, const CandidateOptions& options, CandidateScratch& scratch,
+                    Candidate& candidate) {
+  const SampleLevel& level = samples.level_for(radius, options.samples);
+  const Vec3& at = samples.finest().points[seed];
+  const std::uint32_t start = start_of(samples, level, seed, scratch);
+  const CapFrame frame =
+      gather(level, start, at, samples.finest().normals[seed], radius, half_angle, scratch);
+  const Fitted fitted = fit_least_degree(frame, options, scratch);
+  if (fitted.degree == 0) return false;
   candidate.cap.frame = frame;
   set_support(candidate.cap, radius);
   candidate.cap.basis = CapBasis::kEven;
-  candidate.cap.degree = static_cast<std::uint16_t>(high);
-  candidate.cap.error = misses.rms;
-  candidate.cap.deviation = deviation;
+  candidate.cap.degree = static_cast<std::uint16_t>(fitted.degree);
+  candidate.cap.error = fitted.misses.rms;
+  candidate.cap.deviation =
+      list_covered(level, frame, radius, options.tolerance, scratch, candidate.covered);
   candidate.coefficients = scratch.coefficients;
-  candidate.rms = misses.rms;
+  candidate.rms = fitted.misses.rms;
   candidate.share = static_cast<double>(samples.size()) / static_cast<double>(level.points.size());
-  candidate.inside = candidate.share * static_cast<double>(misses.within);
+  candidate.inside = candidate.share * static_cast<double>(fitted.misses.within);
   return !strays(samples, candidate.cap, candidate.coefficients, options.stray, radius, scratch);
 }
 
