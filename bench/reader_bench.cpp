@@ -19,6 +19,7 @@
 
 #include "io/file/atomic_file.h"
 #include "io/file/output_buffer.h"
+#include "io/file/scalar_bytes.h"
 #include "rholm/shape_io.h"
 
 namespace rholm {

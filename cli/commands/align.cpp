@@ -13,7 +13,6 @@
 #include "cli/files/outputs.h"
 #include "cli/grammar/parse.h"
 #include "cli/options/convention.h"
-#include "cli/terminal/interrupt.h"
 #include "cli/terminal/json_text.h"
 #include "cli/terminal/session.h"
 #include "rholm/error.h"

@@ -7,7 +7,6 @@
 
 #include "cli/files/inputs.h"
 #include "cli/files/outputs.h"
-#include "rholm/error.h"
 
 namespace rholm::cli {
 namespace {

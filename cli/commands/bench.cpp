@@ -15,7 +15,6 @@
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/session.h"
 #include "rholm/error.h"
-#include "rholm/primitives.h"
 #include "rholm/version.h"
 
 namespace rholm::cli {

@@ -11,7 +11,6 @@
 #include "cli/files/prepare.h"
 #include "cli/files/surfaces.h"
 #include "cli/options/convention.h"
-#include "cli/terminal/interrupt.h"
 #include "cli/terminal/json_text.h"
 #include "cli/terminal/session.h"
 #include "rholm/align.h"

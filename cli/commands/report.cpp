@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "cli/commands/atlas_report.h"
 #include "cli/commands/commands.h"
 #include "cli/files/inputs.h"
 #include "cli/files/outputs.h"

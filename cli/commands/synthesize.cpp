@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "cli/commands/atlas_report.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/synthesize_atlas.h"
 #include "cli/files/inputs.h"

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "harmonic/legendre/legendre_kernels.h"
+
 namespace rholm {
 namespace {
 

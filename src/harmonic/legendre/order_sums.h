@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "harmonic/legendre/legendre_kernels.h"
 #include "rholm/coefficients.h"
 #include "rholm/context.h"
 #include "rholm/vec3.h"

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
-
-#include "harmonic/legendre/direct_sums.h"
+#include <memory>
 
 namespace rholm {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "harmonic/fft/fft.h"
 #include "harmonic/nonuniform/circle_kernels.h"
+#include "harmonic/rings/ring_sums.h"
 
 namespace rholm {
 namespace {

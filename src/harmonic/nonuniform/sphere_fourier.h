@@ -14,7 +14,6 @@
 
 #include "base/parallel.h"
 #include "harmonic/nonuniform/spread.h"
-#include "harmonic/rings/ring_sums.h"
 #include "rholm/coefficients.h"
 #include "rholm/context.h"
 

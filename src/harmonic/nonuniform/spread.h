@@ -10,7 +10,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "base/aligned_array.h"
 #include "harmonic/nonuniform/window.h"
 
 namespace rholm {

@@ -7,7 +7,6 @@
 
 #include "io/file/atomic_file.h"
 #include "io/file/number_text.h"
-#include "io/file/scalar_bytes.h"
 #include "rholm/context.h"
 
 namespace rholm {

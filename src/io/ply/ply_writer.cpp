@@ -3,6 +3,7 @@
 #include <limits>
 #include <set>
 
+#include "io/file/scalar_bytes.h"
 #include "io/ply/ply_header.h"
 #include "io/shapes/shape_source.h"
 #include "io/shapes/shape_writers.h"

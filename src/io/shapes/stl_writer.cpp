@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "io/file/scalar_bytes.h"
 #include "io/shapes/shape_writers.h"
 #include "rholm/error.h"
 

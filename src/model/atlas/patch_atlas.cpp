@@ -21,7 +21,6 @@
 #include "rholm/topology.h"
 #include "shape/face.h"
 #include "shape/points/point_tree.h"
-#include "surface/atlas_surface.h"
 
 namespace rholm {
 namespace {

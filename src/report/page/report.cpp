@@ -11,7 +11,6 @@
 #include "report/page/report_markup.h"
 #include "report/page/report_pictures.h"
 #include "report/page/report_text.h"
-#include "rholm/error.h"
 
 namespace rholm {
 namespace {

@@ -11,7 +11,6 @@
 #include "transform/error/error_peaks.h"
 #include "transform/error/error_points.h"
 #include "transform/error/error_sites.h"
-#include "transform/norms/exact_norms.h"
 #include "transform/norms/parseval.h"
 
 namespace rholm {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/stopwatch.h"
+#include "harmonic/legendre/legendre_kernels.h"
 #include "harmonic/legendre/legendre_pairs.h"
 #include "harmonic/legendre/order_sums.h"
 
