@@ -120,13 +120,7 @@ ParsedCoefficients parse_icgem(std::string_view bytes, const std::string& name) 
   TextCursor text{bytes};
   Header header = parse_header(text, name);
   CoefficientTable table;
-  std::vector<std::string_view> fields;
-  bool last_line_complete = false;
-  while (!text.at_end()) {
-    const TextLine line = take_line(text, name);
-    last_line_complete = line.complete;
-    split_fields(line.content, fields);
-    if (fields.empty()) continue;
+  const auto take = [&](const TextLine& line, std::span<const std::string_view> fields) {
     if (fields[0] == "gfct" || fields[0] == "trnd" || fields[0] == "acos" || fields[0] == "asin") {
       throw Error(ErrorCode::kUnsupported,
                   fmt::format("{}: it has coefficients that vary in time ({}): only gfc is read",
@@ -136,8 +130,9 @@ ParsedCoefficients parse_icgem(std::string_view bytes, const std::string& name) 
       refuse_line(line, "it begins with " + in_quotes(fields[0]) + " instead of gfc");
     }
     if (fields.size() < 2) refuse_line(line, "gfc without numbers: it must be gfc l m C S");
-    table.add(std::span(fields).subspan(1), line);
-  }
+    table.add(fields.subspan(1), line);
+  };
+  const bool last_line_complete = visit_lines(text, name, take);
   check_line_count(header.lines, table, last_line_complete, name);
   header.parsed.external = table.assemble(header.degree, name);
   return header.parsed;

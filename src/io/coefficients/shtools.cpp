@@ -53,13 +53,7 @@ void take_comment(const TextLine& line, State& state) {
 ParsedCoefficients parse_shtools(std::string_view bytes, const std::string& name) {
   State state;
   TextCursor text{bytes};
-  std::vector<std::string_view> fields;
-  bool last_line_complete = false;
-  while (!text.at_end()) {
-    const TextLine line = take_line(text, name);
-    last_line_complete = line.complete;
-    split_fields(line.content, fields);
-    if (fields.empty()) continue;
+  const auto take = [&](const TextLine& line, std::span<const std::string_view> fields) {
     if (fields[0].starts_with('#')) {
       take_comment(line, state);
     } else if (fields[0].find_first_not_of("+-0123456789") != std::string_view::npos) {
@@ -68,7 +62,8 @@ ParsedCoefficients parse_shtools(std::string_view bytes, const std::string& name
     } else {
       state.table.add(fields, line);
     }
-  }
+  };
+  const bool last_line_complete = visit_lines(text, name, take);
   check_line_count(state.lines, state.table, last_line_complete, name);
   state.parsed.external = state.table.assemble(state.degree, name);
   return state.parsed;

@@ -28,6 +28,21 @@ std::string_view trimmed(std::string_view text);
 // The fields between blanks, tabs and commas, as pyshtools separates them.
 void split_fields(std::string_view line, std::vector<std::string_view>& fields);
 
+// Calls visit(line, fields) for all lines that are left but empty ones; returns whether the last of
+// all is complete.
+template <typename Visit>
+bool visit_lines(TextCursor& text, const std::string& name, const Visit& visit) {
+  std::vector<std::string_view> fields;
+  bool last_complete = false;
+  while (!text.at_end()) {
+    const TextLine line = take_line(text, name);
+    last_complete = line.complete;
+    split_fields(line.content, fields);
+    if (!fields.empty()) visit(line, std::span<const std::string_view>(fields));
+  }
+  return last_complete;
+}
+
 // A finite number; Fortran's exponent letter D is accepted. `what` names it in the message.
 double parse_finite(std::string_view text, const char* what, const TextLine& line);
 // A whole number from 0 to `limit`.
