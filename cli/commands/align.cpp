@@ -12,7 +12,6 @@
 #include "cli/files/length_units.h"
 #include "cli/files/outputs.h"
 #include "cli/grammar/parse.h"
-#include "cli/options/convention.h"
 #include "cli/terminal/json_text.h"
 #include "cli/terminal/session.h"
 #include "rholm/error.h"
@@ -27,11 +26,7 @@ struct Options {
   double margin = AlignOptions{}.margin;
   bool mirror = false;
   std::string center = "volume";
-  std::string output;
-  std::string format;
-  ConventionOptions convention;
-  InputConvention input_convention;
-  bool json = false;
+  CoefficientsOutputOptions to;
 };
 
 AlignOptions library_options(const Options& o) {
@@ -111,16 +106,16 @@ std::string report_text(const Options& o, const Placement& placement) {
 
 int run(const Options& options, Session& session) {
   std::optional<CoefficientsOutput> output;
-  if (!options.output.empty()) {
-    output = coefficients_output(options.output, options.format, options.json);
+  if (!options.to.output.empty()) {
+    output = coefficients_output(options.to.output, options.to.format, options.to.json);
   }
-  const Convention convention = options.convention.output_convention();
-  check_writable(options.output);
+  const Convention convention = options.to.convention.output_convention();
+  check_writable(options.to.output);
   if (options.a == "-" && options.b == "-") {
     throw UsageError("only one of the two models can be standard input");
   }
-  Expansion a = read_expansion(options.a, session, options.input_convention);
-  const Expansion b = read_expansion(options.b, session, options.input_convention);
+  Expansion a = read_expansion(options.a, session, options.to.input_convention);
+  const Expansion b = read_expansion(options.b, session, options.to.input_convention);
   if (a.function != b.function) {
     throw Error(ErrorCode::kInvalidInput,
                 fmt::format("{} is of the {}, {} of the {}: analyze both by the same method",
@@ -132,11 +127,11 @@ int run(const Options& options, Session& session) {
   if (output) {
     write_coefficients_output(placed(a, found, session.context()), *output, convention, session);
   }
-  if (options.json) {
+  if (options.to.json) {
     print_json(report_json(options, found, a, b));
   } else if (!output) {
     print_text(report_text(options, found));
-  } else if (options.output != "-") {
+  } else if (options.to.output != "-") {
     session.report(report_text(options, found));
   }
   return 0;
@@ -179,19 +174,12 @@ std::vector<Option> search_options(Options& o) {
           {.name = "mirror",
            .help = "try the mirror image of A too: reflected in the plane through its centre, "
                    "across the x axis, before it is turned",
-           .target = &o.mirror},
-          output_option(o.output,
-                        "A laid on B, to be written: .h5, .sh, .gfc, .json, .npy; - "
-                        "for standard output",
-                        false),
-          format_option(o.format, coefficients_formats())};
+           .target = &o.mirror}};
 }
 
 std::vector<Option> option_list(Options& o) {
   std::vector<Option> list = search_options(o);
-  append(list, convention_options(o.convention));
-  append(list, input_convention_options(o.input_convention));
-  list.push_back(json_option(o.json));
+  append(list, coefficients_output_options(o.to, "A laid on B, to be written", false));
   return list;
 }
 

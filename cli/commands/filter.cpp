@@ -10,7 +10,6 @@
 #include "cli/files/outputs.h"
 #include "cli/grammar/parse.h"
 #include "cli/grammar/values.h"
-#include "cli/options/convention.h"
 #include "cli/terminal/json_text.h"
 #include "cli/terminal/session.h"
 #include "rholm/align.h"
@@ -30,11 +29,7 @@ struct Options {
   std::optional<double> time;
   std::optional<double> sharpen;
   bool keep_mean = false;
-  std::string output;
-  std::string format;
-  ConventionOptions convention;
-  InputConvention input_convention;
-  bool json = false;
+  CoefficientsOutputOptions to;
 };
 
 // Above these degrees the figures are left out: they cost O(L^2) and O(L^3), a second each.
@@ -145,11 +140,11 @@ std::string report_text(const Options& o, const Filter& filter, const Figures& f
 int run(const Options& options, Session& session) {
   check_usage(options);
   const CoefficientsOutput output =
-      coefficients_output(options.output, options.format, options.json);
-  const Convention convention = options.convention.output_convention();
-  check_writable(options.output);
+      coefficients_output(options.to.output, options.to.format, options.to.json);
+  const Convention convention = options.to.convention.output_convention();
+  check_writable(options.to.output);
   const Expansion before =
-      read_coefficients_input(options.input, session, options.input_convention).expansion;
+      read_coefficients_input(options.input, session, options.to.input_convention).expansion;
   Filter wanted = filter_of(options, before.coefficients.degree());
   wanted.keeps_mean = wanted.gains[0] == 1;
   if (options.keep_mean) wanted.gains[0] = 1;
@@ -160,7 +155,7 @@ int run(const Options& options, Session& session) {
                              to_string(after.function), text_of(*figures.smallest)));
   }
   write_coefficients_output(after, output, convention, session);
-  if (options.json) {
+  if (options.to.json) {
     print_json(report_json(options, wanted, figures, before, after));
   } else {
     session.note(report_text(options, wanted, figures, before, after));
@@ -222,19 +217,9 @@ std::vector<Option> filter_options(Options& o) {
 }
 
 std::vector<Option> option_list(Options& o) {
-  std::vector<Option> list = {{.name = "MODEL",
-                               .help = "file of coefficients, or - for standard input",
-                               .target = &o.input,
-                               .required = true,
-                               .offer = Offer::kCoefficients}};
+  std::vector<Option> list = {model_operand(o.input)};
   append(list, filter_options(o));
-  list.push_back(output_option(o.output,
-                               "file of coefficients to write: .h5, .sh, .gfc, .json, "
-                               ".npy; - for standard output"));
-  list.push_back(format_option(o.format, coefficients_formats()));
-  append(list, convention_options(o.convention));
-  append(list, input_convention_options(o.input_convention));
-  list.push_back(json_option(o.json));
+  append(list, coefficients_output_options(o.to, "file of coefficients to write"));
   return list;
 }
 

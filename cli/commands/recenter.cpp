@@ -10,7 +10,6 @@
 #include "cli/files/outputs.h"
 #include "cli/files/prepare.h"
 #include "cli/files/surfaces.h"
-#include "cli/options/convention.h"
 #include "cli/terminal/json_text.h"
 #include "cli/terminal/session.h"
 #include "rholm/align.h"
@@ -22,11 +21,7 @@ namespace {
 struct Options {
   std::string input;
   std::string center = "volume";
-  std::string output;
-  std::string format;
-  ConventionOptions convention;
-  InputConvention input_convention;
-  bool json = false;
+  CoefficientsOutputOptions to;
 };
 
 // The centre of a solid and that of the file are known; others are looked for on a fine mesh of the
@@ -66,16 +61,16 @@ std::optional<double> there_and_back(const Expansion& before, const Expansion& a
 int run(const Options& options, Session& session) {
   const CenterOptions wanted = parse_center_option(options.center);
   const CoefficientsOutput output =
-      coefficients_output(options.output, options.format, options.json);
-  const Convention convention = options.convention.output_convention();
-  check_writable(options.output);
-  const Expansion before = read_expansion(options.input, session, options.input_convention);
+      coefficients_output(options.to.output, options.to.format, options.to.json);
+  const Convention convention = options.to.convention.output_convention();
+  check_writable(options.to.output);
+  const Expansion before = read_expansion(options.input, session, options.to.input_convention);
   const Vec3 center = wanted_center(options, wanted, before, session);
   const Expansion after = recentered(before, center, session.context());
   const std::optional<double> lost = there_and_back(before, after, session);
   write_coefficients_output(after, output, convention, session);
   const double moved = norm(after.center - before.center);
-  if (options.json) {
+  if (options.to.json) {
     print_json({{"file", options.input},
                 {"center_before", json_of(before.center)},
                 {"center", json_of(after.center)},
@@ -100,19 +95,9 @@ std::vector<Option> option_list(Options& o) {
       "volume (the default): the centroid of the solid; auto: in the middle of all points that see "
       "the whole surface; cosine: where the surface is seen least aslant; centroid: of the "
       "surface; none: the origin of the file's coordinates";
-  std::vector<Option> list = {{.name = "MODEL",
-                               .help = "file of coefficients, or - for standard input",
-                               .target = &o.input,
-                               .required = true,
-                               .offer = Offer::kCoefficients}};
+  std::vector<Option> list = {model_operand(o.input)};
   list.push_back(center);
-  list.push_back(output_option(o.output,
-                               "file of coefficients to write: .h5, .sh, .gfc, .json, .npy; - for "
-                               "standard output"));
-  list.push_back(format_option(o.format, coefficients_formats()));
-  append(list, convention_options(o.convention));
-  append(list, input_convention_options(o.input_convention));
-  list.push_back(json_option(o.json));
+  append(list, coefficients_output_options(o.to, "file of coefficients to write"));
   return list;
 }
 

@@ -184,11 +184,7 @@ int run(const Options& options, Session& session) {
 
 std::vector<Option> option_list(Options& o) {
   std::vector<Option> list = {
-      {.name = "MESH",
-       .help = "file of a mesh, or - for standard input",
-       .target = &o.input,
-       .required = true,
-       .offer = Offer::kShapes},
+      mesh_operand(o.input),
       weld_option(o.weld),
       {.name = "max-hole",
        .value = "N",

@@ -10,7 +10,6 @@
 #include "cli/files/outputs.h"
 #include "cli/grammar/parse.h"
 #include "cli/grammar/values.h"
-#include "cli/options/convention.h"
 #include "cli/terminal/json_text.h"
 #include "cli/terminal/session.h"
 #include "rholm/align.h"
@@ -27,11 +26,7 @@ struct Options {
   bool principal_axes = false;
   std::string mirror;
   std::string about = "origin";
-  std::string output;
-  std::string format;
-  ConventionOptions convention;
-  InputConvention input_convention;
-  bool json = false;
+  CoefficientsOutputOptions to;
 };
 
 constexpr double kDegrees = std::numbers::pi / 180;
@@ -92,11 +87,11 @@ Vec3 point_about(const Options& o, const Expansion& expansion) {
 int run(const Options& options, Session& session) {
   check_usage(options);
   const CoefficientsOutput output =
-      coefficients_output(options.output, options.format, options.json);
-  const Convention convention = options.convention.output_convention();
-  check_writable(options.output);
+      coefficients_output(options.to.output, options.to.format, options.to.json);
+  const Convention convention = options.to.convention.output_convention();
+  check_writable(options.to.output);
   const Expansion before =
-      read_coefficients_input(options.input, session, options.input_convention).expansion;
+      read_coefficients_input(options.input, session, options.to.input_convention).expansion;
   const Vec3 about = point_about(options, before);
   Json json;
   json["file"] = options.input;
@@ -123,7 +118,7 @@ int run(const Options& options, Session& session) {
   text += line("centre", rholm::cli::text_of(after.center));
   text.pop_back();  // the note ends the line
   write_coefficients_output(after, output, convention, session);
-  if (options.json) {
+  if (options.to.json) {
     print_json(json);
   } else {
     session.note(text);
@@ -132,11 +127,7 @@ int run(const Options& options, Session& session) {
 }
 
 std::vector<Option> turn_options(Options& o) {
-  return {{.name = "MODEL",
-           .help = "file of coefficients, or - for standard input",
-           .target = &o.input,
-           .required = true,
-           .offer = Offer::kCoefficients},
+  return {model_operand(o.input),
           {.name = "axis",
            .value = "X,Y,Z",
            .help = "direction of the axis, of any length; with --angle",
@@ -171,18 +162,12 @@ std::vector<Option> turn_options(Options& o) {
            .help = "the point that stays: origin (of the file's coordinates, the default), "
                    "center (of the expansion), or X,Y,Z",
            .target = &o.about,
-           .check = check_about},
-          output_option(o.output,
-                        "file of coefficients to write: .h5, .sh, .gfc, .json, .npy; - "
-                        "for standard output"),
-          format_option(o.format, coefficients_formats())};
+           .check = check_about}};
 }
 
 std::vector<Option> option_list(Options& o) {
   std::vector<Option> list = turn_options(o);
-  append(list, convention_options(o.convention));
-  append(list, input_convention_options(o.input_convention));
-  list.push_back(json_option(o.json));
+  append(list, coefficients_output_options(o.to, "file of coefficients to write"));
   return list;
 }
 

@@ -107,11 +107,7 @@ int run(const Options& options, Session& session) {
 
 std::vector<Option> option_list(Options& o) {
   std::vector<Option> list = {
-      {.name = "MESH",
-       .help = "file of a mesh, or - for standard input",
-       .target = &o.input,
-       .required = true,
-       .offer = Offer::kShapes},
+      mesh_operand(o.input),
       {.name = "faces",
        .value = "auto|N|P%",
        .help = "how many are left: N of them, P per cent, or as few as change the surface by "

@@ -205,6 +205,22 @@ Input read_either(const std::string& path, Session& session, const InputConventi
 
 }  // namespace
 
+Option model_operand(std::string& path) {
+  return {.name = "MODEL",
+          .help = "file of coefficients, or - for standard input",
+          .target = &path,
+          .required = true,
+          .offer = Offer::kCoefficients};
+}
+
+Option mesh_operand(std::string& path) {
+  return {.name = "MESH",
+          .help = "file of a mesh, or - for standard input",
+          .target = &path,
+          .required = true,
+          .offer = Offer::kShapes};
+}
+
 std::string display_name(const std::string& path) { return path == "-" ? "standard input" : path; }
 
 std::string extension_of(const std::string& path) {

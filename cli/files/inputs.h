@@ -7,6 +7,7 @@
 #include <string>
 #include <variant>
 
+#include "cli/grammar/command.h"
 #include "cli/options/convention.h"
 #include "cli/terminal/session.h"
 #include "rholm/coefficients_io.h"
@@ -14,6 +15,10 @@
 #include "rholm/shape_io.h"
 
 namespace rholm::cli {
+
+// MODEL and MESH, files or standard input.
+Option model_operand(std::string& path);
+Option mesh_operand(std::string& path);
 
 using Input = std::variant<ShapeFile, CoefficientsFile>;
 

@@ -11,7 +11,6 @@
 
 #include "cli/files/inputs.h"
 #include "cli/grammar/parse.h"
-#include "cli/options/convention.h"
 #include "cli/terminal/interrupt.h"
 #include "rholm/error.h"
 #include "rholm/model.h"
@@ -65,6 +64,18 @@ std::vector<Option> mesh_output_options(std::string& path, std::string& format, 
   return {output_option(path, "mesh to write: .ply, .obj, .off, .stl; - for standard output"),
           format_option(format, mesh_formats()),
           {.name = "ascii", .help = "PLY and STL as text", .target = &ascii}};
+}
+
+std::vector<Option> coefficients_output_options(CoefficientsOutputOptions& o,
+                                                const std::string& what, bool required) {
+  std::vector<Option> list = {
+      output_option(o.output, what + ": .h5, .sh, .gfc, .json, .npy; - for standard output",
+                    required),
+      format_option(o.format, coefficients_formats())};
+  append(list, convention_options(o.convention));
+  append(list, input_convention_options(o.input_convention));
+  list.push_back(json_option(o.json));
+  return list;
 }
 
 std::vector<std::string> coefficients_formats() {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "cli/grammar/command.h"
+#include "cli/options/convention.h"
 #include "cli/terminal/session.h"
 #include "rholm/coefficients_io.h"
 #include "rholm/mesh.h"
@@ -18,6 +19,19 @@ Option output_option(std::string& path, const std::string& help, bool required =
 Option format_option(std::string& format, std::vector<std::string> choices);
 // --output, --format and --ascii of commands that write a mesh.
 std::vector<Option> mesh_output_options(std::string& path, std::string& format, bool& ascii);
+
+// What commands that change coefficients end with: where the result goes, what its numbers mean and
+// those of the input, and the report.
+struct CoefficientsOutputOptions {
+  std::string output;
+  std::string format;
+  ConventionOptions convention;
+  InputConvention input_convention;
+  bool json = false;
+};
+// `what` is written; for help.
+std::vector<Option> coefficients_output_options(CoefficientsOutputOptions& target,
+                                                const std::string& what, bool required = true);
 
 // What a file of coefficients is to be: a model file, or one of the library's text formats.
 struct CoefficientsOutput {
