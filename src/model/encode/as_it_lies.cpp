@@ -11,6 +11,7 @@
 #include "shape/vertex_range.h"
 #include "transform/analyze.h"
 #include "transform/norms/exact_norms.h"
+#include "transform/tolerance/search.h"
 #include "transform/tolerance/tolerance.h"
 
 namespace rholm {

@@ -1,7 +1,5 @@
-// The search for the degree that keeps a tolerance: coarse coefficients, cheap beside those in full
-// precision, of twice as many degrees each time until their error is within it, then a bracket; the
-// degree that was found is analysed as any other. The error of a degree is the same in all
-// coefficients that have it, so what is known outlives each set of them.
+#include "transform/tolerance/search.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -12,7 +10,6 @@
 #include "transform/error/error_of_degree.h"
 #include "transform/error/error_sites.h"
 #include "transform/tolerance/degree_bracket.h"
-#include "transform/tolerance/tolerance.h"
 
 namespace rholm {
 namespace {

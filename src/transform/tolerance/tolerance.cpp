@@ -8,6 +8,7 @@
 #include "shape/vertex_range.h"
 #include "transform/analyze.h"
 #include "transform/norms/exact_norms.h"
+#include "transform/tolerance/search.h"
 
 namespace rholm {
 

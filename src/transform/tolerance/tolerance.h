@@ -1,4 +1,5 @@
-// The search for the degree that keeps a tolerance, for meshes in charts and where they lie.
+// What a tolerance asks of coefficients, for meshes in charts and where they lie: search.h finds
+// the degree that keeps it.
 #pragma once
 
 #include <functional>
@@ -50,12 +51,5 @@ Precisions precisions_for(const ToleranceProblem& problem, const Tolerance& tole
 
 // The coefficients to begin with.
 TransformTarget first_pilot(const ToleranceProblem& problem, const Tolerance& tolerance);
-
-// `pilot`: coefficients of first_pilot(). Pilots of higher degrees follow until the error of what
-// there is, measured at points, is within the tolerance, and say which degree is the smallest; then
-// coefficients of that degree in full precision. Their `errors` are set where the tolerance is not
-// one of Parseval's.
-ToleranceAnalysis search_tolerance(const ToleranceProblem& problem, const Tolerance& tolerance,
-                                   const Analysis& pilot, const Context& context);
 
 }  // namespace rholm
