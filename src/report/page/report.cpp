@@ -8,6 +8,7 @@
 
 #include "base/parallel.h"
 #include "report/page/report_data.h"
+#include "report/page/report_figures.h"
 #include "report/page/report_markup.h"
 #include "report/page/report_pictures.h"
 #include "report/page/report_text.h"

@@ -1,4 +1,5 @@
-// The sections of a report that are looked at: pictures and plots.
+#include "report/page/report_figures.h"
+
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -10,7 +11,6 @@
 #include "report/page/report_markup.h"
 #include "report/page/report_plot.h"
 #include "report/page/report_tables.h"
-#include "report/page/report_text.h"
 
 namespace rholm::report {
 namespace {

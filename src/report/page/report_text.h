@@ -4,20 +4,12 @@
 #include <string>
 
 #include "report/page/report_data.h"
-#include "report/page/report_pictures.h"
 
 namespace rholm::report {
 
 // The sentence below the title, and what is to be seen first.
 std::string lead(const Expansion& expansion, const ReportOptions& options);
 std::string facts(const Expansion& expansion, const Data& data);
-std::string levels_section(const Expansion& expansion, const Data& data,
-                           const ReportOptions& options, const Pictures& pictures);
-// Empty without a shape.
-std::string error_map_section(const Expansion& expansion, const Data& data,
-                              const ReportOptions& options, const Pictures& pictures);
-std::string spectrum_section(const Expansion& expansion, const Data& data,
-                             const ReportOptions& options);
 std::string degrees_section(const Expansion& expansion, const Data& data);
 std::string errors_section(const Expansion& expansion, const Data& data);
 std::string figures_section(const Expansion& expansion, const Data& data);
