@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/hdf5/hdf5_reader.h"
+#include "io/hdf5/hdf5_objects.h"
 
 namespace rholm::hdf5 {
 

@@ -1,6 +1,8 @@
-// Superblock, object headers and groups: where things are in an HDF5 file.
+#include "io/hdf5/hdf5_objects.h"
+
 #include <algorithm>
 #include <deque>
+#include <optional>
 
 #include "base/crc32.h"
 #include "io/hdf5/hdf5_bytes.h"

@@ -1,4 +1,5 @@
-// The part of HDF5 that a model file uses, read from memory. Layer: io, private.
+// The part of HDF5 that a model file uses, read from memory: superblock, object headers and groups,
+// where things are; values are in hdf5_values.h. Layer: io, private.
 //
 // Models are written by the HDF5 library but not read by it: on files that are damaged or made to
 // harm it reads outside its buffers and loops (seen with 1.10.8, most in the global heap that
@@ -13,7 +14,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,28 +44,5 @@ bool has_member(const File& file, const Object& group, std::string_view name);
 // Throws InvalidInput if the group has no such member, Unsupported if it is a soft or external
 // link.
 Object open_member(const File& file, const Object& group, std::string_view name);
-
-enum class Kind { kInteger, kFloat, kFixedString, kVariableString };
-struct Type {
-  Kind kind = Kind::kInteger;
-  std::size_t size = 0;  // of a value, bytes
-  bool big_endian = false;
-  bool is_signed = false;
-};
-// The array of an attribute or dataset, as it stands in the file.
-struct Array {
-  std::string path;  // for messages
-  Type type = {};
-  std::vector<std::uint64_t> extents = {};  // empty for a scalar
-  std::string_view data = {};               // product of the extents times type.size bytes
-};
-std::optional<Array> find_attribute(const File& file, const Object& object, std::string_view name);
-Array read_dataset(const File& file, const Object& dataset);
-
-// The values, as many as the array has. Throw InvalidInput for an array of another kind.
-std::string to_text(const File& file, const Array& array);  // of exactly one string
-std::vector<double> to_doubles(const File& file, const Array& array);
-std::vector<std::int64_t> to_integers(const File& file, const Array& array);
-std::int64_t to_integer(const File& file, const Array& array);  // of exactly one integer
 
 }  // namespace rholm::hdf5

@@ -1,4 +1,5 @@
-// Types, attributes, datasets and their values in an HDF5 file.
+#include "io/hdf5/hdf5_values.h"
+
 #include <algorithm>
 #include <bit>
 #include <limits>

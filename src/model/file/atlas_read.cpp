@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "io/file/bytes.h"
-#include "io/hdf5/hdf5_reader.h"
+#include "io/hdf5/hdf5_values.h"
 #include "model/file/atlas_crc32.h"
 #include "model/file/atlas_pack.h"
 #include "model/file/model_layout.h"

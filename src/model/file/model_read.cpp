@@ -15,7 +15,7 @@
 #include "io/coefficients/expansion_check.h"
 #include "io/coefficients/text_table.h"
 #include "io/file/bytes.h"
-#include "io/hdf5/hdf5_reader.h"
+#include "io/hdf5/hdf5_values.h"
 #include "model/file/model_layout.h"
 #include "rholm/error.h"
 #include "rholm/model.h"

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "io/hdf5/hdf5_reader.h"
+#include "io/hdf5/hdf5_values.h"
 #include "rholm/coefficients.h"
 
 namespace rholm {
