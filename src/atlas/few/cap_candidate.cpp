@@ -15,7 +15,8 @@ namespace {
 
 constexpr double kOverlap = 1.3;  // radius of the fit over that of the support (method 7.8)
 // Of the rim of the fit: the even harmonics are those of a hemisphere, which it nearly fills. (The
-// full basis of small caps has no such bound.)
+// full basis of small caps has no such bound; that of patches, which has a few odd ones besides, is
+// opened to 85 degrees: patch_cover.cpp.)
 constexpr double kOpened = 88 * std::numbers::pi / 180;
 constexpr double kGradientWeight = 0.3;
 constexpr double kMiss = 4;          // tolerances: samples farther off are left to smaller caps

@@ -14,7 +14,9 @@ namespace {
 // than 0.6: a hemisphere and a little more.
 constexpr double kFarthest = 3.7, kNearest = 0.6;
 // The support's rim on the opened sphere: the even harmonics are those of a hemisphere (method
-// 7.8), and need some room beyond the last points.
+// 7.8), and need some room beyond the last points. More room than in large caps, whose basis they
+// are alone (cap_candidate.cpp: 88 degrees): the odd ones up to degree 3 of this basis
+// (patch_kernels.h) go on beyond the equator.
 constexpr double kOpened = 1.4835;  // 85 degrees
 // Blend weights fall to 0 at this part of the support: fits are worst at the rim.
 constexpr double kBlendReach = 0.75;
