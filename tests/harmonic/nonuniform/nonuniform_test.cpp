@@ -1,5 +1,4 @@
 #include "harmonic/nonuniform/nonuniform.h"
-#include "harmonic/nonuniform/window_error.h"
 
 #include <gtest/gtest.h>
 
@@ -11,6 +10,7 @@
 #include "harmonic/fft/fft.h"
 #include "harmonic/legendre/direct_sums.h"
 #include "harmonic/legendre/legendre_kernels.h"
+#include "harmonic/nonuniform/window_error.h"
 #include "rholm/error.h"
 #include "support/random_data.h"
 #include "support/targets.h"
