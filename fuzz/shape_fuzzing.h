@@ -28,7 +28,7 @@ inline std::vector<char> formatted(const ShapeView& shape, ShapeFormat format) {
 }
 
 inline ShapeView view_of(const ShapeFile& file) {
-  return std::visit([](const auto& shape) { return rholm::view_of(shape); }, file.shape);
+  return std::visit([](const auto& shape) { return shape_view_of(shape); }, file.shape);
 }
 
 // What was written reads back with the same bits of positions, normals of points and triangles.
