@@ -83,7 +83,7 @@ int dispatch(std::span<const std::string> words) {
     return print(rest.empty() ? program_help(commands)
                               : command_help(command_of(commands, rest.front())));
   }
-  if (first.starts_with("-")) {
+  if (first.starts_with('-')) {
     throw UsageError(fmt::format(
         "the command comes first, then its options: rholm COMMAND ... {}; 'rholm help' lists the "
         "commands",

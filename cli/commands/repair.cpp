@@ -73,7 +73,9 @@ Json report_json(const RepairReport& r, const Options& options) {
 }
 
 // "what" where there is nothing else to say.
-std::string list_or(std::string list, const char* nothing) { return list.empty() ? nothing : list; }
+std::string list_or(const std::string& list, const char* nothing) {
+  return list.empty() ? nothing : list;
+}
 
 void add(std::string& list, std::size_t n, const std::string& text) {
   if (n > 0) list += (list.empty() ? "" : ", ") + text;

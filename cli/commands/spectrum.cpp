@@ -95,7 +95,7 @@ std::string plot_format(const Options& options) {
   check_not_shared(options.output, options.json);
   std::string format = options.format;
   if (format.empty() && options.output != "-") format = extension_of(options.output);
-  if (format.starts_with(".")) format.erase(0, 1);
+  if (format.starts_with('.')) format.erase(0, 1);
   if (format == "svg" || format == "csv") return format;
   throw UsageError(fmt::format(
       "'{}' does not say what the plot is to be: .svg or .csv, or --format", options.output));

@@ -8,9 +8,9 @@
 namespace rholm::cli {
 
 std::vector<std::string> offered_extensions(Offer offer) {
-  const std::vector<std::string> shapes = {"ply", "obj", "off", "stl", "xyz", "pwn", "txt"};
-  const std::vector<std::string> coefficients = {"h5",  "sh",    "shtools", "gfc",
-                                                 "txt", "icgem", "json",    "npy"};
+  std::vector<std::string> shapes = {"ply", "obj", "off", "stl", "xyz", "pwn", "txt"};
+  std::vector<std::string> coefficients = {"h5",  "sh",    "shtools", "gfc",
+                                           "txt", "icgem", "json",    "npy"};
   switch (offer) {
     case Offer::kShapes:
       return shapes;

@@ -90,6 +90,7 @@ std::string text_of(const Vec3& v) {
 
 std::string text_of(const std::vector<Attribute>& attributes) {
   std::vector<std::string> names;
+  names.reserve(attributes.size());
   for (const Attribute& attribute : attributes) {
     names.push_back(fmt::format("{} ({})", attribute.name, name_of(attribute.type)));
   }

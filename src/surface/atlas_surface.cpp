@@ -72,6 +72,7 @@ bool is_too_fine(const Error& error) {
 // Of the box around the caps.
 double longest_side(const Atlas& atlas) {
   std::vector<Vec3> seeds;
+  seeds.reserve(atlas.caps.size());
   for (const Cap& cap : atlas.caps) seeds.push_back(cap.frame.seed());
   const Vec3 size = bounds(seeds).max - bounds(seeds).min;
   return std::max({size.x, size.y, size.z});
@@ -140,6 +141,7 @@ constexpr double kBridged = 0.01;  // support of a vertex that stays: above 0
 
 double typical_area(const Atlas& atlas) {
   std::vector<double> supports;
+  supports.reserve(atlas.caps.size());
   for (const Cap& cap : atlas.caps) supports.push_back(cap.frame.support);
   const auto middle = supports.begin() + static_cast<std::ptrdiff_t>(supports.size() / 2);
   std::nth_element(supports.begin(), middle, supports.end());

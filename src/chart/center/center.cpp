@@ -28,7 +28,10 @@ bool parse_point(std::string_view text, Vec3& point) {
   const char* at = text.data();
   const char* const end = at + text.size();
   for (int k = 0; k < 3; ++k) {
-    if (k > 0 && (at == end || *at++ != ',')) return false;
+    if (k > 0) {
+      if (at == end || *at != ',') return false;
+      ++at;
+    }
     while (at != end && *at == ' ') ++at;
     if (end - at > 1 && at[0] == '+' && at[1] != '-') ++at;
     const auto [next, error] = std::from_chars(at, end, *parts[k]);

@@ -163,6 +163,7 @@ std::vector<FacePlane> nearest_faces(const LocalView& view, std::size_t begin, s
   });
   bound = {.from = optimum.point, .least = limits.distance};
   std::vector<FacePlane> faces;
+  faces.reserve(near.size());
   for (const Near& n : near) faces.push_back(n.face);
   return faces;
 }

@@ -48,6 +48,6 @@ void count_azimuths_like(const PatchChart& like, PatchChart& chart);
 
 // Height of the surface over its base, over the chart of the patch, with samples half an edge
 // apart.
-DetailMap detail_of(const TexturedPatch& patch);
+DetailMap detail_of(const TexturedPatch& textured);
 
 }  // namespace rholm

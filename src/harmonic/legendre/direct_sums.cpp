@@ -71,6 +71,7 @@ std::vector<std::vector<double>> evaluate_sets(std::span<const Coefficients> set
                    for (OrderTable& table : tables) table.reset(degree, block);
                    evaluate_orders(block, sets, tables, context, stage);
                    std::vector<double*> at;
+                   at.reserve(values.size());
                    for (auto& v : values) at.push_back(v.data() + first);
                    sum_orders(block, degree, tables, at, context);
                  });

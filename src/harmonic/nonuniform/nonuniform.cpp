@@ -73,6 +73,7 @@ void add_sources(const NonuniformPlan& plan, const ScatteredSources& sources, in
   const std::size_t n = sources.directions.size();
   const std::size_t parts = grid_count(plan, n), size = (n + parts - 1) / parts;
   std::vector<GridSpreader<T>> spreaders;
+  spreaders.reserve(parts);
   for (std::size_t part = 0; part < parts; ++part) spreaders.emplace_back(plan, kernel);
   parallel_for(n, size, context, {"spread", 0, 0.6}, [&](std::size_t begin, std::size_t end) {
     auto batch = std::make_unique<SourceBatch<T>>();
@@ -98,6 +99,7 @@ Vec3 polar_gradient(const NonuniformPlan& plan, const GridKernel<T>& kernel, con
     add_gradient_nodes(u, axis, step, nodes);
   }
   std::vector<Vec3> directions;
+  directions.reserve(nodes.size());
   for (const PolarNode& node : nodes) directions.push_back(node.u);
   load_positions(directions, batch);
   PolarSources none;

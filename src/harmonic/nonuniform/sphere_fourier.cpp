@@ -121,11 +121,11 @@ class Orders {
     return reinterpret_cast<std::complex<T>*>(numbers);
   }
   RingParts parts(int odd) {
-    double* at = rows_.data() + odd * 4 * rings_.padded;
+    double* at = rows_.data() + odd * (4 * rings_.padded);
     return {at, at + rings_.padded, at + 2 * rings_.padded, at + 3 * rings_.padded};
   }
   // Of the k-th order of the block, index l - first.
-  double* re_of(int k) { return coefficients_.data() + 2 * k * degrees_; }
+  double* re_of(int k) { return coefficients_.data() + 2 * (k * degrees_); }
   double* im_of(int k) { return re_of(k) + degrees_; }
 
   // Calls visit(l, k) for the degrees of the block's orders, all orders of a degree together, as

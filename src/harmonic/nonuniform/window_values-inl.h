@@ -120,7 +120,7 @@ void evaluate_windows(const GridKernel<T>& kernel, const Placed<T>& p, size_t n,
                                 });
     for (int order = 0; order < kOrders; ++order) {
       for (int block = 0; block < blocks; ++block) {
-        const T* first = taps + order * kPhiStride + 4 * block * kLanes;
+        const T* first = taps + order * kPhiStride + 4 * (block * kLanes);
         hn::StoreInterleaved4(hn::Load(d, first), hn::Load(d, first + kLanes),
                               hn::Load(d, first + 2 * kLanes), hn::Load(d, first + 3 * kLanes), d,
                               out.phi[order][block][at]);

@@ -16,7 +16,7 @@ namespace rholm {
 // {even_re, even_im, odd_re, odd_im}, F(theta) = even + odd, F(pi - theta) = even - odd.
 // An equator ring has odd parts 0.
 struct RingPairs {
-  RingPairs(std::size_t n_theta, std::size_t n_phi, int degree);
+  RingPairs(std::size_t rings, std::size_t longitudes, int degree);
   double* at(std::size_t pair, std::size_t m) { return &values[4 * (pair * orders + m)]; }
 
   std::size_t n_theta, n_phi, orders;  // n_phi >= 2 orders - 1

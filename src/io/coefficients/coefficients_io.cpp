@@ -144,9 +144,9 @@ CoefficientsFile parse_coefficients(std::span<const char> bytes, const std::stri
   file.convention = settle_convention(parsed, options, file.assumed);
   Expansion& expansion = file.expansion;
   expansion.coefficients = from_convention(parsed.external, file.convention);
-  if (!parsed.function) file.assumed.push_back("function radius");
+  if (!parsed.function) file.assumed.emplace_back("function radius");
   expansion.function = parsed.function.value_or(RadialFunction::kRadius);
-  if (!parsed.center) file.assumed.push_back("center 0 0 0");
+  if (!parsed.center) file.assumed.emplace_back("center 0 0 0");
   expansion.center = parsed.center.value_or(Vec3{});
   expansion.unit = std::move(parsed.unit);
   expansion.method = std::move(parsed.method);

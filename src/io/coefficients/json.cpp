@@ -264,7 +264,7 @@ void append_rows(std::string& text, const Coefficients& external, bool sine) {
     }
     text += ']';
   }
-  text += "]";
+  text += ']';
 }
 
 }  // namespace

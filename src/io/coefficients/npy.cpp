@@ -141,7 +141,7 @@ std::string_view take_header(std::string_view& bytes, const std::string& name) {
     if (bytes.size() < size) refuse(name, "the file ends within the NumPy header");
   };
   need(kMagic.size() + 2);
-  const int version = bytes[kMagic.size()];
+  const int version = static_cast<unsigned char>(bytes[kMagic.size()]);
   if (version < 1 || version > 3) {
     refuse(name, fmt::format("NumPy format version {}: 1 to 3 are read", version),
            ErrorCode::kUnsupported);

@@ -96,7 +96,7 @@ void check_line_count(std::optional<int> stated, const CoefficientTable& table,
 template <typename Value>
 void set_once(std::optional<Value>& slot, Value value, std::string_view key, const TextLine& line) {
   if (slot) refuse_line(line, "the key " + in_quotes(key) + " is given twice: delete one");
-  slot = value;
+  slot = std::move(value);
 }
 
 }  // namespace rholm

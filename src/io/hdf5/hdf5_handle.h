@@ -25,6 +25,7 @@ class Handle {
   }
   // Closes now and tells whether that succeeded (what is buffered may fail to be written).
   bool close() { return id_ < 0 || close_(std::exchange(id_, -1)) >= 0; }
+  // NOLINTNEXTLINE(misc-explicit-constructor): it stands wherever the library takes an identifier
   operator hid_t() const { return id_; }
 
  private:

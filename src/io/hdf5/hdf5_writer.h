@@ -57,7 +57,7 @@ class Writer {
     checked(H5Tset_cset(type, H5T_CSET_UTF8), "set the characters of a string");
     const char* text = value.c_str();
     const Handle space(checked(H5Screate(H5S_SCALAR), "create a space"), H5Sclose);
-    write_attribute(object, name, type, type, space, &text);
+    write_attribute(object, name, type, type, space, static_cast<const void*>(&text));
   }
   // A string of its own length: it needs no heap, which takes 4 KiB of the file.
   void write_fixed_text(hid_t object, const char* name, const std::string& value) const {

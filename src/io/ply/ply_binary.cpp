@@ -206,6 +206,7 @@ void PlyBinaryBody::read_face_rows(const PlyElement& element, std::size_t list, 
     const std::uint64_t n = take_count(element, property);
     corners.resize(n);
     for (std::uint64_t k = 0; k < n; ++k) {
+      // NOLINTNEXTLINE(bugprone-signed-char-misuse): a negative one stays negative, and is refused
       const auto index = static_cast<std::int64_t>(load<Index, kSwap>(at_ + k * sizeof(Index)));
       if (static_cast<std::uint64_t>(index) >= faces.n_vertices()) faces.fail_index(row, index);
       corners[k] = static_cast<std::uint32_t>(index);

@@ -242,9 +242,9 @@ class ObjReader {
   std::vector<Attribute> color_attributes(std::vector<std::string>& warnings) const {
     if (colors_.empty()) return {};
     if (colors_.size() != vertices_.size()) {
-      warnings.push_back("only " + std::to_string(colors_.size()) + " of " +
-                         std::to_string(vertices_.size()) +
-                         " vertices have a colour: colours passed over");
+      warnings.emplace_back("only " + std::to_string(colors_.size()) + " of " +
+                            std::to_string(vertices_.size()) +
+                            " vertices have a colour: colours passed over");
       return {};
     }
     return vector_attributes(colors_, {"red", "green", "blue"});
@@ -254,7 +254,7 @@ class ObjReader {
     if (normal_of_.used()) {
       const std::vector<Vec3> normals = normal_of_.values_of(mesh, normals_);
       if (normals.empty()) {
-        warnings.push_back("some vertices have several normals or none: normals passed over");
+        warnings.emplace_back("some vertices have several normals or none: normals passed over");
       }
       for (Attribute& a : vector_attributes(normals, {"nx", "ny", "nz"})) {
         mesh.attributes.push_back(std::move(a));
@@ -263,7 +263,7 @@ class ObjReader {
     if (texture_of_.used()) {
       const std::vector<Texture> textures = texture_of_.values_of(mesh, textures_);
       if (textures.empty()) {
-        warnings.push_back(
+        warnings.emplace_back(
             "some vertices have several texture coordinates or none: texture coordinates passed "
             "over");
         return;

@@ -22,7 +22,7 @@ constexpr double kMostInverted = 1e-3;  // share of probes: fewer may be roundin
 // The samples that are on the outside; `inverted` counts those of parts that are inside out.
 AreaSamples outer_of(const OuterSurface& surface, std::size_t n, std::size_t& inverted,
                      const Context& context) {
-  const AreaSamples all = sample_by_area(surface.mesh, n, surface.seed);
+  AreaSamples all = sample_by_area(surface.mesh, n, surface.seed);
   inverted = 0;
   if (!surface.closed) return all;
   const std::vector<int> winding =

@@ -105,6 +105,7 @@ struct MadeCap {
 // Triangles between points as their patch's sphere sees them.
 std::vector<Triangle> triangles_between(const KdPatch& patch, const std::vector<Vec3>& points) {
   std::vector<Vec3> directions;
+  directions.reserve(points.size());
   for (const Vec3& p : points) directions.push_back(p - patch.seen.sphere.center);
   return sphere_delaunay(directions);
 }

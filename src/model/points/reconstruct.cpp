@@ -92,6 +92,7 @@ Cover fit_caps(WorkingPoints& points, const ReconstructOptions& options, CapSize
 // The supports of most caps are at least this.
 double typical_support(const Atlas& atlas) {
   std::vector<double> supports;
+  supports.reserve(atlas.caps.size());
   for (const Cap& cap : atlas.caps) supports.push_back(cap.frame.support);
   const auto fifth = supports.begin() + static_cast<std::ptrdiff_t>(supports.size() / 5);
   std::nth_element(supports.begin(), fifth, supports.end());

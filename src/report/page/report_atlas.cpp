@@ -87,6 +87,7 @@ std::string facts(const AtlasData& data) {
 
 std::string levels_section(const AtlasData& data, const Context& context) {
   std::vector<Panel> panels;
+  panels.reserve(data.levels.size() + 1);
   for (const DrawnLevel& level : data.levels) panels.push_back(panel_of(level.mesh, true));
   if (data.shape != nullptr) panels.push_back(panel_of(*data.shape, false));
   const std::vector<Picture> pictures = draw_row(panels, data.options.picture_size, context);
@@ -217,6 +218,7 @@ std::string figures_section(const AtlasData& data) {
     row(with_unit("noise of the points, standard deviation", unit), html::number(atlas.noise));
   }
   std::vector<double> radii;
+  radii.reserve(atlas.caps.size());
   for (const Cap& cap : atlas.caps) radii.push_back(cap.frame.support);
   std::sort(radii.begin(), radii.end());
   row(with_unit("radius of a cap: smallest", unit), html::number(radii.front()));

@@ -78,7 +78,7 @@ std::string error_map(const ErrorMap& map, const std::string& surface, const std
   const std::string bar_title =
       fmt::format("Colour bar of the distance, 0 to {:.3g} {}", map.largest, unit);
   std::string html = "<figure class=\"map\">\n<div class=\"pictures n2\">\n";
-  const char* kSides[] = {"from one side", "from the opposite side"};
+  constexpr const char* kSides[] = {"from one side", "from the opposite side"};
   for (std::size_t k = 0; k < map.sides.size(); ++k) {
     html += figure_of(map.sides[k],
                       fmt::format("Picture of {}, coloured by its distance to the shape, seen {}",
@@ -90,7 +90,7 @@ std::string error_map(const ErrorMap& map, const std::string& surface, const std
 }
 
 std::string size_text(double bytes) {
-  const char* kUnits[] = {"bytes", "kB", "MB", "GB"};
+  constexpr const char* kUnits[] = {"bytes", "kB", "MB", "GB"};
   std::size_t k = 0;
   while (k < 3 && bytes >= 1000) bytes /= 1000, ++k;
   return fmt::format("{}&nbsp;{}", k == 0 ? fmt::format("{}", bytes) : html::number(bytes, 3),

@@ -65,6 +65,7 @@ void count_crossings(const Mesh& surface, const Mesh& sphere, const Vec3& center
 std::vector<Picture> draw_levels(const std::vector<Level>& levels, const Mesh* shape, int size,
                                  const Context& context) {
   std::vector<Panel> panels;
+  panels.reserve(levels.size() + 1);
   for (const Level& level : levels) panels.push_back(panel_of(level.mesh, true));
   if (shape != nullptr) panels.push_back(panel_of(*shape, false));
   std::vector<Picture> pictures = draw_row(panels, size, context);

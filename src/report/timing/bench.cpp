@@ -72,6 +72,7 @@ std::optional<std::filesystem::path> model_path(const BenchOptions& options) {
 
 double median_speedup(const std::vector<StageTime>& base, const std::vector<StageTime>& runs) {
   std::vector<double> ratios;
+  ratios.reserve(runs.size());
   for (std::size_t i = 0; i < runs.size(); ++i) ratios.push_back(base[i].wall / runs[i].wall);
   return median(ratios);
 }
@@ -90,6 +91,7 @@ void summarise_center(const Runs& searched, const Runs& given, FileBench& bench)
   bench.center = timing_of(searched.at("center"));
   std::vector<double> extra;
   const auto &with = searched.at("coefficients"), &without = given.at("coefficients");
+  extra.reserve(with.size());
   for (std::size_t i = 0; i < with.size(); ++i) extra.push_back(with[i].cpu - without[i].cpu);
   bench.center_extra_cpu = median(extra);
 }

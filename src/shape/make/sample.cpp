@@ -164,6 +164,7 @@ void check(const SampleOptions& o) {
 std::vector<Vec3> hole_centers(const Surface& surface, const SampleOptions& o) {
   Stream random(o.seed, kHoleStream);
   std::vector<Vec3> centers;
+  centers.reserve(static_cast<std::size_t>(o.holes));
   for (int i = 0; i < o.holes; ++i) centers.push_back(surface.draw_uniform(random).point);
   return centers;
 }

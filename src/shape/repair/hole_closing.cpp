@@ -78,7 +78,8 @@ using Pair = std::pair<std::uint32_t, std::uint32_t>;
 // Edges between vertices of the rim that there are already, sorted.
 std::vector<Pair> edges_within(const Mesh& mesh, const VertexStars& stars, const Rim& rim) {
   std::vector<Pair> place;  // vertex, its index in the rim
-  for (std::uint32_t i = 0; i < rim.vertices.size(); ++i) place.push_back({rim.vertices[i], i});
+  place.reserve(rim.vertices.size());
+  for (std::uint32_t i = 0; i < rim.vertices.size(); ++i) place.emplace_back(rim.vertices[i], i);
   std::sort(place.begin(), place.end());
   std::vector<Pair> edges;
   for (std::uint32_t i = 0; i < rim.vertices.size(); ++i) {
@@ -86,7 +87,7 @@ std::vector<Pair> edges_within(const Mesh& mesh, const VertexStars& stars, const
       for (const std::uint32_t v : mesh.triangles[t]) {
         const auto found = std::lower_bound(place.begin(), place.end(), Pair{v, 0});
         if (found != place.end() && found->first == v && i < found->second) {
-          edges.push_back({i, found->second});
+          edges.emplace_back(i, found->second);
         }
       }
     }

@@ -111,7 +111,7 @@ class Repairer {
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
       Triangle corners = mesh_.triangles[t];
       std::sort(corners.begin(), corners.end());
-      sorted.push_back({corners, t});
+      sorted.emplace_back(corners, t);
     }
     std::sort(sorted.begin(), sorted.end());
     std::vector<char> again(mesh_.triangles.size(), 0);

@@ -22,7 +22,7 @@ constexpr std::size_t kBlockGrain = 64;
 constexpr double kBoxPerBlock = 64;
 
 std::uint64_t key_of(const BlockCoordinates& b) {
-  const auto part = [](std::int32_t c) { return static_cast<std::uint64_t>(c + (1 << 20)); };
+  const auto part = [](std::int32_t c) { return static_cast<std::uint64_t>(c) + (1U << 20); };
   return part(b[2]) << 42 | part(b[1]) << 21 | part(b[0]);
 }
 

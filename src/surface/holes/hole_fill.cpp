@@ -291,6 +291,7 @@ void hand_over(BlockGrid& grid, const std::vector<Fill>& fills, const NodeSuppor
                const NodeValues& values) {
   const std::vector<NodeId> nodes = nodes_around(grid, fills);
   std::vector<Vec3> x;
+  x.reserve(nodes.size());
   for (const NodeId& id : nodes) x.push_back(grid.node(id.block, id.node));
   std::vector<double> support(x.size(), 1);
   if (!x.empty()) support_of(x, support);

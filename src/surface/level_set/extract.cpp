@@ -206,6 +206,8 @@ void write_vertices(const BlockGrid& grid, std::size_t b, const BlockSurface& bl
   }
 }
 
+constexpr std::ptrdiff_t kRow = 9;  // edges of a row
+
 // Vertices by the place of their edges, for the cubes of one slice of a block: rows of 9 edges, the
 // last row and column of the next blocks. Only edges that are crossed are set.
 class SliceVertices {
@@ -224,18 +226,18 @@ class SliceVertices {
     for (int e = 0; e < 12; ++e) {
       const int corner = kEdgeCorner[e];
       offsets_[e] = (layer(e / 4, z + (corner >> 2)) - vertices_.data()) + (corner & 1) +
-                    9 * (corner >> 1 & 1);
+                    kRow * (corner >> 1 & 1);
     }
   }
   // On edge e of the cube at `bit`.
   std::uint32_t on(int bit, int e) const {
-    return vertices_[static_cast<std::size_t>(offsets_[e] + (bit & 7) + 9 * (bit >> 3))];
+    return vertices_[static_cast<std::size_t>(offsets_[e] + (bit & 7) + kRow * (bit >> 3))];
   }
 
  private:
   std::uint32_t* layer(int axis, int slice) {
     const int which = axis == 2 ? 4 : 2 * axis + (slice & 1);
-    return vertices_.data() + 81 * which;
+    return vertices_.data() + kRow * kRow * which;
   }
 
   // Edges along `axis` from the nodes of a slice 0 ... 8.
@@ -246,15 +248,15 @@ class SliceVertices {
       if (b == kNoBlock) continue;
       const std::uint64_t all = blocks_[b].edges[axis][s];
       const std::uint32_t first = places_.vertices[b] + blocks_[b].before[s][axis];
-      std::uint32_t* const to = rows + 8 * (o & 1) + 72 * (o >> 1);
+      std::uint32_t* const to = rows + std::ptrdiff_t{8} * (o & 1) + 8 * kRow * (o >> 1);
       if ((o & 1) == 0) {  // rows: all of them, or the first one; they stand behind each other
         std::uint32_t v = first;
         for_each_bit(o == 0 ? all : all & 0xff,
-                     [&](int bit) { to[(bit & 7) + 9 * (bit >> 3)] = v++; });
+                     [&](int bit) { to[(bit & 7) + kRow * (bit >> 3)] = v++; });
       } else {  // the first column, or the first node
         for_each_bit(all & (o == 1 ? kFirstColumn : 1), [&](int bit) {
           const std::uint64_t lower = all & ((std::uint64_t{1} << bit) - 1);
-          to[9 * (bit >> 3)] = first + static_cast<std::uint32_t>(count_bits(lower));
+          to[kRow * (bit >> 3)] = first + static_cast<std::uint32_t>(count_bits(lower));
         });
       }
     }
@@ -280,7 +282,7 @@ void write_triangles(const BlockGrid& grid, const std::vector<BlockSurface>& blo
     vertices.set_slice(z);
     for_each_bit(blocks[b].cubes[z], [&](int bit) {
       const SurfaceCase& surface = table[case_of(inside, z, bit)];
-      for (int i = 0; i < surface.n_triangles; ++i) {
+      for (std::size_t i = 0; i < surface.n_triangles; ++i) {
         const std::uint8_t* const edges = surface.triangles.data() + 3 * i;
         triangles[t++] = {vertices.on(bit, edges[0]), vertices.on(bit, edges[1]),
                           vertices.on(bit, edges[2])};

@@ -35,6 +35,6 @@ struct MeshPassResult {
 // Throws InvalidInput for coordinates that are not finite, indices out of range, `check` that
 // fails, a surface through the centre; Cancelled.
 MeshPassResult mesh_pass(const MeshView& mesh, const MeshPassOptions& options,
-                         const Context& context);
+                         const Context& caller);
 
 }  // namespace rholm

@@ -66,7 +66,8 @@ double relative_deviation(const Moments& moments) {
 // is below 1 is right within a factor of 2.
 bool means_something(double relative, const Moments& moments, std::size_t places) {
   constexpr double kFewPairs = 100;
-  const double pairs = static_cast<double>(places) * static_cast<double>(moments.samples / 2);
+  const std::size_t pairs_at_place = moments.samples / 2;
+  const double pairs = static_cast<double>(places) * static_cast<double>(pairs_at_place);
   return relative <= (pairs < kFewPairs ? 0.5 : 1.0);
 }
 

@@ -266,9 +266,9 @@ HWY_INLINE void work_any(const MeshView& mesh, size_t first, size_t n,
                          const BlockParameters& parameters, TriangleBlock<T>& block,
                          BlockSums& sums) {
   if (mesh.coordinate == ScalarType::kFloat32) {
-    load_corners(mesh, first, n, parameters, block, float());
+    load_corners(mesh, first, n, parameters, block, 0.0F);
   } else {
-    load_corners(mesh, first, n, parameters, block, double());
+    load_corners(mesh, first, n, parameters, block, 0.0);
   }
   if (parameters.hessians) return work_loaded<true>(n, parameters, block, sums);
   work_loaded<false>(n, parameters, block, sums);

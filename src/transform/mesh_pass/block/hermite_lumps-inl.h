@@ -210,10 +210,10 @@ HWY_INLINE Outer outer(const V3& e) {
 template <typename T>
 HWY_INLINE HermiteTerms edge_terms(D d, size_t at, const BlockParameters& p, int i, V w, V z2,
                                    TriangleBlock<T>& b, V& nodes) {
-  constexpr auto& rules = kHermiteEdges;
+  const auto& rules = kHermiteEdges;
   const Choice rule = choose(d, z2, p.edge_reach2);
   const V z6 = hn::Mul(z2, hn::Mul(z2, z2));
-  constexpr auto& units = kHermiteEdgeUnits;
+  const auto& units = kHermiteEdgeUnits;
   const V more =
       hn::IfThenElse(rule.third, hn::Mul(z2, z2), hn::IfThenElse(rule.second, z2, hn::Set(d, 1.0)));
   HermiteTerms t;
@@ -241,10 +241,10 @@ HWY_INLINE Weights lump_hessians(D d, size_t at, const BlockParameters& p, const
   const HermiteTerms t01 = edge_terms(d, at, p, 0, w.e01, z2.e01, b, nodes);
   const HermiteTerms t12 = edge_terms(d, at, p, 1, w.e12, z2.e12, b, nodes);
   const HermiteTerms t20 = edge_terms(d, at, p, 2, w.e20, z2.e20, b, nodes);
-  constexpr auto& faces = kHermiteFaces;
+  const auto& faces = kHermiteFaces;
   const V z = hn::Max(z2.e01, hn::Max(z2.e12, z2.e20)), root = hn::Sqrt(z);
   const Choice rule = choose(d, z, p.face_reach2);
-  constexpr auto& units = kHermiteFaceUnits;
+  const auto& units = kHermiteFaceUnits;
   // z^5, z^6, z^7.
   const V more = hn::IfThenElse(rule.third, hn::Mul(root, z), hn::IfThenElse(rule.second, z, root));
   const V face_error = hn::Mul(hn::Mul(w.face, rule.of(d, units[0], units[1], units[2])),
