@@ -106,6 +106,7 @@ void rows() {
 
 double legendre_time(int degree, std::size_t n_rings) {
   std::vector<double> north;
+  north.reserve(n_rings / 2);
   for (std::size_t q = 0; q < n_rings / 2; ++q) {
     north.push_back((static_cast<double>(q) + 0.5) * std::numbers::pi /
                     static_cast<double>(n_rings));

@@ -99,6 +99,7 @@ Json measure_triangles(const StarChart& chart, int degree, double per_point,
 // mean instead of a sum.
 double vertex_error(const StarChart& chart, const Coefficients& exact) {
   std::vector<Vec3> directions;
+  directions.reserve(chart.mesh.vertices.size());
   for (const Vec3& x : chart.mesh.vertices) directions.push_back(normalized(x));
   const std::vector<double> radii = evaluate(exact, directions, {.precision = 1e-9});
   double sum = 0;

@@ -11,7 +11,7 @@
 namespace {
 
 std::array<int, 3> pixel(const rholm::Image& image, int x, int y) {
-  const std::uint8_t* rgb = image.rgb.data() + 3 * (y * image.width + x);
+  const std::uint8_t* rgb = image.rgb.data() + 3 * (std::ptrdiff_t{y} * image.width + x);
   return {rgb[0], rgb[1], rgb[2]};
 }
 

@@ -1,6 +1,8 @@
 // Sheets for tests of edits: a triangular grid over the plane, lifted by a function.
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -8,13 +10,19 @@
 
 namespace rholm::test {
 
+// For what must be the same to the last bit: -0 is not 0.
+inline std::array<std::uint64_t, 3> bits_of(const Vec3& x) {
+  return std::bit_cast<std::array<std::uint64_t, 3>>(x);
+}
+
 // Equilateral triangles of side h, n x n of their squares' worth, the middle at the origin.
 template <class Height>
 Mesh sheet(int n, double h, const Height& height) {
   Mesh mesh;
+  const int middle = n / 2;
   for (int i = 0; i <= n; ++i) {
     for (int j = 0; j <= n; ++j) {
-      const double x = (j - n / 2 + 0.5 * (i % 2)) * h, y = (i - n / 2) * h * std::sqrt(0.75);
+      const double x = (j - middle + 0.5 * (i % 2)) * h, y = (i - middle) * h * std::sqrt(0.75);
       mesh.vertices.push_back({x, y, height(x, y)});
     }
   }

@@ -1,7 +1,6 @@
 #include "rholm/smooth.h"
 
 #include <cmath>
-#include <cstring>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -121,6 +120,7 @@ TEST(Smooth, scratch_of_a_third_of_the_wavelength_goes) {
       test::sheet(90, kEdge, [](double x, double y) { return rolling(x, y) + scratch(x, y); });
   const double before = rms_in_scratch(mesh);
   std::vector<double> painted;
+  painted.reserve(mesh.vertices.size());
   for (const Vec3& v : mesh.vertices) painted.push_back(scratch(v.x, v.y) < 0 ? 1 : 0);
   mesh.attributes = {{"scar", ScalarType::kUint8, painted}};
   for (const auto& [region, fitting, repair] :
@@ -141,6 +141,7 @@ TEST(Smooth, bridge_carries_the_detail_of_its_rim) {
   Mesh mesh =
       test::sheet(90, kEdge, [&](double x, double y) { return wave(x, y) + scratch(x, y); });
   std::vector<double> painted;
+  painted.reserve(mesh.vertices.size());
   for (const Vec3& v : mesh.vertices) painted.push_back(scratch(v.x, v.y) < 0 ? 1 : 0);
   mesh.attributes = {{"scar", ScalarType::kUint8, painted}};
   const Patch patch =
@@ -183,7 +184,7 @@ TEST(Smooth, what_has_no_weight_stays_to_the_last_bit) {
   const std::vector<double> w = region_weights(mesh, regions, 0.3);
   std::size_t moved = 0;
   for (std::size_t i = 0; i < w.size(); ++i) {
-    const bool same = std::memcmp(&mesh.vertices[i], &edited.vertices[i], sizeof(Vec3)) == 0;
+    const bool same = test::bits_of(mesh.vertices[i]) == test::bits_of(edited.vertices[i]);
     EXPECT_TRUE(same || w[i] > 0);
     moved += same ? 0 : 1;
   }

@@ -21,7 +21,6 @@
 namespace rholm {
 namespace {
 
-using test::random_in;
 using test::random_values;
 
 constexpr std::size_t kMost = 33;

@@ -105,6 +105,7 @@ inline Mesh ordered(Mesh mesh, const std::function<double(std::size_t)>& key) {
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
   std::vector<Triangle> triangles;
+  triangles.reserve(order.size());
   for (const std::size_t t : order) triangles.push_back(mesh.triangles[t]);
   mesh.triangles = std::move(triangles);
   return mesh;

@@ -92,6 +92,7 @@ TEST(quadrature_error, bounds_the_error_on_random_segments_and_triangles) {
       const auto mean_of = [&](const std::vector<Vec3>& x, const std::vector<double>& w) {
         Coefficients sum(l);
         std::vector<Vec3> u;
+        u.reserve(x.size());
         for (const Vec3& v : x) u.push_back(normalized(v));
         add_adjoint({.directions = u, .weights = w}, sum, {.engine = Engine::kDirect});
         return sum;
@@ -105,6 +106,7 @@ TEST(quadrature_error, bounds_the_error_on_random_segments_and_triangles) {
       };
       const auto segment = [&](const GaussRule& rule) {
         std::vector<Vec3> x;
+        x.reserve(rule.nodes.size());
         for (const double t : rule.nodes) x.push_back(p[0] + t * (p[1] - p[0]));
         return mean_of(x, rule.weights);
       };

@@ -54,6 +54,7 @@ struct Direction {
 };
 std::vector<Direction> directions(std::size_t n, double part = 1) {
   std::vector<Direction> all;
+  all.reserve(n);
   for (std::uint64_t i = 0; i < n; ++i) {
     all.push_back(
         {part * kHalfAngle * std::sqrt(random_in(0.001, 1, 13, i)), random_in(0, 2 * pi, 14, i)});

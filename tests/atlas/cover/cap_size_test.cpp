@@ -13,7 +13,6 @@
 namespace rholm {
 namespace {
 
-using test::random_in;
 using test::random_normal;
 
 struct Ordered {
@@ -107,6 +106,7 @@ TEST(CapSize, a_parabola_is_least_at_its_vertex_within_the_range) {
   const std::vector<double> x{0, 0.4, 1, 2.5, 3};
   const auto parabola = [&](double bend, double vertex) {
     std::vector<double> y;
+    y.reserve(x.size());
     for (const double at : x) y.push_back(3 + bend * (at - vertex) * (at - vertex));
     return y;
   };

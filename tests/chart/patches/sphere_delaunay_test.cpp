@@ -59,6 +59,7 @@ TEST(SphereDelaunay, directions_of_an_icosphere_give_its_triangles) {
 
 TEST(SphereDelaunay, no_direction_lies_within_the_circle_of_a_triangle) {
   std::vector<Vec3> u;
+  u.reserve(300);
   for (std::uint64_t i = 0; i < 300; ++i) u.push_back(test::random_direction(1, i));
   const std::vector<Triangle> triangles = sphere_delaunay(u, kHull);
   ASSERT_EQ(triangles.size(), 2 * u.size() - 4);  // Euler
@@ -107,6 +108,7 @@ TEST(SphereDelaunay, long_triangles_go_at_the_border_but_not_inside) {
 TEST(SphereDelaunay, directions_without_triangles_have_none) {
   EXPECT_TRUE(sphere_delaunay({}).empty());
   std::vector<Vec3> circle;
+  circle.reserve(12);
   for (int i = 0; i < 12; ++i) circle.push_back({std::cos(i), std::sin(i), 0});
   EXPECT_TRUE(sphere_delaunay(std::span(circle).first(2)).empty());
   EXPECT_TRUE(sphere_delaunay(circle).empty());

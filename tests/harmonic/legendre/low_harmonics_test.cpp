@@ -137,7 +137,7 @@ TEST(LowHarmonics, sums_and_slopes_are_those_of_scattered_directions) {
 }
 
 TEST(LowHarmonics, slopes_are_differences_of_values) {
-  constexpr int degree = 6;
+  const int degree = 6;
   constexpr double h = 1e-5;
   const std::vector<double> c = listed(test::random_coefficients(degree, 8), false);
   for (const Vec3& u : directions()) {

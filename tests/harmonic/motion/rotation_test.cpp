@@ -54,6 +54,7 @@ double pointwise_difference(const Coefficients& f, const Coefficients& g, const 
                             std::size_t n) {
   const std::vector<Vec3> to = random_directions(n, 7);
   std::vector<Vec3> from;
+  from.reserve(to.size());
   for (const Vec3& u : to) from.push_back(rotate(u, inverse(r)));
   const auto a = evaluate(f, from, {.engine = Engine::kDirect});
   const auto b = evaluate(g, to, {.engine = Engine::kDirect});
@@ -168,8 +169,8 @@ TEST(rotation, one_degree_far_up_keeps_its_energy_and_its_values) {
   const int l = 2600;
   Coefficients f(l);
   for (int m = 0; m <= l; ++m) {
-    f.c(l, m) = random_in(-1, 1, 5, 2 * m);
-    if (m > 0) f.s(l, m) = random_in(-1, 1, 5, 2 * m + 1);
+    f.c(l, m) = random_in(-1, 1, 5, static_cast<std::uint64_t>(2 * m));
+    if (m > 0) f.s(l, m) = random_in(-1, 1, 5, static_cast<std::uint64_t>(2 * m + 1));
   }
   Coefficients g = f;
   QuarterTurn turn;

@@ -41,6 +41,7 @@ std::vector<Vec3> hard_directions(std::size_t n) {
 
 std::vector<Vec3> random_vectors(std::size_t n, std::uint64_t seed) {
   std::vector<Vec3> vectors;
+  vectors.reserve(n);
   for (std::size_t j = 0; j < n; ++j) {
     vectors.push_back({random_in(-1, 1, seed, 3 * j), random_in(-1, 1, seed, 3 * j + 1),
                        random_in(-1, 1, seed, 3 * j + 2)});

@@ -72,6 +72,7 @@ TEST(add_adjoint_gradient, is_the_transpose_of_the_gradient) {
   for (const int L : {0, 1, 2, 5, 64}) {
     const auto directions = random_directions(300, 5);
     std::vector<Vec3> vectors;
+    vectors.reserve(directions.size());
     for (std::size_t j = 0; j < directions.size(); ++j) {
       vectors.push_back(cross(directions[j], test::random_direction(6, j)));
     }
@@ -225,6 +226,7 @@ TEST(power_spectrum, does_not_change_under_rotation) {
   };
   const auto [directions, weights] = gauss_grid(L);
   std::vector<Vec3> rotated;
+  rotated.reserve(directions.size());
   for (const Vec3& u : directions) rotated.push_back(rotate(u));
   std::vector<double> values = evaluate(f, rotated, kDirect);
   for (std::size_t j = 0; j < values.size(); ++j) values[j] *= weights[j];

@@ -224,6 +224,7 @@ TEST(ring_sums, are_the_sums_over_any_number_of_rings_and_degrees) {
   test::for_each_target([](const char* target) {
     for (int n = 1; n <= 33; ++n) {
       std::vector<double> theta;
+      theta.reserve(static_cast<std::size_t>(n));
       for (int i = 0; i < n; ++i) theta.push_back((i + 0.5) / n * kPi / 2);
       const HalfRings rings(theta);
       const std::vector<double> mu = legendre_mu(n);

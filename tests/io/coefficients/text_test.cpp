@@ -141,7 +141,7 @@ TEST(shtools, malformed_lines_are_refused_with_their_number) {
   expect_refused("1738.0, 4902.8, 900, 900\n0 0 1 0\n", "put '#' before");
   expect_refused("hello\n", "'hello'");
   expect_refused("# nothing\n\n", "no line");
-  expect_refused(std::string("0 0 1\0002 0\n", 11), "'1?2'");
+  expect_refused(std::string("0 0 1\0002 0\n", 10), "'1?2'");
   expect_refused("\xff\xfe\n", "'\?\?'");
   expect_refused(std::string(100000, 'x'), "...");
 }

@@ -2,12 +2,12 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <signal.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <string_view>
 #include <thread>
 
@@ -182,6 +182,7 @@ TEST(atomic_file, signal_handler_may_discard_unfinished_files) {
 TEST(atomic_file, more_files_at_once_than_are_kept_in_mind_still_work) {
   const TemporaryFolder folder;
   std::vector<std::unique_ptr<AtomicFile>> files;
+  files.reserve(100);
   for (int i = 0; i < 100; ++i) {
     files.push_back(std::make_unique<AtomicFile>(folder / std::to_string(i).c_str()));
   }

@@ -24,7 +24,7 @@ std::string ascii_tetrahedron() {
          kVertexRows + kFaceRows;
 }
 
-std::string with_line_ends(std::string text, const std::string& line_end) {
+std::string with_line_ends(const std::string& text, const std::string& line_end) {
   std::string result;
   for (const char c : text) result += c == '\n' ? line_end : std::string(1, c);
   return result;

@@ -48,7 +48,7 @@ bool is_star(const Mesh& mesh) {
 
 TEST(distance_tolerance, is_kept_by_closest_points_on_random_polyhedra) {
   const char* wanted = std::getenv("RHOLM_POLYHEDRA");
-  const int count = wanted != nullptr ? std::atoi(wanted) : 500;
+  const int count = wanted != nullptr ? static_cast<int>(std::strtol(wanted, nullptr, 10)) : 500;
   int met = 0, unreached = 0, above = 0;
   double worst_rms = 0, worst_max = 0;
   for (std::uint64_t seed = 1; met + unreached < count; ++seed) {

@@ -77,7 +77,8 @@ TEST(ReconstructDegenerate, points_without_a_surface) {
   for (std::size_t i = 0; i < n; ++i) {
     line.push_back({random_in(0, 1, 1, i), 0, 0});
     plane.push_back({random_in(0, 1, 1, i), random_in(0, 1, 2, i), 0});
-    grid.push_back({static_cast<double>(i % 25), static_cast<double>(i / 25), 7});
+    const std::size_t row = i / 25;
+    grid.push_back({static_cast<double>(i % 25), static_cast<double>(row), 7});
     cloud.push_back({random_in(0, 1, 1, i), random_in(0, 1, 2, i), random_in(0, 1, 3, i)});
     two.push_back({i % 2 == 0 ? 0.0 : 1.0, 1e-9 * static_cast<double>(i), 0});
   }
@@ -110,14 +111,14 @@ TEST(ReconstructDegenerate, a_grid_too_coarse_for_the_shape_is_refused_with_its_
 }
 
 TEST(ReconstructDegenerate, bad_normals) {
-  constexpr std::size_t count = 500;
-  const PointCloud sphere = sphere_points(count);
+  constexpr std::size_t kCount = 500;
+  const PointCloud sphere = sphere_points(kCount);
   PointCloud cloud = sphere;
   for (Vec3& n : cloud.normals) n = -n;
   expect_closed_or_refused(cloud, "inwards");
-  for (std::size_t i = 0; i < count; ++i) cloud.normals[i] = random_direction(2, i);
+  for (std::size_t i = 0; i < kCount; ++i) cloud.normals[i] = random_direction(2, i);
   expect_closed_or_refused(cloud, "random");
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < kCount; ++i)
     cloud.normals[i] = (i % 2 == 0 ? 1.0 : -1.0) * sphere.normals[i];
   expect_closed_or_refused(cloud, "every second one turned");
   for (Vec3& n : cloud.normals) n = {};
@@ -127,12 +128,12 @@ TEST(ReconstructDegenerate, bad_normals) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (Vec3& n : cloud.normals) n = {nan, nan, nan};
   expect_closed_or_refused(cloud, "not a number");
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < kCount; ++i)
     cloud.normals[i] = cross(sphere.normals[i], {0.1, 0.2, 1});
   expect_closed_or_refused(cloud, "tangential");
-  for (std::size_t i = 0; i < count; ++i) cloud.normals[i] = 1e-200 * sphere.normals[i];
+  for (std::size_t i = 0; i < kCount; ++i) cloud.normals[i] = 1e-200 * sphere.normals[i];
   expect_closed_or_refused(cloud, "tiny");
-  for (std::size_t i = 0; i < count; ++i) cloud.normals[i] = 1e200 * sphere.normals[i];
+  for (std::size_t i = 0; i < kCount; ++i) cloud.normals[i] = 1e200 * sphere.normals[i];
   expect_closed_or_refused(cloud, "huge");
 }
 

@@ -202,18 +202,19 @@ TEST(Reconstruct, an_open_half_is_closed_or_kept) {
 // ---- Bad data ----
 
 TEST(Reconstruct, noise_is_found_and_averaged_out) {
-  constexpr double sigma = 0.01;
+  constexpr double kSigma = 0.01;
   PointCloud cloud = sphere_points(20000);
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    cloud.points[i] *= 1 + sigma * random_normal(7, i);
+    cloud.points[i] *= 1 + kSigma * random_normal(7, i);
   }
   const Reconstruction made = reconstruct(cloud);
   EXPECT_EQ(expect_closed_manifold(made.mesh).euler_characteristic, 2);
-  EXPECT_NEAR(made.report.noise, sigma, 0.1 * sigma);
+  EXPECT_NEAR(made.report.noise, kSigma, 0.1 * kSigma);
   std::vector<double> off;
+  off.reserve(made.mesh.vertices.size());
   for (const Vec3& v : made.mesh.vertices) off.push_back(norm(v) - 1);
   // Caps of k points with 16 coefficients: sigma sqrt(16 / k), or a third of it at least.
-  EXPECT_LT(rms(off), sigma / 3);
+  EXPECT_LT(rms(off), kSigma / 3);
   const ReconstructOptions told{.noise = 0.02};
   EXPECT_EQ(reconstruct(cloud, told).report.noise, 0.02);
 }

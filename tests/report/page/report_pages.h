@@ -28,7 +28,7 @@ inline std::vector<std::string> tags_of(const std::string& html) {
 
 // Every element that needs it is closed in its turn.
 inline bool is_balanced(const std::string& html) {
-  const std::set<std::string> kVoid = {"!DOCTYPE", "meta", "img", "br"};
+  static const std::set<std::string> kVoid = {"!DOCTYPE", "meta", "img", "br"};
   std::vector<std::string> open;
   for (const std::string& tag : tags_of(html)) {
     const std::string name = tag.substr(0, tag.find_first_of(" \n"));

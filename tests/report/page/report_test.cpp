@@ -5,7 +5,9 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "report/page/html.h"
@@ -30,7 +32,8 @@ Expansion expansion_of(const Mesh& mesh, int degree, Method method = Method::kEd
 // RFC 4648, section 10.
 TEST(base64, has_the_test_vectors_of_its_standard) {
   const std::string text = "foobar";
-  const char* kWanted[] = {"", "Zg==", "Zm8=", "Zm9v", "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy"};
+  constexpr const char* kWanted[] = {"",         "Zg==",     "Zm8=",    "Zm9v",
+                                     "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy"};
   for (std::size_t n = 0; n <= text.size(); ++n) {
     EXPECT_EQ(html::base64(std::span(text).first(n)), kWanted[n]);
   }
@@ -190,11 +193,15 @@ TEST(log_log_plot, a_power_law_is_a_straight_line) {
   const std::string svg = report::log_log_plot(plot);
   EXPECT_TRUE(is_balanced(svg));
   double x[3], y[3];
-  const std::size_t path = svg.find("class=\"line measured\" d=\"");
+  const std::string_view begin = "class=\"line measured\" d=\"";
+  const std::size_t path = svg.find(begin);
   ASSERT_NE(path, std::string::npos);
-  ASSERT_EQ(std::sscanf(svg.c_str() + path, "class=\"line measured\" d=\"M%lf %lfL%lf %lfL%lf %lf",
-                        &x[0], &y[0], &x[1], &y[1], &x[2], &y[2]),
-            6);
+  std::istringstream text(svg.substr(path + begin.size()));
+  for (int i = 0; i < 3; ++i) {
+    char command = 0;
+    text >> command >> x[i] >> y[i];
+    ASSERT_TRUE(text && command == (i == 0 ? 'M' : 'L')) << i;
+  }
   EXPECT_NEAR(x[1], (x[0] + x[2]) / 2, 0.11);  // coordinates are printed to 0.1
   EXPECT_NEAR(y[1], (y[0] + y[2]) / 2, 0.11);
   EXPECT_LT(y[0], y[2]);  // downwards

@@ -43,7 +43,7 @@ TEST(Outliers, a_clean_sphere_has_none) {
 }
 
 TEST(Outliers, stray_points_are_found_and_the_surface_is_not_lost) {
-  constexpr std::size_t n = 10000, stray = 1000;
+  const std::size_t n = 10000, stray = 1000;
   PointCloud cloud = test::sphere_points(n);
   for (std::size_t i = 0; i < stray; ++i) {
     cloud.points.push_back({random_in(-1.2, 1.2, 2, 3 * i), random_in(-1.2, 1.2, 2, 3 * i + 1),
@@ -64,7 +64,7 @@ TEST(Outliers, stray_points_are_found_and_the_surface_is_not_lost) {
 }
 
 TEST(Outliers, noise_that_is_known_makes_none) {
-  constexpr double sigma = 0.01;
+  const double sigma = 0.01;
   PointCloud cloud = test::sphere_points(10000);
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     cloud.points[i] *= 1 + sigma * random_normal(4, i);

@@ -39,8 +39,9 @@ std::vector<Cloud> clouds() {
     strays.points.push_back(i % 10 == 0 ? random_point(8, i) : 0.3 * random_direction(8, i));
     line.points.push_back(random_in(0, 1, 3, i) * Vec3{1, 2, 3});
     same.points.push_back({0.1, 0.2, 0.3});
+    const std::uint64_t row = i / 9, layer = i / 81;
     lattice.points.push_back(
-        {static_cast<double>(i % 9), static_cast<double>(i / 9 % 9), static_cast<double>(i / 81)});
+        {static_cast<double>(i % 9), static_cast<double>(row % 9), static_cast<double>(layer)});
     twice.points.push_back(random_point(4, i / 9));
     // Clusters of all sizes.
     uneven.points.push_back(std::pow(10.0, -static_cast<double>(i % 5)) * random_point(5, i));
@@ -74,6 +75,7 @@ double extent(const std::vector<Vec3>& points) {
 // The k smallest of all distances, sorted.
 std::vector<double> sorted_distances(const std::vector<Vec3>& points, const Vec3& x) {
   std::vector<double> distances;
+  distances.reserve(points.size());
   for (const Vec3& p : points) distances.push_back(norm(p - x));
   std::sort(distances.begin(), distances.end());
   return distances;
@@ -231,6 +233,7 @@ TEST(PointTree, of_nothing_finds_nothing) {
 
 TEST(PointTree, is_the_same_for_every_number_of_threads) {
   std::vector<Vec3> points;
+  points.reserve(20000);
   for (std::uint64_t i = 0; i < 20000; ++i) points.push_back(random_direction(11, i));
   const PointTree one(points, {.threads = 1}), two(points, {.threads = 2});
   EXPECT_TRUE(std::equal(one.order().begin(), one.order().end(), two.order().begin()));

@@ -18,6 +18,7 @@ namespace {
 
 std::vector<Triangle> triangles_of(const MeshView& mesh) {
   std::vector<Triangle> all;
+  all.reserve(mesh.n_triangles);
   for (std::size_t t = 0; t < mesh.n_triangles; ++t) all.push_back(mesh.triangle(t));
   return all;
 }

@@ -56,6 +56,7 @@ OpenSphere open_sphere(double half_angle, double step, int n) {
     sphere.feet.push_back({.at = p, .normal = p, .support = 5 * std::sqrt(4 * pi / n)});
   }
   std::vector<Disc> discs;
+  discs.reserve(sphere.feet.size());
   for (const FootPoint& foot : sphere.feet) {
     discs.push_back({foot.at, foot.normal, 3 * step, 2.5 * step});
   }

@@ -40,7 +40,7 @@ std::vector<std::pair<Vec3, Vec3>> border(const Mesh& mesh) {
   }
   std::vector<std::pair<Vec3, Vec3>> edges;
   for (const auto& [edge, n] : sides) {
-    if (n == 1) edges.push_back({mesh.vertices[edge.first], mesh.vertices[edge.second]});
+    if (n == 1) edges.emplace_back(mesh.vertices[edge.first], mesh.vertices[edge.second]);
   }
   return edges;
 }
@@ -49,6 +49,7 @@ TEST(Trim, border_of_a_cut_sphere_is_a_circle) {
   const Mesh whole = sphere();
   for (const double z : {-0.4, 0.0, 0.61}) {
     std::vector<double> support;
+    support.reserve(whole.vertices.size());
     for (const Vec3& v : whole.vertices) support.push_back(z - v.z);
     const Mesh cut = trim(whole, support);
     const Inspection found = inspect(cut);

@@ -139,7 +139,7 @@ TEST(measure, volume_and_centroid_of_a_limacon_are_exact) {
 
 // A sphere about a point that is not its centre has a radius of infinite degree; its gauge too.
 TEST(measure, sphere_expanded_off_its_centre_keeps_volume_area_and_centroid) {
-  constexpr double shift = 0.3;
+  const double shift = 0.3;
   constexpr int L = 40;  // the tail falls like shift^l
   const GaussRule rule = gauss_legendre(400);
   for (const RadialFunction function : {RadialFunction::kRadius, RadialFunction::kGauge}) {

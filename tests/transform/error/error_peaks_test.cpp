@@ -22,6 +22,7 @@ TEST(highest_peak, is_found_between_points) {
     constexpr int kDegree = 12;
     const ErrorAt error = [&](const ErrorPoints& at) {
       std::vector<double> values;
+      values.reserve(at.directions.size());
       for (const Vec3& u : at.directions) {
         values.push_back(1 + std::cos(std::min(kDegree * norm(u - peak), 3.14)));
       }

@@ -71,6 +71,7 @@ std::vector<Shape> coarse_shapes() {
 
 double largest_error_at_vertices(const StarChart& chart, const Expansion& expansion) {
   std::vector<Vec3> directions;
+  directions.reserve(chart.mesh.vertices.size());
   for (const Vec3& v : chart.mesh.vertices) directions.push_back(v / norm(v));
   const std::vector<double> values =
       evaluate(expansion.coefficients, directions, {.engine = Engine::kDirect});

@@ -37,6 +37,7 @@ TEST(sampled_error2, stands_for_all_edges) {
 // Whatever the order in which threads bring them.
 TEST(sampled_error2, is_the_same_in_any_order) {
   std::vector<SampledHalfEdge> sample;
+  sample.reserve(1000);
   for (int k = 0; k < 1000; ++k) {
     sample.push_back({.name = static_cast<std::uint64_t>(k * 7919 % 331),
                       .error = std::sin(k) * std::exp(0.01 * k),
