@@ -49,7 +49,8 @@ Rotation rotation_about(const Vec3& axis, double angle) {
   return {std::cos(angle / 2), s * unit.x, s * unit.y, s * unit.z};
 }
 
-Rotation rotation_of(const EulerAngles& e) {
+Rotation rotation_of(const EulerAngles& angles) {
+  const EulerAngles& e = angles;
   if (!std::isfinite(e.alpha + e.beta + e.gamma)) refuse("Euler angles must be finite");
   const double sum = (e.alpha + e.gamma) / 2, difference = (e.alpha - e.gamma) / 2;
   const double c = std::cos(e.beta / 2), s = std::sin(e.beta / 2);
@@ -58,7 +59,8 @@ Rotation rotation_of(const EulerAngles& e) {
 }
 
 // From the largest component, which the matrix has to full precision (Shepperd 1978).
-Rotation rotation_of(const RotationMatrix& m) {
+Rotation rotation_of(const RotationMatrix& matrix) {
+  const RotationMatrix& m = matrix;
   check_orthogonal(m);
   const double xx = m[0].x, yy = m[1].y, zz = m[2].z;
   const double squares[4] = {1 + xx + yy + zz, 1 + xx - yy - zz, 1 - xx + yy - zz,
@@ -106,7 +108,8 @@ RotationMatrix matrix_of(const Rotation& rotation) {
           Vec3{2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}};
 }
 
-Rotation compose(const Rotation& a, const Rotation& b) {
+Rotation compose(const Rotation& second, const Rotation& first) {
+  const Rotation &a = second, &b = first;
   return normalized({a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z,
                      a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
                      a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,

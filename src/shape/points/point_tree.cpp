@@ -62,7 +62,7 @@ HWY_INLINE unsigned NearChildren(const float* boxes, const V (&at)[3], float rad
   unsigned bits = 0;
   for (std::size_t i = 0; i < 16; i += hn::Lanes(d)) {
     V square = hn::Zero(d);
-    for (int axis = 0; axis < 3; ++axis) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
       const V below = hn::Sub(hn::LoadU(d, boxes + 16 * axis + i), at[axis]);
       const V above = hn::Sub(at[axis], hn::LoadU(d, boxes + 16 * (axis + 3) + i));
       const V outside = hn::Max(hn::Max(below, above), hn::Zero(d));

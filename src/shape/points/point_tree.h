@@ -65,7 +65,7 @@ class PointTree {
   };
   void split(std::vector<Item>& items, const Context& context);
   void store(const std::vector<Item>& items, const Context& context);
-  void make_boxes(std::vector<float> leaves);
+  void make_boxes(std::vector<float> below);
   std::array<float, 3> local(const Vec3& x) const;
   void search(const std::array<float, 3>& at, float radius2, std::size_t k,
               std::vector<Neighbor>& found) const;

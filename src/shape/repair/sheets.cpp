@@ -27,11 +27,12 @@ std::vector<HalfEdge> around_edge(const std::vector<Vec3>& vertices,
   std::vector<std::pair<double, HalfEdge>> sorted;
   for (const HalfEdge& h : group) {
     const Vec3 apex = vertices[triangles[h.triangle()][(h.corner() + 2) % 3]] - a;
-    sorted.push_back({std::atan2(dot(apex, y), dot(apex, x)), h});
+    sorted.emplace_back(std::atan2(dot(apex, y), dot(apex, x)), h);
   }
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const auto& p, const auto& q) { return p.first < q.first; });
   std::vector<HalfEdge> result;
+  result.reserve(sorted.size());
   for (const auto& [angle, h] : sorted) result.push_back(h);
   return result;
 }

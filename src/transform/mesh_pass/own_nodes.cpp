@@ -141,8 +141,9 @@ NodeWriter::NodeWriter(const NodeOptions& options, NodeSink& sink)
       sink_(sink),
       nodes_(sink) {}
 
-void NodeWriter::add_triangle(const std::array<Vec3, 3>& p,
+void NodeWriter::add_triangle(const std::array<Vec3, 3>& corners,
                               const std::array<std::uint32_t, 3>& vertices) {
+  const std::array<Vec3, 3>& p = corners;
   const FaceNormal normal = face_normal(p);
   if (normal.degenerate) return;
   const Vec3& n = normal.twice_area;

@@ -20,8 +20,9 @@ struct NodeOptions {
 class NodeWriter {
  public:
   NodeWriter(const NodeOptions& options, NodeSink& sink);
-  // `vertices` name the corners p: equal names, equal points.
-  void add_triangle(const std::array<Vec3, 3>& p, const std::array<std::uint32_t, 3>& vertices);
+  // `vertices` name the corners: equal names, equal points.
+  void add_triangle(const std::array<Vec3, 3>& corners,
+                    const std::array<std::uint32_t, 3>& vertices);
   // Half-edges and nodes that are left.
   void flush();
   // Sum of the squares of what the rules leave of the elements written so far: the square of the

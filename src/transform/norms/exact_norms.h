@@ -37,8 +37,8 @@ struct NormSums {
   double third = 0;    // of d2 <1/|x|^3>
   double volume6 = 0;  // of d2
 };
-// One triangle of any size, by (M7) or, where that cancels, by cubature of pieces; corners p
-// relative to the centre and below about 1e70. Nothing for a triangle without area.
-NormSums norms_of_triangle(const std::array<Vec3, 3>& p);
+// One triangle of any size, by (M7) or, where that cancels, by cubature of pieces; corners relative
+// to the centre and below about 1e70. Nothing for a triangle without area.
+NormSums norms_of_triangle(const std::array<Vec3, 3>& corners);
 
 }  // namespace rholm

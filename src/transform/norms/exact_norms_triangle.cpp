@@ -105,7 +105,8 @@ double excess_of_path(double r1, double r2, double along, double across2, double
 
 }  // namespace
 
-NormSums norms_of_triangle(const std::array<Vec3, 3>& p) {
+NormSums norms_of_triangle(const std::array<Vec3, 3>& corners) {
+  const std::array<Vec3, 3>& p = corners;
   const FaceNormal face = face_normal(p);
   if (face.degenerate) return {};
   const Squares s = squares_of(p);

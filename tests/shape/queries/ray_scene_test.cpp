@@ -60,8 +60,8 @@ Vec3 random_point(std::uint64_t seed, std::uint64_t k) {
 // itself, or a point).
 Mesh soup(std::uint64_t seed, std::uint32_t n) {
   Mesh mesh;
-  for (std::uint64_t t = 0; t < n; ++t) {
-    const Vec3 a = random_point(seed, 3 * t);
+  for (std::uint32_t t = 0; t < n; ++t) {
+    const Vec3 a = random_point(seed, std::uint64_t{3} * t);
     const double size = std::pow(10.0, -3 * random_uniform(seed + 1, t));
     Vec3 b = a + size * random_point(seed, 3 * t + 1);
     Vec3 c = a + size * random_point(seed, 3 * t + 2);
