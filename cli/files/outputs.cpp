@@ -1,9 +1,9 @@
 #include "cli/files/outputs.h"
 
+#include <errno.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <cstring>
 #include <filesystem>
 

@@ -55,7 +55,7 @@ std::string fish_completion(std::span<const Command> commands) {
       "complete -c rholm -n __fish_use_subcommand -l help -d 'What rholm does'\n"
       "complete -c rholm -n __fish_use_subcommand -l version -d 'The version'\n";
   for (const Command& command : offered_commands(commands)) {
-    text += "\n";
+    text += '\n';
     for (const Option& option : offered_options(command)) text += option_line(command, option);
   }
   return text;

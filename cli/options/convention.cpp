@@ -16,7 +16,8 @@ Convention ConventionOptions::output_convention() const {
   return {parse_normalization(normalization), phase_of(csphase)};
 }
 
-std::vector<Option> convention_options(ConventionOptions& o) {
+std::vector<Option> convention_options(ConventionOptions& target) {
+  ConventionOptions& o = target;
   return {{.name = "normalization",
            .help = "how the functions are scaled in text, JSON and NumPy files; 4pi by default",
            .target = &o.normalization,
@@ -45,7 +46,8 @@ std::vector<std::string> InputConvention::left_open(const std::vector<std::strin
   return open;
 }
 
-std::vector<Option> input_convention_options(InputConvention& o) {
+std::vector<Option> input_convention_options(InputConvention& target) {
+  InputConvention& o = target;
   return {{.name = "input-normalization",
            .help = "how the functions of the input are scaled, where its file does not say; 4pi by "
                    "default",

@@ -18,6 +18,7 @@ Option region_option(const std::string& name, const std::string& help,
 
 std::vector<Region> parse_regions(const std::vector<std::string>& texts) {
   std::vector<Region> regions;
+  regions.reserve(texts.size());
   for (const std::string& text : texts) regions.push_back(parse_region(text));
   return regions;
 }

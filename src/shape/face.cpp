@@ -45,7 +45,8 @@ UnitFrame unit_frame(const Bounds& bounds) {
   return frame;
 }
 
-FaceNormal face_normal(const std::array<Vec3, 3>& p) {
+FaceNormal face_normal(const std::array<Vec3, 3>& corners) {
+  const std::array<Vec3, 3>& p = corners;
   const Vec3 edges[3] = {p[2] - p[1], p[0] - p[2], p[1] - p[0]};  // edge k is opposite corner k
   const double squares[3] = {dot(edges[0], edges[0]), dot(edges[1], edges[1]),
                              dot(edges[2], edges[2])};

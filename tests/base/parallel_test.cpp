@@ -29,6 +29,7 @@ TEST(parallel_for, visits_every_index_once_for_any_number_of_threads) {
 TEST(parallel_for, may_be_called_by_several_threads_at_once) {
   std::atomic<int> visits = 0;
   std::vector<std::thread> callers;
+  callers.reserve(4);
   for (int caller = 0; caller < 4; ++caller) {
     callers.emplace_back([&] {
       for (int k = 0; k < 100; ++k) {

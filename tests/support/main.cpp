@@ -9,6 +9,7 @@
 namespace {
 
 class SayTarget : public testing::Environment {
+ public:
   void SetUp() override {
     std::printf("instruction set: %s%s\n", rholm::test::running_target().c_str(),
                 std::getenv("RHOLM_TEST_TARGET") != nullptr ? " (forced)" : "");

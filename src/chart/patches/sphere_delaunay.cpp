@@ -199,7 +199,7 @@ std::vector<Triangle> sphere_delaunay(std::span<const Vec3> directions,
   }
   const std::vector<Vec3> units = unit_directions(directions);
   if (units.size() < 3) return {};
-  const std::vector<Triangle> triangles = hull_triangles(units);
+  std::vector<Triangle> triangles = hull_triangles(units);
   if (triangles.empty() || !(options.gap < INFINITY)) return triangles;
   return peeled(units, triangles, options.gap);
 }

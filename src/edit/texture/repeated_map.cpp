@@ -133,6 +133,7 @@ void fill(const std::vector<Place2>& outline, const TileLattice& lattice, Plane&
   const auto [a, b] = lattice;
   const double area = a.p * b.q - a.q * b.p;
   std::vector<Place2> corners;
+  corners.reserve(outline.size());
   for (const Place2& x : outline) {
     corners.push_back((plane.n / area) * Place2{x.p * b.q - x.q * b.p, a.p * x.q - a.q * x.p});
   }

@@ -133,8 +133,9 @@ TileLattice best_of_grid(const Overlaps& overlaps, double radius) {
       // One of the six shortest is within 60 degrees of the first axis.
       if (of(ai, aj) == kInfinity || aj >= std::sqrt(3.0) * ai) continue;
       // b is a turned by 60 degrees, give or take.
-      const int bi = static_cast<int>(ai / 2 - aj * 0.866),
-                bj = static_cast<int>(aj / 2 + ai * 0.866);
+      const int half_i = ai / 2, half_j = aj / 2;
+      const int bi = static_cast<int>(half_i - aj * 0.866),
+                bj = static_cast<int>(half_j + ai * 0.866);
       constexpr int kAround = kSamples / 3;
       for (int j = bj - kAround; j <= bj + kAround; ++j) {
         for (int i = bi - kAround; i <= bi + kAround; ++i) {

@@ -54,8 +54,8 @@ constexpr std::array<Unit, 12> kWords = {{{"meter", 1},
                                           {"yard", 0.9144},
                                           {"mile", 1609.344}}};
 
-template <std::size_t n>
-std::optional<double> found(const std::array<Unit, n>& units, std::string_view name) {
+template <std::size_t kUnits>
+std::optional<double> found(const std::array<Unit, kUnits>& units, std::string_view name) {
   const auto unit = std::find_if(units.begin(), units.end(),
                                  [&](const Unit& known) { return known.name == name; });
   return unit == units.end() ? std::nullopt : std::optional(unit->metres);

@@ -104,6 +104,7 @@ SpreadTable<T> spread_table(const SpreadWindow& window) {
   table.coefficients = AlignedArray<T>(static_cast<std::size_t>(3) * taps * table.terms);
   T* out = table.coefficients.data();
   std::vector<std::vector<R>> powers;
+  powers.reserve(static_cast<std::size_t>(taps));
   for (int i = 0; i < taps; ++i) {
     powers.push_back(fit.powers([&](R u) {
       const R z = (static_cast<R>(2 * i + 1) + u) / static_cast<R>(window.width) - 1;

@@ -82,7 +82,7 @@ class LoopTriangulation {
     const int k = best_[i][j];
     append(i, k, result);
     append(k, j, result);
-    std::uint8_t* corners = result.triangles.data() + 3 * result.n_triangles++;
+    std::uint8_t* corners = result.triangles.data() + std::size_t{3} * result.n_triangles++;
     for (const int corner : {i, k, j}) *corners++ = static_cast<std::uint8_t>(loop_[corner]);
   }
 

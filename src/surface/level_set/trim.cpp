@@ -225,6 +225,7 @@ void move_vertex(Mesh& mesh, std::uint32_t vertex, const BorderVertex& around, c
     return cross(mesh.vertices[c[1]] - a, mesh.vertices[c[2]] - a);
   };
   std::vector<Vec3> before;
+  before.reserve(around.triangles.size());
   for (const std::uint32_t t : around.triangles) before.push_back(twice_area(t));
   const Vec3 from = std::exchange(mesh.vertices[vertex], to);
   for (std::size_t i = 0; i < before.size(); ++i) {

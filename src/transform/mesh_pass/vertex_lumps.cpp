@@ -274,7 +274,7 @@ LumpSums sum_lumps(const VertexLump<double>* lumps, std::size_t n, bool hessians
 
 template <typename L>
 std::unique_ptr<typename LumpArrays<L>::Array> LumpArrays<L>::take() {
-  const std::scoped_lock lock(mutex_);
+  const std::lock_guard lock(mutex_);
   if (!free_.empty()) {
     std::unique_ptr<Array> array = std::move(free_.back());
     free_.pop_back();
@@ -285,7 +285,7 @@ std::unique_ptr<typename LumpArrays<L>::Array> LumpArrays<L>::take() {
 
 template <typename L>
 void LumpArrays<L>::give_back(std::unique_ptr<Array> array) {
-  const std::scoped_lock lock(mutex_);
+  const std::lock_guard lock(mutex_);
   free_.push_back(std::move(array));
 }
 

@@ -77,6 +77,7 @@ TEST(triangulate_polygon, quadrilateral_with_a_dent_is_cut_inside_though_that_is
   for (std::size_t shift = 0; shift < 4; ++shift) {
     const std::vector<Vec3> arrow = {{-2, -1, 0}, {0, 8, 0}, {2, -1, 0}, {0, 0, 0}};
     std::vector<Vec3> p;
+    p.reserve(4);
     for (std::size_t i = 0; i < 4; ++i) p.push_back(arrow[(i + shift) % 4]);
     SCOPED_TRACE(shift);
     expect_tiles_in_every_plane(p);
@@ -136,6 +137,7 @@ TEST(triangulate_polygon, scale_does_not_matter) {
     const std::vector<Vec3> shape = {{0, 0, 0}, {3, 0, 0}, {3, 1, 0},
                                      {1, 1, 0}, {1, 3, 0}, {0, 3, 0}};
     std::vector<Vec3> scaled;
+    scaled.reserve(shape.size());
     for (const Vec3& p : shape) scaled.push_back(scale * p);
     EXPECT_EQ(triangulate(scaled), triangulate(shape)) << scale;
     const std::vector<Vec3> dent = {{-2, -1, 0}, {0, 8, 0}, {2, -1, 0}, {0, 0, 0}};
@@ -167,6 +169,7 @@ TEST(triangulate_polygon, degenerate_polygons_still_give_n_minus_2_triangles) {
 
 TEST(triangulate_polygon, million_corners_do_not_hang) {
   std::vector<Vec3> comb;
+  comb.reserve(1'000'001);
   for (int i = 0; i < 1'000'000; ++i) comb.push_back({double(i), i % 2 == 0 ? 0.0 : 1.0, 0});
   comb.push_back({1e6, -1, 0});
   comb.push_back({0, -1, 0});
