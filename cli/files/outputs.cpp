@@ -66,15 +66,15 @@ std::vector<Option> mesh_output_options(std::string& path, std::string& format, 
           {.name = "ascii", .help = "PLY and STL as text", .target = &ascii}};
 }
 
-std::vector<Option> coefficients_output_options(CoefficientsOutputOptions& o,
+std::vector<Option> coefficients_output_options(CoefficientsOutputOptions& target,
                                                 const std::string& what, bool required) {
   std::vector<Option> list = {
-      output_option(o.output, what + ": .h5, .sh, .gfc, .json, .npy; - for standard output",
+      output_option(target.output, what + ": .h5, .sh, .gfc, .json, .npy; - for standard output",
                     required),
-      format_option(o.format, coefficients_formats())};
-  append(list, convention_options(o.convention));
-  append(list, input_convention_options(o.input_convention));
-  list.push_back(json_option(o.json));
+      format_option(target.format, coefficients_formats())};
+  append(list, convention_options(target.convention));
+  append(list, input_convention_options(target.input_convention));
+  list.push_back(json_option(target.json));
   return list;
 }
 

@@ -14,7 +14,7 @@ constexpr double kStalled = 0.1;
 // than kGoodEnough gives away.
 constexpr double kSameAim = 1.03, kSameNumbers = 1.03;
 // While handles are wrong the aim is multiplied by kTighter, at most kTightenings times: half the
-// tolerance in all, as close as the finer caps that come next. Of meshes 15, 38, 51, 61, 111, 115,
+// tolerance in all. Of meshes 15, 38, 51, 61, 111, 115,
 // 138, 338 and 460 of tests/cli/random_meshes.py three became right so, none by a looser aim.
 constexpr double kTighter = 0.7;
 constexpr int kTightenings = 2;

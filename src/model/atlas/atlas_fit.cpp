@@ -1,6 +1,7 @@
 #include "model/atlas/atlas_fit.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <tuple>
@@ -21,10 +22,10 @@ namespace {
 
 constexpr int kMostTries = 8;            // aims, for each overlap
 constexpr double kWorthSearching = 1.5;  // tolerances: beyond, another aim comes first
-// Where caps hardly agree, as between fingers, a grid may see a handle that another does not: other
-// steps and bands, in these parts, are tried until the surface is connected as the shape is.
-constexpr double kSteps[] = {1, 0.8};
-constexpr double kBands[] = {1, 2, 1.5};
+// Where caps hardly agree, as between fingers, one band may see a handle that another does not:
+// where parts and handles are not the shape's, both are tried (scripts/constants). A third band and
+// a finer step made none of forty shapes right that is not right with these.
+constexpr double kBands[] = {1, 2};  // times the atlas's own
 constexpr std::size_t kAnyHandles = std::numeric_limits<std::size_t>::max();
 
 Atlas overlapping(Atlas atlas, const Overlap& overlap) {
@@ -37,18 +38,6 @@ Atlas overlapping(Atlas atlas, const Overlap& overlap) {
 Atlas rounded(Atlas atlas, const Overlap& overlap) {
   set_weights(atlas.caps, overlap.power);
   return unpack(pack(atlas), "");
-}
-
-// Of a grid, times the first choice.
-struct GridParts {
-  double step = 1, band = 1;
-};
-std::vector<GridParts> all_grid_parts() {
-  std::vector<GridParts> parts;
-  for (const double step : kSteps) {
-    for (const double band : kBands) parts.push_back({step, band});
-  }
-  return parts;
 }
 
 // The surface of a model, what is measured on it, and how it hangs together.
@@ -68,9 +57,9 @@ Rank rank(const AtlasModel& model, std::size_t wrong, double accepted) {
 }
 
 // Nothing of a surface with `too_many` wrong handles or more: it is not measured.
-std::optional<TrialSurface> try_surface(const FitTarget& target, AtlasModel model,
-                                        const GridParts& parts, std::size_t too_many) {
-  model.step *= parts.step, model.atlas.band *= parts.band;
+std::optional<TrialSurface> try_surface(const FitTarget& target, AtlasModel model, double band,
+                                        std::size_t too_many) {
+  model.atlas.band *= band;
   const Mesh mesh = target.surface(model);
   TrialSurface trial{std::move(model), topology_of(inspect(mesh))};
   trial.wrong = n_wrong_handles(trial.topology, target.topology);
@@ -79,29 +68,24 @@ std::optional<TrialSurface> try_surface(const FitTarget& target, AtlasModel mode
   return trial;
 }
 
-// The surface of the first grid, or a better one of another, tried in the order of `parts`: that
-// grid comes first from then on. Of a surface with many wrong handles only the next grid is tried.
-TrialSurface search_grid(const FitTarget& target, const AtlasModel& model, TrialSurface best,
-                         std::vector<GridParts>& parts, int& searches) {
-  std::size_t best_at = 0;
-  for (std::size_t i = 1; i < parts.size() && best.wrong > 0; ++i) {
-    if (i > 1 && best.wrong > kFewHandles) break;
-    try {
-      std::optional<TrialSurface> trial = try_surface(target, model, parts[i], best.wrong);
-      if (!trial || rank(trial->model, trial->wrong, target.accepted) >=
-                        rank(best.model, best.wrong, target.accepted)) {
-        continue;
-      }
-      best = std::move(*trial), best_at = i;
-    } catch (const Error& error) {
-      // A finer grid than memory allows is no choice.
-      if (error.code() != ErrorCode::kOutOfMemory) throw;
+// The surface with the first band, or a better one with the second, which comes first from then on.
+TrialSurface try_bands(const FitTarget& target, const AtlasModel& model,
+                       std::array<double, 2>& bands) {
+  TrialSurface first = *try_surface(target, model, bands[0], kAnyHandles);
+  const bool worth = first.model.errors->rms() <= kWorthSearching * target.tolerance;
+  if (first.wrong == 0 || !worth) return first;
+  try {
+    std::optional<TrialSurface> second = try_surface(target, model, bands[1], first.wrong);
+    if (second && rank(second->model, second->wrong, target.accepted) <
+                      rank(first.model, first.wrong, target.accepted)) {
+      std::swap(bands[0], bands[1]);
+      return std::move(*second);
     }
+  } catch (const Error& error) {
+    // More than memory allows is no choice.
+    if (error.code() != ErrorCode::kOutOfMemory) throw;
   }
-  const auto at = parts.begin() + static_cast<std::ptrdiff_t>(best_at);
-  std::rotate(parts.begin(), at, at + 1);
-  if (best.wrong > 0 && best.wrong <= kFewHandles) --searches;
-  return best;
+  return first;
 }
 
 }  // namespace
@@ -113,7 +97,7 @@ std::size_t n_wrong_handles(const Topology& found, const std::optional<Topology>
 }
 
 void fit_atlas(const FitTarget& target, const Atlas& chosen, const Overlap& overlap,
-               Compressed& result, FitState& state, const Context& context) {
+               Compressed& result, double& aim, const Context& context) {
   CompressReport& report = result.report;
   const Atlas covered = overlapping(chosen, overlap);
   const PruneOptions wanted{.tolerance = target.tolerance,
@@ -121,8 +105,8 @@ void fit_atlas(const FitTarget& target, const Atlas& chosen, const Overlap& over
                             .stray = target.stray,
                             .max_degree = target.max_degree};
   std::optional<Pruning> pruning;
-  Aims aims(target.tolerance, state.aim > 0 ? state.aim : target.tolerance);
-  std::vector<GridParts> parts = all_grid_parts();
+  Aims aims(target.tolerance, aim > 0 ? aim : target.tolerance);
+  std::array<double, 2> bands = {kBands[0], kBands[1]};
   for (int attempt = 0; attempt < kMostTries; ++attempt) {
     AtlasModel model = result.model;
     AimOutcome outcome;
@@ -136,12 +120,7 @@ void fit_atlas(const FitTarget& target, const Atlas& chosen, const Overlap& over
     if (aims.repeats(outcome.numbers)) break;
     std::optional<TrialSurface> trial;
     try {
-      trial = timed(report.times, "surface", [&] {
-        TrialSurface first = *try_surface(target, model, parts.front(), kAnyHandles);
-        const bool worth = first.model.errors->rms() <= kWorthSearching * target.tolerance;
-        if (first.wrong == 0 || !worth || state.searches == 0) return first;
-        return search_grid(target, model, std::move(first), parts, state.searches);
-      });
+      trial = timed(report.times, "surface", [&] { return try_bands(target, model, bands); });
     } catch (const Error& error) {
       // No surface, or none that memory allows: what there is already stands.
       const bool none =
@@ -156,14 +135,13 @@ void fit_atlas(const FitTarget& target, const Atlas& chosen, const Overlap& over
                                     rank(result.model, wrong, target.accepted)) {
       result.model = trial->model;
       report.components = trial->topology.components, report.genus = trial->topology.genus;
-      report.uncovered = target.uncovered;
       report.met = outcome.met, report.topology_kept = outcome.whole;
     }
     // No number is saved where more than the tolerance would do.
     const bool good = aims.is_close(outcome.rms) || target.tolerance < target.accepted;
     if (outcome.met && outcome.whole && good) break;
     if (outcome.met && !outcome.whole && !overlap.settles) {
-      state.aim = std::min(aims.aim(), aims.corrected(outcome.rms));
+      aim = std::min(aims.aim(), aims.corrected(outcome.rms));
       break;
     }
     // (Farther than aimed at, they may be due to that.)

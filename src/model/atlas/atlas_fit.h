@@ -19,8 +19,8 @@ inline Topology topology_of(const Inspection& found) { return {found.components,
 // Parts and handles too many or too few; none where nothing is wanted.
 std::size_t n_wrong_handles(const Topology& found, const std::optional<Topology>& wanted);
 
-// More than these on a surface that is near enough are not mended by other grids, aims or finer
-// caps: handles are seen as if by chance, and with h in one grid another has none in about exp(-h).
+// More than these on a surface that is near enough are not mended by other aims:
+// handles are seen as if by chance, and with h on one grid another has none in about exp(-h).
 constexpr std::size_t kFewHandles = 3;
 
 // Radii of supports over those that caps were chosen with, and the power of them that small ones
@@ -39,20 +39,14 @@ struct FitTarget {
   double stray = 0;                  // caps' surfaces farther from all samples are cut back
   double step = 0;                   // of the grid
   int max_degree = 14;
-  double uncovered = 0;  // share of the samples that the caps were not chosen for
   std::function<Mesh(const AtlasModel&)> surface;
   std::function<AtlasErrors(const Mesh&)> measure;
 };
 
-// What a fit leaves to the next.
-struct FitState {
-  int searches = 2;  // through all grids that may end with wrong handles; each as long as seven
-  double aim = 0;    // for the same caps, as far as it is known; 0: it is not
-};
-
 // Drops coefficients of the caps until the surface is as far from the shape as allowed; what is
-// better than `result` replaces it.
+// better than `result` replaces it. `aim` is where to begin, as far as it is known for the same
+// caps (0: it is not), and is left for another overlap.
 void fit_atlas(const FitTarget& target, const Atlas& chosen, const Overlap& overlap,
-               Compressed& result, FitState& state, const Context& context);
+               Compressed& result, double& aim, const Context& context);
 
 }  // namespace rholm

@@ -45,26 +45,16 @@ constexpr double kLeastSamples = 20000, kMostSamples = 200000;
 constexpr double kMostThinSamples = 100000;
 
 // Sheets of a surface that face each other leave room for the error of both caps, and for the band
-// within which the grid hears them: at most these parts of the gap. It is the one that kThin of the
-// area falls below: at sharp edges all fall to 0.
+// within which the grid blends them: at most these parts of the gap. It is the one that kThin of
+// the area falls below: at sharp edges all fall to 0.
 constexpr double kThin = 0.05;
 constexpr double kToleranceOfGap = 1.0 / 6, kBandOfGap = 1.0 / 3;
 constexpr double kStepOfGap = kBandOfGap / kBandSteps;
 
 // Where neighbours barely overlap, the surface changes from one to the other in a step. Measured:
 // 1.3 leaves fewer steps still, but splinters at thin parts. Where parts lie close together, as
-// fingers do, that makes handles, and caps speak as far as they were chosen to; where neither will
-// do, finer caps are chosen.
-struct Attempt {
-  double tolerance;  // of the caps' choice, of that aimed at
-  double smallest;   // support, of the diagonal
-  double uncovered;  // share of the samples: what is left out may be a part of its own
-  Overlap overlap;
-};
-constexpr Attempt kAttempts[] = {{1, 0.005, 0.002, {1.15, 1, false}},
-                                 {1, 0.005, 0.002, {1, 3, true}},
-                                 {0.5, 0.001, 0, {1.15, 1, false}},
-                                 {0.5, 0.001, 0, {1, 3, true}}};
+// fingers do, that makes handles, and caps reach as far as they were chosen to.
+constexpr Overlap kOverlaps[] = {{1.15, 1, false}, {1, 3, true}};
 // A shape of few vertices may be worth so many numbers; others no more than twice their own.
 constexpr std::size_t kFewNumbers = 12000;
 
@@ -97,7 +87,6 @@ struct Subject {
 // What a gap between sheets allows.
 struct Lengths {
   double tolerance, band, step;
-  bool thin;  // the gap decides the tolerance
 };
 Lengths lengths_for(double tolerance, double diagonal, double gap, double area) {
   // Samples are as far apart as errors have waves.
@@ -112,7 +101,7 @@ Lengths lengths_for(double tolerance, double diagonal, double gap, double area) 
   const double coarsest = std::min(tolerance, kCoarsest * diagonal);
   const double within = std::min(coarsest, kToleranceOfGap * gap);
   return {within, std::min({kBand * within, kWidestBand * diagonal, kBandOfGap * gap}),
-          std::min({kStep * within, diagonal / kLeastSteps, kStepOfGap * gap}), within < coarsest};
+          std::min({kStep * within, diagonal / kLeastSteps, kStepOfGap * gap})};
 }
 
 std::size_t n_samples(const CompressOptions& options, const Lengths& lengths, double area) {
@@ -140,18 +129,17 @@ std::size_t most_numbers(const Subject& subject) {
                           tolerance));
 }
 
-bool is_usable(const GreedyCover& cover) { return cover.foreseen == 0 && !cover.chosen.empty(); }
-
-GreedyCover cover(const SampleLevels& levels, const Subject& subject, const Attempt& attempt,
-                  double tolerance, const CompressOptions& options, const Context& context) {
+GreedyCover cover(const SampleLevels& levels, const Subject& subject, double tolerance,
+                  const CompressOptions& options, const Context& context) {
   GreedyOptions wanted;
-  wanted.smallest = attempt.smallest, wanted.uncovered = attempt.uncovered;
   wanted.candidate = {
       .tolerance = tolerance, .stray = kStray * tolerance, .max_degree = options.max_degree};
   wanted.most_numbers = most_numbers(subject);
   wanted.seed = options.seed;
-  return greedy_cover(levels, subject.diagonal, wanted, std::vector<std::uint8_t>(levels.size()),
-                      context);
+  GreedyCover covered = greedy_cover(levels, subject.diagonal, wanted,
+                                     std::vector<std::uint8_t>(levels.size()), context);
+  if (covered.foreseen > 0 || covered.chosen.empty()) refuse(covered, subject, tolerance);
+  return covered;
 }
 
 Atlas atlas_of(const GreedyCover& cover, double spacing, double diagonal, double band) {
@@ -178,42 +166,24 @@ Compressed compress_subject(const Subject& subject, const Lengths& lengths,
   const SampleLevels levels = timed(report.times, "samples", [&] {
     return make_levels(subject.samples.points, subject.samples.normals, context);
   });
-  Atlas chosen;
-  double chosen_with = 0, uncovered = 1;
-  FitState state;
-  for (const Attempt& attempt : kAttempts) {
-    const double tolerance = attempt.tolerance * lengths.tolerance;
-    if (tolerance != chosen_with) {
-      // Finer caps mend neither many handles, nor shapes so thin that they are fitted more closely
-      // than asked (51 and 61 of tests/cli/random_meshes.py).
-      const Topology found{report.components, report.genus};
-      const bool many = n_wrong_handles(found, subject.topology) > kFewHandles;
-      if (report.met && (many || lengths.thin)) break;
-      const GreedyCover covered = timed(report.times, "caps", [&] {
-        return cover(levels, subject, attempt, tolerance, options, context);
-      });
-      if (!is_usable(covered)) {
-        // Finer caps than those of a model that there is already are not insisted on.
-        if (chosen_with > 0) break;
-        refuse(covered, subject, tolerance);
-      }
-      chosen = atlas_of(covered, levels.finest().spacing, subject.diagonal, lengths.band);
-      chosen_with = tolerance;
-      state.aim = 0;
-      uncovered = covered.uncovered;
-    }
-    const FitTarget target{
-        .levels = levels,
-        .topology = subject.topology,
-        .tolerance = lengths.tolerance,
-        .accepted = options.tolerance,
-        .stray = kStrayFitted * tolerance,
-        .step = lengths.step,
-        .max_degree = options.max_degree,
-        .uncovered = uncovered,
-        .surface = [&](const AtlasModel& model) { return synthesize(model, {}, context); },
-        .measure = subject.measure};
-    fit_atlas(target, chosen, attempt.overlap, result, state, context);
+  const GreedyCover covered = timed(report.times, "caps", [&] {
+    return cover(levels, subject, lengths.tolerance, options, context);
+  });
+  const Atlas chosen = atlas_of(covered, levels.finest().spacing, subject.diagonal, lengths.band);
+  const FitTarget target{
+      .levels = levels,
+      .topology = subject.topology,
+      .tolerance = lengths.tolerance,
+      .accepted = options.tolerance,
+      .stray = kStrayFitted * lengths.tolerance,
+      .step = lengths.step,
+      .max_degree = options.max_degree,
+      .surface = [&](const AtlasModel& model) { return synthesize(model, {}, context); },
+      .measure = subject.measure};
+  report.uncovered = covered.uncovered;
+  double aim = 0;
+  for (const Overlap& overlap : kOverlaps) {
+    fit_atlas(target, chosen, overlap, result, aim, context);
     if (report.met && report.topology_kept) break;
   }
   return result;

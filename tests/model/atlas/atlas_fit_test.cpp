@@ -1,4 +1,4 @@
-// The search for caps, and for a grid, whose surface hangs together as the shape does: on surfaces
+// The search for caps, and for a band, whose surface hangs together as the shape does: on surfaces
 // that are made up.
 #include "model/atlas/atlas_fit.h"
 
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kTolerance = 0.1, kBand = 0.3, kStep = 0.1;
 
-// What the surface of a grid is said to be.
+// What a surface is said to be.
 struct Seen {
   double rms = kTolerance / 2;
   bool handle = false;
@@ -45,11 +45,10 @@ class Fit {
                            .stray = 1.5 * kTolerance,
                            .step = kStep,
                            .max_degree = 14,
-                           .uncovered = 0,
                            .surface =
                                [&](const AtlasModel& model) {
                                  ++surfaces;
-                                 grids.insert({model.step, model.atlas.band});
+                                 bands.insert(model.atlas.band);
                                  seen = see_(model);
                                  if (!seen.fits) throw Error(ErrorCode::kOutOfMemory, "too fine");
                                  return seen.handle ? torus(1, 0.4, 8, 8) : icosphere(1);
@@ -59,14 +58,14 @@ class Fit {
                                  ++measured;
                                  return AtlasErrors{seen.rms, seen.rms, seen.rms, seen.rms};
                                }};
-    fit_atlas(target, atlas, overlap, found, state, {});
+    fit_atlas(target, atlas, overlap, found, aim, {});
   }
 
   double accepted = kTolerance;
   Compressed found;
-  FitState state;
+  double aim = 0;
   int surfaces = 0, measured = 0;
-  std::set<std::pair<double, double>> grids;
+  std::set<double> bands;
 
  private:
   std::size_t handles_;
@@ -76,9 +75,7 @@ class Fit {
 constexpr Overlap kNarrow{1, 3, true}, kWide{1.15, 1, false};
 
 // Bands go to the file in single precision.
-bool is_first(const AtlasModel& model) {
-  return model.step == kStep && model.atlas.band < 1.01 * kBand;
-}
+bool is_first(const AtlasModel& model) { return model.atlas.band < 1.01 * kBand; }
 
 TEST(fit_atlas, parts_and_handles_that_differ_are_counted) {
   EXPECT_EQ(n_wrong_handles({3, 0}, std::nullopt), 0u);
@@ -92,11 +89,10 @@ TEST(fit_atlas, one_surface_does_where_it_is_right) {
     fit.run(overlap);
     EXPECT_TRUE(fit.found.report.met && fit.found.report.topology_kept);
     EXPECT_EQ(fit.surfaces, 1);
-    EXPECT_EQ(fit.state.searches, 2);
   }
 }
 
-TEST(fit_atlas, many_handles_are_looked_for_on_one_other_grid) {
+TEST(fit_atlas, many_handles_are_looked_for_with_one_other_band) {
   Fit fit(40, [](const AtlasModel&) { return Seen{}; });
   fit.run(kNarrow);
   EXPECT_TRUE(fit.found.report.met);
@@ -104,21 +100,19 @@ TEST(fit_atlas, many_handles_are_looked_for_on_one_other_grid) {
   EXPECT_EQ(fit.found.report.components, 1u);
   EXPECT_EQ(fit.found.report.genus, 0u);
   EXPECT_EQ(fit.surfaces, 2);
-  EXPECT_EQ(fit.state.searches, 2);
 }
 
-// On six grids at each of two aims, on one at the third; grids that are no better are not measured.
-TEST(fit_atlas, one_handle_is_looked_for_on_all_grids_twice) {
+// With both bands at each of three aims; surfaces that are no better are not measured.
+TEST(fit_atlas, one_handle_is_looked_for_with_both_bands_at_nearer_aims) {
   Fit fit(1, [](const AtlasModel&) { return Seen{}; });
   fit.run(kNarrow);
   EXPECT_FALSE(fit.found.report.topology_kept);
-  EXPECT_EQ(fit.grids.size(), 6u);
-  EXPECT_EQ(fit.surfaces, 13);
+  EXPECT_EQ(fit.bands.size(), 2u);
+  EXPECT_EQ(fit.surfaces, 6);
   EXPECT_EQ(fit.measured, 3);
-  EXPECT_EQ(fit.state.searches, 0);
 }
 
-TEST(fit_atlas, the_grid_that_sees_the_handle_comes_first_from_then_on) {
+TEST(fit_atlas, the_band_that_sees_the_handle_comes_first_from_then_on) {
   // Too far at first, so that another aim comes.
   int calls = 0;
   Fit fit(1, [&](const AtlasModel& model) {
@@ -128,12 +122,11 @@ TEST(fit_atlas, the_grid_that_sees_the_handle_comes_first_from_then_on) {
   EXPECT_TRUE(fit.found.report.met && fit.found.report.topology_kept);
   EXPECT_EQ(fit.found.report.genus, 1u);
   EXPECT_EQ(fit.surfaces, 3);
-  EXPECT_EQ(fit.grids.size(), 2u);
-  EXPECT_EQ(fit.state.searches, 2);
+  EXPECT_EQ(fit.bands.size(), 2u);
 }
 
 // A surface that keeps the tolerance is not given up for the handles.
-TEST(fit_atlas, a_grid_with_the_handle_that_is_too_far_is_no_better) {
+TEST(fit_atlas, a_band_with_the_handle_that_is_too_far_is_no_better) {
   Fit fit(1, [](const AtlasModel& model) {
     return Seen{.rms = is_first(model) ? kTolerance : 1.2 * kTolerance, .handle = !is_first(model)};
   });
@@ -143,11 +136,11 @@ TEST(fit_atlas, a_grid_with_the_handle_that_is_too_far_is_no_better) {
   EXPECT_LE(fit.found.model.errors->rms(), kTolerance);
 }
 
-TEST(fit_atlas, a_grid_that_memory_does_not_allow_is_no_choice) {
+TEST(fit_atlas, a_band_that_memory_does_not_allow_is_no_choice) {
   Fit fit(1, [](const AtlasModel& model) { return Seen{.fits = is_first(model)}; });
   fit.run(kNarrow);
   EXPECT_TRUE(fit.found.report.met);
-  EXPECT_EQ(fit.grids.size(), 6u);
+  EXPECT_EQ(fit.bands.size(), 2u);
   Fit none(1, [](const AtlasModel&) { return Seen{.fits = false}; });
   EXPECT_THROW(none.run(kNarrow), Error);
 }
@@ -167,19 +160,19 @@ TEST(fit_atlas, a_wider_overlap_is_given_up_after_one_aim_and_leaves_it_to_the_n
   Fit near(40, [](const AtlasModel&) { return Seen{}; });
   near.run(kWide);
   EXPECT_EQ(near.measured, 1);
-  EXPECT_DOUBLE_EQ(near.state.aim, kTolerance);
+  EXPECT_DOUBLE_EQ(near.aim, kTolerance);
   Fit far(40, [](const AtlasModel&) { return Seen{.rms = 1.6 * kTolerance}; });
   far.accepted = 2 * kTolerance;
   far.run(kWide);
-  EXPECT_EQ(far.surfaces, 1);  // no grid mends what another aim must
-  EXPECT_NEAR(far.state.aim, kTolerance / 1.6, 0.01 * kTolerance);
+  EXPECT_EQ(far.surfaces, 1);  // no band mends what another aim must
+  EXPECT_NEAR(far.aim, kTolerance / 1.6, 0.01 * kTolerance);
 }
 
 // A fit begins at the aim that was left: fewer coefficients are dropped for a nearer one.
 TEST(fit_atlas, an_aim_that_was_left_is_the_first) {
   const auto numbers_from = [](double aim) {
     Fit fit(0, [](const AtlasModel&) { return Seen{.rms = 0.99 * kTolerance}; });
-    fit.state.aim = aim;
+    fit.aim = aim;
     fit.run(kNarrow);
     return size_of(fit.found.model.atlas).numbers();
   };
