@@ -20,6 +20,7 @@ TEST(shared_progress, of_several_threads_rises_to_its_end_and_not_beyond) {
   }};
   SharedProgress progress(context, "work", 0.25, 0.75, 100);
   std::vector<std::thread> threads;
+  threads.reserve(4);
   for (int t = 0; t < 4; ++t) {
     threads.emplace_back([&] {
       for (int k = 0; k < 30; ++k) progress.add(1);

@@ -19,27 +19,27 @@ double reach(const Cap& cap) {
 }  // namespace
 
 CapWeights weights_of(const Cap& cap, std::span<const double> coefficients, const PointTree& tree,
-                      std::span<const Vec3> all, double band) {
+                      std::span<const Vec3> points, double band) {
   CapWeights own;
-  CapPoints points;
+  CapPoints within;
   std::vector<Neighbor> near;
   std::vector<double> rests;
   const Vec3 seed = cap.frame.seed();
   tree.within(seed, reach(cap), near);
   for (const Neighbor& n : near) {
-    const Vec3 offset = all[n.index] - seed;
+    const Vec3 offset = points[n.index] - seed;
     const double rest = 1 - place(cap, offset);
     if (!(rest > 0)) continue;
-    points.add(offset, cap.frame.z, 1);
+    within.add(offset, cap.frame.z, 1);
     own.samples.push_back(n.index);
     rests.push_back(rest);
   }
-  if (points.size() == 0) return own;
-  points.pad();
-  std::vector<double> distances(points.padded());
-  cap_distances(cap, coefficients, points, distances);
+  if (within.size() == 0) return own;
+  within.pad();
+  std::vector<double> distances(within.padded());
+  cap_distances(cap, coefficients, within, distances);
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (std::size_t i = 0; i < within.size(); ++i) {
     const double part = distances[i] / band, in_band = 1 - part * part;
     if (!(in_band > 0)) continue;  // also where the cap has no potential
     own.samples[kept++] = own.samples[i];

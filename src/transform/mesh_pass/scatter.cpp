@@ -23,7 +23,7 @@ template <bool kHessians, typename T>
 void add_triangle(const std::byte* record, const TriangleBlock<T>& block, std::size_t t,
                   VertexLump<T>* vertices) {
   const std::size_t slot = lump_slot<T>(t);
-  for (int i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < 3; ++i) {
     std::uint32_t corner;
     std::memcpy(&corner, record + 4 * i, sizeof corner);
     VertexLump<T>* vertex = vertices + lumps_per_vertex(kHessians) * corner;
@@ -81,7 +81,8 @@ void sample_half_edges(const TriangleBlock<T>& block, std::size_t n,
       std::memcpy(&bits, block.sampled[i] + first / 8, sizeof bits);
       for (; bits != 0; bits &= bits - 1) {
         const std::size_t t = first + static_cast<std::size_t>(std::countr_zero(bits));
-        sample.push_back({.name = std::uint64_t{a[t] * b[t]} << 32 | (a[t] + b[t]),
+        const std::uint32_t product = a[t] * b[t];
+        sample.push_back({.name = std::uint64_t{product} << 32 | (a[t] + b[t]),
                           .error = block.edge_error[i][t],
                           .lumped = (block.flag[t] & kNodes) == 0});
       }
