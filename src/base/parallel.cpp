@@ -1,32 +1,15 @@
 #include "base/parallel.h"
 
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include <algorithm>
-#include <map>
 #include <mutex>
-#include <optional>
 
+#include "base/chunks.h"
 #include "rholm/error.h"
 
 namespace rholm {
-namespace {
-
-// One for each number of threads, for good: oneTBB (2021.8) keeps an arena that is done with in its
-// lists while any of its threads looks for work, 7 kB each, and walks them for each new one.
-tbb::task_arena& arena_of(int threads) {
-  static std::mutex mutex;
-  static auto& arenas = *new std::map<int, tbb::task_arena>;
-  const std::lock_guard lock(mutex);
-  return arenas.try_emplace(threads, threads).first->second;
-}
-
-}  // namespace
 
 int thread_count(const Context& context) {
-  return context.threads > 0 ? context.threads : std::max(1, tbb::info::default_concurrency());
+  return context.threads > 0 ? context.threads : default_threads();
 }
 
 void report_progress(const Context& context, std::string_view stage, double fraction) {
@@ -56,19 +39,7 @@ void parallel_for(std::size_t n, std::size_t grain, const Context& context,
     for (std::size_t chunk = 0; chunk < chunks; ++chunk) run_chunk(chunk);
     return;
   }
-  // More threads than processors only if asked for; oneTBB prints a warning without this.
-  std::optional<tbb::global_control> more;
-  if (threads > tbb::info::default_concurrency()) {
-    more.emplace(tbb::global_control::max_allowed_parallelism, threads);
-  }
-  arena_of(threads).execute([&] {
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, chunks, 1),
-        [&](const tbb::blocked_range<std::size_t>& range) {
-          for (std::size_t c = range.begin(); c != range.end(); ++c) run_chunk(c);
-        },
-        tbb::simple_partitioner());
-  });
+  run_chunks(chunks, threads, run_chunk);
 }
 
 }  // namespace rholm

@@ -1,4 +1,4 @@
-// Parallel loops with progress and cancellation. The one user of oneTBB.
+// Parallel loops with progress and cancellation.
 #pragma once
 
 #include <cstddef>

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <fstream>
 #include <stdexcept>
 #include <thread>
@@ -102,6 +103,48 @@ TEST(parallel_for, exceptions_of_the_body_reach_the_caller) {
                               if (begin == 50) throw std::runtime_error("50");
                             }),
                std::runtime_error);
+}
+
+TEST(parallel_for, may_be_called_by_its_own_body) {
+  for (const int threads : {1, 2, 4}) {
+    std::vector<std::atomic<int>> visits(24 * 24);
+    const Context context{.threads = threads};
+    parallel_for(24, 5, context, {}, [&](std::size_t begin, std::size_t end) {
+      parallel_for(24 * (end - begin), 7, context, {}, [&](std::size_t from, std::size_t to) {
+        for (std::size_t i = from; i < to; ++i) ++visits[24 * begin + i];
+      });
+    });
+    for (const auto& count : visits) EXPECT_EQ(count, 1);
+  }
+}
+
+TEST(parallel_for, exceptions_of_a_loop_in_its_body_reach_the_caller) {
+  for (const int threads : {1, 2, 4}) {
+    const Context context{.threads = threads};
+    try {
+      parallel_for(8, 1, context, {}, [&](std::size_t outer, std::size_t) {
+        parallel_for(8, 1, context, {}, [&](std::size_t inner, std::size_t) {
+          if (outer == 3 && inner == 5) throw std::runtime_error("3, 5");
+        });
+      });
+      FAIL() << "nothing thrown";
+    } catch (const std::runtime_error& error) {
+      EXPECT_STREQ(error.what(), "3, 5");
+    }
+  }
+}
+
+// Chunks that have not begun are left out: all others would take 20 s.
+TEST(parallel_for, chunks_after_an_exception_are_left_out) {
+  std::atomic<int> begun = 0;
+  EXPECT_THROW(parallel_for(20000, 1, {.threads = 2}, {},
+                            [&](std::size_t begin, std::size_t) {
+                              ++begun;
+                              if (begin == 0) throw std::runtime_error("0");
+                              std::this_thread::sleep_for(std::chrono::milliseconds(1));
+                            }),
+               std::runtime_error);
+  EXPECT_LT(begun, 20000);
 }
 
 TEST(compensated_sum, keeps_what_plain_addition_loses) {

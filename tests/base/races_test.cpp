@@ -1,0 +1,112 @@
+// Races that are here on purpose, each in a process of its own: were one of them not reported, then
+// silence about the loops of the library would say nothing. Only where ThreadSanitizer is.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdlib>
+#include <functional>
+#include <string_view>
+#include <vector>
+
+#include "base/parallel.h"
+
+namespace rholm {
+namespace {
+
+constexpr std::size_t kN = 64;
+constexpr int kReported = 66;  // how ThreadSanitizer ends a process that had a race
+
+// Runs it and leaves, by 66 if a race was seen.
+[[noreturn]] void leave_after(const std::function<void()>& run) {
+  run();
+  std::exit(0);
+}
+
+Context with_progress(int threads) {
+  Context context{.threads = threads};
+  context.progress = [](std::string_view, double) { return true; };
+  return context;
+}
+
+class race : public testing::Test {
+ protected:
+  void SetUp() override { testing::FLAGS_gtest_death_test_style = "threadsafe"; }
+};
+
+TEST_F(race, of_chunks_that_add_to_one_number_is_reported) {
+  double sum = 0;
+  const auto add = [&](std::size_t begin, std::size_t) { sum += static_cast<double>(begin); };
+  EXPECT_EXIT(leave_after([&] { parallel_for(kN, 1, {.threads = 2}, {}, add); }),
+              testing::ExitedWithCode(kReported), "data race");
+  EXPECT_EXIT(leave_after([&] { parallel_for(2, 1, {}, {}, add); }),
+              testing::ExitedWithCode(kReported), "data race");
+}
+
+// The lock of the progress orders many chunks; not all.
+TEST_F(race, is_reported_with_progress_as_well) {
+  double sum = 0;
+  const auto add = [&](std::size_t begin, std::size_t) { sum += static_cast<double>(begin); };
+  EXPECT_EXIT(leave_after([&] { parallel_for(kN, 1, with_progress(2), {"sum"}, add); }),
+              testing::ExitedWithCode(kReported), "data race");
+}
+
+TEST_F(race, of_a_chunk_that_reads_what_its_neighbour_writes_is_reported) {
+  std::vector<float> values(kN + 1);
+  const auto smooth = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) values[i] += values[i + 1];
+  };
+  EXPECT_EXIT(leave_after([&] { parallel_for(kN, 16, {.threads = 2}, {}, smooth); }),
+              testing::ExitedWithCode(kReported), "data race");
+}
+
+// All write the same: no test of results finds that.
+TEST_F(race, of_chunks_that_write_the_same_value_is_reported) {
+  bool any = false;
+  const auto note = [&](std::size_t, std::size_t) { any = true; };
+  EXPECT_EXIT(leave_after([&] { parallel_for(kN, 1, {.threads = 2}, {}, note); }),
+              testing::ExitedWithCode(kReported), "data race");
+}
+
+TEST_F(race, of_bits_in_one_word_is_reported) {
+  std::vector<bool> bits(kN);
+  const auto set = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) bits[i] = true;
+  };
+  EXPECT_EXIT(leave_after([&] { parallel_for(kN, 8, {.threads = 2}, {}, set); }),
+              testing::ExitedWithCode(kReported), "data race");
+}
+
+TEST_F(race, in_a_loop_within_a_loop_is_reported) {
+  std::array<double, 4> sums{};
+  const auto outer = [&](std::size_t k, std::size_t) {
+    parallel_for(kN, 1, {.threads = 2}, {},
+                 [&](std::size_t begin, std::size_t) { sums.at(k) += static_cast<double>(begin); });
+  };
+  EXPECT_EXIT(leave_after([&] { parallel_for(sums.size(), 1, {.threads = 2}, {}, outer); }),
+              testing::ExitedWithCode(kReported), "data race");
+}
+
+// Loops wait for their chunks: what these have written may be read after them.
+TEST_F(race, of_loops_one_after_another_there_is_none) {
+  const auto sound = [] {
+    std::vector<double> values(kN), sums(kN / 4);
+    const Context context = with_progress(3);
+    parallel_for(kN, 4, context, {}, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) values[i] = static_cast<double>(i);
+    });
+    parallel_for(sums.size(), 1, context, {}, [&](std::size_t k, std::size_t) {
+      std::array<double, 4> mirrored{};
+      parallel_for(4, 1, context, {}, [&](std::size_t i, std::size_t) {
+        mirrored.at(i) = values[kN - 1 - 4 * k - i];
+      });
+      for (const double value : mirrored) sums[k] += value;
+    });
+    double sum = 0;
+    for (const double part : sums) sum += part;
+    if (sum != kN * (kN - 1) / 2) std::exit(1);
+  };
+  EXPECT_EXIT(leave_after(sound), testing::ExitedWithCode(0), "");
+}
+
+}  // namespace
+}  // namespace rholm
