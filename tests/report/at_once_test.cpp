@@ -51,6 +51,7 @@ void expect_same_bits_at_once(const std::function<std::string(int caller)>& work
   std::vector<std::string> found(kCallers);
   std::atomic<int> waiting = kCallers;
   std::vector<std::jthread> callers;
+  callers.reserve(kCallers);
   for (int k = 0; k < kCallers; ++k) {
     callers.emplace_back([&, k] {
       --waiting;
