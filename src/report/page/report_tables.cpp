@@ -91,7 +91,9 @@ std::string of_diagonal(const std::optional<double>& length, const Data& data) {
 }
 
 std::string point_text(const Vec3& p, double size) {
-  const int power = size > 0 ? static_cast<int>(std::floor(std::log10(size))) : 0;
+  // (The size of a huge shape may be infinite.)
+  const int power =
+      size > 0 && std::isfinite(size) ? static_cast<int>(std::floor(std::log10(size))) : 0;
   const auto coordinate = [&](double x) {
     // As many decimals as six digits of the size have.
     if (power >= -4 && power < 7) return html::decimal(x, std::max(0, 5 - power));
