@@ -61,9 +61,4 @@ struct Repaired {
 // Cancelled.
 Repaired repair(const Mesh& mesh, const RepairOptions& options = {}, const Context& context = {});
 
-// The tolerance, in the mesh's unit and with two digits, at which welding joins the borders of an
-// open mesh: none are left, or not a tenth of them. None if there is no such tolerance below half
-// the median length of an edge of the border, and for a mesh that is closed. `mesh` welded exactly.
-std::optional<double> closing_tolerance(const Mesh& mesh);
-
 }  // namespace rholm

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -74,6 +75,11 @@ struct Inspection {
 };
 // Counts and measures. Throws InvalidInput as validate() does.
 Inspection inspect(const Mesh& mesh);
+
+// The tolerance, in the mesh's unit and with two digits, at which welding joins the borders of an
+// open mesh: none are left, or not a tenth of them. None if there is no such tolerance below half
+// the median length of an edge of the border, and for a mesh that is closed. `mesh` welded exactly.
+std::optional<double> closing_tolerance(const Mesh& mesh);
 
 // The component (of triangles connected through edges, as counted above: weld first to close
 // seams) of the largest area, welded as by weld(mesh, 0). Of equal ones the first.

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "rholm/error.h"
-#include "rholm/repair.h"
 #include "rholm/topology.h"
 #include "shape/topology/half_edges.h"
 

@@ -271,35 +271,6 @@ TEST(repair, refuses_holes_that_cost_too_much) {
   EXPECT_NO_THROW(repair(Mesh{}));
 }
 
-// A sphere cut in two along its equator, a gap between the halves.
-TEST(closing_tolerance, is_just_above_the_gap_of_a_seam) {
-  const Mesh mesh = ellipsoid({1, 1, 1}, 4);
-  for (const double gap : {1e-12, 1e-6, 1e-3}) {
-    Mesh soup = exploded(mesh);
-    for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
-      double z = 0;
-      for (int k = 0; k < 3; ++k) z += soup.vertices[3 * t + k].z;
-      if (z < 0) {
-        for (int k = 0; k < 3; ++k) soup.vertices[3 * t + k].z -= gap;
-      }
-    }
-    const Mesh open = weld(soup).mesh;
-    ASSERT_FALSE(inspect(open).closed);
-    const std::optional<double> tolerance = closing_tolerance(open);
-    ASSERT_TRUE(tolerance) << gap;
-    EXPECT_TRUE(inspect(weld(open, *tolerance).mesh).closed) << gap;
-    EXPECT_LE(*tolerance, std::max(2.2 * gap, 1e-6)) << gap;
-  }
-}
-
-TEST(closing_tolerance, is_none_for_holes_and_for_closed_meshes) {
-  Mesh mesh = icosphere(3);
-  EXPECT_FALSE(closing_tolerance(mesh));
-  mesh.triangles.resize(mesh.triangles.size() - 40);
-  EXPECT_FALSE(closing_tolerance(mesh));
-  EXPECT_FALSE(closing_tolerance(Mesh{}));
-}
-
 // n points on a circle: n - 2 triangles, the area of the polygon, whatever diagonals are taken.
 TEST(triangulate_hole, of_a_convex_polygon_has_its_area) {
   for (const std::uint32_t n : {3u, 4u, 7u, 40u}) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rholm/repair.h"
+#include "rholm/topology.h"
 #include "shape/face.h"
 #include "shape/topology/half_edges.h"
 
