@@ -20,7 +20,8 @@ void report_progress(const Context& context, std::string_view stage, double frac
 
 void parallel_for(std::size_t n, std::size_t grain, const Context& context,
                   const ParallelStage& stage,
-                  const std::function<void(std::size_t, std::size_t)>& body) {
+                  const std::function<void(std::size_t, std::size_t)>& body,
+                  const std::source_location& where) {
   if (n == 0) return;
   grain = std::max<std::size_t>(grain, 1);
   const std::size_t chunks = (n + grain - 1) / grain;
@@ -39,7 +40,7 @@ void parallel_for(std::size_t n, std::size_t grain, const Context& context,
     for (std::size_t chunk = 0; chunk < chunks; ++chunk) run_chunk(chunk);
     return;
   }
-  run_chunks(chunks, threads, run_chunk);
+  run_chunks(chunks, threads, run_chunk, where);
 }
 
 }  // namespace rholm

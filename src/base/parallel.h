@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <source_location>
 #include <string_view>
 
 #include "rholm/context.h"
@@ -14,6 +15,7 @@ namespace rholm {
 // to its chunk gives the same bits for any number. Progress is reported under `stage`, from
 // `from` to `to`; an empty stage reports nothing but still asks whether to cancel (with the
 // name "" and the fraction `from`). Throws Error{kCancelled}, or the first exception of a body.
+// `where` is for tests, which look whether every loop ran on several threads.
 struct ParallelStage {
   std::string_view name = {};
   double from = 0;
@@ -21,7 +23,8 @@ struct ParallelStage {
 };
 void parallel_for(std::size_t n, std::size_t grain, const Context& context,
                   const ParallelStage& stage,
-                  const std::function<void(std::size_t begin, std::size_t end)>& body);
+                  const std::function<void(std::size_t begin, std::size_t end)>& body,
+                  const std::source_location& where = std::source_location::current());
 
 // Reports progress between serial steps; throws Error{kCancelled} if the callback says so.
 void report_progress(const Context& context, std::string_view stage, double fraction);

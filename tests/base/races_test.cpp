@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <chrono>
 #include <cstdlib>
 #include <functional>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 #include "base/parallel.h"
@@ -83,6 +85,19 @@ TEST_F(Race, in_a_loop_within_a_loop_is_reported) {
                  [&](std::size_t begin, std::size_t) { sums.at(k) += static_cast<double>(begin); });
   };
   EXPECT_EXIT(leave_after([&] { parallel_for(sums.size(), 1, {.threads = 2}, {}, outer); }),
+              testing::ExitedWithCode(kReported), "data race");
+}
+
+// Loops within chunks put these in no order, nor do the notes of them (RHOLM_LOOPS).
+TEST_F(Race, of_chunks_before_and_after_loops_of_their_own_is_reported) {
+  int calls = 0;
+  const auto outer = [&](std::size_t k, std::size_t) {
+    if (k == 0) ++calls;
+    if (k == 1) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    parallel_for(kN, 1, {.threads = 2}, {}, [](std::size_t, std::size_t) {});
+    if (k == 1) ++calls;
+  };
+  EXPECT_EXIT(leave_after([&] { parallel_for(2, 1, {.threads = 2}, {}, outer); }),
               testing::ExitedWithCode(kReported), "data race");
 }
 

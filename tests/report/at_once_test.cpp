@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <cstring>
 #include <functional>
 #include <span>
 #include <string>
@@ -14,22 +13,17 @@
 
 #include "io/shapes/test_support.h"
 #include "rholm/rholm.h"
+#include "support/bits.h"
 #include "support/test_points.h"
 
 namespace rholm {
 namespace {
 
+using test::Bits;
 using testing::read_all;
 using testing::TemporaryFolder;
 
 constexpr int kCallers = 3;
-
-template <typename T>
-void append_bits(std::string& bytes, std::span<const T> values) {
-  const std::size_t begin = bytes.size();
-  bytes.resize(begin + values.size_bytes());
-  std::memcpy(bytes.data() + begin, values.data(), values.size_bytes());
-}
 
 // Asks for progress with a number that nothing guards: two callbacks at once would be a race.
 struct Listened {
@@ -75,10 +69,8 @@ TEST(callers_at_once, get_the_same_model_and_file_of_a_mesh) {
     EXPECT_FALSE(listened.met);
     const std::string name = "model" + std::to_string(caller) + ".h5";
     write_model(encoded.analysis.expansion, folder / name.c_str());
-    std::string bits = read_all(folder / name.c_str());
-    const Expansion back = read_model(folder / name.c_str());
-    append_bits(bits, std::span<const double>(back.coefficients.values()));
-    return bits;
+    const std::string file = read_all(folder / name.c_str());
+    return file + Bits().add(read_model(folder / name.c_str()).coefficients).bytes();
   });
 }
 
@@ -89,10 +81,7 @@ TEST(callers_at_once, get_the_same_surface_of_points) {
     const Reconstruction made = reconstruct(cloud, {}, listened.context());
     EXPECT_GT(listened.calls, 0);
     EXPECT_FALSE(listened.met);
-    std::string bits;
-    append_bits(bits, std::span<const Vec3>(made.mesh.vertices));
-    append_bits(bits, std::span<const Triangle>(made.mesh.triangles));
-    return bits;
+    return Bits().add(made.mesh).bytes();
   });
 }
 

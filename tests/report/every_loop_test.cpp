@@ -1,0 +1,314 @@
+// Every parallel loop of the library, on more than one chunk: the results have the same bits on
+// four threads as on one. Under ThreadSanitizer these are the tests that look for races in every
+// run: small, but for what a loop splits into chunks of thousands. scripts/check_loops says which
+// loops they do not reach (docs/testing.md).
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <functional>
+#include <numeric>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "atlas/cover/cap_cover.h"
+#include "model/points/reconstruct_points.h"
+#include "rholm/rholm.h"
+#include "shape/queries/sheet_gaps.h"
+#include "support/bits.h"
+#include "support/random_data.h"
+#include "support/test_meshes.h"
+#include "support/test_points.h"
+#include "surface/grid/block_grid.h"
+#include "transform/error/closest_distances.h"
+
+namespace rholm {
+namespace {
+
+using test::Bits;
+
+void expect_same_bits(const std::function<Bits(const Context&)>& work) {
+  const Bits one = work({.threads = 1});
+  EXPECT_FALSE(one.bytes().empty());
+  EXPECT_TRUE(work({.threads = 4}).bytes() == one.bytes());
+}
+
+constexpr CenterOptions kNoRays{.kind = CenterKind::kAuto, .point = {}, .rays = 0};
+
+StarChart chart_of(const Mesh& mesh) { return make_star_chart(mesh, {.center = kNoRays}); }
+
+// More sources than one thread is for (second_thread_cost()): 20480 triangles, 30720 edges.
+Mesh many_triangles() { return bumpy_sphere(5); }
+
+// More vertices and triangles than one part of triangle_order.cpp has, in random order.
+Mesh large_mesh_in_random_order() {
+  const Mesh sphere = latitude_longitude_sphere(520, 512);
+  std::vector<std::uint32_t> order(sphere.vertices.size());
+  std::iota(order.begin(), order.end(), 0);
+  test::shuffle(order, 1);
+  Mesh mesh = test::renumbered(sphere, order);
+  test::shuffle(mesh.triangles, 2);
+  return mesh;
+}
+
+// ---- Expansions ----
+
+TEST(every_loop, gives_the_same_bits_for_each_method) {
+  const StarChart few = chart_of(bumpy_sphere(2)), many = chart_of(many_triangles());
+  expect_same_bits([&](const Context& context) {
+    Bits bits;
+    for (const Method method : {Method::kEdge, Method::kCurl, Method::kArea}) {
+      bits.add(analyze(few, {.degree = 12, .method = method}, context).expansion.coefficients);
+    }
+    bits.add(
+        analyze(few, {.degree = 12, .engine = Engine::kDirect}, context).expansion.coefficients);
+    return bits.add(
+        analyze(many, {.degree = 16, .method = Method::kGauge}, context).expansion.coefficients);
+  });
+}
+
+TEST(every_loop, gives_the_same_bits_for_a_large_mesh_in_random_order) {
+  const Mesh mesh = large_mesh_in_random_order();
+  expect_same_bits([&](const Context& context) {
+    const Encoded encoded = encode(mesh,
+                                   {.analyze = {.degree = 16, .precision = 1e-4},
+                                    .errors = false,
+                                    .chart = {.center = kNoRays}},
+                                   context);
+    return Bits().add(encoded.analysis.expansion.coefficients).add(encoded.star.min_d);
+  });
+}
+
+TEST(every_loop, gives_the_same_bits_for_centres_and_star_checks) {
+  const Mesh mesh = bumpy_sphere(5, 0.3);
+  expect_same_bits([&](const Context& context) {
+    Bits bits;
+    for (const CenterKind kind : {CenterKind::kAuto, CenterKind::kCosine}) {
+      const StarReport found = find_center(mesh, {.kind = kind, .rays = 3000}, context);
+      bits.add(found.min_d).add(found.min_cos_gamma).add(found.once_share);
+    }
+    return bits;
+  });
+}
+
+TEST(every_loop, gives_the_same_bits_for_random_points_of_the_surface) {
+  const StarChart chart = chart_of(bumpy_sphere(1));
+  expect_same_bits([&](const Context& context) {
+    Bits bits;
+    for (const SamplePlaces places : {SamplePlaces::kEdges, SamplePlaces::kTriangles}) {
+      const MonteCarlo found =
+          monte_carlo(chart, {.degree = 8, .places = places, .samples = 16}, context);
+      bits.add(found.expansion.coefficients).add(found.deviation);
+    }
+    return bits;
+  });
+}
+
+TEST(every_loop, gives_the_same_bits_for_the_degree_of_a_tolerance) {
+  const StarChart chart = chart_of(bumpy_sphere(3, 0.3));
+  expect_same_bits([&](const Context& context) {
+    Bits bits;
+    for (const ErrorNorm norm : {ErrorNorm::kRms, ErrorNorm::kMax}) {
+      const Tolerance tolerance{
+          .error = 0.01, .norm = norm, .measure = ErrorMeasure::kDistance, .max_degree = 32};
+      const ToleranceAnalysis found = analyze(chart, tolerance, {}, context);
+      bits.add(found.reached).add(found.analysis.expansion.coefficients);
+    }
+    return bits;
+  });
+}
+
+TEST(every_loop, gives_the_same_bits_for_closest_distances_to_a_model) {
+  const StarChart chart = chart_of(test::l_prism(2));
+  const Expansion expansion = analyze(chart, {.degree = 8}).expansion;
+  expect_same_bits([&](const Context& context) {
+    ClosestDistances distances(view_of(chart.mesh), {}, 400);
+    const SurfaceDistances found = distances.measure(expansion, 8, {}, 1e-6, context);
+    return Bits().add(found.rms).add(found.max);
+  });
+}
+
+// ---- Functions on the sphere ----
+
+TEST(every_loop, gives_the_same_bits_for_sums_over_directions) {
+  const Coefficients f = test::random_coefficients(24, 1);
+  const std::vector<Vec3> many = test::random_directions(30000, 2);
+  const std::vector<double> weights = test::random_values(many.size(), 3);
+  expect_same_bits([&](const Context& context) {
+    Bits bits;
+    for (const SumOptions& options :
+         {SumOptions{.precision = 1e-12}, {.precision = 1e-4}, {.engine = Engine::kDirect}}) {
+      const std::size_t n = options.engine == Engine::kDirect ? 600 : many.size();
+      const auto directions = std::span(many).first(n);
+      const ValuesAndGradients found = evaluate_with_gradient(f, directions, options, context);
+      bits.add(found.values).add(found.gradients);
+      bits.add(evaluate(f, directions, options, context));
+      Coefficients sum(24);
+      add_adjoint({.directions = directions, .weights = std::span(weights).first(n)}, sum, options,
+                  context);
+      bits.add(sum);
+    }
+    return bits;
+  });
+}
+
+TEST(every_loop, gives_the_same_bits_for_rings_and_grids) {
+  const Coefficients f = test::random_coefficients(40, 1);
+  expect_same_bits([&](const Context& context) {
+    Bits bits;
+    const Grid grid = smallest_grid(GridKind::kGaussLegendre, f.degree());
+    const std::vector<double> values = synthesize_grid(f, grid, context);
+    bits.add(values).add(analyze_grid(values, grid, f.degree(), context));
+    return bits.add(evaluate_rings(f, grid_colatitudes(grid), 50, context));
+  });
+}
+
+TEST(every_loop, gives_the_same_bits_for_motions) {
+  Expansion a{.coefficients = test::random_coefficients(24, 1)};
+  for (double& value : a.coefficients.values()) value *= 0.005;
+  a.coefficients.c(0, 0) = 5;
+  const Expansion b = rotate(a, rotation_about({1, 2, 3}, 1));
+  expect_same_bits([&](const Context& context) {
+    Bits bits;
+    bits.add(rotate(a.coefficients, rotation_about({3, 2, 1}, 0.5), context));
+    bits.add(recentered(a, {0.1, 0, 0.05}, context).coefficients);
+    const Placement found = align(a, b, AlignCenters::kVolume, {.bandwidth = 8}, context);
+    return bits.add(placed(a, found, context).coefficients);
+  });
+}
+
+TEST(every_loop, gives_the_same_bits_for_surfaces_of_expansions_and_their_distance) {
+  Expansion expansion{.coefficients = test::random_coefficients(12, 1)};
+  expansion.coefficients.c(0, 0) = 100;
+  const Mesh sphere = icosphere(4);
+  expect_same_bits([&](const Context& context) {
+    const Mesh mesh = synthesize(expansion, sphere, context);
+    const Comparison found = compare(mesh, sphere, {.samples = 2000}, context);
+    return Bits()
+        .add(mesh)
+        .add(found.a_to_b.rms)
+        .add(found.b_to_a.mean)
+        .add(measure(expansion, context).area)
+        .add(distances_to_surface(mesh.vertices, sphere, context));
+  });
+}
+
+// ---- Points ----
+
+TEST(every_loop, gives_the_same_bits_for_points_and_their_normals) {
+  expect_same_bits([&](const Context& context) {
+    PointCloud cloud =
+        sample_surface(box({1, 2, 3}), {.points = 5000, .noise = 0.001, .normals = false}, context);
+    orient(cloud, {}, context);
+    return Bits().add(cloud.points).add(cloud.normals);
+  });
+}
+
+TEST(every_loop, gives_the_same_bits_for_many_points_and_discs) {
+  const PointCloud cloud = test::sphere_points(20000);
+  std::vector<Disc> discs;
+  discs.reserve(5000);
+  for (std::size_t i = 0; i < 5000; ++i) discs.push_back({cloud.points[i], cloud.normals[i], 0.02});
+  expect_same_bits([&](const Context& context) {
+    ReconstructReport report;
+    WorkingPoints points(cloud, report, context);
+    const Cover caps = cover(points.ordered(), {}, context);
+    const auto blocks = list_blocks({}, 0.05, discs, 10000, context);
+    Bits bits;
+    bits.add(points.ordered().tree.order()).add(caps.coefficients).add(std::span(blocks));
+    points.remove_outliers(0, {}, context);
+    return bits.add(points.ordered().points);
+  });
+}
+
+Mesh surface_of(const PointCloud& cloud, HolePolicy holes, const Context& context) {
+  return reconstruct(cloud, {.holes = holes, .simplify = SimplifyOptions{.share = 0.5}}, context)
+      .mesh;
+}
+
+TEST(every_loop, gives_the_same_bits_for_surfaces_of_points) {
+  PointCloud cloud = sample_surface(icosphere(4), {.points = 1500, .holes = 2, .hole_radius = 0.2});
+  cloud.attributes = {{"height", ScalarType::kFloat64, {}}};
+  for (const Vec3& p : cloud.points) cloud.attributes[0].values.push_back(p.z);
+  const PointCloud noisy = sample_surface(
+      icosphere(4),
+      {.points = 1200, .noise = 0.002, .outliers = 0.02, .holes = 2, .hole_radius = 0.2});
+  expect_same_bits([&](const Context& context) {
+    return Bits()
+        .add(surface_of(cloud, HolePolicy::kFill, context))
+        .add(surface_of(noisy, HolePolicy::kKeep, context));
+  });
+}
+
+TEST(every_loop, gives_the_same_bits_for_fewer_triangles) {
+  const Mesh mesh = many_triangles();  // of 10242 vertices
+  expect_same_bits([&](const Context& context) {
+    return Bits().add(simplify(mesh, {.share = 0.9}, context).mesh);
+  });
+}
+
+// ---- Atlases ----
+
+TEST(every_loop, gives_the_same_bits_for_few_caps) {
+  const PointCloud cloud = sample_surface(box({1, 1, 20}), {.points = 4200});
+  expect_same_bits([&](const Context& context) {
+    const Compressed found = compress(cloud, {.tolerance = 0.5, .max_degree = 3}, context);
+    return Bits()
+        .add(found.model.atlas.coefficients)
+        .add(found.model.errors->rms())
+        .add(synthesize(found.model, {.degree = 2}, context));
+  });
+}
+
+TEST(every_loop, gives_the_same_bits_for_gaps_between_sheets) {
+  const Mesh mesh = icosphere(3);
+  std::vector<std::uint32_t> triangles(mesh.triangles.size());
+  std::iota(triangles.begin(), triangles.end(), 0);
+  std::vector<Vec3> middles;
+  middles.reserve(mesh.triangles.size());
+  for (const auto& [a, b, c] : mesh.triangles) {
+    middles.push_back((mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3);
+  }
+  const PointsOnMesh points{mesh, middles, triangles};
+  const RayScene scene(mesh);
+  expect_same_bits([&](const Context& context) {
+    const std::vector<int> windings = outer_winding(points, scene, context);
+    return Bits().add(sheet_gaps(points, scene, context)).add(std::span(windings));
+  });
+}
+
+TEST(every_loop, gives_the_same_bits_for_the_papers_caps) {
+  const PointCloud cloud = test::sphere_points(400);
+  expect_same_bits([&](const Context& context) {
+    const PatchAtlas found = patch_atlas(cloud, {.degree = 4}, context);
+    return Bits().add(found.model.atlas.coefficients).add(found.surface);
+  });
+}
+
+// ---- Editing and pictures ----
+
+TEST(every_loop, gives_the_same_bits_for_edits) {
+  const Mesh mesh = bumpy_sphere(5);
+  const std::vector<Region> here = {BallRegion{mesh.vertices[0], 0.2}},
+                            there = {BallRegion{mesh.vertices[1], 0.2}};
+  expect_same_bits([&](const Context& context) {
+    Bits bits;
+    for (const PatchFitting fitting : {PatchFitting::kRobust, PatchFitting::kAround}) {
+      bits.add(analyze_patch(mesh, here, {.wavelength = 0.5, .fitting = fitting}, context).moves);
+    }
+    return bits.add(transfer(mesh, here, mesh, there, {.from_degree = 4}, {}, context));
+  });
+}
+
+TEST(every_loop, gives_the_same_picture) {
+  const Mesh mesh = bumpy_sphere(3);
+  const Panel panel{.mesh = &mesh};
+  expect_same_bits([&](const Context& context) {
+    const Image image =
+        render(std::span(&panel, 1), {.width = 64, .height = 48, .samples = 1}, context);
+    return Bits().add(std::span<const std::uint8_t>(image.rgb));
+  });
+}
+
+}  // namespace
+}  // namespace rholm
