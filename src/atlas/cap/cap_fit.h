@@ -20,7 +20,6 @@ class CapPoints {
   std::size_t size() const { return n_; }
   std::size_t padded() const { return rholm::padded(n_); }
   void add(const Vec3& offset, const Vec3& normal, double weight);
-  void set_weight(std::size_t i, double weight) { data_[6 * capacity_ + i] = weight; }
   // x, y, z of positions, of normals, weight; beyond size() up to padded() zeros.
   const double* row(std::size_t which) const { return data_.data() + which * capacity_; }
   double weight(std::size_t i) const { return row(6)[i]; }
