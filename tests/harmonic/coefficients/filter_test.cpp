@@ -219,6 +219,9 @@ TEST(filter, what_is_out_of_range_is_refused) {
   expect_refused([&] { low_pass(4, 4, {.time = nan}); });
   expect_refused([] { high_pass(0, 4); });
   expect_refused([] { band_pass(5, 4, 8); });
+  expect_refused([] { band_pass(2, 4, 8, {.window = Window::kHeat, .time = 0.5}); });
+  expect_refused([] { overshoot(Window::kLanczos, -1); });
+  expect_refused([] { overshoot(Window::kLanczos, kMaxDegree + 1); });
   expect_refused([&] { sharpened(low_pass(4, 4), nan); });
   expect_refused([&] { filter(Coefficients(2), std::vector<double>{1, nan}); });
   expect_refused([] { parse_window("round"); });

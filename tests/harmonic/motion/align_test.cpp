@@ -349,6 +349,17 @@ TEST(align, principal_axes_of_a_body_of_revolution_take_the_smallest_turn) {
   }
 }
 
+// Oblate, and of degree 3 what makes -z the end that counts: half a turn lays it on z.
+TEST(align, principal_axes_of_a_body_upside_down_turn_it_half_way) {
+  Coefficients body = quadratic_form({1, 1, 0.5}, 1).resized(3);
+  body.c(3, 0) = -0.1;
+  const PrincipalAxes found = principal_axes(body);
+  ASSERT_EQ(found.free_axes.size(), 1u);
+  EXPECT_NEAR(norm(found.free_axes[0] - Vec3{0, 0, -1}), 0, 1e-15);
+  EXPECT_NEAR(norm(rotate(Vec3{0, 0, -1}, found.to_axes) - Vec3{0, 0, 1}), 0, 1e-15);
+  EXPECT_NEAR(angle_between(found.to_axes, {}), kPi, 1e-12);
+}
+
 TEST(align, what_is_laid_on_itself_stays_whatever_its_symmetries) {
   // 48 rotations and reflections: degree 4 of a cube.
   Coefficients cube(4);

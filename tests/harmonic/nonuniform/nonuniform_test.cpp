@@ -469,6 +469,14 @@ TEST(nonuniform, directions_that_are_no_numbers_stay_within_the_grid) {
   }
 }
 
+// Direct sums are taken instead, as they cost less.
+TEST(nonuniform, what_no_window_keeps_has_no_price) {
+  const NonuniformPlan plan = plan_nonuniform(
+      {.degree = 20, .allowed = 1e-14, .sources = 10, .derivatives = 2, .hessian_size = 1e6});
+  EXPECT_EQ(plan.cost, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(plan.fourier.layout.width, kMaxSpreadWidth);
+}
+
 TEST(nonuniform, refuses_single_precision_where_it_is_forbidden) {
   EXPECT_FALSE(
       plan_nonuniform({.degree = 20, .allowed = 1e-3, .sources = 10, .forbid_single = true})

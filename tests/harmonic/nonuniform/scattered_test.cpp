@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "rholm/error.h"
@@ -254,6 +255,17 @@ TEST(transforms, refuse_weights_that_do_not_match_the_directions) {
       Error);
   EXPECT_THROW(evaluate_rings(sum, std::vector<double>{1.0}, 0), Error);
   EXPECT_THROW(gauss_legendre(0), Error);
+}
+
+TEST(transforms, refuse_precisions_and_engines_that_there_are_not) {
+  const auto directions = random_directions(10, 1);
+  for (const double precision : {0.0, 1e-15, 0.2, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_THROW(evaluate(Coefficients(3), directions, {.precision = precision}), Error);
+  }
+  for (const Engine engine : {Engine::kFast, Engine::kDirect}) {
+    EXPECT_EQ(parse_engine(to_string(engine)), engine);
+  }
+  EXPECT_THROW(parse_engine("slow"), Error);
 }
 
 }  // namespace

@@ -175,6 +175,8 @@ TEST(grid, what_cannot_be_exact_is_refused) {
   expect_refused([&] { synthesize_grid(f, {GridKind::kGaussLegendre, 11, 20}); });
   expect_refused([&] { synthesize_grid(f, {GridKind::kGaussLegendre, 0, 21}); });
   expect_refused([&] { synthesize_grid(f, {GridKind::kEquiangularWithPoles, 1, 21}); });
+  expect_refused([&] { synthesize_grid(f, {GridKind::kGaussLegendre, 11, 0}); });
+  expect_refused([&] { synthesize_grid(f, {GridKind::kGaussLegendre, 11, 1 << 20}); });
   expect_refused([&] { grid_colatitudes({GridKind::kEquiangular, -3, 21}); });
   expect_refused([&] { grid_colatitudes({GridKind::kEquiangular, 1 << 20, 21}); });
   expect_refused([&] { smallest_grid(GridKind::kEquiangular, -1); });

@@ -68,6 +68,17 @@ TEST(repair, of_mixed_orientation_turns_the_smaller_part_and_keeps_the_volume) {
   }
 }
 
+// The sense of a part is that of most of its area, not of its first face.
+TEST(repair, turns_the_first_face_where_it_alone_is_wrong) {
+  const Mesh mesh = icosphere(1);
+  Mesh mixed = mesh;
+  std::swap(mixed.triangles[0][1], mixed.triangles[0][2]);
+  const Repaired result = repair(mixed);
+  EXPECT_EQ(result.report.flipped_triangles, 1u);
+  EXPECT_EQ(result.report.inside_out_parts, 0u);
+  EXPECT_EQ(enclosed_volume(result.mesh), enclosed_volume(mesh));
+}
+
 TEST(repair, drops_duplicates_of_either_sense_needles_and_stray_vertices) {
   Mesh mesh = icosphere(2);
   const std::size_t n = mesh.triangles.size();
@@ -124,6 +135,37 @@ TEST(repair, closes_small_holes_and_keeps_the_genus) {
   EXPECT_EQ(result.report.closed_holes, 2u);
   EXPECT_EQ(result.report.hole_triangles, 3u);
   EXPECT_NEAR(enclosed_volume(result.mesh), volume, 1e-2 * volume);
+}
+
+// The torus of seven vertices has an edge between any two of them. Without vertex 6 and its faces,
+// no diagonal of the hole is free: it is closed around a new vertex.
+TEST(repair, closes_a_hole_around_a_new_vertex_where_all_its_corners_are_joined) {
+  Mesh mesh{.vertices = {},
+            .triangles = {},
+            .attributes = {{.name = "quality", .values = {}},
+                           {.name = "label", .type = ScalarType::kUint8, .values = {}}}};
+  for (int i = 0; i < 6; ++i) {
+    const double phi = std::numbers::pi / 3 * i;
+    mesh.vertices.push_back({std::cos(phi), std::sin(phi), 0.1 * (i % 2)});
+    mesh.attributes[0].values.push_back(i + 0.25);
+    mesh.attributes[1].values.push_back(i * i);
+  }
+  for (std::uint32_t i = 0; i < 7; ++i) {
+    for (const Triangle& t :
+         {Triangle{i, (i + 1) % 7, (i + 3) % 7}, Triangle{i, (i + 3) % 7, (i + 2) % 7}}) {
+      if (std::find(t.begin(), t.end(), 6) == t.end()) mesh.triangles.push_back(t);
+    }
+  }
+  ASSERT_EQ(inspect(mesh).boundary_edges, 6u);
+  const Repaired result = repair(mesh);
+  expect_solid(result.report.after, 1);
+  EXPECT_EQ(result.report.after.genus, 1u);
+  EXPECT_EQ(result.report.closed_holes, 1u);
+  EXPECT_EQ(result.report.hole_triangles, 6u);
+  ASSERT_EQ(result.mesh.vertices.size(), 7u);
+  EXPECT_NEAR(norm(result.mesh.vertices[6] - Vec3{0, 0, 0.05}), 0, 1e-15);
+  EXPECT_NEAR(result.mesh.attributes[0].values[6], 2.75, 1e-15);
+  EXPECT_EQ(result.mesh.attributes[1].values[6], 9);  // of 55 / 6, as a whole number
 }
 
 // Without one face (two triangles) of every kind of box; flat covers are exact.

@@ -290,6 +290,20 @@ TEST(inspect, answers_for_the_smallest_and_refuses_the_worst_meshes) {
   EXPECT_THROW(pair_edges(bad), Error);
 }
 
+TEST(validate, refuses_lists_that_are_not_as_long_as_that_of_points) {
+  Mesh mesh = tetrahedron();
+  mesh.attributes = {{.name = "quality", .values = {1, 2, 3}}};
+  EXPECT_THROW(validate(mesh), Error);
+  mesh.attributes[0].values.push_back(4);
+  EXPECT_NO_THROW(validate(mesh));
+  PointCloud cloud{.points = mesh.vertices, .normals = {{0, 0, 1}}, .attributes = mesh.attributes};
+  EXPECT_THROW(validate(cloud), Error);
+  cloud.normals.assign(4, {0, 0, 1});
+  EXPECT_NO_THROW(validate(cloud));
+  cloud.attributes[0].values.push_back(5);
+  EXPECT_THROW(validate(cloud), Error);
+}
+
 TEST(bounds, of_no_points_are_zero_and_of_the_largest_numbers_finite_inspections) {
   EXPECT_EQ(bounds({}).max, (Vec3{0, 0, 0}));
   const double huge = std::numeric_limits<double>::max();
