@@ -13,6 +13,7 @@
 #include "atlas/cap/cap_pole.h"
 #include "atlas/cover/cap_seed.h"
 #include "chart/cap/cap_frame.h"
+#include "rholm/error.h"
 #include "rholm/harmonic.h"
 #include "support/random_data.h"
 #include "support/targets.h"
@@ -287,6 +288,17 @@ TEST(CapEval, behind_the_centre_and_below_it_there_is_nothing) {
   EXPECT_FALSE(evaluate(cap, unit, frame.center).valid);
   EXPECT_FALSE(evaluate(cap, unit, frame.center - frame.z).valid);
   EXPECT_FALSE(evaluate(cap, negative, frame.seed()).valid);  // r = -R_0
+}
+
+TEST(Cap, names_of_what_it_may_be_read_back) {
+  for (const CapBlend blend : {CapBlend::kSmooth, CapBlend::kSpline}) {
+    EXPECT_EQ(parse_cap_blend(to_string(blend)), blend);
+  }
+  for (const CapExtension extension : {CapExtension::kZero, CapExtension::kSphere}) {
+    EXPECT_EQ(parse_cap_extension(to_string(extension)), extension);
+  }
+  EXPECT_THROW(parse_cap_blend("rough"), Error);
+  EXPECT_THROW(parse_cap_extension(""), Error);
 }
 
 TEST(CapPole, is_the_surface_over_the_seed) {

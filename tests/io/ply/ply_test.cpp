@@ -161,6 +161,23 @@ TEST(ply, blocks_of_rows_join_without_a_seam) {
   }
 }
 
+TEST(ply, blocks_of_rows_with_lists_join_without_a_seam) {
+  const std::size_t n = 2500;
+  BytesBuilder out;
+  out.text(binary_head(false) + "element vertex 2500\n" + kXyz +
+           "property list uchar short l\nend_header\n");
+  for (std::size_t i = 0; i < n; ++i) {
+    out.put<float>(i, 2 * i, 3 * i).put<std::uint8_t>(i % 3);
+    for (std::size_t k = 0; k < i % 3; ++k) out.put<std::int16_t>(-1);
+  }
+  const PointCloud cloud = parse_points(out.bytes());
+  ASSERT_EQ(cloud.points.size(), n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double x = static_cast<double>(i);
+    ASSERT_EQ(cloud.points[i], (Vec3{x, 2 * x, 3 * x}));
+  }
+}
+
 TEST(ply, unknown_elements_and_lists_are_passed_over) {
   const std::string header =
       "comment a comment\nobj_info anything\nelement junk 2\nproperty list uchar float weights\n"
@@ -341,6 +358,11 @@ TEST(ply, indices_out_of_range_are_refused_with_their_face) {
     out.put<std::uint8_t>(3).put<std::int32_t>(0, bad, 2);
     expect_refused(out.bytes(), {"face 1", "names vertex"});
   }
+  BytesBuilder negative;
+  negative.text(binary_head(false) + "element vertex 1\n" + kXyz +
+                "element face 1\nproperty list char int vertex_indices\nend_header\n");
+  negative.put<float>(0, 0, 0).put<std::int8_t>(-3).put<std::int32_t>(0, 0, 0);
+  expect_refused(negative.bytes(), {"length -3"});
 }
 
 TEST(ply, counts_beyond_the_file_are_refused_before_memory_is_taken) {

@@ -74,7 +74,10 @@ TEST(compress, options_out_of_range_are_refused) {
   EXPECT_THROW(compress(mesh, {.tolerance = NAN}), Error);
   EXPECT_THROW(compress(mesh, {.tolerance = 1, .max_degree = 25}), Error);
   EXPECT_THROW(compress(Mesh{}, {.tolerance = 1}), Error);
+  EXPECT_THROW(compress(mesh, {.tolerance = 1, .samples = 999}), Error);
   EXPECT_THROW(compress(PointCloud{}, {.tolerance = 1}), Error);
+  const PointCloud few{.points = mesh.vertices, .normals = mesh.vertices, .attributes = {}};
+  EXPECT_THROW(compress(few, {.tolerance = 1}), Error);  // 642
 }
 
 // Ten times as wide as thick: caps of both sides are near each other, and end at edges.
