@@ -7,7 +7,9 @@ import sys
 import tempfile
 
 sys.path.insert(0, os.path.dirname(__file__))
-from harness import CliTest, main
+from harness import CliTest, OCTAHEDRON, main, off
+
+V, F = OCTAHEDRON
 
 
 class Atlas(CliTest):
@@ -58,6 +60,20 @@ class Atlas(CliTest):
         for way in ("a_to_b", "b_to_a"):
             # Other samples than those the model was measured by: 1 % apart at 100000 of them.
             self.assertLess(found["relative"][way]["rms"], 5.1e-3)
+
+    def test_wrong_sides_are_turned_or_said(self):
+        """One face of an octahedron, all faces, points with normals inwards."""
+        words = ["--atlas", "--tolerance", "0.05", "--max-degree", "4", "-o", "m.h5"]
+        self.write("mixed.off", off(V, [F[0][::-1], *F[1:]]))
+        self.assertIn("faces disagree about their sides at 3 edges",
+                      self.rholm("analyze", "mixed.off", *words, code=3).err)
+        self.write("turned.off", off(V, [f[::-1] for f in F]))
+        self.assertIn("inside out", self.rholm("analyze", "turned.off", *words).err)
+        self.rholm("make", "sample", "turned.off", "--points", "2000", "-o", "p.xyz")
+        result = self.rholm("analyze", "p.xyz", *words, "--json")
+        self.assertIn("all normals pointed inwards", result.err)
+        self.assertEqual(result.json()["input_numbers"], 6000)
+        self.assertIn("not measured to the shape", self.rholm("info", "m.h5").out)
 
     def test_the_paper_s_way_is_there_to_compare_with(self):
         found = {}

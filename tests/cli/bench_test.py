@@ -81,6 +81,9 @@ class Bench(CliTest):
         for word in ("bytes to coefficients", "triangles", "spread", "row updates alone", "GB/s",
                      "ns/face", "measured against direct sums"):
             self.assertIn(word, text)
+        text = self.bench("--faces", "2000", "--shuffle", "--thread-counts", "1,2", *QUICK).out
+        self.assertEqual(text.count("times as fast"), 2)
+        self.assertEqual(text.count("times the time of the file's order"), 1)
 
     def test_a_mesh_that_lies_as_text_is_read(self):
         self.rholm("make", "bumpy", "--subdivisions", "3", "-o", "b.obj")

@@ -146,6 +146,12 @@ class Analyze(CliTest):
         self.assertIn("is not kept by degree 9", result.err)
         self.assertTrue((self.folder / "a.h5").exists())
 
+    def test_a_precision_that_is_not_reached_is_exit_code_4(self):
+        self.rholm("make", "ellipsoid", "--axes", "1,1,1e-7", "--subdivisions", "2", "-o", "flat.ply")
+        result = self.rholm("analyze", "flat.ply", "--degree", "6", "-o", "flat.h5", code=4)
+        self.assertIn("--engine direct", result.err)
+        self.assertTrue((self.folder / "flat.h5").exists())
+
     def test_degree_and_tolerance_exclude_each_other(self):
         self.rholm("analyze", "a.off", "-o", "a.h5", code=2)
         self.rholm("analyze", "a.off", "--degree", "3", "--tolerance", "1", "-o", "a.h5", code=2)
@@ -332,6 +338,21 @@ class Spectrum(CliTest):
         self.rholm("spectrum", "a.h5", "-o", "a.csv")
         self.assertEqual(len((self.folder / "a.csv").read_text().splitlines()), 18)
         self.assertIn("rms beyond", self.rholm("spectrum", "a.h5").out)
+
+    def test_a_tolerance_is_answered_with_its_degree(self):
+        # Degrees 0 and 2 alone: what is beyond degree l is known.
+        self.write("a.sh", "0 0 1 0\n2 1 0.3 0.4\n")
+        for tolerance, degree in ((1, 0), (0.05, 2)):
+            self.assertIn(f"from degree {degree} on",
+                          self.rholm("spectrum", "a.sh", "--tolerance", tolerance).out)
+            report = self.rholm("spectrum", "a.sh", "--tolerance", tolerance, "--json").json()
+            self.assertEqual(report["tolerance_degree"], degree)
+        # Where more is known than the file has, the answer may be: at no degree.
+        self.write("a.off", off(*OCTAHEDRON))
+        self.rholm("analyze", "a.off", "--degree", "4", "-o", "a.h5")
+        self.assertIn("never within", self.rholm("spectrum", "a.h5", "--tolerance", "1e-9").out)
+        report = self.rholm("spectrum", "a.h5", "--tolerance", "1e-9", "--json").json()
+        self.assertIsNone(report["tolerance_degree"])
 
 
 class Convert(CliTest):

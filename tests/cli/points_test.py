@@ -124,6 +124,25 @@ class Orient(CliTest):
         result = self.rholm("orient", "-", "--format", "ply", "-o", "-", stdin=data)
         self.assertEqual(result.bytes, (self.folder / "o.ply").read_bytes())
 
+    def test_what_the_reader_says_and_a_mesh_s_own_normals_are_heard(self):
+        """Vertices of a mesh are points; its normals are left out, other attributes stay."""
+        rows = [line.split() for line in (self.folder / "true.xyz").read_text().splitlines()]
+        names = ["x", "y", "z", "nx", "ny", "nz", "quality"]
+        self.write("m.ply", "ply\nformat ascii 1.0\nelement extra 1\nproperty int a\n"
+                   f"element vertex {len(rows)}\n" +
+                   "".join(f"property double {name}\n" for name in names) +
+                   "element face 1\nproperty list uchar int vertex_indices\nend_header\n7\n" +
+                   "".join(" ".join([*row[:3], "0", "0", "0", "1"]) + "\n" for row in rows) +
+                   "3 0 1 2\n")
+        result = self.rholm("orient", "m.ply", "--json", "-o", "o.ply")
+        self.assertIn("'extra' with 1 row passed over", result.err)
+        self.assertIn("taken as points", result.err)
+        self.assertEqual(result.json()["computed"], len(rows))
+        names = [a["name"] for a in self.rholm("info", "o.ply", "--json").json()["attributes"]]
+        self.assertIn("quality", names)
+        for command in (["convert", "m.ply", "c.obj"], ["reconstruct", "m.ply", "-o", "s.ply"]):
+            self.assertIn("'extra' with 1 row passed over", self.run_rholm(*command).err)
+
     def test_directions_are_kept_on_demand(self):
         lines = [line.split() for line in (self.folder / "true.xyz").read_text().splitlines()]
         turned = [line[:3] + [str(-float(x)) for x in line[3:]] for line in lines[:1000]]

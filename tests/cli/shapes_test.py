@@ -1,5 +1,7 @@
 """What a shape is and what becomes of it: turned, mended, thinned out, drawn, of any size."""
 
+import json
+import math
 import os
 import sys
 
@@ -45,6 +47,29 @@ class Turning(CliTest):
             self.assertAlmostEqual(sum(a * b for a, b in zip(row, offset)) + to, wanted, 6)
 
 
+    def test_text_says_what_json_does(self):
+        self.model("body.h5", "bumpy", "--subdivisions", 3, "--translate", "5,6,7")
+        self.rholm("rotate", "body.h5", "--mirror", "y", "-o", "image.h5")
+        self.assertIn("in the plane x = ", self.rholm("align", "image.h5", "body.h5", "--mirror").out)
+        self.model("sphere.h5", "sphere", "--subdivisions", 3)
+        self.assertEqual(self.rholm("align", "sphere.h5", "sphere.h5").out.count("free to turn"), 3)
+
+    def test_a_matrix_turns_about_the_point_that_is_said(self):
+        """A quarter of a turn about a line along z: where the centre goes is known."""
+        self.model("body.h5", "bumpy", "--subdivisions", 3, "--translate", "5,6,7")
+        self.rholm("convert", "body.h5", "before.json")
+        before = json.loads((self.folder / "before.json").read_text())["center"]
+        quarter = ["rotate", "body.h5", "--matrix", "0,-1,0,1,0,0,0,0,1"]
+        for about, (x, y) in (("1,2,0", (1, 2)), ("origin", (0, 0)), ("center", before[:2])):
+            self.rholm(*quarter, "--about", about, "-o", "turned.json")
+            after = json.loads((self.folder / "turned.json").read_text())["center"]
+            wanted = [x - (before[1] - y), y + (before[0] - x), before[2]]
+            for found, value in zip(after, wanted):
+                self.assertAlmostEqual(found, value, 12)
+        for words in (["--matrix", "1,0,0,0,1,0,0,0,2"], ["--matrix", "1,0,0"]):
+            self.rholm("rotate", "body.h5", *words, "-o", "turned.h5", code=2)
+
+
 class Repair(CliTest):
     def repair(self, *words):
         return self.rholm("repair", *words, "--json", "-o", "repaired.off").json()
@@ -73,6 +98,27 @@ class Repair(CliTest):
         result = self.rholm("repair", "open.off", "--max-hole", 2, "-o", "same.off")
         self.assertIn("--max-hole 2", result.err)
         self.assertIn("open, 3 boundary edges", result.out)
+        # A strip with half a twist: five triangles that share an edge each, around.
+        ring = [(math.cos(a), math.sin(a), 0.1 * k)
+                for k, a in enumerate(2 * math.pi * i / 5 for i in range(5))]
+        self.write("strip.off", off(ring, [(i, (i + 1) % 5, (i + 2) % 5) for i in range(5)]))
+        self.assertIn("one side only", self.rholm("repair", "strip.off", "-o", "same.off").err)
+        self.write("sheet.off", off(V, F[:2]))
+        self.assertIn("which is an open sheet",
+                      self.rholm("repair", "sheet.off", "-o", "same.off").err)
+
+    def test_text_says_what_was_done(self):
+        small = [tuple(x / 2 for x in v) for v in V]
+        inner = [tuple(i + len(V) for i in f) for f in F]
+        self.write("nested.off", off(V + small, F + inner))
+        result = self.rholm("repair", "nested.off", "-o", "hollow.off")
+        self.assertRegex(result.out, r"cavities +1 part within others")
+        # Two octahedra that share the corner at x = 1.
+        beside = [(2 - x, y, z) for x, y, z in V[1:]]
+        other = [tuple(0 if i == 0 else i + 5 for i in f[::-1]) for f in F]
+        self.write("corner.off", off(V + beside, F + other))
+        result = self.rholm("repair", "corner.off", "-o", "apart.off")
+        self.assertRegex(result.out, r"split +1 vertex between sheets")
 
     def test_a_seam_is_told_with_the_tolerance_that_closes_it(self):
         """Two halves, 1e-5 of the diagonal apart."""
@@ -130,6 +176,10 @@ class Repair(CliTest):
 
 
 class Simplify(CliTest):
+    def test_nothing_is_refused(self):
+        self.write("none.off", off(V, []))
+        self.rholm("simplify", "none.off", "--faces", "auto", "-o", "o.off", code=3)
+
     def setUp(self):
         super().setUp()
         self.rholm("make", "torus", "-o", "torus.ply", "--quiet")
@@ -180,6 +230,9 @@ class Recenter(CliTest):
                 self.assertEqual(after["center"], report["center"])
                 self.assertLess(report["there_and_back"], 1e-3)
         self.assertEqual(report["center"], [0.05, -0.03, 0.02])
+        report = self.rholm("recenter", "moved.h5", "--center", "none", "--json", "-o",
+                            "back.h5").json()
+        self.assertEqual(report["center"], [0, 0, 0])
 
     def test_centres_that_do_not_fit(self):
         self.rholm("recenter", "model.h5", "--center", "5,0,0", "-o", "m.h5", code=3)

@@ -137,6 +137,18 @@ class WrongUsage(CliTest):
                      saying="--window heat")
         self.refused("filter", "a.h5", "--high-pass", "4", "--sharpen", "1", "-o", "b.h5",
                      saying="--low-pass")
+        self.refused("filter", "a.h5", "--low-pass", "4", "--window", "heat", "--time", "1", "-o",
+                     "b.h5", saying="give one")
+        self.refused("render", "a.off", "--against", "a.off", "-o", "a.png", saying="--color error")
+        self.refused("render", "a.off", "--labels", "one,two", "-o", "a.png", saying="1 panels")
+        self.refused("transfer", "--from", "-", "--to", "-", "--from-region", "ball:0,0,0,1",
+                     "--to-region", "ball:0,0,0,1", "-o", "b.ply", saying="standard input")
+        self.refused("analyze", "a.off", "--atlas", "--tolerance", "1", "--max-degree", "25", "-o",
+                     "a.h5", saying="2 ... 24")
+        monte_carlo = ["analyze", "a.off", "--method", "monte-carlo-edge", "--degree", "2",
+                       "-o", "a.h5"]
+        self.refused(*monte_carlo, "--engine", "fast", saying="direct")
+        self.refused(*monte_carlo, "--samples", "100", "--deviation", "0.1", saying="--samples")
         self.refused("rotate", "a.h5", "-o", "b.h5", saying="--matrix")
         self.refused("rotate", "a.h5", "--axis", "0,0,1", "-o", "b.h5", saying="--angle")
         self.refused("rotate", "a.h5", "--mirror", "x", "--euler", "1,2,3", "-o", "b.h5",
