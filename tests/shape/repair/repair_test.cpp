@@ -16,7 +16,6 @@
 namespace rholm {
 namespace {
 
-using test::exploded;
 using test::joined;
 using test::random_in;
 using test::tetrahedron;
