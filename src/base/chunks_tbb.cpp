@@ -27,7 +27,7 @@ tbb::task_arena& arena_of(int threads) {
 int default_threads() { return std::max(1, tbb::info::default_concurrency()); }
 
 void run_chunks(std::size_t chunks, int threads, const std::function<void(std::size_t)>& run,
-                const std::source_location&) {
+                CallSite) {
   // More threads than processors only if asked for; oneTBB prints a warning without this.
   std::optional<tbb::global_control> more;
   if (threads > tbb::info::default_concurrency()) {

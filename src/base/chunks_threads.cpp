@@ -25,11 +25,11 @@ constexpr std::size_t kLeastThreads = 4;
 
 // Adds the place of a loop to the file that RHOLM_LOOPS names (scripts/check_loops), each time:
 // what knows which are there already would put loops in an order, as a lock does, and hide races.
-void note(const std::source_location& where) {
+void note(CallSite where) {
   static const char* const name = std::getenv("RHOLM_LOOPS");
   if (name == nullptr) return;
   static const int file = open(name, O_WRONLY | O_APPEND | O_CREAT, 0666);
-  const std::string line = fmt::format("{}:{}\n", where.file_name(), where.line());
+  const std::string line = fmt::format("{}:{}\n", where.file, where.line);
   if (write(file, line.data(), line.size()) < 0) std::abort();
 }
 
@@ -38,7 +38,7 @@ void note(const std::source_location& where) {
 int default_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
 void run_chunks(std::size_t chunks, int threads, const std::function<void(std::size_t)>& run,
-                const std::source_location& where) {
+                CallSite where) {
   note(where);
   const std::size_t n = std::min(chunks, std::max<std::size_t>(threads, kLeastThreads));
   std::mutex mutex;

@@ -20,8 +20,7 @@ void report_progress(const Context& context, std::string_view stage, double frac
 
 void parallel_for(std::size_t n, std::size_t grain, const Context& context,
                   const ParallelStage& stage,
-                  const std::function<void(std::size_t, std::size_t)>& body,
-                  const std::source_location& where) {
+                  const std::function<void(std::size_t, std::size_t)>& body, CallSite where) {
   if (n == 0) return;
   grain = std::max<std::size_t>(grain, 1);
   const std::size_t chunks = (n + grain - 1) / grain;

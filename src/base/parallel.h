@@ -3,9 +3,9 @@
 
 #include <cstddef>
 #include <functional>
-#include <source_location>
 #include <string_view>
 
+#include "base/chunks.h"
 #include "rholm/context.h"
 
 namespace rholm {
@@ -24,7 +24,7 @@ struct ParallelStage {
 void parallel_for(std::size_t n, std::size_t grain, const Context& context,
                   const ParallelStage& stage,
                   const std::function<void(std::size_t begin, std::size_t end)>& body,
-                  const std::source_location& where = std::source_location::current());
+                  CallSite where = {__builtin_FILE(), __builtin_LINE()});
 
 // Reports progress between serial steps; throws Error{kCancelled} if the callback says so.
 void report_progress(const Context& context, std::string_view stage, double fraction);
