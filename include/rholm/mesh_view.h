@@ -45,6 +45,8 @@ struct MeshView {
 
 // Good as long as the mesh is there and does not change.
 MeshView view_of(const Mesh& mesh);
+// A copy of what the view shows, without attributes. Nothing is checked.
+Mesh mesh_of(const MeshView& view);
 
 // Throws InvalidInput unless every coordinate is finite and every index is below the number of
 // vertices.

@@ -14,6 +14,7 @@
 #include "rholm/context.h"
 #include "rholm/mapped_mesh.h"
 #include "rholm/mesh.h"
+#include "rholm/mesh_view.h"
 #include "rholm/star.h"
 #include "rholm/topology.h"
 #include "rholm/truncation.h"
@@ -34,7 +35,7 @@ struct EncodeOptions {
 struct ToleranceReport {
   double allowed = 0, reached = 0;  // errors, in the mesh's unit
   bool met = false;                 // the tolerance
-  std::vector<int> degrees;         // that were tried, the last one is the model's
+  std::vector<int> degrees;  // that were tried; the model's is the last one, or cut off from it
 };
 
 // A mesh as coefficients, and what was found out on the way.
@@ -56,6 +57,9 @@ struct Encoded {
 // the first is worked through where it lies. Throws InvalidInput for options out of range, and what
 // its stages throw.
 Encoded encode(const Mesh& mesh, const EncodeOptions& options = {}, const Context& context = {});
+// The same for arrays of another program: copied only if it must be changed first.
+Encoded encode(const MeshView& mesh, const EncodeOptions& options = {},
+               const Context& context = {});
 // The same for a mesh in a mapped file, worked through where it lies; none if it must be read
 // and changed first: not closed and oriented outwards as it is, not star-shaped (unless that is
 // allowed and the centre given), other methods than edge by the fast engine, or welding asked for.

@@ -48,6 +48,15 @@ MeshView view_of(const Mesh& mesh) {
           .triangle_stride = sizeof(Triangle)};
 }
 
+Mesh mesh_of(const MeshView& view) {
+  Mesh mesh;
+  mesh.vertices.reserve(view.n_vertices);
+  mesh.triangles.reserve(view.n_triangles);
+  for (std::size_t i = 0; i < view.n_vertices; ++i) mesh.vertices.push_back(view.vertex(i));
+  for (std::size_t t = 0; t < view.n_triangles; ++t) mesh.triangles.push_back(view.triangle(t));
+  return mesh;
+}
+
 void validate(const MeshView& mesh) {
   for (std::size_t i = 0; i < mesh.n_vertices; ++i) check_point(mesh.vertex(i), i, "vertex");
   for (std::size_t t = 0; t < mesh.n_triangles; ++t) {

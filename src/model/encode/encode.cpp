@@ -73,4 +73,11 @@ Encoded encode(const Mesh& mesh, const EncodeOptions& options, const Context& co
   return encode_by_chart(mesh, options, context);
 }
 
+Encoded encode(const MeshView& mesh, const EncodeOptions& options, const Context& context) {
+  validate(mesh);
+  auto result = encode_as_it_lies(mesh, options, {}, context);
+  if (Encoded* encoded = std::get_if<Encoded>(&result)) return std::move(*encoded);
+  return encode_by_chart(mesh_of(mesh), options, context);
+}
+
 }  // namespace rholm

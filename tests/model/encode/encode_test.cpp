@@ -57,6 +57,57 @@ TEST(encode, a_soup_of_triangles_gives_the_coefficients_of_the_welded_mesh) {
   }
 }
 
+// Arrays of floats with something between the rows, as another program may have them.
+struct Records {
+  struct Vertex {
+    float x, y, z, quality;
+  };
+  struct Face {
+    std::uint8_t flags[5];
+    Triangle corners;
+  };
+  std::vector<Vertex> vertices;
+  std::vector<Face> faces;
+  explicit Records(const Mesh& mesh) {
+    for (const Vec3& v : mesh.vertices) {
+      vertices.push_back({float(v.x), float(v.y), float(v.z), NAN});
+    }
+    for (const Triangle& t : mesh.triangles) faces.push_back({{}, t});
+  }
+  MeshView view() const {
+    return {.vertices = reinterpret_cast<const std::byte*>(vertices.data()),
+            .n_vertices = vertices.size(),
+            .vertex_stride = sizeof(Vertex),
+            .coordinate = ScalarType::kFloat32,
+            .triangles = reinterpret_cast<const std::byte*>(faces.data()) + offsetof(Face, corners),
+            .n_triangles = faces.size(),
+            .triangle_stride = sizeof(Face)};
+  }
+};
+
+TEST(encode, arrays_of_another_program_give_the_bits_of_the_mesh_they_hold) {
+  Mesh upside_down = bumpy_sphere(2);
+  flip(upside_down);  // must be copied and turned
+  for (const Mesh& mesh : {bumpy_sphere(2), upside_down}) {
+    const Records records(mesh);
+    const Mesh same = mesh_of(records.view());
+    EXPECT_EQ(same.triangles, mesh.triangles);
+    EXPECT_EQ(same.vertices[5].x, float(mesh.vertices[5].x));
+    const Encoded a = encode(same, {.analyze = {.degree = 12}});
+    const Encoded b = encode(records.view(), {.analyze = {.degree = 12}});
+    EXPECT_EQ(a.flipped, b.flipped);
+    const auto x = a.analysis.expansion.coefficients.values();
+    const auto y = b.analysis.expansion.coefficients.values();
+    EXPECT_TRUE(std::equal(x.begin(), x.end(), y.begin(), y.end()));
+  }
+}
+
+TEST(encode, refuses_a_view_with_an_index_out_of_range) {
+  Records records(bumpy_sphere(1));
+  records.faces[3].corners[1] = 1u << 31;
+  EXPECT_THROW(encode(records.view()), Error);
+}
+
 // The fast engine works on the mesh as it lies, the direct one on a chart.
 TEST(encode, finds_the_same_degree_for_a_tolerance_on_both_ways) {
   const Mesh mesh = bumpy_sphere(3, 0.3);
