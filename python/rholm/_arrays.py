@@ -1,0 +1,185 @@
+"""Arrays as users have them, and as the library takes them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ._errors import InvalidInputError
+
+FloatArray = npt.NDArray[np.float64]
+IndexArray = npt.NDArray[np.uint32]
+
+#: Types that an attribute can have; others are converted to the nearest.
+ATTRIBUTE_TYPES = ("int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64")
+
+
+def _numeric(values: Any, what: str) -> npt.NDArray[Any]:
+    array = np.asarray(values)
+    if array.dtype.kind not in "fiub":
+        raise TypeError(f"{what}: numbers are needed, not an array of {array.dtype}")
+    return array
+
+
+def float_rows(values: Any, what: str = "points") -> FloatArray:
+    """Three numbers a row, float64 in C order; a view where they are that already.
+
+    Parameters
+    ----------
+    values : array_like, (N, 3)
+        Of any real type. An empty list has no rows.
+    what : str
+        What the values are called in messages.
+    """
+    array = _numeric(values, what)
+    if array.size == 0 and array.ndim <= 2 and array.shape[-1] in (0, 3):
+        array = array.reshape(0, 3)
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise InvalidInputError(f"{what}: an array (N, 3) is needed, not {array.shape}")
+    return np.ascontiguousarray(array, dtype=np.float64)
+
+
+def float_row(values: Any, what: str = "point") -> FloatArray:
+    """One row of three numbers."""
+    array = _numeric(values, what)
+    if array.shape != (3,):
+        raise InvalidInputError(f"{what}: three numbers are needed, not {array.shape}")
+    return np.ascontiguousarray(array, dtype=np.float64)
+
+
+def floats(values: Any, what: str = "values") -> FloatArray:
+    """A list of numbers, float64; a view where it is that already."""
+    array = _numeric(values, what)
+    if array.ndim != 1:
+        raise InvalidInputError(f"{what}: an array (N,) is needed, not {array.shape}")
+    return np.ascontiguousarray(array, dtype=np.float64)
+
+
+def vertex_rows(values: Any) -> npt.NDArray[Any]:
+    """Vertices as they lie: float32 or float64 of native byte order, numbers of a row side by side.
+
+    Copied only if they are not that.
+    """
+    array = _numeric(values, "vertices")
+    if array.size == 0:
+        return float_rows(array, "vertices")
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise InvalidInputError(f"vertices: an array (N, 3) is needed, not {array.shape}")
+    if array.dtype not in (np.dtype(np.float32), np.dtype(np.float64)):
+        array = array.astype(np.float64)
+    side_by_side = array.strides[1] == array.itemsize
+    whole = array.strides[0] >= 0 and array.strides[0] % array.itemsize == 0
+    aligned = array.flags.aligned
+    return array if side_by_side and whole and aligned else np.ascontiguousarray(array)
+
+
+def triangle_rows(values: Any) -> npt.NDArray[np.uint32]:
+    """Vertex indices as they lie: 32 bits, numbers of a row side by side.
+
+    Copied only if they are not that: indices of 64 bits are made 32.
+    """
+    array = np.asarray(values)
+    if array.size == 0 and array.ndim <= 2 and (array.ndim == 0 or array.shape[-1] in (0, 3)):
+        return np.empty((0, 3), np.uint32)
+    if array.dtype.kind not in "iu":
+        raise TypeError(f"triangles: whole numbers are needed, not an array of {array.dtype}")
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise InvalidInputError(
+            f"triangles: an array (M, 3) is needed, not {array.shape}; other polygons are cut by "
+            "trimesh, pyvista or read_shape()"
+        )
+    if array.dtype.kind == "i" and array.min() < 0:
+        raise InvalidInputError(f"triangles: the index {array.min()} is negative")
+    if array.dtype not in (np.dtype(np.int32), np.dtype(np.uint32)):
+        if array.itemsize > 4 and array.max() > 0xFFFFFFFF:
+            raise InvalidInputError(f"triangles: the index {array.max()} has more than 32 bits")
+        array = array.astype(np.uint32)
+    side_by_side = array.strides[1] == array.itemsize
+    whole = array.strides[0] >= 0 and array.strides[0] % array.itemsize == 0
+    if not (side_by_side and whole and array.flags.aligned):
+        array = np.ascontiguousarray(array)
+    return array.view(np.uint32)
+
+
+def attribute_type(dtype: np.dtype[Any]) -> str:
+    """The type that an attribute of these values has in a file."""
+    name = str(dtype.name)
+    if name in ATTRIBUTE_TYPES:
+        return name
+    kinds = {"b": "uint8", "i": "int32", "u": "uint32", "f": "float64" if dtype.itemsize > 4 else "float32"}
+    if dtype.kind not in kinds:
+        raise TypeError(f"no attribute can be an array of {dtype}")
+    return kinds[dtype.kind]
+
+
+#: What columns of attributes with several numbers are called.
+_COLUMNS = {
+    "rgb": ("red", "green", "blue"),
+    "rgba": ("red", "green", "blue", "alpha"),
+    "color": ("red", "green", "blue", "alpha"),
+    "colors": ("red", "green", "blue", "alpha"),
+    "normal": ("nx", "ny", "nz"),
+    "normals": ("nx", "ny", "nz"),
+    "uv": ("u", "v"),
+}
+
+
+def attribute_tuples(attributes: Any, n: int) -> list[tuple[str, str, FloatArray]]:
+    """Attributes as (name, type, values) each; columns of wider arrays get names of their own.
+
+    Parameters
+    ----------
+    attributes : mapping of str to array_like or None
+        (N,) or (N, k) each.
+    n : int
+        Number of vertices or points.
+    """
+    result: list[tuple[str, str, FloatArray]] = []
+    if attributes is None:
+        return result
+    if not isinstance(attributes, Mapping):
+        raise TypeError(f"attributes are a dict of arrays, not {type(attributes).__name__}")
+    for name, values in attributes.items():
+        if not isinstance(name, str):
+            raise TypeError(f"attributes have names, not {name!r}")
+        array = np.asarray(values)
+        kind = attribute_type(array.dtype)
+        if array.ndim not in (1, 2) or array.shape[0] != n:
+            raise InvalidInputError(
+                f"attribute '{name}': an array ({n},) or ({n}, k) is needed, not {array.shape}"
+            )
+        if array.dtype.itemsize == 8 and array.dtype.kind in "iu" and array.size:
+            limits = np.iinfo(kind)
+            if array.min() < limits.min or array.max() > limits.max:
+                kind = "float64"
+        if array.ndim == 1:
+            result.append((name, kind, np.ascontiguousarray(array, dtype=np.float64)))
+            continue
+        names = _COLUMNS.get(name, ())
+        if len(names) < array.shape[1]:
+            names = tuple(f"{name}_{k}" for k in range(array.shape[1]))
+        for k in range(array.shape[1]):
+            result.append((names[k], kind, np.ascontiguousarray(array[:, k], dtype=np.float64)))
+    return result
+
+
+def attribute_dict(tuples: list[tuple[str, str, FloatArray]]) -> dict[str, npt.NDArray[Any]]:
+    """Attributes by name, each of the type it has in a file."""
+    return {name: values.astype(kind) for name, kind, values in tuples}
+
+
+def directions(values: Any) -> tuple[FloatArray, tuple[int, ...]]:
+    """Unit vectors (N, 3) of vectors (..., 3), and the shape without the last axis."""
+    array = _numeric(values, "directions")
+    if array.ndim == 0 or array.shape[-1] != 3:
+        raise InvalidInputError(f"directions: an array (..., 3) is needed, not {array.shape}")
+    rows = np.array(array.reshape(-1, 3), dtype=np.float64)
+    scale = np.abs(rows).max(axis=1, initial=0.0, keepdims=True)
+    if not np.isfinite(scale).all() or (scale == 0).any():
+        raise InvalidInputError("directions: a vector is zero or not finite")
+    rows /= scale
+    rows /= np.linalg.norm(rows, axis=1, keepdims=True)
+    return rows, array.shape[:-1]

@@ -1,0 +1,669 @@
+"""Shapes of any genus as caps: compression, surfaces from points, the paper's atlas."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._arrays import FloatArray, IndexArray, float_rows
+from ._core import AtlasErrors, AtlasModel, AtlasSize, Cap, CompressReport
+from ._errors import InvalidInputError
+from ._interop import foreign_mesh
+from ._run import Progress, caller
+from ._shapes import (
+    Mesh,
+    MeshLike,
+    PointCloud,
+    PointsLike,
+    as_mesh,
+    as_points,
+    name_of,
+    read_shape,
+    simplify_options,
+)
+
+NO_CAP = _core.NO_CAP
+"""The number that `Atlas.dominant_caps` gives where there is no cap."""
+
+
+class Atlas:
+    """A surface of any genus as overlapping caps, each a function on a sphere of its own.
+
+    Made by `compress`, `patch_atlas`, `load` and, as ``r.atlas``, by `reconstruct`.
+    """
+
+    __slots__ = ("_core", "_name", "_report", "_shape")
+
+    _core: AtlasModel
+    _report: CompressReport | None
+    _shape: Mesh | None
+    _name: str
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        raise TypeError("an atlas is made by compress(), reconstruct(), patch_atlas() or load()")
+
+    @classmethod
+    def _of(cls, model: AtlasModel, report: Any = None, shape: Any = None, name: str = "") -> Atlas:
+        self = cls.__new__(cls)
+        self._core = model
+        self._report = report
+        self._shape = shape
+        self._name = name
+        return self
+
+    @property
+    def report(self) -> CompressReport | None:
+        """How `compress` found it; None for others."""
+        return self._report
+
+    @property
+    def errors(self) -> AtlasErrors | None:
+        """As measured on the extracted surface; None if not known."""
+        return self._core.errors
+
+    @property
+    def tolerance(self) -> float:
+        """That was asked for, in the unit of the shape; 0: none."""
+        return self._core.tolerance
+
+    @property
+    def size(self) -> AtlasSize:
+        """How large it is: caps, coefficients, numbers."""
+        return _core.size_of(self._core.atlas)
+
+    @property
+    def input_numbers(self) -> int:
+        """Coordinates of the shape it is of: 3 per vertex; 0: not known."""
+        return self._core.input_numbers
+
+    @property
+    def degree(self) -> int:
+        """The highest degree of a cap."""
+        return _core.highest_degree(self._core.atlas)
+
+    @property
+    def step(self) -> float:
+        """Of the grid its surface was measured at, in the unit of the shape."""
+        return self._core.step
+
+    @property
+    def diagonal(self) -> float:
+        """Of the bounding box of the points it was made of."""
+        return self._core.atlas.diagonal
+
+    @property
+    def unit(self) -> str:
+        """Of lengths; empty if not known."""
+        return self._core.unit
+
+    @property
+    def method(self) -> str:
+        """How it was made; empty if not known."""
+        return self._core.method
+
+    def cap(self, i: int) -> Cap:
+        """One of the caps: its sphere, support and degree.
+
+        Parameters
+        ----------
+        i : int
+            0 ... len(atlas) - 1.
+        """
+        return self._core.atlas.cap(i)
+
+    def coefficients_of(self, i: int) -> FloatArray:
+        """Coefficients of one cap: l = 0, 1, ..., in each m = 0, then C and S of m = 1 ... l, without
+        those with l + m odd in the even basis; real, orthonormal, relative to the cap's radius.
+
+        Parameters
+        ----------
+        i : int
+            The cap.
+        """
+        return self._core.atlas.coefficients_of(i)
+
+    def evaluate(self, i: int, points: npt.ArrayLike) -> tuple[FloatArray, FloatArray, npt.NDArray[np.bool_]]:
+        """The surface's potential as one cap sees it.
+
+        Parameters
+        ----------
+        i : int
+            The cap.
+        points : array_like, (N, 3)
+            Anywhere.
+
+        Returns
+        -------
+        distance : float64, (N,)
+            Signed to first order, positive outside.
+        gradient : float64, (N, 3)
+            Of it, to first order.
+        valid : bool, (N,)
+            False at the centre, behind it, and where the cap's radius is not above 0.
+        """
+        distance, gradient, valid = _core.evaluate_cap(self._core.atlas, i, float_rows(points))
+        return distance, gradient, valid.astype(bool)
+
+    def mesh(
+        self,
+        *,
+        step: float = 0.0,
+        degree: int | None = None,
+        simplify: Any = None,
+        max_memory: int = 8 << 30,
+        threads: int = 0,
+        progress: Progress = None,
+    ) -> Mesh:
+        """The surface: closed, oriented outwards, with normals.
+
+        Parameters
+        ----------
+        step : float
+            Edge of the grid's cubes, in the unit of the shape; 0: the model's.
+        degree : int, optional
+            Caps have no higher degrees.
+        simplify : "auto", int or dict, optional
+            Fewer triangles for the same surface: to 1/50 of a step, to so many triangles, or
+            options of `rholm.simplify`.
+        max_memory : int
+            Bytes: refused if more is foreseen.
+        threads, progress
+            See `rholm.caller`.
+        """
+        options = _core.AtlasSynthesisOptions(
+            step=step, degree=degree, simplify=simplify_options(simplify), max_memory=max_memory
+        )
+        with caller(threads, progress) as how:
+            return Mesh._of(_core.synthesize_atlas(self._core, options, how))
+
+    def dominant_caps(
+        self, points: npt.ArrayLike, *, threads: int = 0, progress: Progress = None
+    ) -> IndexArray:
+        """The cap of the largest blend weight at each point, (N,); `NO_CAP` without caps.
+
+        Parameters
+        ----------
+        points : array_like, (N, 3)
+            On the surface.
+        threads, progress
+            See `rholm.caller`.
+        """
+        with caller(threads, progress) as how:
+            return _core.dominant_caps(self._core.atlas, float_rows(points), how)
+
+    def colored(self, mesh: Mesh | None = None, by: Literal["cap", "degree"] = "cap", **options: Any) -> Mesh:
+        """A mesh of the surface in the colours of its caps.
+
+        Parameters
+        ----------
+        mesh : Mesh, optional
+            By default the surface itself.
+        by : {"cap", "degree"}
+            A colour per cap, or per degree from dark blue to yellow.
+        **options
+            Of `mesh`.
+        """
+        if by not in ("cap", "degree"):
+            raise InvalidInputError(f"by is 'cap' or 'degree', not {by!r}")
+        surface = self.mesh(**options) if mesh is None else as_mesh(mesh)
+        caps = self.dominant_caps(surface.vertices)
+        paint = set_cap_colors if by == "cap" else set_degree_colors
+        return paint(surface, self, caps)
+
+    def with_unit(self, unit: str) -> Atlas:
+        """The same numbers in a unit of that name.
+
+        Parameters
+        ----------
+        unit : str
+            "km", "mm", ...
+        """
+        _core.check_unit(unit)
+        return Atlas._of(self._core.with_unit(unit), self._report, self._shape, self._name)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes a model file.
+
+        Parameters
+        ----------
+        path : path
+            Replaced when complete.
+        """
+        with caller(0, False) as how:
+            _core.write_atlas(self._core, os.fspath(path), how)
+
+    def report_html(self, path: str | os.PathLike[str] | None = None, **options: Any) -> str:
+        """All that is known on one page of HTML; see `Expansion.report_html`."""
+        from ._pictures import report_html
+
+        return report_html(self, path, **options)
+
+    def render(self, **options: Any) -> Any:
+        """A picture; see `rholm.render`."""
+        from ._pictures import render
+
+        return render(self, **options)
+
+    def __len__(self) -> int:
+        return self._core.atlas.n_caps
+
+    def __repr__(self) -> str:
+        return f"<rholm.Atlas: {len(self)} caps to degree {self.degree}, {self.size.numbers} numbers>"
+
+    def _repr_png_(self) -> bytes | None:
+        from ._pictures import notebook_png
+
+        return notebook_png(self)
+
+    def _repr_html_(self) -> str:
+        from ._pictures import atlas_html
+
+        return atlas_html(self)
+
+
+def as_atlas(thing: Any) -> Atlas:
+    """An `Atlas`, or a TypeError.
+
+    Parameters
+    ----------
+    thing : Atlas
+        Or anything else.
+    """
+    if isinstance(thing, Atlas):
+        return thing
+    raise TypeError(f"an Atlas is needed, not {type(thing).__name__}; compress() and load() make one")
+
+
+def _caps_of(caps: npt.ArrayLike) -> list[int]:
+    array = np.asarray(caps)
+    if array.ndim != 1 or array.dtype.kind not in "iu":
+        raise InvalidInputError(f"caps: whole numbers (N,) are needed, not {array.shape} of {array.dtype}")
+    if array.size and (array.min() < 0 or array.max() > NO_CAP):
+        raise InvalidInputError("caps: a number is no cap's")
+    return [int(c) for c in array]
+
+
+def _colored(mesh: Mesh, channels: list[FloatArray]) -> Mesh:
+    red, green, blue = (c.astype(np.uint8) for c in channels)
+    return mesh.with_attributes(red=red, green=green, blue=blue)
+
+
+def set_cap_colors(mesh: Mesh, atlas: Atlas, caps: npt.ArrayLike) -> Mesh:
+    """The mesh with a colour per cap, caps that touch of different hues; grey without a cap.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Stays as it is.
+    atlas : Atlas
+        Of the caps.
+    caps : array_like, (N,)
+        Of `Atlas.dominant_caps`.
+    """
+    return _colored(as_mesh(mesh), _core.set_cap_colors(as_atlas(atlas)._core.atlas, _caps_of(caps)))
+
+
+def set_degree_colors(mesh: Mesh, atlas: Atlas, caps: npt.ArrayLike) -> Mesh:
+    """The same by the degrees of the caps: dark blue for the lowest to yellow for the highest.
+
+    Parameters
+    ----------
+    mesh, atlas, caps
+        As in `set_cap_colors`.
+    """
+    return _colored(as_mesh(mesh), _core.set_degree_colors(as_atlas(atlas)._core.atlas, _caps_of(caps)))
+
+
+def dominant_caps(
+    atlas: Atlas, points: npt.ArrayLike, *, threads: int = 0, progress: Progress = None
+) -> IndexArray:
+    """See `Atlas.dominant_caps`.
+
+    Parameters
+    ----------
+    atlas : Atlas
+        Of the caps.
+    points, threads, progress
+        As there.
+    """
+    return as_atlas(atlas).dominant_caps(points, threads=threads, progress=progress)
+
+
+def size_of(atlas: Atlas) -> _core.AtlasSize:
+    """How large an atlas is.
+
+    Parameters
+    ----------
+    atlas : Atlas
+        Which.
+    """
+    return as_atlas(atlas).size
+
+
+def highest_degree(atlas: Atlas) -> int:
+    """Of all caps; 0 without caps.
+
+    Parameters
+    ----------
+    atlas : Atlas
+        Which.
+    """
+    return as_atlas(atlas).degree
+
+
+def n_coefficients(basis: Literal["full", "even"], degree: int) -> int:
+    """The number of coefficients of a cap.
+
+    Parameters
+    ----------
+    basis : {"full", "even"}
+        All up to the degree, or those with l + m even.
+    degree : int
+        L.
+    """
+    return _core.n_coefficients(basis, degree)
+
+
+def _shape_of(shape: Any) -> tuple[Any, Any]:
+    """A mesh or points, with what the library takes."""
+    if isinstance(shape, (str, os.PathLike)):
+        shape = read_shape(shape).shape
+    if isinstance(shape, PointCloud):
+        return shape, shape._core
+    if (
+        foreign_mesh(shape) is None
+        and not isinstance(shape, Mesh)
+        and np.ndim(shape) == 2
+        and isinstance(shape, np.ndarray)
+    ):
+        cloud = as_points(shape)
+        return cloud, cloud._core
+    mesh = as_mesh(shape)
+    return mesh, mesh._core
+
+
+def compress(
+    shape: MeshLike | PointCloud,
+    tolerance: float,
+    *,
+    unit: Literal["absolute", "diagonal"] = "absolute",
+    samples: int = 0,
+    max_degree: int = 14,
+    seed: int = 1,
+    length_unit: str = "",
+    threads: int = 0,
+    progress: Progress = None,
+) -> Atlas:
+    """A surface of any genus as few caps: a model smaller than its data.
+
+    Parameters
+    ----------
+    shape : mesh-like, or points with normals
+        May be open; of parts that run into each other the outer surface is taken.
+    tolerance : float
+        Root mean square distance between the surfaces, both ways.
+    unit : {"absolute", "diagonal"}
+        Of the tolerance: the shape's own, or its bounding box's diagonal.
+    samples : int
+        That caps are fitted to; 0: by the tolerance.
+    max_degree : int
+        Of a cap, 2 ... 24.
+    seed : int
+        Of samples and of the search.
+    length_unit : str
+        Of the vertices: "km", "mm", ...
+    threads, progress
+        See `rholm.caller`.
+
+    Returns
+    -------
+    a : Atlas
+        With ``a.errors`` and ``a.report``: whether the tolerance and the topology were kept.
+
+    Raises
+    ------
+    InvalidInputError
+        For shapes without area, triangles that are not oriented alike, options out of range.
+    UnsupportedError
+        For shapes too thin for the grid, and where caps would take more numbers than the shape.
+    """
+    whole, core = _shape_of(shape)
+    if unit not in ("diagonal", "absolute"):
+        raise InvalidInputError(f"unit is 'absolute' or 'diagonal', not {unit!r}")
+    factor = whole.bounds.diagonal if unit == "diagonal" else 1.0
+    options = _core.CompressOptions(
+        tolerance=tolerance * factor, samples=samples, max_degree=max_degree, seed=seed
+    )
+    with caller(threads, progress) as how:
+        model, report = _core.compress(core, options, how)
+    atlas = Atlas._of(model, report, whole if isinstance(whole, Mesh) else None, name_of(shape))
+    return atlas.with_unit(length_unit) if length_unit else atlas
+
+
+class PatchAtlas(NamedTuple):
+    """What `patch_atlas` made."""
+
+    atlas: Atlas
+    """The caps, blended by the paper's weights."""
+    mesh: Mesh
+    """The surface they make."""
+    rms_along_rays: float
+    """Of all points of the cells to the series of their caps."""
+
+
+def patch_atlas(
+    shape: MeshLike | PointCloud,
+    degree: int = 16,
+    *,
+    extension: Literal["zero", "sphere"] = "zero",
+    min_cosine: float = 0.5,
+    overlap: float = 1.5,
+    threads: int = 0,
+    progress: Progress = None,
+) -> PatchAtlas:
+    """The paper's atlas, kept to compare with; `compress` is better in every way.
+
+    Parameters
+    ----------
+    shape : mesh-like, or points with normals
+        The shape.
+    degree : int
+        Of every cap, 0 ... 24.
+    extension : {"zero", "sphere"}
+        Of caps beyond their points.
+    min_cosine : float
+        Of normals to the mean normal of their patch, 0 ... 1.
+    overlap : float
+        The radius of a cell over that of its own points, 1 ... 4.
+    threads, progress
+        See `rholm.caller`.
+    """
+    _, core = _shape_of(shape)
+    options = _core.PatchAtlasOptions(
+        degree=degree, extension=extension, min_cosine=min_cosine, overlap=overlap
+    )
+    with caller(threads, progress) as how:
+        model, surface, rms = _core.patch_atlas(core, options, how)
+    return PatchAtlas(Atlas._of(model), Mesh._of(surface), rms)
+
+
+def patch_picture(
+    shape: MeshLike | PointCloud,
+    view: Literal["patches", "triangles", "spheres"] = "patches",
+    *,
+    min_cosine: float = 0.5,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Mesh:
+    """The paper's patches before any expansion, each in a colour of its own.
+
+    Parameters
+    ----------
+    shape : mesh-like, or points with normals
+        The shape.
+    view : {"patches", "triangles", "spheres"}
+        Delaunay triangles of each patch; the same smaller; the same on each patch's sphere.
+    min_cosine : float
+        As in `patch_atlas`.
+    threads, progress
+        See `rholm.caller`.
+    """
+    _, core = _shape_of(shape)
+    with caller(threads, progress) as how:
+        mesh, _ = _core.patch_picture(core, view, _core.PatchAtlasOptions(min_cosine=min_cosine), how)
+    return Mesh._of(mesh)
+
+
+def read_atlas(path: str | os.PathLike[str]) -> Atlas:
+    """Reads a model file of an atlas.
+
+    Parameters
+    ----------
+    path : path
+        HDF5; layout in docs/model-file.md.
+    """
+    with caller(0, False) as how:
+        return Atlas._of(_core.read_atlas(os.fspath(path), how), name=name_of(path))
+
+
+def write_atlas(atlas: Atlas, path: str | os.PathLike[str]) -> None:
+    """Writes a model file of an atlas.
+
+    Parameters
+    ----------
+    atlas : Atlas
+        What is written.
+    path : path
+        Replaced when complete.
+    """
+    as_atlas(atlas).save(path)
+
+
+def is_atlas_file(path: str | os.PathLike[str]) -> bool:
+    """Whether a file is a model file that holds an atlas.
+
+    Parameters
+    ----------
+    path : path
+        Any file.
+    """
+    return _core.is_atlas_file(os.fspath(path))
+
+
+def synthesize(model: Any, **options: Any) -> Mesh:
+    """The surface of an expansion or an atlas.
+
+    Parameters
+    ----------
+    model : Expansion or Atlas
+        Which.
+    **options
+        Of `Expansion.mesh` or `Atlas.mesh`.
+    """
+    if isinstance(model, Atlas):
+        return model.mesh(**options)
+    from ._expansion import as_expansion
+
+    return as_expansion(model).mesh(**options)
+
+
+class Reconstruction(NamedTuple):
+    """What `reconstruct` made of points."""
+
+    mesh: Mesh
+    """Closed and oriented outwards (open with holes="keep"), with normals and the points' attributes."""
+    atlas: Atlas
+    """The caps that the mesh was extracted from."""
+    report: _core.ReconstructReport
+    """What was found in the points, and what became of them."""
+
+    def save(self, path: str | os.PathLike[str], format: str | None = None, ascii: bool = False) -> None:
+        """Writes the mesh; see `write_shape`."""
+        self.mesh.save(path, format, ascii)
+
+    def _repr_png_(self) -> bytes | None:
+        from ._pictures import notebook_png
+
+        return notebook_png(self.mesh)
+
+
+def reconstruct(
+    points: PointsLike,
+    normals: npt.ArrayLike | None = None,
+    attributes: Any = None,
+    *,
+    holes: Literal["fill", "keep"] = "fill",
+    step: float = 0.0,
+    tolerance: float = 0.0,
+    noise: float | None = None,
+    blend: Literal["smooth", "spline"] = "smooth",
+    min_component: float = 0.01,
+    keep_outliers: bool = False,
+    simplify: Any = None,
+    max_memory: int = 8 << 30,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Reconstruction:
+    """A surface from points.
+
+    Parameters
+    ----------
+    points : array_like (N, 3), PointCloud, (points, normals), path, points of trimesh, PyVista, meshio
+        At least 16 different ones.
+    normals : array_like, (N, 3), optional
+        They point outwards; of any length. Computed if there are none.
+    attributes : mapping of str to array_like, optional
+        Of points, (N,) or (N, k) each: carried over to the mesh.
+    holes : {"fill", "keep"}
+        Whether places without points are closed smoothly, or cut open.
+    step : float
+        Edge of the grid's cubes, in the unit of the points; 0: from their spacing and noise.
+    tolerance : float
+        Caps grow while their points fit to within this; 0: as exact as the points are.
+    noise : float, optional
+        Standard deviation of the points; estimated if not given.
+    blend : {"smooth", "spline"}
+        Of caps; "spline": the paper's.
+    min_component : float
+        Parts of the surface with less than this share of the largest one's area are dropped.
+    keep_outliers : bool
+        Whether points that belong to no surface stay.
+    simplify : "auto", int or dict, optional
+        Fewer triangles for the same surface: to 1/50 of a step, to so many triangles, or options of
+        `rholm.simplify`.
+    max_memory : int
+        Bytes: refused if more is foreseen.
+    threads, progress
+        See `rholm.caller`.
+
+    Returns
+    -------
+    r : Reconstruction
+        ``r.mesh``, ``r.atlas``, ``r.report``.
+
+    Raises
+    ------
+    InvalidInputError
+        For fewer than 16 different points, and points that no closed surface goes with.
+    OutOfMemoryError
+        If more than allowed would be needed, with the step that would do.
+    """
+    cloud = as_points(points, normals, attributes)
+    options = _core.ReconstructOptions(
+        step=step,
+        tolerance=tolerance,
+        noise=noise,
+        holes=holes,
+        blend=blend,
+        min_component=min_component,
+        remove_outliers=not keep_outliers,
+        simplify=simplify_options(simplify),
+        max_memory=max_memory,
+    )
+    with caller(threads, progress) as how:
+        mesh, atlas, report = _core.reconstruct(cloud._core, options, how)
+    return Reconstruction(Mesh._of(mesh), Atlas._of(_core.AtlasModel(atlas, report.step, "")), report)

@@ -1,0 +1,73 @@
+"""Exceptions: what the library throws, by its codes."""
+
+from __future__ import annotations
+
+
+class Error(Exception):
+    """What the library refuses or fails at. The text says the value, the limit, what to do next.
+
+    Attributes
+    ----------
+    code : str
+        The library's name of the kind of error: "InvalidInput", "Io", "Unsupported",
+        "NotStarShaped", "OutOfMemory", "NotConverged", "Cancelled".
+    """
+
+    code = "Error"
+
+
+class InvalidInputError(Error, ValueError):
+    """The data cannot mean what was asked: a malformed file, NaN, an open mesh, a number out of range."""
+
+    code = "InvalidInput"
+
+
+class IoError(Error, OSError):
+    """The operating system refused to read or write."""
+
+    code = "Io"
+
+
+class UnsupportedError(Error):
+    """Well-formed, but a variant that is not handled."""
+
+    code = "Unsupported"
+
+
+class NotStarShapedError(InvalidInputError):
+    """The surface is not star-shaped from any, or the given, centre."""
+
+    code = "NotStarShaped"
+
+
+class OutOfMemoryError(Error, MemoryError):
+    """More memory than allowed would be needed."""
+
+    code = "OutOfMemory"
+
+
+class NotConvergedError(Error, ArithmeticError):
+    """A tolerance was not reached within the limits."""
+
+    code = "NotConverged"
+
+
+class CancelledError(Error):
+    """The progress callable returned False."""
+
+    code = "Cancelled"
+
+
+#: Classes by the library's codes.
+BY_CODE = {
+    kind.code: kind
+    for kind in (
+        InvalidInputError,
+        IoError,
+        UnsupportedError,
+        NotStarShapedError,
+        OutOfMemoryError,
+        NotConvergedError,
+        CancelledError,
+    )
+}

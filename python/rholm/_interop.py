@@ -1,0 +1,207 @@
+"""Shapes and coefficients of other packages. None of them is imported unless one of its objects is
+given, or asked for.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ._errors import InvalidInputError
+
+if TYPE_CHECKING:
+    import meshio
+    import pyvista
+    import trimesh
+
+    from ._expansion import Expansion
+    from ._shapes import Mesh, PointCloud
+
+Arrays = tuple[Any, Any, dict[str, npt.NDArray[Any]]]
+
+
+def required(name: str, extra: str | None = None) -> Any:
+    """Imports a package that is not needed otherwise, or says how to get it."""
+    try:
+        return importlib.import_module(name)
+    except ImportError as error:
+        raise ImportError(f"{name} is needed for this: pip install 'rholm[{extra or name}]'") from error
+
+
+def _package(value: Any) -> str:
+    """The package whose class, or base class, an object's is."""
+    for kind in type(value).__mro__:
+        root = kind.__module__.partition(".")[0]
+        if root in ("trimesh", "pyvista", "meshio", "vtkmodules", "pyshtools", "open3d"):
+            return root
+    return ""
+
+
+def foreign_mesh(shape: Any) -> Arrays | None:
+    """(vertices, triangles, attributes) of another package's mesh; None for what is none."""
+    package = _package(shape)
+    if package == "trimesh":
+        return _trimesh_mesh(shape)
+    if package == "pyvista":
+        return _pyvista_mesh(shape)
+    if package == "meshio":
+        return _meshio_mesh(shape)
+    if package == "open3d" and hasattr(shape, "triangles"):
+        return np.asarray(shape.vertices), np.asarray(shape.triangles), {}
+    return None
+
+
+def _trimesh_mesh(shape: Any) -> Arrays:
+    if hasattr(shape, "geometry"):  # a scene
+        shape = shape.to_mesh() if hasattr(shape, "to_mesh") else shape.dump(concatenate=True)
+    if not hasattr(shape, "faces"):
+        raise InvalidInputError(f"a trimesh.{type(shape).__name__} has no faces")
+    attributes = {
+        name: np.asarray(values)
+        for name, values in shape.vertex_attributes.items()
+        if np.asarray(values).ndim <= 2 and np.asarray(values).dtype.kind in "fiub"
+    }
+    if shape.visual.kind == "vertex":
+        attributes["rgba"] = np.asarray(shape.visual.vertex_colors)
+    return shape.vertices.view(np.ndarray), shape.faces.view(np.ndarray), attributes
+
+
+def _pyvista_mesh(shape: Any) -> Arrays:
+    if not hasattr(shape, "regular_faces"):
+        shape = shape.extract_surface()
+    if not shape.is_all_triangles:
+        shape = shape.triangulate()
+    return np.asarray(shape.points), np.asarray(shape.regular_faces), _point_data(shape)
+
+
+def _point_data(shape: Any) -> dict[str, npt.NDArray[Any]]:
+    data = {str(name): np.asarray(values) for name, values in shape.point_data.items()}
+    if "Normals" in data:
+        data["normals"] = data.pop("Normals")
+    return {name: values for name, values in data.items() if values.ndim <= 2 and values.dtype.kind in "fiub"}
+
+
+def _meshio_mesh(shape: Any) -> Arrays:
+    blocks = []
+    for block in shape.cells:
+        if block.type == "triangle":
+            blocks.append(np.asarray(block.data))
+        elif block.type == "quad":
+            quads = np.asarray(block.data)
+            blocks += [quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]
+    if not blocks:
+        raise InvalidInputError("the meshio.Mesh has neither triangles nor quadrangles")
+    data = {name: np.asarray(values) for name, values in shape.point_data.items()}
+    points = np.asarray(shape.points)
+    if points.shape[1] != 3:
+        raise InvalidInputError(f"the meshio.Mesh has points of {points.shape[1]} coordinates")
+    return points, np.concatenate(blocks), {k: v for k, v in data.items() if v.dtype.kind in "fiub"}
+
+
+def foreign_points(shape: Any) -> tuple[Any, Any, Any] | None:
+    """(points, normals or None, attributes) of another package's points; None for what is none."""
+    package = _package(shape)
+    if package == "trimesh":
+        if hasattr(shape, "faces"):
+            return np.asarray(shape.vertices), np.asarray(shape.vertex_normals), {}
+        colors = getattr(shape, "colors", None)
+        attributes = {"rgba": np.asarray(colors)} if colors is not None and len(colors) else {}
+        return np.asarray(shape.vertices), None, attributes
+    if package == "pyvista":
+        data = _point_data(shape)
+        return np.asarray(shape.points), data.pop("normals", None), data
+    if package == "meshio":
+        data = {name: np.asarray(values) for name, values in shape.point_data.items()}
+        return np.asarray(shape.points), data.pop("normals", None), data
+    if package == "open3d":
+        normals = np.asarray(shape.normals) if shape.has_normals() else None
+        attributes = {"rgb": np.asarray(shape.colors)} if shape.has_colors() else {}
+        return np.asarray(shape.points), normals, attributes
+    return None
+
+
+def mesh_to_trimesh(mesh: Mesh) -> trimesh.Trimesh:
+    """See `Mesh.to_trimesh`."""
+    trimesh = required("trimesh")
+    attributes = mesh.attributes
+    normals = mesh.normals if "nx" in attributes else None
+    for name in ("nx", "ny", "nz"):
+        attributes.pop(name, None)
+    colors = mesh.colors
+    for name in ("red", "green", "blue"):
+        attributes.pop(name, None)
+    return trimesh.Trimesh(
+        vertices=np.array(mesh.vertices),
+        faces=np.array(mesh.triangles, dtype=np.int64),
+        vertex_normals=normals,
+        vertex_colors=None if colors is None else np.round(255 * colors).astype(np.uint8),
+        vertex_attributes=attributes,
+        process=False,
+        validate=False,
+    )
+
+
+def cloud_to_trimesh(cloud: PointCloud) -> trimesh.PointCloud:
+    """See `PointCloud.to_trimesh`."""
+    return required("trimesh").PointCloud(np.array(cloud.points))
+
+
+def _set_point_data(data: Any, attributes: dict[str, npt.NDArray[Any]]) -> None:
+    for names, together in ((("nx", "ny", "nz"), "Normals"), (("red", "green", "blue"), "rgb")):
+        if all(name in attributes for name in names):
+            data[together] = np.stack([attributes.pop(name) for name in names], axis=1)
+    for name, values in attributes.items():
+        data[name] = values
+
+
+def mesh_to_pyvista(mesh: Mesh) -> pyvista.PolyData:
+    """See `Mesh.to_pyvista`."""
+    pyvista = required("pyvista")
+    triangles = np.array(mesh.triangles, dtype=np.int64)
+    result = pyvista.PolyData.from_regular_faces(np.array(mesh.vertices), triangles)
+    _set_point_data(result.point_data, mesh.attributes)
+    return result
+
+
+def cloud_to_pyvista(cloud: PointCloud) -> pyvista.PolyData:
+    """See `PointCloud.to_pyvista`."""
+    result = required("pyvista").PolyData(np.array(cloud.points))
+    if cloud.normals is not None:
+        result.point_data["Normals"] = np.array(cloud.normals)
+    _set_point_data(result.point_data, cloud.attributes)
+    return result
+
+
+def mesh_to_meshio(mesh: Mesh) -> meshio.Mesh:
+    """See `Mesh.to_meshio`."""
+    return required("meshio").Mesh(
+        np.array(mesh.vertices),
+        [("triangle", np.array(mesh.triangles, dtype=np.int64))],
+        point_data=mesh.attributes,
+    )
+
+
+def to_pyshtools(expansion: Expansion, normalization: str = "4pi", csphase: int = 1) -> Any:
+    """See `Expansion.to_pyshtools`."""
+    pyshtools = required("pyshtools")
+    names = {"4pi": "4pi", "orthonormal": "ortho", "schmidt": "schmidt"}
+    return pyshtools.SHCoeffs.from_array(
+        expansion.to_array(normalization, csphase),
+        normalization=names[normalization],
+        csphase=csphase,
+        units=expansion.unit or None,
+        name=expansion.method or None,
+    )
+
+
+def coefficients_of_pyshtools(clm: Any) -> tuple[npt.NDArray[np.float64], str, int]:
+    """(array, normalization, csphase) of real or complex pyshtools.SHCoeffs."""
+    names = {"4pi": "4pi", "ortho": "orthonormal", "schmidt": "schmidt"}
+    if clm.normalization not in names:
+        clm = clm.convert(normalization="ortho")
+    if clm.kind == "complex":
+        clm = clm.convert(kind="real", check=True)
+    return np.asarray(clm.coeffs, dtype=np.float64), names[clm.normalization], int(clm.csphase)

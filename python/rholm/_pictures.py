@@ -1,0 +1,370 @@
+"""Pictures, pages, and how objects show themselves in notebooks."""
+
+from __future__ import annotations
+
+import base64
+import html
+import os
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._arrays import floats
+from ._errors import Error, InvalidInputError
+from ._expansion import Expansion, as_expansion, surface_of
+from ._run import Progress, caller
+from ._shapes import Mesh, _triple, as_mesh
+
+if TYPE_CHECKING:
+    from ._atlas import Atlas
+
+Pixels = npt.NDArray[np.uint8]
+
+_NOTEBOOK_SIZE = (480, 400)  # pixels; chosen: fits beside text
+
+
+class Picture(np.ndarray[Any, np.dtype[np.uint8]]):
+    """Pixels, (height, width, 3) uint8, as a screen shows them (sRGB): an array that can be saved
+    and shows itself in notebooks.
+    """
+
+    def png(self) -> bytes:
+        """The bytes of a PNG file."""
+        return encode_png(self)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes a PNG file.
+
+        Parameters
+        ----------
+        path : path
+            Replaced when complete.
+        """
+        write_png(path, self)
+
+    def _repr_png_(self) -> bytes | None:
+        return self.png() if self.ndim == 3 and self.shape[2] == 3 else None
+
+
+class Panel:
+    """One thing in a picture.
+
+    Parameters
+    ----------
+    shape : mesh-like, Expansion, Atlas or Reconstruction
+        What is shown.
+    label : str
+        Below it.
+    scalars : array_like, (N,), optional
+        Per vertex, coloured by the colour map.
+    colors : array_like, (N, 3), optional
+        Per vertex, 0 ... 1; by default the mesh's own, if there are no scalars.
+    smooth : bool, optional
+        Shaded with the mesh's normals; by default if it has any.
+    """
+
+    __slots__ = ("_core", "mesh")
+
+    def __init__(
+        self,
+        shape: Any,
+        label: str = "",
+        *,
+        scalars: npt.ArrayLike | None = None,
+        colors: npt.ArrayLike | None = None,
+        smooth: bool | None = None,
+    ) -> None:
+        self.mesh = surface_of(shape)
+        if smooth is None:
+            smooth = "nx" in self.mesh.attributes
+        if scalars is not None and colors is not None:
+            raise InvalidInputError("scalars and colors exclude one another: give one of them")
+        if scalars is None and colors is None:
+            colors = self.mesh.colors
+        rows = None if colors is None else np.ascontiguousarray(colors, dtype=np.float64)
+        if rows is not None and (rows.ndim != 2 or rows.shape[1] != 3):
+            raise InvalidInputError(f"colors: an array (N, 3) is needed, not {rows.shape}")
+        values = None if scalars is None else floats(scalars, "scalars")
+        self._core = _core.Panel(self.mesh._core, label, smooth, values, rows)
+
+
+def render(
+    shape: Any,
+    size: tuple[int, int] = (1024, 768),
+    *,
+    scalars: npt.ArrayLike | None = None,
+    label: str = "",
+    view: npt.ArrayLike = (-0.55, 0.75, -0.4),
+    up: npt.ArrayLike = (0.0, 0.0, 1.0),
+    perspective: bool = False,
+    fit_each: bool = False,
+    samples: int = 3,
+    occlusion_rays: int = 4,
+    scale: tuple[float | None, float | None] = (None, None),
+    scale_bar: bool = True,
+    scale_label: str = "",
+    path: str | os.PathLike[str] | None = None,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Picture:
+    """A picture of one or several shapes, side by side.
+
+    Parameters
+    ----------
+    shape : mesh-like, Expansion, Atlas, Reconstruction, Panel, or a list of these
+        What is shown.
+    size : (width, height)
+        Of the whole picture, pixels, 16 ... 16384.
+    scalars : array_like, (N,), optional
+        Of one shape: per vertex, coloured by the colour map.
+    label : str
+        Of one shape, below it.
+    view : array_like, (3,)
+        From the eye into the scene.
+    up : array_like, (3,)
+        Upwards in the picture, as far as the view allows.
+    perspective : bool
+        Otherwise parallel lines stay parallel.
+    fit_each : bool
+        Every panel is filled; otherwise all have the same scale.
+    samples : int
+        Per pixel side, 1 ... 16.
+    occlusion_rays : int
+        Per sample, 0 ... 256; 0 switches ambient occlusion off.
+    scale : (lowest, highest)
+        Of the colour map; None: that of all scalars.
+    scale_bar : bool
+        Drawn below the panels.
+    scale_label : str
+        What the scalars are.
+    path : path, optional
+        Where a PNG file is written, too.
+    threads, progress
+        See `rholm.caller`.
+
+    Returns
+    -------
+    picture : Picture
+        uint8, (height, width, 3).
+    """
+    several = isinstance(shape, list)
+    if several and (scalars is not None or label):
+        raise InvalidInputError("scalars and label are of one shape; give several as Panels")
+    shapes = shape if several else [shape]
+    panels = [s if isinstance(s, Panel) else Panel(s, label, scalars=scalars) for s in shapes]
+    options = _core.RenderOptions(
+        width=size[0],
+        height=size[1],
+        perspective=perspective,
+        fit_each=fit_each,
+        view_direction=_triple(view, "view"),
+        up=_triple(up, "up"),
+        samples=samples,
+        occlusion_rays=occlusion_rays,
+        scale_min=scale[0],
+        scale_max=scale[1],
+        scale_bar=scale_bar,
+        scale_label=scale_label,
+    )
+    with caller(threads, progress) as how:
+        picture = _core.render([panel._core for panel in panels], options, how).view(Picture)
+    if path is not None:
+        write_png(path, picture)
+    return picture
+
+
+def _pixels(image: npt.ArrayLike) -> Pixels:
+    array = np.asarray(image)
+    if array.dtype != np.uint8 or array.ndim != 3 or array.shape[2] != 3:
+        raise InvalidInputError(
+            f"image: an array (height, width, 3) of uint8 is needed, not {array.shape} of {array.dtype}"
+        )
+    return np.ascontiguousarray(array)
+
+
+def encode_png(image: npt.ArrayLike) -> bytes:
+    """The bytes of a PNG file.
+
+    Parameters
+    ----------
+    image : array_like of uint8, (height, width, 3)
+        Rows from the top.
+    """
+    return _core.encode_png(_pixels(image))
+
+
+def write_png(path: str | os.PathLike[str], image: npt.ArrayLike) -> None:
+    """Writes a PNG file to a temporary file that replaces `path` when complete.
+
+    Parameters
+    ----------
+    path : path
+        Where.
+    image : array_like of uint8, (height, width, 3)
+        Rows from the top.
+    """
+    _core.write_png(os.fspath(path), _pixels(image))
+
+
+def write_file(path: str | os.PathLike[str], data: bytes) -> None:
+    """Writes bytes to a temporary file that replaces `path` when complete.
+
+    Parameters
+    ----------
+    path : path
+        Where.
+    data : bytes
+        All of them.
+    """
+    _core.write_file(os.fspath(path), bytes(data))
+
+
+def spectrum_svg(expansion: Expansion, title: str = "", tolerance: float | None = None) -> str:
+    """Energy per degree on logarithmic scales as an SVG document.
+
+    Parameters
+    ----------
+    expansion : Expansion
+        Whose spectrum.
+    title : str
+        Above it.
+    tolerance : float, optional
+        A wanted rms error, in the function's unit: its energy, and that of all degrees beyond.
+    """
+    return as_expansion(expansion).spectrum_svg(title, tolerance)
+
+
+def report_html(
+    model: Expansion | Atlas,
+    path: str | os.PathLike[str] | None = None,
+    *,
+    shape: Any = None,
+    title: str = "",
+    shape_name: str = "",
+    notes: Sequence[str] = (),
+    commands: Sequence[tuple[str, str]] = (),
+    tolerance: float | None = None,
+    picture_size: int = 480,
+    threads: int = 0,
+    progress: Progress = None,
+) -> str:
+    """All that is known of a model on one page of HTML that needs no other file.
+
+    Parameters
+    ----------
+    model : Expansion or Atlas
+        What the page is of.
+    path : path, optional
+        Where it is written, too.
+    shape : mesh-like, optional
+        The mesh that the model is of; by default that of `expand` or `compress`, if it is known.
+    title, shape_name : str
+        What they are called.
+    notes : sequence of str
+        What must be known of the input.
+    commands : sequence of (what, command)
+        Shown as they are.
+    tolerance : float, optional
+        A wanted rms error: a line in the plots.
+    picture_size : int
+        Pixels of each picture's side, 16 ... 4096.
+    threads, progress
+        See `rholm.caller`.
+    """
+    from ._atlas import Atlas
+
+    if not isinstance(model, Atlas):
+        model = as_expansion(model)
+    known = model._shape if shape is None else shape
+    mesh = None if known is None else _checked_shape(known)
+    options = _core.ReportOptions(
+        title=title or model._name or "model",
+        shape_name=shape_name or model._name,
+        notes=list(notes),
+        tolerance=tolerance,
+        picture_size=picture_size,
+    )
+    options.set_commands([(what, command) for what, command in commands])
+    with caller(threads, progress) as how:
+        page = _core.report_html(model._core, None if mesh is None else mesh._core, options, how)
+    if path is not None:
+        write_file(path, page.encode())
+    return page
+
+
+def _checked_shape(shape: Any) -> Mesh:
+    """The mesh as the page compares it: welded, outwards."""
+    mesh = as_mesh(shape, attributes=False)
+    welded = _core.weld(mesh._core, 0.0)[0]
+    if _core.inspect(welded).inside_out:
+        welded = _core.flip(welded)
+    return Mesh._of(welded)
+
+
+# Notebooks
+
+
+def notebook_png(thing: Any) -> bytes | None:
+    """A small picture; None of what has no surface to be shown."""
+    try:
+        return render(thing, _NOTEBOOK_SIZE, scale_bar=False, progress=False).png()
+    except Error:
+        return None
+
+
+def _figure(thing: Any) -> str:
+    png = notebook_png(thing)
+    if png is None:
+        return ""
+    data = base64.b64encode(png).decode()
+    return f'<img alt="" style="float:left;margin-right:1em" src="data:image/png;base64,{data}">'
+
+
+def _table(rows: list[tuple[str, str]]) -> str:
+    cells = "".join(
+        f"<tr><th style='text-align:left'>{html.escape(k)}</th><td>{html.escape(v)}</td></tr>"
+        for k, v in rows
+    )
+    return f"<table>{cells}</table>"
+
+
+def expansion_html(expansion: Expansion) -> str:
+    """A picture, figures and the spectrum of an expansion."""
+    unit = f" {expansion.unit}" if expansion.unit else ""
+    rows = [
+        ("function", expansion.function),
+        ("degree", str(expansion.degree)),
+        ("center", ", ".join(f"{x:.6g}" for x in expansion.center) + unit),
+    ]
+    figure = ""
+    if expansion.function != "other":
+        figure = _figure(expansion)
+        try:
+            measures = expansion.measure()
+            rows.append(("volume", f"{measures.volume:.6g}{unit and unit + '³'}"))
+            rows.append(("area", f"{measures.area:.6g}{unit and unit + '²'}"))
+        except Error:
+            pass  # a series that crosses its centre has neither
+    errors = expansion.errors
+    if errors is not None and errors.rms is not None:
+        rows.append(("rms radial error", f"{errors.rms:.3g}{unit}"))
+    if errors is not None and errors.measured_max is not None:
+        rows.append(("largest radial error", f"{errors.measured_max:.3g}{unit}"))
+    svg = expansion.spectrum_svg()
+    return f"<div>{figure}{_table(rows)}{svg[svg.index('<svg') :]}</div>"
+
+
+def atlas_html(atlas: Atlas) -> str:
+    """A picture and figures of an atlas."""
+    size = atlas.size
+    unit = f" {atlas.unit}" if atlas.unit else ""
+    rows = [("caps", str(size.caps)), ("numbers", str(size.numbers)), ("highest degree", str(atlas.degree))]
+    if atlas.errors is not None:
+        rows += [
+            ("rms distance", f"{atlas.errors.rms:.3g}{unit}"),
+            ("largest distance", f"{atlas.errors.max:.3g}{unit}"),
+        ]
+    return f"<div>{_figure(atlas)}{_table(rows)}</div>"

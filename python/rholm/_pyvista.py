@@ -1,0 +1,48 @@
+"""The accessor ``dataset.rholm`` of PyVista's meshes; found by PyVista's entry point."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pyvista
+
+from . import Atlas, Comparison, Expansion, compare, compress, expand, reconstruct, repair, smooth
+
+
+@pyvista.register_dataset_accessor("rholm", pyvista.PolyData)
+class RholmAccessor:
+    """What rholm makes of a `pyvista.PolyData`.
+
+    Examples
+    --------
+    >>> import pyvista  # doctest: +SKIP
+    >>> pyvista.Sphere().rholm.expand(degree=8).degree  # doctest: +SKIP
+    8
+    """
+
+    def __init__(self, dataset: pyvista.DataSet) -> None:
+        self._dataset = dataset
+
+    def expand(self, degree: int | None = None, **options: Any) -> Expansion:
+        """See `rholm.expand`."""
+        return expand(self._dataset, degree, **options)
+
+    def compress(self, tolerance: float, **options: Any) -> Atlas:
+        """See `rholm.compress`."""
+        return compress(self._dataset, tolerance, **options)
+
+    def smooth(self, region: Any, wavelength: float, **options: Any) -> pyvista.PolyData:
+        """See `rholm.smooth`."""
+        return smooth(self._dataset, region, wavelength, **options).to_pyvista()
+
+    def reconstruct(self, **options: Any) -> pyvista.PolyData:
+        """See `rholm.reconstruct`."""
+        return reconstruct(self._dataset, **options).mesh.to_pyvista()
+
+    def repair(self, **options: Any) -> pyvista.PolyData:
+        """See `rholm.repair`."""
+        return repair(self._dataset, **options).mesh.to_pyvista()
+
+    def compare(self, other: Any, **options: Any) -> Comparison:
+        """See `rholm.compare`."""
+        return compare(self._dataset, other, **options)

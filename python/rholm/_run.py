@@ -1,0 +1,81 @@
+"""How computations run: threads and progress."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from . import _core
+
+#: A callable f(stage, fraction), True for a bar, False for none, None for a bar where one is seen.
+Progress = Callable[[str, float], Any] | bool | None
+
+os.register_at_fork(after_in_child=_core.after_fork_in_child)
+
+_BAR_DELAY = 0.5  # seconds; chosen: a shorter computation needs no bar
+
+
+def _in_notebook() -> bool:
+    ipython = sys.modules.get("IPython")
+    shell = ipython.get_ipython() if ipython is not None else None
+    return shell is not None and type(shell).__name__ == "ZMQInteractiveShell"
+
+
+def _bar_is_seen() -> bool:
+    stream = sys.stderr
+    return _in_notebook() or (stream is not None and hasattr(stream, "isatty") and stream.isatty())
+
+
+class _Bar:
+    """A tqdm bar for the stages of one computation, one after the other."""
+
+    def __init__(self) -> None:
+        from tqdm.auto import tqdm
+
+        self._tqdm = tqdm
+        self._bar: Any = None
+        self._stage = ""
+
+    def __call__(self, stage: str, fraction: float) -> None:
+        if self._bar is None:
+            form = "{desc:<14} {percentage:3.0f} %|{bar}| {elapsed}"
+            self._bar = self._tqdm(total=1.0, leave=False, bar_format=form, delay=_BAR_DELAY)
+        if stage != self._stage:
+            self._stage = stage
+            self._bar.set_description_str(stage, refresh=False)
+        self._bar.n = min(max(fraction, 0.0), 1.0)
+        self._bar.update(0)
+
+    def close(self) -> None:
+        if self._bar is not None:
+            self._bar.close()
+
+
+@contextmanager
+def caller(threads: int = 0, progress: Progress = None) -> Iterator[_core.Caller]:
+    """Threads and progress for one call of the library.
+
+    Parameters
+    ----------
+    threads : int
+        Worker threads; 0 means one per processor. Results are the same bits for any number.
+    progress : callable, bool or None
+        Called as ``f(stage, fraction)`` on the thread that called, about 50 times a second at most;
+        returning False stops the computation (`CancelledError`). True: a tqdm bar. None: a bar if
+        standard error is a terminal or in a notebook.
+    """
+    if not isinstance(threads, int) or threads < 0:
+        raise ValueError(f"threads is a whole number from 0 on, not {threads!r}")
+    bar: _Bar | None = None
+    if progress is True or (progress is None and _bar_is_seen()):
+        bar = _Bar()
+    elif progress is not None and progress is not False and not callable(progress):
+        raise TypeError(f"progress is a callable, a bool or None, not {progress!r}")
+    try:
+        yield _core.Caller(threads, bar if bar is not None else (progress if callable(progress) else None))
+    finally:
+        if bar is not None:
+            bar.close()

@@ -1,0 +1,280 @@
+// From a mesh to an expansion: encoding, the steps of it, errors, random points.
+#include "rholm/analyze.h"
+
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bindings.h"
+#include "caller.h"
+#include "casters.h"
+#include "record.h"
+#include "rholm/error.h"
+#include "rholm/model.h"
+#include "rholm/monte_carlo.h"
+#include "rholm/star.h"
+#include "rholm/truncation.h"
+
+namespace rholm::python {
+namespace {
+
+// float32 or float64 rows of any distance; triangles of 32 bits likewise.
+using AnyVertices = nb::ndarray<nb::ro, nb::shape<-1, 3>, nb::device::cpu>;
+using AnyTriangles = nb::ndarray<nb::ro, std::uint32_t, nb::shape<-1, 3>, nb::device::cpu>;
+
+// The view of arrays whose rows have their numbers side by side; the face in Python sees to that.
+MeshView view_of_arrays(const AnyVertices& vertices, const AnyTriangles& triangles) {
+  const bool single = vertices.dtype() == nb::dtype<float>();
+  if (!single && vertices.dtype() != nb::dtype<double>()) {
+    throw nb::type_error("vertices are float32 or float64");
+  }
+  const auto stride_of = [](const auto& rows, std::size_t item) {
+    if (rows.shape(0) > 0 && (rows.stride(1) != 1 || rows.stride(0) < 0)) {
+      throw nb::type_error("the numbers of a row do not lie side by side");
+    }
+    return static_cast<std::size_t>(rows.stride(0)) * item;
+  };
+  return {.vertices = static_cast<const std::byte*>(vertices.data()),
+          .n_vertices = vertices.shape(0),
+          .vertex_stride = stride_of(vertices, single ? sizeof(float) : sizeof(double)),
+          .coordinate = single ? ScalarType::kFloat32 : ScalarType::kFloat64,
+          .triangles = reinterpret_cast<const std::byte*>(triangles.data()),
+          .n_triangles = triangles.shape(0),
+          .triangle_stride = stride_of(triangles, sizeof(std::uint32_t))};
+}
+
+// Made of "auto", "none", ... or a point.
+CenterOptions center_of(const std::string& text, const std::optional<Vec3>& point, int rays) {
+  CenterOptions options =
+      point ? CenterOptions{.kind = CenterKind::kGiven, .point = *point} : parse_center(text);
+  options.rays = rays;
+  return options;
+}
+
+void bind_star(nb::module_& m) {
+  Record<StarReport>(m, "StarReport", "How a mesh is seen from a centre.")
+      .field("center", &StarReport::center, "In the coordinates of the mesh, (3,).")
+      .field("min_d", &StarReport::min_d,
+             "Distance of the nearest face plane; negative if a face turns its back.")
+      .field("min_cos_gamma", &StarReport::min_cos_gamma, "Over all corners of all triangles.")
+      .field("bad_triangles", &StarReport::bad_triangles, "Triangles that turn their backs.")
+      .field("star_shaped", &StarReport::star_shaped,
+             "No such triangle, and every direction covered once.")
+      .field("rays", &StarReport::rays, "Directions tried.")
+      .field("once_share", &StarReport::once_share, "Part of them that meet the surface once.")
+      .field("multiple_share", &StarReport::multiple_share, "Part that meet it more than once.")
+      .field("missed_share", &StarReport::missed_share, "Part that never meet it.")
+      .field("center_fell_back", &StarReport::center_fell_back,
+             "Whether no point sees all faces, and the centre is the best guess.");
+  m.def(
+      "find_center",
+      [](const Mesh& mesh, const std::string& center, const std::optional<Vec3>& point, int rays,
+         const Caller& caller) {
+        const CenterOptions options = center_of(center, point, rays);
+        return caller.run(
+            [&](const Context& context) { return find_center(mesh, options, context); });
+      },
+      nb::arg(), nb::arg(), nb::arg().none(), nb::arg(), nb::arg());
+  m.def("check_star", [](const Mesh& mesh, const Vec3& center, int rays, const Caller& caller) {
+    return caller.run(
+        [&](const Context& context) { return check_star(mesh, center, rays, context); });
+  });
+  nb::class_<StarChart>(m, "StarChart", "A mesh seen from a centre.")
+      .def_prop_ro("mesh", [](const StarChart& chart) { return chart.mesh; })
+      .def_ro("report", &StarChart::report);
+  m.def(
+      "make_star_chart",
+      [](const Mesh& mesh, const std::string& center, const std::optional<Vec3>& point, int rays,
+         bool allow_signed, const Caller& caller) {
+        const ChartOptions options{center_of(center, point, rays), allow_signed};
+        return caller.run(
+            [&](const Context& context) { return make_star_chart(mesh, options, context); });
+      },
+      nb::arg(), nb::arg(), nb::arg().none(), nb::arg(), nb::arg(), nb::arg());
+}
+
+void bind_options(nb::module_& m) {
+  Options<AnalyzeOptions>(m, "AnalyzeOptions", "Which function is expanded, and how.")
+      .field("degree", &AnalyzeOptions::degree)
+      .choice("method", &AnalyzeOptions::method, parse_method, to_string)
+      .choice("engine", &AnalyzeOptions::engine, parse_engine, to_string)
+      .field("precision", &AnalyzeOptions::precision);
+  Options<Tolerance>(m, "Tolerance", "The largest error that is allowed.")
+      .field("error", &Tolerance::error)
+      .choice("unit", &Tolerance::unit, parse_tolerance_unit, to_string)
+      .choice("norm", &Tolerance::norm, parse_error_norm, to_string)
+      .choice("measure", &Tolerance::measure, parse_error_measure, to_string)
+      .field("max_degree", &Tolerance::max_degree);
+  Options<EncodeOptions>(m, "EncodeOptions", "What is wanted of a model.")
+      .field("analyze", &EncodeOptions::analyze)
+      .field("tolerance", &EncodeOptions::tolerance)
+      .field("errors", &EncodeOptions::errors)
+      .field("weld_tolerance", &EncodeOptions::weld_tolerance)
+      .type()
+      .def(
+          "set_chart",
+          [](EncodeOptions& options, const std::string& center, const std::optional<Vec3>& point,
+             int rays, bool allow_signed) {
+            options.chart = {center_of(center, point, rays), allow_signed};
+          },
+          nb::arg(), nb::arg().none(), nb::arg(), nb::arg());
+}
+
+void bind_results(nb::module_& m) {
+  Record<FastReport>(m, "FastReport", "How the fast engine did it.")
+      .field("single", &FastReport::single, "Whether sources were spread in single precision.")
+      .field("width", &FastReport::width, "Grid points of the window.")
+      .field("oversampling", &FastReport::oversampling, "Of the grid.")
+      .field("lumped_triangles", &FastReport::lumped_triangles,
+             "Triangles whose sources are those of their vertices.")
+      .field("nodes", &FastReport::nodes, "Sources of their own.")
+      .field("vertices", &FastReport::vertices, "Sources at vertices.")
+      .field("error", &FastReport::error,
+             "Estimate of the error, l2 over degrees from 1 on, relative to the norm without mean.")
+      .field("band_error", &FastReport::band_error,
+             "Of the degrees above 3L/4 relative to their own norm.")
+      .field("passes", &FastReport::passes, "Over the triangles.")
+      .field("reached", &FastReport::reached, "Whether the estimate is within the precision.");
+  Record<Analysis>(m, "Analysis", "How coefficients were found.")
+      .field("edge_nodes", &Analysis::edge_nodes, "Quadrature nodes on edges.")
+      .field("face_nodes", &Analysis::face_nodes, "Quadrature nodes on faces.")
+      .field("closure_residual", &Analysis::closure_residual,
+             "Zero for a closed, consistently oriented mesh; None with the fast engine.")
+      .field("fast", &Analysis::fast, "Of the fast engine, or None.")
+      .field("precision", &Analysis::precision, "That the coefficients were wanted with.")
+      .field("times", &Analysis::times, "Stages: (wall, cpu) in seconds.")
+      .field("truncation_rms", &Analysis::truncation_rms,
+             "Truncation error over solid angle, in the unit of the function, or None.")
+      .field("truncation_rms_doubt", &Analysis::truncation_rms_doubt,
+             "How far it is at most from that of exact coefficients.")
+      .type()
+      .def_prop_ro("expansion", [](const Analysis& a) { return a.expansion; });
+  Record<ToleranceReport>(m, "ToleranceReport", "How a tolerance was kept.")
+      .field("allowed", &ToleranceReport::allowed, "Error, in the mesh's unit.")
+      .field("reached", &ToleranceReport::reached, "Error, in the mesh's unit.")
+      .field("met", &ToleranceReport::met, "Whether reached is at most allowed.")
+      .field("degrees", &ToleranceReport::degrees,
+             "That were tried; the model's is the last one, or cut off from it.");
+  Record<Encoded>(m, "Encoded", "What was found out on the way from a mesh to an expansion.")
+      .field("analysis", &Encoded::analysis, "How the coefficients were found.")
+      .field("tolerance", &Encoded::tolerance, "How the tolerance was kept, or None.")
+      .field("star", &Encoded::star, "The centre, and how well it sees the surface.")
+      .field("diagonal", &Encoded::diagonal, "Of the bounding box.")
+      .field("vertices", &Encoded::vertices, "After welding, where that was needed.")
+      .field("faces", &Encoded::faces, "Likewise.")
+      .field("edges", &Encoded::edges, "Likewise.")
+      .field("merged_vertices", &Encoded::merged_vertices, "By welding.")
+      .field("collapsed_triangles", &Encoded::collapsed_triangles, "By welding.")
+      .field("flipped", &Encoded::flipped, "Whether the mesh was inside out.")
+      .field("times", &Encoded::times, "Stages: (wall, cpu) in seconds.");
+}
+
+void bind_encode(nb::module_& m) {
+  m.def(
+      "encode",
+      [](const AnyVertices& vertices, const AnyTriangles& triangles, const EncodeOptions& options,
+         const Caller& caller) {
+        const MeshView view = view_of_arrays(vertices, triangles);
+        return caller.run([&](const Context& context) { return encode(view, options, context); });
+      },
+      nb::arg().noconvert(), nb::arg().noconvert(), nb::arg(), nb::arg());
+  m.def("encode_file",
+        [](const std::string& path, const EncodeOptions& options, const Caller& caller) {
+          std::vector<std::string> warnings;
+          Encoded encoded = caller.run([&](const Context& context) {
+            return encode_file(path, options, context, &warnings);
+          });
+          return nb::make_tuple(std::move(encoded), warnings);
+        });
+  m.def("analyze", [](const StarChart& chart, const AnalyzeOptions& options, const Caller& caller) {
+    return caller.run([&](const Context& context) { return analyze(chart, options, context); });
+  });
+  m.def("analyze_to_tolerance", [](const StarChart& chart, const Tolerance& tolerance,
+                                   const AnalyzeOptions& options, const Caller& caller) {
+    ToleranceAnalysis found = caller.run(
+        [&](const Context& context) { return analyze(chart, tolerance, options, context); });
+    return nb::make_tuple(
+        std::move(found.analysis),
+        ToleranceReport{found.allowed, found.reached, found.met, std::move(found.degrees)});
+  });
+}
+
+void bind_norms(nb::module_& m) {
+  m.def("radius_norm_squared", [](const StarChart& chart) { return radius_norm_squared(chart); });
+  m.def("gauge_norm_squared", &gauge_norm_squared);
+  m.def("tail_strength", [](const StarChart& chart, const std::string& function) {
+    return tail_strength(chart, parse_radial_function(function));
+  });
+  m.def("vertex_error_strength", [](const StarChart& chart, const std::string& function) {
+    return vertex_error_strength(chart, parse_radial_function(function));
+  });
+  Record<ErrorStrengths>(m, "ErrorStrengths",
+                         "The largest truncation errors at vertices, times 2 pi (L + 1).")
+      .field("radius", &ErrorStrengths::radius, "Of the radius, in the mesh's unit.")
+      .field("gauge", &ErrorStrengths::gauge, "Of 1/r, in 1/unit.")
+      .field("distance", &ErrorStrengths::distance, "Of the distance between the surfaces.");
+  m.def("vertex_error_strengths", [](const Mesh& mesh, const Vec3& center) {
+    return vertex_error_strengths(view_of(mesh), center);
+  });
+  m.def("truncation_errors", [](const Mesh& mesh, const Expansion& expansion, double precision,
+                                bool predict, const Caller& caller) {
+    return caller.run([&](const Context& context) {
+      return truncation_errors(view_of(mesh), expansion, {precision, predict}, context);
+    });
+  });
+}
+
+SamplePlaces places_of(const std::string& name) {
+  if (const auto places = parse_sample_places("monte-carlo-" + name)) return *places;
+  throw Error(ErrorCode::kInvalidInput,
+              "no places of samples are called '" + name + "'; there are edge and triangle");
+}
+
+void bind_monte_carlo(nb::module_& m) {
+  Options<MonteCarloOptions>(m, "MonteCarloOptions", "How much is wanted, and when to stop.")
+      .field("degree", &MonteCarloOptions::degree)
+      .choice("places", &MonteCarloOptions::places, places_of, to_string)
+      .field("seed", &MonteCarloOptions::seed)
+      .field("samples", &MonteCarloOptions::samples)
+      .field("deviation", &MonteCarloOptions::deviation)
+      .field("most_samples", &MonteCarloOptions::most_samples);
+  Record<MonteCarlo>(m, "MonteCarlo", "Coefficients by random points, and how far they may be off.")
+      .field("places", &MonteCarlo::places, "Edges or triangles that were sampled.")
+      .field("samples", &MonteCarlo::samples, "Points on each of them.")
+      .field("rounds", &MonteCarlo::rounds, "In which they were added.")
+      .field("relative_deviation", &MonteCarlo::relative_deviation,
+             "Standard error relative to the coefficients without the mean, or None.")
+      .field("reached", &MonteCarlo::reached, "Whether it is the wanted one.")
+      .field("degree_deviation", &MonteCarlo::degree_deviation,
+             "For each degree the standard error of its coefficients together, (L + 1,).")
+      .field("truncation_rms", &MonteCarlo::truncation_rms, "As in Analysis.")
+      .field("truncation_rms_doubt", &MonteCarlo::truncation_rms_doubt, "By 3 deviations.")
+      .field("times", &MonteCarlo::times, "Stages: (wall, cpu) in seconds.")
+      .type()
+      .def_prop_ro("expansion", [](const MonteCarlo& found) { return found.expansion; })
+      .def_prop_ro("deviation", [](const MonteCarlo& found) { return found.deviation; });
+  m.def("monte_carlo", [](const StarChart& chart, const MonteCarloOptions& options,
+                          const Caller& caller) {
+    return caller.run([&](const Context& context) { return monte_carlo(chart, options, context); });
+  });
+}
+
+}  // namespace
+
+void bind_analysis(nb::module_& m) {
+  bind_star(m);
+  bind_options(m);
+  bind_results(m);
+  bind_encode(m);
+  bind_norms(m);
+  bind_monte_carlo(m);
+}
+
+}  // namespace rholm::python

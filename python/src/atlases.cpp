@@ -1,0 +1,251 @@
+// Atlases of caps: compression, surfaces of them, the paper's atlas, their files.
+#include "rholm/atlas.h"
+
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/variant.h>
+#include <nanobind/stl/vector.h>
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "bindings.h"
+#include "caller.h"
+#include "casters.h"
+#include "record.h"
+#include "rholm/compress.h"
+#include "rholm/error.h"
+#include "rholm/patch_atlas.h"
+
+namespace rholm::python {
+namespace {
+
+using Shape = std::variant<const Mesh*, const PointCloud*>;
+
+const char* name_of(CapBasis basis) { return basis == CapBasis::kFull ? "full" : "even"; }
+
+void bind_caps(nb::module_& m) {
+  Record<Cap>(m, "Cap", "One cap of an atlas.")
+      .property(
+          "center", [](const Cap& c) { return c.frame.center; },
+          "Of its sphere, in the coordinates of the shape, (3,).")
+      .property(
+          "axes",
+          [](const Cap& c) {
+            return array_of(std::vector<Vec3>{c.frame.x, c.frame.y, c.frame.z});
+          },
+          "Of its frame, rows x, y, z; z points outwards, (3, 3).")
+      .property(
+          "radius", [](const Cap& c) { return c.frame.radius; }, "Of its sphere.")
+      .property(
+          "dilation", [](const Cap& c) { return c.frame.dilation; },
+          "a: tan(theta'/2) = a tan(theta/2) opens the sphere.")
+      .property(
+          "support", [](const Cap& c) { return c.frame.support; },
+          "Radius of the points around the seed that it was made of.")
+      .property(
+          "seed", [](const Cap& c) { return c.frame.seed(); },
+          "The point of the sphere in the middle of the cap, (3,).")
+      .property(
+          "ellipse",
+          [](const Cap& c) {
+            return nb::make_tuple(c.where.px, c.where.py, c.where.xx, c.where.xy, c.where.yy);
+          },
+          "Of its support: middle (px, py) and form (xx, xy, yy).")
+      .property(
+          "basis", [](const Cap& c) { return name_of(c.basis); }, "'full' or 'even'.")
+      .field("degree", &Cap::degree, "Its highest degree.")
+      .field("first", &Cap::first, "Where its coefficients start.")
+      .field("error", &Cap::error, "Root mean square distance of the fitted points to it.")
+      .field("area", &Cap::area, "Of the surface that it was made for.")
+      .field("weight", &Cap::weight, "A factor of its blend weight.")
+      .field("deviation", &Cap::deviation,
+             "Largest distance of its surface from the tangent plane of the seed.");
+  nb::class_<Atlas>(m, "Atlas", "A surface of any genus as overlapping caps.")
+      .def_prop_ro("n_caps", [](const Atlas& atlas) { return atlas.caps.size(); })
+      .def("cap",
+           [](const Atlas& atlas, std::size_t i) {
+             if (i >= atlas.caps.size()) throw nb::index_error("no such cap");
+             return atlas.caps[i];
+           })
+      .def("coefficients_of",
+           [](const Atlas& atlas, std::size_t i) {
+             if (i >= atlas.caps.size()) throw nb::index_error("no such cap");
+             const auto c = atlas.coefficients_of(atlas.caps[i]);
+             return array_of(std::vector<double>(c.begin(), c.end()));
+           })
+      .def_prop_ro("blend", [](const Atlas& atlas) { return to_string(atlas.blend); })
+      .def_ro("spacing", &Atlas::spacing)
+      .def_ro("noise", &Atlas::noise)
+      .def_ro("diagonal", &Atlas::diagonal)
+      .def_ro("band", &Atlas::band);
+  m.def("highest_degree", &highest_degree);
+  m.def("n_coefficients", [](const std::string& basis, int degree) {
+    if (basis != "full" && basis != "even") {
+      throw Error(ErrorCode::kInvalidInput,
+                  "no basis is called '" + basis + "'; there are full and even");
+    }
+    return n_coefficients(basis == "full" ? CapBasis::kFull : CapBasis::kEven, degree);
+  });
+  m.def("evaluate_cap", [](const Atlas& atlas, std::size_t i, const Rows& points) {
+    if (i >= atlas.caps.size()) throw nb::index_error("no such cap");
+    const Cap& cap = atlas.caps[i];
+    std::vector<double> distances, valid;
+    std::vector<Vec3> gradients;
+    for (const Vec3& x : span_of(points)) {
+      const CapValue value = evaluate(cap, atlas.coefficients_of(cap), x);
+      distances.push_back(value.distance);
+      gradients.push_back(value.gradient);
+      valid.push_back(value.valid ? 1 : 0);
+    }
+    return nb::make_tuple(array_of(std::move(distances)), array_of(std::move(gradients)),
+                          array_of(std::move(valid)));
+  });
+}
+
+void bind_models(nb::module_& m) {
+  Record<AtlasErrors>(m, "AtlasErrors", "What a model is measured by, in the shape's unit.")
+      .field("rms_from", &AtlasErrors::rms_from, "From the shape to the model's surface.")
+      .field("max_from", &AtlasErrors::max_from, "The largest of these distances.")
+      .field("rms_to", &AtlasErrors::rms_to, "From the model's surface; 0 if the shape is points.")
+      .field("max_to", &AtlasErrors::max_to, "The largest of these.")
+      .property(
+          "rms", [](const AtlasErrors& e) { return e.rms(); }, "The larger of both ways.")
+      .property(
+          "max", [](const AtlasErrors& e) { return e.max(); }, "The larger of both ways.")
+      .property(
+          "two_sided", [](const AtlasErrors& e) { return e.two_sided(); },
+          "Whether both ways were measured.");
+  Record<AtlasSize>(m, "AtlasSize", "How large a model is.")
+      .field("caps", &AtlasSize::caps, "Number of caps.")
+      .field("coefficients", &AtlasSize::coefficients, "Coefficients that are not zero.")
+      .field("frame_numbers", &AtlasSize::frame_numbers, "Numbers of the caps' frames.")
+      .property(
+          "numbers", [](const AtlasSize& s) { return s.numbers(); }, "Of the whole model.");
+  nb::class_<AtlasModel>(m, "AtlasModel", "An atlas and what its file says of it.")
+      .def("__init__",
+           [](AtlasModel* self, const Atlas& atlas, double step, const std::string& unit) {
+             AtlasModel model;
+             model.atlas = atlas;
+             model.step = step;
+             model.unit = unit;
+             new (self) AtlasModel(std::move(model));
+           })
+      .def_prop_ro("atlas", [](const AtlasModel& model) { return model.atlas; })
+      .def_ro("step", &AtlasModel::step)
+      .def_ro("tolerance", &AtlasModel::tolerance)
+      .def_ro("errors", &AtlasModel::errors)
+      .def_ro("input_numbers", &AtlasModel::input_numbers)
+      .def_ro("unit", &AtlasModel::unit)
+      .def_ro("method", &AtlasModel::method)
+      .def("with_unit", [](AtlasModel model, const std::string& unit) {
+        model.unit = unit;
+        return model;
+      });
+  m.def("size_of", &size_of);
+  m.def("write_atlas", [](const AtlasModel& model, const std::string& path, const Caller& caller) {
+    caller.run([&](const Context&) { write_atlas(model, path); });
+  });
+  m.def("read_atlas", [](const std::string& path, const Caller& caller) {
+    return caller.run([&](const Context&) { return read_atlas(path); });
+  });
+  m.def("is_atlas_file", [](const std::string& path) { return is_atlas_file(path); });
+}
+
+void bind_compress(nb::module_& m) {
+  Options<CompressOptions>(m, "CompressOptions", "What a model is to keep.")
+      .field("tolerance", &CompressOptions::tolerance)
+      .field("samples", &CompressOptions::samples)
+      .field("max_degree", &CompressOptions::max_degree)
+      .field("seed", &CompressOptions::seed);
+  Record<CompressReport>(m, "CompressReport", "How a model came about, and what it keeps.")
+      .field("samples", &CompressReport::samples, "That caps were fitted to.")
+      .field("turned_normals", &CompressReport::turned_normals,
+             "Whether all normals of points pointed into the solid, and were turned.")
+      .field("hidden", &CompressReport::hidden, "Share of a mesh inside of its solid, left out.")
+      .field("gap", &CompressReport::gap, "Between sheets that face each other.")
+      .field("aimed", &CompressReport::aimed, "The tolerance that was aimed at.")
+      .field("uncovered", &CompressReport::uncovered,
+             "Share of the samples that no cap met by 4 tolerances.")
+      .field("components", &CompressReport::components, "Of the extracted surface.")
+      .field("genus", &CompressReport::genus, "Of the extracted surface.")
+      .field("met", &CompressReport::met, "Whether the tolerance is kept.")
+      .field("topology_kept", &CompressReport::topology_kept,
+             "Whether the surface has as many parts and handles as the shape.")
+      .field("times", &CompressReport::times, "Stages: (wall, cpu) in seconds.");
+  m.def("compress", [](const Shape& shape, const CompressOptions& options, const Caller& caller) {
+    Compressed result = caller.run([&](const Context& context) {
+      return std::visit([&](const auto* s) { return compress(*s, options, context); }, shape);
+    });
+    return nb::make_tuple(std::move(result.model), std::move(result.report));
+  });
+  Options<AtlasSynthesisOptions>(m, "AtlasSynthesisOptions", "How a surface is extracted.")
+      .field("step", &AtlasSynthesisOptions::step)
+      .field("degree", &AtlasSynthesisOptions::degree)
+      .field("simplify", &AtlasSynthesisOptions::simplify)
+      .field("max_memory", &AtlasSynthesisOptions::max_memory);
+  m.def("synthesize_atlas", [](const AtlasModel& model, const AtlasSynthesisOptions& options,
+                               const Caller& caller) {
+    return caller.run([&](const Context& context) { return synthesize(model, options, context); });
+  });
+  m.def("dominant_caps", [](const Atlas& atlas, const Rows& points, const Caller& caller) {
+    const std::vector<Vec3> at = vector_of(points);
+    return array_of(
+        caller.run([&](const Context& context) { return dominant_caps(atlas, at, context); }));
+  });
+  const auto colors = [](auto set) {
+    return [set](const Atlas& atlas, const std::vector<std::uint32_t>& caps) {
+      for (const std::uint32_t cap : caps) {
+        if (cap != kNoCap && cap >= atlas.caps.size()) {
+          throw Error(ErrorCode::kInvalidInput, "the atlas has no cap " + std::to_string(cap));
+        }
+      }
+      std::vector<Attribute> attributes;
+      set(attributes, atlas, caps);
+      nb::list channels;
+      for (const Attribute& channel : attributes) channels.append(array_of(channel.values));
+      return channels;
+    };
+  };
+  m.def("set_cap_colors", colors(&set_cap_colors));
+  m.def("set_degree_colors", colors(&set_degree_colors));
+}
+
+void bind_patch_atlas(nb::module_& m) {
+  Options<PatchAtlasOptions>(m, "PatchAtlasOptions", "The paper's parameters.")
+      .field("degree", &PatchAtlasOptions::degree)
+      .choice("extension", &PatchAtlasOptions::extension, parse_cap_extension, to_string)
+      .field("min_cosine", &PatchAtlasOptions::min_cosine)
+      .field("overlap", &PatchAtlasOptions::overlap);
+  m.def("patch_atlas", [](const Shape& shape, const PatchAtlasOptions& options,
+                          const Caller& caller) {
+    PatchAtlas result = caller.run([&](const Context& context) {
+      return std::visit([&](const auto* s) { return patch_atlas(*s, options, context); }, shape);
+    });
+    return nb::make_tuple(std::move(result.model), std::move(result.surface),
+                          result.rms_along_rays);
+  });
+  m.def("patch_picture", [](const Shape& shape, const std::string& view,
+                            const PatchAtlasOptions& options, const Caller& caller) {
+    const PatchView wanted = parse_patch_view(view);
+    PatchPicture picture = caller.run([&](const Context& context) {
+      return std::visit([&](const auto* s) { return patch_picture(*s, wanted, options, context); },
+                        shape);
+    });
+    return nb::make_tuple(std::move(picture.mesh), picture.patches);
+  });
+}
+
+}  // namespace
+
+void bind_atlases(nb::module_& m) {
+  bind_caps(m);
+  bind_models(m);
+  bind_compress(m);
+  bind_patch_atlas(m);
+}
+
+}  // namespace rholm::python

@@ -1,0 +1,239 @@
+// Coefficients as data: conventions, spectra, filters, units, files.
+#include "rholm/coefficients.h"
+
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bindings.h"
+#include "caller.h"
+#include "casters.h"
+#include "record.h"
+#include "rholm/coefficients_io.h"
+#include "rholm/error.h"
+#include "rholm/filter.h"
+#include "rholm/length_unit.h"
+#include "rholm/model.h"
+
+namespace rholm::python {
+namespace {
+
+using Planes = nb::ndarray<const double, nb::shape<2, -1, -1>, nb::c_contig, nb::device::cpu>;
+
+Convention convention_of(const std::string& normalization, int csphase) {
+  return {parse_normalization(normalization), csphase};
+}
+
+NumpyDoubles values_of(nb::handle self) {
+  auto& c = nb::cast<Coefficients&>(self);
+  const auto side = static_cast<std::size_t>(c.degree()) + 1;
+  return array_within<double>(self, c.values().data(), {2, side, side});
+}
+
+void bind_numbers(nb::module_& m) {
+  nb::class_<Coefficients>(m, "Coefficients",
+                           "C_lm and S_lm in the library's own convention: orthonormal, without "
+                           "Condon-Shortley phase.")
+      .def(nb::init<int>())
+      .def_prop_ro("degree", &Coefficients::degree)
+      .def_prop_ro("values", &values_of)
+      .def("resized", &Coefficients::resized);
+  m.def("to_convention", [](const Coefficients& c, const std::string& normalization, int csphase) {
+    return to_convention(c, convention_of(normalization, csphase));
+  });
+  m.def("from_convention", [](const Planes& values, const std::string& normalization, int csphase) {
+    if (values.shape(1) != values.shape(2) || values.shape(1) == 0) {
+      throw Error(ErrorCode::kInvalidInput, "coefficients are an array (2, L+1, L+1), not (2, " +
+                                                std::to_string(values.shape(1)) + ", " +
+                                                std::to_string(values.shape(2)) + ")");
+    }
+    if (values.shape(1) > static_cast<std::size_t>(kMaxDegree) + 1) {
+      throw Error(ErrorCode::kInvalidInput, "degree " + std::to_string(values.shape(1) - 1) +
+                                                " is above " + std::to_string(kMaxDegree));
+    }
+    Coefficients c(static_cast<int>(values.shape(1)) - 1);
+    std::copy_n(values.data(), values.size(), c.values().data());
+    for (int l = 0; l <= c.degree(); ++l) {  // what stands above the diagonal is no coefficient
+      for (int k = l + 1; k <= c.degree(); ++k) c.c(l, k) = c.s(l, k) = 0;
+      c.s(l, 0) = 0;
+    }
+    return from_convention(c, convention_of(normalization, csphase));
+  });
+  m.def("power_spectrum", [](const Coefficients& c) { return array_of(power_spectrum(c)); });
+}
+
+void bind_expansion(nb::module_& m) {
+  Record<TruncationErrors> record(m, "TruncationErrors",
+                                  "How far a surface is from the shape it was made of, in the unit "
+                                  "of lengths; None where it is not known.");
+  using Maybe = std::optional<double>;
+  record.type().def(
+      nb::init<Maybe, bool, Maybe, Maybe, Maybe, Maybe, Maybe, bool, std::size_t, double>(),
+      nb::arg().none(), nb::arg(), nb::arg().none(), nb::arg().none(), nb::arg().none(),
+      nb::arg().none(), nb::arg().none(), nb::arg(), nb::arg(), nb::arg());
+  record.field("rms", &TruncationErrors::rms, "Radial, root mean square over solid angle.")
+      .field("rms_is_exact", &TruncationErrors::rms_is_exact,
+             "Whether rms is by Parseval's identity, not measured.")
+      .field("predicted_max", &TruncationErrors::predicted_max,
+             "Largest radial error at the vertices, in closed form.")
+      .field("predicted_max_distance", &TruncationErrors::predicted_max_distance,
+             "The same as a distance.")
+      .field("measured_max", &TruncationErrors::measured_max,
+             "Largest radial error at `points` points of the shape.")
+      .field("measured_max_distance", &TruncationErrors::measured_max_distance,
+             "The same as a distance.")
+      .field("distance_rms", &TruncationErrors::distance_rms,
+             "Root mean square of distances over area, the larger of both ways.")
+      .field("distances_are_closest", &TruncationErrors::distances_are_closest,
+             "Whether distances are by closest points.")
+      .field("points", &TruncationErrors::points, "At which was measured.")
+      .field("diagonal", &TruncationErrors::diagonal,
+             "Of the shape's bounding box; 0 if not known.");
+  nb::class_<Expansion>(m, "Expansion", "A surface as coefficients.")
+      .def(
+          "__init__",
+          [](Expansion* self, const Coefficients& coefficients, const std::string& function,
+             const Vec3& center, const std::string& unit, const std::string& method,
+             std::optional<double> norm_squared, std::optional<double> tail_strength,
+             const std::optional<TruncationErrors>& errors) {
+            if (!is_finite(center)) {
+              throw Error(ErrorCode::kInvalidInput, "the centre is not finite");
+            }
+            if (!unit.empty()) check_unit(unit);
+            new (self) Expansion{coefficients,  parse_radial_function(function),
+                                 center,        unit,
+                                 method,        norm_squared,
+                                 tail_strength, errors};
+          },
+          nb::arg("coefficients"), nb::arg("function") = "radius",
+          nb::arg("center") = nb::make_tuple(0.0, 0.0, 0.0), nb::arg("unit") = "",
+          nb::arg("method") = "", nb::arg("norm_squared") = nb::none(),
+          nb::arg("tail_strength") = nb::none(), nb::arg("errors") = nb::none())
+      .def_prop_ro("coefficients", [](const Expansion& e) { return e.coefficients; })
+      .def_prop_ro("function", [](const Expansion& e) { return to_string(e.function); })
+      .def_ro("center", &Expansion::center)
+      .def_ro("unit", &Expansion::unit)
+      .def_ro("method", &Expansion::method)
+      .def_ro("norm_squared", &Expansion::norm_squared)
+      .def_ro("tail_strength", &Expansion::tail_strength)
+      .def_ro("errors", &Expansion::errors);
+  m.def("require_surface", &require_surface);
+  m.def("check_unit", &check_unit);
+  m.def("metres_of", &metres_of);
+  m.def("scaled", &scaled);
+}
+
+WindowOptions window_of(const std::string& window, int order, std::optional<double> time) {
+  return {.window = parse_window(window), .order = order, .time = time};
+}
+
+void bind_filters(nb::module_& m) {
+  m.def(
+      "low_pass",
+      [](int cutoff, int degree, const std::string& window, int order, std::optional<double> time) {
+        return array_of(low_pass(cutoff, degree, window_of(window, order, time)));
+      },
+      nb::arg(), nb::arg(), nb::arg(), nb::arg(), nb::arg().none());
+  m.def(
+      "high_pass",
+      [](int cutoff, int degree, const std::string& window, int order, std::optional<double> time) {
+        return array_of(high_pass(cutoff, degree, window_of(window, order, time)));
+      },
+      nb::arg(), nb::arg(), nb::arg(), nb::arg(), nb::arg().none());
+  m.def(
+      "band_pass",
+      [](int from, int to, int degree, const std::string& window, int order,
+         std::optional<double> time) {
+        return array_of(band_pass(from, to, degree, window_of(window, order, time)));
+      },
+      nb::arg(), nb::arg(), nb::arg(), nb::arg(), nb::arg(), nb::arg().none());
+  m.def("sharpened", [](const Doubles& gains, double amount) {
+    return array_of(sharpened(span_of(gains), amount));
+  });
+  m.def("filter",
+        [](const Coefficients& c, const Doubles& gains) { return filter(c, span_of(gains)); });
+  m.def("filter", [](const Expansion& e, const Doubles& gains, const std::string& name) {
+    return filter(e, span_of(gains), name);
+  });
+  Record<Overshoot>(m, "Overshoot",
+                    "How far a filtered step leaves 0 ... 1, in parts of its height.")
+      .field("above", &Overshoot::above, "Largest value - 1.")
+      .field("below", &Overshoot::below, "Minus the smallest value.");
+  m.def("overshoot", [](const Doubles& gains) { return overshoot(span_of(gains)); });
+  m.def("overshoot", [](const std::string& window, int degree) {
+    return overshoot(parse_window(window), degree);
+  });
+}
+
+nb::tuple tuple_of(CoefficientsFile&& file) {
+  return nb::make_tuple(std::move(file.expansion), to_string(file.format),
+                        to_string(file.convention.normalization), file.convention.csphase,
+                        file.assumed, file.product, file.passed_over);
+}
+
+void bind_files(nb::module_& m) {
+  const auto read_options = [](const std::string& normalization, int csphase, bool override_file) {
+    return CoefficientsReadOptions{convention_of(normalization, csphase), override_file};
+  };
+  m.def("read_coefficients", [=](const std::string& path, const std::string& normalization,
+                                 int csphase, bool override_file, const Caller& caller) {
+    const auto options = read_options(normalization, csphase, override_file);
+    return tuple_of(caller.run(
+        [&](const Context& context) { return read_coefficients(path, options, context); }));
+  });
+  m.def("read_any_coefficients", [=](const std::string& path, const std::string& normalization,
+                                     int csphase, bool override_file, const Caller& caller) {
+    const auto options = read_options(normalization, csphase, override_file);
+    return tuple_of(caller.run(
+        [&](const Context& context) { return read_any_coefficients(path, options, context); }));
+  });
+  m.def("parse_coefficients",
+        [=](const nb::bytes& bytes, const std::string& name, const std::string& normalization,
+            int csphase, bool override_file, const Caller& caller) {
+          const auto options = read_options(normalization, csphase, override_file);
+          const std::span<const char> all(bytes.c_str(), bytes.size());
+          return tuple_of(
+              caller.run([&](const Context&) { return parse_coefficients(all, name, options); }));
+        });
+  m.def("coefficients_format_of", [](const std::string& path) -> std::optional<std::string> {
+    const auto format = coefficients_format_of(path);
+    if (!format) return std::nullopt;
+    return to_string(*format);
+  });
+  m.def("looks_like_coefficients", [](const nb::bytes& bytes) {
+    return looks_like_coefficients({bytes.c_str(), bytes.size()});
+  });
+  m.def(
+      "write_coefficients",
+      [](const Expansion& e, const std::string& path, const std::optional<std::string>& format,
+         const std::string& normalization, int csphase, const Caller& caller) {
+        CoefficientsWriteOptions options{.convention = convention_of(normalization, csphase)};
+        if (format) options.format = parse_coefficients_format(*format);
+        caller.run([&](const Context&) { write_coefficients(e, path, options); });
+      },
+      nb::arg(), nb::arg(), nb::arg().none(), nb::arg(), nb::arg(), nb::arg());
+  m.def("write_model", [](const Expansion& e, const std::string& path, const Caller& caller) {
+    caller.run([&](const Context&) { write_model(e, path); });
+  });
+  m.def("read_model", [](const std::string& path, const Caller& caller) {
+    return caller.run([&](const Context&) { return read_model(path); });
+  });
+  m.def("is_model_file", [](const std::string& path) { return is_model_file(path); });
+}
+
+}  // namespace
+
+void bind_coefficients(nb::module_& m) {
+  bind_numbers(m);
+  bind_expansion(m);
+  bind_filters(m);
+  bind_files(m);
+}
+
+}  // namespace rholm::python

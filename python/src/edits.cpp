@@ -1,0 +1,176 @@
+// Local smoothing and the transfer of detail: analyses, and what sliders move.
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bindings.h"
+#include "caller.h"
+#include "casters.h"
+#include "record.h"
+#include "rholm/error.h"
+#include "rholm/region.h"
+#include "rholm/smooth.h"
+#include "rholm/transfer.h"
+
+namespace rholm::python {
+namespace {
+
+std::vector<Region> regions_of(const std::vector<std::string>& texts) {
+  std::vector<Region> regions;
+  regions.reserve(texts.size());
+  for (const std::string& text : texts) regions.push_back(parse_region(text));
+  return regions;
+}
+
+PatchFitting parse_fitting(const std::string& name) {
+  if (name == "mean") return PatchFitting::kMean;
+  if (name == "robust") return PatchFitting::kRobust;
+  if (name == "around") return PatchFitting::kAround;
+  throw Error(ErrorCode::kInvalidInput,
+              "no fitting is called '" + name + "'; there are mean, robust and around");
+}
+
+const char* name_of(PatchFitting fitting) {
+  switch (fitting) {
+    case PatchFitting::kMean:
+      return "mean";
+    case PatchFitting::kAround:
+      return "around";
+    case PatchFitting::kRobust:
+      break;
+  }
+  return "robust";
+}
+
+TransferMode parse_mode(const std::string& name) {
+  if (name == "displacement") return TransferMode::kDisplacement;
+  if (name == "coefficients") return TransferMode::kCoefficients;
+  throw Error(ErrorCode::kInvalidInput,
+              "no mode is called '" + name + "'; there are displacement and coefficients");
+}
+
+void bind_smooth(nb::module_& m) {
+  m.def("region_weights",
+        [](const Mesh& mesh, const std::vector<std::string>& regions, double transition) {
+          return array_of(region_weights(mesh, regions_of(regions), transition));
+        });
+  Options<PatchOptions>(m, "PatchOptions", "What is to go from a region.")
+      .field("wavelength", &PatchOptions::wavelength)
+      .field("transition", &PatchOptions::transition)
+      .choice("fitting", &PatchOptions::fitting, parse_fitting, name_of)
+      .field("repair", &PatchOptions::repair);
+  nb::class_<Patch>(m, "Patch", "The vertices that may move, and where fits want them.")
+      .def_ro("wavelength", &Patch::wavelength)
+      .def_ro("degree", &Patch::degree)
+      .def_ro("caps", &Patch::caps)
+      .def_ro("unreached", &Patch::unreached)
+      .def_prop_ro(
+          "vertices",
+          [](const Patch& p) { return array_of(std::vector<std::uint32_t>(p.vertices)); },
+          nb::rv_policy::automatic)
+      .def_prop_ro(
+          "positions", [](const Patch& p) { return array_of(std::vector<Vec3>(p.positions)); },
+          nb::rv_policy::automatic)
+      .def_prop_ro(
+          "weights", [](const Patch& p) { return array_of(p.weights); }, nb::rv_policy::automatic);
+  m.def("analyze_patch", [](const Mesh& mesh, const std::vector<std::string>& regions,
+                            const PatchOptions& options, const Caller& caller) {
+    const std::vector<Region> where = regions_of(regions);
+    return caller.run(
+        [&](const Context& context) { return analyze_patch(mesh, where, options, context); });
+  });
+  m.def("longest_wavelength", &longest_wavelength);
+  m.def("update_patch", [](const Patch& patch, double wavelength, double strength) {
+    return array_of(update(patch, PatchUpdate{wavelength, strength}));
+  });
+  m.def("apply", [](const Patch& patch, const Rows& positions, Mesh mesh) {
+    if (positions.shape(0) != patch.vertices.size()) {
+      throw Error(ErrorCode::kInvalidInput, std::to_string(positions.shape(0)) + " positions for " +
+                                                std::to_string(patch.vertices.size()) +
+                                                " vertices of the patch");
+    }
+    for (const std::uint32_t v : patch.vertices) {
+      if (v >= mesh.vertices.size()) {
+        throw Error(ErrorCode::kInvalidInput, "the patch is of another mesh");
+      }
+    }
+    apply(patch, span_of(positions), mesh);
+    return mesh;
+  });
+  // The mesh of an editor, changed where it lies: arrays over its vertices see it.
+  m.def("apply_in_place", [](const Patch& patch, double wavelength, double strength, Mesh& mesh) {
+    apply(patch, update(patch, PatchUpdate{wavelength, strength}), mesh);
+  });
+  m.def("copy_mesh", [](const Mesh& mesh) { return mesh; });
+}
+
+TransferUpdate update_of(double height, std::optional<double> angle, bool repeat, bool remove_own,
+                         const std::string& mode) {
+  return {height, angle, repeat, remove_own, parse_mode(mode)};
+}
+
+void bind_transfer(nb::module_& m) {
+  Options<TransferOptions>(m, "TransferOptions", "What counts as detail, and how large it is laid.")
+      .field("from_degree", &TransferOptions::from_degree)
+      .field("scale", &TransferOptions::scale)
+      .field("refine", &TransferOptions::refine)
+      .field("transition", &TransferOptions::transition);
+  Record<TransferReport>(m, "TransferReport",
+                         "What the analysis found; lengths are in the units of the two meshes.")
+      .field("source_radius", &TransferReport::source_radius,
+             "Of a disc with the area of the source's base.")
+      .field("target_radius", &TransferReport::target_radius, "Likewise of the target's.")
+      .field("scale", &TransferReport::scale, "Lengths on the target per length on the source.")
+      .field("source_wavelength", &TransferReport::source_wavelength, "Of the source's base.")
+      .field("target_wavelength", &TransferReport::target_wavelength, "Of the target's base.")
+      .field("source_edge", &TransferReport::source_edge, "Median length of an edge.")
+      .field("target_edge", &TransferReport::target_edge, "The same after refinement.")
+      .field("source_rms", &TransferReport::source_rms, "Height of the texture in its region.")
+      .field("angle", &TransferReport::angle, "Of best correlation, radians.")
+      .field("correlation", &TransferReport::correlation,
+             "With the target's own detail there, -1 ... 1.")
+      .field("new_vertices", &TransferReport::new_vertices, "By refinement.");
+  nb::class_<TransferAnalysis>(m, "TransferAnalysis", "What an analysis knows.")
+      .def_prop_ro("mesh", [](const TransferAnalysis& a) { return a.mesh; })
+      .def_prop_ro("patch", [](const TransferAnalysis& a) { return a.patch; })
+      .def_ro("report", &TransferAnalysis::report);
+  m.def("analyze_transfer", [](const Mesh& source, const std::vector<std::string>& from,
+                               const Mesh& target, const std::vector<std::string>& to,
+                               const TransferOptions& options, const Caller& caller) {
+    const std::vector<Region> taken = regions_of(from), laid = regions_of(to);
+    return caller.run([&](const Context& context) {
+      return analyze_transfer(source, taken, target, laid, options, context);
+    });
+  });
+  m.def(
+      "update_transfer",
+      [](const TransferAnalysis& analysis, double height, std::optional<double> angle, bool repeat,
+         bool remove_own, const std::string& mode, const Caller& caller) {
+        const TransferUpdate wanted = update_of(height, angle, repeat, remove_own, mode);
+        return array_of(caller.run([&](const Context&) { return update(analysis, wanted); }));
+      },
+      nb::arg(), nb::arg(), nb::arg().none(), nb::arg(), nb::arg(), nb::arg(), nb::arg());
+  m.def(
+      "apply_transfer_in_place",
+      [](const TransferAnalysis& analysis, double height, std::optional<double> angle, bool repeat,
+         bool remove_own, const std::string& mode, Mesh& mesh, const Caller& caller) {
+        const TransferUpdate wanted = update_of(height, angle, repeat, remove_own, mode);
+        caller.run([&](const Context&) { apply(analysis.patch, update(analysis, wanted), mesh); });
+      },
+      nb::arg(), nb::arg(), nb::arg().none(), nb::arg(), nb::arg(), nb::arg(), nb::arg(),
+      nb::arg());
+}
+
+}  // namespace
+
+void bind_edits(nb::module_& m) {
+  bind_smooth(m);
+  bind_transfer(m);
+}
+
+}  // namespace rholm::python

@@ -1,0 +1,37 @@
+// Errors of the library as exceptions of Python, which rholm/_errors.py defines.
+#include <nanobind/nanobind.h>
+
+#include <exception>
+#include <string>
+
+#include "bindings.h"
+#include "rholm/error.h"
+
+namespace rholm::python {
+namespace {
+
+namespace nb = nanobind;
+
+// Called with the interpreter's lock.
+void translate(const std::exception_ptr& thrown, void*) {
+  try {
+    std::rethrow_exception(thrown);
+  } catch (const Error& error) {
+    const nb::object types = nb::module_::import_("rholm._errors").attr("BY_CODE");
+    const nb::object type = types[to_string(error.code())];
+    PyErr_SetObject(type.ptr(), nb::str(error.what()).ptr());
+  }
+}
+
+}  // namespace
+
+void bind_errors(nb::module_& m) {
+  nb::register_exception_translator(&translate, nullptr);
+  nb::list codes;
+  for (int code = 0; code <= static_cast<int>(ErrorCode::kCancelled); ++code) {
+    codes.append(to_string(static_cast<ErrorCode>(code)));
+  }
+  m.attr("ERROR_CODES") = nb::tuple(codes);
+}
+
+}  // namespace rholm::python

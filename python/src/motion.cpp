@@ -1,0 +1,186 @@
+// Rotations, mirror images, alignment, other centres.
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <string>
+#include <utility>
+
+#include "bindings.h"
+#include "caller.h"
+#include "casters.h"
+#include "record.h"
+#include "rholm/align.h"
+#include "rholm/error.h"
+#include "rholm/recenter.h"
+#include "rholm/rotate.h"
+
+namespace rholm::python {
+namespace {
+
+Axis parse_axis(const std::string& name) {
+  if (name == "x") return Axis::kX;
+  if (name == "y") return Axis::kY;
+  if (name == "z") return Axis::kZ;
+  throw Error(ErrorCode::kInvalidInput, "no axis is called '" + name + "'; there are x, y and z");
+}
+
+AlignStart parse_start(const std::string& name) {
+  if (name == "correlation") return AlignStart::kCorrelation;
+  if (name == "principal-axes") return AlignStart::kPrincipalAxes;
+  throw Error(ErrorCode::kInvalidInput, "no start of a search is called '" + name +
+                                            "'; there are correlation and principal-axes");
+}
+
+const char* name_of(AlignStart start) {
+  return start == AlignStart::kCorrelation ? "correlation" : "principal-axes";
+}
+
+AlignCenters parse_centers(const std::string& name) {
+  if (name == "volume") return AlignCenters::kVolume;
+  if (name == "own") return AlignCenters::kOwn;
+  throw Error(ErrorCode::kInvalidInput,
+              "no choice of centres is called '" + name + "'; there are volume and own");
+}
+
+void bind_rotations(nb::module_& m) {
+  Record<Rotation> rotation(m, "Rotation", "A unit quaternion; the same rotation as its negative.");
+  rotation.type().def(
+      "__init__",
+      [](Rotation* self, double w, double x, double y, double z) {
+        new (self) Rotation{w, x, y, z};
+      },
+      nb::arg("w") = 1.0, nb::arg("x") = 0.0, nb::arg("y") = 0.0, nb::arg("z") = 0.0);
+  rotation.field("w", &Rotation::w, "cos(a/2), a the angle.")
+      .field("x", &Rotation::x, "sin(a/2) times the axis.")
+      .field("y", &Rotation::y, "sin(a/2) times the axis.")
+      .field("z", &Rotation::z, "sin(a/2) times the axis.");
+  m.def("rotation_about", &rotation_about);
+  m.def("rotation_of_euler", [](double alpha, double beta, double gamma) {
+    return rotation_of(EulerAngles{alpha, beta, gamma});
+  });
+  m.def("rotation_of_matrix", [](const Rows& rows) {
+    if (rows.shape(0) != 3) {
+      throw Error(ErrorCode::kInvalidInput, "a rotation's matrix is an array (3, 3)");
+    }
+    const std::span<const Vec3> r = span_of(rows);
+    return rotation_of(RotationMatrix{r[0], r[1], r[2]});
+  });
+  m.def("axis_angle_of", [](const Rotation& r) {
+    const AxisAngle turn = axis_angle_of(r);
+    return nb::make_tuple(turn.axis, turn.angle);
+  });
+  m.def("euler_angles_of", [](const Rotation& r) {
+    const EulerAngles angles = euler_angles_of(r);
+    return nb::make_tuple(angles.alpha, angles.beta, angles.gamma);
+  });
+  m.def("matrix_of", [](const Rotation& r) {
+    const RotationMatrix rows = matrix_of(r);
+    return array_of(std::vector<Vec3>(rows.begin(), rows.end()));
+  });
+  m.def("compose", &compose);
+  m.def("inverse", &inverse);
+  m.def("angle_between", &angle_between);
+  m.def("rotate", [](const Rows& points, const Rotation& r) {
+    std::vector<Vec3> moved = vector_of(points);
+    for (Vec3& x : moved) x = rotate(x, r);
+    return array_of(std::move(moved));
+  });
+  m.def("rotate", [](const Coefficients& c, const Rotation& r, const Caller& caller) {
+    return caller.run([&](const Context& context) { return rotate(c, r, context); });
+  });
+  m.def("rotate",
+        [](const Expansion& e, const Rotation& r, const Vec3& about, const Caller& caller) {
+          return caller.run([&](const Context& context) { return rotate(e, r, about, context); });
+        });
+  m.def("mirror",
+        [](const Coefficients& c, const std::string& axis) { return mirror(c, parse_axis(axis)); });
+  m.def("mirror", [](const Expansion& e, const std::string& axis, const Vec3& about) {
+    return mirror(e, parse_axis(axis), about);
+  });
+}
+
+void bind_alignment(nb::module_& m) {
+  Record<PrincipalAxes>(m, "PrincipalAxes", "The axes of the quadratic form of degree 2.")
+      .property(
+          "axes",
+          [](const PrincipalAxes& p) {
+            return array_of(std::vector<Vec3>(p.axes.begin(), p.axes.end()));
+          },
+          "Rows: right-handed, orthonormal, longest first, (3, 3).")
+      .property(
+          "values",
+          [](const PrincipalAxes& p) {
+            return array_of(std::vector<double>(p.values.begin(), p.values.end()));
+          },
+          "Of the form, descending, (3,); their sum is 0.")
+      .field("to_axes", &PrincipalAxes::to_axes, "Turns the axes to x, y and z.")
+      .field("free_axes", &PrincipalAxes::free_axes,
+             "About these the form turns freely: none, one or three, (n, 3).");
+  m.def("principal_axes", [](const Coefficients& c, const std::string& function) {
+    return principal_axes(c, parse_radial_function(function));
+  });
+
+  Options<AlignOptions>(m, "AlignOptions", "How a rotation is sought.")
+      .choice("start", &AlignOptions::start, parse_start, name_of)
+      .field("bandwidth", &AlignOptions::bandwidth)
+      .field("refine_degree", &AlignOptions::refine_degree)
+      .field("margin", &AlignOptions::margin)
+      .field("allow_mirror", &AlignOptions::allow_mirror)
+      .field("unknown_a", &AlignOptions::unknown_a)
+      .field("unknown_b", &AlignOptions::unknown_b);
+  Record<AlignedRotation>(m, "AlignedRotation", "A rotation of a, and how well it lays a on b.")
+      .field("rotation", &AlignedRotation::rotation, "Of the mirror image, if mirrored.")
+      .field("mirrored", &AlignedRotation::mirrored,
+             "Whether the reflection x -> -x comes first; y and z stay.")
+      .field("correlation", &AlignedRotation::correlation,
+             "Of degrees from 1 on, normalised: 1 is equal up to a factor.")
+      .field("distance", &AlignedRotation::distance,
+             "Root mean square of R a - b over the sphere, all degrees.");
+  Record<Alignment>(m, "Alignment", "The best rotation, and those that are nearly as good.")
+      .field("best", &Alignment::best, "Of several that are equal the smallest turn.")
+      .field("ambiguities", &Alignment::ambiguities,
+             "Others that are nearly as good, best first, at most 32: symmetries of the shape.")
+      .field("free_axes", &Alignment::free_axes,
+             "Axes in the frame of b about which turning changes nothing, (n, 3).")
+      .field("unaligned_distance", &Alignment::unaligned_distance, "Before any rotation.");
+  Record<Placement>(m, "Placement",
+                    "The point p becomes R (p - from_point) + to_point, of the mirror image if "
+                    "mirrored.")
+      .field("alignment", &Placement::alignment, "R and whether it is mirrored.")
+      .field("from_point", &Placement::from, "The point of a that is laid on b's, (3,).")
+      .field("to_point", &Placement::to, "The point of b, (3,).");
+  m.def("align", [](const Coefficients& a, const Coefficients& b, const AlignOptions& options,
+                    const Caller& caller) {
+    return caller.run([&](const Context& context) { return align(a, b, options, context); });
+  });
+  m.def("align", [](const Expansion& a, const Expansion& b, const std::string& centers,
+                    const AlignOptions& options, const Caller& caller) {
+    const AlignCenters which = parse_centers(centers);
+    return caller.run([&](const Context& context) { return align(a, b, which, options, context); });
+  });
+  m.def("placed", [](const Expansion& a, const Placement& placement, const Caller& caller) {
+    return caller.run([&](const Context& context) { return placed(a, placement, context); });
+  });
+  m.def("distance", &distance);
+  m.def("descriptor_distance", &descriptor_distance);
+}
+
+void bind_centers(nb::module_& m) {
+  m.def("volume_centroid", [](const Expansion& e, const Caller& caller) {
+    return caller.run([&](const Context& context) { return volume_centroid(e, context); });
+  });
+  m.def("recentered", [](const Expansion& e, const Vec3& center, const Caller& caller) {
+    return caller.run([&](const Context& context) { return recentered(e, center, context); });
+  });
+}
+
+}  // namespace
+
+void bind_motion(nb::module_& m) {
+  bind_rotations(m);
+  bind_alignment(m);
+  bind_centers(m);
+}
+
+}  // namespace rholm::python

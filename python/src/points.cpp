@@ -1,0 +1,71 @@
+// Points made from meshes, put in order, given normals.
+#include "rholm/points.h"
+
+#include <utility>
+
+#include "bindings.h"
+#include "caller.h"
+#include "casters.h"
+#include "record.h"
+
+namespace rholm::python {
+
+void bind_points(nb::module_& m) {
+  Options<SampleOptions>(m, "SampleOptions", "What is measured of a surface.")
+      .field("points", &SampleOptions::points)
+      .field("noise", &SampleOptions::noise)
+      .field("normal_noise", &SampleOptions::normal_noise)
+      .field("outliers", &SampleOptions::outliers)
+      .field("holes", &SampleOptions::holes)
+      .field("hole_radius", &SampleOptions::hole_radius)
+      .field("density_ratio", &SampleOptions::density_ratio)
+      .field("normals", &SampleOptions::normals)
+      .field("seed", &SampleOptions::seed);
+  m.def("sample_surface", [](const Mesh& mesh, const SampleOptions& options, const Caller& caller) {
+    return caller.run(
+        [&](const Context& context) { return sample_surface(mesh, options, context); });
+  });
+
+  Record<CleanReport>(m, "CleanReport", "What clean() found.")
+      .field("points", &CleanReport::points, "Number of points before.")
+      .field("not_finite", &CleanReport::not_finite,
+             "Points dropped: a coordinate was NaN or infinite.")
+      .field("duplicates", &CleanReport::duplicates,
+             "Points dropped: at the place of an earlier one.")
+      .field("opposite_normals", &CleanReport::opposite_normals,
+             "Of these, with a normal against the earlier one's.")
+      .field("zero_normals", &CleanReport::zero_normals,
+             "Of the points that stay, those with a zero normal.");
+  m.def("clean", [](PointCloud cloud, const Caller& caller) {
+    const CleanReport report = caller.run([&](const Context&) { return clean(cloud); });
+    return nb::make_tuple(std::move(cloud), report);
+  });
+
+  Options<OrientOptions>(m, "OrientOptions", "How normals are found and which side is outside.")
+      .field("neighbors", &OrientOptions::neighbors)
+      .field("keep_directions", &OrientOptions::keep_directions)
+      .field("center", &OrientOptions::center)
+      .field("sensor", &OrientOptions::sensor);
+  Record<OrientReport>(m, "OrientReport", "What orient() did, and how sure it is.")
+      .field("points", &OrientReport::points, "Number of points given.")
+      .field("duplicates", &OrientReport::duplicates,
+             "Points at the place of an earlier one; they share its normal.")
+      .field("neighbors", &OrientReport::neighbors, "Points of a fit.")
+      .field("components", &OrientReport::components,
+             "Of the graph of neighbours; 0 with a centre or a sensor.")
+      .field("computed", &OrientReport::computed, "Normals whose direction is new.")
+      .field("flipped", &OrientReport::flipped,
+             "Normals that point to the other side now than they did.")
+      .field("undetermined", &OrientReport::undetermined,
+             "Points whose neighbours lie on a line: their normals are zero.")
+      .field("mean_confidence", &OrientReport::mean_confidence,
+             "0 ... 1: how far neighbours and winding numbers agree with the normals.")
+      .field("unsure", &OrientReport::unsure, "Share of the points with a confidence below 0.5.");
+  m.def("orient", [](PointCloud cloud, const OrientOptions& options, const Caller& caller) {
+    const OrientReport report =
+        caller.run([&](const Context& context) { return orient(cloud, options, context); });
+    return nb::make_tuple(std::move(cloud), report);
+  });
+}
+
+}  // namespace rholm::python

@@ -1,0 +1,66 @@
+// Surfaces from points.
+#include "rholm/reconstruct.h"
+
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+
+#include <utility>
+
+#include "bindings.h"
+#include "caller.h"
+#include "casters.h"
+#include "record.h"
+
+namespace rholm::python {
+
+void bind_reconstruction(nb::module_& m) {
+  Options<ReconstructOptions>(m, "ReconstructOptions", "What is wanted of the surface.")
+      .field("step", &ReconstructOptions::step)
+      .field("tolerance", &ReconstructOptions::tolerance)
+      .field("noise", &ReconstructOptions::noise)
+      .choice("holes", &ReconstructOptions::holes, parse_hole_policy, to_string)
+      .choice("blend", &ReconstructOptions::blend, parse_cap_blend, to_string)
+      .field("min_component", &ReconstructOptions::min_component)
+      .field("remove_outliers", &ReconstructOptions::remove_outliers)
+      .field("simplify", &ReconstructOptions::simplify)
+      .field("max_memory", &ReconstructOptions::max_memory);
+  Record<ReconstructReport>(m, "ReconstructReport",
+                            "What was found in the points, and what became of them; lengths are in "
+                            "their unit.")
+      .field("points", &ReconstructReport::points, "Number of points given.")
+      .field("dropped_points", &ReconstructReport::dropped_points,
+             "Not finite, at the place of another, without a normal.")
+      .field("outliers", &ReconstructReport::outliers, "Points removed.")
+      .field("computed_normals", &ReconstructReport::computed_normals,
+             "Whether the points had none.")
+      .field("turned_normals", &ReconstructReport::turned_normals,
+             "Whether all pointed into the solid, and were turned.")
+      .field("spacing", &ReconstructReport::spacing,
+             "Median distance between neighbours, as if on a square grid.")
+      .field("noise", &ReconstructReport::noise, "Standard deviation along the normal.")
+      .field("normal_noise_degrees", &ReconstructReport::normal_noise_degrees,
+             "Of the normals against the surface.")
+      .field("neighbours", &ReconstructReport::neighbours, "Points of a typical cap.")
+      .field("caps", &ReconstructReport::caps, "Of the atlas.")
+      .field("step", &ReconstructReport::step, "Edge of the grid's cubes.")
+      .field("holes", &ReconstructReport::holes,
+             "Places without points that were closed, or cut out.")
+      .field("smooth_holes", &ReconstructReport::smooth_holes,
+             "Of those closed, by a surface that continues the rim.")
+      .field("dropped_components", &ReconstructReport::dropped_components,
+             "Parts of the surface that were too small.")
+      .field("faces", &ReconstructReport::faces, "Of the surface before it was simplified.")
+      .field("simplify_error", &ReconstructReport::simplify_error, "By simplify().")
+      .field("memory", &ReconstructReport::memory, "Foreseen, bytes.")
+      .field("times", &ReconstructReport::times, "Stages: (wall, cpu) in seconds.");
+  m.def("reconstruct",
+        [](PointCloud cloud, const ReconstructOptions& options, const Caller& caller) {
+          Reconstruction result = caller.run([&](const Context& context) {
+            return reconstruct(std::move(cloud), options, context);
+          });
+          return nb::make_tuple(std::move(result.mesh), std::move(result.atlas),
+                                std::move(result.report));
+        });
+}
+
+}  // namespace rholm::python

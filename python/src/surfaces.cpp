@@ -1,0 +1,70 @@
+// From an expansion to a mesh, its measures, distances between surfaces.
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <utility>
+#include <vector>
+
+#include "bindings.h"
+#include "caller.h"
+#include "casters.h"
+#include "record.h"
+#include "rholm/compare.h"
+#include "rholm/synthesize.h"
+
+namespace rholm::python {
+
+void bind_surfaces(nb::module_& m) {
+  m.def("synthesize", [](const Expansion& expansion, const Mesh& sphere,
+                         const std::vector<int>& degrees, const Caller& caller) {
+    std::vector<Mesh> meshes = caller.run(
+        [&](const Context& context) { return synthesize(expansion, sphere, degrees, context); });
+    nb::list result;
+    for (Mesh& mesh : meshes) result.append(std::move(mesh));
+    return result;
+  });
+  m.def("directions_of", &directions_of);
+  Record<SurfaceMeasures>(m, "SurfaceMeasures", "Of the solid bounded by a surface.")
+      .field("volume", &SurfaceMeasures::volume, "In the cubed unit.")
+      .field("area", &SurfaceMeasures::area, "Of the surface, in the squared unit.")
+      .field("centroid", &SurfaceMeasures::centroid, "Of the solid, (3,).");
+  m.def("measure", [](const Expansion& expansion, const Caller& caller) {
+    return caller.run([&](const Context& context) { return measure(expansion, context); });
+  });
+
+  Options<CompareOptions>(m, "CompareOptions", "Where distances are measured.")
+      .field("samples", &CompareOptions::samples)
+      .field("seed", &CompareOptions::seed)
+      .field("threshold", &CompareOptions::threshold);
+  Record<Distances>(m, "Distances", "Of all samples, in the shape's unit.")
+      .field("rms", &Distances::rms, "Root mean square.")
+      .field("mean", &Distances::mean, "Mean.")
+      .field("max", &Distances::max, "Largest.");
+  Record<Comparison>(m, "Comparison", "How far two surfaces lie apart, in the shape's unit.")
+      .field("samples", &Comparison::samples, "On each surface.")
+      .field("seed", &Comparison::seed, "They were drawn with.")
+      .field("diagonal", &Comparison::diagonal, "Of the bounding box of a.")
+      .field("a_to_b", &Comparison::a_to_b, "From samples of a to their closest points on b.")
+      .field("b_to_a", &Comparison::b_to_a, "And the other way.")
+      .field("hausdorff", &Comparison::hausdorff,
+             "The larger of the two largest: a lower bound of the Hausdorff distance.")
+      .field("threshold", &Comparison::threshold, "Of the F-score.")
+      .field("precision", &Comparison::precision, "Share of b's samples within it of a.")
+      .field("recall", &Comparison::recall, "Share of a's samples within it of b.")
+      .field("f_score", &Comparison::f_score, "Harmonic mean of the two.")
+      .field("normal_median_degrees", &Comparison::normal_median_degrees,
+             "Median angle between normals, degrees.")
+      .field("normal_mean_degrees", &Comparison::normal_mean_degrees,
+             "Mean angle between normals, degrees.");
+  m.def("compare", [](const Mesh& a, const Mesh& b, const CompareOptions& options,
+                      const Caller& caller) {
+    return caller.run([&](const Context& context) { return compare(a, b, options, context); });
+  });
+  m.def("distances_to_surface", [](const Rows& points, const Mesh& surface, const Caller& caller) {
+    const std::vector<Vec3> at = vector_of(points);
+    return array_of(caller.run(
+        [&](const Context& context) { return distances_to_surface(at, surface, context); }));
+  });
+}
+
+}  // namespace rholm::python

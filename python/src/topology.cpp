@@ -1,0 +1,151 @@
+// Edges, welding, inspection, repair, fewer triangles, shapes with a known answer.
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bindings.h"
+#include "caller.h"
+#include "casters.h"
+#include "record.h"
+#include "rholm/mesh_view.h"
+#include "rholm/primitives.h"
+#include "rholm/repair.h"
+#include "rholm/simplify.h"
+#include "rholm/topology.h"
+
+namespace rholm::python {
+namespace {
+
+void bind_records(nb::module_& m) {
+  Record<Bounds>(m, "Bounds", "A box along the axes.")
+      .field("min", &Bounds::min, "The corner with the smallest coordinates, (3,) float64.")
+      .field("max", &Bounds::max, "The corner with the largest, (3,) float64.")
+      .property(
+          "diagonal", [](const Bounds& b) { return b.diagonal(); }, "Its length.");
+  Record<Inspection>(
+      m, "Inspection",
+      "What a mesh is. Counts are those of the mesh given: weld first to close seams.")
+      .field("vertices", &Inspection::vertices, "Number of vertices, used or not.")
+      .field("triangles", &Inspection::triangles, "Number of triangles, with an area or not.")
+      .field("edges", &Inspection::edges, "Pairs of vertices that a triangle joins.")
+      .field("boundary_edges", &Inspection::boundary_edges, "Edges in one triangle only.")
+      .field("non_manifold_edges", &Inspection::non_manifold_edges,
+             "Edges in three triangles or more.")
+      .field("misoriented_edges", &Inspection::misoriented_edges,
+             "Edges in two triangles that run through them in the same sense.")
+      .field("non_manifold_vertices", &Inspection::non_manifold_vertices,
+             "Vertices whose triangles do not form one fan.")
+      .field("isolated_vertices", &Inspection::isolated_vertices, "Vertices in no triangle.")
+      .field("degenerate_triangles", &Inspection::degenerate_triangles, "Triangles without area.")
+      .field("duplicate_triangles", &Inspection::duplicate_triangles,
+             "Triangles with the three vertices of an earlier one.")
+      .field("components", &Inspection::components, "Parts connected through edges.")
+      .field("euler_characteristic", &Inspection::euler_characteristic,
+             "Used vertices - edges + triangles.")
+      .field("genus", &Inspection::genus,
+             "Handles, of all parts together; of closed manifold meshes.")
+      .field("closed", &Inspection::closed, "No boundary edge, at least one triangle.")
+      .field("manifold", &Inspection::manifold, "No non-manifold edge or vertex.")
+      .field("oriented", &Inspection::oriented, "No misoriented edge.")
+      .field("inside_out", &Inspection::inside_out,
+             "Closed and oriented, but the enclosed volume is negative.")
+      .field("bounds", &Inspection::bounds, "Of all vertices.")
+      .field("area", &Inspection::area, "Of all triangles, in the squared unit of the vertices.")
+      .field("volume", &Inspection::volume, "Signed, of closed oriented meshes, in the cubed unit.")
+      .field("vertex_centroid", &Inspection::vertex_centroid, "Mean of the used vertices, (3,).")
+      .field("volume_centroid", &Inspection::volume_centroid, "Of the solid, (3,).");
+  Record<RepairReport>(m, "RepairReport", "What was done to a mesh, and what could not be.")
+      .field("before", &RepairReport::before, "Inspection of the mesh welded exactly.")
+      .field("merged_vertices", &RepairReport::merged_vertices, "Vertices merged by welding.")
+      .field("collapsed_triangles", &RepairReport::collapsed_triangles,
+             "Triangles of which welding made two corners one.")
+      .field("isolated_vertices", &RepairReport::isolated_vertices,
+             "Vertices dropped: in no triangle.")
+      .field("duplicate_triangles", &RepairReport::duplicate_triangles,
+             "Triangles dropped: same vertices as an earlier one.")
+      .field("degenerate_triangles", &RepairReport::degenerate_triangles,
+             "Triangles without area, dropped or turned into others.")
+      .field("flipped_triangles", &RepairReport::flipped_triangles, "Triangles that were turned.")
+      .field("inside_out_parts", &RepairReport::inside_out_parts,
+             "Closed parts that were turned as a whole.")
+      .field("cavities", &RepairReport::cavities, "Closed parts within another: they face inwards.")
+      .field("split_vertices", &RepairReport::split_vertices,
+             "New vertices where sheets met in one.")
+      .field("closed_holes", &RepairReport::closed_holes, "Holes closed by new triangles.")
+      .field("hole_triangles", &RepairReport::hole_triangles, "Triangles put into them.")
+      .field("large_holes", &RepairReport::large_holes, "Holes left: more edges than allowed.")
+      .field("largest_hole", &RepairReport::largest_hole, "Edges of the largest of these.")
+      .field("sheets", &RepairReport::sheets, "Holes left: borders of open sheets.")
+      .field("one_sided_parts", &RepairReport::one_sided_parts,
+             "Parts left without an orientation (Moebius strips).")
+      .field("closes_at", &RepairReport::closes_at,
+             "The tolerance of welding that would join the borders left, or None.")
+      .field("after", &RepairReport::after, "Inspection of the result.");
+}
+
+void bind_edges(nb::module_& m) {
+  m.def("weld", [](const Mesh& mesh, double tolerance) {
+    Welded welded = weld(mesh, tolerance);
+    return nb::make_tuple(std::move(welded.mesh), welded.merged_vertices,
+                          welded.collapsed_triangles);
+  });
+  m.def("pair_edges", [](const Mesh& mesh) {
+    static_assert(sizeof(Edge) == 4 * sizeof(std::uint32_t));
+    std::vector<Edge> edges = pair_edges(mesh);
+    const std::size_t n = edges.size();
+    return array_of<std::uint32_t>(std::move(edges), {n, 4});
+  });
+  m.def("bounds", [](const Rows& points) { return bounds(vector_of(points)); });
+  m.def("inspect", [](const Mesh& mesh) { return inspect(mesh); });
+  m.def("closing_tolerance", &closing_tolerance);
+  m.def("largest_component", &largest_component);
+  m.def("flip", [](Mesh mesh) {
+    flip(mesh);
+    return mesh;
+  });
+  m.def("area_normals",
+        [](const Mesh& mesh) { return array_of(area_normals(mesh.vertices, mesh.triangles)); });
+  m.def("surface_area", &surface_area);
+  m.def("enclosed_volume", &enclosed_volume);
+}
+
+void bind_repair(nb::module_& m) {
+  m.def("repair", [](const Mesh& mesh, double weld, std::size_t max_hole, const Caller& caller) {
+    Repaired repaired = caller.run([&](const Context& context) {
+      return repair(mesh, {.weld = weld, .max_hole = max_hole}, context);
+    });
+    return nb::make_tuple(std::move(repaired.mesh), repaired.report);
+  });
+  Options<SimplifyOptions>(m, "SimplifyOptions", "Where simplify() stops.")
+      .field("triangles", &SimplifyOptions::triangles)
+      .field("share", &SimplifyOptions::share)
+      .field("max_error", &SimplifyOptions::max_error);
+  m.def("simplify", [](const Mesh& mesh, const SimplifyOptions& options, const Caller& caller) {
+    Simplification result =
+        caller.run([&](const Context& context) { return simplify(mesh, options, context); });
+    return nb::make_tuple(std::move(result.mesh), result.error);
+  });
+}
+
+void bind_primitives(nb::module_& m) {
+  m.def("icosphere", &icosphere, nb::call_guard<nb::gil_scoped_release>());
+  m.def("latitude_longitude_sphere", &latitude_longitude_sphere,
+        nb::call_guard<nb::gil_scoped_release>());
+  m.def("ellipsoid", &ellipsoid, nb::call_guard<nb::gil_scoped_release>());
+  m.def("box", &box, nb::call_guard<nb::gil_scoped_release>());
+  m.def("torus", &torus, nb::call_guard<nb::gil_scoped_release>());
+  m.def("bumpy_sphere", &bumpy_sphere, nb::call_guard<nb::gil_scoped_release>());
+}
+
+}  // namespace
+
+void bind_topology(nb::module_& m) {
+  bind_records(m);
+  bind_edges(m);
+  bind_repair(m);
+  bind_primitives(m);
+}
+
+}  // namespace rholm::python

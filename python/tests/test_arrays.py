@@ -1,0 +1,170 @@
+"""Arrays as users have them: layouts, types, what is copied and what is refused."""
+
+from __future__ import annotations
+
+import itertools
+import pickle
+
+import numpy as np
+import pytest
+import rholm
+from rholm._arrays import triangle_rows, vertex_rows
+
+
+def layouts(array: np.ndarray) -> dict[str, np.ndarray]:
+    wide = np.zeros((len(array), 5), array.dtype)
+    wide[:, 1:4] = array
+    every = np.zeros((2 * len(array), 3), array.dtype)
+    every[::2] = array
+    locked = array.copy()
+    locked.flags.writeable = False
+    record = np.zeros(len(array), [("flag", "u1"), ("row", array.dtype, 3)])  # not aligned
+    record["row"] = array
+    return {
+        "C": array.copy(),
+        "Fortran": np.asfortranarray(array),
+        "columns of a wider array": wide[:, 1:4],
+        "every second row": every[::2],
+        "reversed twice": array[::-1].copy()[::-1],
+        "read-only": locked,
+        "fields of records": record["row"],
+        "big-endian": array.astype(array.dtype.newbyteorder(">")),
+    }
+
+
+@pytest.mark.parametrize("floats", ["f4", "f8"])
+@pytest.mark.parametrize("ints", ["i4", "u4", "i8", "u8", "i2"])
+def test_every_layout_gives_the_same_bits(bumpy, floats, ints):
+    vertices = bumpy.vertices.astype(floats)
+    triangles = bumpy.triangles.astype(ints)
+    how = {"degree": 12, "errors": False, "rays": 0}  # the quickest way to coefficients
+    expected = rholm.expand((vertices, triangles), **how).coeffs
+    assert expected.any()
+    for (name, v), t in itertools.product(layouts(vertices).items(), layouts(triangles).values()):
+        assert np.array_equal(rholm.expand((v, t), **how).coeffs, expected), name
+
+
+def test_arrays_that_can_be_used_as_they_lie_are_not_copied(bumpy):
+    for floats, ints in itertools.product(("f4", "f8"), ("i4", "u4")):
+        vertices = bumpy.vertices.astype(floats)
+        triangles = bumpy.triangles.astype(ints)
+        assert vertex_rows(vertices) is vertices
+        assert np.shares_memory(triangle_rows(triangles), triangles)
+        assert np.shares_memory(vertex_rows(vertices[::2]), vertices)
+    columns = np.zeros((10, 5))[:, 1:4]
+    assert vertex_rows(columns) is columns
+
+
+def test_arrays_of_a_mesh_are_its_own_memory(bumpy):
+    assert np.shares_memory(bumpy.vertices, bumpy.vertices)
+    assert np.shares_memory(bumpy.triangles, bumpy.triangles)
+    assert not bumpy.vertices.flags.writeable
+    first = rholm.icosphere(3).vertices  # outlives the mesh
+    assert np.allclose(np.linalg.norm(first, axis=1), 1)
+
+
+def test_float32_is_what_float32_holds(bumpy):
+    single = bumpy.vertices.astype("f4")
+    a = rholm.expand((single, bumpy.triangles), 10)
+    b = rholm.expand((single.astype("f8"), bumpy.triangles), 10)
+    assert np.abs(a.coeffs - b.coeffs).max() <= 1e-15
+
+
+@pytest.mark.parametrize(
+    "shape",
+    [
+        (np.zeros((0, 3)), np.zeros((0, 3), int)),
+        ([], []),
+        (np.zeros((3, 2)), np.zeros((1, 3), int)),
+        (np.zeros((3, 3)), np.zeros((1, 4), int)),
+        (np.zeros((3, 3)), np.array([[0, 1, 3]])),
+        (np.zeros((3, 3)), np.array([[0, 1, -1]])),
+        (np.zeros((3, 3)), np.array([[0, 1, 2**32]])),
+        (np.full((3, 3), np.nan), np.array([[0, 1, 2]])),
+        (np.array([[np.inf, 0, 0], [0, 1, 0], [0, 0, 1]]), np.array([[0, 1, 2]])),
+        (np.zeros(9), np.array([[0, 1, 2]])),
+        (np.zeros((3, 3)), np.array([0, 1, 2])),
+        (np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]]), np.array([[0, 1, 2]])),  # open
+    ],
+)
+def test_what_is_no_mesh_is_refused(shape):
+    with pytest.raises(rholm.InvalidInputError) as refusal:
+        rholm.expand(shape, 4)
+    assert len(str(refusal.value)) > 10
+    assert refusal.value.code == "InvalidInput"
+
+
+@pytest.mark.parametrize(
+    "shape",
+    [
+        None,
+        3,
+        "",
+        object(),
+        (np.zeros((3, 3), complex), np.zeros((1, 3), int)),
+        (np.zeros((3, 3)), np.zeros((1, 3))),
+        (np.zeros((3, 3), object), np.zeros((1, 3), int)),
+        (np.array([["a", "b", "c"]]), np.zeros((1, 3), int)),
+        (np.zeros((3, 3)),),
+    ],
+)
+def test_what_is_no_array_is_refused(shape):
+    with pytest.raises((TypeError, rholm.Error)):
+        rholm.expand(shape, 4)
+
+
+def test_attributes_keep_their_types(tmp_path, bumpy):
+    n = len(bumpy.vertices)
+    given = {
+        "quality": np.linspace(0, 1, n, dtype="f4"),
+        "flag": np.arange(n) % 2 == 0,
+        "id": np.arange(n, dtype="i8"),
+        "far": np.full(n, 2**40, dtype="i8"),
+        "rgb": np.full((n, 3), [1, 2, 3], "u1"),
+        "uv": np.zeros((n, 2)),
+        "stress": np.ones((n, 6)),
+    }
+    mesh = rholm.Mesh(bumpy.vertices, bumpy.triangles, given)
+    mesh.save(tmp_path / "a.ply")
+    for attributes in (mesh.attributes, rholm.read_shape(tmp_path / "a.ply").shape.attributes):
+        assert attributes["quality"].dtype == np.float32
+        assert attributes["flag"].dtype == np.uint8
+        assert attributes["id"].dtype == np.int32
+        assert attributes["far"].dtype == np.float64
+        assert attributes["far"][3] == 2**40
+        assert [attributes[c][5] for c in ("red", "green", "blue")] == [1, 2, 3]
+        assert "stress_5" in attributes
+        assert "u" in attributes
+    with pytest.raises(rholm.InvalidInputError):
+        rholm.Mesh(bumpy.vertices, bumpy.triangles, {"short": np.zeros(3)})
+    with pytest.raises(TypeError):
+        rholm.Mesh(bumpy.vertices, bumpy.triangles, {"text": np.full(n, "a")})
+
+
+def test_shapes_and_expansions_can_be_pickled(bumpy):
+    mesh = pickle.loads(pickle.dumps(bumpy.with_attributes(q=np.arange(len(bumpy.vertices)))))
+    assert np.array_equal(mesh.vertices, bumpy.vertices)
+    assert np.array_equal(mesh.triangles, bumpy.triangles)
+    assert mesh.attributes["q"][7] == 7
+    cloud = rholm.sample_surface(bumpy, 100)
+    copy = pickle.loads(pickle.dumps(cloud))
+    assert np.array_equal(copy.normals, cloud.normals)
+    s = rholm.expand(bumpy, 8, length_unit="km")
+    copy = pickle.loads(pickle.dumps(s))
+    assert copy == s
+    assert copy.unit == "km"
+    assert copy.errors.rms == s.errors.rms
+    assert copy.tail_strength == s.tail_strength
+
+
+def test_a_mapped_file_is_the_mesh_of_the_file(tmp_path, bumpy):
+    bumpy.save(tmp_path / "m.ply")
+    vertices, triangles = rholm.map_mesh(tmp_path / "m.ply")
+    assert np.array_equal(vertices, bumpy.vertices)
+    assert np.array_equal(triangles, bumpy.triangles)
+    assert not vertices.flags.writeable
+    bumpy.save(tmp_path / "m.off")
+    assert rholm.map_mesh(tmp_path / "m.off") is None
+    assert np.array_equal(
+        rholm.expand((vertices, triangles), 8).coeffs, rholm.expand(tmp_path / "m.ply", 8).coeffs
+    )

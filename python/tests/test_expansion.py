@@ -1,0 +1,317 @@
+"""Expansions: closed forms and identities."""
+
+from __future__ import annotations
+
+import subprocess
+
+import numpy as np
+import pytest
+import rholm
+
+
+def test_a_sphere_has_only_degree_zero():
+    s = rholm.from_array(np.pad([[[2.0]], [[0.0]]], ((0, 0), (0, 3), (0, 3))))
+    assert s.degree == 3
+    assert np.isclose(s.volume, 32 / 3 * np.pi, rtol=1e-13)
+    assert np.isclose(s.area, 16 * np.pi, rtol=1e-12)
+    assert np.allclose(s([[1, 2, 3], [0, 0, -5]]), 2, rtol=1e-14)
+    assert np.allclose(s.gradient([1, 2, 3]), 0, atol=1e-13)
+    assert np.allclose(np.linalg.norm(s.mesh(3).vertices, axis=1), 2, rtol=1e-13)
+    assert np.allclose(s.spectrum(), [4, 0, 0, 0])
+    assert np.allclose(s.spectrum("energy"), [16 * np.pi, 0, 0, 0])
+    assert s.mean_radius == 2
+
+
+def test_coefficients_are_integrals_over_the_surface(bumpy):
+    # An oracle of its own: radii along rays to Gauss-Legendre nodes, by exact closest triangles.
+    s = rholm.expand(bumpy, 4, precision=1e-12)
+    n = 120
+    theta = rholm.grid_colatitudes("gauss-legendre", n)
+    _, weights = rholm.gauss_legendre(n)
+    phi = 2 * np.pi * np.arange(2 * n) / (2 * n)
+    sines = np.sin(theta)[:, None]
+    rays = np.stack(
+        [sines * np.cos(phi), sines * np.sin(phi), np.broadcast_to(np.cos(theta)[:, None], (n, 2 * n))],
+        axis=-1,
+    ).reshape(-1, 3)
+    a, b, c = (bumpy.vertices[bumpy.triangles[:, k]] - s.center for k in range(3))
+    normal = np.cross(b - a, c - a)
+    radii = np.zeros(len(rays))
+    for t in range(len(a)):  # which rays meet triangle t, and where
+        inside = np.ones(len(rays), bool)
+        for p, q in ((a, b), (b, c), (c, a)):
+            inside &= rays @ np.cross(p[t], q[t]) >= 0
+        radii[inside] = (normal[t] @ a[t]) / (rays[inside] @ normal[t])
+    assert (radii > 0).all()
+    # Y_00 = 1 and Y_20 in the 4 pi normalisation.
+    mean = (radii.reshape(n, -1).mean(axis=1) * weights).sum() / 2
+    cos2 = 1.5 * np.cos(theta) ** 2 - 0.5
+    y20 = (radii.reshape(n, -1).mean(axis=1) * weights * cos2).sum() / 2 * np.sqrt(5)
+    assert abs(s.coeffs[0, 0, 0] - mean) < 1e-4  # creases: the grid's error, not ours
+    assert abs(s.coeffs[0, 2, 0] - y20) < 1e-4
+
+
+def test_a_direct_sum_agrees_with_the_fast_one(bumpy):
+    fast = rholm.expand(bumpy, 30, precision=1e-10)
+    direct = rholm.expand(bumpy, 30, engine="direct", center=fast.center)
+    scale = np.linalg.norm(direct.coeffs[:, 1:])
+    assert np.linalg.norm(fast.coeffs - direct.coeffs) <= 1e-10 * scale
+
+
+def test_a_tolerance_is_kept(bumpy):
+    for unit, norm in (("absolute", "rms"), ("diagonal", "rms"), ("radius", "max")):
+        s = rholm.expand(bumpy, tolerance=3e-3, unit=unit, norm=norm)
+        kept = s.encoded.tolerance
+        assert kept.met
+        assert kept.reached <= kept.allowed
+        assert kept.degrees[-1] >= s.degree
+    with pytest.raises(rholm.InvalidInputError, match="exclude"):
+        rholm.expand(bumpy, 3, tolerance=0.1)
+
+
+def test_errors_are_those_of_the_surface(bumpy):
+    s = rholm.expand(bumpy, 12)
+    there = s(bumpy.vertices - s.center)
+    radii = np.linalg.norm(bumpy.vertices - s.center, axis=1)
+    assert np.abs(there - radii).max() <= 1.0001 * s.errors.measured_max
+    assert s.errors.rms_is_exact == (s.encoded.analysis.truncation_rms is not None)
+    assert rholm.truncation_errors(bumpy, s).rms == pytest.approx(s.errors.rms, rel=1e-6)
+
+
+def test_gradients_are_derivatives(bumpy, random):
+    s = rholm.expand(bumpy, 16)
+    u = random.normal(size=(20, 3))
+    u /= np.linalg.norm(u, axis=1, keepdims=True)
+    gradient = s.gradient(u)
+    assert np.abs((gradient * u).sum(axis=1)).max() < 1e-10
+    t = np.cross(u, [0.3, -0.2, 0.9])
+    t /= np.linalg.norm(t, axis=1, keepdims=True)
+    h = 1e-4
+    numeric = (s(np.cos(h) * u + np.sin(h) * t) - s(np.cos(h) * u - np.sin(h) * t)) / (2 * h)
+    # Third derivatives of degree L are at most about L^3 times the values.
+    assert np.abs((gradient * t).sum(axis=1) - numeric).max() < 16**3 * h**2
+
+
+def test_the_gauge_is_one_over_r(bumpy):
+    gauge = rholm.expand(bumpy, 24, method="gauge")
+    radius = rholm.expand(bumpy, 24, center=gauge.center)
+    assert gauge.function == "gauge"
+    u = [[0, 0, 1], [1, 1, 1]]
+    assert np.allclose(gauge(u), radius(u), rtol=0.02)
+    assert np.allclose(gauge.gradient(u), radius.gradient(u), atol=0.2)
+
+
+def test_points_lie_on_the_mesh(bumpy):
+    s = rholm.expand(bumpy, 10)
+    mesh = s.mesh(3)
+    sphere = rholm.icosphere(3).vertices
+    assert np.abs(s.points(sphere) - mesh.vertices).max() < 1e-11
+    assert s.points(np.ones((2, 5, 3))).shape == (2, 5, 3)
+    like = s.mesh(like=bumpy)
+    assert np.array_equal(like.triangles, bumpy.triangles)
+    assert len(s.mesh(grid=(10, 20)).vertices) == 202
+    levels = s.meshes([0, 5, 10], 2)
+    assert np.allclose(np.linalg.norm(levels[0].vertices - s.center, axis=1), s.mean_radius)
+    with pytest.raises(rholm.InvalidInputError, match="exclude"):
+        s.mesh(3, grid=(10, 20))
+
+
+def test_rotations_turn_points_and_functions_alike(bumpy, random):
+    s = rholm.expand(bumpy, 12)
+    turn = rholm.rotation_about((1, -2, 0.5), 1.1)
+    turned = s.rotate(turn, about=(1, 2, 3))
+    u = random.normal(size=(20, 3))
+    assert np.allclose(turned(rholm.rotate(u, turn)), s(u), rtol=1e-11)
+    assert np.allclose(turned.center, rholm.rotate(s.center, turn, about=(1, 2, 3)))
+    matrix = rholm.matrix_of(turn)
+    assert np.allclose(matrix @ matrix.T, np.eye(3), atol=1e-15)
+    assert rholm.angle_between(rholm.rotation_of(matrix), turn) < 1e-7
+    assert rholm.angle_between(rholm.rotation_of(*rholm.euler_angles_of(turn)), turn) < 1e-7
+    axis, angle = rholm.axis_angle_of(turn)
+    assert np.isclose(angle, 1.1)
+    assert np.allclose(axis, np.array([1, -2, 0.5]) / np.sqrt(5.25))
+    identity = rholm.compose(rholm.inverse(turn), turn)
+    assert rholm.angle_between(identity, rholm.Rotation()) < 1e-7
+    assert np.allclose(rholm.rotate(s.coeffs, turn), s.rotate(turn).coeffs, atol=1e-13)
+    assert np.allclose(s.mirror("x").mirror("x").coeffs, s.coeffs)
+    assert np.allclose(s.mirror("z")(u * [1, 1, -1]), s(u))
+    scipy_rotation = pytest.importorskip("scipy.spatial.transform").Rotation.from_rotvec(1.1 * axis)
+    assert rholm.angle_between(scipy_rotation, turn) < 1e-7
+
+
+def test_alignment_finds_the_turn_back(bumpy):
+    s = rholm.expand(bumpy, 12)
+    turn = rholm.rotation_about((1, 2, 0.5), 2)
+    placement = rholm.align(s, s.rotate(turn))
+    assert rholm.angle_between(placement.alignment.best.rotation, turn) < 1e-6
+    moved = rholm.placed(s, placement)
+    assert rholm.distance(moved, s.rotate(turn)) < 1e-6
+    alignment = rholm.align(s.coeffs, s.rotate(turn).coeffs)
+    assert rholm.angle_between(alignment.best.rotation, turn) < 1e-6
+    assert rholm.descriptor_distance(s, s.rotate(turn)) < 1e-12
+
+
+def test_filters(bumpy):
+    s = rholm.expand(bumpy, 12)
+    gains = rholm.low_pass(6, 12)
+    assert gains.shape == (13,)
+    assert np.allclose(s.filter(gains).coeffs[0, 3], s.truncate(6).coeffs[0, 3, :7] * gains[3])
+    assert s.filter(gains, "soft").method.endswith("soft")
+    assert np.allclose(rholm.low_pass(5, 12) + rholm.high_pass(6, 12), 1)
+    assert np.allclose(rholm.band_pass(3, 7, 12), rholm.low_pass(7, 12) - rholm.low_pass(2, 12))
+    assert np.allclose(rholm.sharpened([1, 0.5], 2), [1, 2])
+    assert rholm.overshoot("ideal", 64).above == pytest.approx(0.088, abs=0.002)
+    assert rholm.overshoot("heat", 64).above == 0
+    assert rholm.overshoot(rholm.low_pass(64, 64)).above == rholm.overshoot("lanczos", 64).above
+    with pytest.raises(rholm.InvalidInputError):
+        rholm.low_pass(3, 12, "triangle")
+
+
+def test_sums_and_their_transpose(bumpy, random):
+    s = rholm.expand(bumpy, 9)
+    u = random.normal(size=(200, 3))
+    w = random.normal(size=200)
+    for normalization, csphase in (("orthonormal", 1), ("4pi", -1), ("schmidt", 1)):
+        sums = rholm.adjoint(u, w, degree=9, normalization=normalization, csphase=csphase)
+        # <f(u), w> = <c, sums>
+        assert np.isclose(w @ s(u), (s.to_array(normalization, csphase) * sums).sum(), rtol=1e-10)
+    direct = rholm.evaluate(s, u, engine="direct")
+    assert np.abs(direct - rholm.evaluate(s, u)).max() < 1e-10
+    values, gradients = rholm.evaluate_with_gradient(s, u.reshape(10, 20, 3))
+    assert values.shape == (10, 20)
+    assert gradients.shape == (10, 20, 3)
+    g = random.normal(size=(200, 3))
+    unit = u / np.linalg.norm(u, axis=1, keepdims=True)
+    sums = rholm.adjoint(u, degree=9, gradients=g)
+    assert np.isclose((g * s.gradient(unit)).sum(), (s.to_array("orthonormal") * sums).sum(), rtol=1e-9)
+
+
+def test_grids_come_back(bumpy):
+    s = rholm.expand(bumpy, 9)
+    for kind in ("gauss-legendre", "equiangular", "equiangular-with-poles"):
+        grid = rholm.synthesize_grid(s, kind)
+        assert grid.shape == rholm.smallest_grid(kind, 9)
+        assert rholm.exact_degree(kind, *grid.shape) >= 9
+        assert np.abs(rholm.analyze_grid(grid, kind, 9) - s.coeffs).max() < 1e-13
+        rings = rholm.evaluate_rings(s, rholm.grid_colatitudes(kind, grid.shape[0]), grid.shape[1])
+        assert np.abs(rings - grid).max() < 1e-12
+
+
+def test_recentering_keeps_the_surface():
+    s = rholm.expand(rholm.ellipsoid((1.2, 1, 0.9), 4), 12, center=(0.05, 0, 0))
+    moved = s.recenter()
+    assert np.allclose(moved.center, s.centroid, atol=1e-12)
+    assert np.isclose(moved.volume, s.volume, rtol=1e-6)
+    assert np.allclose(rholm.recentered(s, (0, 0, 0.05)).center, (0, 0, 0.05))
+    with pytest.raises(rholm.NotStarShapedError):
+        s.recenter((5, 0, 0))
+
+
+def test_units_scale(bumpy):
+    s = rholm.expand(bumpy, 5, length_unit="km")
+    metres = s.scale(rholm.metres_of("km"), "m")
+    assert metres.unit == "m"
+    assert np.isclose(metres.volume, 1e9 * s.volume, rtol=1e-12)
+    assert rholm.metres_of("parsnip") is None
+    with pytest.raises(rholm.InvalidInputError):
+        s.with_unit("a\nb")
+
+
+@pytest.mark.parametrize("name", ["m.h5", "m.sh", "m.gfc", "m.json", "m.npy"])
+def test_files_come_back(bumpy, tmp_path, name):
+    s = rholm.expand(bumpy, 7, length_unit="km")
+    s.save(tmp_path / name)
+    back = rholm.load(tmp_path / name)
+    assert np.abs(back.coeffs - s.coeffs).max() <= 1e-15
+    if name != "m.npy":
+        assert back.unit == "km"
+        assert np.allclose(back.center, s.center, rtol=1e-15)
+    if name == "m.h5":
+        assert back == s
+        assert back.errors.rms == s.errors.rms
+        assert rholm.is_model_file(tmp_path / name)
+    else:
+        read = rholm.read_coefficients(tmp_path / name)
+        assert read.normalization == "4pi"
+        data = (tmp_path / name).read_bytes()
+        assert np.array_equal(rholm.parse_coefficients(data, name).expansion.coeffs, back.coeffs)
+
+
+def test_the_program_gives_the_same_bits(program, bumpy, tmp_path):
+    bumpy.save(tmp_path / "b.ply")
+    run = [program, "analyze", tmp_path / "b.ply", "--degree", "20", "-o", tmp_path / "m.h5", "--quiet"]
+    subprocess.run(run, check=True)
+    theirs = rholm.load(tmp_path / "m.h5")
+    ours = rholm.expand(tmp_path / "b.ply", 20)
+    assert theirs == ours
+    assert theirs.errors.rms == ours.errors.rms
+    subprocess.run(
+        [program, "synthesize", tmp_path / "m.h5", "-o", tmp_path / "s.ply", "--quiet"], check=True
+    )
+    surface = rholm.read_shape(tmp_path / "s.ply").shape
+    assert np.array_equal(surface.vertices, ours.mesh().vertices)
+    assert np.array_equal(surface.triangles, ours.mesh().triangles)
+
+
+def test_what_is_not_star_shaped_is_refused_or_signed(ring):
+    with pytest.raises(rholm.NotStarShapedError, match="min d") as refusal:
+        rholm.expand(ring, 4)
+    assert isinstance(refusal.value, ValueError)
+    assert isinstance(refusal.value, rholm.InvalidInputError)
+    assert rholm.expand(ring, 4, signed=True, center=(2, 0, 0)).degree == 4
+
+
+def test_charts_and_methods(bumpy):
+    chart = rholm.make_star_chart(bumpy)
+    assert chart.report.star_shaped
+    assert np.allclose(chart.mesh.vertices + chart.report.center, bumpy.vertices)
+    edge = rholm.analyze(chart, 6)
+    for method in ("curl", "area"):
+        other = rholm.analyze(chart, 6, method=method).expansion
+        assert np.abs(other.coeffs - edge.expansion.coeffs).max() < 1e-6
+    # Parseval: the norm in closed form bounds the energy of the coefficients.
+    norm = rholm.radius_norm_squared(chart)
+    assert 0 < norm - edge.expansion.spectrum("energy").sum() < 1e-2 * norm
+    found = rholm.analyze(chart, tolerance=1e-2)
+    assert found.tolerance.met
+    assert rholm.tail_strength(chart) == pytest.approx(edge.expansion.tail_strength, rel=1e-9)
+    assert rholm.vertex_error_strengths(bumpy, chart.report.center).radius == pytest.approx(
+        rholm.vertex_error_strength(chart), rel=1e-9
+    )
+    assert rholm.gauge_norm_squared(chart) > 0
+    sampled = rholm.monte_carlo(chart, 4, samples=64)
+    error = np.abs(sampled.expansion.coeffs - edge.expansion.truncate(4).coeffs)
+    assert (error <= 5 * sampled.deviation + 1e-12).mean() > 0.95
+    assert rholm.find_center(bumpy).star_shaped
+    assert not rholm.check_star(bumpy, (10, 0, 0)).star_shaped
+
+
+def test_encode_and_reports(bumpy, tmp_path):
+    flipped = rholm.flip(bumpy)
+    assert rholm.encode(flipped, degree=4).flipped
+    s = rholm.expand(bumpy, 6)
+    page = s.report_html(tmp_path / "r.html", title="Body", picture_size=64)
+    assert page.startswith("<!DOCTYPE html>")
+    assert (tmp_path / "r.html").read_text() == page
+    assert "Body" in page
+    assert "<svg" in s.spectrum_svg()
+    assert s._repr_html_().count("<?xml") == 0  # a part of a page
+    assert repr(s).startswith("<rholm.Expansion: radius to degree 6")
+
+
+def test_what_an_expansion_is_not():
+    field = rholm.from_array(np.ones((2, 3, 3)), function="other")
+    with pytest.raises(rholm.UnsupportedError):
+        field.mesh()
+    with pytest.raises(rholm.UnsupportedError):
+        rholm.require_surface(field)
+    assert "function" in field._repr_html_()
+    for wrong in (np.ones((2, 3, 4)), np.ones((3, 3)), np.full((2, 2, 2), np.nan), np.zeros((2, 0, 0))):
+        with pytest.raises(rholm.InvalidInputError):
+            rholm.from_array(wrong)
+    with pytest.raises(TypeError):
+        rholm.from_array(np.ones((2, 2, 2), complex))
+    with pytest.raises(rholm.InvalidInputError):
+        rholm.from_array(np.ones((2, 2, 2)), normalization="quantum")
+    with pytest.raises(rholm.InvalidInputError):
+        field([0, 0, 0])

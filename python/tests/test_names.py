@@ -1,0 +1,140 @@
+"""What the package has: every public function of the library, with a docstring and types."""
+
+from __future__ import annotations
+
+import inspect
+import os
+import re
+import subprocess
+import sys
+import types
+from pathlib import Path
+
+import pytest
+import rholm
+from conftest import ROOT
+
+FUNCTION = re.compile(
+    r"^(?!using|inline|template|struct|class|enum|return|namespace|#|//)"
+    r"[A-Za-z_][\w:<>,&* ]*[ &*>](\w+)\([^;{}]*(?:\{[^;{}]*\}[^;{}]*)*([;{])",
+    re.MULTILINE,
+)
+#: What stands for functions that have no face of their name, and why.
+ELSEWHERE = {
+    "add_adjoint": "adjoint",  # returns the sums
+    "discard_unfinished_files": "",  # for signal handlers of programs: Python's raise exceptions
+    "encode_file": "expand",  # of a path
+    "encode_mapped": "expand",  # of a path
+    "find_attribute": "Mesh.attributes",  # a dict
+    "mesh_of": "Mesh",  # of arrays
+    "view_of": "Mesh.vertices",  # an array over the mesh's memory
+}
+
+public = pytest.mark.skipif(not (ROOT / "include" / "rholm").exists(), reason="the headers are not here")
+
+
+def functions_of_headers() -> set[str]:
+    names = set()
+    for header in sorted((ROOT / "include" / "rholm").glob("*.h")):
+        text = re.sub(r"//.*", "", header.read_text())
+        names |= {name for name, end in FUNCTION.findall(text) if end == ";"}
+    return {name for name in names if name != "to_string" and not name.startswith("parse_")} | {
+        name for name in names if name in ("parse_shape", "parse_coefficients")
+    }
+
+
+@public
+def test_every_public_function_of_the_library_is_there():
+    names = functions_of_headers()
+    assert len(names) > 100  # the pattern finds them
+    missing = []
+    for name in sorted(names):
+        place = ELSEWHERE.get(name, name)
+        owner: object = rholm
+        for part in filter(None, place.split(".")):
+            owner = getattr(owner, part, None)
+        if owner is None:
+            missing.append(name)
+    assert not missing
+
+
+@public
+def test_exceptions_of_the_list_are_functions_of_the_library():
+    assert set(ELSEWHERE) <= functions_of_headers()
+
+
+def public_things() -> list[tuple[str, object]]:
+    things = []
+    for name in rholm.__all__:
+        thing = getattr(rholm, name)
+        if isinstance(thing, types.FunctionType):
+            things.append((name, thing))
+        elif (
+            inspect.isclass(thing)
+            and thing.__module__.startswith("rholm._")
+            and "_core" not in thing.__module__
+        ):
+            things += [
+                (f"{name}.{method}", f)
+                for method, f in vars(thing).items()
+                if isinstance(f, types.FunctionType) and not method.startswith("_")
+            ]
+    return things
+
+
+@pytest.mark.parametrize(("name", "function"), public_things())
+def test_docstrings_name_every_parameter(name, function):
+    text = inspect.getdoc(function)
+    assert text, f"{name} has no docstring"
+    if "see `" in text.lower() and "Parameters" not in text:
+        return
+    for parameter in inspect.signature(function).parameters.values():
+        if parameter.name in ("self", "cls"):
+            continue
+        stars = {parameter.VAR_POSITIONAL: "*", parameter.VAR_KEYWORD: "**"}.get(parameter.kind, "")
+        assert re.search(
+            rf"^\s*(\w+, )*{re.escape(stars + parameter.name)}(, [\w*]+)* ?(:|$)", text, re.MULTILINE
+        ), f"{name}: nothing is said of {parameter.name}"
+    assert "Parameters" in text or len(inspect.signature(function).parameters) <= 1
+
+
+def test_results_have_documented_fields():
+    for name in rholm.__all__:
+        thing = getattr(rholm, name)
+        if inspect.isclass(thing) and hasattr(thing, "to_dict"):
+            for field, value in vars(thing).items():
+                if isinstance(value, property):
+                    assert value.__doc__, f"{name}.{field}"
+
+
+def test_names_are_listed_once_and_exist():
+    assert len(set(rholm.__all__)) == len(rholm.__all__)
+    assert all(hasattr(rholm, name) for name in rholm.__all__)
+
+
+@public
+def test_the_stub_is_that_of_the_module(tmp_path):
+    stubgen = pytest.importorskip("nanobind.stubgen", reason="nanobind is needed to write the stub again")
+    assert stubgen
+    made = tmp_path / "_core.pyi"
+    subprocess.run(
+        [sys.executable, "-m", "nanobind.stubgen", "-q", "-m", "rholm._core", "-o", made], check=True
+    )
+    committed = ROOT / "python" / "rholm" / "_core.pyi"
+    assert made.read_text() == committed.read_text(), "run scripts/python-stub and commit what it wrote"
+
+
+def test_nothing_optional_is_imported():
+    code = (
+        "import rholm, sys; rholm.expand(rholm.icosphere(2), 4).mesh(2);"
+        "print([m for m in sys.modules if m.split('.')[0] in"
+        " ('trimesh', 'pyvista', 'vtkmodules', 'meshio', 'pyshtools', 'xarray', 'matplotlib', 'tqdm')])"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], check=True, capture_output=True, text=True, env=os.environ
+    )
+    assert done.stdout.strip() == "[]"
+
+
+def test_the_package_says_that_it_is_typed():
+    assert (Path(rholm.__file__).parent / "py.typed").exists()

@@ -1,0 +1,84 @@
+"""Round trips with pyshtools: coefficients, spectrum, rotation, grids."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import rholm
+
+pysh = pytest.importorskip("pyshtools")
+
+LIMIT = 1e-12  # of the largest coefficient or value
+
+
+@pytest.fixture(scope="module")
+def body() -> rholm.Expansion:
+    return rholm.expand(rholm.bumpy_sphere(4, 0.3, seed=3), 20, precision=1e-12)
+
+
+def test_coefficients_come_back_in_every_convention(body):
+    for normalization in ("4pi", "orthonormal", "schmidt"):
+        for csphase in (1, -1):
+            clm = body.to_pyshtools(normalization, csphase)
+            back = rholm.from_pyshtools(clm)
+            assert np.abs(back.coeffs - body.coeffs).max() <= LIMIT
+            again = rholm.from_array(clm.coeffs, normalization=normalization, csphase=csphase)
+            assert np.abs(again.coeffs - body.coeffs).max() <= LIMIT
+
+
+def test_conventions_are_those_of_pyshtools(body):
+    clm = body.to_pyshtools()
+    for ours, theirs in (("4pi", "4pi"), ("orthonormal", "ortho"), ("schmidt", "schmidt")):
+        for csphase in (1, -1):
+            expected = clm.convert(normalization=theirs, csphase=csphase).coeffs
+            assert np.abs(body.to_array(ours, csphase) - expected).max() <= LIMIT
+
+
+def test_complex_and_unnormalised_coefficients_are_understood(body):
+    clm = body.truncate(8).to_pyshtools()
+    for other in (clm.convert(kind="complex"), clm.convert(normalization="unnorm")):
+        assert np.abs(rholm.from_pyshtools(other).coeffs - clm.coeffs).max() <= LIMIT
+
+
+def test_spectra_agree(body):
+    assert np.abs(body.spectrum() - body.to_pyshtools().spectrum()).max() <= LIMIT
+
+
+def test_values_agree(body, random):
+    directions = random.normal(size=(50, 3))
+    unit = directions / np.linalg.norm(directions, axis=1, keepdims=True)
+    lat = np.degrees(np.arcsin(unit[:, 2]))
+    lon = np.degrees(np.arctan2(unit[:, 1], unit[:, 0]))
+    expected = body.to_pyshtools().expand(lat=lat, lon=lon)
+    assert np.abs(body(directions) - expected).max() <= LIMIT
+
+
+def test_grids_agree(body):
+    grid = body.to_pyshtools().expand(grid="GLQ")
+    ours = rholm.synthesize_grid(body, "gauss-legendre", *grid.data[:, :-1].shape)
+    assert np.abs(ours - grid.data[:, :-1]).max() <= LIMIT
+    back = rholm.analyze_grid(grid.data[:, :-1], "gauss-legendre", body.degree)
+    assert np.abs(back - body.coeffs).max() <= LIMIT
+    driscoll_healy = body.to_pyshtools().expand(grid="DH2")
+    assert np.abs(rholm.from_pyshtools(driscoll_healy).truncate(20).coeffs - body.coeffs).max() <= LIMIT
+    assert (
+        np.abs(
+            rholm.synthesize_grid(body, "equiangular-with-poles", 43, 84) - driscoll_healy.data[:, :-1]
+        ).max()
+        <= LIMIT
+    )
+
+
+def test_rotations_agree(body):
+    alpha, beta, gamma = 0.3, 0.7, -1.1
+    # pyshtools turns by Euler angles the body way round: x -> R^T x of its angles.
+    expected = body.to_pyshtools().rotate(alpha, beta, gamma, degrees=False, body=True)
+    ours = body.rotate(rholm.rotation_of(alpha, beta, gamma)).coeffs
+    assert np.abs(ours - expected.coeffs).max() <= LIMIT
+
+
+def test_arrays_are_taken_in_the_default_convention(body):
+    clm = body.to_pyshtools()
+    assert np.allclose(rholm.power_spectrum(clm.coeffs), rholm.power_spectrum(body), rtol=1e-14)
+    assert np.allclose(rholm.evaluate(clm, [0, 0, 1]), body([0, 0, 1]), rtol=1e-13)
+    assert rholm.distance(clm, body) <= LIMIT

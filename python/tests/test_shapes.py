@@ -1,0 +1,299 @@
+"""Meshes and points: files, repair, atlases, edits, pictures."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import rholm
+
+
+def test_files_of_shapes_come_back(bumpy, tmp_path):
+    for name in ("a.ply", "a.obj", "a.off", "a.stl"):
+        bumpy.save(tmp_path / name)
+        read = rholm.read_shape(tmp_path / name)
+        assert read.format == name[2:]
+        mesh = rholm.weld(read.shape).mesh
+        assert np.isclose(mesh.volume, bumpy.volume, rtol=1e-5)
+        assert np.isclose(rholm.as_mesh(tmp_path / name).area, bumpy.area, rtol=1e-5)
+        again = rholm.parse_shape((tmp_path / name).read_bytes(), name)
+        assert np.array_equal(again.shape.vertices, read.shape.vertices)
+    cloud = rholm.sample_surface(bumpy, 50)
+    cloud.save(tmp_path / "p.xyz")
+    assert np.array_equal(rholm.as_points(tmp_path / "p.xyz").points, cloud.points)
+    assert rholm.attributes_left_out(bumpy.with_attributes(q=bumpy.vertices[:, 0]), "stl") == ["q"]
+    with pytest.raises(rholm.InvalidInputError, match="points"):
+        rholm.expand(tmp_path / "p.xyz", 4)
+
+
+@pytest.mark.parametrize(
+    ("data", "error"),
+    [
+        (b"", rholm.InvalidInputError),
+        (b"ply\nformat ascii 1.0\nelement vertex 3\n", rholm.InvalidInputError),
+        (
+            b"ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty double x\n"
+            b"property double y\nproperty double z\nend_header\nabc",
+            rholm.InvalidInputError,
+        ),
+        (b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 nan\n3 0 1 2\n", rholm.InvalidInputError),
+        (b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n", rholm.InvalidInputError),
+        (b"solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0", rholm.InvalidInputError),
+        (b"\x89HDF\r\n\x1a\n" + b"\0" * 100, rholm.Error),
+        (b"\xff\xfe\x00\x01" * 50, rholm.Error),
+    ],
+)
+def test_malformed_files_are_refused(tmp_path, data, error):
+    for name in ("f.ply", "f.off", "f.stl"):
+        path = tmp_path / name
+        path.write_bytes(data)
+        for read in (rholm.read_shape, rholm.load, lambda p: rholm.expand(p, 4), rholm.as_points):
+            with pytest.raises(rholm.Error) as refusal:
+                read(path)
+            assert len(str(refusal.value)) > 5
+        with pytest.raises(error):
+            rholm.read_shape(path)
+
+
+def test_files_that_cannot_be_read_or_written(bumpy, tmp_path):
+    with pytest.raises(rholm.IoError) as refusal:
+        rholm.read_shape(tmp_path / "none.ply")
+    assert isinstance(refusal.value, OSError)
+    s = rholm.expand(bumpy, 4)
+    for write in (bumpy.save, s.save, s.report_html, lambda p: rholm.render(bumpy, (64, 64), path=p)):
+        with pytest.raises(rholm.IoError):
+            write(tmp_path / "no" / "a.ply" if write == bumpy.save else tmp_path / "no" / "a.h5")
+    with pytest.raises(rholm.UnsupportedError):
+        bumpy.save(tmp_path / "a.docx")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_inspection_and_repair(bumpy):
+    report = rholm.inspect(bumpy)
+    assert report.closed
+    assert report.manifold
+    assert report.genus == 0
+    assert report.vertices - report.edges + report.triangles == 2
+    assert rholm.inspect(rholm.torus(2, 1, 12, 8)).genus == 1
+    assert rholm.pair_edges(bumpy).shape == (report.edges, 4)
+    hole = rholm.Mesh(bumpy.vertices, bumpy.triangles[5:])
+    assert not rholm.inspect(hole).closed
+    mended = rholm.repair(hole)
+    assert mended.report.closed_holes > 0
+    assert rholm.inspect(mended.mesh).closed
+    assert rholm.closing_tolerance(bumpy) is None
+    soup = rholm.Mesh(
+        bumpy.vertices[bumpy.triangles].reshape(-1, 3), np.arange(3 * len(bumpy.triangles)).reshape(-1, 3)
+    )
+    assert rholm.weld(soup).merged_vertices == len(soup.vertices) - len(bumpy.vertices)
+    assert np.isclose(rholm.flip(bumpy).volume, -bumpy.volume)
+    fewer = rholm.simplify(bumpy, triangles=200)
+    assert len(fewer.mesh.triangles) <= 200
+    assert rholm.inspect(fewer.mesh).genus == 0
+    two = rholm.Mesh(
+        np.concatenate([bumpy.vertices, rholm.icosphere(0).vertices * 0.1 + 9]),
+        np.concatenate([bumpy.triangles, rholm.icosphere(0).triangles + len(bumpy.vertices)]),
+    )
+    assert len(rholm.largest_component(two).triangles) == len(bumpy.triangles)
+    assert np.allclose(np.linalg.norm(bumpy.normals, axis=1), 1)
+    assert np.allclose(rholm.area_normals(rholm.box((1, 1, 1))).sum(axis=0), 0)
+    assert rholm.bounds(bumpy.vertices).diagonal == bumpy.bounds.diagonal
+    assert rholm.surface_area(rholm.box((1, 2, 3))) == pytest.approx(22)
+    assert rholm.enclosed_volume(rholm.box((1, 2, 3))) == pytest.approx(6)
+    with pytest.raises(rholm.InvalidInputError):
+        rholm.simplify(bumpy)
+
+
+def test_points_are_cleaned_and_oriented(ring, random):
+    cloud = rholm.sample_surface(ring, 4000)
+    points = np.concatenate([cloud.points, cloud.points[:5], [[np.nan, 0, 0]]])
+    cleaned = rholm.clean(points)
+    assert cleaned.report.not_finite == 1
+    assert cleaned.report.duplicates == 5
+    oriented = rholm.orient(cloud.points)
+    agreement = (oriented.cloud.normals * cloud.normals).sum(axis=1)
+    assert (agreement > 0.8).mean() > 0.99
+    wrong = cloud.normals * np.where(random.random(len(cloud)) < 0.5, 1, -1)[:, None]
+    signs = rholm.orient(cloud.points, wrong, keep_directions=True)
+    assert ((signs.cloud.normals * cloud.normals).sum(axis=1) > 0.999).mean() > 0.99
+    out = rholm.orient(rholm.icosphere(4).vertices, center=(0, 0, 0)).cloud
+    assert ((out.normals * out.points).sum(axis=1) > 0.9).all()
+
+
+def test_surfaces_from_points_carry_attributes(ring):
+    cloud = rholm.sample_surface(ring, 8000)
+    height = cloud.points[:, 2]
+    rgb = np.round(255 * (cloud.points - cloud.points.min(0)) / np.ptp(cloud.points, axis=0)).astype("u1")
+    r = rholm.reconstruct(cloud.points, cloud.normals, {"rgb": rgb, "height": height}, holes="fill")
+    report = rholm.inspect(r.mesh)
+    assert report.closed
+    assert report.genus == 1
+    assert np.isclose(report.volume, 2 * np.pi**2 * 2 * 0.49, rtol=0.02)
+    # An average over the nearest points.
+    assert np.abs(r.mesh.attributes["height"] - r.mesh.vertices[:, 2]).max() < 2 * r.report.spacing
+    assert r.mesh.colors.shape == (len(r.mesh.vertices), 3)
+    assert len(r.atlas) == r.report.caps
+    assert rholm.compare(r.atlas.mesh(), r.mesh).a_to_b.rms < 1e-2
+    assert len(rholm.reconstruct(cloud, simplify="auto").mesh.triangles) < len(r.mesh.triangles)
+    with pytest.raises(rholm.InvalidInputError, match="16"):
+        rholm.reconstruct(cloud.points[:5])
+    with pytest.raises(rholm.OutOfMemoryError) as refusal:
+        rholm.reconstruct(cloud, step=1e-5)
+    assert isinstance(refusal.value, MemoryError)
+    with pytest.raises(rholm.InvalidInputError):
+        rholm.reconstruct(cloud, holes="dig")
+
+
+def test_compression_keeps_its_tolerance(ring, tmp_path):
+    a = rholm.compress(ring, 5e-3, unit="diagonal")
+    assert a.report.met
+    assert a.errors.rms <= 5e-3 * ring.bounds.diagonal
+    assert a.size.numbers < 3 * len(ring.vertices)
+    mesh = a.mesh()
+    assert rholm.inspect(mesh).genus == 1
+    assert rholm.compare(ring, mesh).a_to_b.rms <= 1.1 * a.errors.rms
+    a.save(tmp_path / "a.h5")
+    assert rholm.is_atlas_file(tmp_path / "a.h5")
+    back = rholm.load(tmp_path / "a.h5")
+    assert isinstance(back, rholm.Atlas)
+    # Frames of caps are single precision in the file.
+    assert rholm.compare(rholm.synthesize(back), mesh).hausdorff < 1e-6
+    assert rholm.read_atlas(tmp_path / "a.h5").size.numbers == rholm.size_of(a).numbers
+    caps = a.dominant_caps(ring.vertices)
+    assert caps.max() < len(a)
+    cap = a.cap(0)
+    assert len(a.coefficients_of(0)) == rholm.n_coefficients(cap.basis, cap.degree)
+    assert rholm.highest_degree(a) == max(a.cap(i).degree for i in range(len(a)))
+    distance, gradient, valid = a.evaluate(0, [cap.seed + 0.01 * cap.axes[2]])
+    assert valid[0]
+    assert np.isclose(np.linalg.norm(gradient[0]), 1, rtol=0.1)
+    assert abs(distance[0]) < 0.1
+    assert a.colored(ring).colors.shape == (len(ring.vertices), 3)
+    assert a.colored(ring, by="degree").colors is not None
+    with pytest.raises(IndexError):
+        a.cap(len(a))
+    with pytest.raises(rholm.InvalidInputError):
+        rholm.set_cap_colors(ring, a, np.full(len(ring.vertices), 10**6))
+    with pytest.raises(TypeError):
+        rholm.Atlas()
+    assert "caps" in a._repr_html_()
+    assert "<html" in a.report_html(picture_size=64)
+
+
+def test_the_papers_atlas(ring):
+    made = rholm.patch_atlas(ring, 6)
+    assert len(made.atlas) > 1
+    assert made.rms_along_rays > 0
+    assert len(made.mesh.triangles) > 0
+    picture = rholm.patch_picture(ring, "triangles")
+    assert picture.colors is not None
+
+
+def test_smoothing_takes_noise_from_a_region_only(random):
+    sphere = rholm.icosphere(5)
+    noise = 1 + 0.004 * random.normal(size=(len(sphere.vertices), 1))
+    rough = rholm.Mesh(sphere.vertices * noise, sphere.triangles)
+    region = sphere.vertices[:, 2] > 0.7
+    smooth = rholm.smooth(rough, region, wavelength=0.4, fitting="mean")
+    inner = sphere.vertices[:, 2] > 0.75
+    before = np.abs(np.linalg.norm(rough.vertices[inner], axis=1) - 1).mean()
+    after = np.abs(np.linalg.norm(smooth.vertices[inner], axis=1) - 1).mean()
+    assert after < 0.4 * before
+    weights = rholm.region_weights(rough, region, 0.4)
+    assert np.array_equal(smooth.vertices[weights == 0], rough.vertices[weights == 0])
+    same = rholm.smooth(rough, ["ball:0,0,1,0.5"], 0.4, strength=0)
+    assert np.array_equal(same.vertices, rough.vertices)
+    by_index = rholm.smooth(rough, np.flatnonzero(region), 0.4, fitting="mean")
+    assert np.array_equal(by_index.vertices, smooth.vertices)
+    for wrong in (np.ones(3, bool), np.array([10**9]), "cone:1", np.full(len(region), np.nan), [-1]):
+        with pytest.raises(rholm.InvalidInputError):
+            rholm.smooth(rough, wrong, 0.4)
+    with pytest.raises(rholm.InvalidInputError):
+        rholm.smooth(rough, region, 1e-9)
+
+
+def test_an_editor_moves_its_mesh_in_place(bumpy):
+    fine = rholm.expand(bumpy, 24).mesh(5)
+    editor = rholm.analyze_patch(fine, "ball:0,0,1,0.6", 0.5)
+    vertices = editor.mesh.vertices
+    before = vertices.copy()
+    editor.strength = 1
+    assert not np.array_equal(vertices, before)  # the same array
+    moved = editor.vertices
+    assert np.array_equal(vertices[moved], editor.positions())
+    still = np.setdiff1d(np.arange(len(before)), moved)
+    assert np.array_equal(vertices[still], before[still])
+    half = editor.positions(strength=0.5)
+    assert np.allclose(half, (before[moved] + vertices[moved]) / 2, atol=1e-12)
+    editor.wavelength = editor.longest_wavelength
+    assert rholm.longest_wavelength(editor) == editor.wavelength
+    editor.strength = 0
+    assert np.array_equal(vertices, before)
+    assert np.array_equal(fine.vertices, before)
+    applied = rholm.apply(editor, rholm.update(editor, strength=1.0, wavelength=0.5), fine)
+    assert not np.array_equal(applied.vertices, before)
+    with pytest.raises(rholm.InvalidInputError):
+        editor.strength = np.nan
+    assert editor.strength == 0
+    with pytest.raises(rholm.InvalidInputError):
+        rholm.apply(editor, np.zeros((3, 3)), fine)
+
+
+def test_detail_is_transferred(random):
+    plain = rholm.icosphere(5)
+    waves = 1 + 0.01 * np.sin(40 * plain.vertices[:, :1])
+    rough = rholm.Mesh(plain.vertices * waves, plain.triangles)
+    at = "ball:0,0,1,0.5"
+    there = rholm.transfer(rough, at, plain, at, angle=0.0)
+    inner = np.linalg.norm(plain.vertices - [0, 0, 1], axis=1) < 0.3
+    radii = np.linalg.norm(there.vertices[inner], axis=1)
+    assert np.corrcoef(radii - 1, waves[inner, 0] - 1)[0, 1] > 0.8
+    editor = rholm.analyze_transfer(rough, at, plain, plain.vertices[:, 2] > 0.87)
+    start = editor.mesh.vertices.copy()
+    assert np.array_equal(start, plain.vertices)
+    editor.height = 2
+    editor.angle = 0.3
+    assert not np.array_equal(editor.mesh.vertices, start)
+    editor.height = 0
+    assert np.array_equal(editor.mesh.vertices, start)
+    with pytest.raises(TypeError, match="slider"):
+        editor.set(hight=1)
+
+
+def test_distances(bumpy):
+    assert rholm.compare(bumpy, bumpy).hausdorff < 1e-14
+    larger = rholm.Mesh(2 * rholm.icosphere(4).vertices, rholm.icosphere(4).triangles)
+    c = rholm.compare(rholm.icosphere(4), larger, samples=2000)
+    assert c.a_to_b.rms == pytest.approx(1, rel=0.01)
+    assert c.to_dict()["a_to_b"]["rms"] == c.a_to_b.rms
+    d = rholm.distances_to_surface([[0, 0, 3], [0, 0, 0]], rholm.box((2, 2, 2)))
+    assert np.allclose(d, [2, 1])
+    with pytest.raises(rholm.InvalidInputError):
+        rholm.compare(bumpy, bumpy, samples=0)
+
+
+def test_pictures(bumpy, tmp_path):
+    picture = rholm.render(bumpy, (120, 80), path=tmp_path / "a.png")
+    assert picture.shape == (80, 120, 3)
+    assert picture.dtype == np.uint8
+    assert picture.std() > 10  # something is seen
+    assert (tmp_path / "a.png").read_bytes() == picture.png() == rholm.encode_png(picture)
+    picture.save(tmp_path / "b.png")
+    assert picture._repr_png_()[:4] == b"\x89PNG"
+    s = rholm.expand(bumpy, 6)
+    panels = [
+        rholm.Panel(bumpy, "mesh", scalars=bumpy.vertices[:, 0]),
+        s,
+        rholm.Panel(s, colors=np.ones((2562, 3))),
+    ]
+    assert rholm.render(panels, (300, 100)).shape == (100, 300, 3)
+    for thing in (bumpy, s):
+        assert thing._repr_png_()[:4] == b"\x89PNG"
+    assert "<svg" in s._repr_html_()
+    with pytest.raises(rholm.InvalidInputError):
+        rholm.render(rholm.Panel(bumpy, scalars=[1, 2]))
+    with pytest.raises(rholm.InvalidInputError):
+        rholm.render(bumpy, (1, 1))
+    with pytest.raises(rholm.InvalidInputError):
+        rholm.write_png(tmp_path / "c.png", np.zeros((3, 3)))
+    rholm.write_file(tmp_path / "d.txt", b"abc")
+    assert (tmp_path / "d.txt").read_bytes() == b"abc"
