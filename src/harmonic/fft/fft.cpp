@@ -1,13 +1,11 @@
 #include "harmonic/fft/fft.h"
 
-#include <fftw3.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <mutex>
 #include <numbers>
+
+#include "harmonic/fft/complex_plan.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "harmonic/fft/fft.cpp"
@@ -124,58 +122,6 @@ HWY_EXPORT(TangleDouble);
 HWY_EXPORT(ExchangeFloat);
 HWY_EXPORT(ExchangeDouble);
 
-constexpr unsigned kFlags = FFTW_ESTIMATE | FFTW_DESTROY_INPUT;
-
-fftw_plan make_plan(int n, fftw_complex* in, fftw_complex* out) {
-  return fftw_plan_dft_1d(n, in, out, FFTW_FORWARD, kFlags);
-}
-fftwf_plan make_plan(int n, fftwf_complex* in, fftwf_complex* out) {
-  return fftwf_plan_dft_1d(n, in, out, FFTW_FORWARD, kFlags);
-}
-
-template <typename T>
-struct Fftw;
-template <>
-struct Fftw<double> {
-  using Complex = fftw_complex;
-  using Plan = fftw_plan;
-  static void guard_planner() { fftw_make_planner_thread_safe(); }
-};
-template <>
-struct Fftw<float> {
-  using Complex = fftwf_complex;
-  using Plan = fftwf_plan;
-  static void guard_planner() { fftwf_make_planner_thread_safe(); }
-};
-
-// Plans by length, made when first asked for. They are never freed: a program uses a handful of
-// lengths.
-template <typename T>
-const void* plan_of_length(std::size_t n) {
-  using Complex = typename Fftw<T>::Complex;
-  static std::mutex mutex;
-  static auto& plans = *new std::map<std::size_t, typename Fftw<T>::Plan>;
-  const std::lock_guard lock(mutex);
-  // The planner is one per process: the program's own calls must not meet ours in it.
-  if (plans.empty()) Fftw<T>::guard_planner();
-  auto& plan = plans[n];
-  if (plan == nullptr) {
-    AlignedArray<T> in(2 * n), out(2 * n);
-    plan = make_plan(static_cast<int>(n), reinterpret_cast<Complex*>(in.data()),
-                     reinterpret_cast<Complex*>(out.data()));
-  }
-  return plan;
-}
-
-void execute(const void* plan, std::complex<double>* in, std::complex<double>* out) {
-  fftw_execute_dft(static_cast<fftw_plan>(const_cast<void*>(plan)),
-                   reinterpret_cast<fftw_complex*>(in), reinterpret_cast<fftw_complex*>(out));
-}
-void execute(const void* plan, std::complex<float>* in, std::complex<float>* out) {
-  fftwf_execute_dft(static_cast<fftwf_plan>(const_cast<void*>(plan)),
-                    reinterpret_cast<fftwf_complex*>(in), reinterpret_cast<fftwf_complex*>(out));
-}
-
 }  // namespace
 
 std::size_t smooth_length(std::size_t n, std::size_t multiple) {
@@ -190,11 +136,11 @@ std::size_t smooth_length(std::size_t n, std::size_t multiple) {
 }
 
 template <typename T>
-ComplexFft<T>::ComplexFft(std::size_t n) : plan_(plan_of_length<T>(n)) {}
+ComplexFft<T>::ComplexFft(std::size_t n) : plan_(complex_plan<T>(n)) {}
 
 template <typename T>
 void ComplexFft<T>::forward(std::complex<T>* in, std::complex<T>* out) const {
-  execute(plan_, in, out);
+  execute_plan(plan_, in, out);
 }
 
 template <typename T>

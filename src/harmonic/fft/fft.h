@@ -1,9 +1,8 @@
-// Fourier transforms of rows. The one user of FFTW.
+// Fourier transforms of rows.
 //
-// Plans are estimated, not measured, so that a size gives the same bits in every run; made under
-// FFTW's own lock and kept for the life of the process. Executing them needs no lock. Only complex
-// transforms out of place are planned: planning real ones takes FFTW ten times as long (5 to 15
-// ms) as small problems take in all.
+// A plan is made when a length is first asked for and kept for the life of the process; it depends
+// on the length alone, so that the same rows give the same bits in every run. Real transforms of n
+// are complex ones of n / 2.
 #pragma once
 
 #include <complex>
@@ -14,11 +13,12 @@
 namespace rholm {
 
 // The smallest n' >= n that is fast to transform and a multiple of `multiple` (a power of two):
-// 1, 5 or 25 times a power of two, at least 16 from 128 on. (A factor 3 costs up to twice the time
-// and 0.3 ms of planning, measured.)
+// 1, 5 or 25 times a power of two, at least 16 from 128 on.
 std::size_t smooth_length(std::size_t n, std::size_t multiple = 1);
 
-// X_k = sum_j x_j e^{-2 pi i jk/n}, n complex numbers, T float or double. `in` is destroyed.
+// X_k = sum_j x_j e^{-2 pi i jk/n}, n >= 1 complex numbers, T float or double. `in` is destroyed.
+// Lengths with other prime factors than 2, 3 and 5 take five to seven times as long
+// (bench/fft_bench).
 template <typename T>
 class ComplexFft {
  public:
