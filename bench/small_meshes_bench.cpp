@@ -10,13 +10,13 @@
 #include "rholm/primitives.h"
 
 int main(int argc, char** argv) {
-  const int count = argc > 1 ? std::atoi(argv[1]) : 1000;
-  const int threads = argc > 2 ? std::atoi(argv[2]) : 1;
+  const long count = argc > 1 ? std::strtol(argv[1], nullptr, 10) : 1000;
+  const int threads = argc > 2 ? static_cast<int>(std::strtol(argv[2], nullptr, 10)) : 1;
   const rholm::Mesh mesh = rholm::bumpy_sphere(2);  // 320 faces
   double sum = 0;                                   // so that nothing is left out
   const auto begin = std::chrono::steady_clock::now();
   const std::clock_t cpu = std::clock();
-  for (int i = 0; i < count; ++i) {
+  for (long i = 0; i < count; ++i) {
     const auto encoded = rholm::encode(mesh, {.analyze = {.degree = 16}}, {.threads = threads});
     sum += encoded.analysis.expansion.coefficients.c(0, 0);
   }

@@ -162,6 +162,7 @@ void bind_files(nb::module_& m) {
   m.def("attributes_left_out",
         [](const std::vector<std::string>& names, const std::string& format) {
           std::vector<Attribute> attributes;
+          attributes.reserve(names.size());
           for (const std::string& name : names) attributes.push_back({.name = name});
           return attributes_left_out(attributes, parse_shape_format(format));
         });
