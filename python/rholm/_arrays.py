@@ -183,3 +183,9 @@ def directions(values: Any) -> tuple[FloatArray, tuple[int, ...]]:
     rows /= scale
     rows /= np.linalg.norm(rows, axis=1, keepdims=True)
     return rows, array.shape[:-1]
+
+
+def triple(values: Any, what: str) -> tuple[float, float, float]:
+    """Three numbers, as the module takes a point."""
+    x, y, z = float_row(values, what)
+    return float(x), float(y), float(z)

@@ -1,4 +1,4 @@
-"""Shapes of any genus as caps: compression, surfaces from points, the paper's atlas."""
+"""Shapes of any genus as caps."""
 
 from __future__ import annotations
 
@@ -14,17 +14,9 @@ from ._core import AtlasErrors, AtlasModel, AtlasSize, Cap, CompressReport
 from ._errors import InvalidInputError
 from ._interop import foreign_mesh
 from ._run import Progress, caller
-from ._shapes import (
-    Mesh,
-    MeshLike,
-    PointCloud,
-    PointsLike,
-    as_mesh,
-    as_points,
-    name_of,
-    read_shape,
-    simplify_options,
-)
+from ._shape_files import read_shape
+from ._shapes import Mesh, MeshLike, PointCloud, as_mesh, as_points, name_of
+from ._topology import simplify_options
 
 NO_CAP = _core.NO_CAP
 """The number that `Atlas.dominant_caps` gives where there is no cap."""
@@ -516,154 +508,3 @@ def patch_picture(
     with caller(threads, progress) as how:
         mesh, _ = _core.patch_picture(core, view, _core.PatchAtlasOptions(min_cosine=min_cosine), how)
     return Mesh._of(mesh)
-
-
-def read_atlas(path: str | os.PathLike[str]) -> Atlas:
-    """Reads a model file of an atlas.
-
-    Parameters
-    ----------
-    path : path
-        HDF5; layout in docs/model-file.md.
-    """
-    with caller(0, False) as how:
-        return Atlas._of(_core.read_atlas(os.fspath(path), how), name=name_of(path))
-
-
-def write_atlas(atlas: Atlas, path: str | os.PathLike[str]) -> None:
-    """Writes a model file of an atlas.
-
-    Parameters
-    ----------
-    atlas : Atlas
-        What is written.
-    path : path
-        Replaced when complete.
-    """
-    as_atlas(atlas).save(path)
-
-
-def is_atlas_file(path: str | os.PathLike[str]) -> bool:
-    """Whether a file is a model file that holds an atlas.
-
-    Parameters
-    ----------
-    path : path
-        Any file.
-    """
-    return _core.is_atlas_file(os.fspath(path))
-
-
-def synthesize(model: Any, **options: Any) -> Mesh:
-    """The surface of an expansion or an atlas.
-
-    Parameters
-    ----------
-    model : Expansion or Atlas
-        Which.
-    **options
-        Of `Expansion.mesh` or `Atlas.mesh`.
-    """
-    if isinstance(model, Atlas):
-        return model.mesh(**options)
-    from ._expansion import as_expansion
-
-    return as_expansion(model).mesh(**options)
-
-
-class Reconstruction(NamedTuple):
-    """What `reconstruct` made of points."""
-
-    mesh: Mesh
-    """Closed and oriented outwards (open with holes="keep"), with normals and the points' attributes."""
-    atlas: Atlas
-    """The caps that the mesh was extracted from."""
-    report: _core.ReconstructReport
-    """What was found in the points, and what became of them."""
-
-    def save(self, path: str | os.PathLike[str], format: str | None = None, ascii: bool = False) -> None:
-        """Writes the mesh; see `write_shape`."""
-        self.mesh.save(path, format, ascii)
-
-    def _repr_png_(self) -> bytes | None:
-        from ._pictures import notebook_png
-
-        return notebook_png(self.mesh)
-
-
-def reconstruct(
-    points: PointsLike,
-    normals: npt.ArrayLike | None = None,
-    attributes: Any = None,
-    *,
-    holes: Literal["fill", "keep"] = "fill",
-    step: float = 0.0,
-    tolerance: float = 0.0,
-    noise: float | None = None,
-    blend: Literal["smooth", "spline"] = "smooth",
-    min_component: float = 0.01,
-    keep_outliers: bool = False,
-    simplify: Any = None,
-    max_memory: int = 8 << 30,
-    threads: int = 0,
-    progress: Progress = None,
-) -> Reconstruction:
-    """A surface from points.
-
-    Parameters
-    ----------
-    points : array_like (N, 3), PointCloud, (points, normals), path, points of trimesh, PyVista, meshio
-        At least 16 different ones.
-    normals : array_like, (N, 3), optional
-        They point outwards; of any length. Computed if there are none.
-    attributes : mapping of str to array_like, optional
-        Of points, (N,) or (N, k) each: carried over to the mesh.
-    holes : {"fill", "keep"}
-        Whether places without points are closed smoothly, or cut open.
-    step : float
-        Edge of the grid's cubes, in the unit of the points; 0: from their spacing and noise.
-    tolerance : float
-        Caps grow while their points fit to within this; 0: as exact as the points are.
-    noise : float, optional
-        Standard deviation of the points; estimated if not given.
-    blend : {"smooth", "spline"}
-        Of caps; "spline": the paper's.
-    min_component : float
-        Parts of the surface with less than this share of the largest one's area are dropped.
-    keep_outliers : bool
-        Whether points that belong to no surface stay.
-    simplify : "auto", int or dict, optional
-        Fewer triangles for the same surface: to 1/50 of a step, to so many triangles, or options of
-        `rholm.simplify`.
-    max_memory : int
-        Bytes: refused if more is foreseen.
-    threads, progress
-        See `rholm.caller`.
-
-    Returns
-    -------
-    r : Reconstruction
-        ``r.mesh``, ``r.atlas``, ``r.report``.
-
-    Raises
-    ------
-    InvalidInputError
-        For fewer than 16 different points, and points that no closed surface goes with.
-    OutOfMemoryError
-        If more than allowed would be needed, with the step that would do.
-    """
-    cloud = as_points(points, normals, attributes)
-    options = _core.ReconstructOptions(
-        step=step,
-        tolerance=tolerance,
-        noise=noise,
-        holes=holes,
-        blend=blend,
-        min_component=min_component,
-        remove_outliers=not keep_outliers,
-        simplify=simplify_options(simplify),
-        max_memory=max_memory,
-    )
-    with caller(threads, progress) as how:
-        mesh, atlas, report = _core.reconstruct(cloud._core, options, how)
-    return Reconstruction(Mesh._of(mesh), Atlas._of(_core.AtlasModel(atlas, report.step, "")), report)

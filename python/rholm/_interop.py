@@ -197,6 +197,24 @@ def to_pyshtools(expansion: Expansion, normalization: str = "4pi", csphase: int 
     )
 
 
+def to_xarray(expansion: Expansion, normalization: str = "4pi", csphase: int = 1) -> Any:
+    """See `Expansion.to_xarray`."""
+    degrees = np.arange(expansion.degree + 1)
+    return required("xarray").DataArray(
+        expansion.to_array(normalization, csphase),
+        dims=("kind", "l", "m"),
+        coords={"kind": ["c", "s"], "l": degrees, "m": degrees},
+        name=expansion.function,
+        attrs={
+            "normalization": normalization,
+            "csphase": csphase,
+            "center": expansion.center,
+            "units": expansion.unit,
+            "method": expansion.method,
+        },
+    )
+
+
 def coefficients_of_pyshtools(clm: Any) -> tuple[npt.NDArray[np.float64], str, int]:
     """(array, normalization, csphase) of real or complex pyshtools.SHCoeffs."""
     names = {"4pi": "4pi", "ortho": "orthonormal", "schmidt": "schmidt"}

@@ -12,11 +12,13 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import floats
+from ._arrays import floats, triple
 from ._errors import Error, InvalidInputError
-from ._expansion import Expansion, as_expansion, surface_of
+from ._expansion import Expansion, as_expansion
+from ._interop import required
 from ._run import Progress, caller
-from ._shapes import Mesh, _triple, as_mesh
+from ._shapes import Mesh, as_mesh
+from ._surfaces import surface_of
 
 if TYPE_CHECKING:
     from ._atlas import Atlas
@@ -160,8 +162,8 @@ def render(
         height=size[1],
         perspective=perspective,
         fit_each=fit_each,
-        view_direction=_triple(view, "view"),
-        up=_triple(up, "up"),
+        view_direction=triple(view, "view"),
+        up=triple(up, "up"),
         samples=samples,
         occlusion_rays=occlusion_rays,
         scale_min=scale[0],
@@ -235,6 +237,20 @@ def spectrum_svg(expansion: Expansion, title: str = "", tolerance: float | None 
         A wanted rms error, in the function's unit: its energy, and that of all degrees beyond.
     """
     return as_expansion(expansion).spectrum_svg(title, tolerance)
+
+
+def plot_spectrum(expansion: Expansion, ax: Any = None, **options: Any) -> Any:
+    """See `Expansion.plot_spectrum`."""
+    if ax is None:
+        _, ax = required("matplotlib.pyplot", "matplotlib").subplots()
+    degrees = np.arange(1, expansion.degree + 1)
+    ax.loglog(degrees, expansion.spectrum("energy")[1:], **options)
+    if expansion.tail_strength is not None and expansion.degree > 0:
+        tail = expansion.tail_strength / (np.pi * degrees**4.0)
+        ax.loglog(degrees, tail, ":", color="0.5", label="predicted tail")
+    ax.set_xlabel("degree l")
+    ax.set_ylabel(f"energy per degree [{expansion.unit}²]" if expansion.unit else "energy per degree")
+    return ax
 
 
 def report_html(

@@ -126,8 +126,6 @@ void bind_mesh(nb::module_& m) {
 }
 
 void bind_files(nb::module_& m) {
-  m.def("parse_shape_format",
-        [](const std::string& name) { return to_string(parse_shape_format(name)); });
   const auto shape_file = [](ShapeFile&& file) {
     return nb::make_tuple(std::move(file.shape), to_string(file.format), file.encoding,
                           file.warnings);

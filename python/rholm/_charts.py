@@ -1,0 +1,298 @@
+"""The steps of that way: centre, chart, transform, errors, random points."""
+
+from __future__ import annotations
+
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._arrays import FloatArray, triple
+from ._coefficients import array_of
+from ._encode import Method, Unit, _center_of, tolerance_of
+from ._errors import InvalidInputError
+from ._expansion import Expansion, as_expansion
+from ._run import Progress, caller
+from ._shapes import Mesh, MeshLike, as_mesh
+
+
+def _chart_core(chart: Any) -> _core.StarChart:
+    if not isinstance(chart, StarChart):
+        raise TypeError(f"a StarChart is needed, not {type(chart).__name__}; make_star_chart() makes one")
+    return chart._core
+
+
+class StarChart:
+    """A mesh seen from a centre: what `analyze` and `monte_carlo` work on."""
+
+    __slots__ = ("_core",)
+
+    def __init__(self, core: _core.StarChart) -> None:
+        self._core = core
+
+    @property
+    def mesh(self) -> Mesh:
+        """Welded, closed, outward, vertices relative to the centre."""
+        return Mesh._of(self._core.mesh)
+
+    @property
+    def report(self) -> _core.StarReport:
+        """The centre, and how well it sees the surface."""
+        return self._core.report
+
+
+def make_star_chart(
+    mesh: MeshLike,
+    center: Any = "auto",
+    *,
+    rays: int = 100_000,
+    signed: bool = False,
+    threads: int = 0,
+    progress: Progress = None,
+) -> StarChart:
+    """Finds the centre, checks, and moves it to the origin.
+
+    Parameters
+    ----------
+    mesh : mesh-like
+        Welded and outward.
+    center, rays, signed, threads, progress
+        As in `expand`.
+    """
+    name, point = _center_of(center)
+    with caller(threads, progress) as how:
+        return StarChart(_core.make_star_chart(as_mesh(mesh)._core, name, point, rays, signed, how))
+
+
+def find_center(
+    mesh: MeshLike, center: Any = "auto", *, rays: int = 100_000, threads: int = 0, progress: Progress = None
+) -> _core.StarReport:
+    """Finds the centre and checks how it sees the surface.
+
+    Parameters
+    ----------
+    mesh : mesh-like
+        Welded, closed, outward.
+    center, rays, threads, progress
+        As in `expand`.
+    """
+    name, point = _center_of(center)
+    with caller(threads, progress) as how:
+        return _core.find_center(as_mesh(mesh)._core, name, point, rays, how)
+
+
+def check_star(
+    mesh: MeshLike, center: npt.ArrayLike, *, rays: int = 100_000, threads: int = 0, progress: Progress = None
+) -> _core.StarReport:
+    """Whether a surface is star-shaped from a point.
+
+    Parameters
+    ----------
+    mesh : mesh-like
+        Welded, closed, outward.
+    center : array_like, (3,)
+        The point.
+    rays, threads, progress
+        As in `expand`.
+    """
+    at = triple(center, "center")
+    with caller(threads, progress) as how:
+        return _core.check_star(as_mesh(mesh)._core, at, rays, how)
+
+
+class Analyzed(NamedTuple):
+    """What `analyze` made of a chart."""
+
+    expansion: Expansion
+    """The coefficients."""
+    analysis: _core.Analysis
+    """How they were found."""
+    tolerance: _core.ToleranceReport | None
+    """How a tolerance was kept."""
+
+
+def analyze(
+    chart: StarChart,
+    degree: int | None = None,
+    *,
+    tolerance: float | None = None,
+    unit: Unit = "absolute",
+    norm: Literal["rms", "max"] = "rms",
+    measure: Literal["radius", "distance"] | None = None,
+    max_degree: int = 1024,
+    method: Method = "edge",
+    engine: Literal["fast", "direct"] = "fast",
+    precision: float = 1e-8,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Analyzed:
+    """Coefficients of a chart by the method that is asked for: a step of `expand`.
+
+    Parameters
+    ----------
+    chart : StarChart
+        Of `make_star_chart`.
+    degree, tolerance, unit, norm, measure, max_degree, method, engine, precision, threads, progress
+        As in `expand`.
+    """
+    if degree is not None and tolerance is not None:
+        raise InvalidInputError("degree and tolerance exclude one another: give one of them")
+    options = _core.AnalyzeOptions(degree=degree, method=method, engine=engine, precision=precision)
+    report = None
+    with caller(threads, progress) as how:
+        if tolerance is None:
+            analysis = _core.analyze(_chart_core(chart), options, how)
+        else:
+            wanted = tolerance_of(tolerance, unit, norm, measure, max_degree)
+            analysis, report = _core.analyze_to_tolerance(_chart_core(chart), wanted, options, how)
+    return Analyzed(Expansion._of(analysis.expansion), analysis, report)
+
+
+def radius_norm_squared(chart: StarChart) -> float:
+    """Integral of r^2 over directions of a star-shaped surface in closed form.
+
+    Parameters
+    ----------
+    chart : StarChart
+        Of `make_star_chart`.
+    """
+    return _core.radius_norm_squared(_chart_core(chart))
+
+
+def gauge_norm_squared(chart: StarChart) -> float:
+    """Integral of 1/r^2 over directions in closed form.
+
+    Parameters
+    ----------
+    chart : StarChart
+        Of `make_star_chart`.
+    """
+    return _core.gauge_norm_squared(_chart_core(chart))
+
+
+def tail_strength(chart: StarChart, function: str = "radius") -> float:
+    """S: the energy per degree is about S / (pi l^4) beyond the mesh's own resolution.
+
+    Parameters
+    ----------
+    chart : StarChart
+        Of `make_star_chart`.
+    function : {"radius", "gauge"}
+        Which is expanded.
+    """
+    return _core.tail_strength(_chart_core(chart), function)
+
+
+def vertex_error_strength(chart: StarChart, function: str = "radius") -> float:
+    """The largest truncation error at vertices, times 2 pi (L + 1).
+
+    Parameters
+    ----------
+    chart : StarChart
+        Of `make_star_chart`.
+    function : {"radius", "gauge"}
+        Which is expanded.
+    """
+    return _core.vertex_error_strength(_chart_core(chart), function)
+
+
+def vertex_error_strengths(mesh: MeshLike, center: npt.ArrayLike) -> _core.ErrorStrengths:
+    """The same of radius, gauge and distance of a closed mesh as it is.
+
+    Parameters
+    ----------
+    mesh : mesh-like
+        Closed.
+    center : array_like, (3,)
+        Of the expansion.
+    """
+    return _core.vertex_error_strengths(as_mesh(mesh)._core, triple(center, "center"))
+
+
+def truncation_errors(
+    mesh: MeshLike,
+    expansion: Expansion,
+    *,
+    precision: float = 1e-8,
+    predict: bool = True,
+    threads: int = 0,
+    progress: Progress = None,
+) -> _core.TruncationErrors:
+    """How far the surface of an expansion is from the mesh it was made of.
+
+    Parameters
+    ----------
+    mesh : mesh-like
+        Closed and star-shaped about the expansion's centre.
+    expansion : Expansion
+        Of its radius or gauge.
+    precision : float
+        How exact its coefficients are.
+    predict : bool
+        Whether the largest errors are predicted in closed form, too.
+    threads, progress
+        See `rholm.caller`.
+    """
+    with caller(threads, progress) as how:
+        return _core.truncation_errors(
+            as_mesh(mesh)._core, as_expansion(expansion)._core, precision, predict, how
+        )
+
+
+class MonteCarlo(NamedTuple):
+    """What `monte_carlo` found."""
+
+    expansion: Expansion
+    """The mean."""
+    deviation: FloatArray
+    """Of each coefficient, (2, L+1, L+1) in pyshtools' default convention: 3 of it hold the error
+    in about 99.7 % of all seeds."""
+    report: _core.MonteCarlo
+    """How many samples, and how exact."""
+
+
+def monte_carlo(
+    chart: StarChart,
+    degree: int = 64,
+    *,
+    places: Literal["edge", "triangle"] = "edge",
+    seed: int = 1,
+    samples: int | None = None,
+    deviation: float = 1e-2,
+    most_samples: int = 4096,
+    threads: int = 0,
+    progress: Progress = None,
+) -> MonteCarlo:
+    """Coefficients by random points, as the paper has it, with an honest deviation.
+
+    Parameters
+    ----------
+    chart : StarChart
+        Of `make_star_chart`.
+    degree : int
+        L.
+    places : {"edge", "triangle"}
+        Where the points are.
+    seed : int
+        Of the random numbers.
+    samples : int, optional
+        Points on each edge or triangle; by default rounds are added until `deviation` is reached.
+    deviation : float
+        Wanted relative deviation, 1e-8 ... 1.
+    most_samples : int
+        Where to stop without having reached it.
+    threads, progress
+        See `rholm.caller`.
+    """
+    options = _core.MonteCarloOptions(
+        degree=degree,
+        places=places,
+        seed=seed,
+        samples=samples,
+        deviation=deviation,
+        most_samples=most_samples,
+    )
+    with caller(threads, progress) as how:
+        found = _core.monte_carlo(_chart_core(chart), options, how)
+    return MonteCarlo(Expansion._of(found.expansion), np.abs(array_of(found.deviation)), found)

@@ -1,0 +1,120 @@
+"""Filters: a factor for each degree."""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+import numpy.typing as npt
+
+from . import _core
+from ._arrays import FloatArray, floats
+from ._coefficients import CoefficientsLike, array_of, core_of
+from ._expansion import Expansion
+
+#: How a low-pass filter falls; see `low_pass`.
+Window = Literal["ideal", "lanczos", "lanczos2", "gaussian", "heat", "exponential", "plateau"]
+
+
+def low_pass(
+    cutoff: int, degree: int, window: Window = "lanczos", *, order: int = 4, time: float | None = None
+) -> FloatArray:
+    """Gains of a low-pass filter for the degrees 0 ... `degree`, (degree + 1,).
+
+    Parameters
+    ----------
+    cutoff : int
+        L: degrees above it go.
+    degree : int
+        The last degree of the gains.
+    window : {"ideal", "lanczos", "lanczos2", "gaussian", "heat", "exponential", "plateau"}
+        How gains fall from 1 at degree 0. Sharper is closer to the shape and rings more at edges:
+        see `overshoot`.
+    order : int
+        p of "exponential", 1 ... 64.
+    time : float, optional
+        t of "heat"; by default the gain at L is 1/2.
+    """
+    return _core.low_pass(cutoff, degree, window, order, time)
+
+
+def high_pass(
+    cutoff: int, degree: int, window: Window = "lanczos", *, order: int = 4, time: float | None = None
+) -> FloatArray:
+    """Gains that keep the degrees from `cutoff` on: 1 - low_pass(cutoff - 1).
+
+    Parameters
+    ----------
+    cutoff : int
+        At least 1.
+    degree, window, order, time
+        As in `low_pass`.
+    """
+    return _core.high_pass(cutoff, degree, window, order, time)
+
+
+def band_pass(
+    first: int,
+    last: int,
+    degree: int,
+    window: Window = "lanczos",
+    *,
+    order: int = 4,
+    time: float | None = None,
+) -> FloatArray:
+    """Gains that keep the degrees from `first` to `last`.
+
+    Parameters
+    ----------
+    first, last : int
+        Of the band.
+    degree, window, order, time
+        As in `low_pass`.
+    """
+    return _core.band_pass(first, last, degree, window, order, time)
+
+
+def sharpened(gains: npt.ArrayLike, amount: float) -> FloatArray:
+    """Unsharp masking: 1 + amount (1 - g).
+
+    Parameters
+    ----------
+    gains : array_like, (n,)
+        Of a low-pass filter.
+    amount : float
+        0 leaves all as it is.
+    """
+    return _core.sharpened(floats(gains, "gains"), amount)
+
+
+def overshoot(gains_or_window: npt.ArrayLike | str, degree: int | None = None) -> _core.Overshoot:
+    """How far a filtered step leaves 0 ... 1, in parts of its height.
+
+    Parameters
+    ----------
+    gains_or_window : array_like, (n,), or str
+        Gains of a filter, or the name of a window.
+    degree : int, optional
+        Of that window's cutoff.
+    """
+    if isinstance(gains_or_window, str):
+        if degree is None:
+            raise TypeError("overshoot() of a window needs its degree")
+        return _core.overshoot(gains_or_window, degree)
+    return _core.overshoot(floats(gains_or_window, "gains"))
+
+
+def filter(thing: Expansion | CoefficientsLike, gains: npt.ArrayLike, name: str = "filter") -> Any:
+    """Each degree of an expansion, or of coefficients, times a factor.
+
+    Parameters
+    ----------
+    thing : Expansion or coefficients-like
+        Arrays are in pyshtools' default convention, and so is the result.
+    gains : array_like, (n,)
+        Of the degrees from 0 on.
+    name : str
+        Says what was done; added to the expansion's method.
+    """
+    if isinstance(thing, Expansion):
+        return thing.filter(gains, name)
+    return array_of(_core.filter(core_of(thing), floats(gains, "gains")))

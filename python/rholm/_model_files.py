@@ -1,0 +1,227 @@
+"""Files of models and coefficients."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, NamedTuple
+
+from . import _core
+from ._atlas import Atlas, as_atlas
+from ._expansion import Expansion, as_expansion
+from ._run import caller
+from ._shapes import name_of
+
+
+class CoefficientsFile(NamedTuple):
+    """What was read of a file of coefficients."""
+
+    expansion: Expansion
+    """The function, in the library's own convention."""
+    format: str
+    """"shtools", "icgem", "json", "npy"; "shtools" for a model file."""
+    normalization: str
+    """In which the numbers stood."""
+    csphase: int
+    """In which the numbers stood."""
+    assumed: list[str]
+    """What the file did not say."""
+    product: str
+    """What the file says it is of, if that is no shape."""
+    passed_over: list[str]
+    """What it says and what is not used."""
+
+
+def _file_of(read: tuple[Any, ...]) -> CoefficientsFile:
+    expansion, *rest = read
+    return CoefficientsFile(Expansion._of(expansion), *rest)
+
+
+def read_coefficients(
+    path: str | os.PathLike[str], *, normalization: str = "4pi", csphase: int = 1, override_file: bool = False
+) -> CoefficientsFile:
+    """Reads coefficients of text (SHTOOLS, ICGEM), JSON or NumPy files.
+
+    Parameters
+    ----------
+    path : path
+        The content decides the format.
+    normalization, csphase
+        Of files that say none.
+    override_file : bool
+        Of all files, whatever they say.
+    """
+    with caller(0, False) as how:
+        return _file_of(_core.read_coefficients(os.fspath(path), normalization, csphase, override_file, how))
+
+
+def read_any_coefficients(
+    path: str | os.PathLike[str], *, normalization: str = "4pi", csphase: int = 1, override_file: bool = False
+) -> CoefficientsFile:
+    """Reads a model file, or what `read_coefficients` reads.
+
+    Parameters
+    ----------
+    path, normalization, csphase, override_file
+        As in `read_coefficients`.
+    """
+    with caller(0, False) as how:
+        return _file_of(
+            _core.read_any_coefficients(os.fspath(path), normalization, csphase, override_file, how)
+        )
+
+
+def parse_coefficients(
+    data: bytes, name: str = "", *, normalization: str = "4pi", csphase: int = 1, override_file: bool = False
+) -> CoefficientsFile:
+    """The same for the bytes of a file.
+
+    Parameters
+    ----------
+    data : bytes
+        All of them.
+    name : str
+        Serves messages, and its extension where the content does not say what it is.
+    normalization, csphase, override_file
+        As in `read_coefficients`.
+    """
+    with caller(0, False) as how:
+        return _file_of(
+            _core.parse_coefficients(bytes(data), name, normalization, csphase, override_file, how)
+        )
+
+
+def looks_like_coefficients(data: bytes) -> bool:
+    """Whether bytes begin like a file of coefficients (not for bare text).
+
+    Parameters
+    ----------
+    data : bytes
+        The beginning of a file.
+    """
+    return _core.looks_like_coefficients(bytes(data))
+
+
+def coefficients_format_of(path: str | os.PathLike[str]) -> str | None:
+    """The format of an extension: "shtools", "icgem", "json", "npy", or None.
+
+    Parameters
+    ----------
+    path : path
+        Need not exist.
+    """
+    return _core.coefficients_format_of(os.fspath(path))
+
+
+def load(path: str | os.PathLike[str], *, normalization: str = "4pi", csphase: int = 1) -> Expansion | Atlas:
+    """Reads a model file, of one expansion or of an atlas, or any file of coefficients.
+
+    Parameters
+    ----------
+    path : path
+        The content decides the format.
+    normalization, csphase
+        Of files that do not say it (bare text, .npy).
+    """
+    source = os.fspath(path)
+    with caller(0, False) as how:
+        if _core.is_atlas_file(source):
+            return Atlas._of(_core.read_atlas(source, how))
+        expansion, *_ = _core.read_any_coefficients(source, normalization, csphase, False, how)
+    return Expansion._of(expansion, name=name_of(path))
+
+
+def read_model(path: str | os.PathLike[str]) -> Expansion:
+    """Reads a model file of one expansion.
+
+    Parameters
+    ----------
+    path : path
+        HDF5; layout in docs/model-file.md.
+    """
+    with caller(0, False) as how:
+        return Expansion._of(_core.read_model(os.fspath(path), how), name=name_of(path))
+
+
+def write_model(expansion: Expansion, path: str | os.PathLike[str]) -> None:
+    """Writes a model file.
+
+    Parameters
+    ----------
+    expansion : Expansion
+        With all that is known of it.
+    path : path
+        Replaced when complete.
+    """
+    as_expansion(expansion).save(path, format="hdf5")
+
+
+def write_coefficients(expansion: Expansion, path: str | os.PathLike[str], **options: Any) -> None:
+    """Writes a file of coefficients; see `Expansion.save`.
+
+    Parameters
+    ----------
+    expansion : Expansion
+        What is written.
+    path : path
+        Its extension says the format.
+    **options
+        format, normalization, csphase.
+    """
+    with caller(0, False) as how:
+        _core.write_coefficients(
+            as_expansion(expansion)._core,
+            os.fspath(path),
+            options.pop("format", None),
+            options.pop("normalization", "4pi"),
+            options.pop("csphase", 1),
+            how,
+        )
+    if options:
+        raise TypeError(f"no option is called {', '.join(options)}")
+
+
+def is_model_file(path: str | os.PathLike[str]) -> bool:
+    """Whether a file is a model file, by its first bytes.
+
+    Parameters
+    ----------
+    path : path
+        Any file.
+    """
+    return _core.is_model_file(os.fspath(path))
+
+
+def read_atlas(path: str | os.PathLike[str]) -> Atlas:
+    """Reads a model file of an atlas.
+
+    Parameters
+    ----------
+    path : path
+        HDF5; layout in docs/model-file.md.
+    """
+    with caller(0, False) as how:
+        return Atlas._of(_core.read_atlas(os.fspath(path), how), name=name_of(path))
+
+
+def write_atlas(atlas: Atlas, path: str | os.PathLike[str]) -> None:
+    """Writes a model file of an atlas.
+
+    Parameters
+    ----------
+    atlas : Atlas
+        What is written.
+    path : path
+        Replaced when complete.
+    """
+    as_atlas(atlas).save(path)
+
+
+def is_atlas_file(path: str | os.PathLike[str]) -> bool:
+    """Whether a file is a model file that holds an atlas.
+
+    Parameters
+    ----------
+    path : path
+        Any file.
+    """
+    return _core.is_atlas_file(os.fspath(path))

@@ -1,0 +1,192 @@
+"""Expansions turned, mirrored, moved, aligned."""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._arrays import FloatArray, float_row
+from ._coefficients import CoefficientsLike, array_of, core_of
+from ._errors import InvalidInputError
+from ._expansion import Expansion, as_expansion
+from ._rotations import RotationLike, as_rotation
+from ._run import Progress, caller
+
+
+def rotate(
+    thing: Any,
+    rotation: RotationLike,
+    about: npt.ArrayLike = (0.0, 0.0, 0.0),
+    *,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Any:
+    """An expansion, coefficients or points turned.
+
+    Parameters
+    ----------
+    thing : Expansion, array_like (2, L+1, L+1), or points (..., 3)
+        Arrays of coefficients are in pyshtools' default convention, and so is the result.
+    rotation : rotation-like
+        Takes the point x to R x; a function f becomes f(R^-1 u).
+    about : array_like, (3,)
+        The point that an expansion, or points, are turned about.
+    threads, progress
+        See `rholm.caller`.
+    """
+    if isinstance(thing, Expansion):
+        return thing.rotate(rotation, about, threads=threads, progress=progress)
+    turn = as_rotation(rotation)
+    array = np.asarray(thing) if not hasattr(thing, "coeffs") else None
+    if array is None or (array.ndim == 3 and array.shape[0] == 2 and array.shape[1] == array.shape[2]):
+        with caller(threads, progress) as how:
+            return array_of(_core.rotate(core_of(thing), turn, how))
+    if array.ndim == 0 or array.shape[-1] != 3:
+        raise InvalidInputError(
+            f"points (..., 3) or coefficients (2, L+1, L+1) are needed, not {array.shape}"
+        )
+    origin = float_row(about, "about")
+    rows = np.ascontiguousarray(array.reshape(-1, 3), dtype=np.float64)
+    return (_core.rotate(np.ascontiguousarray(rows - origin), turn) + origin).reshape(array.shape)
+
+
+def mirror(
+    thing: Expansion | CoefficientsLike, axis: Literal["x", "y", "z"], about: npt.ArrayLike = (0.0, 0.0, 0.0)
+) -> Any:
+    """The mirror image of an expansion, or of coefficients.
+
+    Parameters
+    ----------
+    thing : Expansion or coefficients-like
+        Arrays are in pyshtools' default convention, and so is the result.
+    axis : {"x", "y", "z"}
+        The coordinate that changes its sign.
+    about : array_like, (3,)
+        A point of the plane, for an expansion.
+    """
+    if isinstance(thing, Expansion):
+        return thing.mirror(axis, about)
+    return array_of(_core.mirror(core_of(thing), axis))
+
+
+def scaled(expansion: Expansion, factor: float) -> Expansion:
+    """All lengths times a factor.
+
+    Parameters
+    ----------
+    expansion : Expansion
+        Stays as it is.
+    factor : float
+        Above 0.
+    """
+    return as_expansion(expansion).scale(factor)
+
+
+def recentered(
+    expansion: Expansion, center: npt.ArrayLike, *, threads: int = 0, progress: Progress = None
+) -> Expansion:
+    """The same surface as seen from another centre.
+
+    Parameters
+    ----------
+    expansion : Expansion
+        Star-shaped about both centres.
+    center : array_like, (3,)
+        The new one.
+    threads, progress
+        See `rholm.caller`.
+    """
+    return as_expansion(expansion).recenter(center, threads=threads, progress=progress)
+
+
+def volume_centroid(expansion: Expansion, *, threads: int = 0) -> FloatArray:
+    """Of the solid within a surface, (3,).
+
+    Parameters
+    ----------
+    expansion : Expansion
+        Of a surface.
+    threads : int
+        See `rholm.caller`.
+    """
+    with caller(threads, False) as how:
+        return _core.volume_centroid(as_expansion(expansion)._core, how)
+
+
+def align(
+    a: Expansion | CoefficientsLike,
+    b: Expansion | CoefficientsLike,
+    *,
+    centers: Literal["volume", "own"] = "volume",
+    start: Literal["correlation", "principal-axes"] = "correlation",
+    bandwidth: int = 20,
+    refine_degree: int = 64,
+    margin: float = 0.01,
+    mirror: bool = False,
+    unknown: tuple[float, float] = (0.0, 0.0),
+    threads: int = 0,
+    progress: Progress = None,
+) -> _core.Placement | _core.Alignment:
+    """Turns a onto b: the rotation of the largest correlation.
+
+    Parameters
+    ----------
+    a, b : Expansion or coefficients-like
+        Two surfaces, or two functions on the sphere.
+    centers : {"volume", "own"}
+        Which points of surfaces are laid on each other first: centroids of the solids, or the
+        centres of the expansions.
+    start : {"correlation", "principal-axes"}
+        Where the search begins: all rotations, or the four ways to lay axes on axes.
+    bandwidth : int
+        Degrees used by the search, 1 ... 64.
+    refine_degree : int
+        Degrees used by Newton's iteration.
+    margin : float
+        Other rotations are reported if their correlation is at most this below the best.
+    mirror : bool
+        Whether the mirror image of a is tried, too.
+    unknown : (float, float)
+        Root mean square over the sphere of what is not known of a and b.
+    threads, progress
+        See `rholm.caller`.
+
+    Returns
+    -------
+    placement : Placement
+        Of two expansions; `placed` moves a by it. An `Alignment` of two functions.
+    """
+    options = _core.AlignOptions(
+        start=start,
+        bandwidth=bandwidth,
+        refine_degree=refine_degree,
+        margin=margin,
+        allow_mirror=mirror,
+        unknown_a=unknown[0],
+        unknown_b=unknown[1],
+    )
+    with caller(threads, progress) as how:
+        if isinstance(a, Expansion) and isinstance(b, Expansion):
+            return _core.align(a._core, b._core, centers, options, how)
+        return _core.align(core_of(a), core_of(b), options, how)
+
+
+def placed(
+    a: Expansion, placement: _core.Placement, *, threads: int = 0, progress: Progress = None
+) -> Expansion:
+    """The expansion moved as `align` says.
+
+    Parameters
+    ----------
+    a : Expansion
+        That was aligned.
+    placement : Placement
+        Of `align`.
+    threads, progress
+        See `rholm.caller`.
+    """
+    with caller(threads, progress) as how:
+        return Expansion._of(_core.placed(as_expansion(a)._core, placement, how))

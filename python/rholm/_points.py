@@ -1,0 +1,145 @@
+"""Points made from meshes, put in order, given normals."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy.typing as npt
+
+from . import _core
+from ._arrays import triple
+from ._run import Progress, caller
+from ._shapes import MeshLike, PointCloud, PointsLike, as_mesh, as_points
+
+
+def sample_surface(
+    mesh: MeshLike,
+    points: int = 100_000,
+    *,
+    noise: float = 0.0,
+    normal_noise: float = 0.0,
+    outliers: float = 0.0,
+    holes: int = 0,
+    hole_radius: float = 0.0,
+    density_ratio: float = 1.0,
+    normals: bool = True,
+    seed: int = 1,
+    threads: int = 0,
+    progress: Progress = None,
+) -> PointCloud:
+    """Independent random points on a surface, uniform by area.
+
+    Parameters
+    ----------
+    mesh : mesh-like
+        The surface. Lengths below are fractions of the diagonal of its bounding box.
+    points : int
+        How many.
+    noise : float
+        Standard deviation of a Gaussian displacement along each of x, y and z.
+    normal_noise : float
+        Standard deviation of the angle that normals are turned by, degrees.
+    outliers : float
+        Share of the points that is replaced by points anywhere in the box.
+    holes : int
+        Balls about random points of the surface, in which points are removed.
+    hole_radius : float
+        Of these.
+    density_ratio : float
+        The density falls along the longest axis to the inverse of this.
+    normals : bool
+        Whether points have them.
+    seed : int
+        Of all random numbers.
+    threads, progress
+        See `rholm.caller`.
+    """
+    options = _core.SampleOptions(
+        points=points,
+        noise=noise,
+        normal_noise=normal_noise,
+        outliers=outliers,
+        holes=holes,
+        hole_radius=hole_radius,
+        density_ratio=density_ratio,
+        normals=normals,
+        seed=seed,
+    )
+    with caller(threads, progress) as how:
+        return PointCloud._of(_core.sample_surface(as_mesh(mesh)._core, options, how))
+
+
+class Cleaned(NamedTuple):
+    """What `clean` made."""
+
+    cloud: PointCloud
+    """The points that stay."""
+    report: _core.CleanReport
+    """What was dropped."""
+
+
+def clean(points: PointsLike) -> Cleaned:
+    """Drops points that are not finite, and merges those at one place.
+
+    Parameters
+    ----------
+    points : points-like
+        Stay as they are.
+    """
+    with caller(0, False) as how:
+        cloud, report = _core.clean(as_points(points)._core, how)
+    return Cleaned(PointCloud._of(cloud), report)
+
+
+class Oriented(NamedTuple):
+    """What `orient` made."""
+
+    cloud: PointCloud
+    """The points with unit normals that point out of the solid."""
+    report: _core.OrientReport
+    """What was done, and how sure it is."""
+
+
+def orient(
+    points: PointsLike,
+    normals: npt.ArrayLike | None = None,
+    *,
+    neighbors: int = 0,
+    keep_directions: bool = False,
+    center: npt.ArrayLike | None = None,
+    sensor: npt.ArrayLike | None = None,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Oriented:
+    """Gives points unit normals that point out of the solid they bound.
+
+    Parameters
+    ----------
+    points : points-like
+        The points.
+    normals : array_like, (N, 3), optional
+        With `keep_directions`, of which only the signs are chosen.
+    neighbors : int
+        Points of a fit, 3 ... 1000; 0: chosen from the data.
+    keep_directions : bool
+        Keeps the directions of the normals there are.
+    center : array_like, (3,), optional
+        The surface is seen from here from inside.
+    sensor : array_like, (3,), optional
+        It has been measured from here.
+    threads, progress
+        See `rholm.caller`.
+
+    References
+    ----------
+    H. Hoppe et al., Surface reconstruction from unorganized points, 1992.
+    """
+    options = _core.OrientOptions(
+        neighbors=neighbors,
+        keep_directions=keep_directions,
+        center=None if center is None else triple(center, "center"),
+        sensor=None if sensor is None else triple(sensor, "sensor"),
+    )
+    with caller(threads, progress) as how:
+        cloud, report = _core.orient(as_points(points, normals)._core, options, how)
+    return Oriented(PointCloud._of(cloud), report)

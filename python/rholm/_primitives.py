@@ -1,0 +1,95 @@
+"""Shapes with a known answer."""
+
+from __future__ import annotations
+
+import numpy.typing as npt
+
+from . import _core
+from ._arrays import triple
+from ._shapes import Mesh
+
+
+def icosphere(subdivisions: int) -> Mesh:
+    """The unit icosahedron with each edge halved `subdivisions` times, on the unit sphere.
+
+    Parameters
+    ----------
+    subdivisions : int
+        0 ... 12: 20 * 4^n triangles.
+    """
+    return Mesh._of(_core.icosphere(subdivisions))
+
+
+def latitude_longitude_sphere(n_theta: int, n_phi: int) -> Mesh:
+    """A unit sphere of rings, with one vertex on each pole.
+
+    Parameters
+    ----------
+    n_theta : int
+        Rings at colatitudes pi (i + 1/2) / n_theta.
+    n_phi : int
+        Directions on each, at least 3.
+    """
+    return Mesh._of(_core.latitude_longitude_sphere(n_theta, n_phi))
+
+
+def ellipsoid(semi_axes: npt.ArrayLike, subdivisions: int) -> Mesh:
+    """An ellipsoid: an icosphere with its axes stretched.
+
+    Parameters
+    ----------
+    semi_axes : array_like, (3,)
+        Along x, y and z.
+    subdivisions : int
+        Of the icosphere.
+    """
+    return Mesh._of(_core.ellipsoid(triple(semi_axes, "semi_axes"), subdivisions))
+
+
+def box(size: npt.ArrayLike, n: int = 1) -> Mesh:
+    """A box centred at the origin.
+
+    Parameters
+    ----------
+    size : array_like, (3,)
+        Lengths of its edges.
+    n : int
+        Each face is a grid of n x n squares of two triangles.
+    """
+    return Mesh._of(_core.box(triple(size, "size"), n))
+
+
+def torus(ring_radius: float, tube_radius: float, n_ring: int, n_tube: int) -> Mesh:
+    """A torus about the z axis.
+
+    Parameters
+    ----------
+    ring_radius, tube_radius : float
+        Of the centre line, and of the tube around it.
+    n_ring, n_tube : int
+        Vertices along each.
+    """
+    return Mesh._of(_core.torus(ring_radius, tube_radius, n_ring, n_tube))
+
+
+def bumpy_sphere(subdivisions: int, amplitude: float = 0.2, seed: int = 1) -> Mesh:
+    """A star-shaped test body: 1 + amplitude times a smooth sum of waves, on an icosphere.
+
+    Parameters
+    ----------
+    subdivisions : int
+        Of the icosphere.
+    amplitude : float
+        0 ... 1.
+    seed : int
+        Chooses the waves.
+    """
+    return Mesh._of(_core.bumpy_sphere(subdivisions, amplitude, seed))
+
+
+def subdivisions_for(degree: int) -> int:
+    """Of an icosphere with two vertices a coefficient, 4 ... 7: as the program has it."""
+    n = 4
+    while n < 7 and 10 * 4**n + 2 < 2 * (degree + 1) ** 2:
+        n += 1
+    return n

@@ -1,0 +1,135 @@
+"""Rotations, and what stands for one."""
+
+from __future__ import annotations
+
+from typing import Any, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._arrays import FloatArray, triple
+from ._errors import InvalidInputError
+
+Rotation = _core.Rotation
+
+
+#: What stands for a rotation: a `Rotation`, a matrix (3, 3), scipy's Rotation, or a quaternion
+#: (w, x, y, z).
+RotationLike = Union[_core.Rotation, npt.ArrayLike, Any]
+
+
+def as_rotation(rotation: RotationLike) -> _core.Rotation:
+    """A `Rotation` of whatever stands for one.
+
+    Parameters
+    ----------
+    rotation : Rotation, array_like (3, 3) or (4,), scipy.spatial.transform.Rotation
+        Four numbers are a quaternion (w, x, y, z).
+    """
+    if isinstance(rotation, _core.Rotation):
+        return rotation
+    if hasattr(rotation, "as_matrix"):
+        rotation = rotation.as_matrix()
+    array = np.asarray(rotation, dtype=np.float64)
+    if array.shape == (4,):
+        return _core.Rotation(*(float(v) for v in array))
+    if array.shape == (3, 3):
+        return _core.rotation_of_matrix(np.ascontiguousarray(array))
+    raise InvalidInputError(f"rotation: a matrix (3, 3) or a quaternion (4,) is needed, not {array.shape}")
+
+
+def rotation_about(axis: npt.ArrayLike, angle: float) -> _core.Rotation:
+    """A turn about an axis.
+
+    Parameters
+    ----------
+    axis : array_like, (3,)
+        Of any length but 0.
+    angle : float
+        Radians, counter-clockwise seen from the tip of the axis.
+    """
+    return _core.rotation_about(triple(axis, "axis"), angle)
+
+
+def rotation_of(alpha: Any, beta: float | None = None, gamma: float | None = None) -> _core.Rotation:
+    """The rotation of Euler angles Rz(alpha) Ry(beta) Rz(gamma), or of a matrix.
+
+    Parameters
+    ----------
+    alpha : float, or array_like (3, 3)
+        Radians, about z, last; or a matrix whose R R^T is 1 within 1e-4.
+    beta, gamma : float, optional
+        About y; about z, first. All about the fixed axes.
+    """
+    if beta is None and gamma is None:
+        return as_rotation(alpha)
+    if beta is None or gamma is None:
+        raise TypeError("rotation_of() needs all three angles, or one matrix")
+    return _core.rotation_of_euler(float(alpha), beta, gamma)
+
+
+def axis_angle_of(rotation: RotationLike) -> tuple[FloatArray, float]:
+    """Unit axis, (3,), and angle, 0 ... pi.
+
+    Parameters
+    ----------
+    rotation : rotation-like
+        For an angle of 0 the axis is z.
+    """
+    return _core.axis_angle_of(as_rotation(rotation))
+
+
+def euler_angles_of(rotation: RotationLike) -> tuple[float, float, float]:
+    """(alpha, beta, gamma) of Rz(alpha) Ry(beta) Rz(gamma), radians.
+
+    Parameters
+    ----------
+    rotation : rotation-like
+        For beta = 0 or pi alpha and gamma are given half of their sum or difference each.
+    """
+    return _core.euler_angles_of(as_rotation(rotation))
+
+
+def matrix_of(rotation: RotationLike) -> FloatArray:
+    """The orthogonal matrix R, (3, 3): the point x becomes R x.
+
+    Parameters
+    ----------
+    rotation : rotation-like
+        The rotation.
+    """
+    return _core.matrix_of(as_rotation(rotation))
+
+
+def compose(second: RotationLike, first: RotationLike) -> _core.Rotation:
+    """`second` after `first`.
+
+    Parameters
+    ----------
+    second, first : rotation-like
+        Two rotations.
+    """
+    return _core.compose(as_rotation(second), as_rotation(first))
+
+
+def inverse(rotation: RotationLike) -> _core.Rotation:
+    """Back again.
+
+    Parameters
+    ----------
+    rotation : rotation-like
+        The rotation.
+    """
+    return _core.inverse(as_rotation(rotation))
+
+
+def angle_between(a: RotationLike, b: RotationLike) -> float:
+    """The angle of the rotation that takes one to the other, 0 ... pi.
+
+    Parameters
+    ----------
+    a, b : rotation-like
+        Two rotations.
+    """
+    return _core.angle_between(as_rotation(a), as_rotation(b))

@@ -1,0 +1,157 @@
+"""Files of meshes and points."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._arrays import IndexArray
+from ._run import Progress, caller
+from ._shapes import Mesh, MeshLike, PointCloud, as_mesh
+
+
+class ShapeFile(NamedTuple):
+    """What `read_shape` read."""
+
+    shape: Mesh | PointCloud
+    """A `Mesh` if the file has faces, else a `PointCloud`."""
+    format: str
+    """As its content showed: "ply", "obj", "off", "stl", "xyz"."""
+    encoding: str
+    """"ascii", "binary little endian" or "binary big endian"."""
+    warnings: list[str]
+    """What was passed over, with counts."""
+
+
+def _wrapped(shape: Any) -> Mesh | PointCloud:
+    return Mesh._of(shape) if isinstance(shape, _core.Mesh) else PointCloud._of(shape)
+
+
+def read_shape(
+    path: str | os.PathLike[str], *, attributes: bool = True, progress: Progress = None
+) -> ShapeFile:
+    """Reads a mesh or points: PLY, OBJ, OFF, STL, XYZ, PWN, TXT.
+
+    Parameters
+    ----------
+    path : path
+        The content decides what the file is, the name only where the content does not. Polygons
+        are cut into triangles.
+    attributes : bool
+        Whether attributes of vertices or points are read.
+    progress
+        See `rholm.caller`.
+
+    Raises
+    ------
+    IoError
+        If the file cannot be read.
+    InvalidInputError
+        If it is malformed (with the line or the byte), truncated or empty.
+    UnsupportedError
+        If its format is not known.
+    """
+    with caller(0, progress) as how:
+        shape, *rest = _core.read_shape(os.fspath(path), attributes, how)
+    return ShapeFile(_wrapped(shape), *rest)
+
+
+def parse_shape(data: bytes, name: str = "", *, attributes: bool = True) -> ShapeFile:
+    """The same for the bytes of a file.
+
+    Parameters
+    ----------
+    data : bytes
+        All of them.
+    name : str
+        Serves messages, and its extension where the content does not say what it is.
+    attributes : bool
+        Whether attributes are read.
+    """
+    with caller(0, False) as how:
+        shape, *rest = _core.parse_shape(bytes(data), name, attributes, how)
+    return ShapeFile(_wrapped(shape), *rest)
+
+
+def write_shape(
+    shape: MeshLike | PointCloud,
+    path: str | os.PathLike[str],
+    *,
+    format: str | None = None,
+    ascii: bool = False,
+) -> None:
+    """Writes a mesh or points to a temporary file that replaces `path` when complete.
+
+    Parameters
+    ----------
+    shape : mesh-like or PointCloud
+        What is written; attributes as far as the format has room for them.
+    path : path
+        Its extension says the format, if `format` does not.
+    format : {"ply", "obj", "off", "stl", "xyz"}, optional
+        The format.
+    ascii : bool
+        PLY and STL as text instead of binary.
+
+    Raises
+    ------
+    IoError
+        If it cannot be written.
+    UnsupportedError
+        For a format that cannot hold it.
+    """
+    core = shape._core if isinstance(shape, PointCloud) else as_mesh(shape)._core
+    with caller(0, False) as how:
+        _core.write_shape(core, os.fspath(path), format, ascii, how)
+
+
+def attributes_left_out(shape: Mesh | PointCloud, format: str) -> list[str]:
+    """Names of the attributes that a format has no room for.
+
+    Parameters
+    ----------
+    shape : Mesh or PointCloud
+        What would be written.
+    format : {"ply", "obj", "off", "stl", "xyz"}
+        In which.
+    """
+    return _core.attributes_left_out(list(shape.attributes), format)
+
+
+def map_mesh(path: str | os.PathLike[str]) -> tuple[npt.NDArray[Any], IndexArray] | None:
+    """Vertices and triangles of a binary PLY file where they lie in it; None for other files.
+
+    Nothing is read before it is used, so the file may be larger than the memory. `expand` of a path
+    does this by itself.
+
+    Parameters
+    ----------
+    path : path
+        A PLY file of native byte order with vertices and then triangles.
+
+    Returns
+    -------
+    vertices : float32 or float64, (N, 3)
+        Read-only; not checked.
+    triangles : uint32, (M, 3)
+        Read-only; not checked, and not aligned: most functions copy them.
+    """
+    with caller(0, False) as how:
+        mapped = _core.map_mesh(os.fspath(path), how)
+    if mapped is None:
+        return None
+
+    def rows(data: npt.NDArray[np.uint8], layout: tuple[int, int, str]) -> npt.NDArray[Any]:
+        n, stride, dtype = layout
+        item = np.dtype(dtype).itemsize
+        lying: npt.NDArray[Any] = np.ndarray((n, 3), dtype, data.data, 0, (stride, item))
+        return lying
+
+    return (
+        rows(mapped.vertex_bytes, mapped.vertex_layout),
+        rows(mapped.triangle_bytes, mapped.triangle_layout),
+    )

@@ -1,0 +1,131 @@
+"""Surfaces of models, their measures, distances between surfaces."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+import numpy.typing as npt
+
+from . import _core
+from ._arrays import FloatArray, float_rows, triple
+from ._atlas import Atlas
+from ._expansion import Expansion, as_expansion
+from ._model_files import load
+from ._reconstruct import Reconstruction
+from ._run import Progress, caller
+from ._shapes import Mesh, MeshLike, as_mesh
+
+
+def distances_to_surface(
+    points: npt.ArrayLike, mesh: MeshLike, *, threads: int = 0, progress: Progress = None
+) -> FloatArray:
+    """Distance from each point to its exact closest point on a surface, (N,).
+
+    Parameters
+    ----------
+    points : array_like, (N, 3)
+        The points.
+    mesh : mesh-like
+        The surface.
+    threads, progress
+        See `rholm.caller`.
+    """
+    with caller(threads, progress) as how:
+        return _core.distances_to_surface(float_rows(points), as_mesh(mesh)._core, how)
+
+
+def measure(expansion: Expansion, *, threads: int = 0) -> _core.SurfaceMeasures:
+    """Volume, area and centroid of the solid bounded by a surface.
+
+    Parameters
+    ----------
+    expansion : Expansion
+        Of a surface.
+    threads : int
+        See `rholm.caller`.
+    """
+    return as_expansion(expansion).measure(threads=threads)
+
+
+def directions_of(mesh: MeshLike, center: npt.ArrayLike) -> Mesh:
+    """The directions of a mesh's vertices from a centre, with its triangles.
+
+    Parameters
+    ----------
+    mesh : mesh-like
+        No vertex lies on the centre.
+    center : array_like, (3,)
+        The centre.
+    """
+    return Mesh._of(_core.directions_of(as_mesh(mesh)._core, triple(center, "center")))
+
+
+def surface_of(shape: Any, threads: int = 0, progress: Progress = None) -> Mesh:
+    """The surface of whatever has one: a mesh-like, an expansion, an atlas, a reconstruction."""
+    if isinstance(shape, Expansion):
+        return shape.mesh(threads=threads, progress=progress)
+    if isinstance(shape, Atlas):
+        return shape.mesh(threads=threads, progress=progress)
+    if isinstance(shape, Reconstruction):
+        return shape.mesh
+    if isinstance(shape, (str, os.PathLike)) and _core.is_model_file(os.fspath(shape)):
+        return surface_of(load(shape), threads, progress)
+    return as_mesh(shape)
+
+
+def compare(
+    a: Any,
+    b: Any,
+    *,
+    samples: int = 200_000,
+    seed: int = 1,
+    threshold: float = 0.01,
+    threads: int = 0,
+    progress: Progress = None,
+) -> _core.Comparison:
+    """Two-sided distance between surfaces, by exact closest points of random samples.
+
+    Parameters
+    ----------
+    a, b : mesh-like, Expansion, Atlas or Reconstruction
+        Two surfaces.
+    samples : int
+        On each surface, area-weighted.
+    seed : int
+        Of the samples.
+    threshold : float
+        Of the F-score, as a fraction of the diagonal of a's bounding box.
+    threads, progress
+        See `rholm.caller`.
+    """
+    options = _core.CompareOptions(samples=samples, seed=seed, threshold=threshold)
+    first, second = (surface_of(s, threads, progress) for s in (a, b))
+    with caller(threads, progress) as how:
+        return _core.compare(first._core, second._core, options, how)
+
+
+def synthesize(model: Any, **options: Any) -> Mesh:
+    """The surface of an expansion or an atlas.
+
+    Parameters
+    ----------
+    model : Expansion or Atlas
+        Which.
+    **options
+        Of `Expansion.mesh` or `Atlas.mesh`.
+    """
+    if isinstance(model, Atlas):
+        return model.mesh(**options)
+    return as_expansion(model).mesh(**options)
+
+
+def require_surface(expansion: Expansion) -> None:
+    """Raises UnsupportedError for coefficients that are not of a surface.
+
+    Parameters
+    ----------
+    expansion : Expansion
+        What is asked about.
+    """
+    as_expansion(expansion)._require_surface()
