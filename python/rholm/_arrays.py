@@ -176,13 +176,17 @@ def directions(values: Any) -> tuple[FloatArray, tuple[int, ...]]:
     array = _numeric(values, "directions")
     if array.ndim == 0 or array.shape[-1] != 3:
         raise InvalidInputError(f"directions: an array (..., 3) is needed, not {array.shape}")
-    rows = np.array(array.reshape(-1, 3), dtype=np.float64)
-    scale = np.abs(rows).max(axis=1, initial=0.0, keepdims=True)
-    if not np.isfinite(scale).all() or (scale == 0).any():
-        raise InvalidInputError("directions: a vector is zero or not finite")
-    rows /= scale
-    rows /= np.linalg.norm(rows, axis=1, keepdims=True)
-    return rows, array.shape[:-1]
+    rows = np.ascontiguousarray(array.reshape(-1, 3), dtype=np.float64)
+    squares = np.einsum("ij,ij->i", rows, rows)
+    if (np.abs(squares - 1) <= 4 * np.finfo(np.float64).eps).all():  # unit vectors already
+        return rows, array.shape[:-1]
+    if not np.isfinite(squares).all() or (squares < 1e-200).any():  # too large or small to be squared
+        scale = np.abs(rows).max(axis=1, keepdims=True)
+        if not np.isfinite(scale).all() or (scale == 0).any():
+            raise InvalidInputError("directions: a vector is zero or not finite")
+        rows = rows / scale
+        squares = np.einsum("ij,ij->i", rows, rows)
+    return rows / np.sqrt(squares)[:, None], array.shape[:-1]
 
 
 def triple(values: Any, what: str) -> tuple[float, float, float]:

@@ -168,3 +168,18 @@ def test_a_mapped_file_is_the_mesh_of_the_file(tmp_path, bumpy):
     assert np.array_equal(
         rholm.expand((vertices, triangles), 8).coeffs, rholm.expand(tmp_path / "m.ply", 8).coeffs
     )
+
+
+def test_directions_of_any_length_are_the_same(bumpy, random):
+    s = rholm.expand(bumpy, 8)
+    unit = random.normal(size=(50, 3))
+    unit /= np.linalg.norm(unit, axis=1, keepdims=True)
+    expected = s(unit)
+    for length in (1e-320, 1e-300, 1e-160, 0.3, 7.0, 1e160, 1e300):
+        # What is left of a number this small has fewer digits.
+        limit = 1e-2 if length < 1e-310 else 1e-13
+        assert np.allclose(s(length * unit), expected, rtol=limit), length
+    assert np.shares_memory(rholm._arrays.directions(unit)[0], unit)  # as they lie
+    for wrong in ([0, 0, 0], [np.nan, 0, 1], [np.inf, 0, 0]):
+        with pytest.raises(rholm.InvalidInputError):
+            s([[0, 0, 1], wrong])
