@@ -174,7 +174,7 @@ def analyze_patch(
     Returns
     -------
     editor : SmoothEditor
-        Whose `strength` is 0 and moves the mesh when it is set.
+        Whose `SmoothEditor.strength` is 0 and moves the mesh when it is set.
     """
     whole = as_mesh(mesh)
     marked, regions = _with_region(whole, region)
@@ -252,7 +252,7 @@ def update(editor: SmoothEditor | TransferEditor, **wanted: Any) -> FloatArray:
     editor : SmoothEditor or TransferEditor
         Of `analyze_patch` or `analyze_transfer`.
     **wanted
-        Of its `positions`.
+        Of its `SmoothEditor.positions` or `TransferEditor.positions`.
     """
     return editor.positions(**wanted)
 
@@ -399,7 +399,7 @@ def analyze_transfer(
     Returns
     -------
     editor : TransferEditor
-        Whose `height` is 0 and moves the target when it is set.
+        Whose `TransferEditor.height` is 0 and moves the target when it is set.
     """
     taken, from_ = _with_region(as_mesh(source), source_region)
     laid, to = _with_region(as_mesh(target), target_region)

@@ -104,7 +104,7 @@ def adjoint(
     degree : int
         L of the sums.
     gradients : array_like, (N, 3), optional
-        g_j, contracted with the gradient of Y(x/|x|) in space.
+        g_j, contracted with the gradient of ``Y(x/|x|)`` in space.
     hessians : array_like, (N, 6), optional
         h_j, symmetric matrices xx, xy, xz, yy, yz, zz.
     normalization, csphase
