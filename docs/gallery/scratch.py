@@ -37,7 +37,7 @@ ways = {
     "bridged": rholm.smooth(scratched, painted, 0.25, fitting="around"),
 }
 view = {"view": (0, 1, -0.25)}
-rholm.render([rholm.Panel(mesh, name) for name, mesh in ways.items()], (1400, 380), **view)
+rholm.render([rholm.Panel(mesh, name) for name, mesh in ways.items()], (1300, 340), **view)
 
 # %%
 # How far each is from the body without the scratch, along the scratch and in the ball around it.
@@ -61,7 +61,7 @@ for strength in (-1, 0, 0.5, 1):
         editor.mesh.vertices, editor.mesh.triangles
     )  # a copy: the editor's own moves on
     panels.append(rholm.Panel(shown, f"strength {strength}"))
-rholm.render(panels, (1400, 380), **view)
+rholm.render(panels, (1300, 340), **view)
 
 # %%
 # A cut across the scratch: heights over the body that never had it.

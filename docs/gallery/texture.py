@@ -38,7 +38,7 @@ panels = [
     rholm.Panel(once, "once"),
     rholm.Panel(repeated, "half as large, repeated"),
 ]
-rholm.render(panels, (1400, 400), view=(-0.4, 0.55, -0.7), fit_each=True)
+rholm.render(panels, (1300, 360), view=(-0.4, 0.55, -0.7), fit_each=True)
 
 # %%
 # The same as sliders: the analysis is done once, then height and angle move the vertices where they lie.
@@ -53,7 +53,7 @@ for height, angle in ((0.5, 0), (1, 0), (2, 0), (2, np.pi / 6)):
     editor.set(height=height, angle=angle)
     shown = rholm.Mesh(editor.mesh.vertices, editor.mesh.triangles)
     panels.append(rholm.Panel(shown, f"height {height}, {np.degrees(angle):.0f} degrees"))
-rholm.render(panels, (1400, 400), view=(-0.4, 0.55, -0.7))
+rholm.render(panels, (1300, 360), view=(-0.4, 0.55, -0.7))
 
 # %%
 # Outside of the region and its transition nothing has moved.
