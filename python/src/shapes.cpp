@@ -6,8 +6,6 @@
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
-#include <cstring>
-#include <limits>
 #include <tuple>
 
 #include "bindings.h"
@@ -74,9 +72,8 @@ nb::list tuples_of(const std::vector<Attribute>& attributes) {
 }
 
 std::vector<Triangle> triangles_of(const Indices& triangles) {
-  std::vector<Triangle> result(triangles.shape(0));
-  std::memcpy(result.data(), triangles.data(), result.size() * sizeof(Triangle));
-  return result;
+  const auto* first = reinterpret_cast<const Triangle*>(triangles.data());
+  return {first, first + triangles.shape(0)};
 }
 
 void bind_mesh(nb::module_& m) {

@@ -170,6 +170,13 @@ def test_a_mapped_file_is_the_mesh_of_the_file(tmp_path, bumpy):
     )
 
 
+def test_an_empty_mesh_is_a_mesh():
+    empty = rholm.Mesh([], [])
+    assert empty.vertices.shape == empty.triangles.shape == (0, 3)
+    assert empty.area == 0
+    assert rholm.inspect(empty).triangles == 0
+
+
 def test_directions_of_any_length_are_the_same(bumpy, random):
     s = rholm.expand(bumpy, 8)
     unit = random.normal(size=(50, 3))
