@@ -14,6 +14,7 @@
 #include "cli/terminal/exit_code.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/session.h"
+#include "rholm/context.h"
 #include "rholm/error.h"
 
 namespace rholm::cli {
@@ -91,6 +92,7 @@ int dispatch(std::span<const std::string> words) {
   }
   const Command& command = command_of(commands, first);
   if (asks_for_help(rest)) return print(command_help(command));
+  const CancelScope scope([] { return interrupting_signal() == 0; });
   return run_command(command, rest);
 }
 

@@ -1,6 +1,7 @@
 // Ctrl-C and its kin. Layer: cli.
 //
-// The first SIGINT or SIGTERM asks the library to stop at its next look (the progress callback);
+// The first SIGINT or SIGTERM asks the library to stop at its next look (the progress callback, or
+// the CancelScope of the program);
 // the second removes unfinished files and leaves at once. Blocking calls return with EINTR.
 #pragma once
 

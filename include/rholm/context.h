@@ -19,6 +19,25 @@ struct Context {
   ProgressCallback progress = {};  // none: nobody is told, nothing is cancelled
 };
 
+// While it lives, loops of the library on the thread that made it ask `keep_going` from time to
+// time (every few milliseconds, as a rule), also those of functions that take no Context, and those
+// between two calls of a ProgressCallback. Where it returns false, they throw Error{kCancelled}, as
+// if the callback had. Of several on one thread the last counts. It is never called by other
+// threads that work for this one.
+class CancelScope {
+ public:
+  explicit CancelScope(std::function<bool()> keep_going);
+  ~CancelScope();
+  CancelScope(const CancelScope&) = delete;
+  CancelScope& operator=(const CancelScope&) = delete;
+
+  bool keep_going() const { return keep_going_(); }
+
+ private:
+  std::function<bool()> keep_going_;
+  const CancelScope* outer_;
+};
+
 // Time of a stage, seconds.
 struct StageTime {
   double wall = 0;  // on the clock

@@ -207,13 +207,15 @@ void bind_encode(nb::module_& m) {
 }
 
 void bind_norms(nb::module_& m) {
-  m.def("radius_norm_squared", [](const StarChart& chart) { return radius_norm_squared(chart); });
-  m.def("gauge_norm_squared", &gauge_norm_squared);
+  m.def("radius_norm_squared", [](const StarChart& chart) {
+    return unlocked([&] { return radius_norm_squared(chart); });
+  });
+  m.def("gauge_norm_squared", unlocked_function(&gauge_norm_squared));
   m.def("tail_strength", [](const StarChart& chart, const std::string& function) {
-    return tail_strength(chart, parse_radial_function(function));
+    return unlocked([&] { return tail_strength(chart, parse_radial_function(function)); });
   });
   m.def("vertex_error_strength", [](const StarChart& chart, const std::string& function) {
-    return vertex_error_strength(chart, parse_radial_function(function));
+    return unlocked([&] { return vertex_error_strength(chart, parse_radial_function(function)); });
   });
   Record<ErrorStrengths>(m, "ErrorStrengths",
                          "The largest truncation errors at vertices, times 2 pi (L + 1).")
@@ -221,7 +223,7 @@ void bind_norms(nb::module_& m) {
       .field("gauge", &ErrorStrengths::gauge, "Of 1/r, in 1/unit.")
       .field("distance", &ErrorStrengths::distance, "Of the distance between the surfaces.");
   m.def("vertex_error_strengths", [](const Mesh& mesh, const Vec3& center) {
-    return vertex_error_strengths(view_of(mesh), center);
+    return unlocked([&] { return vertex_error_strengths(view_of(mesh), center); });
   });
   m.def("truncation_errors", [](const Mesh& mesh, const Expansion& expansion, double precision,
                                 bool predict, const Caller& caller) {

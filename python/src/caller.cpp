@@ -19,13 +19,14 @@ std::atomic<bool> threads_are_gone = false;
 }  // namespace
 
 Caller::Watch::Watch(const Caller& caller)
-    : caller_(caller), due_(std::chrono::steady_clock::now() + kLookInterval) {}
+    : caller_(caller), look_due_(std::chrono::steady_clock::now() + kLookInterval) {
+  tell_due_ = look_due_;
+}
 
 Context Caller::Watch::context() {
   Context context;
   context.threads = threads_are_gone ? 1 : caller_.threads_;
   if (context.threads != 1) threads_were_used = true;
-  // Calls come one after the other, so that stopped_ needs no lock.
   context.progress = [this](std::string_view stage, double fraction) {
     return look(stage, fraction);
   };
@@ -35,12 +36,14 @@ Context Caller::Watch::context() {
 bool Caller::Watch::look(std::string_view stage, double fraction) {
   // Other threads' calls would find no signals, and callables need not be safe for threads.
   if (stopped_ || std::this_thread::get_id() != thread_) return !stopped_;
-  if (std::chrono::steady_clock::now() < due_) return true;
+  const auto now = std::chrono::steady_clock::now();
+  const bool tells = !stage.empty() && !caller_.progress_.is_none() && now >= tell_due_;
+  if (!tells && now < look_due_) return true;
   {
     const nb::gil_scoped_acquire acquired;
     try {
       if (PyErr_CheckSignals() != 0) nb::raise_python_error();
-      if (!caller_.progress_.is_none() && !stage.empty()) {
+      if (tells) {
         const nb::object wish = caller_.progress_(std::string(stage), fraction);
         stopped_ = wish.is(nb::bool_(false));
       }
@@ -49,7 +52,8 @@ bool Caller::Watch::look(std::string_view stage, double fraction) {
       stopped_ = true;
     }
   }
-  due_ = std::chrono::steady_clock::now() + kLookInterval;
+  look_due_ = std::chrono::steady_clock::now() + kLookInterval;
+  if (tells) tell_due_ = look_due_;
   return !stopped_;
 }
 

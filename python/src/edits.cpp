@@ -57,7 +57,8 @@ TransferMode parse_mode(const std::string& name) {
 void bind_smooth(nb::module_& m) {
   m.def("region_weights",
         [](const Mesh& mesh, const std::vector<std::string>& regions, double transition) {
-          return array_of(region_weights(mesh, regions_of(regions), transition));
+          return array_of(
+              unlocked([&] { return region_weights(mesh, regions_of(regions), transition); }));
         });
   Options<PatchOptions>(m, "PatchOptions", "What is to go from a region.")
       .field("wavelength", &PatchOptions::wavelength)
@@ -86,7 +87,7 @@ void bind_smooth(nb::module_& m) {
   });
   m.def("longest_wavelength", &longest_wavelength);
   m.def("update_patch", [](const Patch& patch, double wavelength, double strength) {
-    return array_of(update(patch, PatchUpdate{wavelength, strength}));
+    return array_of(unlocked([&] { return update(patch, PatchUpdate{wavelength, strength}); }));
   });
   m.def("apply", [](const Patch& patch, const Rows& positions, Mesh mesh) {
     if (positions.shape(0) != patch.vertices.size()) {

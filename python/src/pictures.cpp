@@ -86,7 +86,8 @@ void bind_render(nb::module_& m) {
   });
   m.def("spectrum_svg", &spectrum_svg, nb::arg(), nb::arg(), nb::arg().none());
   m.def("encode_png", [](const Pixels& pixels) {
-    const std::vector<char> png = encode_png(image_of(pixels));
+    const Image image = image_of(pixels);
+    const std::vector<char> png = unlocked([&] { return encode_png(image); });
     return nb::bytes(png.data(), png.size());
   });
   m.def("write_png",

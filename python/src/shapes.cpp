@@ -118,8 +118,8 @@ void bind_mesh(nb::module_& m) {
                    })
       .def_prop_ro("attributes",
                    [](const PointCloud& cloud) { return tuples_of(cloud.attributes); });
-  m.def("validate", [](const Mesh& mesh) { validate(mesh); });
-  m.def("validate", [](const PointCloud& cloud) { validate(cloud); });
+  m.def("validate", [](const Mesh& mesh) { unlocked([&] { validate(mesh); }); });
+  m.def("validate", [](const PointCloud& cloud) { unlocked([&] { validate(cloud); }); });
 }
 
 void bind_files(nb::module_& m) {

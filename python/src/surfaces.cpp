@@ -23,7 +23,7 @@ void bind_surfaces(nb::module_& m) {
     for (Mesh& mesh : meshes) result.append(std::move(mesh));
     return result;
   });
-  m.def("directions_of", &directions_of);
+  m.def("directions_of", unlocked_function(&directions_of));
   Record<SurfaceMeasures>(m, "SurfaceMeasures", "Of the solid bounded by a surface.")
       .field("volume", &SurfaceMeasures::volume, "In the cubed unit.")
       .field("area", &SurfaceMeasures::area, "Of the surface, in the squared unit.")

@@ -87,28 +87,29 @@ void bind_records(nb::module_& m) {
 
 void bind_edges(nb::module_& m) {
   m.def("weld", [](const Mesh& mesh, double tolerance) {
-    Welded welded = weld(mesh, tolerance);
+    Welded welded = unlocked([&] { return weld(mesh, tolerance); });
     return nb::make_tuple(std::move(welded.mesh), welded.merged_vertices,
                           welded.collapsed_triangles);
   });
   m.def("pair_edges", [](const Mesh& mesh) {
     static_assert(sizeof(Edge) == 4 * sizeof(std::uint32_t));
-    std::vector<Edge> edges = pair_edges(mesh);
+    std::vector<Edge> edges = unlocked([&] { return pair_edges(mesh); });
     const std::size_t n = edges.size();
     return array_of<std::uint32_t>(std::move(edges), {n, 4});
   });
   m.def("bounds", [](const Rows& points) { return bounds(vector_of(points)); });
-  m.def("inspect", [](const Mesh& mesh) { return inspect(mesh); });
-  m.def("closing_tolerance", &closing_tolerance);
-  m.def("largest_component", &largest_component);
+  m.def("inspect", unlocked_function(&inspect));
+  m.def("closing_tolerance", unlocked_function(&closing_tolerance));
+  m.def("largest_component", unlocked_function(&largest_component));
   m.def("flip", [](Mesh mesh) {
     flip(mesh);
     return mesh;
   });
-  m.def("area_normals",
-        [](const Mesh& mesh) { return array_of(area_normals(mesh.vertices, mesh.triangles)); });
-  m.def("surface_area", &surface_area);
-  m.def("enclosed_volume", &enclosed_volume);
+  m.def("area_normals", [](const Mesh& mesh) {
+    return array_of(unlocked([&] { return area_normals(mesh.vertices, mesh.triangles); }));
+  });
+  m.def("surface_area", unlocked_function(&surface_area));
+  m.def("enclosed_volume", unlocked_function(&enclosed_volume));
 }
 
 void bind_repair(nb::module_& m) {
@@ -130,13 +131,12 @@ void bind_repair(nb::module_& m) {
 }
 
 void bind_primitives(nb::module_& m) {
-  m.def("icosphere", &icosphere, nb::call_guard<nb::gil_scoped_release>());
-  m.def("latitude_longitude_sphere", &latitude_longitude_sphere,
-        nb::call_guard<nb::gil_scoped_release>());
-  m.def("ellipsoid", &ellipsoid, nb::call_guard<nb::gil_scoped_release>());
-  m.def("box", &box, nb::call_guard<nb::gil_scoped_release>());
-  m.def("torus", &torus, nb::call_guard<nb::gil_scoped_release>());
-  m.def("bumpy_sphere", &bumpy_sphere, nb::call_guard<nb::gil_scoped_release>());
+  m.def("icosphere", unlocked_function(&icosphere));
+  m.def("latitude_longitude_sphere", unlocked_function(&latitude_longitude_sphere));
+  m.def("ellipsoid", unlocked_function(&ellipsoid));
+  m.def("box", unlocked_function(&box));
+  m.def("torus", unlocked_function(&torus));
+  m.def("bumpy_sphere", unlocked_function(&bumpy_sphere));
 }
 
 }  // namespace

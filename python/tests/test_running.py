@@ -78,6 +78,25 @@ def test_control_c_raises_keyboard_interrupt():
     assert rholm.expand(rholm.icosphere(2), 4).degree == 4  # and work goes on
 
 
+def test_functions_without_progress_look_at_signals():
+    mesh = rholm.icosphere(8)
+    rang = 0
+
+    def ring(*_):
+        nonlocal rang
+        rang += 1
+
+    old = signal.signal(signal.SIGALRM, ring)
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.005, 0.005)
+        rholm.inspect(mesh)  # some tenths of a second
+        signal.setitimer(signal.ITIMER_REAL, 0)
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, old)
+    assert rang > 2  # once would be afterwards
+
+
 def test_handlers_of_other_signals_run_meanwhile():
     class AlarmError(Exception):
         pass

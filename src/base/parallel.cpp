@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <mutex>
+#include <thread>
 
+#include "base/cancel.h"
 #include "base/chunks.h"
 #include "rholm/error.h"
 
@@ -26,8 +28,14 @@ void parallel_for(std::size_t n, std::size_t grain, const Context& context,
   const std::size_t chunks = (n + grain - 1) / grain;
   std::size_t done = 0;  // guarded by the mutex
   std::mutex mutex;
+  const CancelScope* const scope = cancel_scope();
+  const std::thread::id caller = std::this_thread::get_id();
   const auto run_chunk = [&](std::size_t chunk) {
+    // A thread that waits for a loop of its own may be here to help: what it asks would be about
+    // that one.
+    const CancelScopeSwap swap(std::this_thread::get_id() == caller ? scope : nullptr);
     body(chunk * grain, std::min(n, (chunk + 1) * grain));
+    ask_cancel();
     if (!context.progress) return;
     const std::lock_guard lock(mutex);
     ++done;

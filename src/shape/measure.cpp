@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/cancel.h"
 #include "base/compensated_sum.h"
 
 namespace rholm {
@@ -26,7 +27,9 @@ class VectorSum {
 Measures measure(const MeshView& mesh, const UnitFrame& frame) {
   CompensatedSum twice_area, six_volumes, moduli;
   VectorSum area_moment, volume_moment;
+  CancelPoll poll;
   for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
+    poll();
     const std::array<Vec3, 3> corners = scaled_corners(mesh, mesh.triangle(t), frame.scale);
     const Vec3 normal = face_normal(corners).twice_area;
     const Vec3 a = corners[0] - frame.center;
@@ -66,7 +69,9 @@ Bounds bounds(const std::vector<Vec3>& points) {
 std::vector<Vec3> area_normals(std::span<const Vec3> vertices,
                                std::span<const Triangle> triangles) {
   std::vector<Vec3> normals(vertices.size());
+  CancelPoll poll;
   for (const Triangle& t : triangles) {
+    poll();
     const Vec3& a = vertices[t[0]];
     const Vec3 area = cross(vertices[t[1]] - a, vertices[t[2]] - a);
     for (const std::uint32_t corner : t) normals[corner] += area;

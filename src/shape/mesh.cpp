@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/cancel.h"
 #include "rholm/error.h"
 #include "rholm/mesh_view.h"
 
@@ -58,8 +59,13 @@ Mesh mesh_of(const MeshView& view) {
 }
 
 void validate(const MeshView& mesh) {
-  for (std::size_t i = 0; i < mesh.n_vertices; ++i) check_point(mesh.vertex(i), i, "vertex");
+  CancelPoll poll;
+  for (std::size_t i = 0; i < mesh.n_vertices; ++i) {
+    poll();
+    check_point(mesh.vertex(i), i, "vertex");
+  }
   for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
+    poll();
     for (const std::uint32_t index : mesh.triangle(t)) {
       if (index >= mesh.n_vertices) {
         throw Error(ErrorCode::kInvalidInput, "triangle " + std::to_string(t) + " names vertex " +

@@ -6,6 +6,7 @@
 
 #include "atlas/cap/cap_eval.h"
 #include "atlas/cap/cap_support.h"
+#include "base/cancel.h"
 #include "base/poison.h"
 #include "chart/cap/cap_frame.h"
 #include "chart/cap/dilation.h"
@@ -226,7 +227,9 @@ bool strays(const SampleLevels& samples, const Cap& cap, std::span<const double>
   const SampleLevel& level = samples.finest();
   const double far = band + level.spacing;                   // of a sample, off the surface
   const double wide = std::max(far, kVoid * level.spacing);  // and along it
+  CancelPoll poll;
   for (std::size_t k = 0; k < n; ++k) {
+    poll();
     const Vec3 at{values[k], values[stride + k], values[2 * stride + k]};
     if (!(dot(at, at) <= f.support * f.support)) continue;  // also behind the centre
     const double* const across = &values[3 * stride + k];

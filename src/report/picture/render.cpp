@@ -242,7 +242,7 @@ void draw_panel(Canvas& canvas, const PanelPicture& p, const RenderOptions& opti
   const RayScene scene(p.subject.mesh);
   const LightSamples lights =
       make_light_samples(options.samples * options.samples, options.occlusion_rays);
-  constexpr std::size_t kRows = 8;  // of a chunk: some 10 ms
+  constexpr std::size_t kRows = 2;  // of a chunk: some 10 ms
   parallel_for(static_cast<std::size_t>(p.height), kRows, context, stage,
                [&](std::size_t begin, std::size_t end) {
                  for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {

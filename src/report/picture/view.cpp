@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/cancel.h"
 #include "rholm/error.h"
 
 namespace rholm {
@@ -58,7 +59,9 @@ PlaneBox projected_box(const View& view, const Mesh& mesh) {
   if (mesh.triangles.empty()) return {};
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   PlaneBox box{{kInfinity, kInfinity}, {-kInfinity, -kInfinity}};
+  CancelPoll poll;
   for (const Triangle& t : mesh.triangles) {
+    poll();
     for (const std::uint32_t corner : t) {
       const PlanePoint p = view.project(mesh.vertices[corner]);
       box.min = {std::min(box.min.x, p.x), std::min(box.min.y, p.y)};

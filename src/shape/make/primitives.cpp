@@ -4,6 +4,7 @@
 #include <numbers>
 #include <string>
 
+#include "base/cancel.h"
 #include "base/random.h"
 #include "rholm/error.h"
 #include "rholm/topology.h"
@@ -70,7 +71,9 @@ Mesh subdivide_on_sphere(const Mesh& mesh) {
     fine.vertices.push_back(normalized(mesh.vertices[smaller] + mesh.vertices[group[0].larger()]));
   });
   fine.triangles.reserve(4 * mesh.triangles.size());
+  CancelPoll poll;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    poll();
     const auto [a, b, c] = mesh.triangles[t];
     const std::uint32_t ab = middle[3 * t], bc = middle[3 * t + 1], ca = middle[3 * t + 2];
     fine.triangles.insert(fine.triangles.end(),
@@ -231,7 +234,9 @@ Mesh bumpy_sphere(int subdivisions, double amplitude, std::uint64_t seed) {
                                                ", it must be at least 0 and below 1");
   const std::vector<Wave> waves = random_waves(seed);
   Mesh mesh = icosphere(subdivisions);
+  CancelPoll poll;
   for (Vec3& u : mesh.vertices) {
+    poll();
     double bumps = 0;
     for (const Wave& wave : waves) bumps += wave.weight * std::cos(dot(wave.k, u) + wave.phase);
     u = (1 + amplitude * bumps) * u;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/cancel.h"
 #include "base/compensated_sum.h"
 #include "base/parallel.h"
 #include "base/random.h"
@@ -65,7 +66,9 @@ class Surface {
     falloff_ = std::log(density_ratio) / dot(size_, axis) * axis;
     CompensatedSum sum;
     sums_.reserve(mesh.triangles.size());
+    CancelPoll poll;
     for (const Triangle& t : mesh.triangles) {
+      poll();
       const FaceNormal face = face_normal(scaled_corners(mesh_, t, frame_.scale));
       // Triangles without a direction count as 0, so that every point has a normal.
       if (!face.degenerate) sum.add(norm(face.twice_area));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/cancel.h"
 #include "base/signed_sets.h"
 
 namespace rholm {
@@ -77,7 +78,9 @@ SortedEdges sort_edges(const Graph& graph) {
   std::vector<std::uint16_t> step(n);  // kSteps: no edge
   std::vector<char> opposite(n);
   std::vector<std::size_t> begin(kSteps + 1, 0);
+  CancelPoll poll;
   for (EdgeIndex e = 0; e < n; ++e) {
+    poll();
     step[e] = kSteps;
     if (!graph.exists(e)) continue;
     const double agreed = graph.agreement_of(e);
@@ -92,6 +95,7 @@ SortedEdges sort_edges(const Graph& graph) {
   sorted.edges.resize(begin[kSteps]);
   sorted.opposite.resize(begin[kSteps]);
   for (EdgeIndex e = 0; e < n; ++e) {
+    poll();
     if (step[e] == kSteps) continue;
     const std::size_t place = begin[step[e]]++;
     sorted.edges[place] = e;
@@ -108,7 +112,9 @@ struct Votes {
 
 std::vector<Votes> count_votes(const Graph& graph, const SortedEdges& sorted, SignedSets& sets) {
   std::vector<Votes> votes;
+  CancelPoll poll;
   for (std::size_t place = sorted.n_sure; place < sorted.edges.size(); ++place) {
+    poll();
     const EdgeIndex e = sorted.edges[place];
     SignedSets::Member a = sets.find(graph.from(e)), b = sets.find(graph.to(e));
     if (a.set == b.set) continue;
@@ -116,7 +122,8 @@ std::vector<Votes> count_votes(const Graph& graph, const SortedEdges& sorted, Si
     const double agreed = graph.agreement_of(e);
     votes.push_back({a.set, b.set, a.opposite == b.opposite ? agreed : -agreed});
   }
-  std::stable_sort(votes.begin(), votes.end(), [](const Votes& x, const Votes& y) {
+  std::stable_sort(votes.begin(), votes.end(), [&](const Votes& x, const Votes& y) {
+    poll();
     return x.a != y.a ? x.a < y.a : x.b < y.b;
   });
   std::size_t n = 0;
@@ -137,7 +144,9 @@ std::vector<Votes> count_votes(const Graph& graph, const SortedEdges& sorted, Si
 // The sets numbered by their first points.
 std::size_t number_sets(SignedSets& sets, std::vector<std::uint32_t>& number) {
   std::size_t count = 0;
+  CancelPoll poll;
   for (std::uint32_t i = 0; i < number.size(); ++i) {
+    poll();
     const std::uint32_t first = sets.find(i).set;
     number[i] = first == i ? static_cast<std::uint32_t>(count++) : number[first];
   }
@@ -162,7 +171,9 @@ OrientedParts orient_along_graph(std::span<const Vec3> points, const LocalFits& 
   const Graph graph(points, fits, normals);
   const SortedEdges sorted = sort_edges(graph);
   SignedSets sets(points.size());
+  CancelPoll poll;
   for (std::size_t place = 0; place < sorted.n_sure; ++place) {
+    poll();
     const EdgeIndex e = sorted.edges[place];
     sets.unite(graph.from(e), graph.to(e), sorted.opposite[place]);
   }
@@ -184,7 +195,9 @@ std::vector<float> mean_agreement(std::span<const Vec3> points, const LocalFits&
                                   std::span<const Vec3> normals) {
   const Graph graph(points, fits, normals);
   std::vector<float> mean(points.size(), 0.0f);
+  CancelPoll poll;
   for (std::uint32_t i = 0; i < points.size(); ++i) {
+    poll();
     double sum = 0;
     int n = 0;
     for (EdgeIndex e = i * kGraphNeighbors; e < (i + 1) * kGraphNeighbors; ++e) {

@@ -6,11 +6,14 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <new>
 #include <string>
 
+#include "base/cancel.h"
 #include "rholm/error.h"
 #include "rholm/topology.h"
 #include "shape/face.h"
@@ -47,6 +50,32 @@ struct SceneDeleter {
 };
 using Device = std::unique_ptr<RTCDeviceTy, DeviceDeleter>;
 using Scene = std::unique_ptr<RTCSceneTy, SceneDeleter>;
+
+// Asks for Embree while it builds. Its own threads have no scope: they are told to go on, but hear
+// what the thread that waits for them was told.
+class BuildWatch {
+ public:
+  // To be called by C code. Exceptions wait here.
+  static bool keep_going(void* self, double) { return static_cast<BuildWatch*>(self)->ask(); }
+  void rethrow() const {
+    if (stopped_by_) std::rethrow_exception(stopped_by_);
+  }
+
+ private:
+  bool ask() {
+    if (stopped_) return false;
+    try {
+      ask_cancel();
+    } catch (...) {
+      stopped_by_ = std::current_exception();
+      stopped_ = true;
+    }
+    return !stopped_;
+  }
+
+  std::atomic<bool> stopped_ = false;
+  std::exception_ptr stopped_by_;  // written by the one thread that has a scope
+};
 
 double largest_component(const Vec3& a) {
   return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
@@ -85,11 +114,14 @@ void RayScene::Impl::build() {
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                 3 * sizeof(std::uint32_t), mesh.triangles.size()));
     if (positions == nullptr || indices == nullptr) throw std::bad_alloc();
+    CancelPoll poll;
     for (const Vec3& vertex : mesh.vertices) {
+      poll();
       const Vec3 q = frame.to_local(vertex);
       for (const double x : {q.x, q.y, q.z}) *positions++ = static_cast<float>(x);
     }
     for (const Triangle& triangle : mesh.triangles) {
+      poll();
       indices = std::copy(triangle.begin(), triangle.end(), indices);
     }
     rtcCommitGeometry(geometry);
@@ -99,7 +131,10 @@ void RayScene::Impl::build() {
   // Robust: rays do not slip through shared edges. The filters below travel with each query.
   rtcSetSceneFlags(scene.get(), static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST |
                                                            RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+  BuildWatch watch;
+  rtcSetSceneProgressMonitorFunction(scene.get(), &BuildWatch::keep_going, &watch);
   rtcCommitScene(scene.get());
+  watch.rethrow();
   const RTCError error = rtcGetDeviceError(device.get());
   if (error != RTC_ERROR_NONE) throw_embree_error(error, "building the search tree");
 }

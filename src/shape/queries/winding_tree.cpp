@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 
+#include "base/cancel.h"
 #include "base/parallel.h"
 #include "rholm/error.h"
 #include "rholm/topology.h"
@@ -23,6 +24,7 @@ constexpr std::uint32_t kLeafSize = 8;
 constexpr double kLeastRadius = 1e-30;
 // Queries that are worked on at a time; a multiple of any vector's length.
 constexpr std::size_t kGrain = 1024;
+constexpr std::size_t kNodesPerQuestion = 4096;  // whether to cancel
 
 void check_finite(std::span<const Vec3> vectors, const char* what) {
   for (std::size_t i = 0; i < vectors.size(); ++i) {
@@ -101,10 +103,13 @@ WindingTree::WindingTree(std::span<const Vec3> points, std::span<const Vec3> are
 
 std::vector<WindingTree::Key> WindingTree::sorted_keys(std::span<const Vec3> local) const {
   std::vector<Key> keys(local.size());
+  CancelPoll poll;
   for (std::size_t i = 0; i < local.size(); ++i) {
+    poll();
     keys[i] = {morton(local[i]), static_cast<std::uint32_t>(i)};
   }
-  std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
+  std::sort(keys.begin(), keys.end(), [&](const Key& a, const Key& b) {
+    poll();
     return a.morton != b.morton ? a.morton < b.morton : a.index < b.index;
   });
   return keys;
@@ -118,6 +123,7 @@ void WindingTree::split(std::span<const Key> keys, std::uint32_t begin, std::uin
   const bool leaf = end - begin <= kLeafSize || level == 0;
   if (!leaf && digit(begin) == digit(end - 1)) return split(keys, begin, end, level - 1);
   const std::size_t self = nodes_.size();
+  if (self % kNodesPerQuestion == 0) ask_cancel();
   WindingNode node;
   node.begin = begin;
   node.end = end;
@@ -152,7 +158,9 @@ void WindingTree::set_area_normals(std::span<const Vec3> area_normals) {
 
 // Radii hold the patches, within which the far field is not meant.
 void WindingTree::sum_moments() {
+  CancelPoll poll;
   for (std::size_t i = nodes_.size(); i-- > 0;) {
+    poll();
     WindingNode& node = nodes_[i];
     node.area_normal = {};
     node.first = {};

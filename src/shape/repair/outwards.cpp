@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/cancel.h"
 #include "base/parallel.h"
 #include "shape/queries/ray_scene.h"
 
@@ -21,7 +22,9 @@ struct Solid {
 std::vector<Solid> find_solids(const Mesh& mesh, const Parts& parts,
                                const std::vector<std::uint32_t>& mates) {
   std::vector<Solid> solids(parts.n);
+  CancelPoll poll;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    poll();
     Solid& solid = solids[parts.part[t]];
     const Triangle& corners = mesh.triangles[t];
     const Vec3 first = mesh.vertices[corners[0]];

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/cancel.h"
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"
 #include "base/refuse.h"
@@ -49,6 +50,7 @@ class Repairer {
     const Bounds box = bounds(given_);
     scale_ = unit_frame(box).scale;
     for (Vec3& v : mesh_.vertices) v *= scale_;
+    ask_cancel();
     local_ = mesh_.vertices;
     diagonal_ = norm(scale_ * box.max - scale_ * box.min);
     largest_ = scale_ * largest_modulus(box);
@@ -90,7 +92,9 @@ class Repairer {
   void collapse_needles() {
     DisjointSets same(mesh_.vertices.size());
     bool found = false;
+    CancelPoll poll;
     for (const Triangle& t : mesh_.triangles) {
+      poll();
       if (!normal_of(t).degenerate) continue;
       for (int k = 0; k < 3; ++k) {
         const std::uint32_t a = t[k], b = t[(k + 1) % 3];
@@ -108,12 +112,17 @@ class Repairer {
 
   void drop_duplicates() {
     std::vector<std::pair<Triangle, std::uint32_t>> sorted;
+    CancelPoll poll;
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+      poll();
       Triangle corners = mesh_.triangles[t];
       std::sort(corners.begin(), corners.end());
       sorted.emplace_back(corners, t);
     }
-    std::sort(sorted.begin(), sorted.end());
+    std::sort(sorted.begin(), sorted.end(), [&](const auto& a, const auto& b) {
+      poll();
+      return a < b;
+    });
     std::vector<char> again(mesh_.triangles.size(), 0);
     for (std::size_t i = 1; i < sorted.size(); ++i) {
       again[sorted[i].second] = sorted[i].first == sorted[i - 1].first;
@@ -191,7 +200,9 @@ class Repairer {
   void swap_slivers() {
     for (int pass = 0; pass < kSwapPasses; ++pass) {
       std::vector<std::uint32_t> slivers;
+      CancelPoll poll;
       for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+        poll();
         if (normal_of(mesh_.triangles[t]).degenerate) slivers.push_back(t);
       }
       if (slivers.empty() || !swap(slivers)) return;
@@ -211,7 +222,9 @@ class Repairer {
 
   bool swap(const std::vector<std::uint32_t>& slivers) {
     std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
+    CancelPoll poll;
     for (const Triangle& t : mesh_.triangles) {
+      poll();
       for (int k = 0; k < 3; ++k) edges.insert(std::minmax(t[k], t[(k + 1) % 3]));
     }
     std::vector<char> touched(mesh_.triangles.size(), 0), gone(mesh_.triangles.size(), 0);
@@ -309,6 +322,7 @@ Repaired repair(const Mesh& mesh, const RepairOptions& options, const Context& c
   }
   const Welded exact = weld(mesh);
   const Welded welded = options.weld > 0 ? weld(mesh, options.weld) : exact;
+  ask_cancel();
   Repairer repairer(welded.mesh, options, context);
   repairer.run();
   Repaired result = repairer.result();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/cancel.h"
 #include "base/disjoint_sets.h"
 #include "shape/face.h"
 #include "shape/topology/half_edges.h"
@@ -84,7 +85,9 @@ std::vector<std::uint32_t> find_mates(const std::vector<Vec3>& vertices,
 
 Parts find_parts(std::size_t n_triangles, const std::vector<std::uint32_t>& mates) {
   DisjointSets sets(n_triangles);
+  CancelPoll poll;
   for (std::uint32_t h = 0; h < mates.size(); ++h) {
+    poll();
     if (mates[h] != kNoMate && h < mates[h]) sets.unite(h / 3, mates[h] / 3);
   }
   Parts parts{.part = std::vector<std::uint32_t>(n_triangles)};
@@ -101,11 +104,13 @@ Orienting orient_alike(const std::vector<Vec3>& vertices, const Parts& parts,
   std::vector<char> turned(triangles.size(), kUnseen);
   Orienting result{.flipped = {}, .one_sided = std::vector<char>(parts.n, 0)};
   std::vector<std::uint32_t> open;
+  CancelPoll poll;
   for (std::uint32_t seed = 0; seed < triangles.size(); ++seed) {
     if (turned[seed] != kUnseen) continue;
     turned[seed] = 0;
     open.push_back(seed);
     while (!open.empty()) {
+      poll();
       const std::uint32_t t = open.back();
       open.pop_back();
       for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
@@ -128,6 +133,7 @@ Orienting orient_alike(const std::vector<Vec3>& vertices, const Parts& parts,
     return norm(cross(vertices[t[1]] - a, vertices[t[2]] - a));
   };
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    poll();
     balance[parts.part[t]] += turned[t] ? area(triangles[t]) : -area(triangles[t]);
   }
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
@@ -160,13 +166,16 @@ std::vector<std::uint32_t> separate_fans(std::size_t n_vertices,
                                          const std::vector<std::uint32_t>& mates,
                                          std::vector<Triangle>& triangles) {
   DisjointSets fans(3 * triangles.size());
+  CancelPoll poll;
   for (std::uint32_t h = 0; h < mates.size(); ++h) {
+    poll();
     if (mates[h] != kNoMate && h < mates[h]) join_corners(triangles, h, mates[h], fans);
   }
   std::vector<char> seen(n_vertices, 0);
   std::vector<std::uint32_t> vertex_of(3 * triangles.size());  // of fans, at their first corner
   std::vector<std::uint32_t> copies;
   for (std::uint32_t c = 0; c < vertex_of.size(); ++c) {
+    poll();
     std::uint32_t& corner = triangles[c / 3][c % 3];
     if (const std::uint32_t fan = fans.find(c); fan != c) {
       corner = vertex_of[fan];

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "base/cancel.h"
 #include "base/parallel.h"
 #include "rholm/error.h"
 #include "rholm/topology.h"
@@ -155,8 +156,10 @@ class Simplifier {
     std::vector<std::uint8_t> stays(n, 1);
     locked_.assign(n, 0);
     std::size_t done = 0;
+    CancelPoll poll;
     for (const float limit : limits) {
       for (std::uint32_t v = 0; v < n && done < wanted; ++v) {
+        poll();
         Collapse collapse{.from = v};
         if (locked_[v] != 0 || least[v] > limit || least[v] == HUGE_VALF ||
             !find_collapse(limits.back(), collapse))

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/cancel.h"
 #include "base/disjoint_sets.h"
 #include "rholm/topology.h"
 #include "shape/face.h"
@@ -17,7 +18,9 @@ Mesh largest_component(const Mesh& mesh) {
   });
   const double scale = unit_frame(bounds(mesh.vertices)).scale;
   std::vector<double> areas(mesh.triangles.size(), 0.0);  // twice, at each part's first triangle
+  CancelPoll poll;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    poll();
     areas[parts.find(t)] +=
         norm(face_normal(scaled_corners(mesh, mesh.triangles[t], scale)).twice_area);
   }
@@ -27,6 +30,7 @@ Mesh largest_component(const Mesh& mesh) {
   const auto largest =
       static_cast<std::uint32_t>(std::max_element(areas.begin(), areas.end()) - areas.begin());
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    poll();
     if (parts.find(t) == largest) result.triangles.push_back(mesh.triangles[t]);
   }
   return weld(result).mesh;  // drops the vertices of the others

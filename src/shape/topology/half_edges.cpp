@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 
+#include "base/cancel.h"
 #include "rholm/error.h"
 
 namespace rholm {
@@ -40,7 +41,9 @@ HalfEdges sort_half_edges(std::size_t n_vertices, const std::vector<Triangle>& t
   HalfEdges edges;
   std::vector<std::uint32_t>& begin = edges.begin;
   begin.assign(n_vertices + 2, 0);
+  CancelPoll poll;
   for (const Triangle& t : triangles) {
+    poll();
     if (has_repeated_corner(t)) continue;
     for (int k = 0; k < 3; ++k) ++begin[std::min(t[k], t[k == 2 ? 0 : k + 1]) + std::size_t{2}];
   }
@@ -49,6 +52,7 @@ HalfEdges sort_half_edges(std::size_t n_vertices, const std::vector<Triangle>& t
   // begin[v + 1] runs from the start of bucket v to its end, which is the start of bucket v + 1.
   std::uint32_t corner = 0;
   for (const Triangle& t : triangles) {
+    poll();
     if (has_repeated_corner(t)) {
       corner += 3;
       continue;
@@ -62,6 +66,7 @@ HalfEdges sort_half_edges(std::size_t n_vertices, const std::vector<Triangle>& t
   }
   begin.pop_back();
   for (std::size_t v = 0; v < n_vertices; ++v) {
+    poll();
     sort_bucket(edges.sorted.data() + begin[v], edges.sorted.data() + begin[v + 1]);
   }
   return edges;

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "base/cancel.h"
 #include "rholm/mesh.h"
 
 namespace rholm {
@@ -31,7 +32,9 @@ struct HalfEdges {
   // Calls visit(smaller vertex, half-edges of one edge) for every edge by (smaller, larger).
   template <typename Visit>
   void for_each_edge(Visit visit) const {
+    CancelPoll poll;
     for (std::size_t v = 0; v + 1 < begin.size(); ++v) {
+      poll();
       std::size_t i = begin[v];
       while (i < begin[v + 1]) {
         std::size_t j = i + 1;

@@ -1,4 +1,5 @@
 #include "shape/topology/identical.h"
+#include "base/cancel.h"
 
 #include <bit>
 
@@ -22,7 +23,9 @@ std::vector<std::uint32_t> first_identical(std::span<const Vec3> points) {
   const std::size_t slots = std::bit_ceil(2 * points.size() + 1);
   std::vector<std::uint32_t> table(slots, kFree);
   std::vector<std::uint32_t> first(points.size());
+  CancelPoll poll;
   for (std::uint32_t i = 0; i < points.size(); ++i) {
+    poll();
     std::size_t slot = hash(points[i]) & (slots - 1);
     while (table[slot] != kFree && !(points[table[slot]] == points[i])) {
       slot = (slot + 1) & (slots - 1);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/cancel.h"
 #include "base/disjoint_sets.h"
 #include "rholm/topology.h"
 #include "shape/face.h"
@@ -66,7 +67,9 @@ void inspect_edges(const Mesh& mesh, Inspection& result) {
     }
     result.duplicate_triangles += count_duplicates(mesh, group);
   });
+  CancelPoll poll;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    poll();
     if (has_repeated_corner(mesh.triangles[t])) continue;
     result.components += parts.find(t) == t;
     for (std::uint32_t c = 3 * t; c < 3 * t + 3; ++c) {
@@ -80,7 +83,9 @@ void inspect_edges(const Mesh& mesh, Inspection& result) {
 }
 
 void count_degenerate(const Mesh& mesh, double scale, Inspection& result) {
+  CancelPoll poll;
   for (const Triangle& t : mesh.triangles) {
+    poll();
     result.degenerate_triangles +=
         has_repeated_corner(t) || face_normal(scaled_corners(mesh, t, scale)).degenerate;
   }
@@ -89,7 +94,9 @@ void count_degenerate(const Mesh& mesh, double scale, Inspection& result) {
 // Mean of the vertices of triangles without a repeated corner.
 Vec3 mean_of_used(const Mesh& mesh, const UnitFrame& frame) {
   std::vector<char> used(mesh.vertices.size(), 0);
+  CancelPoll poll;
   for (const Triangle& t : mesh.triangles) {
+    poll();
     if (has_repeated_corner(t)) continue;
     for (const std::uint32_t v : t) used[v] = 1;
   }

@@ -1,4 +1,5 @@
 #include "shape/topology/vertex_stars.h"
+#include "base/cancel.h"
 
 #include <algorithm>
 #include <utility>
@@ -32,13 +33,16 @@ bool chain(Link& link, bool& open) {
 VertexStars make_vertex_stars(std::size_t n_vertices, std::span<const Triangle> triangles) {
   VertexStars stars;
   stars.begin.assign(n_vertices + 1, 0);
+  CancelPoll poll;
   for (const Triangle& t : triangles) {
+    poll();
     for (const std::uint32_t v : t) ++stars.begin[v + 1];
   }
   for (std::size_t v = 0; v < n_vertices; ++v) stars.begin[v + 1] += stars.begin[v];
   stars.triangles.resize(3 * triangles.size());
   // begin[v] moves to the end of v's part, which is where that of v + 1 begins.
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    poll();
     for (const std::uint32_t v : triangles[t]) stars.triangles[stars.begin[v]++] = t;
   }
   for (std::size_t v = n_vertices; v > 0; --v) stars.begin[v] = stars.begin[v - 1];

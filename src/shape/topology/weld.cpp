@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/cancel.h"
 #include "base/disjoint_sets.h"
 #include "rholm/error.h"
 #include "rholm/topology.h"
@@ -41,6 +42,7 @@ class Joiner {
   void build(std::uint32_t node, std::uint32_t begin, std::uint32_t end) {
     Bounds box{.min = points_[order_[begin]], .max = points_[order_[begin]]};
     for (std::uint32_t i = begin; i < end; ++i) {
+      poll_();
       const Vec3& p = points_[order_[i]];
       box.min = {std::min(box.min.x, p.x), std::min(box.min.y, p.y), std::min(box.min.z, p.z)};
       box.max = {std::max(box.max.x, p.x), std::max(box.max.y, p.y), std::max(box.max.z, p.z)};
@@ -55,7 +57,10 @@ class Joiner {
     };
     const std::uint32_t middle = begin + (end - begin) / 2;
     std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
-                     [&](std::uint32_t i, std::uint32_t j) { return along(i) < along(j); });
+                     [&](std::uint32_t i, std::uint32_t j) {
+                       poll_();
+                       return along(i) < along(j);
+                     });
     const auto children = static_cast<std::uint32_t>(nodes_.size());
     nodes_.resize(nodes_.size() + 2);
     nodes_[node].children = children;
@@ -66,6 +71,7 @@ class Joiner {
   void join_all(Node& node) {
     if (node.joined) return;
     for (std::uint32_t i = node.begin; i < node.end; ++i) {
+      poll_();
       sets_.unite(order_[node.begin], order_[i]);
     }
     node.joined = true;
@@ -73,6 +79,7 @@ class Joiner {
 
   void join_points(const Node& a, const Node& b) {
     for (std::uint32_t i = a.begin; i < a.end; ++i) {
+      poll_();
       for (std::uint32_t j = b.begin; j < b.end; ++j) {
         if (norm(points_[order_[i]] - points_[order_[j]]) <= tolerance_) {
           sets_.unite(order_[i], order_[j]);
@@ -129,6 +136,7 @@ class Joiner {
   double tolerance_;
   DisjointSets sets_;
   std::vector<Node> nodes_;
+  CancelPoll poll_;
 };
 
 // For every vertex the one it becomes.
@@ -158,7 +166,9 @@ void drop_unused(const Mesh& mesh, std::vector<Triangle>& triangles, Mesh& out) 
   for (const Attribute& a : mesh.attributes) {
     out.attributes.push_back({.name = a.name, .type = a.type, .values = {}});
   }
+  CancelPoll poll;
   for (std::size_t v = 0; v < place.size(); ++v) {
+    poll();
     if (place[v] == kUnused) continue;
     place[v] = static_cast<std::uint32_t>(out.vertices.size());
     out.vertices.push_back(mesh.vertices[v]);
@@ -186,7 +196,9 @@ Welded weld(const Mesh& mesh, double tolerance) {
   for (std::uint32_t i = 0; i < kept.size(); ++i) result.merged_vertices += kept[i] != i;
   std::vector<Triangle> triangles;
   triangles.reserve(mesh.triangles.size());
+  CancelPoll poll;
   for (const Triangle& t : mesh.triangles) {
+    poll();
     const Triangle welded{kept[t[0]], kept[t[1]], kept[t[2]]};
     if (has_repeated_corner(welded)) {
       ++result.collapsed_triangles;

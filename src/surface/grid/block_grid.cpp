@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 
+#include "base/cancel.h"
 #include "base/parallel.h"
 #include "rholm/error.h"
 
@@ -227,7 +228,9 @@ BlockGrid make_block_grid(const Vec3& origin, double step, std::vector<BlockCoor
 
 void add_blocks(BlockGrid& grid, std::span<const BlockCoordinates> blocks) {
   const std::size_t before = grid.n_blocks();
+  CancelPoll poll;
   for (const BlockCoordinates& b : blocks) {
+    poll();
     if (find_block(grid, b) != kNoBlock) continue;
     grid.blocks.push_back(b);
     if (n_slots(grid.n_blocks()) > grid.slots.size()) {
@@ -246,6 +249,7 @@ void add_blocks(BlockGrid& grid, std::span<const BlockCoordinates> blocks) {
   if (!grid.filled.empty()) grid.filled.resize(8 * n, 0);
   grid.neighbours.resize(n);
   for (std::size_t b = before; b < n; ++b) {
+    poll();
     find_neighbours(grid, b);
     for (int direction = 0; direction < 27; ++direction) {
       const std::int32_t other = grid.neighbours[b][direction];

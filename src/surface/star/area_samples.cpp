@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/cancel.h"
 #include "base/compensated_sum.h"
 #include "base/random.h"
 #include "rholm/error.h"
@@ -19,7 +20,9 @@ std::vector<double> cumulative_areas(const Mesh& mesh) {
   sums.reserve(mesh.triangles.size());
   CompensatedSum sum;
   const double scale = unit_frame(bounds(mesh.vertices)).scale;  // areas of any unit in range
+  CancelPoll poll;
   for (const Triangle& t : mesh.triangles) {
+    poll();
     const FaceNormal face = face_normal(scaled_corners(mesh, t, scale));
     if (!face.degenerate) sum.add(norm(face.twice_area));
     sums.push_back(sum.value());
@@ -48,7 +51,9 @@ AreaSamples sample_by_area(const Mesh& mesh, std::size_t n, std::uint64_t seed) 
   samples.triangles.reserve(n);
   std::size_t triangle = 0;
   const double share = sums.back() / static_cast<double>(n);
+  CancelPoll poll;
   for (std::size_t k = 0; k < n; ++k) {
+    poll();
     const double target = (static_cast<double>(k) + random_uniform(seed, 3 * k)) * share;
     // The first triangle whose sum exceeds the target has area. Rounding may lift the last
     // target to the total: that belongs to the last triangle with area.

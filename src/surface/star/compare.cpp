@@ -16,7 +16,8 @@
 namespace rholm {
 namespace {
 
-constexpr std::size_t kGrain = 1024;  // queries of a chunk: about a millisecond
+constexpr std::size_t kGrain =
+    256;  // queries of a chunk: some 50 ms where the shapes are far apart
 
 void check(const CompareOptions& options) {
   if (options.samples == 0 || options.samples > kMaxSamples) {

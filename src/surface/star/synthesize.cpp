@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "base/cancel.h"
 #include "rholm/error.h"
 #include "rholm/harmonic.h"
 
@@ -42,7 +43,9 @@ Mesh surface_of_degree(const Expansion& expansion, const Mesh& sphere, int degre
   mesh.vertices.reserve(sphere.vertices.size());
   std::vector<Vec3> normals;
   normals.reserve(sphere.vertices.size());
+  CancelPoll poll;
   for (std::size_t i = 0; i < sphere.vertices.size(); ++i) {
+    poll();
     const Vec3& u = sphere.vertices[i];
     const double value = f.values[i];
     if (gauge && !(value > 0)) throw_no_surface(u, value, degree);

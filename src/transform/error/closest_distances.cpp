@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/cancel.h"
 #include "base/parallel.h"
 #include "rholm/primitives.h"
 #include "transform/error/error_peaks.h"
@@ -177,10 +178,15 @@ ClosestDistances::ClosestDistances(const MeshView& mesh, const Vec3& center, std
       dense_(surface_pieces(mesh, center, kDense * n_points)) {
   shape_.vertices.resize(mesh.n_vertices);
   shape_.triangles.resize(mesh.n_triangles);
+  CancelPoll poll;
   for (std::size_t i = 0; i < mesh.n_vertices; ++i) {
+    poll();
     shape_.vertices[i] = pieces_.scale * (mesh.vertex(i) - center);
   }
-  for (std::size_t t = 0; t < mesh.n_triangles; ++t) shape_.triangles[t] = mesh.triangle(t);
+  for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
+    poll();
+    shape_.triangles[t] = mesh.triangle(t);
+  }
   scene_ = std::make_unique<RayScene>(shape_);
 }
 

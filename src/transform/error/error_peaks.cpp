@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "base/cancel.h"
 #include "shape/face.h"
 #include "shape/vertex_range.h"
 
@@ -67,7 +68,9 @@ std::vector<Climber> climbers(const MeshView& mesh, const Vec3& center, double s
                               const ErrorPoints& points, const std::vector<std::size_t>& sites,
                               const std::vector<double>& values, int degree) {
   std::vector<Climber> found;
+  CancelPoll poll;
   for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
+    poll();
     const Triangle triangle = mesh.triangle(t);
     for (const std::size_t i : sites) {
       const std::int64_t owner = points.owners[i];

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/cancel.h"
 #include "base/random.h"
 #include "rholm/error.h"
 #include "rholm/harmonic.h"
@@ -111,14 +112,18 @@ ErrorPoints extreme_points(const MeshView& mesh, const Vec3& center, int degree)
   const double scale = scale_of(mesh);
   // A vertex of no face is no point of the surface.
   std::vector<bool> used(mesh.n_vertices);
+  CancelPoll poll;
   for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
+    poll();
     for (const std::uint32_t i : mesh.triangle(t)) used[i] = true;
   }
   for (std::size_t i = 0; i < mesh.n_vertices; ++i) {
+    poll();
     const Vec3 x = scale * (mesh.vertex(i) - center);
     if (used[i]) add_point(points, x, norm(x), 0, -1 - static_cast<std::int64_t>(i));
   }
   for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
+    poll();
     const Face face = face_of(mesh, t, center, scale);
     if (face.normal.degenerate) continue;
     const int n = divisions(face, degree);
@@ -138,7 +143,9 @@ ErrorPoints extreme_points(const MeshView& mesh, const Vec3& center, int degree)
 ErrorPoints area_points(const MeshView& mesh, const Vec3& center, std::size_t n) {
   const double scale = scale_of(mesh);
   double whole = 0;
+  CancelPoll poll;
   for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
+    poll();
     const Face face = face_of(mesh, t, center, scale);
     if (!face.normal.degenerate) whole += face.twice_area;
   }
@@ -148,6 +155,7 @@ ErrorPoints area_points(const MeshView& mesh, const Vec3& center, std::size_t n)
   std::size_t next = 0;
   constexpr std::uint64_t kSeed = 1;
   for (std::size_t t = 0; t < mesh.n_triangles && next < n; ++t) {
+    poll();
     const Face face = face_of(mesh, t, center, scale);
     if (face.normal.degenerate) continue;
     sum += face.twice_area;
@@ -181,7 +189,9 @@ ModelSurface model_surface(const ErrorPoints& points, const Expansion& expansion
     model.radii = std::move(found.values);
     model.tangents2.resize(points.size());
     // |grad r| / r is the same for r and 1/r.
+    CancelPoll poll;
     for (std::size_t i = 0; i < points.size(); ++i) {
+      poll();
       const double r2 = model.radii[i] * model.radii[i];
       model.tangents2[i] = dot(found.gradients[i], found.gradients[i]) / std::max(r2, 1e-300);
     }
@@ -189,7 +199,9 @@ ModelSurface model_surface(const ErrorPoints& points, const Expansion& expansion
     model.radii = evaluate(cut, points.directions, options, context);
   }
   if (expansion.function == RadialFunction::kGauge) {
+    CancelPoll poll;
     for (double& q : model.radii) {
+      poll();
       if (!(q > 0)) {
         throw Error(ErrorCode::kInvalidInput,
                     "the gauge of degree " + std::to_string(degree) +
@@ -213,7 +225,9 @@ PointErrors point_errors(const ErrorPoints& points, const Expansion& expansion, 
     errors.to_shape.resize(points.size());
     errors.stretch.resize(points.size());
   }
+  CancelPoll poll;
   for (std::size_t i = 0; i < points.size(); ++i) {
+    poll();
     const double radial = std::abs(points.radii[i] - model.radii[i]);
     errors.radial[i] = radial;
     if (!slopes) continue;

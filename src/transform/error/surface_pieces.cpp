@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/cancel.h"
 #include "base/random.h"
 #include "shape/face.h"
 #include "shape/vertex_range.h"
@@ -52,7 +53,9 @@ class Pieces {
  private:
   template <typename Function>
   void for_each_face(const Function& function) const {
+    CancelPoll poll;
     for (std::size_t t = 0; t < mesh_.n_triangles; ++t) {
+      poll();
       const Triangle triangle = mesh_.triangle(t);
       Corners p;
       for (int i = 0; i < 3; ++i) p[i] = found_.scale * (mesh_.vertex(triangle[i]) - center_);

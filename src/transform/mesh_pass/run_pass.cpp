@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "base/cancel.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "base/stopwatch.h"
@@ -149,6 +150,7 @@ class Pass {
     NodeWriter writer({plan_.divided, plan_.undivided}, sink);
     NodesBetween between(sink);
     for (std::size_t b = begin; b < end; ++b) {
+      ask_cancel();
       const std::size_t first = b * kBlockSize;
       const std::size_t n = std::min(kBlockSize, mesh_.n_triangles - first);
       check_triangles(options_, first, n);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/cancel.h"
 #include "base/compensated_sum.h"
 #include "rholm/analyze.h"
 #include "shape/face.h"
@@ -16,7 +17,9 @@ namespace rholm {
 double tail_strength(const StarChart& chart, RadialFunction function) {
   const StarGeometry geometry = star_geometry(chart);
   CompensatedSum sum;
+  CancelPoll poll;
   for (const Edge& edge : chart.edges) {
+    poll();
     const EdgeJump e = edge_jump(geometry, edge);
     const Vec3 &a = geometry.vertices[edge.a], &b = geometry.vertices[edge.b];
     // r^4 ds = |x|^2 |a x b| dt along the flat edge, quadratic in t.
@@ -69,7 +72,9 @@ double tail_strength(const MeshView& mesh, const Vec3& center) {
   const double scale = unit_scale(mesh, center);
   WaitingEdges waiting(mesh.n_triangles);
   CompensatedSum sum;
+  CancelPoll poll;
   for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
+    poll();
     const Triangle triangle = mesh.triangle(t);
     std::array<Vec3, 3> p;
     for (int i = 0; i < 3; ++i) p[i] = scale * (mesh.vertex(triangle[i]) - center);

@@ -17,6 +17,7 @@
 #include <numbers>
 #include <vector>
 
+#include "base/cancel.h"
 #include "rholm/analyze.h"
 #include "shape/face.h"
 #include "transform/geometry/star_geometry.h"
@@ -32,7 +33,9 @@ std::vector<std::uint32_t> first_at_place(const MeshView& mesh) {
   while (2 * size < 3 * mesh.n_vertices) size *= 2;
   constexpr std::uint32_t kFree = 0xFFFFFFFFU;
   std::vector<std::uint32_t> slots(size, kFree), first(n);
+  CancelPoll poll;
   for (std::uint32_t i = 0; i < n; ++i) {
+    poll();
     const Vec3 v = mesh.vertex(i);
     std::size_t at = place_hash(v) & (size - 1);
     while (slots[at] != kFree && mesh.vertex(slots[at]) != v) at = (at + 1) & (size - 1);
@@ -75,13 +78,16 @@ ErrorStrengths vertex_error_strengths(const MeshView& mesh, const Vec3& center) 
   const std::vector<std::uint32_t> first = first_at_place(mesh);
   std::vector<VertexSums> sums(mesh.n_vertices);
   const auto local = [&](std::uint32_t i) { return scale * (mesh.vertex(i) - center); };
+  CancelPoll poll;
   for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
+    poll();
     const Triangle v = mesh.triangle(t);
     add_triangle({local(v[0]), local(v[1]), local(v[2])},
                  {&sums[first[v[0]]], &sums[first[v[1]]], &sums[first[v[2]]]});
   }
   ErrorStrengths largest;
   for (std::uint32_t i = 0; i < mesh.n_vertices; ++i) {
+    poll();
     const Vec3 p = local(i);
     const double gauge = std::abs(sums[i].jumps), radius = gauge * dot(p, p);
     // The gradient of f_L at a vertex is the mean of the faces' over directions: a = sum / 2 pi,

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/random.h"
+#include "rholm/context.h"
 #include "rholm/error.h"
 #include "shape/queries/closest_point.h"
 
@@ -49,6 +50,24 @@ Mesh octasphere(int n) {
     }
   }
   return mesh;
+}
+
+// Also while Embree builds, which comes last: at its last question.
+TEST(RayScene, ends_where_the_scope_of_the_thread_says_so) {
+  const Mesh mesh = octasphere(100);
+  int asked = 0, go_on = 1 << 30;
+  const CancelScope scope([&] { return ++asked < go_on; });
+  { const RayScene scene(mesh); }
+  const int copying = static_cast<int>((mesh.vertices.size() + mesh.triangles.size()) >> 13);
+  EXPECT_GT(asked, copying + 1);
+  go_on = copying + 2;
+  asked = 0;
+  try {
+    const RayScene scene(mesh);
+    FAIL() << "not cancelled";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::kCancelled);
+  }
 }
 
 Vec3 random_point(std::uint64_t seed, std::uint64_t k) {

@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 
+#include "rholm/context.h"
 #include "rholm/error.h"
 #include "rholm/primitives.h"
 #include "support/random_data.h"
@@ -34,6 +35,26 @@ void expect_edges_right(const Mesh& mesh, const std::vector<Edge>& edges) {
     EXPECT_LE(last, (std::pair{key.first, key.second}));
     last = {key.first, key.second};
   }
+}
+
+// Loops over all of a mesh ask, of functions without a Context too.
+TEST(inspect, ends_where_the_scope_of_the_thread_says_so) {
+  const Mesh mesh = icosphere(6);
+  const auto expect_cancelled = [](const auto& run) {
+    const CancelScope scope([] { return false; });
+    try {
+      run();
+      ADD_FAILURE() << "not cancelled";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::kCancelled);
+    }
+  };
+  expect_cancelled([&] { inspect(mesh); });
+  expect_cancelled([&] { weld(mesh); });
+  expect_cancelled([&] { pair_edges(mesh); });
+  expect_cancelled([&] { closing_tolerance(mesh); });
+  expect_cancelled([&] { enclosed_volume(mesh); });
+  EXPECT_TRUE(inspect(mesh).closed);
 }
 
 TEST(pair_edges, names_both_triangles_of_every_edge_in_the_order_of_vertices) {
