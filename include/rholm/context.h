@@ -26,11 +26,13 @@ struct Context {
 // threads that work for this one.
 class CancelScope {
  public:
+  // From here on, until it ends.
   explicit CancelScope(std::function<bool()> keep_going);
   ~CancelScope();
   CancelScope(const CancelScope&) = delete;
   CancelScope& operator=(const CancelScope&) = delete;
 
+  // Asks.
   bool keep_going() const { return keep_going_(); }
 
  private:

@@ -22,7 +22,7 @@ import pytest
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 PAGES = [DOCS.parent / "README.md", DOCS / "start.md", *sorted((DOCS / "guides").glob("*.md"))]
 pytestmark = pytest.mark.skipif(not DOCS.exists(), reason="the documents are not here")
-FOR_A_CLONE = ("scripts/", "cmake ", "git ", "pip ", "apt ", "sudo ")
+FOR_A_CLONE = ("scripts/", "cmake ", "git ", "python3 -m venv", "pip ", "apt ", "sudo ")
 OPTIONAL = ("matplotlib", "meshio", "pyshtools", "pyvista", "trimesh", "xarray")
 BLOCK = re.compile(r"^```(python|sh)\n(.*?)^```\n(?:\n```text\n(.*?)^```\n)?", re.MULTILINE | re.DOTALL)
 

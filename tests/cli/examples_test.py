@@ -12,7 +12,7 @@ import sys
 sys.path.insert(0, os.path.dirname(__file__))
 from harness import CliTest, RHOLM, SOURCE, TIMEOUT, main
 
-NOT_HERE = ("scripts/", "cmake ", "git ", "ninja", "ctest", "sudo ", "man rholm", "pip install", "apt ")
+NOT_HERE = ("scripts/", "cmake ", "git ", "ninja", "ctest", "sudo ", "man rholm", "python3 -m venv", "pip install", "apt ")
 
 
 class Examples(CliTest):
