@@ -59,10 +59,7 @@ void convert_shape(const Options& options, const ShapeFile& file, Session& sessi
   std::visit(
       [&](const auto& shape) {
         write_shape(shape, options.output, {format, options.ascii}, session.context());
-        const auto lost = attributes_left_out(shape.attributes, format);
-        if (lost.empty()) return;
-        session.note(fmt::format("{}: {} has no room for {}", display_name(options.output),
-                                 to_string(format), fmt::join(lost, ", ")));
+        note_attributes_left_out(shape.attributes, format, options.output, session);
       },
       file.shape);
 }

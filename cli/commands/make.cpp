@@ -107,6 +107,7 @@ int run(const Options& options, Session& session) {
     for (Vec3& point : cloud.points) point += shift;
     stop_if_interrupted();
     write_shape(cloud, options.output, writing, session.context());
+    note_attributes_left_out(cloud.attributes, format, options.output, session);
     return 0;
   }
   Mesh mesh = make_shape(options);
@@ -193,7 +194,8 @@ Command make_command() {
               "(which is).\n\n'make sample MESH' writes points instead, as a scanner might give "
               "them: random on the surface, uniform by area, with the normals of the faces; on "
               "demand with errors, gaps and density that varies, all of them random numbers of "
-              "--seed. Lengths are parts of the diagonal of the bounding box of MESH.",
+              "--seed. Colours and other attributes of MESH are interpolated. Lengths are parts of "
+              "the diagonal of the bounding box of MESH.",
           .options = option_list(*options),
           .examples = {"rholm make bumpy -o bumpy.ply",
                        "rholm make ellipsoid --axes 3,2,1 --subdivisions 6 -o ellipsoid.ply",

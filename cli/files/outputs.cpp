@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "cli/files/inputs.h"
 #include "cli/grammar/parse.h"
@@ -150,6 +151,14 @@ void check_writable(const std::string& path) {
     throw Error(ErrorCode::kIo, fmt::format("{} cannot be written: folder {}: {}", path,
                                             folder.string(), std::strerror(errno)));
   }
+}
+
+void note_attributes_left_out(std::span<const Attribute> attributes, ShapeFormat format,
+                              const std::string& path, Session& session) {
+  const std::vector<std::string> lost = attributes_left_out(attributes, format);
+  if (lost.empty()) return;
+  session.note(fmt::format("{}: {} has no room for {}", display_name(path), to_string(format),
+                           fmt::join(lost, ", ")));
 }
 
 void write_coefficients_output(const Expansion& expansion, const CoefficientsOutput& output,

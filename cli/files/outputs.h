@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include "cli/grammar/command.h"
@@ -61,6 +62,10 @@ void check_not_shared(const std::string& path, bool json);
 // Throws Io if a file cannot be made there: no such folder, no permission. Asked before hours of
 // work, the answer of the writer itself counts.
 void check_writable(const std::string& path);
+
+// Says which attributes of a shape that was written there the format has no room for.
+void note_attributes_left_out(std::span<const Attribute> attributes, ShapeFormat format,
+                              const std::string& path, Session& session);
 
 // Says what of the expansion the format has no room for.
 void write_coefficients_output(const Expansion& expansion, const CoefficientsOutput& output,

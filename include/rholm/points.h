@@ -37,8 +37,10 @@ struct SampleOptions {
 };
 
 // Independent random points on the surface, uniform by area (unless the density falls), with the
-// exact normals of their faces. Same mesh and options, same points for any number of threads.
-// Throws InvalidInput for a mesh that is not valid or has no area, and options out of range.
+// exact normals of their faces. Attributes but normals are interpolated linearly between the
+// corners of the face, before noise; whole numbers are rounded; outliers have those of some other
+// place of the surface. Same mesh and options, same points for any number of threads. Throws
+// InvalidInput for a mesh that is not valid or has no area, and options out of range.
 PointCloud sample_surface(const Mesh& mesh, const SampleOptions& options = {},
                           const Context& context = {});
 

@@ -53,6 +53,18 @@ def sample_surface(
         Of all random numbers.
     threads, progress
         See `rholm.caller`.
+
+    Returns
+    -------
+    cloud : PointCloud
+        With the mesh's attributes, interpolated linearly in each triangle before noise; whole numbers
+        are rounded. Outliers have those of some other place of the surface. Normals are the
+        triangles'.
+
+    Raises
+    ------
+    InvalidInputError
+        For a mesh without area, options out of range, holes that leave no point.
     """
     options = _core.SampleOptions(
         points=points,

@@ -297,3 +297,16 @@ def test_pictures(bumpy, tmp_path):
         rholm.write_png(tmp_path / "c.png", np.zeros((3, 3)))
     rholm.write_file(tmp_path / "d.txt", b"abc")
     assert (tmp_path / "d.txt").read_bytes() == b"abc"
+
+
+def test_a_sample_has_the_attributes_of_its_places(bumpy):
+    linear = 1 + bumpy.vertices @ [1, -2, 3]
+    colors = np.clip(np.round(128 + 60 * bumpy.vertices), 0, 255).astype(np.uint8)
+    mesh = bumpy.with_attributes(linear=linear, rgb=colors)
+    cloud = rholm.sample_surface(mesh, 2000, noise=0)
+    assert np.array_equal(cloud.points, rholm.sample_surface(bumpy, 2000).points)
+    # Values below 16, some ten roundings of each.
+    assert np.abs(cloud.attributes["linear"] - (1 + cloud.points @ [1, -2, 3])).max() < 160 * 2**-53
+    assert cloud.attributes["red"].dtype == np.uint8
+    assert np.abs(cloud.attributes["red"] - (128 + 60 * cloud.points[:, 0])).max() <= 1  # rounded twice
+    assert "nx" not in rholm.sample_surface(rholm.expand(bumpy, 8).mesh(4), 10).attributes

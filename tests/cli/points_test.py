@@ -46,6 +46,21 @@ class Sample(CliTest):
             self.assertNotEqual((self.folder / "p.xyz").read_bytes(), clean, words)
         self.assertEqual(len(rows(self.folder / "p.xyz")[0]), 6)
 
+    def test_points_have_the_colours_of_their_places(self):
+        vertices, faces = OCTAHEDRON
+        body = "".join(f"{x} {y} {z} {100 + 100 * x:.0f}\n" for x, y, z in vertices)
+        body += "".join(f"3 {a} {b} {c}\n" for a, b, c in faces)
+        header = COLORED.format(n=len(vertices)).replace(
+            "end_header", f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header")
+        self.write("c.ply", header + body)
+        self.rholm("make", "sample", "c.ply", "--points", "300", "-o", "p.ply", "--ascii")
+        lines = (self.folder / "p.ply").read_text().split("end_header\n")[1].splitlines()
+        self.assertEqual(len(lines), 300)
+        for line in lines:
+            x, red = float(line.split()[0]), line.split()[-1]
+            self.assertEqual(red, str(round(100 + 100 * x)))
+        self.assertIn("no room for red", self.rholm("make", "sample", "c.ply", "-o", "p.xyz").err)
+
     def test_largest_component_leaves_the_others_out(self):
         vertices, faces = OCTAHEDRON
         self.write("two.off", off(vertices + [(9 + x / 2, y / 2, z / 2) for x, y, z in vertices],

@@ -1,6 +1,7 @@
 // Random points on a surface. Every point has a stream of random numbers of its own, so that the
 // points do not depend on threads, nor on how many numbers another one took.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -52,6 +53,8 @@ class Stream {
 struct Place {
   Vec3 point;
   Vec3 normal;
+  std::size_t triangle = 0;            // whose attributes it has
+  std::array<double, 3> weights = {};  // of its corners
 };
 
 // The surface in its unit frame, ready to be drawn from.
@@ -87,12 +90,16 @@ class Surface {
     // the total: that belongs to the last triangle with area.
     auto found = std::upper_bound(sums_.begin(), sums_.end(), target);
     if (found == sums_.end()) found = std::lower_bound(sums_.begin(), sums_.end(), sums_.back());
-    const Triangle& t = mesh_.triangles[static_cast<std::size_t>(found - sums_.begin())];
+    const auto triangle = static_cast<std::size_t>(found - sums_.begin());
+    const Triangle& t = mesh_.triangles[triangle];
     // With sqrt(u) the density grows like the width seen from corner 0.
     const double root = std::sqrt(random.uniform()), v = random.uniform();
+    const std::array<double, 3> w{1 - root, root * (1 - v), root * v};
     const auto corner = [&](int k) { return frame_.to_local(mesh_.vertices[t[k]]); };
-    return {.point = (1 - root) * corner(0) + (root * (1 - v)) * corner(1) + (root * v) * corner(2),
-            .normal = normalized(face_normal(scaled_corners(mesh_, t, frame_.scale)).twice_area)};
+    return {.point = w[0] * corner(0) + w[1] * corner(1) + w[2] * corner(2),
+            .normal = normalized(face_normal(scaled_corners(mesh_, t, frame_.scale)).twice_area),
+            .triangle = triangle,
+            .weights = w};
   }
 
   // Uniform by area, thinned by the law of density: on average at most density_ratio tries.
@@ -108,7 +115,12 @@ class Surface {
     const Vec3 u{random.uniform(), random.uniform(), random.uniform()};
     const auto spread = [](double size, double x) { return kBoxGrowth * size * (x - 0.5); };
     const Vec3 offset{spread(size_.x, u.x), spread(size_.y, u.y), spread(size_.z, u.z)};
-    return {.point = low_ + 0.5 * size_ + offset, .normal = random.direction()};
+    const Vec3 normal = random.direction();
+    // It lies nowhere on the surface: its attributes are of any place there.
+    Place place = draw_uniform(random);
+    place.point = low_ + 0.5 * size_ + offset;
+    place.normal = normal;
+    return place;
   }
 
  private:
@@ -164,6 +176,46 @@ void check(const SampleOptions& o) {
           "1 ... " + std::to_string(static_cast<int>(kMaxDensityRatio)));
 }
 
+// Those of a mesh that a sample has, too: normals it has of its own.
+std::vector<const Attribute*> attributes_to_sample(const Mesh& mesh) {
+  std::vector<const Attribute*> attributes;
+  for (const Attribute& a : mesh.attributes) {
+    if (a.name != "nx" && a.name != "ny" && a.name != "nz") attributes.push_back(&a);
+  }
+  return attributes;
+}
+
+// The value at a place between three corners, of the attribute's type. Where a corner has no number
+// the others count alone.
+double value_at(const Attribute& attribute, const Triangle& t, const Place& place) {
+  double value = 0, sum = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double own = attribute.values[t[k]];
+    if (!std::isfinite(own)) continue;
+    value += place.weights[k] * own;
+    sum += place.weights[k];
+  }
+  value /= sum;
+  if (attribute.type == ScalarType::kFloat64) return value;
+  if (attribute.type == ScalarType::kFloat32) return static_cast<double>(static_cast<float>(value));
+  return std::round(value);
+}
+
+// Leaves the points that are marked, and says how many.
+std::size_t keep(const std::vector<char>& marked, PointCloud& cloud) {
+  const auto squeeze = [&](auto& values) {
+    std::size_t n = 0;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      if (marked[k]) values[n++] = values[k];
+    }
+    values.resize(n);
+  };
+  squeeze(cloud.points);
+  squeeze(cloud.normals);
+  for (Attribute& a : cloud.attributes) squeeze(a.values);
+  return cloud.points.size();
+}
+
 std::vector<Vec3> hole_centers(const Surface& surface, const SampleOptions& o) {
   Stream random(o.seed, kHoleStream);
   std::vector<Vec3> centers;
@@ -188,6 +240,10 @@ PointCloud sample_surface(const Mesh& mesh, const SampleOptions& options, const 
   PointCloud cloud;
   cloud.points.resize(options.points);
   if (options.normals) cloud.normals.resize(options.points);
+  const std::vector<const Attribute*> given = attributes_to_sample(mesh);
+  for (const Attribute* a : given) {
+    cloud.attributes.push_back({a->name, a->type, std::vector<double>(options.points)});
+  }
   std::vector<char> kept(options.points, 1);
   parallel_for(options.points, kGrain, context, {.name = "sample"},
                [&](std::size_t begin, std::size_t end) {
@@ -198,23 +254,19 @@ PointCloud sample_surface(const Mesh& mesh, const SampleOptions& options, const 
                    }
                    cloud.points[k] = surface.frame().to_shape(place.point);
                    if (options.normals) cloud.normals[k] = place.normal;
+                   const Triangle& t = mesh.triangles[place.triangle];
+                   for (std::size_t a = 0; a < given.size(); ++a) {
+                     cloud.attributes[a].values[k] = value_at(*given[a], t, place);
+                   }
                  }
                });
-  std::size_t n = 0;
-  for (std::size_t k = 0; k < options.points; ++k) {
-    if (!kept[k]) continue;
-    cloud.points[n] = cloud.points[k];
-    if (options.normals) cloud.normals[n] = cloud.normals[k];
-    ++n;
-  }
+  const std::size_t n = keep(kept, cloud);
   if (n == 0) {
     throw Error(ErrorCode::kInvalidInput,
                 "the " + std::to_string(options.holes) + " holes of radius " +
                     std::to_string(options.hole_radius) + " of the diagonal leave none of the " +
                     std::to_string(options.points) + " points; take fewer or smaller ones");
   }
-  cloud.points.resize(n);
-  if (options.normals) cloud.normals.resize(n);
   return cloud;
 }
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "rholm/error.h"
 #include "rholm/points.h"
@@ -168,6 +171,64 @@ TEST(sample, is_the_same_for_any_threads_and_another_for_another_seed) {
   SampleOptions other = options;
   other.seed = 2;
   EXPECT_NE(one.points, sample_surface(mesh, other).points);
+}
+
+// The value 1 + x - 2 y + 3 z at every vertex, under that name and type.
+void add_linear(Mesh& mesh, const std::string& name, ScalarType type) {
+  Attribute attribute{.name = name, .type = type, .values = {}};
+  for (const Vec3& v : mesh.vertices) attribute.values.push_back(1 + v.x - 2 * v.y + 3 * v.z);
+  mesh.attributes.push_back(std::move(attribute));
+}
+
+TEST(sample, has_the_attributes_of_its_places) {
+  Mesh mesh = box({2, 4, 6});  // values are -9, -7, ... 11 at its corners
+  const SampleOptions options{.points = 5000, .holes = 2, .hole_radius = 0.1};
+  const PointCloud plain = sample_surface(mesh, options);
+  add_linear(mesh, "linear", ScalarType::kFloat64);
+  add_linear(mesh, "nx", ScalarType::kFloat32);  // the sample has its own
+  add_linear(mesh, "whole", ScalarType::kInt16);
+  add_linear(mesh, "single", ScalarType::kFloat32);
+  const PointCloud cloud = sample_surface(mesh, options, {.threads = 1});
+  EXPECT_EQ(cloud.points, plain.points);
+  EXPECT_EQ(cloud.normals, plain.normals);
+  ASSERT_EQ(cloud.attributes.size(), 3u);
+  const Attribute &linear = cloud.attributes[0], &whole = cloud.attributes[1],
+                  &single = cloud.attributes[2];
+  EXPECT_EQ(linear.name, "linear");
+  EXPECT_EQ(whole.name, "whole");
+  EXPECT_EQ(whole.type, ScalarType::kInt16);
+  EXPECT_EQ(single.type, ScalarType::kFloat32);
+  ASSERT_EQ(linear.values.size(), cloud.points.size());
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    const Vec3 p = cloud.points[i];
+    // Coordinates and values below 12, some ten roundings of each: 12 * 10 * 2^-53.
+    EXPECT_NEAR(linear.values[i], 1 + p.x - 2 * p.y + 3 * p.z, 1.4e-14);
+    EXPECT_EQ(whole.values[i], std::round(linear.values[i]));
+    EXPECT_EQ(single.values[i], static_cast<double>(static_cast<float>(linear.values[i])));
+  }
+  const PointCloud two = sample_surface(mesh, options, {.threads = 2});
+  EXPECT_EQ(two.attributes[0].values, linear.values);
+}
+
+TEST(sample, has_attributes_from_before_the_noise_and_of_the_surface_for_outliers) {
+  Mesh mesh = square(1);
+  add_linear(mesh, "linear", ScalarType::kFloat64);
+  const PointCloud clean = sample_surface(mesh, {.points = 1000});
+  const PointCloud noisy = sample_surface(mesh, {.points = 1000, .noise = 0.1});
+  EXPECT_NE(noisy.points, clean.points);
+  EXPECT_EQ(noisy.attributes[0].values, clean.attributes[0].values);
+  const PointCloud stray = sample_surface(mesh, {.points = 1000, .outliers = 1});
+  for (const double value : stray.attributes[0].values) {
+    EXPECT_GE(value, -1);  // at (0, 1)
+    EXPECT_LE(value, 2);   // at (1, 0)
+  }
+}
+
+TEST(sample, has_no_attribute_that_is_not_a_number_where_a_corner_has_one) {
+  Mesh mesh = square(1);
+  mesh.attributes = {{"q", ScalarType::kFloat64, {NAN, 5, INFINITY, 5}}};
+  const PointCloud cloud = sample_surface(mesh, {.points = 100});
+  for (const double value : cloud.attributes[0].values) EXPECT_NEAR(value, 5, 1e-15 * 5);
 }
 
 TEST(sample, scales_and_shifts_with_its_mesh) {
