@@ -44,9 +44,10 @@ struct Options {
   InputConvention convention;
 };
 
-// Panels point to their meshes: a deque keeps them where they are.
+// Panels point to their shapes: a deque keeps them where they are.
 struct Scene {
   std::deque<Mesh> meshes;
+  std::deque<PointCloud> clouds;
   std::vector<Panel> panels;
   CommonUnit unit;
 };
@@ -119,11 +120,29 @@ void add_panel(Mesh mesh, const std::string& label, bool smooth, Scene& scene) {
       {.mesh = &scene.meshes.back(), .label = label, .scalars = {}, .smooth = smooth});
 }
 
+void add_points(ShapeFile file, const std::string& path, const std::string& label, Session& session,
+                Scene& scene) {
+  for (const std::string& warning : file.warnings) {
+    session.warn(fmt::format("{}: {}", display_name(path), warning));
+  }
+  scene.clouds.push_back(std::get<PointCloud>(std::move(file.shape)));
+  scene.panels.push_back({.label = label, .points = &scene.clouds.back()});
+}
+
+// Vertices, or points.
+const std::vector<Vec3>& places(const Panel& panel) {
+  return panel.points != nullptr ? panel.points->points : panel.mesh->vertices;
+}
+
 // A shape is one panel, a model one for each degree asked for.
 void add_input(const Options& options, const std::string& path, Session& session, Scene& scene) {
   Input input = read_surface_input(path, session, options.convention);
   scene.unit.add(input, path, session);
   const std::string name = path == "-" ? "input" : std::filesystem::path(path).stem().string();
+  auto* shape = std::get_if<ShapeFile>(&input);
+  if (shape && std::holds_alternative<PointCloud>(shape->shape)) {
+    return add_points(std::move(*shape), path, name, session, scene);
+  }
   const auto* file = std::get_if<CoefficientsFile>(&input);
   if (!file || options.degrees.empty()) {
     const std::string label =
@@ -143,7 +162,7 @@ void color_by_error(const Options& options, Session& session, Scene& scene, Rend
   scene.unit.add(other, options.against, session);
   const Mesh surface = surface_of(other, options.against, {}, options.subdivisions, session);
   for (Panel& panel : scene.panels) {
-    panel.scalars = distances_to_surface(panel.mesh->vertices, surface, session.context());
+    panel.scalars = distances_to_surface(places(panel), surface, session.context());
   }
   wanted.scale_min = 0;
   wanted.scale_max = options.scale_max;
@@ -153,8 +172,10 @@ void color_by_error(const Options& options, Session& session, Scene& scene, Rend
 
 void color_by_own(const Options& options, Session& session, Scene& scene) {
   for (std::size_t i = 0; i < scene.panels.size(); ++i) {
-    scene.panels[i].colors = vertex_colors(*scene.panels[i].mesh);
-    if (!scene.panels[i].colors.empty()) continue;
+    Panel& panel = scene.panels[i];
+    panel.colors =
+        panel.points != nullptr ? vertex_colors(*panel.points) : vertex_colors(*panel.mesh);
+    if (!panel.colors.empty()) continue;
     session.warn(fmt::format("panel {} of {} has no red, green, blue: it stays plain", i + 1,
                              options.inputs.size()));
   }
@@ -176,8 +197,8 @@ void set_labels(const Options& options, Scene& scene) {
 // What is invisible beside the others.
 void note_small(const Options& options, const Scene& scene, Session& session) {
   double largest = 0, smallest = std::numeric_limits<double>::infinity();
-  for (const Mesh& mesh : scene.meshes) {
-    const double size = bounds(mesh.vertices).diagonal();
+  for (const Panel& panel : scene.panels) {
+    const double size = bounds(places(panel)).diagonal();
     largest = std::max(largest, size);
     smallest = std::min(smallest, size);
   }
@@ -209,7 +230,7 @@ int run(const Options& options, Session& session) {
 std::vector<Option> picture_options(Options& o) {
   return {
       {.name = "INPUT",
-       .help = "files of meshes or coefficients; several stand side by side",
+       .help = "files of meshes, points or coefficients; several stand side by side",
        .target = &o.inputs,
        .required = true,
        .offer = Offer::kShapesAndCoefficients},
@@ -221,7 +242,7 @@ std::vector<Option> picture_options(Options& o) {
                    const std::string& text) { parse_size(option, text, kMinSize, kMaxSize); }},
       {.name = "color",
        .help = "error: by the distance to the surface of --against, with a scale bar; own: the "
-               "colours that a file has, red, green, blue at its vertices",
+               "colours that a file has, red, green, blue at its vertices or points",
        .target = &o.color,
        .choices = {"none", "error", "own"}},
       {.name = "against",
@@ -287,12 +308,13 @@ Command render_command() {
   auto options = std::make_shared<Options>();
   return {
       .name = "render",
-      .summary = "A picture of meshes and models",
+      .summary = "A picture of meshes, points and models",
       .description =
-          "Draws meshes, and the surfaces of coefficients, as a shaded PNG picture. Several "
+          "Draws meshes, points, and the surfaces of coefficients, as a shaded PNG picture. "
+          "Several "
           "inputs, or several degrees of one, stand side by side at one scale, or with --fit each "
-          "as "
-          "large as they fit. A mesh whose file has normals is shaded by them, smooth where they "
+          "as large as they fit. Points are balls as large as their distance. A mesh whose file "
+          "has normals is shaded by them, smooth where they "
           "are and creased where they differ; --flat shows its faces. Pictures of more than four "
           "million pixels take four rays a pixel instead of nine.",
       .options = option_list(*options),

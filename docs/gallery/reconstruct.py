@@ -36,28 +36,12 @@ def colors_at(points):
     return np.uint8(150 + 90 * np.cos(angle[:, None] + [0, 2.1, 4.2]))
 
 
-# %%
-# The points as they are drawn here: a small tetrahedron for each.
-
-
-def glyphs(points, colors, size):
-    """A mesh that shows points."""
-    corners = size * np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]])
-    faces = np.array([[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]])
-    triangles = (4 * np.arange(len(points))[:, None, None] + faces).reshape(-1, 3)
-    return rholm.Mesh(
-        (points[:, None] + corners).reshape(-1, 3),
-        triangles,
-        {"rgb": np.repeat(colors, 4, axis=0)},
-    )
-
-
-points = scan.points
-r = rholm.reconstruct(scan, attributes={"rgb": colors_at(points)})
-kept = rholm.reconstruct(scan, attributes={"rgb": colors_at(points)}, holes="keep")
+scan = rholm.as_points(scan, attributes={"rgb": colors_at(scan.points)})
+r = rholm.reconstruct(scan)
+kept = rholm.reconstruct(scan, holes="keep")
 rholm.render(
     [
-        rholm.Panel(glyphs(points, colors_at(points), 0.008), f"{len(points)} points"),
+        rholm.Panel(scan, f"{len(scan)} points"),
         rholm.Panel(r, "surface"),
         rholm.Panel(kept, "holes kept open"),
     ],

@@ -1,4 +1,4 @@
-// Pictures of meshes and plots of spectra. Layer: report.
+// Pictures of meshes and points, and plots of spectra. Layer: report.
 #pragma once
 
 #include <array>
@@ -14,19 +14,28 @@
 
 namespace rholm {
 
-// One thing in the picture. Panels stand side by side.
+// Of one panel: some 1.5 GB of memory, and ten for each pixel of a screen.
+inline constexpr std::size_t kMaxPointsInPicture = 20000000;
+
+// One thing in the picture: a mesh, or points. Panels stand side by side.
 struct Panel {
-  const Mesh* mesh = nullptr;        // not owned; must be there while the picture is made
-  std::string label = {};            // below the panel; may be empty
-  std::vector<double> scalars = {};  // per vertex, coloured by the colour map; empty: plain
-  bool smooth = false;               // shade with vertex normals nx, ny, nz if the mesh has them
+  const Mesh* mesh = nullptr;  // not owned; must be there while the picture is made
+  std::string label = {};      // below the panel; may be empty
+  // Per vertex or point, coloured by the colour map; empty: plain.
+  std::vector<double> scalars = {};
+  bool smooth = false;  // shade with vertex normals nx, ny, nz if the mesh has them
   // Per vertex, red, green, blue 0 ... 1 as a screen shows them (sRGB); instead of scalars.
   std::vector<std::array<float, 3>> colors = {};
+  const PointCloud* points = nullptr;  // in place of a mesh; not owned either; drawn as balls
+  // Of these balls, in the points' unit; 0: the points' usual distance, so that those of a surface
+  // close it.
+  double point_radius = 0;
 };
 
 // The properties red, green and blue as panels have them: whole numbers are bytes, others parts of
 // 1; empty if the mesh has none.
 std::vector<std::array<float, 3>> vertex_colors(const Mesh& mesh);
+std::vector<std::array<float, 3>> vertex_colors(const PointCloud& cloud);
 
 // Size, point of view, light and colours of a picture.
 struct RenderOptions {
@@ -43,8 +52,8 @@ struct RenderOptions {
   std::string scale_label = {};  // what the scalars are
 };
 
-// All panels side by side, their labels below. Throws InvalidInput for no panel, an empty mesh, or
-// sizes out of range.
+// All panels side by side, their labels below. Throws InvalidInput for no panel, a panel without a
+// triangle or point, or with both, more than kMaxPointsInPicture points, sizes out of range.
 Image render(std::span<const Panel> panels, const RenderOptions& options = {},
              const Context& context = {});
 

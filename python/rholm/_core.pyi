@@ -2195,9 +2195,13 @@ def update_transfer(arg0: TransferAnalysis, arg1: float, arg2: float | None, arg
 def apply_transfer_in_place(arg0: TransferAnalysis, arg1: float, arg2: float | None, arg3: bool, arg4: bool, arg5: str, arg6: Mesh, arg7: Caller, /) -> None: ...
 
 class Panel:
-    """One thing in a picture; the mesh must be kept."""
+    """One thing in a picture; the mesh, or the points, must be kept."""
 
+    @overload
     def __init__(self, arg0: Mesh, arg1: str, arg2: bool, arg3: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None, arg4: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)] | None, /) -> None: ...
+
+    @overload
+    def __init__(self, arg0: PointCloud, arg1: str, arg2: float, arg3: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)] | None, arg4: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)] | None, /) -> None: ...
 
 class RenderOptions:
     """Size, point of view, light and colours."""
@@ -2280,7 +2284,11 @@ class RenderOptions:
 
 def render(arg0: Sequence[Panel], arg1: RenderOptions, arg2: Caller, /) -> NDArray[numpy.uint8]: ...
 
+@overload
 def vertex_colors(arg: Mesh, /) -> NDArray[numpy.float32]: ...
+
+@overload
+def vertex_colors(arg: PointCloud, /) -> NDArray[numpy.float32]: ...
 
 def spectrum_svg(arg0: Expansion, arg1: str, arg2: float | None, /) -> str: ...
 

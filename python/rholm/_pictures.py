@@ -17,7 +17,8 @@ from ._errors import Error, InvalidInputError
 from ._expansion import Expansion, as_expansion
 from ._interop import required
 from ._run import Progress, caller
-from ._shapes import Mesh, as_mesh
+from ._shape_files import read_shape
+from ._shapes import Mesh, PointCloud, as_mesh
 from ._surfaces import surface_of
 
 if TYPE_CHECKING:
@@ -56,19 +57,27 @@ class Panel:
 
     Parameters
     ----------
-    shape : mesh-like, Expansion, Atlas or Reconstruction
-        What is shown.
+    shape : mesh-like, Expansion, Atlas, Reconstruction, PointCloud or array_like (N, 3)
+        What is shown; a file may hold points, too. Points of other packages: `rholm.as_points`.
     label : str
         Below it.
     scalars : array_like, (N,), optional
-        Per vertex, coloured by the colour map.
+        Per vertex or point, coloured by the colour map.
     colors : array_like, (N, 3), optional
-        Per vertex, 0 ... 1; by default the mesh's own, if there are no scalars.
+        Per vertex or point, 0 ... 1; by default the shape's own, if there are no scalars.
     smooth : bool, optional
-        Shaded with the mesh's normals; by default if it has any.
+        Of meshes: shaded with their normals; by default if there are any.
+    point_radius : float, optional
+        Of points: each is a ball of this radius, in their unit; by default their usual distance, so
+        that those of a surface close it.
+
+    Raises
+    ------
+    InvalidInputError
+        For scalars and colors, for arrays of another shape.
     """
 
-    __slots__ = ("_core", "mesh")
+    __slots__ = ("_core", "shape")
 
     def __init__(
         self,
@@ -78,19 +87,41 @@ class Panel:
         scalars: npt.ArrayLike | None = None,
         colors: npt.ArrayLike | None = None,
         smooth: bool | None = None,
+        point_radius: float | None = None,
     ) -> None:
-        self.mesh = surface_of(shape)
-        if smooth is None:
-            smooth = "nx" in self.mesh.attributes
+        self.shape = _drawable(shape)
         if scalars is not None and colors is not None:
             raise InvalidInputError("scalars and colors exclude one another: give one of them")
         if scalars is None and colors is None:
-            colors = self.mesh.colors
+            colors = self.shape.colors
         rows = None if colors is None else np.ascontiguousarray(colors, dtype=np.float64)
         if rows is not None and (rows.ndim != 2 or rows.shape[1] != 3):
             raise InvalidInputError(f"colors: an array (N, 3) is needed, not {rows.shape}")
         values = None if scalars is None else floats(scalars, "scalars")
-        self._core = _core.Panel(self.mesh._core, label, smooth, values, rows)
+        if isinstance(self.shape, PointCloud):
+            radius = 0.0 if point_radius is None else _positive(point_radius)
+            self._core = _core.Panel(self.shape._core, label, radius, values, rows)
+        else:
+            if smooth is None:
+                smooth = "nx" in self.shape.attributes
+            self._core = _core.Panel(self.shape._core, label, smooth, values, rows)
+
+
+def _drawable(shape: Any) -> Mesh | PointCloud:
+    """The surface of what has one, or points."""
+    if isinstance(shape, PointCloud):
+        return shape
+    if isinstance(shape, np.ndarray) and shape.ndim == 2:
+        return PointCloud(shape)
+    if isinstance(shape, (str, os.PathLike)) and not _core.is_model_file(os.fspath(shape)):
+        return read_shape(shape).shape
+    return surface_of(shape)
+
+
+def _positive(radius: float) -> float:
+    if not radius > 0:
+        raise InvalidInputError(f"point_radius is {radius}; it must be above 0, or None")
+    return float(radius)
 
 
 def render(
@@ -98,7 +129,9 @@ def render(
     size: tuple[int, int] = (1024, 768),
     *,
     scalars: npt.ArrayLike | None = None,
+    colors: npt.ArrayLike | None = None,
     label: str = "",
+    point_radius: float | None = None,
     view: npt.ArrayLike = (-0.55, 0.75, -0.4),
     up: npt.ArrayLike = (0.0, 0.0, 1.0),
     perspective: bool = False,
@@ -116,14 +149,18 @@ def render(
 
     Parameters
     ----------
-    shape : mesh-like, Expansion, Atlas, Reconstruction, Panel, or a list of these
-        What is shown.
+    shape : mesh-like, Expansion, Atlas, Reconstruction, PointCloud, array_like (N, 3), Panel, or a list
+        What is shown; a list has several of these.
     size : (width, height)
         Of the whole picture, pixels, 16 ... 16384.
     scalars : array_like, (N,), optional
-        Of one shape: per vertex, coloured by the colour map.
+        Of one shape: per vertex or point, coloured by the colour map.
+    colors : array_like, (N, 3), optional
+        Of one shape: per vertex or point, 0 ... 1; by default its own, if there are no scalars.
     label : str
         Of one shape, below it.
+    point_radius : float, optional
+        Of points, which are balls: as in `Panel`.
     view : array_like, (3,)
         From the eye into the scene.
     up : array_like, (3,)
@@ -151,12 +188,25 @@ def render(
     -------
     picture : Picture
         uint8, (height, width, 3).
+
+    Raises
+    ------
+    InvalidInputError
+        For a shape without triangles or points, more than 20 million points, arrays of another
+        length, sizes out of range.
     """
     several = isinstance(shape, list)
-    if several and (scalars is not None or label):
-        raise InvalidInputError("scalars and label are of one shape; give several as Panels")
-    shapes = shape if several else [shape]
-    panels = [s if isinstance(s, Panel) else Panel(s, label, scalars=scalars) for s in shapes]
+    of_one = scalars is not None or colors is not None or point_radius is not None or label
+    if of_one and (several or isinstance(shape, Panel)):
+        raise InvalidInputError(
+            "scalars, colors, label and point_radius are of one shape; Panels have their own"
+        )
+    panels = [
+        s
+        if isinstance(s, Panel)
+        else Panel(s, label, scalars=scalars, colors=colors, point_radius=point_radius)
+        for s in (shape if several else [shape])
+    ]
     options = _core.RenderOptions(
         width=size[0],
         height=size[1],

@@ -228,6 +228,11 @@ class PointCloud:
         return attribute_dict(self._core.attributes)
 
     @property
+    def colors(self) -> npt.NDArray[np.float32] | None:
+        """Colours of points, (N, 3) float32 in 0 ... 1, or None."""
+        return vertex_colors(self)
+
+    @property
     def bounds(self) -> _core.Bounds:
         """The box around the points."""
         return _core.bounds(self._core.points)
@@ -237,6 +242,12 @@ class PointCloud:
         from ._shape_files import write_shape
 
         write_shape(self, path, format=format, ascii=ascii)
+
+    def render(self, **options: Any) -> Any:
+        """A picture; see `rholm.render`."""
+        from ._pictures import render
+
+        return render(self, **options)
 
     def to_trimesh(self) -> trimesh.PointCloud:
         """A `trimesh.PointCloud`."""
@@ -260,6 +271,11 @@ class PointCloud:
     def __reduce__(self) -> Any:
         normals = None if self.normals is None else np.array(self.normals)
         return (_cloud_of, (np.array(self.points), normals, self._core.attributes))
+
+    def _repr_png_(self) -> bytes | None:
+        from ._pictures import notebook_png
+
+        return notebook_png(self)
 
 
 def _cloud_of(points: FloatArray, normals: FloatArray | None, attributes: Any) -> PointCloud:
@@ -355,15 +371,15 @@ def _points_of(shape: Any) -> PointCloud:
     return PointCloud(shape)
 
 
-def vertex_colors(mesh: MeshLike) -> npt.NDArray[np.float32] | None:
+def vertex_colors(mesh: MeshLike | PointCloud) -> npt.NDArray[np.float32] | None:
     """The attributes red, green and blue, (N, 3) float32 in 0 ... 1, or None.
 
     Parameters
     ----------
-    mesh : mesh-like
+    mesh : mesh-like or PointCloud
         Whole numbers are bytes, others parts of 1.
     """
-    colors = _core.vertex_colors(as_mesh(mesh)._core)
+    colors = _core.vertex_colors(mesh._core if isinstance(mesh, PointCloud) else as_mesh(mesh)._core)
     return colors if len(colors) else None
 
 

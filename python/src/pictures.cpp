@@ -32,20 +32,33 @@ Image image_of(const Pixels& pixels) {
           std::vector<std::uint8_t>(pixels.data(), pixels.data() + pixels.size())};
 }
 
+void color(Panel& panel, const std::optional<Doubles>& scalars, const std::optional<Rows>& colors) {
+  if (scalars) panel.scalars = vector_of(*scalars);
+  if (!colors) return;
+  for (const Vec3& c : span_of(*colors)) {
+    panel.colors.push_back(
+        {static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)});
+  }
+}
+
 void bind_render(nb::module_& m) {
-  nb::class_<Panel>(m, "Panel", "One thing in a picture; the mesh must be kept.")
+  nb::class_<Panel>(m, "Panel", "One thing in a picture; the mesh, or the points, must be kept.")
       .def(
           "__init__",
           [](Panel* self, const Mesh& mesh, const std::string& label, bool smooth,
              const std::optional<Doubles>& scalars, const std::optional<Rows>& colors) {
             Panel panel{.mesh = &mesh, .label = label, .smooth = smooth};
-            if (scalars) panel.scalars = vector_of(*scalars);
-            if (colors) {
-              for (const Vec3& c : span_of(*colors)) {
-                panel.colors.push_back(
-                    {static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)});
-              }
-            }
+            color(panel, scalars, colors);
+            new (self) Panel(std::move(panel));
+          },
+          nb::arg(), nb::arg(), nb::arg(), nb::arg().none(), nb::arg().none(),
+          nb::keep_alive<1, 2>())
+      .def(
+          "__init__",
+          [](Panel* self, const PointCloud& points, const std::string& label, double radius,
+             const std::optional<Doubles>& scalars, const std::optional<Rows>& colors) {
+            Panel panel{.label = label, .points = &points, .point_radius = radius};
+            color(panel, scalars, colors);
             new (self) Panel(std::move(panel));
           },
           nb::arg(), nb::arg(), nb::arg(), nb::arg().none(), nb::arg().none(),
@@ -66,24 +79,19 @@ void bind_render(nb::module_& m) {
   m.def("render", [](const std::vector<const Panel*>& panels, const RenderOptions& options,
                      const Caller& caller) {
     std::vector<Panel> all;
-    for (const Panel* panel : panels) {
-      const std::size_t n = panel->mesh->vertices.size();
-      if ((!panel->scalars.empty() && panel->scalars.size() != n) ||
-          (!panel->colors.empty() && panel->colors.size() != n)) {
-        throw Error(ErrorCode::kInvalidInput, "a panel needs one scalar or colour per vertex");
-      }
-      all.push_back(*panel);
-    }
+    for (const Panel* panel : panels) all.push_back(*panel);
     Image image = caller.run([&](const Context& context) { return render(all, options, context); });
     const auto height = static_cast<std::size_t>(image.height);
     const auto width = static_cast<std::size_t>(image.width);
     return array_of<std::uint8_t>(std::move(image.rgb), {height, width, 3});
   });
-  m.def("vertex_colors", [](const Mesh& mesh) {
-    std::vector<std::array<float, 3>> colors = vertex_colors(mesh);
+  const auto rows_of = [](std::vector<std::array<float, 3>> colors) {
     const std::size_t n = colors.size();
     return array_of<float>(std::move(colors), {n, 3});
-  });
+  };
+  m.def("vertex_colors", [rows_of](const Mesh& mesh) { return rows_of(vertex_colors(mesh)); });
+  m.def("vertex_colors",
+        [rows_of](const PointCloud& cloud) { return rows_of(vertex_colors(cloud)); });
   m.def("spectrum_svg", &spectrum_svg, nb::arg(), nb::arg(), nb::arg().none());
   m.def("encode_png", [](const Pixels& pixels) {
     const Image image = image_of(pixels);

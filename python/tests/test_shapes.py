@@ -299,6 +299,41 @@ def test_pictures(bumpy, tmp_path):
     assert (tmp_path / "d.txt").read_bytes() == b"abc"
 
 
+def test_points_are_drawn_as_balls(bumpy, tmp_path):
+    cloud = rholm.sample_surface(bumpy, 3000)
+    picture = rholm.render(cloud, (96, 80))
+    assert (picture[40, 48] != 255).any()  # closed in front
+    assert np.array_equal(rholm.render(cloud.points, (96, 80)), picture)
+    cloud.save(tmp_path / "a.ply")
+    assert np.array_equal(rholm.render(tmp_path / "a.ply", (96, 80)), picture)
+    assert np.array_equal(cloud.render(size=(96, 80)), picture)
+    small = rholm.render(cloud, (96, 80), point_radius=1e-3)
+    assert (small == 255).sum() > (picture == 255).sum()
+    red = rholm.as_points(cloud, attributes={"rgb": np.tile(np.uint8([255, 0, 0]), (3000, 1))})
+    assert np.array_equal(red.colors, np.tile([1, 0, 0], (3000, 1)))
+    assert cloud.colors is None
+    drawn = rholm.render(red, (96, 80))
+    assert drawn[40, 48, 0] > 100
+    assert drawn[40, 48, 1] == 0
+    assert np.array_equal(drawn, rholm.render(cloud, (96, 80), colors=red.colors))
+    assert not np.array_equal(rholm.render(cloud, (96, 80), scalars=cloud.points[:, 0]), picture)
+    assert red._repr_png_()[:4] == b"\x89PNG"
+    assert rholm.PointCloud(np.empty((0, 3)))._repr_png_() is None
+    both = rholm.render([rholm.Panel(cloud, "points"), rholm.Panel(bumpy, "mesh")], (200, 80))
+    assert both.shape == (80, 200, 3)
+    for wrong in (
+        lambda: rholm.render(cloud, scalars=[1, 2]),
+        lambda: rholm.render(cloud, colors=np.ones((2, 3))),
+        lambda: rholm.render(cloud, point_radius=0),
+        lambda: rholm.render(cloud, point_radius=np.nan),
+        lambda: rholm.render(rholm.Panel(cloud), scalars=cloud.points[:, 0]),
+        lambda: rholm.render(np.empty((0, 3))),
+        lambda: rholm.render(np.array([[np.nan, 0, 0]])),
+    ):
+        with pytest.raises(rholm.InvalidInputError):
+            wrong()
+
+
 def test_a_sample_has_the_attributes_of_its_places(bumpy):
     linear = 1 + bumpy.vertices @ [1, -2, 3]
     colors = np.clip(np.round(128 + 60 * bumpy.vertices), 0, 255).astype(np.uint8)

@@ -87,6 +87,19 @@ class Sample(CliTest):
         self.assertEqual(self.files(), ["a.off", "p.xyz"])
 
 
+class Render(CliTest):
+    def test_points_are_drawn_beside_meshes(self):
+        self.write("a.off", off(*OCTAHEDRON))
+        self.rholm("make", "sample", "a.off", "--points", "500", "-o", "p.xyz")
+        for words in (["p.xyz"], ["a.off", "p.xyz", "--labels", "mesh,points"],
+                      ["p.xyz", "--color", "error", "--against", "a.off"]):
+            self.rholm("render", *words, "--size", "64x48", "-o", "o.png")
+            self.assertEqual((self.folder / "o.png").read_bytes()[:4], b"\x89PNG")
+        self.write("c.ply", COLORED.format(n=1) + "0 0 0 9\n")
+        said = self.rholm("render", "c.ply", "--color", "own", "--size", "64x48", "-o", "o.png").err
+        self.assertIn("no red, green, blue", said)
+
+
 class Orient(CliTest):
     def setUp(self):
         super().setUp()

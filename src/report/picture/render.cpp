@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "base/refuse.h"
+#include "report/picture/balls.h"
 #include "report/picture/canvas.h"
 #include "report/picture/scale_bar.h"
 #include "report/picture/shade.h"
@@ -19,6 +20,10 @@ namespace rholm {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kMost = std::numeric_limits<double>::max();
+// Of a shape's size: some ten roundings of the ray tracer's floats, a hundredth of the finest
+// pixel.
+constexpr double kSmallestBall = 1e-6;
 const Color kPaper = {1, 1, 1};
 const Color kInk = {0.03f, 0.03f, 0.035f};
 
@@ -26,6 +31,46 @@ void require_between(int value, int low, int high, const char* what) {
   if (value >= low && value <= high) return;
   refuse(std::string(what) + " is " + std::to_string(value) + ", it must be " +
          std::to_string(low) + " ... " + std::to_string(high));
+}
+
+// Vertices, or points.
+const std::vector<Vec3>& places(const Panel& panel) {
+  return panel.points != nullptr ? panel.points->points : panel.mesh->vertices;
+}
+
+void check_shape(const Panel& panel) {
+  if (panel.points == nullptr) {
+    if (panel.mesh == nullptr || panel.mesh->triangles.empty()) {
+      refuse("a panel needs a mesh with at least 1 triangle, or points");
+    }
+    return validate(*panel.mesh);
+  }
+  if (panel.mesh != nullptr) refuse("a panel has a mesh and points; give one of them");
+  const std::size_t n = panel.points->points.size();
+  if (n < 1 || n > kMaxPointsInPicture) {
+    refuse("a panel has " + std::to_string(n) + " points; it needs 1 ... " +
+           std::to_string(kMaxPointsInPicture) + ": leave some out");
+  }
+  validate(*panel.points);
+  if (!(panel.point_radius >= 0) || !std::isfinite(panel.point_radius)) {
+    refuse("the radius of a panel's points is " + std::to_string(panel.point_radius) +
+           "; it must be a finite number, at least 0");
+  }
+}
+
+void check_values(const Panel& panel) {
+  const std::size_t n = places(panel).size();
+  const auto count = [&](std::size_t given, const char* what) {
+    if (given == 0 || given == n) return;
+    refuse("a panel has " + std::to_string(given) + what + std::to_string(n) +
+           (panel.points != nullptr ? " points" : " vertices"));
+  };
+  count(panel.colors.size(), " colours for ");
+  count(panel.scalars.size(), " scalars for ");
+  const auto finite = [](double s) { return std::isfinite(s); };
+  if (!std::all_of(panel.scalars.begin(), panel.scalars.end(), finite)) {
+    refuse("a panel has a scalar that is not a finite number");
+  }
 }
 
 void check(std::span<const Panel> panels, const RenderOptions& options) {
@@ -39,23 +84,8 @@ void check(std::span<const Panel> panels, const RenderOptions& options) {
            std::to_string(options.width) + " pixels; each needs at least 16");
   }
   for (const Panel& panel : panels) {
-    if (panel.mesh == nullptr || panel.mesh->triangles.empty()) {
-      refuse("a panel needs a mesh with at least 1 triangle");
-    }
-    validate(*panel.mesh);
-    if (!panel.colors.empty() && panel.colors.size() != panel.mesh->vertices.size()) {
-      refuse("a panel has " + std::to_string(panel.colors.size()) + " colours for " +
-             std::to_string(panel.mesh->vertices.size()) + " vertices");
-    }
-    if (panel.scalars.empty()) continue;
-    if (panel.scalars.size() != panel.mesh->vertices.size()) {
-      refuse("a panel has " + std::to_string(panel.scalars.size()) + " scalars for " +
-             std::to_string(panel.mesh->vertices.size()) + " vertices");
-    }
-    const auto finite = [](double s) { return std::isfinite(s); };
-    if (!std::all_of(panel.scalars.begin(), panel.scalars.end(), finite)) {
-      refuse("a panel has a scalar that is not a finite number");
-    }
+    check_shape(panel);
+    check_values(panel);
   }
 }
 
@@ -88,10 +118,13 @@ std::optional<ColorScale> color_scale(std::span<const Panel> panels, const Rende
 double common_scale(std::span<const Panel> panels) {
   Vec3 largest;
   for (const Panel& panel : panels) {
-    const Bounds box = bounds(panel.mesh->vertices);
+    const Bounds box = bounds(places(panel));
+    const double margin = panel.points != nullptr ? panel.point_radius : 0;
     const Vec3 half = 0.5 * box.max - 0.5 * box.min;
-    largest = {std::max(largest.x, half.x), std::max(largest.y, half.y),
-               std::max(largest.z, half.z)};
+    const auto larger = [&](double a, double b) {
+      return std::min(std::max(a, b + margin), kMost);
+    };
+    largest = {larger(largest.x, half.x), larger(largest.y, half.y), larger(largest.z, half.z)};
   }
   return unit_frame({-largest, largest}).scale;
 }
@@ -110,15 +143,23 @@ std::vector<Vec3> vertex_normals(const Mesh& mesh) {
   return normals;
 }
 
-Subject make_subject(const Panel& panel, double scale) {
-  Subject subject{{panel.mesh->vertices, panel.mesh->triangles, {}}, {}, nullptr, 0};
-  const Bounds box = bounds(panel.mesh->vertices);
+Subject make_subject(const Panel& panel, double scale, const Context& context) {
+  Subject subject;
+  subject.mesh.vertices = places(panel);
+  if (panel.mesh != nullptr) subject.mesh.triangles = panel.mesh->triangles;
+  const Bounds box = bounds(subject.mesh.vertices);
   const UnitFrame frame = {scale * (0.5 * box.min) + scale * (0.5 * box.max), scale};
   for (Vec3& vertex : subject.mesh.vertices) {
     vertex = frame.to_local(vertex);
     subject.radius = std::max(subject.radius, norm(vertex));
   }
-  if (panel.smooth) subject.normals = vertex_normals(*panel.mesh);
+  if (panel.points != nullptr) {
+    const double radius = panel.point_radius > 0 ? scale * panel.point_radius
+                                                 : ball_radius(subject.mesh.vertices, context);
+    subject.ball_radius = std::max(radius, kSmallestBall);
+    subject.radius += subject.ball_radius;
+  }
+  if (panel.mesh != nullptr && panel.smooth) subject.normals = vertex_normals(*panel.mesh);
   if (!panel.scalars.empty()) subject.scalars = &panel.scalars;
   for (const std::array<float, 3>& c : panel.colors) {
     subject.colors.push_back({from_srgb(c[0]), from_srgb(c[1]), from_srgb(c[2])});
@@ -175,18 +216,21 @@ struct Sight {
 
 // Of panels that have one scale.
 std::vector<Sight> sights_at_one_scale(std::span<const Panel> panels, const RenderOptions& options,
-                                       const Layout& layout) {
+                                       const Layout& layout, const Context& context) {
   const double to_unit = common_scale(panels);
   std::vector<Sight> sights;
   double radius = 0;
   for (const Panel& panel : panels) {
-    sights.push_back({.subject = make_subject(panel, to_unit), .view = {}, .box = {}});
+    sights.push_back({.subject = make_subject(panel, to_unit, context), .view = {}, .box = {}});
     radius = std::max(radius, sights.back().subject.radius);
   }
   std::vector<PlaneBox> boxes;
   for (Sight& sight : sights) {
     sight.view = make_view(options, radius > 0 ? radius : 1);
-    sight.box = projected_box(sight.view, sight.subject.mesh);
+    const Subject& subject = sight.subject;
+    sight.box = subject.ball_radius > 0
+                    ? projected_box(sight.view, subject.mesh.vertices, subject.ball_radius)
+                    : projected_box(sight.view, subject.mesh);
     boxes.push_back(sight.box);
   }
   for (Sight& sight : sights) sight.pixels_per_unit = pixels_per_unit(boxes, layout);
@@ -194,11 +238,11 @@ std::vector<Sight> sights_at_one_scale(std::span<const Panel> panels, const Rend
 }
 
 std::vector<Sight> make_sights(std::span<const Panel> panels, const RenderOptions& options,
-                               const Layout& layout) {
-  if (!options.fit_each) return sights_at_one_scale(panels, options, layout);
+                               const Layout& layout, const Context& context) {
+  if (!options.fit_each) return sights_at_one_scale(panels, options, layout, context);
   std::vector<Sight> sights;
   for (const Panel& panel : panels) {
-    sights.push_back(std::move(sights_at_one_scale({&panel, 1}, options, layout).front()));
+    sights.push_back(std::move(sights_at_one_scale({&panel, 1}, options, layout, context).front()));
   }
   return sights;
 }
@@ -239,7 +283,7 @@ void draw_panel(Canvas& canvas, const PanelPicture& p, const RenderOptions& opti
   // large thing's distance would overflow in units of the small one.
   constexpr double kVisible = 1e-3;
   if (p.subject.radius * p.pixels_per_unit < kVisible) return;
-  const RayScene scene(p.subject.mesh);
+  const RayScene scene(p.subject.mesh, p.subject.ball_radius);
   const LightSamples lights =
       make_light_samples(options.samples * options.samples, options.occlusion_rays);
   constexpr std::size_t kRows = 2;  // of a chunk: some 10 ms
@@ -253,13 +297,11 @@ void draw_panel(Canvas& canvas, const PanelPicture& p, const RenderOptions& opti
                });
 }
 
-}  // namespace
-
-std::vector<std::array<float, 3>> vertex_colors(const Mesh& mesh) {
+std::vector<std::array<float, 3>> colors_of(const std::vector<Attribute>& attributes) {
   const char* names[] = {"red", "green", "blue"};
   std::vector<std::array<float, 3>> colors;
   for (std::size_t k = 0; k < 3; ++k) {
-    const Attribute* channel = find_attribute(mesh.attributes, names[k]);
+    const Attribute* channel = find_attribute(attributes, names[k]);
     if (channel == nullptr) return {};
     const bool real =
         channel->type == ScalarType::kFloat32 || channel->type == ScalarType::kFloat64;
@@ -272,11 +314,20 @@ std::vector<std::array<float, 3>> vertex_colors(const Mesh& mesh) {
   return colors;
 }
 
+}  // namespace
+
+std::vector<std::array<float, 3>> vertex_colors(const Mesh& mesh) {
+  return colors_of(mesh.attributes);
+}
+std::vector<std::array<float, 3>> vertex_colors(const PointCloud& cloud) {
+  return colors_of(cloud.attributes);
+}
+
 Image render(std::span<const Panel> panels, const RenderOptions& options, const Context& context) {
   check(panels, options);
   const std::optional<ColorScale> scale = color_scale(panels, options);
   const Layout layout = make_layout(panels, options, scale && options.scale_bar);
-  const std::vector<Sight> sights = make_sights(panels, options, layout);
+  const std::vector<Sight> sights = make_sights(panels, options, layout, context);
 
   Canvas canvas = make_canvas(options.width, options.height, kPaper);
   const auto n = static_cast<double>(panels.size());

@@ -24,6 +24,8 @@ constexpr double kKeyRadius = 0.18;  // of the key's disc at distance 1: 10 degr
 
 // Rays start this far (in radii) off the surface: 1000 times the rounding of Embree's floats.
 constexpr double kRayOffset = 1e-4;
+// And off small balls not farther than this part of their radius.
+constexpr double kBallOffset = 0.05;
 
 // Made once: they are asked for at every sample.
 Color plain_color() {
@@ -66,7 +68,25 @@ Vec3 rounded_point(const Subject& subject, const Triangle& t, const double (&wei
   return result;
 }
 
+// Of a ball: where the ray enters it.
+Place place_on_ball(const Subject& subject, const ViewRay& ray, const RayHit& hit) {
+  const Vec3& center = subject.mesh.vertices[hit.triangle];
+  const Vec3 from_center = ray.origin - center;
+  const Vec3 nearest = from_center - dot(from_center, ray.direction) * ray.direction;
+  const double radius = subject.ball_radius;
+  // The hit is of floats: a ray that just touches may miss by their rounding.
+  const double half_chord = std::sqrt(std::max(0.0, radius * radius - dot(nearest, nearest)));
+  Place place;
+  place.face = place.normal = normalized(nearest - half_chord * ray.direction);
+  const double off = std::min(kRayOffset * subject.radius, kBallOffset * radius);
+  place.point = center + (radius + off) * place.face;
+  if (subject.scalars != nullptr) place.scalar = (*subject.scalars)[hit.triangle];
+  if (!subject.colors.empty()) place.color = subject.colors[hit.triangle];
+  return place;
+}
+
 Place place_of(const Subject& subject, const ViewRay& ray, const RayHit& hit) {
+  if (subject.ball_radius > 0) return place_on_ball(subject, ray, hit);
   const Triangle& t = subject.mesh.triangles[hit.triangle];
   const double weights[3] = {1.0 - hit.u - hit.v, hit.u, hit.v};
   const auto mix = [&](const std::vector<Vec3>& of) {

@@ -23,6 +23,14 @@ Vec3 unit_direction(const Vec3& v, const char* what) {
   return normalized(v / largest);
 }
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr PlaneBox kEmptyBox{{kInfinity, kInfinity}, {-kInfinity, -kInfinity}};
+
+void extend(PlaneBox& box, const PlanePoint& p) {
+  box.min = {std::min(box.min.x, p.x), std::min(box.min.y, p.y)};
+  box.max = {std::max(box.max.x, p.x), std::max(box.max.y, p.y)};
+}
+
 // Any unit vector across `axis`.
 Vec3 across(const Vec3& axis) {
   const Vec3 other = std::abs(axis.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
@@ -57,15 +65,27 @@ ViewRay View::ray(const PlanePoint& p) const {
 
 PlaneBox projected_box(const View& view, const Mesh& mesh) {
   if (mesh.triangles.empty()) return {};
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  PlaneBox box{{kInfinity, kInfinity}, {-kInfinity, -kInfinity}};
+  PlaneBox box = kEmptyBox;
   CancelPoll poll;
   for (const Triangle& t : mesh.triangles) {
     poll();
-    for (const std::uint32_t corner : t) {
-      const PlanePoint p = view.project(mesh.vertices[corner]);
-      box.min = {std::min(box.min.x, p.x), std::min(box.min.y, p.y)};
-      box.max = {std::max(box.max.x, p.x), std::max(box.max.y, p.y)};
+    for (const std::uint32_t corner : t) extend(box, view.project(mesh.vertices[corner]));
+  }
+  return box;
+}
+
+PlaneBox projected_box(const View& view, std::span<const Vec3> points, double ball_radius) {
+  if (points.empty()) return {};
+  PlaneBox box = kEmptyBox;
+  CancelPoll poll;
+  for (const Vec3& p : points) {
+    poll();
+    // The eye sees the tangent cone: of a ball before it r / sqrt(1 - (r/d)^2) wide.
+    const double part = view.perspective ? ball_radius / (view.distance + dot(p, view.forward)) : 0;
+    const double radius = ball_radius / std::sqrt(1 - part * part);
+    for (const Vec3& side : {radius * view.right, radius * view.up}) {
+      extend(box, view.project(p - side));
+      extend(box, view.project(p + side));
     }
   }
   return box;

@@ -43,5 +43,7 @@ View make_view(const RenderOptions& options, double radius);
 
 // Of all corners of triangles; a point at the origin for no triangle.
 PlaneBox projected_box(const View& view, const Mesh& mesh);
+// Of balls of that radius about points.
+PlaneBox projected_box(const View& view, std::span<const Vec3> points, double ball_radius);
 
 }  // namespace rholm

@@ -205,7 +205,9 @@ double value_at(const Attribute& attribute, const Triangle& t, const Place& plac
 std::size_t keep(const std::vector<char>& marked, PointCloud& cloud) {
   const auto squeeze = [&](auto& values) {
     std::size_t n = 0;
+    CancelPoll poll;
     for (std::size_t k = 0; k < values.size(); ++k) {
+      poll();
       if (marked[k]) values[n++] = values[k];
     }
     values.resize(n);

@@ -48,8 +48,12 @@ struct DeviceDeleter {
 struct SceneDeleter {
   void operator()(RTCSceneTy* scene) const { rtcReleaseScene(scene); }
 };
+struct GeometryDeleter {
+  void operator()(RTCGeometryTy* geometry) const { rtcReleaseGeometry(geometry); }
+};
 using Device = std::unique_ptr<RTCDeviceTy, DeviceDeleter>;
 using Scene = std::unique_ptr<RTCSceneTy, SceneDeleter>;
+using Geometry = std::unique_ptr<RTCGeometryTy, GeometryDeleter>;
 
 // Asks for Embree while it builds. Its own threads have no scope: they are told to go on, but hear
 // what the thread that waits for them was told.
@@ -86,48 +90,86 @@ float clamped_to_float(double x) {
   return static_cast<float>(std::clamp(x, -kLargest, kLargest));
 }
 
+Bounds grown(const Bounds& box, double margin) {
+  const Vec3 by{margin, margin, margin};
+  return {box.min - by, box.max + by};
+}
+
 }  // namespace
 
 struct RayScene::Impl {
   const Mesh& mesh;
+  double ball_radius;
   UnitFrame frame;
   Device device;
   Scene scene;
 
-  explicit Impl(const Mesh& m) : mesh(m), frame(unit_frame(bounds(m.vertices))) {
+  Impl(const Mesh& m, double radius)
+      : mesh(m), ball_radius(radius), frame(unit_frame(grown(bounds(m.vertices), radius))) {
     device.reset(rtcNewDevice(nullptr));
     if (!device) throw_embree_error(rtcGetDeviceError(nullptr), "starting the ray tracer");
     build();
   }
   void build();
+  Geometry make_geometry(RTCGeometryType type) const;
+  Geometry make_triangles() const;
+  Geometry make_balls() const;
   RTCRay ray(const Vec3& origin, const Vec3& direction, double near, double far) const;
 };
 
+Geometry RayScene::Impl::make_geometry(RTCGeometryType type) const {
+  Geometry geometry(rtcNewGeometry(device.get(), type));
+  if (!geometry) throw_embree_error(rtcGetDeviceError(device.get()), "making a shape for rays");
+  return geometry;
+}
+
+Geometry RayScene::Impl::make_triangles() const {
+  Geometry geometry = make_geometry(RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* positions = static_cast<float*>(
+      rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                              3 * sizeof(float), mesh.vertices.size()));
+  auto* indices = static_cast<std::uint32_t*>(
+      rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                              3 * sizeof(std::uint32_t), mesh.triangles.size()));
+  if (positions == nullptr || indices == nullptr) throw std::bad_alloc();
+  CancelPoll poll;
+  for (const Vec3& vertex : mesh.vertices) {
+    poll();
+    const Vec3 q = frame.to_local(vertex);
+    for (const double x : {q.x, q.y, q.z}) *positions++ = static_cast<float>(x);
+  }
+  for (const Triangle& triangle : mesh.triangles) {
+    poll();
+    indices = std::copy(triangle.begin(), triangle.end(), indices);
+  }
+  return geometry;
+}
+
+Geometry RayScene::Impl::make_balls() const {
+  Geometry geometry = make_geometry(RTC_GEOMETRY_TYPE_SPHERE_POINT);
+  auto* balls = static_cast<float*>(rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX,
+                                                            0, RTC_FORMAT_FLOAT4, 4 * sizeof(float),
+                                                            mesh.vertices.size()));
+  if (balls == nullptr) throw std::bad_alloc();
+  CancelPoll poll;
+  for (const Vec3& vertex : mesh.vertices) {
+    poll();
+    const Vec3 q = frame.to_local(vertex);
+    for (const double x : {q.x, q.y, q.z, ball_radius * frame.scale}) {
+      *balls++ = static_cast<float>(x);
+    }
+  }
+  return geometry;
+}
+
 void RayScene::Impl::build() {
   scene.reset(rtcNewScene(device.get()));
-  RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-  if (!mesh.triangles.empty()) {
-    auto* positions = static_cast<float*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                3 * sizeof(float), mesh.vertices.size()));
-    auto* indices = static_cast<std::uint32_t*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                3 * sizeof(std::uint32_t), mesh.triangles.size()));
-    if (positions == nullptr || indices == nullptr) throw std::bad_alloc();
-    CancelPoll poll;
-    for (const Vec3& vertex : mesh.vertices) {
-      poll();
-      const Vec3 q = frame.to_local(vertex);
-      for (const double x : {q.x, q.y, q.z}) *positions++ = static_cast<float>(x);
-    }
-    for (const Triangle& triangle : mesh.triangles) {
-      poll();
-      indices = std::copy(triangle.begin(), triangle.end(), indices);
-    }
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene.get(), geometry);
+  const bool balls = ball_radius > 0;
+  if (balls ? !mesh.vertices.empty() : !mesh.triangles.empty()) {
+    const Geometry geometry = balls ? make_balls() : make_triangles();
+    rtcCommitGeometry(geometry.get());
+    rtcAttachGeometry(scene.get(), geometry.get());
   }
-  rtcReleaseGeometry(geometry);
   // Robust: rays do not slip through shared edges. The filters below travel with each query.
   rtcSetSceneFlags(scene.get(), static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST |
                                                            RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
@@ -156,7 +198,8 @@ RTCRay RayScene::Impl::ray(const Vec3& origin, const Vec3& direction, double nea
   return r;
 }
 
-RayScene::RayScene(const Mesh& mesh) : impl_(std::make_unique<Impl>(mesh)) {}
+RayScene::RayScene(const Mesh& mesh, double ball_radius)
+    : impl_(std::make_unique<Impl>(mesh, ball_radius)) {}
 RayScene::~RayScene() = default;
 
 // --- Closest point -------------------------------------------------------------------------

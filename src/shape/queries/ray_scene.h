@@ -1,4 +1,4 @@
-// Rays and closest points on a triangle mesh: the one user of Embree.
+// Rays and closest points on a triangle mesh, or rays on balls: the one user of Embree.
 //
 // The tree is built on float boxes around coordinates shifted to the mesh's centre; closest
 // points are then found exactly, in double, on the mesh's own vertices. Rays are float.
@@ -20,9 +20,9 @@ struct ClosestPoint {
 
 struct RayHit {
   bool hit = false;
-  std::uint32_t triangle = 0;
-  float u = 0;  // barycentric weight of the second corner
-  float v = 0;  // and of the third
+  std::uint32_t triangle = 0;  // or the ball
+  float u = 0;                 // barycentric weight of the second corner
+  float v = 0;                 // and of the third
   double distance = 0;
 };
 
@@ -35,7 +35,9 @@ struct RayCrossing {
 // threads at once.
 class RayScene {
  public:
-  explicit RayScene(const Mesh& mesh);
+  // With a radius above 0: of a ball about each vertex, which rays meet in place of triangles;
+  // there are first_hit() and occluded() then.
+  explicit RayScene(const Mesh& mesh, double ball_radius = 0);
   ~RayScene();
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;

@@ -4,10 +4,14 @@
 
 #include <array>
 #include <cmath>
+#include <cstdlib>
+#include <limits>
 #include <numbers>
+#include <vector>
 
 #include "report/picture/view.h"
 #include "rholm/error.h"
+#include "rholm/points.h"
 #include "rholm/primitives.h"
 #include "rholm/topology.h"
 
@@ -324,6 +328,119 @@ TEST(render, can_be_cancelled) {
   const Context context = {.progress = [](std::string_view, double part) { return part < 0.3; }};
   const Mesh mesh = icosphere(2);
   EXPECT_THROW(render_one(mesh, front(), context), Error);
+}
+
+Image render_points(const PointCloud& cloud, double radius, RenderOptions options = front(),
+                    const Context& context = {}) {
+  const Panel panel{.points = &cloud, .point_radius = radius};
+  return render({&panel, 1}, options, context);
+}
+
+// The unit sphere as a ball about one point, and as a fine mesh with its normals.
+TEST(render, draws_a_point_as_a_ball) {
+  Mesh sphere = icosphere(6);
+  const char* const names[] = {"nx", "ny", "nz"};
+  for (const char* name : names) {
+    sphere.attributes.push_back({name, ScalarType::kFloat64, {}});
+  }
+  for (const Vec3& v : sphere.vertices) {
+    sphere.attributes[0].values.push_back(v.x);
+    sphere.attributes[1].values.push_back(v.y);
+    sphere.attributes[2].values.push_back(v.z);
+  }
+  for (const bool perspective : {false, true}) {
+    RenderOptions options = front();
+    options.perspective = perspective;
+    options.occlusion_rays = 0;
+    const Panel mesh{.mesh = &sphere, .smooth = true};
+    const Image expected = render({&mesh, 1}, options);
+    const Image image = render_points({.points = {{3, 2, 1}}}, 1, options);
+    int others = 0;
+    for (int y = 0; y < 80; ++y) {
+      for (int x = 0; x < 96; ++x) {
+        others += std::abs(brightness(image, x, y) - brightness(expected, x, y)) > 12;
+      }
+    }
+    EXPECT_LT(others, 12);  // of some 230 at the border, where rounding decides
+  }
+}
+
+// 21 x 21 points on a grid: by their own radius they close the square, by a small one they do not.
+TEST(render, closes_a_surface_of_points) {
+  PointCloud cloud;
+  for (int i = 0; i < 441; ++i) cloud.points.push_back({i % 21 - 10.0, 0, i / 21 - 10.0});
+  const Image closed = render_points(cloud, 0), open = render_points(cloud, 0.1);
+  int white_in_closed = 0, white_in_open = 0;
+  for (int y = 20; y < 60; ++y) {
+    for (int x = 28; x < 68; ++x) {
+      white_in_closed += pixel(closed, x, y) == kWhite;
+      white_in_open += pixel(open, x, y) == kWhite;
+    }
+  }
+  EXPECT_EQ(white_in_closed, 0);
+  EXPECT_GT(white_in_open, 800);
+}
+
+TEST(render, gives_points_their_colours_and_scalars) {
+  const PointCloud cloud{.points = {{-1, 0, 0}, {1, 0, 0}}};
+  Panel panel{.points = &cloud, .point_radius = 0.8};
+  panel.colors = {{1, 0, 0}, {0, 0, 1}};
+  const Image image = render({&panel, 1}, front());
+  const auto left = pixel(image, 24, 40), right = pixel(image, 72, 40);
+  EXPECT_GT(left[0], 150);
+  EXPECT_EQ(left[2], 0);
+  EXPECT_GT(right[2], 150);
+  EXPECT_EQ(right[0], 0);
+  panel.colors.clear();
+  panel.scalars = {0, 1};  // dark blue, yellow
+  const Image scale = render({&panel, 1}, front());
+  EXPECT_LT(brightness(scale, 24, 33), brightness(scale, 72, 33));
+}
+
+TEST(render, draws_points_alike_for_any_number_of_threads) {
+  const PointCloud cloud = sample_surface(icosphere(3), {.points = 3000});
+  EXPECT_EQ(render_points(cloud, 0, front(), {.threads = 1}).rgb,
+            render_points(cloud, 0, front(), {.threads = 2}).rgb);
+}
+
+TEST(render, draws_degenerate_points) {
+  constexpr double kMost = std::numeric_limits<double>::max();
+  const std::vector<std::vector<Vec3>> clouds = {{{1, 2, 3}},
+                                                 {{1, 2, 3}, {1, 2, 3}},
+                                                 {{0, 0, 0}, {1, 0, 0}},
+                                                 {{-kMost, 0, 0}, {kMost, kMost, 0}},
+                                                 {{1e-320, 0, 0}, {0, 1e-320, 0}},
+                                                 {{1e9, 0, 0}, {1e9 + 1, 0, 0}}};
+  for (const std::vector<Vec3>& points : clouds) {
+    for (const double radius : {0.0, 1e-300, 1.0, 1e300}) {
+      for (const bool perspective : {false, true}) {
+        RenderOptions options = front();
+        options.perspective = perspective;
+        EXPECT_EQ(render_points({.points = points}, radius, options).rgb.size(), 3u * 96 * 80);
+      }
+    }
+  }
+}
+
+TEST(render, refuses_points_that_it_cannot_draw) {
+  const PointCloud good{.points = {{0, 0, 0}}}, none, bad{.points = {{NAN, 0, 0}}};
+  const Mesh mesh = icosphere(1);
+  const auto refused = [](const Panel& panel) {
+    try {
+      render({&panel, 1}, front());
+      return false;
+    } catch (const Error& error) {
+      return error.code() == ErrorCode::kInvalidInput;
+    }
+  };
+  EXPECT_FALSE(refused({.points = &good}));
+  EXPECT_TRUE(refused({.points = &none}));
+  EXPECT_TRUE(refused({.points = &bad}));
+  EXPECT_TRUE(refused({.mesh = &mesh, .points = &good}));
+  EXPECT_TRUE(refused({.points = &good, .point_radius = -1}));
+  EXPECT_TRUE(refused({.points = &good, .point_radius = NAN}));
+  EXPECT_TRUE(refused({.scalars = {1, 2}, .points = &good}));
+  EXPECT_TRUE(refused({.colors = {{1, 1, 1}, {0, 0, 0}}, .points = &good}));
 }
 
 // A ray through a point of the picture plane projects back to it, wherever along the ray.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -346,12 +347,42 @@ TEST(occluded, says_whether_something_is_within_the_range) {
   EXPECT_FALSE(scene.occluded(above, {0, 0, 1}, 0, kInfinity));
 }
 
+// Against the closed form, by random rays at random balls.
+TEST(rays, meet_balls_about_vertices) {
+  constexpr double kRadius = 0.1;
+  Mesh mesh;
+  for (int k = 0; k < 200; ++k) mesh.vertices.push_back(random_point(5, k));
+  const RayScene scene(mesh, kRadius);
+  for (int k = 0; k < 2000; ++k) {
+    const Vec3 origin = 4.0 * normalized(random_point(6, k));
+    const Vec3 direction = normalized(random_point(7, k) - origin);
+    double nearest = kInfinity, margin = kInfinity;
+    for (const Vec3& center : mesh.vertices) {
+      const double along = dot(center - origin, direction);
+      const double off = norm(origin + along * direction - center);
+      margin = std::min(margin, std::abs(off - kRadius));
+      if (off < kRadius) {
+        nearest = std::min(nearest, along - std::sqrt(kRadius * kRadius - off * off));
+      }
+    }
+    if (margin < 1e-5) continue;  // it just touches one: floats may see it or not
+    const RayHit hit = scene.first_hit(origin, direction, 0, kInfinity);
+    ASSERT_EQ(hit.hit, std::isfinite(nearest));
+    EXPECT_EQ(scene.occluded(origin, direction, 0, kInfinity), hit.hit);
+    if (!hit.hit) continue;
+    // Floats of 4, and a chord that may be flat: 1e-6 / sqrt(2 * 1e-5 / 0.1).
+    EXPECT_NEAR(hit.distance, nearest, 1e-4);
+    EXPECT_LT(norm(origin + nearest * direction - mesh.vertices[hit.triangle]), kRadius + 1e-4);
+  }
+}
+
 TEST(rays, meet_nothing_in_an_empty_mesh) {
   const Mesh none;
   const RayScene scene(none);
   EXPECT_EQ(scene.count_hits({}, {0, 0, 1}), 0);
   EXPECT_FALSE(scene.first_hit({}, {0, 0, 1}, 0, kInfinity).hit);
   EXPECT_FALSE(scene.occluded({}, {0, 0, 1}, 0, kInfinity));
+  EXPECT_FALSE(RayScene(none, 1).first_hit({0, 0, -4}, {0, 0, 1}, 0, kInfinity).hit);
 }
 
 }  // namespace
