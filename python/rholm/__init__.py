@@ -92,6 +92,7 @@ from ._core import (
     VERSION as __version__,
 )
 from ._edit import (
+    RegionLike,
     SmoothEditor,
     TransferEditor,
     analyze_patch,
@@ -114,7 +115,7 @@ from ._errors import (
     OutOfMemoryError,
     UnsupportedError,
 )
-from ._expansion import Expansion, as_expansion
+from ._expansion import CoefficientsLike, Expansion, as_expansion
 from ._filters import (
     band_pass,
     filter,
@@ -179,6 +180,7 @@ from ._reconstruct import (
 )
 from ._rotations import (
     Rotation,
+    RotationLike,
     angle_between,
     as_rotation,
     axis_angle_of,
@@ -202,7 +204,9 @@ from ._shape_files import (
 )
 from ._shapes import (
     Mesh,
+    MeshLike,
     PointCloud,
+    PointsLike,
     as_mesh,
     as_points,
     validate,
@@ -260,6 +264,7 @@ __all__ = [
     "CleanReport",
     "Cleaned",
     "CoefficientsFile",
+    "CoefficientsLike",
     "Comparison",
     "CompressReport",
     "Distances",
@@ -273,6 +278,7 @@ __all__ = [
     "IoError",
     "MAX_DEGREE",
     "Mesh",
+    "MeshLike",
     "MonteCarlo",
     "NO_CAP",
     "NotConvergedError",
@@ -286,12 +292,15 @@ __all__ = [
     "Picture",
     "Placement",
     "PointCloud",
+    "PointsLike",
     "PrincipalAxes",
     "ReconstructReport",
     "Reconstruction",
+    "RegionLike",
     "RepairReport",
     "Repaired",
     "Rotation",
+    "RotationLike",
     "ShapeFile",
     "Simplification",
     "SmoothEditor",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal, Union
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -13,16 +13,11 @@ from ._errors import InvalidInputError
 from ._interop import _package, coefficients_of_pyshtools
 
 if TYPE_CHECKING:
-    from ._expansion import Expansion
+    from ._expansion import CoefficientsLike
 
 #: What the mean square of each harmonic over the sphere is: 1 for "4pi" (geodesy, pyshtools'
 #: default), 1/(4 pi) for "orthonormal", 1/(2l+1) for "schmidt".
 Normalization = Literal["4pi", "orthonormal", "schmidt"]
-
-
-#: What stands for coefficients: an `Expansion`, pyshtools.SHCoeffs, or an array (2, L+1, L+1) in
-#: pyshtools' default convention: 4 pi-normalised, without Condon-Shortley phase.
-CoefficientsLike = Union["Expansion", npt.ArrayLike, Any]
 
 
 def core_of(coefficients: CoefficientsLike) -> _core.Coefficients:

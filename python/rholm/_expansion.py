@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -11,7 +11,7 @@ import numpy.typing as npt
 from . import _core
 from ._arrays import FloatArray, float_row, floats, triple
 from ._arrays import directions as unit_rows
-from ._coefficients import CoefficientsLike, array_of, core_of, from_convention
+from ._coefficients import array_of, core_of, from_convention
 from ._errors import InvalidInputError
 from ._interop import to_pyshtools, to_xarray
 from ._primitives import subdivisions_for
@@ -566,6 +566,11 @@ class Expansion:
 
     def _require_surface(self) -> None:
         _core.require_surface(self._core)
+
+
+#: What stands for coefficients: an `Expansion`, pyshtools.SHCoeffs, or an array (2, L+1, L+1) in
+#: pyshtools' default convention: 4 pi-normalised, without Condon-Shortley phase.
+CoefficientsLike = Union[Expansion, npt.ArrayLike, Any]
 
 
 def as_expansion(thing: Any) -> Expansion:

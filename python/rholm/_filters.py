@@ -8,8 +8,8 @@ import numpy.typing as npt
 
 from . import _core
 from ._arrays import FloatArray, floats
-from ._coefficients import CoefficientsLike, array_of, core_of
-from ._expansion import Expansion
+from ._coefficients import array_of, core_of
+from ._expansion import CoefficientsLike, Expansion
 
 #: How a low-pass filter falls; see `low_pass`.
 Window = Literal["ideal", "lanczos", "lanczos2", "gaussian", "heat", "exponential", "plateau"]

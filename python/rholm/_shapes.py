@@ -20,16 +20,6 @@ if TYPE_CHECKING:
     import trimesh
 
 
-#: What stands for a mesh: a `Mesh`, (vertices, triangles), a path, or a mesh of trimesh, PyVista or
-#: meshio.
-MeshLike = Union["Mesh", tuple[Any, Any], str, "os.PathLike[str]", Any]
-
-
-#: What stands for points: a `PointCloud`, an array (N, 3), (points, normals), a path, or points of
-#: trimesh, PyVista or meshio.
-PointsLike = Union["PointCloud", npt.ArrayLike, tuple[Any, Any], str, "os.PathLike[str]", Any]
-
-
 class Mesh:
     """Triangles that share vertices.
 
@@ -285,6 +275,15 @@ def _cloud_of(points: FloatArray, normals: FloatArray | None, attributes: Any) -
 def _read_only(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
     array.flags.writeable = False
     return array
+
+
+#: What stands for a mesh: a `Mesh`, (vertices, triangles), a path, or a mesh of trimesh, PyVista or
+#: meshio.
+MeshLike = Union[Mesh, tuple[Any, Any], str, os.PathLike[str], Any]
+
+#: What stands for points: a `PointCloud`, an array (N, 3), (points, normals), a path, or points of
+#: trimesh, PyVista or meshio.
+PointsLike = Union[PointCloud, npt.ArrayLike, tuple[Any, Any], str, os.PathLike[str], Any]
 
 
 def as_mesh(shape: MeshLike, attributes: bool = True) -> Mesh:

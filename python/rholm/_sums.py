@@ -10,8 +10,9 @@ import numpy.typing as npt
 from . import _core
 from ._arrays import FloatArray, float_rows, floats
 from ._arrays import directions as unit_rows
-from ._coefficients import CoefficientsLike, array_of, core_of
+from ._coefficients import array_of, core_of
 from ._errors import InvalidInputError
+from ._expansion import CoefficientsLike
 from ._run import Progress, caller
 
 #: Where the rings of a grid are; see `synthesize_grid`.

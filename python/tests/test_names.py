@@ -8,6 +8,7 @@ import re
 import subprocess
 import sys
 import types
+import typing
 from pathlib import Path
 
 import pytest
@@ -134,6 +135,17 @@ def test_nothing_optional_is_imported():
         [sys.executable, "-c", code], check=True, capture_output=True, text=True, env=os.environ
     )
     assert done.stdout.strip() == "[]"
+
+
+def test_what_stands_for_arguments_can_be_annotated_with():
+    names = ("MeshLike", "PointsLike", "RegionLike", "CoefficientsLike", "RotationLike")
+
+    def takes_all(a, b, c, d, e): ...
+
+    takes_all.__annotations__ = {a: f"rholm.{name}" for a, name in zip("abcde", names, strict=True)}
+    hints = typing.get_type_hints(takes_all, {"rholm": rholm})
+    assert list(hints.values()) == [getattr(rholm, name) for name in names]
+    assert set(names) <= set(rholm.__all__)
 
 
 def test_the_package_says_that_it_is_typed():
