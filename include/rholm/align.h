@@ -17,8 +17,9 @@
 
 namespace rholm {
 
-// The axes of the quadratic form u^T Q u of degree 2: of a radius those of its ellipsoid-like part,
-// longest first.
+// The axes of the quadratic form u^T Q u that the coefficients of degree 2 are: of a radius those
+// of its ellipsoid-like part, longest first. They depend on the centre of the expansion, and on no
+// other degree: the axes of inertia of the solid, of inertia(), are near them but not the same.
 struct PrincipalAxes {
   std::array<Vec3, 3> axes;      // right-handed, orthonormal
   std::array<double, 3> values;  // of the form, descending; their sum is 0

@@ -1,6 +1,7 @@
 // From coefficients to surfaces. Layer: surface.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -34,5 +35,11 @@ struct SurfaceMeasures {
 // By quadrature on a grid: exact for volume and centroid of a radius, converged to about 1e-12 for
 // area (smooth, star-shaped).
 SurfaceMeasures measure(const Expansion& expansion, const Context& context = {});
+
+// The tensor of inertia of that solid about its centroid, of density 1, in the fifth power of the
+// unit: the rows of int (|x - c|^2 1 - (x - c)(x - c)^T) dV, a symmetric matrix whose eigenvectors
+// are the axes of inertia, that of the smallest value the longest. Exact for a radius. Throws
+// Unsupported for what is no surface, InvalidInput where there is no volume or the power overflows.
+std::array<Vec3, 3> inertia(const Expansion& expansion, const Context& context = {});
 
 }  // namespace rholm

@@ -117,7 +117,11 @@ def descriptor_distance(a: CoefficientsLike, b: CoefficientsLike) -> float:
 
 
 def principal_axes(coefficients: CoefficientsLike, function: str = "radius") -> _core.PrincipalAxes:
-    """The axes of the quadratic form of degree 2: of a radius those of its ellipsoid-like part.
+    """The axes of the quadratic form that the coefficients of degree 2 are, longest first.
+
+    They diagonalise Q of ``f_2(u) = u^T Q u``, f_2 the part of degree 2: of a radius those of its
+    ellipsoid-like part. They depend on the centre of the expansion and on no degree but 2 (their
+    signs on degree 3), so that they are not the axes of inertia, which `inertia` has.
 
     Parameters
     ----------
@@ -125,6 +129,12 @@ def principal_axes(coefficients: CoefficientsLike, function: str = "radius") -> 
         The function.
     function : {"radius", "gauge", "other"}
         For a gauge, 1/r, the form's sign is turned.
+
+    Returns
+    -------
+    axes : PrincipalAxes
+        Unit vectors, values in the unit of the coefficients (their sum is 0), and the rotation that
+        turns them to x, y, z.
     """
     return _core.principal_axes(core_of(coefficients), function)
 

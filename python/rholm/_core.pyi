@@ -1422,6 +1422,8 @@ class SurfaceMeasures:
 
 def measure(arg0: Expansion, arg1: Caller, /) -> SurfaceMeasures: ...
 
+def inertia(arg0: Expansion, arg1: Caller, /) -> NDArray[numpy.float64]: ...
+
 class CompareOptions:
     """Where distances are measured."""
 

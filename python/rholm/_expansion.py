@@ -162,6 +162,18 @@ class Expansion:
         with caller(threads, False) as how:
             return _core.measure(self._core, how)
 
+    def inertia(self, *, threads: int = 0) -> FloatArray:
+        """Tensor of inertia of the solid about its centroid; see `rholm.inertia`.
+
+        Parameters
+        ----------
+        threads : int
+            See `rholm.caller`.
+        """
+        self._require_surface()
+        with caller(threads, False) as how:
+            return _core.inertia(self._core, how)
+
     def spectrum(self, kind: Literal["power", "energy"] = "power") -> FloatArray:
         """Spectrum by degree, l = 0 ... L, (L+1,).
 
@@ -433,7 +445,9 @@ class Expansion:
         return Expansion._of(core, self._encoded, self._shape, self._name)
 
     def principal_axes(self) -> _core.PrincipalAxes:
-        """The axes of degree 2, longest first; see `rholm.principal_axes`."""
+        """The axes of the coefficients of degree 2, longest first, about the expansion's centre; see
+        `rholm.principal_axes`. Those of inertia are of `inertia`.
+        """
         return _core.principal_axes(self._core.coefficients, self.function)
 
     # To others

@@ -48,6 +48,33 @@ def measure(expansion: Expansion, *, threads: int = 0) -> _core.SurfaceMeasures:
     return as_expansion(expansion).measure(threads=threads)
 
 
+def inertia(expansion: Expansion, *, threads: int = 0) -> FloatArray:
+    """Tensor of inertia of the solid bounded by a surface, about its centroid, of density 1.
+
+    Parameters
+    ----------
+    expansion : Expansion
+        Of a surface.
+    threads : int
+        See `rholm.caller`.
+
+    Returns
+    -------
+    tensor : float64, (3, 3)
+        Integral of ``|x|^2 1 - x x^T`` over the solid, x from the centroid, in the fifth power of the
+        unit; exact for a radius. ``numpy.linalg.eigh`` of it gives the moments, ascending, and in its
+        columns the axes: the longest first.
+
+    Raises
+    ------
+    UnsupportedError
+        For coefficients that are not of a surface.
+    InvalidInputError
+        For a series without volume.
+    """
+    return as_expansion(expansion).inertia(threads=threads)
+
+
 def directions_of(mesh: MeshLike, center: npt.ArrayLike) -> Mesh:
     """The directions of a mesh's vertices from a centre, with its triangles.
 

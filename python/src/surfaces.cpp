@@ -32,6 +32,12 @@ void bind_surfaces(nb::module_& m) {
     return caller.run([&](const Context& context) { return measure(expansion, context); });
   });
 
+  m.def("inertia", [](const Expansion& expansion, const Caller& caller) {
+    const auto rows =
+        caller.run([&](const Context& context) { return inertia(expansion, context); });
+    return array_of(std::vector<Vec3>(rows.begin(), rows.end()));
+  });
+
   Options<CompareOptions>(m, "CompareOptions", "Where distances are measured.")
       .field("samples", &CompareOptions::samples)
       .field("seed", &CompareOptions::seed)

@@ -315,3 +315,20 @@ def test_what_an_expansion_is_not():
         rholm.from_array(np.ones((2, 2, 2)), normalization="quantum")
     with pytest.raises(rholm.InvalidInputError):
         field([0, 0, 0])
+
+
+def test_inertia_is_that_of_the_solid_about_its_centroid(bumpy):
+    trimesh = pytest.importorskip("trimesh")
+    s = rholm.expand(bumpy, 24)
+    mesh = s.mesh(7)
+    solid = mesh.to_trimesh()
+    tensor = s.inertia()
+    # Chords of the icosphere cut off a part of its edge squared, 2e-4, in 5 powers.
+    assert np.allclose(tensor, solid.moment_inertia, atol=1e-3 * np.trace(tensor))
+    assert np.array_equal(tensor, tensor.T)
+    assert np.array_equal(rholm.inertia(s), tensor)
+    ball = rholm.from_array([[[2.0]], [[0.0]]], center=(5, 0, 0))
+    assert np.allclose(ball.inertia(), 0.4 * ball.volume * 4 * np.eye(3), rtol=1e-14)
+    assert trimesh
+    with pytest.raises(rholm.UnsupportedError):
+        rholm.from_array(s.coeffs, function="other").inertia()

@@ -8,6 +8,7 @@
 #include "rholm/error.h"
 #include "rholm/harmonic.h"
 #include "rholm/primitives.h"
+#include "rholm/rotate.h"
 #include "rholm/synthesize.h"
 #include "rholm/topology.h"
 #include "support/oracle.h"
@@ -174,6 +175,84 @@ TEST(measure, scales_and_refuses_an_expansion_without_mean) {
     EXPECT_NEAR(measure(e).volume / scale / scale / scale / volume, 1, 1e-13);
   }
   EXPECT_THROW(measure(Expansion{}), Error);
+}
+
+// r = 1 + b z: int r^5/5 z^2 dOmega = 4 pi/5 (1/3 + 10 b^2/5 + 5 b^4/7), and with 1 - z^2 for z^2
+// the same without the z^2.
+TEST(inertia, of_a_limacon_is_exact) {
+  const double b = 0.4, b2 = b * b;
+  Expansion e;
+  e.coefficients = Coefficients(1);
+  e.coefficients.c(0, 0) = 1 / kY00;
+  e.coefficients.c(1, 0) = b * std::sqrt(4 * kPi / 3);
+  e.center = {10, 0, -5};
+  const double volume = 4 * kPi / 3 * (1 + b2);
+  const double z = 4 * kPi * (b / 3 + b * b2 / 5) / volume;
+  const double square = 4 * kPi / 5 * (1 + 10 * b2 / 3 + b2 * b2);
+  const double zz = 4 * kPi / 5 * (1.0 / 3 + 2 * b2 + 5 * b2 * b2 / 7);
+  const double along = square - zz;                            // about z
+  const double across = square / 2 + zz / 2 - volume * z * z;  // about x and y
+  const auto rows = inertia(e);
+  EXPECT_LT(norm(rows[0] - Vec3{across, 0, 0}), 1e-13);
+  EXPECT_LT(norm(rows[1] - Vec3{0, across, 0}), 1e-13);
+  EXPECT_LT(norm(rows[2] - Vec3{0, 0, along}), 1e-13);
+}
+
+// Of high degree against a grid of twice the rings, and the axes turn with the surface.
+TEST(inertia, is_exact_at_high_degree_and_turns_with_the_surface) {
+  Expansion e;
+  e.coefficients = test::random_coefficients(120, 3);
+  for (double& value : e.coefficients.values()) value *= 0.01;
+  e.coefficients.c(0, 0) = 1 / kY00;
+  const GaussRule rule = gauss_legendre(610);
+  std::vector<double> colatitudes;
+  for (const double z : rule.nodes) colatitudes.push_back(std::acos(z));
+  const std::vector<double> r = evaluate_rings(e.coefficients, colatitudes, 1220);
+  double volume = 0;
+  Vec3 first;
+  double second[3][3] = {};
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    const double z = rule.nodes[i / 1220], phi = 2 * kPi * static_cast<double>(i % 1220) / 1220;
+    const double s = std::sqrt(1 - z * z), u[] = {s * std::cos(phi), s * std::sin(phi), z};
+    const double weight = rule.weights[i / 1220] * 2 * kPi / 1220;
+    volume += weight * std::pow(r[i], 3) / 3;
+    first += weight * std::pow(r[i], 4) / 4 * Vec3{u[0], u[1], u[2]};
+    for (int k = 0; k < 9; ++k) {
+      second[k / 3][k % 3] += weight * std::pow(r[i], 5) / 5 * u[k / 3] * u[k % 3];
+    }
+  }
+  const double c[] = {first.x / volume, first.y / volume, first.z / volume};
+  const double trace = second[0][0] + second[1][1] + second[2][2] -
+                       volume * (c[0] * c[0] + c[1] * c[1] + c[2] * c[2]);
+  const auto rows = inertia(e);
+  for (int j = 0; j < 3; ++j) {
+    const double row[] = {rows[j].x, rows[j].y, rows[j].z};
+    for (int k = 0; k < 3; ++k) {
+      const double moment = second[j][k] - volume * c[j] * c[k];
+      EXPECT_NEAR(row[k], (j == k ? trace : 0) - moment, 1e-12 * trace);
+    }
+  }
+  const Rotation quarter = rotation_about({0, 0, 1}, kPi / 2);  // x to y, y to -x
+  const auto turned = inertia(rotate(e, quarter, {}));
+  EXPECT_NEAR(turned[0].x, rows[1].y, 1e-12 * trace);
+  EXPECT_NEAR(turned[0].y, -rows[0].y, 1e-12 * trace);
+  EXPECT_NEAR(turned[1].z, rows[0].z, 1e-12 * trace);
+}
+
+TEST(inertia, scales_and_refuses_what_has_none) {
+  Expansion e = bulged_sphere();
+  const double about_x = inertia(e)[0].x;
+  for (double& value : e.coefficients.values()) value *= 1e50;
+  EXPECT_NEAR(inertia(e)[0].x / 1e250 / about_x, 1, 1e-13);
+  for (double& value : e.coefficients.values()) value *= 1e50;
+  EXPECT_THROW(inertia(e), Error);  // 1e500
+  EXPECT_THROW(inertia(Expansion{}), Error);
+  Expansion field = bulged_sphere();
+  field.function = RadialFunction::kOther;
+  EXPECT_THROW(inertia(field), Error);
+  Expansion inside_out = bulged_sphere();
+  inside_out.coefficients.c(0, 0) *= -1;
+  EXPECT_THROW(inertia(inside_out), Error);
 }
 
 // From a mesh to coefficients and back: the rms difference over directions, at 100 points of every
