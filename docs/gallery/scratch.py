@@ -57,9 +57,7 @@ editor = rholm.analyze_patch(scratched, ball, 0.35)
 panels = []
 for strength in (-1, 0, 0.5, 1):
     editor.strength = strength
-    shown = rholm.Mesh(
-        editor.mesh.vertices, editor.mesh.triangles
-    )  # a copy: the editor's own moves on
+    shown = editor.mesh.copy()  # the editor's own moves on
     panels.append(rholm.Panel(shown, f"strength {strength}"))
 rholm.render(panels, (1300, 340), **view)
 

@@ -109,6 +109,10 @@ class Mesh:
         """Signed, in the cubed unit: of a closed mesh that is oriented alike."""
         return _core.enclosed_volume(self._core)
 
+    def copy(self) -> Mesh:
+        """The same mesh in memory of its own: a snapshot of one that an editor moves."""
+        return Mesh._of(_core.copy_mesh(self._core))
+
     def with_attributes(self, **attributes: npt.ArrayLike) -> Mesh:
         """The same mesh with these attributes beside its own, or in their place.
 

@@ -299,6 +299,20 @@ def test_pictures(bumpy, tmp_path):
     assert (tmp_path / "d.txt").read_bytes() == b"abc"
 
 
+def test_a_copy_stays_where_it_is(bumpy):
+    mesh = bumpy.with_attributes(q=np.arange(len(bumpy.vertices)))
+    copy = mesh.copy()
+    assert np.array_equal(copy.vertices, mesh.vertices)
+    assert np.array_equal(copy.triangles, mesh.triangles)
+    assert np.array_equal(copy.attributes["q"], mesh.attributes["q"])
+    assert not np.shares_memory(copy.vertices, mesh.vertices)
+    editor = rholm.analyze_patch(mesh, "vertex:0,0.5", 0.6)
+    before = editor.mesh.copy()
+    editor.strength = 1
+    assert np.array_equal(before.vertices, mesh.vertices)
+    assert not np.array_equal(editor.mesh.vertices, mesh.vertices)
+
+
 def test_points_are_drawn_as_balls(bumpy, tmp_path):
     cloud = rholm.sample_surface(bumpy, 3000)
     picture = rholm.render(cloud, (96, 80))
