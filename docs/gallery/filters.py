@@ -19,7 +19,7 @@ step = rholm.Mesh(ball.vertices * np.where(high, 1.2, 1)[:, None], ball.triangle
 s = rholm.expand(step, degree=160, center="none")
 
 windows = ("ideal", "lanczos", "gaussian", "heat")
-filtered = {name: s.filter(rholm.low_pass(32, s.degree, name)) for name in windows}
+filtered = {name: s.low_pass(32, name) for name in windows}
 panels = [rholm.Panel(f.mesh(7), name) for name, f in filtered.items()]
 rholm.render(panels, (1400, 380), view=(-0.55, 0.75, -0.6))
 

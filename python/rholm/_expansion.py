@@ -24,6 +24,8 @@ if TYPE_CHECKING:
     import pyshtools
     import xarray
 
+    from ._filters import Window
+
 
 class Expansion:
     """A surface x = center + r(u) u, u a direction, as coefficients of spherical harmonics.
@@ -393,6 +395,36 @@ class Expansion:
             Says what was done; added to `method`.
         """
         return Expansion._of(_core.filter(self._core, floats(gains, "gains"), name))
+
+    def low_pass(
+        self, cutoff: int, window: Window = "lanczos", *, order: int = 4, time: float | None = None
+    ) -> Expansion:
+        """The surface without the degrees above a cutoff: `filter` by the gains of `rholm.low_pass`.
+
+        Parameters
+        ----------
+        cutoff : int
+            L: degrees above it go.
+        window : {"ideal", "lanczos", "lanczos2", "gaussian", "heat", "exponential", "plateau"}
+            How degrees fall off up to it.
+        order : int
+            p of "exponential", 1 ... 64.
+        time : float, optional
+            t of "heat"; by default the gain at L is 1/2.
+
+        Returns
+        -------
+        expansion : Expansion
+            Cut off at the cutoff; "heat" keeps all degrees. What was done is added to `method`.
+
+        Raises
+        ------
+        InvalidInputError
+            For a cutoff below 0, a window that is not known, an order or a time out of range.
+        """
+        timed = window == "heat" and time is not None
+        name = f"heat {time:g}" if timed else f"low-pass {cutoff} {window}"
+        return self.filter(_core.low_pass(cutoff, self.degree, window, order, time), name)
 
     def recenter(
         self, center: npt.ArrayLike | None = None, *, threads: int = 0, progress: Progress = None

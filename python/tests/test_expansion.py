@@ -167,6 +167,22 @@ def test_filters(bumpy):
         rholm.low_pass(3, 12, "triangle")
 
 
+def test_low_pass_knows_the_degree(bumpy):
+    s = rholm.expand(bumpy, 12)
+    assert s.low_pass(6) == s.filter(rholm.low_pass(6, 12))
+    assert s.low_pass(6).degree == 6
+    assert s.low_pass(6, "ideal") == s.truncate(6)
+    assert s.low_pass(6).method.endswith("low-pass 6 lanczos")
+    warm = s.low_pass(6, "heat", time=0.01)
+    assert warm == s.filter(rholm.low_pass(0, 12, "heat", time=0.01))
+    assert warm.method.endswith("heat 0.01")
+    soft = s.low_pass(9, "exponential", order=2)
+    assert soft == s.filter(rholm.low_pass(9, 12, "exponential", order=2))
+    for wrong in (lambda: s.low_pass(-1), lambda: s.low_pass(6, "triangle")):
+        with pytest.raises(rholm.InvalidInputError):
+            wrong()
+
+
 def test_sums_and_their_transpose(bumpy, random):
     s = rholm.expand(bumpy, 9)
     u = random.normal(size=(200, 3))
