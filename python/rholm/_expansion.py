@@ -176,19 +176,46 @@ class Expansion:
         with caller(threads, False) as how:
             return _core.inertia(self._core, how)
 
-    def spectrum(self, kind: Literal["power", "energy"] = "power") -> FloatArray:
-        """Spectrum by degree, l = 0 ... L, (L+1,).
+    def spectrum(
+        self,
+        kind: Literal["power", "energy"] = "power",
+        unit: Literal["per_l", "per_lm", "per_dlogl"] = "per_l",
+        base: float = 10.0,
+    ) -> FloatArray:
+        """Spectrum by degree, l = 0 ... L, (L+1,), in the squared unit of lengths.
 
         Parameters
         ----------
         kind : {"power", "energy"}
             "power": mean square over the sphere, as pyshtools has it by default; "energy": integral
             of the square, 4 pi as much.
+        unit : {"per_l", "per_lm", "per_dlogl"}
+            Of each degree; of each of its 2l+1 coefficients, on average; or of a band of degrees: l
+            ln(base) times that of the degree, so that d log_base(l) of it is the band's. As in
+            pyshtools.
+        base : float
+            Of the logarithm in "per_dlogl", above 1.
+
+        Raises
+        ------
+        InvalidInputError
+            For another kind, unit or base.
         """
         if kind not in ("power", "energy"):
             raise InvalidInputError(f"kind is 'power' or 'energy', not {kind!r}")
-        energy = _core.power_spectrum(self._core.coefficients)
-        return energy if kind == "energy" else energy / (4 * np.pi)
+        if unit not in ("per_l", "per_lm", "per_dlogl"):
+            raise InvalidInputError(f"unit is 'per_l', 'per_lm' or 'per_dlogl', not {unit!r}")
+        if not (base > 1 and np.isfinite(base)):
+            raise InvalidInputError(f"base is {base}; it must be above 1")
+        values = _core.power_spectrum(self._core.coefficients)
+        if kind == "power":
+            values /= 4 * np.pi
+        degrees = np.arange(self.degree + 1)
+        if unit == "per_lm":
+            values /= 2 * degrees + 1
+        elif unit == "per_dlogl":
+            values *= degrees * np.log(base)
+        return values
 
     # Values
 

@@ -19,6 +19,9 @@ def test_a_sphere_has_only_degree_zero():
     assert np.allclose(np.linalg.norm(s.mesh(3).vertices, axis=1), 2, rtol=1e-13)
     assert np.allclose(s.spectrum(), [4, 0, 0, 0])
     assert np.allclose(s.spectrum("energy"), [16 * np.pi, 0, 0, 0])
+    for wrong in ({"kind": "l2norm"}, {"unit": "per_m"}, {"base": 1.0}, {"base": np.nan}):
+        with pytest.raises(rholm.InvalidInputError):
+            s.spectrum(**wrong)
     assert s.mean_radius == 2
 
 

@@ -69,6 +69,14 @@ def test_grids_agree(body):
     )
 
 
+@pytest.mark.parametrize("unit", ["per_l", "per_lm", "per_dlogl"])
+@pytest.mark.parametrize("kind", ["power", "energy"])
+def test_spectra_agree_in_every_unit(body, kind, unit):
+    for base in (10.0, 2.0):
+        expected = body.to_pyshtools().spectrum(convention=kind, unit=unit, base=base)
+        assert np.allclose(body.spectrum(kind, unit, base), expected, rtol=1e-12, atol=0)
+
+
 def test_rotations_agree(body):
     alpha, beta, gamma = 0.3, 0.7, -1.1
     # pyshtools turns by Euler angles the body way round: x -> R^T x of its angles.
