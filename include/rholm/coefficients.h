@@ -93,7 +93,8 @@ struct Expansion {
   std::optional<TruncationErrors> errors = {};
 };
 
-// Throws Unsupported for coefficients that are not of a surface (kOther).
+// Throws Unsupported for coefficients that are said not to be of a surface (kOther); looks at no
+// number, so that the radius may still be negative somewhere.
 void require_surface(const Expansion& expansion);
 
 // How numbers of a file are scaled: what the mean square of each harmonic over the sphere is.

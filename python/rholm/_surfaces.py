@@ -148,11 +148,19 @@ def synthesize(model: Any, **options: Any) -> Mesh:
 
 
 def require_surface(expansion: Expansion) -> None:
-    """Raises UnsupportedError for coefficients that are not of a surface.
+    """Raises UnsupportedError if the coefficients are said to be of something else than a surface.
+
+    It looks at `Expansion.function`, which is "other" for a gravity field, and not at the numbers:
+    neither that the radius is above 0 everywhere nor that there is a volume.
 
     Parameters
     ----------
     expansion : Expansion
         What is asked about.
+
+    Raises
+    ------
+    UnsupportedError
+        If its function is "other".
     """
     as_expansion(expansion)._require_surface()

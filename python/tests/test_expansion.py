@@ -170,6 +170,12 @@ def test_filters(bumpy):
         rholm.low_pass(3, 12, "triangle")
 
 
+def test_a_surface_is_what_is_said_to_be_one():
+    rholm.require_surface(rholm.from_array([[[-1.0]], [[0.0]]]))  # a negative radius
+    with pytest.raises(rholm.UnsupportedError):
+        rholm.require_surface(rholm.from_array([[[1.0]], [[0.0]]], function="other"))
+
+
 def test_low_pass_knows_the_degree(bumpy):
     s = rholm.expand(bumpy, 12)
     assert s.low_pass(6) == s.filter(rholm.low_pass(6, 12))
