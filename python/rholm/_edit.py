@@ -15,8 +15,9 @@ from ._shapes import Mesh, MeshLike, as_mesh
 
 #: What stands for a region of a mesh: text as the program has it ("ball:X,Y,Z,R",
 #: "vertex:INDEX,RADIUS", "box:X0,Y0,Z0,X1,Y1,Z1", "property:NAME", "color:RRGGBB"), a mask (N,) of
-#: bools, weights (N,) in 0 ... 1, indices of vertices, or a list of texts: their union.
-RegionLike = Union[str, list[str], tuple[str, ...], npt.ArrayLike]
+#: bools, weights (N,) in 0 ... 1, indices of vertices, or a list of texts: their union. None: the
+#: whole mesh.
+RegionLike = Union[str, list[str], tuple[str, ...], npt.ArrayLike, None]
 
 _MASK = "rholm_region"
 
@@ -27,8 +28,8 @@ def _with_region(mesh: Mesh, region: RegionLike) -> tuple[Mesh, list[str]]:
         return mesh, [region]
     if isinstance(region, (list, tuple)) and region and all(isinstance(r, str) for r in region):
         return mesh, [str(r) for r in region]
-    values = np.asarray(region)
     n = len(mesh.vertices)
+    values = np.ones(n, bool) if region is None else np.asarray(region)
     if values.dtype.kind in "iu" and values.ndim == 1 and values.size:
         if values.min() < 0 or values.max() >= n:
             raise InvalidInputError(f"region: a vertex index is not within 0 ... {n - 1}")
@@ -37,11 +38,13 @@ def _with_region(mesh: Mesh, region: RegionLike) -> tuple[Mesh, list[str]]:
         values = mask
     if values.shape != (n,) or values.dtype.kind not in "bf":
         raise InvalidInputError(
-            f"region: a text, a mask or weights ({n},), or indices are needed, not {values.shape} of "
-            f"{values.dtype}"
+            f"region: a text, a mask or weights ({n},), indices, or None for the whole mesh are needed, "
+            f"not {values.shape} of {values.dtype}"
         )
     if not np.isfinite(values.astype(np.float64)).all():
         raise InvalidInputError("region: a weight is not finite")
+    if not (values > 0).any():
+        raise InvalidInputError("region: no vertex is in it")
     return mesh.with_attributes(**{_MASK: values.astype(np.float64)}), [f"property:{_MASK}"]
 
 
@@ -204,7 +207,7 @@ def smooth(
         Of any genus, closed or open; triangles stay as they are.
     region : region-like
         "ball:X,Y,Z,R", "vertex:INDEX,RADIUS", "box:X0,Y0,Z0,X1,Y1,Z1", "property:NAME",
-        "color:RRGGBB", a list of these, or per vertex: a mask, weights, or indices.
+        "color:RRGGBB", a list of these, or per vertex: a mask, weights, or indices; None: everywhere.
     wavelength : float
         The finest detail that may stay, in the mesh's unit.
     strength : float
@@ -218,6 +221,12 @@ def smooth(
         Moves only what stands out: scratches go, the texture around them stays.
     threads, progress
         See `rholm.caller`.
+
+    Raises
+    ------
+    InvalidInputError
+        For a region without a vertex, "around" where nothing is around it (the whole mesh), a
+        wavelength shorter than the mesh's edges can show.
     """
     editor = analyze_patch(
         mesh,

@@ -211,6 +211,25 @@ def test_smoothing_takes_noise_from_a_region_only(random):
         rholm.smooth(rough, region, 1e-9)
 
 
+def test_the_whole_mesh_is_a_region(random):
+    ball = rholm.icosphere(5)
+    rough = rholm.Mesh(
+        ball.vertices * (1 + 0.004 * random.normal(size=(len(ball.vertices), 1))), ball.triangles
+    )
+    smooth = rholm.smooth(rough, None, 0.4)
+    # Waves longer than 0.4 are some (2 pi/0.4 + 1)^2 = 280 numbers, of 10 242 vertices: what is left of
+    # the noise is about 1/6, and half of that again where the caps' fits differ.
+    assert np.std(np.linalg.norm(smooth.vertices, axis=1)) < 0.004 / 3
+    everywhere = rholm.smooth(rough, np.ones(len(ball.vertices)), 0.4)
+    assert np.array_equal(everywhere.vertices, smooth.vertices)
+    assert np.array_equal(rholm.smooth(rough, "box:-2,-2,-2,2,2,2", 0.4).vertices, smooth.vertices)
+    assert (rholm.region_weights(rough, None) == 1).all()
+    with pytest.raises(rholm.InvalidInputError, match="nothing around"):
+        rholm.smooth(rough, None, 0.4, fitting="around")
+    with pytest.raises(rholm.InvalidInputError, match="no vertex"):
+        rholm.smooth(rough, np.zeros(len(ball.vertices), bool), 0.4)
+
+
 def test_an_editor_moves_its_mesh_in_place(bumpy):
     fine = rholm.expand(bumpy, 24).mesh(5)
     editor = rholm.analyze_patch(fine, "ball:0,0,1,0.6", 0.5)
