@@ -5,6 +5,7 @@ given, or asked for.
 from __future__ import annotations
 
 import importlib
+import inspect
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -71,7 +72,9 @@ def _trimesh_mesh(shape: Any) -> Arrays:
 
 def _pyvista_mesh(shape: Any) -> Arrays:
     if not hasattr(shape, "regular_faces"):
-        shape = shape.extract_surface()
+        # PyVista chooses the algorithm from 0.47 on, where it wants to be asked to.
+        chosen = "algorithm" in inspect.signature(shape.extract_surface).parameters
+        shape = shape.extract_surface(**({"algorithm": None} if chosen else {}))
     if not shape.is_all_triangles:
         shape = shape.triangulate()
     return np.asarray(shape.points), np.asarray(shape.regular_faces), _point_data(shape)
