@@ -22,7 +22,7 @@ def cratered(subdivisions, n=250, seed=2):
     middles /= np.linalg.norm(middles, axis=1, keepdims=True)
     radii = 0.045 / random.uniform(0.08, 1, n)
     height = np.zeros(len(u))
-    for middle, radius in zip(middles, radii):
+    for middle, radius in zip(middles, radii, strict=True):
         x = np.arccos(np.clip(u @ middle, -1, 1)) / radius
         bowl = np.where(x < 1, 0.25 * (x**2 - 1), 0)
         height += radius * (bowl + 0.1 * np.exp(-(((x - 1) / 0.25) ** 2)))
@@ -40,7 +40,7 @@ print(f"{len(body.triangles)} triangles, volume {s.volume:.4f}")
 degrees = (4, 16, 48, 128)
 panels = [
     rholm.Panel(mesh, f"L = {degree}")
-    for degree, mesh in zip(degrees, s.meshes(degrees, 7))
+    for degree, mesh in zip(degrees, s.meshes(degrees, 7), strict=True)
 ]
 rholm.render([*panels, rholm.Panel(body, "mesh")], (1600, 380))
 

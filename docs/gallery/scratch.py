@@ -2,8 +2,8 @@
 A scratch, and a slider
 =======================
 
-Detail finer than a wavelength goes from a region; what is outside stays to the last bit. The slow part is done
-once, then the strength is a property that moves the vertices where they lie.
+Detail finer than a wavelength goes from a region; what is outside stays to the last bit. The slow part is
+done once, then the strength is a property that moves the vertices where they lie.
 """
 
 import numpy as np

@@ -34,6 +34,7 @@ class GalleryOrder:
         pass
 
     def __call__(self, name):
+        """The place of a script, by the name of its file."""
         return GALLERY.index(name.removesuffix(".py"))
 
 
@@ -76,6 +77,7 @@ class Api(Directive):
     has_content = True
 
     def run(self):
+        """What docutils puts in the directive's place."""
         names = " ".join(self.content).split()
         lines = [".. autosummary::", "   :nosignatures:", ""]
         lines += [f"   {name}" for name in names] + [""]
@@ -88,7 +90,7 @@ class Api(Directive):
                     lines += ["   :members:"]
                 if issubclass(thing, tuple):  # made by the library only: no signature
                     lines += ["   :exclude-members: count, index"]
-                if hasattr(thing, "__call__") and "__call__" in vars(thing):
+                if "__call__" in vars(thing):
                     lines += ["   :special-members: __call__"]
             else:
                 lines += [f".. auto{'function' if callable(thing) else 'data'}:: {name}"]
