@@ -18,7 +18,6 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-
 import rholm
 
 
@@ -37,7 +36,9 @@ def computations() -> dict[str, Callable[[dict[str, Any]], Any]]:
         "expand by direct sums": lambda how: rholm.expand(chart.mesh, 200, engine="direct", **how),
         "monte_carlo": lambda how: rholm.monte_carlo(chart, 64, samples=256, **how),
         "evaluate 3M directions": lambda how: rholm.evaluate(plain, directions, **how),
-        "rotate degree 1000": lambda how: plain.truncate(1000).rotate(rholm.rotation_about((1, 2, 3), 1), **how),
+        "rotate degree 1000": lambda how: plain.truncate(1000).rotate(
+            rholm.rotation_about((1, 2, 3), 1), **how
+        ),
         "align": lambda how: rholm.align(plain, plain.rotate(rholm.rotation_about((1, 2, 3), 1)), **how),
         "reconstruct 300k points": lambda how: rholm.reconstruct(cloud, **how),
         "reconstruct without normals": lambda how: rholm.reconstruct(cloud.points, **how),
@@ -83,7 +84,9 @@ def delay(work: Callable[[], Any], after: float) -> float | None:
 
 def main() -> None:
     """Measures and prints."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("names", nargs="*", metavar="NAME")
     parser.add_argument("--signals", type=int, default=12)
     parser.add_argument("--threads", type=int, default=0)
@@ -99,7 +102,8 @@ def main() -> None:
         found = [delay(lambda: work(how), dice.uniform(0.02, 0.95 * whole)) for _ in range(options.signals)]  # noqa: B023
         delays = [1e3 * d for d in found if d is not None]
         if delays:
-            print(f"{name:32} {whole:6.2f} s  median {statistics.median(delays):6.0f} ms  largest {max(delays):6.0f} ms")
+            middle, most = statistics.median(delays), max(delays)
+            print(f"{name:32} {whole:6.2f} s  median {middle:6.0f} ms  largest {most:6.0f} ms")
         else:
             print(f"{name:32} {whole:6.2f} s  done before any signal")
 

@@ -41,7 +41,6 @@ print((status("VmHWM") - resident) * 1024 / n)
 def python_loop(count: int, threads: int) -> dict[str, float]:
     """The loop of small_meshes_bench."""
     import numpy as np
-
     import rholm
 
     mesh = rholm.bumpy_sphere(2)
@@ -77,9 +76,8 @@ def main() -> None:
             cpp = statistics.median(run[0][what] for run in runs) / options.count * 1e6
             python = statistics.median(run[1][what] for run in runs) / options.count * 1e6
             ratio = statistics.median(run[1][what] / run[0][what] for run in runs)
-            print(
-                f"threads {threads}, {what:4}: C++ {cpp:7.1f} us, Python {python:7.1f} us a mesh, ratio {ratio:.3f}"
-            )
+            both = f"C++ {cpp:7.1f} us, Python {python:7.1f} us a mesh"
+            print(f"threads {threads}, {what:4}: {both}, ratio {ratio:.3f}")
     for floats, ints in (("f8", "i4"), ("f4", "u4"), ("f8", "i8")):
         done = subprocess.run(
             [sys.executable, "-c", MEMORY, floats, ints], check=False, capture_output=True, text=True

@@ -17,7 +17,8 @@ IndexArray = npt.NDArray[np.uint32]
 ATTRIBUTE_TYPES = ("int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64")
 
 
-def _numeric(values: Any, what: str) -> npt.NDArray[Any]:
+def numeric(values: Any, what: str) -> npt.NDArray[Any]:
+    """An array of real numbers."""
     array = np.asarray(values)
     if array.dtype.kind not in "fiub":
         raise TypeError(f"{what}: numbers are needed, not an array of {array.dtype}")
@@ -34,7 +35,7 @@ def float_rows(values: Any, what: str = "points") -> FloatArray:
     what : str
         What the values are called in messages.
     """
-    array = _numeric(values, what)
+    array = numeric(values, what)
     if array.size == 0 and array.ndim <= 2 and array.shape[-1] in (0, 3):
         array = array.reshape(0, 3)
     if array.ndim != 2 or array.shape[1] != 3:
@@ -44,7 +45,7 @@ def float_rows(values: Any, what: str = "points") -> FloatArray:
 
 def float_row(values: Any, what: str = "point") -> FloatArray:
     """One row of three numbers."""
-    array = _numeric(values, what)
+    array = numeric(values, what)
     if array.shape != (3,):
         raise InvalidInputError(f"{what}: three numbers are needed, not {array.shape}")
     return np.ascontiguousarray(array, dtype=np.float64)
@@ -52,7 +53,7 @@ def float_row(values: Any, what: str = "point") -> FloatArray:
 
 def floats(values: Any, what: str = "values") -> FloatArray:
     """A list of numbers, float64; a view where it is that already."""
-    array = _numeric(values, what)
+    array = numeric(values, what)
     if array.ndim != 1:
         raise InvalidInputError(f"{what}: an array (N,) is needed, not {array.shape}")
     return np.ascontiguousarray(array, dtype=np.float64)
@@ -63,7 +64,7 @@ def vertex_rows(values: Any) -> npt.NDArray[Any]:
 
     Copied only if they are not that.
     """
-    array = _numeric(values, "vertices")
+    array = numeric(values, "vertices")
     if array.size == 0:
         return float_rows(array, "vertices")
     if array.ndim != 2 or array.shape[1] != 3:
@@ -173,7 +174,7 @@ def attribute_dict(tuples: list[tuple[str, str, FloatArray]]) -> dict[str, npt.N
 
 def directions(values: Any) -> tuple[FloatArray, tuple[int, ...]]:
     """Unit vectors (N, 3) of vectors (..., 3), and the shape without the last axis."""
-    array = _numeric(values, "directions")
+    array = numeric(values, "directions")
     if array.ndim == 0 or array.shape[-1] != 3:
         raise InvalidInputError(f"directions: an array (..., 3) is needed, not {array.shape}")
     rows = np.ascontiguousarray(array.reshape(-1, 3), dtype=np.float64)

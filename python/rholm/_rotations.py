@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import FloatArray, triple
+from ._arrays import FloatArray, numeric, triple
 from ._errors import InvalidInputError
 
 Rotation = _core.Rotation
@@ -31,7 +31,7 @@ def as_rotation(rotation: RotationLike) -> _core.Rotation:
         return rotation
     if hasattr(rotation, "as_matrix"):
         rotation = rotation.as_matrix()
-    array = np.asarray(rotation, dtype=np.float64)
+    array = numeric(rotation, "rotation").astype(np.float64)
     if array.shape == (4,):
         return _core.Rotation(*(float(v) for v in array))
     if array.shape == (3, 3):

@@ -336,6 +336,8 @@ def test_what_an_expansion_is_not():
             rholm.from_array(wrong)
     with pytest.raises(TypeError):
         rholm.from_array(np.ones((2, 2, 2), complex))
+    with pytest.raises(TypeError):
+        rholm.as_rotation(np.eye(3, dtype=complex))
     with pytest.raises(rholm.InvalidInputError):
         rholm.from_array(np.ones((2, 2, 2)), normalization="quantum")
     with pytest.raises(rholm.InvalidInputError):

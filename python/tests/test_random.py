@@ -4,6 +4,7 @@ many (default 150); run under AddressSanitizer by scripts/python-sanitized.
 
 from __future__ import annotations
 
+import itertools
 import os
 
 import numpy as np
@@ -256,6 +257,12 @@ FUNCTIONS = [
         {"shape": MESH, "size": st.just((20, 20))},
         {"scalars": list_of(42), "view": POINT, "up": POINT},
     ),
+    (
+        rholm.render,
+        {"shape": CLOUD, "size": st.just((20, 20))},
+        {"point_radius": number(0, 1), "colors": rows()},
+    ),
+    (rholm.inertia, {"expansion": BODY}, {}),
     (rholm.encode_png, {"image": mostly(hnp.arrays("u1", (4, 5, 3)))}, {}),
     (rholm.as_points, {"shape": CLOUD}, {"normals": rows()}),
     (rholm.bounds, {"points": rows()}, {}),
@@ -281,6 +288,9 @@ FUNCTIONS = [
 #: What a call may raise; anything else is a defect.
 ALLOWED = (rholm.Error, TypeError, ValueError, IndexError, OverflowError)
 
+#: Calls made; long runs tell every thousandth (to be seen with -s).
+calls_made = itertools.count(1)
+
 
 @settings(
     max_examples=CALLS,
@@ -296,6 +306,8 @@ def test_random_calls_are_answered_or_refused(data):
     arguments |= {
         name: data.draw(values, label=name) for name, values in options.items() if data.draw(st.booleans())
     }
+    if (made := next(calls_made)) % 1000 == 0:
+        print(f"{made} random calls", flush=True)
     try:
         function(**arguments)
         event("answered")
