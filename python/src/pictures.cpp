@@ -79,6 +79,7 @@ void bind_render(nb::module_& m) {
   m.def("render", [](const std::vector<const Panel*>& panels, const RenderOptions& options,
                      const Caller& caller) {
     std::vector<Panel> all;
+    all.reserve(panels.size());
     for (const Panel* panel : panels) all.push_back(*panel);
     Image image = caller.run([&](const Context& context) { return render(all, options, context); });
     const auto height = static_cast<std::size_t>(image.height);

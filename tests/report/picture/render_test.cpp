@@ -330,7 +330,7 @@ TEST(render, can_be_cancelled) {
   EXPECT_THROW(render_one(mesh, front(), context), Error);
 }
 
-Image render_points(const PointCloud& cloud, double radius, RenderOptions options = front(),
+Image render_points(const PointCloud& cloud, double radius, const RenderOptions& options = front(),
                     const Context& context = {}) {
   const Panel panel{.points = &cloud, .point_radius = radius};
   return render({&panel, 1}, options, context);
@@ -368,7 +368,11 @@ TEST(render, draws_a_point_as_a_ball) {
 // 21 x 21 points on a grid: by their own radius they close the square, by a small one they do not.
 TEST(render, closes_a_surface_of_points) {
   PointCloud cloud;
-  for (int i = 0; i < 441; ++i) cloud.points.push_back({i % 21 - 10.0, 0, i / 21 - 10.0});
+  for (int x = -10; x <= 10; ++x) {
+    for (int z = -10; z <= 10; ++z) {
+      cloud.points.push_back({static_cast<double>(x), 0, static_cast<double>(z)});
+    }
+  }
   const Image closed = render_points(cloud, 0), open = render_points(cloud, 0.1);
   int white_in_closed = 0, white_in_open = 0;
   for (int y = 20; y < 60; ++y) {

@@ -206,6 +206,7 @@ TEST(inertia, is_exact_at_high_degree_and_turns_with_the_surface) {
   e.coefficients.c(0, 0) = 1 / kY00;
   const GaussRule rule = gauss_legendre(610);
   std::vector<double> colatitudes;
+  colatitudes.reserve(rule.nodes.size());
   for (const double z : rule.nodes) colatitudes.push_back(std::acos(z));
   const std::vector<double> r = evaluate_rings(e.coefficients, colatitudes, 1220);
   double volume = 0;
