@@ -29,7 +29,8 @@ def required(name: str, extra: str | None = None) -> Any:
     try:
         return importlib.import_module(name)
     except ImportError as error:
-        raise ImportError(f"{name} is needed for this: pip install 'rholm[{extra or name}]'") from error
+        text = f"{name} is needed for this: pip install 'rholm[{extra or name}]'"
+        raise ImportError(text, name=error.name) from error
 
 
 def _package(value: Any) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import sys
 import warnings
 
 import numpy as np
@@ -115,3 +116,10 @@ def test_what_is_not_installed_is_asked_for_by_name(monkeypatch, bumpy):
     monkeypatch.setattr(importlib, "import_module", fail)
     with pytest.raises(ImportError, match=r"pip install 'rholm\[trimesh\]'"):
         bumpy.to_trimesh()
+
+
+def test_a_package_that_is_missing_is_named(bumpy, monkeypatch):
+    monkeypatch.setitem(sys.modules, "meshio", None)
+    with pytest.raises(ImportError, match=r"pip install 'rholm\[meshio\]'") as refusal:
+        bumpy.to_meshio()
+    assert refusal.value.name == "meshio"
