@@ -48,6 +48,7 @@ void parallel_for(std::size_t n, std::size_t grain, const Context& context,
     return;
   }
   run_chunks(chunks, threads, run_chunk, where);
+  ask_cancel();  // this thread may have had no chunk
 }
 
 }  // namespace rholm

@@ -14,12 +14,12 @@ namespace rholm {
 
 // What stands in a panel. Coordinates are of the order of 1 about the origin.
 struct Subject {
-  Mesh mesh;                           // no attributes; of points the vertices
-  std::vector<Vec3> normals;           // unit, per vertex; empty: faces are flat
-  const std::vector<double>* scalars;  // per vertex; null: plain
-  double radius = 0;                   // of a ball about the origin that holds everything
-  std::vector<Color> colors = {};      // per vertex; empty: by scalars, or plain
-  double ball_radius = 0;              // above 0: points, each shown as a ball
+  Mesh mesh;                                     // no attributes; of points the vertices
+  std::vector<Vec3> normals;                     // unit, per vertex; empty: faces are flat
+  const std::vector<double>* scalars = nullptr;  // per vertex; null: plain
+  double radius = 0;                             // of a ball about the origin that holds everything
+  std::vector<Color> colors = {};                // per vertex; empty: by scalars, or plain
+  double ball_radius = 0;                        // above 0: points, each shown as a ball
 };
 
 // The directions of the secondary rays of a pixel: a Hammersley set for the sky and one for the

@@ -6,9 +6,7 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
-#include <exception>
 #include <limits>
 #include <new>
 #include <string>
@@ -36,6 +34,7 @@ constexpr std::uint32_t kNoTriangle = std::numeric_limits<std::uint32_t>::max();
 
 [[noreturn]] void throw_embree_error(RTCError code, const std::string& what) {
   if (code == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+  if (code == RTC_ERROR_CANCELLED) throw Error(ErrorCode::kCancelled, what + " was cancelled");
   const bool cpu = code == RTC_ERROR_UNSUPPORTED_CPU;
   throw Error(ErrorCode::kUnsupported,
               what + " failed with Embree's error " + std::to_string(code) +
@@ -55,31 +54,11 @@ using Device = std::unique_ptr<RTCDeviceTy, DeviceDeleter>;
 using Scene = std::unique_ptr<RTCSceneTy, SceneDeleter>;
 using Geometry = std::unique_ptr<RTCGeometryTy, GeometryDeleter>;
 
-// Asks for Embree while it builds. Its own threads have no scope: they are told to go on, but hear
-// what the thread that waits for them was told.
-class BuildWatch {
- public:
-  // To be called by C code. Exceptions wait here.
-  static bool keep_going(void* self, double) { return static_cast<BuildWatch*>(self)->ask(); }
-  void rethrow() const {
-    if (stopped_by_) std::rethrow_exception(stopped_by_);
-  }
-
- private:
-  bool ask() {
-    if (stopped_) return false;
-    try {
-      ask_cancel();
-    } catch (...) {
-      stopped_by_ = std::current_exception();
-      stopped_ = true;
-    }
-    return !stopped_;
-  }
-
-  std::atomic<bool> stopped_ = false;
-  std::exception_ptr stopped_by_;  // written by the one thread that has a scope
-};
+// Embree's question whether to go on building; it comes from threads of its own, too, which have no
+// scope, or another caller's.
+bool keep_building(void* scope, double) {
+  return scope != cancel_scope() || static_cast<const CancelScope*>(scope)->keep_going();
+}
 
 double largest_component(const Vec3& a) {
   return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
@@ -173,10 +152,11 @@ void RayScene::Impl::build() {
   // Robust: rays do not slip through shared edges. The filters below travel with each query.
   rtcSetSceneFlags(scene.get(), static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST |
                                                            RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
-  BuildWatch watch;
-  rtcSetSceneProgressMonitorFunction(scene.get(), &BuildWatch::keep_going, &watch);
+  if (const CancelScope* scope = cancel_scope()) {
+    rtcSetSceneProgressMonitorFunction(scene.get(), &keep_building,
+                                       const_cast<CancelScope*>(scope));
+  }
   rtcCommitScene(scene.get());
-  watch.rethrow();
   const RTCError error = rtcGetDeviceError(device.get());
   if (error != RTC_ERROR_NONE) throw_embree_error(error, "building the search tree");
 }
