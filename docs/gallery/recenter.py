@@ -49,7 +49,7 @@ fields = {
 }
 figure, ax = plt.subplots()
 for name, field in fields.items():
-    power = rholm.power_spectrum(field) / (4 * np.pi)
+    power = rholm.power_spectrum(field, "power")
     ax.semilogy(
         np.arange(1, 13), np.maximum(power[1:], 1e-14), "o-", label=f"about the {name}"
     )

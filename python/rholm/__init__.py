@@ -104,7 +104,7 @@ from ._edit import (
     transfer,
     update,
 )
-from ._encode import encode, expand, from_array, from_pyshtools
+from ._encode import as_expansion, encode, expand, from_array, from_pyshtools
 from ._errors import (
     CancelledError,
     Error,
@@ -115,7 +115,7 @@ from ._errors import (
     OutOfMemoryError,
     UnsupportedError,
 )
-from ._expansion import CoefficientsLike, Expansion, as_expansion
+from ._expansion import CoefficientsLike, Expansion
 from ._filters import (
     band_pass,
     filter,

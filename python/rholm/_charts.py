@@ -10,9 +10,9 @@ import numpy.typing as npt
 from . import _core
 from ._arrays import FloatArray, triple
 from ._coefficients import array_of
-from ._encode import Method, Unit, _center_of, tolerance_of
+from ._encode import Method, Unit, _center_of, as_expansion, tolerance_of
 from ._errors import InvalidInputError
-from ._expansion import Expansion, as_expansion
+from ._expansion import Expansion
 from ._run import Progress, caller
 from ._shapes import Mesh, MeshLike, as_mesh
 

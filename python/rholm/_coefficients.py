@@ -19,6 +19,10 @@ if TYPE_CHECKING:
 #: default), 1/(4 pi) for "orthonormal", 1/(2l+1) for "schmidt".
 Normalization = Literal["4pi", "orthonormal", "schmidt"]
 
+#: See `power_spectrum`.
+SpectrumKind = Literal["energy", "power"]
+SpectrumUnit = Literal["per_l", "per_lm", "per_dlogl"]
+
 
 def core_of(coefficients: CoefficientsLike) -> _core.Coefficients:
     """Coefficients in the library's own convention."""
@@ -78,15 +82,47 @@ def to_convention(coefficients: CoefficientsLike, normalization: str = "4pi", cs
     return array_of(core_of(coefficients), normalization, csphase)
 
 
-def power_spectrum(coefficients: CoefficientsLike) -> FloatArray:
-    """Energy per degree, l = 0 ... L: its sum is the integral of f^2 over the sphere.
+def power_spectrum(
+    coefficients: CoefficientsLike,
+    kind: SpectrumKind = "energy",
+    unit: SpectrumUnit = "per_l",
+    base: float = 10.0,
+) -> FloatArray:
+    """Energy, or power, by degree, l = 0 ... L, (L+1,).
 
     Parameters
     ----------
     coefficients : coefficients-like
-        pyshtools' ``spectrum()`` of the same function is this divided by 4 pi.
+        The function.
+    kind : {"energy", "power"}
+        "energy": its sum is the integral of f^2 over the sphere; "power": the mean square, 4 pi less,
+        as pyshtools' ``spectrum()`` has it by default.
+    unit : {"per_l", "per_lm", "per_dlogl"}
+        Of each degree; of each of its 2l+1 coefficients, on average; or of a band of degrees: l
+        ln(base) times that of the degree, so that d log_base(l) of it is the band's. As in pyshtools.
+    base : float
+        Of the logarithm in "per_dlogl", above 1.
+
+    Raises
+    ------
+    InvalidInputError
+        For another kind, unit or base.
     """
-    return _core.power_spectrum(core_of(coefficients))
+    if kind not in ("power", "energy"):
+        raise InvalidInputError(f"kind is 'power' or 'energy', not {kind!r}")
+    if unit not in ("per_l", "per_lm", "per_dlogl"):
+        raise InvalidInputError(f"unit is 'per_l', 'per_lm' or 'per_dlogl', not {unit!r}")
+    if not (base > 1 and np.isfinite(base)):
+        raise InvalidInputError(f"base is {base}; it must be above 1")
+    values = _core.power_spectrum(core_of(coefficients))
+    if kind == "power":
+        values /= 4 * np.pi
+    degrees = np.arange(len(values))
+    if unit == "per_lm":
+        values /= 2 * degrees + 1
+    elif unit == "per_dlogl":
+        values *= degrees * np.log(base)
+    return values
 
 
 def distance(a: CoefficientsLike, b: CoefficientsLike) -> float:

@@ -252,3 +252,20 @@ def from_pyshtools(
         clm = clm.expand()
     unit = getattr(clm, "units", None) or ""
     return Expansion(core_of(clm), center=center, function=function, unit=unit)
+
+
+def as_expansion(thing: Any) -> Expansion:
+    """An `Expansion` of one, or of pyshtools.SHCoeffs.
+
+    Parameters
+    ----------
+    thing : Expansion or pyshtools.SHCoeffs
+        Anything else is a TypeError.
+    """
+    if isinstance(thing, Expansion):
+        return thing
+    if type(thing).__module__.partition(".")[0] == "pyshtools":
+        return from_pyshtools(thing)
+    raise TypeError(
+        f"an Expansion is needed, not {type(thing).__name__}; expand(), load() and from_array() make one"
+    )

@@ -11,13 +11,12 @@ import numpy.typing as npt
 from . import _core
 from ._arrays import FloatArray, float_row, floats, triple
 from ._arrays import directions as unit_rows
-from ._coefficients import array_of, core_of, from_convention
-from ._errors import InvalidInputError
+from ._coefficients import SpectrumKind, SpectrumUnit, array_of, core_of, from_convention, power_spectrum
 from ._interop import to_pyshtools, to_xarray
-from ._primitives import subdivisions_for
+from ._primitives import directions_for
 from ._rotations import RotationLike, as_rotation
 from ._run import Progress, caller
-from ._shapes import Mesh, MeshLike, as_mesh
+from ._shapes import Mesh, MeshLike
 
 if TYPE_CHECKING:
     import matplotlib.axes
@@ -178,44 +177,18 @@ class Expansion:
 
     def spectrum(
         self,
-        kind: Literal["power", "energy"] = "power",
-        unit: Literal["per_l", "per_lm", "per_dlogl"] = "per_l",
+        kind: SpectrumKind = "power",
+        unit: SpectrumUnit = "per_l",
         base: float = 10.0,
     ) -> FloatArray:
         """Spectrum by degree, l = 0 ... L, (L+1,), in the squared unit of lengths.
 
         Parameters
         ----------
-        kind : {"power", "energy"}
-            "power": mean square over the sphere, as pyshtools has it by default; "energy": integral
-            of the square, 4 pi as much.
-        unit : {"per_l", "per_lm", "per_dlogl"}
-            Of each degree; of each of its 2l+1 coefficients, on average; or of a band of degrees: l
-            ln(base) times that of the degree, so that d log_base(l) of it is the band's. As in
-            pyshtools.
-        base : float
-            Of the logarithm in "per_dlogl", above 1.
-
-        Raises
-        ------
-        InvalidInputError
-            For another kind, unit or base.
+        kind, unit, base
+            As in `rholm.power_spectrum`, but that "power", as pyshtools has it, is the default.
         """
-        if kind not in ("power", "energy"):
-            raise InvalidInputError(f"kind is 'power' or 'energy', not {kind!r}")
-        if unit not in ("per_l", "per_lm", "per_dlogl"):
-            raise InvalidInputError(f"unit is 'per_l', 'per_lm' or 'per_dlogl', not {unit!r}")
-        if not (base > 1 and np.isfinite(base)):
-            raise InvalidInputError(f"base is {base}; it must be above 1")
-        values = _core.power_spectrum(self._core.coefficients)
-        if kind == "power":
-            values /= 4 * np.pi
-        degrees = np.arange(self.degree + 1)
-        if unit == "per_lm":
-            values /= 2 * degrees + 1
-        elif unit == "per_dlogl":
-            values *= degrees * np.log(base)
-        return values
+        return power_spectrum(self._core.coefficients, kind, unit, base)
 
     # Values
 
@@ -350,16 +323,9 @@ class Expansion:
             As in `mesh`.
         """
         wanted = [int(degree) for degree in np.atleast_1d(np.asarray(degrees))]
-        if (subdivisions is not None) + (grid is not None) + (like is not None) > 1:
-            raise InvalidInputError("subdivisions, grid and like exclude one another: give one of them")
         self._require_surface()
-        if grid is not None:
-            sphere = _core.latitude_longitude_sphere(*grid)
-        elif like is not None:
-            sphere = _core.directions_of(as_mesh(like)._core, tuple(self.center))
-        else:
-            highest = min(max(wanted, default=0), self.degree)
-            sphere = _core.icosphere(subdivisions_for(highest) if subdivisions is None else subdivisions)
+        highest = min(max(wanted, default=0), self.degree)
+        sphere = directions_for(highest, subdivisions, grid, like, self.center)
         with caller(threads, progress) as how:
             meshes = _core.synthesize(self._core, sphere, wanted, how)
         return [Mesh._of(mesh) for mesh in meshes]
@@ -430,24 +396,13 @@ class Expansion:
 
         Parameters
         ----------
-        cutoff : int
-            L: degrees above it go.
-        window : {"ideal", "lanczos", "lanczos2", "gaussian", "heat", "exponential", "plateau"}
-            How degrees fall off up to it.
-        order : int
-            p of "exponential", 1 ... 64.
-        time : float, optional
-            t of "heat"; by default the gain at L is 1/2.
+        cutoff, window, order, time
+            As in `rholm.low_pass`.
 
         Returns
         -------
         expansion : Expansion
             Cut off at the cutoff; "heat" keeps all degrees. What was done is added to `method`.
-
-        Raises
-        ------
-        InvalidInputError
-            For a cutoff below 0, a window that is not known, an order or a time out of range.
         """
         timed = window == "heat" and time is not None
         name = f"heat {time:g}" if timed else f"low-pass {cutoff} {window}"
@@ -490,17 +445,8 @@ class Expansion:
         unit : str
             "km", "mm", ...
         """
-        e = self._core
-        core = _core.Expansion(
-            e.coefficients,
-            e.function,
-            tuple(e.center),
-            unit,
-            e.method,
-            e.norm_squared,
-            e.tail_strength,
-            e.errors,
-        )
+        known = (*self._known(unit), self._core.errors)
+        core = _core.Expansion(self._core.coefficients, *known)
         return Expansion._of(core, self._encoded, self._shape, self._name)
 
     def principal_axes(self) -> _core.PrincipalAxes:
@@ -614,8 +560,7 @@ class Expansion:
     def __reduce__(self) -> Any:
         e = self._core
         errors = None if e.errors is None else e.errors.to_dict()
-        known = (e.function, tuple(e.center), e.unit, e.method, e.norm_squared, e.tail_strength, errors)
-        return (_expansion_of, (np.array(e.coefficients.values), *known))
+        return (_expansion_of, (np.array(e.coefficients.values), *self._known(), errors))
 
     def _repr_png_(self) -> bytes | None:
         from ._pictures import notebook_png
@@ -628,14 +573,13 @@ class Expansion:
         return expansion_html(self)
 
     def _with(self, coefficients: _core.Coefficients) -> Expansion:
+        core = _core.Expansion(coefficients, *self._known())
+        return Expansion._of(core, shape=self._shape, name=self._name)
+
+    def _known(self, unit: str | None = None) -> tuple[Any, ...]:
         e = self._core
-        return Expansion._of(
-            _core.Expansion(
-                coefficients, e.function, tuple(e.center), e.unit, e.method, e.norm_squared, e.tail_strength
-            ),
-            shape=self._shape,
-            name=self._name,
-        )
+        named = e.unit if unit is None else unit
+        return (e.function, tuple(e.center), named, e.method, e.norm_squared, e.tail_strength)
 
     def _require_surface(self) -> None:
         _core.require_surface(self._core)
@@ -644,25 +588,6 @@ class Expansion:
 #: What stands for coefficients: an `Expansion`, pyshtools.SHCoeffs, or an array (2, L+1, L+1) in
 #: pyshtools' default convention: 4 pi-normalised, without Condon-Shortley phase.
 CoefficientsLike = Union[Expansion, npt.ArrayLike, Any]
-
-
-def as_expansion(thing: Any) -> Expansion:
-    """An `Expansion` of one, or of pyshtools.SHCoeffs.
-
-    Parameters
-    ----------
-    thing : Expansion or pyshtools.SHCoeffs
-        Anything else is a TypeError.
-    """
-    if isinstance(thing, Expansion):
-        return thing
-    if type(thing).__module__.partition(".")[0] == "pyshtools":
-        from ._encode import from_pyshtools
-
-        return from_pyshtools(thing)
-    raise TypeError(
-        f"an Expansion is needed, not {type(thing).__name__}; expand(), load() and from_array() make one"
-    )
 
 
 def _expansion_of(

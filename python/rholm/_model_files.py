@@ -7,7 +7,8 @@ from typing import Any, NamedTuple
 
 from . import _core
 from ._atlas import Atlas, as_atlas
-from ._expansion import Expansion, as_expansion
+from ._encode import as_expansion
+from ._expansion import Expansion
 from ._run import caller
 from ._shapes import name_of
 

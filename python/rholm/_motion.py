@@ -10,8 +10,9 @@ import numpy.typing as npt
 from . import _core
 from ._arrays import FloatArray, float_row
 from ._coefficients import array_of, core_of
+from ._encode import as_expansion
 from ._errors import InvalidInputError
-from ._expansion import CoefficientsLike, Expansion, as_expansion
+from ._expansion import CoefficientsLike, Expansion
 from ._rotations import RotationLike, as_rotation
 from ._run import Progress, caller
 

@@ -13,8 +13,9 @@ import numpy.typing as npt
 
 from . import _core
 from ._arrays import floats, triple
+from ._encode import as_expansion
 from ._errors import Error, InvalidInputError
-from ._expansion import Expansion, as_expansion
+from ._expansion import Expansion
 from ._interop import required
 from ._run import Progress, caller
 from ._shape_files import read_shape

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import numpy as np
 import numpy.typing as npt
 
 from . import _core
 from ._arrays import triple
-from ._shapes import Mesh
+from ._errors import InvalidInputError
+from ._shapes import Mesh, MeshLike, as_mesh
 
 
 def icosphere(subdivisions: int) -> Mesh:
@@ -85,6 +87,23 @@ def bumpy_sphere(subdivisions: int, amplitude: float = 0.2, seed: int = 1) -> Me
         Chooses the waves.
     """
     return Mesh._of(_core.bumpy_sphere(subdivisions, amplitude, seed))
+
+
+def directions_for(
+    degree: int,
+    subdivisions: int | None,
+    grid: tuple[int, int] | None,
+    like: MeshLike | None,
+    center: npt.NDArray[np.float64],
+) -> _core.Mesh:
+    """The directions in which a surface of a degree is made, by at most one of three wishes."""
+    if (subdivisions is not None) + (grid is not None) + (like is not None) > 1:
+        raise InvalidInputError("subdivisions, grid and like exclude one another: give one of them")
+    if grid is not None:
+        return _core.latitude_longitude_sphere(*grid)
+    if like is not None:
+        return _core.directions_of(as_mesh(like)._core, triple(center, "center"))
+    return _core.icosphere(subdivisions_for(degree) if subdivisions is None else subdivisions)
 
 
 def subdivisions_for(degree: int) -> int:

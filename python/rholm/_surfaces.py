@@ -10,7 +10,8 @@ import numpy.typing as npt
 from . import _core
 from ._arrays import FloatArray, float_rows, triple
 from ._atlas import Atlas
-from ._expansion import Expansion, as_expansion
+from ._encode import as_expansion
+from ._expansion import Expansion
 from ._model_files import load
 from ._reconstruct import Reconstruction
 from ._run import Progress, caller

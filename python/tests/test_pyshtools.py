@@ -88,5 +88,6 @@ def test_rotations_agree(body):
 def test_arrays_are_taken_in_the_default_convention(body):
     clm = body.to_pyshtools()
     assert np.allclose(rholm.power_spectrum(clm.coeffs), rholm.power_spectrum(body), rtol=1e-14)
+    assert np.allclose(rholm.power_spectrum(clm, "power", "per_lm"), clm.spectrum(unit="per_lm"), rtol=1e-12)
     assert np.allclose(rholm.evaluate(clm, [0, 0, 1]), body([0, 0, 1]), rtol=1e-13)
     assert rholm.distance(clm, body) <= LIMIT
