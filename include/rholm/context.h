@@ -23,7 +23,7 @@ struct Context {
 // time (every few milliseconds, as a rule), also those of functions that take no Context, and those
 // between two calls of a ProgressCallback. Where it returns false, they throw Error{kCancelled}, as
 // if the callback had. Of several on one thread the last counts. It is never called by other
-// threads that work for this one.
+// threads that work for this one, and must not throw.
 class CancelScope {
  public:
   // From here on, until it ends.
