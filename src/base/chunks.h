@@ -3,6 +3,7 @@
 // each other, and does not see it in a library that was compiled without it.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <functional>
 
@@ -14,11 +15,16 @@ struct CallSite {
   int line = 0;
 };
 
-// Calls run(chunk) once for each chunk of [0, chunks), on up to `threads` threads, at least 2. May
-// be called by run itself, and by several threads at once. Throws the first exception of `run`;
-// chunks that have not begun by then are left out. The plain threads note `where` the loop stands.
-void run_chunks(std::size_t chunks, int threads, const std::function<void(std::size_t chunk)>& run,
-                CallSite where);
+// Calls run(chunk) once for each chunk of [0, chunks), on this and up to `threads` - 1 other
+// threads, `threads` at least 2. Where `run` returns false, chunks that have not begun are left
+// out. While this thread waits for the others it calls `wait` every few milliseconds. Neither may
+// throw. May be called by `run` itself, and by several threads at once. The plain threads note
+// `where` the loop stands.
+void run_chunks(std::size_t chunks, int threads, const std::function<bool(std::size_t chunk)>& run,
+                const std::function<void()>& wait, CallSite where);
+
+// Between two calls of `wait`; chosen, a tenth of what a user who interrupts notices.
+constexpr std::chrono::milliseconds kWaitInterval{10};
 
 // The number of threads that this machine, or what limits this process, is good for: at least 1.
 int default_threads();

@@ -1,45 +1,92 @@
 // The one user of oneTBB.
 #include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
+#include <oneapi/tbb/task_group.h>
 
 #include <algorithm>
+#include <atomic>
+#include <condition_variable>
 #include <map>
 #include <mutex>
 #include <optional>
+#include <thread>
 
 #include "base/chunks.h"
 
 namespace rholm {
 namespace {
 
+// Callers that do not wait for each other; more do. Chosen: a slot has a few hundred bytes.
+constexpr int kCallers = 64;
+
 // One for each number of threads, for good: oneTBB (2021.8) keeps an arena that is done with in its
 // lists while any of its threads looks for work, 7 kB each, and walks them for each new one.
+// Callers have slots of their own beside those of threads - 1 others: one that found none would
+// wait in oneTBB for another to run its loop.
 tbb::task_arena& arena_of(int threads) {
   static std::mutex mutex;
   static auto& arenas = *new std::map<int, tbb::task_arena>;
   const std::lock_guard lock(mutex);
-  return arenas.try_emplace(threads, threads).first->second;
+  return arenas.try_emplace(threads, threads - 1 + kCallers, kCallers).first->second;
 }
+
+// Counts threads at work.
+class AtWork {
+ public:
+  void begin() { ++n_; }
+  void end() {
+    const std::lock_guard lock(mutex_);  // not between a look at the number and the sleep
+    if (--n_ == 0) none_.notify_one();
+  }
+  // Until there are none; calls `meanwhile` from time to time.
+  void wait(const std::function<void()>& meanwhile) {
+    // Most have next to nothing left to do, and to sleep and be woken takes long. Chosen.
+    for (int i = 0; i < 200 && n_ > 0; ++i) std::this_thread::yield();
+    std::unique_lock lock(mutex_);
+    while (!none_.wait_for(lock, kWaitInterval, [&] { return n_ == 0; })) {
+      lock.unlock();
+      meanwhile();
+      lock.lock();
+    }
+  }
+
+ private:
+  std::atomic<int> n_ = 0;
+  std::mutex mutex_;
+  std::condition_variable none_;
+};
 
 }  // namespace
 
 int default_threads() { return std::max(1, tbb::info::default_concurrency()); }
 
-void run_chunks(std::size_t chunks, int threads, const std::function<void(std::size_t)>& run,
-                CallSite) {
+void run_chunks(std::size_t chunks, int threads, const std::function<bool(std::size_t)>& run,
+                const std::function<void()>& wait, CallSite) {
   // More threads than processors only if asked for; oneTBB prints a warning without this.
   std::optional<tbb::global_control> more;
   if (threads > tbb::info::default_concurrency()) {
     more.emplace(tbb::global_control::max_allowed_parallelism, threads);
   }
+  std::atomic<std::size_t> next = 0;
+  const auto run_next_ones = [&] {
+    for (std::size_t chunk; (chunk = next.fetch_add(1)) < chunks;) {
+      if (!run(chunk)) next = chunks;
+    }
+  };
   arena_of(threads).execute([&] {
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, chunks, 1),
-        [&](const tbb::blocked_range<std::size_t>& range) {
-          for (std::size_t c = range.begin(); c != range.end(); ++c) run(c);
-        },
-        tbb::simple_partitioner());
+    AtWork others;
+    tbb::task_group group;
+    const std::size_t n_others = std::min<std::size_t>(threads - 1, chunks - 1);
+    for (std::size_t i = 0; i < n_others; ++i) {
+      group.run([&] {
+        others.begin();
+        run_next_ones();
+        others.end();
+      });
+    }
+    run_next_ones();
+    others.wait(wait);
+    group.wait();  // those that have not begun find no chunk
   });
 }
 

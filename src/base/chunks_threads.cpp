@@ -7,9 +7,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstdlib>
-#include <exception>
-#include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
@@ -37,30 +36,33 @@ void note(CallSite where) {
 
 int default_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
-void run_chunks(std::size_t chunks, int threads, const std::function<void(std::size_t)>& run,
-                CallSite where) {
+void run_chunks(std::size_t chunks, int threads, const std::function<bool(std::size_t)>& run,
+                const std::function<void()>& wait, CallSite where) {
   note(where);
   const std::size_t n = std::min(chunks, std::max<std::size_t>(threads, kLeastThreads));
-  std::mutex mutex;
-  std::exception_ptr first;  // guarded by the mutex
-  std::atomic<bool> failed = false;
+  // Relaxed: what a chunk has written is not for the others to see.
+  std::atomic<bool> go_on = true;
+  std::atomic<std::size_t> at_work = n - 1;
   const auto run_every_nth = [&](std::size_t begin) {
-    // Relaxed: what a chunk has written is not for the others to see.
-    for (std::size_t c = begin; c < chunks && !failed.load(std::memory_order_relaxed); c += n) {
-      try {
-        run(c);
-      } catch (...) {
-        failed.store(true, std::memory_order_relaxed);
-        const std::lock_guard lock(mutex);
-        if (!first) first = std::current_exception();
-      }
+    for (std::size_t c = begin; c < chunks && go_on.load(std::memory_order_relaxed); c += n) {
+      if (!run(c)) go_on.store(false, std::memory_order_relaxed);
     }
   };
   std::vector<std::jthread> workers;
-  for (std::size_t begin = 1; begin < n; ++begin) workers.emplace_back(run_every_nth, begin);
+  for (std::size_t begin = 1; begin < n; ++begin) {
+    workers.emplace_back([&, begin] {
+      run_every_nth(begin);
+      at_work.fetch_sub(1, std::memory_order_relaxed);
+    });
+  }
   run_every_nth(0);
+  for (auto due = std::chrono::steady_clock::now() + kWaitInterval;
+       at_work.load(std::memory_order_relaxed) > 0; std::this_thread::yield()) {
+    if (std::chrono::steady_clock::now() < due) continue;
+    wait();
+    due += kWaitInterval;
+  }
   workers.clear();  // waits for them
-  if (first) std::rethrow_exception(first);
 }
 
 }  // namespace rholm

@@ -1,6 +1,8 @@
 #include "base/parallel.h"
 
 #include <algorithm>
+#include <atomic>
+#include <exception>
 #include <mutex>
 #include <thread>
 
@@ -20,6 +22,31 @@ void report_progress(const Context& context, std::string_view stage, double frac
   }
 }
 
+namespace {
+
+// The first of what several threads throw.
+class FirstException {
+ public:
+  // In a catch block: keeps what was caught, unless there is one.
+  void keep() {
+    const std::lock_guard lock(mutex_);
+    if (!first_) first_ = std::current_exception();
+    any_.store(true, std::memory_order_relaxed);
+  }
+  bool any() const { return any_.load(std::memory_order_relaxed); }
+  // When no other thread is left.
+  void rethrow() const {
+    if (first_) std::rethrow_exception(first_);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::exception_ptr first_;
+  std::atomic<bool> any_ = false;  // relaxed: a hint to stop
+};
+
+}  // namespace
+
 void parallel_for(std::size_t n, std::size_t grain, const Context& context,
                   const ParallelStage& stage,
                   const std::function<void(std::size_t, std::size_t)>& body, CallSite where) {
@@ -28,12 +55,7 @@ void parallel_for(std::size_t n, std::size_t grain, const Context& context,
   const std::size_t chunks = (n + grain - 1) / grain;
   std::size_t done = 0;  // guarded by the mutex
   std::mutex mutex;
-  const CancelScope* const scope = cancel_scope();
-  const std::thread::id caller = std::this_thread::get_id();
   const auto run_chunk = [&](std::size_t chunk) {
-    // A thread that waits for a loop of its own may be here to help: what it asks would be about
-    // that one.
-    const CancelScopeSwap swap(std::this_thread::get_id() == caller ? scope : nullptr);
     body(chunk * grain, std::min(n, (chunk + 1) * grain));
     ask_cancel();
     if (!context.progress) return;
@@ -47,7 +69,33 @@ void parallel_for(std::size_t n, std::size_t grain, const Context& context,
     for (std::size_t chunk = 0; chunk < chunks; ++chunk) run_chunk(chunk);
     return;
   }
-  run_chunks(chunks, threads, run_chunk, where);
+
+  FirstException exception;
+  const std::thread::id caller = std::this_thread::get_id();
+  const CancelScope* const scope = cancel_scope();
+  const auto ask_caller = [&] {
+    try {
+      const CancelScopeSwap swap(scope);
+      ask_cancel();
+    } catch (...) {
+      exception.keep();
+    }
+  };
+  const auto run_on_any_thread = [&](std::size_t chunk) {
+    // The user's question is for the caller, whether others are done for is one for all. (The
+    // caller may be here from within another loop, by way of oneTBB: its scope would be about that
+    // one.)
+    const bool asks = scope != nullptr && std::this_thread::get_id() == caller;
+    const CancelScope of_loop([&] { return !exception.any() && (!asks || scope->keep_going()); });
+    try {
+      run_chunk(chunk);
+    } catch (...) {
+      exception.keep();
+    }
+    return !exception.any();
+  };
+  run_chunks(chunks, threads, run_on_any_thread, ask_caller, where);
+  exception.rethrow();
   ask_cancel();  // this thread may have had no chunk
 }
 

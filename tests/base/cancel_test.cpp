@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
+#include <stdexcept>
 #include <thread>
 #include <vector>
 
@@ -78,6 +80,41 @@ TEST(CancelScope, ends_loops_on_several_threads) {
     EXPECT_LT(chunks, 100'000);
   }
   EXPECT_EQ(elsewhere, 0);
+}
+
+// The caller is done with its own chunk, the other chunk waits for a question to be answered.
+TEST(CancelScope, is_asked_by_a_caller_that_waits_for_others) {
+  const std::thread::id here = std::this_thread::get_id();
+  std::atomic<bool> other_began = false, stop = false;
+  const CancelScope scope([&] { return !stop; });
+  EXPECT_TRUE(is_cancelled([&] {
+    parallel_for(2, 1, {.threads = 2}, {}, [&](std::size_t, std::size_t) {
+      if (std::this_thread::get_id() == here) {
+        while (!other_began) std::this_thread::yield();
+        return;
+      }
+      other_began = true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));  // the caller is done by now
+      stop = true;
+      for (;;) poll_many_times();
+    });
+  }));
+}
+
+// What one thread throws ends the chunks of all others, and is what the caller gets.
+TEST(CancelScope, of_a_loop_ends_with_its_first_exception) {
+  std::atomic<int> begun = 0;
+  try {
+    parallel_for(2, 1, {.threads = 2}, {}, [&](std::size_t begin, std::size_t) {
+      ++begun;
+      while (begun < 2) std::this_thread::yield();
+      if (begin == 0) throw std::runtime_error("0");
+      for (;;) poll_many_times();
+    });
+    FAIL() << "nothing thrown";
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "0");
+  }
 }
 
 // Loops of several callers share threads that wait: none may be ended by another's scope.

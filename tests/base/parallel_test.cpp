@@ -44,6 +44,34 @@ TEST(parallel_for, may_be_called_by_several_threads_at_once) {
   EXPECT_EQ(visits, 4 * 100 * 16);
 }
 
+// Each is in its loop while all others are in theirs.
+TEST(parallel_for, does_not_wait_for_loops_of_other_callers) {
+  constexpr int kCallers = 8;
+  std::atomic<int> in_loops = 0;
+  std::atomic<bool> all = true;
+  std::vector<std::jthread> callers;
+  callers.reserve(kCallers);
+  for (int caller = 0; caller < kCallers; ++caller) {
+    callers.emplace_back([&] {
+      const std::thread::id here = std::this_thread::get_id();
+      std::atomic<bool> counted = false;
+      parallel_for(2, 1, {.threads = 2}, {}, [&](std::size_t, std::size_t) {
+        if (std::this_thread::get_id() != here || counted.exchange(true)) return;
+        ++in_loops;
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+        while (in_loops < kCallers && all) {
+          std::this_thread::yield();
+          if (std::chrono::steady_clock::now() > end) all = false;
+        }
+      });
+      // The other thread may have had both chunks.
+      if (!counted.exchange(true)) ++in_loops;
+    });
+  }
+  callers.clear();
+  EXPECT_TRUE(all);
+}
+
 // Pages of the program in use.
 long resident_pages() {
   std::ifstream file("/proc/self/statm");
