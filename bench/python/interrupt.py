@@ -47,7 +47,7 @@ def computations() -> dict[str, Callable[[dict[str, Any]], Any]]:
         "smooth": lambda how: rholm.smooth(fine, "ball:0,0,1,1", 0.2, **how),
         "repair": lambda how: rholm.repair(body, **how),
         "simplify": lambda how: rholm.simplify(body, triangles=10_000, **how),
-        "compare": lambda how: rholm.compare(body, ring, samples=2_000_000, **how),
+        "compare": lambda how: rholm.compare(body, ring, samples=20_000, **how),
         "render": lambda how: rholm.render(body, (1600, 1200), **how),
         "report": lambda how: plain.report_html(shape=body, **how),
         "mesh of degree 200": lambda how: plain.mesh(9, **how),
