@@ -18,6 +18,8 @@ constexpr std::uint64_t kEmpty = ~std::uint64_t{0};       // no key has its high
 // Discs, and blocks, that are worked on at a time.
 constexpr std::size_t kDiscGrain = 2048;
 constexpr std::size_t kBlockGrain = 64;
+// Copied between two questions whether to cancel: 8 MB.
+constexpr std::size_t kBlocksPerQuestion = 4096;
 // A disc may be compared with this many times the blocks allowed in all: a disc is flat, its box
 // is not. Chosen: bounds the time of a hopeless request.
 constexpr double kBoxPerBlock = 64;
@@ -242,7 +244,11 @@ void add_blocks(BlockGrid& grid, std::span<const BlockCoordinates> blocks) {
   const std::size_t n = grid.n_blocks();
   if (n * BlockGrid::kNodes > grid.values.size()) {
     AlignedArray<float> larger((n + n / 2) * BlockGrid::kNodes);
-    std::copy(grid.values.data(), grid.values.data() + before * BlockGrid::kNodes, larger.data());
+    for (std::size_t b = 0; b < before; b += kBlocksPerQuestion) {
+      ask_cancel();
+      std::copy(grid.block_values(b), grid.block_values(std::min(before, b + kBlocksPerQuestion)),
+                larger.data() + b * BlockGrid::kNodes);
+    }
     grid.values = std::move(larger);
   }
   set_unknown(grid, before, n);
