@@ -16,8 +16,8 @@ import rholm
 
 
 def slow(progress=False, threads=0):
-    """Some seconds of work."""
-    cloud = rholm.sample_surface(rholm.torus(2, 0.7, 200, 100), 100_000, noise=1e-3)
+    """A second or two of work."""
+    cloud = rholm.sample_surface(rholm.torus(2, 0.7, 200, 100), 50_000, noise=1e-3)
     return rholm.reconstruct(cloud.points, progress=progress, threads=threads)
 
 

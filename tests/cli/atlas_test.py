@@ -143,14 +143,14 @@ class Atlas(CliTest):
                          (self.folder / "two.h5").read_bytes())
 
     def test_partition_colours_every_vertex(self):
-        report = self.rholm("partition", "t.ply", "--tolerance", "5e-3", "-o", "c.ply",
+        report = self.rholm("partition", "t.ply", "--tolerance", "2e-2", "-o", "c.ply",
                             "--json").json()
         self.assertGreater(report["caps"], 3)
         info = self.rholm("info", "c.ply", "--json").json()
         self.assertEqual([a["name"] for a in info["attributes"][-3:]], ["red", "green", "blue"])
 
     def test_partition_shows_degrees_and_the_steps_of_the_paper(self):
-        report = self.rholm("partition", "t.ply", "--tolerance", "5e-3", "--show", "degrees", "-o",
+        report = self.rholm("partition", "t.ply", "--tolerance", "2e-2", "--show", "degrees", "-o",
                             "d.ply", "--json").json()
         self.assertLessEqual(*report["degrees"])
         faces = {}
