@@ -186,21 +186,25 @@ std::vector<Option> option_list(Options& o) {
 
 Command make_command() {
   auto options = std::make_shared<Options>();
-  return {.name = "make",
-          .summary = "Shapes with a known answer, to try things on",
-          .description =
-              "Writes a closed mesh, its faces counter-clockwise from outside: the unit sphere, "
-              "an ellipsoid, a box, a torus (which is not star-shaped), or a bumpy sphere "
-              "(which is).\n\n'make sample MESH' writes points instead, as a scanner might give "
-              "them: random on the surface, uniform by area, with the normals of the faces; on "
-              "demand with errors, gaps and density that varies, all of them random numbers of "
-              "--seed. Colours and other attributes of MESH are interpolated. Lengths are parts of "
-              "the diagonal of the bounding box of MESH.",
-          .options = option_list(*options),
-          .examples = {"rholm make bumpy -o bumpy.ply",
-                       "rholm make ellipsoid --axes 3,2,1 --subdivisions 6 -o ellipsoid.ply",
-                       "rholm make sample bumpy.ply --points 20000 --noise 0.002 -o points.ply"},
-          .run = [options](Session& session) { return run(*options, session); }};
+  return {
+      .name = "make",
+      .summary = "Shapes with a known answer, to try things on",
+      .description =
+          "Writes a closed mesh, its faces counter-clockwise from outside: the unit sphere, "
+          "an ellipsoid, a box, a torus (which is not star-shaped), or a bumpy sphere "
+          "(which is).\n\n'make sample MESH' writes points instead, as a scanner might give "
+          "them: random on the surface, uniform by area, or in the rows of a --pattern, or what "
+          "--scans scanners around it see; with the normals of the faces; on demand with "
+          "errors, gaps and density that varies, all of them random numbers of "
+          "--seed. Colours and other attributes of MESH are interpolated. Lengths are parts of "
+          "the diagonal of the bounding box of MESH.",
+      .options = option_list(*options),
+      .examples = {"rholm make bumpy -o bumpy.ply",
+                   "rholm make ellipsoid --axes 3,2,1 --subdivisions 6 -o ellipsoid.ply",
+                   "rholm make sample bumpy.ply --points 20000 --noise 0.002 -o points.ply",
+                   "rholm make sample bumpy.ply --pattern slices --ratio 5 -o slices.ply",
+                   "rholm make sample bumpy.ply --scans 8 --sensor -o scans.ply"},
+      .run = [options](Session& session) { return run(*options, session); }};
 }
 
 }  // namespace rholm::cli

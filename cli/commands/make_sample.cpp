@@ -24,6 +24,12 @@ std::vector<double> parse_holes(const std::string& option, const std::string& te
       "{} is '{}'; it must be a whole number 0 ... 1000 and a radius 0 ... 1", option, text));
 }
 
+Vec3 parse_axis(const std::string& option, const std::string& text) {
+  const Vec3 axis = parse_vector(option, text);
+  if (norm(axis) > 0) return axis;
+  throw UsageError(fmt::format("{} is '{}', which has no direction", option, text));
+}
+
 }  // namespace
 
 Option sample_operand(SampleArguments& arguments) {
@@ -70,6 +76,46 @@ std::vector<Option> sample_options(SampleArguments& a) {
            .target = &a.density_ratio,
            .min = 1,
            .max = kMaxDensityRatio},
+          {.name = "pattern",
+           .value = "WHERE",
+           .help = "of sample: random (the default); slices across an axis; rings, planes through "
+                   "it; grid, lines along it and across; lines, rays of scanners in rows",
+           .target = &a.pattern,
+           .choices = {"random", "slices", "rings", "lines", "grid"}},
+          {.name = "ratio",
+           .value = "R",
+           .help = "of sample: steps between the rows of a pattern over those along them; 1 by "
+                   "default",
+           .target = &a.ratio,
+           .min = 1,
+           .max = kMaxPatternRatio},
+          {.name = "axis",
+           .value = "X,Y,Z",
+           .help = "of sample: of the pattern; 0,0,1 by default",
+           .target = &a.axis,
+           .check = parse_axis},
+          {.name = "scans",
+           .value = "K",
+           .help = "of sample: by K scanners all around, each of what it sees, all together as "
+                   "many points",
+           .target = &a.scans,
+           .min = 1,
+           .max = kMaxScans},
+          {.name = "misalign",
+           .value = "F",
+           .help = "of sample: rms distance by which the scans are moved, of the diagonal",
+           .target = &a.misalign,
+           .min = 0,
+           .max = 1},
+          {.name = "noise-per-scan",
+           .value = "F",
+           .help = "of sample: the last scan has so much more noise than the first, others between",
+           .target = &a.noise_per_scan,
+           .min = 0,
+           .max = 1},
+          {.name = "sensor",
+           .help = "of sample: with the place of its scanner at each point (sensor_x, ...)",
+           .target = &a.sensor},
           {.name = "largest-component",
            .help = "of sample: of the part of MESH with the largest area only",
            .target = &a.largest_component},
@@ -87,6 +133,13 @@ void refuse_given(const SampleArguments& a, const std::string& kind) {
   refuse(a.outliers.has_value(), "--outliers");
   refuse(!a.holes.empty(), "--holes");
   refuse(a.density_ratio.has_value(), "--density-ratio");
+  refuse(!a.pattern.empty(), "--pattern");
+  refuse(a.ratio.has_value(), "--ratio");
+  refuse(!a.axis.empty(), "--axis");
+  refuse(a.scans.has_value(), "--scans");
+  refuse(a.misalign.has_value(), "--misalign");
+  refuse(a.noise_per_scan.has_value(), "--noise-per-scan");
+  refuse(a.sensor, "--sensor");
   refuse(a.largest_component, "--largest-component");
   refuse(a.no_normals, "--no-normals");
 }
@@ -97,8 +150,27 @@ PointCloud make_sample(const SampleArguments& a, std::uint64_t seed, Session& se
                         .normal_noise = a.normal_noise.value_or(0),
                         .outliers = a.outliers.value_or(0),
                         .density_ratio = a.density_ratio.value_or(1),
+                        .pattern_ratio = a.ratio.value_or(1),
+                        .scans = a.scans.value_or(0),
+                        .misalignment = a.misalign.value_or(0),
+                        .scan_noise = a.noise_per_scan.value_or(0),
+                        .sensor = a.sensor,
                         .normals = !a.no_normals,
                         .seed = seed};
+  if (!a.pattern.empty()) options.pattern = parse_sample_pattern(a.pattern);
+  if (!a.axis.empty()) options.pattern_axis = parse_axis("--axis", a.axis);
+  const bool rows = options.pattern != SamplePattern::kRandom;
+  if (!rows && (a.ratio || !a.axis.empty())) {
+    throw UsageError("--ratio and --axis are those of a --pattern");
+  }
+  if (options.scans == 0) {
+    if (options.pattern == SamplePattern::kLines) throw UsageError("lines need --scans K");
+    if (a.misalign || a.noise_per_scan || a.sensor) {
+      throw UsageError("--misalign, --noise-per-scan and --sensor need --scans K");
+    }
+  } else if (rows && options.pattern != SamplePattern::kLines) {
+    throw UsageError(fmt::format("scans have lines or random points, no {}", a.pattern));
+  }
   if (a.points) options.points = static_cast<std::size_t>(*a.points);
   if (!a.holes.empty()) {
     const std::vector<double> holes = parse_holes("--holes", a.holes);

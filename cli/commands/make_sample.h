@@ -20,6 +20,13 @@ struct SampleArguments {
   std::optional<double> outliers;
   std::string holes;
   std::optional<double> density_ratio;
+  std::string pattern;
+  std::optional<double> ratio;
+  std::string axis;
+  std::optional<int> scans;
+  std::optional<double> misalign;
+  std::optional<double> noise_per_scan;
+  bool sensor = false;
   bool largest_component = false;
   bool no_normals = false;
 };

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "rholm/context.h"
 #include "rholm/mesh.h"
@@ -13,10 +14,25 @@ namespace rholm {
 inline constexpr std::size_t kMaxPoints = 100000000;  // some 5 GB of memory: the sanity limit
 inline constexpr double kMaxDensityRatio = 1000;      // bounds the tries per point
 
+inline constexpr double kMaxPatternRatio = 1000;
+inline constexpr int kMaxScans = 1000;
+
+// Where points lie on a surface. All but random ones are rows: steps along them are the smaller.
+enum class SamplePattern {
+  kRandom,  // independent of each other
+  kSlices,  // where planes across the axis cut it, as in a stack of tomograms
+  kRings,   // where planes through the axis and the middle cut it, at equal angles
+  kLines,   // where rays of each scanner meet it first, row by row
+  kGrid,    // where lines meet it that face it: a grid along the axis, and two across it
+};
+const char* to_string(SamplePattern pattern);
+// Throws InvalidInput for a name that is none.
+SamplePattern parse_sample_pattern(const std::string& name);
+
 // What is measured of a surface, and how badly. Lengths are fractions of the diagonal of the
 // mesh's bounding box.
 struct SampleOptions {
-  std::size_t points = 100000;  // 1 ... kMaxPoints, before holes
+  std::size_t points = 100000;  // 1 ... kMaxPoints, before holes; with a pattern about as many
   // Standard deviation of a Gaussian displacement, the same and independent along x, y and z: so
   // the distance to a flat surface has it too.
   double noise = 0;
@@ -32,15 +48,31 @@ struct SampleOptions {
   // The density falls exponentially along the longest axis of the bounding box, from the low
   // coordinate to the high, to 1 / density_ratio; 1 ... kMaxDensityRatio.
   double density_ratio = 1;
+  SamplePattern pattern = SamplePattern::kRandom;
+  // Steps from row to row over those along them, 1 ... kMaxPatternRatio. Of rings at the mean
+  // distance from the axis, of lines in angles.
+  double pattern_ratio = 1;
+  Vec3 pattern_axis = {0, 0, 1};  // of any length but 0; rows of scanners run across it
+  // Scanners all around, at three times the radius of a ball about the middle that holds the
+  // surface; each has its part of the points, of what it sees. 0: points are of no scanner. With
+  // any, points have the attribute `scan`, 0 ... scans - 1. Random points and lines have them.
+  int scans = 0;
+  // Each scan is moved as a rigid body, at random; the root mean square distance that points of the
+  // surface then have from where they were, over all scans.
+  double misalignment = 0;
+  // By so much more than the first scan the last one is noisy; others lie between.
+  double scan_noise = 0;
+  bool sensor = false;     // attributes sensor_x, sensor_y, sensor_z: the scanner of each point
   bool normals = true;     // given with the points
   std::uint64_t seed = 1;  // of all random numbers
 };
 
-// Independent random points on the surface, uniform by area (unless the density falls), with the
-// exact normals of their faces. Attributes but normals are interpolated linearly between the
-// corners of the face, before noise; whole numbers are rounded; outliers have those of some other
-// place of the surface. Same mesh and options, same points for any number of threads. Throws
-// InvalidInput for a mesh that is not valid or has no area, and options out of range.
+// Points on the surface, independent random ones, uniform by area (unless the density falls), or in
+// a pattern, with the exact normals of their faces. Attributes but normals are interpolated
+// linearly between the corners of the face, before noise; whole numbers are rounded; outliers have
+// those of some other place of the surface. Same mesh and options, same points for any number of
+// threads. Throws InvalidInput for a mesh that is not valid or has no area, for options that are
+// out of range or do not go together, and where holes, a pattern or scanners leave no point.
 PointCloud sample_surface(const Mesh& mesh, const SampleOptions& options = {},
                           const Context& context = {});
 

@@ -19,6 +19,13 @@ void bind_points(nb::module_& m) {
       .field("holes", &SampleOptions::holes)
       .field("hole_radius", &SampleOptions::hole_radius)
       .field("density_ratio", &SampleOptions::density_ratio)
+      .choice("pattern", &SampleOptions::pattern, parse_sample_pattern, to_string)
+      .field("pattern_ratio", &SampleOptions::pattern_ratio)
+      .field("pattern_axis", &SampleOptions::pattern_axis)
+      .field("scans", &SampleOptions::scans)
+      .field("misalignment", &SampleOptions::misalignment)
+      .field("scan_noise", &SampleOptions::scan_noise)
+      .field("sensor", &SampleOptions::sensor)
       .field("normals", &SampleOptions::normals)
       .field("seed", &SampleOptions::seed);
   m.def("sample_surface", [](const Mesh& mesh, const SampleOptions& options, const Caller& caller) {

@@ -378,3 +378,18 @@ def test_a_sample_has_the_attributes_of_its_places(bumpy):
     assert cloud.attributes["red"].dtype == np.uint8
     assert np.abs(cloud.attributes["red"] - (128 + 60 * cloud.points[:, 0])).max() <= 1  # rounded twice
     assert "nx" not in rholm.sample_surface(rholm.expand(bumpy, 8).mesh(4), 10).attributes
+
+
+def test_samples_in_patterns_and_of_scans(ring):
+    slices = rholm.sample_surface(ring, 2000, pattern="slices", pattern_ratio=5, pattern_axis=[0, 0, 2])
+    heights = np.unique(np.round(slices.points[:, 2], 9))
+    assert 1500 < len(slices.points) < 2500
+    assert len(heights) < 20
+    assert np.allclose(np.diff(heights), heights[1] - heights[0])
+    scans = rholm.sample_surface(ring, 500, scans=4, misalignment=0.01, scan_noise=0.001, sensor=True)
+    assert set(scans.attributes["scan"]) == {0, 1, 2, 3}
+    sensors = np.stack([scans.attributes[f"sensor_{axis}"] for axis in "xyz"], axis=1)
+    assert len(np.unique(sensors, axis=0)) == 4
+    for options in ({"pattern": "lines"}, {"pattern": "spiral"}, {"pattern_axis": (0, 0, 0)}):
+        with pytest.raises(rholm.InvalidInputError):
+            rholm.sample_surface(ring, 100, **options)

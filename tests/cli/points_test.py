@@ -80,7 +80,14 @@ class Sample(CliTest):
                               (["sample", "a.off", "--noise", "nan"], "--noise"),
                               (["sample", "a.off", "--holes", "2"], "--holes"),
                               (["sample", "a.off", "--holes", "1.5,.1"], "--holes"),
-                              (["sample", "a.off", "--density-ratio", ".5"], "--density-ratio")):
+                              (["sample", "a.off", "--density-ratio", ".5"], "--density-ratio"),
+                              (["sample", "a.off", "--pattern", "spiral"], "--pattern"),
+                              (["sample", "a.off", "--ratio", "3"], "--pattern"),
+                              (["sample", "a.off", "--pattern", "rings", "--axis", "0,0,0"], "--axis"),
+                              (["sample", "a.off", "--pattern", "lines"], "--scans"),
+                              (["sample", "a.off", "--sensor"], "--scans"),
+                              (["sample", "a.off", "--pattern", "grid", "--scans", "2"], "grid"),
+                              (["box", "--scans", "2"], "--scans")):
             self.assertIn(saying, self.rholm("make", *words, "-o", "o.ply", code=2).err)
         self.write("p.xyz", "0 0 0\n1 0 0\n0 1 0\n")
         self.assertIn("mesh", self.rholm("make", "sample", "p.xyz", "-o", "o.ply", code=3).err)

@@ -4,16 +4,18 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/cancel.h"
-#include "base/compensated_sum.h"
 #include "base/parallel.h"
-#include "base/random.h"
 #include "rholm/error.h"
 #include "rholm/points.h"
-#include "shape/face.h"
+#include "shape/make/sample_pattern.h"
+#include "shape/make/sample_scans.h"
+#include "shape/make/surface_places.h"
 
 namespace rholm {
 namespace {
@@ -21,119 +23,10 @@ namespace {
 using std::numbers::pi;
 
 constexpr std::size_t kGrain = 4096;                      // points per chunk; chosen: some 0.5 ms
-constexpr double kBoxGrowth = 1.1;                        // of the box of outliers
 constexpr std::uint64_t kHoleStream = ~std::uint64_t{0};  // no point has this number
 
-// The numbers of one point.
-class Stream {
- public:
-  Stream(std::uint64_t seed, std::uint64_t point) : seed_(random_bits(seed, point)) {}
-  double uniform() { return random_uniform(seed_, counter_++); }
-  // Two independent standard normal deviates (Box and Muller 1958).
-  std::pair<double, double> gaussian_pair() {
-    const double radius = std::sqrt(-2 * std::log(1 - uniform()));  // 1 - u is never 0
-    const double angle = 2 * pi * uniform();
-    return {radius * std::cos(angle), radius * std::sin(angle)};
-  }
-  Vec3 gaussian() {
-    const auto [x, y] = gaussian_pair();
-    return {x, y, gaussian_pair().first};
-  }
-  Vec3 direction() {
-    const double z = 2 * uniform() - 1, phi = 2 * pi * uniform();
-    const double s = std::sqrt(1 - z * z);
-    return {s * std::cos(phi), s * std::sin(phi), z};
-  }
-
- private:
-  std::uint64_t seed_;
-  std::uint64_t counter_ = 0;
-};
-
-struct Place {
-  Vec3 point;
-  Vec3 normal;
-  std::size_t triangle = 0;            // whose attributes it has
-  std::array<double, 3> weights = {};  // of its corners
-};
-
-// The surface in its unit frame, ready to be drawn from.
-class Surface {
- public:
-  Surface(const Mesh& mesh, double density_ratio)
-      : mesh_(mesh), bounds_(bounds(mesh.vertices)), frame_(unit_frame(bounds_)) {
-    low_ = frame_.to_local(bounds_.min);
-    size_ = frame_.to_local(bounds_.max) - low_;
-    const bool along_x = size_.x >= size_.y && size_.x >= size_.z;
-    const Vec3 axis = along_x ? Vec3{1, 0, 0} : size_.y >= size_.z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
-    falloff_ = std::log(density_ratio) / dot(size_, axis) * axis;
-    CompensatedSum sum;
-    sums_.reserve(mesh.triangles.size());
-    CancelPoll poll;
-    for (const Triangle& t : mesh.triangles) {
-      poll();
-      const FaceNormal face = face_normal(scaled_corners(mesh_, t, frame_.scale));
-      // Triangles without a direction count as 0, so that every point has a normal.
-      if (!face.degenerate) sum.add(norm(face.twice_area));
-      sums_.push_back(sum.value());
-    }
-  }
-
-  bool has_area() const { return !sums_.empty() && sums_.back() > 0; }
-  const UnitFrame& frame() const { return frame_; }
-  double diagonal() const { return norm(size_); }
-
-  // Uniform by area.
-  Place draw_uniform(Stream& random) const {
-    const double target = random.uniform() * sums_.back();
-    // The first triangle whose sum exceeds the target has area. Rounding may lift the target to
-    // the total: that belongs to the last triangle with area.
-    auto found = std::upper_bound(sums_.begin(), sums_.end(), target);
-    if (found == sums_.end()) found = std::lower_bound(sums_.begin(), sums_.end(), sums_.back());
-    const auto triangle = static_cast<std::size_t>(found - sums_.begin());
-    const Triangle& t = mesh_.triangles[triangle];
-    // With sqrt(u) the density grows like the width seen from corner 0.
-    const double root = std::sqrt(random.uniform()), v = random.uniform();
-    const std::array<double, 3> w{1 - root, root * (1 - v), root * v};
-    const auto corner = [&](int k) { return frame_.to_local(mesh_.vertices[t[k]]); };
-    return {.point = w[0] * corner(0) + w[1] * corner(1) + w[2] * corner(2),
-            .normal = normalized(face_normal(scaled_corners(mesh_, t, frame_.scale)).twice_area),
-            .triangle = triangle,
-            .weights = w};
-  }
-
-  // Uniform by area, thinned by the law of density: on average at most density_ratio tries.
-  Place draw(Stream& random) const {
-    Place place = draw_uniform(random);
-    while (random.uniform() >= std::exp(-dot(falloff_, place.point - low_))) {
-      place = draw_uniform(random);
-    }
-    return place;
-  }
-
-  Place draw_outlier(Stream& random) const {
-    const Vec3 u{random.uniform(), random.uniform(), random.uniform()};
-    const auto spread = [](double size, double x) { return kBoxGrowth * size * (x - 0.5); };
-    const Vec3 offset{spread(size_.x, u.x), spread(size_.y, u.y), spread(size_.z, u.z)};
-    const Vec3 normal = random.direction();
-    // It lies nowhere on the surface: its attributes are of any place there.
-    Place place = draw_uniform(random);
-    place.point = low_ + 0.5 * size_ + offset;
-    place.normal = normal;
-    return place;
-  }
-
- private:
-  const Mesh& mesh_;
-  Bounds bounds_;
-  UnitFrame frame_;
-  Vec3 low_, size_;
-  Vec3 falloff_;
-  std::vector<double> sums_;  // twice the area of all triangles up to and with each
-};
-
 // `normal` turned about a random axis perpendicular to it.
-Vec3 turned(const Vec3& normal, double deviation_degrees, Stream& random) {
+Vec3 turned(const Vec3& normal, double deviation_degrees, RandomStream& random) {
   const double angle = deviation_degrees * pi / 180 * random.gaussian_pair().first;
   const double phi = 2 * pi * random.uniform();
   // The coordinate axis farthest from the normal makes a well-conditioned frame.
@@ -142,18 +35,75 @@ Vec3 turned(const Vec3& normal, double deviation_degrees, Stream& random) {
   return std::cos(angle) * normal + std::sin(angle) * (std::cos(phi) * a + std::sin(phi) * b);
 }
 
-// Point k of the sample; every floor(share n)-th is an outlier.
-Place make_point(const Surface& surface, const SampleOptions& o, std::size_t k) {
-  Stream random(o.seed, k);
-  const double before = std::floor(o.outliers * static_cast<double>(k));
-  if (std::floor(o.outliers * static_cast<double>(k + 1)) > before) {
-    return surface.draw_outlier(random);
+struct SampledPoint {
+  SurfacePlace place;
+  std::size_t scan = 0;
+};
+
+// Where points come from: the surface at random, a pattern, or scanners.
+class Source {
+ public:
+  Source(const SampledSurface& surface, const SampleOptions& options, const Context& context)
+      : surface_(surface), o_(options) {
+    if (o_.scans > 0) scans_.emplace(surface, options);
+    if (o_.pattern == SamplePattern::kLines) {
+      for (std::size_t scan = 0; scan < scans_->scanners().size(); ++scan) {
+        for (SurfacePlace& place : scans_->lines(scan, context)) fixed_.push_back({place, scan});
+      }
+    } else if (o_.pattern != SamplePattern::kRandom) {
+      for (SurfacePlace& place : pattern_places(surface, options, context)) {
+        fixed_.push_back({place, 0});
+      }
+    }
+    size_ = o_.pattern == SamplePattern::kRandom ? o_.points : fixed_.size();
   }
-  Place place = surface.draw(random);
-  if (o.noise > 0) place.point += o.noise * surface.diagonal() * random.gaussian();
-  if (o.normal_noise > 0) place.normal = turned(place.normal, o.normal_noise, random);
-  return place;
-}
+
+  std::size_t size() const { return size_; }
+  const Scanner& scanner(std::size_t scan) const { return scans_->scanners()[scan]; }
+
+  // Every floor(share n)-th is an outlier. Nothing where a scanner finds no place, or the law of
+  // density leaves none of a pattern.
+  std::optional<SampledPoint> point(std::size_t k) const {
+    RandomStream random(o_.seed, k);
+    SampledPoint point;
+    if (!fixed_.empty()) {
+      point = fixed_[k];
+    } else if (scans_) {
+      point.scan = k * static_cast<std::size_t>(o_.scans) / size_;
+    }
+    const double before = std::floor(o_.outliers * static_cast<double>(k));
+    if (std::floor(o_.outliers * static_cast<double>(k + 1)) > before) {
+      point.place = surface_.draw_outlier(random);
+      return point;
+    }
+    if (!fixed_.empty()) {
+      if (o_.density_ratio > 1 && !surface_.keeps(point.place, random)) return {};
+    } else if (scans_) {
+      const std::optional<SurfacePlace> seen = scans_->draw(point.scan, random);
+      if (!seen) return {};
+      point.place = *seen;
+    } else {
+      point.place = surface_.draw(random);
+    }
+    const double noise = scans_ ? scanner(point.scan).noise : o_.noise;
+    SurfacePlace& place = point.place;
+    if (noise > 0) place.point += noise * surface_.diagonal() * random.gaussian();
+    if (o_.normal_noise > 0) place.normal = turned(place.normal, o_.normal_noise, random);
+    if (o_.misalignment > 0) {
+      const ScanMotion& motion = scanner(point.scan).motion;
+      place.point = motion.point(place.point);
+      place.normal = motion.direction(place.normal);
+    }
+    return point;
+  }
+
+ private:
+  const SampledSurface& surface_;
+  const SampleOptions& o_;
+  std::optional<Scans> scans_;
+  std::vector<SampledPoint> fixed_;
+  std::size_t size_ = 0;
+};
 
 void require(bool good, const std::string& what, double value, const std::string& limits) {
   if (good) return;
@@ -174,20 +124,42 @@ void check(const SampleOptions& o) {
           "0 ... 1 of the diagonal");
   require(within(o.density_ratio, 1, kMaxDensityRatio), "the density ratio", o.density_ratio,
           "1 ... " + std::to_string(static_cast<int>(kMaxDensityRatio)));
+  require(within(o.pattern_ratio, 1, kMaxPatternRatio), "the ratio of the pattern", o.pattern_ratio,
+          "1 ... " + std::to_string(static_cast<int>(kMaxPatternRatio)));
+  const Vec3& axis = o.pattern_axis;
+  if (!is_finite(axis) || !(norm(axis) > 1e-100 && norm(axis) < 1e100)) {
+    throw Error(ErrorCode::kInvalidInput, "the axis of the pattern has no direction");
+  }
+  require(o.scans >= 0 && o.scans <= kMaxScans, "the number of scans", o.scans,
+          "0 ... " + std::to_string(kMaxScans));
+  require(within(o.misalignment, 0, 1), "the misalignment", o.misalignment,
+          "0 ... 1 of the diagonal");
+  require(within(o.scan_noise, 0, 1), "the noise per scan", o.scan_noise,
+          "0 ... 1 of the diagonal");
+  const bool scanned = o.misalignment > 0 || o.scan_noise > 0 || o.sensor;
+  if (o.scans == 0 && (scanned || o.pattern == SamplePattern::kLines)) {
+    throw Error(ErrorCode::kInvalidInput,
+                "lines, misalignment, noise per scan and sensors are those of scans: say how many");
+  }
+  if (o.scans > 0 && o.pattern != SamplePattern::kRandom && o.pattern != SamplePattern::kLines) {
+    throw Error(ErrorCode::kInvalidInput,
+                std::string("scans have lines or random points, no ") + to_string(o.pattern));
+  }
 }
 
-// Those of a mesh that a sample has, too: normals it has of its own.
+// Those of a mesh that a sample has, too: normals and scanners it has of its own.
 std::vector<const Attribute*> attributes_to_sample(const Mesh& mesh) {
   std::vector<const Attribute*> attributes;
   for (const Attribute& a : mesh.attributes) {
-    if (a.name != "nx" && a.name != "ny" && a.name != "nz") attributes.push_back(&a);
+    constexpr std::array kOwn = {"nx", "ny", "nz", "scan", "sensor_x", "sensor_y", "sensor_z"};
+    if (std::find(kOwn.begin(), kOwn.end(), a.name) == kOwn.end()) attributes.push_back(&a);
   }
   return attributes;
 }
 
 // The value at a place between three corners, of the attribute's type. Where a corner has no number
 // the others count alone.
-double value_at(const Attribute& attribute, const Triangle& t, const Place& place) {
+double value_at(const Attribute& attribute, const Triangle& t, const SurfacePlace& place) {
   double value = 0, sum = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const double own = attribute.values[t[k]];
@@ -218,8 +190,20 @@ std::size_t keep(const std::vector<char>& marked, PointCloud& cloud) {
   return cloud.points.size();
 }
 
-std::vector<Vec3> hole_centers(const Surface& surface, const SampleOptions& o) {
-  Stream random(o.seed, kHoleStream);
+// Those that tell of the scanners.
+std::vector<std::pair<std::string, ScalarType>> own_attributes(const SampleOptions& o) {
+  std::vector<std::pair<std::string, ScalarType>> own;
+  if (o.scans > 0) own.emplace_back("scan", ScalarType::kInt32);
+  if (o.sensor) {
+    for (const char* name : {"sensor_x", "sensor_y", "sensor_z"}) {
+      own.emplace_back(name, ScalarType::kFloat64);
+    }
+  }
+  return own;
+}
+
+std::vector<Vec3> hole_centers(const SampledSurface& surface, const SampleOptions& o) {
+  RandomStream random(o.seed, kHoleStream);
   std::vector<Vec3> centers;
   centers.reserve(static_cast<std::size_t>(o.holes));
   for (int i = 0; i < o.holes; ++i) centers.push_back(surface.draw_uniform(random).point);
@@ -231,7 +215,7 @@ std::vector<Vec3> hole_centers(const Surface& surface, const SampleOptions& o) {
 PointCloud sample_surface(const Mesh& mesh, const SampleOptions& options, const Context& context) {
   validate(mesh);
   check(options);
-  const Surface surface(mesh, options.density_ratio);
+  const SampledSurface surface(mesh, options.density_ratio);
   if (!surface.has_area()) {
     throw Error(ErrorCode::kInvalidInput,
                 "a surface of area 0 (" + std::to_string(mesh.triangles.size()) +
@@ -239,37 +223,70 @@ PointCloud sample_surface(const Mesh& mesh, const SampleOptions& options, const 
   }
   const std::vector<Vec3> holes = hole_centers(surface, options);
   const double hole_radius = options.hole_radius * surface.diagonal();
+  const Source source(surface, options, context);
+  const std::size_t n = source.size();
   PointCloud cloud;
-  cloud.points.resize(options.points);
-  if (options.normals) cloud.normals.resize(options.points);
+  cloud.points.resize(n);
+  if (options.normals) cloud.normals.resize(n);
   const std::vector<const Attribute*> given = attributes_to_sample(mesh);
   for (const Attribute* a : given) {
-    cloud.attributes.push_back({a->name, a->type, std::vector<double>(options.points)});
+    cloud.attributes.push_back({a->name, a->type, std::vector<double>(n)});
   }
-  std::vector<char> kept(options.points, 1);
-  parallel_for(options.points, kGrain, context, {.name = "sample"},
-               [&](std::size_t begin, std::size_t end) {
-                 for (std::size_t k = begin; k < end; ++k) {
-                   const Place place = make_point(surface, options, k);
-                   for (const Vec3& center : holes) {
-                     if (norm(place.point - center) <= hole_radius) kept[k] = 0;
-                   }
-                   cloud.points[k] = surface.frame().to_shape(place.point);
-                   if (options.normals) cloud.normals[k] = place.normal;
-                   const Triangle& t = mesh.triangles[place.triangle];
-                   for (std::size_t a = 0; a < given.size(); ++a) {
-                     cloud.attributes[a].values[k] = value_at(*given[a], t, place);
-                   }
-                 }
-               });
-  const std::size_t n = keep(kept, cloud);
-  if (n == 0) {
+  const std::size_t first_own = cloud.attributes.size();
+  for (const auto& [name, type] : own_attributes(options)) {
+    cloud.attributes.push_back({name, type, std::vector<double>(n)});
+  }
+  std::vector<char> kept(n, 1);
+  parallel_for(n, kGrain, context, {.name = "sample"}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::optional<SampledPoint> point = source.point(k);
+      kept[k] = point.has_value();
+      if (!point) continue;
+      const SurfacePlace& place = point->place;
+      for (const Vec3& center : holes) {
+        if (norm(place.point - center) <= hole_radius) kept[k] = 0;
+      }
+      cloud.points[k] = surface.frame().to_shape(place.point);
+      if (options.normals) cloud.normals[k] = place.normal;
+      const Triangle& t = mesh.triangles[place.triangle];
+      for (std::size_t a = 0; a < given.size(); ++a) {
+        cloud.attributes[a].values[k] = value_at(*given[a], t, place);
+      }
+      if (options.scans > 0) {
+        cloud.attributes[first_own].values[k] = static_cast<double>(point->scan);
+      }
+      if (options.sensor) {
+        const Scanner& scanner = source.scanner(point->scan);
+        const Vec3 at = surface.frame().to_shape(scanner.motion.point(scanner.at));
+        cloud.attributes[first_own + 1].values[k] = at.x;
+        cloud.attributes[first_own + 2].values[k] = at.y;
+        cloud.attributes[first_own + 3].values[k] = at.z;
+      }
+    }
+  });
+  if (keep(kept, cloud) == 0) {
     throw Error(ErrorCode::kInvalidInput,
-                "the " + std::to_string(options.holes) + " holes of radius " +
-                    std::to_string(options.hole_radius) + " of the diagonal leave none of the " +
-                    std::to_string(options.points) + " points; take fewer or smaller ones");
+                "holes (" + std::to_string(options.holes) + " of radius " +
+                    std::to_string(options.hole_radius) +
+                    " of the diagonal), the pattern or the scanners leave none of the " +
+                    std::to_string(options.points) + " points; take fewer or smaller holes");
   }
   return cloud;
+}
+
+const char* to_string(SamplePattern pattern) {
+  constexpr const char* kNames[] = {"random", "slices", "rings", "lines", "grid"};
+  return kNames[static_cast<int>(pattern)];
+}
+
+SamplePattern parse_sample_pattern(const std::string& name) {
+  for (const SamplePattern pattern :
+       {SamplePattern::kRandom, SamplePattern::kSlices, SamplePattern::kRings,
+        SamplePattern::kLines, SamplePattern::kGrid}) {
+    if (name == to_string(pattern)) return pattern;
+  }
+  throw Error(ErrorCode::kInvalidInput,
+              "unknown pattern '" + name + "': random, slices, rings, lines or grid");
 }
 
 }  // namespace rholm

@@ -1,0 +1,226 @@
+#include "shape/make/sample_pattern.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "base/parallel.h"
+#include "shape/make/plane_cut.h"
+
+namespace rholm {
+namespace {
+
+using std::numbers::pi;
+
+// Streams of random numbers that no point has.
+constexpr std::uint64_t kOffsetStream = ~std::uint64_t{1}, kCutStream = std::uint64_t{1} << 62;
+// Distances from the axis of rings below this part of the mean one count as that much.
+constexpr double kOnAxis = 1e-3;
+
+// The sum of f(triangle) over the area.
+template <typename F>
+double integrate(const SampledSurface& surface, const F& f) {
+  double sum = 0;
+  for (std::size_t t = 0; t < surface.mesh().triangles.size(); ++t) {
+    const Vec3 twice = surface.twice_area(t);
+    const double area = norm(twice) / 2;
+    if (area > 0) sum += area * f(t, twice / (2 * area));
+  }
+  return sum;
+}
+
+double sine(double cosine) { return std::sqrt(std::max(0.0, 1 - cosine * cosine)); }
+
+Vec3 centroid(const SampledSurface& surface, std::size_t triangle) {
+  const auto [a, b, c] = surface.corners(triangle);
+  return (a + b + c) / 3;
+}
+
+// Concatenates what `visit` finds at each plane.
+std::vector<SurfacePlace> cut_all(const SampledSurface& surface, const std::vector<Plane>& planes,
+                                  double step, std::uint64_t seed, const Context& context) {
+  const PlaneCutter cutter(surface);
+  std::vector<std::vector<SurfacePlace>> found(planes.size());
+  parallel_for(planes.size(), 1, context, {.name = "sample"},
+               [&](std::size_t begin, std::size_t end) {
+                 for (std::size_t i = begin; i < end; ++i) {
+                   RandomStream random(seed, kCutStream + i);
+                   found[i] = cutter.places(planes[i], step, random);
+                 }
+               });
+  std::vector<SurfacePlace> all;
+  for (auto& places : found) all.insert(all.end(), places.begin(), places.end());
+  return all;
+}
+
+// A number of planes, about `step` apart, on a way of `length`: no more than there are points.
+std::size_t n_planes(double length, double step, std::size_t points) {
+  constexpr double kMost = 1e6;  // chosen: each is a pass over the triangles
+  const double most = std::min(kMost, static_cast<double>(points));
+  return static_cast<std::size_t>(std::clamp(std::round(length / step), 1.0, most));
+}
+
+// Planes across the axis: where they cut the surface at an angle s, an area has s / H of curve.
+std::vector<SurfacePlace> slices(const SampledSurface& surface, const SampleOptions& options,
+                                 const Context& context) {
+  const Vec3 axis = pattern_frame(options).axis;
+  const double curves =
+      integrate(surface, [&](std::size_t, const Vec3& n) { return sine(dot(n, axis)); });
+  if (!(curves > 0)) return {};  // it lies across the axis everywhere
+  const double along =
+      std::sqrt(curves / (static_cast<double>(options.points) * options.pattern_ratio));
+  double low = dot(surface.middle(), axis), high = low;
+  for (const Vec3& vertex : surface.mesh().vertices) {
+    const double height = dot(surface.frame().to_local(vertex), axis);
+    low = std::min(low, height), high = std::max(high, height);
+  }
+  RandomStream random(options.seed, kOffsetStream);
+  const std::size_t n = n_planes(high - low, options.pattern_ratio * along, options.points);
+  const double step = (high - low) / static_cast<double>(n), offset = low + random.uniform() * step;
+  std::vector<Plane> planes(n);
+  for (std::size_t i = 0; i < n; ++i) planes[i] = {axis, offset + static_cast<double>(i) * step};
+  return cut_all(surface, planes, along, options.seed, context);
+}
+
+// Planes through the axis, at equal angles; the ratio is that at the mean distance from it.
+std::vector<SurfacePlace> rings(const SampledSurface& surface, const SampleOptions& options,
+                                const Context& context) {
+  const PatternFrame frame = pattern_frame(options);
+  const auto distance = [&](std::size_t t) {
+    const Vec3 from = centroid(surface, t) - surface.middle();
+    return std::hypot(dot(from, frame.u), dot(from, frame.v));
+  };
+  const auto across = [&](std::size_t t, const Vec3& n) {
+    const Vec3 from = centroid(surface, t) - surface.middle();
+    const Vec3 around = cross(frame.axis, from);
+    const double length = norm(around);
+    return length > 0 ? sine(dot(n, around) / length) : 1.0;
+  };
+  const double curves = integrate(surface, across);
+  if (!(curves > 0)) return {};  // it lies in planes through the axis
+  const double mean_distance =
+      integrate(surface, [&](std::size_t t, const Vec3&) { return distance(t); }) / surface.area();
+  const double per_distance = integrate(surface, [&](std::size_t t, const Vec3& n) {
+    return across(t, n) / std::max(distance(t), kOnAxis * mean_distance);
+  });
+  const double typical = curves / per_distance;
+  const double along =
+      std::sqrt(curves / (static_cast<double>(options.points) * options.pattern_ratio));
+  RandomStream random(options.seed, kOffsetStream);
+  const std::size_t n = n_planes(pi * typical, options.pattern_ratio * along, options.points);
+  const double offset = random.uniform();
+  std::vector<Plane> planes(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double angle = pi * (static_cast<double>(i) + offset) / static_cast<double>(n);
+    const Vec3 normal = std::cos(angle) * frame.u + std::sin(angle) * frame.v;
+    planes[i] = {normal, dot(surface.middle(), normal)};
+  }
+  return cut_all(surface, planes, along, options.seed, context);
+}
+
+// A grid of lines along `through`, in steps along `fine` and `coarse`.
+struct LineGrid {
+  Vec3 through, fine, coarse;
+};
+
+using Corners = std::array<std::array<double, 2>, 3>;
+
+// Where the line of constant y meets a triangle: the least and the largest x.
+std::pair<double, double> on_row(const Corners& p, double y) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (int k = 0; k < 3; ++k) {
+    const auto &from = p[k], &to = p[(k + 1) % 3];
+    if ((from[1] - y) * (to[1] - y) > 0) continue;
+    const double rise = to[1] - from[1];
+    const double x = rise == 0 ? to[0] : from[0] + (y - from[1]) / rise * (to[0] - from[0]);
+    low = std::min(low, x), high = std::max(high, x);
+    if (rise == 0) low = std::min(low, from[0]), high = std::max(high, from[0]);
+  }
+  return {low, high};
+}
+
+// Those of a grid's lines that meet a triangle which faces them more than other grids' ones.
+void add_grid_places(const SampledSurface& surface, std::size_t triangle, const LineGrid& grid,
+                     double fine, double coarse, const std::array<double, 2>& offset,
+                     std::vector<SurfacePlace>& places) {
+  const auto corners = surface.corners(triangle);
+  Corners p;  // in steps
+  for (int k = 0; k < 3; ++k) {
+    p[k] = {dot(corners[k], grid.fine) / fine - offset[0],
+            dot(corners[k], grid.coarse) / coarse - offset[1]};
+  }
+  const auto area = [](const auto& a, const auto& b, const auto& c) {
+    return (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
+  };
+  const double whole = area(p[0], p[1], p[2]);
+  if (whole == 0) return;
+  const auto [low_y, high_y] = std::minmax({p[0][1], p[1][1], p[2][1]});
+  for (double y = std::ceil(low_y); y <= high_y; ++y) {
+    const auto [low_x, high_x] = on_row(p, y);
+    for (double x = std::ceil(low_x); x <= high_x; ++x) {
+      const std::array<double, 2> at{x, y};
+      const double w0 = area(at, p[1], p[2]) / whole, w1 = area(p[0], at, p[2]) / whole;
+      if (w0 < 0 || w1 < 0 || w0 + w1 > 1) continue;
+      places.push_back(surface.place(triangle, {w0, w1, 1 - w0 - w1}));
+    }
+  }
+}
+
+// Lines along three axes: of each, what faces it most.
+std::vector<SurfacePlace> grids(const SampledSurface& surface, const SampleOptions& options,
+                                const Context& context) {
+  const PatternFrame frame = pattern_frame(options);
+  const std::array<LineGrid, 3> along = {LineGrid{frame.axis, frame.u, frame.v},
+                                         LineGrid{frame.u, frame.v, frame.axis},
+                                         LineGrid{frame.v, frame.u, frame.axis}};
+  const auto facing = [&](const Vec3& n) {
+    std::size_t most = 0;
+    for (std::size_t k = 1; k < 3; ++k) {
+      if (std::abs(dot(n, along[k].through)) > std::abs(dot(n, along[most].through))) most = k;
+    }
+    return most;
+  };
+  const double seen = integrate(surface, [&](std::size_t, const Vec3& n) {
+    return std::abs(dot(n, along[facing(n)].through));
+  });
+  const double fine =
+      std::sqrt(seen / (static_cast<double>(options.points) * options.pattern_ratio));
+  RandomStream random(options.seed, kOffsetStream);
+  const std::array<double, 2> offset{random.uniform(), random.uniform()};
+  const std::size_t n = surface.mesh().triangles.size();
+  constexpr std::size_t kGrain = 1024;
+  std::vector<std::vector<SurfacePlace>> found((n + kGrain - 1) / kGrain);
+  parallel_for(n, kGrain, context, {.name = "sample"}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      const Vec3 twice = surface.twice_area(t);
+      if (twice == Vec3{}) continue;
+      add_grid_places(surface, t, along[facing(twice)], fine, options.pattern_ratio * fine, offset,
+                      found[begin / kGrain]);
+    }
+  });
+  std::vector<SurfacePlace> all;
+  for (auto& places : found) all.insert(all.end(), places.begin(), places.end());
+  return all;
+}
+
+}  // namespace
+
+PatternFrame pattern_frame(const SampleOptions& options) {
+  const Vec3 axis = normalized(options.pattern_axis);
+  // The coordinate axis farthest from it makes a well-conditioned frame.
+  const Vec3 other = std::abs(axis.x) <= 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+  const Vec3 u = normalized(other - dot(other, axis) * axis);
+  return {axis, u, cross(axis, u)};
+}
+
+std::vector<SurfacePlace> pattern_places(const SampledSurface& surface,
+                                         const SampleOptions& options, const Context& context) {
+  if (options.pattern == SamplePattern::kSlices) return slices(surface, options, context);
+  if (options.pattern == SamplePattern::kRings) return rings(surface, options, context);
+  return grids(surface, options, context);
+}
+
+}  // namespace rholm
