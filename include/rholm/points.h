@@ -14,8 +14,8 @@ namespace rholm {
 inline constexpr std::size_t kMaxPoints = 100000000;  // some 5 GB of memory: the sanity limit
 inline constexpr double kMaxDensityRatio = 1000;      // bounds the tries per point
 
-inline constexpr double kMaxPatternRatio = 1000;
-inline constexpr int kMaxScans = 1000;
+inline constexpr double kMaxPatternRatio = 1000;  // rows as good as alone
+inline constexpr int kMaxScans = 1000;            // the sanity limit
 
 // Where points lie on a surface. All but random ones are rows: steps along them are the smaller.
 enum class SamplePattern {
@@ -25,8 +25,9 @@ enum class SamplePattern {
   kLines,   // where rays of each scanner meet it first, row by row
   kGrid,    // where lines meet it that face it: a grid along the axis, and two across it
 };
+// "random", "slices", "rings", "lines", "grid".
 const char* to_string(SamplePattern pattern);
-// Throws InvalidInput for a name that is none.
+// The pattern of such a name. Throws InvalidInput for a name that is none.
 SamplePattern parse_sample_pattern(const std::string& name);
 
 // What is measured of a surface, and how badly. Lengths are fractions of the diagonal of the
@@ -48,7 +49,7 @@ struct SampleOptions {
   // The density falls exponentially along the longest axis of the bounding box, from the low
   // coordinate to the high, to 1 / density_ratio; 1 ... kMaxDensityRatio.
   double density_ratio = 1;
-  SamplePattern pattern = SamplePattern::kRandom;
+  SamplePattern pattern = SamplePattern::kRandom;  // where points lie
   // Steps from row to row over those along them, 1 ... kMaxPatternRatio. Of rings at the mean
   // distance from the axis, of lines in angles.
   double pattern_ratio = 1;

@@ -204,6 +204,20 @@ TEST(every_loop, gives_the_same_bits_for_points_and_their_normals) {
   });
 }
 
+TEST(every_loop, gives_the_same_bits_for_points_in_rows) {
+  const Mesh ball = icosphere(4);
+  expect_same_bits([&](const Context& context) {
+    Bits bits;
+    for (const SamplePattern pattern : {SamplePattern::kSlices, SamplePattern::kRings,
+                                        SamplePattern::kGrid, SamplePattern::kLines}) {
+      SampleOptions options{.points = 6000, .pattern = pattern};
+      if (pattern == SamplePattern::kLines) options.scans = 2;
+      bits.add(sample_surface(ball, options, context).points);
+    }
+    return bits;
+  });
+}
+
 TEST(every_loop, gives_the_same_bits_for_many_points_and_discs) {
   const PointCloud cloud = test::sphere_points(20000);
   std::vector<Disc> discs;
