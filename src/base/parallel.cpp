@@ -74,6 +74,7 @@ void parallel_for(std::size_t n, std::size_t grain, const Context& context,
   const std::thread::id caller = std::this_thread::get_id();
   const CancelScope* const scope = cancel_scope();
   const auto ask_caller = [&] {
+    if (exception.any()) return;  // who has said no is not asked again
     try {
       const CancelScopeSwap swap(scope);
       ask_cancel();

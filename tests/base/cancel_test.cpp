@@ -86,7 +86,11 @@ TEST(CancelScope, ends_loops_on_several_threads) {
 TEST(CancelScope, is_asked_by_a_caller_that_waits_for_others) {
   const std::thread::id here = std::this_thread::get_id();
   std::atomic<bool> other_began = false, stop = false;
-  const CancelScope scope([&] { return !stop; });
+  std::atomic<int> refusals = 0;
+  const CancelScope scope([&] {
+    refusals += stop;
+    return !stop;
+  });
   EXPECT_TRUE(is_cancelled([&] {
     parallel_for(2, 1, {.threads = 2}, {}, [&](std::size_t, std::size_t) {
       if (std::this_thread::get_id() == here) {
@@ -96,9 +100,11 @@ TEST(CancelScope, is_asked_by_a_caller_that_waits_for_others) {
       other_began = true;
       std::this_thread::sleep_for(std::chrono::milliseconds(50));  // the caller is done by now
       stop = true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));  // some intervals of the wait
       for (;;) poll_many_times();
     });
   }));
+  EXPECT_EQ(refusals, 1);  // who has said no is not asked again
 }
 
 // What one thread throws ends the chunks of all others, and is what the caller gets.
