@@ -16,6 +16,7 @@
 #include "shape/make/sample_pattern.h"
 #include "shape/make/sample_scans.h"
 #include "shape/make/surface_places.h"
+#include "shape/points/plane_fit.h"
 
 namespace rholm {
 namespace {
@@ -29,9 +30,7 @@ constexpr std::uint64_t kHoleStream = ~std::uint64_t{0};  // no point has this n
 Vec3 turned(const Vec3& normal, double deviation_degrees, RandomStream& random) {
   const double angle = deviation_degrees * pi / 180 * random.gaussian_pair().first;
   const double phi = 2 * pi * random.uniform();
-  // The coordinate axis farthest from the normal makes a well-conditioned frame.
-  const Vec3 other = std::abs(normal.x) <= 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-  const Vec3 a = normalized(cross(normal, other)), b = cross(normal, a);
+  const Vec3 a = perpendicular(normal), b = cross(normal, a);
   return std::cos(angle) * normal + std::sin(angle) * (std::cos(phi) * a + std::sin(phi) * b);
 }
 

@@ -9,6 +9,7 @@
 
 #include "base/parallel.h"
 #include "shape/make/plane_cut.h"
+#include "shape/points/plane_fit.h"
 
 namespace rholm {
 namespace {
@@ -210,9 +211,7 @@ std::vector<SurfacePlace> grids(const SampledSurface& surface, const SampleOptio
 
 PatternFrame pattern_frame(const SampleOptions& options) {
   const Vec3 axis = normalized(options.pattern_axis);
-  // The coordinate axis farthest from it makes a well-conditioned frame.
-  const Vec3 other = std::abs(axis.x) <= 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-  const Vec3 u = normalized(other - dot(other, axis) * axis);
+  const Vec3 u = perpendicular(axis);
   return {axis, u, cross(axis, u)};
 }
 
