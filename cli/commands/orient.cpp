@@ -11,6 +11,7 @@
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/json_text.h"
 #include "cli/terminal/session.h"
+#include "rholm/error.h"
 #include "rholm/points.h"
 
 namespace rholm::cli {
@@ -22,6 +23,7 @@ struct Options {
   std::string center;
   std::string sensor;
   bool keep_directions = false;
+  bool confidence = false;
   std::string output;
   std::string format;
   bool ascii = false;
@@ -35,6 +37,7 @@ OrientOptions library_options(const Options& o) {
   OrientOptions options;
   options.neighbors = o.neighbors.value_or(0);
   options.keep_directions = o.keep_directions;
+  options.confidence = o.confidence;
   if (!o.center.empty()) options.center = parse_vector("--center", o.center);
   if (!o.sensor.empty()) options.sensor = parse_vector("--sensor", o.sensor);
   return options;
@@ -63,6 +66,7 @@ Json json_of(const OrientReport& report) {
           {"components", report.components},
           {"computed", report.computed},
           {"flipped", report.flipped},
+          {"strays", report.strays},
           {"undetermined", report.undetermined},
           {"mean_confidence", report.mean_confidence},
           {"unsure", report.unsure}};
@@ -77,12 +81,19 @@ std::string report_text(const OrientReport& report, bool by_sight, bool had_norm
   if (!by_sight) text += line("components", fmt::format("{}", report.components));
   text += line("computed", counted(report.computed, "normal"));
   if (had_normals) text += line("turned round", counted(report.flipped, "normal"));
+  if (report.strays > 0) {
+    text += line("strays", fmt::format("{} far from all others, with the normals of the nearest",
+                                       counted(report.strays, "point")));
+  }
   if (report.undetermined > 0) {
     text += line("without a plane", counted(report.undetermined, "point"));
   }
   text += line("mean confidence", fmt::format("{:.3f}", report.mean_confidence));
   return text + line("unsure", fmt::format("{:.2f} % of the points", 100 * report.unsure));
 }
+
+// Share of unsure signs from which normals should not be trusted.
+constexpr double kTooMany = 0.2;
 
 int run(const Options& options, Session& session) {
   const OrientOptions wanted = library_options(options);
@@ -101,6 +112,12 @@ int run(const Options& options, Session& session) {
   } else if (options.output != "-") {
     session.report(fmt::format("{}: oriented\n", display_name(options.input)) +
                    report_text(report, wanted.center || wanted.sensor, had_normals));
+  }
+  if (report.unsure > kTooMany) {
+    throw Error(ErrorCode::kNotConverged,
+                fmt::format("the side of {:.3g} % of the normals, which are written, is unsure; "
+                            "--center or --sensor decide it",
+                            100 * report.unsure));
   }
   return 0;
 }
@@ -130,6 +147,9 @@ std::vector<Option> option_list(Options& o) {
           {.name = "keep-directions",
            .help = "believe the normals of the file up to their signs",
            .target = &o.keep_directions},
+          {.name = "confidence",
+           .help = "give each point its confidence, 0 ... 1, as an attribute",
+           .target = &o.confidence},
           output_option(o.output, "points to write: .ply, .xyz, .obj, .off; - for standard output"),
           format_option(o.format, {"ply", "obj", "off", "xyz"}),
           {.name = "ascii", .help = "PLY as text", .target = &o.ascii},
@@ -144,12 +164,16 @@ Command orient_command() {
           .summary = "Normals for points, all pointing outwards",
           .description =
               "Fits a normal to the nearest neighbours of every point, as many as the noise of "
-              "the points asks for, beside sharp edges to those of one side. Signs are carried "
-              "from neighbour to neighbour, and between parts that do not touch decided by the "
-              "winding number of the rest; --center or --sensor decide them at once where one "
-              "place sees all.\n\nThe report says how many components there are, how many "
-              "normals are new or turned round, and how sure their signs are: from 0 for a plane, "
-              "which has no inside, to 1. Colours and other attributes stay as they are.",
+              "the points asks for, between rows where points lie in rows, beside sharp edges to "
+              "those of one side. Signs are carried from neighbour to neighbour, and between parts "
+              "that do not touch decided by the winding number of the rest; where that says that "
+              "they are wrong, in thin or sparse places, by a field that all points share. "
+              "--center or --sensor decide them at once where one place sees all, and attributes "
+              "sensor_x, sensor_y, sensor_z where each point has been seen from its "
+              "own.\n\nThe report says how many components there are, how many normals are new or "
+              "turned round, and how sure their signs are: from 0 for a plane, which has no "
+              "inside, to 1. Points far from all others count as unsure. Colours and other "
+              "attributes stay as they are.",
           .options = option_list(*options),
           .examples = {"rholm orient points.ply -o oriented.ply",
                        "rholm orient points.ply --center 0,0,0 --json -o radial.ply"},

@@ -15,6 +15,7 @@
 #include "cli/terminal/json_text.h"
 #include "cli/terminal/session.h"
 #include "rholm/compress.h"
+#include "rholm/error.h"
 #include "rholm/reconstruct.h"
 #include "rholm/topology.h"
 
@@ -32,6 +33,7 @@ struct Options {
   std::string simplify = kNotSimplified;
   double max_memory = 8;
   bool keep_outliers = false;
+  bool confidence = false;
   std::string model;
   std::string output;
   std::string format;
@@ -80,17 +82,19 @@ ReconstructOptions library_options(const Options& o, const Bounds& box) {
   options.blend = parse_cap_blend(o.blend);
   options.min_component = o.min_component;
   options.remove_outliers = !o.keep_outliers;
+  options.confidence = o.confidence;
   options.simplify = parse_simplify("--simplify", o.simplify);
   options.max_memory = static_cast<std::size_t>(o.max_memory * 0x1p30);
   return options;
 }
 
-Json json_of(const Reconstruction& made, double diagonal) {
+Json json_of(const Reconstruction& made, double diagonal, bool confidence) {
   const ReconstructReport& r = made.report;
   Json json = {{"points", r.points},
                {"dropped_points", r.dropped_points},
                {"outliers", r.outliers},
                {"computed_normals", r.computed_normals},
+               {"unsure", r.unsure},
                {"turned_normals", r.turned_normals},
                {"spacing", r.spacing},
                {"noise", r.noise},
@@ -108,13 +112,19 @@ Json json_of(const Reconstruction& made, double diagonal) {
                {"simplify_error", r.simplify_error},
                {"diagonal", diagonal},
                {"foreseen_memory", r.memory}};
+  if (confidence) {
+    json["unseen_area"] = r.unseen_area;
+    json["thin_area"] = r.thin_area;
+    json["unsure_area"] = r.unsure_area;
+  }
   for (const auto& [name, time] : r.times) {
     json["stages"][name] = {{"wall_seconds", time.wall}, {"cpu_seconds", time.cpu}};
   }
   return json;
 }
 
-std::string report_text(const Reconstruction& made, double diagonal, bool keep_holes) {
+std::string report_text(const Reconstruction& made, double diagonal,
+                        const ReconstructOptions& options) {
   const ReconstructReport& r = made.report;
   const auto relative = [&](double length) {
     return fmt::format("{} ({:.3g} of the diagonal)", text_of(length), length / diagonal);
@@ -125,17 +135,21 @@ std::string report_text(const Reconstruction& made, double diagonal, bool keep_h
                  fmt::format("{} (not finite, doubled, or without a normal)", r.dropped_points));
   }
   if (r.outliers > 0) text += line("outliers", fmt::format("{}, left out", r.outliers));
-  if (r.computed_normals) text += line("normals", "computed, as by rholm orient");
+  if (r.computed_normals) {
+    text +=
+        line("normals", fmt::format("computed, as by rholm orient: {:.2f} % of their signs unsure",
+                                    100 * r.unsure));
+  }
   if (r.turned_normals) text += line("normals", "all pointed inwards, turned outwards");
   text += line("spacing", relative(r.spacing));
   text += line("noise", r.noise > 0 ? relative(r.noise) : "within what the caps explain");
   text += line("caps", fmt::format("{} of about {} points", r.caps, r.neighbours));
   text += line("grid", fmt::format("cubes of {}", relative(r.step)));
   if (r.holes > 0) {
-    text += line(
-        "places without data",
-        keep_holes ? fmt::format("{}", r.holes)
-                   : fmt::format("{} closed, {} of them wide: smoothly", r.holes, r.smooth_holes));
+    text += line("places without data", options.holes == HolePolicy::kKeep
+                                            ? fmt::format("{}", r.holes)
+                                            : fmt::format("{} closed, {} of them wide: smoothly",
+                                                          r.holes, r.smooth_holes));
   }
   if (r.dropped_components > 0)
     text += line("small parts", fmt::format("{} dropped", r.dropped_components));
@@ -143,9 +157,49 @@ std::string report_text(const Reconstruction& made, double diagonal, bool keep_h
     text += line("simplified", fmt::format("from {} faces, moved by at most {}", r.faces,
                                            relative(r.simplify_error)));
   }
+  if (options.confidence) {
+    text += line("not known",
+                 fmt::format("{:.2f} % of the area is far from data, {:.2f} % thin, {:.2f} "
+                             "% below a confidence of 1/2",
+                             100 * r.unseen_area, 100 * r.thin_area, 100 * r.unsure_area));
+  }
   return text + line("surface",
                      fmt::format("{}, {}", counted(made.mesh.vertices.size(), "vertex", "vertices"),
                                  counted(made.mesh.triangles.size(), "face")));
+}
+
+// Shares of unsure signs that are said, and from which the surface should not be trusted.
+constexpr double kSaid = 0.02, kTooMany = 0.2;
+
+double volume_of(const Mesh& mesh) {
+  double six = 0;
+  for (const auto& t : mesh.triangles) {
+    six += dot(mesh.vertices[t[0]], cross(mesh.vertices[t[1]], mesh.vertices[t[2]]));
+  }
+  return six / 6;
+}
+
+// Says what makes the surface doubtful; throws NotConverged where it should not be trusted. The
+// output is written by then.
+void judge(const Reconstruction& made, bool filled, Session& session) {
+  const double unsure = made.report.unsure;
+  const std::string side =
+      fmt::format("the side of {:.3g} % of the normals is unsure", 100 * unsure);
+  if (unsure > kTooMany) {
+    throw Error(
+        ErrorCode::kNotConverged,
+        side +
+            ": the surface, which is written, may be wrong all over; give normals, or where "
+            "points were measured from (rholm orient --sensor, attributes sensor_x, "
+            "sensor_y, sensor_z)");
+  }
+  if (unsure > kSaid) {
+    session.warn(side + ": thin or sparse parts may be wrong; --confidence shows where");
+  }
+  if (filled && volume_of(made.mesh) < 0) {
+    throw Error(ErrorCode::kNotConverged,
+                "the surface, which is written, encloses a negative volume: normals point inwards");
+  }
 }
 
 int run(const Options& options, Session& session) {
@@ -176,71 +230,77 @@ int run(const Options& options, Session& session) {
   if (options.json) {
     Json json;
     json["file"] = options.input;
-    json.update(json_of(made, box.diagonal()));
+    json.update(json_of(made, box.diagonal(), wanted.confidence));
     print_json(json);
   } else if (options.output != "-") {
     session.report(fmt::format("{}: reconstructed\n", display_name(options.input)) +
-                   report_text(made, box.diagonal(), wanted.holes == HolePolicy::kKeep));
+                   report_text(made, box.diagonal(), wanted));
   }
+  judge(made, wanted.holes == HolePolicy::kFill, session);
   return 0;
 }
 
 std::vector<Option> option_list(Options& o) {
-  return {{.name = "POINTS",
-           .help = "file of points, or - for standard input; normals are computed if there are "
-                   "none",
-           .target = &o.input,
-           .required = true,
-           .offer = Offer::kShapes},
-          {.name = "tolerance",
-           .value = "E",
-           .help = "larger caps and a coarser surface, within this rms distance of the points; a "
-                   "part of the diagonal of the bounding box. By default as exact as the points",
-           .target = &o.tolerance,
-           .min = 0,
-           .max = 1},
-          {.name = "noise",
-           .value = "auto|SIGMA",
-           .help = "standard deviation of the points, a part of the diagonal; auto: estimated",
-           .target = &o.noise,
-           .check = check_noise},
-          {.name = "holes",
-           .help = "fill: close places without points; keep: leave them open",
-           .target = &o.holes,
-           .choices = {"fill", "keep"}},
-          {.name = "blend",
-           .help = "weights of caps that overlap: smooth; spline: the paper's quadratic B-spline",
-           .target = &o.blend,
-           .choices = {"smooth", "spline"}},
-          {.name = "resolution",
-           .value = "N",
-           .help = "cubes of the grid along the longest side; by default from the spacing",
-           .target = &o.resolution,
-           .min = 4,
-           .max = 65536},
-          simplify_option(o.simplify),
-          {.name = "min-component",
-           .value = "SHARE",
-           .help = "parts with less of the largest one's area are dropped; 0.01 by default",
-           .target = &o.min_component,
-           .min = 0,
-           .max = 1},
-          {.name = "keep-outliers", .help = "do not look for outliers", .target = &o.keep_outliers},
-          {.name = "max-memory",
-           .value = "GIB",
-           .help = "refuse what would need more; 8 by default",
-           .target = &o.max_memory,
-           .min = 0.01,
-           .max = 65536},
-          {.name = "model",
-           .value = "FILE",
-           .help = "write the caps to a model file, .h5, as well; rholm synthesize reads it",
-           .target = &o.model,
-           .offer = Offer::kAnyFile},
-          output_option(o.output, "mesh to write: .ply, .obj, .off, .stl; - for standard output"),
-          format_option(o.format, mesh_formats()),
-          {.name = "ascii", .help = "PLY and STL as text", .target = &o.ascii},
-          json_option(o.json)};
+  return {
+      {.name = "POINTS",
+       .help = "file of points, or - for standard input; normals are computed if there are "
+               "none",
+       .target = &o.input,
+       .required = true,
+       .offer = Offer::kShapes},
+      {.name = "tolerance",
+       .value = "E",
+       .help = "larger caps and a coarser surface, within this rms distance of the points; a "
+               "part of the diagonal of the bounding box. By default as exact as the points",
+       .target = &o.tolerance,
+       .min = 0,
+       .max = 1},
+      {.name = "noise",
+       .value = "auto|SIGMA",
+       .help = "standard deviation of the points, a part of the diagonal; auto: estimated",
+       .target = &o.noise,
+       .check = check_noise},
+      {.name = "holes",
+       .help = "fill: close places without points; keep: leave them open",
+       .target = &o.holes,
+       .choices = {"fill", "keep"}},
+      {.name = "blend",
+       .help = "weights of caps that overlap: smooth; spline: the paper's quadratic B-spline",
+       .target = &o.blend,
+       .choices = {"smooth", "spline"}},
+      {.name = "resolution",
+       .value = "N",
+       .help = "cubes of the grid along the longest side; by default from the spacing",
+       .target = &o.resolution,
+       .min = 4,
+       .max = 65536},
+      simplify_option(o.simplify),
+      {.name = "min-component",
+       .value = "SHARE",
+       .help = "parts with less of the largest one's area are dropped; 0.01 by default",
+       .target = &o.min_component,
+       .min = 0,
+       .max = 1},
+      {.name = "keep-outliers", .help = "do not look for outliers", .target = &o.keep_outliers},
+      {.name = "confidence",
+       .help = "give each vertex its confidence, 0 ... 1, as an attribute: less where signs are "
+               "unsure, far from data, and where the surface is thin",
+       .target = &o.confidence},
+      {.name = "max-memory",
+       .value = "GIB",
+       .help = "refuse what would need more; 8 by default",
+       .target = &o.max_memory,
+       .min = 0.01,
+       .max = 65536},
+      {.name = "model",
+       .value = "FILE",
+       .help = "write the caps to a model file, .h5, as well; rholm synthesize reads it",
+       .target = &o.model,
+       .offer = Offer::kAnyFile},
+      output_option(o.output, "mesh to write: .ply, .obj, .off, .stl; - for standard output"),
+      format_option(o.format, mesh_formats()),
+      {.name = "ascii", .help = "PLY and STL as text", .target = &o.ascii},
+      json_option(o.json)};
 }
 
 }  // namespace

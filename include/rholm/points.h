@@ -100,32 +100,41 @@ struct OrientOptions {
   // The surface is seen from here from inside: normals point away. Decides every sign alone.
   std::optional<Vec3> center = {};
   // It has been measured from here: normals point to it. Decides every sign alone, so that there is
-  // a centre, or a sensor, or none.
+  // a centre, or a sensor, or none. With none, attributes sensor_x, sensor_y, sensor_z of the cloud
+  // do, if there are all three, of finite values: the place that each point was measured from.
   std::optional<Vec3> sensor = {};
+  bool confidence = false;  // the cloud gets an attribute `confidence`, instead of any of that name
 };
 
 // What orient() did, and how sure it is.
 struct OrientReport {
-  std::size_t points = 0;        // given
-  std::size_t duplicates = 0;    // points at the place of an earlier one; they share its normal
-  int neighbors = 0;             // of a fit
-  std::size_t components = 0;    // of the graph of neighbours; 0 with a centre or a sensor
-  std::size_t computed = 0;      // normals whose direction is new
-  std::size_t flipped = 0;       // normals that point to the other side now than they did
+  std::size_t points = 0;      // given
+  std::size_t duplicates = 0;  // points at the place of an earlier one; they share its normal
+  int neighbors = 0;           // of a fit
+  std::size_t components = 0;  // of the graph of neighbours; 0 with a centre or a sensor
+  std::size_t computed = 0;    // normals whose direction is new
+  std::size_t flipped = 0;     // normals that point to the other side now than they did
+  // Points far from all others, outliers: they take the normal of the nearest one that is none,
+  // with a confidence of 0. None are looked for with a centre or a sensor.
+  std::size_t strays = 0;
   std::size_t undetermined = 0;  // points whose neighbours lie on a line: their normals are zero
-  // How far the neighbours' normals agree with a point's, times how nearly the winding number
-  // is 1 on the inner and 0 on the outer side of its component; 0 ... 1. With a centre or a sensor:
-  // the modulus of the cosine between normal and line of sight.
+  // Of a point, 0 ... 1: its sign is right with the probability (1 + confidence) / 2, or a larger
+  // one. From how far its neighbours' normals agree with its own, and how nearly the winding number
+  // is 1 behind and 0 before it; with a centre or a sensor, from the angle between normal and line
+  // of sight.
   double mean_confidence = 0;
   double unsure = 0;  // share of the points with a confidence below 0.5
 };
 
 // Gives points unit normals that point out of the solid they bound. Directions: planes and
-// paraboloids through the nearest points, and beside sharp edges through those of one side only.
-// Signs: along a minimum spanning tree of the graph of neighbours (Hoppe 1992), then, between parts
-// that it joins in doubt or not at all, so that their winding numbers agree; a closed part inside
-// another bounds a cavity. What is open and has no inside (a plane) points to the side of its
-// mean normal's largest component. Same input, same bits for any number of threads.
+// paraboloids through the nearest points, between rows where points lie in rows, and beside sharp
+// edges through those of one side only. Signs: along a minimum spanning tree of the graph of
+// neighbours (Hoppe 1992), then, between parts that it joins in doubt or not at all, so that their
+// winding numbers agree; a closed part inside another bounds a cavity. Where the winding number of
+// all says that this is wrong, in thin, sparse or unevenly sampled places, signs come from a field
+// that all points share, and directions from fits to one sheet at a time. What is open and has no
+// inside (a plane) points to the side of its mean normal's largest component. Same input, same bits
+// for any number of threads.
 //
 // Throws InvalidInput for a cloud that is not valid (clean() helps), more than kMaxPoints points,
 // options out of range, and points that lie on one line: they have no plane.

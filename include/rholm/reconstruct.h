@@ -33,7 +33,13 @@ struct ReconstructOptions {
   CapBlend blend = CapBlend::kSmooth;    // kSpline: the paper's weights, for comparison
   // Parts of the surface with less than this share of the largest one's area are dropped.
   double min_component = 0.01;
-  bool remove_outliers = true;  // points that belong to no surface, where caps do not fit
+  // Points that belong to no surface: far from all others, at any distance, and where there are
+  // such those near the surface with normals or heights of their own.
+  bool remove_outliers = true;
+  // The vertices get an attribute `confidence`, 0 ... 1, instead of any of that name: how sure the
+  // signs of the normals are that were computed, less where no points are near (0 from four
+  // spacings on) and where an opposite sheet is nearer than three spacings.
+  bool confidence = false;
   std::optional<SimplifyOptions> simplify = {};   // fewer triangles for the same surface
   std::size_t max_memory = std::size_t{8} << 30;  // bytes: refused if more is foreseen
 };
@@ -43,9 +49,10 @@ struct ReconstructReport {
   std::size_t points = 0;          // given
   std::size_t dropped_points = 0;  // not finite, at the place of another, without a normal
   std::size_t outliers = 0;        // removed
-  bool computed_normals = false;   // the points had none
-  bool turned_normals = false;     // all of them: they pointed into the solid
-  double spacing = 0;              // median distance between neighbours, as if on a square grid
+  double unsure = 0;              // share of the points the sign of whose computed normal is unsure
+  bool computed_normals = false;  // the points had none
+  bool turned_normals = false;    // all of them: they pointed into the solid
+  double spacing = 0;             // median distance between neighbours, as if on a square grid
   double noise = 0;  // standard deviation along the normal, 0 if within the shape's own
   double normal_noise_degrees = 0;     // of the normals against the surface
   std::size_t neighbours = 0;          // points of a typical cap
@@ -56,8 +63,11 @@ struct ReconstructReport {
   std::size_t dropped_components = 0;  // parts of the surface that were too small
   std::size_t faces = 0;               // of the surface before it was simplified
   double simplify_error = 0;           // by simplify(), as Simplification::error
-  std::size_t memory = 0;              // foreseen for points, grid and surface, bytes
-  StageTimes times;                    // "points", "caps", "surface", "attributes"
+  // With the option `confidence`, shares of the surface's area: without data nearer than three
+  // spacings, thinner than one and a half, and with a confidence below 1/2.
+  double unseen_area = 0, thin_area = 0, unsure_area = 0;
+  std::size_t memory = 0;  // foreseen for points, grid and surface, bytes
+  StageTimes times;        // "points", "caps", "surface", "attributes"
 };
 
 // A surface, its caps, and how they were found.

@@ -510,6 +510,12 @@ class OrientOptions:
     @sensor.setter
     def sensor(self, arg: Sequence[float] | numpy.typing.NDArray[numpy.float64] | None, /) -> None: ...
 
+    @property
+    def confidence(self) -> bool: ...
+
+    @confidence.setter
+    def confidence(self, arg: bool | None, /) -> None: ...
+
 class OrientReport:
     """What orient() did, and how sure it is."""
 
@@ -541,6 +547,12 @@ class OrientReport:
     @property
     def flipped(self) -> int:
         """Normals that point to the other side now than they did."""
+
+    @property
+    def strays(self) -> int:
+        """
+        Points far from all others; they take the normal of the nearest, with confidence 0.
+        """
 
     @property
     def undetermined(self) -> int:
@@ -1973,6 +1985,12 @@ class ReconstructOptions:
     def remove_outliers(self, arg: bool | None, /) -> None: ...
 
     @property
+    def confidence(self) -> bool: ...
+
+    @confidence.setter
+    def confidence(self, arg: bool | None, /) -> None: ...
+
+    @property
     def simplify(self) -> SimplifyOptions | None: ...
 
     @simplify.setter
@@ -2009,6 +2027,10 @@ class ReconstructReport:
     @property
     def computed_normals(self) -> bool:
         """Whether the points had none."""
+
+    @property
+    def unsure(self) -> float:
+        """Share of the points the sign of whose computed normal is unsure."""
 
     @property
     def turned_normals(self) -> bool:
@@ -2057,6 +2079,22 @@ class ReconstructReport:
     @property
     def simplify_error(self) -> float:
         """By simplify()."""
+
+    @property
+    def unseen_area(self) -> float:
+        """
+        With `confidence`: share of the area without data nearer than three spacings.
+        """
+
+    @property
+    def thin_area(self) -> float:
+        """
+        With `confidence`: share of the area thinner than one and a half spacings.
+        """
+
+    @property
+    def unsure_area(self) -> float:
+        """With `confidence`: share of the area with a confidence below 1/2."""
 
     @property
     def memory(self) -> int:

@@ -151,6 +151,7 @@ def orient(
     keep_directions: bool = False,
     center: npt.ArrayLike | None = None,
     sensor: npt.ArrayLike | None = None,
+    confidence: bool = False,
     threads: int = 0,
     progress: Progress = None,
 ) -> Oriented:
@@ -170,6 +171,8 @@ def orient(
         The surface is seen from here from inside.
     sensor : array_like, (3,), optional
         It has been measured from here.
+    confidence : bool
+        The cloud gets an attribute `confidence`, 0 ... 1, instead of any of that name.
     threads, progress
         See `rholm.caller`.
 
@@ -182,6 +185,7 @@ def orient(
         keep_directions=keep_directions,
         center=None if center is None else triple(center, "center"),
         sensor=None if sensor is None else triple(sensor, "sensor"),
+        confidence=confidence,
     )
     with caller(threads, progress) as how:
         cloud, report = _core.orient(as_points(points, normals)._core, options, how)

@@ -46,6 +46,7 @@ def reconstruct(
     blend: Literal["smooth", "spline"] = "smooth",
     min_component: float = 0.01,
     keep_outliers: bool = False,
+    confidence: bool = False,
     simplify: Any = None,
     max_memory: int = 8 << 30,
     threads: int = 0,
@@ -75,6 +76,9 @@ def reconstruct(
         Parts of the surface with less than this share of the largest one's area are dropped.
     keep_outliers : bool
         Whether points that belong to no surface stay.
+    confidence : bool
+        The vertices get an attribute `confidence`, 0 ... 1: less where signs of computed normals are
+        unsure, far from data, and where an opposite sheet is near.
     simplify : "auto", int or dict, optional
         Fewer triangles for the same surface: to 1/50 of a step, to so many triangles, or options of
         `rholm.simplify`.
@@ -104,6 +108,7 @@ def reconstruct(
         blend=blend,
         min_component=min_component,
         remove_outliers=not keep_outliers,
+        confidence=confidence,
         simplify=simplify_options(simplify),
         max_memory=max_memory,
     )

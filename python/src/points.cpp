@@ -52,7 +52,8 @@ void bind_points(nb::module_& m) {
       .field("neighbors", &OrientOptions::neighbors)
       .field("keep_directions", &OrientOptions::keep_directions)
       .field("center", &OrientOptions::center)
-      .field("sensor", &OrientOptions::sensor);
+      .field("sensor", &OrientOptions::sensor)
+      .field("confidence", &OrientOptions::confidence);
   Record<OrientReport>(m, "OrientReport", "What orient() did, and how sure it is.")
       .field("points", &OrientReport::points, "Number of points given.")
       .field("duplicates", &OrientReport::duplicates,
@@ -63,6 +64,8 @@ void bind_points(nb::module_& m) {
       .field("computed", &OrientReport::computed, "Normals whose direction is new.")
       .field("flipped", &OrientReport::flipped,
              "Normals that point to the other side now than they did.")
+      .field("strays", &OrientReport::strays,
+             "Points far from all others; they take the normal of the nearest, with confidence 0.")
       .field("undetermined", &OrientReport::undetermined,
              "Points whose neighbours lie on a line: their normals are zero.")
       .field("mean_confidence", &OrientReport::mean_confidence,

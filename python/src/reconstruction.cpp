@@ -22,6 +22,7 @@ void bind_reconstruction(nb::module_& m) {
       .choice("blend", &ReconstructOptions::blend, parse_cap_blend, to_string)
       .field("min_component", &ReconstructOptions::min_component)
       .field("remove_outliers", &ReconstructOptions::remove_outliers)
+      .field("confidence", &ReconstructOptions::confidence)
       .field("simplify", &ReconstructOptions::simplify)
       .field("max_memory", &ReconstructOptions::max_memory);
   Record<ReconstructReport>(m, "ReconstructReport",
@@ -33,6 +34,8 @@ void bind_reconstruction(nb::module_& m) {
       .field("outliers", &ReconstructReport::outliers, "Points removed.")
       .field("computed_normals", &ReconstructReport::computed_normals,
              "Whether the points had none.")
+      .field("unsure", &ReconstructReport::unsure,
+             "Share of the points the sign of whose computed normal is unsure.")
       .field("turned_normals", &ReconstructReport::turned_normals,
              "Whether all pointed into the solid, and were turned.")
       .field("spacing", &ReconstructReport::spacing,
@@ -51,6 +54,12 @@ void bind_reconstruction(nb::module_& m) {
              "Parts of the surface that were too small.")
       .field("faces", &ReconstructReport::faces, "Of the surface before it was simplified.")
       .field("simplify_error", &ReconstructReport::simplify_error, "By simplify().")
+      .field("unseen_area", &ReconstructReport::unseen_area,
+             "With `confidence`: share of the area without data nearer than three spacings.")
+      .field("thin_area", &ReconstructReport::thin_area,
+             "With `confidence`: share of the area thinner than one and a half spacings.")
+      .field("unsure_area", &ReconstructReport::unsure_area,
+             "With `confidence`: share of the area with a confidence below 1/2.")
       .field("memory", &ReconstructReport::memory, "Foreseen, bytes.")
       .field("times", &ReconstructReport::times, "Stages: (wall, cpu) in seconds.");
   m.def("reconstruct",

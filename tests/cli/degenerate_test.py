@@ -98,15 +98,18 @@ class Degenerate(CliTest):
         self.write("good.sh", "0 0 1 0\n1 0 0.1 0\n1 1 0 0\n")
 
     def check(self, codes, *words, output=None):
-        """Runs; the exit code must be allowed, a refusal must leave nothing behind."""
+        """Runs; the exit code must be allowed, a refusal must leave nothing behind. With 4 there is
+        an output that is not to be trusted."""
         before = self.files()
         result = self.run_rholm(*words, *(["-o", output] if output else []))
         self.assertIn(result.code, codes, str(result))
         self.check_decent(result)
+        done = result.code in (0, 4)
         if result.code != 0:
-            self.assertEqual(self.files(), before, f"left behind by {result}")
+            if not done:
+                self.assertEqual(self.files(), before, f"left behind by {result}")
             self.assertTrue(result.err or "star" in result.out, str(result))
-        if output and result.code == 0:
+        if output and done:
             path = self.folder / output
             if path.suffix not in (".png", ".h5", ".ply", ".stl"):
                 self.assertIsNone(NOT_A_NUMBER.search(path.read_bytes()), str(result))
@@ -177,7 +180,7 @@ class Degenerate(CliTest):
         for name, (_, codes, _, sampled) in SHAPES.items():
             with self.subTest(name):
                 self.check(sampled, "make", "sample", name, "--points", "50", output="out.ply")
-                self.check(codes | EITHER, "orient", name, output="out.xyz")
+                self.check(codes | EITHER | {4}, "orient", name, output="out.xyz")
 
     def test_smooth(self):
         for name in SHAPES:

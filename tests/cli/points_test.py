@@ -153,6 +153,29 @@ class Orient(CliTest):
             for x, y, z, nx, ny, nz in rows(self.folder / "o.xyz"):
                 self.assertGreaterEqual(sign * (-x * nx - y * ny + (9 - z) * nz), 0)
 
+    def test_places_of_scanners_in_the_file_decide(self):
+        self.rholm("make", "sample", "t.ply", "--points", "5000", "--scans", "4", "--sensor",
+                   "--ascii", "-o", "scans.ply")
+        report = self.rholm("orient", "scans.ply", "--ascii", "-o", "o.ply", "--json").json()
+        self.assertEqual(report["components"], 0)
+        text = [(self.folder / name).read_text() for name in ("scans.ply", "o.ply")]
+        names = [re.findall(r"property \w+ (\w+)", t) for t in text]
+        lines = [t.split("end_header\n")[1].splitlines() for t in text]
+        wrong = 0
+        for one, other in zip(*lines):
+            a, b = dict(zip(names[0], one.split())), dict(zip(names[1], other.split()))
+            wrong += sum(float(a[c]) * float(b[c]) for c in ("nx", "ny", "nz")) < 0
+        self.assertLessEqual(wrong, 5)
+
+    def test_unsure_signs_are_said_and_shown(self):
+        self.write("plane.xyz", "".join(f"{i / 30} {j / 30} 0\n" for i in range(30)
+                                        for j in range(30)))
+        failed = self.rholm("orient", "plane.xyz", "--confidence", "--ascii", "-o", "o.ply", code=4)
+        self.assertIn("unsure", failed.err)
+        self.assertIn("property float confidence", (self.folder / "o.ply").read_text())
+        report = self.rholm("orient", "p.ply", "--confidence", "--json", "-o", "o.ply").json()
+        self.assertLess(report["unsure"], 0.01)
+
     def test_a_stream_works_at_both_ends(self):
         data = (self.folder / "p.ply").read_bytes()
         self.rholm("orient", "p.ply", "-o", "o.ply")

@@ -56,7 +56,7 @@ class Reconstruct(CliTest):
         plain = (self.folder / "plain.ply").read_bytes()
         for words in (["--tolerance", ".02"], ["--noise", ".006"], ["--holes", "keep"],
                       ["--resolution", "40"], ["--keep-outliers", "--min-component", "0"],
-                      ["--ascii"]):
+                      ["--ascii"], ["--confidence"]):
             self.reconstruct("bad.xyz", *words)
             self.assertNotEqual((self.folder / "s.ply").read_bytes(), plain, words)
 
@@ -69,6 +69,38 @@ class Reconstruct(CliTest):
         shape = self.shape_of("s.ply")
         self.assertFalse(shape["closed"])
         self.assertTrue(shape["manifold"])
+
+    def test_confidence_is_less_where_there_are_no_points(self):
+        self.write("half.xyz", "".join(" ".join(row) + "\n" for row in rows(self.folder / "p.xyz")
+                                       if float(row[0]) > -0.9))
+        report = self.reconstruct("half.xyz", "--confidence", "--ascii")
+        self.assertGreater(report["unseen_area"], 0.02)
+        self.assertGreaterEqual(report["unsure_area"], report["unseen_area"])
+        text = (self.folder / "s.ply").read_text()
+        names = re.findall(r"property \w+ (\w+)", text.split("element face")[0])
+        at = names.index("confidence")
+        vertices = [[float(x) for x in line.split()] for line in
+                    text.split("end_header\n")[1].splitlines()[:report["vertices"]]]
+        self.assertLess(min(v[at] for v in vertices if v[0] < -1.1), 0.1)
+        self.assertGreater(min(v[at] for v in vertices if v[0] > -0.7), 0.9)
+        self.assertIn("not known", self.rholm("reconstruct", "half.xyz", "--confidence", "-o",
+                                              "s.ply").out)
+
+    def test_points_of_a_plane_bound_no_solid(self):
+        points = [(i / 40, j / 40 + 0.003 * (i * j % 7)) for i in range(40) for j in range(40)]
+        self.write("plane.xyz", "".join(f"{x!r} {y!r} 0\n" for x, y in points))
+        self.assertIn("bound no solid",
+                      self.rholm("reconstruct", "plane.xyz", "-o", "s.ply", code=3).err)
+        self.assertNotIn("s.ply", self.files())
+        failed = self.rholm("reconstruct", "plane.xyz", "--holes", "keep", "-o", "s.ply", code=4)
+        self.assertIn("unsure", failed.err)
+        self.assertFalse(self.shape_of("s.ply")["closed"])
+
+    def test_a_stray_point_far_away_is_left_out(self):
+        lines = (self.folder / "p.xyz").read_text()
+        self.write("stray.xyz", lines + "1e7 0 0 1 0 0\n")
+        self.assertEqual(self.reconstruct("stray.xyz")["outliers"], 1)
+        self.assertEqual(self.shape_of("s.ply")["genus"], 1)
 
     def test_resolution_is_along_the_longest_side(self):
         self.rholm("info", "p.xyz")

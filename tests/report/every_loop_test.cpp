@@ -225,13 +225,35 @@ TEST(every_loop, gives_the_same_bits_for_many_points_and_discs) {
   for (std::size_t i = 0; i < 5000; ++i) discs.push_back({cloud.points[i], cloud.normals[i], 0.02});
   expect_same_bits([&](const Context& context) {
     ReconstructReport report;
-    WorkingPoints points(cloud, report, context);
+    WorkingPoints points(cloud, {}, report, context);
     const Cover caps = cover(points.ordered(), {}, context);
     const auto blocks = list_blocks({}, 0.05, discs, 10000, context);
     Bits bits;
     bits.add(points.ordered().tree.order()).add(caps.coefficients).add(std::span(blocks));
-    points.remove_outliers(0, {}, context);
+    points.remove_outliers(0, cloud.points.size(), {}, context);
     return bits.add(points.ordered().points);
+  });
+}
+
+TEST(every_loop, gives_the_same_bits_for_normals_of_thin_and_rowed_points) {
+  // Two sheets as near as their points are, so that the field decides, and rows with a stray.
+  PointCloud shell = test::joined(test::sphere_points(420, 1), test::sphere_points(340, 2));
+  for (std::size_t i = 420; i < shell.points.size(); ++i) shell.points[i] *= 0.85;
+  PointCloud rows =
+      sample_surface(torus(2, 0.7, 100, 50),
+                     {.points = 1300, .pattern = SamplePattern::kRings, .pattern_ratio = 4});
+  rows.points.push_back({30, 0, 0});
+  expect_same_bits([&](const Context& context) {
+    Bits bits;
+    for (PointCloud cloud : {shell, rows}) {
+      cloud.normals.clear();
+      orient(cloud, {.confidence = true}, context);
+      bits.add(cloud.normals).add(cloud.attributes[0].values);
+    }
+    PointCloud bare = test::sphere_points(1500);
+    bare.normals.clear();
+    const Reconstruction made = reconstruct(bare, {.confidence = true}, context);
+    return bits.add(made.mesh.vertices).add(made.mesh.attributes.back().values);
   });
 }
 

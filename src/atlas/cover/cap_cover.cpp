@@ -55,8 +55,8 @@ struct Candidate {
 
 // Whether the points of a cap fill its disc. Along a line, or in two places far apart, they leave
 // open what lies between: needles, and ridges thinner than the spacing, have such caps.
-bool fills_disc(const Cap& cap, std::size_t k, const CapWorker& worker) {
-  const double inner2 = worker.near[std::min(kInner, k - 1)].distance2;
+bool fills_disc(const Cap& cap, std::size_t k, std::size_t inner, const CapWorker& worker) {
+  const double inner2 = worker.near[std::min(inner, k - 1)].distance2;
   if (inner2 < kClose * kClose * worker.near[k - 1].distance2) return false;
   return fills_ellipse(cap.frame, moments_of(cap.frame, worker.points));
 }
@@ -98,22 +98,23 @@ void grow_cap(const OrderedPoints& all, std::size_t seed, std::size_t k,
 
 // Whether a point is alone amid a surface's gap: of 24 random points 12 lie nearer than 0.7 of the
 // farthest, and fewer than two others once in ten thousand times.
-bool is_isolated(const std::vector<Neighbor>& near) {
-  return near.size() > 3 && near[2].distance2 > kAlone * kAlone * near.back().distance2;
+bool is_isolated(const std::vector<Neighbor>& near, std::size_t third) {
+  return near.size() > third + 1 && near[third].distance2 > kAlone * kAlone * near.back().distance2;
 }
 
 // The largest good cap around a point.
 bool make_cap(const OrderedPoints& all, std::size_t seed, const CoverOptions& options,
               CapWorker& worker, Cap& cap) {
   worker.middle = all.points[seed];
-  all.tree.nearest_to(seed, options.neighbours, worker.near);
-  if (is_isolated(worker.near)) return false;
+  all.tree.nearest_to(seed, all.scaled(seed, options.neighbours), worker.near);
+  if (is_isolated(worker.near, all.scaled(seed, 2))) return false;
+  const std::size_t fewest = all.scaled(seed, kFewest), inner = all.scaled(seed, kInner);
   if (options.noise > 0) settle(all, seed, worker);
   for (std::size_t k = worker.near.size(); k > 0;) {
     bool fitted = fit_nearest(all, seed, k, CapSide::kSheet, options, worker, cap);
     const auto fewer = static_cast<std::size_t>(kShrink * static_cast<double>(k));
     const double support = cap.frame.support;
-    const bool full = fitted && fills_disc(cap, k, worker);
+    const bool full = fitted && fills_disc(cap, k, inner, worker);
     if (full && good(worker.fit, support, options)) {
       if (options.tolerance > 0) grow_cap(all, seed, k, options, worker, cap);
       return true;
@@ -121,10 +122,10 @@ bool make_cap(const OrderedPoints& all, std::size_t seed, const CoverOptions& op
     // Perhaps there is a crease: one of its sides alone, where normals can tell.
     if (options.noise == 0) {
       fitted = fit_nearest(all, seed, k, CapSide::kFace, options, worker, cap);
-      if (fitted && full && worker.points.size() >= kFewest && good(worker.fit, support, options))
+      if (fitted && full && worker.points.size() >= fewest && good(worker.fit, support, options))
         return true;
     }
-    if (fewer < kFewest) {
+    if (fewer < fewest) {
       return fitted && worker.fit.rms <= std::max(kAnyFit * support, kAnyNoise * options.noise);
     }
     k = fewer;
@@ -133,7 +134,8 @@ bool make_cap(const OrderedPoints& all, std::size_t seed, const CoverOptions& op
 }
 
 // What is known of a cap once it is fitted.
-void describe_cap(const CoverOptions& options, const CapWorker& worker, Cap& cap) {
+void describe_cap(const CoverOptions& options, std::size_t wanted, const CapWorker& worker,
+                  Cap& cap) {
   cap.degree = static_cast<std::uint16_t>(options.degree);
   cap.error = worker.fit.rms;
   cap.deviation = worker.fit.deviation;
@@ -144,8 +146,7 @@ void describe_cap(const CoverOptions& options, const CapWorker& worker, Cap& cap
   const double part = excess / (kTrusted * cap.frame.support);
   cap.weight = 1 / (1 + part * part);
   if (options.noise == 0) return;
-  const double share =
-      static_cast<double>(worker.points.size()) / static_cast<double>(options.neighbours);
+  const double share = static_cast<double>(worker.points.size()) / static_cast<double>(wanted);
   cap.weight *= std::pow(std::min(1.0, share), kTrustInPoints);
 }
 
@@ -181,7 +182,7 @@ void cover_block(const OrderedPoints& all, std::size_t begin, std::size_t end,
       block.rejected.push_back(static_cast<std::uint32_t>(seed));
       continue;
     }
-    describe_cap(options, worker, made.cap);
+    describe_cap(options, all.scaled(seed, options.neighbours), worker, made.cap);
     made.coefficients = worker.fit.coefficients;
     const std::size_t n_new = mark(all, made.cap, seed, begin, options.core, worker, covered);
     const double disc = std::numbers::pi * made.cap.frame.support * made.cap.frame.support;

@@ -34,7 +34,7 @@ bool turn_outwards(OrientedPoints& samples, const Context& context) {
     }
     return result;
   }();
-  if (!face_inwards(tree, sorted.points, sorted.normals, context)) return false;
+  if (!balance_sides(tree, sorted.points, sorted.normals, context).inwards) return false;
   for (Vec3& normal : samples.normals) normal = -normal;
   return true;
 }

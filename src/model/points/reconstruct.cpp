@@ -11,6 +11,7 @@
 #include "atlas/cover/cap_size.h"
 #include "base/stopwatch.h"
 #include "model/points/reconstruct_points.h"
+#include "model/points/surface_confidence.h"
 #include "rholm/error.h"
 #include "rholm/topology.h"
 #include "surface/atlas_surface.h"
@@ -30,10 +31,8 @@ constexpr double kStepOfSupport = 0.15;
 // untouched; 2 where it falls 1000 times, torn to sheets below 1.2 steps of their error.
 constexpr double kSparseShare = 0.02;
 constexpr double kStepOfError = 2;
-// Points that no cap fits, or whose normals disagree, before all are searched for outliers: creases
-// and folds of clean shapes have fewer.
+// Share of the points far from all others that makes outliers near the surface likely.
 constexpr double kSuspicious = 1e-3;
-constexpr double kDisagreeing = 0.04, kDisagreeingNoisy = 0.08;
 // Standard deviations of the noise within which caps are averaged: one that is off by as much must
 // not count alone.
 constexpr double kBandOfNoise = 3;
@@ -67,7 +66,7 @@ CoverOptions cover_options(const ReconstructOptions& options, const CapSize& siz
           .tolerance = options.tolerance};
 }
 
-// Caps for the points, once or twice: points that belong to no surface show in the caps they spoil.
+// Caps for the points, without those near the surface that belong to none.
 Cover fit_caps(WorkingPoints& points, const ReconstructOptions& options, CapSize& size,
                ReconstructReport& report, const Context& context) {
   const auto measure = [&] {
@@ -75,18 +74,21 @@ Cover fit_caps(WorkingPoints& points, const ReconstructOptions& options, CapSize
     if (options.noise) size.noise = *options.noise;
   };
   measure();
+  const auto fit = [&] { return cover(points.ordered(), cover_options(options, size), context); };
+  // Where none is far from the surface none is near it either: what no cap fits is an edge. The box
+  // of random outliers has several times as many far ones.
+  const std::size_t strays = report.outliers;
+  if (static_cast<double>(strays) <= kSuspicious * static_cast<double>(points.size())) return fit();
+  std::size_t found = points.remove_outliers(size.noise, strays, {}, context);
   Cover caps;
-  const auto n = static_cast<double>(points.size());
-  if (!options.remove_outliers ||
-      size.disagreeing <= (size.noise > 0 ? kDisagreeingNoisy : kDisagreeing)) {
-    caps = cover(points.ordered(), cover_options(options, size), context);
-    const bool clean = static_cast<double>(caps.rejected.size()) <= kSuspicious * n;
-    if (!options.remove_outliers || clean) return caps;
+  if (found == 0) {
+    caps = fit();
+    found = points.remove_outliers(size.noise, 2 * caps.rejected.size(), caps.rejected, context);
+    if (found == 0 && !caps.caps.empty()) return caps;
   }
-  report.outliers = points.remove_outliers(size.noise, caps.rejected, context);
-  if (report.outliers == 0 && !caps.caps.empty()) return caps;
+  report.outliers += found;
   measure();
-  return cover(points.ordered(), cover_options(options, size), context);
+  return fit();
 }
 
 // The supports of most caps are at least this.
@@ -144,8 +146,8 @@ Reconstruction reconstruct(PointCloud cloud, const ReconstructOptions& options,
   Reconstruction result;
   ReconstructReport& report = result.report;
   StageTimes& times = report.times;
-  WorkingPoints points =
-      timed(times, "points", [&] { return WorkingPoints(std::move(cloud), report, context); });
+  WorkingPoints points = timed(
+      times, "points", [&] { return WorkingPoints(std::move(cloud), options, report, context); });
   CapSize size;
   Cover caps =
       timed(times, "caps", [&] { return fit_caps(points, options, size, report, context); });
@@ -187,7 +189,10 @@ Reconstruction reconstruct(PointCloud cloud, const ReconstructOptions& options,
   report.dropped_components = surface.dropped_components;
   report.faces = surface.faces, report.simplify_error = surface.simplify_error;
   report.memory = surface.memory;
-  timed(times, "attributes", [&] { points.carry_attributes(result.mesh, context); });
+  timed(times, "attributes", [&] {
+    points.carry_attributes(result.mesh, context);
+    if (options.confidence) add_confidence(points.ordered(), result.mesh, report, context);
+  });
   return result;
 }
 

@@ -13,7 +13,9 @@
 #include "rholm/topology.h"
 #include "shape/on_line.h"
 #include "shape/points/face_inwards.h"
+#include "shape/points/orient_signs.h"
 #include "shape/points/outliers.h"
+#include "shape/points/strays.h"
 
 namespace rholm {
 namespace {
@@ -27,28 +29,44 @@ constexpr double kTenthOfEven = 0.8;
 // Of the diagonal: points no farther from one line than this have no surface, whatever their
 // normals; far above what single precision does to a line.
 constexpr double kLine = 1e-5;
+// Length of the mean normal from which nothing is enclosed: of a cap of a sphere of 37 degrees.
+constexpr double kFlat = 0.9;
 // Diagonals: squares of distances between neighbours must stay within single precision.
 constexpr double kSmallest = 1e-12, kLargest = 1e12;
 // Each sees what the one before has left (method 7.4).
 constexpr int kOutlierPasses = 3;
-// Random points are seldom fitted: as many are suspected as there are.
-constexpr double kOfSuspects = 2;
 // Of the points; smaller groups, where there are outliers, are made of them.
 constexpr double kLeastGroup = 0.002;
 
-// Points without a direction are of no use here.
-void drop_zero_normals(PointCloud& cloud) {
+// keep(i): whether point i stays.
+template <typename Keep>
+void keep_points(PointCloud& cloud, const Keep& keep) {
   std::size_t kept = 0;
   const std::size_t n = cloud.points.size();
+  const bool directed = !cloud.normals.empty();
   for (std::size_t i = 0; i < n; ++i) {
-    if (!(norm(cloud.normals[i]) > 0)) continue;
+    if (!keep(i)) continue;
     cloud.points[kept] = cloud.points[i];
-    cloud.normals[kept] = cloud.normals[i];
+    if (directed) cloud.normals[kept] = cloud.normals[i];
     for (Attribute& attribute : cloud.attributes) attribute.values[kept] = attribute.values[i];
     ++kept;
   }
-  cloud.points.resize(kept), cloud.normals.resize(kept);
+  cloud.points.resize(kept);
+  if (directed) cloud.normals.resize(kept);
   for (Attribute& attribute : cloud.attributes) attribute.values.resize(kept);
+}
+
+// Whether there is one normal, or none, and one of every attribute to a point.
+bool lists_fit(const PointCloud& cloud) {
+  const std::size_t n = cloud.points.size();
+  return (cloud.normals.empty() || cloud.normals.size() == n) &&
+         std::all_of(cloud.attributes.begin(), cloud.attributes.end(),
+                     [n](const Attribute& attribute) { return attribute.values.size() == n; });
+}
+
+// Points without a direction are of no use here.
+void drop_zero_normals(PointCloud& cloud) {
+  keep_points(cloud, [&](std::size_t i) { return norm(cloud.normals[i]) > 0; });
 }
 
 void check_spread(const PointCloud& cloud, double diagonal) {
@@ -74,45 +92,90 @@ void check_width(const std::vector<Vec3>& points, double diagonal) {
                           points.size(), kLine));
 }
 
+[[noreturn]] void refuse_flat(std::size_t n) {
+  throw Error(ErrorCode::kInvalidInput,
+              fmt::format("these {} points bound no solid: their normals all point to one side, as "
+                          "of a plane; '--holes keep' (HolePolicy::kKeep) makes an open sheet",
+                          n));
+}
+
 }  // namespace
 
-WorkingPoints::WorkingPoints(PointCloud cloud, ReconstructReport& report, const Context& context)
+WorkingPoints::WorkingPoints(PointCloud cloud, const ReconstructOptions& options,
+                             ReconstructReport& report, const Context& context)
     : cloud_(std::move(cloud)) {
   report.points = cloud_.points.size();
+  if (options.remove_outliers && lists_fit(cloud_)) {
+    const std::vector<std::uint8_t> far = find_far_strays(cloud_.points);
+    report.outliers = static_cast<std::size_t>(std::count(far.begin(), far.end(), 1));
+    if (report.outliers > 0) keep_points(cloud_, [&](std::size_t i) { return far[i] == 0; });
+  }
   clean(cloud_);
   const bool directed = std::any_of(cloud_.normals.begin(), cloud_.normals.end(),
                                     [](const Vec3& n) { return norm(n) > 0; });
-  diagonal_ = bounds(cloud_.points).diagonal();
-  if (!directed) {
-    check_spread(cloud_, diagonal_);
-    check_width(cloud_.points, diagonal_);
-    orient(cloud_, {}, context);
-    report.computed_normals = true;
+  if (directed) drop_zero_normals(cloud_);
+  check_points();
+  order_points(context);
+  if (options.remove_outliers) report.outliers += remove_strays(context);
+  if (options.confidence) {
+    std::erase_if(cloud_.attributes, [](const Attribute& a) { return a.name == "confidence"; });
+    if (directed) {
+      cloud_.attributes.push_back(
+          {"confidence", ScalarType::kFloat32, std::vector<double>(cloud_.points.size(), 1.0)});
+    }
   }
-  drop_zero_normals(cloud_);
-  diagonal_ = bounds(cloud_.points).diagonal();
-  check_spread(cloud_, diagonal_);
-  check_width(cloud_.points, diagonal_);
-  report.dropped_points = report.points - cloud_.points.size();
-  order(context);
-  report.turned_normals = directed && face_inwards(*tree_, points_, normals_, context);
+  if (!directed) {
+    // Strays are gone, if they shall.
+    report.unsure = orient_all(cloud_, {.confidence = options.confidence}, false, context).unsure;
+    report.computed_normals = computed_ = true;
+    const std::size_t before = size();
+    drop_zero_normals(cloud_);
+    if (cloud_.points.size() < before) {
+      check_points();
+      order_points(context);
+    }
+  }
+  report.dropped_points = report.points - report.outliers - cloud_.points.size();
+  order_normals(context);
+  const SideBalance balance = balance_sides(*tree_, points_, normals_, context);
+  if (options.holes == HolePolicy::kFill && balance.one_sided > kFlat) refuse_flat(size());
+  report.turned_normals = directed && balance.inwards;
   if (report.turned_normals) {
     for (Vec3& normal : cloud_.normals) normal = -normal;
     for (Vec3& normal : normals_) normal = -normal;
   }
 }
 
-void WorkingPoints::order(const Context& context) {
+void WorkingPoints::check_points() {
+  diagonal_ = bounds(cloud_.points).diagonal();
+  check_spread(cloud_, diagonal_);
+  check_width(cloud_.points, diagonal_);
+}
+
+void WorkingPoints::order_points(const Context& context) {
   tree_ = std::make_unique<PointTree>(cloud_.points, context);
-  const std::size_t n = tree_->size();
-  points_.resize(n), normals_.resize(n);
-  parallel_for(n, 8192, context, {}, [&](std::size_t begin, std::size_t end) {
+  points_.resize(tree_->size());
+  parallel_for(points_.size(), 8192, context, {}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) points_[i] = cloud_.points[tree_->order()[i]];
+  });
+  gaps_ = find_gaps(*tree_, points_, context);
+}
+
+void WorkingPoints::order_normals(const Context& context) {
+  normals_.resize(tree_->size());
+  parallel_for(normals_.size(), 8192, context, {}, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const std::uint32_t from = tree_->order()[i];
-      points_[i] = cloud_.points[from];
-      normals_[i] = normalized(cloud_.normals[from]);
+      normals_[i] = normalized(cloud_.normals[tree_->order()[i]]);
     }
   });
+}
+
+std::size_t WorkingPoints::remove_strays(const Context& context) {
+  const std::size_t before = size();
+  for (int pass = 0; pass < kStrayPasses; ++pass) {
+    if (!keep_unflagged(find_strays(*tree_, points_, gaps_, context), context)) break;
+  }
+  return before - size();
 }
 
 Spacing WorkingPoints::spacing(const Context& context) const {
@@ -121,7 +184,8 @@ Spacing WorkingPoints::spacing(const Context& context) const {
   parallel_for(seeds, 256, context, {}, [&](std::size_t begin, std::size_t end) {
     std::vector<Neighbor> near;
     for (std::size_t j = begin; j < end; ++j) {
-      tree_->nearest_to(j * n / seeds, kCircle + 1, near);
+      const std::size_t i = j * n / seeds;
+      tree_->nearest_to(i, gaps_.scaled(i, kCircle) + 1, near);
       all[j] = std::sqrt(std::numbers::pi * near.back().distance2 / kCircle);
     }
   });
@@ -130,25 +194,30 @@ Spacing WorkingPoints::spacing(const Context& context) const {
   return {median, std::min(median, all[seeds / 10] / kTenthOfEven)};
 }
 
-bool WorkingPoints::remove(const std::vector<std::uint8_t>& gone, const Context& context) {
+bool WorkingPoints::keep_unflagged(const std::vector<std::uint8_t>& gone, const Context& context) {
   const auto n = static_cast<std::size_t>(std::count(gone.begin(), gone.end(), 1));
   if (n == 0 || size() - n < kFewestPoints) return false;
-  // A normal of zero is how points are dropped.
-  for (std::size_t i = 0; i < gone.size(); ++i) {
-    if (gone[i] != 0) cloud_.normals[tree_->order()[i]] = {};
-  }
-  drop_zero_normals(cloud_);
+  std::vector<std::uint8_t> given(gone.size());
+  for (std::size_t i = 0; i < gone.size(); ++i) given[tree_->order()[i]] = gone[i];
+  keep_points(cloud_, [&](std::size_t i) { return given[i] == 0; });
   diagonal_ = bounds(cloud_.points).diagonal();
-  order(context);
+  order_points(context);
   return true;
 }
 
-std::size_t WorkingPoints::remove_outliers(double noise, std::span<const std::uint32_t> suspects,
+bool WorkingPoints::remove(const std::vector<std::uint8_t>& gone, const Context& context) {
+  if (!keep_unflagged(gone, context)) return false;
+  order_normals(context);
+  return true;
+}
+
+std::size_t WorkingPoints::remove_outliers(double noise, std::size_t most,
+                                           std::span<const std::uint32_t> suspects,
                                            const Context& context) {
   const std::size_t before = size();
   std::vector<std::uint8_t> gone = find_outliers(*tree_, points_, normals_, noise, context);
-  const auto found = static_cast<double>(std::count(gone.begin(), gone.end(), 1));
-  if (!suspects.empty() && found > kOfSuspects * static_cast<double>(suspects.size())) {
+  const auto found = static_cast<std::size_t>(std::count(gone.begin(), gone.end(), 1));
+  if (found > most) {
     std::vector<std::uint8_t> both(size(), 0);
     for (const std::uint32_t i : suspects) both[i] = gone[i];
     remove(both, context);

@@ -14,7 +14,8 @@
 
 namespace rholm {
 
-// Between neighbours, as if points of the same density lay on a square grid.
+// Between neighbours, as if points of the same density lay on a square grid; between rows where
+// they lie in rows.
 struct Spacing {
   double median = 0;
   double fine = 0;  // only a tenth of the points lie clearly closer
@@ -22,30 +23,42 @@ struct Spacing {
 
 class WorkingPoints {
  public:
-  // Cleans and, where there are no normals, orients; notes it in the report.
-  WorkingPoints(PointCloud cloud, ReconstructReport& report, const Context& context);
+  // Cleans, removes what is far from all others if wanted, and orients where there are no normals;
+  // notes it in the report.
+  WorkingPoints(PointCloud cloud, const ReconstructOptions& options, ReconstructReport& report,
+                const Context& context);
 
   std::size_t size() const { return points_.size(); }
-  OrderedPoints ordered() const { return {*tree_, points_, normals_}; }
+  OrderedPoints ordered() const { return {*tree_, points_, normals_, &gaps_, computed_}; }
   double diagonal() const { return diagonal_; }
   Spacing spacing(const Context& context) const;
 
-  // Returns how many there were. Where many more look like outliers than the suspects that no cap
-  // fits, they are features that the points hardly show: then only suspects can be. Without
-  // suspects all can be.
-  std::size_t remove_outliers(double noise, std::span<const std::uint32_t> suspects,
-                              const Context& context);
+  // Of points near the surface, by their normals; returns how many were removed. Where more than
+  // `most` look like outliers they are features that the points hardly show: then only those that
+  // no cap fits, the suspects, can be.
+  std::size_t remove_outliers(double noise, std::size_t most,
+                              std::span<const std::uint32_t> suspects, const Context& context);
 
   // Gives each vertex the mean of the attributes of the points around it.
   void carry_attributes(Mesh& mesh, const Context& context) const;
 
  private:
-  void order(const Context& context);
-  // Drops the points whose flag is set, unless too few would be left.
+  // Those that are far from all others; returns how many.
+  std::size_t remove_strays(const Context& context);
+  // Refuses points that no surface goes with.
+  void check_points();
+  void order_points(const Context& context);
+  void order_normals(const Context& context);
+  // Drops the points whose flag is set, unless too few would be left; normals are not in order
+  // then.
+  bool keep_unflagged(const std::vector<std::uint8_t>& gone, const Context& context);
+  // The same, with normals.
   bool remove(const std::vector<std::uint8_t>& gone, const Context& context);
 
   PointCloud cloud_;
   std::unique_ptr<PointTree> tree_;
+  SamplingGaps gaps_;
+  bool computed_ = false;               // normals
   std::vector<Vec3> points_, normals_;  // in the order of the tree
   double diagonal_ = 0;
 };

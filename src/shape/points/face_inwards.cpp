@@ -24,8 +24,8 @@ constexpr double kSure = 4;
 
 }  // namespace
 
-bool face_inwards(const PointTree& tree, std::span<const Vec3> points,
-                  std::span<const Vec3> normals, const Context& context) {
+SideBalance balance_sides(const PointTree& tree, std::span<const Vec3> points,
+                          std::span<const Vec3> normals, const Context& context) {
   const std::size_t n = points.size(), seeds = std::min(n, kAreaSeeds);
   std::vector<double> areas(seeds);
   parallel_for(seeds, 256, context, {}, [&](std::size_t begin, std::size_t end) {
@@ -47,7 +47,9 @@ bool face_inwards(const PointTree& tree, std::span<const Vec3> points,
     middle += areas[j] * points[j * n / seeds];
     mean_normal += areas[j] * normals[j * n / seeds];
   }
-  if (!(norm(mean_normal) < kNearlyClosed * area)) return false;
+  SideBalance balance;
+  if (!(area > 0)) return balance;
+  balance.one_sided = norm(mean_normal) / area;
   middle = middle / area;
   double volume = 0, variance = 0;
   for (std::size_t j = 0; j < seeds; ++j) {
@@ -55,7 +57,8 @@ bool face_inwards(const PointTree& tree, std::span<const Vec3> points,
     volume += own;
     variance += own * own;
   }
-  return volume < -kSure * std::sqrt(variance);
+  balance.inwards = balance.one_sided < kNearlyClosed && volume < -kSure * std::sqrt(variance);
+  return balance;
 }
 
 }  // namespace rholm

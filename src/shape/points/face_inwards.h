@@ -9,10 +9,16 @@
 
 namespace rholm {
 
-// Whether the normals of points all around a solid point into it: the volume by the theorem of
-// Gauss is negative by more than chance makes it. False where points do not surround anything.
-// Unit normals, both in the order of the tree.
-bool face_inwards(const PointTree& tree, std::span<const Vec3> points,
-                  std::span<const Vec3> normals, const Context& context);
+struct SideBalance {
+  // Normals of points all around a solid point into it: the volume by the theorem of Gauss is
+  // negative by more than chance makes it. False where points do not surround anything.
+  bool inwards = false;
+  // Length of the mean normal: 0 of a closed surface, 1/2 of half a sphere, 1 of a plane.
+  double one_sided = 1;
+};
+
+// Unit normals and points in the order of the tree.
+SideBalance balance_sides(const PointTree& tree, std::span<const Vec3> points,
+                          std::span<const Vec3> normals, const Context& context);
 
 }  // namespace rholm

@@ -20,10 +20,6 @@ constexpr double kCleanFall = 3.3;    // see choose_neighbors
 constexpr double kCalmShare = 0.9;    // see choose_neighbors
 constexpr std::size_t kSeeds = 1000;  // chosen: the error of the mean is 3 %
 
-// Where noise asks for more than that, planes are as good as paraboloids and edges cannot be told
-// (scripts/constants, noise of 0.2 % of the diagonal: no gain, half the time).
-constexpr std::size_t kMostForCurvature = 50;
-
 // Neighbours on nearly a line (ten times as long as wide), as on the lines of a scanner: more are
 // asked, twice as many each time up to this number (chosen: a millisecond for ten points).
 constexpr double kLine = 0.01;
@@ -48,7 +44,7 @@ double rms_distance(const Neighborhood& near, const Vec3& normal) {
 }
 
 FitOfPoint fit_point(const PointTree& tree, std::span<const Vec3> points, std::size_t i,
-                     std::size_t k, Neighborhood& near) {
+                     std::size_t k, bool curved, Neighborhood& near) {
   FitOfPoint fit;
   PlaneFit plane;
   for (std::size_t asked = k; asked == k || asked <= kMostNeighbors; asked *= 2) {
@@ -60,17 +56,23 @@ FitOfPoint fit_point(const PointTree& tree, std::span<const Vec3> points, std::s
   }
   if (plane.width <= kNoPlane * plane.length) return fit;
   fit.residual = rms_distance(near, plane.normal);
-  fit.normal = k > kMostForCurvature ? plane.normal
-                                     : fit_paraboloid(near.points, near.weights, plane.normal);
+  fit.normal =
+      curved ? fit_paraboloid(near.points, near.weights, plane.normal).normal : plane.normal;
   return fit;
 }
 
-void keep_neighbors(const PointTree& tree, std::size_t i, Neighborhood& near, LocalFits& fits) {
-  if (near.found.size() < kGraphNeighbors + 1) tree.nearest_to(i, kGraphNeighbors + 1, near.found);
+// In rows half of them are the nearest, the others of the disc that reaches other rows.
+void keep_neighbors(const PointTree& tree, std::size_t i, std::size_t stride, Neighborhood& near,
+                    LocalFits& fits) {
+  const std::size_t reach = stride * kGraphNeighbors + 1;
+  if (near.found.size() < reach) tree.nearest_to(i, reach, near.found);
+  const std::size_t last = std::min(reach, near.found.size());
+  const std::size_t nearest = stride > 1 ? kGraphNeighbors / 2 : kGraphNeighbors;
   std::uint32_t* row = &fits.neighbors[i * kGraphNeighbors];
   std::size_t n = 0;
-  for (const Neighbor& neighbor : near.found) {
-    if (neighbor.index != i && n < kGraphNeighbors) row[n++] = neighbor.index;
+  for (std::size_t j = 0; j < last && n < kGraphNeighbors; ++j) {
+    const bool taken = n < nearest || (j + stride / 2) % stride == 0;
+    if (near.found[j].index != i && taken) row[n++] = near.found[j].index;
   }
   std::fill(row + n, row + kGraphNeighbors, static_cast<std::uint32_t>(i));
 }
@@ -101,8 +103,13 @@ double sine2(const Vec3& a, const Vec3& b) {
 }  // namespace
 
 void Neighborhood::gather(const PointTree& tree, std::span<const Vec3> all, std::size_t i,
-                          std::size_t k) {
-  tree.nearest_to(i, k + 1, found);
+                          std::size_t k, std::size_t stride) {
+  tree.nearest_to(i, stride * k + 1, found);
+  if (stride > 1) {
+    std::size_t kept = 1;
+    for (std::size_t j = stride; j < found.size(); j += stride) found[kept++] = found[j];
+    found.resize(std::min(kept, found.size()));
+  }
   points.resize(found.size());
   weights.resize(found.size());
   double largest2 = 0;
@@ -120,17 +127,21 @@ void Neighborhood::gather(const PointTree& tree, std::span<const Vec3> all, std:
   }
 }
 
-int choose_neighbors(const PointTree& tree, std::span<const Vec3> points, const Context& context) {
+int choose_neighbors(const PointTree& tree, std::span<const Vec3> points, const SamplingGaps& gaps,
+                     const Context& context) {
   const std::size_t n = points.size();
   const std::size_t n_seeds = std::min(n, kSeeds);
+  const std::size_t stride = gaps.typical_stride();
   std::size_t rungs = 0;  // those that are at most a tenth of the points
-  while (rungs < kRungs && static_cast<std::size_t>(kLadder[rungs]) * 10 <= n) ++rungs;
+  while (rungs < kRungs && stride * static_cast<std::size_t>(kLadder[rungs]) * 10 <= n) ++rungs;
   if (rungs < 3) return kLadder[0];
+  const std::size_t most_stride = n / static_cast<std::size_t>(kLadder[rungs - 1] + 2);
   std::vector<Halves> halves(n_seeds);
   parallel_for(n_seeds, 64, context, {}, [&](std::size_t begin, std::size_t end) {
     Neighborhood near;
     for (std::size_t s = begin; s < end; ++s) {
-      near.gather(tree, points, s * n / n_seeds, kLadder[rungs - 1]);
+      const std::size_t i = s * n / n_seeds;
+      near.gather(tree, points, i, kLadder[rungs - 1], std::min(gaps.stride(i), most_stride));
       for (std::size_t r = 0; r < rungs; ++r) {
         halves[s].odd[r] = normal_of_half(near, 1, kLadder[r]);
         halves[s].even[r] = normal_of_half(near, 2, kLadder[r]);
@@ -178,12 +189,13 @@ int choose_neighbors(const PointTree& tree, std::span<const Vec3> points, const 
   return kLadder[best];
 }
 
-LocalFits fit_normals(const PointTree& tree, std::span<const Vec3> points,
+LocalFits fit_normals(const PointTree& tree, std::span<const Vec3> points, const SamplingGaps& gaps,
                       std::span<const Vec3> given, int n_neighbors, const Context& context) {
   LocalFits fits;
   const std::size_t n = points.size();
-  fits.n_neighbors = n_neighbors > 0 ? n_neighbors : choose_neighbors(tree, points, context);
+  fits.n_neighbors = n_neighbors > 0 ? n_neighbors : choose_neighbors(tree, points, gaps, context);
   fits.noisy = fits.n_neighbors > kLadder[0];
+  const bool curved = fits.n_neighbors <= kMostForCurvature;
   fits.normals.resize(n);
   fits.radius.resize(n);
   fits.residual.resize(n);
@@ -192,20 +204,19 @@ LocalFits fit_normals(const PointTree& tree, std::span<const Vec3> points,
                [&](std::size_t begin, std::size_t end) {
                  Neighborhood near;
                  for (std::size_t i = begin; i < end; ++i) {
-                   const FitOfPoint fit = fit_point(tree, points, i, fits.n_neighbors, near);
+                   const std::size_t k = gaps.scaled(i, fits.n_neighbors);
+                   const FitOfPoint fit = fit_point(tree, points, i, k, curved, near);
                    fits.normals[i] = fit.normal;
                    fits.radius[i] = static_cast<float>(fit.radius);
                    fits.residual[i] = static_cast<float>(fit.residual);
-                   keep_neighbors(tree, i, near, fits);
+                   keep_neighbors(tree, i, gaps.stride(i), near, fits);
                  }
                });
   std::vector<float> residuals = fits.residual;
   const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(n / 2);
   std::nth_element(residuals.begin(), middle, residuals.end());
   fits.typical_residual = *middle;
-  if (fits.n_neighbors <= static_cast<int>(kMostForCurvature)) {
-    refine_at_edges(tree, points, fits, context);
-  }
+  if (curved) refine_at_edges(tree, points, gaps, fits, context);
   for (std::size_t i = 0; i < given.size(); ++i) {
     if (norm(given[i]) > 0) fits.normals[i] = normalized(given[i]);
   }

@@ -9,10 +9,15 @@
 #include "rholm/context.h"
 #include "rholm/vec3.h"
 #include "shape/points/point_tree.h"
+#include "shape/points/sampling_gaps.h"
 
 namespace rholm {
 
 inline constexpr int kGraphNeighbors = 10;  // chosen: Hoppe's graph holds together, and is small
+
+// Where noise asks for more than that, planes are as good as paraboloids and edges cannot be told
+// (scripts/constants, noise of 0.2 % of the diagonal: no gain, half the time).
+inline constexpr int kMostForCurvature = 50;
 
 // Everything is in the order of the tree; points are distinct.
 struct LocalFits {
@@ -28,19 +33,28 @@ struct LocalFits {
 // Weighted planes, then paraboloids, over the `n_neighbors` nearest points, or as many as the data
 // ask for if that is 0; where two smooth parts meet, planes through one of them (see
 // refine_at_edges). Keeps `given` normals that are not zero, if there are any.
-LocalFits fit_normals(const PointTree& tree, std::span<const Vec3> points,
+LocalFits fit_normals(const PointTree& tree, std::span<const Vec3> points, const SamplingGaps& gaps,
                       std::span<const Vec3> given, int n_neighbors, const Context& context);
+
+// Fits once more, to the neighbours on the same side of `sheet` only: unit vectors that point out
+// of what the points bound, which tell two close sheets apart. Where a fit has nothing to do with
+// its own the vector's direction is taken. The normals point out. Returns the median residual of
+// the fits, of their radius; 1 where they have nothing to do with the vectors.
+double refit_on_sheets(const PointTree& tree, std::span<const Vec3> points,
+                       const SamplingGaps& gaps, std::span<const Vec3> sheet, LocalFits& fits,
+                       const Context& context);
 
 // The number of neighbours that makes the error of normals least: the sum of a variance, from two
 // disjoint halves of the neighbours, and of a bias, from the change against smaller
 // neighbourhoods.
-int choose_neighbors(const PointTree& tree, std::span<const Vec3> points, const Context& context);
+int choose_neighbors(const PointTree& tree, std::span<const Vec3> points, const SamplingGaps& gaps,
+                     const Context& context);
 
 // Points near an edge have neighbours on both sides, and a fit across. They take the plane through
 // themselves and one side, if there is one: that of a neighbour's normal which most neighbours lie
 // in closely.
-void refine_at_edges(const PointTree& tree, std::span<const Vec3> points, LocalFits& fits,
-                     const Context& context);
+void refine_at_edges(const PointTree& tree, std::span<const Vec3> points, const SamplingGaps& gaps,
+                     LocalFits& fits, const Context& context);
 
 // The neighbours of a point, relative to it, in units of the distance of the last.
 struct Neighborhood {
@@ -49,7 +63,9 @@ struct Neighborhood {
   std::vector<double> weights;
   double radius = 0;
 
-  void gather(const PointTree& tree, std::span<const Vec3> all, std::size_t i, std::size_t k);
+  // Of the k * stride nearest one in `stride`, by distance.
+  void gather(const PointTree& tree, std::span<const Vec3> all, std::size_t i, std::size_t k,
+              std::size_t stride = 1);
 };
 
 }  // namespace rholm

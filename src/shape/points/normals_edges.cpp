@@ -72,8 +72,8 @@ Vec3 plane_of_one_side(const Neighborhood& near, const LocalFits& fits, double t
 
 }  // namespace
 
-void refine_at_edges(const PointTree& tree, std::span<const Vec3> points, LocalFits& fits,
-                     const Context& context) {
+void refine_at_edges(const PointTree& tree, std::span<const Vec3> points, const SamplingGaps& gaps,
+                     LocalFits& fits, const Context& context) {
   const double threshold = std::max(kEdgeResidual * fits.typical_residual, kLeastResidual);
   const double scale = fits.noisy ? 2 * fits.typical_residual : kClose;
   const auto k = static_cast<std::size_t>(kMoreNeighbors * fits.n_neighbors);
@@ -85,7 +85,7 @@ void refine_at_edges(const PointTree& tree, std::span<const Vec3> points, LocalF
                  for (std::size_t i = begin; i < end; ++i) {
                    refined[i] = fits.normals[i];
                    if (!(fits.residual[i] > threshold)) continue;
-                   near.gather(tree, points, i, k);
+                   near.gather(tree, points, i, k, gaps.stride(i));
                    const Vec3 n = plane_of_one_side(near, fits, threshold, scale, weights);
                    if (norm(n) > 0) refined[i] = n;
                  }

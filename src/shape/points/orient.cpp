@@ -1,22 +1,24 @@
-// Normals of points: directions, signs, and what is known of both (method 9).
+// Normals of points: directions, signs, and what is known of both (method 7.12).
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
-#include "base/parallel.h"
 #include "base/refuse.h"
-#include "rholm/error.h"
 #include "rholm/points.h"
-#include "shape/face.h"
-#include "shape/on_line.h"
 #include "shape/points/normals.h"
 #include "shape/points/orient_graph.h"
-#include "shape/points/orient_sides.h"
-#include "shape/topology/identical.h"
+#include "shape/points/orient_scene.h"
+#include "shape/points/orient_signs.h"
 
 namespace rholm {
 namespace {
+
+// Cosine of the angle between a normal and the line of sight below which the sign is that of
+// others: normals of exact points are off by less than these six degrees, of noisy ones most are.
+constexpr float kGlancing = 0.1f;
 
 void check(const PointCloud& cloud, const OrientOptions& options) {
   validate(cloud);
@@ -36,51 +38,7 @@ void check(const PointCloud& cloud, const OrientOptions& options) {
   }
 }
 
-[[noreturn]] void refuse_line(std::size_t n) {
-  refuse("all " + std::to_string(n) +
-         " points lie on one line, where there are no normals; give points of a surface");
-}
-
-// Of the extent: fits see points in single precision, ten roundings of which are no width.
-constexpr double kLine = 1e-6;
-
-// The distinct points in the order of a tree over them, moved and scaled to the size of 1.
-struct Scene {
-  UnitFrame frame;
-  std::vector<std::uint32_t> first;       // per input point: the one it coincides with
-  std::vector<std::uint32_t> place = {};  // per distinct point of the scene: its input point
-  std::vector<Vec3> points = {};
-  std::optional<PointTree> tree = {};
-};
-
-Scene make_scene(const PointCloud& cloud, const Context& context) {
-  Scene scene{.frame = unit_frame(bounds(cloud.points)), .first = first_identical(cloud.points)};
-  std::vector<std::uint32_t> distinct;
-  std::vector<Vec3> local;
-  for (std::uint32_t i = 0; i < scene.first.size(); ++i) {
-    if (scene.first[i] != i) continue;
-    distinct.push_back(i);
-    local.push_back(scene.frame.to_local(cloud.points[i]));
-  }
-  if (distinct.size() < 3) {
-    throw Error(ErrorCode::kInvalidInput,
-                std::to_string(cloud.points.size()) + " points at " +
-                    std::to_string(distinct.size()) +
-                    " different places have no plane; at least 3 places are needed");
-  }
-  // Told from the points at once; fits of millions of them would take a minute to find no plane.
-  if (lie_on_line(local, kLine)) refuse_line(cloud.points.size());
-  scene.tree.emplace(local, context);
-  scene.place.resize(distinct.size());
-  scene.points.resize(distinct.size());
-  for (std::size_t i = 0; i < distinct.size(); ++i) {
-    scene.place[i] = distinct[scene.tree->order()[i]];
-    scene.points[i] = local[scene.tree->order()[i]];
-  }
-  return scene;
-}
-
-std::vector<Vec3> given_directions(const PointCloud& cloud, const Scene& scene) {
+std::vector<Vec3> given_directions(const PointCloud& cloud, const OrientScene& scene) {
   std::vector<Vec3> given(scene.place.size());
   for (std::size_t i = 0; i < given.size(); ++i) {
     const Vec3 n = cloud.normals[scene.place[i]];
@@ -90,84 +48,122 @@ std::vector<Vec3> given_directions(const PointCloud& cloud, const Scene& scene) 
   return given;
 }
 
-// Signs by the line of sight; returns the confidence per point.
-std::vector<float> turn_by_sight(const Scene& scene, const OrientOptions& options,
-                                 std::vector<Vec3>& normals) {
-  const Vec3 from = scene.frame.to_local(options.center ? *options.center : *options.sensor);
-  std::vector<float> confidence(normals.size());
-  for (std::size_t i = 0; i < normals.size(); ++i) {
-    const Vec3 away = normalized(scene.points[i] - from);
-    const double cosine = dot(normals[i], options.center ? away : -away);
-    if (cosine < 0) normals[i] = -normals[i];
-    confidence[i] = static_cast<float>(std::abs(cosine));
+// Where each point of the scene has been seen from; empty if nothing is known of it.
+std::vector<Vec3> sensors_of(const PointCloud& cloud, const OrientScene& scene,
+                             const OrientOptions& options) {
+  const std::size_t n = scene.points.size();
+  if (options.center || options.sensor) {
+    return std::vector<Vec3>(
+        n, scene.frame.to_local(options.center ? *options.center : *options.sensor));
   }
-  return confidence;
+  const Attribute* axes[] = {find_attribute(cloud.attributes, "sensor_x"),
+                             find_attribute(cloud.attributes, "sensor_y"),
+                             find_attribute(cloud.attributes, "sensor_z")};
+  if (std::any_of(axes, axes + 3, [](const Attribute* a) { return a == nullptr; })) return {};
+  std::vector<Vec3> sensors(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t from = scene.place[i];
+    sensors[i] = {axes[0]->values[from], axes[1]->values[from], axes[2]->values[from]};
+    if (!is_finite(sensors[i])) return {};
+    sensors[i] = scene.frame.to_local(sensors[i]);
+  }
+  return sensors;
 }
 
-// Signs by the neighbours and the winding number; returns the confidence per point.
-std::vector<float> turn_by_graph(const Scene& scene, const LocalFits& fits,
-                                 std::vector<Vec3>& normals, OrientReport& report,
-                                 const Context& context) {
-  const OrientedParts parts = orient_along_graph(scene.points, fits, normals);
-  report_progress(context, "signs", 0.5);
-  // So many points share the disc of a fit.
-  std::vector<double> areas(normals.size());
-  for (std::size_t i = 0; i < areas.size(); ++i) {
-    const double radius = fits.radius[i];
-    areas[i] = std::numbers::pi * radius * radius / (fits.n_neighbors + 0.5);
+// Signs by the line of sight.
+OrientSigns turn_by_sight(const OrientScene& scene, const LocalFits& fits,
+                          std::span<const Vec3> sensors, bool from_inside) {
+  OrientSigns signs{.normals = fits.normals};
+  const std::size_t n = signs.normals.size();
+  signs.agreement.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec3 away = normalized(scene.points[i] - sensors[i]);
+    const double cosine = dot(signs.normals[i], from_inside ? away : -away);
+    if (cosine < 0) signs.normals[i] = -signs.normals[i];
+    signs.agreement[i] = static_cast<float>(std::abs(cosine));
   }
-  const std::vector<double> trust = turn_outwards(scene.points, areas, parts, normals, context);
-  report.components = parts.n_components;
-  std::vector<float> confidence = mean_agreement(scene.points, fits, normals);
-  for (std::size_t i = 0; i < confidence.size(); ++i) {
-    confidence[i] *= static_cast<float>(trust[parts.component[i]]);
+  return signs;
+}
+
+// What is seen at a glancing angle agrees with what is seen better around it.
+void turn_glancing(const OrientScene& scene, const LocalFits& fits, OrientSigns& signs) {
+  const std::vector<Vec3> seen = signs.normals;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    if (!(signs.agreement[i] < kGlancing)) continue;
+    double sum = 0;
+    for (std::size_t k = 0; k < kGraphNeighbors; ++k) {
+      const std::uint32_t j = fits.neighbors[i * kGraphNeighbors + k];
+      if (signs.agreement[j] < kGlancing) continue;
+      sum += agreement(scene.points[i], seen[i], scene.points[j], seen[j], 0);
+    }
+    if (sum < 0) signs.normals[i] = -seen[i];
   }
-  return confidence;
+}
+
+// The sign is right with the probability 1 / 2 + confidence / 2, or a larger one. Of 2.4 million
+// points of sixty inputs (scripts/scan-figures) with an agreement of 0.15, 0.25, 0.35, 0.45, 0.55,
+// 0.65 are wrong 0.034, 0.032, 0.009, 0.003, 0.001, 0.0008; this says 0.11, 0.04, 0.015, 0.006,
+// 0.002, 0.0008.
+double confidence_of(double agreement) { return 1 - std::exp(-10 * agreement); }
+
+void set_confidence(PointCloud& cloud, std::vector<double> values) {
+  std::erase_if(cloud.attributes, [](const Attribute& a) { return a.name == "confidence"; });
+  cloud.attributes.push_back({"confidence", ScalarType::kFloat32, std::move(values)});
 }
 
 // Writes the normals to the points of the input and counts what has become of them.
-void hand_back(const Scene& scene, const std::vector<Vec3>& normals,
-               const std::vector<float>& confidence, const OrientOptions& options,
+void hand_back(const OrientScene& scene, const OrientSigns& signs, const OrientOptions& options,
                PointCloud& cloud, OrientReport& report) {
   const std::vector<Vec3> old = std::move(cloud.normals);
-  std::vector<std::uint32_t> in_scene(cloud.points.size());
-  for (std::uint32_t i = 0; i < scene.place.size(); ++i) in_scene[scene.place[i]] = i;
-  cloud.normals.resize(cloud.points.size());
-  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    const std::uint32_t place = in_scene[scene.first[i]];
-    const Vec3& normal = normals[place];
+  const std::size_t n = cloud.points.size();
+  cloud.normals.resize(n);
+  std::vector<double> confidence(n);
+  std::size_t unsure = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::uint32_t place = scene.taken[i];
+    const Vec3& normal = signs.normals[place];
     cloud.normals[i] = normal;
-    report.duplicates += scene.first[i] != i;
     const bool had = !old.empty() && !(old[i] == Vec3{});
     report.computed += !had || !options.keep_directions;
     report.flipped += had && dot(old[i], normal) < 0;
     report.undetermined += normal == Vec3{};
-    report.mean_confidence += confidence[place];
-    report.unsure += confidence[place] < 0.5f;
+    report.strays += scene.stray[i];
+    confidence[i] = scene.stray[i] != 0 ? 0.0 : confidence_of(signs.agreement[place]);
+    report.mean_confidence += confidence[i] / static_cast<double>(n);
+    unsure += confidence[i] < 0.5;
   }
-  report.mean_confidence /= static_cast<double>(cloud.points.size());
-  report.unsure /= static_cast<double>(cloud.points.size());
+  report.unsure = static_cast<double>(unsure) / static_cast<double>(n);
+  report.duplicates = scene.duplicates;
+  if (options.confidence) set_confidence(cloud, std::move(confidence));
 }
 
 }  // namespace
 
 OrientReport orient(PointCloud& cloud, const OrientOptions& options, const Context& context) {
+  const bool leave_out_strays = !options.center && !options.sensor;
+  return orient_all(cloud, options, leave_out_strays, context);
+}
+
+OrientReport orient_all(PointCloud& cloud, const OrientOptions& options, bool leave_out_strays,
+                        const Context& context) {
   check(cloud, options);
   OrientReport report{.points = cloud.points.size()};
-  const Scene scene = make_scene(cloud, context);
+  const OrientScene scene = make_orient_scene(cloud, leave_out_strays, context);
   std::vector<Vec3> given;
   if (options.keep_directions && !cloud.normals.empty()) given = given_directions(cloud, scene);
-  LocalFits fits = fit_normals(*scene.tree, scene.points, given, options.neighbors, context);
-  report.neighbors = fits.n_neighbors;
+  LocalFits fits =
+      fit_normals(*scene.tree, scene.points, scene.gaps, given, options.neighbors, context);
   if (std::all_of(fits.normals.begin(), fits.normals.end(),
                   [](const Vec3& n) { return n == Vec3{}; })) {
     refuse_line(cloud.points.size());
   }
-  std::vector<Vec3> normals = std::move(fits.normals);
-  const std::vector<float> confidence = options.center || options.sensor
-                                            ? turn_by_sight(scene, options, normals)
-                                            : turn_by_graph(scene, fits, normals, report, context);
-  hand_back(scene, normals, confidence, options, cloud, report);
+  const std::vector<Vec3> sensors = sensors_of(cloud, scene, options);
+  OrientSigns signs = sensors.empty()
+                          ? find_signs(scene, given, fits, report, context)
+                          : turn_by_sight(scene, fits, sensors, options.center.has_value());
+  if (!sensors.empty() && !options.center && !options.sensor) turn_glancing(scene, fits, signs);
+  report.neighbors = fits.n_neighbors;
+  hand_back(scene, signs, options, cloud, report);
   return report;
 }
 

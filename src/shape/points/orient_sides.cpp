@@ -21,8 +21,13 @@ namespace {
 // points.
 constexpr std::size_t kLeastPart = 30;
 constexpr std::size_t kMostParts = 64;
-constexpr std::size_t kSamples = 1000;  // points of a part at which the winding number is asked
+constexpr std::size_t kSamples = 2000;  // points of a part at which the winding number is asked
 constexpr int kRounds = 3;
+constexpr double kDoubtful = 0.5;
+// Radii of a patch, whose field has no jump beyond the first.
+constexpr double kClear = 2;
+// Nearer, where thin sheets still are between: their field is seen, with the pattern of the points.
+constexpr double kNear = 1.5;
 // A part of which volume over area and size is less is open: 1/3 for a sphere, 0.05 for a closed
 // box that is fifteen times as wide as thick.
 constexpr double kOpen = 0.02;
@@ -57,12 +62,41 @@ struct Members {
   }
 };
 
+struct Sample {
+  double area = 0;
+  double behind = 0, before = 0;  // the winding number there
+
+  double trust() const { return std::clamp(1 - std::abs(1 - behind) - std::abs(before), 0.0, 1.0); }
+};
+
+// At some points, as many radii of a patch behind and before them.
+std::vector<Sample> ask_both_sides(const WindingTree& tree, std::span<const Vec3> points,
+                                   const Patches& patches, std::span<const Vec3> normals,
+                                   std::span<const std::uint32_t> chosen, double radii,
+                                   const Context& context) {
+  std::vector<Sample> samples(chosen.size());
+  std::vector<Vec3> x(2 * samples.size());
+  for (std::size_t s = 0; s < samples.size(); ++s) {
+    const std::uint32_t i = chosen[s];
+    const double step = radii * std::numbers::inv_sqrtpi * patches.spacing[i];
+    samples[s].area = patches.areas[i];
+    x[2 * s] = points[i] - step * normals[i];
+    x[2 * s + 1] = points[i] + step * normals[i];
+  }
+  const std::vector<double> w = tree.winding(x, context);
+  for (std::size_t s = 0; s < samples.size(); ++s) {
+    samples[s].behind = w[2 * s];
+    samples[s].before = w[2 * s + 1];
+  }
+  return samples;
+}
+
 class Sides {
  public:
-  Sides(std::span<const Vec3> points, std::span<const double> areas, const OrientedParts& parts,
+  Sides(std::span<const Vec3> points, const Patches& patches, const OrientedParts& parts,
         std::vector<Vec3>& normals, const Context& context)
       : points_(points),
-        areas_(areas),
+        patches_(patches),
         parts_(parts),
         normals_(normals),
         context_(context),
@@ -103,31 +137,29 @@ class Sides {
   }
 
   // 1 where the winding number is 1 behind and 0 before every point, 0 for a plane.
-  std::vector<double> trust() {
-    std::vector<double> result(parts_.n_components, 0.0);
+  SideTrust trust() {
+    SideTrust result{.of_component = std::vector<double>(parts_.n_components, 0.0)};
     const WindingTree tree(points_, area_normals({}));
+    std::size_t doubtful = 0, asked = 0;
     for (const std::uint32_t c : components_.largest()) {
       const std::vector<Sample> samples = sample(tree, components_.of(c));
       for (const Sample& s : samples) {
-        result[c] += std::max(0.0, 1 - std::abs(1 - s.behind) - std::abs(s.before));
+        result.of_component[c] += s.trust() / static_cast<double>(samples.size());
+        if (s.trust() < kDoubtful) ++doubtful;
       }
-      result[c] = std::min(1.0, result[c] / static_cast<double>(samples.size()));
+      asked += samples.size();
     }
+    result.doubtful = asked > 0 ? static_cast<double>(doubtful) / static_cast<double>(asked) : 1;
     return result;
   }
 
  private:
-  struct Sample {
-    double area = 0;
-    double behind = 0, before = 0;  // the winding number there
-  };
-
   Vec3 centroid(std::span<const std::uint32_t> part) const {
     Vec3 sum;
     double area = 0;
     for (const std::uint32_t i : part) {
-      sum += areas_[i] * points_[i];
-      area += areas_[i];
+      sum += patches_.areas[i] * points_[i];
+      area += patches_.areas[i];
     }
     return area > 0 ? sum / area : points_[part[0]];
   }
@@ -137,9 +169,9 @@ class Sides {
     double volume = 0, area = 0, moment = 0;
     for (const std::uint32_t i : part) {
       const Vec3 d = points_[i] - apex;
-      volume += areas_[i] * dot(normals_[i], d) / 3;
-      area += areas_[i];
-      moment += areas_[i] * dot(d, d);
+      volume += patches_.areas[i] * dot(normals_[i], d) / 3;
+      area += patches_.areas[i];
+      moment += patches_.areas[i] * dot(d, d);
     }
     const double size = std::sqrt(area * moment);
     return size > 0 ? volume / size : 0;
@@ -147,7 +179,7 @@ class Sides {
 
   Vec3 area_normal(std::span<const std::uint32_t> part) const {
     Vec3 sum;
-    for (const std::uint32_t i : part) sum += areas_[i] * normals_[i];
+    for (const std::uint32_t i : part) sum += patches_.areas[i] * normals_[i];
     return sum;
   }
 
@@ -163,29 +195,16 @@ class Sides {
   // Of all points but some.
   std::vector<Vec3> area_normals(std::span<const std::uint32_t> without) const {
     std::vector<Vec3> result(points_.size());
-    for (std::size_t i = 0; i < result.size(); ++i) result[i] = areas_[i] * normals_[i];
+    for (std::size_t i = 0; i < result.size(); ++i) result[i] = patches_.areas[i] * normals_[i];
     for (const std::uint32_t i : without) result[i] = {};
     return result;
   }
 
   std::vector<Sample> sample(const WindingTree& tree, std::span<const std::uint32_t> part) const {
-    const std::size_t n = std::min(part.size(), kSamples);
-    std::vector<Sample> samples(n);
-    std::vector<Vec3> x(2 * n);
-    for (std::size_t s = 0; s < n; ++s) {
-      const std::uint32_t i = part[s * part.size() / n];
-      // Twice the radius of the point's own patch, whose field has no jump closer to it.
-      const double step = 2 * std::sqrt(areas_[i] / std::numbers::pi);
-      samples[s].area = areas_[i];
-      x[2 * s] = points_[i] - step * normals_[i];
-      x[2 * s + 1] = points_[i] + step * normals_[i];
-    }
-    const std::vector<double> w = tree.winding(x, context_);
-    for (std::size_t s = 0; s < n; ++s) {
-      samples[s].behind = w[2 * s];
-      samples[s].before = w[2 * s + 1];
-    }
-    return samples;
+    std::vector<std::uint32_t> chosen(std::min(part.size(), kSamples));
+    for (std::size_t s = 0; s < chosen.size(); ++s)
+      chosen[s] = part[s * part.size() / chosen.size()];
+    return ask_both_sides(tree, points_, patches_, normals_, chosen, kClear, context_);
   }
 
   // `others` is the field of all but the piece.
@@ -205,7 +224,7 @@ class Sides {
   }
 
   std::span<const Vec3> points_;
-  std::span<const double> areas_;
+  const Patches& patches_;
   const OrientedParts& parts_;
   std::vector<Vec3>& normals_;
   const Context& context_;
@@ -215,13 +234,47 @@ class Sides {
 
 }  // namespace
 
-std::vector<double> turn_outwards(std::span<const Vec3> points, std::span<const double> areas,
-                                  const OrientedParts& parts, std::vector<Vec3>& normals,
-                                  const Context& context) {
-  Sides sides(points, areas, parts, normals, context);
+SideTrust turn_outwards(std::span<const Vec3> points, const Patches& patches,
+                        const OrientedParts& parts, std::vector<Vec3>& normals,
+                        const Context& context) {
+  Sides sides(points, patches, parts, normals, context);
   sides.enclose_volume();
   sides.agree_on_winding();
   return sides.trust();
+}
+
+double doubtful_share(std::span<const Vec3> points, const Patches& patches,
+                      std::span<const Vec3> normals, const Context& context) {
+  std::vector<Vec3> area_normals(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) area_normals[i] = patches.areas[i] * normals[i];
+  const WindingTree tree(points, area_normals);
+  const std::size_t n = std::min(points.size(), kSamples);
+  std::vector<std::uint32_t> chosen(n);
+  for (std::size_t s = 0; s < n; ++s) {
+    chosen[s] = static_cast<std::uint32_t>(s * points.size() / n);
+  }
+  std::size_t doubtful = 0;
+  for (const Sample& s : ask_both_sides(tree, points, patches, normals, chosen, kNear, context)) {
+    if (s.trust() < kDoubtful) ++doubtful;
+  }
+  return static_cast<double>(doubtful) / static_cast<double>(n);
+}
+
+std::vector<double> trust_in_sides(std::span<const Vec3> points, const Patches& patches,
+                                   std::span<const Vec3> normals, const Context& context) {
+  std::vector<Vec3> area_normals(points.size());
+  std::vector<std::uint32_t> all(points.size());
+  for (std::uint32_t i = 0; i < all.size(); ++i) {
+    area_normals[i] = patches.areas[i] * normals[i];
+    all[i] = i;
+  }
+  const WindingTree tree(points, area_normals);
+  std::vector<double> trust;
+  trust.reserve(all.size());
+  for (const Sample& s : ask_both_sides(tree, points, patches, normals, all, kNear, context)) {
+    trust.push_back(s.trust());
+  }
+  return trust;
 }
 
 }  // namespace rholm

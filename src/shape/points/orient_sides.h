@@ -10,12 +10,32 @@
 
 namespace rholm {
 
+// How nearly the winding number of all is 1 behind and 0 before the points, 0 ... 1.
+struct SideTrust {
+  std::vector<double> of_component;
+  double doubtful = 0;  // share of the points where it is less than a half
+};
+
+// The surface that each point stands for.
+struct Patches {
+  std::vector<double> areas;
+  // The side of a square patch of even points; of rows, the way across.
+  std::vector<double> spacing;
+};
+
 // Turns components, and pieces of them that were joined in doubt, as a whole: to enclose a
 // positive volume, and so that the winding number of all falls from 1 to 0 along the normals.
-// `areas` is the surface that each point stands for. Returns for every component how nearly it
-// does, 0 ... 1.
-std::vector<double> turn_outwards(std::span<const Vec3> points, std::span<const double> areas,
-                                  const OrientedParts& parts, std::vector<Vec3>& normals,
-                                  const Context& context);
+SideTrust turn_outwards(std::span<const Vec3> points, const Patches& patches,
+                        const OrientedParts& parts, std::vector<Vec3>& normals,
+                        const Context& context);
+
+// The same share for any normals, asked nearer to the points, where thin parts are seen too, and
+// the pattern of the points a little. To compare.
+double doubtful_share(std::span<const Vec3> points, const Patches& patches,
+                      std::span<const Vec3> normals, const Context& context);
+
+// The same trust at every point.
+std::vector<double> trust_in_sides(std::span<const Vec3> points, const Patches& patches,
+                                   std::span<const Vec3> normals, const Context& context);
 
 }  // namespace rholm

@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+
+#include "shape/points/symmetric3.h"
 
 namespace rholm {
 namespace {
-
-struct Symmetric3 {
-  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
-};
 
 Symmetric3 covariance(std::span<const Vec3> points, std::span<const double> weights) {
   double total = 0;
@@ -32,26 +29,6 @@ Symmetric3 covariance(std::span<const Vec3> points, std::span<const double> weig
     c.zz += wd.z * d.z;
   }
   return c;
-}
-
-struct Eigenvalues {
-  double least = 0, largest = 0;
-};
-
-// By the trigonometric solution of the cubic (Smith 1961). Errors are some 1e-8 of the largest
-// where the two smaller ones are nearly equal, and a few ulp elsewhere.
-Eigenvalues eigenvalues(const Symmetric3& m) {
-  const double mean = (m.xx + m.yy + m.zz) / 3;
-  const double x = m.xx - mean, y = m.yy - mean, z = m.zz - mean;
-  const double off = m.xy * m.xy + m.xz * m.xz + m.yz * m.yz;
-  const double p = std::sqrt((x * x + y * y + z * z + 2 * off) / 6);
-  const double determinant =
-      x * (y * z - m.yz * m.yz) - m.xy * (m.xy * z - m.yz * m.xz) + m.xz * (m.xy * m.yz - y * m.xz);
-  const double p3 = p * p * p;
-  if (!(p3 > 0)) return {mean, mean};
-  const double angle = std::acos(std::clamp(determinant / (2 * p3), -1.0, 1.0)) / 3;
-  return {mean + 2 * p * std::cos(angle + 2 * std::numbers::pi / 3),
-          mean + 2 * p * std::cos(angle)};
 }
 
 // The sum of the products of two eigenvalues each; unlike these exact to an ulp of the largest
@@ -108,15 +85,17 @@ PlaneFit fit_plane(std::span<const Vec3> points, std::span<const double> weights
   PlaneFit fit{.normal = eigenvector(m, values.least)};
   if (!(values.largest > 0)) return fit;
   fit.length = values.largest;
+  fit.height = std::max(values.least, 0.0);
   fit.width = std::max(sum_of_minors(m) / values.largest, 0.0);
   return fit;
 }
 
-Vec3 fit_paraboloid(std::span<const Vec3> points, std::span<const double> weights,
-                    const Vec3& normal) {
+ParaboloidFit fit_paraboloid(std::span<const Vec3> points, std::span<const double> weights,
+                             const Vec3& normal) {
   const Vec3 u = perpendicular(normal), v = cross(normal, u);
   std::array<std::array<double, kTerms>, kTerms> a{};
   std::array<double, kTerms> b{};
+  double squares = 0, total = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double x = dot(points[i], u), y = dot(points[i], v), z = dot(points[i], normal);
     const double terms[kTerms] = {1, x, y, x * x, x * y, y * y};
@@ -125,9 +104,13 @@ Vec3 fit_paraboloid(std::span<const Vec3> points, std::span<const double> weight
       for (int k = 0; k <= j; ++k) a[j][k] += wj * terms[k];
       b[j] += wj * z;
     }
+    squares += weights[i] * z * z;
+    total += weights[i];
   }
-  if (!solve(a, b)) return normal;
-  return normalized(normal - b[1] * u - b[2] * v);
+  std::array<double, kTerms> c = b;
+  if (!solve(a, c)) return {normal, std::sqrt(squares / total)};
+  for (int j = 0; j < kTerms; ++j) squares -= c[j] * b[j];
+  return {normalized(normal - c[1] * u - c[2] * v), std::sqrt(std::max(squares, 0.0) / total)};
 }
 
 Vec3 perpendicular(const Vec3& n) {

@@ -14,16 +14,22 @@ struct PlaneFit {
   // and how long the points are, squared.
   double width = 0;
   double length = 0;
+  double height = 0;  // the least eigenvalue: how thick
 };
 
 // The plane of least weighted squared distances, through the weighted mean. Coordinates of order 1;
 // the sum of the weights is positive.
 PlaneFit fit_plane(std::span<const Vec3> points, std::span<const double> weights);
 
-// The normal at the origin of the paraboloid over the plane across `normal` that fits best;
-// `normal` itself if the points do not determine one.
-Vec3 fit_paraboloid(std::span<const Vec3> points, std::span<const double> weights,
-                    const Vec3& normal);
+struct ParaboloidFit {
+  Vec3 normal;          // at the origin
+  double residual = 0;  // rms of the heights over it, weighted
+};
+
+// The paraboloid over the plane across `normal` that fits best; the plane through the origin if the
+// points do not determine one.
+ParaboloidFit fit_paraboloid(std::span<const Vec3> points, std::span<const double> weights,
+                             const Vec3& normal);
 
 // A unit vector perpendicular to the unit vector n.
 Vec3 perpendicular(const Vec3& n);

@@ -235,6 +235,41 @@ TEST(Reconstruct, outliers_are_left_out) {
   for (const Vec3& v : made.mesh.vertices) EXPECT_NEAR(norm(v), 1, 0.1);
 }
 
+TEST(Reconstruct, outliers_are_left_out_before_normals_are_found) {
+  const PointCloud cloud =
+      sample_surface(icosphere(5), {.points = 20000, .outliers = 0.1, .normals = false});
+  const Reconstruction made = reconstruct(cloud);
+  EXPECT_EQ(expect_closed_manifold(made.mesh).euler_characteristic, 2);
+  for (const Vec3& v : made.mesh.vertices) EXPECT_NEAR(norm(v), 1, 0.05);
+  // One far away changes nothing at all.
+  PointCloud one = sample_surface(icosphere(5), {.points = 5000, .normals = false});
+  const Mesh expected = reconstruct(one).mesh;
+  one.points.push_back({1e8, 0, 0});
+  const Reconstruction with = reconstruct(std::move(one));
+  EXPECT_EQ(with.report.outliers, 1U);
+  EXPECT_EQ(with.mesh.vertices, expected.vertices);
+}
+
+TEST(Reconstruct, points_in_rows_make_the_surface_of_even_ones) {
+  const Mesh ring = torus(2, 0.7, 400, 200);
+  for (const double ratio : {5.0, 20.0}) {
+    for (const bool normals : {true, false}) {
+      const PointCloud rows = sample_surface(ring, {.points = 20000,
+                                                    .pattern = SamplePattern::kRings,
+                                                    .pattern_ratio = ratio,
+                                                    .normals = normals});
+      const Reconstruction made = reconstruct(rows);
+      EXPECT_EQ(expect_closed_manifold(made.mesh).euler_characteristic, 0);
+      // A tenth of the square of the gap times the curvature: the best is some 0.01.
+      const double gap = std::sqrt(ratio * 4 * std::numbers::pi * std::numbers::pi * 1.4 / 20000);
+      for (const Vec3& v : made.mesh.vertices) {
+        const double off = std::hypot(std::hypot(v.x, v.y) - 2, v.z) - 0.7;
+        EXPECT_LT(std::abs(off), 0.1 * gap * gap / 0.7) << ratio << normals;
+      }
+    }
+  }
+}
+
 TEST(Reconstruct, points_that_say_nothing_change_nothing) {
   const PointCloud clean = sphere_points(2000);
   const Mesh expected = reconstruct(clean).mesh;

@@ -13,6 +13,7 @@
 #include "rholm/primitives.h"
 #include "shape/points/plane_fit.h"
 #include "support/random_data.h"
+#include "support/test_points.h"
 
 namespace rholm {
 namespace {
@@ -80,9 +81,11 @@ TEST(plane_fit, finds_planes_lines_and_paraboloids) {
   const PlaneFit plane = fit_plane(flat, weights);
   EXPECT_NEAR(std::abs(dot(plane.normal, normalized({-0.5, 0.25, 1}))), 1, 1e-14);
   EXPECT_LE(fit_plane(line, weights).width, 1e-14);
-  const Vec3 normal = fit_paraboloid(bowl, weights, {0, 0, 1});
+  const ParaboloidFit fit = fit_paraboloid(bowl, weights, {0, 0, 1});
+  const Vec3 normal = fit.normal;
   EXPECT_LE(norm(normal - normalized({-0.1, 0, 1})), 1e-13);
-  EXPECT_EQ(fit_paraboloid({bowl.data(), 4}, {weights.data(), 4}, {0, 0, 1}), (Vec3{0, 0, 1}));
+  EXPECT_EQ(fit_paraboloid({bowl.data(), 4}, {weights.data(), 4}, {0, 0, 1}).normal,
+            (Vec3{0, 0, 1}));
 }
 
 TEST(signed_sets, keep_signs_through_any_order_of_joins) {
@@ -178,6 +181,33 @@ TEST(orient, separate_spheres_point_outwards_and_one_inside_another_bounds_a_cav
   PointCloud cloud = without_normals(truth);
   EXPECT_EQ(orient(cloud).components, 3u);
   EXPECT_EQ(quality(cloud.normals, truth.normals).right, 1);
+}
+
+TEST(orient, a_shell_as_thin_as_its_points_are_apart_has_both_sides) {
+  // The graph of neighbours runs from one sheet to the other.
+  PointCloud truth = test::sphere_points(580, 1);
+  PointCloud inner = test::sphere_points(420, 2);
+  for (Vec3& p : inner.points) p *= 0.85;
+  for (Vec3& n : inner.normals) n = -n;
+  truth = test::joined(truth, inner);
+  PointCloud cloud = without_normals(truth);
+  orient(cloud);
+  const Quality q = quality(cloud.normals, truth.normals);
+  EXPECT_EQ(q.right, 1);
+  EXPECT_LT(q.angle, 1);  // fits to the points of one sheet
+}
+
+TEST(orient, points_in_rows_have_normals_of_the_surface) {
+  for (const SamplePattern pattern : {SamplePattern::kRings, SamplePattern::kSlices}) {
+    for (const double ratio : {5.0, 20.0}) {
+      const PointCloud truth = sample_surface(
+          torus(2, 0.7, 400, 200),
+          {.points = 20000, .pattern = pattern, .pattern_ratio = ratio, .pattern_axis = {0, 0, 1}});
+      PointCloud cloud = without_normals(truth);
+      orient(cloud);
+      EXPECT_GE(quality(cloud.normals, truth.normals).right, 0.999) << ratio;
+    }
+  }
 }
 
 TEST(orient, halves_of_a_sphere_with_a_gap_agree_by_the_winding_number) {

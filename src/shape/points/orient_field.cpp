@@ -1,0 +1,163 @@
+#include "shape/points/orient_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "base/cancel.h"
+#include "base/parallel.h"
+#include "shape/points/gauss_field.h"
+
+namespace rholm {
+namespace {
+
+// The first sample has at most so many points, a finer one at most four times as many; beyond the
+// most the field of a sample is asked at all points. Chosen: a second, and half a minute.
+constexpr std::size_t kFirst = 6000, kMost = 200000;
+constexpr double kFiner = 2;  // times as far apart in a coarser sample
+// Points nearer than this part of the spacing say nothing new: points of one row. Of 0, 0.3, 0.5
+// and 0.7 this has most signs right.
+constexpr double kThinned = 0.3;
+// Steps and widths of patches, in spacings, from the first to the last. Of twice as many steps
+// nothing is seen; from 4 spacings thin sheets are lost, to 0.3 the pattern of the points is seen.
+constexpr int kSteps = 40, kStepsFiner = 10;
+constexpr double kWidest = 2, kWidestFiner = 1, kNarrowest = 0.4;
+constexpr std::size_t kCircle = 8;  // neighbours in a circle of as many squares of the spacing
+
+double length2(std::span<const double> v) {
+  double sum = 0;
+  for (const double x : v) sum += x * x;
+  return sum;
+}
+
+// Points of one level with their area normals.
+class Sample {
+ public:
+  Sample(const std::vector<Vec3>& points, const Context& context)
+      : tree_(points, context), points_(points.size()), spacing_(points.size()) {
+    for (std::size_t i = 0; i < points.size(); ++i) points_[i] = points[tree_.order()[i]];
+    parallel_for(points.size(), 256, context, {}, [&](std::size_t begin, std::size_t end) {
+      std::vector<Neighbor> near;
+      for (std::size_t i = begin; i < end; ++i) {
+        tree_.nearest_to(i, kCircle + 1, near);
+        spacing_[i] = std::sqrt(std::numbers::pi * near.back().distance2 / kCircle);
+      }
+    });
+    std::vector<double> areas(points.size());
+    for (std::size_t i = 0; i < areas.size(); ++i) areas[i] = spacing_[i] * spacing_[i];
+    area_normals_.resize(points.size());
+    field_.emplace(tree_, points_, areas, context);
+  }
+  Sample(const Sample&) = delete;
+  Sample& operator=(const Sample&) = delete;
+
+  // Directions of a coarser sample.
+  void begin_with(const Sample& coarser, const Context& context) {
+    area_normals_ = coarser.fall_at(tree_, points_, spacing_, context);
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      area_normals_[i] = spacing_[i] * spacing_[i] * normalized(area_normals_[i]);
+    }
+  }
+
+  void improve(double from, double to, int steps, const Context& context) {
+    std::vector<double> widths(points_.size());
+    for (int k = 0; k < steps; ++k) {
+      const double width = from * std::pow(to / from, k / (steps - 1.0));
+      for (std::size_t i = 0; i < widths.size(); ++i) widths[i] = width * spacing_[i];
+      field_->set_widths(widths);
+      descend(context);
+      follow(context);
+    }
+  }
+
+  std::vector<Vec3> fall_at(const PointTree& tree, std::span<const Vec3> places,
+                            std::span<const double> widths, const Context& context) const {
+    return field_->fall_at(tree, places, widths, area_normals_, context);
+  }
+
+ private:
+  // A step of steepest descent of sum (w - 1/2)^2 over the points.
+  void descend(const Context& context) {
+    std::vector<double> rest = field_->winding(area_normals_, context);
+    for (double& r : rest) r = 0.5 - r;
+    const std::vector<Vec3> step = field_->adjoint(rest, context);
+    const std::vector<double> change = field_->winding(step, context);
+    double gain = 0;
+    for (std::size_t i = 0; i < rest.size(); ++i) gain += rest[i] * change[i];
+    const double size = length2(change);
+    if (!(size > 0)) return;
+    for (std::size_t i = 0; i < rest.size(); ++i) area_normals_[i] += gain / size * step[i];
+  }
+
+  // Every normal takes the direction of the gradient.
+  void follow(const Context& context) {
+    const std::vector<Vec3> fall = field_->fall(area_normals_, context);
+    for (std::size_t i = 0; i < fall.size(); ++i) {
+      if (norm(fall[i]) > 0) area_normals_[i] = norm(area_normals_[i]) * normalized(fall[i]);
+    }
+  }
+
+  PointTree tree_;
+  std::vector<Vec3> points_;  // in the order of the tree
+  std::vector<double> spacing_;
+  std::vector<Vec3> area_normals_;
+  std::optional<GaussField> field_;
+};
+
+std::vector<std::vector<std::uint32_t>> make_levels(const PointTree& tree,
+                                                    std::span<const Vec3> points,
+                                                    std::span<const double> spacing) {
+  std::vector<std::vector<std::uint32_t>> levels;
+  std::vector<double> reach(points.size());
+  for (double part = kThinned;; part *= kFiner) {
+    for (std::size_t i = 0; i < reach.size(); ++i) reach[i] = part * spacing[i];
+    std::vector<std::uint32_t> level = thin_out(tree, points, reach);
+    const std::size_t n = level.size();
+    if (n <= kMost) levels.push_back(std::move(level));
+    if (n <= kFirst) return levels;
+  }
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> thin_out(const PointTree& tree, std::span<const Vec3> points,
+                                    std::span<const double> reach) {
+  std::vector<std::uint8_t> gone(points.size(), 0);
+  std::vector<std::uint32_t> kept;
+  std::vector<Neighbor> near;
+  CancelPoll poll;
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    poll();
+    if (gone[i] != 0) continue;
+    kept.push_back(i);
+    tree.within(points[i], reach[i], near);
+    for (const Neighbor& other : near) gone[other.index] = 1;
+  }
+  return kept;
+}
+
+std::vector<Vec3> field_normals(const PointTree& tree, std::span<const Vec3> points,
+                                std::span<const double> spacing, double width,
+                                const Context& context) {
+  const std::vector<std::vector<std::uint32_t>> levels = make_levels(tree, points, spacing);
+  std::unique_ptr<Sample> last;
+  for (std::size_t level = levels.size(); level-- > 0;) {
+    const double done = static_cast<double>(level) / static_cast<double>(levels.size());
+    report_progress(context, "signs", 0.9 - 0.4 * done);
+    std::vector<Vec3> chosen;
+    for (const std::uint32_t i : levels[level]) chosen.push_back(points[i]);
+    auto sample = std::make_unique<Sample>(chosen, context);
+    if (last) sample->begin_with(*last, context);
+    sample->improve(last ? kWidestFiner : kWidest, kNarrowest, last ? kStepsFiner : kSteps,
+                    context);
+    last = std::move(sample);
+  }
+  std::vector<double> widths(spacing.begin(), spacing.end());
+  for (double& w : widths) w *= width;
+  return last->fall_at(tree, points, widths, context);
+}
+
+}  // namespace rholm

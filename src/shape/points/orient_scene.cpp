@@ -1,0 +1,106 @@
+#include "shape/points/orient_scene.h"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "base/refuse.h"
+#include "rholm/error.h"
+#include "shape/on_line.h"
+#include "shape/points/strays.h"
+#include "shape/topology/identical.h"
+
+namespace rholm {
+namespace {
+
+// Of the extent: fits see points in single precision, ten roundings of which are no width.
+constexpr double kLine = 1e-6;
+constexpr std::size_t kFewest = 3;  // points of a plane
+
+// Input points that are kept, moved to the scene and put in order.
+void put_in_order(const PointCloud& cloud, const std::vector<std::uint32_t>& kept,
+                  OrientScene& scene, const Context& context) {
+  std::vector<Vec3> local;
+  local.reserve(kept.size());
+  for (const std::uint32_t i : kept) local.push_back(scene.frame.to_local(cloud.points[i]));
+  // Told from the points at once; fits of millions of them would take a minute to find no plane.
+  if (lie_on_line(local, kLine)) refuse_line(cloud.points.size());
+  scene.tree.emplace(local, context);
+  scene.place.resize(kept.size());
+  scene.points.resize(kept.size());
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    scene.place[i] = kept[scene.tree->order()[i]];
+    scene.points[i] = local[scene.tree->order()[i]];
+  }
+  scene.gaps = find_gaps(*scene.tree, scene.points, context);
+}
+
+// The box of the points that are no strays.
+Bounds bounds_of_kept(const PointCloud& cloud, const std::vector<std::uint8_t>& stray) {
+  std::vector<Vec3> kept;
+  for (std::size_t i = 0; i < stray.size(); ++i) {
+    if (stray[i] == 0) kept.push_back(cloud.points[i]);
+  }
+  return bounds(kept);
+}
+
+void find_taken(const PointCloud& cloud, const std::vector<std::uint32_t>& first,
+                OrientScene& scene) {
+  scene.taken.resize(first.size());
+  for (std::uint32_t i = 0; i < scene.place.size(); ++i) scene.taken[scene.place[i]] = i;
+  std::vector<Neighbor> near;
+  for (std::uint32_t i = 0; i < first.size(); ++i) {
+    scene.duplicates += first[i] != i;
+    if (first[i] != i) {
+      scene.taken[i] = scene.taken[first[i]];
+    } else if (scene.stray[i] != 0) {
+      scene.tree->nearest(scene.frame.to_local(cloud.points[i]), 1, near);
+      scene.taken[i] = near[0].index;
+    }
+  }
+}
+
+}  // namespace
+
+void refuse_line(std::size_t n_points) {
+  refuse("all " + std::to_string(n_points) +
+         " points lie on one line, where there are no normals; give points of a surface");
+}
+
+OrientScene make_orient_scene(const PointCloud& cloud, bool leave_out_strays,
+                              const Context& context) {
+  const std::vector<std::uint32_t> first = first_identical(cloud.points);
+  OrientScene scene;
+  scene.stray.assign(first.size(), 0);
+  if (leave_out_strays) scene.stray = find_far_strays(cloud.points);
+  scene.frame = unit_frame(bounds_of_kept(cloud, scene.stray));
+  const auto kept = [&] {
+    std::vector<std::uint32_t> result;
+    for (std::uint32_t i = 0; i < first.size(); ++i) {
+      if (first[i] == i && scene.stray[i] == 0) result.push_back(i);
+    }
+    return result;
+  };
+  const std::vector<std::uint32_t> distinct = kept();
+  if (distinct.size() < kFewest) {
+    throw Error(ErrorCode::kInvalidInput,
+                std::to_string(cloud.points.size()) + " points at " +
+                    std::to_string(distinct.size()) +
+                    " different places have no plane; at least 3 places are needed");
+  }
+  put_in_order(cloud, distinct, scene, context);
+  for (int pass = 0; leave_out_strays && pass < kStrayPasses; ++pass) {
+    const auto flags = find_strays(*scene.tree, scene.points, scene.gaps, context);
+    const auto n = static_cast<std::size_t>(std::count(flags.begin(), flags.end(), 1));
+    if (n == 0 || flags.size() - n < kFewest) break;
+    for (std::size_t i = 0; i < flags.size(); ++i) scene.stray[scene.place[i]] |= flags[i];
+    put_in_order(cloud, kept(), scene, context);
+  }
+  // What lies at the place of a stray is one.
+  for (std::uint32_t i = 0; i < first.size(); ++i) scene.stray[i] = scene.stray[first[i]];
+  find_taken(cloud, first, scene);
+  return scene;
+}
+
+}  // namespace rholm

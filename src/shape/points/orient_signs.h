@@ -1,0 +1,31 @@
+// Signs of normals, and what is known of them (method 7.12). Layer: shape.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "rholm/context.h"
+#include "rholm/points.h"
+#include "rholm/vec3.h"
+#include "shape/points/normals.h"
+#include "shape/points/orient_scene.h"
+
+namespace rholm {
+
+// Normals, and how far what is known of each agrees with it, 0 ... 1; in the order of the scene.
+struct OrientSigns {
+  std::vector<Vec3> normals;
+  std::vector<float> agreement = {};
+};
+
+// By the graph of neighbours where the winding number agrees with it, else by the field of all
+// points. Directions that are not zero in `given` are kept; others may become those of fits to one
+// sheet. Counts components in the report, and the neighbours of fits.
+OrientSigns find_signs(const OrientScene& scene, std::span<const Vec3> given, LocalFits& fits,
+                       OrientReport& report, const Context& context);
+
+// orient(), with or without a search for strays.
+OrientReport orient_all(PointCloud& cloud, const OrientOptions& options, bool leave_out_strays,
+                        const Context& context);
+
+}  // namespace rholm

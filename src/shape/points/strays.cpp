@@ -1,0 +1,257 @@
+#include "shape/points/strays.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/cancel.h"
+#include "base/disjoint_sets.h"
+#include "base/parallel.h"
+#include "shape/points/plane_fit.h"
+
+namespace rholm {
+namespace {
+
+constexpr std::size_t kEighth = 8;
+constexpr std::size_t kLinks = 8;  // half of them of the point's own row
+// Two points are of one group when they are no farther apart than so many times the way to the
+// eighth neighbour of either: 2.4 times the spacing. Of even random points one in 10^8 is alone.
+constexpr double kReach = 1.5;
+// From a point to its neighbours the spacing of a surface grows by no more. Outliers among each
+// other have ways of their own; seen from the surface they are alone.
+constexpr float kGrows = 1.5f;
+constexpr int kSweeps = 40;
+constexpr std::size_t kLeastGroup = 16;  // fewer points have no surface of their own
+// Groups that fill a volume: the least extent of 16 neighbours over the largest, squared. Random
+// points of a volume have 0.3 in the mean, of a sheet less than 0.05, with as much noise as spacing
+// 0.2.
+constexpr std::size_t kAround = 16;
+constexpr double kVolume = 0.15;
+// Of a point alone: how far others are, in ways to their eighth neighbours; how far it is off the
+// plane of its neighbours, or these themselves, of their radius. What is sparser than its
+// surroundings and lies in their plane is no outlier.
+constexpr double kFar = 10;
+constexpr double kOff = 0.25;
+constexpr double kThick = 0.05;
+constexpr double kThinner =
+    1.5;  // the way to the eighth neighbour, times that of the largest group
+constexpr std::size_t kAsked = 200;
+
+// See find_far_strays.
+constexpr std::size_t kBeyond = 200, kFewestForBox = 32;
+constexpr double kFarOutside = 20;
+
+float median(std::vector<float> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+class Groups {
+ public:
+  Groups(const PointTree& tree, std::span<const Vec3> points, const SamplingGaps& gaps,
+         const Context& context)
+      : tree_(tree),
+        points_(points),
+        context_(context),
+        eighth_(points.size()),
+        group_(points.size()) {
+    find_links(gaps);
+  }
+
+  std::vector<std::uint8_t> strays() {
+    const std::size_t n = points_.size();
+    std::vector<std::uint8_t> flags(n, 0);
+    // Alone, or of a few, whatever lies around.
+    group_ = join(eighth_);
+    std::vector<std::uint32_t> size = sizes();
+    for (std::uint32_t i = 0; i < n; ++i) {
+      if (size[group_[i]] < kLeastGroup && (is_far(i) || is_off(i))) flags[i] = 1;
+    }
+    // Seen from the surface.
+    group_ = join(steady_ways());
+    size = sizes();
+    const auto largest =
+        static_cast<std::uint32_t>(std::max_element(size.begin(), size.end()) - size.begin());
+    const float own = median(ways(largest));
+    std::vector<std::uint8_t> gone(n, 0);
+    for (std::uint32_t g = 0; g < n; ++g) {
+      if (size[g] < kLeastGroup || g == largest) continue;
+      gone[g] = median(ways(g)) > kThinner * own && fills_volume(g) ? 1 : 0;
+    }
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const bool alone = size[group_[i]] < kLeastGroup && is_off(i);
+      if (alone || gone[group_[i]] != 0) flags[i] = 1;
+    }
+    return flags;
+  }
+
+ private:
+  void find_links(const SamplingGaps& gaps) {
+    links_.resize(points_.size());
+    parallel_for(points_.size(), 1024, context_, {.name = "outliers"},
+                 [&](std::size_t begin, std::size_t end) {
+                   std::vector<Neighbor> near;
+                   for (std::size_t i = begin; i < end; ++i) {
+                     const std::size_t stride = gaps.stride(i);
+                     tree_.nearest_to(i, stride * kLinks + 1, near);
+                     const std::size_t last = std::min(stride * kEighth, near.size() - 1);
+                     eighth_[i] = std::sqrt(near[last].distance2);
+                     links_[i].fill({0, static_cast<std::uint32_t>(i)});
+                     for (std::size_t j = 0; j < kLinks; ++j) {
+                       const std::size_t place = j < kLinks / 2 ? j + 1 : (j + 1) * stride;
+                       if (place < near.size()) links_[i][j] = near[place];
+                     }
+                   }
+                 });
+  }
+
+  // Groups of points whose links are within reach; each has the number of its first point.
+  std::vector<std::uint32_t> join(const std::vector<float>& ways) const {
+    DisjointSets sets(points_.size());
+    CancelPoll poll;
+    for (std::uint32_t i = 0; i < points_.size(); ++i) {
+      poll();
+      for (const Neighbor& other : links_[i]) {
+        const double reach = kReach * std::min(ways[i], ways[other.index]);
+        if (other.distance2 <= reach * reach) sets.unite(i, other.index);
+      }
+    }
+    std::vector<std::uint32_t> group(points_.size());
+    for (std::uint32_t i = 0; i < group.size(); ++i) group[i] = sets.find(i);
+    return group;
+  }
+
+  // The ways to the eighth neighbours, cut to what neighbours let them grow to.
+  std::vector<float> steady_ways() const {
+    std::vector<float> ways = eighth_;
+    CancelPoll poll;
+    bool changed = true;
+    for (int sweep = 0; changed && sweep < kSweeps; ++sweep) {
+      changed = false;
+      for (std::size_t i = 0; i < ways.size(); ++i) {
+        poll();
+        for (const Neighbor& other : links_[i]) {
+          const float most = kGrows * ways[other.index];
+          if (!(ways[i] > most)) continue;
+          ways[i] = most;
+          changed = true;
+        }
+      }
+    }
+    return ways;
+  }
+
+  // Whether the nearest point of another group is so far that its neighbours seem one place.
+  bool is_far(std::uint32_t i) const {
+    std::vector<Neighbor> near;
+    tree_.nearest_to(i, 2 * kLeastGroup, near);
+    for (const Neighbor& other : near) {
+      if (group_[other.index] == group_[i]) continue;
+      const double far = kFar * eighth_[other.index];
+      return other.distance2 > far * far;
+    }
+    return true;
+  }
+
+  // Whether a point, or its neighbours, have no plane in common.
+  bool is_off(std::uint32_t i) const {
+    std::vector<Neighbor> near;
+    tree_.nearest_to(i, kAround + 1, near);
+    const double radius = std::sqrt(near.back().distance2);
+    std::vector<Vec3> others;
+    Vec3 middle;
+    for (const Neighbor& other : near) {
+      if (other.index == i) continue;
+      others.push_back((points_[other.index] - points_[i]) / radius);
+      middle += others.back() / static_cast<double>(near.size() - 1);
+    }
+    const PlaneFit plane = fit_plane(others, std::vector<double>(others.size(), 1.0));
+    return plane.height > kThick * plane.length || std::abs(dot(middle, plane.normal)) > kOff;
+  }
+
+  std::vector<std::uint32_t> sizes() const {
+    std::vector<std::uint32_t> size(points_.size(), 0);
+    for (const std::uint32_t g : group_) ++size[g];
+    return size;
+  }
+
+  std::vector<std::uint32_t> some_of(std::uint32_t group) const {
+    std::vector<std::uint32_t> all;
+    for (std::uint32_t i = 0; i < group_.size(); ++i) {
+      if (group_[i] == group) all.push_back(i);
+    }
+    const std::size_t n = std::min(all.size(), kAsked);
+    for (std::size_t k = 0; k < n; ++k) all[k] = all[k * all.size() / n];
+    all.resize(n);
+    return all;
+  }
+
+  std::vector<float> ways(std::uint32_t group) const {
+    std::vector<float> result;
+    for (const std::uint32_t i : some_of(group)) result.push_back(eighth_[i]);
+    return result;
+  }
+
+  // Whether the neighbours of its points, within the group, have no plane.
+  bool fills_volume(std::uint32_t group) const {
+    std::vector<float> thickness;
+    std::vector<Neighbor> near;
+    for (const std::uint32_t i : some_of(group)) {
+      std::vector<Vec3> own;
+      tree_.nearest_to(i, 8 * kAround, near);
+      for (const Neighbor& other : near) {
+        if (group_[other.index] != group || own.size() == kAround) continue;
+        own.push_back((points_[other.index] - points_[i]) / std::sqrt(near.back().distance2));
+      }
+      if (own.size() < kAround / 2) continue;
+      const PlaneFit plane = fit_plane(own, std::vector<double>(own.size(), 1.0));
+      if (plane.length > 0) thickness.push_back(static_cast<float>(plane.height / plane.length));
+    }
+    return thickness.empty() || median(thickness) > kVolume;
+  }
+
+  const PointTree& tree_;
+  std::span<const Vec3> points_;
+  const Context& context_;
+  std::vector<std::array<Neighbor, kLinks>> links_;
+  std::vector<float> eighth_;  // the way to the eighth neighbour, between rows
+  std::vector<std::uint32_t> group_;
+};
+
+}  // namespace
+
+std::vector<std::uint8_t> find_far_strays(std::span<const Vec3> points) {
+  std::vector<std::uint8_t> flags(points.size(), 0);
+  Vec3 lower, upper;
+  std::vector<double> values;
+  for (double Vec3::*axis : {&Vec3::x, &Vec3::y, &Vec3::z}) {
+    values.clear();
+    for (const Vec3& p : points) {
+      if (is_finite(p)) values.push_back(p.*axis);
+    }
+    const std::size_t beyond = std::max<std::size_t>(1, values.size() / kBeyond);
+    if (values.size() < kFewestForBox) return flags;
+    const auto low = values.begin() + static_cast<std::ptrdiff_t>(beyond);
+    std::nth_element(values.begin(), low, values.end());
+    lower.*axis = *low;
+    const auto high = values.end() - static_cast<std::ptrdiff_t>(beyond) - 1;
+    std::nth_element(values.begin(), high, values.end());
+    upper.*axis = *high;
+  }
+  const Vec3 middle = 0.5 * lower + 0.5 * upper;
+  const double diagonal = norm(upper - middle) * 2;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool far = norm(points[i] - middle) > kFarOutside * diagonal;
+    flags[i] = is_finite(points[i]) && diagonal > 0 && far ? 1 : 0;
+  }
+  return flags;
+}
+
+std::vector<std::uint8_t> find_strays(const PointTree& tree, std::span<const Vec3> points,
+                                      const SamplingGaps& gaps, const Context& context) {
+  if (points.size() < kLeastGroup) return std::vector<std::uint8_t>(points.size(), 0);
+  return Groups(tree, points, gaps, context).strays();
+}
+
+}  // namespace rholm

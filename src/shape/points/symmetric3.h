@@ -1,0 +1,35 @@
+// Symmetric 3 x 3 matrices and their eigenvalues. Layer: shape.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace rholm {
+
+struct Symmetric3 {
+  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+};
+
+struct Eigenvalues {
+  double least = 0, middle = 0, largest = 0;
+};
+
+// By the trigonometric solution of the cubic (Smith 1961). Errors are some 1e-8 of the largest
+// where the two smaller ones are nearly equal, and a few ulp elsewhere.
+inline Eigenvalues eigenvalues(const Symmetric3& m) {
+  const double mean = (m.xx + m.yy + m.zz) / 3;
+  const double x = m.xx - mean, y = m.yy - mean, z = m.zz - mean;
+  const double off = m.xy * m.xy + m.xz * m.xz + m.yz * m.yz;
+  const double p = std::sqrt((x * x + y * y + z * z + 2 * off) / 6);
+  const double determinant =
+      x * (y * z - m.yz * m.yz) - m.xy * (m.xy * z - m.yz * m.xz) + m.xz * (m.xy * m.yz - y * m.xz);
+  const double p3 = p * p * p;
+  if (!(p3 > 0)) return {mean, mean, mean};
+  const double angle = std::acos(std::clamp(determinant / (2 * p3), -1.0, 1.0)) / 3;
+  const double least = mean + 2 * p * std::cos(angle + 2 * std::numbers::pi / 3);
+  const double largest = mean + 2 * p * std::cos(angle);
+  return {least, 3 * mean - least - largest, largest};
+}
+
+}  // namespace rholm

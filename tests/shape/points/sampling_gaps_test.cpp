@@ -1,0 +1,96 @@
+#include "shape/points/sampling_gaps.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "rholm/points.h"
+#include "rholm/primitives.h"
+
+namespace rholm {
+namespace {
+
+// Points in the order of a tree over them.
+struct Cloud {
+  explicit Cloud(const std::vector<Vec3>& given) : tree(given) {
+    for (const std::uint32_t i : tree.order()) points.push_back(given[i]);
+  }
+  PointTree tree;
+  std::vector<Vec3> points;
+};
+
+std::vector<Vec3> plane_grid(double along, double across, int n) {
+  std::vector<Vec3> points;
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j * across < n * along; ++j) points.push_back({i * along, j * across, 0});
+  }
+  return points;
+}
+
+TEST(sampling_gaps, of_a_grid_have_the_ratio_of_its_steps) {
+  for (const double ratio : {2.0, 5.0, 20.0}) {
+    const Cloud cloud(plane_grid(1, ratio, 200));
+    const SamplingGaps gaps = find_gaps(cloud.tree, cloud.points, {});
+    ASSERT_EQ(gaps.ratio.size(), cloud.points.size());
+    std::vector<float> sorted = gaps.ratio;
+    std::sort(sorted.begin(), sorted.end());
+    EXPECT_NEAR(sorted[sorted.size() / 2], ratio, 0.05 * ratio);
+    EXPECT_EQ(gaps.scaled(0, 10), static_cast<std::size_t>(10.0 * gaps.ratio[0] + 0.5));
+  }
+}
+
+TEST(sampling_gaps, are_none_of_even_or_random_points) {
+  const Cloud even(plane_grid(1, 1, 60));
+  EXPECT_TRUE(find_gaps(even.tree, even.points, {}).ratio.empty());
+  for (const double density_ratio : {1.0, 30.0}) {
+    const Cloud random(
+        sample_surface(torus(2, 0.7, 200, 100), {.points = 5000, .density_ratio = density_ratio})
+            .points);
+    const SamplingGaps gaps = find_gaps(random.tree, random.points, {});
+    EXPECT_TRUE(gaps.ratio.empty());
+    EXPECT_EQ(gaps.of(7), 1);
+    EXPECT_EQ(gaps.scaled(7, 24), 24u);
+  }
+}
+
+TEST(sampling_gaps, of_slices_and_rings_have_their_ratio_wherever_they_are) {
+  const Mesh ring = torus(2, 0.7, 400, 200);
+  for (const double ratio : {5.0, 20.0}) {
+    const Cloud cloud(
+        sample_surface(ring,
+                       {.points = 30000, .pattern = SamplePattern::kRings, .pattern_ratio = ratio})
+            .points);
+    const SamplingGaps gaps = find_gaps(cloud.tree, cloud.points, {});
+    ASSERT_EQ(gaps.ratio.size(), cloud.points.size());
+    for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+      // Rows are as far apart as the axis is.
+      const Vec3& p = cloud.points[i];
+      const double here = ratio * std::hypot(p.x, p.y) / 2;
+      EXPECT_GT(gaps.ratio[i], 0.6 * here);
+      EXPECT_LT(gaps.ratio[i], std::min(kMostGapRatio + 1, 1.7 * here));
+    }
+  }
+}
+
+TEST(sampling_gaps, are_the_same_for_any_number_of_threads) {
+  const Cloud cloud(plane_grid(1, 7, 150));
+  EXPECT_EQ(find_gaps(cloud.tree, cloud.points, {.threads = 1}).ratio,
+            find_gaps(cloud.tree, cloud.points, {.threads = 4}).ratio);
+}
+
+TEST(sampling_gaps, of_few_or_degenerate_points_are_finite) {
+  for (const std::size_t n : {1u, 2u, 3u, 5u, 30u}) {
+    std::vector<Vec3> line;
+    line.reserve(n);
+    for (std::size_t i = 0; i < n; ++i) line.push_back({static_cast<double>(i), 0, 0});
+    const Cloud cloud(line);
+    for (const double ratio : gap_ratios(cloud.tree, cloud.points, 100, {})) {
+      EXPECT_GE(ratio, 1);
+      EXPECT_LE(ratio, kMostGapRatio);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace rholm
