@@ -2083,18 +2083,20 @@ class ReconstructReport:
     @property
     def unseen_area(self) -> float:
         """
-        With `confidence`: share of the area without data nearer than three spacings.
+        Of the surface, if confidence is asked for: share of the area without data nearer than three spacings.
         """
 
     @property
     def thin_area(self) -> float:
         """
-        With `confidence`: share of the area thinner than one and a half spacings.
+        Of the surface, if confidence is asked for: share of the area thinner than one and a half spacings.
         """
 
     @property
     def unsure_area(self) -> float:
-        """With `confidence`: share of the area with a confidence below 1/2."""
+        """
+        Of the surface, if confidence is asked for: share of the area with a confidence below 1/2.
+        """
 
     @property
     def memory(self) -> int:

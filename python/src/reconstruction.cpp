@@ -55,11 +55,14 @@ void bind_reconstruction(nb::module_& m) {
       .field("faces", &ReconstructReport::faces, "Of the surface before it was simplified.")
       .field("simplify_error", &ReconstructReport::simplify_error, "By simplify().")
       .field("unseen_area", &ReconstructReport::unseen_area,
-             "With `confidence`: share of the area without data nearer than three spacings.")
+             "Of the surface, if confidence is asked for: share of the area without data nearer "
+             "than three spacings.")
       .field("thin_area", &ReconstructReport::thin_area,
-             "With `confidence`: share of the area thinner than one and a half spacings.")
+             "Of the surface, if confidence is asked for: share of the area thinner than one and a "
+             "half spacings.")
       .field("unsure_area", &ReconstructReport::unsure_area,
-             "With `confidence`: share of the area with a confidence below 1/2.")
+             "Of the surface, if confidence is asked for: share of the area with a confidence "
+             "below 1/2.")
       .field("memory", &ReconstructReport::memory, "Foreseen, bytes.")
       .field("times", &ReconstructReport::times, "Stages: (wall, cpu) in seconds.");
   m.def("reconstruct",

@@ -34,9 +34,9 @@ constexpr double kGrown = 1.15, kGrownNoisy = 1.05;
 constexpr double kNearBest = 1.1;
 // Normals count for so much more than by their residuals, which creases enlarge (method 7.11).
 constexpr double kNormalsFavoured = 1.6;
-// Those computed from the points know nothing more than these: on clean points (measured on twelve
-// bodies) distances fall by 5 % to a half from 1.6 to 0.2, and are the same with 0.1. With noise
-// they hold many points together: 0.2 is worse by a half.
+// Those computed from the points know nothing more than these: on clean points
+// (scripts/scan-figures) distances fall by 5 % to a half from 1.6 to 0.2, and are the same with
+// 0.1. With noise they hold many points together: 0.2 is worse by a half.
 constexpr double kComputedFavoured = 0.2;
 // Residuals of the smallest caps are noise from this part of their support on: no shape that caps
 // can show has as much. Below the other they are of no account (a fit of cap_cover.cpp is good).

@@ -18,8 +18,8 @@ constexpr std::size_t kMost = 384;
 constexpr std::size_t kAround = 24, kCounted = 12;
 constexpr std::size_t kSeeds = 64;
 constexpr std::size_t kGrain = 512;
-// Random points have ratios of 1.2 ... 1.5 in nine of ten places (measured on a dozen bodies, 1000
-// to 100 000 points), rows of twice their steps 2.
+// Random points have ratios of 1.2 ... 1.5 in nine of ten places (the bodies of
+// scripts/scan-figures, 1000 to 100 000 points), rows of twice their steps 2.
 constexpr double kEven = 1.8;
 constexpr double kShareInRows = 0.1;
 // A point at r hides one at q if r . q > r . r, that is within the ball between (Gabriel). Where
