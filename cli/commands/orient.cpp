@@ -23,6 +23,7 @@ struct Options {
   std::string center;
   std::string sensor;
   bool keep_directions = false;
+  bool keep_outliers = false;
   bool confidence = false;
   std::string output;
   std::string format;
@@ -37,6 +38,7 @@ OrientOptions library_options(const Options& o) {
   OrientOptions options;
   options.neighbors = o.neighbors.value_or(0);
   options.keep_directions = o.keep_directions;
+  options.keep_strays = o.keep_outliers;
   options.confidence = o.confidence;
   if (!o.center.empty()) options.center = parse_vector("--center", o.center);
   if (!o.sensor.empty()) options.sensor = parse_vector("--sensor", o.sensor);
@@ -92,9 +94,6 @@ std::string report_text(const OrientReport& report, bool by_sight, bool had_norm
   return text + line("unsure", fmt::format("{:.2f} % of the points", 100 * report.unsure));
 }
 
-// Share of unsure signs from which normals should not be trusted.
-constexpr double kTooMany = 0.2;
-
 int run(const Options& options, Session& session) {
   const OrientOptions wanted = library_options(options);
   const ShapeFormat format = points_output(options.output, options.format, options.json);
@@ -113,7 +112,7 @@ int run(const Options& options, Session& session) {
     session.report(fmt::format("{}: oriented\n", display_name(options.input)) +
                    report_text(report, wanted.center || wanted.sensor, had_normals));
   }
-  if (report.unsure > kTooMany) {
+  if (report.unsure > kTooUnsure) {
     throw Error(ErrorCode::kNotConverged,
                 fmt::format("the side of {:.3g} % of the normals, which are written, is unsure; "
                             "--center or --sensor decide it",
@@ -147,6 +146,9 @@ std::vector<Option> option_list(Options& o) {
           {.name = "keep-directions",
            .help = "believe the normals of the file up to their signs",
            .target = &o.keep_directions},
+          {.name = "keep-outliers",
+           .help = "do not look for points far from all others",
+           .target = &o.keep_outliers},
           {.name = "confidence",
            .help = "give each point its confidence, 0 ... 1, as an attribute",
            .target = &o.confidence},

@@ -16,6 +16,7 @@
 #include "cli/terminal/session.h"
 #include "rholm/compress.h"
 #include "rholm/error.h"
+#include "rholm/points.h"
 #include "rholm/reconstruct.h"
 #include "rholm/topology.h"
 
@@ -110,6 +111,7 @@ Json json_of(const Reconstruction& made, double diagonal, bool confidence) {
                {"faces", made.mesh.triangles.size()},
                {"full_faces", r.faces},
                {"simplify_error", r.simplify_error},
+               {"volume", r.volume},
                {"diagonal", diagonal},
                {"foreseen_memory", r.memory}};
   if (confidence) {
@@ -168,16 +170,7 @@ std::string report_text(const Reconstruction& made, double diagonal,
                                  counted(made.mesh.triangles.size(), "face")));
 }
 
-// Shares of unsure signs that are said, and from which the surface should not be trusted.
-constexpr double kSaid = 0.02, kTooMany = 0.2;
-
-double volume_of(const Mesh& mesh) {
-  double six = 0;
-  for (const auto& t : mesh.triangles) {
-    six += dot(mesh.vertices[t[0]], cross(mesh.vertices[t[1]], mesh.vertices[t[2]]));
-  }
-  return six / 6;
-}
+constexpr double kSaid = 0.02;  // share of unsure signs that is worth a warning
 
 // Says what makes the surface doubtful; throws NotConverged where it should not be trusted. The
 // output is written by then.
@@ -185,7 +178,7 @@ void judge(const Reconstruction& made, bool filled, Session& session) {
   const double unsure = made.report.unsure;
   const std::string side =
       fmt::format("the side of {:.3g} % of the normals is unsure", 100 * unsure);
-  if (unsure > kTooMany) {
+  if (unsure > kTooUnsure) {
     throw Error(
         ErrorCode::kNotConverged,
         side +
@@ -196,7 +189,7 @@ void judge(const Reconstruction& made, bool filled, Session& session) {
   if (unsure > kSaid) {
     session.warn(side + ": thin or sparse parts may be wrong; --confidence shows where");
   }
-  if (filled && volume_of(made.mesh) < 0) {
+  if (filled && made.report.volume < 0) {
     throw Error(ErrorCode::kNotConverged,
                 "the surface, which is written, encloses a negative volume: normals point inwards");
   }

@@ -49,6 +49,8 @@ struct PointCloud {
 
 // The attribute of that name, or nullptr.
 const Attribute* find_attribute(const std::vector<Attribute>& attributes, const std::string& name);
+// Puts one at the end, instead of any of its name.
+void set_attribute(std::vector<Attribute>& attributes, Attribute attribute);
 
 // Throws InvalidInput unless every coordinate is finite, every index is below the number of
 // vertices and every attribute has one value per vertex. An empty mesh is valid.

@@ -103,6 +103,8 @@ struct OrientOptions {
   // a centre, or a sensor, or none. With none, attributes sensor_x, sensor_y, sensor_z of the cloud
   // do, if there are all three, of finite values: the place that each point was measured from.
   std::optional<Vec3> sensor = {};
+  // Points far from all others are not looked for; with a centre or a sensor they never are.
+  bool keep_strays = false;
   bool confidence = false;  // the cloud gets an attribute `confidence`, instead of any of that name
 };
 
@@ -115,7 +117,7 @@ struct OrientReport {
   std::size_t computed = 0;    // normals whose direction is new
   std::size_t flipped = 0;     // normals that point to the other side now than they did
   // Points far from all others, outliers: they take the normal of the nearest one that is none,
-  // with a confidence of 0. None are looked for with a centre or a sensor.
+  // with a confidence of 0.
   std::size_t strays = 0;
   std::size_t undetermined = 0;  // points whose neighbours lie on a line: their normals are zero
   // Of a point, 0 ... 1: its sign is right with the probability (1 + confidence) / 2, or a larger
@@ -125,6 +127,9 @@ struct OrientReport {
   double mean_confidence = 0;
   double unsure = 0;  // share of the points with a confidence below 0.5
 };
+
+// Share of unsure points from which normals, and a surface made with them, should not be trusted.
+inline constexpr double kTooUnsure = 0.2;  // chosen: a fifth of the shape inside out is no shape
 
 // Gives points unit normals that point out of the solid they bound. Directions: planes and
 // paraboloids through the nearest points, between rows where points lie in rows, and beside sharp

@@ -63,6 +63,7 @@ struct ReconstructReport {
   std::size_t dropped_components = 0;  // parts of the surface that were too small
   std::size_t faces = 0;               // of the surface before it was simplified
   double simplify_error = 0;           // by simplify(), as Simplification::error
+  double volume = 0;  // signed, of the surface: negative if its normals point inwards
   // With the option `confidence`, shares of the surface's area: without data nearer than three
   // spacings, thinner than one and a half, and with a confidence below 1/2.
   double unseen_area = 0, thin_area = 0, unsure_area = 0;

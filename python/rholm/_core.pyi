@@ -511,6 +511,12 @@ class OrientOptions:
     def sensor(self, arg: Sequence[float] | numpy.typing.NDArray[numpy.float64] | None, /) -> None: ...
 
     @property
+    def keep_strays(self) -> bool: ...
+
+    @keep_strays.setter
+    def keep_strays(self, arg: bool | None, /) -> None: ...
+
+    @property
     def confidence(self) -> bool: ...
 
     @confidence.setter
@@ -2079,6 +2085,10 @@ class ReconstructReport:
     @property
     def simplify_error(self) -> float:
         """By simplify()."""
+
+    @property
+    def volume(self) -> float:
+        """Signed, of the surface: negative if its normals point inwards."""
 
     @property
     def unseen_area(self) -> float:

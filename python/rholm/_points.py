@@ -151,6 +151,7 @@ def orient(
     keep_directions: bool = False,
     center: npt.ArrayLike | None = None,
     sensor: npt.ArrayLike | None = None,
+    keep_outliers: bool = False,
     confidence: bool = False,
     threads: int = 0,
     progress: Progress = None,
@@ -171,6 +172,8 @@ def orient(
         The surface is seen from here from inside.
     sensor : array_like, (3,), optional
         It has been measured from here.
+    keep_outliers : bool
+        Points far from all others are not looked for; else they take the normal of the nearest.
     confidence : bool
         The cloud gets an attribute `confidence`, 0 ... 1, instead of any of that name.
     threads, progress
@@ -185,6 +188,7 @@ def orient(
         keep_directions=keep_directions,
         center=None if center is None else triple(center, "center"),
         sensor=None if sensor is None else triple(sensor, "sensor"),
+        keep_strays=keep_outliers,
         confidence=confidence,
     )
     with caller(threads, progress) as how:

@@ -53,6 +53,7 @@ void bind_points(nb::module_& m) {
       .field("keep_directions", &OrientOptions::keep_directions)
       .field("center", &OrientOptions::center)
       .field("sensor", &OrientOptions::sensor)
+      .field("keep_strays", &OrientOptions::keep_strays)
       .field("confidence", &OrientOptions::confidence);
   Record<OrientReport>(m, "OrientReport", "What orient() did, and how sure it is.")
       .field("points", &OrientReport::points, "Number of points given.")

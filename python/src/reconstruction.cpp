@@ -54,6 +54,8 @@ void bind_reconstruction(nb::module_& m) {
              "Parts of the surface that were too small.")
       .field("faces", &ReconstructReport::faces, "Of the surface before it was simplified.")
       .field("simplify_error", &ReconstructReport::simplify_error, "By simplify().")
+      .field("volume", &ReconstructReport::volume,
+             "Signed, of the surface: negative if its normals point inwards.")
       .field("unseen_area", &ReconstructReport::unseen_area,
              "Of the surface, if confidence is asked for: share of the area without data nearer "
              "than three spacings.")

@@ -26,7 +26,8 @@ ELSEWHERE = {
     "discard_unfinished_files": "",  # for signal handlers of programs: Python's raise exceptions
     "encode_file": "expand",  # of a path
     "encode_mapped": "expand",  # of a path
-    "find_attribute": "Mesh.attributes",  # a dict
+    "find_attribute": "Mesh.attributes",
+    "set_attribute": "Mesh.attributes",  # a dict
     "mesh_of": "Mesh",  # of arrays
     "view_of": "Mesh.vertices",  # an array over the mesh's memory
 }

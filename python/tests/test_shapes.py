@@ -119,6 +119,25 @@ def test_points_are_cleaned_and_oriented(ring, random):
     assert ((out.normals * out.points).sum(axis=1) > 0.9).all()
 
 
+def test_confidence_of_points_and_of_surfaces(ring):
+    points = rholm.sample_surface(ring, 4000).points
+    far = np.concatenate([points, [[1e6, 0, 0]]])
+    oriented = rholm.orient(far, confidence=True)
+    assert oriented.report.strays == 1
+    confidence = oriented.cloud.attributes["confidence"]
+    assert confidence[-1] == 0
+    assert confidence[:-1].min() > 0.9
+    assert rholm.orient(far, keep_outliers=True).report.strays == 0
+    whole = rholm.reconstruct(points, confidence=True)
+    part = rholm.reconstruct(points[points[:, 0] > -1], confidence=True)
+    assert whole.report.unseen_area == 0
+    assert part.report.unseen_area > 0.05
+    assert part.report.unsure_area >= part.report.unseen_area
+    assert 0 <= part.mesh.attributes["confidence"].min() < 0.1
+    assert whole.mesh.attributes["confidence"].min() > 0.9
+    assert np.isclose(whole.report.volume, rholm.enclosed_volume(whole.mesh))
+
+
 def test_surfaces_from_points_carry_attributes(ring):
     cloud = rholm.sample_surface(ring, 8000)
     height = cloud.points[:, 2]

@@ -39,6 +39,11 @@ const Attribute* find_attribute(const std::vector<Attribute>& attributes, const 
   return nullptr;
 }
 
+void set_attribute(std::vector<Attribute>& attributes, Attribute attribute) {
+  std::erase_if(attributes, [&](const Attribute& a) { return a.name == attribute.name; });
+  attributes.push_back(std::move(attribute));
+}
+
 MeshView view_of(const Mesh& mesh) {
   return {.vertices = reinterpret_cast<const std::byte*>(mesh.vertices.data()),
           .n_vertices = mesh.vertices.size(),

@@ -167,6 +167,15 @@ class Orient(CliTest):
             wrong += sum(float(a[c]) * float(b[c]) for c in ("nx", "ny", "nz")) < 0
         self.assertLessEqual(wrong, 5)
 
+    def test_a_stray_point_is_counted_unless_told(self):
+        self.write("s.xyz", "".join(" ".join(row[:3]) + "\n" for row in
+                                    ([str(x) for x in r] for r in rows(self.folder / "true.xyz")))
+                   + "1e6 0 0\n")
+        found = self.rholm("orient", "s.xyz", "--json", "-o", "o.xyz").json()
+        self.assertEqual(found["strays"], 1)
+        kept = self.rholm("orient", "s.xyz", "--keep-outliers", "--json", "-o", "o.xyz").json()
+        self.assertEqual(kept["strays"], 0)
+
     def test_unsure_signs_are_said_and_shown(self):
         self.write("plane.xyz", "".join(f"{i / 30} {j / 30} 0\n" for i in range(30)
                                         for j in range(30)))

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <vector>
 
 #include "rholm/mesh.h"
+#include "shape/points/point_tree.h"
 #include "support/random_data.h"
 
 namespace rholm::test {
@@ -24,6 +26,28 @@ inline double random_normal(std::uint64_t seed, std::uint64_t counter) {
   return std::sqrt(-2 * std::log(u)) *
          std::cos(random_in(0, 2 * std::numbers::pi, seed, 2 * counter + 1));
 }
+
+// Points and normals in the order of a tree over them.
+struct OrderedCloud {
+  explicit OrderedCloud(const PointCloud& cloud) : tree(cloud.points) {
+    for (const std::uint32_t i : tree.order()) {
+      points.push_back(cloud.points[i]);
+      if (!cloud.normals.empty()) normals.push_back(cloud.normals[i]);
+    }
+  }
+  explicit OrderedCloud(const std::vector<Vec3>& given)
+      : OrderedCloud(PointCloud{.points = given, .normals = {}, .attributes = {}}) {}
+
+  // Flags of that order, in the order of what was given.
+  std::vector<std::uint8_t> as_given(const std::vector<std::uint8_t>& flags) const {
+    std::vector<std::uint8_t> result(flags.size());
+    for (std::size_t i = 0; i < flags.size(); ++i) result[tree.order()[i]] = flags[i];
+    return result;
+  }
+
+  PointTree tree;
+  std::vector<Vec3> points, normals;
+};
 
 // Both clouds in one; attributes are left out.
 inline PointCloud joined(PointCloud a, const PointCloud& b) {

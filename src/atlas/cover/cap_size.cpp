@@ -149,7 +149,6 @@ CapSizeTrial try_cap_size(const OrderedPoints& points, std::size_t neighbours, i
     mean.slope_error += trials[j].slope_error / static_cast<double>(counted);
   }
   for (const Trial& t : trials) {
-    if (t.slope_error >= 1) mean.disagreeing += 1 / static_cast<double>(n_seeds);
     rms.push_back(t.rms), level.push_back(t.level_rms);
     slope.push_back(t.slope_rms), support.push_back(t.support);
   }
@@ -181,7 +180,6 @@ CapSize choose_cap_size(const OrderedPoints& points, int degree, const Context& 
     chosen = try_cap_size(points, k, degree, weight, kSeedsNoisy, context);
   }
   best.neighbours = chosen.neighbours;
-  best.disagreeing = chosen.disagreeing;
   const double favoured = points.computed_normals && !noisy ? kComputedFavoured : kNormalsFavoured;
   if (chosen.slope_rms > 0) {
     best.gradient_weight = std::clamp(favoured * chosen.level_rms / chosen.slope_rms, 0.01, 10.0);

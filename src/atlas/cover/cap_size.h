@@ -16,7 +16,6 @@ struct CapSize {
   double noise = 0;         // standard deviation of the points along the normals of the caps
   double normal_noise = 0;  // of the normals against the caps, radians (small angles)
   double gradient_weight = 0.3;
-  double disagreeing = 0;  // share of the seeds whose normals have nothing to do with the surface
 };
 
 CapSize choose_cap_size(const OrderedPoints& points, int degree, const Context& context);
@@ -30,11 +29,10 @@ double least_of_parabola(std::span<const double> x, std::span<const double> y);
 struct CapSizeTrial {
   std::size_t neighbours = 0;
   double slope_error = 0;
-  double rms = 0;          // median of the residuals, in lengths
-  double level_rms = 0;    // the same over R_0
-  double slope_rms = 0;    // on the opened sphere
-  double support = 0;      // median
-  double disagreeing = 0;  // share of seeds with a slope error above 45 degrees
+  double rms = 0;        // median of the residuals, in lengths
+  double level_rms = 0;  // the same over R_0
+  double slope_rms = 0;  // on the opened sphere
+  double support = 0;    // median
 };
 CapSizeTrial try_cap_size(const OrderedPoints& points, std::size_t neighbours, int degree,
                           double gradient_weight, std::size_t n_seeds, const Context& context);

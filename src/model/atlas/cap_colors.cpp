@@ -94,13 +94,12 @@ void set_colors(std::vector<Attribute>& attributes, const std::vector<std::uint3
                 const ColorOf& color_of) {
   const std::array<const char*, 3> names = {"red", "green", "blue"};
   for (std::size_t channel = 0; channel < names.size(); ++channel) {
-    std::erase_if(attributes, [&](const Attribute& a) { return a.name == names[channel]; });
     Attribute color{names[channel], ScalarType::kUint8, {}};
     color.values.reserve(caps.size());
     for (const std::uint32_t cap : caps) {
       color.values.push_back((cap == kNoCap ? kGrey : color_of(cap))[channel]);
     }
-    attributes.push_back(std::move(color));
+    set_attribute(attributes, std::move(color));
   }
 }
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/refuse.h"
-#include "shape/points/face_inwards.h"
+#include "shape/points/side_balance.h"
 
 namespace rholm {
 

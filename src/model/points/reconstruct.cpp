@@ -33,6 +33,9 @@ constexpr double kSparseShare = 0.02;
 constexpr double kStepOfError = 2;
 // Share of the points far from all others that makes outliers near the surface likely.
 constexpr double kSuspicious = 1e-3;
+// The same of wrong normals of some of the points; and how many more there may be, by chance, and
+// where they are so many that those around are not of one mind.
+constexpr double kSuspiciousNormals = 0.01, kMoreWrong = 2;
 // Standard deviations of the noise within which caps are averaged: one that is off by as much must
 // not count alone.
 constexpr double kBandOfNoise = 3;
@@ -75,11 +78,14 @@ Cover fit_caps(WorkingPoints& points, const ReconstructOptions& options, CapSize
   };
   measure();
   const auto fit = [&] { return cover(points.ordered(), cover_options(options, size), context); };
-  // Where none is far from the surface none is near it either: what no cap fits is an edge. The box
-  // of random outliers has several times as many far ones.
-  const std::size_t strays = report.outliers;
-  if (static_cast<double>(strays) <= kSuspicious * static_cast<double>(points.size())) return fit();
-  std::size_t found = points.remove_outliers(size.noise, strays, {}, context);
+  // Where none is far from the surface, and no normals are wrong, none is near it either: what no
+  // cap fits is an edge. The box of random outliers has several times as many far ones.
+  const auto n = static_cast<double>(points.size());
+  const auto strays = static_cast<double>(report.outliers);
+  const double wrong = options.remove_outliers ? n * points.wrong_normals(context) : 0;
+  if (strays <= kSuspicious * n && wrong <= kSuspiciousNormals * n) return fit();
+  const auto most = static_cast<std::size_t>(strays + kMoreWrong * wrong);
+  std::size_t found = points.remove_outliers(size.noise, most, {}, context);
   Cover caps;
   if (found == 0) {
     caps = fit();
@@ -189,6 +195,7 @@ Reconstruction reconstruct(PointCloud cloud, const ReconstructOptions& options,
   report.dropped_components = surface.dropped_components;
   report.faces = surface.faces, report.simplify_error = surface.simplify_error;
   report.memory = surface.memory;
+  report.volume = enclosed_volume(result.mesh);
   timed(times, "attributes", [&] {
     points.carry_attributes(result.mesh, context);
     if (options.confidence) add_confidence(points.ordered(), result.mesh, report, context);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
@@ -12,17 +11,14 @@
 #include "rholm/points.h"
 #include "rholm/topology.h"
 #include "shape/on_line.h"
-#include "shape/points/face_inwards.h"
-#include "shape/points/orient_signs.h"
 #include "shape/points/outliers.h"
+#include "shape/points/side_balance.h"
 #include "shape/points/strays.h"
 
 namespace rholm {
 namespace {
 
 constexpr std::size_t kFewestPoints = 16;  // as many as a cap has coefficients
-// The circle around a point that holds its 8 nearest has 8 squares of the spacing.
-constexpr std::size_t kCircle = 8;
 constexpr std::size_t kSpacingSeeds = 2000;
 // Of even random points the tenth lies at 0.8 of the median; a finer part of uneven ones below.
 constexpr double kTenthOfEven = 0.8;
@@ -118,15 +114,14 @@ WorkingPoints::WorkingPoints(PointCloud cloud, const ReconstructOptions& options
   order_points(context);
   if (options.remove_outliers) report.outliers += remove_strays(context);
   if (options.confidence) {
-    std::erase_if(cloud_.attributes, [](const Attribute& a) { return a.name == "confidence"; });
-    if (directed) {
-      cloud_.attributes.push_back(
-          {"confidence", ScalarType::kFloat32, std::vector<double>(cloud_.points.size(), 1.0)});
-    }
+    // Of normals that are given nothing is known; orient() says what it knows of its own.
+    const std::vector<double> sure(cloud_.points.size(), 1.0);
+    set_attribute(cloud_.attributes, {"confidence", ScalarType::kFloat32, sure});
   }
   if (!directed) {
     // Strays are gone, if they shall.
-    report.unsure = orient_all(cloud_, {.confidence = options.confidence}, false, context).unsure;
+    const OrientOptions wanted{.keep_strays = true, .confidence = options.confidence};
+    report.unsure = orient(cloud_, wanted, context).unsure;
     report.computed_normals = computed_ = true;
     const std::size_t before = size();
     drop_zero_normals(cloud_);
@@ -186,7 +181,7 @@ Spacing WorkingPoints::spacing(const Context& context) const {
     for (std::size_t j = begin; j < end; ++j) {
       const std::size_t i = j * n / seeds;
       tree_->nearest_to(i, gaps_.scaled(i, kCircle) + 1, near);
-      all[j] = std::sqrt(std::numbers::pi * near.back().distance2 / kCircle);
+      all[j] = spacing_of_circle(near.back().distance2);
     }
   });
   std::sort(all.begin(), all.end());
@@ -209,6 +204,10 @@ bool WorkingPoints::remove(const std::vector<std::uint8_t>& gone, const Context&
   if (!keep_unflagged(gone, context)) return false;
   order_normals(context);
   return true;
+}
+
+double WorkingPoints::wrong_normals(const Context& context) const {
+  return computed_ ? 0 : share_of_wrong_normals(*tree_, normals_, context);
 }
 
 std::size_t WorkingPoints::remove_outliers(double noise, std::size_t most,

@@ -33,6 +33,9 @@ class WorkingPoints {
   double diagonal() const { return diagonal_; }
   Spacing spacing(const Context& context) const;
 
+  // The share of the points whose given normals contradict those around; 0 for computed ones.
+  double wrong_normals(const Context& context) const;
+
   // Of points near the surface, by their normals; returns how many were removed. Where more than
   // `most` look like outliers they are features that the points hardly show: then only those that
   // no cap fits, the suspects, can be.

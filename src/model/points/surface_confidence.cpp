@@ -2,20 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "base/parallel.h"
-#include "shape/face.h"
-
 namespace rholm {
 namespace {
 
-// In spacings: data reach so far beyond their points, and from the other on nothing is known; a
-// sheet is apart from what is behind it when that is farther than the third (the issue of a surface
-// that is thinner than its points are apart, which any blend of neighbours closes).
-constexpr double kReach = 1.5, kNothing = 4, kApart = 3;
-constexpr std::size_t kCircle = 8;   // neighbours in a circle of as many squares of the spacing
+// In spacings, chosen: data reach so far beyond their points, and from the other on nothing is
+// known; a sheet is apart from what is behind it when that is farther than the third.
+constexpr double kReach = 2, kNothing = 4, kApart = 3;
 constexpr std::size_t kBehind = 32;  // of which opposite ones are looked for: a disc of 3 spacings
 constexpr double kOpposite = -0.5;   // cosine of normals
 constexpr double kHalf = 0.5;        // confidence below which area is counted
@@ -32,7 +27,7 @@ std::vector<Around> look_around(const OrderedPoints& all, const Context& context
     for (std::size_t i = begin; i < end; ++i) {
       all.tree.nearest_to(i, all.scaled(i, kBehind) + 1, near);
       const std::size_t eighth = std::min(all.scaled(i, kCircle), near.size() - 1);
-      const double spacing = std::sqrt(std::numbers::pi * near[eighth].distance2 / kCircle);
+      const double spacing = spacing_of_circle(near[eighth].distance2);
       double gap = kApart * spacing;
       for (const Neighbor& other : near) {
         if (dot(all.normals[other.index], all.normals[i]) > kOpposite) continue;

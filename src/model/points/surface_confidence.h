@@ -9,7 +9,7 @@
 namespace rholm {
 
 // Multiplies the attribute `confidence` of the mesh's vertices, which has what is known of the
-// signs of normals, by what the points around say: 1 up to one and a half spacings from the nearest
+// signs of normals, by what the points around say: 1 up to two spacings from the nearest
 // one, 0 from four on; and by the distance of an opposite sheet of points over three spacings where
 // that is less. Writes the shares of the area to the report.
 void add_confidence(const OrderedPoints& all, Mesh& mesh, ReconstructReport& report,

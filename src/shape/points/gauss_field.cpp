@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "base/parallel.h"
@@ -12,6 +11,9 @@ namespace {
 
 constexpr float kOpening = 2;
 constexpr std::size_t kGrain = 16;  // leaves of some 16 points
+// Squared: patches are wider than single precision tells places apart, and cubes of widths stay
+// within it.
+constexpr float kLeastWidth2 = 1e-12f;
 constexpr double kFourPi = 4 * std::numbers::pi;
 
 float distance(const std::array<float, 3>& a, const std::array<float, 3>& b) {
@@ -22,6 +24,8 @@ float distance(const std::array<float, 3>& a, const std::array<float, 3>& b) {
 std::array<float, 3> single(const Vec3& p) {
   return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
 }
+
+float squared(double width) { return std::max(static_cast<float>(width * width), kLeastWidth2); }
 
 }  // namespace
 
@@ -57,7 +61,7 @@ struct GaussField::List {
 
 GaussField::GaussField(const PointTree& tree, std::span<const Vec3> points,
                        std::span<const double> areas, const Context& context)
-    : tree_(tree), areas_(areas.begin(), areas.end()), width2_(points.size(), 0.0f) {
+    : tree_(tree), areas_(areas.begin(), areas.end()), width2_(points.size(), kLeastWidth2) {
   points_.resize(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) points_[i] = single(points[i]);
   // The tree is complete: sets of 1, 2, 4, ... leaves.
@@ -96,8 +100,7 @@ GaussField::GaussField(const PointTree& tree, std::span<const Vec3> points,
 
 void GaussField::set_widths(std::span<const double> widths) {
   for (std::size_t i = 0; i < width2_.size(); ++i) {
-    const auto w = static_cast<float>(widths[i]);
-    width2_[i] = std::max(w * w, std::numeric_limits<float>::min());
+    width2_[i] = squared(widths[i]);
   }
 }
 
@@ -136,7 +139,7 @@ void GaussField::gather(const std::array<float, 3>& middle, float radius,
     list.open.pop_back(), list.level.pop_back();
     const std::size_t node = level_begin_[level] + j;
     if (distance(nodes_[node].middle, middle) - radius > kOpening * nodes_[node].radius) {
-      list.add(nodes_[node].middle, strengths.nodes[node], 0);
+      list.add(nodes_[node].middle, strengths.nodes[node], kLeastWidth2);
     } else if (level == 0) {
       for (std::size_t i = tree_.leaf_begin(j); i < tree_.leaf_begin(j + 1); ++i) {
         list.add(points_[i], strengths.points[i], width2_[i]);
@@ -223,7 +226,7 @@ std::vector<Vec3> GaussField::fall_at(const PointTree& tree, std::span<const Vec
   for_places(tree, local, strengths(area_normals), context,
              [&](std::size_t i, const float* at, const GaussSources& sources) {
                float sum[3];
-               gauss_fall(sources, at, static_cast<float>(widths[i] * widths[i]), sum);
+               gauss_fall(sources, at, squared(widths[i]), sum);
                result[i] = Vec3{sum[0], sum[1], sum[2]} / kFourPi;
              });
   return result;

@@ -3,10 +3,10 @@
 //
 // Points p_j with area normals a_j have at x the winding number
 //   w(x) = 1/(4 pi) sum_j a_j . (p_j - x) / d^3,  d = max(|p_j - x|, s),
-// s the width of a patch. As WindingTree, but made for many passes over the points themselves:
-// which sets of points are seen as one from where is decided once, and sums are in single
-// precision. A set seen from more than `opening` times its radius is replaced by the sum of its
-// normals at its middle: the error is a few hundredths of what it gives.
+// s the width of a patch. WindingTree has w more exactly, at any places; this has the
+// adjoint and the gradient too, for many passes over the points themselves: in single precision,
+// places of a leaf together, and a set seen from more than twice its radius is replaced by the sum
+// of its normals at its middle. The error is a few hundredths.
 #pragma once
 
 #include <array>

@@ -26,6 +26,17 @@ HWY_INLINE Offset OffsetOf(D d, const GaussSources& s, std::size_t i, const V (&
   return r;
 }
 
+// Three sums at once.
+struct Sum3 {
+  V x, y, z;
+  explicit Sum3(D d) : x(hn::Zero(d)), y(hn::Zero(d)), z(hn::Zero(d)) {}
+  HWY_INLINE void Store(D d, float out[3]) const {
+    out[0] = hn::GetLane(hn::SumOfLanes(d, x));
+    out[1] = hn::GetLane(hn::SumOfLanes(d, y));
+    out[2] = hn::GetLane(hn::SumOfLanes(d, z));
+  }
+};
+
 HWY_INLINE V Product(D d, const GaussSources& s, std::size_t i, const Offset& r) {
   return hn::MulAdd(
       r.x, hn::LoadU(d, s.a[0] + i),
@@ -52,23 +63,22 @@ void Adjoint(const GaussSources& s, const float place[3], float width2, float ou
   const D d;
   const V at[3] = {hn::Set(d, place[0]), hn::Set(d, place[1]), hn::Set(d, place[2])};
   const V least = hn::Set(d, width2);
-  V x = hn::Zero(d), y = hn::Zero(d), z = hn::Zero(d);
+  Sum3 sum(d);
   for (std::size_t i = 0; i < s.n; i += hn::Lanes(d)) {
     const Offset r = OffsetOf(d, s, i, at);
     const V factor = hn::Mul(hn::LoadU(d, s.a[0] + i), InverseCube(d, hn::Max(r.square, least)));
-    x = hn::MulAdd(factor, r.x, x);
-    y = hn::MulAdd(factor, r.y, y);
-    z = hn::MulAdd(factor, r.z, z);
+    sum.x = hn::MulAdd(factor, r.x, sum.x);
+    sum.y = hn::MulAdd(factor, r.y, sum.y);
+    sum.z = hn::MulAdd(factor, r.z, sum.z);
   }
-  out[0] = hn::GetLane(hn::SumOfLanes(d, x)), out[1] = hn::GetLane(hn::SumOfLanes(d, y)),
-  out[2] = hn::GetLane(hn::SumOfLanes(d, z));
+  sum.Store(d, out);
 }
 
 void Fall(const GaussSources& s, const float place[3], float width2, float out[3]) {
   const D d;
   const V at[3] = {hn::Set(d, place[0]), hn::Set(d, place[1]), hn::Set(d, place[2])};
   const V least = hn::Set(d, width2);
-  V x = hn::Zero(d), y = hn::Zero(d), z = hn::Zero(d);
+  Sum3 sum(d);
   for (std::size_t i = 0; i < s.n; i += hn::Lanes(d)) {
     const Offset r = OffsetOf(d, s, i, at);
     const V square = hn::Max(r.square, least);
@@ -76,12 +86,11 @@ void Fall(const GaussSources& s, const float place[3], float width2, float out[3
     const V along = hn::IfThenElseZero(
         hn::Ge(r.square, least),
         hn::Div(hn::Mul(hn::Set(d, -3.0f), hn::Mul(Product(d, s, i, r), cube)), square));
-    x = hn::Add(x, hn::MulAdd(hn::LoadU(d, s.a[0] + i), cube, hn::Mul(along, r.x)));
-    y = hn::Add(y, hn::MulAdd(hn::LoadU(d, s.a[1] + i), cube, hn::Mul(along, r.y)));
-    z = hn::Add(z, hn::MulAdd(hn::LoadU(d, s.a[2] + i), cube, hn::Mul(along, r.z)));
+    sum.x = hn::Add(sum.x, hn::MulAdd(hn::LoadU(d, s.a[0] + i), cube, hn::Mul(along, r.x)));
+    sum.y = hn::Add(sum.y, hn::MulAdd(hn::LoadU(d, s.a[1] + i), cube, hn::Mul(along, r.y)));
+    sum.z = hn::Add(sum.z, hn::MulAdd(hn::LoadU(d, s.a[2] + i), cube, hn::Mul(along, r.z)));
   }
-  out[0] = hn::GetLane(hn::SumOfLanes(d, x)), out[1] = hn::GetLane(hn::SumOfLanes(d, y)),
-  out[2] = hn::GetLane(hn::SumOfLanes(d, z));
+  sum.Store(d, out);
 }
 
 }  // namespace HWY_NAMESPACE

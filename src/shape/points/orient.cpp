@@ -64,8 +64,8 @@ std::vector<Vec3> sensors_of(const PointCloud& cloud, const OrientScene& scene,
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t from = scene.place[i];
     sensors[i] = {axes[0]->values[from], axes[1]->values[from], axes[2]->values[from]};
-    if (!is_finite(sensors[i])) return {};
     sensors[i] = scene.frame.to_local(sensors[i]);
+    if (!is_finite(sensors[i])) return {};
   }
   return sensors;
 }
@@ -106,11 +106,6 @@ void turn_glancing(const OrientScene& scene, const LocalFits& fits, OrientSigns&
 // 0.002, 0.0008.
 double confidence_of(double agreement) { return 1 - std::exp(-10 * agreement); }
 
-void set_confidence(PointCloud& cloud, std::vector<double> values) {
-  std::erase_if(cloud.attributes, [](const Attribute& a) { return a.name == "confidence"; });
-  cloud.attributes.push_back({"confidence", ScalarType::kFloat32, std::move(values)});
-}
-
 // Writes the normals to the points of the input and counts what has become of them.
 void hand_back(const OrientScene& scene, const OrientSigns& signs, const OrientOptions& options,
                PointCloud& cloud, OrientReport& report) {
@@ -134,21 +129,18 @@ void hand_back(const OrientScene& scene, const OrientSigns& signs, const OrientO
   }
   report.unsure = static_cast<double>(unsure) / static_cast<double>(n);
   report.duplicates = scene.duplicates;
-  if (options.confidence) set_confidence(cloud, std::move(confidence));
+  if (options.confidence) {
+    set_attribute(cloud.attributes, {"confidence", ScalarType::kFloat32, std::move(confidence)});
+  }
 }
 
 }  // namespace
 
 OrientReport orient(PointCloud& cloud, const OrientOptions& options, const Context& context) {
-  const bool leave_out_strays = !options.center && !options.sensor;
-  return orient_all(cloud, options, leave_out_strays, context);
-}
-
-OrientReport orient_all(PointCloud& cloud, const OrientOptions& options, bool leave_out_strays,
-                        const Context& context) {
   check(cloud, options);
   OrientReport report{.points = cloud.points.size()};
-  const OrientScene scene = make_orient_scene(cloud, leave_out_strays, context);
+  const bool by_sight = options.center || options.sensor;
+  const OrientScene scene = make_orient_scene(cloud, !by_sight && !options.keep_strays, context);
   std::vector<Vec3> given;
   if (options.keep_directions && !cloud.normals.empty()) given = given_directions(cloud, scene);
   LocalFits fits =
@@ -161,7 +153,7 @@ OrientReport orient_all(PointCloud& cloud, const OrientOptions& options, bool le
   OrientSigns signs = sensors.empty()
                           ? find_signs(scene, given, fits, report, context)
                           : turn_by_sight(scene, fits, sensors, options.center.has_value());
-  if (!sensors.empty() && !options.center && !options.sensor) turn_glancing(scene, fits, signs);
+  if (!sensors.empty() && !by_sight) turn_glancing(scene, fits, signs);
   report.neighbors = fits.n_neighbors;
   hand_back(scene, signs, options, cloud, report);
   return report;

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <utility>
 
 #include "base/cancel.h"
 #include "base/parallel.h"
 #include "shape/points/gauss_field.h"
+#include "shape/points/sampling_gaps.h"
 
 namespace rholm {
 namespace {
@@ -21,11 +21,13 @@ constexpr double kFiner = 2;  // times as far apart in a coarser sample
 // Points nearer than this part of the spacing say nothing new: points of one row. Of 0, 0.3, 0.5
 // and 0.7 this has most signs right.
 constexpr double kThinned = 0.3;
+// What lies closer is one place to single precision; and samples become smaller from one to the
+// next.
+constexpr double kLeastSpacing = 1e-5;
 // Steps and widths of patches, in spacings, from the first to the last. Of twice as many steps
 // nothing is seen; from 4 spacings thin sheets are lost, to 0.3 the pattern of the points is seen.
 constexpr int kSteps = 40, kStepsFiner = 10;
 constexpr double kWidest = 2, kWidestFiner = 1, kNarrowest = 0.4;
-constexpr std::size_t kCircle = 8;  // neighbours in a circle of as many squares of the spacing
 
 double length2(std::span<const double> v) {
   double sum = 0;
@@ -43,7 +45,7 @@ class Sample {
       std::vector<Neighbor> near;
       for (std::size_t i = begin; i < end; ++i) {
         tree_.nearest_to(i, kCircle + 1, near);
-        spacing_[i] = std::sqrt(std::numbers::pi * near.back().distance2 / kCircle);
+        spacing_[i] = spacing_of_circle(near.back().distance2);
       }
     });
     std::vector<double> areas(points.size());
@@ -113,7 +115,9 @@ std::vector<std::vector<std::uint32_t>> make_levels(const PointTree& tree,
   std::vector<std::vector<std::uint32_t>> levels;
   std::vector<double> reach(points.size());
   for (double part = kThinned;; part *= kFiner) {
-    for (std::size_t i = 0; i < reach.size(); ++i) reach[i] = part * spacing[i];
+    for (std::size_t i = 0; i < reach.size(); ++i) {
+      reach[i] = part * std::max(spacing[i], kLeastSpacing);
+    }
     std::vector<std::uint32_t> level = thin_out(tree, points, reach);
     const std::size_t n = level.size();
     if (n <= kMost) levels.push_back(std::move(level));

@@ -12,6 +12,7 @@
 #include <numbers>
 
 #include "base/parallel.h"
+#include "shape/points/members.h"
 #include "shape/queries/winding_tree.h"
 
 namespace rholm {
@@ -34,33 +35,17 @@ constexpr double kOpen = 0.02;
 constexpr double kNoChange =
     0.02;  // of the winding number across a part: the rest is far or closed
 
-// Points of each part, in order.
-struct Members {
-  std::vector<std::uint32_t> begin;  // n_parts + 1
-  std::vector<std::uint32_t> points;
-
-  Members(std::span<const std::uint32_t> part, std::size_t n_parts)
-      : begin(n_parts + 1, 0), points(part.size()) {
-    for (const std::uint32_t p : part) ++begin[p + 1];
-    for (std::size_t p = 0; p < n_parts; ++p) begin[p + 1] += begin[p];
-    std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
-    for (std::uint32_t i = 0; i < part.size(); ++i) points[next[part[i]]++] = i;
+// The largest parts that have a say, largest first.
+std::vector<std::uint32_t> largest_of(const Members& members) {
+  std::vector<std::uint32_t> parts;
+  for (std::uint32_t p = 0; p + 1 < members.begin.size(); ++p) {
+    if (members.size(p) >= kLeastPart) parts.push_back(p);
   }
-  std::span<const std::uint32_t> of(std::size_t p) const {
-    return std::span(points).subspan(begin[p], begin[p + 1] - begin[p]);
-  }
-  // The largest parts that have a say, largest first.
-  std::vector<std::uint32_t> largest() const {
-    std::vector<std::uint32_t> parts;
-    for (std::uint32_t p = 0; p + 1 < begin.size(); ++p) {
-      if (of(p).size() >= kLeastPart) parts.push_back(p);
-    }
-    std::stable_sort(parts.begin(), parts.end(),
-                     [&](auto a, auto b) { return of(a).size() > of(b).size(); });
-    if (parts.size() > kMostParts) parts.resize(kMostParts);
-    return parts;
-  }
-};
+  std::stable_sort(parts.begin(), parts.end(),
+                   [&](auto a, auto b) { return members.size(a) > members.size(b); });
+  if (parts.size() > kMostParts) parts.resize(kMostParts);
+  return parts;
+}
 
 struct Sample {
   double area = 0;
@@ -120,7 +105,7 @@ class Sides {
 
   // Pieces one by one against all the others, until none wants to turn.
   void agree_on_winding() {
-    const std::vector<std::uint32_t> pieces = pieces_.largest();
+    const std::vector<std::uint32_t> pieces = largest_of(pieces_);
     if (pieces.size() < 2) return;
     WindingTree tree(points_, area_normals({}));
     for (int round = 0; round < kRounds; ++round) {
@@ -141,7 +126,7 @@ class Sides {
     SideTrust result{.of_component = std::vector<double>(parts_.n_components, 0.0)};
     const WindingTree tree(points_, area_normals({}));
     std::size_t doubtful = 0, asked = 0;
-    for (const std::uint32_t c : components_.largest()) {
+    for (const std::uint32_t c : largest_of(components_)) {
       const std::vector<Sample> samples = sample(tree, components_.of(c));
       for (const Sample& s : samples) {
         result.of_component[c] += s.trust() / static_cast<double>(samples.size());

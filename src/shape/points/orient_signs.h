@@ -24,8 +24,4 @@ struct OrientSigns {
 OrientSigns find_signs(const OrientScene& scene, std::span<const Vec3> given, LocalFits& fits,
                        OrientReport& report, const Context& context);
 
-// orient(), with or without a search for strays.
-OrientReport orient_all(PointCloud& cloud, const OrientOptions& options, bool leave_out_strays,
-                        const Context& context);
-
 }  // namespace rholm

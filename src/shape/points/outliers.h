@@ -20,6 +20,12 @@ std::vector<std::uint8_t> find_outliers(const PointTree& tree, std::span<const V
                                         std::span<const Vec3> normals, double noise,
                                         const Context& context = {});
 
+// The share of the points whose normals have nothing to do with those around, which are of one
+// mind: of some of the points. Of a clean shape hardly any, however thin and sharp: where its
+// normals differ, their neighbours' do among each other.
+double share_of_wrong_normals(const PointTree& tree, std::span<const Vec3> normals,
+                              const Context& context = {});
+
 // One flag per point: 1 for a point of a group of fewer than `least`. Points are of one group if
 // they are near neighbours, as near as both have others, and their normals agree.
 std::vector<std::uint8_t> find_small_groups(const PointTree& tree, std::span<const Vec3> normals,

@@ -22,9 +22,11 @@ constexpr std::size_t kGrain = 512;
 // scripts/scan-figures, 1000 to 100 000 points), rows of twice their steps 2.
 constexpr double kEven = 1.8;
 constexpr double kShareInRows = 0.1;
-// A point at r hides one at q if r . q > r . r, that is within the ball between (Gabriel). Where
-// rows are bent one of the own row hides the next row, just so; along a row it is 2 and more.
-constexpr double kBetween = 1.2;
+// A point at r hides one at q if r . q > between r . r. With 1, Gabriel's, a point of the own row
+// hides the next row where rows are bent across, just so; with more, a row that bends along itself,
+// at an edge, seems to surround its points (along a straight one it is 2). Either makes the ratio
+// too small: the larger one is taken.
+constexpr double kBetween[] = {1, 1.2};
 // Directions to neighbours that leave a gap of more than this are those of one row. Radians.
 constexpr double kOneSided = 2.6;
 
@@ -71,7 +73,7 @@ struct GapsOfPoint {
 
 // More neighbours until they surround it.
 GapsOfPoint gaps_of(const PointTree& tree, std::span<const Vec3> points, std::size_t i,
-                    Scratch& scratch) {
+                    double between, Scratch& scratch) {
   GapsOfPoint result;
   for (std::size_t k = kFirst;; k *= 2) {
     tree.nearest_to(i, k + 1, scratch.found);
@@ -83,7 +85,7 @@ GapsOfPoint gaps_of(const PointTree& tree, std::span<const Vec3> points, std::si
       // Nearest first: whoever lies between is nearer.
       const bool free =
           std::none_of(scratch.offsets.begin(), scratch.offsets.end(),
-                       [&](const Vec3& r) { return kBetween * dot(r, r) < dot(r, q); });
+                       [&](const Vec3& r) { return between * dot(r, r) < dot(r, q); });
       scratch.offsets.push_back(q);
       if (free) scratch.gaps.push_back(q);
     }
@@ -117,18 +119,20 @@ std::vector<double> gap_ratios(const PointTree& tree, std::span<const Vec3> poin
                                std::size_t n_seeds, const Context& context) {
   const std::size_t n = points.size();
   n_seeds = std::min(n, n_seeds);
-  std::vector<double> ratios(n_seeds);
+  std::vector<double> ratios(n_seeds, 1.0);
   parallel_for(n_seeds, 32, context, {}, [&](std::size_t begin, std::size_t end) {
     Scratch scratch;
     std::vector<Neighbor> around;
     std::vector<GapsOfPoint> all;
     for (std::size_t s = begin; s < end; ++s) {
       tree.nearest_to(s * n / n_seeds, kAround, around);
-      all.clear();
-      for (const Neighbor& near : around) {
-        all.push_back(gaps_of(tree, points, near.index, scratch));
+      for (const double between : kBetween) {
+        all.clear();
+        for (const Neighbor& near : around) {
+          all.push_back(gaps_of(tree, points, near.index, between, scratch));
+        }
+        ratios[s] = std::max(ratios[s], ratio_of(all));
       }
-      ratios[s] = ratio_of(all);
     }
   });
   return ratios;
@@ -152,23 +156,25 @@ SamplingGaps find_gaps(const PointTree& tree, std::span<const Vec3> points,
   if (*place <= kEven) return gaps;
   const std::size_t n = points.size();
   std::vector<GapsOfPoint> own(n);
-  parallel_for(n, kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
-    Scratch scratch;
-    for (std::size_t i = begin; i < end; ++i) {
-      own[i] = gaps_of(tree, points, i, scratch);
-    }
-  });
-  gaps.ratio.resize(n);
-  parallel_for(n, kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
-    std::vector<Neighbor> around;
-    std::vector<GapsOfPoint> all;
-    for (std::size_t i = begin; i < end; ++i) {
-      tree.nearest_to(i, kAround, around);
-      all.clear();
-      for (const Neighbor& near : around) all.push_back(own[near.index]);
-      gaps.ratio[i] = static_cast<float>(ratio_of(all));
-    }
-  });
+  gaps.ratio.assign(n, 1.0f);
+  for (const double between : kBetween) {
+    parallel_for(n, kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
+      Scratch scratch;
+      for (std::size_t i = begin; i < end; ++i) {
+        own[i] = gaps_of(tree, points, i, between, scratch);
+      }
+    });
+    parallel_for(n, kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
+      std::vector<Neighbor> around;
+      std::vector<GapsOfPoint> all;
+      for (std::size_t i = begin; i < end; ++i) {
+        tree.nearest_to(i, kAround, around);
+        all.clear();
+        for (const Neighbor& near : around) all.push_back(own[near.index]);
+        gaps.ratio[i] = std::max(gaps.ratio[i], static_cast<float>(ratio_of(all)));
+      }
+    });
+  }
   return gaps;
 }
 

@@ -6,8 +6,9 @@
 // points, ratio the gap across over that along.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
-#include <cstdint>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,12 @@
 #include "shape/points/point_tree.h"
 
 namespace rholm {
+
+// The circle around a point that holds its 8 nearest has 8 squares of the spacing.
+inline constexpr std::size_t kCircle = 8;
+inline double spacing_of_circle(double distance2_of_last) {
+  return std::sqrt(std::numbers::pi * distance2_of_last / kCircle);
+}
 
 struct SamplingGaps {
   // Per point, in the order of the tree, 1 ... kMostGapRatio; empty where no part of the points
@@ -36,7 +43,7 @@ struct SamplingGaps {
 inline constexpr double kMostGapRatio = 30;
 
 // A gap is the way to a neighbour in the sense of Gabriel (1969): no other point lies in the ball
-// between the two, or hardly. Their covariance, averaged over the points around, has one direction
+// between the two. Their covariance, averaged over the points around, has one direction
 // along the rows and one across.
 SamplingGaps find_gaps(const PointTree& tree, std::span<const Vec3> points, const Context& context);
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -247,7 +248,18 @@ TEST(Reconstruct, outliers_are_left_out_before_normals_are_found) {
   one.points.push_back({1e8, 0, 0});
   const Reconstruction with = reconstruct(std::move(one));
   EXPECT_EQ(with.report.outliers, 1U);
+  EXPECT_NEAR(with.report.volume, 4 * std::numbers::pi / 3, 0.03);
   EXPECT_EQ(with.mesh.vertices, expected.vertices);
+}
+
+TEST(Reconstruct, wrong_normals_among_good_ones_do_no_harm) {
+  PointCloud cloud = sphere_points(10000);
+  for (std::size_t i = 0; i < 10000; i += 10) cloud.normals[i] = random_direction(9, i);
+  const Reconstruction made = reconstruct(std::move(cloud));
+  EXPECT_EQ(expect_closed_manifold(made.mesh).euler_characteristic, 2);
+  EXPECT_GT(made.report.outliers, 500U);
+  EXPECT_LT(made.report.outliers, 1100U);
+  for (const Vec3& v : made.mesh.vertices) EXPECT_NEAR(norm(v), 1, 0.02);
 }
 
 TEST(Reconstruct, points_in_rows_make_the_surface_of_even_ones) {

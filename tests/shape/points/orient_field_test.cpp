@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -17,12 +18,8 @@ namespace {
 using std::numbers::pi;
 
 // A cloud in the order of its tree, within -1 ... 1, with the area of a point.
-struct Scene {
-  Scene(const PointCloud& cloud, double area) : tree(cloud.points) {
-    for (const std::uint32_t i : tree.order()) {
-      points.push_back(cloud.points[i]);
-      normals.push_back(cloud.normals[i]);
-    }
+struct Scene : test::OrderedCloud {
+  Scene(const PointCloud& cloud, double area) : OrderedCloud(cloud) {
     spacing.assign(points.size(), std::sqrt(area / static_cast<double>(points.size())));
   }
   double share_right() const {
@@ -31,8 +28,6 @@ struct Scene {
     for (std::size_t i = 0; i < found.size(); ++i) right += dot(found[i], normals[i]) > 0;
     return right / static_cast<double>(found.size());
   }
-  PointTree tree;
-  std::vector<Vec3> points, normals;
   std::vector<double> spacing;
 };
 
@@ -82,14 +77,27 @@ TEST(field_normals, of_few_points_are_finite) {
   }
 }
 
+TEST(field_normals, of_points_at_nearly_one_place_are_found_and_finite) {
+  // More than the first sample holds, none of them farther from eight others than single precision
+  // tells.
+  PointCloud cloud = test::sphere_points(600);
+  for (std::size_t i = 0; i < 9000; ++i) {
+    cloud.points.push_back(cloud.points[i % 600] + 1e-12 * test::random_direction(5, i));
+    cloud.normals.push_back(cloud.normals[i % 600]);
+  }
+  Scene scene(cloud, 4 * pi);
+  std::fill(scene.spacing.begin(), scene.spacing.end(), 0.0);
+  for (const Vec3& v : field_normals(scene.tree, scene.points, scene.spacing, 0.5, {})) {
+    EXPECT_TRUE(is_finite(v));
+  }
+}
+
 TEST(thin_out, keeps_points_apart_and_none_of_the_others_alone) {
-  const PointCloud cloud = test::sphere_points(3000);
-  const PointTree tree(cloud.points);
-  std::vector<Vec3> points;
-  for (const std::uint32_t i : tree.order()) points.push_back(cloud.points[i]);
+  const test::OrderedCloud cloud(test::sphere_points(3000));
+  const std::vector<Vec3>& points = cloud.points;
   const double reach = 0.2;
   const std::vector<std::uint32_t> kept =
-      thin_out(tree, points, std::vector<double>(points.size(), reach));
+      thin_out(cloud.tree, points, std::vector<double>(points.size(), reach));
   for (std::size_t a = 0; a < kept.size(); ++a) {
     for (std::size_t b = 0; b < a; ++b) EXPECT_GT(norm(points[kept[a]] - points[kept[b]]), reach);
   }

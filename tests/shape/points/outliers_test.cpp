@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "rholm/points.h"
+#include "rholm/primitives.h"
 #include "support/test_points.h"
 
 namespace rholm {
@@ -18,16 +20,9 @@ using test::random_normal;
 // Flags in the order of the cloud.
 std::vector<std::uint8_t> outliers_of(const PointCloud& cloud, double noise,
                                       const Context& context = {}) {
-  const PointTree tree(cloud.points);
-  std::vector<Vec3> points, normals;
-  for (const std::uint32_t i : tree.order()) {
-    points.push_back(cloud.points[i]);
-    normals.push_back(cloud.normals[i]);
-  }
-  const auto flags = find_outliers(tree, points, normals, noise, context);
-  std::vector<std::uint8_t> result(flags.size());
-  for (std::size_t i = 0; i < flags.size(); ++i) result[tree.order()[i]] = flags[i];
-  return result;
+  const test::OrderedCloud ordered(cloud);
+  return ordered.as_given(
+      find_outliers(ordered.tree, ordered.points, ordered.normals, noise, context));
 }
 
 std::size_t count(const std::vector<std::uint8_t>& flags, std::size_t begin, std::size_t end) {
@@ -89,6 +84,20 @@ TEST(Outliers, uneven_density_and_two_sheets_are_no_reason) {
   }
   // Half of the 16 neighbours are of the other side: fewer than 5 are not once in 26, 307 +- 17.
   EXPECT_LT(count(outliers_of(plate, 0), 0, plate.points.size()), 400U);
+}
+
+TEST(Outliers, wrong_normals_are_told_from_those_of_edges_and_thin_parts) {
+  const auto share = [](const PointCloud& cloud) {
+    const test::OrderedCloud ordered(cloud);
+    return share_of_wrong_normals(ordered.tree, ordered.normals);
+  };
+  // Directions within 45 degrees, 15 %, are no contradiction.
+  PointCloud sphere = test::sphere_points(10000);
+  for (std::size_t i = 0; i < 10000; i += 10) sphere.normals[i] = random_direction(9, i);
+  EXPECT_NEAR(share(sphere), 0.085, 0.02);
+  EXPECT_EQ(share(test::sphere_points(10000)), 0);
+  EXPECT_LT(share(sample_surface(box({1, 1, 1}), {.points = 2000})), 0.002);
+  EXPECT_EQ(share(sample_surface(box({1, 1, 0.01}), {.points = 5000})), 0);
 }
 
 TEST(Outliers, few_points_and_equal_ones_are_survived) {

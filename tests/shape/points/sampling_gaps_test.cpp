@@ -7,18 +7,12 @@
 
 #include "rholm/points.h"
 #include "rholm/primitives.h"
+#include "support/test_points.h"
 
 namespace rholm {
 namespace {
 
-// Points in the order of a tree over them.
-struct Cloud {
-  explicit Cloud(const std::vector<Vec3>& given) : tree(given) {
-    for (const std::uint32_t i : tree.order()) points.push_back(given[i]);
-  }
-  PointTree tree;
-  std::vector<Vec3> points;
-};
+using Cloud = test::OrderedCloud;
 
 std::vector<Vec3> plane_grid(double along, double across, int n) {
   std::vector<Vec3> points;

@@ -19,13 +19,9 @@ using test::random_in;
 
 // Flags in the order of the points.
 std::vector<std::uint8_t> strays_of(const std::vector<Vec3>& points, const Context& context = {}) {
-  const PointTree tree(points);
-  std::vector<Vec3> ordered;
-  for (const std::uint32_t i : tree.order()) ordered.push_back(points[i]);
-  const auto flags = find_strays(tree, ordered, find_gaps(tree, ordered, context), context);
-  std::vector<std::uint8_t> result(flags.size());
-  for (std::size_t i = 0; i < flags.size(); ++i) result[tree.order()[i]] = flags[i];
-  return result;
+  const test::OrderedCloud ordered(points);
+  const SamplingGaps gaps = find_gaps(ordered.tree, ordered.points, context);
+  return ordered.as_given(find_strays(ordered.tree, ordered.points, gaps, context));
 }
 
 std::size_t count(const std::vector<std::uint8_t>& flags, std::size_t begin, std::size_t end) {

@@ -1,4 +1,4 @@
-#include "shape/points/face_inwards.h"
+#include "shape/points/side_balance.h"
 
 #include <algorithm>
 #include <cmath>
