@@ -27,6 +27,7 @@ struct Options {
   std::string input;
   std::optional<double> tolerance;
   std::string noise = "auto";
+  std::string sensor;
   std::string holes = "fill";
   std::string blend = "smooth";
   std::optional<int> resolution;
@@ -34,6 +35,7 @@ struct Options {
   std::string simplify = kNotSimplified;
   double max_memory = 8;
   bool keep_outliers = false;
+  bool keep_scans = false;
   bool confidence = false;
   std::string model;
   std::string output;
@@ -83,6 +85,7 @@ ReconstructOptions library_options(const Options& o, const Bounds& box) {
   options.blend = parse_cap_blend(o.blend);
   options.min_component = o.min_component;
   options.remove_outliers = !o.keep_outliers;
+  options.align_scans = !o.keep_scans;
   options.confidence = o.confidence;
   options.simplify = parse_simplify("--simplify", o.simplify);
   options.max_memory = static_cast<std::size_t>(o.max_memory * 0x1p30);
@@ -114,6 +117,13 @@ Json json_of(const Reconstruction& made, double diagonal, bool confidence) {
                {"volume", r.volume},
                {"diagonal", diagonal},
                {"foreseen_memory", r.memory}};
+  if (r.scans.scans > 1) {
+    json["scans"] = {{"scans", r.scans.scans},
+                     {"pairs", r.scans.pairs},
+                     {"distance_before", r.scans.distance_before},
+                     {"distance", r.scans.distance},
+                     {"moved", r.scans.moved}};
+  }
   if (confidence) {
     json["unseen_area"] = r.unseen_area;
     json["thin_area"] = r.thin_area;
@@ -137,6 +147,11 @@ std::string report_text(const Reconstruction& made, double diagonal,
                  fmt::format("{} (not finite, doubled, or without a normal)", r.dropped_points));
   }
   if (r.outliers > 0) text += line("outliers", fmt::format("{}, left out", r.outliers));
+  if (r.scans.scans > 1) {
+    text += line("scans", fmt::format("{}, {} apart, moved by {}: {} apart", r.scans.scans,
+                                      text_of(r.scans.distance_before), text_of(r.scans.moved),
+                                      text_of(r.scans.distance)));
+  }
   if (r.computed_normals) {
     text +=
         line("normals", fmt::format("computed, as by rholm orient: {:.2f} % of their signs unsure",
@@ -183,7 +198,7 @@ void judge(const Reconstruction& made, bool filled, Session& session) {
         ErrorCode::kNotConverged,
         side +
             ": the surface, which is written, may be wrong all over; give normals, or where "
-            "points were measured from (rholm orient --sensor, attributes sensor_x, "
+            "points were measured from (--sensor, attributes sensor_x, "
             "sensor_y, sensor_z)");
   }
   if (unsure > kSaid) {
@@ -196,6 +211,8 @@ void judge(const Reconstruction& made, bool filled, Session& session) {
 }
 
 int run(const Options& options, Session& session) {
+  std::optional<Vec3> sensor;
+  if (!options.sensor.empty()) sensor = parse_vector("--sensor", options.sensor);
   const ShapeFormat format = mesh_output(options.output, options.format, options.json);
   check_writable(options.output);
   if (!options.model.empty()) {
@@ -205,7 +222,8 @@ int run(const Options& options, Session& session) {
   PointCloud cloud = read_points(options.input, session);
   validate(cloud);
   const Bounds box = bounds(cloud.points);
-  const ReconstructOptions wanted = library_options(options, box);
+  ReconstructOptions wanted = library_options(options, box);
+  wanted.sensor = sensor;
   const Reconstruction made = reconstruct(std::move(cloud), wanted, session.context());
   stop_if_interrupted();
   write_shape(made.mesh, options.output, {format, options.ascii}, session.context());
@@ -275,6 +293,16 @@ std::vector<Option> option_list(Options& o) {
        .min = 0,
        .max = 1},
       {.name = "keep-outliers", .help = "do not look for outliers", .target = &o.keep_outliers},
+      {.name = "sensor",
+       .value = "X,Y,Z",
+       .help = "all points have been measured from here (without, attributes sensor_x, sensor_y, "
+               "sensor_z say where each was): computed normals point there, and holes are not "
+               "closed across what lines of sight go through",
+       .target = &o.sensor},
+      {.name = "keep-scans",
+       .help = "leave points with an attribute scan where they are; else the scans are brought "
+               "together first",
+       .target = &o.keep_scans},
       {.name = "confidence",
        .help = "give each vertex its confidence, 0 ... 1, as an attribute: less where signs are "
                "unsure, far from data, and where the surface is thin",

@@ -93,6 +93,26 @@ struct CleanReport {
 // normals or attributes are not one per point.
 CleanReport clean(PointCloud& cloud);
 
+// What align_scans() did. Lengths are in the unit of the points.
+struct ScanAlignment {
+  std::size_t scans = 0;  // different values of the attribute; 0 without one
+  std::size_t pairs = 0;  // points of one scan that were compared with those of another
+  // Of these pairs, along the normal: 1.48 times the median of the distances, the standard
+  // deviation if most of them are Gaussian. Before anything moved, and after.
+  double distance_before = 0, distance = 0;
+  double moved = 0;  // root mean square way of all points
+};
+
+// Brings scans of one surface together, each moved as a rigid body: points with the attribute
+// `scan`, whole numbers, at most kMaxScans different ones. Pairs of near points of two scans that
+// face the same way shall lie on one sphere; least squares over all scans at once, with weights
+// that fall for large distances, until nothing moves (Chen, Medioni 1992; Rusinkiewicz 2019). What
+// no pair knows of, as a turn of a ball, is left alone, and the mean of all points does not move.
+// Normals and attributes sensor_x, sensor_y, sensor_z go with their points. For scans that are off
+// by a few spacings and overlap; does nothing without the attribute, or with one scan. Throws
+// InvalidInput for a cloud that is not valid. Same input, same bits for any number of threads.
+ScanAlignment align_scans(PointCloud& cloud, const Context& context = {});
+
 // How normals are found and which side is outside.
 struct OrientOptions {
   int neighbors = 0;             // of a fit, 3 ... 1000; 0: chosen from the data

@@ -9,6 +9,7 @@
 #include "rholm/atlas.h"
 #include "rholm/context.h"
 #include "rholm/mesh.h"
+#include "rholm/points.h"
 #include "rholm/simplify.h"
 
 namespace rholm {
@@ -36,6 +37,13 @@ struct ReconstructOptions {
   // Points that belong to no surface: far from all others, at any distance, and where there are
   // such those near the surface with normals or heights of their own.
   bool remove_outliers = true;
+  // All points have been measured from here; without, attributes sensor_x, sensor_y, sensor_z of
+  // the cloud say where each was, if there are all three, of finite values. Computed normals then
+  // point to their sensors, and holes are not closed across what has been seen to be empty: what
+  // lines of sight go through.
+  std::optional<Vec3> sensor = {};
+  // With an attribute `scan` the scans are brought together first, by align_scans().
+  bool align_scans = true;
   // The vertices get an attribute `confidence`, 0 ... 1, instead of any of that name: how sure the
   // signs of the normals are that were computed, less where no points are near (0 from four
   // spacings on) and where an opposite sheet is nearer than three spacings.
@@ -49,6 +57,7 @@ struct ReconstructReport {
   std::size_t points = 0;          // given
   std::size_t dropped_points = 0;  // not finite, at the place of another, without a normal
   std::size_t outliers = 0;        // removed
+  ScanAlignment scans;             // what became of them, if there are any
   double unsure = 0;              // share of the points the sign of whose computed normal is unsure
   bool computed_normals = false;  // the points had none
   bool turned_normals = false;    // all of them: they pointed into the solid

@@ -82,6 +82,7 @@ from ._core import (
     PrincipalAxes,
     ReconstructReport,
     RepairReport,
+    ScanAlignment,
     StarReport,
     SurfaceMeasures,
     ToleranceReport,
@@ -160,8 +161,10 @@ from ._pictures import (
     write_png,
 )
 from ._points import (
+    AlignedScans,
     Cleaned,
     Oriented,
+    align_scans,
     clean,
     orient,
     sample_surface,
@@ -285,6 +288,9 @@ __all__ = [
     "NotConvergedError",
     "NotStarShapedError",
     "OrientReport",
+    "ScanAlignment",
+    "AlignedScans",
+    "align_scans",
     "Oriented",
     "OutOfMemoryError",
     "Overshoot",

@@ -479,6 +479,38 @@ class CleanReport:
 
 def clean(arg0: PointCloud, arg1: Caller, /) -> tuple: ...
 
+class ScanAlignment:
+    """What align_scans() did; lengths are in the unit of the points."""
+
+    def __repr__(self) -> str: ...
+
+    def to_dict(self) -> dict:
+        """All fields by name; records within it are dicts, too."""
+
+    @property
+    def scans(self) -> int:
+        """Different values of the attribute; 0 without one."""
+
+    @property
+    def pairs(self) -> int:
+        """Points of one scan that were compared with those of another."""
+
+    @property
+    def distance_before(self) -> float:
+        """
+        Of these pairs along the normal, as a standard deviation, before anything moved.
+        """
+
+    @property
+    def distance(self) -> float:
+        """The same after."""
+
+    @property
+    def moved(self) -> float:
+        """Root mean square way of all points."""
+
+def align_scans(arg0: PointCloud, arg1: Caller, /) -> tuple: ...
+
 class OrientOptions:
     """How normals are found and which side is outside."""
 
@@ -1991,6 +2023,18 @@ class ReconstructOptions:
     def remove_outliers(self, arg: bool | None, /) -> None: ...
 
     @property
+    def sensor(self) -> numpy.typing.NDArray[numpy.float64] | None: ...
+
+    @sensor.setter
+    def sensor(self, arg: Sequence[float] | numpy.typing.NDArray[numpy.float64] | None, /) -> None: ...
+
+    @property
+    def align_scans(self) -> bool: ...
+
+    @align_scans.setter
+    def align_scans(self, arg: bool | None, /) -> None: ...
+
+    @property
     def confidence(self) -> bool: ...
 
     @confidence.setter
@@ -2033,6 +2077,10 @@ class ReconstructReport:
     @property
     def computed_normals(self) -> bool:
         """Whether the points had none."""
+
+    @property
+    def scans(self) -> ScanAlignment:
+        """What became of scans, if there are any."""
 
     @property
     def unsure(self) -> float:

@@ -134,6 +134,45 @@ def clean(points: PointsLike) -> Cleaned:
     return Cleaned(PointCloud._of(cloud), report)
 
 
+class AlignedScans(NamedTuple):
+    """What `align_scans` made."""
+
+    cloud: PointCloud
+    """The points in their new places; normals and sensors have gone with them."""
+    report: _core.ScanAlignment
+    """How far scans were apart, and are."""
+
+
+def align_scans(
+    points: PointsLike, scan: npt.ArrayLike | None = None, *, threads: int = 0, progress: Progress = None
+) -> AlignedScans:
+    """Brings scans of one surface together, each moved as a rigid body.
+
+    For scans that are off by a few spacings and overlap. The mean of all points does not move.
+
+    Parameters
+    ----------
+    points : points-like
+        Stay as they are. Attributes sensor_x, sensor_y, sensor_z tell the sides of thin parts.
+    scan : array_like, (N,), optional
+        Which scan each point belongs to, whole numbers; by default the attribute `scan`. Without
+        either nothing is done.
+    threads, progress
+        See `rholm.caller`.
+
+    References
+    ----------
+    Y. Chen, G. Medioni, Object modelling by registration of multiple range images, 1992.
+    S. Rusinkiewicz, A symmetric objective function for ICP, 2019.
+    """
+    cloud = as_points(points)
+    if scan is not None:
+        cloud = as_points(cloud, attributes={**cloud.attributes, "scan": scan})
+    with caller(threads, progress) as how:
+        moved, report = _core.align_scans(cloud._core, how)
+    return AlignedScans(PointCloud._of(moved), report)
+
+
 class Oriented(NamedTuple):
     """What `orient` made."""
 

@@ -8,6 +8,7 @@ from typing import Any, Literal, NamedTuple
 import numpy.typing as npt
 
 from . import _core
+from ._arrays import triple
 from ._atlas import Atlas
 from ._run import Progress, caller
 from ._shapes import Mesh, PointsLike, as_points
@@ -46,6 +47,8 @@ def reconstruct(
     blend: Literal["smooth", "spline"] = "smooth",
     min_component: float = 0.01,
     keep_outliers: bool = False,
+    sensor: npt.ArrayLike | None = None,
+    keep_scans: bool = False,
     confidence: bool = False,
     simplify: Any = None,
     max_memory: int = 8 << 30,
@@ -76,6 +79,13 @@ def reconstruct(
         Parts of the surface with less than this share of the largest one's area are dropped.
     keep_outliers : bool
         Whether points that belong to no surface stay.
+    sensor : array_like, (3,), optional
+        All points have been measured from here; without, attributes sensor_x, sensor_y, sensor_z
+        say where each was. Computed normals point there, and holes are not closed across what
+        lines of sight go through.
+    keep_scans : bool
+        Whether points with an attribute `scan` stay where they are; else the scans are brought
+        together first, by `align_scans`.
     confidence : bool
         The vertices get an attribute `confidence`, 0 ... 1: less where signs of computed normals are
         unsure, far from data, and where an opposite sheet is near.
@@ -108,6 +118,8 @@ def reconstruct(
         blend=blend,
         min_component=min_component,
         remove_outliers=not keep_outliers,
+        sensor=None if sensor is None else triple(sensor, "sensor"),
+        align_scans=not keep_scans,
         confidence=confidence,
         simplify=simplify_options(simplify),
         max_memory=max_memory,

@@ -48,6 +48,21 @@ void bind_points(nb::module_& m) {
     return nb::make_tuple(std::move(cloud), report);
   });
 
+  Record<ScanAlignment>(m, "ScanAlignment",
+                        "What align_scans() did; lengths are in the unit of the points.")
+      .field("scans", &ScanAlignment::scans, "Different values of the attribute; 0 without one.")
+      .field("pairs", &ScanAlignment::pairs,
+             "Points of one scan that were compared with those of another.")
+      .field("distance_before", &ScanAlignment::distance_before,
+             "Of these pairs along the normal, as a standard deviation, before anything moved.")
+      .field("distance", &ScanAlignment::distance, "The same after.")
+      .field("moved", &ScanAlignment::moved, "Root mean square way of all points.");
+  m.def("align_scans", [](PointCloud cloud, const Caller& caller) {
+    const ScanAlignment report =
+        caller.run([&](const Context& context) { return align_scans(cloud, context); });
+    return nb::make_tuple(std::move(cloud), report);
+  });
+
   Options<OrientOptions>(m, "OrientOptions", "How normals are found and which side is outside.")
       .field("neighbors", &OrientOptions::neighbors)
       .field("keep_directions", &OrientOptions::keep_directions)

@@ -22,6 +22,8 @@ void bind_reconstruction(nb::module_& m) {
       .choice("blend", &ReconstructOptions::blend, parse_cap_blend, to_string)
       .field("min_component", &ReconstructOptions::min_component)
       .field("remove_outliers", &ReconstructOptions::remove_outliers)
+      .field("sensor", &ReconstructOptions::sensor)
+      .field("align_scans", &ReconstructOptions::align_scans)
       .field("confidence", &ReconstructOptions::confidence)
       .field("simplify", &ReconstructOptions::simplify)
       .field("max_memory", &ReconstructOptions::max_memory);
@@ -34,6 +36,7 @@ void bind_reconstruction(nb::module_& m) {
       .field("outliers", &ReconstructReport::outliers, "Points removed.")
       .field("computed_normals", &ReconstructReport::computed_normals,
              "Whether the points had none.")
+      .field("scans", &ReconstructReport::scans, "What became of scans, if there are any.")
       .field("unsure", &ReconstructReport::unsure,
              "Share of the points the sign of whose computed normal is unsure.")
       .field("turned_normals", &ReconstructReport::turned_normals,

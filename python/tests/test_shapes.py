@@ -119,6 +119,24 @@ def test_points_are_cleaned_and_oriented(ring, random):
     assert ((out.normals * out.points).sum(axis=1) > 0.9).all()
 
 
+def test_scans_are_brought_together(ring):
+    scans = rholm.sample_surface(ring, 4000, scans=4, misalignment=0.01, sensor=True)
+    made = rholm.align_scans(scans)
+    assert made.report.scans == 4
+    assert made.report.distance < made.report.distance_before / 3
+    way = np.asarray(made.cloud.points) - scans.points
+    assert made.report.moved == pytest.approx(np.sqrt((way**2).sum(1).mean()))
+    bare = rholm.align_scans(scans.points, scans.attributes["scan"])
+    assert bare.report.scans == 4
+    assert rholm.align_scans(scans.points).report.scans == 0
+    surface = rholm.reconstruct(scans)
+    assert surface.report.scans.scans == 4
+    assert rholm.inspect(surface.mesh).genus == 1
+    assert rholm.reconstruct(scans, keep_scans=True).report.scans.scans == 0
+    seen = rholm.reconstruct(scans.points, sensor=(0, 0, 30), holes="keep", keep_scans=True)
+    assert "sensor_x" not in seen.mesh.attributes
+
+
 def test_confidence_of_points_and_of_surfaces(ring):
     points = rholm.sample_surface(ring, 4000).points
     far = np.concatenate([points, [[1e6, 0, 0]]])

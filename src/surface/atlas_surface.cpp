@@ -214,7 +214,7 @@ AtlasSurface extract_atlas(const Atlas& atlas, const AtlasSurfaceOptions& option
   const AtlasDipoles dipoles = dipoles_of(atlas, options.step, context);
   const WindingTree winding(dipoles.points, dipoles.area_normals);
   clear_refuted(grid, doubtful, winding, context);
-  HoleFillOptions filled{.max_blocks = blocks_within(options), .support = {}};
+  HoleFillOptions filled{.max_blocks = blocks_within(options), .support = {}, .seen = options.seen};
   if (are_small(atlas)) filled.support = node_support(atlas, lists, grid, context);
   const HoleFilling filling = fill_holes(grid, dipoles.feet, winding, filled, context);
   result.holes = filling.holes, result.smooth_holes = filling.smooth;
@@ -223,7 +223,7 @@ AtlasSurface extract_atlas(const Atlas& atlas, const AtlasSurfaceOptions& option
   grid.values = {}, grid.neighbours = {};
   project_vertices(atlas, lists, grid, surface, context);
   if (options.keep_holes) {
-    std::vector<double> support = data_support(atlas, lists, surface, context);
+    std::vector<double> support = data_support(atlas, lists, surface, options.step, context);
     bridge_gaps(surface.mesh, kGap * typical_area(atlas), support);
     result.mesh = trim(surface.mesh, support);
   } else {

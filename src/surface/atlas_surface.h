@@ -8,6 +8,7 @@
 #include "rholm/context.h"
 #include "rholm/mesh.h"
 #include "rholm/simplify.h"
+#include "surface/holes/seen_space.h"
 
 namespace rholm {
 
@@ -16,6 +17,7 @@ struct AtlasSurfaceOptions {
   bool keep_holes = false;  // cut away what is in no support, instead of closing it
   double min_component = 0.01;
   std::optional<SimplifyOptions> simplify = {};  // with nothing in it: 1/50 of the step
+  const SeenSpace* seen = nullptr;  // what scanners have seen to be empty is not closed
   std::size_t max_memory = std::size_t{8} << 30;
   std::size_t memory_in_use = 0;  // bytes of max_memory that the caller holds
 };

@@ -84,8 +84,8 @@ def points(trial):
             out="signed.off", codes=ANY)
         trial.do("reconstruct (hard)", "reconstruct", "hard.xyz", *quick, *trial.one_of(
             (), ("--holes", "keep"), ("--tolerance", "0.01"), ("--blend", "spline"),
-            ("--noise", "0.01"), ("--min-component", "0", "--keep-outliers"), ("--confidence",)),
-            out="hard.off", codes=ANY)
+            ("--noise", "0.01"), ("--min-component", "0", "--keep-outliers"), ("--confidence",),
+            ("--sensor", "9,9,9")), out="hard.off", codes=ANY)
     trial.do("reconstruct MESH", "reconstruct", m, *quick, out="vertices.ply", codes=ANY)
     if trial.has("points.ply"):
         words = ("reconstruct", "points.ply", "--simplify", "50%", "--model", "points.h5", "--json")

@@ -49,6 +49,20 @@ class Reconstruct(CliTest):
         self.assertTrue(self.reconstruct("bare.xyz")["computed_normals"])
         self.assertEqual(self.shape_of("s.ply")["genus"], 1)
 
+    def test_one_sensor_turns_all_normals_to_it(self):
+        self.write("front.xyz", "".join(" ".join(row[:3]) + "\n"
+                                        for row in rows(self.folder / "p.xyz") if float(row[2]) > 0.1))
+        for z in (9, -9):
+            self.rholm("reconstruct", "front.xyz", "--holes", "keep", "--sensor", f"0,0,{z}",
+                       "-o", "s.ply", "--ascii")
+            text = (self.folder / "s.ply").read_text()
+            names = re.findall(r"property \w+ (\w+)", text.split("element face")[0])
+            n = int(re.search(r"element vertex (\d+)", text)[1])
+            up = [float(line.split()[names.index("nz")]) > 0
+                  for line in text.split("end_header\n")[1].splitlines()[:n]]
+            self.assertGreater(up.count(z > 0), 0.99 * n)
+            self.assertNotIn("sensor_x", names)
+
     def test_every_option_is_heard(self):
         self.rholm("make", "sample", "t.ply", "--points", "4000", "--noise", ".003", "--outliers",
                    ".02", "--holes", "1,.15", "-o", "bad.xyz")
@@ -59,6 +73,18 @@ class Reconstruct(CliTest):
                       ["--ascii"], ["--confidence"]):
             self.reconstruct("bad.xyz", *words)
             self.assertNotEqual((self.folder / "s.ply").read_bytes(), plain, words)
+
+    def test_scans_are_brought_together_or_kept(self):
+        self.rholm("make", "sample", "t.ply", "--points", "4000", "--scans", "4", "--misalign", ".01",
+                   "-o", "scans.ply")
+        report = self.reconstruct("scans.ply")["scans"]
+        self.assertEqual(report["scans"], 4)
+        self.assertLess(report["distance"], report["distance_before"] / 3)
+        self.assertGreater(report["moved"], 0)
+        self.assertRegex(self.rholm("reconstruct", "scans.ply", "-o", "s.ply").out,
+                         r"(?m)^  scans +4, ")
+        self.assertNotIn("scans", self.reconstruct("scans.ply", "--keep-scans"))
+        self.assertNotIn("scans", self.reconstruct("p.xyz"))
 
     def test_holes_are_closed_or_kept(self):
         self.write("half.xyz", "".join(" ".join(row) + "\n" for row in rows(self.folder / "p.xyz")

@@ -257,6 +257,17 @@ TEST(every_loop, gives_the_same_bits_for_normals_of_thin_and_rowed_points) {
   });
 }
 
+TEST(every_loop, gives_the_same_bits_for_scans_brought_together) {
+  const Mesh body = bumpy_sphere(4);
+  expect_same_bits([&](const Context& context) {
+    PointCloud cloud = sample_surface(
+        body, {.points = 1500, .scans = 2, .misalignment = 0.01, .sensor = true}, context);
+    align_scans(cloud, context);
+    const Reconstruction made = reconstruct(cloud, {.align_scans = false}, context);
+    return Bits().add(cloud.points).add(cloud.normals).add(made.mesh.vertices);
+  });
+}
+
 Mesh surface_of(const PointCloud& cloud, HolePolicy holes, const Context& context) {
   return reconstruct(cloud, {.holes = holes, .simplify = SimplifyOptions{.share = 0.5}}, context)
       .mesh;

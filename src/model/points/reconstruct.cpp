@@ -40,6 +40,12 @@ constexpr double kSuspiciousNormals = 0.01, kMoreWrong = 2;
 // not count alone.
 constexpr double kBandOfNoise = 3;
 
+// Edges of the cubes of seen space: lines of sight to even points go through every one before them.
+constexpr double kCubesOfSpacing = 2;
+// Lines of sight end so many spacings, or deviations of the noise, before their points: beyond is
+// the surface's own band, and what a line passes close to the rim of a hole.
+constexpr double kEndOfSight = 4;
+
 // Of a point with its normal, its part of trees and caps: measured on 50 000 to 500 000.
 constexpr std::size_t kMemoryOfPoint = 300;
 
@@ -55,6 +61,11 @@ void check(const ReconstructOptions& options) {
   }
   if (options.noise && !(*options.noise >= 0 && std::isfinite(*options.noise))) {
     refuse("the noise", *options.noise, "it must be 0 or positive");
+  }
+  if (options.sensor && !is_finite(*options.sensor)) {
+    const Vec3& at = *options.sensor;
+    refuse("a coordinate of the sensor", std::isfinite(at.x) ? at.y + at.z : at.x,
+           "it must be finite");
   }
   if (!(options.min_component >= 0 && options.min_component <= 1)) {
     refuse("the least component", options.min_component, "it must be 0 ... 1 of the largest");
@@ -176,10 +187,16 @@ Reconstruction reconstruct(PointCloud cloud, const ReconstructOptions& options,
   report.neighbours = size.neighbours;
   report.step = choose_step(options, size, spacing.fine, atlas);
 
+  std::optional<SeenSpace> seen;
+  if (options.holes == HolePolicy::kFill) {
+    seen = points.seen_space(kCubesOfSpacing * spacing.median,
+                             kEndOfSight * std::max(spacing.median, size.noise), context);
+  }
   const AtlasSurfaceOptions wanted{.step = report.step,
                                    .keep_holes = options.holes == HolePolicy::kKeep,
                                    .min_component = options.min_component,
                                    .simplify = options.simplify,
+                                   .seen = seen ? &*seen : nullptr,
                                    .max_memory = options.max_memory,
                                    .memory_in_use = kMemoryOfPoint * points.size()};
   AtlasSurface surface =

@@ -12,6 +12,7 @@
 #include "rholm/topology.h"
 #include "shape/on_line.h"
 #include "shape/points/outliers.h"
+#include "shape/points/sensors.h"
 #include "shape/points/side_balance.h"
 #include "shape/points/strays.h"
 
@@ -107,6 +108,8 @@ WorkingPoints::WorkingPoints(PointCloud cloud, const ReconstructOptions& options
     if (report.outliers > 0) keep_points(cloud_, [&](std::size_t i) { return far[i] == 0; });
   }
   clean(cloud_);
+  if (options.sensor) put_sensor(*options.sensor);
+  if (options.align_scans && lists_fit(cloud_)) report.scans = align_scans(cloud_, context);
   const bool directed = std::any_of(cloud_.normals.begin(), cloud_.normals.end(),
                                     [](const Vec3& n) { return norm(n) > 0; });
   if (directed) drop_zero_normals(cloud_);
@@ -145,6 +148,15 @@ void WorkingPoints::check_points() {
   diagonal_ = bounds(cloud_.points).diagonal();
   check_spread(cloud_, diagonal_);
   check_width(cloud_.points, diagonal_);
+}
+
+void WorkingPoints::put_sensor(const Vec3& sensor) {
+  const double at[3] = {sensor.x, sensor.y, sensor.z};
+  for (std::size_t k = 0; k < 3; ++k) {
+    set_attribute(cloud_.attributes, {kSensorAxes[k], ScalarType::kFloat64,
+                                      std::vector<double>(cloud_.points.size(), at[k])});
+  }
+  has_one_sensor_ = true;
 }
 
 void WorkingPoints::order_points(const Context& context) {
@@ -230,6 +242,13 @@ std::size_t WorkingPoints::remove_outliers(double noise, std::size_t most,
   return before - size();
 }
 
+std::optional<SeenSpace> WorkingPoints::seen_space(double edge, double margin,
+                                                   const Context& context) const {
+  const std::vector<Vec3> sensors = sensors_of(cloud_);
+  if (sensors.empty()) return std::nullopt;
+  return std::make_optional<SeenSpace>(cloud_.points, sensors, edge, margin, context);
+}
+
 void WorkingPoints::carry_attributes(Mesh& mesh, const Context& context) const {
   const std::size_t n = mesh.vertices.size(), first = mesh.attributes.size();
   for (const Attribute& attribute : cloud_.attributes) {
@@ -264,6 +283,11 @@ void WorkingPoints::carry_attributes(Mesh& mesh, const Context& context) const {
       }
     }
   });
+  if (has_one_sensor_) {
+    std::erase_if(mesh.attributes, [](const Attribute& attribute) {
+      return std::find(kSensorAxes.begin(), kSensorAxes.end(), attribute.name) != kSensorAxes.end();
+    });
+  }
   // Values keep to their type: whole numbers stay whole, floats floats.
   for (std::size_t a = first; a < mesh.attributes.size(); ++a) {
     Attribute& attribute = mesh.attributes[a];

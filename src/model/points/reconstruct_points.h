@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "rholm/mesh.h"
 #include "rholm/reconstruct.h"
 #include "shape/points/point_tree.h"
+#include "surface/holes/seen_space.h"
 
 namespace rholm {
 
@@ -43,6 +45,8 @@ class WorkingPoints {
                               std::span<const std::uint32_t> suspects, const Context& context);
 
   // Gives each vertex the mean of the attributes of the points around it.
+  // Where all points have sensors; see SeenSpace.
+  std::optional<SeenSpace> seen_space(double edge, double margin, const Context& context) const;
   void carry_attributes(Mesh& mesh, const Context& context) const;
 
  private:
@@ -50,6 +54,7 @@ class WorkingPoints {
   std::size_t remove_strays(const Context& context);
   // Refuses points that no surface goes with.
   void check_points();
+  void put_sensor(const Vec3& sensor);
   void order_points(const Context& context);
   void order_normals(const Context& context);
   // Drops the points whose flag is set, unless too few would be left; normals are not in order
@@ -62,6 +67,7 @@ class WorkingPoints {
   std::unique_ptr<PointTree> tree_;
   SamplingGaps gaps_;
   bool computed_ = false;               // normals
+  bool has_one_sensor_ = false;         // by an option: no attribute of the surface
   std::vector<Vec3> points_, normals_;  // in the order of the tree
   double diagonal_ = 0;
 };

@@ -89,7 +89,7 @@ class Source {
     if (noise > 0) place.point += noise * surface_.diagonal() * random.gaussian();
     if (o_.normal_noise > 0) place.normal = turned(place.normal, o_.normal_noise, random);
     if (o_.misalignment > 0) {
-      const ScanMotion& motion = scanner(point.scan).motion;
+      const RigidMotion& motion = scanner(point.scan).motion;
       place.point = motion.point(place.point);
       place.normal = motion.direction(place.normal);
     }

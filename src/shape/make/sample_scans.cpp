@@ -42,15 +42,6 @@ double mean_square_distance(const SampledSurface& surface) {
 
 }  // namespace
 
-// Rodrigues' formula.
-Vec3 ScanMotion::direction(const Vec3& v) const {
-  const double angle = norm(turn);
-  if (!(angle > 0)) return v;
-  const Vec3 axis = turn / angle;
-  return std::cos(angle) * v + std::sin(angle) * cross(axis, v) +
-         (1 - std::cos(angle)) * dot(axis, v) * axis;
-}
-
 Scans::Scans(const SampledSurface& surface, const SampleOptions& options)
     : surface_(surface), options_(options) {
   for (const Vec3& vertex : surface.mesh().vertices) {
@@ -67,7 +58,7 @@ Scans::Scans(const SampledSurface& surface, const SampleOptions& options)
   for (std::size_t k = 0; k < n; ++k) {
     RandomStream random(options.seed, kScannerStream + k);
     RandomStream common(options.seed, kScannerStream + n);
-    const ScanMotion whole{.middle = {}, .shift = {}, .turn = pi * common.direction()};
+    const RigidMotion whole{.middle = {}, .shift = {}, .turn = pi * common.direction()};
     const double part = n > 1 ? static_cast<double>(k) / static_cast<double>(n - 1) : 0;
     scanners_.push_back(
         {.at = surface.middle() + kDistance * radius_ * whole.direction(on_spiral(k, n)),

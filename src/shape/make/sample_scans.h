@@ -8,20 +8,14 @@
 #include "rholm/points.h"
 #include "shape/make/surface_places.h"
 #include "shape/queries/ray_scene.h"
+#include "shape/rigid_motion.h"
 
 namespace rholm {
 
-// A rigid motion about the middle of the surface: what a scan is off by.
-struct ScanMotion {
-  Vec3 middle, shift, turn;  // a vector of rotation, radians
-  Vec3 direction(const Vec3& v) const;
-  Vec3 point(const Vec3& p) const { return middle + shift + direction(p - middle); }
-};
-
 struct Scanner {
-  Vec3 at;  // in the frame of the surface
-  ScanMotion motion;
-  double noise = 0;  // of its points, part of the diagonal
+  Vec3 at;             // in the frame of the surface
+  RigidMotion motion;  // about the middle of the surface: what the scan is off by
+  double noise = 0;    // of its points, part of the diagonal
 };
 
 // Keeps references to the surface and the options.

@@ -12,6 +12,7 @@
 #include "shape/points/orient_graph.h"
 #include "shape/points/orient_scene.h"
 #include "shape/points/orient_signs.h"
+#include "shape/points/sensors.h"
 
 namespace rholm {
 namespace {
@@ -56,17 +57,10 @@ std::vector<Vec3> sensors_of(const PointCloud& cloud, const OrientScene& scene,
     return std::vector<Vec3>(
         n, scene.frame.to_local(options.center ? *options.center : *options.sensor));
   }
-  const Attribute* axes[] = {find_attribute(cloud.attributes, "sensor_x"),
-                             find_attribute(cloud.attributes, "sensor_y"),
-                             find_attribute(cloud.attributes, "sensor_z")};
-  if (std::any_of(axes, axes + 3, [](const Attribute* a) { return a == nullptr; })) return {};
+  const std::vector<Vec3> given = sensors_of(cloud);
+  if (given.empty()) return {};
   std::vector<Vec3> sensors(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t from = scene.place[i];
-    sensors[i] = {axes[0]->values[from], axes[1]->values[from], axes[2]->values[from]};
-    sensors[i] = scene.frame.to_local(sensors[i]);
-    if (!is_finite(sensors[i])) return {};
-  }
+  for (std::size_t i = 0; i < n; ++i) sensors[i] = scene.frame.to_local(given[scene.place[i]]);
   return sensors;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "shape/points/symmetric3.h"
+#include "shape/points/symmetric6.h"
 
 namespace rholm {
 namespace {
@@ -47,35 +48,7 @@ Vec3 eigenvector(const Symmetric3& m, double value) {
       products, products + 3, [](const Vec3& a, const Vec3& b) { return dot(a, a) < dot(b, b); }));
 }
 
-constexpr int kTerms = 6;  // 1, x, y, x^2, x y, y^2
-
-// Solves A c = b, A positive definite, by Cholesky; false if it is not. Only the lower triangle of
-// A is read.
-bool solve(std::array<std::array<double, kTerms>, kTerms>& a, std::array<double, kTerms>& b) {
-  for (int i = 0; i < kTerms; ++i) {
-    const double diagonal = a[i][i];
-    for (int j = 0; j <= i; ++j) {
-      double sum = a[i][j];
-      for (int k = 0; k < j; ++k) sum -= a[i][k] * a[j][k];
-      if (i != j) {
-        a[i][j] = sum / a[j][j];
-      } else {
-        // Below this share of the diagonal nothing but rounding of some 30 sums is left.
-        if (!(sum > 1e-12 * diagonal)) return false;
-        a[i][i] = std::sqrt(sum);
-      }
-    }
-  }
-  for (int i = 0; i < kTerms; ++i) {
-    for (int k = 0; k < i; ++k) b[i] -= a[i][k] * b[k];
-    b[i] /= a[i][i];
-  }
-  for (int i = kTerms - 1; i >= 0; --i) {
-    for (int k = i + 1; k < kTerms; ++k) b[i] -= a[k][i] * b[k];
-    b[i] /= a[i][i];
-  }
-  return true;
-}
+constexpr int kTerms = kSix;  // 1, x, y, x^2, x y, y^2
 
 }  // namespace
 
@@ -93,8 +66,8 @@ PlaneFit fit_plane(std::span<const Vec3> points, std::span<const double> weights
 ParaboloidFit fit_paraboloid(std::span<const Vec3> points, std::span<const double> weights,
                              const Vec3& normal) {
   const Vec3 u = perpendicular(normal), v = cross(normal, u);
-  std::array<std::array<double, kTerms>, kTerms> a{};
-  std::array<double, kTerms> b{};
+  Matrix6 a{};
+  Vector6 b{};
   double squares = 0, total = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double x = dot(points[i], u), y = dot(points[i], v), z = dot(points[i], normal);
@@ -107,8 +80,9 @@ ParaboloidFit fit_paraboloid(std::span<const Vec3> points, std::span<const doubl
     squares += weights[i] * z * z;
     total += weights[i];
   }
-  std::array<double, kTerms> c = b;
-  if (!solve(a, c)) return {normal, std::sqrt(squares / total)};
+  Vector6 c = b;
+  if (!factorize(a)) return {normal, std::sqrt(squares / total)};
+  solve(a, c);
   for (int j = 0; j < kTerms; ++j) squares -= c[j] * b[j];
   return {normalized(normal - c[1] * u - c[2] * v), std::sqrt(std::max(squares, 0.0) / total)};
 }

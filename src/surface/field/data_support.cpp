@@ -18,25 +18,43 @@ constexpr double kEnd = 0.7;
 // More than either, where no cap is near.
 constexpr double kNone = 2;
 
-// The least s^2 of the caps that reach a block.
-double least_place(const Atlas& atlas, const CapLists& lists, std::size_t block, const Vec3& x) {
+// The least s^2 of the caps that reach a block and count.
+template <typename Counts>
+double least_place(const Atlas& atlas, const CapLists& lists, std::size_t block, const Vec3& x,
+                   const Counts& counts) {
   double least = kNone;
   for (std::size_t i = lists.first[block]; i < lists.first[block + 1]; ++i) {
     const Cap& cap = atlas.caps[lists.caps[i]];
-    least = std::min(least, place(cap, x - cap.frame.seed()));
+    const double square = place(cap, x - cap.frame.seed());
+    if (square < least && counts(cap)) least = square;
   }
   return least;
+}
+
+bool lies_on(const Atlas& atlas, const Cap& cap, const Vec3& x, double near) {
+  const std::span<const double> coefficients(atlas.coefficients);
+  const CapValue value =
+      evaluate(cap, coefficients.subspan(cap.first, n_coefficients(cap.basis, cap.degree)), x);
+  return value.valid && std::abs(value.distance) < near;
 }
 
 }  // namespace
 
 std::vector<double> data_support(const Atlas& atlas, const CapLists& lists,
-                                 const ExtractedSurface& surface, const Context& context) {
+                                 const ExtractedSurface& surface, double step,
+                                 const Context& context) {
   std::vector<double> support(surface.mesh.vertices.size(), -1);
+  // Behind an open sheet the fill begins where the band of its caps ends: beside their data, but
+  // not of it.
+  const double near = band_of(atlas, step) / 2;
   parallel_for(lists.first.size() - 1, 64, context, {}, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
       for (std::size_t v = surface.first_vertex[b]; v < surface.first_vertex[b + 1]; ++v) {
-        support[v] = 1 - least_place(atlas, lists, b, surface.mesh.vertices[v]) / kRim;
+        const Vec3& x = surface.mesh.vertices[v];
+        const bool guessed = !surface.filled.empty() && surface.filled[v] != 0;
+        support[v] = 1 - least_place(atlas, lists, b, x, [&](const Cap& cap) {
+                           return !guessed || lies_on(atlas, cap, x, near);
+                         }) / kRim;
       }
     }
   });
@@ -54,7 +72,8 @@ NodeSupport node_support(const Atlas& atlas, const CapLists& lists, const BlockG
         support[i] = 0;
         // Blocks that came later, for the holes, have no caps.
         if (b == kNoBlock || static_cast<std::size_t>(b) + 1 >= lists.first.size()) continue;
-        const double nearest = least_place(atlas, lists, static_cast<std::size_t>(b), x[i]);
+        const double nearest = least_place(atlas, lists, static_cast<std::size_t>(b), x[i],
+                                           [](const Cap&) { return true; });
         support[i] = std::clamp((kEnd - nearest) / (kEnd - kRim), 0.0, 1.0);
       }
     });

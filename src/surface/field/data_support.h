@@ -14,9 +14,11 @@
 namespace rholm {
 
 // For each vertex, how far within the data it is: 1 in the middle of a cap's points, 0 on their
-// rim, negative beyond all.
+// rim, negative beyond all. Guessed vertices (ExtractedSurface::filled) also have to lie on a cap,
+// as closely as half of its band.
 std::vector<double> data_support(const Atlas& atlas, const CapLists& lists,
-                                 const ExtractedSurface& surface, const Context& context);
+                                 const ExtractedSurface& surface, double step,
+                                 const Context& context);
 
 // The same at nodes of the grid, as what they are worth to a hole beside them: 1 within the data, 0
 // where caps end. Refers to its arguments.

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "base/parallel.h"
 #include "surface/holes/close_grid.h"
@@ -43,6 +44,10 @@ constexpr double kSure = 0.3;
 // Where it is unsure its bounds are this many times as far as its own values, beyond a step: they
 // must not cut values next to the surface, from which its place is interpolated.
 constexpr double kBoundSlope = 2;
+// Seen by as much of its surroundings a place is empty. A line marks the whole of every cube that
+// it goes through, half a cube too much on either side: with 1/2 fills beside a surface that lines
+// pass closely lose up to two spacings (scripts/scan-figures --scans, the knot).
+constexpr double kEmpty = 0.75;
 // A slope of less is a saddle's or an extremum's: no distance follows from it.
 constexpr double kLeastSlope = 0.05;
 // Fills are cut off at so many steps: a distance beyond means nothing.
@@ -277,6 +282,18 @@ NodeValues smooth_values(const std::vector<Fill>& fills, const WindingTree& tree
   };
 }
 
+// Outside where it has been seen to be empty: a bound as by a winding number that is sure of it.
+NodeValues carved(NodeValues values, const SeenSpace* seen, double step) {
+  if (seen == nullptr) return values;
+  return [values = std::move(values), seen, step](std::span<const Vec3> x, std::span<double> out) {
+    values(x, out);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      out[i] =
+          std::max(out[i], kBoundSlope * winding_value(0.5 + kEmpty - seen->emptiness(x[i]), step));
+    }
+  };
+}
+
 void clear(BlockGrid& grid, const Hole& hole) {
   for (const NodeId& id : hole.nodes) {
     grid.block_values(id.block)[id.node] = BlockGrid::kUnknown;
@@ -319,7 +336,8 @@ HoleFilling fill_holes(BlockGrid& grid, std::span<const FootPoint> feet, const W
                        const HoleFillOptions& options, const Context& context) {
   HoleFilling result;
   result.filled_nodes =
-      close_grid(grid, winding_values(tree, grid.step, context), options.max_blocks, context)
+      close_grid(grid, carved(winding_values(tree, grid.step, context), options.seen, grid.step),
+                 options.max_blocks, context)
           .filled_nodes;
   if (result.filled_nodes == 0) return result;
   std::vector<Fill> fills;
@@ -337,7 +355,8 @@ HoleFilling fill_holes(BlockGrid& grid, std::span<const FootPoint> feet, const W
   std::erase_if(fills, [](const Fill& fill) { return !fill.smooth; });
   result.smooth = fills.size();
   if (fills.empty()) return result;
-  const NodeValues values = smooth_values(fills, tree, grid.step, context);
+  const NodeValues values =
+      carved(smooth_values(fills, tree, grid.step, context), options.seen, grid.step);
   for (const Fill& fill : fills) {
     clear(grid, fill.hole);
     result.filled_nodes -= fill.hole.nodes.size();

@@ -10,6 +10,7 @@
 #include "rholm/vec3.h"
 #include "shape/queries/winding_tree.h"
 #include "surface/grid/block_grid.h"
+#include "surface/holes/seen_space.h"
 
 namespace rholm {
 
@@ -30,6 +31,8 @@ struct HoleFillOptions {
   // If given, known nodes around a hole with less support than 1 take over part of the fill, and
   // the surface at those with support 1 guides it.
   NodeSupport support = {};
+  // If given, nothing is filled where it is empty.
+  const SeenSpace* seen = nullptr;
 };
 
 struct HoleFilling {

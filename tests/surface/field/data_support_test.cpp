@@ -76,7 +76,7 @@ TEST(DataSupport, of_vertices_falls_from_1_in_the_middle_to_0_at_the_rim) {
     surface.first_vertex.push_back(static_cast<std::uint32_t>(surface.mesh.vertices.size()));
   }
   ASSERT_EQ(surface.mesh.vertices.size(), places().size());
-  const std::vector<double> support = data_support(atlas, field.lists, surface, {});
+  const std::vector<double> support = data_support(atlas, field.lists, surface, kStep, {});
   for (std::size_t v = 0; v < support.size(); ++v) {
     const double square = square_from(at, surface.mesh.vertices[v]);
     if (square < 1) {
@@ -114,7 +114,7 @@ TEST(DataSupport, is_positive_within_the_data_and_negative_beyond) {
   Field field = make_field(atlas, step);
   fill_grid(atlas, field.lists, field.grid, {});
   ExtractedSurface surface = extract_surface(field.grid);
-  const std::vector<double> support = data_support(atlas, field.lists, surface, {});
+  const std::vector<double> support = data_support(atlas, field.lists, surface, kStep, {});
   const double margin = largest_support(atlas);
   std::size_t inside = 0, doubtful = 0;
   for (std::size_t v = 0; v < support.size(); ++v) {

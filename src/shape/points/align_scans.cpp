@@ -1,0 +1,373 @@
+// Scans of one surface brought together (method 7.13). Layer: shape.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/parallel.h"
+#include "rholm/points.h"
+#include "rholm/topology.h"
+#include "shape/points/normals.h"
+#include "shape/points/plane_fit.h"
+#include "shape/points/point_tree.h"
+#include "shape/points/sampling_gaps.h"
+#include "shape/points/scan_motions.h"
+#include "shape/points/sensors.h"
+#include "shape/rigid_motion.h"
+
+namespace rholm {
+namespace {
+
+// Points of a scan that are met by others, and of those the ones that look for others. Chosen: the
+// error of six unknowns from a thousand distances is a thirtieth of theirs.
+constexpr std::size_t kMet = 8000;
+constexpr std::size_t kLooking = 2000;
+// Fewer have no normals to speak of: such scans stay where they are.
+constexpr std::size_t kFewest = 50;
+// Spacings of all points: scans that are off by three, rms, lie up to three times that from each
+// other.
+constexpr double kFirstReach = 9;
+// Of the points that are met, in spacings: a nearest one farther along the surface is at the end of
+// its scan.
+constexpr double kAside = 2;
+constexpr double kSameSide = 0.8;  // cosine of the normals; chosen: 37 degrees
+// Confidence of the side of a normal: fewer than one in ten thousand are wrong (method 7.12).
+constexpr double kSure = 0.99;
+// Tukey's biweight, of 95 % efficiency, and the deviation of a Gaussian over its median.
+constexpr double kTukey = 4.685, kOfMedian = 1.4826;
+// Rounds end when the distances change by less than this part of their deviation: pairs that are
+// found anew change them by sqrt(6 scans / pairs) of it, some hundredths.
+constexpr double kStill = 0.1;
+constexpr int kMostRounds = 60;  // chosen: five do
+
+// One scan: some of its points, with normals.
+struct Scan {
+  std::vector<std::uint32_t> members;  // of the cloud
+  std::vector<Vec3> points, normals;   // in the order of the tree
+  std::optional<PointTree> tree;
+  double spacing = 0;  // of these points
+  double height = 0;   // of the points over their planes, median
+};
+
+// Which scan each point belongs to, 0 ... n - 1 by the attribute's values; nothing without an
+// attribute of few whole numbers.
+struct ScanLabels {
+  std::vector<std::uint32_t> of;
+  std::size_t n = 0;
+};
+
+std::optional<ScanLabels> labels_of(const PointCloud& cloud) {
+  const Attribute* scan = find_attribute(cloud.attributes, "scan");
+  if (scan == nullptr) return std::nullopt;
+  std::vector<double> different;
+  for (const double value : scan->values) {
+    if (!(std::isfinite(value) && value == std::round(value))) return std::nullopt;
+    const auto at = std::lower_bound(different.begin(), different.end(), value);
+    if (at != different.end() && *at == value) continue;
+    if (different.size() == kMaxScans) return std::nullopt;
+    different.insert(at, value);
+  }
+  ScanLabels labels{.of = std::vector<std::uint32_t>(scan->values.size()), .n = different.size()};
+  for (std::size_t i = 0; i < labels.of.size(); ++i) {
+    labels.of[i] = static_cast<std::uint32_t>(
+        std::lower_bound(different.begin(), different.end(), scan->values[i]) - different.begin());
+  }
+  return labels;
+}
+
+double spacing_of(const PointTree& tree) {
+  const std::size_t n = tree.size(), seeds = std::min<std::size_t>(n, 1000);
+  std::vector<double> all(seeds);
+  std::vector<Neighbor> near;
+  for (std::size_t j = 0; j < seeds; ++j) {
+    tree.nearest_to(j * n / seeds, kCircle + 1, near);
+    all[j] = spacing_of_circle(near.back().distance2);
+  }
+  std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(seeds / 2), all.end());
+  return all[seeds / 2];
+}
+
+// Some of the scan's points, evenly, with normals: its own, or of planes; these face the sensors.
+void choose_points(const PointCloud& cloud, std::span<const Vec3> sensors, Scan& scan,
+                   const Context& context) {
+  std::vector<Vec3> all(scan.members.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = cloud.points[scan.members[i]];
+  const PointTree tree(all, context);
+  std::vector<Vec3> ordered(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) ordered[i] = all[tree.order()[i]];
+  const SamplingGaps gaps = find_gaps(tree, ordered, context);
+  const auto k = static_cast<std::size_t>(choose_neighbors(tree, ordered, gaps, context));
+  const std::size_t n = std::min(all.size(), kMet);
+  std::vector<Vec3> normals(n);
+  std::vector<double> heights(n);
+  parallel_for(n, 256, context, {}, [&](std::size_t begin, std::size_t end) {
+    Neighborhood near;
+    for (std::size_t j = begin; j < end; ++j) {
+      const std::size_t i = j * all.size() / n, given = scan.members[tree.order()[i]];
+      near.gather(tree, ordered, i, gaps.scaled(i, k));
+      if (!(near.radius > 0)) continue;
+      const PlaneFit fit = fit_plane(near.points, near.weights);
+      heights[j] = std::sqrt(fit.height) * near.radius;
+      normals[j] = cloud.normals.empty() ? fit.normal : normalized(cloud.normals[given]);
+      if (cloud.normals.empty() && !sensors.empty() &&
+          dot(normals[j], sensors[given] - cloud.points[given]) < 0) {
+        normals[j] = -normals[j];
+      }
+    }
+  });
+  scan.points.clear(), scan.normals.clear();
+  for (std::size_t j = 0; j < n; ++j) {
+    if (!(norm(normals[j]) > 0)) continue;
+    scan.points.push_back(ordered[j * all.size() / n]);
+    scan.normals.push_back(normals[j]);
+  }
+  const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(n / 2);
+  std::nth_element(heights.begin(), middle, heights.end());
+  scan.height = *middle;
+}
+
+void plant(Scan& scan, const Context& context) {
+  scan.tree.emplace(scan.points, context);
+  std::vector<Vec3> points, normals;
+  for (const std::uint32_t i : scan.tree->order()) {
+    points.push_back(scan.points[i]), normals.push_back(scan.normals[i]);
+  }
+  scan.points = std::move(points), scan.normals = std::move(normals);
+  scan.spacing = spacing_of(*scan.tree);
+}
+
+// Where a motion of many steps has brought a scan.
+struct Pose {
+  Vec3 origin, x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};  // images of the middle and of the axes
+
+  void move(const RigidMotion& motion) {
+    origin = motion.point(origin);
+    x = motion.direction(x), y = motion.direction(y), z = motion.direction(z);
+  }
+  Vec3 direction(const Vec3& v) const { return v.x * x + v.y * y + v.z * z; }
+};
+
+// The scans that can be moved, in their present places.
+struct Scans {
+  std::vector<Scan> scans;
+  std::vector<Pose> poses;
+  Vec3 middle;
+  double radius = 0;
+  double spacing = 0;  // of all points
+  bool sided = false;  // normals know outside
+
+  void move(std::span<const RigidMotion> motions, const Context& context);
+  std::vector<ScanPair> pairs(double reach, const Context& context) const;
+  void add_pairs(std::size_t from, std::size_t to, double reach, std::size_t begin, std::size_t end,
+                 std::vector<ScanPair>& found) const;
+};
+
+void Scans::move(std::span<const RigidMotion> motions, const Context& context) {
+  for (std::size_t k = 0; k < scans.size(); ++k) {
+    poses[k].move(motions[k]);
+    Scan& scan = scans[k];
+    for (Vec3& point : scan.points) point = motions[k].point(point);
+    for (Vec3& normal : scan.normals) normal = motions[k].direction(normal);
+    if (!scan.points.empty()) plant(scan, context);
+  }
+}
+
+// Along n_a + n_b a and b have a distance of zero if they lie on one sphere: unlike that from
+// a plane it does not grow with how far they are apart along the surface.
+void Scans::add_pairs(std::size_t from, std::size_t to, double reach, std::size_t begin,
+                      std::size_t end, std::vector<ScanPair>& found) const {
+  const Scan &looking = scans[from], &met = scans[to];
+  const double weight =
+      1 / (looking.height * looking.height + met.height * met.height + 1e-12 * spacing * spacing);
+  const std::size_t n = std::min(looking.points.size(), kLooking);
+  std::vector<Neighbor> near;
+  for (std::size_t j = begin; j < end; ++j) {
+    const std::size_t i = j * looking.points.size() / n;
+    const Vec3 a = looking.points[i];
+    met.tree->nearest(a, 1, near);
+    const Vec3 b = met.points[near[0].index];
+    const double cosine = dot(looking.normals[i], met.normals[near[0].index]);
+    if (!(cosine > kSameSide)) continue;
+    const Vec3 normal = normalized(looking.normals[i] + met.normals[near[0].index]);
+    const double distance = dot(a - b, normal);
+    if (std::abs(distance) > reach) continue;
+    if (norm(a - b - distance * normal) > kAside * met.spacing) continue;
+    found.push_back(
+        {static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(to), a, b, normal, weight});
+  }
+}
+
+bool near(const Bounds& a, const Bounds& b, double reach) {
+  const Vec3 low = a.min - b.max, high = b.min - a.max;
+  return std::max({low.x, low.y, low.z, high.x, high.y, high.z}) <= reach;
+}
+
+std::vector<ScanPair> Scans::pairs(double reach, const Context& context) const {
+  // Chunks of points of one scan that look for another.
+  struct Chunk {
+    std::size_t from, to, begin, end;
+  };
+  constexpr std::size_t kChunk = 256;
+  std::vector<Bounds> boxes;
+  for (const Scan& scan : scans) boxes.push_back(bounds(scan.points));
+  std::vector<Chunk> chunks;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    for (std::size_t j = 0; j < scans.size(); ++j) {
+      if (i == j || scans[i].points.empty() || scans[j].points.empty()) continue;
+      if (!near(boxes[i], boxes[j], reach)) continue;
+      const std::size_t n = std::min(scans[i].points.size(), kLooking);
+      for (std::size_t b = 0; b < n; b += kChunk)
+        chunks.push_back({i, j, b, std::min(n, b + kChunk)});
+    }
+  }
+  std::vector<std::vector<ScanPair>> found(chunks.size());
+  parallel_for(chunks.size(), 1, context, {}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c) {
+      add_pairs(chunks[c].from, chunks[c].to, reach, chunks[c].begin, chunks[c].end, found[c]);
+    }
+  });
+  std::vector<ScanPair> all;
+  for (const std::vector<ScanPair>& some : found) all.insert(all.end(), some.begin(), some.end());
+  return all;
+}
+
+// The standard deviation of the distances, if most are Gaussian.
+double deviation(std::span<const ScanPair> pairs) {
+  if (pairs.empty()) return 0;
+  std::vector<double> all;
+  for (const ScanPair& pair : pairs) all.push_back(std::abs(pair.distance()));
+  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+  std::nth_element(all.begin(), middle, all.end());
+  return kOfMedian * *middle;
+}
+
+void weigh(std::vector<ScanPair>& pairs, double sigma) {
+  for (ScanPair& pair : pairs) {
+    const double t = pair.distance() / (kTukey * sigma), rest = std::max(0.0, 1 - t * t);
+    pair.weight *= sigma > 0 ? rest * rest : 1;
+  }
+}
+
+// Root mean square, weighted.
+double change_of_distances(std::span<const ScanPair> pairs, std::span<const RigidMotion> motions) {
+  double squares = 0, weights = 0;
+  for (const ScanPair& pair : pairs) {
+    ScanPair moved = pair;
+    moved.a = motions[pair.from].point(pair.a), moved.b = motions[pair.to].point(pair.b);
+    const double change = moved.distance() - pair.distance();
+    squares += pair.weight * change * change;
+    weights += pair.weight;
+  }
+  return weights > 0 ? std::sqrt(squares / weights) : 0;
+}
+
+// Moves the scans until nothing changes.
+void bring_together(Scans& scans, ScanAlignment& result, const Context& context) {
+  double reach = kFirstReach * scans.spacing;
+  for (int round = 0; round < kMostRounds; ++round) {
+    std::vector<ScanPair> pairs = scans.pairs(reach, context);
+    const double sigma = deviation(pairs);
+    if (round == 0) result.distance_before = sigma;
+    result.distance = sigma;
+    result.pairs = pairs.size();
+    if (pairs.empty()) return;
+    weigh(pairs, sigma);
+    std::vector<ScanBody> bodies;
+    for (const Scan& scan : scans.scans) {
+      bodies.push_back(body_of(scan.points, scans.middle, scans.radius));
+      bodies.back().points = static_cast<double>(scan.members.size());
+    }
+    const std::vector<RigidMotion> motions =
+        solve_motions(pairs, bodies, scans.middle, scans.radius);
+    scans.move(motions, context);
+    if (change_of_distances(pairs, motions) <= kStill * sigma) return;
+    reach = std::min(reach, std::max(kTukey * sigma, scans.spacing));
+  }
+}
+
+// Sides by all scans together where neither normals nor sensors tell them: a thin part has another
+// sheet within reach. Some points of each scan get them, the others have those of the nearest.
+void find_sides(Scans& scans, const Context& context) {
+  PointCloud some;
+  for (const Scan& scan : scans.scans) {
+    const std::size_t n = std::min(scan.points.size(), kLooking);
+    for (std::size_t j = 0; j < n; ++j) {
+      some.points.push_back(scan.points[j * scan.points.size() / n]);
+      some.normals.push_back(scan.normals[j * scan.points.size() / n]);
+    }
+  }
+  if (some.points.empty()) return;
+  orient(some, {.keep_directions = true, .keep_strays = true, .confidence = true}, context);
+  const std::vector<double>& sure = find_attribute(some.attributes, "confidence")->values;
+  std::size_t first = 0;
+  for (Scan& scan : scans.scans) {
+    const std::size_t n = std::min(scan.points.size(), kLooking);
+    if (n == 0) continue;
+    const PointTree known(std::span(some.points).subspan(first, n), context);
+    std::vector<Neighbor> near;
+    for (std::size_t i = 0; i < scan.points.size(); ++i) {
+      known.nearest(scan.points[i], 1, near);
+      const std::size_t of = first + known.order()[near[0].index];
+      if (dot(scan.normals[i], some.normals[of]) < 0) scan.normals[i] = -scan.normals[i];
+      // Pairs ask for a cosine: a normal of zero has none.
+      if (sure[of] < kSure) scan.normals[i] = {};
+    }
+    first += n;
+  }
+}
+
+// The points, their normals and sensors go with their scans.
+void move_points(const ScanLabels& labels, const Scans& scans, PointCloud& cloud,
+                 ScanAlignment& result) {
+  std::vector<Vec3> sensors = sensors_of(cloud);
+  double squares = 0;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    const Pose& pose = scans.poses[labels.of[i]];
+    const auto moved = [&](const Vec3& p) {
+      return pose.origin + pose.direction(p - scans.middle);
+    };
+    const Vec3 at = moved(cloud.points[i]);
+    squares += dot(at - cloud.points[i], at - cloud.points[i]);
+    cloud.points[i] = at;
+    if (!cloud.normals.empty()) cloud.normals[i] = pose.direction(cloud.normals[i]);
+    if (!sensors.empty()) sensors[i] = moved(sensors[i]);
+  }
+  result.moved = std::sqrt(squares / static_cast<double>(cloud.points.size()));
+  if (!sensors.empty()) set_sensors(cloud, sensors);
+}
+
+}  // namespace
+
+ScanAlignment align_scans(PointCloud& cloud, const Context& context) {
+  validate(cloud);
+  ScanAlignment result;
+  const std::optional<ScanLabels> labels = labels_of(cloud);
+  if (!labels) return result;
+  result.scans = labels->n;
+  if (labels->n < 2) return result;
+  Scans scans;
+  scans.scans.resize(labels->n);
+  for (std::uint32_t i = 0; i < cloud.points.size(); ++i) {
+    scans.scans[labels->of[i]].members.push_back(i);
+    scans.middle += cloud.points[i] / static_cast<double>(cloud.points.size());
+  }
+  double squares = 0;
+  for (const Vec3& p : cloud.points) squares += dot(p - scans.middle, p - scans.middle);
+  scans.radius = std::sqrt(squares / static_cast<double>(cloud.points.size()));
+  scans.poses.assign(labels->n, {.origin = scans.middle});
+  scans.spacing = spacing_of(PointTree(cloud.points, context));
+  const std::vector<Vec3> sensors = sensors_of(cloud);
+  scans.sided = !cloud.normals.empty() || !sensors.empty();
+  for (Scan& scan : scans.scans) {
+    if (scan.members.size() < kFewest) continue;
+    choose_points(cloud, sensors, scan, context);
+    if (!scan.points.empty()) plant(scan, context);
+  }
+  if (!scans.sided) find_sides(scans, context);
+  bring_together(scans, result, context);
+  if (result.pairs > 0) move_points(*labels, scans, cloud, result);
+  return result;
+}
+
+}  // namespace rholm

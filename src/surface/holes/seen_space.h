@@ -1,0 +1,38 @@
+// Space that scanners have seen to be empty (method 7.13). Layer: surface.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rholm/context.h"
+#include "rholm/vec3.h"
+
+namespace rholm {
+
+// Cubes that lines of sight from a sensor to its point go through, but for the end of each line.
+class SeenSpace {
+ public:
+  // One sensor a point. Cubes have at least this edge, and are at most 256 along each axis of the
+  // points' box. Lines count up to `margin` before their points.
+  SeenSpace(std::span<const Vec3> points, std::span<const Vec3> sensors, double edge, double margin,
+            const Context& context = {});
+
+  // How empty it is at x: 1 where all cubes around have been seen, 0 where none has; continuous.
+  double emptiness(const Vec3& x) const;
+
+ private:
+  std::size_t cell(std::size_t i, std::size_t j, std::size_t k) const {
+    return i + size_[0] * (j + size_[1] * k);
+  }
+  void go_through(Vec3 from, Vec3 to);
+  void soften(const Context& context);
+
+  Vec3 origin_;
+  double edge_ = 1;
+  std::size_t size_[3] = {};
+  std::vector<std::uint8_t> seen_;  // then how much of the cubes around has been, of kAll
+};
+
+}  // namespace rholm
