@@ -114,6 +114,9 @@ Json json_of(const Reconstruction& made, double diagonal, bool confidence) {
                {"faces", made.mesh.triangles.size()},
                {"full_faces", r.faces},
                {"simplify_error", r.simplify_error},
+               {"area", r.area},
+               {"closed_area", r.closed_area},
+               {"points_area", r.points_area},
                {"volume", r.volume},
                {"diagonal", diagonal},
                {"foreseen_memory", r.memory}};
@@ -187,6 +190,9 @@ std::string report_text(const Reconstruction& made, double diagonal,
 
 constexpr double kSaid = 0.02;  // share of unsure signs that is worth a warning
 
+// Of the area that points stand for: less is worth a warning; noisy points have 0.8.
+constexpr double kSaidArea = 0.7;
+
 // Says what makes the surface doubtful; throws NotConverged where it should not be trusted. The
 // output is written by then.
 void judge(const Reconstruction& made, bool filled, Session& session) {
@@ -203,6 +209,22 @@ void judge(const Reconstruction& made, bool filled, Session& session) {
   }
   if (unsure > kSaid) {
     session.warn(side + ": thin or sparse parts may be wrong; --confidence shows where");
+  }
+  const double seen = made.report.area - made.report.closed_area;
+  const double share = seen / made.report.points_area;
+  const std::string much = fmt::format(
+      "the surface has {:.3g} times the area that the points stand for: they contradict each "
+      "other, "
+      "as double walls or scans that are off do",
+      share);
+  if (share < kLeastArea || share > kMostArea) {
+    throw Error(ErrorCode::kNotConverged, much + "; it is written, but may be wrong all over");
+  }
+  if (share < kSaidArea) session.warn(much);
+  if (made.report.closed_area > made.report.points_area) {
+    session.warn(
+        "more of the surface closes holes than there are points for: the points are open, "
+        "as of one side; --holes keep leaves them so");
   }
   if (filled && made.report.volume < 0) {
     throw Error(ErrorCode::kNotConverged,

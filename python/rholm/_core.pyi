@@ -2135,6 +2135,18 @@ class ReconstructReport:
         """By simplify()."""
 
     @property
+    def area(self) -> float:
+        """Of the surface."""
+
+    @property
+    def closed_area(self) -> float:
+        """Of it, what closes holes."""
+
+    @property
+    def points_area(self) -> float:
+        """That the points stand for, by the circles of their neighbours."""
+
+    @property
     def volume(self) -> float:
         """Signed, of the surface: negative if its normals point inwards."""
 

@@ -57,6 +57,10 @@ void bind_reconstruction(nb::module_& m) {
              "Parts of the surface that were too small.")
       .field("faces", &ReconstructReport::faces, "Of the surface before it was simplified.")
       .field("simplify_error", &ReconstructReport::simplify_error, "By simplify().")
+      .field("area", &ReconstructReport::area, "Of the surface.")
+      .field("closed_area", &ReconstructReport::closed_area, "Of it, what closes holes.")
+      .field("points_area", &ReconstructReport::points_area,
+             "That the points stand for, by the circles of their neighbours.")
       .field("volume", &ReconstructReport::volume,
              "Signed, of the surface: negative if its normals point inwards.")
       .field("unseen_area", &ReconstructReport::unseen_area,

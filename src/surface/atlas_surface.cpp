@@ -170,6 +170,21 @@ void bridge_gaps(const Mesh& mesh, double least, std::vector<double>& support) {
   }
 }
 
+// Of the whole area, triangles with a vertex whose place follows from filled nodes.
+double guessed_share(const ExtractedSurface& surface) {
+  if (surface.filled.empty()) return 0;
+  const Mesh& mesh = surface.mesh;
+  double guessed = 0, whole = 0;
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3& a = mesh.vertices[t[0]];
+    const double area = norm(cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a));
+    whole += area;
+    const auto filled = [&](std::uint32_t v) { return surface.filled[v] != 0; };
+    if (std::any_of(t.begin(), t.end(), filled)) guessed += area;
+  }
+  return whole > 0 ? guessed / whole : 0;
+}
+
 // Vertices in no cap's support have the normals of their triangles.
 void complete_normals(Mesh& mesh) {
   const auto axis = [&](const char* name) -> std::vector<double>& {
@@ -222,6 +237,7 @@ AtlasSurface extract_atlas(const Atlas& atlas, const AtlasSurfaceOptions& option
   // From here on only the places of blocks are asked for.
   grid.values = {}, grid.neighbours = {};
   project_vertices(atlas, lists, grid, surface, context);
+  result.guessed = guessed_share(surface);
   if (options.keep_holes) {
     std::vector<double> support = data_support(atlas, lists, surface, options.step, context);
     bridge_gaps(surface.mesh, kGap * typical_area(atlas), support);

@@ -25,6 +25,7 @@ struct AtlasSurfaceOptions {
 struct AtlasSurface {
   Mesh mesh;  // with normals nx, ny, nz
   std::size_t holes = 0, smooth_holes = 0;
+  double guessed = 0;  // share of the closed surface's area that is beside filled nodes
   std::size_t dropped_components = 0;
   std::size_t faces = 0;  // before simplification
   double simplify_error = 0;

@@ -1,5 +1,7 @@
 """Surfaces from points: every option, what is reported, what is refused."""
 
+import json
+import math
 import os
 import re
 import sys
@@ -111,6 +113,36 @@ class Reconstruct(CliTest):
         self.assertGreater(min(v[at] for v in vertices if v[0] > -0.7), 0.9)
         self.assertIn("not known", self.rholm("reconstruct", "half.xyz", "--confidence", "-o",
                                               "s.ply").out)
+
+    def test_double_walls_and_more_closed_than_seen_are_said(self):
+        def ball(lowest, radius, n):
+            lines = []
+            for i in range(n):
+                z, phi = lowest + (1 - lowest) * (i + 0.5) / n, 2.399963 * i
+                s = math.sqrt(1 - z * z)
+                n_xyz = (s * math.cos(phi), s * math.sin(phi), z)
+                p_xyz = [radius * c for c in n_xyz]
+                lines.append(" ".join(repr(c) for c in (*p_xyz, *n_xyz)) + "\n")
+            return "".join(lines)
+        self.write("part.xyz", ball(0.3, 1, 4000))
+        done = self.rholm("reconstruct", "part.xyz", "-o", "s.ply", "--json")
+        found = json.loads(done.out)
+        self.assertAlmostEqual(found["points_area"], 2 * math.pi * 0.7, delta=0.3)
+        self.assertGreater(found["closed_area"], found["points_area"])
+        self.assertIn("closes holes", done.err)
+        self.write("much.xyz", ball(-0.6, 1, 4000))
+        done = self.rholm("reconstruct", "much.xyz", "-o", "s.ply", "--json")
+        self.assertNotIn("closes holes", done.err)
+        found = json.loads(done.out)
+        self.assertAlmostEqual(found["area"] - found["closed_area"], found["points_area"],
+                               delta=0.12 * found["points_area"])
+        # Scans that are off by four spacings, and left so: most caps see two walls.
+        self.rholm("make", "sample", "t.ply", "--points", "20000", "--scans", "6", "--misalign",
+                   ".02", "-o", "scans.ply")
+        self.reconstruct("scans.ply")
+        done = self.rholm("reconstruct", "scans.ply", "--keep-scans", "-o", "d.ply", code=4)
+        self.assertIn("double walls", done.err)
+        self.assertIn("d.ply", self.files())
 
     def test_points_of_a_plane_bound_no_solid(self):
         points = [(i / 40, j / 40 + 0.003 * (i * j % 7)) for i in range(40) for j in range(40)]

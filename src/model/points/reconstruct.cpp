@@ -213,6 +213,8 @@ Reconstruction reconstruct(PointCloud cloud, const ReconstructOptions& options,
   report.faces = surface.faces, report.simplify_error = surface.simplify_error;
   report.memory = surface.memory;
   report.volume = enclosed_volume(result.mesh);
+  report.area = surface_area(result.mesh), report.points_area = spacing.area;
+  if (options.holes == HolePolicy::kFill) report.closed_area = surface.guessed * report.area;
   timed(times, "attributes", [&] {
     points.carry_attributes(result.mesh, context);
     if (options.confidence) add_confidence(points.ordered(), result.mesh, report, context);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -187,18 +188,23 @@ std::size_t WorkingPoints::remove_strays(const Context& context) {
 
 Spacing WorkingPoints::spacing(const Context& context) const {
   const std::size_t n = size(), seeds = std::min(n, kSpacingSeeds);
-  std::vector<double> all(seeds);
+  std::vector<double> all(seeds), areas(seeds);
   parallel_for(seeds, 256, context, {}, [&](std::size_t begin, std::size_t end) {
     std::vector<Neighbor> near;
     for (std::size_t j = begin; j < end; ++j) {
       const std::size_t i = j * n / seeds;
-      tree_->nearest_to(i, gaps_.scaled(i, kCircle) + 1, near);
+      const std::size_t around = gaps_.scaled(i, kCircle);
+      tree_->nearest_to(i, around + 1, near);
       all[j] = spacing_of_circle(near.back().distance2);
+      areas[j] = all[j] * all[j] * static_cast<double>(kCircle) / static_cast<double>(around);
     }
   });
   std::sort(all.begin(), all.end());
   const double median = all[seeds / 2];
-  return {median, std::min(median, all[seeds / 10] / kTenthOfEven)};
+  const double sum = std::accumulate(areas.begin(), areas.end(), 0.0);
+  return {.median = median,
+          .fine = std::min(median, all[seeds / 10] / kTenthOfEven),
+          .area = static_cast<double>(n) / static_cast<double>(seeds) * sum};
 }
 
 bool WorkingPoints::keep_unflagged(const std::vector<std::uint8_t>& gone, const Context& context) {

@@ -21,6 +21,7 @@ namespace rholm {
 struct Spacing {
   double median = 0;
   double fine = 0;  // only a tenth of the points lie clearly closer
+  double area = 0;  // that all points stand for, by the circles of their neighbours
 };
 
 class WorkingPoints {
