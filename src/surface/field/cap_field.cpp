@@ -248,7 +248,7 @@ Lanes make_lanes(const Atlas& atlas, double step) {
     lane.yy = static_cast<float>(cap.where.yy * step2);
     lane.xy2 = static_cast<float>(2 * cap.where.xy * step2);
     lane.hh = static_cast<float>(1 / (support * support));
-    lane.reach = static_cast<float>((band_of(atlas, step) + cap.deviation) / step);
+    lane.reach = static_cast<float>((band_of(atlas, cap, step) + cap.deviation) / step);
     // A disc of radius e and half thickness t across n reaches e sqrt(1 - n_x^2) + t |n_x| along x.
     const Vec3 n = f.z;
     const double edge = longer_half_axis(cap.where) / step;
@@ -258,7 +258,7 @@ Lanes make_lanes(const Atlas& atlas, double step) {
     };
     lane.middle = support_middle(cap);
     lane.box[0] = extent(n.x), lane.box[1] = extent(n.y), lane.box[2] = extent(n.z);
-    lane.inverse_band = static_cast<float>(step / band_of(atlas, step));
+    lane.inverse_band = static_cast<float>(step / band_of(atlas, cap, step));
     lane.trust = static_cast<float>(cap.weight);
     lane.degree = cap.degree;
     lane.spline = atlas.blend == CapBlend::kSpline;
@@ -287,12 +287,16 @@ NodeRange nodes_near(const CapLane& cap, const Vec3& origin, double step) {
 
 double band_of(const Atlas& atlas, double step) { return std::max(kBandSteps * step, atlas.band); }
 
+double band_of(const Atlas& atlas, const Cap& cap, double step) {
+  return std::max(band_of(atlas, step), cap.area > 0 ? kBandOfSupport * cap.frame.support : 0);
+}
+
 std::vector<Disc> discs_of(const Atlas& atlas, double step) {
   std::vector<Disc> discs;
   discs.reserve(atlas.caps.size());
   for (const Cap& cap : atlas.caps) {
     discs.push_back({support_middle(cap), cap.frame.z, longer_half_axis(cap.where),
-                     band_of(atlas, step) + cap.deviation});
+                     band_of(atlas, cap, step) + cap.deviation});
   }
   return discs;
 }

@@ -16,6 +16,13 @@ namespace rholm {
 inline constexpr double kBandSteps = 2.5;
 // The same as a length: at least Atlas::band.
 double band_of(const Atlas& atlas, double step);
+// Of small caps also at least this part of their support: where points are sparser than those that
+// the step was chosen for, caps disagree by more than some steps. Of even points the steps are
+// more: 2.5 of 0.6 spacings, in supports of 2.8. With 0.2 thin plates keep islands beside their
+// rims (scripts/scan-figures --thin), with 0.5 sheets that are near each other begin to feel each
+// other.
+inline constexpr double kBandOfSupport = 0.35;
+double band_of(const Atlas& atlas, const Cap& cap, double step);
 
 // The caps that reach each block, in their order: those of block b are
 // caps[first[b]] ... caps[first[b + 1] - 1].

@@ -31,11 +31,13 @@ double least_place(const Atlas& atlas, const CapLists& lists, std::size_t block,
   return least;
 }
 
-bool lies_on(const Atlas& atlas, const Cap& cap, const Vec3& x, double near) {
+// Behind an open sheet the fill begins where the band of its caps ends: beside their data, but not
+// of it.
+bool lies_on(const Atlas& atlas, const Cap& cap, const Vec3& x, double step) {
   const std::span<const double> coefficients(atlas.coefficients);
   const CapValue value =
       evaluate(cap, coefficients.subspan(cap.first, n_coefficients(cap.basis, cap.degree)), x);
-  return value.valid && std::abs(value.distance) < near;
+  return value.valid && std::abs(value.distance) < band_of(atlas, cap, step) / 2;
 }
 
 }  // namespace
@@ -44,16 +46,13 @@ std::vector<double> data_support(const Atlas& atlas, const CapLists& lists,
                                  const ExtractedSurface& surface, double step,
                                  const Context& context) {
   std::vector<double> support(surface.mesh.vertices.size(), -1);
-  // Behind an open sheet the fill begins where the band of its caps ends: beside their data, but
-  // not of it.
-  const double near = band_of(atlas, step) / 2;
   parallel_for(lists.first.size() - 1, 64, context, {}, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
       for (std::size_t v = surface.first_vertex[b]; v < surface.first_vertex[b + 1]; ++v) {
         const Vec3& x = surface.mesh.vertices[v];
         const bool guessed = !surface.filled.empty() && surface.filled[v] != 0;
         support[v] = 1 - least_place(atlas, lists, b, x, [&](const Cap& cap) {
-                           return !guessed || lies_on(atlas, cap, x, near);
+                           return !guessed || lies_on(atlas, cap, x, step);
                          }) / kRim;
       }
     }

@@ -424,6 +424,19 @@ TEST(Reconstruct, a_density_that_falls_a_thousand_times_does_not_tear_it_either)
   EXPECT_NEAR(found.volume, 4 * std::numbers::pi / 3, 0.02);
 }
 
+TEST(Reconstruct, caps_of_sparse_parts_agree_within_a_band_of_their_own) {
+  // Spacings differ by 17; the step is that of the dense end, and bands of steps alone leave five
+  // handles at the other one.
+  const Mesh ring = torus(2, 0.7, 400, 200);
+  const Reconstruction made =
+      reconstruct(sample_surface(ring, {.points = 20000, .density_ratio = 300}));
+  EXPECT_EQ(expect_closed_manifold(made.mesh).euler_characteristic, 0);
+  for (const Vec3& v : made.mesh.vertices) {
+    // Some 0.2 apart at that end.
+    EXPECT_NEAR(std::hypot(std::hypot(v.x, v.y) - 2, v.z), 0.7, 0.05);
+  }
+}
+
 TEST(Reconstruct, attributes_that_are_linear_in_space_travel_along) {
   PointCloud cloud = sphere_points(5000);
   Attribute height{"height", ScalarType::kFloat32, {}}, red{"red", ScalarType::kUint8, {}};
