@@ -153,9 +153,9 @@ def align_scans(
     Parameters
     ----------
     points : points-like
-        Stay as they are. Attributes sensor_x, sensor_y, sensor_z tell the sides of thin parts.
+        Stay as they are. Attributes ``sensor_x``, ``sensor_y``, ``sensor_z`` tell the sides of thin parts.
     scan : array_like, (N,), optional
-        Which scan each point belongs to, whole numbers; by default the attribute `scan`. Without
+        Which scan each point belongs to, whole numbers; by default the attribute ``scan``. Without
         either nothing is done.
     threads, progress
         See `rholm.caller`.

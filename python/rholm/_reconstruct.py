@@ -84,8 +84,8 @@ def reconstruct(
         say where each was. Computed normals point there, and holes are not closed across what
         lines of sight go through.
     keep_scans : bool
-        Whether points with an attribute `scan` stay where they are; else the scans are brought
-        together first, by `align_scans`.
+        Whether points with an attribute ``scan`` stay where they are; else the scans are brought
+        together first, by `rholm.align_scans`.
     confidence : bool
         The vertices get an attribute `confidence`, 0 ... 1: less where signs of computed normals are
         unsure, far from data, and where an opposite sheet is near.

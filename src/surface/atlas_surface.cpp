@@ -60,7 +60,7 @@ Vec3 lowest_corner(const std::vector<Disc>& discs) {
 std::vector<BlockCoordinates> blocks_of(const Atlas& atlas, double step,
                                         const AtlasSurfaceOptions& options,
                                         const Context& context) {
-  const std::vector<Disc> discs = discs_of(atlas, step);
+  const std::vector<Disc> discs = discs_of(atlas, CapBands(atlas, step, context));
   return list_blocks(lowest_corner(discs), step, discs, blocks_within(options), context);
 }
 
@@ -221,11 +221,12 @@ AtlasSurface extract_atlas(const Atlas& atlas, const AtlasSurfaceOptions& option
     throw Error(ErrorCode::kInvalidInput, "an atlas without caps has no surface");
   }
   AtlasSurface result;
-  const std::vector<Disc> discs = discs_of(atlas, options.step);
+  const CapBands bands(atlas, options.step, context);
+  const std::vector<Disc> discs = discs_of(atlas, bands);
   BlockGrid grid = make_grid(atlas, discs, options, context);
   result.memory = memory_of(grid.n_blocks(), options);
   const CapLists lists = list_caps(grid, discs);
-  const std::vector<std::uint64_t> doubtful = fill_grid(atlas, lists, grid, context);
+  const std::vector<std::uint64_t> doubtful = fill_grid(atlas, bands, lists, grid, context);
   const AtlasDipoles dipoles = dipoles_of(atlas, options.step, context);
   const WindingTree winding(dipoles.points, dipoles.area_normals);
   clear_refuted(grid, doubtful, winding, context);
@@ -236,10 +237,10 @@ AtlasSurface extract_atlas(const Atlas& atlas, const AtlasSurfaceOptions& option
   ExtractedSurface surface = extract_surface(grid, context);
   // From here on only the places of blocks are asked for.
   grid.values = {}, grid.neighbours = {};
-  project_vertices(atlas, lists, grid, surface, context);
+  project_vertices(atlas, bands, lists, grid, surface, context);
   result.guessed = guessed_share(surface);
   if (options.keep_holes) {
-    std::vector<double> support = data_support(atlas, lists, surface, options.step, context);
+    std::vector<double> support = data_support(atlas, lists, surface, bands, context);
     bridge_gaps(surface.mesh, kGap * typical_area(atlas), support);
     result.mesh = trim(surface.mesh, support);
   } else {

@@ -268,6 +268,13 @@ TEST(every_loop, gives_the_same_bits_for_scans_brought_together) {
   });
 }
 
+TEST(every_loop, gives_the_same_bits_for_caps_of_different_sizes) {
+  const PointCloud cloud = sample_surface(icosphere(4), {.points = 5000, .density_ratio = 300});
+  expect_same_bits([&](const Context& context) {
+    return Bits().add(reconstruct(cloud, {}, context).mesh.vertices);
+  });
+}
+
 Mesh surface_of(const PointCloud& cloud, HolePolicy holes, const Context& context) {
   return reconstruct(cloud, {.holes = holes, .simplify = SimplifyOptions{.share = 0.5}}, context)
       .mesh;

@@ -210,6 +210,7 @@ std::vector<ScanPair> Scans::pairs(double reach, const Context& context) const {
   };
   constexpr std::size_t kChunk = 256;
   std::vector<Bounds> boxes;
+  boxes.reserve(scans.size());
   for (const Scan& scan : scans) boxes.push_back(bounds(scan.points));
   std::vector<Chunk> chunks;
   for (std::size_t i = 0; i < scans.size(); ++i) {

@@ -231,12 +231,13 @@ struct Lanes {
   std::vector<float> coefficients;
 };
 
-Lanes make_lanes(const Atlas& atlas, double step) {
+Lanes make_lanes(const Atlas& atlas, const CapBands& bands, double step) {
   Lanes lanes;
   lanes.coefficients.assign(atlas.coefficients.begin(), atlas.coefficients.end());
   lanes.caps.reserve(atlas.caps.size());
   for (const Cap& cap : atlas.caps) {
     CapLane lane;
+    const double band = bands[lanes.caps.size()];
     const CapFrame& f = cap.frame;
     lane.seed = f.seed();
     lane.frame = lane_frame<float>(f, step);
@@ -248,7 +249,7 @@ Lanes make_lanes(const Atlas& atlas, double step) {
     lane.yy = static_cast<float>(cap.where.yy * step2);
     lane.xy2 = static_cast<float>(2 * cap.where.xy * step2);
     lane.hh = static_cast<float>(1 / (support * support));
-    lane.reach = static_cast<float>((band_of(atlas, cap, step) + cap.deviation) / step);
+    lane.reach = static_cast<float>((band + cap.deviation) / step);
     // A disc of radius e and half thickness t across n reaches e sqrt(1 - n_x^2) + t |n_x| along x.
     const Vec3 n = f.z;
     const double edge = longer_half_axis(cap.where) / step;
@@ -258,7 +259,7 @@ Lanes make_lanes(const Atlas& atlas, double step) {
     };
     lane.middle = support_middle(cap);
     lane.box[0] = extent(n.x), lane.box[1] = extent(n.y), lane.box[2] = extent(n.z);
-    lane.inverse_band = static_cast<float>(step / band_of(atlas, cap, step));
+    lane.inverse_band = static_cast<float>(step / band);
     lane.trust = static_cast<float>(cap.weight);
     lane.degree = cap.degree;
     lane.spline = atlas.blend == CapBlend::kSpline;
@@ -285,18 +286,12 @@ NodeRange nodes_near(const CapLane& cap, const Vec3& origin, double step) {
           end(at.z + cap.box[2])};
 }
 
-double band_of(const Atlas& atlas, double step) { return std::max(kBandSteps * step, atlas.band); }
-
-double band_of(const Atlas& atlas, const Cap& cap, double step) {
-  return std::max(band_of(atlas, step), cap.area > 0 ? kBandOfSupport * cap.frame.support : 0);
-}
-
-std::vector<Disc> discs_of(const Atlas& atlas, double step) {
+std::vector<Disc> discs_of(const Atlas& atlas, const CapBands& bands) {
   std::vector<Disc> discs;
   discs.reserve(atlas.caps.size());
   for (const Cap& cap : atlas.caps) {
     discs.push_back({support_middle(cap), cap.frame.z, longer_half_axis(cap.where),
-                     band_of(atlas, cap, step) + cap.deviation});
+                     bands[discs.size()] + cap.deviation});
   }
   return discs;
 }
@@ -352,9 +347,10 @@ CapLists list_caps(const BlockGrid& grid, const std::vector<Disc>& discs) {
   return lists;
 }
 
-std::vector<std::uint64_t> fill_grid(const Atlas& atlas, const CapLists& lists, BlockGrid& grid,
+std::vector<std::uint64_t> fill_grid(const Atlas& atlas, const CapBands& bands,
+                                     const CapLists& lists, BlockGrid& grid,
                                      const Context& context) {
-  const Lanes lanes = make_lanes(atlas, grid.step);
+  const Lanes lanes = make_lanes(atlas, bands, grid.step);
   static const NodeTable nodes = make_nodes();
   std::vector<std::uint64_t> doubtful(8 * grid.n_blocks(), 0);
   parallel_for(lists.first.size() - 1, 64, context, {.name = "grid"},
@@ -403,9 +399,9 @@ std::array<double*, 3> add_vertex_normals(Mesh& mesh) {
 
 }  // namespace
 
-void project_vertices(const Atlas& atlas, const CapLists& lists, const BlockGrid& grid,
-                      ExtractedSurface& surface, const Context& context) {
-  const Lanes lanes = make_lanes(atlas, grid.step);
+void project_vertices(const Atlas& atlas, const CapBands& bands, const CapLists& lists,
+                      const BlockGrid& grid, ExtractedSurface& surface, const Context& context) {
+  const Lanes lanes = make_lanes(atlas, bands, grid.step);
   const std::array<double*, 3> normals = add_vertex_normals(surface.mesh);
   const std::size_t n_blocks = std::min(lists.first.size(), surface.first_vertex.size()) - 1;
   parallel_for(n_blocks, 64, context, {.name = "vertices"},

@@ -2,6 +2,7 @@
 // Layer: surface.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -16,13 +17,19 @@ namespace rholm {
 inline constexpr double kBandSteps = 2.5;
 // The same as a length: at least Atlas::band.
 double band_of(const Atlas& atlas, double step);
-// Of small caps also at least this part of their support: where points are sparser than those that
-// the step was chosen for, caps disagree by more than some steps. Of even points the steps are
-// more: 2.5 of 0.6 spacings, in supports of 2.8. With 0.2 thin plates keep islands beside their
-// rims (scripts/scan-figures --thin), with 0.5 sheets that are near each other begin to feel each
-// other.
-inline constexpr double kBandOfSupport = 0.35;
-double band_of(const Atlas& atlas, const Cap& cap, double step);
+
+// The band of each cap: of small ones at least a part of their support, as long as no sheet that
+// faces the other way is so near. Where points are sparser than those that the step was chosen for
+// caps disagree by more than some steps.
+class CapBands {
+ public:
+  CapBands(const Atlas& atlas, double step, const Context& context = {});
+  double operator[](std::size_t cap) const { return own_.empty() ? least_ : own_[cap]; }
+
+ private:
+  double least_ = 0;
+  std::vector<double> own_;  // empty if none is larger
+};
 
 // The caps that reach each block, in their order: those of block b are
 // caps[first[b]] ... caps[first[b + 1] - 1].
@@ -32,18 +39,19 @@ struct CapLists {
 };
 
 // The part of space in a cap's support.
-std::vector<Disc> discs_of(const Atlas& atlas, double step);
+std::vector<Disc> discs_of(const Atlas& atlas, const CapBands& bands);
 CapLists list_caps(const BlockGrid& grid, const std::vector<Disc>& discs);
 
 // Sets values to G = sum w g / sum w, w = (1 - d^2/R^2)^3 (1 - g^2/T^2)^2, or with the weight of
 // the paper in the place of the first factor: CapBlend. Returns one bit per node, 8 words per
 // block: 1 where the value is doubtful, near the surface but at the very end of all caps.
-std::vector<std::uint64_t> fill_grid(const Atlas& atlas, const CapLists& lists, BlockGrid& grid,
+std::vector<std::uint64_t> fill_grid(const Atlas& atlas, const CapBands& bands,
+                                     const CapLists& lists, BlockGrid& grid,
                                      const Context& context);
 
 // Moves vertices to G = 0 by one Newton step, and sets their normals nx, ny, nz; those beside
 // filled nodes stay, with normals of their triangles.
-void project_vertices(const Atlas& atlas, const CapLists& lists, const BlockGrid& grid,
-                      ExtractedSurface& surface, const Context& context);
+void project_vertices(const Atlas& atlas, const CapBands& bands, const CapLists& lists,
+                      const BlockGrid& grid, ExtractedSurface& surface, const Context& context);
 
 }  // namespace rholm

@@ -26,24 +26,24 @@ double least_place(const Atlas& atlas, const CapLists& lists, std::size_t block,
   for (std::size_t i = lists.first[block]; i < lists.first[block + 1]; ++i) {
     const Cap& cap = atlas.caps[lists.caps[i]];
     const double square = place(cap, x - cap.frame.seed());
-    if (square < least && counts(cap)) least = square;
+    if (square < least && counts(lists.caps[i])) least = square;
   }
   return least;
 }
 
 // Behind an open sheet the fill begins where the band of its caps ends: beside their data, but not
 // of it.
-bool lies_on(const Atlas& atlas, const Cap& cap, const Vec3& x, double step) {
+bool lies_on(const Atlas& atlas, const Cap& cap, const Vec3& x, double near) {
   const std::span<const double> coefficients(atlas.coefficients);
   const CapValue value =
       evaluate(cap, coefficients.subspan(cap.first, n_coefficients(cap.basis, cap.degree)), x);
-  return value.valid && std::abs(value.distance) < band_of(atlas, cap, step) / 2;
+  return value.valid && std::abs(value.distance) < near;
 }
 
 }  // namespace
 
 std::vector<double> data_support(const Atlas& atlas, const CapLists& lists,
-                                 const ExtractedSurface& surface, double step,
+                                 const ExtractedSurface& surface, const CapBands& bands,
                                  const Context& context) {
   std::vector<double> support(surface.mesh.vertices.size(), -1);
   parallel_for(lists.first.size() - 1, 64, context, {}, [&](std::size_t begin, std::size_t end) {
@@ -51,8 +51,8 @@ std::vector<double> data_support(const Atlas& atlas, const CapLists& lists,
       for (std::size_t v = surface.first_vertex[b]; v < surface.first_vertex[b + 1]; ++v) {
         const Vec3& x = surface.mesh.vertices[v];
         const bool guessed = !surface.filled.empty() && surface.filled[v] != 0;
-        support[v] = 1 - least_place(atlas, lists, b, x, [&](const Cap& cap) {
-                           return !guessed || lies_on(atlas, cap, x, step);
+        support[v] = 1 - least_place(atlas, lists, b, x, [&](std::uint32_t c) {
+                           return !guessed || lies_on(atlas, atlas.caps[c], x, bands[c] / 2);
                          }) / kRim;
       }
     }
@@ -72,7 +72,7 @@ NodeSupport node_support(const Atlas& atlas, const CapLists& lists, const BlockG
         // Blocks that came later, for the holes, have no caps.
         if (b == kNoBlock || static_cast<std::size_t>(b) + 1 >= lists.first.size()) continue;
         const double nearest = least_place(atlas, lists, static_cast<std::size_t>(b), x[i],
-                                           [](const Cap&) { return true; });
+                                           [](std::uint32_t) { return true; });
         support[i] = std::clamp((kEnd - nearest) / (kEnd - kRim), 0.0, 1.0);
       }
     });

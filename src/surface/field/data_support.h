@@ -17,7 +17,7 @@ namespace rholm {
 // rim, negative beyond all. Guessed vertices (ExtractedSurface::filled) also have to lie on a cap,
 // as closely as half of its band.
 std::vector<double> data_support(const Atlas& atlas, const CapLists& lists,
-                                 const ExtractedSurface& surface, double step,
+                                 const ExtractedSurface& surface, const CapBands& bands,
                                  const Context& context);
 
 // The same at nodes of the grid, as what they are worth to a hole beside them: 1 within the data, 0

@@ -63,6 +63,7 @@ TEST(scan_motions, exact_pairs_are_brought_together) {
   std::vector<ScanBody> bodies;
   for (const RigidMotion& motion : off) {
     std::vector<Vec3> points;
+    points.reserve(places.size());
     for (const Vec3& place : places) points.push_back(motion.point(place));
     bodies.push_back(body_of(points, middle, 2));
   }
@@ -78,6 +79,7 @@ TEST(scan_motions, what_no_pair_knows_of_stays) {
   // Pairs along z only: no shift in the plane, no turn about z.
   std::vector<ScanPair> pairs;
   const std::vector<Vec3> places = test::sphere_points(300).points;
+  pairs.reserve(places.size());
   for (const Vec3& at : places) pairs.push_back({0, 1, at + Vec3{0.1, 0, 0.01}, at, {0, 0, 1}});
   const std::vector<ScanBody> bodies = {body_of(places, {}, 1), body_of(places, {}, 1)};
   for (const RigidMotion& motion : solve_motions(pairs, bodies, {}, 1)) {

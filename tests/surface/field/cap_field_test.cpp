@@ -55,7 +55,8 @@ Sum blend_at(const Atlas& atlas, double band, const Vec3& x) {
 
 void expect_blend(const Atlas& atlas, double step, double band) {
   Field field = make_field(atlas, step);
-  const std::vector<std::uint64_t> doubtful = fill_grid(atlas, field.lists, field.grid, {});
+  const std::vector<std::uint64_t> doubtful =
+      fill_grid(atlas, CapBands(atlas, field.grid.step), field.lists, field.grid, {});
   std::size_t known = 0;
   for (std::size_t b = 0; b < field.grid.n_blocks(); b += 3) {
     for (std::size_t i = 0; i < BlockGrid::kNodes; i += 5) {
@@ -99,7 +100,7 @@ TEST(CapField, is_a_signed_distance_to_first_order) {
   const Atlas atlas = test::whole_sphere(4000);
   const double step = 0.7 * atlas.spacing;
   Field field = make_field(atlas, step);
-  fill_grid(atlas, field.lists, field.grid, {});
+  fill_grid(atlas, CapBands(atlas, field.grid.step), field.lists, field.grid, {});
   const double missed = 0.0037 * largest_support(atlas);  // as in cap_cover_test.cpp
   for (std::size_t b = 0; b < field.grid.n_blocks(); ++b) {
     for (std::size_t i = 0; i < BlockGrid::kNodes; ++i) {
@@ -116,14 +117,14 @@ TEST(CapField, vertices_are_moved_to_the_surface_with_its_normals) {
   const Atlas atlas = test::whole_sphere(4000);
   const double step = 0.7 * atlas.spacing;
   Field field = make_field(atlas, step);
-  fill_grid(atlas, field.lists, field.grid, {});
+  fill_grid(atlas, CapBands(atlas, field.grid.step), field.lists, field.grid, {});
   const ExtractedSurface extracted = extract_surface(field.grid);
   ASSERT_TRUE(inspect(extracted.mesh).closed);
   const double support = largest_support(atlas);
   test::for_each_target([&](const char* target) {
     SCOPED_TRACE(target);
     ExtractedSurface surface = extracted;
-    project_vertices(atlas, field.lists, field.grid, surface, {});
+    project_vertices(atlas, CapBands(atlas, field.grid.step), field.lists, field.grid, surface, {});
     const Mesh& mesh = surface.mesh;
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
       EXPECT_NEAR(norm(mesh.vertices[v]), 1, std::pow(support, 4) / 8 + 1e-5 * support);

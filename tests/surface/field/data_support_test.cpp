@@ -42,7 +42,7 @@ Atlas discs(const std::vector<double>& at) {
 // Blocks around the origin, and the caps of each.
 Field field_of(const Atlas& atlas) {
   Field field{test::box_grid({}, kStep, -3, 3), {}};
-  field.lists = list_caps(field.grid, discs_of(atlas, kStep));
+  field.lists = list_caps(field.grid, discs_of(atlas, CapBands(atlas, kStep)));
   return field;
 }
 
@@ -76,7 +76,8 @@ TEST(DataSupport, of_vertices_falls_from_1_in_the_middle_to_0_at_the_rim) {
     surface.first_vertex.push_back(static_cast<std::uint32_t>(surface.mesh.vertices.size()));
   }
   ASSERT_EQ(surface.mesh.vertices.size(), places().size());
-  const std::vector<double> support = data_support(atlas, field.lists, surface, kStep, {});
+  const std::vector<double> support =
+      data_support(atlas, field.lists, surface, CapBands(atlas, kStep), {});
   for (std::size_t v = 0; v < support.size(); ++v) {
     const double square = square_from(at, surface.mesh.vertices[v]);
     if (square < 1) {
@@ -112,9 +113,10 @@ TEST(DataSupport, is_positive_within_the_data_and_negative_beyond) {
   const Atlas atlas = sphere_atlas(8000, [](const Vec3& p) { return p.z < kBorder; });
   const double step = 0.7 * atlas.spacing;
   Field field = make_field(atlas, step);
-  fill_grid(atlas, field.lists, field.grid, {});
+  fill_grid(atlas, CapBands(atlas, field.grid.step), field.lists, field.grid, {});
   ExtractedSurface surface = extract_surface(field.grid);
-  const std::vector<double> support = data_support(atlas, field.lists, surface, kStep, {});
+  const std::vector<double> support =
+      data_support(atlas, field.lists, surface, CapBands(atlas, kStep), {});
   const double margin = largest_support(atlas);
   std::size_t inside = 0, doubtful = 0;
   for (std::size_t v = 0; v < support.size(); ++v) {

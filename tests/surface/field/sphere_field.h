@@ -46,7 +46,7 @@ struct Field {
 };
 
 inline Field make_field(const Atlas& atlas, double step) {
-  const std::vector<Disc> discs = discs_of(atlas, step);
+  const std::vector<Disc> discs = discs_of(atlas, CapBands(atlas, step));
   const Vec3 origin{-1.3, -1.2, -1.25};
   Field field;
   field.grid = make_block_grid(origin, step, list_blocks(origin, step, discs, 1000000));
