@@ -6,9 +6,6 @@
 namespace rholm {
 namespace {
 
-// Normals of a cap's points against the mean around its seed: those behind belong to another sheet;
-// noise may turn a few that far (method 7.11).
-constexpr double kSameSheet = -0.2;
 // Half of the angle of a right edge.
 constexpr double kSameFace = 0.7;
 // The mean is of so many nearest points: one sheet, and enough to average noisy normals.
@@ -64,7 +61,7 @@ Vec3 take_points(const OrderedPoints& all, std::size_t seed, std::size_t k, doub
   worker.points.clear();
   const bool face = side == CapSide::kFace;
   const Vec3 sheet = face ? all.normals[seed] : sheet_normal(all, seed, worker);
-  const double least = face ? kSameFace : kSameSheet;
+  const double least = face ? kSameFace : kOtherSheet;
   Vec3 axis;
   for (std::size_t j = 0; j < k; ++j) {
     const std::size_t i = worker.near[j].index;

@@ -114,6 +114,7 @@ WorkingPoints::WorkingPoints(PointCloud cloud, const ReconstructOptions& options
   const bool directed = std::any_of(cloud_.normals.begin(), cloud_.normals.end(),
                                     [](const Vec3& n) { return norm(n) > 0; });
   if (directed) drop_zero_normals(cloud_);
+  if (!directed) cloud_.normals.clear();
   check_points();
   order_points(context);
   if (options.remove_outliers) report.outliers += remove_strays(context);
@@ -129,13 +130,10 @@ WorkingPoints::WorkingPoints(PointCloud cloud, const ReconstructOptions& options
     report.computed_normals = computed_ = true;
     const std::size_t before = size();
     drop_zero_normals(cloud_);
-    if (cloud_.points.size() < before) {
-      check_points();
-      order_points(context);
-    }
+    if (cloud_.points.size() < before) check_points();
+    order_points(context);  // normals know more of gaps
   }
   report.dropped_points = report.points - report.outliers - cloud_.points.size();
-  order_normals(context);
   const SideBalance balance = balance_sides(*tree_, points_, normals_, context);
   if (options.holes == HolePolicy::kFill && balance.one_sided > kFlat) refuse_flat(size());
   report.turned_normals = directed && balance.inwards;
@@ -166,7 +164,9 @@ void WorkingPoints::order_points(const Context& context) {
   parallel_for(points_.size(), 8192, context, {}, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) points_[i] = cloud_.points[tree_->order()[i]];
   });
-  gaps_ = find_gaps(*tree_, points_, context);
+  normals_.clear();
+  if (!cloud_.normals.empty()) order_normals(context);
+  gaps_ = find_gaps(*tree_, points_, normals_, context);
 }
 
 void WorkingPoints::order_normals(const Context& context) {
@@ -181,7 +181,7 @@ void WorkingPoints::order_normals(const Context& context) {
 std::size_t WorkingPoints::remove_strays(const Context& context) {
   const std::size_t before = size();
   for (int pass = 0; pass < kStrayPasses; ++pass) {
-    if (!keep_unflagged(find_strays(*tree_, points_, gaps_, context), context)) break;
+    if (!remove(find_strays(*tree_, points_, gaps_, context), context)) break;
   }
   return before - size();
 }
@@ -207,7 +207,7 @@ Spacing WorkingPoints::spacing(const Context& context) const {
           .area = static_cast<double>(n) / static_cast<double>(seeds) * sum};
 }
 
-bool WorkingPoints::keep_unflagged(const std::vector<std::uint8_t>& gone, const Context& context) {
+bool WorkingPoints::remove(const std::vector<std::uint8_t>& gone, const Context& context) {
   const auto n = static_cast<std::size_t>(std::count(gone.begin(), gone.end(), 1));
   if (n == 0 || size() - n < kFewestPoints) return false;
   std::vector<std::uint8_t> given(gone.size());
@@ -215,12 +215,6 @@ bool WorkingPoints::keep_unflagged(const std::vector<std::uint8_t>& gone, const 
   keep_points(cloud_, [&](std::size_t i) { return given[i] == 0; });
   diagonal_ = bounds(cloud_.points).diagonal();
   order_points(context);
-  return true;
-}
-
-bool WorkingPoints::remove(const std::vector<std::uint8_t>& gone, const Context& context) {
-  if (!keep_unflagged(gone, context)) return false;
-  order_normals(context);
   return true;
 }
 

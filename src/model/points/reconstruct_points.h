@@ -58,10 +58,7 @@ class WorkingPoints {
   void put_sensor(const Vec3& sensor);
   void order_points(const Context& context);
   void order_normals(const Context& context);
-  // Drops the points whose flag is set, unless too few would be left; normals are not in order
-  // then.
-  bool keep_unflagged(const std::vector<std::uint8_t>& gone, const Context& context);
-  // The same, with normals.
+  // Drops the points whose flag is set, unless too few would be left.
   bool remove(const std::vector<std::uint8_t>& gone, const Context& context);
 
   PointCloud cloud_;

@@ -96,7 +96,7 @@ void choose_points(const PointCloud& cloud, std::span<const Vec3> sensors, Scan&
   const PointTree tree(all, context);
   std::vector<Vec3> ordered(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) ordered[i] = all[tree.order()[i]];
-  const SamplingGaps gaps = find_gaps(tree, ordered, context);
+  const SamplingGaps gaps = find_gaps(tree, ordered, {}, context);
   const auto k = static_cast<std::size_t>(choose_neighbors(tree, ordered, gaps, context));
   const std::size_t n = std::min(all.size(), kMet);
   std::vector<Vec3> normals(n);

@@ -33,7 +33,7 @@ void put_in_order(const PointCloud& cloud, const std::vector<std::uint32_t>& kep
     scene.place[i] = kept[scene.tree->order()[i]];
     scene.points[i] = local[scene.tree->order()[i]];
   }
-  scene.gaps = find_gaps(*scene.tree, scene.points, context);
+  scene.gaps = find_gaps(*scene.tree, scene.points, {}, context);
 }
 
 // The box of the points that are no strays.

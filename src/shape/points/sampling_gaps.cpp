@@ -72,8 +72,9 @@ struct GapsOfPoint {
 };
 
 // More neighbours until they surround it.
-GapsOfPoint gaps_of(const PointTree& tree, std::span<const Vec3> points, std::size_t i,
-                    double between, Scratch& scratch) {
+GapsOfPoint gaps_of(const PointTree& tree, std::span<const Vec3> points,
+                    std::span<const Vec3> normals, std::size_t i, double between,
+                    Scratch& scratch) {
   GapsOfPoint result;
   for (std::size_t k = kFirst;; k *= 2) {
     tree.nearest_to(i, k + 1, scratch.found);
@@ -81,6 +82,7 @@ GapsOfPoint gaps_of(const PointTree& tree, std::span<const Vec3> points, std::si
     scratch.gaps.clear();
     for (const Neighbor& near : scratch.found) {
       if (near.index == i) continue;
+      if (!normals.empty() && dot(normals[near.index], normals[i]) < kOtherSheet) continue;
       const Vec3 q = points[near.index] - points[i];
       // Nearest first: whoever lies between is nearer.
       const bool free =
@@ -116,7 +118,8 @@ double ratio_of(std::vector<GapsOfPoint>& around) {
 }  // namespace
 
 std::vector<double> gap_ratios(const PointTree& tree, std::span<const Vec3> points,
-                               std::size_t n_seeds, const Context& context) {
+                               std::span<const Vec3> normals, std::size_t n_seeds,
+                               const Context& context) {
   const std::size_t n = points.size();
   n_seeds = std::min(n, n_seeds);
   std::vector<double> ratios(n_seeds, 1.0);
@@ -129,7 +132,7 @@ std::vector<double> gap_ratios(const PointTree& tree, std::span<const Vec3> poin
       for (const double between : kBetween) {
         all.clear();
         for (const Neighbor& near : around) {
-          all.push_back(gaps_of(tree, points, near.index, between, scratch));
+          all.push_back(gaps_of(tree, points, normals, near.index, between, scratch));
         }
         ratios[s] = std::max(ratios[s], ratio_of(all));
       }
@@ -147,9 +150,9 @@ std::size_t SamplingGaps::typical_stride() const {
 }
 
 SamplingGaps find_gaps(const PointTree& tree, std::span<const Vec3> points,
-                       const Context& context) {
+                       std::span<const Vec3> normals, const Context& context) {
   SamplingGaps gaps;
-  std::vector<double> some = gap_ratios(tree, points, kSeeds, context);
+  std::vector<double> some = gap_ratios(tree, points, normals, kSeeds, context);
   const auto place = some.begin() + static_cast<std::ptrdiff_t>(
                                         (1 - kShareInRows) * static_cast<double>(some.size() - 1));
   std::nth_element(some.begin(), place, some.end());
@@ -161,7 +164,7 @@ SamplingGaps find_gaps(const PointTree& tree, std::span<const Vec3> points,
     parallel_for(n, kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
       Scratch scratch;
       for (std::size_t i = begin; i < end; ++i) {
-        own[i] = gaps_of(tree, points, i, between, scratch);
+        own[i] = gaps_of(tree, points, normals, i, between, scratch);
       }
     });
     parallel_for(n, kGrain, context, {}, [&](std::size_t begin, std::size_t end) {

@@ -42,14 +42,21 @@ struct SamplingGaps {
 
 inline constexpr double kMostGapRatio = 30;
 
+// Cosine of two normals below which their points belong to different sheets; noise may turn a few
+// that far (method 7.11).
+inline constexpr double kOtherSheet = -0.2;
+
 // A gap is the way to a neighbour in the sense of Gabriel (1969): no other point lies in the ball
 // between the two. Their covariance, averaged over the points around, has one direction
-// along the rows and one across.
-SamplingGaps find_gaps(const PointTree& tree, std::span<const Vec3> points, const Context& context);
+// along the rows and one across. `normals`, one per point or none, tell sheets apart: where another
+// one is as near as the next row, the way to it is no gap of this one.
+SamplingGaps find_gaps(const PointTree& tree, std::span<const Vec3> points,
+                       std::span<const Vec3> normals, const Context& context);
 
 // The ratio at some of the points, evenly spread over the order of the tree: for find_gaps(), and
 // tests.
 std::vector<double> gap_ratios(const PointTree& tree, std::span<const Vec3> points,
-                               std::size_t n_seeds, const Context& context);
+                               std::span<const Vec3> normals, std::size_t n_seeds,
+                               const Context& context);
 
 }  // namespace rholm

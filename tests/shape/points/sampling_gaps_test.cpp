@@ -25,7 +25,7 @@ std::vector<Vec3> plane_grid(double along, double across, int n) {
 TEST(sampling_gaps, of_a_grid_have_the_ratio_of_its_steps) {
   for (const double ratio : {2.0, 5.0, 20.0}) {
     const Cloud cloud(plane_grid(1, ratio, 200));
-    const SamplingGaps gaps = find_gaps(cloud.tree, cloud.points, {});
+    const SamplingGaps gaps = find_gaps(cloud.tree, cloud.points, {}, {});
     ASSERT_EQ(gaps.ratio.size(), cloud.points.size());
     std::vector<float> sorted = gaps.ratio;
     std::sort(sorted.begin(), sorted.end());
@@ -36,12 +36,12 @@ TEST(sampling_gaps, of_a_grid_have_the_ratio_of_its_steps) {
 
 TEST(sampling_gaps, are_none_of_even_or_random_points) {
   const Cloud even(plane_grid(1, 1, 60));
-  EXPECT_TRUE(find_gaps(even.tree, even.points, {}).ratio.empty());
+  EXPECT_TRUE(find_gaps(even.tree, even.points, {}, {}).ratio.empty());
   for (const double density_ratio : {1.0, 30.0}) {
     const Cloud random(
         sample_surface(torus(2, 0.7, 200, 100), {.points = 5000, .density_ratio = density_ratio})
             .points);
-    const SamplingGaps gaps = find_gaps(random.tree, random.points, {});
+    const SamplingGaps gaps = find_gaps(random.tree, random.points, {}, {});
     EXPECT_TRUE(gaps.ratio.empty());
     EXPECT_EQ(gaps.of(7), 1);
     EXPECT_EQ(gaps.scaled(7, 24), 24u);
@@ -55,7 +55,7 @@ TEST(sampling_gaps, of_slices_and_rings_have_their_ratio_wherever_they_are) {
         sample_surface(ring,
                        {.points = 30000, .pattern = SamplePattern::kRings, .pattern_ratio = ratio})
             .points);
-    const SamplingGaps gaps = find_gaps(cloud.tree, cloud.points, {});
+    const SamplingGaps gaps = find_gaps(cloud.tree, cloud.points, {}, {});
     ASSERT_EQ(gaps.ratio.size(), cloud.points.size());
     for (std::size_t i = 0; i < cloud.points.size(); ++i) {
       // Rows are as far apart as the axis is.
@@ -67,10 +67,28 @@ TEST(sampling_gaps, of_slices_and_rings_have_their_ratio_wherever_they_are) {
   }
 }
 
+TEST(sampling_gaps, of_a_sheet_do_not_reach_another_as_near_as_the_next_row) {
+  for (const double ratio : {5.0, 20.0}) {
+    PointCloud sheets;
+    for (const double side : {-1.0, 1.0}) {
+      for (const Vec3& p : plane_grid(1, ratio, 200)) {
+        sheets.points.push_back({p.x, p.y, side * 0.4 * ratio});
+        sheets.normals.push_back({0, 0, side});
+      }
+    }
+    const Cloud cloud(sheets);
+    const SamplingGaps gaps = find_gaps(cloud.tree, cloud.points, cloud.normals, {});
+    ASSERT_EQ(gaps.ratio.size(), cloud.points.size());
+    std::vector<float> sorted = gaps.ratio;
+    std::sort(sorted.begin(), sorted.end());
+    EXPECT_NEAR(sorted[sorted.size() / 2], ratio, 0.05 * ratio);
+  }
+}
+
 TEST(sampling_gaps, are_the_same_for_any_number_of_threads) {
   const Cloud cloud(plane_grid(1, 7, 150));
-  EXPECT_EQ(find_gaps(cloud.tree, cloud.points, {.threads = 1}).ratio,
-            find_gaps(cloud.tree, cloud.points, {.threads = 4}).ratio);
+  EXPECT_EQ(find_gaps(cloud.tree, cloud.points, {}, {.threads = 1}).ratio,
+            find_gaps(cloud.tree, cloud.points, {}, {.threads = 4}).ratio);
 }
 
 TEST(sampling_gaps, of_few_or_degenerate_points_are_finite) {
@@ -79,7 +97,7 @@ TEST(sampling_gaps, of_few_or_degenerate_points_are_finite) {
     line.reserve(n);
     for (std::size_t i = 0; i < n; ++i) line.push_back({static_cast<double>(i), 0, 0});
     const Cloud cloud(line);
-    for (const double ratio : gap_ratios(cloud.tree, cloud.points, 100, {})) {
+    for (const double ratio : gap_ratios(cloud.tree, cloud.points, {}, 100, {})) {
       EXPECT_GE(ratio, 1);
       EXPECT_LE(ratio, kMostGapRatio);
     }

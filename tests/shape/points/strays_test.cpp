@@ -20,7 +20,7 @@ using test::random_in;
 // Flags in the order of the points.
 std::vector<std::uint8_t> strays_of(const std::vector<Vec3>& points, const Context& context = {}) {
   const test::OrderedCloud ordered(points);
-  const SamplingGaps gaps = find_gaps(ordered.tree, ordered.points, context);
+  const SamplingGaps gaps = find_gaps(ordered.tree, ordered.points, {}, context);
   return ordered.as_given(find_strays(ordered.tree, ordered.points, gaps, context));
 }
 
