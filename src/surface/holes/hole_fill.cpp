@@ -34,6 +34,10 @@ constexpr std::size_t kLeastCenters = 6;
 // surface full of gaps has very many. Chosen.
 constexpr std::size_t kLeastNodes = 64;
 constexpr double kLeastRadiusSteps = 2.5;
+// Unless it lies between two sheets: midway between discs missing in both, t apart, the number is
+// t / sqrt(t^2 + 4 r^2), and bridges them from the radius r = sqrt(3) / 2 t on. Sheets are apart
+// from two steps on.
+constexpr double kLeastBridgeSteps = std::numbers::sqrt3;
 // The distance to a rim is that to so many of its nodes: 1/40 of the radius apart on a round hole.
 constexpr std::size_t kRimSamples = 256;
 // The fill fades to the winding number from here to there, in units of the hole's reach.
@@ -53,11 +57,15 @@ constexpr double kLeastSlope = 0.05;
 // Fills are cut off at so many steps: a distance beyond means nothing.
 constexpr double kLargestSteps = 2.5;
 
-// Foot points by the block they lie in.
 bool is_large(const Hole& hole, double step) {
   return hole.nodes.size() >= kLeastNodes && hole.radius >= kLeastRadiusSteps * step;
 }
 
+bool may_bridge(const BlockGrid& grid, const Hole& hole) {
+  return hole.radius >= kLeastBridgeSteps * grid.step && count_borders(grid, hole) > 1;
+}
+
+// Foot points by the block they lie in.
 struct FeetOfBlocks {
   std::vector<std::uint32_t> first;  // n_blocks + 1
   std::vector<std::uint32_t> feet;
@@ -92,6 +100,18 @@ struct Candidate {
   std::uint32_t foot = 0;
 };
 
+// Median of the supports of those that have one, caps; 0 if there are none.
+double typical_support(std::span<const FootPoint> feet, const std::vector<Candidate>& candidates) {
+  std::vector<double> supports;
+  for (const Candidate& c : candidates) {
+    if (feet[c.foot].support > 0) supports.push_back(feet[c.foot].support);
+  }
+  if (supports.empty()) return 0;
+  const auto middle = supports.begin() + static_cast<std::ptrdiff_t>(supports.size() / 2);
+  std::nth_element(supports.begin(), middle, supports.end());
+  return *middle;
+}
+
 // Foot points near the rim, nearest first.
 std::vector<Candidate> candidates_of(const BlockGrid& grid, const Hole& hole,
                                      std::span<const FootPoint> feet, const FeetOfBlocks& feet_of) {
@@ -100,7 +120,7 @@ std::vector<Candidate> candidates_of(const BlockGrid& grid, const Hole& hole,
   for (std::size_t i = 0; i < hole.rim.size(); i += stride) {
     rim.push_back(grid.node(hole.rim[i].block, hole.rim[i].node));
   }
-  std::vector<Candidate> found;
+  std::vector<Candidate> found, of_grid;
   for (std::size_t b = 0; b < grid.n_blocks(); ++b) {
     if (feet_of.first[b] == feet_of.first[b + 1]) continue;
     const Vec3 middle = grid.node(b, 0, 0, 0) + 3.5 * grid.step * Vec3{1, 1, 1};
@@ -112,7 +132,19 @@ std::vector<Candidate> candidates_of(const BlockGrid& grid, const Hole& hole,
       for (const Vec3& at : rim) square = std::min(square, dot(at - foot.at, at - foot.at));
       const double d = std::sqrt(square);
       // Caps end up to their support before the rim.
-      if (d < kBorder * hole.radius + foot.support) found.push_back({d, feet_of.feet[i]});
+      if (d < kBorder * hole.radius + foot.support) {
+        found.push_back({d, feet_of.feet[i]});
+      } else if (foot.support == 0) {
+        of_grid.push_back({d, feet_of.feet[i]});
+      }
+    }
+  }
+  // A hole smaller than the caps around it goes on as they do: their surface within a support
+  // counts, since their feet are too few.
+  const double support = typical_support(feet, found);
+  if (hole.radius < support) {
+    for (const Candidate& c : of_grid) {
+      if (c.rim_distance < kBorder * hole.radius + support) found.push_back(c);
     }
   }
   std::sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
@@ -144,6 +176,7 @@ std::vector<std::uint32_t> thin_out(const std::vector<Candidate>& candidates, do
 struct Fill {
   Hole hole;
   std::optional<HermiteRbf> smooth;
+  bool wanted = false;
 };
 
 // Measured nodes in the blocks of the rims and next to them.
@@ -214,7 +247,7 @@ void add_feet_of_grid(const BlockGrid& grid, const std::vector<Fill>& fills,
 void make_smooth(const BlockGrid& grid, std::span<const FootPoint> feet,
                  const FeetOfBlocks& feet_of, Fill& fill) {
   const Hole& hole = fill.hole;
-  if (!is_large(hole, grid.step)) return;
+  if (!fill.wanted) return;
   const std::vector<Candidate> candidates = candidates_of(grid, hole, feet, feet_of);
   double widen = 1;
   std::vector<std::uint32_t> chosen = thin_out(candidates, hole.radius, feet, widen);
@@ -341,11 +374,14 @@ HoleFilling fill_holes(BlockGrid& grid, std::span<const FootPoint> feet, const W
           .filled_nodes;
   if (result.filled_nodes == 0) return result;
   std::vector<Fill> fills;
-  for (Hole& hole : find_holes(grid)) fills.push_back({std::move(hole), {}});
+  for (Hole& hole : find_holes(grid)) {
+    const bool wanted = is_large(hole, grid.step) || may_bridge(grid, hole);
+    fills.push_back({std::move(hole), {}, wanted});
+  }
   result.holes = fills.size();
   std::vector<FootPoint> all_feet(feet.begin(), feet.end());
   if (options.support) {
-    std::erase_if(fills, [&](const Fill& fill) { return !is_large(fill.hole, grid.step); });
+    std::erase_if(fills, [&](const Fill& fill) { return !fill.wanted; });
     add_feet_of_grid(grid, fills, options.support, all_feet);
   }
   const FeetOfBlocks feet_of = sort_feet(grid, all_feet);

@@ -53,6 +53,48 @@ bool touches_measured(const BlockGrid& grid, const NodeId& id) {
   return touches;
 }
 
+bool is_measured(const BlockGrid& grid, const NodeId& id) {
+  return !grid.is_filled(id.block, id.node) && std::isfinite(grid.block_values(id.block)[id.node]);
+}
+
+bool is_inside(const BlockGrid& grid, const NodeId& id) {
+  return grid.block_values(id.block)[id.node] < 0;
+}
+
+// Whether a measured node has one of the other side beside it, along an axis.
+bool touches_surface(const BlockGrid& grid, const NodeId& id) {
+  for (int k = 0; k < 6; ++k) {
+    const int d = k % 2 == 0 ? 1 : -1;
+    NodeId other;
+    if (step_to(grid, id, k / 2 == 0 ? d : 0, k / 2 == 1 ? d : 0, k / 2 == 2 ? d : 0, other) &&
+        is_measured(grid, other) && is_inside(grid, other) != is_inside(grid, id)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::uint64_t key_of(const NodeId& id) { return std::uint64_t{id.block} << 9 | id.node; }
+
+// Connected sets of nodes, by their sorted keys.
+std::size_t count_sets(const BlockGrid& grid, const std::vector<std::uint64_t>& keys) {
+  DisjointSets sets(keys.size());
+  std::size_t n = keys.size();
+  for (std::uint32_t i = 0; i < keys.size(); ++i) {
+    const NodeId id{static_cast<std::uint32_t>(keys[i] >> 9),
+                    static_cast<std::uint16_t>(keys[i] & 511)};
+    for_each_neighbour(grid, id, [&](const NodeId& other) {
+      const auto at = std::lower_bound(keys.begin(), keys.end(), key_of(other));
+      if (at == keys.end() || *at != key_of(other)) return;
+      const auto j = static_cast<std::uint32_t>(at - keys.begin());
+      if (sets.find(i) == sets.find(j)) return;
+      sets.unite(i, j);
+      --n;
+    });
+  }
+  return n;
+}
+
 void measure(const BlockGrid& grid, Hole& hole) {
   if (hole.rim.empty()) return;
   const auto place = [&](const NodeId& id) { return grid.node(id.block, id.node); };
@@ -77,6 +119,23 @@ bool step_to(const BlockGrid& grid, const NodeId& node, int dx, int dy, int dz, 
   result.block = static_cast<std::uint32_t>(block);
   result.node = static_cast<std::uint16_t>((x & 7) + 8 * (y & 7) + 64 * (z & 7));
   return true;
+}
+
+std::size_t count_borders(const BlockGrid& grid, const Hole& hole) {
+  std::vector<std::uint64_t> outside, inside;
+  for (const NodeId& id : hole.rim) {
+    for_each_neighbour(grid, id, [&](const NodeId& other) {
+      if (!is_measured(grid, other) || !touches_surface(grid, other)) return;
+      (is_inside(grid, other) ? inside : outside).push_back(key_of(other));
+    });
+  }
+  std::size_t most = 0;
+  for (std::vector<std::uint64_t>* keys : {&outside, &inside}) {
+    std::sort(keys->begin(), keys->end());
+    keys->erase(std::unique(keys->begin(), keys->end()), keys->end());
+    most = std::max(most, count_sets(grid, *keys));
+  }
+  return most;
 }
 
 std::vector<Hole> find_holes(const BlockGrid& grid) {

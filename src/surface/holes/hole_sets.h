@@ -22,6 +22,11 @@ struct Hole {
   double reach = 0;           // largest distance of a node from it
 };
 
+// How many pieces the surface beside a hole has, by the measured nodes next to its rim that are
+// next to the surface: the larger number of connected sets of those outside and of those inside,
+// since between two sheets near each other one of these touches both. Of a hole in one sheet 1.
+std::size_t count_borders(const BlockGrid& grid, const Hole& hole);
+
 // Filled nodes are connected to the 26 around them. Ordered by the first node.
 std::vector<Hole> find_holes(const BlockGrid& grid);
 

@@ -329,6 +329,65 @@ TEST(HoleFill, the_grid_itself_says_where_the_fill_begins) {
   for (const Vec3& v : surface.mesh.vertices) EXPECT_NEAR(norm(v), 1, 0.075 * (1 - std::cos(wide)));
 }
 
+// Two concentric spheres, without the same part of both.
+OpenSphere open_shell(double half_angle, double thickness, double step, int n) {
+  OpenSphere shell = open_sphere(half_angle, step, n);
+  const double inner = 1 - thickness;
+  const std::size_t half = shell.points.size();
+  for (std::size_t i = 0; i < half; ++i) {
+    shell.points.push_back(inner * shell.points[i]);
+    shell.area_normals.push_back(-inner * inner * shell.area_normals[i]);
+    shell.feet.push_back({inner * shell.feet[i].at, -shell.feet[i].normal, shell.feet[i].support});
+  }
+  fill_grid(shell.grid, [&](const Vec3& x) {
+    const double d = std::max(norm(x) - 1, inner - norm(x));
+    const bool known = std::abs(d) < 2.5 * step && x.z < std::cos(half_angle) * norm(x);
+    return known ? d : static_cast<double>(BlockGrid::kUnknown);
+  });
+  return shell;
+}
+
+TEST(HoleFill, a_hole_in_two_sheets_is_no_bridge_between_them) {
+  const double thickness = 0.15, step = 0.05;
+  // The winding number bridges holes wider than sqrt(3) / 2 of the thickness.
+  for (const double half_angle : {0.14, 0.16, 0.2, 0.3}) {
+    OpenSphere shell = open_shell(half_angle, thickness, step, 14000);
+    // Few large caps, whose supports the hole is smaller than.
+    std::vector<FootPoint> feet;
+    for (std::size_t i = 0; i < shell.feet.size(); i += 20) {
+      feet.push_back(shell.feet[i]);
+      feet.back().support = 0.3;
+    }
+    const WindingTree tree(shell.points, shell.area_normals);
+    const NodeSupport all = [](std::span<const Vec3> x, std::span<double> support) {
+      std::fill_n(support.begin(), x.size(), 1.0);
+    };
+    fill_holes(shell.grid, feet, tree, {.max_blocks = 100000, .support = all});
+    const Mesh mesh = extract_surface(shell.grid).mesh;
+    expect_closed_manifold(mesh);
+    EXPECT_EQ(inspect(mesh).components, 2U) << half_angle;
+    EXPECT_EQ(inspect(mesh).euler_characteristic, 4) << half_angle;
+    // A plane over the hole would be off by the sagitta.
+    const double sagitta = 1 - std::cos(half_angle + 2 * step);
+    for (const Vec3& v : mesh.vertices) {
+      const double off = std::min(std::abs(norm(v) - 1), std::abs(norm(v) - (1 - thickness)));
+      EXPECT_LT(off, 0.5 * sagitta) << half_angle;
+    }
+  }
+}
+
+TEST(HoleSets, a_hole_between_sheets_has_two_borders) {
+  OpenSphere sphere = open_sphere(0.2, 0.05, 14000);
+  OpenSphere shell = open_shell(0.2, 0.15, 0.05, 14000);
+  for (OpenSphere* open : {&sphere, &shell}) {
+    const WindingTree tree(open->points, open->area_normals);
+    close_grid(open->grid, winding_values(tree, open->grid.step, {}), 100000);
+    const std::vector<Hole> holes = find_holes(open->grid);
+    ASSERT_EQ(holes.size(), 1U);
+    EXPECT_EQ(count_borders(open->grid, holes[0]), open == &sphere ? 1U : 2U);
+  }
+}
+
 TEST(HoleFill, threads_do_not_change_a_bit) {
   std::vector<Mesh> meshes;
   for (const int threads : {1, 2}) {
