@@ -8,6 +8,7 @@
 #include "atlas/cap/cap_pole.h"
 #include "base/parallel.h"
 #include "shape/points/point_tree.h"
+#include "shape/points/sampling_gaps.h"
 
 namespace rholm {
 namespace {
@@ -15,8 +16,6 @@ namespace {
 // Of a small cap's support. Of even points the steps are more: 2.5 of 0.6 spacings, in supports of
 // 2.8. Chosen: three times what one in ten caps is off by where density falls 300 times.
 constexpr double kBandOfSupport = 0.35;
-// Cosine of two normals below which caps lie on sheets that face each other, or away; chosen.
-constexpr double kOtherSheet = -0.2;
 // Caps lie half a support apart, those of another sheet among them: so many reach as far as one.
 constexpr std::size_t kBeside = 24;
 

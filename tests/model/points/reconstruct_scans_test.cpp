@@ -1,0 +1,108 @@
+// Surfaces of scans: off as rigid bodies, with the places of their scanners. Oracles: bodies in
+// closed form.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "rholm/compare.h"
+#include "rholm/points.h"
+#include "rholm/primitives.h"
+#include "rholm/reconstruct.h"
+#include "rholm/topology.h"
+#include "support/reconstruct_checks.h"
+#include "support/test_points.h"
+
+namespace rholm {
+namespace {
+
+using test::expect_closed_manifold;
+using test::random_in;
+using test::sphere_points;
+
+TEST(Reconstruct, scans_that_are_off_make_one_sheet) {
+  // Three spacings, rms: without a motion thousands of caps of two sheets each.
+  const Mesh body = bumpy_sphere(5);
+  const PointCloud scans =
+      sample_surface(body, {.points = 30000, .scans = 8, .misalignment = 0.02, .normals = false});
+  const Reconstruction made = reconstruct(scans), left = reconstruct(scans, {.align_scans = false});
+  EXPECT_EQ(expect_closed_manifold(made.mesh).euler_characteristic, 2);
+  EXPECT_EQ(made.report.scans.scans, 8U);
+  EXPECT_EQ(left.report.scans.scans, 0U);
+  // The mean of all motions stays, a third of each.
+  const double diagonal = bounds(body.vertices).diagonal();
+  EXPECT_LT(compare(made.mesh, body, {.samples = 20000}).a_to_b.rms, 0.5 * 0.02 * diagonal);
+  EXPECT_EQ(made.report.noise, 0);
+  EXPECT_GT(left.report.noise, 0.1 * 0.02 * diagonal);
+}
+
+// A box of edge 2 with a bore of radius 0.4 from above, 1.5 deep, whose wall no scanner has met.
+PointCloud bored_box(bool sensors) {
+  PointCloud cloud;
+  std::vector<double> at[3];
+  const auto add = [&](const Vec3& point, const Vec3& normal) {
+    cloud.points.push_back(point), cloud.normals.push_back(normal);
+    at[0].push_back(10 * normal.x), at[1].push_back(10 * normal.y), at[2].push_back(10 * normal.z);
+  };
+  const Vec3 axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  std::uint64_t next = 0;
+  const auto uniform = [&](double half) { return random_in(-half, half, 11, next++); };
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (const double side : {-1.0, 1.0}) {
+      for (int i = 0; i < 4000; ++i) {
+        const double u = uniform(1), v = uniform(1);
+        if (k == 2 && side == 1 && std::hypot(u, v) < 0.4) continue;
+        add(u * axes[(k + 1) % 3] + v * axes[(k + 2) % 3] + side * axes[k], side * axes[k]);
+      }
+    }
+  }
+  for (int i = 0; i < 800; ++i) {
+    const double u = uniform(0.4), v = uniform(0.4);
+    if (std::hypot(u, v) < 0.4) add({u, v, -0.5}, axes[2]);
+  }
+  for (std::size_t k = 0; sensors && k < 3; ++k) {
+    cloud.attributes.push_back({std::string("sensor_") + "xyz"[k], ScalarType::kFloat64, at[k]});
+  }
+  return cloud;
+}
+
+TEST(Reconstruct, what_has_been_seen_to_be_empty_is_not_closed) {
+  const double whole = 8, bore = std::numbers::pi * 0.16 * 1.5;
+  const Reconstruction blind = reconstruct(bored_box(false));
+  // The bottom of the bore is a bubble, the bore is closed.
+  EXPECT_EQ(expect_closed_manifold(blind.mesh).euler_characteristic, 4);
+  EXPECT_GT(blind.report.volume, whole - 0.4 * bore);
+  const Reconstruction made = reconstruct(bored_box(true));
+  EXPECT_EQ(expect_closed_manifold(made.mesh).euler_characteristic, 2);
+  // Two spacings of 0.03 less of the radius.
+  EXPECT_NEAR(made.report.volume, whole - bore, 0.3 * bore);
+  const double radius = 0.4, spacing = made.report.spacing;
+  for (const Vec3& v : made.mesh.vertices) {
+    if (std::abs(v.z - 0.25) > 0.5 || std::hypot(v.x, v.y) > 0.7) continue;
+    // Cubes of two spacings, soft over two more.
+    EXPECT_NEAR(std::hypot(v.x, v.y), radius, 4 * spacing);
+  }
+}
+
+TEST(Reconstruct, one_sensor_decides_all_signs) {
+  // The front of a ball, as seen from afar: alone it could be a bowl.
+  PointCloud front = sphere_points(6000);
+  std::vector<Vec3> seen;
+  for (const Vec3& p : front.points) {
+    if (p.z > 0.5) seen.push_back(p);
+  }
+  for (const double z : {50.0, -50.0}) {
+    const Reconstruction made = reconstruct({.points = seen, .normals = {}, .attributes = {}},
+                                            {.holes = HolePolicy::kKeep, .sensor = Vec3{0, 0, z}});
+    for (std::size_t i = 0; i < made.mesh.vertices.size(); ++i) {
+      EXPECT_GT(find_attribute(made.mesh.attributes, "nz")->values[i] * z, 0);
+    }
+    EXPECT_EQ(find_attribute(made.mesh.attributes, "sensor_x"), nullptr);
+  }
+}
+
+}  // namespace
+}  // namespace rholm
