@@ -110,11 +110,11 @@ WorkingPoints::WorkingPoints(PointCloud cloud, const ReconstructOptions& options
   }
   clean(cloud_);
   if (options.sensor) put_sensor(*options.sensor);
-  if (options.align_scans && lists_fit(cloud_)) report.scans = align_scans(cloud_, context);
   const bool directed = std::any_of(cloud_.normals.begin(), cloud_.normals.end(),
                                     [](const Vec3& n) { return norm(n) > 0; });
   if (directed) drop_zero_normals(cloud_);
   if (!directed) cloud_.normals.clear();
+  if (options.align_scans) report.scans = align_scans(cloud_, context);
   check_points();
   order_points(context);
   if (options.remove_outliers) report.outliers += remove_strays(context);
