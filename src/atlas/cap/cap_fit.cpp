@@ -162,6 +162,7 @@ CapSystem make_system(const CapFrame& frame, const CapPoints& points, const CapF
   double* const rows = scratch.rows.data();
   poison_scratch(rows, wanted * sizeof(double));
   system.usable = HWY_DYNAMIC_DISPATCH(FillRows)(frame, points, options, rows, system.stride);
+  clear_beyond(rows, n + 1, system.stride);
   for (std::size_t i = 0; i < points.size(); ++i) system.weights += points.weight(i);
   if (3 * system.usable < n) return system;
   scratch.matrix.resize((n + 1) * (n + 1));

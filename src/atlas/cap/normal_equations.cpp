@@ -222,6 +222,10 @@ HWY_EXPORT(SolveNested);
 HWY_EXPORT(Invert);
 }  // namespace
 
+void clear_beyond(double* rows, std::size_t count, std::size_t stride) {
+  std::fill(rows + count * stride, rows + (count + 3) / 4 * 4 * stride, 0.0);
+}
+
 void make_normal_matrix(const NormalRows& rows, double* matrix) {
   HWY_DYNAMIC_DISPATCH(Make)(rows, matrix);
 }

@@ -103,6 +103,7 @@ void for_each_block(const LocalMesh& local, const PatchCap& cap, PatchScratch& s
     if (!scratch.rows_made) {
       patch_rows(cap.frame, cap.degree, &scratch.offsets[3 * first], m, scratch.rows.data(),
                  &scratch.area[first]);
+      clear_beyond(scratch.rows.data(), 1 + patch_basis(cap.degree), m);
       base_weights(local, cap, first, m, scratch);
     }
     scratch.rows_made = m == n;

@@ -13,7 +13,7 @@
 #include "model/points/reconstruct_points.h"
 #include "model/points/surface_confidence.h"
 #include "rholm/error.h"
-#include "rholm/topology.h"
+#include "shape/measure.h"
 #include "surface/atlas_surface.h"
 
 namespace rholm {
@@ -212,8 +212,8 @@ Reconstruction reconstruct(PointCloud cloud, const ReconstructOptions& options,
   report.dropped_components = surface.dropped_components;
   report.faces = surface.faces, report.simplify_error = surface.simplify_error;
   report.memory = surface.memory;
-  report.volume = enclosed_volume(result.mesh);
-  report.area = surface_area(result.mesh), report.points_area = spacing.area;
+  const Measures sums = measure(view_of(result.mesh), unit_frame(bounds(result.mesh.vertices)));
+  report.volume = sums.volume, report.area = sums.area, report.points_area = spacing.area;
   if (options.holes == HolePolicy::kFill) report.closed_area = surface.guessed * report.area;
   timed(times, "attributes", [&] {
     points.carry_attributes(result.mesh, context);

@@ -130,8 +130,13 @@ WorkingPoints::WorkingPoints(PointCloud cloud, const ReconstructOptions& options
     report.computed_normals = computed_ = true;
     const std::size_t before = size();
     drop_zero_normals(cloud_);
-    if (cloud_.points.size() < before) check_points();
-    order_points(context);  // normals know more of gaps
+    if (cloud_.points.size() < before) {
+      check_points();
+      order_points(context);
+    } else {
+      order_normals(context);  // they know more of gaps
+      gaps_ = find_gaps(*tree_, points_, normals_, context);
+    }
   }
   report.dropped_points = report.points - report.outliers - cloud_.points.size();
   const SideBalance balance = balance_sides(*tree_, points_, normals_, context);

@@ -1,6 +1,7 @@
 #include "shape/points/sampling_gaps.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -26,7 +27,7 @@ constexpr double kShareInRows = 0.1;
 // hides the next row where rows are bent across, just so; with more, a row that bends along itself,
 // at an edge, seems to surround its points (along a straight one it is 2). Either makes the ratio
 // too small: the larger one is taken.
-constexpr double kBetween[] = {1, 1.2};
+constexpr std::array<double, 2> kBetween = {1, 1.2};
 // Directions to neighbours that leave a gap of more than this are those of one row. Radians.
 constexpr double kOneSided = 2.6;
 
@@ -39,19 +40,19 @@ struct Scratch {
   std::vector<Neighbor> found;
   std::vector<Vec3> offsets;
   std::vector<Vec3> gaps;
+  std::vector<Vec3> directions;
+  std::vector<double> weights;
   std::vector<double> angles;
 };
 
 // Whether the gaps surround the point in the plane they span.
 bool surround(Scratch& scratch) {
   if (scratch.gaps.size() < 3) return false;
-  std::vector<double> weights(scratch.gaps.size(), 1.0);
-  std::vector<Vec3> unit;
-  unit.reserve(scratch.gaps.size() + 1);
-  for (const Vec3& gap : scratch.gaps) unit.push_back(normalized(gap));
-  unit.push_back({});
-  weights.push_back(1.0);
-  const Vec3 normal = fit_plane(unit, weights).normal;
+  scratch.directions.clear();
+  for (const Vec3& gap : scratch.gaps) scratch.directions.push_back(normalized(gap));
+  scratch.directions.push_back({});
+  scratch.weights.assign(scratch.directions.size(), 1.0);
+  const Vec3 normal = fit_plane(scratch.directions, scratch.weights).normal;
   const Vec3 u = perpendicular(normal), v = cross(normal, u);
   scratch.angles.clear();
   for (const Vec3& gap : scratch.gaps)
@@ -70,32 +71,45 @@ struct GapsOfPoint {
   Symmetric3 sum;
   bool surround = false;
 };
+using BothGaps = std::array<GapsOfPoint, kBetween.size()>;
 
-// More neighbours until they surround it.
-GapsOfPoint gaps_of(const PointTree& tree, std::span<const Vec3> points,
-                    std::span<const Vec3> normals, std::size_t i, double between,
-                    Scratch& scratch) {
-  GapsOfPoint result;
+// The gaps among the neighbours found, nearest first: whoever lies between is nearer.
+void take_gaps(double between, Scratch& scratch) {
+  scratch.gaps.clear();
+  for (std::size_t j = 0; j < scratch.offsets.size(); ++j) {
+    const Vec3& q = scratch.offsets[j];
+    const auto nearer = scratch.offsets.begin() + static_cast<std::ptrdiff_t>(j);
+    const bool free = std::none_of(scratch.offsets.begin(), nearer,
+                                   [&](const Vec3& r) { return between * dot(r, r) < dot(r, q); });
+    if (free) scratch.gaps.push_back(q);
+  }
+}
+
+// By each of kBetween; more neighbours until they surround the point.
+BothGaps gaps_of(const PointTree& tree, std::span<const Vec3> points, std::span<const Vec3> normals,
+                 std::size_t i, Scratch& scratch) {
+  BothGaps result;
   for (std::size_t k = kFirst;; k *= 2) {
     tree.nearest_to(i, k + 1, scratch.found);
     scratch.offsets.clear();
-    scratch.gaps.clear();
     for (const Neighbor& near : scratch.found) {
       if (near.index == i) continue;
       if (!normals.empty() && dot(normals[near.index], normals[i]) < kOtherSheet) continue;
-      const Vec3 q = points[near.index] - points[i];
-      // Nearest first: whoever lies between is nearer.
-      const bool free =
-          std::none_of(scratch.offsets.begin(), scratch.offsets.end(),
-                       [&](const Vec3& r) { return between * dot(r, r) < dot(r, q); });
-      scratch.offsets.push_back(q);
-      if (free) scratch.gaps.push_back(q);
+      scratch.offsets.push_back(points[near.index] - points[i]);
     }
-    result.surround = surround(scratch);
-    if (result.surround || k >= kMost || scratch.found.size() <= k) break;
+    const bool last = k >= kMost || scratch.found.size() <= k;
+    bool all = true;
+    for (std::size_t b = 0; b < kBetween.size(); ++b) {
+      GapsOfPoint& own = result[b];
+      if (own.surround) continue;
+      take_gaps(kBetween[b], scratch);
+      own.surround = surround(scratch);
+      all = all && own.surround;
+      if (!own.surround && !last) continue;
+      for (const Vec3& gap : scratch.gaps) add(own.sum, gap);
+    }
+    if (all || last) return result;
   }
-  for (const Vec3& gap : scratch.gaps) add(result.sum, gap);
-  return result;
 }
 
 double trace(const Symmetric3& m) { return m.xx + m.yy + m.zz; }
@@ -115,6 +129,17 @@ double ratio_of(std::vector<GapsOfPoint>& around) {
   return std::clamp(std::sqrt(values.largest / values.middle), 1.0, kMostGapRatio);
 }
 
+double larger_ratio(std::span<const BothGaps> around) {
+  double ratio = 1;
+  for (std::size_t b = 0; b < kBetween.size(); ++b) {
+    std::vector<GapsOfPoint> some;
+    some.reserve(around.size());
+    for (const BothGaps& both : around) some.push_back(both[b]);
+    ratio = std::max(ratio, ratio_of(some));
+  }
+  return ratio;
+}
+
 }  // namespace
 
 std::vector<double> gap_ratios(const PointTree& tree, std::span<const Vec3> points,
@@ -126,16 +151,14 @@ std::vector<double> gap_ratios(const PointTree& tree, std::span<const Vec3> poin
   parallel_for(n_seeds, 32, context, {}, [&](std::size_t begin, std::size_t end) {
     Scratch scratch;
     std::vector<Neighbor> around;
-    std::vector<GapsOfPoint> all;
+    std::vector<BothGaps> all;
     for (std::size_t s = begin; s < end; ++s) {
       tree.nearest_to(s * n / n_seeds, kAround, around);
-      for (const double between : kBetween) {
-        all.clear();
-        for (const Neighbor& near : around) {
-          all.push_back(gaps_of(tree, points, normals, near.index, between, scratch));
-        }
-        ratios[s] = std::max(ratios[s], ratio_of(all));
+      all.clear();
+      for (const Neighbor& near : around) {
+        all.push_back(gaps_of(tree, points, normals, near.index, scratch));
       }
+      ratios[s] = larger_ratio(all);
     }
   });
   return ratios;
@@ -158,26 +181,22 @@ SamplingGaps find_gaps(const PointTree& tree, std::span<const Vec3> points,
   std::nth_element(some.begin(), place, some.end());
   if (*place <= kEven) return gaps;
   const std::size_t n = points.size();
-  std::vector<GapsOfPoint> own(n);
+  std::vector<BothGaps> own(n);
+  parallel_for(n, kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
+    Scratch scratch;
+    for (std::size_t i = begin; i < end; ++i) own[i] = gaps_of(tree, points, normals, i, scratch);
+  });
   gaps.ratio.assign(n, 1.0f);
-  for (const double between : kBetween) {
-    parallel_for(n, kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
-      Scratch scratch;
-      for (std::size_t i = begin; i < end; ++i) {
-        own[i] = gaps_of(tree, points, normals, i, between, scratch);
-      }
-    });
-    parallel_for(n, kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
-      std::vector<Neighbor> around;
-      std::vector<GapsOfPoint> all;
-      for (std::size_t i = begin; i < end; ++i) {
-        tree.nearest_to(i, kAround, around);
-        all.clear();
-        for (const Neighbor& near : around) all.push_back(own[near.index]);
-        gaps.ratio[i] = std::max(gaps.ratio[i], static_cast<float>(ratio_of(all)));
-      }
-    });
-  }
+  parallel_for(n, kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
+    std::vector<Neighbor> around;
+    std::vector<BothGaps> all;
+    for (std::size_t i = begin; i < end; ++i) {
+      tree.nearest_to(i, kAround, around);
+      all.clear();
+      for (const Neighbor& near : around) all.push_back(own[near.index]);
+      gaps.ratio[i] = static_cast<float>(larger_ratio(all));
+    }
+  });
   return gaps;
 }
 

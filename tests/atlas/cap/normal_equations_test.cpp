@@ -91,6 +91,18 @@ void expect_solution(const std::vector<double>& matrix, std::size_t n, std::size
   }
 }
 
+TEST(NormalEquations, rows_that_only_fill_a_group_of_four_are_cleared) {
+  for (std::size_t count = 1; count <= 9; ++count) {
+    const std::size_t stride = 16, whole = (count + 3) / 4 * 4;
+    std::vector<double> rows((whole + 1) * stride, kNan);
+    clear_beyond(rows.data(), count, stride);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const bool cleared = i >= count * stride && i < whole * stride;
+      EXPECT_EQ(rows[i] == 0, cleared) << count << " rows, number " << i;
+    }
+  }
+}
+
 TEST(NormalEquations, matrix_is_the_sum_of_products) {
   test::for_each_target([](const char* target) {
     for (const std::size_t n : sizes_to_test()) {
