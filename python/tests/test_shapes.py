@@ -430,3 +430,29 @@ def test_samples_in_patterns_and_of_scans(ring):
     for options in ({"pattern": "lines"}, {"pattern": "spiral"}, {"pattern_axis": (0, 0, 0)}):
         with pytest.raises(rholm.InvalidInputError):
             rholm.sample_surface(ring, 100, **options)
+
+
+def wheel(teeth):
+    """A disc with teeth: a prism over a polygon about the origin."""
+    angles = (2 * np.pi / teeth * (np.arange(teeth)[:, None] + [0, 0.2, 0.3, 0.55, 0.65, 0.8])).ravel()
+    radii = np.tile([1, 1, 1.25, 1.25, 1, 1], teeth)
+    n = len(angles)
+    ring = np.c_[radii * np.cos(angles), radii * np.sin(angles)]
+    vertices = np.r_[np.c_[ring, np.full(n, -0.35)], np.c_[ring, np.full(n, 0.35)], [[0, 0, -0.35], [0, 0, 0.35]]]
+    k, zero = np.arange(n), np.zeros(n, dtype=int)
+    after = (k + 1) % n
+    sides = np.r_[np.c_[k, after, n + after], np.c_[k, n + after, n + k]]
+    ends = np.r_[np.c_[after, k, zero + 2 * n], np.c_[n + k, n + after, zero + 2 * n + 1]]
+    return rholm.Mesh(vertices, np.r_[sides, ends])
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_true_normals_of_few_points_do_no_harm(seed):
+    # Normals turn by right angles between neighbours; no cap has such a slope everywhere.
+    body = wheel(16)
+    cloud = rholm.sample_surface(body, 1000, seed=seed)
+    known = rholm.reconstruct(cloud.points, normals=cloud.normals)
+    unknown = rholm.reconstruct(cloud.points)
+    with_normals, without = (rholm.compare(x.mesh, body, samples=20000).a_to_b.rms for x in (known, unknown))
+    assert with_normals < 1.3 * without
+    assert with_normals < 0.3 * known.report.spacing
