@@ -87,7 +87,7 @@ struct ReconstructReport {
 // Parts of points_area: a surface that has less or more of it, without what closes holes, should
 // not be trusted. Of clean bodies it is 0.6 ... 1.4 with a thousand points and 0.9 ... 1.2 with
 // more, of noisy ones 0.8 and more, of two walls a few spacings apart 0 ... 0.3
-// (scripts/scan-figures --walls).
+// (scripts/scan-limits --walls).
 inline constexpr double kLeastArea = 0.5;
 // The same, for more.
 inline constexpr double kMostArea = 1.6;

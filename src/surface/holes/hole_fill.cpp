@@ -50,7 +50,7 @@ constexpr double kSure = 0.3;
 constexpr double kBoundSlope = 2;
 // Seen by as much of its surroundings a place is empty. A line marks the whole of every cube that
 // it goes through, half a cube too much on either side: with 1/2 fills beside a surface that lines
-// pass closely lose up to two spacings (scripts/scan-figures --scans, the knot).
+// pass closely lose up to two spacings (scripts/scan-limits --scans, the knot).
 constexpr double kEmpty = 0.75;
 // A slope of less is a saddle's or an extremum's: no distance follows from it.
 constexpr double kLeastSlope = 0.05;
