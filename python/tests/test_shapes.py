@@ -438,7 +438,9 @@ def wheel(teeth):
     radii = np.tile([1, 1, 1.25, 1.25, 1, 1], teeth)
     n = len(angles)
     ring = np.c_[radii * np.cos(angles), radii * np.sin(angles)]
-    vertices = np.r_[np.c_[ring, np.full(n, -0.35)], np.c_[ring, np.full(n, 0.35)], [[0, 0, -0.35], [0, 0, 0.35]]]
+    vertices = np.r_[
+        np.c_[ring, np.full(n, -0.35)], np.c_[ring, np.full(n, 0.35)], [[0, 0, -0.35], [0, 0, 0.35]]
+    ]
     k, zero = np.arange(n), np.zeros(n, dtype=int)
     after = (k + 1) % n
     sides = np.r_[np.c_[k, after, n + after], np.c_[k, n + after, n + k]]
