@@ -35,6 +35,10 @@ constexpr double kOfTolerance = 0.5;
 constexpr double kGrow = 1.6;
 constexpr std::size_t kMost = 4000;  // points of a cap of low degree
 constexpr std::size_t kFewest = 8;   // points: 24 rows for 16 unknowns and a penalty
+// Among so many times as many of the nearest points the cap's own sheet is looked for where there
+// are too few of it. With 2 thin sheets keep handles, with 4 and 5 more is wrong of boxes of
+// half a spacing and of one (scripts/scan-limits --thin).
+constexpr std::size_t kFarther = 3;
 // Of 24 random points of a disc the third nearest is nearer than a tenth of the farthest twice in
 // a thousand times.
 constexpr std::size_t kInner = 3;
@@ -64,6 +68,10 @@ bool fills_disc(const Cap& cap, std::size_t k, std::size_t inner, const CapWorke
 bool good(const CapFit& fit, double support, const CoverOptions& options) {
   return fit.usable >= kGoodShare &&
          fit.rms <= std::max(kGoodFit * support, kGoodNoise * options.noise);
+}
+
+bool is_trusted(const CapFit& fit, double support) {
+  return fit.usable >= kGoodShare && fit.rms <= kTrusted * support;
 }
 
 // The cap of the k nearest points; false if there is none.
@@ -96,6 +104,34 @@ void grow_cap(const OrderedPoints& all, std::size_t seed, std::size_t k,
   }
 }
 
+// Where another sheet is among the k nearest points: a cap of as many of its own. Only where that
+// costs nothing, while it fits as well as any that is trusted.
+void reach_farther(const OrderedPoints& all, std::size_t seed, std::size_t k,
+                   const CoverOptions& options, CapWorker& worker, Cap& cap) {
+  if (worker.points.size() >= k) return;
+  all.tree.nearest_to(seed, kFarther * k, worker.near);
+  const std::size_t reach = reach_of(all, seed, k, worker);
+  if (reach > 0 && fit_nearest(all, seed, reach, CapSide::kSheet, options, worker, cap) &&
+      is_trusted(worker.fit, cap.frame.support) &&
+      fills_ellipse(cap.frame, moments_of(cap.frame, worker.points))) {
+    worker.near.resize(reach);
+  } else {
+    worker.near.resize(std::min(k, worker.near.size()));
+    fit_nearest(all, seed, worker.near.size(), CapSide::kSheet, options, worker, cap);
+  }
+}
+
+// Good caps of all of the seed's sheet may be larger: while the tolerance allows it, or where
+// another sheet has taken the place of points.
+void enlarge_cap(const OrderedPoints& all, std::size_t seed, std::size_t k, bool is_largest,
+                 const CoverOptions& options, CapWorker& worker, Cap& cap) {
+  if (options.tolerance > 0) {
+    grow_cap(all, seed, k, options, worker, cap);
+  } else if (is_largest && options.noise == 0) {
+    reach_farther(all, seed, k, options, worker, cap);
+  }
+}
+
 // Whether a point is alone amid a surface's gap: of 24 random points 12 lie nearer than 0.7 of the
 // farthest, and fewer than two others once in ten thousand times.
 bool is_isolated(const std::vector<Neighbor>& near, std::size_t third) {
@@ -110,13 +146,14 @@ bool make_cap(const OrderedPoints& all, std::size_t seed, const CoverOptions& op
   if (is_isolated(worker.near, all.scaled(seed, 2))) return false;
   const std::size_t fewest = all.scaled(seed, kFewest), inner = all.scaled(seed, kInner);
   if (options.noise > 0) settle(all, seed, worker);
-  for (std::size_t k = worker.near.size(); k > 0;) {
+  const std::size_t wanted = worker.near.size();
+  for (std::size_t k = wanted; k > 0;) {
     bool fitted = fit_nearest(all, seed, k, CapSide::kSheet, options, worker, cap);
     const auto fewer = static_cast<std::size_t>(kShrink * static_cast<double>(k));
     const double support = cap.frame.support;
     const bool full = fitted && fills_disc(cap, k, inner, worker);
     if (full && good(worker.fit, support, options)) {
-      if (options.tolerance > 0) grow_cap(all, seed, k, options, worker, cap);
+      enlarge_cap(all, seed, k, k == wanted, options, worker, cap);
       return true;
     }
     // Perhaps there is a crease: one of its sides alone, where normals can tell.

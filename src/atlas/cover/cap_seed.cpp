@@ -56,6 +56,17 @@ void settle(const OrderedPoints& all, std::size_t seed, CapWorker& worker) {
   });
 }
 
+std::size_t reach_of(const OrderedPoints& all, std::size_t seed, std::size_t wanted,
+                     const CapWorker& worker) {
+  const Vec3 sheet = sheet_normal(all, seed, worker);
+  std::size_t n = 0;
+  for (std::size_t j = 0; j < worker.near.size(); ++j) {
+    const bool own = dot(all.normals[worker.near[j].index], sheet) >= kOtherSheet;
+    if (own && ++n == wanted) return j + 1;
+  }
+  return 0;
+}
+
 Vec3 take_points(const OrderedPoints& all, std::size_t seed, std::size_t k, double support,
                  CapSide side, bool leave_out, CapWorker& worker) {
   worker.points.clear();

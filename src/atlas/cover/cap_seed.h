@@ -34,6 +34,11 @@ enum class CapSide {
 // its cap would pass through it.
 void settle(const OrderedPoints& all, std::size_t seed, CapWorker& worker);
 
+// How many of worker.near, from the nearest on, hold so many points of the seed's sheet; 0 if all
+// do not.
+std::size_t reach_of(const OrderedPoints& all, std::size_t seed, std::size_t wanted,
+                     const CapWorker& worker);
+
 // Fills worker.points with those among the k nearest (worker.near), and returns their mean normal,
 // weighted. The seed itself is left out if `leave_out`.
 Vec3 take_points(const OrderedPoints& all, std::size_t seed, std::size_t k, double support,

@@ -15,7 +15,7 @@ namespace rholm {
 namespace {
 
 struct Trial {
-  double slope_error = 1, rms = 0, level_rms = 0, slope_rms = 0, support = 0;
+  double slope_error = 1, rms = 0, level_rms = 0, slope_rms = 0, support = 0, own = 1;
 };
 
 // Seeds of a trial: the mean of their errors is then known to a few hundredths. Where points are
@@ -27,6 +27,14 @@ constexpr double kLadder = 1.5;
 // Part of the seeds that counts, those with the least errors: seeds may be outliers, or on creases.
 constexpr double kCounted = 0.8;
 constexpr double kClearlyBetter = 0.8;
+// Errors of a plane fall with k for ever: caps do not grow beyond other sheets once slopes are off
+// by less than this, and points by less than this part of the support, as residuals of caps that
+// are trusted (cap_cover.cpp). On plates, boxes and blades (scripts/scan-limits --thin) 0.001
+// doubles what is wrong, and 0 makes caps of 121 to 273 points, which see nothing of rims.
+constexpr double kExact = 0.002;
+// Other sheets are there if less than this share of the points around is on the own one. Chosen:
+// where they are not, hardly a point faces the other way.
+constexpr double kOneSheet = 0.9;
 // Trials end when errors have grown by this factor, of noisy points clearly.
 constexpr double kGrown = 1.15, kGrownNoisy = 1.05;
 // Errors of noisy points hardly change between two sizes near the best, and which of them is the
@@ -74,6 +82,8 @@ Trial try_seed(const OrderedPoints& all, std::size_t seed, std::size_t k,
   if (!(trial.support > 0)) return trial;
   const Vec3 axis =
       take_points(all, seed, worker.near.size(), trial.support, CapSide::kSheet, true, worker);
+  trial.own =
+      static_cast<double>(worker.points.size() + 1) / static_cast<double>(worker.near.size());
   const CapFrame frame = cap_frame(worker.middle, axis, trial.support, kHalfAngle, kOpened);
   if (!fit_cap(frame, worker.points, options, worker.scratch, worker.fit)) return trial;
   trial.rms = worker.fit.rms;
@@ -86,6 +96,11 @@ Trial try_seed(const OrderedPoints& all, std::size_t seed, std::size_t k,
   const double e1 = pole.slope1 + dot(n, frame.x) / up, e2 = pole.slope2 + dot(n, frame.y) / up;
   trial.slope_error = std::min(1.0, e1 * e1 + e2 * e2);
   return trial;
+}
+
+bool is_exact(const CapSizeTrial& trial) {
+  return trial.neighbours > 0 && trial.slope_error < kExact * kExact &&
+         trial.rms < kExact * trial.support;
 }
 
 // Whether the residuals of the smallest caps are noise and not shape.
@@ -154,7 +169,9 @@ CapSizeTrial try_cap_size(const OrderedPoints& points, std::size_t neighbours, i
   for (std::size_t j = 0; j < std::min(counted, n_seeds); ++j) {
     mean.slope_error += trials[j].slope_error / static_cast<double>(counted);
   }
+  mean.own = 0;
   for (const Trial& t : trials) {
+    mean.own += t.own / static_cast<double>(n_seeds);
     rms.push_back(t.rms), level.push_back(t.level_rms);
     slope.push_back(t.slope_rms), support.push_back(t.support);
   }
@@ -177,6 +194,7 @@ CapSize choose_cap_size(const OrderedPoints& points, int degree, const Context& 
     trials.push_back(trial);
     if (trial.slope_rms > 0) weight = kNormalsFavoured * trial.level_rms / trial.slope_rms;
     if (chosen.neighbours == 0) noisy = is_noise(points, trial, degree, weight, context);
+    if (!noisy && is_exact(chosen) && trial.own < kOneSheet) break;
     // Clean points show no minimum: only a clear gain is worth larger caps.
     const double better = noisy ? 1 : kClearlyBetter;
     if (chosen.neighbours == 0 || trial.slope_error < better * chosen.slope_error) chosen = trial;

@@ -33,6 +33,7 @@ struct CapSizeTrial {
   double level_rms = 0;  // the same over R_0
   double slope_rms = 0;  // on the opened sphere
   double support = 0;    // median
+  double own = 1;        // mean share of the points around that are on the seed's sheet
 };
 CapSizeTrial try_cap_size(const OrderedPoints& points, std::size_t neighbours, int degree,
                           double gradient_weight, std::size_t n_seeds, const Context& context);

@@ -11,6 +11,8 @@
 
 #include "atlas/cap/cap_support.h"
 #include "atlas/cover/cap_seed.h"
+#include "rholm/points.h"
+#include "rholm/primitives.h"
 #include "support/test_points.h"
 
 namespace rholm {
@@ -145,6 +147,29 @@ TEST(CapCover, caps_of_a_strip_have_no_weight_beside_it) {
       }
     }
   }
+}
+
+// The faces of a box of 2 x 1 x `thickness`, points by their areas.
+PointCloud box_points(double thickness, std::size_t n) {
+  return sample_surface(box({2, 1, thickness}), {.points = n, .seed = 1});
+}
+
+TEST(CapCover, caps_of_both_sides_of_a_plate_have_all_the_points_they_are_to_have) {
+  // Sheets much nearer than points: half of the nearest ones are on the other.
+  const Ordered points = ordered(box_points(0.001, 8000));
+  const Cover made = cover(points.view(), {}, {});
+  const double wanted = std::sqrt(24 * 4.0 / 8000 / std::numbers::pi);  // of 24 of one sheet
+  double sum = 0;
+  std::size_t n = 0;
+  for (const Cap& cap : made.caps) {
+    const Vec3 s = cap.frame.seed();
+    if (std::abs(s.x) > 1 - 2 * wanted || std::abs(s.y) > 0.5 - 2 * wanted) continue;
+    EXPECT_GT(s.z * cap.frame.z.z, 0);
+    sum += cap.frame.support;
+    ++n;
+  }
+  ASSERT_GT(n, 500U);
+  EXPECT_NEAR(sum / static_cast<double>(n), wanted, 0.05 * wanted);
 }
 
 // A plate, and one point lifted off its upper side.

@@ -53,6 +53,24 @@ TEST(CapSize, clean_points_have_no_noise) {
   EXPECT_LT(size.normal_noise, 0.01);
 }
 
+TEST(CapSize, exact_caps_do_not_grow_beyond_the_other_side_of_a_plate) {
+  // Points on both sides of a square of 2 x 2, which is four times as thick as they are apart: the
+  // circle of 50 reaches as far.
+  constexpr double kApart = 4 * 0.04;
+  PointCloud plate;
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    const double side = i % 2 == 0 ? 1 : -1;
+    plate.points.push_back(
+        {test::random_in(-1, 1, 5, i), test::random_in(-1, 1, 6, i), side * kApart / 2});
+    plate.normals.push_back({0, 0, side});
+  }
+  const std::size_t thin = choose_cap_size(ordered(plate).view(), 3, {}).neighbours;
+  EXPECT_GE(thin, 24U);
+  EXPECT_LE(thin, 81U);
+  for (Vec3& p : plate.points) p.z *= 10;
+  EXPECT_GT(choose_cap_size(ordered(plate).view(), 3, {}).neighbours, 81U);
+}
+
 // A small part of the spacing and half of it, with good normals and with bad ones.
 TEST(CapSize, noise_of_a_smooth_body_is_found_to_a_tenth) {
   for (const double part : {0.15, 0.5}) {
