@@ -109,6 +109,7 @@ Json json_of(const Reconstruction& made, double diagonal, bool confidence) {
                {"step", r.step},
                {"holes", r.holes},
                {"smooth_holes", r.smooth_holes},
+               {"cut_handles", r.cut_handles},
                {"dropped_components", r.dropped_components},
                {"vertices", made.mesh.vertices.size()},
                {"faces", made.mesh.triangles.size()},
@@ -171,6 +172,7 @@ std::string report_text(const Reconstruction& made, double diagonal,
                                             : fmt::format("{} closed, {} of them wide: smoothly",
                                                           r.holes, r.smooth_holes));
   }
+  if (r.cut_handles > 0) text += line("small handles", fmt::format("{} cut", r.cut_handles));
   if (r.dropped_components > 0)
     text += line("small parts", fmt::format("{} dropped", r.dropped_components));
   if (made.mesh.triangles.size() < r.faces) {

@@ -69,6 +69,7 @@ struct ReconstructReport {
   double step = 0;                     // edge of the grid's cubes
   std::size_t holes = 0;               // places without points that were closed, or cut out
   std::size_t smooth_holes = 0;        // of those closed, by a surface that continues the rim
+  std::size_t cut_handles = 0;         // bridges and tunnels smaller than points can tell
   std::size_t dropped_components = 0;  // parts of the surface that were too small
   std::size_t faces = 0;               // of the surface before it was simplified
   double simplify_error = 0;           // by simplify(), as Simplification::error

@@ -2123,6 +2123,12 @@ class ReconstructReport:
         """Of those closed, by a surface that continues the rim."""
 
     @property
+    def cut_handles(self) -> int:
+        """
+        Bridges and tunnels of the surface that were smaller than points can tell.
+        """
+
+    @property
     def dropped_components(self) -> int:
         """Parts of the surface that were too small."""
 

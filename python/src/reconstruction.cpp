@@ -53,6 +53,8 @@ void bind_reconstruction(nb::module_& m) {
              "Places without points that were closed, or cut out.")
       .field("smooth_holes", &ReconstructReport::smooth_holes,
              "Of those closed, by a surface that continues the rim.")
+      .field("cut_handles", &ReconstructReport::cut_handles,
+             "Bridges and tunnels of the surface that were smaller than points can tell.")
       .field("dropped_components", &ReconstructReport::dropped_components,
              "Parts of the surface that were too small.")
       .field("faces", &ReconstructReport::faces, "Of the surface before it was simplified.")

@@ -239,8 +239,16 @@ AtlasSurface extract_atlas(const Atlas& atlas, const AtlasSurfaceOptions& option
   grid.values = {}, grid.neighbours = {};
   project_vertices(atlas, bands, lists, grid, surface, context);
   result.guessed = guessed_share(surface);
+  std::vector<double> support;
+  if (options.keep_holes) support = data_support(atlas, lists, surface, bands, context);
+  if (options.resolution != nullptr) {
+    const CutHandles cut = cut_handles(surface.mesh, *options.resolution, context);
+    result.cut_handles = cut.handles;
+    if (options.keep_holes) {
+      for (const std::uint32_t v : cut.copies) support.push_back(support[v]);
+    }
+  }
   if (options.keep_holes) {
-    std::vector<double> support = data_support(atlas, lists, surface, bands, context);
     bridge_gaps(surface.mesh, kGap * typical_area(atlas), support);
     result.mesh = trim(surface.mesh, support);
   } else {

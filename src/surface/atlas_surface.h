@@ -9,6 +9,7 @@
 #include "rholm/mesh.h"
 #include "rholm/simplify.h"
 #include "surface/holes/seen_space.h"
+#include "surface/level_set/cut_handles.h"
 
 namespace rholm {
 
@@ -17,6 +18,7 @@ struct AtlasSurfaceOptions {
   bool keep_holes = false;  // cut away what is in no support, instead of closing it
   double min_component = 0.01;
   std::optional<SimplifyOptions> simplify = {};  // with nothing in it: 1/50 of the step
+  const Resolution* resolution = nullptr;        // what is smaller than that is cut
   const SeenSpace* seen = nullptr;  // what scanners have seen to be empty is not closed
   std::size_t max_memory = std::size_t{8} << 30;
   std::size_t memory_in_use = 0;  // bytes of max_memory that the caller holds
@@ -26,6 +28,7 @@ struct AtlasSurface {
   Mesh mesh;  // with normals nx, ny, nz
   std::size_t holes = 0, smooth_holes = 0;
   double guessed = 0;  // share of the closed surface's area that is beside filled nodes
+  std::size_t cut_handles = 0;
   std::size_t dropped_components = 0;
   std::size_t faces = 0;  // before simplification
   double simplify_error = 0;

@@ -4,6 +4,8 @@
 // loops they do not reach (docs/testing.md).
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <numeric>
@@ -19,7 +21,9 @@
 #include "support/random_data.h"
 #include "support/test_meshes.h"
 #include "support/test_points.h"
+#include "support/test_shapes.h"
 #include "surface/grid/block_grid.h"
+#include "surface/level_set/cut_handles.h"
 #include "transform/error/closest_distances.h"
 
 namespace rholm {
@@ -272,6 +276,23 @@ TEST(every_loop, gives_the_same_bits_for_caps_of_different_sizes) {
   const PointCloud cloud = sample_surface(icosphere(4), {.points = 5000, .density_ratio = 300});
   expect_same_bits([&](const Context& context) {
     return Bits().add(reconstruct(cloud, {}, context).mesh.vertices);
+  });
+}
+
+TEST(every_loop, gives_the_same_bits_for_bridges_that_are_cut) {
+  // A ring with a neck: 20 000 vertices, of which some hundred are on two loops.
+  Mesh ring = torus(2, 0.5, 400, 50);
+  for (Vec3& v : ring.vertices) {
+    const double phi = std::atan2(v.y, v.x);
+    const Vec3 middle{2 * std::cos(phi), 2 * std::sin(phi), 0};
+    v = middle + std::min(1.0, std::hypot(0.1, 16 * phi)) * (v - middle);
+  }
+  test::add_normals(ring);
+  const Resolution resolution{.typical = 0.15, .at = [](const Vec3&) { return 0.15; }};
+  expect_same_bits([&](const Context& context) {
+    Mesh mesh = ring;
+    EXPECT_EQ(cut_handles(mesh, resolution, context).handles, 1U);
+    return Bits().add(mesh);
   });
 }
 

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cmath>
+#include <vector>
 
 #include "base/random.h"
 #include "rholm/mesh.h"
 #include "rholm/primitives.h"
+#include "rholm/topology.h"
 
 namespace rholm::test {
 
@@ -30,6 +32,18 @@ inline Mesh random_octahedron(std::uint64_t seed) {
   mesh.triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4},
                     {1, 0, 5}, {2, 1, 5}, {3, 2, 5}, {0, 3, 5}};
   return mesh;
+}
+
+// Attributes nx, ny, nz: of each vertex the mean of its triangles' normals.
+inline void add_normals(Mesh& mesh) {
+  const std::vector<Vec3> sums = area_normals(mesh.vertices, mesh.triangles);
+  std::vector<double> axes[3];
+  for (const Vec3& sum : sums) {
+    const Vec3 n = normalized(sum);
+    axes[0].push_back(n.x), axes[1].push_back(n.y), axes[2].push_back(n.z);
+  }
+  const char* const names[3] = {"nx", "ny", "nz"};
+  for (int k = 0; k < 3; ++k) mesh.attributes.push_back({names[k], ScalarType::kFloat32, axes[k]});
 }
 
 }  // namespace rholm::test

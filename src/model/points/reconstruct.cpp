@@ -192,10 +192,14 @@ Reconstruction reconstruct(PointCloud cloud, const ReconstructOptions& options,
     seen = points.seen_space(kCubesOfSpacing * spacing.median,
                              kEndOfSight * std::max(spacing.median, size.noise), context);
   }
+  const Resolution resolution{
+      .typical = std::max(spacing.median, report.step),
+      .at = [&](const Vec3& place) { return std::max(points.spacing_at(place), report.step); }};
   const AtlasSurfaceOptions wanted{.step = report.step,
                                    .keep_holes = options.holes == HolePolicy::kKeep,
                                    .min_component = options.min_component,
                                    .simplify = options.simplify,
+                                   .resolution = &resolution,
                                    .seen = seen ? &*seen : nullptr,
                                    .max_memory = options.max_memory,
                                    .memory_in_use = kMemoryOfPoint * points.size()};
@@ -209,6 +213,7 @@ Reconstruction reconstruct(PointCloud cloud, const ReconstructOptions& options,
   }
   result.mesh = std::move(surface.mesh);
   report.holes = surface.holes, report.smooth_holes = surface.smooth_holes;
+  report.cut_handles = surface.cut_handles;
   report.dropped_components = surface.dropped_components;
   report.faces = surface.faces, report.simplify_error = surface.simplify_error;
   report.memory = surface.memory;

@@ -22,6 +22,8 @@ namespace {
 
 constexpr std::size_t kFewestPoints = 16;  // as many as a cap has coefficients
 constexpr std::size_t kSpacingSeeds = 2000;
+// Of one place: the radius of 24 random points scatters by a tenth, that of 8 by a fifth.
+constexpr std::size_t kCircles = 3;
 // Of even random points the tenth lies at 0.8 of the median; a finer part of uneven ones below.
 constexpr double kTenthOfEven = 0.8;
 // Of the diagonal: points no farther from one line than this have no surface, whatever their
@@ -210,6 +212,13 @@ Spacing WorkingPoints::spacing(const Context& context) const {
   return {.median = median,
           .fine = std::min(median, all[seeds / 10] / kTenthOfEven),
           .area = static_cast<double>(n) / static_cast<double>(seeds) * sum};
+}
+
+double WorkingPoints::spacing_at(const Vec3& place) const {
+  std::vector<Neighbor> near;
+  tree_->nearest(place, 1, near);
+  tree_->nearest(place, kCircles * gaps_.scaled(near.front().index, kCircle), near);
+  return spacing_of_circle(near.back().distance2 / kCircles);
 }
 
 bool WorkingPoints::remove(const std::vector<std::uint8_t>& gone, const Context& context) {

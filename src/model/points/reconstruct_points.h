@@ -35,6 +35,8 @@ class WorkingPoints {
   OrderedPoints ordered() const { return {*tree_, points_, normals_, &gaps_, computed_}; }
   double diagonal() const { return diagonal_; }
   Spacing spacing(const Context& context) const;
+  // Around a place: between its nearest points, or between their rows.
+  double spacing_at(const Vec3& place) const;
 
   // The share of the points whose given normals contradict those around; 0 for computed ones.
   double wrong_normals(const Context& context) const;

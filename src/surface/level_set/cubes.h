@@ -1,0 +1,35 @@
+// Cubes of space, hashed.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "rholm/vec3.h"
+
+namespace rholm {
+
+using Cube = std::array<double, 3>;
+
+inline Cube cube_of(const Vec3& x, double edge) {
+  return {std::floor(x.x / edge), std::floor(x.y / edge), std::floor(x.z / edge)};
+}
+
+// Two cubes of one key only make what is looked at larger.
+inline std::uint64_t key_of(const Cube& cube) {
+  std::uint64_t bits = 0;
+  for (const double c : cube) {
+    bits = bits * 0x9E3779B97F4A7C15u + static_cast<std::uint64_t>(static_cast<std::int64_t>(c));
+  }
+  return bits;
+}
+
+// Calls visit(key) for the cube and those around.
+template <typename Visit>
+void for_each_near(const Cube& cube, Visit visit) {
+  for (int k = 0; k < 27; ++k) {
+    visit(key_of({cube[0] + k % 3 - 1, cube[1] + k / 3 % 3 - 1, cube[2] + k / 9 - 1}));
+  }
+}
+
+}  // namespace rholm
