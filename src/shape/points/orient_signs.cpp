@@ -69,7 +69,9 @@ OrientSigns turn_by_field(const OrientScene& scene, const Patches& patches,
   for (Vec3& n : sheet) n = normalized(n);
   // Where there are rows, the field tells those of other sheets from the next ones of this.
   SamplingGaps gaps;
-  if (!scene.gaps.ratio.empty()) gaps = find_gaps(*scene.tree, scene.points, sheet, context);
+  if (!scene.gaps.ratio.empty()) {
+    gaps = find_gaps(*scene.tree, scene.points, sheet, context, RowsThatTurn::kCount);
+  }
   residual = refit_on_sheets(*scene.tree, scene.points, gaps, sheet, fits, context);
   for (std::size_t i = 0; i < given.size(); ++i) {
     if (norm(given[i]) > 0) fits.normals[i] = dot(given[i], sheet[i]) < 0 ? -given[i] : given[i];

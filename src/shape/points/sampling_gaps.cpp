@@ -23,6 +23,9 @@ constexpr std::size_t kGrain = 512;
 // scripts/scan-figures, 1000 to 100 000 points), rows of twice their steps 2.
 constexpr double kEven = 1.8;
 constexpr double kShareInRows = 0.1;
+// Ratios of lengths of random points (the same) are 1.2 ... 2.1, and more than 3 once in 100 000:
+// from there on there are rows.
+constexpr double kSurelyRows = 3;
 // A point at r hides one at q if r . q > between r . r. With 1, Gabriel's, a point of the own row
 // hides the next row where rows are bent across, just so; with more, a row that bends along itself,
 // at an edge, seems to surround its points (along a straight one it is 2). Either makes the ratio
@@ -66,10 +69,12 @@ bool surround(Scratch& scratch) {
 }
 
 // Of one point: sums of products of its gaps, and whether they surround it. Those at an edge look
-// across to another sheet, and say little.
+// across to another sheet, and say little. If it is in a row, the mean squares of the steps along,
+// which are its two nearest gaps, and of those across; 0 if it has no others.
 struct GapsOfPoint {
   Symmetric3 sum;
   bool surround = false;
+  double along2 = 0, across2 = 0;
 };
 using BothGaps = std::array<GapsOfPoint, kBetween.size()>;
 
@@ -83,6 +88,13 @@ void take_gaps(double between, Scratch& scratch) {
                                    [&](const Vec3& r) { return between * dot(r, r) < dot(r, q); });
     if (free) scratch.gaps.push_back(q);
   }
+}
+
+void add_up(std::span<const Vec3> gaps, GapsOfPoint& own) {
+  for (const Vec3& gap : gaps) add(own.sum, gap);
+  if (gaps.size() <= 2) return;
+  own.along2 = (dot(gaps[0], gaps[0]) + dot(gaps[1], gaps[1])) / 2;
+  own.across2 = eigenvalues(own.sum).largest / static_cast<double>(gaps.size() - 2);
 }
 
 // By each of kBetween; more neighbours until they surround the point.
@@ -106,7 +118,7 @@ BothGaps gaps_of(const PointTree& tree, std::span<const Vec3> points, std::span<
       own.surround = surround(scratch);
       all = all && own.surround;
       if (!own.surround && !last) continue;
-      for (const Vec3& gap : scratch.gaps) add(own.sum, gap);
+      add_up(scratch.gaps, own);
     }
     if (all || last) return result;
   }
@@ -129,12 +141,32 @@ double ratio_of(std::vector<GapsOfPoint>& around) {
   return std::clamp(std::sqrt(values.largest / values.middle), 1.0, kMostGapRatio);
 }
 
-double larger_ratio(std::span<const BothGaps> around) {
+// By lengths alone, whatever their directions: rows that turn from one point to the next, as rings
+// around a pole, have none in common, and their ratio seems to be small. 1 if there may be no rows.
+// The smaller half counts, as above.
+double ratio_of_lengths(std::span<const GapsOfPoint> around) {
+  std::vector<double> along, across;
+  for (const GapsOfPoint& own : around) {
+    if (own.across2 > 0) along.push_back(own.along2), across.push_back(own.across2);
+  }
+  if (along.empty()) return 1;
+  std::sort(along.begin(), along.end());
+  std::sort(across.begin(), across.end());
+  const std::size_t counted = (across.size() + 1) / 2;
+  double sum = 0;
+  for (std::size_t j = 0; j < counted; ++j) sum += across[j];
+  const double along2 = along[along.size() / 2] * static_cast<double>(counted);
+  if (!(sum > kSurelyRows * kSurelyRows * along2)) return 1;
+  return std::min(std::sqrt(sum / along2), kMostGapRatio);
+}
+
+double larger_ratio(std::span<const BothGaps> around, RowsThatTurn turning) {
   double ratio = 1;
   for (std::size_t b = 0; b < kBetween.size(); ++b) {
     std::vector<GapsOfPoint> some;
     some.reserve(around.size());
     for (const BothGaps& both : around) some.push_back(both[b]);
+    if (turning == RowsThatTurn::kCount) ratio = std::max(ratio, ratio_of_lengths(some));
     ratio = std::max(ratio, ratio_of(some));
   }
   return ratio;
@@ -158,7 +190,7 @@ std::vector<double> gap_ratios(const PointTree& tree, std::span<const Vec3> poin
       for (const Neighbor& near : around) {
         all.push_back(gaps_of(tree, points, normals, near.index, scratch));
       }
-      ratios[s] = larger_ratio(all);
+      ratios[s] = larger_ratio(all, RowsThatTurn::kIgnore);
     }
   });
   return ratios;
@@ -173,7 +205,8 @@ std::size_t SamplingGaps::typical_stride() const {
 }
 
 SamplingGaps find_gaps(const PointTree& tree, std::span<const Vec3> points,
-                       std::span<const Vec3> normals, const Context& context) {
+                       std::span<const Vec3> normals, const Context& context,
+                       RowsThatTurn turning) {
   SamplingGaps gaps;
   std::vector<double> some = gap_ratios(tree, points, normals, kSeeds, context);
   const auto place = some.begin() + static_cast<std::ptrdiff_t>(
@@ -194,7 +227,7 @@ SamplingGaps find_gaps(const PointTree& tree, std::span<const Vec3> points,
       tree.nearest_to(i, kAround, around);
       all.clear();
       for (const Neighbor& near : around) all.push_back(own[near.index]);
-      gaps.ratio[i] = static_cast<float>(larger_ratio(all));
+      gaps.ratio[i] = static_cast<float>(larger_ratio(all, turning));
     }
   });
   return gaps;

@@ -50,8 +50,15 @@ inline constexpr double kOtherSheet = -0.2;
 // between the two. Their covariance, averaged over the points around, has one direction
 // along the rows and one across. `normals`, one per point or none, tell sheets apart: where another
 // one is as near as the next row, the way to it is no gap of this one.
+//
+// Rows that turn from one point to the next, as rings around a pole, have no direction in common,
+// and their ratio seems to be near 1. With kCount gaps are compared by length too. For fits of
+// normals to points known to be on one sheet: with caps so large, and where other sheets are not
+// known, edges and thin bodies get worse (scripts/scan-figures).
+enum class RowsThatTurn { kIgnore, kCount };
 SamplingGaps find_gaps(const PointTree& tree, std::span<const Vec3> points,
-                       std::span<const Vec3> normals, const Context& context);
+                       std::span<const Vec3> normals, const Context& context,
+                       RowsThatTurn turning = RowsThatTurn::kIgnore);
 
 // The ratio at some of the points, evenly spread over the order of the tree: for find_gaps(), and
 // tests.

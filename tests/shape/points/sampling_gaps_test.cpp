@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "rholm/points.h"
@@ -64,6 +66,31 @@ TEST(sampling_gaps, of_slices_and_rings_have_their_ratio_wherever_they_are) {
       EXPECT_GT(gaps.ratio[i], 0.6 * here);
       EXPECT_LT(gaps.ratio[i], std::min(kMostGapRatio + 1, 1.7 * here));
     }
+  }
+}
+
+// Rings on the unit sphere, with the same steps from one to the next everywhere.
+std::vector<Vec3> sphere_of_rings(int n_rings, double ratio) {
+  std::vector<Vec3> points;
+  const double across = std::numbers::pi / n_rings;
+  for (int ring = 1; ring < n_rings; ++ring) {
+    const double theta = ring * across, radius = std::sin(theta);
+    const int n = static_cast<int>(2 * std::numbers::pi * radius * ratio / across);
+    for (int i = 0; i < n; ++i) {
+      const double phi = 2 * std::numbers::pi * (i + 0.37 * ring) / n;
+      points.push_back({radius * std::cos(phi), radius * std::sin(phi), std::cos(theta)});
+    }
+  }
+  return points;
+}
+
+TEST(sampling_gaps, of_small_rings_around_a_pole_have_the_ratio_of_all) {
+  for (const double ratio : {5.0, 20.0}) {
+    const Cloud cloud(sphere_of_rings(40, ratio));
+    const SamplingGaps gaps =
+        find_gaps(cloud.tree, cloud.points, cloud.points, {}, RowsThatTurn::kCount);
+    ASSERT_EQ(gaps.ratio.size(), cloud.points.size());
+    for (const float found : gaps.ratio) EXPECT_NEAR(found, ratio, 0.3 * ratio);
   }
 }
 
