@@ -105,6 +105,8 @@ CutGraph make_cut_graph(const Mesh& mesh, const std::vector<std::uint32_t>& twin
   std::sort(graph.vertices.begin(), graph.vertices.end());
   graph.vertices.erase(std::unique(graph.vertices.begin(), graph.vertices.end()),
                        graph.vertices.end());
+  graph.is_end.assign(mesh.vertices.size(), 0);
+  for (const std::uint32_t v : graph.vertices) graph.is_end[v] = 1;
   return graph;
 }
 

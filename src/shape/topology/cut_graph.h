@@ -23,6 +23,7 @@ struct CutGraph {
   };
   std::vector<Edge> edges;              // each of their half-edges, ascending
   std::vector<std::uint32_t> vertices;  // ends of those edges, ascending
+  std::vector<std::uint8_t> is_end;     // per vertex of the mesh, whether it is one
 
   // Of the half-edge; 0 if no loop crosses it. Of a closed walk, by exclusive or over its edges, it
   // is 0 if it bounds a part of the surface, and only once in 2^64 times if it does not.

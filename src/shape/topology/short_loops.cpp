@@ -58,7 +58,8 @@ Loop LoopSearch::shortest(std::uint32_t base, double most) {
       const std::uint32_t w = end_of(mesh_.triangles, c);
       if (outgoing_[w] == kNoTwin) return;
       const double longer = length + norm(mesh_.vertices[w] - mesh_.vertices[v]);
-      const std::uint64_t through = crossed ^ graph_.crossed(c);
+      const bool may_cross = graph_.is_end[v] != 0 && graph_.is_end[w] != 0;
+      const std::uint64_t through = may_cross ? crossed ^ graph_.crossed(c) : crossed;
       const auto [at, is_new] = reached_.try_emplace(w, Reached{longer, through, c});
       Reached& there = at->second;
       if (there.settled) {

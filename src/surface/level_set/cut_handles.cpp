@@ -33,18 +33,22 @@ constexpr double kOpen = 0.4;
 // Of the piece of surface around a place that a loop goes through: half of the loop, and what is
 // beside its middle.
 constexpr double kReach = kGirth / 4 + kBeside + kGirth / (2 * std::numbers::pi);
-// Where local resolutions are coarser than this part of the typical one loops may be missed.
+// Local resolutions count up to this part of the typical one: what is large there may be small
+// elsewhere.
 constexpr double kCoarsest = 1.5;
 // Chosen: the ends of what was cut are smooth to the eye, and what is around is not moved.
 constexpr std::size_t kRings = 3, kRounds = 8;
 
-// Sums, by exclusive or, of vectors of 64 bits.
+// Sums, by exclusive or, of vectors of 64 bits. Once there are 64 of them it has all.
 class BitBasis {
  public:
+  bool is_full() const { return n_ == of_.size(); }
   bool has(std::uint64_t bits) const { return rest_of(bits) == 0; }
   void add(std::uint64_t bits) {
     bits = rest_of(bits);
-    if (bits != 0) of_[static_cast<std::size_t>(std::bit_width(bits)) - 1] = bits;
+    if (bits == 0) return;
+    of_[static_cast<std::size_t>(std::bit_width(bits)) - 1] = bits;
+    ++n_;
   }
 
  private:
@@ -57,6 +61,7 @@ class BitBasis {
     return bits;
   }
   std::array<std::uint64_t, 64> of_{};  // each with its highest bit at its place
+  std::size_t n_ = 0;
 };
 
 // V - E + F against two for each part.
@@ -130,22 +135,23 @@ class LoopsOfPiece {
         outgoing_(inner_outgoing(mesh_.vertices.size(), mesh_.triangles, twins_)),
         graph_(make_cut_graph(mesh_, twins_)) {}
 
-  // Open on both sides, the shortest first, none beside another; `left_out`: one was.
-  std::vector<LoopSides> choose(bool& left_out, const Context& context) const {
-    left_out = false;
+  // Open on both sides, the shortest first, none beside another; `left_out` gets vertices of those
+  // that are. Parallel loops of a tube are not told apart where there are very many.
+  std::vector<LoopSides> choose(std::vector<std::uint32_t>& left_out,
+                                const Context& context) const {
     std::vector<LoopSides> loops;
     LoopSearch search(mesh_, twins_, outgoing_, graph_);
     std::unordered_set<std::uint32_t> touched;
     BitBasis chosen;
     for (const Candidate& candidate : candidates(context)) {
-      const double own = resolution_.at(mesh_.vertices[candidate.base]);
+      const double own = resolution_at(candidate.base);
       const Loop loop = search.shortest(candidate.base, kGirth * own);
       const auto is_touched = [&](std::uint32_t c) {
         return touched.contains(begin_of(mesh_.triangles, c));
       };
-      if (chosen.has(loop.crossed)) continue;
+      if (!chosen.is_full() && chosen.has(loop.crossed)) continue;
       if (std::any_of(loop.corners.begin(), loop.corners.end(), is_touched)) {
-        left_out = true;
+        left_out.push_back(candidate.base);
         continue;
       }
       if (!opens_on_both_sides(mesh_, twins_, loop, own)) continue;
@@ -162,6 +168,10 @@ class LoopsOfPiece {
   }
 
  private:
+  double resolution_at(std::uint32_t v) const {
+    return std::min(resolution_.at(mesh_.vertices[v]), kCoarsest * resolution_.typical);
+  }
+
   // The bases of short loops.
   std::vector<Candidate> candidates(const Context& context) const {
     std::vector<Candidate> all(graph_.vertices.size());
@@ -170,7 +180,7 @@ class LoopsOfPiece {
       for (std::size_t i = begin; i < end; ++i) {
         const std::uint32_t v = graph_.vertices[i];
         if (outgoing_[v] == kNoTwin) continue;
-        all[i] = {search.shortest(v, kGirth * resolution_.at(mesh_.vertices[v])).length, v};
+        all[i] = {search.shortest(v, kGirth * resolution_at(v)).length, v};
       }
     });
     std::erase_if(all, [](const Candidate& c) { return !(c.length > 0); });
@@ -233,36 +243,39 @@ std::vector<std::uint8_t> without_parting(const Mesh& mesh, const std::vector<Lo
   return may_be_cut;
 }
 
-// Cuts as many loops of the piece as do not touch each other; returns how many.
-std::size_t cut_once(Mesh& mesh, MeshPiece& piece, const Resolution& resolution, bool& left_out,
+// Cuts as many loops near `centers` as do not touch each other; those that do are the next centers.
+// Returns how many; `copies` and `middles` get vertices of the mesh.
+std::size_t cut_once(Mesh& mesh, const Resolution& resolution, std::vector<std::uint32_t>& centers,
                      std::vector<std::uint32_t>& copies, std::vector<std::uint32_t>& middles,
                      const Context& context) {
-  const std::vector<LoopSides> loops = LoopsOfPiece(piece, resolution).choose(left_out, context);
+  const MeshPiece piece = piece_around(mesh, centers, kReach * resolution.typical, context);
+  centers.clear();
+  const std::vector<LoopSides> loops = LoopsOfPiece(piece, resolution).choose(centers, context);
   if (loops.empty()) return 0;
+  for (std::uint32_t& v : centers) v = piece.vertices[v];
   std::vector<LoopSides> whole;
   for (const LoopSides& loop : loops) whole.push_back(on_whole(piece, loop));
   const std::vector<std::uint8_t> may_be_cut = without_parting(mesh, whole);
   std::size_t n_cut = 0;
-  std::vector<std::uint32_t> own_copies;
   for (std::size_t i = 0; i < loops.size(); ++i) {
     if (may_be_cut[i] == 0) continue;
     ++n_cut;
-    // Both get the same vertices and triangles, in the same order.
-    auto vertex = static_cast<std::uint32_t>(mesh.vertices.size());
-    auto triangle = static_cast<std::uint32_t>(mesh.triangles.size());
     cut_along(whole[i], mesh, copies);
-    cut_along(loops[i], piece.mesh, own_copies);
-    const auto last = static_cast<std::uint32_t>(piece.mesh.vertices.size() - 1);
+    const auto last = static_cast<std::uint32_t>(mesh.vertices.size() - 1);
     middles.push_back(last - 1), middles.push_back(last);
-    while (vertex < mesh.vertices.size()) piece.vertices.push_back(vertex++);
-    while (triangle < mesh.triangles.size()) piece.triangles.push_back(triangle++);
   }
   return n_cut;
 }
 
 // Moves the vertices at the ends of what was cut to the means of those around, some times. `ends`:
 // their middles.
-void smooth_ends(Mesh& mesh, const MeshPiece& piece, std::vector<std::uint32_t> ends) {
+void smooth_ends(Mesh& mesh, std::vector<std::uint32_t> ends, double reach,
+                 const Context& context) {
+  const MeshPiece piece = piece_around(mesh, ends, reach, context);
+  for (std::uint32_t& v : ends) {
+    v = static_cast<std::uint32_t>(
+        std::lower_bound(piece.vertices.begin(), piece.vertices.end(), v) - piece.vertices.begin());
+  }
   const std::vector<Triangle>& triangles = piece.mesh.triangles;
   const std::vector<std::uint32_t> twins = find_twins(piece.vertices.size(), triangles);
   const std::vector<std::uint32_t> outgoing =
@@ -305,19 +318,18 @@ void smooth_ends(Mesh& mesh, const MeshPiece& piece, std::vector<std::uint32_t> 
 
 CutHandles cut_handles(Mesh& mesh, const Resolution& resolution, const Context& context) {
   CutHandles result;
-  const std::vector<std::uint32_t> centers =
+  std::vector<std::uint32_t> centers =
       tight_places(mesh, kGirth * kCoarsest * resolution.typical, context);
   if (centers.empty() || !has_handles(mesh)) return result;
-  MeshPiece piece = piece_around(mesh, centers, kReach * resolution.typical, context);
   std::vector<std::uint32_t> middles;
-  bool left_out = true;
-  while (left_out) {
-    const std::size_t n =
-        cut_once(mesh, piece, resolution, left_out, result.copies, middles, context);
+  while (!centers.empty()) {
+    const std::size_t n = cut_once(mesh, resolution, centers, result.copies, middles, context);
     if (n == 0) break;
     result.handles += n;
   }
-  if (result.handles > 0) smooth_ends(mesh, piece, std::move(middles));
+  if (result.handles > 0) {
+    smooth_ends(mesh, std::move(middles), kGirth * resolution.typical, context);
+  }
   return result;
 }
 
