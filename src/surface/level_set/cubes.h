@@ -27,8 +27,10 @@ inline std::uint64_t key_of(const Cube& cube) {
 // Calls visit(key) for the cube and those around.
 template <typename Visit>
 void for_each_near(const Cube& cube, Visit visit) {
-  for (int k = 0; k < 27; ++k) {
-    visit(key_of({cube[0] + k % 3 - 1, cube[1] + k / 3 % 3 - 1, cube[2] + k / 9 - 1}));
+  for (const int z : {-1, 0, 1}) {
+    for (const int y : {-1, 0, 1}) {
+      for (const int x : {-1, 0, 1}) visit(key_of({cube[0] + x, cube[1] + y, cube[2] + z}));
+    }
   }
 }
 

@@ -254,6 +254,7 @@ std::size_t cut_once(Mesh& mesh, const Resolution& resolution, std::vector<std::
   if (loops.empty()) return 0;
   for (std::uint32_t& v : centers) v = piece.vertices[v];
   std::vector<LoopSides> whole;
+  whole.reserve(loops.size());
   for (const LoopSides& loop : loops) whole.push_back(on_whole(piece, loop));
   const std::vector<std::uint8_t> may_be_cut = without_parting(mesh, whole);
   std::size_t n_cut = 0;
