@@ -12,6 +12,7 @@
 #include "base/disjoint_sets.h"
 #include "rholm/error.h"
 #include "rholm/topology.h"
+#include "shape/normal_attributes.h"
 #include "surface/field/atlas_dipoles.h"
 #include "surface/field/cap_field.h"
 #include "surface/field/data_support.h"
@@ -187,13 +188,8 @@ double guessed_share(const ExtractedSurface& surface) {
 
 // Vertices in no cap's support have the normals of their triangles.
 void complete_normals(Mesh& mesh) {
-  const auto axis = [&](const char* name) -> std::vector<double>& {
-    return std::find_if(mesh.attributes.begin(), mesh.attributes.end(),
-                        [&](const Attribute& a) { return a.name == name; })
-        ->values;
-  };
-  std::vector<double>&nx = axis("nx"), &ny = axis("ny"), &nz = axis("nz");
-  const auto is_missing = [&](std::uint32_t i) { return nx[i] == 0 && ny[i] == 0 && nz[i] == 0; };
+  const NormalAttributes normals = normal_attributes(mesh);
+  const auto is_missing = [&](std::uint32_t i) { return normals[i] == Vec3{}; };
   std::vector<Triangle> around;  // few: not all triangles have to be summed
   for (const Triangle& t : mesh.triangles) {
     if (std::any_of(t.begin(), t.end(), is_missing)) around.push_back(t);
@@ -201,9 +197,7 @@ void complete_normals(Mesh& mesh) {
   if (around.empty()) return;
   const std::vector<Vec3> sums = area_normals(mesh.vertices, around);
   for (std::uint32_t i = 0; i < mesh.vertices.size(); ++i) {
-    if (!is_missing(i)) continue;
-    const Vec3 normal = normalized(sums[i]);
-    nx[i] = normal.x, ny[i] = normal.y, nz[i] = normal.z;
+    if (is_missing(i)) normals.set(i, normalized(sums[i]));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "shape/normal_attributes.h"
 #include "shape/topology/identical.h"
 
 namespace rholm {
@@ -104,21 +105,10 @@ std::vector<Vec3> point_normals(const LocalMesh& local, std::span<const Vec3> po
 }
 
 void update_normals(Mesh& mesh, std::span<const std::uint32_t> vertices) {
-  const auto values_of = [&](const char* name) -> std::vector<double>* {
-    for (Attribute& a : mesh.attributes) {
-      if (a.name == name) return &a.values;
-    }
-    return nullptr;
-  };
-  std::vector<double>* const x = values_of("nx");
-  std::vector<double>* const y = values_of("ny");
-  std::vector<double>* const z = values_of("nz");
-  if (x == nullptr || y == nullptr || z == nullptr) return;
+  const NormalAttributes normals = normal_attributes(mesh);
+  if (!normals) return;
   const std::vector<Vec3> sums = area_normals(mesh.vertices, mesh.triangles);
-  for (const std::uint32_t v : vertices) {
-    const Vec3 n = normalized(sums[v]);
-    (*x)[v] = n.x, (*y)[v] = n.y, (*z)[v] = n.z;
-  }
+  for (const std::uint32_t v : vertices) normals.set(v, normalized(sums[v]));
 }
 
 }  // namespace rholm

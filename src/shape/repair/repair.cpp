@@ -15,6 +15,7 @@
 #include "base/parallel.h"
 #include "base/refuse.h"
 #include "shape/face.h"
+#include "shape/normal_attributes.h"
 #include "shape/repair/hole_closing.h"
 #include "shape/repair/outwards.h"
 #include "shape/repair/sheets.h"
@@ -282,22 +283,15 @@ class Repairer {
 
   // Normals of the file at turned triangles, where they contradict these now.
   void turn_normals() {
-    std::array<std::vector<double>*, 3> normals{};
-    for (Attribute& a : mesh_.attributes) {
-      if (a.name == "nx") normals[0] = &a.values;
-      if (a.name == "ny") normals[1] = &a.values;
-      if (a.name == "nz") normals[2] = &a.values;
-    }
-    if (!normals[0] || !normals[1] || !normals[2]) return;
+    const NormalAttributes normals = normal_attributes(mesh_);
+    if (!normals) return;
     const std::vector<Vec3> faces = area_normals(mesh_.vertices, mesh_.triangles);
     std::vector<char> at_turned(mesh_.vertices.size(), 0);
     for (std::size_t t = 0; t < turned_.size(); ++t) {
       for (const std::uint32_t v : mesh_.triangles[t]) at_turned[v] |= turned_[t];
     }
     for (std::size_t v = 0; v < at_turned.size(); ++v) {
-      const Vec3 normal = {(*normals[0])[v], (*normals[1])[v], (*normals[2])[v]};
-      if (!at_turned[v] || !(dot(normal, faces[v]) < 0)) continue;
-      for (std::vector<double>* values : normals) (*values)[v] = -(*values)[v];
+      if (at_turned[v] && dot(normals[v], faces[v]) < 0) normals.set(v, -normals[v]);
     }
   }
 

@@ -308,10 +308,10 @@ void smooth_ends(Mesh& mesh, std::vector<std::uint32_t> ends, double reach,
     }
     for (std::size_t i = 0; i < ends.size(); ++i) places[ends[i]] = means[i];
   }
-  const NormalAxes normals = normal_axes(mesh);
+  const NormalAttributes normals = normal_attributes(mesh);
   for (const std::uint32_t v : ends) {
     mesh.vertices[piece.vertices[v]] = places[v];
-    for (std::vector<double>* const axis : normals) (*axis)[piece.vertices[v]] = 0;
+    normals.set(piece.vertices[v], {});
   }
 }
 
@@ -320,7 +320,7 @@ void smooth_ends(Mesh& mesh, std::vector<std::uint32_t> ends, double reach,
 CutHandles cut_handles(Mesh& mesh, const Resolution& resolution, const Context& context) {
   CutHandles result;
   std::vector<std::uint32_t> centers =
-      tight_places(mesh, kGirth * kCoarsest * resolution.typical, context);
+      tight_places(mesh, normal_attributes(mesh), kGirth * kCoarsest * resolution.typical, context);
   if (centers.empty() || !has_handles(mesh)) return result;
   std::vector<std::uint32_t> middles;
   while (!centers.empty()) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <string>
 #include <unordered_map>
 
 #include "base/parallel.h"
@@ -18,12 +17,9 @@ constexpr double kOneSide = 0.2;
 // Vertices from which an edge leaves along which the normal turns as fast as, on the average, along
 // a loop of a length: its normals turn by 2 pi at least, as the curve itself does (Fenchel 1929) if
 // it is the shortest. Edges much shorter than others do not count more.
-std::vector<std::uint32_t> sharp_vertices(Mesh& mesh, double length, const Context& context) {
+std::vector<std::uint32_t> sharp_vertices(const Mesh& mesh, const NormalAttributes& normals,
+                                          double length, const Context& context) {
   constexpr std::size_t kChunk = 16384;
-  const NormalAxes normals = normal_axes(mesh);
-  const auto normal = [&](std::uint32_t v) {
-    return Vec3{(*normals[0])[v], (*normals[1])[v], (*normals[2])[v]};
-  };
   const double least = length / 30;  // chosen: a third of a usual edge
   const std::size_t n = mesh.triangles.size();
   std::vector<std::vector<std::uint32_t>> found((n + kChunk - 1) / kChunk);
@@ -36,7 +32,7 @@ std::vector<std::uint32_t> sharp_vertices(Mesh& mesh, double length, const Conte
         if (a > b) continue;
         const double edge = std::max(least, norm(mesh.vertices[b] - mesh.vertices[a]));
         const double turn = std::min(std::numbers::pi, 2 * std::numbers::pi * edge / length);
-        const Vec3 na = normal(a), nb = normal(b);
+        const Vec3 na = normals[a], nb = normals[b];
         const bool known = dot(na, na) > 0 && dot(nb, nb) > 0;
         const double chord = turn - turn * turn * turn / 24;  // at most 2 sin(turn / 2)
         if (!known || norm(nb - na) >= chord) sharp.push_back(a), sharp.push_back(b);
@@ -52,12 +48,8 @@ std::vector<std::uint32_t> sharp_vertices(Mesh& mesh, double length, const Conte
 
 // Those of the vertices around which, as far as half of such a loop reaches, normals are on all
 // sides: those of a closed curve that is the shortest are in no half-space.
-std::vector<std::uint32_t> turning_around(Mesh& mesh, const std::vector<std::uint32_t>& sharp,
-                                          double length) {
-  const NormalAxes normals = normal_axes(mesh);
-  const auto normal = [&](std::uint32_t v) {
-    return Vec3{(*normals[0])[v], (*normals[1])[v], (*normals[2])[v]};
-  };
+std::vector<std::uint32_t> turning_around(const Mesh& mesh, const NormalAttributes& normals,
+                                          const std::vector<std::uint32_t>& sharp, double length) {
   struct Group {
     Cube cube;
     std::vector<std::uint32_t> vertices;
@@ -69,7 +61,7 @@ std::vector<std::uint32_t> turning_around(Mesh& mesh, const std::vector<std::uin
     Group& group = groups[key_of(cube)];
     group.cube = cube;
     group.vertices.push_back(v);
-    group.sum += normal(v);
+    group.sum += normals[v];
   }
   std::vector<std::uint32_t> kept;
   for (const auto& [key, group] : groups) {
@@ -84,7 +76,7 @@ std::vector<std::uint32_t> turning_around(Mesh& mesh, const std::vector<std::uin
     const Vec3 mean = normalized(sum);
     const bool on_one_side = std::all_of(near.begin(), near.end(), [&](const Group* other) {
       return std::all_of(other->vertices.begin(), other->vertices.end(),
-                         [&](std::uint32_t v) { return dot(normal(v), mean) > kOneSide; });
+                         [&](std::uint32_t v) { return dot(normals[v], mean) > kOneSide; });
     });
     if (!on_one_side) kept.insert(kept.end(), group.vertices.begin(), group.vertices.end());
   }
@@ -94,18 +86,9 @@ std::vector<std::uint32_t> turning_around(Mesh& mesh, const std::vector<std::uin
 
 }  // namespace
 
-NormalAxes normal_axes(Mesh& mesh) {
-  NormalAxes normals{};
-  for (Attribute& attribute : mesh.attributes) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (attribute.name == std::string("n") + "xyz"[k]) normals[k] = &attribute.values;
-    }
-  }
-  return normals;
-}
-
-std::vector<std::uint32_t> tight_places(Mesh& mesh, double length, const Context& context) {
-  return turning_around(mesh, sharp_vertices(mesh, length, context), length);
+std::vector<std::uint32_t> tight_places(const Mesh& mesh, const NormalAttributes& normals,
+                                        double length, const Context& context) {
+  return turning_around(mesh, normals, sharp_vertices(mesh, normals, length, context), length);
 }
 
 }  // namespace rholm
