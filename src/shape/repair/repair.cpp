@@ -145,13 +145,13 @@ class Repairer {
   }
 
   void find_all_mates() {
-    mates_ = find_mates(mesh_.vertices, mesh_.triangles, MatesAt::kAllEdges);
+    mates_ = find_mates_at_all_edges(mesh_.vertices, mesh_.triangles);
     parts_ = find_parts(mesh_.triangles.size(), mates_);
   }
 
   // Alike first across edges of two triangles, so that those of more can be told apart.
   void orient() {
-    mates_ = find_mates(mesh_.vertices, mesh_.triangles, MatesAt::kPairsOnly);
+    mates_ = find_mates(mesh_.vertices.size(), mesh_.triangles);
     parts_ = find_parts(mesh_.triangles.size(), mates_);
     turned_ = orient_alike(mesh_.vertices, parts_, mesh_.triangles, mates_).flipped;
     find_all_mates();

@@ -61,22 +61,21 @@ void join_around(std::vector<HalfEdge> ring, std::vector<std::uint32_t>& mates) 
 // Corners of two mates at the same vertex.
 void join_corners(const std::vector<Triangle>& triangles, std::uint32_t h, std::uint32_t mate,
                   DisjointSets& fans) {
-  const auto next = [](std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; };
   const bool opposite = start_of(triangles, h) != start_of(triangles, mate);
-  fans.unite(h, opposite ? next(mate) : mate);
-  fans.unite(next(h), opposite ? mate : next(mate));
+  fans.unite(h, opposite ? next_corner(mate) : mate);
+  fans.unite(next_corner(h), opposite ? mate : next_corner(mate));
 }
 
 }  // namespace
 
-std::vector<std::uint32_t> find_mates(const std::vector<Vec3>& vertices,
-                                      const std::vector<Triangle>& triangles, MatesAt where) {
+std::vector<std::uint32_t> find_mates_at_all_edges(const std::vector<Vec3>& vertices,
+                                                   const std::vector<Triangle>& triangles) {
   std::vector<std::uint32_t> mates(3 * triangles.size(), kNoMate);
   const HalfEdges half_edges = sort_half_edges(vertices.size(), triangles);
   half_edges.for_each_edge([&](std::uint32_t smaller, std::span<const HalfEdge> group) {
     if (group.size() == 2) {
       join(group[0].corner(), group[1].corner(), mates);
-    } else if (group.size() > 2 && where == MatesAt::kAllEdges) {
+    } else if (group.size() > 2) {
       join_around(around_edge(vertices, triangles, smaller, group), mates);
     }
   });

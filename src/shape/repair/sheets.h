@@ -4,31 +4,18 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "rholm/mesh.h"
+#include "shape/topology/mates.h"
 
 namespace rholm {
 
-inline constexpr std::uint32_t kNoMate = std::numeric_limits<std::uint32_t>::max();
-
-// Half-edge 3 t + k runs from corner k of triangle t to the next.
-inline std::uint32_t start_of(const std::vector<Triangle>& triangles, std::uint32_t half_edge) {
-  return triangles[half_edge / 3][half_edge % 3];
-}
-inline std::uint32_t end_of(const std::vector<Triangle>& triangles, std::uint32_t half_edge) {
-  return triangles[half_edge / 3][(half_edge + 1) % 3];
-}
-
-// For each half-edge that of the triangle beyond its edge, kNoMate along a border. Where two
-// triangles meet they are mates, whatever their senses. Around an edge of more, those that have
-// the solid between them are (a falling half-edge and the next one around that rises), then what
-// is left in pairs of neighbours; of an odd number one has no mate. That is right where triangles
-// are oriented alike: kPairsOnly leaves those edges without mates, to orient them first.
-enum class MatesAt { kPairsOnly, kAllEdges };
-std::vector<std::uint32_t> find_mates(const std::vector<Vec3>& vertices,
-                                      const std::vector<Triangle>& triangles, MatesAt where);
+// As find_mates(), also at edges of more than two triangles that are oriented alike: those that
+// have the solid between them are mates (a falling half-edge and the next one around that rises),
+// then what is left in pairs of neighbours; of an odd number one has none.
+std::vector<std::uint32_t> find_mates_at_all_edges(const std::vector<Vec3>& vertices,
+                                                   const std::vector<Triangle>& triangles);
 
 // Parts of triangles connected through mates: part[t], counted in the order of their first ones.
 struct Parts {

@@ -7,7 +7,7 @@
 #include "base/cancel.h"
 #include "base/disjoint_sets.h"
 #include "base/random.h"
-#include "shape/topology/twins.h"
+#include "shape/topology/mates.h"
 
 namespace rholm {
 namespace {
@@ -17,8 +17,8 @@ constexpr std::uint64_t kSeed = 1;  // any
 
 // A spanning forest of the triangles: of each the half-edge towards its root, or kRoot. Breadth
 // first, so that paths are short. Where there are borders they are the roots.
-std::vector<std::uint32_t> triangle_forest(const std::vector<std::uint32_t>& twins) {
-  const std::size_t n = twins.size() / 3;
+std::vector<std::uint32_t> triangle_forest(const std::vector<std::uint32_t>& mates) {
+  const std::size_t n = mates.size() / 3;
   std::vector<std::uint32_t> up(n, kRoot), queue;
   std::vector<std::uint8_t> seen(n, 0);
   queue.reserve(n);
@@ -34,12 +34,12 @@ std::vector<std::uint32_t> triangle_forest(const std::vector<std::uint32_t>& twi
     for (; next < queue.size(); ++next) {
       poll();
       for (std::uint32_t c = 3 * queue[next]; c < 3 * queue[next] + 3; ++c) {
-        if (twins[c] != kNoTwin) enter(twins[c] / 3, twins[c]);
+        if (mates[c] != kNoMate) enter(mates[c] / 3, mates[c]);
       }
     }
   };
-  for (std::uint32_t c = 0; c < twins.size(); ++c) {
-    if (twins[c] == kNoTwin) enter(c / 3, c);
+  for (std::uint32_t c = 0; c < mates.size(); ++c) {
+    if (mates[c] == kNoMate) enter(c / 3, c);
   }
   spread();
   for (std::uint32_t t = 0; t < n; ++t) {
@@ -50,16 +50,16 @@ std::vector<std::uint32_t> triangle_forest(const std::vector<std::uint32_t>& twi
 }
 
 // Half-edges, one of each edge, that neither forest has.
-std::vector<std::uint32_t> edges_left(const Mesh& mesh, const std::vector<std::uint32_t>& twins,
+std::vector<std::uint32_t> edges_left(const Mesh& mesh, const std::vector<std::uint32_t>& mates,
                                       const std::vector<std::uint32_t>& up) {
   DisjointSets joined(mesh.vertices.size());
   std::vector<std::uint32_t> left;
   CancelPoll poll;
-  for (std::uint32_t c = 0; c < twins.size(); ++c) {
+  for (std::uint32_t c = 0; c < mates.size(); ++c) {
     poll();
-    const std::uint32_t back = twins[c];
-    if (up[c / 3] == c || (back != kNoTwin && (back < c || up[back / 3] == back))) continue;
-    const std::uint32_t a = joined.find(begin_of(mesh.triangles, c));
+    const std::uint32_t back = mates[c];
+    if (up[c / 3] == c || (back != kNoMate && (back < c || up[back / 3] == back))) continue;
+    const std::uint32_t a = joined.find(start_of(mesh.triangles, c));
     const std::uint32_t b = joined.find(end_of(mesh.triangles, c));
     if (a == b) left.push_back(c);
     joined.unite(a, b);
@@ -76,28 +76,28 @@ std::uint64_t CutGraph::crossed(std::uint32_t corner) const {
   return at != edges.end() && at->corner == corner ? at->crossed : 0;
 }
 
-CutGraph make_cut_graph(const Mesh& mesh, const std::vector<std::uint32_t>& twins) {
-  const std::vector<std::uint32_t> up = triangle_forest(twins);
+CutGraph make_cut_graph(const Mesh& mesh, const std::vector<std::uint32_t>& mates) {
+  const std::vector<std::uint32_t> up = triangle_forest(mates);
   std::unordered_map<std::uint32_t, std::uint64_t> crossed;  // by the lower half-edge of an edge
   const auto cross_up_from = [&](std::uint32_t first, std::uint64_t bits) {
-    for (std::uint32_t c = up[first / 3]; c != kRoot; c = up[twins[c] / 3]) {
-      crossed[std::min(c, twins[c])] ^= bits;
-      if (twins[c] == kNoTwin) break;
+    for (std::uint32_t c = up[first / 3]; c != kRoot; c = up[mates[c] / 3]) {
+      crossed[std::min(c, mates[c])] ^= bits;
+      if (mates[c] == kNoMate) break;
     }
   };
-  for (const std::uint32_t c : edges_left(mesh, twins, up)) {
+  for (const std::uint32_t c : edges_left(mesh, mates, up)) {
     const std::uint64_t bits = random_bits(kSeed, c);
     crossed[c] ^= bits;
     // On both sides up to the roots, or, without what they share, to where they meet.
     cross_up_from(c, bits);
-    if (twins[c] != kNoTwin) cross_up_from(twins[c], bits);
+    if (mates[c] != kNoMate) cross_up_from(mates[c], bits);
   }
   CutGraph graph;
   for (const auto& [c, bits] : crossed) {
     if (bits == 0) continue;
     graph.edges.push_back({c, bits});
-    if (twins[c] != kNoTwin) graph.edges.push_back({twins[c], bits});
-    graph.vertices.push_back(begin_of(mesh.triangles, c));
+    if (mates[c] != kNoMate) graph.edges.push_back({mates[c], bits});
+    graph.vertices.push_back(start_of(mesh.triangles, c));
     graph.vertices.push_back(end_of(mesh.triangles, c));
   }
   std::sort(graph.edges.begin(), graph.edges.end(),

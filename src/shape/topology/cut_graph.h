@@ -30,7 +30,7 @@ struct CutGraph {
   std::uint64_t crossed(std::uint32_t corner) const;
 };
 
-// Without edges for discs and spheres. `twins` of find_twins().
-CutGraph make_cut_graph(const Mesh& mesh, const std::vector<std::uint32_t>& twins);
+// Without edges for discs and spheres. `mates` of find_mates().
+CutGraph make_cut_graph(const Mesh& mesh, const std::vector<std::uint32_t>& mates);
 
 }  // namespace rholm

@@ -1,6 +1,6 @@
 #include "shape/topology/cut_loop.h"
 
-#include "shape/topology/twins.h"
+#include "shape/topology/mates.h"
 
 namespace rholm {
 namespace {
@@ -19,13 +19,13 @@ std::uint32_t add_copy(std::uint32_t vertex, Mesh& mesh, std::vector<std::uint32
 }  // namespace
 
 LoopSides sides_of(const std::vector<std::uint32_t>& loop, const std::vector<Triangle>& triangles,
-                   const std::vector<std::uint32_t>& twins) {
+                   const std::vector<std::uint32_t>& mates) {
   LoopSides sides;
   for (std::size_t i = 0; i < loop.size(); ++i) {
-    sides.vertices.push_back(begin_of(triangles, loop[i]));
+    sides.vertices.push_back(start_of(triangles, loop[i]));
     // Counter-clockwise from the edge back to the one ahead.
     const std::uint32_t before = loop[i == 0 ? loop.size() - 1 : i - 1];
-    for (std::uint32_t c = twins[before]; c != loop[i]; c = twins[previous_corner(c)]) {
+    for (std::uint32_t c = mates[before]; c != loop[i]; c = mates[previous_corner(c)]) {
       sides.right.emplace_back(i, c);
     }
   }

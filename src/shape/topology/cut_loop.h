@@ -19,7 +19,7 @@ struct LoopSides {
 
 // Of half-edges that each begin where the one before ends, over inner vertices, none twice.
 LoopSides sides_of(const std::vector<std::uint32_t>& loop, const std::vector<Triangle>& triangles,
-                   const std::vector<std::uint32_t>& twins);
+                   const std::vector<std::uint32_t>& mates);
 
 // Both sides get a fan of triangles around the loop's middle: where it bounds no part of the
 // surface, one handle is gone. Appends to the mesh, with the attributes of the loop's vertices, a

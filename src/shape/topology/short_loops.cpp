@@ -5,7 +5,7 @@
 #include <queue>
 #include <utility>
 
-#include "shape/topology/twins.h"
+#include "shape/topology/mates.h"
 
 namespace rholm {
 
@@ -14,14 +14,14 @@ std::vector<std::uint32_t> LoopSearch::way_to(std::uint32_t vertex) const {
   std::vector<std::uint32_t> way;
   while (vertex != base_) {
     way.push_back(reached_.at(vertex).by);
-    vertex = begin_of(mesh_.triangles, way.back());
+    vertex = start_of(mesh_.triangles, way.back());
   }
   return way;
 }
 
 // To where the half-edge begins, along it, and back.
 Loop LoopSearch::loop_through(std::uint32_t corner) const {
-  std::vector<std::uint32_t> there = way_to(begin_of(mesh_.triangles, corner));
+  std::vector<std::uint32_t> there = way_to(start_of(mesh_.triangles, corner));
   std::vector<std::uint32_t> back = way_to(end_of(mesh_.triangles, corner));
   while (!there.empty() && !back.empty() && there.back() == back.back()) {
     there.pop_back(), back.pop_back();
@@ -29,9 +29,9 @@ Loop LoopSearch::loop_through(std::uint32_t corner) const {
   Loop loop;
   loop.corners.assign(there.rbegin(), there.rend());
   loop.corners.push_back(corner);
-  for (const std::uint32_t c : back) loop.corners.push_back(twins_[c]);
+  for (const std::uint32_t c : back) loop.corners.push_back(mates_[c]);
   for (const std::uint32_t c : loop.corners) {
-    const Vec3& a = mesh_.vertices[begin_of(mesh_.triangles, c)];
+    const Vec3& a = mesh_.vertices[start_of(mesh_.triangles, c)];
     loop.length += norm(mesh_.vertices[end_of(mesh_.triangles, c)] - a);
     loop.crossed ^= graph_.crossed(c);
   }
@@ -54,9 +54,9 @@ Loop LoopSearch::shortest(std::uint32_t base, double most) {
     if (here.settled) continue;
     here.settled = true;
     const std::uint64_t crossed = here.crossed;
-    for_each_outgoing(twins_, outgoing_[v], [&](std::uint32_t c) {
+    for_each_outgoing(mates_, outgoing_[v], [&](std::uint32_t c) {
       const std::uint32_t w = end_of(mesh_.triangles, c);
-      if (outgoing_[w] == kNoTwin) return;
+      if (outgoing_[w] == kNoMate) return;
       const double longer = length + norm(mesh_.vertices[w] - mesh_.vertices[v]);
       const bool may_cross = graph_.is_end[v] != 0 && graph_.is_end[w] != 0;
       const std::uint64_t through = may_cross ? crossed ^ graph_.crossed(c) : crossed;

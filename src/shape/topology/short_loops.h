@@ -21,9 +21,9 @@ struct Loop {
 class LoopSearch {
  public:
   // `outgoing` of inner_outgoing().
-  LoopSearch(const Mesh& mesh, const std::vector<std::uint32_t>& twins,
+  LoopSearch(const Mesh& mesh, const std::vector<std::uint32_t>& mates,
              const std::vector<std::uint32_t>& outgoing, const CutGraph& graph)
-      : mesh_(mesh), twins_(twins), outgoing_(outgoing), graph_(graph) {}
+      : mesh_(mesh), mates_(mates), outgoing_(outgoing), graph_(graph) {}
 
   // The shortest way along edges from an inner vertex over others back to it that bounds no part of
   // the surface, if it is no longer than `most`, without what it goes there and back; without
@@ -41,7 +41,7 @@ class LoopSearch {
   std::vector<std::uint32_t> way_to(std::uint32_t vertex) const;
 
   const Mesh& mesh_;
-  const std::vector<std::uint32_t>& twins_;
+  const std::vector<std::uint32_t>& mates_;
   const std::vector<std::uint32_t>& outgoing_;
   const CutGraph& graph_;
   std::uint32_t base_ = 0;

@@ -12,8 +12,8 @@
 #include "base/parallel.h"
 #include "shape/topology/cut_graph.h"
 #include "shape/topology/cut_loop.h"
+#include "shape/topology/mates.h"
 #include "shape/topology/short_loops.h"
-#include "shape/topology/twins.h"
 #include "surface/level_set/mesh_piece.h"
 #include "surface/level_set/tight_places.h"
 
@@ -77,7 +77,7 @@ bool has_handles(const Mesh& mesh) {
 }
 
 // Area of the triangles that are joined to the left side of the loop within a ball, or `enough`.
-double area_beside(const Mesh& mesh, const std::vector<std::uint32_t>& twins,
+double area_beside(const Mesh& mesh, const std::vector<std::uint32_t>& mates,
                    const std::vector<std::uint32_t>& loop, const Vec3& middle, double radius,
                    double enough) {
   const std::unordered_set<std::uint32_t> wall(loop.begin(), loop.end());
@@ -94,27 +94,27 @@ double area_beside(const Mesh& mesh, const std::vector<std::uint32_t>& twins,
   for (const std::uint32_t c : loop) enter(c / 3);
   for (std::size_t i = 0; i < queue.size() && area < enough; ++i) {
     for (std::uint32_t c = 3 * queue[i]; c < 3 * queue[i] + 3; ++c) {
-      if (!wall.contains(c) && twins[c] != kNoTwin) enter(twins[c] / 3);
+      if (!wall.contains(c) && mates[c] != kNoMate) enter(mates[c] / 3);
     }
   }
   return area;
 }
 
-bool opens_on_both_sides(const Mesh& mesh, const std::vector<std::uint32_t>& twins,
+bool opens_on_both_sides(const Mesh& mesh, const std::vector<std::uint32_t>& mates,
                          const Loop& loop, double resolution) {
   std::vector<std::uint32_t> back;
   Vec3 sum;
   for (const std::uint32_t c : loop.corners) {
-    back.push_back(twins[c]);
-    sum += mesh.vertices[begin_of(mesh.triangles, c)];
+    back.push_back(mates[c]);
+    sum += mesh.vertices[start_of(mesh.triangles, c)];
   }
   const Vec3 middle = sum / static_cast<double>(loop.corners.size());
   const double beside = kBeside * resolution;
   const double radius = beside + loop.length / (2 * std::numbers::pi);
   const double enough =
       (kGirth * kBeside + kOpen * std::numbers::pi * kBeside * kBeside) * resolution * resolution;
-  return area_beside(mesh, twins, loop.corners, middle, radius, enough) >= enough &&
-         area_beside(mesh, twins, back, middle, radius, enough) >= enough;
+  return area_beside(mesh, mates, loop.corners, middle, radius, enough) >= enough &&
+         area_beside(mesh, mates, back, middle, radius, enough) >= enough;
 }
 
 struct Candidate {
@@ -131,38 +131,38 @@ class LoopsOfPiece {
   LoopsOfPiece(const MeshPiece& piece, const Resolution& resolution)
       : mesh_(piece.mesh),
         resolution_(resolution),
-        twins_(find_twins(mesh_.vertices.size(), mesh_.triangles)),
-        outgoing_(inner_outgoing(mesh_.vertices.size(), mesh_.triangles, twins_)),
-        graph_(make_cut_graph(mesh_, twins_)) {}
+        mates_(find_mates(mesh_.vertices.size(), mesh_.triangles)),
+        outgoing_(inner_outgoing(mesh_.vertices.size(), mesh_.triangles, mates_)),
+        graph_(make_cut_graph(mesh_, mates_)) {}
 
   // Open on both sides, the shortest first, none beside another; `left_out` gets vertices of those
   // that are. Parallel loops of a tube are not told apart where there are very many.
   std::vector<LoopSides> choose(std::vector<std::uint32_t>& left_out,
                                 const Context& context) const {
     std::vector<LoopSides> loops;
-    LoopSearch search(mesh_, twins_, outgoing_, graph_);
+    LoopSearch search(mesh_, mates_, outgoing_, graph_);
     std::unordered_set<std::uint32_t> touched;
     BitBasis chosen;
     for (const Candidate& candidate : candidates(context)) {
       const double own = resolution_at(candidate.base);
       const Loop loop = search.shortest(candidate.base, kGirth * own);
       const auto is_touched = [&](std::uint32_t c) {
-        return touched.contains(begin_of(mesh_.triangles, c));
+        return touched.contains(start_of(mesh_.triangles, c));
       };
       if (!chosen.is_full() && chosen.has(loop.crossed)) continue;
       if (std::any_of(loop.corners.begin(), loop.corners.end(), is_touched)) {
         left_out.push_back(candidate.base);
         continue;
       }
-      if (!opens_on_both_sides(mesh_, twins_, loop, own)) continue;
+      if (!opens_on_both_sides(mesh_, mates_, loop, own)) continue;
       chosen.add(loop.crossed);
       for (const std::uint32_t c : loop.corners) {
-        touched.insert(begin_of(mesh_.triangles, c));
-        for_each_outgoing(twins_, c, [&](std::uint32_t other) {
+        touched.insert(start_of(mesh_.triangles, c));
+        for_each_outgoing(mates_, c, [&](std::uint32_t other) {
           touched.insert(end_of(mesh_.triangles, other));
         });
       }
-      loops.push_back(sides_of(loop.corners, mesh_.triangles, twins_));
+      loops.push_back(sides_of(loop.corners, mesh_.triangles, mates_));
     }
     return loops;
   }
@@ -176,10 +176,10 @@ class LoopsOfPiece {
   std::vector<Candidate> candidates(const Context& context) const {
     std::vector<Candidate> all(graph_.vertices.size());
     parallel_for(all.size(), 64, context, {}, [&](std::size_t begin, std::size_t end) {
-      LoopSearch search(mesh_, twins_, outgoing_, graph_);
+      LoopSearch search(mesh_, mates_, outgoing_, graph_);
       for (std::size_t i = begin; i < end; ++i) {
         const std::uint32_t v = graph_.vertices[i];
-        if (outgoing_[v] == kNoTwin) continue;
+        if (outgoing_[v] == kNoMate) continue;
         all[i] = {search.shortest(v, kGirth * resolution_at(v)).length, v};
       }
     });
@@ -190,7 +190,7 @@ class LoopsOfPiece {
 
   const Mesh& mesh_;
   const Resolution& resolution_;
-  std::vector<std::uint32_t> twins_, outgoing_;
+  std::vector<std::uint32_t> mates_, outgoing_;
   CutGraph graph_;
 };
 
@@ -278,11 +278,11 @@ void smooth_ends(Mesh& mesh, std::vector<std::uint32_t> ends, double reach,
         std::lower_bound(piece.vertices.begin(), piece.vertices.end(), v) - piece.vertices.begin());
   }
   const std::vector<Triangle>& triangles = piece.mesh.triangles;
-  const std::vector<std::uint32_t> twins = find_twins(piece.vertices.size(), triangles);
+  const std::vector<std::uint32_t> mates = find_mates(piece.vertices.size(), triangles);
   const std::vector<std::uint32_t> outgoing =
-      inner_outgoing(piece.vertices.size(), triangles, twins);
+      inner_outgoing(piece.vertices.size(), triangles, mates);
   const auto distinct = [&] {
-    std::erase_if(ends, [&](std::uint32_t v) { return outgoing[v] == kNoTwin; });
+    std::erase_if(ends, [&](std::uint32_t v) { return outgoing[v] == kNoMate; });
     std::sort(ends.begin(), ends.end());
     ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
   };
@@ -290,7 +290,7 @@ void smooth_ends(Mesh& mesh, std::vector<std::uint32_t> ends, double reach,
     distinct();
     const std::vector<std::uint32_t> inner = ends;
     for (const std::uint32_t v : inner) {
-      for_each_outgoing(twins, outgoing[v],
+      for_each_outgoing(mates, outgoing[v],
                         [&](std::uint32_t c) { ends.push_back(end_of(triangles, c)); });
     }
   }
@@ -300,7 +300,7 @@ void smooth_ends(Mesh& mesh, std::vector<std::uint32_t> ends, double reach,
     for (std::size_t i = 0; i < ends.size(); ++i) {
       Vec3 sum;
       double n = 0;
-      for_each_outgoing(twins, outgoing[ends[i]], [&](std::uint32_t c) {
+      for_each_outgoing(mates, outgoing[ends[i]], [&](std::uint32_t c) {
         sum += places[end_of(triangles, c)];
         n += 1;
       });

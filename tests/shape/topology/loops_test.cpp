@@ -10,8 +10,8 @@
 #include "rholm/topology.h"
 #include "shape/topology/cut_graph.h"
 #include "shape/topology/cut_loop.h"
+#include "shape/topology/mates.h"
 #include "shape/topology/short_loops.h"
-#include "shape/topology/twins.h"
 #include "support/random_data.h"
 
 namespace rholm {
@@ -22,12 +22,12 @@ constexpr int kRing = 40, kTube = 12;
 struct Surface {
   explicit Surface(const Mesh& given)
       : mesh(given),
-        twins(find_twins(mesh.vertices.size(), mesh.triangles)),
-        outgoing(inner_outgoing(mesh.vertices.size(), mesh.triangles, twins)),
-        graph(make_cut_graph(mesh, twins)) {}
+        mates(find_mates(mesh.vertices.size(), mesh.triangles)),
+        outgoing(inner_outgoing(mesh.vertices.size(), mesh.triangles, mates)),
+        graph(make_cut_graph(mesh, mates)) {}
 
   Mesh mesh;
-  std::vector<std::uint32_t> twins, outgoing;
+  std::vector<std::uint32_t> mates, outgoing;
   CutGraph graph;
 };
 
@@ -57,22 +57,22 @@ Mesh double_torus() {
   return both;
 }
 
-TEST(twins, lead_back_along_the_same_edge) {
+TEST(mates, lead_back_along_the_same_edge) {
   const Surface s(torus(2, 0.5, kRing, kTube));
-  for (std::uint32_t c = 0; c < s.twins.size(); ++c) {
-    ASSERT_NE(s.twins[c], kNoTwin);
-    EXPECT_EQ(s.twins[s.twins[c]], c);
-    EXPECT_EQ(begin_of(s.mesh.triangles, s.twins[c]), end_of(s.mesh.triangles, c));
+  for (std::uint32_t c = 0; c < s.mates.size(); ++c) {
+    ASSERT_NE(s.mates[c], kNoMate);
+    EXPECT_EQ(s.mates[s.mates[c]], c);
+    EXPECT_EQ(start_of(s.mesh.triangles, s.mates[c]), end_of(s.mesh.triangles, c));
   }
 }
 
-TEST(twins, of_borders_are_none_and_their_vertices_are_not_inner) {
+TEST(mates, of_borders_are_none_and_their_vertices_are_not_inner) {
   const Surface s(without_triangle(icosphere(2)));
-  EXPECT_EQ(std::count(s.twins.begin(), s.twins.end(), kNoTwin), 3);
-  EXPECT_EQ(std::count(s.outgoing.begin(), s.outgoing.end(), kNoTwin), 3);
+  EXPECT_EQ(std::count(s.mates.begin(), s.mates.end(), kNoMate), 3);
+  EXPECT_EQ(std::count(s.outgoing.begin(), s.outgoing.end(), kNoMate), 3);
 }
 
-TEST(twins, of_two_fans_that_touch_in_a_vertex_are_no_inner_vertex) {
+TEST(mates, of_two_fans_that_touch_in_a_vertex_are_no_inner_vertex) {
   Mesh two = icosphere(1);
   const auto n = static_cast<std::uint32_t>(two.vertices.size());
   const Mesh other = two;
@@ -81,7 +81,7 @@ TEST(twins, of_two_fans_that_touch_in_a_vertex_are_no_inner_vertex) {
   for (const Triangle& t : other.triangles) {
     two.triangles.push_back({shared(t[0]), shared(t[1]), shared(t[2])});
   }
-  EXPECT_EQ(Surface(two).outgoing[0], kNoTwin);
+  EXPECT_EQ(Surface(two).outgoing[0], kNoMate);
 }
 
 TEST(cut_graph, has_no_edges_on_spheres_and_discs) {
@@ -96,12 +96,12 @@ TEST(cut_graph, is_crossed_an_even_number_of_times_around_every_triangle_and_ver
   for (const Mesh& mesh : {double_torus(), open}) {
     const Surface s(mesh);
     EXPECT_FALSE(s.graph.edges.empty());
-    for (std::uint32_t c = 0; c < s.twins.size(); c += 3) {
+    for (std::uint32_t c = 0; c < s.mates.size(); c += 3) {
       EXPECT_EQ(s.graph.crossed(c) ^ s.graph.crossed(c + 1) ^ s.graph.crossed(c + 2), 0U);
     }
-    for (std::uint32_t c = 0; c < s.twins.size(); ++c) {
-      if (s.twins[c] != kNoTwin) {
-        EXPECT_EQ(s.graph.crossed(c), s.graph.crossed(s.twins[c]));
+    for (std::uint32_t c = 0; c < s.mates.size(); ++c) {
+      if (s.mates[c] != kNoMate) {
+        EXPECT_EQ(s.graph.crossed(c), s.graph.crossed(s.mates[c]));
       }
     }
   }
@@ -113,7 +113,7 @@ TEST(cut_graph, tells_a_ring_from_a_disc) {
   std::erase_if(ring.triangles,
                 [&](const Triangle& t) { return std::abs(ring.vertices[t[0]].z) > 0.7; });
   const Surface s(ring);
-  LoopSearch search(s.mesh, s.twins, s.outgoing, s.graph);
+  LoopSearch search(s.mesh, s.mates, s.outgoing, s.graph);
   std::uint32_t base = 0;
   while (std::abs(ring.vertices[base].z) > 0.1) ++base;
   const Loop loop = search.shortest(base, 7);
@@ -126,14 +126,14 @@ TEST(cut_graph, tells_a_ring_from_a_disc) {
 TEST(short_loops, of_a_torus_go_around_its_tube) {
   const Surface s(torus(2, 0.5, kRing, kTube));
   const double around = kTube * 2 * 0.5 * std::sin(std::numbers::pi / kTube);
-  LoopSearch search(s.mesh, s.twins, s.outgoing, s.graph);
+  LoopSearch search(s.mesh, s.mates, s.outgoing, s.graph);
   for (std::uint32_t v = 0; v < s.mesh.vertices.size(); v += 7) {
     const Loop loop = search.shortest(v, 1.001 * around);
     ASSERT_EQ(loop.corners.size(), static_cast<std::size_t>(kTube));
     EXPECT_NEAR(loop.length, around, 1e-12);
     for (std::size_t i = 0; i < loop.corners.size(); ++i) {
       EXPECT_EQ(end_of(s.mesh.triangles, loop.corners[i]),
-                begin_of(s.mesh.triangles, loop.corners[(i + 1) % loop.corners.size()]));
+                start_of(s.mesh.triangles, loop.corners[(i + 1) % loop.corners.size()]));
     }
     EXPECT_TRUE(search.shortest(v, 0.999 * around).corners.empty());
   }
@@ -147,7 +147,7 @@ TEST(short_loops, of_a_neck_that_parts_a_surface_are_none) {
            norm(mesh.vertices[t[2]] - mesh.vertices[t[0]]);
   };
   const Triangle neck = torus(2, 0.5, kRing, kTube).triangles.back();
-  LoopSearch search(s.mesh, s.twins, s.outgoing, s.graph);
+  LoopSearch search(s.mesh, s.mates, s.outgoing, s.graph);
   EXPECT_TRUE(search.shortest(neck[0], 1.5 * length(s.mesh, neck)).corners.empty());
 }
 
@@ -159,10 +159,10 @@ TEST(cut_loop, takes_a_handle_and_neither_volume_nor_orientation) {
       s.mesh.attributes[0].values.push_back(static_cast<double>(v));
     }
     const Inspection before = inspect(s.mesh);
-    LoopSearch search(s.mesh, s.twins, s.outgoing, s.graph);
+    LoopSearch search(s.mesh, s.mates, s.outgoing, s.graph);
     const Loop loop = search.shortest(5, 4);
     std::vector<std::uint32_t> copies;
-    cut_along(sides_of(loop.corners, s.mesh.triangles, s.twins), s.mesh, copies);
+    cut_along(sides_of(loop.corners, s.mesh.triangles, s.mates), s.mesh, copies);
     const Inspection after = inspect(s.mesh);
     EXPECT_TRUE(after.closed && after.manifold && after.oriented);
     EXPECT_EQ(after.components, 1U);
