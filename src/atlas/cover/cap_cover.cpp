@@ -36,8 +36,8 @@ constexpr double kGrow = 1.6;
 constexpr std::size_t kMost = 4000;  // points of a cap of low degree
 constexpr std::size_t kFewest = 8;   // points: 24 rows for 16 unknowns and a penalty
 // Among so many times as many of the nearest points the cap's own sheet is looked for where there
-// are too few of it. With 2 thin sheets keep handles, with 4 and 5 more is wrong of boxes of
-// half a spacing and of one (scripts/scan-limits --thin).
+// are too few of it. With 2 more is wrong of blades of half a spacing and of one (1.1 and 1.3
+// instead of 1.0 and 0.8 %), 4 is no better (scripts/scan-limits --thin).
 constexpr std::size_t kFarther = 3;
 // Of 24 random points of a disc the third nearest is nearer than a tenth of the farthest twice in
 // a thousand times.

@@ -29,8 +29,9 @@ constexpr double kCounted = 0.8;
 constexpr double kClearlyBetter = 0.8;
 // Errors of a plane fall with k for ever: caps do not grow beyond other sheets once slopes are off
 // by less than this, and points by less than this part of the support, as residuals of caps that
-// are trusted (cap_cover.cpp). On plates, boxes and blades (scripts/scan-limits --thin) 0.001
-// doubles what is wrong, and 0 makes caps of 121 to 273 points, which see nothing of rims.
+// are trusted (cap_cover.cpp). Of bodies of half a spacing (scripts/scan-limits --thin) up to twice
+// as much is wrong with 0.001, though less of boxes of two (0.1 instead of 0.8 %), and with 0 five
+// times as much of blades.
 constexpr double kExact = 0.002;
 // Other sheets are there if less than this share of the points around is on the own one. Chosen:
 // where they are not, hardly a point faces the other way.
