@@ -71,6 +71,19 @@ TEST(every_loop, gives_the_same_bits_for_each_method) {
   });
 }
 
+TEST(every_loop, gives_the_same_bits_for_errors) {
+  const Mesh mesh = many_triangles();
+  const Expansion expansion = analyze(chart_of(mesh), {.degree = 100}).expansion;
+  expect_same_bits([&](const Context& context) {
+    const TruncationErrors errors = truncation_errors(view_of(mesh), expansion, {}, context);
+    Bits bits;
+    return bits.add(*errors.rms)
+        .add(*errors.measured_max)
+        .add(*errors.distance_rms)
+        .add(*errors.measured_max_distance);
+  });
+}
+
 TEST(every_loop, gives_the_same_bits_for_a_large_mesh_in_random_order) {
   const Mesh mesh = large_mesh_in_random_order();
   expect_same_bits([&](const Context& context) {

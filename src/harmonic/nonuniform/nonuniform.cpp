@@ -4,15 +4,11 @@
 #include <cmath>
 #include <memory>
 
+#include "harmonic/nonuniform/grid_function.h"
+#include "harmonic/nonuniform/scale_for.h"
+
 namespace rholm {
 namespace {
-
-// A power of two that brings numbers of this size to 1 ... 2: single precision ends at 1e38, and
-// nothing is rounded by it.
-double scale_for(double largest) {
-  if (!(largest > 0) || !std::isfinite(largest)) return 1;
-  return std::exp2(std::min(1023, -std::ilogb(largest)));
-}
 
 double largest_of(const ScatteredSources& sources) {
   double largest = 0;
@@ -26,18 +22,6 @@ double largest_of(const ScatteredSources& sources) {
   return largest;
 }
 
-// A lane without a source: any direction will do.
-template <typename T>
-void pad(SourceBatch<T>& batch, std::size_t n) {
-  constexpr std::size_t kLanes = 16;
-  for (std::size_t j = n; j < std::min((n + kLanes - 1) / kLanes * kLanes, SourceBatch<T>::kSize);
-       ++j) {
-    batch.x[0][j] = 1;
-    batch.x[1][j] = batch.x[2][j] = 0;
-    batch.value[j] = 0;
-  }
-}
-
 template <typename T>
 void load_positions(std::span<const Vec3> directions, SourceBatch<T>& batch) {
   for (std::size_t j = 0; j < directions.size(); ++j) {
@@ -45,13 +29,13 @@ void load_positions(std::span<const Vec3> directions, SourceBatch<T>& batch) {
     batch.x[1][j] = directions[j].y;
     batch.x[2][j] = directions[j].z;
   }
-  pad(batch, directions.size());
 }
 
 template <typename T>
 void load_sources(const ScatteredSources& sources, std::size_t first, std::size_t n,
                   int derivatives, double scale, SourceBatch<T>& batch) {
   load_positions(sources.directions.subspan(first, n), batch);
+  pad(batch, n);
   for (std::size_t j = 0; j < n; ++j) {
     batch.value[j] =
         sources.weights.empty() ? T{0} : static_cast<T>(scale * sources.weights[first + j]);
@@ -87,78 +71,39 @@ void add_sources(const NonuniformPlan& plan, const ScatteredSources& sources, in
   finish_adjoint<T>(plan, spreaders, sum, context, {"transform", 0.6, 1});
 }
 
-// The gradient at a direction next to a pole. Overwrites the batch.
-template <typename T>
-Vec3 polar_gradient(const NonuniformPlan& plan, const GridKernel<T>& kernel, const T* grid,
-                    const Vec3& u, SourceBatch<T>& batch) {
-  const double step = difference_step<T>(plan.fourier.degree);
-  const std::array<Vec3, 2> axes = tangents(u);
-  std::vector<PolarNode> nodes;
-  for (const Vec3& axis : axes) {
-    // Half of these stand for the other axis, with weight 0.
-    add_gradient_nodes(u, axis, step, nodes);
-  }
-  std::vector<Vec3> directions;
-  directions.reserve(nodes.size());
-  for (const PolarNode& node : nodes) directions.push_back(node.u);
-  load_positions(directions, batch);
-  PolarSources none;
-  interpolate(kernel, grid, nodes.size(), 0, 0, batch, none);
-  std::array<double, 2> slopes = {};
-  const std::size_t half = nodes.size() / 2;
-  for (std::size_t k = 0; k < nodes.size(); ++k)
-    slopes[k / half] += nodes[k].weight * batch.value[k];
-  return slopes[0] * axes[0] + slopes[1] * axes[1];
-}
-
 template <typename T>
 ValuesAndGradients evaluate_on_grid(const NonuniformPlan& plan, const Coefficients& coefficients,
                                     std::span<const Vec3> directions, bool with_gradient,
                                     const Context& context) {
-  const GridKernel<T> kernel = grid_kernel<T>(plan.fourier);
-  AlignedArray<T> grid(plan.fourier.layout.cells());
-  coefficients_to_grid(plan.fourier, coefficients, grid.data(), context, {"transform", 0, 0.4});
+  const GridFunction<T> function(plan, coefficients, context);
+  const double scale = function.scale();
   ValuesAndGradients result;
   result.values.resize(directions.size());
   if (with_gradient) result.gradients.resize(directions.size());
   constexpr std::size_t kSize = SourceBatch<T>::kSize;
   constexpr std::size_t kBatches = 16;  // chosen: tasks of about 100 us
   const std::size_t grain = kBatches * kSize;
-  parallel_for(
-      directions.size(), grain, context, {"interpolate", 0.4, 1},
-      [&](std::size_t begin, std::size_t end) {
-        auto batch = std::make_unique<SourceBatch<T>>();
-        PolarSources near;
-        for (std::size_t first = begin; first < end; first += kSize) {
-          const std::size_t n = std::min(kSize, end - first);
-          load_positions(directions.subspan(first, n), *batch);
-          interpolate(kernel, grid.data(), n, with_gradient ? 1 : 0, plan.polar_sine, *batch, near);
-          for (std::size_t j = 0; j < n; ++j) {
-            result.values[first + j] = batch->value[j];
-            if (!with_gradient) continue;
-            result.gradients[first + j] = {batch->gradient[0][j], batch->gradient[1][j],
-                                           batch->gradient[2][j]};
-          }
-          for (std::size_t i = 0; i < near.count; ++i) {
-            const std::size_t j = first + near.index[i];
-            result.gradients[j] = polar_gradient(plan, kernel, grid.data(), directions[j], *batch);
-          }
-        }
-      });
-  return result;
-}
-
-ValuesAndGradients evaluate_in_single(const NonuniformPlan& plan, Coefficients coefficients,
-                                      std::span<const Vec3> directions, bool with_gradient,
-                                      const Context& context) {
-  double largest = 0;
-  for (const double c : coefficients.values()) largest = std::max(largest, std::abs(c));
-  const double scale = scale_for(largest);
-  for (double& c : coefficients.values()) c *= scale;
-  ValuesAndGradients result =
-      evaluate_on_grid<float>(plan, coefficients, directions, with_gradient, context);
-  for (double& value : result.values) value /= scale;
-  for (Vec3& gradient : result.gradients) gradient = gradient / scale;
+  parallel_for(directions.size(), grain, context, {"interpolate", 0.4, 1},
+               [&](std::size_t begin, std::size_t end) {
+                 auto batch = std::make_unique<SourceBatch<T>>();
+                 PolarSources near;
+                 for (std::size_t first = begin; first < end; first += kSize) {
+                   const std::size_t n = std::min(kSize, end - first);
+                   load_positions(directions.subspan(first, n), *batch);
+                   function.read(*batch, n, with_gradient, near);
+                   for (std::size_t j = 0; j < n; ++j) {
+                     result.values[first + j] = batch->value[j] / scale;
+                     if (!with_gradient) continue;
+                     const Vec3 gradient = {batch->gradient[0][j], batch->gradient[1][j],
+                                            batch->gradient[2][j]};
+                     result.gradients[first + j] = gradient / scale;
+                   }
+                   for (std::size_t i = 0; i < near.count; ++i) {
+                     const std::size_t j = first + near.index[i];
+                     result.gradients[j] = function.polar_gradient(directions[j], *batch) / scale;
+                   }
+                 }
+               });
   return result;
 }
 
@@ -243,7 +188,7 @@ ValuesAndGradients nonuniform_evaluate(const NonuniformPlan& plan, const Coeffic
                                        std::span<const Vec3> directions, bool with_gradient,
                                        const Context& context) {
   return plan.single
-             ? evaluate_in_single(plan, coefficients, directions, with_gradient, context)
+             ? evaluate_on_grid<float>(plan, coefficients, directions, with_gradient, context)
              : evaluate_on_grid<double>(plan, coefficients, directions, with_gradient, context);
 }
 

@@ -291,9 +291,10 @@ double ClosestDistances::highest(const Model& model, const RadialSurface& surfac
     return closest(*scene_, surface.points(at.directions), alone);
   };
   const MeshView view = view_of(shape_);
-  return std::max({seen.most(),
-                   highest_peak(view, {}, seen.points, seen.to_model, degree, kPeaks, there_at),
-                   highest_peak(view, {}, seen.points, seen.to_shape, degree, kPeaks, back_at)});
+  return std::max(seen.most(),
+                  largest(highest_peaks(view, {}, seen.points,
+                                        {{seen.to_model, there_at}, {seen.to_shape, back_at}},
+                                        degree, kPeaks)));
 }
 
 SurfaceDistances ClosestDistances::measure(const Expansion& expansion, int degree,

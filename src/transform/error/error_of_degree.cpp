@@ -108,7 +108,7 @@ double ErrorOfDegree::second_order_ratio(const Expansion& expansion, int degree,
 
 // At few points unless they say that it is close to the limit.
 double ErrorOfDegree::closest_of(const Expansion& expansion, int degree, double limit) {
-  const ErrorPoints extreme = extreme_points(sites_.mesh(), sites_.center(), degree);
+  const ErrorPoints extreme = extreme_points(sites_.mesh(), sites_.center(), sites_.scan(), degree);
   const auto at = [&](bool fine) {
     const SurfaceDistances found =
         sites_.closest(fine).measure(expansion, degree, extreme, precision(limit), silent_);

@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 #include "base/cancel.h"
 #include "shape/face.h"
-#include "shape/vertex_range.h"
 
 namespace rholm {
 namespace {
@@ -64,36 +64,83 @@ void place(const Vec3& u, Climber& climber) {
   climber.b = sum > 0 ? std::max(wb, 0.0) / sum : 0;
 }
 
-std::vector<Climber> climbers(const MeshView& mesh, const Vec3& center, double scale,
-                              const ErrorPoints& points, const std::vector<std::size_t>& sites,
-                              const std::vector<double>& values, int degree) {
-  std::vector<Climber> found;
-  CancelPoll poll;
-  for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
-    poll();
-    const Triangle triangle = mesh.triangle(t);
-    for (const std::size_t i : sites) {
-      const std::int64_t owner = points.owners[i];
-      const bool is_corner = std::ranges::any_of(
-          triangle, [&](std::uint32_t v) { return -1 - static_cast<std::int64_t>(v) == owner; });
-      if (!is_corner && owner != static_cast<std::int64_t>(t)) continue;
-      Climber climber;
-      for (int k = 0; k < 3; ++k) {
-        climber.corners[k] = scale * (mesh.vertex(triangle[k]) - center);
+// Begins at a direction of the error `value` on a face; none on one whose normal means nothing.
+std::optional<Climber> climber_on(const MeshView& mesh, std::size_t t, const Vec3& center,
+                                  double scale, const Vec3& direction, double value, int degree) {
+  const Triangle triangle = mesh.triangle(t);
+  Climber climber;
+  for (int k = 0; k < 3; ++k) {
+    climber.corners[k] = scale * (mesh.vertex(triangle[k]) - center);
+  }
+  climber.normal = face_normal(climber.corners);
+  if (climber.normal.degenerate) return std::nullopt;
+  place(direction, climber);
+  climber.value = value;
+  double longest = 0;
+  for (int k = 0; k < 3; ++k) {
+    longest = std::max(longest, norm(climber.corners[k] - climber.corners[(k + 1) % 3]));
+  }
+  const double wave = kFirstStep / std::max(degree, 1) * norm(climber.at(climber.a, climber.b));
+  climber.step = std::min(0.5, wave / longest);
+  return climber;
+}
+
+// Which faces have one of a few vertices.
+class FewVertices {
+ public:
+  void add(std::uint32_t i) {
+    vertices_.push_back(i);
+    marks_[i % kMarks] = true;
+  }
+  // Calls visit(k, t) for the k-th vertex and each of its faces t, in ascending order.
+  template <typename Visit>
+  void visit_faces(const MeshView& mesh, const Visit& visit) const {
+    if (vertices_.empty()) return;
+    CancelPoll poll;
+    for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
+      poll();
+      const Triangle v = mesh.triangle(t);
+      if (!(marks_[v[0] % kMarks] || marks_[v[1] % kMarks] || marks_[v[2] % kMarks])) continue;
+      for (std::size_t k = 0; k < vertices_.size(); ++k) {
+        if (std::ranges::find(v, vertices_[k]) != v.end()) visit(k, t);
       }
-      climber.normal = face_normal(climber.corners);
-      if (climber.normal.degenerate) continue;
-      place(points.directions[i], climber);
-      climber.value = values[i];
-      double longest = 0;
-      for (int k = 0; k < 3; ++k) {
-        longest = std::max(longest, norm(climber.corners[k] - climber.corners[(k + 1) % 3]));
-      }
-      const double wave = kFirstStep / std::max(degree, 1) * norm(climber.at(climber.a, climber.b));
-      climber.step = std::min(0.5, wave / longest);
-      found.push_back(climber);
     }
   }
+
+ private:
+  static constexpr std::size_t kMarks = 4096;  // few enough for the nearest cache
+  std::vector<std::uint32_t> vertices_;
+  std::array<bool, kMarks> marks_ = {};
+};
+
+// Of each search, on the faces around its sites.
+std::vector<std::vector<Climber>> climbers(const MeshView& mesh, const Vec3& center, double scale,
+                                           const ErrorPoints& points,
+                                           const std::vector<PeakSearch>& searches, int degree,
+                                           std::size_t n_sites) {
+  struct Start {
+    std::size_t search, point;
+  };
+  std::vector<std::vector<Climber>> found(searches.size());
+  const auto begin = [&](const Start& start, std::size_t t) {
+    const auto climber = climber_on(mesh, t, center, scale, points.directions[start.point],
+                                    searches[start.search].values[start.point], degree);
+    if (climber) found[start.search].push_back(*climber);
+  };
+  FewVertices vertices;
+  std::vector<Start> at_vertices;
+  for (std::size_t search = 0; search < searches.size(); ++search) {
+    for (const std::size_t i : sites(points, searches[search].values, degree, n_sites)) {
+      const std::int64_t owner = points.owners[i];
+      if (owner >= 0) {
+        begin({search, i}, static_cast<std::size_t>(owner));
+      } else {
+        vertices.add(static_cast<std::uint32_t>(-1 - owner));
+        at_vertices.push_back({search, i});
+      }
+    }
+  }
+  vertices.visit_faces(mesh, [&](std::size_t k, std::size_t t) { begin(at_vertices[k], t); });
   return found;
 }
 
@@ -132,21 +179,23 @@ void climb(std::vector<Climber>& climbers, double scale, const ErrorAt& error) {
 
 }  // namespace
 
-double highest_peak(const MeshView& mesh, const Vec3& center, const ErrorPoints& points,
-                    const std::vector<double>& values, int degree, std::size_t n_sites,
-                    const ErrorAt& error) {
-  const VertexRange r = vertex_range(mesh, 0, mesh.n_vertices);
-  const double scale =
-      unit_frame({{r.min[0], r.min[1], r.min[2]}, {r.max[0], r.max[1], r.max[2]}}).scale;
-  double highest = largest(values);
-  std::vector<Climber> all =
-      climbers(mesh, center, scale, points, sites(points, values, degree, n_sites), values, degree);
-  for (int round = 0; round < kRounds && !all.empty(); ++round) {
-    climb(all, scale, error);
-    std::stable_sort(all.begin(), all.end(),
-                     [](const Climber& a, const Climber& b) { return a.value > b.value; });
-    if (all.size() > n_sites + 1) all.resize(n_sites + 1);
-    highest = std::max(highest, all[0].value);
+std::vector<double> highest_peaks(const MeshView& mesh, const Vec3& center,
+                                  const ErrorPoints& points,
+                                  const std::vector<PeakSearch>& searches, int degree,
+                                  std::size_t n_sites) {
+  const double scale = std::exp2(-std::ilogb(std::max(largest(points.radii), 1e-300)));
+  std::vector<std::vector<Climber>> all =
+      climbers(mesh, center, scale, points, searches, degree, n_sites);
+  std::vector<double> highest;
+  for (std::size_t k = 0; k < searches.size(); ++k) {
+    highest.push_back(largest(searches[k].values));
+    for (int round = 0; round < kRounds && !all[k].empty(); ++round) {
+      climb(all[k], scale, searches[k].error);
+      std::stable_sort(all[k].begin(), all[k].end(),
+                       [](const Climber& a, const Climber& b) { return a.value > b.value; });
+      if (all[k].size() > n_sites + 1) all[k].resize(n_sites + 1);
+      highest[k] = std::max(highest[k], all[k][0].value);
+    }
   }
   return highest;
 }

@@ -13,11 +13,16 @@ namespace rholm {
 // Of points of the mesh: the error whose largest value is looked for.
 using ErrorAt = std::function<std::vector<double>(const ErrorPoints&)>;
 
-// The largest value found on the faces around the worst points, at least that of the worst.
-// `values`: the error at the points; `n_sites`: how many of them, apart from each other, are worst.
-// Steps are a part of the waves of the degree.
-double highest_peak(const MeshView& mesh, const Vec3& center, const ErrorPoints& points,
-                    const std::vector<double>& values, int degree, std::size_t n_sites,
-                    const ErrorAt& error);
+struct PeakSearch {
+  std::vector<double> values;  // the error at the points
+  ErrorAt error;
+};
+// Of each search the largest value found on the faces around the worst points, at least that of the
+// worst. `n_sites`: how many of them, apart from each other, are worst. Steps are a part of the
+// waves of the degree.
+std::vector<double> highest_peaks(const MeshView& mesh, const Vec3& center,
+                                  const ErrorPoints& points,
+                                  const std::vector<PeakSearch>& searches, int degree,
+                                  std::size_t n_sites);
 
 }  // namespace rholm

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "base/cancel.h"
 #include "base/random.h"
 #include "rholm/error.h"
 #include "rholm/harmonic.h"
 #include "shape/face.h"
-#include "shape/vertex_range.h"
 
 namespace rholm {
 namespace {
@@ -25,18 +26,18 @@ struct Face {
   double twice_area = 0;
 };
 
-// A power of two that brings lengths near 1, so that areas and their squares are in range. It
-// rounds nothing.
-double scale_of(const MeshView& mesh) {
-  const VertexRange r = vertex_range(mesh, 0, mesh.n_vertices);
-  return unit_frame({{r.min[0], r.min[1], r.min[2]}, {r.max[0], r.max[1], r.max[2]}}).scale;
+// From the centre, times `scale`.
+std::array<Vec3, 3> corners_of(const MeshView& mesh, std::size_t t, const Vec3& center,
+                               double scale) {
+  const Triangle triangle = mesh.triangle(t);
+  std::array<Vec3, 3> corners;
+  for (int i = 0; i < 3; ++i) corners[i] = scale * (mesh.vertex(triangle[i]) - center);
+  return corners;
 }
 
-// Times `scale`.
-Face face_of(const MeshView& mesh, std::size_t t, const Vec3& center, double scale) {
-  const Triangle triangle = mesh.triangle(t);
+Face face_of(const std::array<Vec3, 3>& corners) {
   Face face;
-  for (int i = 0; i < 3; ++i) face.corners[i] = scale * (mesh.vertex(triangle[i]) - center);
+  face.corners = corners;
   face.normal = face_normal(face.corners);
   face.twice_area = norm(face.normal.twice_area);
   return face;
@@ -51,11 +52,11 @@ void add_point(ErrorPoints& points, const Vec3& x, double r, double cosine, std:
   points.owners.push_back(owner);
 }
 
-void add_on_face(ErrorPoints& points, const Face& face, const Vec3& x, std::size_t t) {
-  const double r = norm(x), size = r * face.twice_area;
-  if (!(size > 0)) return;
-  add_point(points, x, r, std::abs(dot(face.normal.twice_area, x)) / size,
-            static_cast<std::int64_t>(t));
+// cos gamma at the point x of the face, none where nobody sees it.
+std::optional<double> cosine_at(const Face& face, const Vec3& x) {
+  const double size = norm(x) * face.twice_area;
+  if (!(size > 0)) return std::nullopt;
+  return std::abs(dot(face.normal.twice_area, x)) / size;
 }
 
 // Into how many parts the edges of a face are divided.
@@ -107,68 +108,88 @@ void ErrorPoints::append(const ErrorPoints& more) {
   owners.insert(owners.end(), more.owners.begin(), more.owners.end());
 }
 
-ErrorPoints extreme_points(const MeshView& mesh, const Vec3& center, int degree) {
-  ErrorPoints points;
-  const double scale = scale_of(mesh);
-  // A vertex of no face is no point of the surface.
-  std::vector<bool> used(mesh.n_vertices);
-  CancelPoll poll;
-  for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
-    poll();
-    for (const std::uint32_t i : mesh.triangle(t)) used[i] = true;
-  }
-  for (std::size_t i = 0; i < mesh.n_vertices; ++i) {
-    poll();
-    const Vec3 x = scale * (mesh.vertex(i) - center);
-    if (used[i]) add_point(points, x, norm(x), 0, -1 - static_cast<std::int64_t>(i));
-  }
-  for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
-    poll();
-    const Face face = face_of(mesh, t, center, scale);
-    if (face.normal.degenerate) continue;
-    const int n = divisions(face, degree);
-    for (int i = 0; i < n; ++i) {
-      for (int j = i == 0 ? 1 : 0; i + j <= n; ++j) {
-        if (j == n) continue;
-        const double a = static_cast<double>(i) / n, b = static_cast<double>(j) / n;
-        add_on_face(points, face,
-                    a * face.corners[0] + b * face.corners[1] + (1 - a - b) * face.corners[2], t);
+void visit_long_faces(const MeshView& mesh, const Vec3& center, const FaceScan& scan, int degree,
+                      std::size_t begin, std::size_t end, const PointOnFace& visit) {
+  for (std::size_t run = begin; run < end; ++run) {
+    if (degree * std::sqrt(scan.angles2[run]) <= kDense) continue;
+    const std::size_t first = run * FaceScan::kRun;
+    for (std::size_t t = first; t < std::min(mesh.n_triangles, first + FaceScan::kRun); ++t) {
+      const Face face = face_of(corners_of(mesh, t, center, scan.scale));
+      if (face.normal.degenerate) continue;
+      const int n = divisions(face, degree);
+      for (int i = 0; i < n; ++i) {
+        for (int j = i == 0 ? 1 : 0; i + j <= n; ++j) {
+          if (j == n) continue;
+          const double a = static_cast<double>(i) / n, b = static_cast<double>(j) / n;
+          const Vec3 x = a * face.corners[0] + b * face.corners[1] + (1 - a - b) * face.corners[2];
+          if (const std::optional<double> cosine = cosine_at(face, x)) visit(x, *cosine, t);
+        }
       }
     }
   }
-  for (double& r : points.radii) r /= scale;
+}
+
+ErrorPoints extreme_points(const MeshView& mesh, const Vec3& center, const FaceScan& scan,
+                           int degree) {
+  ErrorPoints points;
+  CancelPoll poll;
+  for (std::size_t i = 0; i < mesh.n_vertices; ++i) {
+    poll();
+    const Vec3 x = scan.scale * (mesh.vertex(i) - center);
+    if (scan.used[i] != 0) add_point(points, x, norm(x), 0, -1 - static_cast<std::int64_t>(i));
+  }
+  for (std::size_t run = 0; run < scan.angles2.size(); ++run) {
+    poll();
+    visit_long_faces(mesh, center, scan, degree, run, run + 1,
+                     [&](const Vec3& x, double cosine, std::size_t t) {
+                       add_point(points, x, norm(x), cosine, static_cast<std::int64_t>(t));
+                     });
+  }
+  for (double& r : points.radii) r /= scan.scale;
   return points;
 }
 
-ErrorPoints area_points(const MeshView& mesh, const Vec3& center, std::size_t n) {
-  const double scale = scale_of(mesh);
+ErrorPoints area_points(const MeshView& mesh, const Vec3& center, const FaceScan& scan,
+                        std::size_t n) {
   double whole = 0;
-  CancelPoll poll;
-  for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
-    poll();
-    const Face face = face_of(mesh, t, center, scale);
-    if (!face.normal.degenerate) whole += face.twice_area;
-  }
+  for (const double area : scan.twice_areas) whole += area;
   ErrorPoints points;
+  points.reserve(n);
   const double part = whole / static_cast<double>(n);
-  double sum = 0;
-  std::size_t next = 0;
   constexpr std::uint64_t kSeed = 1;
-  for (std::size_t t = 0; t < mesh.n_triangles && next < n; ++t) {
+  std::size_t next = 0;
+  const auto wanted = [&] {
+    return next < n ? (static_cast<double>(next) + random_uniform(kSeed, 3 * next)) * part
+                    : std::numeric_limits<double>::infinity();
+  };
+  double sum = 0, at = wanted();
+  CancelPoll poll;
+  for (std::size_t run = 0; run < scan.twice_areas.size() && next < n; ++run) {
     poll();
-    const Face face = face_of(mesh, t, center, scale);
-    if (face.normal.degenerate) continue;
-    sum += face.twice_area;
-    while (next < n && (static_cast<double>(next) + random_uniform(kSeed, 3 * next)) * part < sum) {
-      // Uniform on the triangle.
-      const double s = std::sqrt(random_uniform(kSeed, 3 * next + 1));
-      const double b = s * random_uniform(kSeed, 3 * next + 2);
-      add_on_face(points, face,
-                  (1 - s) * face.corners[0] + b * face.corners[1] + (s - b) * face.corners[2], t);
-      ++next;
+    const double end = sum + scan.twice_areas[run];
+    const std::size_t first = run * FaceScan::kRun;
+    const std::size_t last = std::min(mesh.n_triangles, first + FaceScan::kRun);
+    for (std::size_t t = first; t < last && at < end; ++t) {
+      const std::array<Vec3, 3> corners = corners_of(mesh, t, center, scan.scale);
+      sum += norm(cross(corners[1] - corners[0], corners[2] - corners[0]));
+      if (at >= sum) continue;
+      const Face face = face_of(corners);
+      while (at < sum) {
+        // Uniform on the triangle.
+        const double s = std::sqrt(random_uniform(kSeed, 3 * next + 1));
+        const double b = s * random_uniform(kSeed, 3 * next + 2);
+        const Vec3 x = (1 - s) * face.corners[0] + b * face.corners[1] + (s - b) * face.corners[2];
+        const std::optional<double> cosine = cosine_at(face, x);
+        if (cosine && !face.normal.degenerate) {
+          add_point(points, x, norm(x), *cosine, static_cast<std::int64_t>(t));
+        }
+        ++next;
+        at = wanted();
+      }
     }
+    sum = end;
   }
-  for (double& r : points.radii) r /= scale;
+  for (double& r : points.radii) r /= scan.scale;
   return points;
 }
 
@@ -214,6 +235,13 @@ ModelSurface model_surface(const ErrorPoints& points, const Expansion& expansion
 }
 
 }  // namespace
+
+void PointErrors::append(const PointErrors& more) {
+  radial.insert(radial.end(), more.radial.begin(), more.radial.end());
+  to_model.insert(to_model.end(), more.to_model.begin(), more.to_model.end());
+  to_shape.insert(to_shape.end(), more.to_shape.begin(), more.to_shape.end());
+  stretch.insert(stretch.end(), more.stretch.begin(), more.stretch.end());
+}
 
 PointErrors point_errors(const ErrorPoints& points, const Expansion& expansion, int degree,
                          bool slopes, double precision, const Context& context) {

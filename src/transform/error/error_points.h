@@ -3,11 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "rholm/coefficients.h"
 #include "rholm/context.h"
 #include "rholm/mesh_view.h"
+#include "transform/error/face_scan.h"
 
 namespace rholm {
 
@@ -26,13 +28,20 @@ struct ErrorPoints {
   void append(const ErrorPoints& more);
 };
 
-// Where the largest errors of degree L are: all vertices and, where faces are long against 1/L, up
-// to 7 points more on each.
-ErrorPoints extreme_points(const MeshView& mesh, const Vec3& center, int degree);
+// Of each face whose edges are long against 1/L up to 7 points, on it and its edges but not at its
+// corners: calls visit(x, cosine, t) for faces of the runs [begin, end) of the scan, x from the
+// centre and times scan.scale. Waves of degree L are 2 pi / L long.
+using PointOnFace = std::function<void(const Vec3& x, double cosine, std::size_t t)>;
+void visit_long_faces(const MeshView& mesh, const Vec3& center, const FaceScan& scan, int degree,
+                      std::size_t begin, std::size_t end, const PointOnFace& visit);
+// Where the largest errors of degree L are: all vertices, and points on long faces.
+ErrorPoints extreme_points(const MeshView& mesh, const Vec3& center, const FaceScan& scan,
+                           int degree);
 
 // About n points, evenly over the area: one in each of n equal parts of it, in the order of the
 // faces.
-ErrorPoints area_points(const MeshView& mesh, const Vec3& center, std::size_t n);
+ErrorPoints area_points(const MeshView& mesh, const Vec3& center, const FaceScan& scan,
+                        std::size_t n);
 
 struct PointErrors {
   std::vector<double> radial;  // |r - r_L|
@@ -40,6 +49,8 @@ struct PointErrors {
   std::vector<double> to_model, to_shape;
   // Area of the model per area of the shape.
   std::vector<double> stretch;
+
+  void append(const PointErrors& more);
 };
 // Of the first L degrees. `slopes`: distances as well. `precision` as in SumOptions.
 PointErrors point_errors(const ErrorPoints& points, const Expansion& expansion, int degree,

@@ -18,14 +18,19 @@ bool shows_its_edges(const MeshView& mesh, int degree) {
   return degree * angle > kCoarse;
 }
 
+const FaceScan& ErrorSites::scan() {
+  if (!scan_) scan_ = scan_faces(mesh_, center_, {.threads = threads_});
+  return *scan_;
+}
+
 const ErrorPoints& ErrorSites::vertices() {
-  if (!vertices_) vertices_ = extreme_points(mesh_, center_, 0);
+  if (!vertices_) vertices_ = extreme_points(mesh_, center_, scan(), 0);
   return *vertices_;
 }
 
 const ErrorPoints& ErrorSites::all(int degree) {
   if (degree_ != degree) {
-    all_ = extreme_points(mesh_, center_, degree);
+    all_ = extreme_points(mesh_, center_, scan(), degree);
     all_.append(over_area());
     degree_ = degree;
   }
@@ -33,7 +38,7 @@ const ErrorPoints& ErrorSites::all(int degree) {
 }
 
 const ErrorPoints& ErrorSites::over_area() {
-  if (!over_area_) over_area_ = area_points(mesh_, center_, kAreaPoints);
+  if (!over_area_) over_area_ = area_points(mesh_, center_, scan(), kAreaPoints);
   return *over_area_;
 }
 

@@ -20,11 +20,13 @@ bool shows_its_edges(const MeshView& mesh, int degree);
 class ErrorSites {
  public:
   // The mesh must be valid and outlive the sites.
-  ErrorSites(const MeshView& mesh, const Vec3& center) : mesh_(mesh), center_(center) {}
+  ErrorSites(const MeshView& mesh, const Vec3& center, int threads = 1)
+      : mesh_(mesh), center_(center), threads_(threads) {}
 
   const MeshView& mesh() const { return mesh_; }
   const Vec3& center() const { return center_; }
 
+  const FaceScan& scan();
   // That belong to faces.
   const ErrorPoints& vertices();
   // extreme_points() of the degree, then those over the area; the ones asked for last are kept.
@@ -39,6 +41,8 @@ class ErrorSites {
  private:
   MeshView mesh_;
   Vec3 center_;
+  int threads_;
+  std::optional<FaceScan> scan_;
   std::optional<ErrorPoints> vertices_;
   std::optional<int> degree_;
   ErrorPoints all_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "base/parallel.h"
 #include "shape/vertex_range.h"
@@ -11,6 +12,7 @@
 #include "transform/error/error_peaks.h"
 #include "transform/error/error_points.h"
 #include "transform/error/error_sites.h"
+#include "transform/error/worst_points.h"
 #include "transform/norms/parseval.h"
 
 namespace rholm {
@@ -33,6 +35,14 @@ void predict(const Expansion& expansion, ErrorSites& sites, TruncationErrors& er
   errors.predicted_max_distance = strengths.distance * per;
 }
 
+// Of values and slopes at points, as in SumOptions: a thousandth of the error, where that is known.
+double measuring_precision(const Expansion& expansion, const std::optional<double>& exact_rms,
+                           const TruncationOptions& options) {
+  if (!exact_rms) return std::clamp(options.precision, 1e-12, 1e-6);
+  const double size = std::sqrt(*expansion.norm_squared / (4 * std::numbers::pi));
+  return std::clamp(1e-3 * *exact_rms / size, 1e-12, 1e-4);
+}
+
 // Enough for smooth meshes, whose points are dense; climbs cost as much as a hundredth of a whole
 // analysis.
 constexpr std::size_t kPeaks = 3;
@@ -43,25 +53,24 @@ void climb(const ErrorPoints& points, const PointErrors& found, const Expansion&
            double precision, ErrorSites& sites, TruncationErrors& errors) {
   const Context context{.threads = 1};  // waking others takes longer than a hundred points
   const int degree = expansion.coefficients.degree();
-  const auto highest = [&](const std::vector<double>& values, bool slopes) {
-    return highest_peak(
-        sites.mesh(), sites.center(), points, values, degree, kPeaks, [&](const ErrorPoints& at) {
-          PointErrors there = point_errors(at, expansion, degree, slopes, precision, context);
-          return slopes ? std::move(there.to_model) : std::move(there.radial);
-        });
+  const auto errors_at = [&](const ErrorPoints& at, bool slopes) {
+    return point_errors(at, expansion, degree, slopes, precision, context);
   };
-  errors.measured_max = std::max(*errors.measured_max, highest(found.radial, false));
-  errors.measured_max_distance =
-      std::max(*errors.measured_max_distance, highest(found.to_model, true));
+  const std::vector<double> highest = highest_peaks(
+      sites.mesh(), sites.center(), points,
+      {{found.radial, [&](const ErrorPoints& at) { return errors_at(at, false).radial; }},
+       {found.to_model, [&](const ErrorPoints& at) { return errors_at(at, true).to_model; }}},
+      degree, kPeaks);
+  errors.measured_max = std::max(*errors.measured_max, highest[0]);
+  errors.measured_max_distance = std::max(*errors.measured_max_distance, highest[1]);
 }
 
 // Distances by closest points where those to first order may mislead.
-void refine_distances(const ErrorPoints& points, const PointErrors& found,
+void refine_distances(const ErrorPoints& points, const PointErrors& found, std::size_t extreme,
                       const Expansion& expansion, double precision, const Context& context,
                       ErrorSites& sites, TruncationErrors& errors) {
   const int degree = expansion.coefficients.degree();
   if (!may_be_refined(sites.mesh(), expansion, *errors.measured_max, errors.diagonal)) return;
-  const std::size_t extreme = points.size() - sites.over_area().size();
   if (!is_coarse(sites.mesh())) {
     const SecondOrder second = second_order(points, found, extreme, expansion, degree, precision);
     if (second.first_order_holds()) return;
@@ -84,7 +93,7 @@ void refine_distances(const ErrorPoints& points, const PointErrors& found,
 TruncationErrors truncation_errors(const MeshView& mesh, const Expansion& expansion,
                                    const TruncationOptions& options, const Context& context) {
   validate(mesh);
-  ErrorSites sites(mesh, expansion.center);
+  ErrorSites sites(mesh, expansion.center, context.threads);
   return truncation_errors(expansion, options, sites, context);
 }
 
@@ -94,27 +103,36 @@ TruncationErrors truncation_errors(const Expansion& expansion, const TruncationO
   errors.diagonal = diagonal_of(sites.mesh());
   const int degree = expansion.coefficients.degree();
   const Context silent{.threads = context.threads};
-  // A ten thousandth of the truncation error would do; it is not known yet.
-  const double precision = std::clamp(options.precision, 1e-12, 1e-6);
   report_progress(context, "errors", 0);
+  std::optional<double> exact_rms;
+  if (expansion.function == RadialFunction::kRadius) {
+    exact_rms = parseval_rms(expansion, options.precision);
+  }
+  const double precision = measuring_precision(expansion, exact_rms, options);
+  const ErrorPoints& over_area = sites.over_area();
+  const PointErrors of_area = point_errors(over_area, expansion, degree, true, precision, silent);
+  errors.distance_rms = rms_distance(of_area, 0);
+  errors.rms = exact_rms ? exact_rms : rms_over_solid_angle(over_area, of_area, 0);
+  errors.rms_is_exact = exact_rms.has_value();
   // Those over the area for the largest errors too: at a degree too low for any face to be long the
   // middle of one may err more than its corners.
-  const ErrorPoints& points = sites.all(degree);
-  const std::size_t extreme = points.size() - sites.over_area().size();
-  const PointErrors found = point_errors(points, expansion, degree, true, precision, silent);
-  errors.points = points.size();
+  WorstPoints worst =
+      worst_points(sites.mesh(), sites.scan(), expansion,
+                   {.rms = *errors.rms,
+                    .radial = largest(of_area.radial),
+                    .distance = std::max(largest(of_area.to_model), largest(of_area.to_shape)),
+                    .precision = precision},
+                   silent);
+  const std::size_t extreme = worst.points.size();
+  ErrorPoints points = std::move(worst.points);
+  PointErrors found = std::move(worst.errors);
+  points.append(over_area);
+  found.append(of_area);
+  errors.points = worst.seen + over_area.size();
   errors.measured_max = largest(found.radial);
   errors.measured_max_distance = std::max(largest(found.to_model), largest(found.to_shape));
-  errors.distance_rms = rms_distance(found, extreme);
-  errors.rms = rms_over_solid_angle(points, found, extreme);
-  if (expansion.function == RadialFunction::kRadius) {
-    if (const std::optional<double> exact = parseval_rms(expansion, options.precision)) {
-      errors.rms = exact;
-      errors.rms_is_exact = true;
-    }
-  }
   climb(points, found, expansion, precision, sites, errors);
-  refine_distances(points, found, expansion, precision, silent, sites, errors);
+  refine_distances(points, found, extreme, expansion, precision, silent, sites, errors);
   report_progress(context, "errors", 0.9);
   if (options.predict) predict(expansion, sites, errors);
   return errors;

@@ -68,7 +68,8 @@ TEST(closest_distances, between_a_cube_and_a_sphere) {
   constexpr double kRadius = 1.3;
   const Vec3 center = {0.5, 0.2, -0.1};
   ClosestDistances distances(view_of(cube), center, 20'000);
-  const ErrorPoints extreme = extreme_points(view_of(cube), center, 0);
+  const FaceScan scan = scan_faces(view_of(cube), center, {});
+  const ErrorPoints extreme = extreme_points(view_of(cube), center, scan, 0);
   const SurfaceDistances found =
       distances.measure(sphere_of_radius(kRadius), 0, extreme, 1e-10, {});
   EXPECT_NEAR(found.max, norm(Vec3{-1, -1, 1} - center) - kRadius, 1e-9);

@@ -16,7 +16,7 @@ namespace rholm {
 namespace {
 
 // A single wave's peak about a direction inside one face, from points that do not have it.
-TEST(highest_peak, is_found_between_points) {
+TEST(highest_peaks, are_found_between_points) {
   const Mesh mesh = icosphere(1);
   for (const Vec3& peak : {normalized(Vec3{0.3, 0.4, 0.7}), normalized(Vec3{-0.8, 0.1, 0.2})}) {
     constexpr int kDegree = 12;
@@ -28,8 +28,10 @@ TEST(highest_peak, is_found_between_points) {
       }
       return values;
     };
-    const ErrorPoints points = extreme_points(view_of(mesh), {}, kDegree);
-    const double found = highest_peak(view_of(mesh), {}, points, error(points), kDegree, 3, error);
+    const FaceScan scan = scan_faces(view_of(mesh), {}, {});
+    const ErrorPoints points = extreme_points(view_of(mesh), {}, scan, kDegree);
+    const double found =
+        highest_peaks(view_of(mesh), {}, points, {{error(points), error}}, kDegree, 3)[0];
     EXPECT_GT(found, 0.999 * 2);
     EXPECT_LE(found, 2);
     EXPECT_LT(largest(error(points)), 0.99 * 2);

@@ -1,0 +1,247 @@
+#include "transform/error/worst_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <numeric>
+#include <vector>
+
+#include "base/parallel.h"
+#include "harmonic/nonuniform/grid_function.h"
+
+namespace rholm {
+namespace {
+
+// Fewer points are measured exactly at once: a grid more costs as much (chosen).
+constexpr std::size_t kFew = 20'000;
+// First values differ from exact ones by this part of the errors: root mean square, relative to
+// them (chosen: points within six times of it below the largest error are a few in a thousand).
+constexpr double kRough = 0.02;
+constexpr double kDeviations = 6;
+// So many are measured exactly at a time, the first time at least as many as closest points begin
+// at.
+constexpr std::size_t kBatch = 10'000;
+
+// Points whose first values are not far below the largest error.
+struct Kept {
+  ErrorPoints points;
+  std::vector<double> rough;  // radial errors
+  std::size_t seen = 0;
+
+  void append(const Kept& more) {
+    points.append(more.points);
+    rough.insert(rough.end(), more.rough.begin(), more.rough.end());
+    seen += more.seen;
+  }
+};
+
+// Takes points one by one, and keeps those that matter.
+template <typename T>
+class Sieve {
+ public:
+  // `function`: without its mean, which single precision would round.
+  Sieve(const GridFunction<T>& function, double mean, bool gauge, double scale, double least)
+      : function_(function), mean_(mean), gauge_(gauge), scale_(scale), least_(least) {}
+
+  // x from the centre, times the scale.
+  void add(const Vec3& x, double cosine, std::int64_t owner) {
+    if (!(dot(x, x) > 0)) return;  // nobody sees it
+    batch_.x[0][n_] = x.x;
+    batch_.x[1][n_] = x.y;
+    batch_.x[2][n_] = x.z;
+    cosines_[n_] = cosine;
+    owners_[n_] = owner;
+    if (++n_ == SourceBatch<T>::kSize) flush();
+  }
+
+  Kept finish() {
+    flush();
+    return std::move(kept_);
+  }
+
+ private:
+  void flush() {
+    PolarSources near;
+    function_.read(batch_, n_, false, near);
+    const double to_value = 1 / function_.scale(), to_shape = 1 / scale_;
+    for (std::size_t j = 0; j < n_; ++j) {
+      const Vec3 x = {batch_.x[0][j], batch_.x[1][j], batch_.x[2][j]};
+      const double r = norm(x), value = mean_ + to_value * batch_.value[j];
+      const double error = std::abs(to_shape * r - (gauge_ ? 1 / value : value));
+      if (error < least_ && value > 0) continue;
+      kept_.points.directions.push_back(x / r);
+      kept_.points.radii.push_back(to_shape * r);
+      kept_.points.cosines.push_back(cosines_[j]);
+      kept_.points.owners.push_back(owners_[j]);
+      // What has no surface there comes first, to be refused.
+      kept_.rough.push_back(value > 0 || !gauge_ ? error : std::numeric_limits<double>::max());
+    }
+    kept_.seen += n_;
+    n_ = 0;
+  }
+
+  const GridFunction<T>& function_;
+  double mean_;
+  bool gauge_;
+  double scale_, least_;
+  SourceBatch<T> batch_;
+  double cosines_[SourceBatch<T>::kSize];
+  std::int64_t owners_[SourceBatch<T>::kSize];
+  std::size_t n_ = 0;
+  Kept kept_;
+};
+
+// What is kept of all extreme points, those of vertices first.
+template <typename T>
+Kept sieve(const MeshView& mesh, const FaceScan& scan, const Expansion& expansion,
+           const NonuniformPlan& plan, double least, const Context& context) {
+  Coefficients varying = expansion.coefficients;
+  const double mean = varying.c(0, 0) / std::sqrt(4 * std::numbers::pi);
+  varying.c(0, 0) = 0;
+  const bool gauge = expansion.function == RadialFunction::kGauge;
+  const GridFunction<T> function(plan, std::move(varying), context);
+  constexpr std::size_t kVertices = 4096, kRuns = 64;  // of a task: some 100 us
+  const auto parts = [](std::size_t n, std::size_t grain) { return (n + grain - 1) / grain; };
+  const std::size_t n_runs = scan.angles2.size(), first_run = parts(mesh.n_vertices, kVertices);
+  std::vector<Kept> kept(first_run + parts(n_runs, kRuns));
+  const auto fill = [&](std::size_t part, const auto& add_points) {
+    const auto sieve = std::make_unique<Sieve<T>>(function, mean, gauge, scan.scale, least);
+    add_points(*sieve);
+    kept[part] = sieve->finish();
+  };
+  parallel_for(mesh.n_vertices, kVertices, context, {}, [&](std::size_t begin, std::size_t end) {
+    fill(begin / kVertices, [&](Sieve<T>& sieve) {
+      for (std::size_t i = begin; i < end; ++i) {
+        if (scan.used[i] == 0) continue;
+        sieve.add(scan.scale * (mesh.vertex(i) - expansion.center), 0,
+                  -1 - static_cast<std::int64_t>(i));
+      }
+    });
+  });
+  parallel_for(n_runs, kRuns, context, {}, [&](std::size_t begin, std::size_t end) {
+    fill(first_run + begin / kRuns, [&](Sieve<T>& sieve) {
+      visit_long_faces(mesh, expansion.center, scan, expansion.coefficients.degree(), begin, end,
+                       [&](const Vec3& x, double cosine, std::size_t t) {
+                         sieve.add(x, cosine, static_cast<std::int64_t>(t));
+                       });
+    });
+  });
+  Kept all;
+  for (const Kept& part : kept) all.append(part);
+  return all;
+}
+
+// Evenly through the file: they tell how large errors are at vertices.
+ErrorPoints some_vertices(const MeshView& mesh, const Vec3& center, const FaceScan& scan) {
+  constexpr std::size_t kSample = 8192;  // chosen
+  const std::size_t step = mesh.n_vertices / kSample + 1;
+  ErrorPoints points;
+  for (std::size_t i = 0; i < mesh.n_vertices; i += step) {
+    const Vec3 x = scan.scale * (mesh.vertex(i) - center);
+    const double r = norm(x);
+    if (scan.used[i] == 0 || !(r > 0)) continue;
+    points.directions.push_back(x / r);
+    points.radii.push_back(r / scan.scale);
+    points.cosines.push_back(0);
+  }
+  return points;
+}
+
+double root_mean_square(const std::vector<double>& values) {
+  double squares = 0;
+  for (const double value : values) squares += value * value;
+  return values.empty() ? 0 : std::sqrt(squares / static_cast<double>(values.size()));
+}
+
+// The first value from which on a point is kept, `low` being the smaller of the largest radial
+// error and the largest distance that are known: as many as are measured at a time where so many
+// are near, by the radial errors of a sample of the vertices.
+double least_kept(std::vector<double> sample, std::size_t n_vertices, double low) {
+  constexpr double kNear = 0.9, kFar = 0.5;  // of the largest (chosen)
+  const auto part = static_cast<double>(sample.size()) / static_cast<double>(n_vertices);
+  const auto rank = static_cast<std::size_t>(part * 2 * kBatch);
+  if (rank >= sample.size()) return kFar * low;
+  const auto at = sample.begin() + static_cast<std::ptrdiff_t>(rank);
+  std::nth_element(sample.begin(), at, sample.end(), std::greater<>());
+  return std::clamp(*at, kFar * low, kNear * low);
+}
+
+// Root mean square of the function without its mean.
+double size_without_mean(const Coefficients& coefficients) {
+  double squares = 0;
+  for (const double c : coefficients.values().subspan(1)) squares += c * c;
+  return std::sqrt(squares / (4 * std::numbers::pi));
+}
+
+Kept sieved(const MeshView& mesh, const FaceScan& scan, const Expansion& expansion,
+            double radial_rms, double least, const Context& context) {
+  // Of 1/r errors are r^2 times those of r.
+  const double mean = expansion.coefficients.c(0, 0) / std::sqrt(4 * std::numbers::pi);
+  const bool gauge = expansion.function == RadialFunction::kGauge;
+  const double rms = gauge ? radial_rms * mean * mean : radial_rms;
+  const double size = size_without_mean(expansion.coefficients);
+  const NonuniformNeeds needs{
+      .degree = expansion.coefficients.degree(),
+      .allowed = size > 0 ? std::clamp(kRough * rms / size, 1e-12, 1e-2) : 1e-2,
+      .sources = mesh.n_vertices};
+  const NonuniformPlan plan = plan_nonuniform(needs);
+  return plan.single ? sieve<float>(mesh, scan, expansion, plan, least, context)
+                     : sieve<double>(mesh, scan, expansion, plan, least, context);
+}
+
+}  // namespace
+
+WorstPoints worst_points(const MeshView& mesh, const FaceScan& scan, const Expansion& expansion,
+                         const WorstOptions& options, const Context& context) {
+  const int degree = expansion.coefficients.degree();
+  const auto exact = [&](const ErrorPoints& points) {
+    return point_errors(points, expansion, degree, true, options.precision, context);
+  };
+  WorstPoints worst;
+  if (mesh.n_vertices + mesh.n_triangles <= kFew) {
+    worst.points = extreme_points(mesh, expansion.center, scan, degree);
+    worst.errors = exact(worst.points);
+    worst.seen = worst.points.size();
+    return worst;
+  }
+  const ErrorPoints sample = some_vertices(mesh, expansion.center, scan);
+  const PointErrors of_sample = exact(sample);
+  const double radial = std::max(options.radial, largest(of_sample.radial));
+  double distance = std::max(options.distance, largest(of_sample.to_model));
+  const double least = least_kept(of_sample.radial, mesh.n_vertices, std::min(radial, distance));
+  const double rms = std::max(options.rms, root_mean_square(of_sample.radial));
+  const Kept kept = sieved(mesh, scan, expansion, rms, least, context);
+  worst.seen = kept.seen;
+  std::vector<std::size_t> order(kept.rough.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto worse = [&](std::size_t a, std::size_t b) {
+    return kept.rough[a] != kept.rough[b] ? kept.rough[a] > kept.rough[b] : a < b;
+  };
+  double squares = 0;
+  for (std::size_t begin = 0; begin < order.size();) {
+    const std::size_t end = std::min(order.size(), begin + std::max(kBatch, begin));
+    const auto first = order.begin() + static_cast<std::ptrdiff_t>(begin);
+    const auto last = order.begin() + static_cast<std::ptrdiff_t>(end);
+    if (begin > 0) {
+      const double doubt = kDeviations * std::sqrt(squares / static_cast<double>(begin));
+      if (kept.rough[*std::min_element(first, order.end(), worse)] + doubt < distance) break;
+    }
+    std::partial_sort(first, last, order.end(), worse);
+    const ErrorPoints points = kept.points.subset({first, last});
+    const PointErrors errors = exact(points);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double difference = errors.radial[i] - kept.rough[order[begin + i]];
+      squares += difference * difference;
+    }
+    distance = std::max({distance, largest(errors.to_model), largest(errors.to_shape)});
+    worst.points.append(points);
+    worst.errors.append(errors);
+    begin = end;
+  }
+  return worst;
+}
+
+}  // namespace rholm

@@ -1,0 +1,34 @@
+// The points of a mesh at which an expansion errs most, found without exact sums at all of them.
+#pragma once
+
+#include <cstddef>
+
+#include "rholm/coefficients.h"
+#include "rholm/context.h"
+#include "rholm/mesh_view.h"
+#include "transform/error/error_points.h"
+#include "transform/error/face_scan.h"
+
+namespace rholm {
+
+struct WorstOptions {
+  // Root mean square of the radial errors, about.
+  double rms = 0;
+  // The largest radial error and the largest distance are at least these.
+  double radial = 0, distance = 0;
+  double precision = 1e-8;  // of what is found, as in SumOptions
+};
+
+struct WorstPoints {
+  ErrorPoints points;  // some of extreme_points(), the largest radial errors first, or all of them
+  PointErrors errors;  // with distances
+  std::size_t seen = 0;  // of how many
+};
+// Has the points of the largest radial error and of the largest distance, and so many of the next
+// radial errors that climbs and closest points can begin there. All have values of a few
+// hundredths of the errors first; distances are no larger than radial errors, so that exact values
+// and slopes are wanted from the largest radial error down to the largest distance found.
+WorstPoints worst_points(const MeshView& mesh, const FaceScan& scan, const Expansion& expansion,
+                         const WorstOptions& options, const Context& context);
+
+}  // namespace rholm

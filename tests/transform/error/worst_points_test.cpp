@@ -1,0 +1,109 @@
+#include "transform/error/worst_points.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "base/random.h"
+#include "rholm/analyze.h"
+#include "rholm/primitives.h"
+#include "rholm/star.h"
+#include "support/test_shapes.h"
+#include "transform/error/error_points.h"
+#include "transform/error/face_scan.h"
+
+namespace rholm {
+namespace {
+
+StarChart chart_about_origin(const Mesh& mesh) {
+  return make_star_chart(mesh, {.center = {.kind = CenterKind::kNone, .point = {}, .rays = 0}});
+}
+
+// Against exact values and slopes at all points: of smooth errors and of rough ones, on faces that
+// are short and long against 1/L, of the radius and of its inverse; whatever is known beforehand.
+TEST(worst_points, have_the_largest_errors_of_all) {
+  const Mesh smooth = test::rotated(bumpy_sphere(5, 0.3));
+  Mesh rough = smooth;
+  for (std::size_t i = 0; i < rough.vertices.size(); ++i) {
+    rough.vertices[i] *= 1 + 1e-3 * random_uniform(1, i);
+  }
+  for (const Mesh& mesh : {smooth, rough}) {
+    const StarChart chart = chart_about_origin(mesh);
+    const MeshView view = view_of(mesh);
+    const FaceScan scan = scan_faces(view, {}, {});
+    for (const Method method : {Method::kEdge, Method::kGauge}) {
+      for (const int degree : {0, 6, 40, 170}) {
+        const Expansion expansion =
+            analyze(chart, {.degree = degree, .method = method, .precision = 1e-10}).expansion;
+        const ErrorPoints all = extreme_points(view, {}, scan, degree);
+        const PointErrors exact = point_errors(all, expansion, degree, true, 1e-10, {});
+        const double radial = largest(exact.radial);
+        const double distance = std::max(largest(exact.to_model), largest(exact.to_shape));
+        for (const double known : {0.0, 0.4, 1.0}) {
+          const WorstPoints worst = worst_points(view, scan, expansion,
+                                                 {.rms = radial / 5,
+                                                  .radial = known * radial,
+                                                  .distance = known * distance,
+                                                  .precision = 1e-10},
+                                                 {});
+          EXPECT_EQ(worst.seen, all.size());
+          EXPECT_LT(worst.points.size(), all.size() / 2 + 25'000);
+          ASSERT_EQ(worst.errors.radial.size(), worst.points.size());
+          EXPECT_NEAR(largest(worst.errors.radial), radial, 1e-8);
+          EXPECT_NEAR(std::max(largest(worst.errors.to_model), largest(worst.errors.to_shape)),
+                      distance, 1e-8)
+              << to_string(method) << ' ' << degree << ' ' << known;
+        }
+      }
+    }
+  }
+}
+
+// A vertex far off that belongs to no face is none of the surface.
+TEST(worst_points, are_of_faces) {
+  Mesh mesh = bumpy_sphere(5, 0.3);
+  const Expansion expansion =
+      analyze(chart_about_origin(mesh), {.degree = 10, .precision = 1e-8}).expansion;
+  mesh.vertices.push_back({5, 0, 0});
+  const MeshView view = view_of(mesh);
+  const WorstPoints worst =
+      worst_points(view, scan_faces(view, {}, {}), expansion, {.rms = 1e-2, .precision = 1e-8}, {});
+  EXPECT_LT(largest(worst.errors.radial), 0.5);
+}
+
+// Twice the areas of runs and how wide their longest edges look, face by face.
+TEST(scan_faces, is_what_the_faces_are) {
+  for (const std::size_t n : {1, 3, 15, 16, 17, 33, 320}) {
+    Mesh mesh = test::rotated(bumpy_sphere(2, 0.3));
+    mesh.triangles.resize(n);
+    const Vec3 center = {0.1, -0.2, 0.05};
+    const FaceScan scan = scan_faces(view_of(mesh), center, {});
+    std::vector<double> areas((n + FaceScan::kRun - 1) / FaceScan::kRun);
+    std::vector<std::uint8_t> used(mesh.vertices.size());
+    ASSERT_EQ(scan.twice_areas.size(), areas.size());
+    for (std::size_t t = 0; t < n; ++t) {
+      Vec3 p[3];
+      for (std::size_t k = 0; k < 3; ++k) {
+        p[k] = scan.scale * (mesh.vertices[mesh.triangles[t][k]] - center);
+        used[mesh.triangles[t][k]] = 1;
+      }
+      areas[t / FaceScan::kRun] += norm(cross(p[1] - p[0], p[2] - p[0]));
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double length = norm(p[k] - p[(k + 1) % 3]);
+        const double near = std::min(norm(p[k]), norm(p[(k + 1) % 3]));
+        EXPECT_LE(length / near, (1 + 1e-12) * std::sqrt(scan.angles2[t / FaceScan::kRun]));
+        EXPECT_GT(length / near, 0.2 * std::sqrt(scan.angles2[t / FaceScan::kRun]));
+      }
+    }
+    for (std::size_t run = 0; run < areas.size(); ++run) {
+      EXPECT_NEAR(scan.twice_areas[run], areas[run], 1e-13 * areas[run]);
+    }
+    EXPECT_EQ(scan.used, used);
+  }
+}
+
+}  // namespace
+}  // namespace rholm
