@@ -91,8 +91,9 @@ class AsItLies {
   // A tolerance needs them before the first pass, all else after it.
   const ExactNorms& norms() {
     if (!norms_) {
-      norms_ =
-          timed(analysis().times, "norms", [&] { return exact_norms(mesh_, center(), context_); });
+      norms_ = timed(analysis().times, "norms", [&] {
+        return exact_norms(mesh_, center(), context_, options_.errors ? &sizes_ : nullptr);
+      });
     }
     return *norms_;
   }
@@ -134,7 +135,8 @@ class AsItLies {
           timed(analysis().times, "norms", [&] { return tail_strength(mesh_, center()); });
     }
     finish_analysis(options_.analyze, center(), analysis());
-    add_errors(mesh_, paired, options_, context_, encoded_);
+    ErrorSites sites(mesh_, center(), std::move(sizes_));
+    add_errors(sites, paired, options_, context_, encoded_);
   }
 
   // The alternating sum of a surface some of whose faces turn their backs: no norms, no errors, but
@@ -160,6 +162,7 @@ class AsItLies {
   MeshPassOptions pass_options_;  // with the centre, once it is found
   const Context& context_;
   std::optional<ExactNorms> norms_;
+  FaceSizes sizes_;  // with the norms, if errors are wanted
   Encoded encoded_;
 };
 

@@ -73,7 +73,9 @@ Encoded encode_by_chart(const Mesh& mesh, const EncodeOptions& options, const Co
   encoded.flipped = topology.flipped;
   timed(encoded.times, "transform", [&] { transform(chart, options, context, encoded); });
   if (chart.report.star_shaped) {
-    add_errors(view_of(topology.welded.mesh), true, options, context, encoded);
+    ErrorSites sites(view_of(topology.welded.mesh), encoded.analysis.expansion.center,
+                     context.threads);
+    add_errors(sites, true, options, context, encoded);
   }
   return encoded;
 }

@@ -18,14 +18,14 @@ void set_found(ToleranceAnalysis found, const EncodeOptions& options, Encoded& e
   if (!options.errors) encoded.analysis.expansion.errors.reset();
 }
 
-void add_errors(const MeshView& mesh, bool predict, const EncodeOptions& options,
+void add_errors(ErrorSites& sites, bool predict, const EncodeOptions& options,
                 const Context& context, Encoded& encoded) {
   Analysis& analysis = encoded.analysis;
   if (!options.errors || analysis.expansion.errors) return;
   const double precision = known_error(analysis);
   analysis.expansion.errors = timed(encoded.times, "errors", [&] {
-    return truncation_errors(mesh, analysis.expansion, {.precision = precision, .predict = predict},
-                             context);
+    return truncation_errors(analysis.expansion, {.precision = precision, .predict = predict},
+                             sites, context);
   });
 }
 

@@ -1,8 +1,8 @@
 // What both ways of encoding put into their result. Layer: model.
 #pragma once
 
-#include "rholm/mesh_view.h"
 #include "rholm/model.h"
+#include "transform/error/error_sites.h"
 
 namespace rholm {
 
@@ -10,8 +10,9 @@ namespace rholm {
 void set_found(ToleranceAnalysis found, const EncodeOptions& options, Encoded& encoded);
 
 // Measures the errors of the surface, unless they are not wanted or a search has done so.
-// `predict`: the largest ones from the edges as well.
-void add_errors(const MeshView& mesh, bool predict, const EncodeOptions& options,
+// `sites`: of the mesh about the centre of its expansion; `predict`: the largest ones from the
+// edges as well.
+void add_errors(ErrorSites& sites, bool predict, const EncodeOptions& options,
                 const Context& context, Encoded& encoded);
 
 }  // namespace rholm

@@ -111,10 +111,10 @@ void ErrorPoints::append(const ErrorPoints& more) {
 void visit_long_faces(const MeshView& mesh, const Vec3& center, const FaceScan& scan, int degree,
                       std::size_t begin, std::size_t end, const PointOnFace& visit) {
   for (std::size_t run = begin; run < end; ++run) {
-    if (degree * std::sqrt(scan.angles2[run]) <= kDense) continue;
-    const std::size_t first = run * FaceScan::kRun;
-    for (std::size_t t = first; t < std::min(mesh.n_triangles, first + FaceScan::kRun); ++t) {
-      const Face face = face_of(corners_of(mesh, t, center, scan.scale));
+    if (degree * std::sqrt(scan.sizes.angles2[run]) <= kDense) continue;
+    const std::size_t first = run * FaceSizes::kRun;
+    for (std::size_t t = first; t < std::min(mesh.n_triangles, first + FaceSizes::kRun); ++t) {
+      const Face face = face_of(corners_of(mesh, t, center, scan.sizes.scale));
       if (face.normal.degenerate) continue;
       const int n = divisions(face, degree);
       for (int i = 0; i < n; ++i) {
@@ -135,24 +135,24 @@ ErrorPoints extreme_points(const MeshView& mesh, const Vec3& center, const FaceS
   CancelPoll poll;
   for (std::size_t i = 0; i < mesh.n_vertices; ++i) {
     poll();
-    const Vec3 x = scan.scale * (mesh.vertex(i) - center);
-    if (scan.used[i] != 0) add_point(points, x, norm(x), 0, -1 - static_cast<std::int64_t>(i));
+    const Vec3 x = scan.sizes.scale * (mesh.vertex(i) - center);
+    if (scan.is_used(i)) add_point(points, x, norm(x), 0, -1 - static_cast<std::int64_t>(i));
   }
-  for (std::size_t run = 0; run < scan.angles2.size(); ++run) {
+  for (std::size_t run = 0; run < scan.sizes.angles2.size(); ++run) {
     poll();
     visit_long_faces(mesh, center, scan, degree, run, run + 1,
                      [&](const Vec3& x, double cosine, std::size_t t) {
                        add_point(points, x, norm(x), cosine, static_cast<std::int64_t>(t));
                      });
   }
-  for (double& r : points.radii) r /= scan.scale;
+  for (double& r : points.radii) r /= scan.sizes.scale;
   return points;
 }
 
 ErrorPoints area_points(const MeshView& mesh, const Vec3& center, const FaceScan& scan,
                         std::size_t n) {
   double whole = 0;
-  for (const double area : scan.twice_areas) whole += area;
+  for (const float area : scan.sizes.twice_areas) whole += area;
   ErrorPoints points;
   points.reserve(n);
   const double part = whole / static_cast<double>(n);
@@ -164,32 +164,25 @@ ErrorPoints area_points(const MeshView& mesh, const Vec3& center, const FaceScan
   };
   double sum = 0, at = wanted();
   CancelPoll poll;
-  for (std::size_t run = 0; run < scan.twice_areas.size() && next < n; ++run) {
+  for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
+    sum += scan.sizes.twice_areas[t];
+    if (at >= sum) continue;
     poll();
-    const double end = sum + scan.twice_areas[run];
-    const std::size_t first = run * FaceScan::kRun;
-    const std::size_t last = std::min(mesh.n_triangles, first + FaceScan::kRun);
-    for (std::size_t t = first; t < last && at < end; ++t) {
-      const std::array<Vec3, 3> corners = corners_of(mesh, t, center, scan.scale);
-      sum += norm(cross(corners[1] - corners[0], corners[2] - corners[0]));
-      if (at >= sum) continue;
-      const Face face = face_of(corners);
-      while (at < sum) {
-        // Uniform on the triangle.
-        const double s = std::sqrt(random_uniform(kSeed, 3 * next + 1));
-        const double b = s * random_uniform(kSeed, 3 * next + 2);
-        const Vec3 x = (1 - s) * face.corners[0] + b * face.corners[1] + (s - b) * face.corners[2];
-        const std::optional<double> cosine = cosine_at(face, x);
-        if (cosine && !face.normal.degenerate) {
-          add_point(points, x, norm(x), *cosine, static_cast<std::int64_t>(t));
-        }
-        ++next;
-        at = wanted();
+    const Face face = face_of(corners_of(mesh, t, center, scan.sizes.scale));
+    while (at < sum) {
+      // Uniform on the triangle.
+      const double s = std::sqrt(random_uniform(kSeed, 3 * next + 1));
+      const double b = s * random_uniform(kSeed, 3 * next + 2);
+      const Vec3 x = (1 - s) * face.corners[0] + b * face.corners[1] + (s - b) * face.corners[2];
+      const std::optional<double> cosine = cosine_at(face, x);
+      if (cosine && !face.normal.degenerate) {
+        add_point(points, x, norm(x), *cosine, static_cast<std::int64_t>(t));
       }
+      ++next;
+      at = wanted();
     }
-    sum = end;
   }
-  for (double& r : points.radii) r /= scan.scale;
+  for (double& r : points.radii) r /= scan.sizes.scale;
   return points;
 }
 

@@ -30,7 +30,7 @@ struct ErrorPoints {
 
 // Of each face whose edges are long against 1/L up to 7 points, on it and its edges but not at its
 // corners: calls visit(x, cosine, t) for faces of the runs [begin, end) of the scan, x from the
-// centre and times scan.scale. Waves of degree L are 2 pi / L long.
+// centre and times scan.sizes.scale. Waves of degree L are 2 pi / L long.
 using PointOnFace = std::function<void(const Vec3& x, double cosine, std::size_t t)>;
 void visit_long_faces(const MeshView& mesh, const Vec3& center, const FaceScan& scan, int degree,
                       std::size_t begin, std::size_t end, const PointOnFace& visit);

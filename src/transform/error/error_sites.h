@@ -4,12 +4,14 @@
 
 #include <cstddef>
 #include <optional>
+#include <utility>
 
 #include "rholm/analyze.h"
 #include "rholm/mesh_view.h"
 #include "rholm/truncation.h"
 #include "transform/error/closest_distances.h"
 #include "transform/error/error_points.h"
+#include "transform/error/face_scan.h"
 
 namespace rholm {
 
@@ -22,6 +24,9 @@ class ErrorSites {
   // The mesh must be valid and outlive the sites.
   ErrorSites(const MeshView& mesh, const Vec3& center, int threads = 1)
       : mesh_(mesh), center_(center), threads_(threads) {}
+  // Sizes as exact_norms() finds them about this centre.
+  ErrorSites(const MeshView& mesh, const Vec3& center, FaceSizes sizes)
+      : mesh_(mesh), center_(center), threads_(1), scan_(scan_faces(mesh, std::move(sizes))) {}
 
   const MeshView& mesh() const { return mesh_; }
   const Vec3& center() const { return center_; }

@@ -1,30 +1,25 @@
-// One way through the faces of a mesh for what the choice of points on it wants to know.
+// What the choice of points at which errors are measured wants to know of a mesh.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "rholm/context.h"
 #include "rholm/mesh_view.h"
+#include "transform/norms/exact_norms.h"
 
 namespace rholm {
 
 struct FaceScan {
-  // Faces t are taken in runs of this many: few enough to find one by its share of the area, many
-  // enough for sums of all runs to take little memory (chosen).
-  static constexpr std::size_t kRun = 16;
-
-  // A power of two that brings lengths near 1, so that areas and their squares are in range. It
-  // rounds nothing.
-  double scale = 1;
-  std::vector<double> twice_areas;  // of each run, of lengths times `scale`
-  // Of each run: the square of the longest edge over that of the nearest corner's distance from
-  // the centre, at least the largest of that of each edge and its own ends.
-  std::vector<double> angles2;
-  // Of each vertex, 1 if it belongs to a face; a vertex of no face is no point of the surface.
+  FaceSizes sizes;
+  // Of each vertex, 1 if it belongs to a face: one of no face is no point of the surface. Empty if
+  // all do.
   std::vector<std::uint8_t> used;
+
+  bool is_used(std::size_t vertex) const { return used.empty() || used[vertex] != 0; }
 };
+// Of a closed star-shaped mesh.
+FaceScan scan_faces(const MeshView& mesh, FaceSizes sizes);
 FaceScan scan_faces(const MeshView& mesh, const Vec3& center, const Context& context);
 
 }  // namespace rholm

@@ -18,8 +18,8 @@ namespace {
 // Fewer points are measured exactly at once: a grid more costs as much (chosen).
 constexpr std::size_t kFew = 20'000;
 // First values differ from exact ones by this part of the errors: root mean square, relative to
-// them (chosen: points within six times of it below the largest error are a few in a thousand).
-constexpr double kRough = 0.02;
+// them (chosen: six times it is a third of a root mean square).
+constexpr double kRough = 0.05;
 constexpr double kDeviations = 6;
 // So many are measured exactly at a time, the first time at least as many as closest points begin
 // at.
@@ -103,20 +103,21 @@ Kept sieve(const MeshView& mesh, const FaceScan& scan, const Expansion& expansio
   varying.c(0, 0) = 0;
   const bool gauge = expansion.function == RadialFunction::kGauge;
   const GridFunction<T> function(plan, std::move(varying), context);
-  constexpr std::size_t kVertices = 4096, kRuns = 64;  // of a task: some 100 us
+  constexpr std::size_t kVertices = 4096, kRuns = 8;  // of a task: some 100 us
   const auto parts = [](std::size_t n, std::size_t grain) { return (n + grain - 1) / grain; };
-  const std::size_t n_runs = scan.angles2.size(), first_run = parts(mesh.n_vertices, kVertices);
+  const std::size_t n_runs = scan.sizes.angles2.size(),
+                    first_run = parts(mesh.n_vertices, kVertices);
   std::vector<Kept> kept(first_run + parts(n_runs, kRuns));
   const auto fill = [&](std::size_t part, const auto& add_points) {
-    const auto sieve = std::make_unique<Sieve<T>>(function, mean, gauge, scan.scale, least);
+    const auto sieve = std::make_unique<Sieve<T>>(function, mean, gauge, scan.sizes.scale, least);
     add_points(*sieve);
     kept[part] = sieve->finish();
   };
   parallel_for(mesh.n_vertices, kVertices, context, {}, [&](std::size_t begin, std::size_t end) {
     fill(begin / kVertices, [&](Sieve<T>& sieve) {
       for (std::size_t i = begin; i < end; ++i) {
-        if (scan.used[i] == 0) continue;
-        sieve.add(scan.scale * (mesh.vertex(i) - expansion.center), 0,
+        if (!scan.is_used(i)) continue;
+        sieve.add(scan.sizes.scale * (mesh.vertex(i) - expansion.center), 0,
                   -1 - static_cast<std::int64_t>(i));
       }
     });
@@ -140,11 +141,11 @@ ErrorPoints some_vertices(const MeshView& mesh, const Vec3& center, const FaceSc
   const std::size_t step = mesh.n_vertices / kSample + 1;
   ErrorPoints points;
   for (std::size_t i = 0; i < mesh.n_vertices; i += step) {
-    const Vec3 x = scan.scale * (mesh.vertex(i) - center);
+    const Vec3 x = scan.sizes.scale * (mesh.vertex(i) - center);
     const double r = norm(x);
-    if (scan.used[i] == 0 || !(r > 0)) continue;
+    if (!scan.is_used(i) || !(r > 0)) continue;
     points.directions.push_back(x / r);
-    points.radii.push_back(r / scan.scale);
+    points.radii.push_back(r / scan.sizes.scale);
     points.cosines.push_back(0);
   }
   return points;

@@ -26,7 +26,7 @@ namespace {
 
 // Triangles whose indices are checked, and corners asked for, ahead of use; and whose sums are
 // plain ones, as in view_scan.cpp.
-constexpr std::size_t kBlock = 128;
+constexpr std::size_t kBlock = FaceSizes::kRun;
 
 // binomial(-1/2, k): (1 + v)^(-1/2) = sum of them times v^k.
 struct Binomials {
@@ -49,6 +49,7 @@ struct Block {
   alignas(64) double r[3][kBlock], l[3][kBlock];
   alignas(64) double longest[kBlock];  // infinite for a normal that is all rounding
   alignas(64) double inverse[kBlock], d2[kBlock];
+  alignas(64) double twice_area[kBlock];
 };
 
 std::array<Vec3, 3> corners_of(const MeshView& mesh, const Frame& frame, std::size_t t) {
@@ -185,9 +186,14 @@ HWY_NOINLINE Means MeansOfQuarters(D d, const LaneSquares& s) {
   return sum;
 }
 
+// Squares over all triangles of a block.
+struct Extents {
+  V longest, nearest;
+};
+
 // Prepares one vector of triangles.
 HWY_INLINE void Prepare(D d, const Vector3& p0, const Vector3& p1, const Vector3& p2,
-                        std::size_t at, Block& block) {
+                        std::size_t at, Block& block, Extents& extents) {
   const Vector3 e0 = Minus(p2, p1), e1 = Minus(p0, p2), e2 = Minus(p1, p0);
   const Vector3 normal = Cross(e1, e2);
   const V d2 = Dot(normal, p0), nn = Dot(normal, normal);
@@ -208,6 +214,9 @@ HWY_INLINE void Prepare(D d, const Vector3& p0, const Vector3& p1, const Vector3
   hn::Store(hn::IfThenElse(clear, hn::Mul(longest, q), infinite), d, block.longest + at);
   hn::Store(inverse, d, block.inverse + at);
   hn::Store(d2, d, block.d2 + at);
+  hn::Store(hn::Sqrt(nn), d, block.twice_area + at);
+  extents.longest = hn::Max(extents.longest, longest);
+  extents.nearest = hn::Min(extents.nearest, hn::Min(r0, hn::Min(r1, r2)));
 }
 
 struct LaneSums {
@@ -244,10 +253,13 @@ HWY_INLINE M AddTriangles(D d, const Block& block, std::size_t at, LaneSums& sum
   return left;
 }
 
+// Returns what FaceSizes says of the block as a whole.
 template <class T>
-HWY_INLINE void PrepareBlock(const MeshView& mesh, const Frame& frame, std::size_t begin,
-                             std::size_t n, bool whole, Block& block) {
+HWY_INLINE double PrepareBlock(const MeshView& mesh, const Frame& frame, std::size_t begin,
+                               std::size_t n, bool whole, Block& block) {
   const D d;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Extents extents = {hn::Zero(d), hn::Set(d, kInfinity)};
   const std::size_t lanes = hn::Lanes(d);
   const V scale = hn::Set(d, frame.scale);
   const Vector3 shift = {hn::Set(d, frame.shift.x), hn::Set(d, frame.shift.y),
@@ -263,14 +275,14 @@ HWY_INLINE void PrepareBlock(const MeshView& mesh, const Frame& frame, std::size
     for (; at + lanes <= n; at += lanes, indices += lanes * mesh.triangle_stride) {
       Prepare(d, local(LoadWhole(d, mesh, indices, T())),
               local(LoadWhole(d, mesh, indices + 4, T())),
-              local(LoadWhole(d, mesh, indices + 8, T())), at, block);
+              local(LoadWhole(d, mesh, indices + 8, T())), at, block, extents);
     }
   }
   for (; at < n; at += lanes, indices += lanes * mesh.triangle_stride) {
     const std::size_t few = HWY_MIN(lanes, n - at);
     Prepare(d, local(LoadFew<T>(d, mesh, indices, few)),
             local(LoadFew<T>(d, mesh, indices + 4, few)),
-            local(LoadFew<T>(d, mesh, indices + 8, few)), at, block);
+            local(LoadFew<T>(d, mesh, indices + 8, few)), at, block, extents);
   }
   // Beyond the last triangle a vector repeats it. Triangles of size 0 at distance 1 count for
   // nothing instead; weights of 0 would not do where the last one has its centre at the mesh's.
@@ -278,6 +290,8 @@ HWY_INLINE void PrepareBlock(const MeshView& mesh, const Frame& frame, std::size
                       block.longest, block.inverse, block.d2}) {
     for (std::size_t i = n; i < at; ++i) row[i] = 0;
   }
+  const double nearest = hn::GetLane(hn::MinOfLanes(d, extents.nearest));
+  return nearest > 0 ? hn::GetLane(hn::MaxOfLanes(d, extents.longest)) / nearest : kInfinity;
 }
 
 // Sums of n triangles but for those whose numbers come into `left`; returns how many these are.
@@ -303,7 +317,7 @@ HWY_INLINE std::size_t SumBlock(const Block& block, std::size_t n, NormSums& res
 
 template <class T>
 HWY_INLINE void SumRangeOf(const MeshView& mesh, const Frame& frame, std::size_t begin,
-                           std::size_t end, CompensatedSum* sums) {
+                           std::size_t end, CompensatedSum* sums, FaceSizes* sizes) {
   Block block;
   std::size_t left[kBlock];
   std::uint32_t next_largest = LookAhead(mesh, begin, HWY_MIN(end, begin + kBlock));
@@ -314,7 +328,14 @@ HWY_INLINE void SumRangeOf(const MeshView& mesh, const Frame& frame, std::size_t
     next_largest = LookAhead(mesh, last, HWY_MIN(end, last + kBlock));
     // Rows of floats are read with 4 bytes more: not the last one.
     const bool whole = kWholeVectors && (sizeof(T) == 8 || largest + 1 < mesh.n_vertices);
-    PrepareBlock<T>(mesh, frame, first, last - first, whole, block);
+    const double angle2 = PrepareBlock<T>(mesh, frame, first, last - first, whole, block);
+    if (sizes != nullptr) {
+      sizes->angles2[first / kBlock] = angle2;
+      float* const areas = sizes->twice_areas.data() + first;
+      for (std::size_t i = 0; i < last - first; ++i) {
+        areas[i] = static_cast<float>(block.twice_area[i]);
+      }
+    }
     NormSums plain;
     const std::size_t n_left = SumBlock(block, last - first, plain, left);
     add_sums(plain, sums);
@@ -325,11 +346,11 @@ HWY_INLINE void SumRangeOf(const MeshView& mesh, const Frame& frame, std::size_t
 }
 
 void SumRange(const MeshView& mesh, const Frame& frame, std::size_t begin, std::size_t end,
-              CompensatedSum* sums) {
+              CompensatedSum* sums, FaceSizes* sizes) {
   if (mesh.coordinate == ScalarType::kFloat32) {
-    SumRangeOf<float>(mesh, frame, begin, end, sums);
+    SumRangeOf<float>(mesh, frame, begin, end, sums, sizes);
   } else {
-    SumRangeOf<double>(mesh, frame, begin, end, sums);
+    SumRangeOf<double>(mesh, frame, begin, end, sums, sizes);
   }
 }
 
@@ -342,15 +363,21 @@ namespace rholm {
 
 HWY_EXPORT(SumRange);
 
-ExactNorms exact_norms(const MeshView& mesh, const Vec3& center, const Context& context) {
+ExactNorms exact_norms(const MeshView& mesh, const Vec3& center, const Context& context,
+                       FaceSizes* sizes) {
   const double scale = unit_scale(mesh, center);
+  if (sizes != nullptr) {
+    sizes->scale = scale;
+    sizes->twice_areas.resize(mesh.n_triangles);
+    sizes->angles2.resize((mesh.n_triangles + kBlock - 1) / kBlock);
+  }
   const Frame frame = {.shift = -scale * center, .scale = scale};
   constexpr std::size_t kGrain = 32 * kBlock;  // chosen: about 50 us
   std::vector<NormSums> parts((mesh.n_triangles + kGrain - 1) / kGrain);
   parallel_for(mesh.n_triangles, kGrain, context, {"norms", 0, 1},
                [&](std::size_t begin, std::size_t end) {
                  CompensatedSum sums[3];
-                 HWY_DYNAMIC_DISPATCH(SumRange)(mesh, frame, begin, end, sums);
+                 HWY_DYNAMIC_DISPATCH(SumRange)(mesh, frame, begin, end, sums, sizes);
                  parts[begin / kGrain] = {sums[0].value(), sums[1].value(), sums[2].value()};
                });
   CompensatedSum sums[3];

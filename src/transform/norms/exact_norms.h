@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "rholm/context.h"
 #include "rholm/mesh_view.h"
@@ -24,9 +25,23 @@ struct ExactNorms {
   double solid_angle = 0;     // 4 pi times how often a closed surface surrounds the centre
   double volume = 0;          // enclosed
 };
+// How large the faces are and look, on request.
+struct FaceSizes {
+  static constexpr std::size_t kRun = 128;  // faces t are taken in runs of this many
+
+  // A power of two that brings distances from the centre to 1/2 ... 1 at most: areas are of lengths
+  // times this.
+  double scale = 1;
+  std::vector<float> twice_areas;  // of each face
+  // Of each run: the square of the longest edge over that of the nearest corner's distance from
+  // the centre, at least the largest of that of each edge and its own ends.
+  std::vector<double> angles2;
+};
+
 // Signs are those of d_T. Same bits for any number of threads. Throws InvalidInput for an index out
 // of range, a coordinate that is not finite, and a size from the centre outside 1e-150 ... 1e150.
-ExactNorms exact_norms(const MeshView& mesh, const Vec3& center, const Context& context = {});
+ExactNorms exact_norms(const MeshView& mesh, const Vec3& center, const Context& context = {},
+                       FaceSizes* sizes = nullptr);
 
 // Whether a closed surface whose triangles all have d_T > 0 meets every direction once.
 bool covers_once(const ExactNorms& norms);
