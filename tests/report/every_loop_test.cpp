@@ -104,7 +104,9 @@ TEST(every_loop, gives_the_same_bits_for_centres_and_star_checks) {
       const StarReport found = find_center(mesh, {.kind = kind, .rays = 3000}, context);
       bits.add(found.min_d).add(found.min_cos_gamma).add(found.once_share);
     }
-    return bits;
+    Mesh open = mesh;
+    open.triangles.pop_back();
+    return bits.add(check_star(open, {}, 3000, context).missed_share);
   });
 }
 

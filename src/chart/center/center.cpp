@@ -41,16 +41,6 @@ bool parse_point(std::string_view text, Vec3& point) {
   return at == end && is_finite(point);
 }
 
-// The kernel is empty: which of the two centres sees more directions once; without rays, which has
-// fewer triangles turned away.
-StarReport better_fallback(StarReport program, StarReport volume) {
-  const bool volume_is_better = program.rays > 0 ? volume.once_share > program.once_share
-                                                 : volume.bad_triangles < program.bad_triangles;
-  StarReport& better = volume_is_better ? volume : program;
-  better.center_fell_back = true;
-  return better;
-}
-
 }  // namespace
 
 CenterOptions parse_center(const std::string& text) {
@@ -104,6 +94,18 @@ FoundCenter search_center(const LocalView& view, const CenterOptions& options,
   return {.point = view.frame.to_shape(kernel.point), .kernel_empty = empty, .scans = kernel.scans};
 }
 
+// Which of the two sees more directions once; without rays, which has fewer triangles turned away.
+StarReport better_center(const LocalView& view, const StarReport& program, int rays,
+                         const Context& context) {
+  const FoundCenter found = search_center(view, {.kind = CenterKind::kVolume}, context);
+  const StarReport volume = check_star(view, found.point, rays, context);
+  const bool volume_is_better = rays > 0 ? volume.once_share > program.once_share
+                                         : volume.bad_triangles < program.bad_triangles;
+  StarReport better = volume_is_better ? volume : program;
+  better.center_fell_back = true;
+  return better;
+}
+
 StarReport find_center(const MeshView& mesh, const CenterOptions& options, const Context& context) {
   const LocalView view = local_view(mesh, context);
   const FoundCenter found = search_center(view, options, context);
@@ -111,8 +113,7 @@ StarReport find_center(const MeshView& mesh, const CenterOptions& options, const
   const bool may_fall_back =
       options.kind == CenterKind::kAuto || options.kind == CenterKind::kCosine;
   if (report.star_shaped || !may_fall_back) return report;
-  const FoundCenter volume = search_center(view, {.kind = CenterKind::kVolume}, context);
-  return better_fallback(report, check_star(view, volume.point, options.rays, context));
+  return better_center(view, report, options.rays, context);
 }
 
 StarReport find_center(const Mesh& mesh, const CenterOptions& options, const Context& context) {

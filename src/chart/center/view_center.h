@@ -19,6 +19,11 @@ struct FoundCenter {
 FoundCenter search_center(const LocalView& view, const CenterOptions& options,
                           const Context& context);
 
+// Where the kernel is empty: the report of the better of the centre that a program has found, which
+// `program` is of, and the centroid of the solid.
+StarReport better_center(const LocalView& view, const StarReport& program, int rays,
+                         const Context& context);
+
 // check_star() of rholm/star.h.
 StarReport check_star(const LocalView& view, const Vec3& center, int rays, const Context& context);
 

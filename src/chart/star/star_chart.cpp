@@ -24,14 +24,14 @@ std::string describe(const StarReport& report, double diagonal) {
 }
 
 void refuse(const Mesh& mesh, const StarReport& report, bool allow_signed) {
-  const Inspection shape = inspect(mesh);
-  if (shape.volume < 0) {
+  if (const double volume = enclosed_volume(mesh); volume < 0) {
     throw Error(
         ErrorCode::kInvalidInput,
         fmt::format("the mesh is inside out (its volume is {:.6g}): 'rholm repair' turns it",
-                    shape.volume));
+                    volume));
   }
   if (allow_signed) return;
+  const Inspection shape = inspect(mesh);
   if (shape.duplicate_triangles > 0) {
     throw Error(
         ErrorCode::kNotStarShaped,
@@ -61,16 +61,10 @@ StarChart make_star_chart(const Mesh& mesh, std::vector<Edge> edges, const Chart
                           const Context& context) {
   StarChart chart;
   chart.edges = std::move(edges);
-  CenterOptions without_rays = options.center;
-  without_rays.rays = 0;
-  // Star-shaped meshes meet every direction once, which needs no rays to be known.
-  chart.report = find_center(mesh, without_rays, context);
-  if (chart.report.star_shaped) {
-    chart.report.once_share = 1;
-  } else {
-    chart.report = find_center(mesh, options.center, context);
-    refuse(mesh, chart.report, options.allow_signed);
-  }
+  chart.report = find_center(mesh, options.center, context);
+  if (!chart.report.star_shaped) refuse(mesh, chart.report, options.allow_signed);
+  // No directions need to be tried where all meet the surface once.
+  if (chart.report.star_shaped) chart.report.rays = 0, chart.report.once_share = 1;
   chart.mesh.triangles = mesh.triangles;
   chart.mesh.vertices.reserve(mesh.vertices.size());
   for (const Vec3& v : mesh.vertices) chart.mesh.vertices.push_back(v - chart.report.center);

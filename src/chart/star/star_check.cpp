@@ -8,11 +8,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+#include <optional>
+#include <vector>
 
 #include "base/parallel.h"
 #include "chart/center/view_center.h"
 #include "chart/center/view_scan.h"
+#include "chart/star/cone.h"
+#include "chart/star/direction_counts.h"
 #include "rholm/error.h"
 #include "shape/queries/ray_scene.h"
 
@@ -53,13 +56,6 @@ void add_face(const std::array<Vec3, 3>& corners, const Vec3& normal, FaceFigure
   figures.min_cos_gamma = std::min(figures.min_cos_gamma, distance > 0 ? d / distance : 0.0);
 }
 
-// Corners of a triangle relative to a centre in the shape's coordinates.
-std::array<Vec3, 3> rays_to(const LocalView& view, std::size_t triangle, const Vec3& center) {
-  std::array<Vec3, 3> corners = view.corners(triangle);
-  for (Vec3& corner : corners) corner -= view.frame.scale * center;
-  return corners;
-}
-
 FaceFigures check_faces(const LocalView& view, const Vec3& center, const Context& context) {
   const std::size_t n = view.mesh.n_triangles, grain = triangle_grain(n);
   const Vec3 local = view.frame.to_local(center);
@@ -72,28 +68,13 @@ FaceFigures check_faces(const LocalView& view, const Vec3& center, const Context
     scan_below(view, begin, end, local, limits, [&](std::size_t triangle) {
       const Vec3 normal = unit_normal(view.corners(triangle));
       if (normal == Vec3{}) return;
-      add_face(rays_to(view, triangle, center), normal, figures);
+      add_face(corners_from(view, triangle, center), normal, figures);
       limits = {.distance = std::max(figures.min_d, unclear), .cosine = figures.min_cos_gamma};
     });
   });
   FaceFigures total;
   for (const FaceFigures& part : parts) total.merge(part);
   return total;
-}
-
-// 1 if the direction lies inside the triangle's cone, 0 if outside, -1 if rounding hides it.
-int cone_contains(const std::array<Vec3, 3>& corners, const Vec3& direction) {
-  bool unclear = false;
-  for (int k = 0; k < 3; ++k) {
-    const Vec3& a = corners[k];
-    const Vec3& b = corners[k == 2 ? 0 : k + 1];
-    const double side = dot(cross(a, b), direction);
-    // Six products of three factors: below 8 2^-53 of the lengths.
-    const double rounding = 8 * 0x1p-53 * norm(a) * norm(b);
-    if (side < -rounding) return 0;
-    unclear = unclear || side <= rounding;
-  }
-  return unclear ? -1 : 1;
 }
 
 // How often the faces, all with d_T > 0, cover the direction; -1 if it meets an edge.
@@ -109,7 +90,7 @@ long long cover_of(const LocalView& view, const Vec3& center, const Vec3& direct
     Cover& cover = parts[begin / grain];
     scan_cones(view, begin, end, view.frame.to_local(center), direction, [&](std::size_t triangle) {
       if (unit_normal(view.corners(triangle)) == Vec3{}) return;
-      const int contains = cone_contains(rays_to(view, triangle, center), direction);
+      const int contains = cone_contains(corners_from(view, triangle, center), direction);
       cover.unclear = cover.unclear || contains < 0;
       cover.times += contains;
     });
@@ -121,20 +102,6 @@ long long cover_of(const LocalView& view, const Vec3& center, const Vec3& direct
   }
   return times;
 }
-
-// Direction i of n, spread evenly: a Fibonacci lattice.
-Vec3 lattice_direction(std::size_t i, std::size_t n) {
-  const double z = 1 - (2.0 * static_cast<double>(i) + 1) / static_cast<double>(n);
-  const double turns = static_cast<double>(i) * (std::numbers::phi - 1);
-  const double phi = 2 * std::numbers::pi * (turns - std::floor(turns));
-  const double s = std::sqrt(std::max(0.0, 1 - z * z));
-  return {s * std::cos(phi), s * std::sin(phi), z};
-}
-
-struct RayCounts {
-  std::size_t once = 0;
-  std::size_t multiple = 0;
-};
 
 // Embree works in single precision: it is given coordinates near 1.
 Mesh local_copy(const LocalView& view) {
@@ -150,30 +117,34 @@ Mesh local_copy(const LocalView& view) {
   return local;
 }
 
-void shoot_rays(const LocalView& view, const Vec3& center, const Context& context,
-                StarReport& report) {
+// By rays, of surfaces that are not closed.
+std::vector<int> shoot_rays(const LocalView& view, const Vec3& center, std::size_t n,
+                            const Context& context) {
   const Mesh local = local_copy(view);  // which the scene refers to
   const RayScene scene(local);
   const Vec3 origin = view.frame.to_local(center);
-  const auto n = static_cast<std::size_t>(report.rays);
+  std::vector<int> hits(n);
   constexpr std::size_t kGrain = 1024;  // chosen: about a millisecond
-  std::vector<RayCounts> parts((n + kGrain - 1) / kGrain);
   parallel_for(n, kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const int hits = scene.count_hits(origin, lattice_direction(i, n));
-      parts[begin / kGrain].once += hits == 1;
-      parts[begin / kGrain].multiple += hits > 1;
+      hits[i] = scene.count_hits(origin, lattice_direction(i, n));
     }
   });
-  RayCounts total;
-  for (const RayCounts& part : parts) {
-    total.once += part.once;
-    total.multiple += part.multiple;
-  }
-  const double all = report.rays;
-  report.once_share = static_cast<double>(total.once) / all;
-  report.multiple_share = static_cast<double>(total.multiple) / all;
-  report.missed_share = static_cast<double>(n - total.once - total.multiple) / all;
+  return hits;
+}
+
+void try_directions(const LocalView& view, const Vec3& center, const Context& context,
+                    StarReport& report) {
+  const auto n = static_cast<std::size_t>(report.rays);
+  std::optional<std::vector<int>> meetings;
+  if (is_closed(view.mesh)) meetings = count_meetings(view, center, n, context);
+  if (!meetings) meetings = shoot_rays(view, center, n, context);
+  const auto share = [&](auto is_counted) {
+    return static_cast<double>(std::ranges::count_if(*meetings, is_counted)) / report.rays;
+  };
+  report.once_share = share([](int times) { return times == 1; });
+  report.multiple_share = share([](int times) { return times > 1; });
+  report.missed_share = share([](int times) { return times < 1; });
 }
 
 // From farther away the shape is a point to double precision, and its middle to a ray.
@@ -209,7 +180,7 @@ StarReport check_star(const LocalView& view, const Vec3& center, int rays, const
   report.bad_triangles = figures.bad;
   report.star_shaped = figures.bad == 0 && covers_once(view, center, context);
   report.rays = std::max(0, rays);
-  if (report.rays > 0) shoot_rays(view, center, context, report);
+  if (report.rays > 0) try_directions(view, center, context, report);
   return report;
 }
 

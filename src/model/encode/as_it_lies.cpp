@@ -28,12 +28,15 @@ StarReport star_report(const MeshPassResult& pass, const Vec3& center) {
   return report;
 }
 
+bool may_fold(const EncodeOptions& options) {
+  return options.chart.allow_signed && !options.tolerance;
+}
+
 // What a pass finds wrong with the mesh.
 std::optional<NotAsItLies> fault_in(const MeshPassResult& pass, const EncodeOptions& options) {
   if (!pass.closed) return NotAsItLies::kNotClosed;
   if (!(pass.volume > 0)) return NotAsItLies::kInsideOut;
-  const bool may_fold = options.chart.allow_signed && !options.tolerance;
-  if (pass.bad_triangles > 0 && !may_fold) return NotAsItLies::kFolded;
+  if (pass.bad_triangles > 0 && !may_fold(options)) return NotAsItLies::kFolded;
   return std::nullopt;
 }
 
@@ -83,9 +86,15 @@ class AsItLies {
       pass_options_.center = wanted.point;
       return true;
     }
-    const FoundCenter found = search_center(local_view(mesh_, context_), wanted, context_);
+    const LocalView view = local_view(mesh_, context_);
+    const FoundCenter found = search_center(view, wanted, context_);
     pass_options_.center = found.point;
-    return !found.kernel_empty;
+    if (!found.kernel_empty) return true;
+    if (!may_fold(options_)) return false;
+    const StarReport program = check_star(view, found.point, wanted.rays, context_);
+    folded_ = better_center(view, program, wanted.rays, context_);
+    pass_options_.center = folded_->center;
+    return true;
   }
 
   // A tolerance needs them before the first pass, all else after it.
@@ -143,7 +152,9 @@ class AsItLies {
   // how many directions meet it more than once.
   void finish_signed() {
     const int rays = options_.chart.center.rays;
-    if (rays > 0) {
+    if (folded_) {
+      encoded_.star = *folded_;
+    } else if (rays > 0) {
       encoded_.star = timed(encoded_.times, "rays",
                             [&] { return check_star(mesh_, center(), rays, context_); });
     }
@@ -161,6 +172,7 @@ class AsItLies {
   const EncodeOptions& options_;
   MeshPassOptions pass_options_;  // with the centre, once it is found
   const Context& context_;
+  std::optional<StarReport> folded_;  // of a surface without a kernel
   std::optional<ExactNorms> norms_;
   FaceSizes sizes_;  // with the norms, if errors are wanted
   Encoded encoded_;

@@ -222,6 +222,27 @@ TEST(encode, surfaces_that_fold_are_the_same_as_by_a_chart) {
   EXPECT_EQ(fast.edges, slow.edges);
 }
 
+// From the better of two centres, neither of which sees all of it.
+TEST(encode, surfaces_without_a_kernel_are_the_same_as_by_a_chart) {
+  EncodeOptions folded{.analyze = {.degree = 12, .precision = 1e-8}};
+  folded.chart.allow_signed = true;
+  folded.chart.center.rays = 2000;
+  for (const Mesh& mesh : {test::l_prism(1), test::rotated(torus(2, 0.5, 40, 20))}) {
+    folded.analyze.engine = Engine::kFast;
+    const Encoded fast = encode(mesh, folded);
+    folded.analyze.engine = Engine::kDirect;
+    const Encoded slow = encode(mesh, folded);
+    EXPECT_LT(test::relative_error(fast.analysis.expansion.coefficients,
+                                   slow.analysis.expansion.coefficients),
+              2e-8);
+    EXPECT_EQ(fast.star.once_share, slow.star.once_share);
+    EXPECT_EQ(fast.star.bad_triangles, slow.star.bad_triangles);
+    EXPECT_EQ(fast.star.center_fell_back, slow.star.center_fell_back);
+    EXPECT_LT(norm(fast.star.center - slow.star.center), 1e-12);
+    EXPECT_FALSE(fast.times.contains("topology"));
+  }
+}
+
 TEST(encode, turns_a_mesh_right_side_out) {
   Mesh mesh = bumpy_sphere(2);
   const Encoded outward = encode(mesh, {.analyze = {.degree = 6, .precision = 1e-13}});

@@ -1,0 +1,204 @@
+#include "chart/star/direction_counts.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "base/cancel.h"
+#include "base/parallel.h"
+#include "base/random.h"
+#include "chart/center/view_scan.h"
+#include "chart/star/cone.h"
+
+namespace rholm {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// Fronts less backs of the faces that meet the direction; none if it meets an edge.
+std::optional<int> surplus_at(const LocalView& view, const Vec3& center, const Vec3& direction,
+                              const Context& context) {
+  const std::size_t n = view.mesh.n_triangles, grain = triangle_grain(n);
+  struct Part {
+    int surplus = 0;
+    bool unclear = false;
+  };
+  std::vector<Part> parts((n + grain - 1) / grain);
+  parallel_for(n, grain, context, {}, [&](std::size_t begin, std::size_t end) {
+    Part& part = parts[begin / grain];
+    // Where the sides of a cone all look towards a direction, a face that turns its front meets it,
+    // or one that turns its back meets the opposite one.
+    for (const int side : {1, -1}) {
+      const Vec3 towards = side * direction;
+      scan_cones(view, begin, end, view.frame.to_local(center), towards, [&](std::size_t triangle) {
+        const auto corners = corners_from(view, triangle, center);
+        if (!(side * dot(cross(corners[0], corners[1]), corners[2]) > 0)) return;
+        const int contains = cone_contains(corners, towards);
+        part.unclear = part.unclear || contains < 0;
+        part.surplus += side * contains;
+      });
+    }
+  });
+  int surplus = 0;
+  for (const Part& part : parts) {
+    if (part.unclear) return std::nullopt;
+    surplus += part.surplus;
+  }
+  return surplus;
+}
+
+// Directions of the lattice by cells of equal area, so that those near one are found.
+class LatticeCells {
+ public:
+  explicit LatticeCells(std::size_t n)
+      : rows_(std::max<std::size_t>(1, static_cast<std::size_t>(std::sqrt(n / kPerCell / 2)))) {
+    directions_.resize(n);
+    order_.resize(n);
+    first_.resize(2 * rows_ * rows_ + 1);
+    std::vector<std::uint32_t> cell(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const Vec3 u = directions_[i] = lattice_direction(i, n);
+      cell[i] = static_cast<std::uint32_t>(row(u.z) * 2 * rows_ + column(std::atan2(u.y, u.x)));
+      ++first_[cell[i] + 1];
+    }
+    for (std::size_t k = 1; k < first_.size(); ++k) first_[k] += first_[k - 1];
+    std::vector<std::uint32_t> at(first_.begin(), first_.end() - 1);
+    for (std::size_t i = 0; i < n; ++i) order_[at[cell[i]]++] = static_cast<std::uint32_t>(i);
+  }
+
+  const Vec3& direction(std::size_t i) const { return directions_[i]; }
+  // Calls visit(i) for the directions within an angle of a unit vector, and for some others.
+  template <typename Visit>
+  void visit_near(const Vec3& middle, double angle, const Visit& visit) const {
+    constexpr double kMargin = 1e-9;  // more than all rounding here
+    angle += kMargin;
+    const double theta = std::acos(std::clamp(middle.z, -1.0, 1.0));
+    const std::size_t low = row(std::cos(std::min(kPi, theta + angle)) - kMargin);
+    const std::size_t high = row(std::cos(std::max(0.0, theta - angle)) + kMargin);
+    const double sine = std::sin(theta);
+    // How far longitudes reach; all of them where a pole is within the angle.
+    const bool around = angle >= kPi / 2 || std::sin(angle) >= sine;
+    const double reach = around ? 0 : std::asin(std::sin(angle) / sine) + kMargin;
+    const double phi = std::atan2(middle.y, middle.x);
+    const std::size_t columns = 2 * rows_;
+    const std::size_t first = around ? 0 : column(phi - reach);
+    const std::size_t n = around ? columns : (column(phi + reach) + columns - first) % columns + 1;
+    for (std::size_t r = low; r <= high; ++r) {
+      for (std::size_t c = 0; c < n; ++c) {
+        const std::size_t cell = r * columns + (first + c) % columns;
+        for (std::size_t k = first_[cell]; k < first_[cell + 1]; ++k) visit(order_[k]);
+      }
+    }
+  }
+
+ private:
+  static constexpr std::size_t kPerCell = 4;  // chosen
+
+  std::size_t row(double z) const {
+    const double at = (z + 1) / 2 * static_cast<double>(rows_);
+    return std::min(rows_ - 1, static_cast<std::size_t>(std::max(0.0, at)));
+  }
+  std::size_t column(double phi) const {
+    const double turns = phi / (2 * kPi);
+    const double at = (turns - std::floor(turns)) * 2 * static_cast<double>(rows_);
+    return std::min(2 * rows_ - 1, static_cast<std::size_t>(at));
+  }
+
+  std::size_t rows_;
+  std::vector<Vec3> directions_;
+  std::vector<std::uint32_t> order_, first_;
+};
+
+// The cone of a face that turns its back, corners so that it turns its front: adds two to what it
+// contains.
+void add_back(const std::array<Vec3, 3>& corners, const LatticeCells& cells,
+              std::vector<int>& counts) {
+  std::array<Vec3, 3> units;
+  Vec3 middle;
+  for (std::size_t k = 0; k < 3; ++k) middle += units[k] = normalized(corners[k]);
+  middle = normalized(middle);
+  double cosine = 1;
+  for (const Vec3& unit : units) cosine = std::min(cosine, dot(middle, unit));
+  // A cone as wide as a half space is within no cap of its corners.
+  const double angle = cosine > 1e-3 ? std::acos(std::min(1.0, cosine)) : kPi;
+  cells.visit_near(middle, angle, [&](std::size_t i) {
+    if (cone_contains(corners, cells.direction(i)) != 0) counts[i] += 2;
+  });
+}
+
+// Those that turn their backs, in order, with two corners exchanged.
+std::vector<std::array<Vec3, 3>> backs(const LocalView& view, const Vec3& center,
+                                       const Context& context) {
+  const std::size_t n = view.mesh.n_triangles, grain = triangle_grain(n);
+  std::vector<std::vector<std::array<Vec3, 3>>> parts((n + grain - 1) / grain);
+  parallel_for(n, grain, context, {}, [&](std::size_t begin, std::size_t end) {
+    scan_below(view, begin, end, view.frame.to_local(center), {.distance = 1e-9},
+               [&](std::size_t triangle) {
+                 const auto [a, b, c] = corners_from(view, triangle, center);
+                 if (dot(cross(a, b), c) < 0) parts[begin / grain].push_back({a, c, b});
+               });
+  });
+  std::vector<std::array<Vec3, 3>> all;
+  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+std::uint64_t place_bits(const Vec3& v) {
+  const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); };
+  return random_bits(random_bits(bits(v.x), bits(v.y)), bits(v.z));
+}
+
+}  // namespace
+
+Vec3 lattice_direction(std::size_t i, std::size_t n) {
+  const double z = 1 - (2.0 * static_cast<double>(i) + 1) / static_cast<double>(n);
+  const double turns = static_cast<double>(i) * (std::numbers::phi - 1);
+  const double phi = 2 * kPi * (turns - std::floor(turns));
+  const double s = std::sqrt(std::max(0.0, 1 - z * z));
+  return {s * std::cos(phi), s * std::sin(phi), z};
+}
+
+bool is_closed(const MeshView& mesh) {
+  std::vector<std::uint64_t> places(mesh.n_vertices);
+  CancelPoll poll;
+  for (std::size_t i = 0; i < mesh.n_vertices; ++i) {
+    poll();
+    places[i] = place_bits(mesh.vertex(i));
+  }
+  std::uint64_t sum = 0;
+  for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
+    poll();
+    const Triangle v = mesh.triangle(t);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint64_t a = places[v[k]], b = places[v[k == 2 ? 0 : k + 1]];
+      const std::uint64_t edge = random_bits(std::min(a, b), std::max(a, b));
+      sum += a < b ? edge : -edge;
+    }
+  }
+  return sum == 0;
+}
+
+std::optional<std::vector<int>> count_meetings(const LocalView& view, const Vec3& center,
+                                               std::size_t n, const Context& context) {
+  std::optional<int> surplus;
+  constexpr std::size_t kStarts = 8;  // in general position (chosen)
+  for (std::size_t i = 0; i < kStarts && !surplus; ++i) {
+    surplus = surplus_at(view, center, lattice_direction(i, kStarts), context);
+  }
+  if (!surplus) return std::nullopt;
+  std::vector<int> counts(n, *surplus);
+  const std::vector<std::array<Vec3, 3>> turned = backs(view, center, context);
+  if (turned.empty()) return counts;
+  const LatticeCells cells(n);
+  CancelPoll poll;
+  for (const std::array<Vec3, 3>& corners : turned) {
+    poll();
+    add_back(corners, cells, counts);
+  }
+  return counts;
+}
+
+}  // namespace rholm

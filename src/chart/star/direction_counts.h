@@ -1,0 +1,29 @@
+// How often directions from a centre meet a closed surface. Source: method 6.
+//
+// What a half line meets of a closed surface with its front and with its back differs by the same
+// number in all directions, k: 1 from inside a body. So it meets the surface k times and twice for
+// each face that turns its back, and only these have to be looked at.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "chart/center/local_view.h"
+#include "rholm/context.h"
+
+namespace rholm {
+
+// Direction i of n, spread evenly: a Fibonacci lattice.
+Vec3 lattice_direction(std::size_t i, std::size_t n);
+
+// Whether every edge is run through as often one way as the other, by a hash of its ends'
+// coordinates: a surface that is not closed passes once in 2^64.
+bool is_closed(const MeshView& mesh);
+
+// How often each of n directions meets the surface of a mesh that is_closed(); none if all of a few
+// directions from which to begin lie on edges.
+std::optional<std::vector<int>> count_meetings(const LocalView& view, const Vec3& center,
+                                               std::size_t n, const Context& context);
+
+}  // namespace rholm

@@ -1,0 +1,93 @@
+#include "chart/star/direction_counts.h"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "chart/center/local_view.h"
+#include "rholm/primitives.h"
+#include "rholm/topology.h"
+#include "support/test_shapes.h"
+
+namespace rholm {
+namespace {
+
+// How many triangles the half line meets, each on its own.
+int meetings(const Mesh& mesh, const Vec3& center, const Vec3& direction) {
+  int count = 0;
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 a = mesh.vertices[t[0]] - center, b = mesh.vertices[t[1]] - center;
+    const Vec3 c = mesh.vertices[t[2]] - center;
+    const double det = dot(a, cross(b, c));
+    const double wa = dot(direction, cross(b, c)) / det, wb = dot(direction, cross(c, a)) / det;
+    const double wc = dot(direction, cross(a, b)) / det;
+    count += wa > 0 && wb > 0 && wc > 0;
+  }
+  return count;
+}
+
+Mesh together(Mesh a, const Mesh& b) {
+  const auto offset = static_cast<std::uint32_t>(a.vertices.size());
+  a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
+  for (const Triangle& t : b.triangles) {
+    a.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
+  }
+  return a;
+}
+
+// From within a body, from its hole, from beside it, of one inside out, of two, of one in another;
+// with faces as wide as a third of the sky and as narrow as a direction's share of it.
+TEST(count_meetings, are_those_of_each_triangle) {
+  Mesh inward = test::rotated(bumpy_sphere(2, 0.3));
+  flip(inward);
+  const Mesh ring = test::rotated(torus(2, 0.5, 40, 20));
+  const Mesh ball = test::rotated(bumpy_sphere(3, 0.3)), cube = test::rotated(box({1, 2, 3}));
+  const std::vector<std::pair<Mesh, std::vector<Vec3>>> cases = {
+      {ring, {{0, 0, 0}, {2.1, 0.1, 0.05}, {0.3, -0.1, 0.7}, {9, 1, 2}}},
+      {ball, {{0.1, 0.05, -0.2}, {1.4, 0.2, 0.1}}},
+      {inward, {{0.1, 0.05, -0.2}, {2.5, 0.2, 0.1}}},
+      {cube, {{0.1, 0.2, 0.3}, {3, 0.2, 0.1}, {0.3, 5, -4}}},
+      {together(ball, cube), {{0.1, 0.2, 0.3}, {0.9, 0.2, 1.1}}},
+      {together(ring, ball), {{0.1, 0.2, 0.3}, {0.2, 2.1, 0.1}}}};
+  for (const auto& [mesh, centers] : cases) {
+    ASSERT_TRUE(is_closed(view_of(mesh)));
+    for (const Vec3& center : centers) {
+      constexpr std::size_t n = 1500;
+      const LocalView view = local_view(view_of(mesh), {});
+      const auto counts = count_meetings(view, center, n, {});
+      ASSERT_TRUE(counts.has_value());
+      for (std::size_t i = 0; i < n; ++i) {
+        ASSERT_EQ((*counts)[i], meetings(mesh, center, lattice_direction(i, n)))
+            << mesh.triangles.size() << ' ' << center.x << ' ' << i;
+      }
+    }
+  }
+}
+
+TEST(is_closed, asks_for_every_edge_both_ways) {
+  const Mesh closed = test::rotated(bumpy_sphere(2, 0.3));
+  EXPECT_TRUE(is_closed(view_of(closed)));
+  // Each face with corners of its own.
+  Mesh copies;
+  for (const Triangle& t : closed.triangles) {
+    const auto first = static_cast<std::uint32_t>(copies.vertices.size());
+    for (const std::uint32_t i : t) copies.vertices.push_back(closed.vertices[i]);
+    copies.triangles.push_back({first, first + 1, first + 2});
+  }
+  EXPECT_TRUE(is_closed(view_of(copies)));
+  Mesh open = closed;
+  open.triangles.pop_back();
+  EXPECT_FALSE(is_closed(view_of(open)));
+  Mesh turned = closed;
+  std::swap(turned.triangles[7][0], turned.triangles[7][1]);
+  EXPECT_FALSE(is_closed(view_of(turned)));
+  // Open at both ends: what is missing has no area in the sum.
+  Mesh tube = torus(2, 0.5, 40, 20);
+  std::erase_if(tube.triangles, [&](const Triangle& t) { return tube.vertices[t[0]].x > 0; });
+  EXPECT_FALSE(is_closed(view_of(tube)));
+}
+
+}  // namespace
+}  // namespace rholm
