@@ -216,9 +216,9 @@ float search_radius(double d, double query_size) {
   return clamped_to_float(shifted * (1 + 32 * kFloatRounding));
 }
 
-bool visit_triangle(RTCPointQueryFunctionArguments* args) {
-  auto& search = *static_cast<ClosestSearch*>(args->userPtr);
-  Triangle t = search.mesh->triangles[args->primID];
+// Whether the triangle is nearer than what has been found: then it is what has been.
+bool take_if_nearer(std::uint32_t triangle, ClosestSearch& search) {
+  Triangle t = search.mesh->triangles[triangle];
   // In the order of the indices, an edge gives the same bits to both of its triangles: ties are
   // ties.
   std::sort(t.begin(), t.end());
@@ -230,13 +230,23 @@ bool visit_triangle(RTCPointQueryFunctionArguments* args) {
   const Vec3 candidate = closest_point_of_triangle(search.query, corners);
   const Vec3 offset = search.query - candidate;
   const double d2 = dot(offset, offset);
-  const bool tie = d2 == search.best2 && args->primID < search.triangle;
+  const bool tie = d2 == search.best2 && triangle < search.triangle;
   if (!(d2 < search.best2) && !tie) return false;
   search.best2 = d2;
   search.best = candidate;
-  search.triangle = args->primID;
-  if (search.far) return false;
-  const float radius = search_radius(std::sqrt(d2), largest_component(search.query));
+  search.triangle = triangle;
+  return true;
+}
+
+// How far is to be looked now.
+float radius_of(const ClosestSearch& search) {
+  return search_radius(std::sqrt(search.best2), largest_component(search.query));
+}
+
+bool visit_triangle(RTCPointQueryFunctionArguments* args) {
+  auto& search = *static_cast<ClosestSearch*>(args->userPtr);
+  if (!take_if_nearer(args->primID, search) || search.far) return false;
+  const float radius = radius_of(search);
   if (!(radius < args->query->radius)) return false;
   args->query->radius = radius;
   return true;
@@ -244,7 +254,7 @@ bool visit_triangle(RTCPointQueryFunctionArguments* args) {
 
 }  // namespace
 
-ClosestPoint RayScene::closest(const Vec3& point) const {
+ClosestPoint RayScene::closest(const Vec3& point, std::uint32_t likely) const {
   if (impl_->mesh.triangles.empty() || !is_finite(point)) {
     throw Error(ErrorCode::kInvalidInput,
                 "a closest point needs a mesh with at least 1 triangle and finite coordinates; "
@@ -261,6 +271,9 @@ ClosestPoint RayScene::closest(const Vec3& point) const {
   const auto coordinate = [&](double x) { return search.far ? 0.0f : static_cast<float>(x); };
   RTCPointQuery query = {coordinate(q.x), coordinate(q.y), coordinate(q.z), 0,
                          std::numeric_limits<float>::infinity()};
+  if (likely < impl_->mesh.triangles.size() && take_if_nearer(likely, search) && !search.far) {
+    query.radius = radius_of(search);
+  }
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
   rtcPointQuery(impl_->scene.get(), &query, &context, visit_triangle, &search);

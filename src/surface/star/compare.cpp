@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <string>
 
@@ -57,8 +58,10 @@ OneSided measure_one_sided(const Mesh& from, const RayScene& scene, const Mesh& 
   const AreaSamples samples = sample_by_area(from, options.samples, options.seed);
   OneSided result{std::vector<double>(options.samples), std::vector<double>(options.samples)};
   parallel_for(options.samples, kGrain, context, stage, [&](std::size_t begin, std::size_t end) {
+    std::uint32_t likely = RayScene::kAny;  // samples are in the order of the faces
     for (std::size_t k = begin; k < end; ++k) {
-      const ClosestPoint closest = scene.closest(samples.points[k]);
+      const ClosestPoint closest = scene.closest(samples.points[k], likely);
+      likely = closest.triangle;
       const Triangle& here = from.triangles[samples.triangles[k]];
       const FaceNormal face = face_normal(scaled_corners(to, to.triangles[closest.triangle], 1));
       const FaceNormal own = face_normal(scaled_corners(from, here, 1));
@@ -147,8 +150,11 @@ std::vector<double> distances_to_surface(const std::vector<Vec3>& points, const 
   std::vector<double> distances(points.size());
   parallel_for(points.size(), kGrain, context, {"distances"},
                [&](std::size_t begin, std::size_t end) {
+                 std::uint32_t likely = RayScene::kAny;
                  for (std::size_t k = begin; k < end; ++k) {
-                   distances[k] = scene.closest(points[k]).distance;
+                   const ClosestPoint closest = scene.closest(points[k], likely);
+                   distances[k] = closest.distance;
+                   likely = closest.triangle;
                  }
                });
   return distances;
