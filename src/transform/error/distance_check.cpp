@@ -15,11 +15,10 @@ constexpr double kFarApart = 1e3;
 
 // The ratio of root mean squares of five hundred points is known to a fraction of a per cent: both
 // are of the same points.
-constexpr std::size_t kSample = 500;
 constexpr int kSteps = 2;
 // Points that err most by first order, so many at a time, until no other can be expected to err
 // more.
-constexpr std::size_t kBatch = 64, kMostWorst = 2048;
+constexpr std::size_t kBatch = 64;
 constexpr double kCloseRms = 0.02, kCloseMax = 0.04, kFarRms = 0.1;
 constexpr std::size_t kFine = 1000;
 
@@ -55,7 +54,7 @@ bool SecondOrder::suffices(const MeshView& mesh) const {
 SecondOrder second_order(const ErrorPoints& points, const PointErrors& errors, std::size_t first,
                          const Expansion& expansion, int degree, double precision) {
   const std::vector<double> values = first_order(errors);
-  const std::vector<std::size_t> worst = indices_of_largest(values, kMostWorst);
+  const std::vector<std::size_t> worst = indices_of_largest(values, kMostWorstPoints);
   SecondOrder result;
   if (worst.empty()) return result;
   const double scale = std::exp2(-std::ilogb(std::max(largest(points.radii), 1e-300)));
@@ -70,7 +69,7 @@ SecondOrder second_order(const ErrorPoints& points, const PointErrors& errors, s
     return surface.distances(x, std::move(from), kSteps);
   };
   std::vector<std::size_t> sample;
-  const std::size_t step = std::max<std::size_t>(1, (points.size() - first) / kSample);
+  const std::size_t step = std::max<std::size_t>(1, (points.size() - first) / kDistanceSample);
   for (std::size_t i = first; i < points.size(); i += step) sample.push_back(i);
   // There, and back: to planes of faces, which are no nearer than the faces; what a point of the
   // mesh is from the model, the model near it is from the mesh.

@@ -12,10 +12,10 @@
 namespace rholm {
 namespace {
 
-// Every so many of the points over the area stand for all where little is asked.
-constexpr std::size_t kPart = 5;
+// About so many of the points over the area stand for all where little is asked.
+constexpr std::size_t kPart = 20'000;
 // And whether first order holds, which is asked where the error is this near to the limit.
-constexpr std::size_t kFew = 100;
+constexpr std::size_t kFew = 1000;
 constexpr double kNear = 2.5;
 // Few closest points differ from many by a per cent.
 constexpr double kCloseFew = 1.04;
@@ -35,7 +35,8 @@ bool points_dominate(std::size_t n, int degree) {
   return error_point_cost() * static_cast<double>(n) > 2 * error_grid_cost(degree);
 }
 
-ErrorPoints every(const ErrorPoints& points, std::size_t step) {
+ErrorPoints part_of(const ErrorPoints& points, std::size_t n) {
+  const std::size_t step = std::max<std::size_t>(1, points.size() / n);
   std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < points.size(); i += step) indices.push_back(i);
   return points.subset(indices);
@@ -153,7 +154,7 @@ void ErrorOfDegree::keep_worst(const ErrorPoints& points, const std::vector<doub
 const ErrorPoints& ErrorOfDegree::some_points() {
   if (some_.size() == 0) {
     if (is_largest()) some_ = sites_.vertices();
-    some_.append(every(sites_.over_area(), kPart));
+    some_.append(part_of(sites_.over_area(), kPart));
   }
   return some_;
 }
@@ -164,7 +165,7 @@ const ErrorPoints& ErrorOfDegree::all_points(int degree) {
 }
 
 const ErrorPoints& ErrorOfDegree::few_points() {
-  if (few_.size() == 0) few_ = every(sites_.over_area(), kFew);
+  if (few_.size() == 0) few_ = part_of(sites_.over_area(), kFew);
   return few_;
 }
 
@@ -190,7 +191,7 @@ std::vector<double> ErrorOfDegree::sizes(PointErrors errors) const {
 
 double sampled_rms(const Expansion& expansion, ErrorSites& sites, double precision,
                    const Context& context) {
-  const ErrorPoints points = every(sites.over_area(), kPart);
+  const ErrorPoints points = part_of(sites.over_area(), kPart);
   const PointErrors errors = point_errors(points, expansion, expansion.coefficients.degree(), false,
                                           precision, {.threads = context.threads});
   return rms_over_solid_angle(points, errors, 0);

@@ -159,8 +159,14 @@ ErrorPoints area_points(const MeshView& mesh, const Vec3& center, const FaceScan
   constexpr std::uint64_t kSeed = 1;
   std::size_t next = 0;
   const auto wanted = [&] {
-    return next < n ? (static_cast<double>(next) + random_uniform(kSeed, 3 * next)) * part
+    return next < n ? (static_cast<double>(next) + random_uniform(kSeed, next)) * part
                     : std::numeric_limits<double>::infinity();
+  };
+  // Those of one face, which follow each other, are spread evenly over it: the additive sequence of
+  // the plastic number (Roberts 2018).
+  const auto spread = [&](double step) {
+    const double at = 0.5 + step * static_cast<double>(next);
+    return at - std::floor(at);
   };
   double sum = 0, at = wanted();
   CancelPoll poll;
@@ -171,8 +177,8 @@ ErrorPoints area_points(const MeshView& mesh, const Vec3& center, const FaceScan
     const Face face = face_of(corners_of(mesh, t, center, scan.sizes.scale));
     while (at < sum) {
       // Uniform on the triangle.
-      const double s = std::sqrt(random_uniform(kSeed, 3 * next + 1));
-      const double b = s * random_uniform(kSeed, 3 * next + 2);
+      const double s = std::sqrt(spread(0.7548776662466927));
+      const double b = s * spread(0.5698402909980532);
       const Vec3 x = (1 - s) * face.corners[0] + b * face.corners[1] + (s - b) * face.corners[2];
       const std::optional<double> cosine = cosine_at(face, x);
       if (cosine && !face.normal.degenerate) {
@@ -228,6 +234,19 @@ ModelSurface model_surface(const ErrorPoints& points, const Expansion& expansion
 }
 
 }  // namespace
+
+PointErrors PointErrors::subset(const std::vector<std::size_t>& indices) const {
+  PointErrors result;
+  const auto take = [&](const std::vector<double>& from, std::vector<double>& to) {
+    to.reserve(indices.size());
+    for (const std::size_t i : indices) to.push_back(from[i]);
+  };
+  take(radial, result.radial);
+  take(to_model, result.to_model);
+  take(to_shape, result.to_shape);
+  take(stretch, result.stretch);
+  return result;
+}
 
 void PointErrors::append(const PointErrors& more) {
   radial.insert(radial.end(), more.radial.begin(), more.radial.end());

@@ -50,6 +50,7 @@ struct PointErrors {
   // Area of the model per area of the shape.
   std::vector<double> stretch;
 
+  PointErrors subset(const std::vector<std::size_t>& indices) const;
   void append(const PointErrors& more);
 };
 // Of the first L degrees. `slopes`: distances as well. `precision` as in SumOptions.

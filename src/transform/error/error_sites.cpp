@@ -1,12 +1,14 @@
 #include "transform/error/error_sites.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace rholm {
 namespace {
 
-constexpr std::size_t kAreaPoints = 100'000;
+// Many on each face, evenly spread, tell more than a few on each of many.
+constexpr std::size_t kAreaPoints = 100'000, kFewAreaPoints = 20'000, kOnFace = 16;
 constexpr std::size_t kClosestPoints = 20'000, kFewClosestPoints = 3'000;
 
 }  // namespace
@@ -38,7 +40,10 @@ const ErrorPoints& ErrorSites::all(int degree) {
 }
 
 const ErrorPoints& ErrorSites::over_area() {
-  if (!over_area_) over_area_ = area_points(mesh_, center_, scan(), kAreaPoints);
+  if (!over_area_) {
+    const std::size_t n = std::clamp(kOnFace * mesh_.n_triangles, kFewAreaPoints, kAreaPoints);
+    over_area_ = area_points(mesh_, center_, scan(), n);
+  }
   return *over_area_;
 }
 

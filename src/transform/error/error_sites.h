@@ -36,7 +36,7 @@ class ErrorSites {
   const ErrorPoints& vertices();
   // extreme_points() of the degree, then those over the area; the ones asked for last are kept.
   const ErrorPoints& all(int degree);
-  // 100 000 of area_points(): a root mean square to 0.3 %.
+  // 20 000 to 100 000 of area_points(): a root mean square to 0.3 %.
   const ErrorPoints& over_area();
   // Closest points: a few thousand, and as many as what is said in the end rests on.
   ClosestDistances& closest(bool fine);

@@ -67,12 +67,13 @@ void climb(const ErrorPoints& points, const PointErrors& found, const Expansion&
 
 // Distances by closest points where those to first order may mislead.
 void refine_distances(const ErrorPoints& points, const PointErrors& found, std::size_t extreme,
-                      const Expansion& expansion, double precision, const Context& context,
-                      ErrorSites& sites, TruncationErrors& errors) {
+                      std::size_t first_of_sample, const Expansion& expansion, double precision,
+                      const Context& context, ErrorSites& sites, TruncationErrors& errors) {
   const int degree = expansion.coefficients.degree();
   if (!may_be_refined(sites.mesh(), expansion, *errors.measured_max, errors.diagonal)) return;
   if (!is_coarse(sites.mesh())) {
-    const SecondOrder second = second_order(points, found, extreme, expansion, degree, precision);
+    const SecondOrder second =
+        second_order(points, found, first_of_sample, expansion, degree, precision);
     if (second.first_order_holds()) return;
     if (second.suffices(sites.mesh())) {
       *errors.distance_rms *= second.rms_ratio;
@@ -126,13 +127,24 @@ TruncationErrors truncation_errors(const Expansion& expansion, const TruncationO
   const std::size_t extreme = worst.points.size();
   ErrorPoints points = std::move(worst.points);
   PointErrors found = std::move(worst.errors);
-  points.append(over_area);
-  found.append(of_area);
+  const auto take = [&](const std::vector<std::size_t>& indices) {
+    points.append(over_area.subset(indices));
+    found.append(of_area.subset(indices));
+  };
+  take(indices_of_largest(of_area.radial, kMostWorstPoints));
+  take(indices_of_largest(of_area.to_model, kMostWorstPoints));
+  take(indices_of_largest(of_area.to_shape, kMostWorstPoints));
+  const std::size_t first_of_sample = points.size();
+  std::vector<std::size_t> sample;
+  const std::size_t step = std::max<std::size_t>(1, over_area.size() / kDistanceSample);
+  for (std::size_t i = 0; i < over_area.size(); i += step) sample.push_back(i);
+  take(sample);
   errors.points = worst.seen + over_area.size();
   errors.measured_max = largest(found.radial);
   errors.measured_max_distance = std::max(largest(found.to_model), largest(found.to_shape));
   climb(points, found, expansion, precision, sites, errors);
-  refine_distances(points, found, extreme, expansion, precision, silent, sites, errors);
+  refine_distances(points, found, extreme, first_of_sample, expansion, precision, silent, sites,
+                   errors);
   report_progress(context, "errors", 0.9);
   if (options.predict) predict(expansion, sites, errors);
   return errors;

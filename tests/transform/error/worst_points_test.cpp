@@ -73,6 +73,42 @@ TEST(worst_points, are_of_faces) {
   EXPECT_LT(largest(worst.errors.radial), 0.5);
 }
 
+// The mean square of waves over the area, against many midpoints on each face.
+TEST(area_points, give_a_root_mean_square_to_three_in_a_thousand) {
+  for (const int subdivisions : {1, 2, 3}) {
+    const Mesh mesh = test::rotated(bumpy_sphere(subdivisions, 0.3));
+    const MeshView view = view_of(mesh);
+    const ErrorPoints points = area_points(view, {}, scan_faces(view, {}, {}), 20'000);
+    EXPECT_GE(points.size(), 19'990);
+    EXPECT_LE(points.size(), 20'000);
+    for (const Vec3& k : {Vec3{3, 1, -2}, Vec3{9, -8, 4}, Vec3{20, 15, 18}}) {
+      const auto square = [&](const Vec3& x) { return std::pow(std::sin(dot(k, x)), 4); };
+      double sum = 0, areas = 0, of_points = 0;
+      constexpr int n = 24;
+      for (const Triangle& t : mesh.triangles) {
+        const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+        const double area = norm(cross(b - a, c - a)) / (n * n);
+        for (int i = 0; i < n; ++i) {
+          for (int j = 0; i + j < n; ++j) {
+            for (const double third : {1.0 / 3, 2.0 / 3}) {
+              if (third > 0.5 && i + j == n - 1) continue;
+              const double u = (i + third) / n, v = (j + third) / n;
+              sum += area * square(u * a + v * b + (1 - u - v) * c);
+              areas += area;
+            }
+          }
+        }
+      }
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        of_points += square(points.radii[i] * points.directions[i]);
+      }
+      const double found = std::sqrt(of_points / static_cast<double>(points.size()));
+      const double exact = std::sqrt(sum / areas);
+      EXPECT_NEAR(found, exact, 3e-3 * exact) << subdivisions << ' ' << k.x;
+    }
+  }
+}
+
 // Twice the areas of faces and how wide the longest edges of a run look, face by face.
 TEST(face_sizes, are_what_the_faces_have) {
   for (const std::size_t n : {1, 3, 7, 127, 128, 130, 320}) {
