@@ -71,42 +71,6 @@ void add_sources(const NonuniformPlan& plan, const ScatteredSources& sources, in
   finish_adjoint<T>(plan, spreaders, sum, context, {"transform", 0.6, 1});
 }
 
-template <typename T>
-ValuesAndGradients evaluate_on_grid(const NonuniformPlan& plan, const Coefficients& coefficients,
-                                    std::span<const Vec3> directions, bool with_gradient,
-                                    const Context& context) {
-  const GridFunction<T> function(plan, coefficients, context);
-  const double scale = function.scale();
-  ValuesAndGradients result;
-  result.values.resize(directions.size());
-  if (with_gradient) result.gradients.resize(directions.size());
-  constexpr std::size_t kSize = SourceBatch<T>::kSize;
-  constexpr std::size_t kBatches = 16;  // chosen: tasks of about 100 us
-  const std::size_t grain = kBatches * kSize;
-  parallel_for(directions.size(), grain, context, {"interpolate", 0.4, 1},
-               [&](std::size_t begin, std::size_t end) {
-                 auto batch = std::make_unique<SourceBatch<T>>();
-                 PolarSources near;
-                 for (std::size_t first = begin; first < end; first += kSize) {
-                   const std::size_t n = std::min(kSize, end - first);
-                   load_positions(directions.subspan(first, n), *batch);
-                   function.read(*batch, n, with_gradient, near);
-                   for (std::size_t j = 0; j < n; ++j) {
-                     result.values[first + j] = batch->value[j] / scale;
-                     if (!with_gradient) continue;
-                     const Vec3 gradient = {batch->gradient[0][j], batch->gradient[1][j],
-                                            batch->gradient[2][j]};
-                     result.gradients[first + j] = gradient / scale;
-                   }
-                   for (std::size_t i = 0; i < near.count; ++i) {
-                     const std::size_t j = first + near.index[i];
-                     result.gradients[j] = function.polar_gradient(directions[j], *batch) / scale;
-                   }
-                 }
-               });
-  return result;
-}
-
 }  // namespace
 
 template <typename T>
@@ -184,12 +148,53 @@ void nonuniform_add_adjoint(const NonuniformPlan& plan, const ScatteredSources& 
   }
 }
 
+template <typename T>
+ValuesAndGradients read_at(const GridFunction<T>& function, std::span<const Vec3> directions,
+                           bool with_gradient, const Context& context) {
+  const double scale = function.scale();
+  ValuesAndGradients result;
+  result.values.resize(directions.size());
+  if (with_gradient) result.gradients.resize(directions.size());
+  constexpr std::size_t kSize = SourceBatch<T>::kSize;
+  constexpr std::size_t kBatches = 16;  // chosen: tasks of about 100 us
+  const std::size_t grain = kBatches * kSize;
+  parallel_for(directions.size(), grain, context, {"interpolate", 0.4, 1},
+               [&](std::size_t begin, std::size_t end) {
+                 auto batch = std::make_unique<SourceBatch<T>>();
+                 PolarSources near;
+                 for (std::size_t first = begin; first < end; first += kSize) {
+                   const std::size_t n = std::min(kSize, end - first);
+                   load_positions(directions.subspan(first, n), *batch);
+                   function.read(*batch, n, with_gradient, near);
+                   for (std::size_t j = 0; j < n; ++j) {
+                     result.values[first + j] = batch->value[j] / scale;
+                     if (!with_gradient) continue;
+                     const Vec3 gradient = {batch->gradient[0][j], batch->gradient[1][j],
+                                            batch->gradient[2][j]};
+                     result.gradients[first + j] = gradient / scale;
+                   }
+                   for (std::size_t i = 0; i < near.count; ++i) {
+                     const std::size_t j = first + near.index[i];
+                     result.gradients[j] = function.polar_gradient(directions[j], *batch) / scale;
+                   }
+                 }
+               });
+  return result;
+}
+
+template ValuesAndGradients read_at(const GridFunction<float>&, std::span<const Vec3>, bool,
+                                    const Context&);
+template ValuesAndGradients read_at(const GridFunction<double>&, std::span<const Vec3>, bool,
+                                    const Context&);
+
 ValuesAndGradients nonuniform_evaluate(const NonuniformPlan& plan, const Coefficients& coefficients,
                                        std::span<const Vec3> directions, bool with_gradient,
                                        const Context& context) {
-  return plan.single
-             ? evaluate_on_grid<float>(plan, coefficients, directions, with_gradient, context)
-             : evaluate_on_grid<double>(plan, coefficients, directions, with_gradient, context);
+  const auto read = [&](const auto& function) {
+    return read_at(function, directions, with_gradient, context);
+  };
+  return plan.single ? read(GridFunction<float>(plan, coefficients, context))
+                     : read(GridFunction<double>(plan, coefficients, context));
 }
 
 }  // namespace rholm

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "harmonic/nonuniform/grid_function.h"
 #include "harmonic/nonuniform/nonuniform_plan.h"
 #include "harmonic/nonuniform/polar_nodes.h"
 #include "harmonic/nonuniform/spread.h"
@@ -38,6 +39,9 @@ void finish_adjoint(const NonuniformPlan& plan, std::span<GridSpreader<T>> sprea
 
 void nonuniform_add_adjoint(const NonuniformPlan& plan, const ScatteredSources& sources,
                             int derivatives, Coefficients& sum, const Context& context);
+template <typename T>
+ValuesAndGradients read_at(const GridFunction<T>& function, std::span<const Vec3> directions,
+                           bool with_gradient, const Context& context);
 ValuesAndGradients nonuniform_evaluate(const NonuniformPlan& plan, const Coefficients& coefficients,
                                        std::span<const Vec3> directions, bool with_gradient,
                                        const Context& context);

@@ -5,6 +5,7 @@
 
 #include "harmonic/legendre/direct_sums.h"
 #include "harmonic/nonuniform/cost_model.h"
+#include "harmonic/nonuniform/direction_sums.h"
 #include "harmonic/nonuniform/nonuniform.h"
 #include "rholm/error.h"
 
@@ -50,19 +51,37 @@ Engine parse_engine(const std::string& name) {
   throw Error(ErrorCode::kInvalidInput, "unknown engine '" + name + "': fast or direct");
 }
 
+DirectionSums::DirectionSums(const Coefficients& coefficients, std::size_t directions,
+                             bool with_gradient, const SumOptions& options, const Context& context)
+    : plan_(fast_plan(coefficients.degree(), directions, with_gradient ? 1 : 0, options)) {
+  if (!plan_) {
+    direct_ = coefficients;
+  } else if (plan_->single) {
+    single_.emplace(*plan_, coefficients, context);
+  } else {
+    double_.emplace(*plan_, coefficients, context);
+  }
+}
+
+ValuesAndGradients DirectionSums::at(std::span<const Vec3> directions, bool with_gradient,
+                                     const Context& context) const {
+  if (single_) return read_at(*single_, directions, with_gradient, context);
+  if (double_) return read_at(*double_, directions, with_gradient, context);
+  if (with_gradient) return direct_evaluate_with_gradient(*direct_, directions, context);
+  return {direct_evaluate(*direct_, directions, context), {}};
+}
+
 std::vector<double> evaluate(const Coefficients& coefficients, std::span<const Vec3> directions,
                              const SumOptions& options, const Context& context) {
-  const auto plan = fast_plan(coefficients.degree(), directions.size(), 0, options);
-  if (!plan) return direct_evaluate(coefficients, directions, context);
-  return nonuniform_evaluate(*plan, coefficients, directions, false, context).values;
+  const DirectionSums sums(coefficients, directions.size(), false, options, context);
+  return sums.at(directions, false, context).values;
 }
 
 ValuesAndGradients evaluate_with_gradient(const Coefficients& coefficients,
                                           std::span<const Vec3> directions,
                                           const SumOptions& options, const Context& context) {
-  const auto plan = fast_plan(coefficients.degree(), directions.size(), 1, options);
-  if (!plan) return direct_evaluate_with_gradient(coefficients, directions, context);
-  return nonuniform_evaluate(*plan, coefficients, directions, true, context);
+  const DirectionSums sums(coefficients, directions.size(), true, options, context);
+  return sums.at(directions, true, context);
 }
 
 void add_adjoint(const ScatteredSources& sources, Coefficients& sum, const SumOptions& options,

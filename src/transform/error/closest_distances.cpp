@@ -43,32 +43,24 @@ double squared_norm(const Vec3& v) { return dot(v, v); }
 
 }  // namespace
 
-RadialSurface::RadialSurface(const Expansion& expansion, int degree, double scale, double precision,
-                             const Context& context)
-    : cut_(expansion.coefficients.resized(degree)),
-      is_gauge_(expansion.function == RadialFunction::kGauge),
-      scale_(scale),
-      sums_{.precision = precision},
-      context_(context) {}
-
 std::vector<Vec3> RadialSurface::points(const std::vector<Vec3>& directions) const {
-  const std::vector<double> values = evaluate(cut_, directions, sums_, context_);
+  const std::vector<double> values = model_.sums.at(directions, false, context_).values;
   std::vector<Vec3> points(directions.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double r = scale_ * (is_gauge_ ? 1 / values[i] : values[i]);
+    const double r = scale_ * (model_.is_gauge ? 1 / values[i] : values[i]);
     points[i] = r * directions[i];
   }
   return points;
 }
 
 RadialPoints RadialSurface::at(const std::vector<Vec3>& directions) const {
-  const ValuesAndGradients found = evaluate_with_gradient(cut_, directions, sums_, context_);
+  const ValuesAndGradients found = model_.sums.at(directions, true, context_);
   RadialPoints result;
   result.points.resize(directions.size());
   result.normals.resize(directions.size());
   for (std::size_t i = 0; i < directions.size(); ++i) {
-    const double value = found.values[i], r = is_gauge_ ? 1 / value : value;
-    const Vec3 slope = is_gauge_ ? -r * r * found.gradients[i] : found.gradients[i];
+    const double value = found.values[i], r = model_.is_gauge ? 1 / value : value;
+    const Vec3 slope = model_.is_gauge ? -r * r * found.gradients[i] : found.gradients[i];
     result.points[i] = scale_ * r * directions[i];
     const Vec3 normal = r * directions[i] - slope;
     result.normals[i] = squared_norm(normal) > 0 ? normalized(normal) : directions[i];
@@ -301,7 +293,8 @@ SurfaceDistances ClosestDistances::measure(const Expansion& expansion, int degre
                                            const ErrorPoints& extreme, double precision,
                                            const Context& context) {
   const Context silent{.threads = context.threads}, alone{.threads = 1};
-  const RadialSurface surface(expansion, degree, pieces_.scale, precision, silent);
+  const RadialModel radial(expansion, degree, dense_.size(), true, precision, silent);
+  const RadialSurface surface(radial, pieces_.scale, silent);
   const Model model(surface, sphere(degree), silent);
   const RadialPoints opposite = surface.at(pieces_.directions);
   Seen seen = see_pieces(model, opposite, silent);
@@ -310,7 +303,7 @@ SurfaceDistances ClosestDistances::measure(const Expansion& expansion, int degre
       seen.rms(PieceModel(pieces_, opposite), PieceModel(dense_, surface.at(dense_.directions))) /
       pieces_.scale;
   see_extreme(model, extreme, silent, seen);
-  const RadialSurface near(expansion, degree, pieces_.scale, precision, alone);
+  const RadialSurface near(radial, pieces_.scale, alone);
   result.max = highest(model, near, degree, seen) / pieces_.scale;
   return result;
 }

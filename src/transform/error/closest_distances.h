@@ -13,6 +13,7 @@
 #include "rholm/mesh_view.h"
 #include "shape/queries/ray_scene.h"
 #include "transform/error/error_points.h"
+#include "transform/error/radial_model.h"
 #include "transform/error/surface_pieces.h"
 
 namespace rholm {
@@ -23,11 +24,11 @@ struct RadialPoints {
 };
 
 // The surface of the first degrees of an expansion, about its centre, lengths times `scale`. The
-// context must outlive it.
+// model and the context must outlive it.
 class RadialSurface {
  public:
-  RadialSurface(const Expansion& expansion, int degree, double scale, double precision,
-                const Context& context);
+  RadialSurface(const RadialModel& model, double scale, const Context& context)
+      : model_(model), scale_(scale), context_(context) {}
 
   std::vector<Vec3> points(const std::vector<Vec3>& directions) const;
   RadialPoints at(const std::vector<Vec3>& directions) const;
@@ -38,10 +39,8 @@ class RadialSurface {
                                 int steps) const;
 
  private:
-  Coefficients cut_;
-  bool is_gauge_;
+  const RadialModel& model_;
   double scale_;
-  SumOptions sums_;
   const Context& context_;
 };
 

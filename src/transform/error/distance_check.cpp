@@ -52,14 +52,14 @@ bool SecondOrder::suffices(const MeshView& mesh) const {
 }
 
 SecondOrder second_order(const ErrorPoints& points, const PointErrors& errors, std::size_t first,
-                         const Expansion& expansion, int degree, double precision) {
+                         const RadialModel& model) {
   const std::vector<double> values = first_order(errors);
   const std::vector<std::size_t> worst = indices_of_largest(values, kMostWorstPoints);
   SecondOrder result;
   if (worst.empty()) return result;
   const double scale = std::exp2(-std::ilogb(std::max(largest(points.radii), 1e-300)));
   const Context context{.threads = 1};  // waking others takes longer than a thousand points
-  const RadialSurface surface(expansion, degree, scale, precision, context);
+  const RadialSurface surface(model, scale, context);
   const auto distances = [&](const std::vector<std::size_t>& indices) {
     std::vector<Vec3> x, from;
     for (const std::size_t i : indices) {

@@ -31,6 +31,6 @@ struct SecondOrder {
 // `points` and their errors: those over the area are from `first` on.
 inline constexpr std::size_t kDistanceSample = 500, kMostWorstPoints = 2048;
 SecondOrder second_order(const ErrorPoints& points, const PointErrors& errors, std::size_t first,
-                         const Expansion& expansion, int degree, double precision);
+                         const RadialModel& model);
 
 }  // namespace rholm

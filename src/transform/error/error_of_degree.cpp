@@ -99,9 +99,9 @@ double ErrorOfDegree::second_order_ratio(const Expansion& expansion, int degree,
   if (!may_be_refined(expansion, degree, limit)) return 1;
   const ErrorPoints& points = is_largest() ? some_points() : few_points();
   const std::size_t first = is_largest() ? sites_.vertices().size() : 0;
-  const PointErrors errors = measured(points, expansion, degree, limit);
-  const SecondOrder second =
-      second_order(points, errors, first, expansion, degree, precision(limit));
+  const RadialModel model(expansion, degree, points.size(), true, precision(limit), silent_);
+  const PointErrors errors = point_errors(points, model, true, silent_);
+  const SecondOrder second = second_order(points, errors, first, model);
   if (second.first_order_holds()) return 1;
   closest_rule_ = !second.suffices(sites_.mesh());
   return is_largest() ? second.max_ratio : second.rms_ratio;

@@ -199,14 +199,12 @@ struct ModelSurface {
   std::vector<double> radii, tangents2;
 };
 
-ModelSurface model_surface(const ErrorPoints& points, const Expansion& expansion, int degree,
-                           bool slopes, double precision, const Context& context) {
-  const Coefficients cut = expansion.coefficients.resized(degree);
-  const SumOptions options{.precision = precision};
+ModelSurface model_surface(const ErrorPoints& points, const RadialModel& of, bool slopes,
+                           const Context& context) {
+  ValuesAndGradients found = of.sums.at(points.directions, slopes, context);
   ModelSurface model;
+  model.radii = std::move(found.values);
   if (slopes) {
-    ValuesAndGradients found = evaluate_with_gradient(cut, points.directions, options, context);
-    model.radii = std::move(found.values);
     model.tangents2.resize(points.size());
     // |grad r| / r is the same for r and 1/r.
     CancelPoll poll;
@@ -215,16 +213,14 @@ ModelSurface model_surface(const ErrorPoints& points, const Expansion& expansion
       const double r2 = model.radii[i] * model.radii[i];
       model.tangents2[i] = dot(found.gradients[i], found.gradients[i]) / std::max(r2, 1e-300);
     }
-  } else {
-    model.radii = evaluate(cut, points.directions, options, context);
   }
-  if (expansion.function == RadialFunction::kGauge) {
+  if (of.is_gauge) {
     CancelPoll poll;
     for (double& q : model.radii) {
       poll();
       if (!(q > 0)) {
         throw Error(ErrorCode::kInvalidInput,
-                    "the gauge of degree " + std::to_string(degree) +
+                    "the gauge of degree " + std::to_string(of.degree) +
                         " is not positive everywhere: it has no surface; take another degree");
       }
       q = 1 / q;
@@ -257,7 +253,13 @@ void PointErrors::append(const PointErrors& more) {
 
 PointErrors point_errors(const ErrorPoints& points, const Expansion& expansion, int degree,
                          bool slopes, double precision, const Context& context) {
-  const ModelSurface model = model_surface(points, expansion, degree, slopes, precision, context);
+  const RadialModel model(expansion, degree, points.size(), slopes, precision, context);
+  return point_errors(points, model, slopes, context);
+}
+
+PointErrors point_errors(const ErrorPoints& points, const RadialModel& of, bool slopes,
+                         const Context& context) {
+  const ModelSurface model = model_surface(points, of, slopes, context);
   PointErrors errors;
   errors.radial.resize(points.size());
   if (slopes) {

@@ -10,6 +10,7 @@
 #include "rholm/context.h"
 #include "rholm/mesh_view.h"
 #include "transform/error/face_scan.h"
+#include "transform/error/radial_model.h"
 
 namespace rholm {
 
@@ -56,6 +57,8 @@ struct PointErrors {
 // Of the first L degrees. `slopes`: distances as well. `precision` as in SumOptions.
 PointErrors point_errors(const ErrorPoints& points, const Expansion& expansion, int degree,
                          bool slopes, double precision, const Context& context);
+PointErrors point_errors(const ErrorPoints& points, const RadialModel& model, bool slopes,
+                         const Context& context);
 
 double largest(const std::vector<double>& values);
 // The indices of at most n values, of those that are at least half of the largest: the largest

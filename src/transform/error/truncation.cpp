@@ -35,12 +35,13 @@ void predict(const Expansion& expansion, ErrorSites& sites, TruncationErrors& er
   errors.predicted_max_distance = strengths.distance * per;
 }
 
-// Of values and slopes at points, as in SumOptions: a thousandth of the error, where that is known.
+// Of values and slopes at points, as in SumOptions: a hundred thousandth of the error, where that
+// is known.
 double measuring_precision(const Expansion& expansion, const std::optional<double>& exact_rms,
                            const TruncationOptions& options) {
   if (!exact_rms) return std::clamp(options.precision, 1e-12, 1e-6);
   const double size = std::sqrt(*expansion.norm_squared / (4 * std::numbers::pi));
-  return std::clamp(1e-3 * *exact_rms / size, 1e-12, 1e-4);
+  return std::clamp(1e-5 * *exact_rms / size, 1e-12, 1e-6);
 }
 
 // Enough for smooth meshes, whose points are dense; climbs cost as much as a hundredth of a whole
@@ -49,31 +50,29 @@ constexpr std::size_t kPeaks = 3;
 
 // The largest errors between points. Of distances those from the shape to the model: to the shape
 // they are to the planes of faces, which are not the faces.
-void climb(const ErrorPoints& points, const PointErrors& found, const Expansion& expansion,
-           double precision, ErrorSites& sites, TruncationErrors& errors) {
+void climb(const ErrorPoints& points, const PointErrors& found, const RadialModel& model,
+           ErrorSites& sites, TruncationErrors& errors) {
   const Context context{.threads = 1};  // waking others takes longer than a hundred points
-  const int degree = expansion.coefficients.degree();
-  const auto errors_at = [&](const ErrorPoints& at, bool slopes) {
-    return point_errors(at, expansion, degree, slopes, precision, context);
-  };
   const std::vector<double> highest = highest_peaks(
       sites.mesh(), sites.center(), points,
-      {{found.radial, [&](const ErrorPoints& at) { return errors_at(at, false).radial; }},
-       {found.to_model, [&](const ErrorPoints& at) { return errors_at(at, true).to_model; }}},
-      degree, kPeaks);
+      {{found.radial,
+        [&](const ErrorPoints& at) { return point_errors(at, model, false, context).radial; }},
+       {found.to_model,
+        [&](const ErrorPoints& at) { return point_errors(at, model, true, context).to_model; }}},
+      model.degree, kPeaks);
   errors.measured_max = std::max(*errors.measured_max, highest[0]);
   errors.measured_max_distance = std::max(*errors.measured_max_distance, highest[1]);
 }
 
 // Distances by closest points where those to first order may mislead.
 void refine_distances(const ErrorPoints& points, const PointErrors& found, std::size_t extreme,
-                      std::size_t first_of_sample, const Expansion& expansion, double precision,
-                      const Context& context, ErrorSites& sites, TruncationErrors& errors) {
+                      std::size_t first_of_sample, const Expansion& expansion,
+                      const RadialModel& model, double precision, const Context& context,
+                      ErrorSites& sites, TruncationErrors& errors) {
   const int degree = expansion.coefficients.degree();
   if (!may_be_refined(sites.mesh(), expansion, *errors.measured_max, errors.diagonal)) return;
   if (!is_coarse(sites.mesh())) {
-    const SecondOrder second =
-        second_order(points, found, first_of_sample, expansion, degree, precision);
+    const SecondOrder second = second_order(points, found, first_of_sample, model);
     if (second.first_order_holds()) return;
     if (second.suffices(sites.mesh())) {
       *errors.distance_rms *= second.rms_ratio;
@@ -111,18 +110,18 @@ TruncationErrors truncation_errors(const Expansion& expansion, const TruncationO
   }
   const double precision = measuring_precision(expansion, exact_rms, options);
   const ErrorPoints& over_area = sites.over_area();
-  const PointErrors of_area = point_errors(over_area, expansion, degree, true, precision, silent);
+  const RadialModel model(expansion, degree, over_area.size(), true, precision, silent);
+  const PointErrors of_area = point_errors(over_area, model, true, silent);
   errors.distance_rms = rms_distance(of_area, 0);
   errors.rms = exact_rms ? exact_rms : rms_over_solid_angle(over_area, of_area, 0);
   errors.rms_is_exact = exact_rms.has_value();
   // Those over the area for the largest errors too: at a degree too low for any face to be long the
   // middle of one may err more than its corners.
   WorstPoints worst =
-      worst_points(sites.mesh(), sites.scan(), expansion,
+      worst_points(sites.mesh(), sites.scan(), expansion, model,
                    {.rms = *errors.rms,
                     .radial = largest(of_area.radial),
-                    .distance = std::max(largest(of_area.to_model), largest(of_area.to_shape)),
-                    .precision = precision},
+                    .distance = std::max(largest(of_area.to_model), largest(of_area.to_shape))},
                    silent);
   const std::size_t extreme = worst.points.size();
   ErrorPoints points = std::move(worst.points);
@@ -142,9 +141,9 @@ TruncationErrors truncation_errors(const Expansion& expansion, const TruncationO
   errors.points = worst.seen + over_area.size();
   errors.measured_max = largest(found.radial);
   errors.measured_max_distance = std::max(largest(found.to_model), largest(found.to_shape));
-  climb(points, found, expansion, precision, sites, errors);
-  refine_distances(points, found, extreme, first_of_sample, expansion, precision, silent, sites,
-                   errors);
+  climb(points, found, model, sites, errors);
+  refine_distances(points, found, extreme, first_of_sample, expansion, model, precision, silent,
+                   sites, errors);
   report_progress(context, "errors", 0.9);
   if (options.predict) predict(expansion, sites, errors);
   return errors;

@@ -196,20 +196,20 @@ Kept sieved(const MeshView& mesh, const FaceScan& scan, const Expansion& expansi
 }  // namespace
 
 WorstPoints worst_points(const MeshView& mesh, const FaceScan& scan, const Expansion& expansion,
-                         const WorstOptions& options, const Context& context) {
-  const int degree = expansion.coefficients.degree();
-  const auto exact = [&](const ErrorPoints& points) {
-    return point_errors(points, expansion, degree, true, options.precision, context);
+                         const RadialModel& exact, const WorstOptions& options,
+                         const Context& context) {
+  const auto measured = [&](const ErrorPoints& points) {
+    return point_errors(points, exact, true, context);
   };
   WorstPoints worst;
   if (mesh.n_vertices + mesh.n_triangles <= kFew) {
-    worst.points = extreme_points(mesh, expansion.center, scan, degree);
-    worst.errors = exact(worst.points);
+    worst.points = extreme_points(mesh, expansion.center, scan, exact.degree);
+    worst.errors = measured(worst.points);
     worst.seen = worst.points.size();
     return worst;
   }
   const ErrorPoints sample = some_vertices(mesh, expansion.center, scan);
-  const PointErrors of_sample = exact(sample);
+  const PointErrors of_sample = measured(sample);
   const double radial = std::max(options.radial, largest(of_sample.radial));
   double distance = std::max(options.distance, largest(of_sample.to_model));
   const double least = least_kept(of_sample.radial, mesh.n_vertices, std::min(radial, distance));
@@ -232,7 +232,7 @@ WorstPoints worst_points(const MeshView& mesh, const FaceScan& scan, const Expan
     }
     std::partial_sort(first, last, order.end(), worse);
     const ErrorPoints points = kept.points.subset({first, last});
-    const PointErrors errors = exact(points);
+    const PointErrors errors = measured(points);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const double difference = errors.radial[i] - kept.rough[order[begin + i]];
       squares += difference * difference;

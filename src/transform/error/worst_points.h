@@ -16,7 +16,6 @@ struct WorstOptions {
   double rms = 0;
   // The largest radial error and the largest distance are at least these.
   double radial = 0, distance = 0;
-  double precision = 1e-8;  // of what is found, as in SumOptions
 };
 
 struct WorstPoints {
@@ -28,7 +27,9 @@ struct WorstPoints {
 // radial errors that climbs and closest points can begin there. All have values of a few
 // hundredths of the errors first; distances are no larger than radial errors, so that exact values
 // and slopes are wanted from the largest radial error down to the largest distance found.
+// `exact`: the model of the expansion that what is found is measured by.
 WorstPoints worst_points(const MeshView& mesh, const FaceScan& scan, const Expansion& expansion,
-                         const WorstOptions& options, const Context& context);
+                         const RadialModel& exact, const WorstOptions& options,
+                         const Context& context);
 
 }  // namespace rholm

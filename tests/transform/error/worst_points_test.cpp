@@ -42,12 +42,10 @@ TEST(worst_points, have_the_largest_errors_of_all) {
         const double radial = largest(exact.radial);
         const double distance = std::max(largest(exact.to_model), largest(exact.to_shape));
         for (const double known : {0.0, 0.4, 1.0}) {
-          const WorstPoints worst = worst_points(view, scan, expansion,
-                                                 {.rms = radial / 5,
-                                                  .radial = known * radial,
-                                                  .distance = known * distance,
-                                                  .precision = 1e-10},
-                                                 {});
+          const RadialModel model(expansion, degree, 20'000, true, 1e-10, {});
+          const WorstPoints worst = worst_points(
+              view, scan, expansion, model,
+              {.rms = radial / 5, .radial = known * radial, .distance = known * distance}, {});
           EXPECT_EQ(worst.seen, all.size());
           EXPECT_LT(worst.points.size(), all.size() / 2 + 25'000);
           ASSERT_EQ(worst.errors.radial.size(), worst.points.size());
@@ -69,7 +67,8 @@ TEST(worst_points, are_of_faces) {
   mesh.vertices.push_back({5, 0, 0});
   const MeshView view = view_of(mesh);
   const WorstPoints worst =
-      worst_points(view, scan_faces(view, {}, {}), expansion, {.rms = 1e-2, .precision = 1e-8}, {});
+      worst_points(view, scan_faces(view, {}, {}), expansion,
+                   RadialModel(expansion, 10, 20'000, true, 1e-8, {}), {.rms = 1e-2}, {});
   EXPECT_LT(largest(worst.errors.radial), 0.5);
 }
 
