@@ -31,6 +31,8 @@ std::vector<char> encode_png(const Image& image) {
   png.width = static_cast<png_uint_32>(image.width);
   png.height = static_cast<png_uint_32>(image.height);
   png.format = PNG_FORMAT_RGB;
+  // Filters and levels of zlib that take six times as long save 2 %.
+  png.flags = PNG_IMAGE_FLAG_FAST;
   // The simplified interface reports errors as values; the bound on the size spares a second pass.
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
   std::vector<char> bytes(size);
