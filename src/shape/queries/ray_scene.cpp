@@ -79,12 +79,16 @@ Bounds grown(const Bounds& box, double margin) {
 struct RayScene::Impl {
   const Mesh& mesh;
   double ball_radius;
+  RTCBuildQuality quality;
   UnitFrame frame;
   Device device;
   Scene scene;
 
-  Impl(const Mesh& m, double radius)
-      : mesh(m), ball_radius(radius), frame(unit_frame(grown(bounds(m.vertices), radius))) {
+  Impl(const Mesh& m, double radius, RayTree tree)
+      : mesh(m),
+        ball_radius(radius),
+        quality(tree == RayTree::kQuick ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM),
+        frame(unit_frame(grown(bounds(m.vertices), radius))) {
     device.reset(rtcNewDevice(nullptr));
     if (!device) throw_embree_error(rtcGetDeviceError(nullptr), "starting the ray tracer");
     build();
@@ -146,12 +150,14 @@ void RayScene::Impl::build() {
   const bool balls = ball_radius > 0;
   if (balls ? !mesh.vertices.empty() : !mesh.triangles.empty()) {
     const Geometry geometry = balls ? make_balls() : make_triangles();
+    rtcSetGeometryBuildQuality(geometry.get(), quality);
     rtcCommitGeometry(geometry.get());
     rtcAttachGeometry(scene.get(), geometry.get());
   }
   // Robust: rays do not slip through shared edges. The filters below travel with each query.
   rtcSetSceneFlags(scene.get(), static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST |
                                                            RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+  rtcSetSceneBuildQuality(scene.get(), quality);
   if (const CancelScope* scope = cancel_scope()) {
     rtcSetSceneProgressMonitorFunction(scene.get(), &keep_building,
                                        const_cast<CancelScope*>(scope));
@@ -178,8 +184,8 @@ RTCRay RayScene::Impl::ray(const Vec3& origin, const Vec3& direction, double nea
   return r;
 }
 
-RayScene::RayScene(const Mesh& mesh, double ball_radius)
-    : impl_(std::make_unique<Impl>(mesh, ball_radius)) {}
+RayScene::RayScene(const Mesh& mesh, double ball_radius, RayTree tree)
+    : impl_(std::make_unique<Impl>(mesh, ball_radius, tree)) {}
 RayScene::~RayScene() = default;
 
 // --- Closest point -------------------------------------------------------------------------
@@ -289,25 +295,64 @@ ClosestPoint RayScene::closest(const Vec3& point, std::uint32_t likely) const {
 
 namespace {
 
-// Embree's context with our own data behind it.
+constexpr std::size_t kPacket = 8;  // rays at once, as AVX2 has floats
+
+// Embree's context with our own data behind it, for each of the rays that are traced together.
+template <std::size_t kRays>
 struct FirstHitContext {
   RTCIntersectContext base;
-  float distance = std::numeric_limits<float>::infinity();
-  std::uint32_t triangle = 0;
+  std::array<float, kRays> distance;
+  std::array<std::uint32_t, kRays> triangle = {};
+  FirstHitContext() {
+    rtcInitIntersectContext(&base);
+    distance.fill(std::numeric_limits<float>::infinity());
+  }
 };
 
 // Of several triangles at the same distance (a shared edge) the smallest index wins, whatever the
 // order of the tree.
+template <unsigned kRays>
 void prefer_smaller_index(const RTCFilterFunctionNArguments* args) {
-  auto& first = *reinterpret_cast<FirstHitContext*>(args->context);
-  const float distance = reinterpret_cast<const RTCRay*>(args->ray)->tfar;
-  const std::uint32_t triangle = reinterpret_cast<const RTCHit*>(args->hit)->primID;
-  if (distance == first.distance && triangle > first.triangle) {
-    args->valid[0] = 0;
-    return;
+  auto& first = *reinterpret_cast<FirstHitContext<kRays>*>(args->context);
+  for (unsigned k = 0; k < kRays; ++k) {
+    if (args->valid[k] == 0) continue;
+    const float distance = RTCRayN_tfar(args->ray, kRays, k);
+    const std::uint32_t triangle = RTCHitN_primID(args->hit, kRays, k);
+    if (distance == first.distance[k] && triangle > first.triangle[k]) {
+      args->valid[k] = 0;
+      continue;
+    }
+    first.distance[k] = distance;
+    first.triangle[k] = triangle;
   }
-  first.distance = distance;
-  first.triangle = triangle;
+}
+
+RTCRay8& ray_of(RTCRay8& packet) { return packet; }
+RTCRay8& ray_of(RTCRayHit8& packet) { return packet.ray; }
+
+// Calls trace(valid, packet, first, count) for the packets of a list of rays.
+template <typename Packet, typename Trace>
+void for_packets(std::span<const Ray> rays, const UnitFrame& frame, const Trace& trace) {
+  for (std::size_t first = 0; first < rays.size(); first += kPacket) {
+    const std::size_t n = std::min(kPacket, rays.size() - first);
+    alignas(32) std::array<int, kPacket> valid = {};
+    Packet packet = {};
+    RTCRay8& p = ray_of(packet);
+    for (std::size_t k = 0; k < n; ++k) {
+      const Ray& ray = rays[first + k];
+      const Vec3 q = frame.to_local(ray.origin);
+      valid[k] = -1;
+      p.org_x[k] = clamped_to_float(q.x);
+      p.org_y[k] = clamped_to_float(q.y);
+      p.org_z[k] = clamped_to_float(q.z);
+      p.dir_x[k] = static_cast<float>(ray.direction.x);
+      p.dir_y[k] = static_cast<float>(ray.direction.y);
+      p.dir_z[k] = static_cast<float>(ray.direction.z);
+      p.tfar[k] = std::numeric_limits<float>::infinity();
+      p.mask[k] = ~0u;
+    }
+    trace(valid.data(), packet, first, n);
+  }
 }
 
 struct AllHitsContext {
@@ -336,9 +381,8 @@ RayHit RayScene::first_hit(const Vec3& origin, const Vec3& direction, double nea
                            double far) const {
   RTCRayHit query = {impl_->ray(origin, direction, near, far), {}};
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  FirstHitContext context;
-  rtcInitIntersectContext(&context.base);
-  context.base.filter = prefer_smaller_index;
+  FirstHitContext<1> context;
+  context.base.filter = prefer_smaller_index<1>;
   rtcIntersect1(impl_->scene.get(), &context.base, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
   return {true, query.hit.primID, query.hit.u, query.hit.v, query.ray.tfar / impl_->frame.scale};
@@ -350,6 +394,38 @@ bool RayScene::occluded(const Vec3& origin, const Vec3& direction, double near, 
   rtcInitIntersectContext(&context);
   rtcOccluded1(impl_->scene.get(), &context, &query);
   return query.tfar < 0;  // Embree's sign for occluded
+}
+
+std::vector<RayHit> RayScene::first_hits(std::span<const Ray> rays) const {
+  std::vector<RayHit> hits(rays.size());
+  for_packets<RTCRayHit8>(
+      rays, impl_->frame,
+      [&](const int* valid, RTCRayHit8& packet, std::size_t first, std::size_t n) {
+        std::fill_n(packet.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
+        FirstHitContext<kPacket> context;
+        context.base.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+        context.base.filter = prefer_smaller_index<kPacket>;
+        rtcIntersect8(valid, impl_->scene.get(), &context.base, &packet);
+        for (std::size_t k = 0; k < n; ++k) {
+          if (packet.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID) continue;
+          hits[first + k] = {true, packet.hit.primID[k], packet.hit.u[k], packet.hit.v[k],
+                             packet.ray.tfar[k] / impl_->frame.scale};
+        }
+      });
+  return hits;
+}
+
+std::vector<bool> RayScene::occluded(std::span<const Ray> rays) const {
+  std::vector<bool> occluded(rays.size());
+  for_packets<RTCRay8>(rays, impl_->frame,
+                       [&](const int* valid, RTCRay8& packet, std::size_t first, std::size_t n) {
+                         RTCIntersectContext context;
+                         rtcInitIntersectContext(&context);
+                         rtcOccluded8(valid, impl_->scene.get(), &context, &packet);
+                         for (std::size_t k = 0; k < n; ++k)
+                           occluded[first + k] = packet.tfar[k] < 0;
+                       });
+  return occluded;
 }
 
 std::vector<RayCrossing> RayScene::crossings(const Vec3& origin, const Vec3& direction) const {

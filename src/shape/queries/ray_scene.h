@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "rholm/mesh.h"
@@ -26,10 +27,18 @@ struct RayHit {
   double distance = 0;
 };
 
+struct Ray {
+  Vec3 origin;
+  Vec3 direction;  // of unit length
+};
+
 struct RayCrossing {
   std::uint32_t triangle = 0;
   double distance = 0;  // to the triangle's plane
 };
+
+// How the tree is built: tight boxes, or in a third of the time.
+enum class RayTree { kTight, kQuick };
 
 // Keeps a reference to `mesh`, which must outlive it. All queries may be called from several
 // threads at once.
@@ -37,7 +46,7 @@ class RayScene {
  public:
   // With a radius above 0: of a ball about each vertex, which rays meet in place of triangles;
   // there are first_hit() and occluded() then.
-  explicit RayScene(const Mesh& mesh, double ball_radius = 0);
+  explicit RayScene(const Mesh& mesh, double ball_radius = 0, RayTree tree = RayTree::kTight);
   ~RayScene();
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;
@@ -50,6 +59,10 @@ class RayScene {
   // First hit along origin + t direction, near < t < far; direction of unit length.
   RayHit first_hit(const Vec3& origin, const Vec3& direction, double near, double far) const;
   bool occluded(const Vec3& origin, const Vec3& direction, double near, double far) const;
+  // The same for many rays at once, from their origins to infinity: in half of the time where
+  // neighbours in the list go side by side, in four fifths of it anywhere.
+  std::vector<RayHit> first_hits(std::span<const Ray> rays) const;
+  std::vector<bool> occluded(std::span<const Ray> rays) const;
   // All triangles that the half line from `origin` meets, the nearest first. A shared edge or
   // vertex is met once per triangle; where it starts is good to 1e-7 of the mesh's size.
   std::vector<RayCrossing> crossings(const Vec3& origin, const Vec3& direction) const;

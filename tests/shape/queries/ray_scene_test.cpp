@@ -376,6 +376,34 @@ TEST(rays, meet_balls_about_vertices) {
   }
 }
 
+// Many rays at once, or one after the other; of a tree built in either way.
+TEST(rays, meet_the_same_in_packets) {
+  const Mesh mesh = soup(8, 300);
+  for (const double radius : {0.0, 0.1}) {
+    const RayScene scene(mesh, radius), quick(mesh, radius, RayTree::kQuick);
+    std::vector<Ray> rays;
+    for (int k = 0; k < 1003; ++k) {
+      const Vec3 origin = 4.0 * normalized(random_point(9, k));
+      rays.push_back({origin, normalized(random_point(10, k) - origin)});
+    }
+    const std::vector<RayHit> hits = quick.first_hits(rays);
+    const std::vector<bool> occluded = quick.occluded(rays);
+    ASSERT_EQ(hits.size(), rays.size());
+    int differences = 0;
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+      const RayHit hit = scene.first_hit(rays[k].origin, rays[k].direction, 0, kInfinity);
+      EXPECT_EQ(occluded[k], hits[k].hit);
+      // The arithmetic of a packet rounds otherwise: a ray that just touches may miss.
+      differences += hit.hit != hits[k].hit || hit.triangle != hits[k].triangle;
+      if (hit.hit && hits[k].hit && hit.triangle == hits[k].triangle) {
+        EXPECT_NEAR(hits[k].distance, hit.distance, 1e-4);
+      }
+    }
+    EXPECT_LE(differences, 2);
+  }
+  EXPECT_TRUE(RayScene(mesh).first_hits({}).empty());
+}
+
 TEST(rays, meet_nothing_in_an_empty_mesh) {
   const Mesh none;
   const RayScene scene(none);
