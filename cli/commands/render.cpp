@@ -33,6 +33,7 @@ struct Options {
   std::string against;
   std::optional<double> scale_max;
   bool perspective = false;
+  bool fine = false;
   bool flat = false;
   std::string fit = "scale";
   std::string view;
@@ -56,8 +57,8 @@ struct Scene {
 constexpr int kMinSize = 16, kMaxSize = 16384;
 constexpr int kSingleWidth = 1024, kSingleHeight = 768, kPanelWidth = 400, kPanelHeight = 460;
 
-// A picture of more pixels than a screen has takes four rays a pixel instead of nine: what one
-// pixel loses the eye has back from its neighbours, in less than half of the time.
+// A picture of more pixels than a screen has takes four rays a pixel instead of nine where it takes
+// more than one: what one pixel loses the eye has back from its neighbours, in half of the time.
 constexpr double kManyPixels = 4e6;
 constexpr int kFewSamples = 2;
 
@@ -95,6 +96,7 @@ RenderOptions render_options(const Options& options, std::size_t panels) {
   }
   if (double(wanted.width) * wanted.height > kManyPixels) wanted.samples = kFewSamples;
   wanted.perspective = options.perspective;
+  wanted.fine = options.fine;
   wanted.fit_each = options.fit == "each";
   if (!options.view.empty()) wanted.view_direction = parse_direction("--view", options.view);
   const auto along_view = [&](const Vec3& up) {
@@ -285,6 +287,9 @@ std::vector<Option> picture_options(Options& o) {
       {.name = "perspective",
        .help = "as a camera sees it, instead of parallel lines of sight",
        .target = &o.perspective},
+      {.name = "fine",
+       .help = "all rays of light for every sample of every pixel: seven times as long",
+       .target = &o.fine},
       {.name = "subdivisions",
        .value = "N",
        .help = "icosphere on which coefficients are sampled; by default the smallest N of 5 "
@@ -316,7 +321,9 @@ Command render_command() {
           "as large as they fit. Points are balls as large as their distance. A mesh whose file "
           "has normals is shaded by them, smooth where they "
           "are and creased where they differ; --flat shows its faces. Pictures of more than four "
-          "million pixels take four rays a pixel instead of nine.",
+          "million pixels take four rays a pixel instead of nine. Pixels of one surface share "
+          "their "
+          "light and edges only take several rays, unless with --fine.",
       .options = option_list(*options),
       .examples =
           {"rholm render bumpy.h5 --degree 2,8,32 --size 720x240 -o levels.png",

@@ -139,6 +139,7 @@ def render(
     fit_each: bool = False,
     samples: int = 3,
     occlusion_rays: int = 4,
+    fine: bool = False,
     scale: tuple[float | None, float | None] = (None, None),
     scale_bar: bool = True,
     scale_label: str = "",
@@ -171,9 +172,12 @@ def render(
     fit_each : bool
         Every panel is filled; otherwise all have the same scale.
     samples : int
-        Per pixel side, 1 ... 16.
+        Per pixel side, 1 ... 16, of pixels that are edges.
     occlusion_rays : int
         Per sample, 0 ... 256; 0 switches ambient occlusion off.
+    fine : bool
+        Every pixel has all of its samples, and these all of their rays to the lights; otherwise pixels of one
+        surface share theirs, in a seventh of the time.
     scale : (lowest, highest)
         Of the colour map; None: that of all scalars.
     scale_bar : bool
@@ -217,6 +221,7 @@ def render(
         up=triple(up, "up"),
         samples=samples,
         occlusion_rays=occlusion_rays,
+        fine=fine,
         scale_min=scale[0],
         scale_max=scale[1],
         scale_bar=scale_bar,

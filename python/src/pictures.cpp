@@ -72,6 +72,7 @@ void bind_render(nb::module_& m) {
       .field("up", &RenderOptions::up)
       .field("samples", &RenderOptions::samples)
       .field("occlusion_rays", &RenderOptions::occlusion_rays)
+      .field("fine", &RenderOptions::fine)
       .field("scale_min", &RenderOptions::scale_min)
       .field("scale_max", &RenderOptions::scale_max)
       .field("scale_bar", &RenderOptions::scale_bar)

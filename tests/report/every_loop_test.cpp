@@ -395,8 +395,12 @@ TEST(every_loop, gives_the_same_picture) {
   const Panel panel{.mesh = &mesh};
   expect_same_bits([&](const Context& context) {
     const Image image =
-        render(std::span(&panel, 1), {.width = 64, .height = 48, .samples = 1}, context);
-    return Bits().add(std::span<const std::uint8_t>(image.rgb));
+        render(std::span(&panel, 1), {.width = 64, .height = 48, .samples = 2}, context);
+    const Image fine =
+        render(std::span(&panel, 1), {.width = 64, .height = 48, .fine = true}, context);
+    return Bits()
+        .add(std::span<const std::uint8_t>(image.rgb))
+        .add(std::span<const std::uint8_t>(fine.rgb));
   });
 }
 

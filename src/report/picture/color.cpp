@@ -49,7 +49,8 @@ float from_srgb(float encoded) {
 }
 
 std::uint8_t to_srgb_byte(float linear) {
-  const float x = std::clamp(linear, 0.0f, 1.0f);
+  if (linear >= 1) return 255;  // paper
+  const float x = std::max(linear, 0.0f);
   const float encoded = x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f;
   return static_cast<std::uint8_t>(std::lround(255 * encoded));
 }

@@ -12,6 +12,7 @@
 #include "report/picture/canvas.h"
 #include "report/picture/scale_bar.h"
 #include "report/picture/shade.h"
+#include "report/picture/shared_light.h"
 #include "report/picture/view.h"
 #include "rholm/topology.h"
 #include "shape/face.h"
@@ -247,32 +248,18 @@ std::vector<Sight> make_sights(std::span<const Panel> panels, const RenderOption
   return sights;
 }
 
-struct PanelPicture {
-  const Subject& subject;
-  const View& view;
-  const ColorScale& scale;
-  PlaneBox box;
-  double pixels_per_unit;
-  double center_x, center_y;  // pixels
-  int left, right, height;    // pixels
-};
-
 Color pixel_color(const PanelPicture& p, const RayScene& scene, const LightSamples& lights,
                   int side, int x, int y) {
   const std::uint64_t seed =
       random_bits(static_cast<std::uint64_t>(x), static_cast<std::uint64_t>(y));
   const PixelShift shift = pixel_shift(seed);
-  const PlanePoint middle = {0.5 * (p.box.min.x + p.box.max.x), 0.5 * (p.box.min.y + p.box.max.y)};
   Color sum;
   for (int sample = 0; sample < side * side; ++sample) {
-    const auto jitter = [&](int cell, int k) {  // numbers 0 and 1 belong to pixel_shift()
-      return (cell + random_uniform(seed, 2 + 2 * sample + k)) / side;
-    };
-    const double px = x + jitter(sample % side, 0), py = y + jitter(sample / side, 1);
-    const ViewRay ray = p.view.ray({middle.x + (px - p.center_x) / p.pixels_per_unit,
-                                    middle.y - (py - p.center_y) / p.pixels_per_unit});
-    const auto seen = shade(p.subject, scene, p.view, p.scale, lights, shift, ray, sample);
-    sum = sum + seen.value_or(kPaper);
+    const Ray ray = p.ray_of_sample(x, y, sample, side);
+    const RayHit hit = scene.first_hit(ray.origin, ray.direction, 0, kInfinity);
+    sum = sum + (hit.hit ? shade(p.subject, scene, p.lamps, p.scale, lights, shift,
+                                 place_of(p.subject, ray, hit), sample)
+                         : kPaper);
   }
   return (1.0f / static_cast<float>(side * side)) * sum;
 }
@@ -283,7 +270,8 @@ void draw_panel(Canvas& canvas, const PanelPicture& p, const RenderOptions& opti
   // large thing's distance would overflow in units of the small one.
   constexpr double kVisible = 1e-3;
   if (p.subject.radius * p.pixels_per_unit < kVisible) return;
-  const RayScene scene(p.subject.mesh, p.subject.ball_radius);
+  const RayScene scene(p.subject.mesh, p.subject.ball_radius, RayTree::kQuick);
+  if (!options.fine) return draw_shared(canvas, p, scene, options, context, stage);
   const LightSamples lights =
       make_light_samples(options.samples * options.samples, options.occlusion_rays);
   constexpr std::size_t kRows = 2;  // of a chunk: some 10 ms
@@ -336,6 +324,7 @@ Image render(std::span<const Panel> panels, const RenderOptions& options, const 
     const double left = first * layout.panel_width, right = left + layout.panel_width;
     const PanelPicture picture = {sights[k].subject,
                                   sights[k].view,
+                                  Lamps(sights[k].view),
                                   scale.value_or(ColorScale{}),
                                   sights[k].box,
                                   sights[k].pixels_per_unit,

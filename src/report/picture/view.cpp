@@ -56,7 +56,7 @@ PlanePoint View::project(const Vec3& p) const {
   return {shrink * dot(p, right), shrink * dot(p, up)};
 }
 
-ViewRay View::ray(const PlanePoint& p) const {
+Ray View::ray(const PlanePoint& p) const {
   const Vec3 target = p.x * right + p.y * up;
   const Vec3 eye = -distance * forward;
   if (perspective) return {eye, normalized(target - eye)};

@@ -5,6 +5,7 @@
 
 #include "rholm/mesh.h"
 #include "rholm/render.h"
+#include "shape/queries/ray_scene.h"
 
 namespace rholm {
 
@@ -20,11 +21,6 @@ struct PlaneBox {
   double height() const { return max.y - min.y; }
 };
 
-struct ViewRay {
-  Vec3 origin;
-  Vec3 direction;
-};
-
 // The eye looks along `forward` at the origin; the picture plane goes through the origin.
 struct View {
   Vec3 right;
@@ -34,7 +30,7 @@ struct View {
   bool perspective = false;
 
   PlanePoint project(const Vec3& p) const;
-  ViewRay ray(const PlanePoint& p) const;
+  Ray ray(const PlanePoint& p) const;
 };
 
 // `radius`: of a ball about the origin that holds everything. Throws InvalidInput for a direction

@@ -9,6 +9,8 @@
 #include <numbers>
 #include <vector>
 
+#include "report/picture/color.h"
+#include "report/picture/shade.h"
 #include "report/picture/view.h"
 #include "rholm/error.h"
 #include "rholm/points.h"
@@ -122,6 +124,76 @@ TEST(render, gives_the_same_bits_for_any_number_of_threads) {
   for (const int threads : {2, 4, 7}) {
     EXPECT_EQ(one.rgb, render_one(mesh, front(), {.threads = threads}).rgb);
   }
+}
+
+// Pixels in more than one strip.
+TEST(render, of_many_pixels_gives_the_same_bits_for_any_number_of_threads) {
+  const Mesh mesh = bumpy_sphere(3, 0.3);
+  RenderOptions options = front();
+  options.width = options.height = 800;
+  options.samples = options.occlusion_rays = 1;
+  const Image one = render_one(mesh, options, {.threads = 1});
+  for (const int threads : {2, 3}) {
+    EXPECT_EQ(one.rgb, render_one(mesh, options, {.threads = threads}).rgb);
+  }
+}
+
+// No part of the sky is hidden from a convex body's surface, nor the key from what faces it.
+TEST(render, of_a_convex_body_has_no_shadows) {
+  const Mesh mesh = icosphere(2);
+  for (const bool fine : {false, true}) {
+    RenderOptions options = front();
+    options.fine = fine;
+    const Image with = render_one(mesh, options);
+    options.occlusion_rays = 0;
+    EXPECT_EQ(with.rgb, render_one(mesh, options).rgb);
+  }
+}
+
+// Of a plate under a free sky: all of the sky and of the key, of which the mean over the samples of
+// its disc is known.
+TEST(render, of_a_plate_has_the_light_of_its_direction) {
+  Mesh plate;
+  plate.vertices = {{-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}};
+  plate.triangles = {{0, 1, 2}, {0, 2, 3}};
+  RenderOptions options = front();
+  for (const Vec3& from : {Vec3{0, 1, 0}, Vec3{0.5, 1, -0.2}, Vec3{-1, 0.4, 0.7}}) {
+    options.view_direction = from;
+    const View view = make_view(options, 1);
+    Place place;
+    place.face = place.normal = {0, -1, 0};
+    const Lamps lamps(view);
+    const Finish light = finish({}, lamps, {}, place);
+    double key = 0;
+    const LightSamples many = make_light_samples(4096, 0);
+    for (const LightSamples::Polar& point : many.key) {
+      key += std::max(0.0, dot(key_direction(lamps, point, {}), place.normal)) / 4096;
+    }
+    EXPECT_NEAR(light.key, 0.70 * key, 1e-4);  // 0.70: of the key in shade.cpp
+    const Color color = light.lit(1, 1);
+    const auto [r, g, b] = pixel(render_one(plate, options), 48, 40);
+    EXPECT_EQ(r, to_srgb_byte(color.r));
+    EXPECT_EQ(g, to_srgb_byte(color.g));
+    EXPECT_EQ(b, to_srgb_byte(color.b));
+  }
+}
+
+// Against all rays for all samples: where shadows are, a few levels of 255; scripts/render-figures
+// measures more.
+TEST(render, shares_light_without_changing_it) {
+  const Mesh mesh = bumpy_sphere(4, 0.3);
+  RenderOptions options = front();
+  options.samples = 4;
+  const Image shared = render_one(mesh, options);
+  options.fine = true;
+  options.occlusion_rays = 16;
+  const Image fine = render_one(mesh, options);
+  double sum = 0;
+  for (std::size_t k = 0; k < fine.rgb.size(); ++k) {
+    const double off = double(shared.rgb[k]) - fine.rgb[k];
+    sum += off * off;
+  }
+  EXPECT_LT(std::sqrt(sum / static_cast<double>(fine.rgb.size())), 2);
 }
 
 TEST(render, does_not_depend_on_the_unit_and_hardly_on_the_place) {
@@ -457,7 +529,7 @@ TEST(view, projects_its_rays_to_points) {
     EXPECT_NEAR(dot(view.right, view.forward), 0, 1e-15);
     EXPECT_GT(view.up.z, 0);
     for (const PlanePoint& p : {PlanePoint{0, 0}, PlanePoint{1, -0.5}, PlanePoint{-0.2, 1.3}}) {
-      const ViewRay ray = view.ray(p);
+      const Ray ray = view.ray(p);
       for (const double t : {4.5, 6.0, 8.0}) {
         const PlanePoint q = view.project(ray.origin + t * ray.direction);
         EXPECT_NEAR(q.x, p.x, 1e-14);

@@ -1,0 +1,35 @@
+// A panel where it stands in the picture.
+#pragma once
+
+#include "base/random.h"
+#include "report/picture/shade.h"
+#include "report/picture/view.h"
+
+namespace rholm {
+
+struct PanelPicture {
+  const Subject& subject;
+  const View& view;
+  Lamps lamps;
+  const ColorScale& scale;
+  PlaneBox box;
+  double pixels_per_unit;
+  double center_x, center_y;  // pixels
+  int left, right, height;    // pixels
+
+  Ray ray(double x, double y) const {
+    return view.ray({0.5 * (box.min.x + box.max.x) + (x - center_x) / pixels_per_unit,
+                     0.5 * (box.min.y + box.max.y) - (y - center_y) / pixels_per_unit});
+  }
+  // Of those of a pixel, side x side, one at a random place in each of as many squares.
+  Ray ray_of_sample(int x, int y, int sample, int side) const {
+    const std::uint64_t seed =
+        random_bits(static_cast<std::uint64_t>(x), static_cast<std::uint64_t>(y));
+    const auto jitter = [&](int cell, int k) {  // numbers 0 and 1 belong to pixel_shift()
+      return (cell + random_uniform(seed, 2 + 2 * sample + k)) / side;
+    };
+    return ray(x + jitter(sample % side, 0), y + jitter(sample / side, 1));
+  }
+};
+
+}  // namespace rholm

@@ -1,0 +1,468 @@
+// A cell is what a pixel sees in its middle. It sends few rays to the sky and one to the key, other
+// ones than its neighbours: each window of 4 x 4 cells has all of a Hammersley set (Keller,
+// Heidrich 2001, "Interleaved sampling"), and the mean over a window, of places on one surface
+// only, is what each of its cells sees of the lights. The first ray of each cell goes to the sky
+// and another to the key; where all of a window are free, no more do: with a blocked part b of
+// evenly spread directions, 16 of them are all free at a chance below (1 - b)^16, so that at most
+// max b (1 - b)^16 = 0.02 of a light is overlooked in the mean, a level or two of 255. Then pixels
+// that differ from their neighbours take the mean of several rays of sight, whose places are lit as
+// the pixel's middle is.
+#include "report/picture/shared_light.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "base/random.h"
+
+namespace rholm {
+namespace {
+
+constexpr int kBlock = 4;  // cells of a block along its side
+// Of a window of 5 x 5: the outermost count half, so that each window has every ray once.
+constexpr int kReach = 2;
+constexpr std::array<float, 5> kTent = {0.5f, 1, 1, 1, 0.5f};
+// Cells beyond those of the pixels: windows that ask, windows of means, pixels that differ.
+constexpr int kMargin = 2 * kReach + 1;
+constexpr std::size_t kLanes = 8;     // cells whose windows are looked at together
+constexpr int kStripCells = 1 << 17;  // chosen: some 130 bytes each stay near the processor
+constexpr std::size_t kRows = 4;      // of a chunk: some 5 ms
+
+// Measured by scripts/render-figures: half of a step's depth in pixels, and one minus the cosine of
+// a crease. Half of either changes no rms by more than a tenth.
+constexpr float kDepth = 2, kTurn = 0.3f;
+// Pixels whose square roots of brightness differ by more are edges, some 15 of 255 grey levels;
+// measured by scripts/render-figures: at 0.08 Bennu is as far from many rays as fine pictures are.
+constexpr float kStep = 0.06f;
+// Of a cell in whose window some see the key, so 36 in 3 x 3 cells, as fine pictures have for both
+// lights; measured by scripts/render-figures: 9 bring 1 to 5 %.
+constexpr int kKeyRays = 4;
+const Color kPaper = {1, 1, 1};
+
+constexpr double kGolden = 0.6180339887498949;
+
+struct Shared {
+  float sky, key;  // free parts
+};
+
+// A strip of cells, one number beside the other.
+struct Cells {
+  enum Plane { kX, kY, kZ, kNormalX, kNormalY, kNormalZ, kSide, kSky, kKeyAll, kKeyFree, kPlanes };
+  int left = 0, top = 0, width = 0;
+  std::array<std::vector<float>, kPlanes> planes;  // kSide: 1 in front, -1 behind, 0 nothing seen
+  std::vector<Vec3> faces;
+  std::vector<Finish> finishes;
+  std::vector<Shared> shared;
+  // By all of a cell's own rays: the free part of the sky, and cosines of rays to the key, of all
+  // and of free ones.
+  struct Own {
+    float sky, key_all, key_free;
+  };
+  std::vector<Own> own;
+  std::vector<std::uint8_t> mixed_sky, mixed_key;  // some of the window see it, some do not
+  std::vector<Color> colors, roots;                // and square roots of their parts
+
+  std::size_t at(int x, int y) const {
+    return static_cast<std::size_t>(y - top) * width + (x - left);
+  }
+  bool seen(std::size_t cell) const { return planes[kSide][cell] != 0; }
+  Place place(std::size_t cell) const {
+    const auto of = [&](Plane plane) { return planes[plane][cell]; };
+    Place place;
+    place.point = {of(kX), of(kY), of(kZ)};
+    place.face = faces[cell];
+    place.normal = {of(kNormalX), of(kNormalY), of(kNormalZ)};
+    return place;
+  }
+};
+
+Cells make_cells(int left, int right, int rows) {
+  Cells cells;
+  cells.left = left;
+  cells.width = right - left;
+  const std::size_t n = static_cast<std::size_t>(cells.width) * rows;
+  for (std::vector<float>& plane : cells.planes) plane.resize(n + kLanes);
+  cells.faces.resize(n);
+  cells.finishes.resize(n);
+  cells.shared.resize(n);
+  cells.own.resize(n);
+  cells.mixed_sky.resize(n);
+  cells.mixed_key.resize(n);
+  cells.colors.resize(n);
+  cells.roots.resize(n);
+  return cells;
+}
+
+// A place as the numbers of a cell.
+struct Spot {
+  float x, y, z, normal_x, normal_y, normal_z, side;
+};
+Spot spot_of(const Place& place) {
+  const auto& [p, n] = std::pair(place.point, place.normal);
+  return {static_cast<float>(p.x),  static_cast<float>(p.y), static_cast<float>(p.z),
+          static_cast<float>(n.x),  static_cast<float>(n.y), static_cast<float>(n.z),
+          place.back ? -1.0f : 1.0f};
+}
+Spot spot_of(const Cells& cells, std::size_t k) {
+  const auto of = [&](Cells::Plane plane) { return cells.planes[plane][k]; };
+  return {of(Cells::kX),       of(Cells::kY),       of(Cells::kZ),   of(Cells::kNormalX),
+          of(Cells::kNormalY), of(Cells::kNormalZ), of(Cells::kSide)};
+}
+
+// How much two places have of one surface: 0 across a step of `depth`, or a crease. Along an arc
+// the distances from the two tangent planes cancel.
+inline float likeness(const Spot& a, const Spot& b, float per_half_depth) {
+  const float off = (a.normal_x + b.normal_x) * (b.x - a.x) +
+                    (a.normal_y + b.normal_y) * (b.y - a.y) +
+                    (a.normal_z + b.normal_z) * (b.z - a.z);
+  const float cosine = a.normal_x * b.normal_x + a.normal_y * b.normal_y + a.normal_z * b.normal_z;
+  const float near = std::max(0.0f, 1 - std::abs(off) * per_half_depth);
+  const float along = std::max(0.0f, 1 - (1 - cosine) * (1 / kTurn));
+  return std::max(0.0f, a.side * b.side) * near * along;
+}
+
+// Bits of x ^ y and y in turn, the lowest first: neighbours are far apart in the set.
+std::size_t place_in_block(int x, int y) {
+  const unsigned a = static_cast<unsigned>(x ^ y), b = static_cast<unsigned>(y);
+  return (a & 1) * 8 + (b & 1) * 4 + (a & 2) + (b & 2) / 2;
+}
+
+std::uint64_t seed_of(int x, int y) {
+  return random_bits(static_cast<std::uint64_t>(x), static_cast<std::uint64_t>(y));
+}
+
+// Of a cell: as many as a pixel of its own light asks for, shared by the cells of a block.
+int sky_rays(const RenderOptions& options) {
+  if (options.occlusion_rays == 0) return 0;
+  constexpr int kCells = kBlock * kBlock;
+  constexpr int kLeast = 3;  // chosen by eye: fewer than 48 directions leave bands
+  const int rays = options.samples * options.samples * options.occlusion_rays;
+  return std::max(kLeast, (rays + kCells - 1) / kCells);
+}
+
+// Each ray of a block's cells is a Hammersley set, all of them as many, shifted within its strata.
+std::vector<LightSamples::Polar> sky_of_block(int rays) {
+  std::vector<LightSamples::Polar> points;
+  for (unsigned at = 0; at < kBlock * kBlock; ++at) {
+    const unsigned reversed = (at & 1) * 8 + (at & 2) * 2 + (at & 4) / 2 + (at & 8) / 8;
+    for (int r = 0; r < rays; ++r) {
+      const double angle = 2 * std::numbers::pi * (reversed / 16.0 + r * kGolden);
+      points.push_back({(at + (r + 0.5) / rays) / 16, std::cos(angle), std::sin(angle)});
+    }
+  }
+  return points;
+}
+
+// A lattice of the golden ratio in the unit square, its middle in the square's. The same in all
+// pixels: an edge that runs through many is smooth.
+std::vector<PlanePoint> places_in_pixel(int n) {
+  std::vector<PlanePoint> places;
+  double mean = 0;
+  for (int k = 0; k < n; ++k) {
+    const double y = k * kGolden + 0.25;
+    places.push_back({(k + 0.5) / n, y - std::floor(y)});
+    mean += places.back().y / n;
+  }
+  for (PlanePoint& place : places) place.y += 0.5 - mean;
+  return places;
+}
+
+class Drawing {
+ public:
+  Drawing(Canvas& canvas, const PanelPicture& panel, const RayScene& scene,
+          const RenderOptions& options)
+      : canvas_(canvas),
+        panel_(panel),
+        scene_(scene),
+        side_(options.samples),
+        sky_rays_(sky_rays(options)),
+        own_(make_light_samples(side_ * side_, options.occlusion_rays)),
+        shared_sky_(sky_of_block(sky_rays_)),
+        more_key_(make_light_samples(kKeyRays, 0).key),
+        places_(places_in_pixel(side_ * side_)),
+        per_depth_(static_cast<float>(0.5 * panel.pixels_per_unit / kDepth)) {
+    for (const LightSamples::Polar& point : make_light_samples(kBlock * kBlock, 0).key) {
+      shared_key_.push_back(key_direction(panel.lamps, point, {}));
+    }
+  }
+
+  void see(Cells& cells, int y) const;
+  void ask(Cells& cells, int y) const;
+  void share(Cells& cells, int y) const;
+  void resolve(const Cells& cells, int y) const;
+
+ private:
+  struct Windows;
+  Windows windows(const Cells& cells, std::size_t cell) const;
+  const LightSamples::Polar& sky_point(std::size_t at, int ray) const {
+    return shared_sky_[at * static_cast<std::size_t>(sky_rays_) + ray];
+  }
+  bool differs(const Cells& cells, int x, int y) const;
+
+  Canvas& canvas_;
+  const PanelPicture& panel_;
+  const RayScene& scene_;
+  int side_;
+  int sky_rays_;
+  LightSamples own_;
+  std::vector<LightSamples::Polar> shared_sky_, more_key_;
+  std::vector<Vec3> shared_key_;    // one for each cell of a block
+  std::vector<PlanePoint> places_;  // of a pixel that is an edge
+  float per_depth_;
+};
+
+// Rays of sight, and those that are shared.
+void Drawing::see(Cells& cells, int y) const {
+  std::vector<Ray> sight, sky, key;
+  std::vector<std::size_t> of_sky, of_key;
+  for (int k = 0; k < cells.width; ++k) sight.push_back(panel_.ray(cells.left + k + 0.5, y + 0.5));
+  const std::vector<RayHit> hits = scene_.first_hits(sight);
+  for (int x = cells.left; x < cells.left + cells.width; ++x) {
+    const auto k = static_cast<std::size_t>(x - cells.left);
+    const std::size_t cell = cells.at(x, y);
+    cells.planes[Cells::kSide][cell] = 0;
+    cells.colors[cell] = cells.roots[cell] = kPaper;
+    if (!hits[k].hit) continue;
+    const Place place = place_of(panel_.subject, sight[k], hits[k]);
+    const std::size_t at = place_in_block(x, y);
+    const Vec3& to_key = shared_key_[at];
+    const auto cosine = static_cast<float>(std::max(0.0, dot(to_key, place.normal)));
+    const Spot spot = spot_of(place);
+    const float numbers[] = {spot.x,        spot.y,    spot.z, spot.normal_x, spot.normal_y,
+                             spot.normal_z, spot.side, 1,      cosine,        cosine};
+    for (int p = 0; p < Cells::kPlanes; ++p) cells.planes[p][cell] = numbers[p];
+    cells.faces[cell] = place.face;
+    cells.finishes[cell] = finish(panel_.subject, panel_.lamps, panel_.scale, place);
+    if (sky_rays_ > 0) {
+      sky.push_back({place.point, sky_direction(place, sky_point(at, 0), {})});
+      of_sky.push_back(cell);
+    }
+    if (cosine > 0 && dot(to_key, place.face) > 0) {
+      key.push_back({place.point, to_key});
+      of_key.push_back(cell);
+    }
+  }
+  const std::vector<bool> no_sky = scene_.occluded(sky), no_key = scene_.occluded(key);
+  for (std::size_t k = 0; k < sky.size(); ++k) {
+    if (no_sky[k]) cells.planes[Cells::kSky][of_sky[k]] = 0;
+  }
+  for (std::size_t k = 0; k < key.size(); ++k) {
+    if (no_key[k]) cells.planes[Cells::kKeyFree][of_key[k]] = 0;
+  }
+  for (std::size_t k = cells.at(cells.left, y), n = 0; n < hits.size(); ++k, ++n) {
+    const auto of = [&](Cells::Plane plane) { return cells.planes[plane][k]; };
+    cells.own[k] = {of(Cells::kSky), of(Cells::kKeyAll), of(Cells::kKeyFree)};
+  }
+}
+
+// Of the lights in the windows of kLanes cells of a row, the first at `cell`.
+struct Drawing::Windows {
+  std::array<float, kLanes> all = {}, sky = {}, key_all = {}, key_free = {};
+};
+Drawing::Windows Drawing::windows(const Cells& cells, std::size_t cell) const {
+  const auto row = [&](std::size_t first) {
+    std::array<const float*, Cells::kPlanes> numbers;
+    for (int p = 0; p < Cells::kPlanes; ++p) numbers[p] = &cells.planes[p][first];
+    return numbers;
+  };
+  const auto spot = [](const auto& of, std::size_t k) {
+    return Spot{of[0][k], of[1][k], of[2][k], of[3][k], of[4][k], of[5][k], of[6][k]};
+  };
+  Windows w;
+  const auto a = row(cell);
+  for (int dy = -kReach; dy <= kReach; ++dy) {
+    for (int dx = -kReach; dx <= kReach; ++dx) {
+      const float tent = kTent[dx + kReach] * kTent[dy + kReach];
+      const auto b = row(cell + static_cast<std::size_t>(dy * cells.width + dx));
+      for (std::size_t k = 0; k < kLanes; ++k) {
+        const float weight = tent * likeness(spot(a, k), spot(b, k), per_depth_);
+        w.all[k] += weight;
+        w.sky[k] += weight * b[Cells::kSky][k];
+        w.key_all[k] += weight * b[Cells::kKeyAll][k];
+        w.key_free[k] += weight * b[Cells::kKeyFree][k];
+      }
+    }
+  }
+  return w;
+}
+
+// More rays of cells in whose windows some see a light and some do not.
+void Drawing::ask(Cells& cells, int y) const {
+  std::vector<Ray> sky, key;
+  std::vector<std::size_t> of_sky, of_key;
+  std::vector<float> cosines;
+  const std::size_t first = cells.at(cells.left + kReach, y);
+  const std::size_t last = cells.at(cells.left + cells.width - kReach, y);
+  for (std::size_t begin = first; begin < last; begin += kLanes) {
+    const Windows w = windows(cells, begin);
+    for (std::size_t k = 0; k < kLanes && begin + k < last; ++k) {
+      const std::size_t cell = begin + k;
+      if (!cells.seen(cell)) continue;
+      cells.mixed_sky[cell] = w.sky[k] < w.all[k];
+      cells.mixed_key[cell] = w.key_free[k] > 0 && w.key_free[k] < w.key_all[k];
+      // All, or none.
+      cells.shared[cell] = {1, w.key_free[k] > 0 || !(w.key_all[k] > 0) ? 1.0f : 0.0f};
+      const int x = cells.left + kReach + static_cast<int>(cell - first);
+      const Place place = cells.place(cell);
+      if (cells.mixed_sky[cell]) {
+        for (int r = 1; r < sky_rays_; ++r) {
+          sky.push_back(
+              {place.point, sky_direction(place, sky_point(place_in_block(x, y), r), {})});
+          of_sky.push_back(cell);
+        }
+        const auto n = static_cast<float>(sky_rays_);
+        cells.own[cell].sky = (cells.own[cell].sky + n - 1) / n;
+      }
+      if (!cells.mixed_key[cell]) continue;
+      cells.own[cell] = {cells.own[cell].sky, 0, 0};
+      const PixelShift shift = pixel_shift(seed_of(x, y));
+      for (const LightSamples::Polar& point : more_key_) {
+        const Vec3 to_key = key_direction(panel_.lamps, point, shift);
+        const auto cosine = static_cast<float>(std::max(0.0, dot(to_key, place.normal)));
+        cells.own[cell].key_all += cosine;
+        cells.own[cell].key_free += cosine;
+        if (!(cosine > 0 && dot(to_key, place.face) > 0)) continue;
+        key.push_back({place.point, to_key});
+        of_key.push_back(cell);
+        cosines.push_back(cosine);
+      }
+    }
+  }
+  const std::vector<bool> no_sky = scene_.occluded(sky), no_key = scene_.occluded(key);
+  for (std::size_t k = 0; k < sky.size(); ++k) {
+    if (no_sky[k]) cells.own[of_sky[k]].sky -= 1 / static_cast<float>(sky_rays_);
+  }
+  for (std::size_t k = 0; k < key.size(); ++k) {
+    if (no_key[k]) cells.own[of_key[k]].key_free -= cosines[k];
+  }
+}
+
+// Means over windows, of 3 x 3 cells for the key, whose shadows have edges; then colours.
+void Drawing::share(Cells& cells, int y) const {
+  for (int x = cells.left + 2 * kReach; x < cells.left + cells.width - 2 * kReach; ++x) {
+    const std::size_t cell = cells.at(x, y);
+    if (!cells.seen(cell)) continue;
+    const bool mixed_sky = cells.mixed_sky[cell], mixed_key = cells.mixed_key[cell];
+    const int reach = mixed_sky ? kReach : mixed_key ? 1 : -1;
+    const Spot spot = spot_of(cells, cell);
+    float all = 0, sky = 0, key_all = 0, key_free = 0;
+    for (int dy = -reach; dy <= reach; ++dy) {
+      for (int dx = -reach; dx <= reach; ++dx) {
+        const std::size_t other = cells.at(x + dx, y + dy);
+        const float alike = likeness(spot, spot_of(cells, other), per_depth_);
+        const float weight = alike * kTent[dx + kReach] * kTent[dy + kReach];
+        all += weight;
+        sky += weight * cells.own[other].sky;
+        if (std::max(std::abs(dx), std::abs(dy)) > 1) continue;
+        key_all += alike * cells.own[other].key_all;
+        key_free += alike * cells.own[other].key_free;
+      }
+    }
+    Shared& shared = cells.shared[cell];
+    if (mixed_sky) shared.sky = sky / all;
+    if (mixed_key && key_all > 0) shared.key = std::max(0.0f, key_free / key_all);
+    const Color color = cells.finishes[cell].lit(shared.sky, shared.key);
+    cells.colors[cell] = color;
+    cells.roots[cell] = {std::sqrt(color.r), std::sqrt(color.g), std::sqrt(color.b)};
+  }
+}
+
+// Whether a pixel is an edge: one of those around it sees another thing, or differs in brightness.
+bool Drawing::differs(const Cells& cells, int x, int y) const {
+  const std::size_t cell = cells.at(x, y);
+  const bool seen = cells.seen(cell);
+  const Color& root = cells.roots[cell];
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      const std::size_t other = cell + static_cast<std::size_t>(dy * cells.width + dx);
+      const Color& that = cells.roots[other];
+      const float step = std::max(
+          {std::abs(root.r - that.r), std::abs(root.g - that.g), std::abs(root.b - that.b)});
+      if (seen != cells.seen(other) || step > kStep) return true;
+    }
+  }
+  if (!seen) return false;
+  const Spot spot = spot_of(cells, cell);
+  const auto width = static_cast<std::size_t>(cells.width);
+  for (const std::size_t other : {cell - 1, cell + 1, cell - width, cell + width}) {
+    if (!(likeness(spot, spot_of(cells, other), per_depth_) > 0)) return true;  // a crease
+  }
+  return false;
+}
+
+// The mean of what is seen at several places of a pixel. They are lit as its middle if all are
+// alike it, otherwise by rays of their own.
+void Drawing::resolve(const Cells& cells, int y) const {
+  std::vector<int> edges;
+  std::vector<Ray> rays;
+  for (int x = cells.left + kMargin; x < cells.left + cells.width - kMargin; ++x) {
+    canvas_.at(x, y) = cells.colors[cells.at(x, y)];
+    if (side_ == 1 || !differs(cells, x, y)) continue;
+    edges.push_back(x);
+    for (const PlanePoint& p : places_) rays.push_back(panel_.ray(x + p.x, y + p.y));
+  }
+  const std::vector<RayHit> hits = scene_.first_hits(rays);
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    const std::size_t n = places_.size(), cell = cells.at(edges[k], y);
+    const Spot middle = spot_of(cells, cell);
+    std::vector<Place> places;
+    bool alike = true;
+    for (std::size_t i = k * n; i < (k + 1) * n; ++i) {
+      if (!hits[i].hit) continue;
+      places.push_back(place_of(panel_.subject, rays[i], hits[i]));
+      alike = alike && likeness(middle, spot_of(places.back()), per_depth_) > 0;
+    }
+    Color sum = static_cast<float>(n - places.size()) * kPaper;
+    const PixelShift shift = pixel_shift(seed_of(edges[k], y));
+    const Shared& shared = cells.shared[cell];
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      sum = sum + (alike ? finish(panel_.subject, panel_.lamps, panel_.scale, places[i])
+                               .lit(shared.sky, shared.key)
+                         : shade(panel_.subject, scene_, panel_.lamps, panel_.scale, own_, shift,
+                                 places[i], static_cast<int>(i)));
+    }
+    canvas_.at(edges[k], y) = (1 / static_cast<float>(n)) * sum;
+  }
+}
+
+}  // namespace
+
+void draw_shared(Canvas& canvas, const PanelPicture& p, const RayScene& scene,
+                 const RenderOptions& options, const Context& context, const ParallelStage& stage) {
+  const Drawing drawing(canvas, p, scene, options);
+  // Pixels that the thing may touch.
+  const double half_width = 0.5 * p.box.width() * p.pixels_per_unit + 1;
+  const double half_height = 0.5 * p.box.height() * p.pixels_per_unit + 1;
+  const int left = std::max(p.left, static_cast<int>(std::floor(p.center_x - half_width)));
+  const int right = std::min(p.right, static_cast<int>(std::ceil(p.center_x + half_width)));
+  const int top = std::max(0, static_cast<int>(std::floor(p.center_y - half_height)));
+  const int bottom = std::min(p.height, static_cast<int>(std::ceil(p.center_y + half_height)));
+  if (left >= right || top >= bottom) return;
+  const int rows = std::max(64, kStripCells / (right - left + 2 * kMargin));
+  Cells cells =
+      make_cells(left - kMargin, right + kMargin, std::min(rows, bottom - top) + 2 * kMargin);
+  for (int first = top; first < bottom; first += rows) {
+    cells.top = first - kMargin;
+    const int last = std::min(first + rows, bottom);
+    const double strip = (stage.to - stage.from) * (last - first) / (bottom - top);
+    double from = stage.from + (stage.to - stage.from) * (first - top) / (bottom - top);
+    const auto pass = [&](int margin, double part, const auto& work) {
+      const double to = std::min(stage.to, from + part * strip);
+      parallel_for(static_cast<std::size_t>(last - first + 2 * margin), kRows, context,
+                   {stage.name, from, to}, [&](std::size_t begin, std::size_t end) {
+                     for (std::size_t k = begin; k < end; ++k) {
+                       work(first - margin + static_cast<int>(k));
+                     }
+                   });
+      from = to;
+    };
+    pass(kMargin, 0.4, [&](int y) { drawing.see(cells, y); });
+    pass(kReach + 1, 0.3, [&](int y) { drawing.ask(cells, y); });
+    pass(1, 0.1, [&](int y) { drawing.share(cells, y); });
+    pass(0, 0.2, [&](int y) { drawing.resolve(cells, y); });
+  }
+}
+
+}  // namespace rholm
