@@ -41,11 +41,14 @@ struct Level {
 };
 std::vector<Level> make_levels(const Expansion& expansion, const Mesh& sphere, Pictures& pictures,
                                const Context& context) {
+  const int finest = subdivisions_for(pictures.degree);
   std::vector<Level> levels;
   for (const int degree : drawn_degrees(pictures.degree)) {
     try {
       report_progress(context, "surfaces", 0);
-      levels.push_back({degree, synthesize(cut_off(expansion, degree), sphere, context)});
+      const int n = subdivisions_for(degree);
+      levels.push_back({degree, synthesize(cut_off(expansion, degree),
+                                           n < finest ? icosphere(n) : sphere, context)});
     } catch (const Error& error) {
       if (error.code() != ErrorCode::kInvalidInput || degree == pictures.degree) throw;
       pictures.missing.push_back(degree);
