@@ -18,6 +18,8 @@
 namespace rholm {
 namespace {
 
+// By distance, then by index.
+bool nearer(const Neighbor& a, const Neighbor& b);
 // Of n points the k nearest come first; the square of the distance to the last of them.
 float keep_nearest(Neighbor* found, std::size_t n, std::size_t k);
 
@@ -32,6 +34,15 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<float, 16>;
 using V = hn::Vec<D>;
 
+// Squared distances of the points from the i-th on.
+HWY_INLINE V SquareTo(const PointTree::View& tree, std::size_t i, const V (&at)[3]) {
+  const D d;
+  const V dx = hn::Sub(hn::LoadU(d, tree.x + i), at[0]);
+  const V dy = hn::Sub(hn::LoadU(d, tree.y + i), at[1]);
+  const V dz = hn::Sub(hn::LoadU(d, tree.z + i), at[2]);
+  return hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
+}
+
 // Appends the points of a leaf within radius2 of `at`.
 HWY_INLINE std::size_t ScanLeaf(const PointTree::View& tree, std::uint32_t leaf, const V (&at)[3],
                                 float radius2, Neighbor* out) {
@@ -40,10 +51,7 @@ HWY_INLINE std::size_t ScanLeaf(const PointTree::View& tree, std::uint32_t leaf,
   alignas(64) float distances[16];
   std::size_t n = 0;
   for (std::size_t i = begin; i < end; i += hn::Lanes(d)) {
-    const V dx = hn::Sub(hn::LoadU(d, tree.x + i), at[0]);
-    const V dy = hn::Sub(hn::LoadU(d, tree.y + i), at[1]);
-    const V dz = hn::Sub(hn::LoadU(d, tree.z + i), at[2]);
-    const V square = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
+    const V square = SquareTo(tree, i, at);
     const auto near = hn::And(hn::Le(square, hn::Set(d, radius2)), hn::FirstN(d, end - i));
     hn::Store(square, d, distances);
     std::uint8_t bytes[8] = {};
@@ -56,18 +64,25 @@ HWY_INLINE std::size_t ScanLeaf(const PointTree::View& tree, std::uint32_t leaf,
   return n;
 }
 
+// How far the boxes of children `first` on of a wide node are, squared.
+HWY_INLINE V BoxDistances(const float* boxes, const V (&at)[3], std::size_t first) {
+  const D d;
+  V square = hn::Zero(d);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const V below = hn::Sub(hn::LoadU(d, boxes + 16 * axis + first), at[axis]);
+    const V above = hn::Sub(at[axis], hn::LoadU(d, boxes + 16 * (axis + 3) + first));
+    const V outside = hn::Max(hn::Max(below, above), hn::Zero(d));
+    square = hn::MulAdd(outside, outside, square);
+  }
+  return square;
+}
+
 // The children of a wide node whose boxes come within radius2 of `at`, as bits.
 HWY_INLINE unsigned NearChildren(const float* boxes, const V (&at)[3], float radius2) {
   const D d;
   unsigned bits = 0;
   for (std::size_t i = 0; i < 16; i += hn::Lanes(d)) {
-    V square = hn::Zero(d);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const V below = hn::Sub(hn::LoadU(d, boxes + 16 * axis + i), at[axis]);
-      const V above = hn::Sub(at[axis], hn::LoadU(d, boxes + 16 * (axis + 3) + i));
-      const V outside = hn::Max(hn::Max(below, above), hn::Zero(d));
-      square = hn::MulAdd(outside, outside, square);
-    }
+    const V square = BoxDistances(boxes, at, i);
     std::uint8_t bytes[8] = {};
     hn::StoreMaskBits(d, hn::Le(square, hn::Set(d, radius2)), bytes);
     bits |= (bytes[0] | (unsigned{bytes[1]} << 8)) << i;
@@ -119,6 +134,76 @@ void Gather(const PointTree::View& tree, const float* at, float radius2, std::si
   found.resize(n);
 }
 
+// The place of the least of 16 numbers, the first of them.
+HWY_INLINE std::size_t LeastOf(const float* values, float& least) {
+  const D d;
+  V all = hn::Load(d, values);
+  for (std::size_t i = hn::Lanes(d); i < 16; i += hn::Lanes(d)) {
+    all = hn::Min(all, hn::Load(d, values + i));
+  }
+  const V lowest = hn::MinOfLanes(d, all);
+  least = hn::GetLane(lowest);
+  for (std::size_t i = 0; i < 16; i += hn::Lanes(d)) {
+    const auto found = hn::FindFirstTrue(d, hn::Eq(hn::Load(d, values + i), lowest));
+    if (found >= 0) return i + static_cast<std::size_t>(found);
+  }
+  return 0;
+}
+
+// Squared distances of the points begin ... end - 1, 16 at most; infinity behind the last.
+HWY_INLINE void DistancesOf(const PointTree::View& tree, std::size_t begin, std::size_t end,
+                            const V (&at)[3], float* squares) {
+  const D d;
+  const V none = hn::Set(d, std::numeric_limits<float>::infinity());
+  for (std::size_t i = 0; i < 16; i += hn::Lanes(d)) {
+    V square = none;
+    if (begin + i < end) {
+      const auto has = hn::FirstN(d, end - (begin + i));
+      square = hn::IfThenElse(has, SquareTo(tree, begin + i, at), none);
+    }
+    hn::Store(square, d, squares + i);
+  }
+}
+
+// The nearest point, if it is nearer than `best`: nearest boxes first.
+void Nearest(const PointTree::View& tree, const float* at, Neighbor& best) {
+  const D d;
+  const V x[3] = {hn::Set(d, at[0]), hn::Set(d, at[1]), hn::Set(d, at[2])};
+  // Of a wide node on each level the squared distances of boxes, infinity once they are visited.
+  alignas(64) float squares[10][16];
+  std::uint32_t nodes[9] = {0};
+  const auto enter = [&](int depth) HWY_ATTR {
+    const std::size_t node = std::size_t{tree.level_begin[depth]} + nodes[depth];
+    for (std::size_t i = 0; i < 16; i += hn::Lanes(d)) {
+      hn::Store(BoxDistances(tree.boxes + 96 * node, x, i), d, squares[depth] + i);
+    }
+  };
+  enter(0);
+  for (int depth = 0; depth >= 0;) {
+    float least = 0;
+    const std::size_t first = LeastOf(squares[depth], least);
+    if (!(least <= best.distance2)) {
+      --depth;
+      continue;
+    }
+    squares[depth][first] = std::numeric_limits<float>::infinity();
+    const std::uint32_t child = 16 * nodes[depth] + static_cast<std::uint32_t>(first);
+    if (depth + 1 < tree.levels) {
+      nodes[++depth] = child;
+      enter(depth);
+      continue;
+    }
+    // Leaves may have one point more.
+    const std::size_t end = tree.leaf_begin[child + 1];
+    for (std::size_t begin = tree.leaf_begin[child]; begin < end; begin += 16) {
+      DistancesOf(tree, begin, end, x, squares[9]);
+      Neighbor near;
+      near.index = static_cast<std::uint32_t>(begin + LeastOf(squares[9], near.distance2));
+      if (nearer(near, best)) best = near;
+    }
+  }
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace rholm
 HWY_AFTER_NAMESPACE();
@@ -127,6 +212,7 @@ HWY_AFTER_NAMESPACE();
 namespace rholm {
 namespace {
 HWY_EXPORT(Gather);
+HWY_EXPORT(Nearest);
 
 // Points of a leaf, at most: a vector of the widest machines.
 constexpr std::size_t kLeafSize = 16;
@@ -347,6 +433,14 @@ void PointTree::nearest(const Vec3& x, std::size_t k, std::vector<Neighbor>& fou
   }
   const double circle2 = radius2_for(static_cast<double>(k), static_cast<double>(size()));
   search(at, static_cast<float>(1.2 * (outside2 + circle2)), k, found);
+}
+
+bool PointTree::nearest_within(const Vec3& x, double radius, Neighbor& found) const {
+  const double r = radius * scale_;
+  found = {static_cast<float>(r * r), std::numeric_limits<std::uint32_t>::max()};
+  if (size() > 0) HWY_DYNAMIC_DISPATCH(Nearest)(view(), local(x).data(), found);
+  found.distance2 *= static_cast<float>(1 / (scale_ * scale_));
+  return found.index < size();
 }
 
 void PointTree::within(const Vec3& x, double radius, std::vector<Neighbor>& found) const {

@@ -40,6 +40,8 @@ class PointTree {
   void nearest(const Vec3& x, std::size_t k, std::vector<Neighbor>& found) const;
   // The same around the i-th point, faster.
   void nearest_to(std::size_t i, std::size_t k, std::vector<Neighbor>& found) const;
+  // The nearest point within `radius` of x, ties by index; false if there is none. No memory.
+  bool nearest_within(const Vec3& x, double radius, Neighbor& found) const;
   // All points within `radius` of x, in the order of the tree.
   void within(const Vec3& x, double radius, std::vector<Neighbor>& found) const;
 

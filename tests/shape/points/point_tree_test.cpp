@@ -155,6 +155,35 @@ TEST(PointTree, of_any_number_of_points_finds_those_of_brute_force) {
   });
 }
 
+TEST(PointTree, the_nearest_within_a_radius_is_the_first_of_the_nearest) {
+  for (const Cloud& cloud : clouds()) {
+    const PointTree tree(cloud.points);
+    Vec3 lower = cloud.points[0], upper = lower;
+    for (const Vec3& p : cloud.points) {
+      lower = {std::min(lower.x, p.x), std::min(lower.y, p.y), std::min(lower.z, p.z)};
+      upper = {std::max(upper.x, p.x), std::max(upper.y, p.y), std::max(upper.z, p.z)};
+    }
+    test::for_each_target([&](const char* target) {
+      SCOPED_TRACE(cloud.name + " " + target);
+      std::vector<Neighbor> nearest;
+      for (std::uint64_t i = 0; i < 50; ++i) {
+        const Vec3 part = random_point(9, i), size = upper - lower;
+        const Vec3 x =
+            0.5 * (lower + upper) + Vec3{part.x * size.x, part.y * size.y, part.z * size.z};
+        tree.nearest(x, 1, nearest);
+        const double away = std::sqrt(double{nearest[0].distance2});
+        Neighbor found;
+        ASSERT_TRUE(tree.nearest_within(x, 1.001 * away + 1e-6 * norm(size), found));
+        EXPECT_EQ(found.index, nearest[0].index);
+        EXPECT_EQ(found.distance2, nearest[0].distance2);
+        if (away > 1e-3 * norm(size)) {
+          EXPECT_FALSE(tree.nearest_within(x, 0.999 * away, found));
+        }
+      }
+    });
+  }
+}
+
 TEST(PointTree, nearest_to_a_point_starts_with_its_place) {
   for (const Cloud& cloud : clouds()) {
     SCOPED_TRACE(cloud.name);
@@ -222,6 +251,8 @@ TEST(PointTree, order_is_a_permutation_and_leaves_cut_it) {
 }
 
 TEST(PointTree, of_nothing_finds_nothing) {
+  Neighbor none;
+  EXPECT_FALSE(PointTree(std::vector<Vec3>()).nearest_within({0, 0, 0}, 1, none));
   const PointTree tree(std::span<const Vec3>{});
   std::vector<Neighbor> found(3);
   tree.nearest({1, 2, 3}, 5, found);
