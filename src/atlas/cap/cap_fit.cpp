@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "atlas/cap/cap_fit.cpp"
@@ -19,47 +20,66 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<double, kCapLanes>;
 using V = hn::Vec<D>;
 
+// What a point asks for: right-hand sides, already multiplied by their weights.
+struct Asked {
+  V value, slope1, slope2;
+  V weight, slope_weight;
+  LowDirection<V> at;
+  V usable;  // 1 or 0
+};
+
+HWY_INLINE Asked Ask(D d, const LaneFrame<double>& f, const CapPoints& points,
+                     double gradient_weight, std::size_t i) {
+  const V one = hn::Set(d, 1.0);
+  const std::size_t left = points.size() - HWY_MIN(i, points.size());
+  const auto row = [&](std::size_t which) HWY_ATTR { return hn::Load(d, points.row(which) + i); };
+  CapRay<V> ray = RayTo(d, f, ToFrame(d, f, row(0), row(1), row(2)));
+  const Lanes3<V> n = ToFrame(d, f, row(3), row(4), row(5));
+  V facing = hn::Div(hn::MulAdd(n.x, ray.x, hn::MulAdd(n.y, ray.y, hn::Mul(n.z, ray.z))), ray.rho);
+  auto good = hn::And(hn::Gt(facing, hn::Set(d, kLeastFacing)),
+                      hn::Gt(ray.z, hn::Mul(ray.rho, hn::Set(d, kLowest))));
+  good = hn::And(good, hn::FirstN(d, left));
+  Asked asked;
+  asked.weight = hn::IfThenElseZero(good, hn::Sqrt(row(6)));
+  asked.usable = hn::IfThenElseZero(good, one);
+  // What is left out counts as on the axis: a weight of zero does not undo a division by it.
+  ray = {hn::IfThenElseZero(good, ray.x), hn::IfThenElseZero(good, ray.y),
+         hn::IfThenElse(good, ray.z, one), hn::IfThenElse(good, ray.rho, one)};
+  facing = hn::IfThenElseZero(good, facing);
+  const OpenedPlace<V> place = Open(d, f, ray);
+  asked.at = place.at;
+  // grad phi = (r / R_0) (u - n / (n . u)), method 7.4, along the tangents of the plane's axes.
+  const V level = hn::Mul(ray.rho, hn::Set(d, 1 / f.radius));
+  const V n_below = hn::Add(facing, n.z);
+  const V steep = hn::IfThenElseZero(
+      good, hn::Div(level, hn::Neg(hn::Mul(facing, ConformalFactor(d, f, place)))));
+  asked.slope_weight = hn::Mul(asked.weight, hn::Set(d, gradient_weight));
+  const V times = hn::Mul(asked.slope_weight, steep);
+  asked.value = hn::IfThenElseZero(good, hn::Mul(asked.weight, hn::Sub(level, one)));
+  asked.slope1 = hn::Mul(times, hn::NegMulAdd(place.s1, n_below, n.x));
+  asked.slope2 = hn::Mul(times, hn::NegMulAdd(place.s2, n_below, n.y));
+  return asked;
+}
+
 // Rows of the least squares, each multiplied by its weight: the right-hand sides, then for every
 // harmonic its value and two slopes at each point. All of a row is written, zeros beyond the last
-// point: what takes rows reads them whole, whatever the lanes.
+// point: what takes rows reads them whole, whatever the lanes. Returns how many points are usable.
 std::size_t FillRows(const CapFrame& frame, const CapPoints& points, const CapFitOptions& options,
-                     double* rows, std::size_t stride) {
+                     double* rows, std::size_t third) {
   const D d;
   const LaneFrame<double> f = lane_frame<double>(frame);
   const V one = hn::Set(d, 1.0);
-  const bool even = options.basis == CapBasis::kEven;
-  const std::size_t third = stride / 3;
+  const std::size_t stride = 3 * third;
   V usable = hn::Zero(d);
   for (std::size_t i = 0; i < third; i += hn::Lanes(d)) {
-    const std::size_t left = points.size() - HWY_MIN(i, points.size());
-    const auto row = [&](std::size_t which) HWY_ATTR { return hn::Load(d, points.row(which) + i); };
-    CapRay<V> ray = RayTo(d, f, ToFrame(d, f, row(0), row(1), row(2)));
-    const Lanes3<V> n = ToFrame(d, f, row(3), row(4), row(5));
-    V facing =
-        hn::Div(hn::MulAdd(n.x, ray.x, hn::MulAdd(n.y, ray.y, hn::Mul(n.z, ray.z))), ray.rho);
-    auto good = hn::And(hn::Gt(facing, hn::Set(d, kLeastFacing)),
-                        hn::Gt(ray.z, hn::Mul(ray.rho, hn::Set(d, kLowest))));
-    good = hn::And(good, hn::FirstN(d, left));
-    const V weight = hn::IfThenElseZero(good, hn::Sqrt(row(6)));
-    usable = hn::Add(usable, hn::IfThenElseZero(good, one));
-    // What is left out counts as on the axis: a weight of zero does not undo a division by it.
-    ray = {hn::IfThenElseZero(good, ray.x), hn::IfThenElseZero(good, ray.y),
-           hn::IfThenElse(good, ray.z, one), hn::IfThenElse(good, ray.rho, one)};
-    facing = hn::IfThenElseZero(good, facing);
-    const OpenedPlace<V> place = Open(d, f, ray);
-    const LowDirection<V>& at = place.at;
-    // grad phi = (r / R_0) (u - n / (n . u)), method 7.4, along the tangents of the plane's axes.
-    const V level = hn::Mul(ray.rho, hn::Set(d, 1 / f.radius));
-    const V n_below = hn::Add(facing, n.z);
-    const V steep = hn::IfThenElseZero(
-        good, hn::Div(level, hn::Neg(hn::Mul(facing, ConformalFactor(d, f, place)))));
-    const V slope_weight = hn::Mul(weight, hn::Set(d, options.gradient_weight));
+    const Asked asked = Ask(d, f, points, options.gradient_weight, i);
+    const V weight = asked.weight, slope_weight = asked.slope_weight;
+    const LowDirection<V>& at = asked.at;
+    usable = hn::Add(usable, asked.usable);
     double* const right = rows + i;
-    hn::Store(hn::IfThenElseZero(good, hn::Mul(weight, hn::Sub(level, one))), d, right);
-    hn::Store(hn::Mul(hn::Mul(slope_weight, steep), hn::NegMulAdd(place.s1, n_below, n.x)), d,
-              right + third);
-    hn::Store(hn::Mul(hn::Mul(slope_weight, steep), hn::NegMulAdd(place.s2, n_below, n.y)), d,
-              right + 2 * third);
+    hn::Store(asked.value, d, right);
+    hn::Store(asked.slope1, d, right + third);
+    hn::Store(asked.slope2, d, right + 2 * third);
     V re = one, im = one, re_below = one, im_below = one;
     const V up = hn::Add(at.z, one);
     VisitLowHarmonics(
@@ -67,9 +87,7 @@ std::size_t FillRows(const CapFrame& frame, const CapPoints& points, const CapFi
         [&](int, V b0, V b1, V b2, V b3)
             HWY_ATTR { re = b0, im = b1, re_below = b2, im_below = b3; },
         [&](int l, int m, V p, V dp) HWY_ATTR {
-          if (even && ((l + m) & 1) != 0) return;
-          const std::size_t index = even ? even_index(l, m) : low_index(l, m);
-          double* to = rows + (1 + index) * stride + i;
+          double* to = rows + (1 + low_index(l, m)) * stride + i;
           const V order = hn::Set(d, static_cast<double>(m));
           const V turn = hn::MulAdd(order, p, hn::Mul(up, dp)), pm = hn::Mul(order, p);
           hn::Store(hn::Mul(weight, hn::Mul(p, re)), d, to);
@@ -93,6 +111,25 @@ std::size_t FillRows(const CapFrame& frame, const CapPoints& points, const CapFi
   return static_cast<std::size_t>(hn::GetLane(hn::SumOfLanes(d, usable)) + 0.5);
 }
 
+// The points as EvenPoints has them, whole rows as above.
+std::size_t FillPoints(const CapFrame& frame, const CapPoints& points, const CapFitOptions& options,
+                       double* rows, std::size_t third) {
+  const D d;
+  const LaneFrame<double> f = lane_frame<double>(frame);
+  V usable = hn::Zero(d);
+  for (std::size_t i = 0; i < third; i += hn::Lanes(d)) {
+    const Asked asked = Ask(d, f, points, options.gradient_weight, i);
+    const LowDirection<V>& at = asked.at;
+    usable = hn::Add(usable, asked.usable);
+    const V values[EvenPoints::kRows] = {
+        asked.value, asked.slope1, asked.slope2, asked.weight, at.x, at.y, at.z, at.s1, at.s2};
+    for (std::size_t r = 0; r < EvenPoints::kRows; ++r) {
+      hn::Store(values[r], d, rows + r * third + i);
+    }
+  }
+  return static_cast<std::size_t>(hn::GetLane(hn::SumOfLanes(d, usable)) + 0.5);
+}
+
 // target = rows' sum with the coefficients, minus the right-hand side.
 void Residuals(const double* rows, const double* coefficients, std::size_t n, std::size_t length,
                std::size_t stride, double* target) {
@@ -106,6 +143,31 @@ void Residuals(const double* rows, const double* coefficients, std::size_t n, st
   }
 }
 
+// The same of points: [value, slope 1, slope 2][length], or values alone.
+void EvenResiduals(const EvenPoints& points, const double* coefficients, int degree, bool slopes,
+                   double* target) {
+  const D d;
+  const std::size_t length = points.length;
+  for (std::size_t i = 0; i < length; i += hn::Lanes(d)) {
+    const auto row = [&](EvenPoints::Row which)
+                         HWY_ATTR { return hn::Load(d, points.row(which) + i); };
+    const LowDirection<V> at{row(EvenPoints::kX), row(EvenPoints::kY), row(EvenPoints::kZ),
+                             row(EvenPoints::kS1), row(EvenPoints::kS2)};
+    const V weight = row(EvenPoints::kWeight);
+    if (!slopes) {
+      const V value = SumLowHarmonics(d, degree, true, coefficients, at).value;
+      hn::Store(hn::MulSub(weight, value, row(EvenPoints::kValue)), d, target + i);
+      continue;
+    }
+    const LowSum<V> sum = SumLowHarmonics(d, degree, true, coefficients, at);
+    const V slope_weight = hn::Mul(weight, hn::Set(d, points.gradient_weight));
+    hn::Store(hn::MulSub(weight, sum.value, row(EvenPoints::kValue)), d, target + i);
+    hn::Store(hn::MulSub(slope_weight, sum.d1, row(EvenPoints::kSlope1)), d, target + length + i);
+    hn::Store(hn::MulSub(slope_weight, sum.d2, row(EvenPoints::kSlope2)), d,
+              target + 2 * length + i);
+  }
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace rholm
 HWY_AFTER_NAMESPACE();
@@ -114,7 +176,9 @@ HWY_AFTER_NAMESPACE();
 namespace rholm {
 namespace {
 HWY_EXPORT(FillRows);
+HWY_EXPORT(FillPoints);
 HWY_EXPORT(Residuals);
+HWY_EXPORT(EvenResiduals);
 
 // Pivots below that part of their diagonal element have lost all digits.
 constexpr double kLeastPivot = 1e-14;
@@ -150,26 +214,43 @@ void CapPoints::pad() {
   }
 }
 
+void add_sunflower(const CapFrame& frame, std::size_t n, CapPoints& points) {
+  const double turn = std::numbers::pi * (3 - std::sqrt(5.0)), c = std::cos(turn),
+               s = std::sin(turn);
+  double x = frame.support / std::sqrt(static_cast<double>(n)), y = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double r = std::sqrt(static_cast<double>(k) + 0.5);
+    points.add(r * x * frame.x + r * y * frame.y, frame.z, 1);
+    const double before = x;
+    x = c * x - s * y, y = s * before + c * y;
+  }
+}
+
 CapSystem make_system(const CapFrame& frame, const CapPoints& points, const CapFitOptions& options,
                       CapFitScratch& scratch) {
-  CapSystem system;
-  const std::size_t n = n_coefficients(options.basis, options.degree);
-  system.n = n;
-  system.third = padded(points.size());
-  system.stride = 3 * system.third;
-  const std::size_t wanted = (n + 6) * system.stride;
+  const bool even = options.basis == CapBasis::kEven;
+  CapSystem system{.n = n_coefficients(options.basis, options.degree),
+                   .third = padded(points.size()),
+                   .options = options};
+  const std::size_t n = system.n, third = system.third;
+  const std::size_t wanted = (even ? EvenPoints::kRows + 3 : 3 * (n + 6)) * third;
   if (scratch.rows.size() < wanted) scratch.rows = AlignedArray<double>(2 * wanted);
   double* const rows = scratch.rows.data();
   poison_scratch(rows, wanted * sizeof(double));
-  system.usable = HWY_DYNAMIC_DISPATCH(FillRows)(frame, points, options, rows, system.stride);
-  clear_beyond(rows, n + 1, system.stride);
+  system.usable = even ? HWY_DYNAMIC_DISPATCH(FillPoints)(frame, points, options, rows, third)
+                       : HWY_DYNAMIC_DISPATCH(FillRows)(frame, points, options, rows, third);
   for (std::size_t i = 0; i < points.size(); ++i) system.weights += points.weight(i);
   if (3 * system.usable < n) return system;
   scratch.matrix.resize((n + 1) * (n + 1));
   poison_scratch(std::span(scratch.matrix));
-  make_normal_matrix(
-      {.rows = rows, .count = n + 1, .length = system.stride, .stride = system.stride},
-      scratch.matrix.data());
+  if (even) {
+    make_even_matrix({rows, third, options.gradient_weight}, options.degree, scratch.moments,
+                     scratch.matrix.data());
+  } else {
+    clear_beyond(rows, n + 1, 3 * third);
+    make_normal_matrix({.rows = rows, .count = n + 1, .length = 3 * third, .stride = 3 * third},
+                       scratch.matrix.data());
+  }
   for (int l = 0; l <= options.degree; ++l) {
     const double square = static_cast<double>(l) * (l + 1) * l * (l + 1);
     const std::size_t end = n_coefficients(options.basis, l);
@@ -181,12 +262,22 @@ CapSystem make_system(const CapFrame& frame, const CapPoints& points, const CapF
   return system;
 }
 
-const double* residuals(const CapSystem& system, std::span<const double> coefficients,
-                        std::size_t length, CapFitScratch& scratch) {
+const double* residuals(const CapSystem& system, std::span<const double> coefficients, bool slopes,
+                        CapFitScratch& scratch) {
+  const CapFitOptions& options = system.options;
   double* const rows = scratch.rows.data();
-  double* const target = rows + (system.n + 1) * system.stride;
+  const std::size_t third = system.third;
+  if (options.basis == CapBasis::kEven) {
+    int degree = 0;
+    while (n_coefficients(options.basis, degree) < coefficients.size()) ++degree;
+    double* const target = rows + EvenPoints::kRows * third;
+    HWY_DYNAMIC_DISPATCH(EvenResiduals)
+    ({rows, third, options.gradient_weight}, coefficients.data(), degree, slopes, target);
+    return target;
+  }
+  double* const target = rows + 3 * (system.n + 1) * third;
   HWY_DYNAMIC_DISPATCH(Residuals)
-  (rows, coefficients.data(), coefficients.size(), length, system.stride, target);
+  (rows, coefficients.data(), coefficients.size(), slopes ? 3 * third : third, 3 * third, target);
   return target;
 }
 
@@ -199,7 +290,7 @@ bool fit_cap(const CapFrame& frame, const CapPoints& points, const CapFitOptions
   if (!system.solvable) return false;
   if (scratch.factor.factor(scratch.matrix.data(), n, kLeastPivot) < n) return false;
   scratch.factor.solve(n, fit.coefficients);
-  const double* const rest = residuals(system, fit.coefficients, system.stride, scratch);
+  const double* const rest = residuals(system, fit.coefficients, true, scratch);
   fit.rms = frame.radius * std::sqrt(sum_of_squares(rest, third) / system.weights);
   fit.slope_rms = std::sqrt(sum_of_squares(rest + third, 2 * third) /
                             (system.weights * options.gradient_weight * options.gradient_weight));

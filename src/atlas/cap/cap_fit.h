@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "atlas/cap/cap_limits.h"
+#include "atlas/cap/even_moments.h"
 #include "atlas/cap/normal_equations.h"
 #include "base/aligned_array.h"
 #include "rholm/atlas.h"
@@ -32,6 +33,10 @@ class CapPoints {
   AlignedArray<double> data_;
 };
 
+// Adds points of weight 1 on a sunflower in the plane of the seed: each stands for the same area of
+// the support's disc.
+void add_sunflower(const CapFrame& frame, std::size_t n, CapPoints& points);
+
 struct CapFitOptions {
   CapBasis basis = CapBasis::kFull;
   int degree = 3;
@@ -52,29 +57,31 @@ struct CapFit {
 
 // Scratch memory of fits, one per thread.
 struct CapFitScratch {
-  // [right-hand side, coefficients, residuals][value, slope 1, slope 2][points padded]
+  // [right-hand side, coefficients, residuals][value, slope 1, slope 2][points padded]; of the even
+  // basis EvenPoints, then residuals.
   AlignedArray<double> rows;
+  EvenMoments moments;
   std::vector<double> matrix;
   NormalFactor factor;
 };
 
-// The least squares of a fit before it is solved: rows and matrix are in the scratch memory. The
+// The least squares of a fit before it is solved: points and matrix are in the scratch memory. The
 // coefficients of a lower degree are the first ones, so its system is the leading block.
 struct CapSystem {
   std::size_t n = 0;       // unknowns
-  std::size_t third = 0;   // points, padded: values' rows are third long
-  std::size_t stride = 0;  // from one row to the next: value, slope 1, slope 2
+  std::size_t third = 0;   // points, padded
   std::size_t usable = 0;  // points that face away from the centre
   double weights = 0;      // their sum
   bool solvable = false;   // enough points; else there is no matrix
+  CapFitOptions options = {};
 };
 // scratch.matrix is then [n + 1][n + 1] as normal_equations.h has it, penalty included.
 CapSystem make_system(const CapFrame& frame, const CapPoints& points, const CapFitOptions& options,
                       CapFitScratch& scratch);
-// What the first coefficients leave, times the rows' weights: the first `length` of a row, a
-// multiple of third. In the scratch memory.
-const double* residuals(const CapSystem& system, std::span<const double> coefficients,
-                        std::size_t length, CapFitScratch& scratch);
+// What the coefficients of a degree up to the system's leave of the right-hand sides, times the
+// points' weights: third values, and with `slopes` as many of both. In the scratch memory.
+const double* residuals(const CapSystem& system, std::span<const double> coefficients, bool slopes,
+                        CapFitScratch& scratch);
 
 // Fits; false if the matrix is singular to working precision. `points` are padded.
 bool fit_cap(const CapFrame& frame, const CapPoints& points, const CapFitOptions& options,

@@ -85,7 +85,7 @@ struct Misses {
 // the cosine, which makes distances along rays those from the surface.
 Misses misses_of(const CapSystem& system, const CapFrame& frame, const CandidateOptions& options,
                  CandidateScratch& scratch) {
-  const double* const rest = residuals(system, scratch.coefficients, system.third, scratch.fit);
+  const double* const rest = residuals(system, scratch.coefficients, false, scratch.fit);
   const double support2 = frame.support * frame.support, fit2 = kOverlap * kOverlap * support2;
   Misses misses;
   double sum = 0;
@@ -206,18 +206,14 @@ bool make_candidate(const SampleLevels& samples, std::uint32_t seed, double radi
   return !strays(samples, candidate.cap, candidate.coefficients, options.stray, radius, scratch);
 }
 
-// Probes on a sunflower: equal areas. A sample's square is seen from its middle: half its diagonal.
+// A sample's square is seen from its middle: half its diagonal.
 bool strays(const SampleLevels& samples, const Cap& cap, std::span<const double> coefficients,
             double band, double spacing, CandidateScratch& scratch) {
   const CapFrame& f = cap.frame;
   const double wanted = std::numbers::pi * f.support * f.support / (spacing * spacing);
   const auto n = static_cast<std::size_t>(std::clamp(wanted, kLeastProbes, kMostProbes));
   scratch.probes.clear();
-  for (std::size_t k = 0; k < n; ++k) {
-    const double r = f.support * std::sqrt((static_cast<double>(k) + 0.5) / static_cast<double>(n));
-    const double angle = static_cast<double>(k) * std::numbers::pi * (3 - std::sqrt(5.0));
-    scratch.probes.add(r * std::cos(angle) * f.x + r * std::sin(angle) * f.y, f.z, 1);
-  }
+  add_sunflower(f, n, scratch.probes);
   scratch.probes.pad();
   const std::size_t stride = scratch.probes.padded();
   scratch.surface.resize(6 * stride);
@@ -233,8 +229,8 @@ bool strays(const SampleLevels& samples, const Cap& cap, std::span<const double>
     const Vec3 at{values[k], values[stride + k], values[2 * stride + k]};
     if (!(dot(at, at) <= f.support * f.support)) continue;  // also behind the centre
     const double* const across = &values[3 * stride + k];
-    level.tree.nearest(f.seed() + at, 1, scratch.near);
-    const Neighbor& near = scratch.near.front();
+    Neighbor near;
+    if (!level.tree.nearest_within(f.seed() + at, wide, near)) return true;
     const Vec3& normal = level.normals[near.index];
     const double agree = dot(normal, Vec3{across[0], across[stride], across[2 * stride]});
     const double height = dot(f.seed() + at - level.points[near.index], normal);

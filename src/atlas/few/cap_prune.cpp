@@ -64,7 +64,7 @@ bool fit_form(const Cap& cap, const CapPoints& points, int degree, CapForm& form
   scratch.factor.invert(form.n, form.inverse);
   const double square = cap.frame.radius * cap.frame.radius;
   for (double& x : form.inverse) x /= square;  // errors as lengths
-  const double* const rest = residuals(system, form.coefficients, system.third, scratch);
+  const double* const rest = residuals(system, form.coefficients, false, scratch);
   for (std::size_t i = 0; i < points.size(); ++i) form.error += rest[i] * rest[i];
   form.error *= square;
   return true;

@@ -40,18 +40,14 @@ Vec3 weight_slope(const Cap& cap, double weight, const Vec3& at, const Vec3& nor
   return slope - dot(slope, normal) * normal;
 }
 
-// Points on a sunflower in the plane of the seed, carried along the rays.
+// Points of a sunflower, carried along the rays.
 void add_own_surface(const Cap& cap, std::span<const double> coefficients, double spacing,
                      CapPoints& points) {
   const CapFrame& f = cap.frame;
   const double samples = std::numbers::pi * f.support * f.support / (spacing * spacing);
   const auto n = static_cast<std::size_t>(std::clamp(samples / 4, 100.0, 2000.0));
   CapPoints plane;
-  for (std::size_t k = 0; k < n; ++k) {
-    const double r = f.support * std::sqrt((static_cast<double>(k) + 0.5) / static_cast<double>(n));
-    const double angle = static_cast<double>(k) * std::numbers::pi * (3 - std::sqrt(5.0));
-    plane.add(r * std::cos(angle) * f.x + r * std::sin(angle) * f.y, f.z, 1);
-  }
+  add_sunflower(f, n, plane);
   plane.pad();
   const std::size_t stride = plane.padded();
   std::vector<double> at(3 * stride), across(3 * stride);

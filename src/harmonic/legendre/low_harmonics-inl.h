@@ -52,6 +52,35 @@ HWY_INLINE void VisitLowHarmonics(D d, int degree, const LowDirection<hn::Vec<D>
   }
 }
 
+// The same for l + m even, with the derivative by Z^2.
+template <class D, class Begin, class Visit>
+HWY_INLINE void VisitEvenHarmonics(D d, int degree, const LowDirection<hn::Vec<D>>& at,
+                                   const Begin& begin, const Visit& visit) {
+  using V = hn::Vec<D>;
+  using T = hn::TFromD<D>;
+  const EvenHarmonics& h = even_harmonics();
+  const V z2 = hn::Mul(at.z, at.z);
+  V re = hn::Set(d, T(1)), im = hn::Zero(d), re_below = hn::Zero(d), im_below = hn::Zero(d);
+  for (int m = 0; m <= degree; ++m) {
+    begin(m, re, im, re_below, im_below);
+    V p0 = hn::Zero(d), p1 = hn::Set(d, static_cast<T>(h.start[m]));
+    V d0 = hn::Zero(d), d1 = hn::Zero(d);
+    for (int l = m;; l += 2) {
+      visit(l, m, p1, d1);
+      if (l + 2 > degree) break;
+      const V a = hn::Set(d, static_cast<T>(h.a[m][l])), c = hn::Set(d, static_cast<T>(h.c[m][l]));
+      const V times = hn::MulSub(a, z2, hn::Set(d, static_cast<T>(h.b[m][l])));
+      const V d2 = hn::MulAdd(a, p1, hn::MulSub(times, d1, hn::Mul(c, d0)));
+      const V p2 = hn::MulSub(times, p1, hn::Mul(c, p0));
+      p0 = p1, p1 = p2, d0 = d1, d1 = d2;
+    }
+    re_below = re, im_below = im;
+    const V next = hn::MulSub(at.x, re, hn::Mul(at.y, im));
+    im = hn::MulAdd(at.x, im, hn::Mul(at.y, re));
+    re = next;
+  }
+}
+
 // A sum of harmonics and its derivatives along the two unit tangents of the plane's axes.
 template <class V>
 struct LowSum {
@@ -67,7 +96,8 @@ HWY_INLINE LowSum<hn::Vec<D>> SumLowHarmonics(D d, int degree, bool even, const 
   // Of one order: sum of p c, sum of p s, and of the derivatives.
   V re = hn::Zero(d), im = re, re_below = re, im_below = re;
   V pc = hn::Zero(d), ps = pc, dc = pc, ds = pc;
-  const V up = hn::Add(at.z, hn::Set(d, hn::TFromD<D>(1)));
+  V up = hn::Add(at.z, hn::Set(d, hn::TFromD<D>(1)));
+  if (even) up = hn::Mul(up, hn::Add(at.z, at.z));  // derivatives by Z^2
   const auto finish = [&](int m) HWY_ATTR {
     // f = A pc + B ps, A + iB = (X + iY)^m; along e_1: pc dA/dX + ps dB/dX - s1 (m f + (1 + Z) f').
     const V order = hn::Set(d, static_cast<hn::TFromD<D>>(m));
@@ -79,24 +109,29 @@ HWY_INLINE LowSum<hn::Vec<D>> SumLowHarmonics(D d, int degree, bool even, const 
     sum.d1 = hn::Add(sum.d1, hn::NegMulAdd(at.s1, slope, along1));
     sum.d2 = hn::Add(sum.d2, hn::NegMulAdd(at.s2, slope, along2));
   };
-  VisitLowHarmonics(
-      d, degree, at,
-      [&](int m, V a, V b, V a_below, V b_below) HWY_ATTR {
-        if (m > 0) finish(m - 1);
-        re = a, im = b, re_below = a_below, im_below = b_below;
-        pc = ps = dc = ds = hn::Zero(d);
-      },
-      [&](int l, int m, V p, V dp) HWY_ATTR {
-        if (even && ((l + m) & 1) != 0) return;
-        const hn::TFromD<D>* const at_lm = c + (even ? even_index(l, m) : low_index(l, m));
-        const V cosine = hn::Set(d, at_lm[0]);
-        pc = hn::MulAdd(p, cosine, pc);
-        dc = hn::MulAdd(dp, cosine, dc);
-        if (m == 0) return;
-        const V sine = hn::Set(d, at_lm[1]);
-        ps = hn::MulAdd(p, sine, ps);
-        ds = hn::MulAdd(dp, sine, ds);
-      });
+  const auto begin = [&](int m, V a, V b, V a_below, V b_below) HWY_ATTR {
+    if (m > 0) finish(m - 1);
+    re = a, im = b, re_below = a_below, im_below = b_below;
+    pc = ps = dc = ds = hn::Zero(d);
+  };
+  const auto add = [&](const hn::TFromD<D>* at_lm, int m, V p, V dp) HWY_ATTR {
+    const V cosine = hn::Set(d, at_lm[0]);
+    pc = hn::MulAdd(p, cosine, pc);
+    dc = hn::MulAdd(dp, cosine, dc);
+    if (m == 0) return;
+    const V sine = hn::Set(d, at_lm[1]);
+    ps = hn::MulAdd(p, sine, ps);
+    ds = hn::MulAdd(dp, sine, ds);
+  };
+  if (even) {
+    VisitEvenHarmonics(d, degree, at, begin, [&](int l, int m, V p, V dp) HWY_ATTR {
+      add(c + even_index(l, m), m, p, dp);
+    });
+  } else {
+    VisitLowHarmonics(d, degree, at, begin, [&](int l, int m, V p, V dp) HWY_ATTR {
+      add(c + low_index(l, m), m, p, dp);
+    });
+  }
   finish(degree);
   return sum;
 }

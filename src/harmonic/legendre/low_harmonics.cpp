@@ -6,13 +6,19 @@
 namespace rholm {
 namespace {
 
+template <std::size_t kCount>
+void set_starts(std::array<double, kCount>& start) {
+  start[0] = std::sqrt(0.25 / std::numbers::pi);
+  for (std::size_t m = 1; m < kCount; ++m) {
+    // (2m+1)/(2m), and twice that at m = 1: cosine and sine share what e^{im phi} has.
+    const double twice = 2 * static_cast<double>(m);
+    start[m] = start[m - 1] * std::sqrt((m == 1 ? 2.0 : 1.0) * (twice + 1) / twice);
+  }
+}
+
 LowHarmonics make() {
   LowHarmonics h{};
-  h.start[0] = std::sqrt(0.25 / std::numbers::pi);
-  for (int m = 1; m <= kMaxLowDegree; ++m) {
-    // (2m+1)/(2m), and twice that at m = 1: cosine and sine share what e^{im phi} has.
-    h.start[m] = h.start[m - 1] * std::sqrt((m == 1 ? 2.0 : 1.0) * (2.0 * m + 1) / (2.0 * m));
-  }
+  set_starts(h.start);
   for (int m = 0; m <= kMaxLowDegree; ++m) {
     for (int l = m + 1; l <= kMaxLowDegree; ++l) {
       const double ll = l, mm = m, k = l - 1;
@@ -23,7 +29,30 @@ LowHarmonics make() {
   return h;
 }
 
+// Z p_l = beta_{l+1} p_{l+1} + beta_l p_{l-1}, twice.
+EvenHarmonics make_even() {
+  EvenHarmonics h{};
+  set_starts(h.start);
+  for (int m = 0; m <= kMaxEvenDegree; ++m) {
+    const auto beta = [m](int l) {
+      const double ll = l, mm = m;
+      return l > m ? std::sqrt((ll * ll - mm * mm) / (4 * ll * ll - 1)) : 0;
+    };
+    for (int l = m; l + 2 <= kMaxEvenDegree; l += 2) {
+      const double up = beta(l + 1), here = beta(l), scale = 1 / (up * beta(l + 2));
+      h.a[m][l] = scale, h.b[m][l] = scale * (up * up + here * here);
+      h.c[m][l] = scale * here * beta(l - 1);
+    }
+  }
+  return h;
+}
+
 }  // namespace
+
+const EvenHarmonics& even_harmonics() {
+  static const EvenHarmonics harmonics = make_even();
+  return harmonics;
+}
 
 const LowHarmonics& low_harmonics() {
   static const LowHarmonics harmonics = make();

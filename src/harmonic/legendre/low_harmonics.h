@@ -21,6 +21,15 @@ struct LowHarmonics {
 };
 const LowHarmonics& low_harmonics();
 
+// Those with l + m even alone, which are even in Z, up to twice that degree, where products of two
+// end: p_{l+2,m} = (a_lm Z^2 - b_lm) p_lm - c_lm p_{l-2,m}.
+inline constexpr int kMaxEvenDegree = 2 * kMaxLowDegree;
+struct EvenHarmonics {
+  std::array<double, kMaxEvenDegree + 1> start;
+  std::array<std::array<double, kMaxEvenDegree + 1>, kMaxEvenDegree + 1> a, b, c;
+};
+const EvenHarmonics& even_harmonics();
+
 // The place of the cosine of (l, m) among all harmonics; its sine is the next.
 constexpr std::size_t low_index(int l, int m) {
   return static_cast<std::size_t>(l * l + (m == 0 ? 0 : 2 * m - 1));

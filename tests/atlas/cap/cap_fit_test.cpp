@@ -248,6 +248,27 @@ TEST(CapFit, too_few_points_or_none_that_face_the_sphere_are_refused) {
   EXPECT_EQ(fit.usable, 0);
 }
 
+TEST(CapPoints, of_a_sunflower_stand_for_equal_areas) {
+  const CapFrame frame = make_frame();
+  CapPoints points;
+  add_sunflower(frame, 20000, points);
+  ASSERT_EQ(points.size(), 20000u);
+  // Point k is the k-th from the seed, a golden angle after the one before it: of every half plane
+  // and every disc about the seed as many as it has of the area, up to some.
+  std::size_t left = 0, above = 0;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const double x = dot(points.offset(k), frame.x), y = dot(points.offset(k), frame.y);
+    EXPECT_NEAR(dot(points.offset(k), frame.z), 0, 1e-15);
+    const double part = (static_cast<double>(k) + 0.5) / 20000;
+    EXPECT_NEAR(x * x + y * y, part * kSupport * kSupport, 1e-12);
+    const double angle = static_cast<double>(k) * pi * (3 - std::sqrt(5.0));
+    EXPECT_NEAR(x * std::sin(angle) - y * std::cos(angle), 0, 1e-11);
+    left += x<0, above += y> 0;
+  }
+  EXPECT_NEAR(static_cast<double>(left), 10000, 10);
+  EXPECT_NEAR(static_cast<double>(above), 10000, 10);
+}
+
 // ---- Potential and surface ----
 
 TEST(CapEval, its_surface_is_that_of_the_coefficients) {
