@@ -39,6 +39,12 @@ struct CapForm {
   }
 };
 
+// For those coefficients; at first none, which no cap has.
+struct CapShrink {
+  std::vector<double> coefficients;
+  int times = 0;
+};
+
 namespace {
 
 constexpr double kShrink = 0.94;  // of a support that its surface leaves
@@ -149,28 +155,38 @@ Atlas with_forms(const Atlas& atlas, const std::vector<CapForm>& forms) {
   return result;
 }
 
-// Supports shrink until their caps' surfaces do not leave the samples there; how often each did.
-std::vector<int> shrink_stray(const SampleLevels& samples, double stray, Atlas& atlas,
-                              const Context& context) {
-  std::vector<int> shrinks(atlas.caps.size());
+// Supports shrink until their caps' surfaces do not leave the samples there. Most caps are as they
+// were at the last step.
+void shrink_stray(const SampleLevels& samples, double stray, Atlas& atlas,
+                  std::vector<CapShrink>& shrinks, const Context& context) {
   parallel_for(atlas.caps.size(), 16, context, {}, [&](std::size_t begin, std::size_t end) {
     CandidateScratch scratch;
     for (std::size_t c = begin; c < end; ++c) {
       Cap& cap = atlas.caps[c];
-      for (int& k = shrinks[c]; k < kMostShrinks; ++k) {
-        if (!strays(samples, cap, atlas.coefficients_of(cap), stray, stray, scratch)) break;
-        set_support(cap, kShrink * cap.frame.support);
+      CapShrink& last = shrinks[c];
+      const std::span<const double> own = atlas.coefficients_of(cap);
+      if (!std::ranges::equal(own, last.coefficients)) {
+        last.coefficients.assign(own.begin(), own.end());
+        last.times = 0;
+        for (Cap smaller = cap; last.times < kMostShrinks; ++last.times) {
+          if (!strays(samples, smaller, own, stray, stray, scratch)) break;
+          set_support(smaller, kShrink * smaller.frame.support);
+        }
       }
+      for (int k = 0; k < last.times; ++k) set_support(cap, kShrink * cap.frame.support);
     }
   });
-  return shrinks;
 }
 
 }  // namespace
 
 Pruning::Pruning(const SampleLevels& samples, const PruneOptions& options, const Atlas& atlas,
                  const Context& context)
-    : samples_(samples), options_(options), atlas_(atlas), forms_(atlas.caps.size()) {
+    : samples_(samples),
+      options_(options),
+      atlas_(atlas),
+      forms_(atlas.caps.size()),
+      shrinks_(atlas.caps.size()) {
   const SampleLevel& finest = samples.finest();
   const CapShares shares = shares_of(atlas, finest, options.band, context);
   parallel_for(forms_.size(), 1, context, {.name = "fits"},
@@ -188,7 +204,7 @@ Pruning::~Pruning() = default;
 
 // The sum of errors bounds the blend's, which is measured: a few steps to the budget that uses up
 // the aim.
-PruneReport Pruning::to(double aim, Atlas& pruned, const Context& context) const {
+PruneReport Pruning::to(double aim, Atlas& pruned, const Context& context) {
   const SampleLevel& finest = samples_.finest();
   PruneReport report;
   std::vector<double> worth(forms_.size(), 1);
@@ -198,9 +214,9 @@ PruneReport Pruning::to(double aim, Atlas& pruned, const Context& context) const
     for (std::size_t c = 0; c < forms.size(); ++c) forms[c].worth = worth[c];
     const double price = drop_until(budget, forms);
     Atlas trial = with_forms(atlas_, forms);
-    const std::vector<int> shrinks = shrink_stray(samples_, options_.stray, trial, context);
+    shrink_stray(samples_, options_.stray, trial, shrinks_, context);
     for (std::size_t c = 0; c < forms_.size(); ++c) {
-      if (shrinks[c] > kFreeShrinks) worth[c] *= kDearer;
+      if (shrinks_[c].times > kFreeShrinks) worth[c] *= kDearer;
     }
     agree(finest, {.tolerance = options_.tolerance, .band = options_.band}, trial, context);
     const Blend after = blend(trial, finest, options_.band, context);

@@ -17,7 +17,8 @@ struct PruneOptions {
   int max_degree = 14;
 };
 
-struct CapForm;  // the error of one cap as a function of its coefficients
+struct CapForm;    // the error of one cap as a function of its coefficients
+struct CapShrink;  // how often a cap shrank
 
 struct PruneReport {
   double rms = 0;                // of the blend
@@ -37,13 +38,14 @@ class Pruning {
   ~Pruning();
   Pruning(const Pruning&) = delete;
   Pruning& operator=(const Pruning&) = delete;
-  PruneReport to(double aim, Atlas& pruned, const Context& context) const;
+  PruneReport to(double aim, Atlas& pruned, const Context& context);
 
  private:
   const SampleLevels& samples_;
   PruneOptions options_;
   Atlas atlas_;
   std::vector<CapForm> forms_;
+  std::vector<CapShrink> shrinks_;  // last
 };
 
 // The number of coefficients that are not zero.

@@ -118,7 +118,7 @@ TEST(greedy_cover, covered_samples_of_a_sphere_are_within_four_tolerances) {
 // To the tolerance that the caps were fitted to.
 PruneReport prune(const SampleLevels& samples, const PruneOptions& options, Atlas& atlas,
                   const Context& context) {
-  const Pruning pruning(samples, options, atlas, context);
+  Pruning pruning(samples, options, atlas, context);
   return pruning.to(options.tolerance, atlas, context);
 }
 
