@@ -210,7 +210,8 @@ bool make_candidate(const SampleLevels& samples, std::uint32_t seed, double radi
 bool strays(const SampleLevels& samples, const Cap& cap, std::span<const double> coefficients,
             double band, double spacing, CandidateScratch& scratch) {
   const CapFrame& f = cap.frame;
-  const double wanted = std::numbers::pi * f.support * f.support / (spacing * spacing);
+  const double apart = std::max(spacing, samples.finest().spacing);
+  const double wanted = std::numbers::pi * f.support * f.support / (apart * apart);
   const auto n = static_cast<std::size_t>(std::clamp(wanted, kLeastProbes, kMostProbes));
   scratch.probes.clear();
   add_sunflower(f, n, scratch.probes);

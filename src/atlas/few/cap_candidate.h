@@ -56,7 +56,9 @@ bool make_candidate(const SampleLevels& samples, std::uint32_t seed, double radi
                     Candidate& candidate);
 
 // Whether a point of its surface within its support is farther than `band` off the surface of the
-// samples, or where they have ended, or faces the other way; at probes about `spacing` apart.
+// samples, or where they have ended, or faces the other way; at probes about `spacing` apart, or as
+// samples are where those are fewer: nearer ones see the same samples, which tell an end two and a
+// half spacings beyond it.
 // Samples may be random: voids between them are not their end.
 bool strays(const SampleLevels& samples, const Cap& cap, std::span<const double> coefficients,
             double band, double spacing, CandidateScratch& scratch);
