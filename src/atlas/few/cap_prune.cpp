@@ -50,6 +50,11 @@ namespace {
 constexpr double kShrink = 0.94;  // of a support that its surface leaves
 constexpr int kMostShrinks = 8;   // to 0.6: what still strays then is closed and dropped later
 constexpr int kMostSteps = 5;     // to the budget
+// The blend's rms is a power of the budget, 1/2 if all errors were the caps' own, less where they
+// outvote one another (scripts/constants). Told by steps that change the budget by kTelling or
+// more, as logarithms: smaller ones change what caps are worth as much.
+constexpr double kLeastPower = 0.25;
+constexpr double kTelling = 0.02;
 // A cap that is to shrink to less than 0.7 has lost coefficients that it needs: those it has are
 // dearer from then on. Chosen by scripts/atlas-figures: half as many shrinks take 6 % more numbers,
 // without a bound the caps at rims, as of ears, are cut to pieces.
@@ -186,7 +191,8 @@ Pruning::Pruning(const SampleLevels& samples, const PruneOptions& options, const
       options_(options),
       atlas_(atlas),
       forms_(atlas.caps.size()),
-      shrinks_(atlas.caps.size()) {
+      shrinks_(atlas.caps.size()),
+      worth_(atlas.caps.size(), 1) {
   const SampleLevel& finest = samples.finest();
   const CapShares shares = shares_of(atlas, finest, options.band, context);
   parallel_for(forms_.size(), 1, context, {.name = "fits"},
@@ -207,26 +213,31 @@ Pruning::~Pruning() = default;
 PruneReport Pruning::to(double aim, Atlas& pruned, const Context& context) {
   const SampleLevel& finest = samples_.finest();
   PruneReport report;
-  std::vector<double> worth(forms_.size(), 1);
-  double budget = aim * aim * static_cast<double>(finest.points.size());
+  double budget = budget_ > 0 ? budget_ * std::pow(aim / reached_, 1 / power_)
+                              : aim * aim * static_cast<double>(finest.points.size());
   for (int step = 0; step < kMostSteps; ++step) {
     std::vector<CapForm> forms = forms_;
-    for (std::size_t c = 0; c < forms.size(); ++c) forms[c].worth = worth[c];
+    for (std::size_t c = 0; c < forms.size(); ++c) forms[c].worth = worth_[c];
     const double price = drop_until(budget, forms);
     Atlas trial = with_forms(atlas_, forms);
     shrink_stray(samples_, options_.stray, trial, shrinks_, context);
     for (std::size_t c = 0; c < forms_.size(); ++c) {
-      if (shrinks_[c].times > kFreeShrinks) worth[c] *= kDearer;
+      if (shrinks_[c].times > kFreeShrinks) worth_[c] *= kDearer;
     }
     agree(finest, {.tolerance = options_.tolerance, .band = options_.band}, trial, context);
     const Blend after = blend(trial, finest, options_.band, context);
-    const double ratio = aim / after.rms;
     if (after.rms <= aim || step == 0 || after.rms < report.rms) {
       pruned = std::move(trial);
       report = {after.rms, n_kept(pruned), price};
     }
+    const double change = budget_ > 0 ? std::log(budget / budget_) : 0;
+    if (std::abs(change) > kTelling) {
+      power_ = std::clamp(std::log(after.rms / reached_) / change, kLeastPower, 0.5);
+    }
+    budget_ = budget, reached_ = after.rms;
+    const double ratio = aim / after.rms;
     if (std::abs(ratio - 1) < 0.003) break;
-    budget *= ratio * ratio;
+    budget *= std::pow(ratio, 1 / power_);
   }
   return report;
 }

@@ -38,6 +38,7 @@ class Pruning {
   ~Pruning();
   Pruning(const Pruning&) = delete;
   Pruning& operator=(const Pruning&) = delete;
+  // Aims that come later begin with what was learnt from those before.
   PruneReport to(double aim, Atlas& pruned, const Context& context);
 
  private:
@@ -46,6 +47,9 @@ class Pruning {
   Atlas atlas_;
   std::vector<CapForm> forms_;
   std::vector<CapShrink> shrinks_;  // last
+  std::vector<double> worth_;       // of caps' errors beside those of others
+  // What caps may miss in all, squared, the blend's rms with it, and the power of it that that is.
+  double budget_ = 0, reached_ = 0, power_ = 0.5;
 };
 
 // The number of coefficients that are not zero.
