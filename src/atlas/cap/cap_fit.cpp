@@ -143,28 +143,68 @@ void Residuals(const double* rows, const double* coefficients, std::size_t n, st
   }
 }
 
+// The same of values at points, kCount vectors at a time: one alone waits for its recurrence.
+template <std::size_t kCount>
+HWY_INLINE void ValueResiduals(const EvenPoints& points, const double* coefficients, int degree,
+                               std::size_t i, double* target) {
+  const D d;
+  const EvenHarmonics& h = even_harmonics();
+  V x[kCount], y[kCount], z2[kCount], re[kCount], im[kCount], sum[kCount];
+  const auto row = [&](EvenPoints::Row which, std::size_t g)
+                       HWY_ATTR { return hn::Load(d, points.row(which) + i + g * hn::Lanes(d)); };
+  for (std::size_t g = 0; g < kCount; ++g) {
+    x[g] = row(EvenPoints::kX, g), y[g] = row(EvenPoints::kY, g);
+    z2[g] = hn::Mul(row(EvenPoints::kZ, g), row(EvenPoints::kZ, g));
+    re[g] = hn::Set(d, 1.0), im[g] = sum[g] = hn::Zero(d);
+  }
+  for (int m = 0; m <= degree; ++m) {
+    V cosine[kCount], sine[kCount], p0[kCount], p1[kCount];
+    for (std::size_t g = 0; g < kCount; ++g) {
+      cosine[g] = sine[g] = p0[g] = hn::Zero(d), p1[g] = hn::Set(d, h.start[m]);
+    }
+    for (int l = m; l <= degree; l += 2) {
+      const double* const c = coefficients + even_index(l, m);
+      const V a = hn::Set(d, h.a[m][l]), b = hn::Set(d, h.b[m][l]), e = hn::Set(d, h.c[m][l]);
+      const V of_cosine = hn::Set(d, c[0]), of_sine = m > 0 ? hn::Set(d, c[1]) : hn::Zero(d);
+      for (std::size_t g = 0; g < kCount; ++g) {
+        cosine[g] = hn::MulAdd(of_cosine, p1[g], cosine[g]);
+        sine[g] = hn::MulAdd(of_sine, p1[g], sine[g]);
+        const V next = hn::MulSub(hn::MulSub(a, z2[g], b), p1[g], hn::Mul(e, p0[g]));
+        p0[g] = p1[g], p1[g] = next;
+      }
+    }
+    for (std::size_t g = 0; g < kCount; ++g) {
+      sum[g] = hn::MulAdd(cosine[g], re[g], hn::MulAdd(sine[g], im[g], sum[g]));
+      const V next = hn::MulSub(x[g], re[g], hn::Mul(y[g], im[g]));
+      im[g] = hn::MulAdd(x[g], im[g], hn::Mul(y[g], re[g]));
+      re[g] = next;
+    }
+  }
+  for (std::size_t g = 0; g < kCount; ++g) {
+    hn::Store(hn::MulSub(row(EvenPoints::kWeight, g), sum[g], row(EvenPoints::kValue, g)), d,
+              target + i + g * hn::Lanes(d));
+  }
+}
+
 // The same of points: [value, slope 1, slope 2][length], or values alone.
 void EvenResiduals(const EvenPoints& points, const double* coefficients, int degree, bool slopes,
                    double* target) {
   const D d;
-  const std::size_t length = points.length;
-  for (std::size_t i = 0; i < length; i += hn::Lanes(d)) {
+  const std::size_t length = points.length, n = hn::Lanes(d);
+  std::size_t i = 0;
+  for (; i + 2 * n <= length; i += 2 * n) {
+    ValueResiduals<2>(points, coefficients, degree, i, target);
+  }
+  for (; i < length; i += n) ValueResiduals<1>(points, coefficients, degree, i, target);
+  for (i = 0; slopes && i < length; i += n) {
     const auto row = [&](EvenPoints::Row which)
                          HWY_ATTR { return hn::Load(d, points.row(which) + i); };
     const LowDirection<V> at{row(EvenPoints::kX), row(EvenPoints::kY), row(EvenPoints::kZ),
                              row(EvenPoints::kS1), row(EvenPoints::kS2)};
-    const V weight = row(EvenPoints::kWeight);
-    if (!slopes) {
-      const V value = SumLowHarmonics(d, degree, true, coefficients, at).value;
-      hn::Store(hn::MulSub(weight, value, row(EvenPoints::kValue)), d, target + i);
-      continue;
-    }
     const LowSum<V> sum = SumLowHarmonics(d, degree, true, coefficients, at);
-    const V slope_weight = hn::Mul(weight, hn::Set(d, points.gradient_weight));
-    hn::Store(hn::MulSub(weight, sum.value, row(EvenPoints::kValue)), d, target + i);
-    hn::Store(hn::MulSub(slope_weight, sum.d1, row(EvenPoints::kSlope1)), d, target + length + i);
-    hn::Store(hn::MulSub(slope_weight, sum.d2, row(EvenPoints::kSlope2)), d,
-              target + 2 * length + i);
+    const V weight = hn::Mul(row(EvenPoints::kWeight), hn::Set(d, points.gradient_weight));
+    hn::Store(hn::MulSub(weight, sum.d1, row(EvenPoints::kSlope1)), d, target + length + i);
+    hn::Store(hn::MulSub(weight, sum.d2, row(EvenPoints::kSlope2)), d, target + 2 * length + i);
   }
 }
 
@@ -226,24 +266,18 @@ void add_sunflower(const CapFrame& frame, std::size_t n, CapPoints& points) {
   }
 }
 
-CapSystem make_system(const CapFrame& frame, const CapPoints& points, const CapFitOptions& options,
-                      CapFitScratch& scratch) {
-  const bool even = options.basis == CapBasis::kEven;
-  CapSystem system{.n = n_coefficients(options.basis, options.degree),
-                   .third = padded(points.size()),
-                   .options = options};
+namespace {
+
+// From the points or rows in the scratch memory, if they are enough.
+void make_matrix(CapSystem& system, CapFitScratch& scratch) {
+  const CapFitOptions& options = system.options;
   const std::size_t n = system.n, third = system.third;
-  const std::size_t wanted = (even ? EvenPoints::kRows + 3 : 3 * (n + 6)) * third;
-  if (scratch.rows.size() < wanted) scratch.rows = AlignedArray<double>(2 * wanted);
+  system.solvable = 3 * system.usable >= n;
+  if (!system.solvable) return;
   double* const rows = scratch.rows.data();
-  poison_scratch(rows, wanted * sizeof(double));
-  system.usable = even ? HWY_DYNAMIC_DISPATCH(FillPoints)(frame, points, options, rows, third)
-                       : HWY_DYNAMIC_DISPATCH(FillRows)(frame, points, options, rows, third);
-  for (std::size_t i = 0; i < points.size(); ++i) system.weights += points.weight(i);
-  if (3 * system.usable < n) return system;
   scratch.matrix.resize((n + 1) * (n + 1));
   poison_scratch(std::span(scratch.matrix));
-  if (even) {
+  if (options.basis == CapBasis::kEven) {
     make_even_matrix({rows, third, options.gradient_weight}, options.degree, scratch.moments,
                      scratch.matrix.data());
   } else {
@@ -258,8 +292,34 @@ CapSystem make_system(const CapFrame& frame, const CapPoints& points, const CapF
       scratch.matrix[normal_diagonal(i, n)] += options.penalty * system.weights * square;
     }
   }
-  system.solvable = true;
+}
+
+}  // namespace
+
+CapSystem make_system(const CapFrame& frame, const CapPoints& points, const CapFitOptions& options,
+                      CapFitScratch& scratch) {
+  const bool even = options.basis == CapBasis::kEven;
+  CapSystem system{.n = n_coefficients(options.basis, options.degree),
+                   .third = padded(points.size()),
+                   .options = options};
+  const std::size_t third = system.third;
+  const std::size_t wanted = (even ? EvenPoints::kRows + 3 : 3 * (system.n + 6)) * third;
+  if (scratch.rows.size() < wanted) scratch.rows = AlignedArray<double>(2 * wanted);
+  double* const rows = scratch.rows.data();
+  poison_scratch(rows, wanted * sizeof(double));
+  system.usable = even ? HWY_DYNAMIC_DISPATCH(FillPoints)(frame, points, options, rows, third)
+                       : HWY_DYNAMIC_DISPATCH(FillRows)(frame, points, options, rows, third);
+  for (std::size_t i = 0; i < points.size(); ++i) system.weights += points.weight(i);
+  make_matrix(system, scratch);
   return system;
+}
+
+CapSystem with_degree(const CapSystem& system, int degree, CapFitScratch& scratch) {
+  CapSystem other = system;
+  other.options.degree = degree;
+  other.n = n_coefficients(CapBasis::kEven, degree);
+  make_matrix(other, scratch);
+  return other;
 }
 
 const double* residuals(const CapSystem& system, std::span<const double> coefficients, bool slopes,

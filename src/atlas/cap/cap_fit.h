@@ -78,6 +78,8 @@ struct CapSystem {
 // scratch.matrix is then [n + 1][n + 1] as normal_equations.h has it, penalty included.
 CapSystem make_system(const CapFrame& frame, const CapPoints& points, const CapFitOptions& options,
                       CapFitScratch& scratch);
+// That of the same points, in the scratch memory, and another degree: of the even basis.
+CapSystem with_degree(const CapSystem& system, int degree, CapFitScratch& scratch);
 // What the coefficients of a degree up to the system's leave of the right-hand sides, times the
 // points' weights: third values, and with `slopes` as many of both. In the scratch memory.
 const double* residuals(const CapSystem& system, std::span<const double> coefficients, bool slopes,

@@ -193,11 +193,16 @@ const std::vector<double>& products() {
   return factors;
 }
 
+// l (l + 1).
+constexpr std::array<double, kMaxEvenDegree + 1> kLaplacians = [] {
+  std::array<double, kMaxEvenDegree + 1> all{};
+  for (std::size_t l = 0; l < all.size(); ++l) all[l] = static_cast<double>(l * (l + 1));
+  return all;
+}();
+
 struct OrderSum {
   double cosine = 0, sine = 0;
 };
-
-double laplacian(int l) { return static_cast<double>(l * (l + 1)); }
 
 }  // namespace
 
@@ -213,15 +218,16 @@ void make_even_matrix(const EvenPoints& points, int degree, EvenMoments& scratch
   const double half = points.gradient_weight * points.gradient_weight / 2;
   const double* factor = products().data();
   visit_pairs(degree, [&](int la, int ma, int lb, int mb) {
-    const double whole = 1 + half * (laplacian(la) + laplacian(lb));
+    const double whole = 1 + half * (kLaplacians[la] + kLaplacians[lb]);
     const auto sum_of = [&](int k) {
       OrderSum sum;
       for (int l = lowest(la, lb, k); l <= la + lb; l += 2) {
-        const double times = *factor++ * (whole - half * laplacian(l));
+        const double times = *factor++ * (whole - half * kLaplacians[l]);
         const double* const moment = sums + even_index(l, k);
         sum.cosine += times * moment[0];
-        if (k > 0) sum.sine += times * moment[1];
+        sum.sine += times * moment[1];
       }
+      if (k == 0) sum.sine = 0;  // it has none: what was read is something else
       return sum;
     };
     // cos a cos b = (cos(a + b) + cos(a - b)) / 2, and so on.
