@@ -42,27 +42,19 @@ constexpr double kVoid = 2.5;
 double rim_factor(double distance2, double fit2) { return 1.15 - distance2 / fit2; }
 
 // The patch around the seed that a centre below it sees from inside, as points to fit.
-CapFrame gather(const SampleLevel& level, std::uint32_t start, const Vec3& seed, const Vec3& normal,
-                double radius, double half_angle, CandidateScratch& scratch) {
-  const double fit = kOverlap * radius, fit2 = fit * fit;
-  const auto near = [&](std::uint32_t i) {
-    const Vec3 offset = level.points[i] - seed;
-    return dot(offset, offset) < fit2;
-  };
-  Vec3 axis;
-  for (const std::uint32_t i : scratch.search.grow(level, start, [&](std::uint32_t i) {
-         return near(i) && dot(level.normals[i], normal) > kSameSide;
-       })) {
-    axis += level.normals[i];
-  }
-  CapFrame frame = cap_frame(seed, norm(axis) > 0 ? axis : normal, radius, half_angle, kOpened);
+CapFrame gather(const SampleLevels& samples, const CandidatePlace& place, double half_angle,
+                CandidateScratch& scratch) {
+  const SampleLevel& level = *place.level;
+  const Vec3& seed = samples.finest().points[place.seed];
+  const double fit = kOverlap * place.radius, fit2 = fit * fit;
+  CapFrame frame = cap_frame(seed, place.axis, place.radius, half_angle, kOpened);
   frame.dilation = dilation_between(std::atan(kOverlap * std::tan(half_angle)), kOpened);
   scratch.points.clear();
   scratch.indices.clear();
   scratch.distance2.clear();
-  for (const std::uint32_t i : scratch.search.grow(level, start, [&](std::uint32_t i) {
-         const Vec3 ray = level.points[i] - frame.center;
-         return near(i) && dot(level.normals[i], ray) > kFacing * norm(ray);
+  for (const std::uint32_t i : scratch.search.grow(level, place.start, [&](std::uint32_t i) {
+         const Vec3 offset = level.points[i] - seed, ray = level.points[i] - frame.center;
+         return dot(offset, offset) < fit2 && dot(level.normals[i], ray) > kFacing * norm(ray);
        })) {
     const Vec3 offset = level.points[i] - seed;
     const double d2 = dot(offset, offset);
@@ -119,13 +111,6 @@ bool hopeless(const Misses& misses) {
   return static_cast<double>(misses.missed) > kHopeless * static_cast<double>(misses.within);
 }
 
-std::uint32_t start_of(const SampleLevels& samples, const SampleLevel& level, std::uint32_t seed,
-                       CandidateScratch& scratch) {
-  if (&level == &samples.finest()) return seed;
-  level.tree.nearest(samples.finest().points[seed], 1, scratch.near);
-  return scratch.near.front().index;
-}
-
 struct Fitted {
   int degree = 0;  // 0: none meets the tolerance
   Misses misses;
@@ -135,33 +120,60 @@ struct Fitted {
 Fitted fit_least_degree(const CapFrame& frame, const CandidateOptions& options,
                         CandidateScratch& scratch) {
   CapSystem system;
+  int last = 0;  // tried
   const auto try_degree = [&](int degree) {
     const std::size_t n = n_coefficients(CapBasis::kEven, degree);
     if (n > scratch.fit.factor.regular()) return Misses{};
+    last = degree;
     scratch.fit.factor.solve(n, scratch.coefficients);
     return misses_of(system, frame, options, scratch);
   };
-  // A matrix of low degree first: it costs a tenth, often does, and tells the hopeless.
+  // A matrix of low degree first: it costs a third, often does, and tells the hopeless.
   int low = kLeastDegree - 1, high = 0;  // low misses, high meets
+  Misses best;                           // of the high
   for (const int degree : {std::min(kLowDegree, options.max_degree), options.max_degree}) {
-    const CapFitOptions fit{CapBasis::kEven, degree, kGradientWeight, kFewPenalty};
-    system = make_system(frame, scratch.points, fit, scratch.fit);
+    system = system.n > 0 ? with_degree(system, degree, scratch.fit)
+                          : make_system(frame, scratch.points,
+                                        {CapBasis::kEven, degree, kGradientWeight, kFewPenalty},
+                                        scratch.fit);
     if (!system.solvable) return {};
     scratch.fit.factor.factor(scratch.fit.matrix.data(), system.n, kFewPivot);
-    const Misses misses = try_degree(degree);
-    if (good(misses, options.tolerance)) {
+    best = try_degree(degree);
+    if (good(best, options.tolerance)) {
       high = degree;
       break;
     }
-    if (hopeless(misses)) return {};
+    if (hopeless(best)) return {};
     low = degree;
   }
   if (high == 0) return {};
   while (high - low > 1) {
     const int middle = (low + high) / 2;
-    (good(try_degree(middle), options.tolerance) ? high : low) = middle;
+    const Misses misses = try_degree(middle);
+    if (good(misses, options.tolerance)) {
+      high = middle, best = misses;
+    } else {
+      low = middle;
+    }
   }
-  return {high, try_degree(high)};
+  if (last != high) try_degree(high);
+  return {high, best};
+}
+
+// The highest degree that is worth more than a rival if all samples of the points count that are
+// within the support.
+int degree_worth_it(const CandidatePlace& place, double share, const Rival& rival,
+                    const CandidateOptions& options, const CandidateScratch& scratch) {
+  int degree = options.max_degree;
+  if (rival.value == 0) return degree;
+  double most = 0;
+  for (std::size_t i = 0; i < scratch.points.size(); ++i) {
+    if (scratch.distance2[i] > place.radius * place.radius) continue;
+    most += share * (rival.covered[place.level->base[scratch.indices[i]]] == 0);
+  }
+  const auto numbers = [](int l) { return n_coefficients(CapBasis::kEven, l) + kFrameNumbers; };
+  while (degree > 0 && most <= rival.value * static_cast<double>(numbers(degree))) --degree;
+  return degree;
 }
 
 // The samples within the support that are not missed; returns how far those within it are from the
@@ -182,15 +194,43 @@ double list_covered(const SampleLevel& level, const CapFrame& frame, double radi
 
 }  // namespace
 
-bool make_candidate(const SampleLevels& samples, std::uint32_t seed, double radius,
-                    double half_angle, const CandidateOptions& options, CandidateScratch& scratch,
+CandidatePlace candidate_place(const SampleLevels& samples, std::uint32_t seed, double radius,
+                               const CandidateOptions& options, CandidateScratch& scratch) {
+  CandidatePlace place{&samples.level_for(radius, options.samples), seed, seed, radius, {}};
+  const SampleLevel& level = *place.level;
+  const Vec3 &at = samples.finest().points[seed], &normal = samples.finest().normals[seed];
+  if (&level != &samples.finest()) {
+    level.tree.nearest(at, 1, scratch.near);
+    place.start = scratch.near.front().index;
+  }
+  const double fit = kOverlap * radius, fit2 = fit * fit;
+  for (const std::uint32_t i : scratch.search.grow(level, place.start, [&](std::uint32_t i) {
+         const Vec3 offset = level.points[i] - at;
+         return dot(offset, offset) < fit2 && dot(level.normals[i], normal) > kSameSide;
+       })) {
+    place.axis += level.normals[i];
+  }
+  if (!(norm(place.axis) > 0)) place.axis = normal;
+  return place;
+}
+
+double gain_of(const Candidate& candidate, std::span<const std::uint8_t> covered) {
+  std::size_t n = 0;
+  for (const std::uint32_t i : candidate.covered) n += covered[i] == 0;
+  return candidate.share * static_cast<double>(n);
+}
+
+bool make_candidate(const SampleLevels& samples, const CandidatePlace& place, double half_angle,
+                    const CandidateOptions& options, const Rival& rival, CandidateScratch& scratch,
                     Candidate& candidate) {
-  const SampleLevel& level = samples.level_for(radius, options.samples);
-  const Vec3& at = samples.finest().points[seed];
-  const std::uint32_t start = start_of(samples, level, seed, scratch);
-  const CapFrame frame =
-      gather(level, start, at, samples.finest().normals[seed], radius, half_angle, scratch);
-  const Fitted fitted = fit_least_degree(frame, options, scratch);
+  const SampleLevel& level = *place.level;
+  const double radius = place.radius;
+  const CapFrame frame = gather(samples, place, half_angle, scratch);
+  candidate.share = static_cast<double>(samples.size()) / static_cast<double>(level.points.size());
+  CandidateOptions own = options;
+  own.max_degree = degree_worth_it(place, candidate.share, rival, options, scratch);
+  if (own.max_degree < kLeastDegree) return false;
+  const Fitted fitted = fit_least_degree(frame, own, scratch);
   if (fitted.degree == 0) return false;
   candidate.cap.frame = frame;
   set_support(candidate.cap, radius);
@@ -201,7 +241,6 @@ bool make_candidate(const SampleLevels& samples, std::uint32_t seed, double radi
       list_covered(level, frame, radius, options.tolerance, scratch, candidate.covered);
   candidate.coefficients = scratch.coefficients;
   candidate.rms = fitted.misses.rms;
-  candidate.share = static_cast<double>(samples.size()) / static_cast<double>(level.points.size());
   candidate.inside = candidate.share * static_cast<double>(fitted.misses.within);
   return !strays(samples, candidate.cap, candidate.coefficients, options.stray, radius, scratch);
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "atlas/cap/cap_fit.h"
@@ -50,9 +51,28 @@ struct CandidateScratch {
   std::vector<Neighbor> near;
 };
 
-// Tries a cap whose support is `radius` about a sample; false if no degree meets the tolerance.
-bool make_candidate(const SampleLevels& samples, std::uint32_t seed, double radius,
-                    double half_angle, const CandidateOptions& options, CandidateScratch& scratch,
+// Where a candidate is, whatever its half angle: `radius` about a sample.
+struct CandidatePlace {
+  const SampleLevel* level = nullptr;  // that it is fitted to
+  std::uint32_t seed = 0, start = 0;   // the sample, and the level's nearest one
+  double radius = 0;
+  Vec3 axis;
+};
+CandidatePlace candidate_place(const SampleLevels& samples, std::uint32_t seed, double radius,
+                               const CandidateOptions& options, CandidateScratch& scratch);
+
+// What a candidate is worth: samples that are not `covered` (one of the finest level each) per
+// number.
+double gain_of(const Candidate& candidate, std::span<const std::uint8_t> covered);
+// What there is already for that: a candidate that is not worth more is none.
+struct Rival {
+  std::span<const std::uint8_t> covered = {};
+  double value = 0;
+};
+
+// Tries a cap whose support is that; false if no degree meets the tolerance.
+bool make_candidate(const SampleLevels& samples, const CandidatePlace& place, double half_angle,
+                    const CandidateOptions& options, const Rival& rival, CandidateScratch& scratch,
                     Candidate& candidate);
 
 // Whether a point of its surface within its support is farther than `band` off the surface of the

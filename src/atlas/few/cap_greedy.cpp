@@ -72,25 +72,22 @@ class Greedy {
            static_cast<double>(open_ - left_);
   }
 
-  double gain_of(const Candidate& candidate) const {
-    std::size_t n = 0;
-    for (const std::uint32_t i : candidate.covered) n += cover_.is_covered[i] == 0;
-    return candidate.share * static_cast<double>(n);
-  }
-
   // Supports up from the middle of the ladder while they are good, or down until they are.
   void climb(std::uint32_t seed, CandidateScratch& scratch, std::vector<Entry>& found) const {
     const auto try_radius = [&](std::size_t r) {
       bool any = false;
       Entry best;
+      const CandidatePlace place =
+          candidate_place(samples_, seed, radii_[r], options_.candidate, scratch);
       for (const double half_angle : kHalfAngles) {
         Entry entry;
-        if (!make_candidate(samples_, seed, radii_[r], half_angle, options_.candidate, scratch,
+        const Rival rival{cover_.is_covered, any ? best.value() : 0};
+        if (!make_candidate(samples_, place, half_angle, options_.candidate, rival, scratch,
                             entry.candidate)) {
           continue;
         }
         entry.seed = seed;
-        entry.gain = gain_of(entry.candidate);
+        entry.gain = gain_of(entry.candidate, cover_.is_covered);
         if (!any || entry.value() > best.value()) best = std::move(entry);
         any = true;
       }
@@ -142,7 +139,7 @@ class Greedy {
       std::pop_heap(pool_.begin(), pool_.end(), worse);
       Entry entry = std::move(pool_.back());
       pool_.pop_back();
-      const double gain = gain_of(entry.candidate);
+      const double gain = gain_of(entry.candidate, cover_.is_covered);
       if (gain < 1) continue;
       if (gain < entry.gain) {
         entry.gain = gain;

@@ -181,7 +181,8 @@ TEST(strays, voids_between_random_samples_are_no_edges) {
   CandidateScratch scratch;
   Candidate candidate;
   for (std::uint32_t seed = 0; seed < 60000; seed += 6000) {
-    ASSERT_TRUE(make_candidate(levels, seed, 0.5, 0.5, options, scratch, candidate));
+    ASSERT_TRUE(make_candidate(levels, candidate_place(levels, seed, 0.5, options, scratch), 0.5,
+                               options, {}, scratch, candidate));
     EXPECT_FALSE(strays(levels, candidate.cap, candidate.coefficients, options.stray, options.stray,
                         scratch));
     // But a surface off the samples does, by more than the band and a spacing.
@@ -210,7 +211,8 @@ TEST(strays, surfaces_that_go_on_where_samples_end_do) {
     // The cap reaches 0.1 beyond the border, four spacings, or ends before it.
     if (!(std::abs(z - 0.2) < 1e-4 || std::abs(z - 0.4) < 1e-4)) continue;
     ++tried;
-    ASSERT_TRUE(make_candidate(all, seed, 0.3, 0.5, options, scratch, candidate));
+    ASSERT_TRUE(make_candidate(all, candidate_place(all, seed, 0.3, options, scratch), 0.5, options,
+                               {}, scratch, candidate));
     EXPECT_EQ(
         strays(upper, candidate.cap, candidate.coefficients, options.stray, options.stray, scratch),
         z < 0.3);
