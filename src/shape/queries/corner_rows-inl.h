@@ -54,8 +54,7 @@ HWY_INLINE const std::byte* Row(const MeshView& mesh, const std::byte* index) {
 // Bytes of triangles asked for ahead of the one looked at: a tenth of a large mesh's pass
 // (scripts/constants).
 constexpr std::size_t kFarAhead = 2048;
-// Returns the largest index of the triangles [begin, end), and asks for one corner of each:
-// neighbours bring the others.
+// Returns the largest index of the triangles [begin, end), and asks for their corners.
 HWY_INLINE std::uint32_t LookAhead(const MeshView& mesh, std::size_t begin, std::size_t end) {
   if (begin == end) return 0;
   using Four [[gnu::vector_size(16)]] = std::uint32_t;
@@ -67,9 +66,7 @@ HWY_INLINE std::uint32_t LookAhead(const MeshView& mesh, std::size_t begin, std:
   for (const std::byte* const last = at + (end - 1 - begin) * stride; at != last; at += stride) {
     std::memcpy(&corners, at, 16);
     largest = largest > corners ? largest : corners;
-    std::uint32_t index;
-    std::memcpy(&index, at, sizeof index);
-    hwy::Prefetch(vertices + index * vertex_stride);
+    for (int k = 0; k < 3; ++k) hwy::Prefetch(vertices + std::size_t{corners[k]} * vertex_stride);
     hwy::Prefetch(at + kFarAhead);
   }
   std::memcpy(&corners, at, 12);

@@ -155,13 +155,22 @@ class Pass {
     PartSink<T> sink(part, grids_.empty() ? nullptr : grids_[p].get(), plan_);
     NodeWriter writer({plan_.divided, plan_.undivided}, sink);
     NodesBetween between(sink);
+    const auto look_at = [&](std::size_t b) {
+      const std::size_t first = b * kBlockSize;
+      const std::size_t n = std::min(kBlockSize, mesh_.n_triangles - first);
+      check_triangles(options_, first, n);
+      const std::uint32_t largest = largest_index(mesh_, first, n);
+      if (largest >= mesh_.n_vertices) refuse_mesh();
+      ask_for_lumps(mesh_, first, n, parameters.hessians, lumps->data());
+      return largest;
+    };
+    std::uint32_t next_largest = look_at(begin);
     for (std::size_t b = begin; b < end; ++b) {
       ask_cancel();
       const std::size_t first = b * kBlockSize;
       const std::size_t n = std::min(kBlockSize, mesh_.n_triangles - first);
-      check_triangles(options_, first, n);
-      parameters.largest_index = largest_index(mesh_, first, n);
-      if (parameters.largest_index >= mesh_.n_vertices) refuse_mesh();
+      parameters.largest_index = next_largest;
+      if (b + 1 < end) next_largest = look_at(b + 1);
       const std::size_t before = part.sums.nodes;
       work_block(mesh_, first, n, parameters, *block, part.sums);
       scatter_lumps(mesh_, first, n, parameters.hessians, *block, lumps->data());

@@ -1,5 +1,7 @@
 #include "transform/mesh_pass/scatter.h"
 
+#include <hwy/cache_control.h>
+
 #include <bit>
 #include <cstring>
 #include <type_traits>
@@ -71,6 +73,19 @@ void scatter_lumps(const MeshView& mesh, std::size_t first, std::size_t n, bool 
 }
 
 template <typename T>
+void ask_for_lumps(const MeshView& mesh, std::size_t first, std::size_t n, bool hessians,
+                   const VertexLump<T>* vertices) {
+  const std::byte* record = mesh.triangles + first * mesh.triangle_stride;
+  for (std::size_t t = 0; t < n; ++t, record += mesh.triangle_stride) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      std::uint32_t corner;
+      std::memcpy(&corner, record + 4 * i, sizeof corner);
+      hwy::Prefetch(vertices + lumps_per_vertex(hessians) * corner);
+    }
+  }
+}
+
+template <typename T>
 void sample_half_edges(const TriangleBlock<T>& block, std::size_t n,
                        std::vector<SampledHalfEdge>& sample) {
   for (int i = 0; i < 3; ++i) {
@@ -90,6 +105,10 @@ void sample_half_edges(const TriangleBlock<T>& block, std::size_t n,
   }
 }
 
+template void ask_for_lumps(const MeshView&, std::size_t, std::size_t, bool,
+                            const VertexLump<std::int32_t>*);
+template void ask_for_lumps(const MeshView&, std::size_t, std::size_t, bool,
+                            const VertexLump<double>*);
 template void scatter_lumps(const MeshView&, std::size_t, std::size_t, bool,
                             const TriangleBlock<std::int32_t>&, VertexLump<std::int32_t>*);
 template void scatter_lumps(const MeshView&, std::size_t, std::size_t, bool,

@@ -14,6 +14,11 @@ template <typename T>
 void scatter_lumps(const MeshView& mesh, std::size_t first, std::size_t n, bool hessians,
                    const TriangleBlock<T>& block, VertexLump<T>* vertices);
 
+// Asks for the lumps of triangles that are worked next: they lie as far apart as the vertices do.
+template <typename T>
+void ask_for_lumps(const MeshView& mesh, std::size_t first, std::size_t n, bool hessians,
+                   const VertexLump<T>* vertices);
+
 // Appends the sampled half-edges of the block's first n triangles.
 template <typename T>
 void sample_half_edges(const TriangleBlock<T>& block, std::size_t n,

@@ -274,7 +274,8 @@ HWY_INLINE void work_any(const MeshView& mesh, size_t first, size_t n,
   work_loaded<false>(n, parameters, block, sums);
 }
 
-// Records are read with 4 bytes more, but for the last.
+// Records are read with 4 bytes more, but for the last. Corners are asked for, so that they are in
+// the cache when the block is worked.
 uint32_t LargestIndex(const MeshView& mesh, size_t first, size_t n) {
   const size_t stride = mesh.triangle_stride;
   const std::byte* record = mesh.triangles + first * stride;
@@ -287,6 +288,7 @@ uint32_t LargestIndex(const MeshView& mesh, size_t first, size_t n) {
   for (; t + 2 < n; t += 2) {
     for (size_t i = 0; i < 2; ++i, record += stride) {
       most[i] = hn::Max(most[i], hn::LoadU(d, reinterpret_cast<const uint32_t*>(record)));
+      for (size_t k = 0; k < 3; ++k) hwy::Prefetch(Row(mesh, record + 4 * k));
     }
   }
   alignas(16) uint32_t corners[4];
