@@ -11,6 +11,7 @@
 #include "rholm/analyze.h"
 #include "rholm/error.h"
 #include "rholm/truncation.h"
+#include "transform/error/error_sites.h"
 
 namespace rholm::report {
 namespace {
@@ -70,13 +71,11 @@ void find_spectrum(const Expansion& expansion, Data& data) {
 }
 
 // By points of the shape, and Parseval where it applies.
-std::optional<TruncationErrors> measured_errors(const ShapeFigures& shape,
-                                                const Expansion& expansion, int degree,
-                                                bool predict, const Context& context) {
-  if (!shape.is_star() || degree > kHighestDrawn) return std::nullopt;
+std::optional<TruncationErrors> measured_errors(ErrorSites& sites, const Expansion& expansion,
+                                                int degree, bool predict, const Context& context) {
+  if (degree > kHighestDrawn) return std::nullopt;
   return unless_refused([&] {
-    return truncation_errors(view_of(shape.mesh), cut_off(expansion, degree), {.predict = predict},
-                             context);
+    return truncation_errors(cut_off(expansion, degree), {.predict = predict}, sites, context);
   });
 }
 
@@ -169,17 +168,19 @@ Data find_data(const Expansion& expansion, std::optional<ShapeFigures> shape,
   report_progress(context, "figures", 0);
   data.shape = std::move(shape);
   if (data.shape) data.diagonal = data.shape->inspection.bounds.diagonal();
+  std::optional<ErrorSites> sites;  // of all degrees
+  if (data.shape && data.shape->is_star()) {
+    sites.emplace(view_of(data.shape->mesh), expansion.center, context.threads);
+  }
   // What the model knows of itself was found with the precision of its coefficients.
-  if (!data.errors && data.shape) {
-    data.errors = measured_errors(*data.shape, expansion, degree, true, context);
+  if (!data.errors && sites) {
+    data.errors = measured_errors(*sites, expansion, degree, true, context);
   }
   data.energy = power_spectrum(expansion.coefficients);
   find_spectrum(expansion, data);
   for (const int l : degree_ladder(degree)) {
     std::optional<TruncationErrors> errors = l == degree ? data.errors : std::nullopt;
-    if (l < degree && data.shape) {
-      errors = measured_errors(*data.shape, expansion, l, false, context);
-    }
+    if (l < degree && sites) errors = measured_errors(*sites, expansion, l, false, context);
     data.rows.push_back(row_of(l, expansion, data, errors));
   }
   if (degree <= kHighestDrawn) {
