@@ -54,7 +54,7 @@ struct StarReport {
 // Finds the centre and checks. `mesh` welded, closed, outward; degenerate triangles (zero area)
 // are passed over. Throws InvalidInput for a mesh without a triangle of positive area.
 StarReport find_center(const Mesh& mesh, const CenterOptions& options, const Context& context = {});
-// The same for a mesh where it lies; nothing is copied but for rays.
+// The same for a mesh where it lies; nothing is copied, but for rays if it is not closed.
 StarReport find_center(const MeshView& mesh, const CenterOptions& options,
                        const Context& context = {});
 
