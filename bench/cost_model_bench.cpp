@@ -250,7 +250,8 @@ void error_points() {
   expansion.coefficients = some_coefficients(1000);
   for (const int degree : {50, 100, 200, 400}) {
     for (const std::size_t n : {20'000u, 200'000u}) {
-      const ErrorPoints points = area_points(view_of(mesh), {}, scan_faces(view_of(mesh), {}, {}), n);
+      const ErrorPoints points =
+          area_points(view_of(mesh), {}, scan_faces(view_of(mesh), {}, {}), n);
       const double time =
           least_time([&] { point_errors(points, expansion, degree, true, 1e-4, kOneThread); });
       fit.add(static_cast<double>(points.size()), static_cast<double>(degree * degree), time);

@@ -129,20 +129,43 @@ void add_back(const std::array<Vec3, 3>& corners, const LatticeCells& cells,
   });
 }
 
-// Those that turn their backs, in order, with two corners exchanged.
-std::vector<std::array<Vec3, 3>> backs(const LocalView& view, const Vec3& center,
-                                       const Context& context) {
+// Whether rounding hides on which side of a face the centre lies, and it may lie within: a face
+// that is seen edge-on from outside counts for nothing, one around the centre for half of the sky.
+bool may_hold_center(const std::array<Vec3, 3>& p) {
+  const double nearest = std::sqrt(std::min({dot(p[0], p[0]), dot(p[1], p[1]), dot(p[2], p[2])}));
+  const double a = norm(p[0]), b = norm(p[1]), c = norm(p[2]);
+  // As in cone_contains().
+  constexpr double kRounding = 16 * 0x1p-53;
+  if (std::abs(dot(cross(p[0], p[1]), p[2])) > kRounding * a * b * c) return false;
+  const double longest = std::max({norm(p[0] - p[1]), norm(p[1] - p[2]), norm(p[2] - p[0])});
+  return nearest <= longest;
+}
+
+// The numbers of those that turn their backs, in order; none if the centre may lie on one.
+std::optional<std::vector<std::uint32_t>> backs(const LocalView& view, const Vec3& center,
+                                                const Context& context) {
   const std::size_t n = view.mesh.n_triangles, grain = triangle_grain(n);
-  std::vector<std::vector<std::array<Vec3, 3>>> parts((n + grain - 1) / grain);
+  struct Part {
+    std::vector<std::uint32_t> backs;
+    bool unclear = false;
+  };
+  std::vector<Part> parts((n + grain - 1) / grain);
   parallel_for(n, grain, context, {}, [&](std::size_t begin, std::size_t end) {
+    Part& part = parts[begin / grain];
     scan_below(view, begin, end, view.frame.to_local(center), {.distance = 1e-9},
                [&](std::size_t triangle) {
-                 const auto [a, b, c] = corners_from(view, triangle, center);
-                 if (dot(cross(a, b), c) < 0) parts[begin / grain].push_back({a, c, b});
+                 const auto corners = corners_from(view, triangle, center);
+                 part.unclear = part.unclear || may_hold_center(corners);
+                 if (dot(cross(corners[0], corners[1]), corners[2]) < 0) {
+                   part.backs.push_back(static_cast<std::uint32_t>(triangle));
+                 }
                });
   });
-  std::vector<std::array<Vec3, 3>> all;
-  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+  std::vector<std::uint32_t> all;
+  for (const Part& part : parts) {
+    if (part.unclear) return std::nullopt;
+    all.insert(all.end(), part.backs.begin(), part.backs.end());
+  }
   return all;
 }
 
@@ -175,7 +198,7 @@ bool is_closed(const MeshView& mesh) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint64_t a = places[v[k]], b = places[v[k == 2 ? 0 : k + 1]];
       const std::uint64_t edge = random_bits(std::min(a, b), std::max(a, b));
-      sum += a < b ? edge : -edge;
+      if (a != b) sum += a < b ? edge : -edge;
     }
   }
   return sum == 0;
@@ -190,13 +213,15 @@ std::optional<std::vector<int>> count_meetings(const LocalView& view, const Vec3
   }
   if (!surplus) return std::nullopt;
   std::vector<int> counts(n, *surplus);
-  const std::vector<std::array<Vec3, 3>> turned = backs(view, center, context);
-  if (turned.empty()) return counts;
+  const std::optional<std::vector<std::uint32_t>> turned = backs(view, center, context);
+  if (!turned) return std::nullopt;
+  if (turned->empty()) return counts;
   const LatticeCells cells(n);
   CancelPoll poll;
-  for (const std::array<Vec3, 3>& corners : turned) {
+  for (const std::uint32_t triangle : *turned) {
     poll();
-    add_back(corners, cells, counts);
+    const auto [a, b, c] = corners_from(view, triangle, center);
+    add_back({a, c, b}, cells, counts);
   }
   return counts;
 }

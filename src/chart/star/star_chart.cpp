@@ -62,9 +62,11 @@ StarChart make_star_chart(const Mesh& mesh, std::vector<Edge> edges, const Chart
   StarChart chart;
   chart.edges = std::move(edges);
   chart.report = find_center(mesh, options.center, context);
-  if (!chart.report.star_shaped) refuse(mesh, chart.report, options.allow_signed);
-  // No directions need to be tried where all meet the surface once.
-  if (chart.report.star_shaped) chart.report.rays = 0, chart.report.once_share = 1;
+  if (chart.report.star_shaped) {
+    chart.report.rays = 0;  // however many were tried, all directions meet it once
+  } else {
+    refuse(mesh, chart.report, options.allow_signed);
+  }
   chart.mesh.triangles = mesh.triangles;
   chart.mesh.vertices.reserve(mesh.vertices.size());
   for (const Vec3& v : mesh.vertices) chart.mesh.vertices.push_back(v - chart.report.center);

@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "chart/center/view_center.h"
+#include "chart/star/direction_counts.h"
 #include "model/encode/encoded_parts.h"
 #include "rholm/error.h"
 #include "shape/vertex_range.h"
@@ -60,6 +61,7 @@ class AsItLies {
     const bool star_shaped = pass.bad_triangles == 0;
     if (star_shaped && !covers_once(norms())) return NotAsItLies::kCoveredTwice;
     encoded_.star = star_report(pass, center());
+    encoded_.star.center_fell_back = folded_.has_value();
     set_pass(pass, analysis());
     analysis().precision = first.precision;
     if (problem) search(*problem);
@@ -90,7 +92,7 @@ class AsItLies {
     const FoundCenter found = search_center(view, wanted, context_);
     pass_options_.center = found.point;
     if (!found.kernel_empty) return true;
-    if (!may_fold(options_)) return false;
+    if (!may_fold(options_) || !is_closed(mesh_)) return false;
     const StarReport program = check_star(view, found.point, wanted.rays, context_);
     folded_ = better_center(view, program, wanted.rays, context_);
     pass_options_.center = folded_->center;

@@ -9,7 +9,6 @@
 
 #include "rholm/coefficients.h"
 #include "rholm/context.h"
-#include "rholm/harmonic.h"
 #include "rholm/mesh_view.h"
 #include "shape/queries/ray_scene.h"
 #include "transform/error/error_points.h"

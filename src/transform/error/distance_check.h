@@ -16,6 +16,10 @@ bool is_coarse(const MeshView& mesh);
 bool may_be_refined(const MeshView& mesh, const Expansion& expansion, double largest_radial_error,
                     double diagonal);
 
+// So many points tell the ratio of root mean squares, and among so many of the worst is the
+// farthest.
+inline constexpr std::size_t kDistanceSample = 500, kMostWorstPoints = 2048;
+
 // What distances to second order are of those to first order: by steps down from points of the
 // mesh to the closest point of the model near the ray. Root mean square of five hundred of the
 // points over the area, the larger of both ways, and the largest of all.
@@ -29,7 +33,6 @@ struct SecondOrder {
   bool suffices(const MeshView& mesh) const;
 };
 // `points` and their errors: those over the area are from `first` on.
-inline constexpr std::size_t kDistanceSample = 500, kMostWorstPoints = 2048;
 SecondOrder second_order(const ErrorPoints& points, const PointErrors& errors, std::size_t first,
                          const RadialModel& model);
 

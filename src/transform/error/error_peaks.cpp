@@ -42,10 +42,14 @@ std::vector<std::size_t> sites(const ErrorPoints& points, const std::vector<doub
   std::size_t different = 0;
   for (std::size_t k = 0; k < order.size() && different < n; ++k) {
     double nearest = 4;
+    bool known = false;  // the same point once more
     for (const std::size_t i : found) {
       const Vec3 chord = points.directions[order[k]] - points.directions[i];
-      nearest = std::min(nearest, dot(chord, chord));
+      const double chord2 = dot(chord, chord);
+      known = known || (chord2 == 0 && points.owners[order[k]] == points.owners[i]);
+      nearest = std::min(nearest, chord2);
     }
+    if (known) continue;
     // Copies of a point, each with faces of its own, are one site together.
     constexpr double kSame = 1e-24;
     if (nearest > kSame && nearest <= apart * apart) continue;

@@ -152,7 +152,7 @@ ErrorPoints extreme_points(const MeshView& mesh, const Vec3& center, const FaceS
 ErrorPoints area_points(const MeshView& mesh, const Vec3& center, const FaceScan& scan,
                         std::size_t n) {
   double whole = 0;
-  for (const float area : scan.sizes.twice_areas) whole += area;
+  for (const double area : scan.sizes.twice_areas) whole += area;
   ErrorPoints points;
   points.reserve(n);
   const double part = whole / static_cast<double>(n);

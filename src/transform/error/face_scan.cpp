@@ -5,12 +5,26 @@
 #include "base/cancel.h"
 
 namespace rholm {
+namespace {
+
+// Whether no face names a vertex twice, which would count as a face and be none.
+bool have_three_corners(const MeshView& mesh) {
+  CancelPoll poll;
+  for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
+    poll();
+    const auto [a, b, c] = mesh.triangle(t);
+    if (a == b || b == c || c == a) return false;
+  }
+  return true;
+}
+
+}  // namespace
 
 FaceScan scan_faces(const MeshView& mesh, FaceSizes sizes) {
   FaceScan scan{.sizes = std::move(sizes), .used = {}};
   // A star-shaped surface is a sphere, whose faces have F/2 + 2 corners or, with copies, more: if
   // there are no more vertices than that, all are used.
-  if (2 * mesh.n_vertices == mesh.n_triangles + 4) return scan;
+  if (2 * mesh.n_vertices == mesh.n_triangles + 4 && have_three_corners(mesh)) return scan;
   scan.used.resize(mesh.n_vertices);
   CancelPoll poll;
   for (std::size_t t = 0; t < mesh.n_triangles; ++t) {

@@ -130,9 +130,15 @@ TruncationErrors truncation_errors(const Expansion& expansion, const TruncationO
     points.append(over_area.subset(indices));
     found.append(of_area.subset(indices));
   };
-  take(indices_of_largest(of_area.radial, kMostWorstPoints));
-  take(indices_of_largest(of_area.to_model, kMostWorstPoints));
-  take(indices_of_largest(of_area.to_shape, kMostWorstPoints));
+  // Each once: copies would stand for peaks of their own.
+  std::vector<std::size_t> worst_of_area;
+  for (const auto* values : {&of_area.radial, &of_area.to_model, &of_area.to_shape}) {
+    const std::vector<std::size_t> indices = indices_of_largest(*values, kMostWorstPoints);
+    worst_of_area.insert(worst_of_area.end(), indices.begin(), indices.end());
+  }
+  std::sort(worst_of_area.begin(), worst_of_area.end());
+  worst_of_area.erase(std::unique(worst_of_area.begin(), worst_of_area.end()), worst_of_area.end());
+  take(worst_of_area);
   const std::size_t first_of_sample = points.size();
   std::vector<std::size_t> sample;
   const std::size_t step = std::max<std::size_t>(1, over_area.size() / kDistanceSample);

@@ -178,11 +178,10 @@ double size_without_mean(const Coefficients& coefficients) {
 }
 
 Kept sieved(const MeshView& mesh, const FaceScan& scan, const Expansion& expansion,
-            double radial_rms, double least, const Context& context) {
-  // Of 1/r errors are r^2 times those of r.
-  const double mean = expansion.coefficients.c(0, 0) / std::sqrt(4 * std::numbers::pi);
+            double radial_rms, double farthest, double least, const Context& context) {
+  // Errors of r are r^2 times those of 1/r, most where the surface is farthest.
   const bool gauge = expansion.function == RadialFunction::kGauge;
-  const double rms = gauge ? radial_rms * mean * mean : radial_rms;
+  const double rms = gauge ? radial_rms / (farthest * farthest) : radial_rms;
   const double size = size_without_mean(expansion.coefficients);
   const NonuniformNeeds needs{
       .degree = expansion.coefficients.degree(),
@@ -214,7 +213,7 @@ WorstPoints worst_points(const MeshView& mesh, const FaceScan& scan, const Expan
   double distance = std::max(options.distance, largest(of_sample.to_model));
   const double least = least_kept(of_sample.radial, mesh.n_vertices, std::min(radial, distance));
   const double rms = std::max(options.rms, root_mean_square(of_sample.radial));
-  const Kept kept = sieved(mesh, scan, expansion, rms, least, context);
+  const Kept kept = sieved(mesh, scan, expansion, rms, largest(sample.radii), least, context);
   worst.seen = kept.seen;
   std::vector<std::size_t> order(kept.rough.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -32,13 +32,13 @@ constexpr std::size_t kVerticesPerStep = 256 * kVerticesPerBlock;
 constexpr double kFewNodes = 0.05;
 constexpr double kNodesEach = 5;  // of a triangle that has some, roughly
 
-// One way through the triangles with a given plan; windows in T.
 // Windows that are chosen before the squares of sources are known take them for this many times
 // what the sample says: of steep surfaces it misses up to six times (Igea and Ryugu to degree 128
 // and more, which `analyze --json` said took two passes). The price is a point of width, a
 // twentieth of the pass.
 constexpr double kUnseen2 = 8;
 
+// One way through the triangles with a given plan; windows in T.
 template <typename T>
 class Pass {
  public:

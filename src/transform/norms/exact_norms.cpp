@@ -331,10 +331,7 @@ HWY_INLINE void SumRangeOf(const MeshView& mesh, const Frame& frame, std::size_t
     const double angle2 = PrepareBlock<T>(mesh, frame, first, last - first, whole, block);
     if (sizes != nullptr) {
       sizes->angles2[first / kBlock] = angle2;
-      float* const areas = sizes->twice_areas.data() + first;
-      for (std::size_t i = 0; i < last - first; ++i) {
-        areas[i] = static_cast<float>(block.twice_area[i]);
-      }
+      std::copy_n(block.twice_area, last - first, sizes->twice_areas.data() + first);
     }
     NormSums plain;
     const std::size_t n_left = SumBlock(block, last - first, plain, left);

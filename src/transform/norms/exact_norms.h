@@ -29,10 +29,8 @@ struct ExactNorms {
 struct FaceSizes {
   static constexpr std::size_t kRun = 128;  // faces t are taken in runs of this many
 
-  // A power of two that brings distances from the centre to 1/2 ... 1 at most: areas are of lengths
-  // times this.
-  double scale = 1;
-  std::vector<float> twice_areas;  // of each face
+  double scale = 1;                 // a power of two that brings the largest coordinate to 1 ... 2
+  std::vector<double> twice_areas;  // of each face, of lengths times `scale`
   // Of each run: the square of the longest edge over that of the nearest corner's distance from
   // the centre, at least the largest of that of each edge and its own ends.
   std::vector<double> angles2;

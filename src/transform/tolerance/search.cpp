@@ -33,7 +33,7 @@ class Search {
         tolerance_(tolerance),
         precisions_(precisions_for(problem, tolerance)),
         context_(context),
-        sites_(problem.mesh, problem.center),
+        sites_(problem.mesh, problem.center, context.threads),
         error_(tolerance, sites_, std::sqrt(problem.norm_squared / (4 * std::numbers::pi)),
                context) {}
 

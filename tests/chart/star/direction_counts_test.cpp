@@ -8,6 +8,7 @@
 
 #include "chart/center/local_view.h"
 #include "rholm/primitives.h"
+#include "rholm/star.h"
 #include "rholm/topology.h"
 #include "support/test_shapes.h"
 
@@ -66,6 +67,19 @@ TEST(count_meetings, are_those_of_each_triangle) {
   }
 }
 
+// Half of the sky, or an eighth of it, is seen through the face or corner in which the centre lies.
+TEST(count_meetings, are_left_to_rays_from_the_surface) {
+  const Mesh cube = box({1, 2, 3});
+  for (const Vec3& center : {Vec3{0.5, 0.1, 0.2}, Vec3{-0.5, 0.1, 0.2}, Vec3{0.5, 1, 1.5}}) {
+    EXPECT_FALSE(count_meetings(local_view(view_of(cube), {}), center, 100, {}).has_value());
+    const StarReport report = check_star(cube, center, 1000);
+    EXPECT_GT(report.once_share, 0.05);
+    EXPECT_LT(report.once_share, 0.95);
+  }
+  // Seen edge-on from outside, a face is in nobody's way.
+  EXPECT_TRUE(count_meetings(local_view(view_of(cube), {}), {0.5, 9, 0.2}, 100, {}).has_value());
+}
+
 TEST(is_closed, asks_for_every_edge_both_ways) {
   const Mesh closed = test::rotated(bumpy_sphere(2, 0.3));
   EXPECT_TRUE(is_closed(view_of(closed)));
@@ -76,6 +90,10 @@ TEST(is_closed, asks_for_every_edge_both_ways) {
     for (const std::uint32_t i : t) copies.vertices.push_back(closed.vertices[i]);
     copies.triangles.push_back({first, first + 1, first + 2});
   }
+  EXPECT_TRUE(is_closed(view_of(copies)));
+  // And a face between two corners at one place.
+  copies.triangles.push_back({0, 0, 1});
+  copies.triangles.push_back({1, 0, 0});
   EXPECT_TRUE(is_closed(view_of(copies)));
   Mesh open = closed;
   open.triangles.pop_back();
