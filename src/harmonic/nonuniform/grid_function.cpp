@@ -2,7 +2,6 @@
 
 #include <array>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 #include "harmonic/nonuniform/polar_nodes.h"
@@ -11,16 +10,20 @@
 namespace rholm {
 
 template <typename T>
-GridFunction<T>::GridFunction(const NonuniformPlan& plan, Coefficients coefficients,
+GridFunction<T>::GridFunction(const NonuniformPlan& plan, const Coefficients& coefficients,
                               const Context& context)
     : plan_(plan), kernel_(grid_kernel<T>(plan.fourier)), grid_(plan.fourier.layout.cells()) {
+  const ParallelStage stage = {"transform", 0, 0.4};
   if constexpr (std::is_same_v<T, float>) {
     double largest = 0;
     for (const double c : coefficients.values()) largest = std::max(largest, std::abs(c));
     scale_ = scale_for(largest);
-    for (double& c : coefficients.values()) c *= scale_;
+    Coefficients scaled = coefficients;
+    for (double& c : scaled.values()) c *= scale_;
+    coefficients_to_grid(plan.fourier, scaled, grid_.data(), context, stage);
+  } else {
+    coefficients_to_grid(plan.fourier, coefficients, grid_.data(), context, stage);
   }
-  coefficients_to_grid(plan.fourier, coefficients, grid_.data(), context, {"transform", 0, 0.4});
 }
 
 template <typename T>

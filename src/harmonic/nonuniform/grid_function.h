@@ -28,7 +28,8 @@ template <typename T>
 class GridFunction {
  public:
   // The plan must outlive it.
-  GridFunction(const NonuniformPlan& plan, Coefficients coefficients, const Context& context);
+  GridFunction(const NonuniformPlan& plan, const Coefficients& coefficients,
+               const Context& context);
 
   // What batches hold is this many times the function and its gradient: a power of two that
   // brings the largest coefficient to 1 ... 2 for single precision, which ends at 1e38.

@@ -257,9 +257,9 @@ PointErrors point_errors(const ErrorPoints& points, const Expansion& expansion, 
   return point_errors(points, model, slopes, context);
 }
 
-PointErrors point_errors(const ErrorPoints& points, const RadialModel& of, bool slopes,
+PointErrors point_errors(const ErrorPoints& points, const RadialModel& model, bool slopes,
                          const Context& context) {
-  const ModelSurface model = model_surface(points, of, slopes, context);
+  const ModelSurface surface = model_surface(points, model, slopes, context);
   PointErrors errors;
   errors.radial.resize(points.size());
   if (slopes) {
@@ -270,14 +270,14 @@ PointErrors point_errors(const ErrorPoints& points, const RadialModel& of, bool 
   CancelPoll poll;
   for (std::size_t i = 0; i < points.size(); ++i) {
     poll();
-    const double radial = std::abs(points.radii[i] - model.radii[i]);
+    const double radial = std::abs(points.radii[i] - surface.radii[i]);
     errors.radial[i] = radial;
     if (!slopes) continue;
-    const double cosine = 1 / std::sqrt(1 + model.tangents2[i]);
+    const double cosine = 1 / std::sqrt(1 + surface.tangents2[i]);
     const double face = points.cosines[i] > 0 ? points.cosines[i] : cosine;
     errors.to_model[i] = radial * cosine;
     errors.to_shape[i] = radial * face;
-    const double ratio = model.radii[i] / points.radii[i];
+    const double ratio = surface.radii[i] / points.radii[i];
     errors.stretch[i] = ratio * ratio * face / cosine;
   }
   return errors;

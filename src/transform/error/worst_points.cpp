@@ -102,7 +102,7 @@ Kept sieve(const MeshView& mesh, const FaceScan& scan, const Expansion& expansio
   const double mean = varying.c(0, 0) / std::sqrt(4 * std::numbers::pi);
   varying.c(0, 0) = 0;
   const bool gauge = expansion.function == RadialFunction::kGauge;
-  const GridFunction<T> function(plan, std::move(varying), context);
+  const GridFunction<T> function(plan, varying, context);
   constexpr std::size_t kVertices = 4096, kRuns = 8;  // of a task: some 100 us
   const auto parts = [](std::size_t n, std::size_t grain) { return (n + grain - 1) / grain; };
   const std::size_t n_runs = scan.sizes.angles2.size(),
