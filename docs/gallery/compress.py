@@ -71,14 +71,14 @@ rholm.render(
 )
 
 # %%
-# Distances to the mesh, in parts of the diagonal: of all degrees, and of caps that are cut off at degree 2.
+# Distances to the mesh, in parts of the diagonal: of all degrees, and of caps that are cut off at degree 4.
 # They are largest where caps meet; their rms is within what was asked for.
 
 print(f"rms {a.errors.rms / a.diagonal:.5f}, largest {a.errors.max / a.diagonal:.4f}")
 panels = []
 for shown, label in (
     (surface, f"degrees up to {a.degree}"),
-    (a.mesh(degree=2), "degree 2 at most"),
+    (a.mesh(degree=4), "degree 4 at most"),
 ):
     error = rholm.distances_to_surface(shown.vertices, knot) / a.diagonal
     panels.append(rholm.Panel(shown, label, scalars=error))
