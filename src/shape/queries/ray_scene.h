@@ -52,8 +52,8 @@ class RayScene {
   RayScene& operator=(const RayScene&) = delete;
 
   // Exact closest point of the surface; the mesh must have a triangle. Ties go to the triangle
-  // with the smaller index. `likely`: a triangle near it, such as that of a neighbour, from which the
-  // search begins; the result is the same for any.
+  // with the smaller index. `likely`: a triangle near it, such as that of a neighbour, from which
+  // the search begins; the result is the same for any.
   ClosestPoint closest(const Vec3& point, std::uint32_t likely = kAny) const;
   static constexpr std::uint32_t kAny = 0xFFFFFFFFU;
   // First hit along origin + t direction, near < t < far; direction of unit length.
