@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
 
 #include "base/cancel.h"
 #include "base/parallel.h"
-#include "base/random.h"
 #include "chart/center/view_scan.h"
 #include "chart/star/cone.h"
 
@@ -169,11 +167,6 @@ std::optional<std::vector<std::uint32_t>> backs(const LocalView& view, const Vec
   return all;
 }
 
-std::uint64_t place_bits(const Vec3& v) {
-  const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); };
-  return random_bits(random_bits(bits(v.x), bits(v.y)), bits(v.z));
-}
-
 }  // namespace
 
 Vec3 lattice_direction(std::size_t i, std::size_t n) {
@@ -182,26 +175,6 @@ Vec3 lattice_direction(std::size_t i, std::size_t n) {
   const double phi = 2 * kPi * (turns - std::floor(turns));
   const double s = std::sqrt(std::max(0.0, 1 - z * z));
   return {s * std::cos(phi), s * std::sin(phi), z};
-}
-
-bool is_closed(const MeshView& mesh) {
-  std::vector<std::uint64_t> places(mesh.n_vertices);
-  CancelPoll poll;
-  for (std::size_t i = 0; i < mesh.n_vertices; ++i) {
-    poll();
-    places[i] = place_bits(mesh.vertex(i));
-  }
-  std::uint64_t sum = 0;
-  for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
-    poll();
-    const Triangle v = mesh.triangle(t);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint64_t a = places[v[k]], b = places[v[k == 2 ? 0 : k + 1]];
-      const std::uint64_t edge = random_bits(std::min(a, b), std::max(a, b));
-      if (a != b) sum += a < b ? edge : -edge;
-    }
-  }
-  return sum == 0;
 }
 
 std::optional<std::vector<int>> count_meetings(const LocalView& view, const Vec3& center,

@@ -17,11 +17,7 @@ namespace rholm {
 // Direction i of n, spread evenly: a Fibonacci lattice.
 Vec3 lattice_direction(std::size_t i, std::size_t n);
 
-// Whether every edge is run through as often one way as the other, by a hash of its ends'
-// coordinates: a surface that is not closed passes once in 2^64.
-bool is_closed(const MeshView& mesh);
-
-// How often each of n directions meets the surface of a mesh that is_closed(); none if the centre
+// How often each of n directions meets the surface of a closed mesh; none if the centre
 // may lie on the surface, or all of a few directions from which to begin on edges.
 std::optional<std::vector<int>> count_meetings(const LocalView& view, const Vec3& center,
                                                std::size_t n, const Context& context);

@@ -18,6 +18,7 @@
 #include "chart/star/direction_counts.h"
 #include "rholm/error.h"
 #include "shape/queries/ray_scene.h"
+#include "shape/topology/closed.h"
 
 namespace rholm {
 namespace {

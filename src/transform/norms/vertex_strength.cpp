@@ -20,8 +20,8 @@
 #include "base/cancel.h"
 #include "rholm/analyze.h"
 #include "shape/face.h"
+#include "shape/topology/vertex_place.h"
 #include "transform/geometry/star_geometry.h"
-#include "transform/norms/vertex_place.h"
 
 namespace rholm {
 namespace {

@@ -53,7 +53,6 @@ TEST(count_meetings, are_those_of_each_triangle) {
       {together(ball, cube), {{0.1, 0.2, 0.3}, {0.9, 0.2, 1.1}}},
       {together(ring, ball), {{0.1, 0.2, 0.3}, {0.2, 2.1, 0.1}}}};
   for (const auto& [mesh, centers] : cases) {
-    ASSERT_TRUE(is_closed(view_of(mesh)));
     for (const Vec3& center : centers) {
       constexpr std::size_t n = 1500;
       const LocalView view = local_view(view_of(mesh), {});
@@ -78,33 +77,6 @@ TEST(count_meetings, are_left_to_rays_from_the_surface) {
   }
   // Seen edge-on from outside, a face is in nobody's way.
   EXPECT_TRUE(count_meetings(local_view(view_of(cube), {}), {0.5, 9, 0.2}, 100, {}).has_value());
-}
-
-TEST(is_closed, asks_for_every_edge_both_ways) {
-  const Mesh closed = test::rotated(bumpy_sphere(2, 0.3));
-  EXPECT_TRUE(is_closed(view_of(closed)));
-  // Each face with corners of its own.
-  Mesh copies;
-  for (const Triangle& t : closed.triangles) {
-    const auto first = static_cast<std::uint32_t>(copies.vertices.size());
-    for (const std::uint32_t i : t) copies.vertices.push_back(closed.vertices[i]);
-    copies.triangles.push_back({first, first + 1, first + 2});
-  }
-  EXPECT_TRUE(is_closed(view_of(copies)));
-  // And a face between two corners at one place.
-  copies.triangles.push_back({0, 0, 1});
-  copies.triangles.push_back({1, 0, 0});
-  EXPECT_TRUE(is_closed(view_of(copies)));
-  Mesh open = closed;
-  open.triangles.pop_back();
-  EXPECT_FALSE(is_closed(view_of(open)));
-  Mesh turned = closed;
-  std::swap(turned.triangles[7][0], turned.triangles[7][1]);
-  EXPECT_FALSE(is_closed(view_of(turned)));
-  // Open at both ends: what is missing has no area in the sum.
-  Mesh tube = torus(2, 0.5, 40, 20);
-  std::erase_if(tube.triangles, [&](const Triangle& t) { return tube.vertices[t[0]].x > 0; });
-  EXPECT_FALSE(is_closed(view_of(tube)));
 }
 
 }  // namespace
