@@ -23,9 +23,8 @@ struct PanelPicture {
   }
   // Of those of a pixel, side x side, one at a random place in each of as many squares.
   Ray ray_of_sample(int x, int y, int sample, int side) const {
-    const std::uint64_t seed =
-        random_bits(static_cast<std::uint64_t>(x), static_cast<std::uint64_t>(y));
-    const auto jitter = [&](int cell, int k) {  // numbers 0 and 1 belong to pixel_shift()
+    const std::uint64_t seed = pixel_seed(x, y);
+    const auto jitter = [&](int cell, int k) {
       return (cell + random_uniform(seed, 2 + 2 * sample + k)) / side;
     };
     return ray(x + jitter(sample % side, 0), y + jitter(sample / side, 1));

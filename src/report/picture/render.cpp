@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "base/random.h"
 #include "base/refuse.h"
 #include "report/picture/balls.h"
 #include "report/picture/canvas.h"
@@ -250,9 +249,7 @@ std::vector<Sight> make_sights(std::span<const Panel> panels, const RenderOption
 
 Color pixel_color(const PanelPicture& p, const RayScene& scene, const LightSamples& lights,
                   int side, int x, int y) {
-  const std::uint64_t seed =
-      random_bits(static_cast<std::uint64_t>(x), static_cast<std::uint64_t>(y));
-  const PixelShift shift = pixel_shift(seed);
+  const PixelShift shift = pixel_shift(pixel_seed(x, y));
   Color sum;
   for (int sample = 0; sample < side * side; ++sample) {
     const Ray ray = p.ray_of_sample(x, y, sample, side);

@@ -210,6 +210,10 @@ LightSamples make_light_samples(int samples_per_pixel, int occlusion_rays) {
   return lights;
 }
 
+std::uint64_t pixel_seed(int x, int y) {
+  return random_bits(static_cast<std::uint64_t>(x), static_cast<std::uint64_t>(y));
+}
+
 PixelShift pixel_shift(std::uint64_t pixel_seed) {
   const double angle = 2 * std::numbers::pi * random_uniform(pixel_seed, 0);
   return {random_uniform(pixel_seed, 1), std::cos(angle), std::sin(angle)};

@@ -67,6 +67,8 @@ struct PixelShift {
   double shift = 0, cosine = 1, sine = 0;
 };
 PixelShift pixel_shift(std::uint64_t pixel_seed);
+// Of its random numbers: 0 and 1 are those of pixel_shift().
+std::uint64_t pixel_seed(int x, int y);
 
 // Towards points of the discs of the sky and of the key, seen from a place.
 Vec3 sky_direction(const Place& place, const LightSamples::Polar& point, const PixelShift& pixel);

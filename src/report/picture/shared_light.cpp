@@ -12,10 +12,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <utility>
 #include <vector>
-
-#include "base/random.h"
 
 namespace rholm {
 namespace {
@@ -127,10 +127,6 @@ inline float likeness(const Spot& a, const Spot& b, float per_half_depth) {
 std::size_t place_in_block(int x, int y) {
   const unsigned a = static_cast<unsigned>(x ^ y), b = static_cast<unsigned>(y);
   return (a & 1) * 8 + (b & 1) * 4 + (a & 2) + (b & 2) / 2;
-}
-
-std::uint64_t seed_of(int x, int y) {
-  return random_bits(static_cast<std::uint64_t>(x), static_cast<std::uint64_t>(y));
 }
 
 // Of a cell: as many as a pixel of its own light asks for, shared by the cells of a block.
@@ -317,7 +313,7 @@ void Drawing::ask(Cells& cells, int y) const {
       }
       if (!cells.mixed_key[cell]) continue;
       cells.own[cell] = {cells.own[cell].sky, 0, 0};
-      const PixelShift shift = pixel_shift(seed_of(x, y));
+      const PixelShift shift = pixel_shift(pixel_seed(x, y));
       for (const LightSamples::Polar& point : more_key_) {
         const Vec3 to_key = key_direction(panel_.lamps, point, shift);
         const auto cosine = static_cast<float>(std::max(0.0, dot(to_key, place.normal)));
@@ -415,7 +411,7 @@ void Drawing::resolve(const Cells& cells, int y) const {
       alike = alike && likeness(middle, spot_of(places.back()), per_depth_) > 0;
     }
     Color sum = static_cast<float>(n - places.size()) * kPaper;
-    const PixelShift shift = pixel_shift(seed_of(edges[k], y));
+    const PixelShift shift = pixel_shift(pixel_seed(edges[k], y));
     const Shared& shared = cells.shared[cell];
     for (std::size_t i = 0; i < places.size(); ++i) {
       sum = sum + (alike ? finish(panel_.subject, panel_.lamps, panel_.scale, places[i])
