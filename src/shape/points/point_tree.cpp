@@ -182,7 +182,8 @@ void Nearest(const PointTree::View& tree, const float* at, Neighbor& best) {
   for (int depth = 0; depth >= 0;) {
     float least = 0;
     const std::size_t first = LeastOf(squares[depth], least);
-    if (!(least <= best.distance2)) {
+    // Not even an infinite one, which is what has been visited.
+    if (!(least <= best.distance2 && least < std::numeric_limits<float>::infinity())) {
       --depth;
       continue;
     }
