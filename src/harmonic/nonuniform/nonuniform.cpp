@@ -1,6 +1,7 @@
 #include "harmonic/nonuniform/nonuniform.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 
@@ -186,15 +187,5 @@ template ValuesAndGradients read_at(const GridFunction<float>&, std::span<const 
                                     const Context&);
 template ValuesAndGradients read_at(const GridFunction<double>&, std::span<const Vec3>, bool,
                                     const Context&);
-
-ValuesAndGradients nonuniform_evaluate(const NonuniformPlan& plan, const Coefficients& coefficients,
-                                       std::span<const Vec3> directions, bool with_gradient,
-                                       const Context& context) {
-  const auto read = [&](const auto& function) {
-    return read_at(function, directions, with_gradient, context);
-  };
-  return plan.single ? read(GridFunction<float>(plan, coefficients, context))
-                     : read(GridFunction<double>(plan, coefficients, context));
-}
 
 }  // namespace rholm

@@ -1,7 +1,6 @@
 // The fast transforms at scattered directions: what scattered.cpp and the mesh pass build on.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -39,11 +38,9 @@ void finish_adjoint(const NonuniformPlan& plan, std::span<GridSpreader<T>> sprea
 
 void nonuniform_add_adjoint(const NonuniformPlan& plan, const ScatteredSources& sources,
                             int derivatives, Coefficients& sum, const Context& context);
+// The function at directions; gradients on request.
 template <typename T>
 ValuesAndGradients read_at(const GridFunction<T>& function, std::span<const Vec3> directions,
                            bool with_gradient, const Context& context);
-ValuesAndGradients nonuniform_evaluate(const NonuniformPlan& plan, const Coefficients& coefficients,
-                                       std::span<const Vec3> directions, bool with_gradient,
-                                       const Context& context);
 
 }  // namespace rholm

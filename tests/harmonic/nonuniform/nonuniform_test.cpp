@@ -18,6 +18,16 @@
 namespace rholm {
 namespace {
 
+ValuesAndGradients evaluate_by(const NonuniformPlan& plan, const Coefficients& coefficients,
+                               std::span<const Vec3> directions, bool with_gradient,
+                               const Context& context) {
+  const auto read = [&](const auto& function) {
+    return read_at(function, directions, with_gradient, context);
+  };
+  return plan.single ? read(GridFunction<float>(plan, coefficients, context))
+                     : read(GridFunction<double>(plan, coefficients, context));
+}
+
 using test::inner;
 using test::norm_of;
 using test::random_coefficients;
@@ -112,7 +122,7 @@ struct Problem {
   // Of values, or of gradients.
   double forward_error(const NonuniformPlan& plan, bool of_gradient) const {
     const ValuesAndGradients found =
-        nonuniform_evaluate(plan, function, directions, of_gradient, kOneThread);
+        evaluate_by(plan, function, directions, of_gradient, kOneThread);
     double square = 0;
     for (std::size_t j = 0; j < directions.size(); ++j) {
       const Vec3 g = of_gradient ? found.gradients[j] - values.gradients[j] : Vec3{};
@@ -180,7 +190,7 @@ TEST(nonuniform, forward_and_adjoint_are_transposes_for_every_width) {
       for (const bool gradients : {false, true}) {
         const NonuniformPlan plan = plan_of(L, width, 1.3, gradients);
         const ValuesAndGradients found =
-            nonuniform_evaluate(plan, problem.function, problem.directions, gradients, kOneThread);
+            evaluate_by(plan, problem.function, problem.directions, gradients, kOneThread);
         Coefficients sum(L);
         const ScatteredSources sources{
             .directions = problem.directions,
@@ -247,7 +257,7 @@ TEST(nonuniform, single_precision_has_the_same_bits_for_every_size) {
   const auto evaluated = [&](double size) {
     Coefficients function = problem.function;
     for (double& c : function.values()) c *= size;
-    return nonuniform_evaluate(plan, function, problem.directions, true, kOneThread);
+    return evaluate_by(plan, function, problem.directions, true, kOneThread);
   };
   for (const double size : {0x1p-300, 0x1p200, 0x1p900}) {
     const Coefficients sum = add(size), expected = add(1);
@@ -439,7 +449,7 @@ TEST(nonuniform, tiny_problems_give_numbers) {
         // Differences next to a pole divide the window's 1e-7 and rounding by their step.
         EXPECT_NEAR(sum.c(0, 0), n == 0 ? 0 : 2 / std::sqrt(4 * kPi), 2e-5);
         for (const double v : sum.values()) EXPECT_TRUE(std::isfinite(v));
-        const auto found = nonuniform_evaluate(plan, sum, directions, true, kOneThread);
+        const auto found = evaluate_by(plan, sum, directions, true, kOneThread);
         ASSERT_EQ(found.values.size(), n);
         for (const double v : found.values) EXPECT_TRUE(std::isfinite(v));
         for (const Vec3& g : found.gradients) EXPECT_TRUE(std::isfinite(norm(g)));
@@ -463,7 +473,7 @@ TEST(nonuniform, directions_that_are_no_numbers_stay_within_the_grid) {
       nonuniform_add_adjoint(plan, {.directions = directions, .weights = weights}, 0, sum,
                              kOneThread);
       const auto found =
-          nonuniform_evaluate(plan, random_coefficients(20, 5), directions, false, kOneThread);
+          evaluate_by(plan, random_coefficients(20, 5), directions, false, kOneThread);
       EXPECT_TRUE(std::isfinite(found.values.back()));
     }
   }
