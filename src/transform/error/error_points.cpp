@@ -43,13 +43,10 @@ Face face_of(const std::array<Vec3, 3>& corners) {
   return face;
 }
 
-// At a distance r from the centre, where nobody sees it if that is 0.
-void add_point(ErrorPoints& points, const Vec3& x, double r, double cosine, std::int64_t owner) {
-  if (!(r > 0)) return;
-  points.directions.push_back(x / r);
-  points.radii.push_back(r);
-  points.cosines.push_back(cosine);
-  points.owners.push_back(owner);
+// x from the centre, where nobody sees it if that is 0.
+void add_point(ErrorPoints& points, const Vec3& x, double cosine, std::int64_t owner) {
+  const double r = norm(x);
+  if (r > 0) points.add(x / r, r, cosine, owner);
 }
 
 // cos gamma at the point x of the face, none where nobody sees it.
@@ -79,6 +76,13 @@ void ErrorPoints::reserve(std::size_t n) {
   radii.reserve(n);
   cosines.reserve(n);
   owners.reserve(n);
+}
+
+void ErrorPoints::add(const Vec3& direction, double radius, double cosine, std::int64_t owner) {
+  directions.push_back(direction);
+  radii.push_back(radius);
+  cosines.push_back(cosine);
+  owners.push_back(owner);
 }
 
 ErrorPoints ErrorPoints::subset(const std::vector<std::size_t>& indices) const {
@@ -136,13 +140,13 @@ ErrorPoints extreme_points(const MeshView& mesh, const Vec3& center, const FaceS
   for (std::size_t i = 0; i < mesh.n_vertices; ++i) {
     poll();
     const Vec3 x = scan.sizes.scale * (mesh.vertex(i) - center);
-    if (scan.is_used(i)) add_point(points, x, norm(x), 0, -1 - static_cast<std::int64_t>(i));
+    if (scan.is_used(i)) add_point(points, x, 0, -1 - static_cast<std::int64_t>(i));
   }
   for (std::size_t run = 0; run < scan.sizes.angles2.size(); ++run) {
     poll();
     visit_long_faces(mesh, center, scan, degree, run, run + 1,
                      [&](const Vec3& x, double cosine, std::size_t t) {
-                       add_point(points, x, norm(x), cosine, static_cast<std::int64_t>(t));
+                       add_point(points, x, cosine, static_cast<std::int64_t>(t));
                      });
   }
   for (double& r : points.radii) r /= scan.sizes.scale;
@@ -182,7 +186,7 @@ ErrorPoints area_points(const MeshView& mesh, const Vec3& center, const FaceScan
       const Vec3 x = (1 - s) * face.corners[0] + b * face.corners[1] + (s - b) * face.corners[2];
       const std::optional<double> cosine = cosine_at(face, x);
       if (cosine && !face.normal.degenerate) {
-        add_point(points, x, norm(x), *cosine, static_cast<std::int64_t>(t));
+        add_point(points, x, *cosine, static_cast<std::int64_t>(t));
       }
       ++next;
       at = wanted();

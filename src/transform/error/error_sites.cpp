@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace rholm {
 namespace {
@@ -21,7 +22,10 @@ bool shows_its_edges(const MeshView& mesh, int degree) {
 }
 
 const FaceScan& ErrorSites::scan() {
-  if (!scan_) scan_ = scan_faces(mesh_, center_, {.threads = threads_});
+  if (!scan_) {
+    scan_ = sizes_ ? scan_faces(mesh_, std::move(*sizes_))
+                   : scan_faces(mesh_, center_, {.threads = threads_});
+  }
   return *scan_;
 }
 

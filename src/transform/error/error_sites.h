@@ -26,7 +26,7 @@ class ErrorSites {
       : mesh_(mesh), center_(center), threads_(threads) {}
   // Sizes as exact_norms() finds them about this centre.
   ErrorSites(const MeshView& mesh, const Vec3& center, FaceSizes sizes)
-      : mesh_(mesh), center_(center), threads_(1), scan_(scan_faces(mesh, std::move(sizes))) {}
+      : mesh_(mesh), center_(center), sizes_(std::move(sizes)) {}
 
   const MeshView& mesh() const { return mesh_; }
   const Vec3& center() const { return center_; }
@@ -46,7 +46,8 @@ class ErrorSites {
  private:
   MeshView mesh_;
   Vec3 center_;
-  int threads_;
+  int threads_ = 1;
+  std::optional<FaceSizes> sizes_;
   std::optional<FaceScan> scan_;
   std::optional<ErrorPoints> vertices_;
   std::optional<int> degree_;

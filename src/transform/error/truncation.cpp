@@ -44,20 +44,27 @@ double measuring_precision(const Expansion& expansion, const std::optional<doubl
   return std::clamp(1e-5 * *exact_rms / size, 1e-12, 1e-6);
 }
 
-// Enough for smooth meshes, whose points are dense; climbs cost as much as a hundredth of a whole
-// analysis.
+// Enough for smooth meshes, whose points are dense (chosen).
 constexpr std::size_t kPeaks = 3;
+
+// What is looked at closely: the worst of extreme points, `extreme` of them, and of those over the
+// area; from `sample` on some of the latter, evenly.
+struct Looked {
+  ErrorPoints points;
+  PointErrors errors;
+  std::size_t extreme = 0, sample = 0;
+};
 
 // The largest errors between points. Of distances those from the shape to the model: to the shape
 // they are to the planes of faces, which are not the faces.
-void climb(const ErrorPoints& points, const PointErrors& found, const RadialModel& model,
-           ErrorSites& sites, TruncationErrors& errors) {
+void climb(const Looked& looked, const RadialModel& model, ErrorSites& sites,
+           TruncationErrors& errors) {
   const Context context{.threads = 1};  // waking others takes longer than a hundred points
   const std::vector<double> highest = highest_peaks(
-      sites.mesh(), sites.center(), points,
-      {{found.radial,
+      sites.mesh(), sites.center(), looked.points,
+      {{looked.errors.radial,
         [&](const ErrorPoints& at) { return point_errors(at, model, false, context).radial; }},
-       {found.to_model,
+       {looked.errors.to_model,
         [&](const ErrorPoints& at) { return point_errors(at, model, true, context).to_model; }}},
       model.degree, kPeaks);
   errors.measured_max = std::max(*errors.measured_max, highest[0]);
@@ -65,14 +72,12 @@ void climb(const ErrorPoints& points, const PointErrors& found, const RadialMode
 }
 
 // Distances by closest points where those to first order may mislead.
-void refine_distances(const ErrorPoints& points, const PointErrors& found, std::size_t extreme,
-                      std::size_t first_of_sample, const Expansion& expansion,
-                      const RadialModel& model, double precision, const Context& context,
-                      ErrorSites& sites, TruncationErrors& errors) {
-  const int degree = expansion.coefficients.degree();
+void refine_distances(const Looked& looked, const Expansion& expansion, const RadialModel& model,
+                      double precision, const Context& context, ErrorSites& sites,
+                      TruncationErrors& errors) {
   if (!may_be_refined(sites.mesh(), expansion, *errors.measured_max, errors.diagonal)) return;
   if (!is_coarse(sites.mesh())) {
-    const SecondOrder second = second_order(points, found, first_of_sample, model);
+    const SecondOrder second = second_order(looked.points, looked.errors, looked.sample, model);
     if (second.first_order_holds()) return;
     if (second.suffices(sites.mesh())) {
       *errors.distance_rms *= second.rms_ratio;
@@ -81,11 +86,39 @@ void refine_distances(const ErrorPoints& points, const PointErrors& found, std::
       return;
     }
   }
-  const SurfaceDistances distances =
-      sites.closest(true).measure(expansion, degree, points.first(extreme), precision, context);
+  const SurfaceDistances distances = sites.closest(true).measure(
+      expansion, model.degree, looked.points.first(looked.extreme), precision, context);
   errors.distance_rms = distances.rms;
   errors.measured_max_distance = distances.max;
   errors.distances_are_closest = true;
+}
+
+// The worst of the points over the area, each once: copies would stand for peaks of their own.
+std::vector<std::size_t> worst_of(const PointErrors& errors) {
+  std::vector<std::size_t> worst;
+  for (const auto* values : {&errors.radial, &errors.to_model, &errors.to_shape}) {
+    const std::vector<std::size_t> indices = indices_of_largest(*values, kMostWorstPoints);
+    worst.insert(worst.end(), indices.begin(), indices.end());
+  }
+  std::sort(worst.begin(), worst.end());
+  worst.erase(std::unique(worst.begin(), worst.end()), worst.end());
+  return worst;
+}
+
+Looked look_closely(WorstPoints extreme, const ErrorPoints& over_area, const PointErrors& of_area) {
+  Looked looked{.points = std::move(extreme.points), .errors = std::move(extreme.errors)};
+  looked.extreme = looked.points.size();
+  const auto take = [&](const std::vector<std::size_t>& indices) {
+    looked.points.append(over_area.subset(indices));
+    looked.errors.append(of_area.subset(indices));
+  };
+  take(worst_of(of_area));
+  looked.sample = looked.points.size();
+  std::vector<std::size_t> sample;
+  const std::size_t step = std::max<std::size_t>(1, over_area.size() / kDistanceSample);
+  for (std::size_t i = 0; i < over_area.size(); i += step) sample.push_back(i);
+  take(sample);
+  return looked;
 }
 
 }  // namespace
@@ -123,33 +156,13 @@ TruncationErrors truncation_errors(const Expansion& expansion, const TruncationO
                     .radial = largest(of_area.radial),
                     .distance = std::max(largest(of_area.to_model), largest(of_area.to_shape))},
                    silent);
-  const std::size_t extreme = worst.points.size();
-  ErrorPoints points = std::move(worst.points);
-  PointErrors found = std::move(worst.errors);
-  const auto take = [&](const std::vector<std::size_t>& indices) {
-    points.append(over_area.subset(indices));
-    found.append(of_area.subset(indices));
-  };
-  // Each once: copies would stand for peaks of their own.
-  std::vector<std::size_t> worst_of_area;
-  for (const auto* values : {&of_area.radial, &of_area.to_model, &of_area.to_shape}) {
-    const std::vector<std::size_t> indices = indices_of_largest(*values, kMostWorstPoints);
-    worst_of_area.insert(worst_of_area.end(), indices.begin(), indices.end());
-  }
-  std::sort(worst_of_area.begin(), worst_of_area.end());
-  worst_of_area.erase(std::unique(worst_of_area.begin(), worst_of_area.end()), worst_of_area.end());
-  take(worst_of_area);
-  const std::size_t first_of_sample = points.size();
-  std::vector<std::size_t> sample;
-  const std::size_t step = std::max<std::size_t>(1, over_area.size() / kDistanceSample);
-  for (std::size_t i = 0; i < over_area.size(); i += step) sample.push_back(i);
-  take(sample);
   errors.points = worst.seen + over_area.size();
-  errors.measured_max = largest(found.radial);
-  errors.measured_max_distance = std::max(largest(found.to_model), largest(found.to_shape));
-  climb(points, found, model, sites, errors);
-  refine_distances(points, found, extreme, first_of_sample, expansion, model, precision, silent,
-                   sites, errors);
+  const Looked looked = look_closely(std::move(worst), over_area, of_area);
+  errors.measured_max = largest(looked.errors.radial);
+  errors.measured_max_distance =
+      std::max(largest(looked.errors.to_model), largest(looked.errors.to_shape));
+  climb(looked, model, sites, errors);
+  refine_distances(looked, expansion, model, precision, silent, sites, errors);
   report_progress(context, "errors", 0.9);
   if (options.predict) predict(expansion, sites, errors);
   return errors;

@@ -11,6 +11,7 @@
 
 #include "base/parallel.h"
 #include "harmonic/nonuniform/grid_function.h"
+#include "transform/mesh_pass/plan/error_budget.h"
 
 namespace rholm {
 namespace {
@@ -72,10 +73,7 @@ class Sieve {
       const double r = norm(x), value = mean_ + to_value * batch_.value[j];
       const double error = std::abs(to_shape * r - (gauge_ ? 1 / value : value));
       if (error < least_ && value > 0) continue;
-      kept_.points.directions.push_back(x / r);
-      kept_.points.radii.push_back(to_shape * r);
-      kept_.points.cosines.push_back(cosines_[j]);
-      kept_.points.owners.push_back(owners_[j]);
+      kept_.points.add(x / r, to_shape * r, cosines_[j], owners_[j]);
       // What has no surface there comes first, to be refused.
       kept_.rough.push_back(value > 0 || !gauge_ ? error : std::numeric_limits<double>::max());
     }
@@ -144,9 +142,7 @@ ErrorPoints some_vertices(const MeshView& mesh, const Vec3& center, const FaceSc
     const Vec3 x = scan.sizes.scale * (mesh.vertex(i) - center);
     const double r = norm(x);
     if (!scan.is_used(i) || !(r > 0)) continue;
-    points.directions.push_back(x / r);
-    points.radii.push_back(r / scan.sizes.scale);
-    points.cosines.push_back(0);
+    points.add(x / r, r / scan.sizes.scale, 0, -1 - static_cast<std::int64_t>(i));
   }
   return points;
 }
@@ -170,21 +166,16 @@ double least_kept(std::vector<double> sample, std::size_t n_vertices, double low
   return std::clamp(*at, kFar * low, kNear * low);
 }
 
-// Root mean square of the function without its mean.
-double size_without_mean(const Coefficients& coefficients) {
-  double squares = 0;
-  for (const double c : coefficients.values().subspan(1)) squares += c * c;
-  return std::sqrt(squares / (4 * std::numbers::pi));
-}
-
 Kept sieved(const MeshView& mesh, const FaceScan& scan, const Expansion& expansion,
             double radial_rms, double farthest, double least, const Context& context) {
   // Errors of r are r^2 times those of 1/r, most where the surface is farthest.
   const bool gauge = expansion.function == RadialFunction::kGauge;
   const double rms = gauge ? radial_rms / (farthest * farthest) : radial_rms;
-  const double size = size_without_mean(expansion.coefficients);
+  const int degree = expansion.coefficients.degree();
+  const double size =
+      norm_of_degrees(expansion.coefficients, 1, degree) / std::sqrt(4 * std::numbers::pi);
   const NonuniformNeeds needs{
-      .degree = expansion.coefficients.degree(),
+      .degree = degree,
       .allowed = size > 0 ? std::clamp(kRough * rms / size, 1e-12, 1e-2) : 1e-2,
       .sources = mesh.n_vertices};
   const NonuniformPlan plan = plan_nonuniform(needs);
