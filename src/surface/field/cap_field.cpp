@@ -64,6 +64,14 @@ struct Place {
   M within;
 };
 
+// The ellipse's form, with the height as third axis.
+HWY_INLINE V FormOf(D d, const CapLane& cap, V p, V q, V height) {
+  V square =
+      hn::MulAdd(hn::Set(d, cap.xx), hn::Mul(p, p), hn::Mul(hn::Set(d, cap.xy2), hn::Mul(p, q)));
+  square = hn::MulAdd(hn::Set(d, cap.yy), hn::Mul(q, q), square);
+  return hn::MulAdd(hn::Set(d, cap.hh), hn::Mul(height, height), square);
+}
+
 HWY_INLINE Place PlaceOf(D d, const LaneCap& lane, V px, V py, V pz) {
   const CapLane& cap = lane.cap;
   const V one = hn::Set(d, 1.0f);
@@ -71,13 +79,9 @@ HWY_INLINE Place PlaceOf(D d, const LaneCap& lane, V px, V py, V pz) {
   Place place;
   place.at = ToFrame(d, cap.frame, dx, dy, dz);
   const V p = hn::Sub(place.at.x, hn::Set(d, cap.px)), q = hn::Sub(place.at.y, hn::Set(d, cap.py));
-  const V height = place.at.z;
-  V square =
-      hn::MulAdd(hn::Set(d, cap.xx), hn::Mul(p, p), hn::Mul(hn::Set(d, cap.xy2), hn::Mul(p, q)));
-  square = hn::MulAdd(hn::Set(d, cap.yy), hn::Mul(q, q), square);
-  place.near = hn::Sub(one, hn::MulAdd(hn::Set(d, cap.hh), hn::Mul(height, height), square));
+  place.near = hn::Sub(one, FormOf(d, cap, p, q, place.at.z));
   place.within =
-      hn::And(hn::Gt(place.near, hn::Zero(d)), hn::Lt(hn::Abs(height), hn::Set(d, cap.reach)));
+      hn::And(hn::Gt(place.near, hn::Zero(d)), hn::Lt(hn::Abs(place.at.z), hn::Set(d, cap.reach)));
   return place;
 }
 
@@ -105,30 +109,57 @@ HWY_INLINE void Contribute(D d, const CapLane& cap, const Place& place, Contribu
   }
 }
 
-// The nodes of a block that lie within a cap, by their indices; how many. A cap is a disc, and
-// fills little more than a third of the vectors it touches. `chosen` has room for a vector more.
-HWY_INLINE std::size_t NodesWithin(D d, const LaneCap& lane, const NodeRange& range,
-                                   const NodeTable& nodes, std::int32_t* chosen) {
+// The nodes of a block that lie within a cap, by their indices; how many. Rows along x, a lane
+// each, meet the support and the slab around the tangent plane in one interval. `chosen` has room
+// for a row, or a vector, more.
+HWY_INLINE std::size_t NodesWithin(D d, const LaneCap& lane, const NodeSlices& slices,
+                                   std::int32_t* chosen) {
   const hn::RebindToSigned<D> di;
+  const CapLane& cap = lane.cap;
+  const auto ascending = hn::Iota(di, 0);
+  alignas(64) std::int32_t first[16], width[16];
   std::size_t count = 0;
-  for (std::size_t z = range.first_z; z < range.end_z; ++z) {
-    const std::size_t end = 64 * z + 8 * range.end_y;
-    for (std::size_t i = 64 * z + 8 * range.first_y; i < end; i += hn::Lanes(d)) {
-      const M within = PlaceOf(d, lane, hn::Load(d, nodes.x + i), hn::Load(d, nodes.y + i),
-                               hn::Load(d, nodes.z + i))
-                           .within;
-      if (hn::AllFalse(d, within)) continue;
-      const auto all = hn::Iota(di, static_cast<std::int32_t>(i));
-      hn::StoreU(hn::Compress(all, hn::RebindMask(di, within)), di, chosen + count);
-      count += hn::CountTrue(d, within);
+  const std::size_t rows = 8 * slices.end;
+  for (std::size_t r = 8 * slices.first / hn::Lanes(d) * hn::Lanes(d); r < rows;
+       r += hn::Lanes(d)) {
+    const auto row = hn::Add(ascending, hn::Set(di, static_cast<std::int32_t>(r)));
+    const V y = hn::ConvertTo(d, hn::And(row, hn::Set(di, 7)));
+    const V z = hn::ConvertTo(d, hn::ShiftRight<3>(row));
+    // The form is square x^2 + 2 half x + rest along a row.
+    const Lanes3<V> at =
+        ToFrame(d, cap.frame, hn::Neg(lane.sx), hn::Sub(y, lane.sy), hn::Sub(z, lane.sz));
+    const V p = hn::Sub(at.x, hn::Set(d, cap.px)), q = hn::Sub(at.y, hn::Set(d, cap.py));
+    const V half = Dot(d, cap.row[0], cap.row[1], cap.row[2], p, q, at.z);
+    const V rest = hn::Sub(FormOf(d, cap, p, q, at.z), hn::Set(d, 1.0f));
+    const V root = hn::NegMulAdd(hn::Set(d, cap.row_square), rest, hn::Mul(half, half));
+    const V inverse = hn::Set(d, 1 / cap.row_square);
+    const V reach = hn::Mul(hn::Sqrt(hn::Max(root, hn::Zero(d))), inverse);
+    const V middle = hn::Mul(hn::Neg(half), inverse);
+    const V crossing = hn::Mul(at.z, hn::Set(d, -cap.row_crossing));
+    const V slab = hn::Set(d, cap.reach * std::abs(cap.row_crossing));
+    const V low = hn::Max(hn::Sub(middle, reach), hn::Sub(crossing, slab));
+    const V high = hn::Min(hn::Add(middle, reach), hn::Add(crossing, slab));
+    const auto clamped = [&](V x) HWY_ATTR {
+      return hn::ConvertTo(di, hn::Min(hn::Max(x, hn::Zero(d)), hn::Set(d, 8.0f)));
+    };
+    const auto begin = clamped(hn::Ceil(low));
+    const auto end = clamped(
+        hn::IfThenElseZero(hn::Gt(root, hn::Zero(d)), hn::Add(hn::Floor(high), hn::Set(d, 1.0f))));
+    hn::Store(hn::Add(begin, hn::ShiftLeft<3>(row)), di, first);
+    hn::Store(hn::Max(hn::Sub(end, begin), hn::Zero(di)), di, width);
+    for (std::size_t k = 0; k < hn::Lanes(d); ++k) {
+      for (std::size_t j = 0; j < 8; j += hn::Lanes(di)) {
+        const auto from = hn::Set(di, first[k] + static_cast<std::int32_t>(j));
+        hn::StoreU(hn::Add(ascending, from), di, chosen + count + j);
+      }
+      count += static_cast<std::size_t>(width[k]);
     }
   }
   return count;
 }
 
 void FillBlock(const CapLane* caps, const std::uint32_t* list, std::size_t n_caps,
-               const Vec3& origin, double step, const NodeTable& nodes, float* values,
-               std::uint64_t* doubtful) {
+               const Vec3& origin, double step, float* values, std::uint64_t* doubtful) {
   const D d;
   const hn::RebindToSigned<D> di;
   alignas(64) float sum_g[512], sum_w[512], own_g[16], own_w[16];
@@ -140,7 +171,7 @@ void FillBlock(const CapLane* caps, const std::uint32_t* list, std::size_t n_cap
   for (std::size_t c = 0; c < n_caps; ++c) {
     const CapLane& cap = caps[list[c]];
     const LaneCap lane(d, cap, origin, step);
-    const std::size_t n = NodesWithin(d, lane, nodes_near(cap, origin, step), nodes, chosen);
+    const std::size_t n = NodesWithin(d, lane, slices_near(cap, origin, step), chosen);
     hn::StoreU(hn::Zero(di), di, chosen + n);
     for (std::size_t first = 0; first < n; first += hn::Lanes(d)) {
       const auto index = hn::LoadU(di, chosen + first);
@@ -160,18 +191,20 @@ void FillBlock(const CapLane* caps, const std::uint32_t* list, std::size_t n_cap
       }
     }
   }
+  const V near = hn::Set(d, static_cast<float>(kDoubtfulSteps));
   for (std::size_t i = 0; i < 512; i += hn::Lanes(d)) {
     const V w = hn::Load(d, sum_w + i);
     const V g = hn::Div(hn::Load(d, sum_g + i), w);
-    hn::StoreU(hn::IfThenElse(hn::Gt(w, hn::Set(d, kNoWeight)),
-                              hn::Mul(g, hn::Set(d, static_cast<float>(step))),
+    const M known = hn::Gt(w, hn::Set(d, kNoWeight));
+    hn::StoreU(hn::IfThenElse(known, hn::Mul(g, hn::Set(d, static_cast<float>(step))),
                               hn::Set(d, BlockGrid::kUnknown)),
                d, values + i);
-  }
-  const auto near = static_cast<float>(kDoubtfulSteps * step);
-  for (std::size_t i = 0; i < 512; ++i) {
-    const bool weak = sum_w[i] > kNoWeight && sum_w[i] < kDoubtfulWeight;
-    if (weak && std::abs(values[i]) < near) doubtful[i >> 6] |= std::uint64_t{1} << (i & 63);
+    const M weak =
+        hn::And(hn::And(known, hn::Lt(w, hn::Set(d, kDoubtfulWeight))), hn::Lt(hn::Abs(g), near));
+    if (hn::AllFalse(d, weak)) continue;
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(d, weak, bytes);
+    doubtful[i >> 6] |= (bytes[0] | (std::uint64_t{bytes[1]} << 8)) << (i & 63);
   }
 }
 
@@ -216,15 +249,8 @@ namespace {
 HWY_EXPORT(FillBlock);
 HWY_EXPORT(ContributeAt);
 
-NodeTable make_nodes() {
-  NodeTable nodes{};
-  for (std::size_t i = 0; i < 512; ++i) {
-    nodes.x[i] = static_cast<float>(i & 7);
-    nodes.y[i] = static_cast<float>((i >> 3) & 7);
-    nodes.z[i] = static_cast<float>(i >> 6);
-  }
-  return nodes;
-}
+// Rows that rise by less across a plane run along it.
+constexpr double kFlat = 1e-4;
 
 struct Lanes {
   std::vector<CapLane> caps;
@@ -250,15 +276,18 @@ Lanes make_lanes(const Atlas& atlas, const CapBands& bands, double step) {
     lane.xy2 = static_cast<float>(2 * cap.where.xy * step2);
     lane.hh = static_cast<float>(1 / (support * support));
     lane.reach = static_cast<float>((band + cap.deviation) / step);
-    // A disc of radius e and half thickness t across n reaches e sqrt(1 - n_x^2) + t |n_x| along x.
+    // A disc of radius e and half thickness t across n reaches e sqrt(1 - n_z^2) + t |n_z| along z.
     const Vec3 n = f.z;
     const double edge = longer_half_axis(cap.where) / step;
-    const auto extent = [&](double along) {
-      return static_cast<float>(edge * std::sqrt(std::max(0.0, 1 - along * along)) +
-                                lane.reach * std::abs(along));
-    };
-    lane.middle = support_middle(cap);
-    lane.box[0] = extent(n.x), lane.box[1] = extent(n.y), lane.box[2] = extent(n.z);
+    lane.middle = support_middle(cap).z;
+    lane.extent = static_cast<float>(edge * std::sqrt(std::max(0.0, 1 - n.z * n.z)) +
+                                     lane.reach * std::abs(n.z));
+    const double x = f.x.x, y = f.y.x;
+    lane.row[0] = static_cast<float>(step2 * (cap.where.xx * x + cap.where.xy * y));
+    lane.row[1] = static_cast<float>(step2 * (cap.where.xy * x + cap.where.yy * y));
+    lane.row[2] = static_cast<float>(lane.hh * n.x);
+    lane.row_square = static_cast<float>(lane.row[0] * x + lane.row[1] * y + lane.row[2] * n.x);
+    lane.row_crossing = static_cast<float>(1 / std::copysign(std::max(kFlat, std::abs(n.x)), n.x));
     lane.inverse_band = static_cast<float>(step / band);
     lane.trust = static_cast<float>(cap.weight);
     lane.degree = cap.degree;
@@ -273,17 +302,10 @@ Lanes make_lanes(const Atlas& atlas, const CapBands& bands, double step) {
 
 }  // namespace
 
-NodeRange nodes_near(const CapLane& cap, const Vec3& origin, double step) {
-  const Vec3 at = (cap.middle - origin) / step;
-  const auto first = [](double x) {
-    return static_cast<std::size_t>(std::clamp(std::ceil(x), 0.0, 8.0));
-  };
-  const auto end = [](double x) {
-    return static_cast<std::size_t>(std::clamp(std::floor(x) + 1, 0.0, 8.0));
-  };
-  return {first(at.y - cap.box[1]) & ~std::size_t{1},
-          (end(at.y + cap.box[1]) + 1) & ~std::size_t{1}, first(at.z - cap.box[2]),
-          end(at.z + cap.box[2])};
+NodeSlices slices_near(const CapLane& cap, const Vec3& origin, double step) {
+  const double z = (cap.middle - origin.z) / step;
+  const auto clamped = [](double x) { return static_cast<std::size_t>(std::clamp(x, 0.0, 8.0)); };
+  return {clamped(std::ceil(z - cap.extent)), clamped(std::floor(z + cap.extent) + 1)};
 }
 
 std::vector<Disc> discs_of(const Atlas& atlas, const CapBands& bands) {
@@ -351,14 +373,13 @@ std::vector<std::uint64_t> fill_grid(const Atlas& atlas, const CapBands& bands,
                                      const CapLists& lists, BlockGrid& grid,
                                      const Context& context) {
   const Lanes lanes = make_lanes(atlas, bands, grid.step);
-  static const NodeTable nodes = make_nodes();
   std::vector<std::uint64_t> doubtful(8 * grid.n_blocks(), 0);
   parallel_for(lists.first.size() - 1, 64, context, {.name = "grid"},
                [&](std::size_t begin, std::size_t end) {
                  for (std::size_t b = begin; b < end; ++b) {
                    HWY_DYNAMIC_DISPATCH(FillBlock)
                    (lanes.caps.data(), lists.caps.data() + lists.first[b],
-                    lists.first[b + 1] - lists.first[b], grid.node(b, 0), grid.step, nodes,
+                    lists.first[b + 1] - lists.first[b], grid.node(b, 0), grid.step,
                     grid.block_values(b), &doubtful[8 * b]);
                  }
                });

@@ -11,11 +11,14 @@ namespace rholm {
 
 struct CapLane {
   Vec3 seed;
-  Vec3 middle;  // of the ellipse
   LaneFrame<float> frame;
   float px, py, xx, xy2, yy, hh;  // CapSupport, hh = 1 / support^2
-  float box[3];  // half extents of the part of space in its support, about the ellipse's middle
-  float reach;   // from the tangent plane: nodes beyond cannot be within the band
+  double middle;                  // z of the ellipse's, in lengths
+  float extent;                   // of the part of space in its support along z from there
+  // Along a row of nodes: what half of the form's derivative is at its place, the second, and 1 /
+  // n_x.
+  float row[3], row_square, row_crossing;
+  float reach;         // from the tangent plane: nodes beyond cannot be within the band
   float inverse_band;  // 1 / T
   float trust;         // times the weight: less for a cap that fits its points worse
   int degree;
@@ -25,19 +28,12 @@ struct CapLane {
   const float* coefficients;
 };
 
-// Rows of a block's nodes; y in pairs, since a vector may hold two rows.
-struct NodeRange {
-  std::size_t first_y = 0, end_y = 8, first_z = 0, end_z = 8;
+// Slices of a block across z.
+struct NodeSlices {
+  std::size_t first, end;
 };
 // Those that may be in a cap's support. `origin` is the block's first node.
-NodeRange nodes_near(const CapLane& cap, const Vec3& origin, double step);
-
-// Nodes of a block in their order.
-struct NodeTable {
-  alignas(64) float x[512];
-  alignas(64) float y[512];
-  alignas(64) float z[512];
-};
+NodeSlices slices_near(const CapLane& cap, const Vec3& origin, double step);
 
 inline constexpr auto kNoWeight = static_cast<float>(kLeastWeight);
 // Sums of weights below it, within so many steps of the surface, are those of caps that end there.
