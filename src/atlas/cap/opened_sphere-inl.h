@@ -110,10 +110,11 @@ HWY_INLINE CapLevel<V> LevelOf(D d, const LaneFrame<hn::TFromD<D>>& f, const Ope
   const V one = hn::Set(d, hn::TFromD<D>(1));
   CapLevel<V> here;
   here.level = hn::Add(one, phi.value);
-  const V slope = hn::Div(ConformalFactor(d, f, place), here.level);
-  here.g1 = hn::Mul(slope, phi.d1), here.g2 = hn::Mul(slope, phi.d2);
-  here.flatness =
-      hn::Div(one, hn::Sqrt(hn::MulAdd(here.g1, here.g1, hn::MulAdd(here.g2, here.g2, one))));
+  const V opened = ConformalFactor(d, f, place), inverse = hn::Div(one, here.level);
+  const V h1 = hn::Mul(opened, phi.d1), h2 = hn::Mul(opened, phi.d2);
+  here.g1 = hn::Mul(h1, inverse), here.g2 = hn::Mul(h2, inverse);
+  const V square = hn::MulAdd(h1, h1, hn::MulAdd(h2, h2, hn::Mul(here.level, here.level)));
+  here.flatness = hn::Div(hn::Abs(here.level), hn::Sqrt(square));
   return here;
 }
 

@@ -136,6 +136,51 @@ HWY_INLINE LowSum<hn::Vec<D>> SumLowHarmonics(D d, int degree, bool even, const 
   return sum;
 }
 
+// The same of all harmonics up to a degree, from what to_powers() makes of their coefficients:
+// Horner's rule in Z for each order.
+template <int kDegree, class D>
+HWY_INLINE LowSum<hn::Vec<D>> SumPowers(D d, const hn::TFromD<D>* c,
+                                        const LowDirection<hn::Vec<D>>& at) {
+  using V = hn::Vec<D>;
+  const auto horner = [&](int n, std::size_t stride, V& value, V& slope) HWY_ATTR {
+    value = hn::Set(d, c[0]), slope = hn::Zero(d);
+    for (int i = 1; i <= n; ++i) {
+      slope = i == 1 ? value : hn::MulAdd(slope, at.z, value);
+      value = hn::MulAdd(value, at.z, hn::Set(d, c[static_cast<std::size_t>(i) * stride]));
+    }
+  };
+  LowSum<V> sum;
+  V along_z, turn = hn::Zero(d);
+  horner(kDegree, 1, sum.value, along_z);
+  c += kDegree + 1;
+  sum.d1 = sum.d2 = hn::Zero(d);
+  V re_below = hn::Set(d, hn::TFromD<D>(1)), im_below = hn::Zero(d);
+  for (int m = 1; m <= kDegree; ++m) {
+    const V re = m == 1 ? at.x : hn::MulSub(at.x, re_below, hn::Mul(at.y, im_below));
+    const V im = m == 1 ? at.y : hn::MulAdd(at.x, im_below, hn::Mul(at.y, re_below));
+    V pc, ps, dc, ds;
+    horner(kDegree - m, 2, pc, dc);
+    ++c;
+    horner(kDegree - m, 2, ps, ds);
+    c += 2 * (kDegree - m) + 1;
+    const V order = hn::Set(d, static_cast<hn::TFromD<D>>(m));
+    const V f = hn::MulAdd(pc, re, hn::Mul(ps, im));
+    sum.value = hn::Add(sum.value, f);
+    turn = hn::MulAdd(order, f, turn);
+    if (m < kDegree) along_z = hn::MulAdd(dc, re, hn::MulAdd(ds, im, along_z));
+    const V fx = m == 1 ? pc : hn::MulAdd(pc, re_below, hn::Mul(ps, im_below));
+    const V fy = m == 1 ? ps : hn::MulSub(ps, re_below, hn::Mul(pc, im_below));
+    sum.d1 = hn::MulAdd(order, fx, sum.d1);
+    sum.d2 = hn::MulAdd(order, fy, sum.d2);
+    re_below = re, im_below = im;
+  }
+  // u . grad f + df/dZ: see SumLowHarmonics().
+  turn = hn::MulAdd(hn::Add(at.z, hn::Set(d, hn::TFromD<D>(1))), along_z, turn);
+  sum.d1 = hn::NegMulAdd(at.s1, turn, sum.d1);
+  sum.d2 = hn::NegMulAdd(at.s2, turn, sum.d2);
+  return sum;
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace rholm
 HWY_AFTER_NAMESPACE();

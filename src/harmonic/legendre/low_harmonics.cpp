@@ -1,5 +1,6 @@
 #include "harmonic/legendre/low_harmonics.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -47,6 +48,26 @@ EvenHarmonics make_even() {
   return h;
 }
 
+// p_lm by powers of Z: [m][l][power], one in two of them is zero.
+using PowersOfZ =
+    std::array<std::array<std::array<double, kMaxPowersDegree + 1>, kMaxPowersDegree + 1>,
+               kMaxPowersDegree + 1>;
+
+PowersOfZ make_powers() {
+  const LowHarmonics& h = low_harmonics();
+  PowersOfZ p{};
+  for (int m = 0; m <= kMaxPowersDegree; ++m) {
+    p[m][m][0] = h.start[m];
+    for (int l = m + 1; l <= kMaxPowersDegree; ++l) {
+      for (int k = 0; k <= l - m; ++k) {
+        const double above = k > 0 ? p[m][l - 1][k - 1] : 0, below = l > 1 ? p[m][l - 2][k] : 0;
+        p[m][l][k] = h.a[m][l] * (above - h.b[m][l] * below);
+      }
+    }
+  }
+  return p;
+}
+
 }  // namespace
 
 const EvenHarmonics& even_harmonics() {
@@ -57,6 +78,22 @@ const EvenHarmonics& even_harmonics() {
 const LowHarmonics& low_harmonics() {
   static const LowHarmonics harmonics = make();
   return harmonics;
+}
+
+void to_powers(int degree, const double* coefficients, double* powers) {
+  static const PowersOfZ all = make_powers();
+  std::fill_n(powers, low_index(degree + 1, 0), 0.0);
+  for (int m = 0; m <= degree; ++m) {
+    const int width = m == 0 ? 1 : 2, n = degree - m;
+    for (int l = m; l <= degree; ++l) {
+      const double* const c = coefficients + low_index(l, m);
+      for (int k = l - m; k >= 0; k -= 2) {
+        double* const to = powers + width * (n - k);
+        for (int i = 0; i < width; ++i) to[i] += all[m][l][k] * c[i];
+      }
+    }
+    powers += width * (n + 1);
+  }
 }
 
 }  // namespace rholm

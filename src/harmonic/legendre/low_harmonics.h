@@ -40,4 +40,10 @@ constexpr std::size_t even_index(int l, int m) {
   return static_cast<std::size_t>(l * (l + 1) / 2 + (m == 0 ? 0 : m - 1));
 }
 
+// The coefficients of all harmonics up to a degree as those of powers of Z times Re and Im of
+// (X + iY)^m, as many: orders m ascending, in each the powers degree - m ... 0, cosine before sine.
+// They grow with (1 + sqrt 2)^degree and cancel in sums: for the lowest degrees.
+inline constexpr int kMaxPowersDegree = 6;
+void to_powers(int degree, const double* coefficients, double* powers);
+
 }  // namespace rholm

@@ -90,7 +90,9 @@ HWY_INLINE void Contribute(D d, const CapLane& cap, const Place& place, Contribu
   const V one = hn::Set(d, 1.0f);
   const CapRay<V> ray = RayTo(d, cap.frame, place.at);
   const OpenedPlace<V> opened = Open(d, cap.frame, ray);
-  const LowSum<V> phi = SumLowHarmonics(d, cap.degree, cap.even, cap.coefficients, opened.at);
+  const LowSum<V> phi = cap.by_powers
+                            ? SumPowers<kSmallDegree>(d, cap.coefficients, opened.at)
+                            : SumLowHarmonics(d, cap.degree, cap.even, cap.coefficients, opened.at);
   const CapLevel<V> here = LevelOf(d, cap.frame, opened, phi);
   own.g = Potential(d, cap.frame, ray, here);
   const V band = hn::Mul(own.g, hn::Set(d, cap.inverse_band));
@@ -145,8 +147,10 @@ HWY_INLINE std::size_t NodesWithin(D d, const LaneCap& lane, const NodeSlices& s
     const auto begin = clamped(hn::Ceil(low));
     const auto end = clamped(
         hn::IfThenElseZero(hn::Gt(root, hn::Zero(d)), hn::Add(hn::Floor(high), hn::Set(d, 1.0f))));
+    const auto some = hn::Gt(end, begin);
+    if (hn::AllFalse(di, some)) continue;
     hn::Store(hn::Add(begin, hn::ShiftLeft<3>(row)), di, first);
-    hn::Store(hn::Max(hn::Sub(end, begin), hn::Zero(di)), di, width);
+    hn::Store(hn::IfThenElseZero(some, hn::Sub(end, begin)), di, width);
     for (std::size_t k = 0; k < hn::Lanes(d); ++k) {
       for (std::size_t j = 0; j < 8; j += hn::Lanes(di)) {
         const auto from = hn::Set(di, first[k] + static_cast<std::int32_t>(j));
@@ -162,12 +166,11 @@ void FillBlock(const CapLane* caps, const std::uint32_t* list, std::size_t n_cap
                const Vec3& origin, double step, float* values, std::uint64_t* doubtful) {
   const D d;
   const hn::RebindToSigned<D> di;
-  alignas(64) float sum_g[512], sum_w[512], own_g[16], own_w[16];
+  const hn::CappedTag<float, 2> both;
+  // w g and w of each node beside each other.
+  alignas(64) float sums[2 * 512], own[2 * 16];
   std::int32_t chosen[512 + 16];
-  for (std::size_t i = 0; i < 512; i += hn::Lanes(d)) {
-    hn::Store(hn::Zero(d), d, sum_g + i);
-    hn::Store(hn::Zero(d), d, sum_w + i);
-  }
+  for (std::size_t i = 0; i < 2 * 512; i += hn::Lanes(d)) hn::Store(hn::Zero(d), d, sums + i);
   for (std::size_t c = 0; c < n_caps; ++c) {
     const CapLane& cap = caps[list[c]];
     const LaneCap lane(d, cap, origin, step);
@@ -180,21 +183,24 @@ void FillBlock(const CapLane* caps, const std::uint32_t* list, std::size_t n_cap
       };
       const Place place = PlaceOf(d, lane, coordinate(index), coordinate(hn::ShiftRight<3>(index)),
                                   coordinate(hn::ShiftRight<6>(index)));
-      Contribution own{};
-      Contribute<false>(d, cap, place, own);
-      hn::Store(hn::Mul(own.w, own.g), d, own_g);
-      hn::Store(own.w, d, own_w);
+      Contribution part{};
+      Contribute<false>(d, cap, place, part);
+      hn::StoreInterleaved2(hn::Mul(part.w, part.g), part.w, d, own);
       const std::size_t end = std::min(n - first, hn::Lanes(d));
       for (std::size_t k = 0; k < end; ++k) {
-        sum_g[chosen[first + k]] += own_g[k];
-        sum_w[chosen[first + k]] += own_w[k];
+        float* const to = sums + 2 * chosen[first + k];
+        for (std::size_t j = 0; j < 2; j += hn::Lanes(both)) {
+          const auto more = hn::Load(both, own + 2 * k + j);
+          hn::Store(hn::Add(hn::Load(both, to + j), more), both, to + j);
+        }
       }
     }
   }
   const V near = hn::Set(d, static_cast<float>(kDoubtfulSteps));
   for (std::size_t i = 0; i < 512; i += hn::Lanes(d)) {
-    const V w = hn::Load(d, sum_w + i);
-    const V g = hn::Div(hn::Load(d, sum_g + i), w);
+    V g, w;
+    hn::LoadInterleaved2(d, sums + 2 * i, g, w);
+    g = hn::Div(g, w);
     const M known = hn::Gt(w, hn::Set(d, kNoWeight));
     hn::StoreU(hn::IfThenElse(known, hn::Mul(g, hn::Set(d, static_cast<float>(step))),
                               hn::Set(d, BlockGrid::kUnknown)),
@@ -294,7 +300,14 @@ Lanes make_lanes(const Atlas& atlas, const CapBands& bands, double step) {
     lane.spline = atlas.blend == CapBlend::kSpline;
     lane.noisy = atlas.noise > 0;
     lane.even = cap.basis == CapBasis::kEven;
-    lane.coefficients = lanes.coefficients.data() + cap.first;
+    lane.by_powers = !lane.even && cap.degree == kSmallDegree;
+    float* const coefficients = lanes.coefficients.data() + cap.first;
+    lane.coefficients = coefficients;
+    if (lane.by_powers) {
+      std::array<double, low_index(kSmallDegree + 1, 0)> powers;
+      to_powers(kSmallDegree, atlas.coefficients_of(cap).data(), powers.data());
+      std::copy(powers.begin(), powers.end(), coefficients);
+    }
     lanes.caps.push_back(lane);
   }
   return lanes;
@@ -337,11 +350,14 @@ void visit_blocks(const BlockGrid& grid, const Disc& disc, const Visit& visit) {
   const double half = side / 2;
   const double spread =
       half * (std::abs(disc.normal.x) + std::abs(disc.normal.y) + std::abs(disc.normal.z));
+  const auto outside_of = [&](double to) { return std::max(0.0, std::abs(to) - half); };
   for (std::int32_t bz = low(c.z); bz <= high(c.z); ++bz) {
     for (std::int32_t by = low(c.y); by <= high(c.y); ++by) {
       for (std::int32_t bx = low(c.x); bx <= high(c.x); ++bx) {
-        const Vec3 middle{side * bx + half, side * by + half, side * bz + half};
-        if (std::abs(dot(disc.normal, middle - c)) > thickness + spread) continue;
+        const Vec3 to = Vec3{side * bx + half, side * by + half, side * bz + half} - c;
+        if (std::abs(dot(disc.normal, to)) > thickness + spread) continue;
+        const Vec3 outside{outside_of(to.x), outside_of(to.y), outside_of(to.z)};
+        if (dot(outside, outside) > radius * radius) continue;
         const std::int32_t block = find_block(grid, {bx, by, bz});
         if (block != kNoBlock) visit(static_cast<std::size_t>(block));
       }

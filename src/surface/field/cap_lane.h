@@ -9,6 +9,9 @@
 
 namespace rholm {
 
+// That of the caps that reconstruct() makes of points.
+inline constexpr int kSmallDegree = 3;
+
 struct CapLane {
   Vec3 seed;
   LaneFrame<float> frame;
@@ -26,6 +29,7 @@ struct CapLane {
   bool spline;  // CapBlend::kSpline
   bool noisy;   // its weight falls where it leans
   const float* coefficients;
+  bool by_powers;  // to_powers() of kSmallDegree
 };
 
 // Slices of a block across z.
