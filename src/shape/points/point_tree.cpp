@@ -43,7 +43,8 @@ HWY_INLINE V SquareTo(const PointTree::View& tree, std::size_t i, const V (&at)[
   return hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
 }
 
-// Appends the points of a leaf within radius2 of `at`.
+// Appends the points of a leaf within radius2 of `at`; `out` has room for one more than the leaf
+// has.
 HWY_INLINE std::size_t ScanLeaf(const PointTree::View& tree, std::uint32_t leaf, const V (&at)[3],
                                 float radius2, Neighbor* out) {
   const D d;
@@ -56,9 +57,12 @@ HWY_INLINE std::size_t ScanLeaf(const PointTree::View& tree, std::uint32_t leaf,
     hn::Store(square, d, distances);
     std::uint8_t bytes[8] = {};
     hn::StoreMaskBits(d, near, bytes);
-    for (unsigned bits = bytes[0] | (unsigned{bytes[1]} << 8); bits != 0; bits &= bits - 1) {
-      const unsigned lane = static_cast<unsigned>(std::countr_zero(bits));
-      out[n++] = {distances[lane], static_cast<std::uint32_t>(i + lane)};
+    const unsigned bits = bytes[0] | (unsigned{bytes[1]} << 8);
+    if (bits == 0) continue;
+    // What is not near is written over: no branch that cannot be foreseen.
+    for (unsigned lane = 0; lane < hn::Lanes(d); ++lane) {
+      out[n] = {distances[lane], static_cast<std::uint32_t>(i + lane)};
+      n += bits >> lane & 1;
     }
   }
   return n;
@@ -117,7 +121,7 @@ void Gather(const PointTree::View& tree, const float* at, float radius2, std::si
         16 * frame.node + static_cast<std::uint32_t>(std::countr_zero(frame.bits));
     frame.bits &= frame.bits - 1;
     if (depth + 1 == tree.levels) {
-      const std::size_t most = n + tree.leaf_begin[child + 1] - tree.leaf_begin[child];
+      const std::size_t most = n + 1 + tree.leaf_begin[child + 1] - tree.leaf_begin[child];
       if (most > found.size()) found.resize(2 * most);
       n += ScanLeaf(tree, child, x, radius2, found.data() + n);
       if (n >= many) {
@@ -132,6 +136,35 @@ void Gather(const PointTree::View& tree, const float* at, float radius2, std::si
         NearChildren(tree.boxes + 96 * (std::size_t{tree.level_begin[depth]} + child), x, radius2)};
   }
   found.resize(n);
+}
+
+// Sorts n <= View::kMostRanked neighbours: the place of each is the number of those nearer than it.
+void SortByRank(Neighbor* found, std::size_t n) {
+  const D d;
+  const hn::RebindToSigned<D> di;
+  alignas(64) float squares[PointTree::View::kMostRanked];
+  alignas(64) std::int32_t indices[PointTree::View::kMostRanked],
+      ranks[PointTree::View::kMostRanked];
+  Neighbor unsorted[PointTree::View::kMostRanked];
+  std::copy_n(found, n, unsorted);
+  for (std::size_t i = 0; i < n; ++i) {
+    squares[i] = found[i].distance2;
+    indices[i] = static_cast<std::int32_t>(found[i].index);
+  }
+  for (std::size_t i = 0; i < n; i += hn::Lanes(d)) {
+    const V own = hn::Load(d, squares + i);
+    const auto own_index = hn::Load(di, indices + i);
+    auto rank = hn::Zero(di);
+    for (std::size_t j = 0; j < n; ++j) {
+      const V other = hn::Set(d, squares[j]);
+      const auto before = hn::Lt(hn::Set(di, indices[j]), own_index);
+      const auto nearer =
+          hn::Or(hn::Lt(other, own), hn::And(hn::Eq(other, own), hn::RebindMask(d, before)));
+      rank = hn::Sub(rank, hn::VecFromMask(di, hn::RebindMask(di, nearer)));
+    }
+    hn::Store(rank, di, ranks + i);
+  }
+  for (std::size_t i = 0; i < n; ++i) found[ranks[i]] = unsorted[i];
 }
 
 // The place of the least of 16 numbers, the first of them.
@@ -213,6 +246,7 @@ HWY_AFTER_NAMESPACE();
 namespace rholm {
 namespace {
 HWY_EXPORT(Gather);
+HWY_EXPORT(SortByRank);
 HWY_EXPORT(Nearest);
 
 // Points of a leaf, at most: a vector of the widest machines.
@@ -403,9 +437,13 @@ void PointTree::search(const std::array<float, 3>& at, float radius2, std::size_
         static_cast<float>(k) / static_cast<float>(std::max<std::size_t>(1, found.size()));
     radius2 *= std::clamp(1.3f * wanted, 1.5f, 8.0f);
   }
-  keep_nearest(found.data(), found.size(), k);
+  if (found.size() <= PointTree::View::kMostRanked) {
+    HWY_DYNAMIC_DISPATCH(SortByRank)(found.data(), found.size());
+  } else {
+    keep_nearest(found.data(), found.size(), k);
+    std::sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(k), nearer);
+  }
   found.resize(k);
-  std::sort(found.begin(), found.end(), nearer);
   const float unit2 = static_cast<float>(1 / (scale_ * scale_));
   for (Neighbor& neighbor : found) neighbor.distance2 *= unit2;
 }

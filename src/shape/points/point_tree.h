@@ -51,6 +51,8 @@ class PointTree {
 
   // What the kernels see: not for others.
   struct View {
+    // So many neighbours are sorted in vectors: the work grows with the square of their number.
+    static constexpr std::size_t kMostRanked = 64;
     const float* x;
     const float* y;
     const float* z;
