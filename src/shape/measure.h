@@ -1,10 +1,17 @@
 // Sums over the triangles of a mesh: area, volume, centroids.
 #pragma once
 
+#include "rholm/context.h"
 #include "rholm/mesh_view.h"
 #include "shape/face.h"
 
 namespace rholm {
+
+// Area and signed volume, as below.
+struct Sizes {
+  double area = 0, volume = 0;
+};
+Sizes measure_sizes(const MeshView& mesh, const UnitFrame& frame, const Context& context = {.threads = 1});
 
 // Compensated sums about the middle of the bounding box: relative errors of a few ulp, also far
 // from the origin. Results outside 1e-308 ... 1e308 become 0 or infinite.
@@ -14,6 +21,6 @@ struct Measures {
   Vec3 area_centroid;    // middle of the bounding box if the area is zero
   Vec3 volume_centroid;  // middle of the bounding box if the volume is zero up to rounding
 };
-Measures measure(const MeshView& mesh, const UnitFrame& frame);
+Measures measure(const MeshView& mesh, const UnitFrame& frame, const Context& context = {.threads = 1});
 
 }  // namespace rholm

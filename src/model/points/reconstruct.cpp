@@ -217,7 +217,8 @@ Reconstruction reconstruct(PointCloud cloud, const ReconstructOptions& options,
   report.dropped_components = surface.dropped_components;
   report.faces = surface.faces, report.simplify_error = surface.simplify_error;
   report.memory = surface.memory;
-  const Measures sums = measure(view_of(result.mesh), unit_frame(bounds(result.mesh.vertices)));
+  const Sizes sums =
+      measure_sizes(view_of(result.mesh), unit_frame(bounds(result.mesh.vertices)), context);
   report.volume = sums.volume, report.area = sums.area, report.points_area = spacing.area;
   if (options.holes == HolePolicy::kFill) report.closed_area = surface.guessed * report.area;
   timed(times, "attributes", [&] {
