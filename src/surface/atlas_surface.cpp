@@ -189,7 +189,10 @@ double guessed_share(const ExtractedSurface& surface) {
 // Vertices in no cap's support have the normals of their triangles.
 void complete_normals(Mesh& mesh) {
   const NormalAttributes normals = normal_attributes(mesh);
-  const auto is_missing = [&](std::uint32_t i) { return normals[i] == Vec3{}; };
+  std::vector<std::uint8_t> missing(mesh.vertices.size());
+  for (std::size_t i = 0; i < missing.size(); ++i) missing[i] = normals[i] == Vec3{};
+  if (std::find(missing.begin(), missing.end(), 1) == missing.end()) return;
+  const auto is_missing = [&](std::uint32_t i) { return missing[i] != 0; };
   std::vector<Triangle> around;  // few: not all triangles have to be summed
   for (const Triangle& t : mesh.triangles) {
     if (std::any_of(t.begin(), t.end(), is_missing)) around.push_back(t);

@@ -21,21 +21,29 @@ std::vector<std::uint32_t> sharp_vertices(const Mesh& mesh, const NormalAttribut
                                           double length, const Context& context) {
   constexpr std::size_t kChunk = 16384;
   const double least = length / 30;  // chosen: a third of a usual edge
+  // Chords of turns up to pi are longer than this part of the turn: 1 - pi^2 / 24.
+  constexpr double kChord = 0.58;
+  const double slow = kChord * 2 * std::numbers::pi / length;
   const std::size_t n = mesh.triangles.size();
   std::vector<std::vector<std::uint32_t>> found((n + kChunk - 1) / kChunk);
   parallel_for(n, kChunk, context, {}, [&](std::size_t begin, std::size_t end) {
     std::vector<std::uint32_t>& sharp = found[begin / kChunk];
     for (std::size_t t = begin; t < end; ++t) {
       const Triangle& corners = mesh.triangles[t];
+      const Vec3 at[3] = {mesh.vertices[corners[0]], mesh.vertices[corners[1]],
+                          mesh.vertices[corners[2]]};
+      const Vec3 own[3] = {normals[corners[0]], normals[corners[1]], normals[corners[2]]};
       for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t a = corners[k], b = corners[k == 2 ? 0 : k + 1];
+        const std::size_t next = k == 2 ? 0 : k + 1;
+        const std::uint32_t a = corners[k], b = corners[next];
         if (a > b) continue;
-        const double edge = std::max(least, norm(mesh.vertices[b] - mesh.vertices[a]));
-        const double turn = std::min(std::numbers::pi, 2 * std::numbers::pi * edge / length);
-        const Vec3 na = normals[a], nb = normals[b];
-        const bool known = dot(na, na) > 0 && dot(nb, nb) > 0;
+        const bool known = dot(own[k], own[k]) > 0 && dot(own[next], own[next]) > 0;
+        const Vec3 way = at[next] - at[k], change = own[next] - own[k];
+        const double edge2 = std::clamp(dot(way, way), least * least, length * length / 4);
+        if (known && dot(change, change) < slow * slow * edge2) continue;
+        const double turn = 2 * std::numbers::pi * std::sqrt(edge2) / length;
         const double chord = turn - turn * turn * turn / 24;  // at most 2 sin(turn / 2)
-        if (!known || norm(nb - na) >= chord) sharp.push_back(a), sharp.push_back(b);
+        if (!known || norm(change) >= chord) sharp.push_back(a), sharp.push_back(b);
       }
     }
   });
