@@ -10,6 +10,7 @@
 
 #include "atlas/cap/cap_pole.h"
 #include "base/disjoint_sets.h"
+#include "base/parallel.h"
 #include "rholm/error.h"
 #include "rholm/topology.h"
 #include "shape/normal_attributes.h"
@@ -172,36 +173,54 @@ void bridge_gaps(const Mesh& mesh, double least, std::vector<double>& support) {
 }
 
 // Of the whole area, triangles with a vertex whose place follows from filled nodes.
-double guessed_share(const ExtractedSurface& surface) {
+double guessed_share(const ExtractedSurface& surface, const Context& context) {
   if (surface.filled.empty()) return 0;
   const Mesh& mesh = surface.mesh;
+  constexpr std::size_t kGrain = 16384;
+  struct Areas {
+    double guessed = 0, whole = 0;
+  };
+  std::vector<Areas> parts((mesh.triangles.size() + kGrain - 1) / kGrain);
+  parallel_for(mesh.triangles.size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
+    Areas part;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Triangle& t = mesh.triangles[i];
+      const Vec3& a = mesh.vertices[t[0]];
+      const double area = norm(cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a));
+      part.whole += area;
+      const auto filled = [&](std::uint32_t v) { return surface.filled[v] != 0; };
+      if (std::any_of(t.begin(), t.end(), filled)) part.guessed += area;
+    }
+    parts[begin / kGrain] = part;
+  });
   double guessed = 0, whole = 0;
-  for (const Triangle& t : mesh.triangles) {
-    const Vec3& a = mesh.vertices[t[0]];
-    const double area = norm(cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a));
-    whole += area;
-    const auto filled = [&](std::uint32_t v) { return surface.filled[v] != 0; };
-    if (std::any_of(t.begin(), t.end(), filled)) guessed += area;
-  }
+  for (const Areas& part : parts) guessed += part.guessed, whole += part.whole;
   return whole > 0 ? guessed / whole : 0;
 }
 
-// Vertices in no cap's support have the normals of their triangles.
+// Vertices in no cap's support have the normals of their triangles. They are few: only their
+// triangles are summed.
 void complete_normals(Mesh& mesh) {
   const NormalAttributes normals = normal_attributes(mesh);
-  std::vector<std::uint8_t> missing(mesh.vertices.size());
-  for (std::size_t i = 0; i < missing.size(); ++i) missing[i] = normals[i] == Vec3{};
-  if (std::find(missing.begin(), missing.end(), 1) == missing.end()) return;
-  const auto is_missing = [&](std::uint32_t i) { return missing[i] != 0; };
-  std::vector<Triangle> around;  // few: not all triangles have to be summed
+  constexpr std::uint32_t kKnown = ~std::uint32_t{0};
+  std::vector<std::uint32_t> place(mesh.vertices.size(), kKnown), missing;
+  for (std::uint32_t i = 0; i < place.size(); ++i) {
+    if (normals[i] != Vec3{}) continue;
+    place[i] = static_cast<std::uint32_t>(missing.size());
+    missing.push_back(i);
+  }
+  if (missing.empty()) return;
+  std::vector<Vec3> sums(missing.size());
   for (const Triangle& t : mesh.triangles) {
-    if (std::any_of(t.begin(), t.end(), is_missing)) around.push_back(t);
+    const auto is_missing = [&](std::uint32_t i) { return place[i] != kKnown; };
+    if (std::none_of(t.begin(), t.end(), is_missing)) continue;
+    const Vec3& a = mesh.vertices[t[0]];
+    const Vec3 area = cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a);
+    for (const std::uint32_t i : t) {
+      if (is_missing(i)) sums[place[i]] += area;
+    }
   }
-  if (around.empty()) return;
-  const std::vector<Vec3> sums = area_normals(mesh.vertices, around);
-  for (std::uint32_t i = 0; i < mesh.vertices.size(); ++i) {
-    if (is_missing(i)) normals.set(i, normalized(sums[i]));
-  }
+  for (std::size_t k = 0; k < missing.size(); ++k) normals.set(missing[k], normalized(sums[k]));
 }
 
 SimplifyOptions stops(SimplifyOptions options, double step) {
@@ -222,7 +241,7 @@ AtlasSurface extract_atlas(const Atlas& atlas, const AtlasSurfaceOptions& option
   const std::vector<Disc> discs = discs_of(atlas, bands);
   BlockGrid grid = make_grid(atlas, discs, options, context);
   result.memory = memory_of(grid.n_blocks(), options);
-  const CapLists lists = list_caps(grid, discs);
+  const CapLists lists = list_caps(grid, discs, context);
   const std::vector<std::uint64_t> doubtful = fill_grid(atlas, bands, lists, grid, context);
   const AtlasDipoles dipoles = dipoles_of(atlas, options.step, context);
   const WindingTree winding(dipoles.points, dipoles.area_normals);
@@ -235,7 +254,7 @@ AtlasSurface extract_atlas(const Atlas& atlas, const AtlasSurfaceOptions& option
   // From here on only the places of blocks are asked for.
   grid.values = {}, grid.neighbours = {};
   project_vertices(atlas, bands, lists, grid, surface, context);
-  result.guessed = guessed_share(surface);
+  result.guessed = guessed_share(surface, context);
   std::vector<double> support;
   if (options.keep_holes) support = data_support(atlas, lists, surface, bands, context);
   if (options.resolution != nullptr) {

@@ -52,11 +52,6 @@ constexpr double kTrustInPoints = 2;
 // Points in the support of the cap.
 constexpr double kCovered = 0.7;
 
-struct Candidate {
-  Cap cap;
-  std::vector<double> coefficients;
-};
-
 // Whether the points of a cap fill its disc. Along a line, or in two places far apart, they leave
 // open what lies between: needles, and ridges thinner than the spacing, have such caps.
 bool fills_disc(const Cap& cap, std::size_t k, std::size_t inner, const CapWorker& worker) {
@@ -203,28 +198,25 @@ std::size_t mark(const OrderedPoints& all, const Cap& cap, std::size_t seed, std
   return n_new;
 }
 
-struct Block {
-  std::vector<Candidate> caps;
-  std::vector<std::uint32_t> rejected;
-};
-
 void cover_block(const OrderedPoints& all, std::size_t begin, std::size_t end,
-                 const CoverOptions& options, Block& block) {
+                 const CoverOptions& options, Cover& block) {
   CapWorker worker;
   std::vector<std::uint8_t> covered(end - begin, 0);
   for (std::size_t seed = begin; seed < end; ++seed) {
     if (covered[seed - begin] != 0) continue;
-    Candidate made;
-    if (!make_cap(all, seed, options, worker, made.cap)) {
+    Cap cap;
+    if (!make_cap(all, seed, options, worker, cap)) {
       block.rejected.push_back(static_cast<std::uint32_t>(seed));
       continue;
     }
-    describe_cap(options, all.scaled(seed, options.neighbours), worker, made.cap);
-    made.coefficients = worker.fit.coefficients;
-    const std::size_t n_new = mark(all, made.cap, seed, begin, options.core, worker, covered);
-    const double disc = std::numbers::pi * made.cap.frame.support * made.cap.frame.support;
-    made.cap.area = disc * static_cast<double>(n_new) / static_cast<double>(worker.points.size());
-    block.caps.push_back(std::move(made));
+    describe_cap(options, all.scaled(seed, options.neighbours), worker, cap);
+    const std::size_t n_new = mark(all, cap, seed, begin, options.core, worker, covered);
+    const double disc = std::numbers::pi * cap.frame.support * cap.frame.support;
+    cap.area = disc * static_cast<double>(n_new) / static_cast<double>(worker.points.size());
+    cap.first = block.coefficients.size();
+    block.coefficients.insert(block.coefficients.end(), worker.fit.coefficients.begin(),
+                              worker.fit.coefficients.end());
+    block.caps.push_back(cap);
   }
 }
 
@@ -232,21 +224,28 @@ void cover_block(const OrderedPoints& all, std::size_t begin, std::size_t end,
 
 Cover cover(const OrderedPoints& points, const CoverOptions& options, const Context& context) {
   const std::size_t n = points.points.size(), n_blocks = (n + kBlock - 1) / kBlock;
-  std::vector<Block> made(n_blocks);
+  std::vector<Cover> made(n_blocks);
   parallel_for(n_blocks, 1, context, {.name = "caps"}, [&](std::size_t first, std::size_t last) {
     for (std::size_t b = first; b < last; ++b) {
       cover_block(points, b * kBlock, std::min(n, (b + 1) * kBlock), options, made[b]);
     }
   });
   Cover result;
-  for (Block& block : made) {
-    result.rejected.insert(result.rejected.end(), block.rejected.begin(), block.rejected.end());
-    for (Candidate& candidate : block.caps) {
-      candidate.cap.first = result.coefficients.size();
-      result.coefficients.insert(result.coefficients.end(), candidate.coefficients.begin(),
-                                 candidate.coefficients.end());
-      result.caps.push_back(candidate.cap);
+  std::size_t n_caps = 0, n_coefficients = 0;
+  for (const Cover& block : made) {
+    n_caps += block.caps.size(), n_coefficients += block.coefficients.size();
+  }
+  result.caps.reserve(n_caps), result.coefficients.reserve(n_coefficients);
+  for (Cover& block : made) {
+    for (Cap& cap : block.caps) {
+      cap.first += result.coefficients.size();
+      result.caps.push_back(cap);
     }
+    const auto append = [](const auto& from, auto& to) {
+      to.insert(to.end(), from.begin(), from.end());
+    };
+    append(block.coefficients, result.coefficients);
+    append(block.rejected, result.rejected);
     block = {};
   }
   return result;

@@ -367,21 +367,30 @@ void visit_blocks(const BlockGrid& grid, const Disc& disc, const Visit& visit) {
 
 }  // namespace
 
-CapLists list_caps(const BlockGrid& grid, const std::vector<Disc>& discs) {
+CapLists list_caps(const BlockGrid& grid, const std::vector<Disc>& discs, const Context& context) {
+  constexpr std::size_t kGrain = 4096;
+  using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;  // block, cap
+  std::vector<Pairs> found((discs.size() + kGrain - 1) / kGrain);
+  parallel_for(discs.size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
+    Pairs pairs;
+    for (std::size_t c = begin; c < end; ++c) {
+      visit_blocks(grid, discs[c], [&](std::size_t block) {
+        pairs.emplace_back(static_cast<std::uint32_t>(block), static_cast<std::uint32_t>(c));
+      });
+    }
+    found[begin / kGrain] = std::move(pairs);
+  });
   CapLists lists;
   lists.first.assign(grid.n_blocks() + 1, 0);
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;  // block, cap
-  pairs.reserve(8 * discs.size());
-  for (std::size_t c = 0; c < discs.size(); ++c) {
-    visit_blocks(grid, discs[c], [&](std::size_t block) {
-      ++lists.first[block + 1];
-      pairs.emplace_back(static_cast<std::uint32_t>(block), static_cast<std::uint32_t>(c));
-    });
+  for (const Pairs& pairs : found) {
+    for (const auto& [block, cap] : pairs) ++lists.first[block + 1];
   }
   for (std::size_t b = 0; b < grid.n_blocks(); ++b) lists.first[b + 1] += lists.first[b];
-  lists.caps.resize(pairs.size());
+  lists.caps.resize(lists.first.back());
   std::vector<std::size_t> next(lists.first.begin(), lists.first.end() - 1);
-  for (const auto& [block, cap] : pairs) lists.caps[next[block]++] = cap;
+  for (const Pairs& pairs : found) {
+    for (const auto& [block, cap] : pairs) lists.caps[next[block]++] = cap;
+  }
   return lists;
 }
 

@@ -40,7 +40,8 @@ struct CapLists {
 
 // The part of space in a cap's support.
 std::vector<Disc> discs_of(const Atlas& atlas, const CapBands& bands);
-CapLists list_caps(const BlockGrid& grid, const std::vector<Disc>& discs);
+CapLists list_caps(const BlockGrid& grid, const std::vector<Disc>& discs,
+                   const Context& context = {});
 
 // Sets values to G = sum w g / sum w, w = (1 - d^2/R^2)^3 (1 - g^2/T^2)^2, or with the weight of
 // the paper in the place of the first factor: CapBlend. Returns one bit per node, 8 words per
