@@ -12,10 +12,6 @@ class CompensatedSum {
     correction_ += (sum_ - (t - added)) + (x - added);
     sum_ = t;
   }
-  void add(const CompensatedSum& other) {
-    add(other.sum_);
-    correction_ += other.correction_;
-  }
   double value() const { return sum_ + correction_; }
 
  private:

@@ -17,91 +17,67 @@ class VectorSum {
     y_.add(v.y);
     z_.add(v.z);
   }
-  void add(const VectorSum& other) {
-    x_.add(other.x_);
-    y_.add(other.y_);
-    z_.add(other.z_);
-  }
   Vec3 value() const { return {x_.value(), y_.value(), z_.value()}; }
 
  private:
   CompensatedSum x_, y_, z_;
 };
 
-// Of some triangles, or with add() of more.
-struct SizeSums {
-  CompensatedSum twice_area, six_volumes, moduli;
+}  // namespace
 
-  void add(double length, double volume, const Vec3&) {
-    twice_area.add(length);
-    six_volumes.add(volume);
-  }
-  void add(const SizeSums& other) {
-    twice_area.add(other.twice_area);
-    six_volumes.add(other.six_volumes);
-    moduli.add(other.moduli);
-  }
-};
-
-struct MomentSums : SizeSums {
-  VectorSum area_moment, volume_moment;
-
-  // Of a triangle, and the sum of its corners.
-  void add(double length, double volume, const Vec3& sum) {
-    SizeSums::add(length, volume, sum);
-    moduli.add(std::abs(volume));
-    area_moment.add(length * sum);
-    volume_moment.add(volume * sum);
-  }
-  void add(const MomentSums& other) {
-    SizeSums::add(other);
-    area_moment.add(other.area_moment);
-    volume_moment.add(other.volume_moment);
-  }
-};
-
-template <class Sums>
-Sums sums_of(const MeshView& mesh, const UnitFrame& frame, const Context& context) {
+Sizes measure_sizes(const MeshView& mesh, const UnitFrame& frame, const Context& context) {
   constexpr std::size_t kGrain = 8192;
+  struct Sums {
+    CompensatedSum twice_area, six_volumes;
+  };
   std::vector<Sums> parts((mesh.n_triangles + kGrain - 1) / kGrain);
   parallel_for(mesh.n_triangles, kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
     Sums part;
     for (std::size_t t = begin; t < end; ++t) {
       const std::array<Vec3, 3> corners = scaled_corners(mesh, mesh.triangle(t), frame.scale);
-      const Vec3 normal = face_normal(corners).twice_area;
-      const Vec3 a = corners[0] - frame.center;
-      const Vec3 sum = a + (corners[1] - frame.center) + (corners[2] - frame.center);
-      part.add(norm(normal), dot(normal, a), sum);
+      const Vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+      part.twice_area.add(norm(normal));
+      part.six_volumes.add(dot(normal, corners[0] - frame.center));
     }
     parts[begin / kGrain] = part;
   });
-  Sums all;
-  for (const Sums& part : parts) all.add(part);
-  return all;
+  CompensatedSum twice_area, six_volumes;
+  for (const Sums& part : parts) {
+    twice_area.add(part.twice_area.value());
+    six_volumes.add(part.six_volumes.value());
+  }
+  return {.area = std::ldexp(0.5 * twice_area.value(), -2 * frame.exponent),
+          .volume = std::ldexp(six_volumes.value() / 6, -3 * frame.exponent)};
 }
 
-}  // namespace
-
-Sizes measure_sizes(const MeshView& mesh, const UnitFrame& frame, const Context& context) {
-  const SizeSums sums = sums_of<SizeSums>(mesh, frame, context);
-  return {.area = std::ldexp(0.5 * sums.twice_area.value(), -2 * frame.exponent),
-          .volume = std::ldexp(sums.six_volumes.value() / 6, -3 * frame.exponent)};
-}
-
-Measures measure(const MeshView& mesh, const UnitFrame& frame, const Context& context) {
-  const MomentSums sums = sums_of<MomentSums>(mesh, frame, context);
+Measures measure(const MeshView& mesh, const UnitFrame& frame) {
+  CompensatedSum twice_area, six_volumes, moduli;
+  VectorSum area_moment, volume_moment;
+  CancelPoll poll;
+  for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
+    poll();
+    const std::array<Vec3, 3> corners = scaled_corners(mesh, mesh.triangle(t), frame.scale);
+    const Vec3 normal = face_normal(corners).twice_area;
+    const Vec3 a = corners[0] - frame.center;
+    const Vec3 sum = a + (corners[1] - frame.center) + (corners[2] - frame.center);
+    const double length = norm(normal), volume = dot(normal, a);
+    twice_area.add(length);
+    area_moment.add(length * sum);
+    six_volumes.add(volume);
+    moduli.add(std::abs(volume));
+    volume_moment.add(volume * sum);
+  }
   Measures result;
-  result.area = std::ldexp(0.5 * sums.twice_area.value(), -2 * frame.exponent);
-  result.volume = std::ldexp(sums.six_volumes.value() / 6, -3 * frame.exponent);
+  result.area = std::ldexp(0.5 * twice_area.value(), -2 * frame.exponent);
+  result.volume = std::ldexp(six_volumes.value() / 6, -3 * frame.exponent);
   result.area_centroid = result.volume_centroid = frame.to_shape({});
   // A triangle's centroid is a third of the sum of its corners, a tetrahedron's a quarter.
-  if (sums.twice_area.value() > 0) {
-    result.area_centroid = frame.to_shape(sums.area_moment.value() / (3 * sums.twice_area.value()));
+  if (twice_area.value() > 0) {
+    result.area_centroid = frame.to_shape(area_moment.value() / (3 * twice_area.value()));
   }
   // Each volume has a relative rounding of a few 2^-53; 16 of them (chosen) leave no digit.
-  if (std::abs(sums.six_volumes.value()) > 0x1p-49 * sums.moduli.value()) {
-    result.volume_centroid =
-        frame.to_shape(sums.volume_moment.value() / (4 * sums.six_volumes.value()));
+  if (std::abs(six_volumes.value()) > 0x1p-49 * moduli.value()) {
+    result.volume_centroid = frame.to_shape(volume_moment.value() / (4 * six_volumes.value()));
   }
   return result;
 }

@@ -7,11 +7,12 @@
 
 namespace rholm {
 
-// Area and signed volume, as below.
+// Area and signed volume alone, by plain normals: what slivers lose is as small as they are. For
+// surfaces of many triangles.
 struct Sizes {
   double area = 0, volume = 0;
 };
-Sizes measure_sizes(const MeshView& mesh, const UnitFrame& frame, const Context& context = {.threads = 1});
+Sizes measure_sizes(const MeshView& mesh, const UnitFrame& frame, const Context& context);
 
 // Compensated sums about the middle of the bounding box: relative errors of a few ulp, also far
 // from the origin. Results outside 1e-308 ... 1e308 become 0 or infinite.
@@ -21,6 +22,6 @@ struct Measures {
   Vec3 area_centroid;    // middle of the bounding box if the area is zero
   Vec3 volume_centroid;  // middle of the bounding box if the volume is zero up to rounding
 };
-Measures measure(const MeshView& mesh, const UnitFrame& frame, const Context& context = {.threads = 1});
+Measures measure(const MeshView& mesh, const UnitFrame& frame);
 
 }  // namespace rholm

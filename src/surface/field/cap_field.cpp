@@ -31,8 +31,8 @@ struct LaneCap {
   const CapLane& cap;
   V sx, sy, sz;  // seed
 
-  HWY_INLINE LaneCap(D d, const CapLane& c, const Vec3& origin, double step) : cap(c) {
-    const Vec3 s = (c.seed - origin) / step;
+  HWY_INLINE LaneCap(D d, const CapLane& c, const Vec3& first) : cap(c) {
+    const Vec3 s = c.seed - first;
     sx = hn::Set(d, static_cast<float>(s.x));
     sy = hn::Set(d, static_cast<float>(s.y));
     sz = hn::Set(d, static_cast<float>(s.z));
@@ -163,7 +163,7 @@ HWY_INLINE std::size_t NodesWithin(D d, const LaneCap& lane, const NodeSlices& s
 }
 
 void FillBlock(const CapLane* caps, const std::uint32_t* list, std::size_t n_caps,
-               const Vec3& origin, double step, float* values, std::uint64_t* doubtful) {
+               const Vec3& first_node, double step, float* values, std::uint64_t* doubtful) {
   const D d;
   const hn::RebindToSigned<D> di;
   const hn::CappedTag<float, 2> both;
@@ -173,8 +173,8 @@ void FillBlock(const CapLane* caps, const std::uint32_t* list, std::size_t n_cap
   for (std::size_t i = 0; i < 2 * 512; i += hn::Lanes(d)) hn::Store(hn::Zero(d), d, sums + i);
   for (std::size_t c = 0; c < n_caps; ++c) {
     const CapLane& cap = caps[list[c]];
-    const LaneCap lane(d, cap, origin, step);
-    const std::size_t n = NodesWithin(d, lane, slices_near(cap, origin, step), chosen);
+    const LaneCap lane(d, cap, first_node);
+    const std::size_t n = NodesWithin(d, lane, slices_near(cap, first_node), chosen);
     hn::StoreU(hn::Zero(di), di, chosen + n);
     for (std::size_t first = 0; first < n; first += hn::Lanes(d)) {
       const auto index = hn::LoadU(di, chosen + first);
@@ -214,17 +214,18 @@ void FillBlock(const CapLane* caps, const std::uint32_t* list, std::size_t n_cap
   }
 }
 
-// The same at scattered points, in steps from the origin; sums of w g, w and w n, five rows.
+// The same at scattered points, in steps from the block's first node; sums of w g, w and w n, five
+// rows.
 void ContributeAt(const CapLane* caps, const std::uint32_t* list, std::size_t n_caps,
-                  const Vec3& origin, double step, const float* points, std::size_t n,
-                  std::size_t stride, float* sums) {
+                  const Vec3& first_node, const float* points, std::size_t n, std::size_t stride,
+                  float* sums) {
   const D d;
   for (std::size_t row = 0; row < 5; ++row) {
     for (std::size_t i = 0; i < n; i += hn::Lanes(d))
       hn::Store(hn::Zero(d), d, sums + row * stride + i);
   }
   for (std::size_t c = 0; c < n_caps; ++c) {
-    const LaneCap lane(d, caps[list[c]], origin, step);
+    const LaneCap lane(d, caps[list[c]], first_node);
     for (std::size_t i = 0; i < n; i += hn::Lanes(d)) {
       const Place place =
           PlaceOf(d, lane, hn::Load(d, points + i), hn::Load(d, points + stride + i),
@@ -263,7 +264,8 @@ struct Lanes {
   std::vector<float> coefficients;
 };
 
-Lanes make_lanes(const Atlas& atlas, const CapBands& bands, double step) {
+Lanes make_lanes(const Atlas& atlas, const CapBands& bands, const BlockGrid& grid) {
+  const double step = grid.step;
   Lanes lanes;
   lanes.coefficients.assign(atlas.coefficients.begin(), atlas.coefficients.end());
   lanes.caps.reserve(atlas.caps.size());
@@ -271,7 +273,7 @@ Lanes make_lanes(const Atlas& atlas, const CapBands& bands, double step) {
     CapLane lane;
     const double band = bands[lanes.caps.size()];
     const CapFrame& f = cap.frame;
-    lane.seed = f.seed();
+    lane.seed = (f.seed() - grid.origin) / step;
     lane.frame = lane_frame<float>(f, step);
     const double support = f.support / step;
     const double step2 = step * step;
@@ -285,7 +287,7 @@ Lanes make_lanes(const Atlas& atlas, const CapBands& bands, double step) {
     // A disc of radius e and half thickness t across n reaches e sqrt(1 - n_z^2) + t |n_z| along z.
     const Vec3 n = f.z;
     const double edge = longer_half_axis(cap.where) / step;
-    lane.middle = support_middle(cap).z;
+    lane.middle = (support_middle(cap).z - grid.origin.z) / step;
     lane.extent = static_cast<float>(edge * std::sqrt(std::max(0.0, 1 - n.z * n.z)) +
                                      lane.reach * std::abs(n.z));
     const double x = f.x.x, y = f.y.x;
@@ -313,10 +315,16 @@ Lanes make_lanes(const Atlas& atlas, const CapBands& bands, double step) {
   return lanes;
 }
 
+// Of a block, in steps from the grid's origin.
+Vec3 first_node(const BlockGrid& grid, std::size_t block) {
+  const BlockCoordinates& b = grid.blocks[block];
+  return {8.0 * b[0], 8.0 * b[1], 8.0 * b[2]};
+}
+
 }  // namespace
 
-NodeSlices slices_near(const CapLane& cap, const Vec3& origin, double step) {
-  const double z = (cap.middle - origin.z) / step;
+NodeSlices slices_near(const CapLane& cap, const Vec3& first_node) {
+  const double z = cap.middle - first_node.z;
   const auto clamped = [](double x) { return static_cast<std::size_t>(std::clamp(x, 0.0, 8.0)); };
   return {clamped(std::ceil(z - cap.extent)), clamped(std::floor(z + cap.extent) + 1)};
 }
@@ -397,14 +405,14 @@ CapLists list_caps(const BlockGrid& grid, const std::vector<Disc>& discs, const 
 std::vector<std::uint64_t> fill_grid(const Atlas& atlas, const CapBands& bands,
                                      const CapLists& lists, BlockGrid& grid,
                                      const Context& context) {
-  const Lanes lanes = make_lanes(atlas, bands, grid.step);
+  const Lanes lanes = make_lanes(atlas, bands, grid);
   std::vector<std::uint64_t> doubtful(8 * grid.n_blocks(), 0);
   parallel_for(lists.first.size() - 1, 64, context, {.name = "grid"},
                [&](std::size_t begin, std::size_t end) {
                  for (std::size_t b = begin; b < end; ++b) {
                    HWY_DYNAMIC_DISPATCH(FillBlock)
                    (lanes.caps.data(), lists.caps.data() + lists.first[b],
-                    lists.first[b + 1] - lists.first[b], grid.node(b, 0), grid.step,
+                    lists.first[b + 1] - lists.first[b], first_node(grid, b), grid.step,
                     grid.block_values(b), &doubtful[8 * b]);
                  }
                });
@@ -447,47 +455,47 @@ std::array<double*, 3> add_vertex_normals(Mesh& mesh) {
 
 void project_vertices(const Atlas& atlas, const CapBands& bands, const CapLists& lists,
                       const BlockGrid& grid, ExtractedSurface& surface, const Context& context) {
-  const Lanes lanes = make_lanes(atlas, bands, grid.step);
+  const Lanes lanes = make_lanes(atlas, bands, grid);
   const std::array<double*, 3> normals = add_vertex_normals(surface.mesh);
   const std::size_t n_blocks = std::min(lists.first.size(), surface.first_vertex.size()) - 1;
-  parallel_for(n_blocks, 64, context, {.name = "vertices"},
-               [&](std::size_t begin, std::size_t end) {
-                 VertexRows rows;
-                 for (std::size_t b = begin; b < end; ++b) {
-                   const std::size_t first = surface.first_vertex[b],
-                                     n = surface.first_vertex[b + 1] - first;
-                   if (n == 0) continue;
-                   rows.resize(n);
-                   const Vec3 origin = grid.node(b, 0);
-                   for (std::size_t i = 0; i < n; ++i) {
-                     const Vec3 p = (surface.mesh.vertices[first + i] - origin) / grid.step;
-                     rows.points[i] = static_cast<float>(p.x);
-                     rows.points[rows.stride + i] = static_cast<float>(p.y);
-                     rows.points[2 * rows.stride + i] = static_cast<float>(p.z);
-                   }
-                   HWY_DYNAMIC_DISPATCH(ContributeAt)
-                   (lanes.caps.data(), lists.caps.data() + lists.first[b],
-                    lists.first[b + 1] - lists.first[b], origin, grid.step, rows.points.data(), n,
-                    rows.stride, rows.sums.data());
-                   for (std::size_t i = 0; i < n; ++i) {
-                     const float* s = rows.sums.data() + i;
-                     const double w = s[rows.stride];
-                     if (!(w > kNoWeight)) continue;
-                     const Vec3 normal =
-                         Vec3{s[2 * rows.stride], s[3 * rows.stride], s[4 * rows.stride]} / w;
-                     // The vertex moves by a small part of a step: its normal is that of where it
-                     // was.
-                     const Vec3 unit = normalized(normal);
-                     normals[0][first + i] = unit.x, normals[1][first + i] = unit.y;
-                     normals[2][first + i] = unit.z;
-                     const bool filled = !surface.filled.empty() && surface.filled[first + i] != 0;
-                     const double square = dot(normal, normal);
-                     if (filled || !(square > kLeastNormal)) continue;
-                     const double g = std::clamp(s[0] / w, -kLargestMove, kLargestMove);
-                     surface.mesh.vertices[first + i] += -(g * grid.step / square) * normal;
-                   }
-                 }
-               });
+  parallel_for(
+      n_blocks, 64, context, {.name = "vertices"}, [&](std::size_t begin, std::size_t end) {
+        VertexRows rows;
+        for (std::size_t b = begin; b < end; ++b) {
+          const std::size_t first = surface.first_vertex[b],
+                            n = surface.first_vertex[b + 1] - first;
+          if (n == 0) continue;
+          rows.resize(n);
+          const Vec3 at = first_node(grid, b);
+          for (std::size_t i = 0; i < n; ++i) {
+            const Vec3 p = (surface.mesh.vertices[first + i] - grid.origin) / grid.step - at;
+            rows.points[i] = static_cast<float>(p.x);
+            rows.points[rows.stride + i] = static_cast<float>(p.y);
+            rows.points[2 * rows.stride + i] = static_cast<float>(p.z);
+          }
+          HWY_DYNAMIC_DISPATCH(ContributeAt)
+          (lanes.caps.data(), lists.caps.data() + lists.first[b],
+           lists.first[b + 1] - lists.first[b], at, rows.points.data(), n, rows.stride,
+           rows.sums.data());
+          for (std::size_t i = 0; i < n; ++i) {
+            const float* s = rows.sums.data() + i;
+            const double w = s[rows.stride];
+            if (!(w > kNoWeight)) continue;
+            const Vec3 normal =
+                Vec3{s[2 * rows.stride], s[3 * rows.stride], s[4 * rows.stride]} / w;
+            // The vertex moves by a small part of a step: its normal is that of where it
+            // was.
+            const Vec3 unit = normalized(normal);
+            normals[0][first + i] = unit.x, normals[1][first + i] = unit.y;
+            normals[2][first + i] = unit.z;
+            const bool filled = !surface.filled.empty() && surface.filled[first + i] != 0;
+            const double square = dot(normal, normal);
+            if (filled || !(square > kLeastNormal)) continue;
+            const double g = std::clamp(s[0] / w, -kLargestMove, kLargestMove);
+            surface.mesh.vertices[first + i] += -(g * grid.step / square) * normal;
+          }
+        }
+      });
 }
 
 }  // namespace rholm

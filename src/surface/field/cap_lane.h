@@ -1,4 +1,5 @@
-// Caps as the kernels of cap_field.cpp see them: single precision, in steps of the grid.
+// Caps as the kernels of cap_field.cpp see them: single precision, in steps of the grid; places
+// from its origin.
 #pragma once
 
 #include <cstddef>
@@ -16,10 +17,10 @@ struct CapLane {
   Vec3 seed;
   LaneFrame<float> frame;
   float px, py, xx, xy2, yy, hh;  // CapSupport, hh = 1 / support^2
-  double middle;                  // z of the ellipse's, in lengths
+  double middle;                  // z of the ellipse's
   float extent;                   // of the part of space in its support along z from there
-  // Along a row of nodes: what half of the form's derivative is at its place, the second, and 1 /
-  // n_x.
+  // Of the form along a row of nodes: half its derivative is row . (p, q, height), half its second
+  // row_square. The row crosses the tangent plane at -row_crossing times its height at x = 0.
   float row[3], row_square, row_crossing;
   float reach;         // from the tangent plane: nodes beyond cannot be within the band
   float inverse_band;  // 1 / T
@@ -36,8 +37,8 @@ struct CapLane {
 struct NodeSlices {
   std::size_t first, end;
 };
-// Those that may be in a cap's support. `origin` is the block's first node.
-NodeSlices slices_near(const CapLane& cap, const Vec3& origin, double step);
+// Those that may be in a cap's support.
+NodeSlices slices_near(const CapLane& cap, const Vec3& first_node);
 
 inline constexpr auto kNoWeight = static_cast<float>(kLeastWeight);
 // Sums of weights below it, within so many steps of the surface, are those of caps that end there.
