@@ -176,7 +176,7 @@ void bridge_gaps(const Mesh& mesh, double least, std::vector<double>& support) {
 double guessed_share(const ExtractedSurface& surface, const Context& context) {
   if (surface.filled.empty()) return 0;
   const Mesh& mesh = surface.mesh;
-  constexpr std::size_t kGrain = 16384;
+  constexpr std::size_t kGrain = 8192;
   struct Areas {
     double guessed = 0, whole = 0;
   };

@@ -376,7 +376,7 @@ void visit_blocks(const BlockGrid& grid, const Disc& disc, const Visit& visit) {
 }  // namespace
 
 CapLists list_caps(const BlockGrid& grid, const std::vector<Disc>& discs, const Context& context) {
-  constexpr std::size_t kGrain = 4096;
+  constexpr std::size_t kGrain = 256;
   using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;  // block, cap
   std::vector<Pairs> found((discs.size() + kGrain - 1) / kGrain);
   parallel_for(discs.size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {

@@ -21,14 +21,30 @@ namespace rholm {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Value and slopes at one direction, in all lanes; `out` gets lane 0.
-void SumAt(int degree, bool even, const double* c, const double* u, double* out) {
-  const hn::CappedTag<double, 8> d;
-  using V = hn::Vec<decltype(d)>;
+using D = hn::CappedTag<double, 8>;
+using V = hn::Vec<D>;
+
+// One direction in all lanes.
+LowDirection<V> Towards(const double* u) {
+  const D d;
   LowDirection<V> at;
   at.x = hn::Set(d, u[0]), at.y = hn::Set(d, u[1]), at.z = hn::Set(d, u[2]);
   at.s1 = hn::Set(d, u[0] / (1 + u[2])), at.s2 = hn::Set(d, u[1] / (1 + u[2]));
-  const LowSum<V> sum = SumLowHarmonics(d, degree, even, c, at);
+  return at;
+}
+
+// Value and slopes of lane 0.
+void SumAt(int degree, bool even, const double* c, const double* u, double* out) {
+  const LowSum<V> sum = SumLowHarmonics(D(), degree, even, c, Towards(u));
+  out[0] = hn::GetLane(sum.value), out[1] = hn::GetLane(sum.d1), out[2] = hn::GetLane(sum.d2);
+}
+
+void SumPowersAt(int degree, const double* powers, const double* u, double* out) {
+  const LowDirection<V> at = Towards(u);
+  const LowSum<V> sum = degree == 0   ? SumPowers<0>(D(), powers, at)
+                        : degree == 1 ? SumPowers<1>(D(), powers, at)
+                        : degree == 3 ? SumPowers<3>(D(), powers, at)
+                                      : SumPowers<kMaxPowersDegree>(D(), powers, at);
   out[0] = hn::GetLane(sum.value), out[1] = hn::GetLane(sum.d1), out[2] = hn::GetLane(sum.d2);
 }
 
@@ -40,6 +56,7 @@ HWY_AFTER_NAMESPACE();
 namespace rholm {
 namespace {
 HWY_EXPORT(SumAt);
+HWY_EXPORT(SumPowersAt);
 
 struct Sum {
   double value = 0, d1 = 0, d2 = 0;
@@ -131,6 +148,28 @@ TEST(LowHarmonics, sums_and_slopes_are_those_of_scattered_directions) {
           EXPECT_NEAR(sum.d1, dot(expected.gradients[i], tangent(at[i], 0)), (degree + 1) * eps);
           EXPECT_NEAR(sum.d2, dot(expected.gradients[i], tangent(at[i], 1)), (degree + 1) * eps);
         }
+      }
+    }
+  });
+}
+
+TEST(LowHarmonics, powers_sum_to_the_same) {
+  test::for_each_target([](const char* target) {
+    for (const int degree : {0, 1, 3, kMaxPowersDegree}) {
+      SCOPED_TRACE(std::string(target) + " " + std::to_string(degree));
+      const std::vector<double> c = listed(test::random_coefficients(degree, 9), false);
+      std::vector<double> powers(c.size(), NAN);
+      to_powers(degree, c.data(), powers.data());
+      // Sums of (L+1)^2 numbers that have grown.
+      const double eps = 1e-15 * (degree + 1) * (degree + 1) * std::pow(1 + std::sqrt(2), degree);
+      for (const Vec3& u : directions()) {
+        const double direction[3] = {u.x, u.y, u.z};
+        double out[3];
+        HWY_DYNAMIC_DISPATCH(SumPowersAt)(degree, powers.data(), direction, out);
+        const Sum sum = sum_at(degree, false, c, u);
+        EXPECT_NEAR(out[0], sum.value, eps);
+        EXPECT_NEAR(out[1], sum.d1, (degree + 1) * eps);
+        EXPECT_NEAR(out[2], sum.d2, (degree + 1) * eps);
       }
     }
   });

@@ -1,0 +1,42 @@
+// Area and volume alone. Oracles: a box in closed form, and the sums that keep slivers.
+#include "shape/measure.h"
+
+#include <gtest/gtest.h>
+
+#include "rholm/primitives.h"
+#include "rholm/topology.h"
+
+namespace rholm {
+namespace {
+
+UnitFrame frame_of(const Mesh& mesh) { return unit_frame(bounds(mesh.vertices)); }
+
+Sizes sizes_of(const Mesh& mesh) { return measure_sizes(view_of(mesh), frame_of(mesh), {}); }
+
+TEST(Sizes, of_a_box_are_those_of_its_sides) {
+  for (const double scale : {1e-100, 1.0, 1e90}) {
+    Mesh mesh = box({1, 2, 3});
+    for (Vec3& v : mesh.vertices) v = scale * (v + Vec3{7, 0, -5});
+    const Sizes sizes = sizes_of(mesh);
+    EXPECT_NEAR(sizes.area / scale / scale, 22, 1e-13);
+    EXPECT_NEAR(sizes.volume / scale / scale / scale, 6, 1e-13);
+  }
+}
+
+// Several chunks.
+TEST(Sizes, of_many_triangles_are_those_of_the_whole_measure) {
+  const Mesh mesh = bumpy_sphere(5);
+  const Sizes sizes = sizes_of(mesh);
+  const Measures all = measure(view_of(mesh), frame_of(mesh));
+  EXPECT_NEAR(sizes.area, all.area, 1e-14 * all.area);
+  EXPECT_NEAR(sizes.volume, all.volume, 1e-14 * all.volume);
+}
+
+TEST(Sizes, of_nothing_are_none) {
+  const Sizes sizes = measure_sizes(view_of(Mesh{}), {}, {});
+  EXPECT_EQ(sizes.area, 0);
+  EXPECT_EQ(sizes.volume, 0);
+}
+
+}  // namespace
+}  // namespace rholm
