@@ -20,6 +20,9 @@ constexpr std::size_t kDiscGrain = 2048;
 constexpr std::size_t kBlockGrain = 64;
 // Copied between two questions whether to cancel: 8 MB.
 constexpr std::size_t kBlocksPerQuestion = 4096;
+// Room for one more block in so many: what holes and sharp edges ask for. It costs nothing as long
+// as it is not touched, but a grid that is moved is paged in twice.
+constexpr std::size_t kRoom = 16;
 // A disc may be compared with this many times the blocks allowed in all: a disc is flat, its box
 // is not. Chosen: bounds the time of a hopeless request.
 constexpr double kBoxPerBlock = 64;
@@ -218,7 +221,8 @@ BlockGrid make_block_grid(const Vec3& origin, double step, std::vector<BlockCoor
   grid.origin = origin;
   grid.step = step;
   grid.blocks = std::move(blocks);
-  grid.values = AlignedArray<float>(grid.n_blocks() * BlockGrid::kNodes);
+  grid.values =
+      AlignedArray<float>((grid.n_blocks() + grid.n_blocks() / kRoom) * BlockGrid::kNodes);
   grid.neighbours.resize(grid.n_blocks());
   index_all(grid);
   parallel_for(grid.n_blocks(), kBlockGrain, context, {}, [&](std::size_t begin, std::size_t end) {
