@@ -84,12 +84,12 @@ void to_powers(int degree, const double* coefficients, double* powers) {
   static const PowersOfZ all = make_powers();
   std::fill_n(powers, low_index(degree + 1, 0), 0.0);
   for (int m = 0; m <= degree; ++m) {
-    const int width = m == 0 ? 1 : 2, n = degree - m;
+    const std::ptrdiff_t width = m == 0 ? 1 : 2, n = degree - m;
     for (int l = m; l <= degree; ++l) {
       const double* const c = coefficients + low_index(l, m);
       for (int k = l - m; k >= 0; k -= 2) {
         double* const to = powers + width * (n - k);
-        for (int i = 0; i < width; ++i) to[i] += all[m][l][k] * c[i];
+        for (std::ptrdiff_t i = 0; i < width; ++i) to[i] += all[m][l][k] * c[i];
       }
     }
     powers += width * (n + 1);

@@ -188,7 +188,7 @@ void FillBlock(const CapLane* caps, const std::uint32_t* list, std::size_t n_cap
       hn::StoreInterleaved2(hn::Mul(part.w, part.g), part.w, d, own);
       const std::size_t end = std::min(n - first, hn::Lanes(d));
       for (std::size_t k = 0; k < end; ++k) {
-        float* const to = sums + 2 * chosen[first + k];
+        float* const to = sums + std::ptrdiff_t{2} * chosen[first + k];
         for (std::size_t j = 0; j < 2; j += hn::Lanes(both)) {
           const auto more = hn::Load(both, own + 2 * k + j);
           hn::Store(hn::Add(hn::Load(both, to + j), more), both, to + j);
