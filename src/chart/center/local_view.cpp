@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "rholm/error.h"
+#include "shape/topology/closed.h"
 #include "shape/vertex_range.h"
 
 namespace rholm {
@@ -50,6 +51,11 @@ std::array<Vec3, 3> LocalView::corners(std::size_t triangle) const {
     validate(mesh);  // throws, and says which
   }
   return scaled_corners(mesh, indices, frame.scale);
+}
+
+bool LocalView::closed() const {
+  if (!known_closed) known_closed = is_closed(mesh);
+  return *known_closed;
 }
 
 FacePlane LocalView::plane(std::size_t triangle) const {

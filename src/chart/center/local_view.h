@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 
 #include "rholm/context.h"
 #include "rholm/mesh_view.h"
@@ -23,6 +24,10 @@ struct FacePlane {
 struct LocalView {
   MeshView mesh;
   UnitFrame frame;
+  mutable std::optional<bool> known_closed = {};
+
+  // is_closed() of the mesh, found out when it is first asked for. Not by two threads at a time.
+  bool closed() const;
 
   // Scaled, but not moved: see face_normal(). Both throw InvalidInput for an index out of range.
   std::array<Vec3, 3> corners(std::size_t triangle) const;

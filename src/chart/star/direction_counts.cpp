@@ -48,6 +48,12 @@ std::optional<int> surplus_at(const LocalView& view, const Vec3& center, const V
   return surplus;
 }
 
+// Of direction i: how many turns its longitude is.
+double lattice_turns(std::size_t i) {
+  const double turns = static_cast<double>(i) * (std::numbers::phi - 1);
+  return turns - std::floor(turns);
+}
+
 // Directions of the lattice by cells of equal area, so that those near one are found.
 class LatticeCells {
  public:
@@ -59,7 +65,7 @@ class LatticeCells {
     std::vector<std::uint32_t> cell(n);
     for (std::size_t i = 0; i < n; ++i) {
       const Vec3 u = directions_[i] = lattice_direction(i, n);
-      cell[i] = static_cast<std::uint32_t>(row(u.z) * 2 * rows_ + column(std::atan2(u.y, u.x)));
+      cell[i] = static_cast<std::uint32_t>(row(u.z) * 2 * rows_ + column(lattice_turns(i)));
       ++first_[cell[i] + 1];
     }
     for (std::size_t k = 1; k < first_.size(); ++k) first_[k] += first_[k - 1];
@@ -79,11 +85,12 @@ class LatticeCells {
     const double sine = std::sin(theta);
     // How far longitudes reach; all of them where a pole is within the angle.
     const bool around = angle >= kPi / 2 || std::sin(angle) >= sine;
-    const double reach = around ? 0 : std::asin(std::sin(angle) / sine) + kMargin;
-    const double phi = std::atan2(middle.y, middle.x);
+    const double reach = around ? 0 : (std::asin(std::sin(angle) / sine) + kMargin) / (2 * kPi);
+    const double turns = std::atan2(middle.y, middle.x) / (2 * kPi);
     const std::size_t columns = 2 * rows_;
-    const std::size_t first = around ? 0 : column(phi - reach);
-    const std::size_t n = around ? columns : (column(phi + reach) + columns - first) % columns + 1;
+    const std::size_t first = around ? 0 : column(turns - reach);
+    const std::size_t n =
+        around ? columns : (column(turns + reach) + columns - first) % columns + 1;
     for (std::size_t r = low; r <= high; ++r) {
       for (std::size_t c = 0; c < n; ++c) {
         const std::size_t cell = r * columns + (first + c) % columns;
@@ -99,8 +106,7 @@ class LatticeCells {
     const double at = (z + 1) / 2 * static_cast<double>(rows_);
     return std::min(rows_ - 1, static_cast<std::size_t>(std::max(0.0, at)));
   }
-  std::size_t column(double phi) const {
-    const double turns = phi / (2 * kPi);
+  std::size_t column(double turns) const {
     const double at = (turns - std::floor(turns)) * 2 * static_cast<double>(rows_);
     return std::min(2 * rows_ - 1, static_cast<std::size_t>(at));
   }
@@ -171,8 +177,7 @@ std::optional<std::vector<std::uint32_t>> backs(const LocalView& view, const Vec
 
 Vec3 lattice_direction(std::size_t i, std::size_t n) {
   const double z = 1 - (2.0 * static_cast<double>(i) + 1) / static_cast<double>(n);
-  const double turns = static_cast<double>(i) * (std::numbers::phi - 1);
-  const double phi = 2 * kPi * (turns - std::floor(turns));
+  const double phi = 2 * kPi * lattice_turns(i);
   const double s = std::sqrt(std::max(0.0, 1 - z * z));
   return {s * std::cos(phi), s * std::sin(phi), z};
 }

@@ -18,7 +18,6 @@
 #include "chart/star/direction_counts.h"
 #include "rholm/error.h"
 #include "shape/queries/ray_scene.h"
-#include "shape/topology/closed.h"
 
 namespace rholm {
 namespace {
@@ -138,7 +137,7 @@ void try_directions(const LocalView& view, const Vec3& center, const Context& co
                     StarReport& report) {
   const auto n = static_cast<std::size_t>(report.rays);
   std::optional<std::vector<int>> meetings;
-  if (is_closed(view.mesh)) meetings = count_meetings(view, center, n, context);
+  if (view.closed()) meetings = count_meetings(view, center, n, context);
   if (!meetings) meetings = shoot_rays(view, center, n, context);
   const auto share = [&](auto is_counted) {
     return static_cast<double>(std::ranges::count_if(*meetings, is_counted)) / report.rays;

@@ -8,7 +8,6 @@
 #include "chart/center/view_center.h"
 #include "model/encode/encoded_parts.h"
 #include "rholm/error.h"
-#include "shape/topology/closed.h"
 #include "shape/vertex_range.h"
 #include "transform/analyze.h"
 #include "transform/norms/exact_norms.h"
@@ -92,7 +91,7 @@ class AsItLies {
     const FoundCenter found = search_center(view, wanted, context_);
     pass_options_.center = found.point;
     if (!found.kernel_empty) return true;
-    if (!may_fold(options_) || !is_closed(mesh_)) return false;
+    if (!may_fold(options_) || !view.closed()) return false;
     const StarReport program = check_star(view, found.point, wanted.rays, context_);
     folded_ = better_center(view, program, wanted.rays, context_);
     pass_options_.center = folded_->center;

@@ -6,7 +6,7 @@
 namespace rholm {
 
 // Whether every edge is run through as often one way as the other, by a hash of its ends'
-// coordinates: a surface that is not closed passes once in 2^64. Indices must be valid.
+// coordinates: a surface that is not closed passes once in 2^60. Indices must be valid.
 bool is_closed(const MeshView& mesh);
 
 }  // namespace rholm
