@@ -57,10 +57,10 @@ std::optional<double> cosine_at(const Face& face, const Vec3& x) {
 }
 
 // Into how many parts the edges of a face are divided.
-int divisions(const Face& face, int degree) {
+int divisions(const std::array<Vec3, 3>& corners, int degree) {
   double angle2 = 0;
   for (int i = 0; i < 3; ++i) {
-    const Vec3 &a = face.corners[i], &b = face.corners[(i + 1) % 3];
+    const Vec3 &a = corners[i], &b = corners[(i + 1) % 3];
     const Vec3 e = b - a;
     const double distance2 = std::min(dot(a, a), dot(b, b));
     angle2 = std::max(angle2, distance2 > 0 ? dot(e, e) / distance2 : 0.0);
@@ -118,19 +118,23 @@ void visit_long_faces(const MeshView& mesh, const Vec3& center, const FaceScan& 
     if (degree * std::sqrt(scan.sizes.angles2[run]) <= kDense) continue;
     const std::size_t first = run * FaceSizes::kRun;
     for (std::size_t t = first; t < std::min(mesh.n_triangles, first + FaceSizes::kRun); ++t) {
-      const Face face = face_of(corners_of(mesh, t, center, scan.sizes.scale));
-      if (face.normal.degenerate) continue;
-      const int n = divisions(face, degree);
+      const std::array<Vec3, 3> p = corners_of(mesh, t, center, scan.sizes.scale);
+      const int n = divisions(p, degree);
       for (int i = 0; i < n; ++i) {
         for (int j = i == 0 ? 1 : 0; i + j <= n; ++j) {
           if (j == n) continue;
           const double a = static_cast<double>(i) / n, b = static_cast<double>(j) / n;
-          const Vec3 x = a * face.corners[0] + b * face.corners[1] + (1 - a - b) * face.corners[2];
-          if (const std::optional<double> cosine = cosine_at(face, x)) visit(x, *cosine, t);
+          visit(a * p[0] + b * p[1] + (1 - a - b) * p[2], t);
         }
       }
     }
   }
+}
+
+std::optional<double> face_cosine(const MeshView& mesh, std::size_t t, const Vec3& center,
+                                  const FaceScan& scan, const Vec3& x) {
+  const Face face = face_of(corners_of(mesh, t, center, scan.sizes.scale));
+  return face.normal.degenerate ? std::nullopt : cosine_at(face, x);
 }
 
 ErrorPoints extreme_points(const MeshView& mesh, const Vec3& center, const FaceScan& scan,
@@ -144,10 +148,10 @@ ErrorPoints extreme_points(const MeshView& mesh, const Vec3& center, const FaceS
   }
   for (std::size_t run = 0; run < scan.sizes.angles2.size(); ++run) {
     poll();
-    visit_long_faces(mesh, center, scan, degree, run, run + 1,
-                     [&](const Vec3& x, double cosine, std::size_t t) {
-                       add_point(points, x, cosine, static_cast<std::int64_t>(t));
-                     });
+    visit_long_faces(mesh, center, scan, degree, run, run + 1, [&](const Vec3& x, std::size_t t) {
+      const std::optional<double> cosine = face_cosine(mesh, t, center, scan, x);
+      if (cosine) add_point(points, x, *cosine, static_cast<std::int64_t>(t));
+    });
   }
   for (double& r : points.radii) r /= scan.sizes.scale;
   return points;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <vector>
 
 #include "base/parallel.h"
@@ -44,16 +45,22 @@ template <typename T>
 class Sieve {
  public:
   // `function`: without its mean, which single precision would round.
-  Sieve(const GridFunction<T>& function, double mean, bool gauge, double scale, double least)
-      : function_(function), mean_(mean), gauge_(gauge), scale_(scale), least_(least) {}
+  Sieve(const GridFunction<T>& function, double mean, bool gauge, const MeshView& mesh,
+        const Vec3& center, const FaceScan& scan, double least)
+      : function_(function),
+        mean_(mean),
+        gauge_(gauge),
+        mesh_(mesh),
+        center_(center),
+        scan_(scan),
+        least_(least) {}
 
-  // x from the centre, times the scale.
-  void add(const Vec3& x, double cosine, std::int64_t owner) {
+  // x from the centre, times the scale; owner: see ErrorPoints.
+  void add(const Vec3& x, std::int64_t owner) {
     if (!(dot(x, x) > 0)) return;  // nobody sees it
     batch_.x[0][n_] = x.x;
     batch_.x[1][n_] = x.y;
     batch_.x[2][n_] = x.z;
-    cosines_[n_] = cosine;
     owners_[n_] = owner;
     if (++n_ == SourceBatch<T>::kSize) flush();
   }
@@ -67,13 +74,15 @@ class Sieve {
   void flush() {
     PolarSources near;
     function_.read(batch_, n_, false, near);
-    const double to_value = 1 / function_.scale(), to_shape = 1 / scale_;
+    const double to_value = 1 / function_.scale(), to_shape = 1 / scan_.sizes.scale;
     for (std::size_t j = 0; j < n_; ++j) {
       const Vec3 x = {batch_.x[0][j], batch_.x[1][j], batch_.x[2][j]};
       const double r = norm(x), value = mean_ + to_value * batch_.value[j];
       const double error = std::abs(to_shape * r - (gauge_ ? 1 / value : value));
       if (error < least_ && value > 0) continue;
-      kept_.points.add(x / r, to_shape * r, cosines_[j], owners_[j]);
+      const std::optional<double> cosine = cosine_at(x, owners_[j]);
+      if (!cosine) continue;
+      kept_.points.add(x / r, to_shape * r, *cosine, owners_[j]);
       // What has no surface there comes first, to be refused.
       kept_.rough.push_back(value > 0 || !gauge_ ? error : std::numeric_limits<double>::max());
     }
@@ -81,12 +90,20 @@ class Sieve {
     n_ = 0;
   }
 
+  // 0 at vertices, which have no face.
+  std::optional<double> cosine_at(const Vec3& x, std::int64_t owner) const {
+    if (owner < 0) return 0.0;
+    return face_cosine(mesh_, static_cast<std::size_t>(owner), center_, scan_, x);
+  }
+
   const GridFunction<T>& function_;
   double mean_;
   bool gauge_;
-  double scale_, least_;
+  const MeshView& mesh_;
+  const Vec3& center_;
+  const FaceScan& scan_;
+  double least_;
   SourceBatch<T> batch_;
-  double cosines_[SourceBatch<T>::kSize];
   std::int64_t owners_[SourceBatch<T>::kSize];
   std::size_t n_ = 0;
   Kept kept_;
@@ -107,7 +124,8 @@ Kept sieve(const MeshView& mesh, const FaceScan& scan, const Expansion& expansio
                     first_run = parts(mesh.n_vertices, kVertices);
   std::vector<Kept> kept(first_run + parts(n_runs, kRuns));
   const auto fill = [&](std::size_t part, const auto& add_points) {
-    const auto sieve = std::make_unique<Sieve<T>>(function, mean, gauge, scan.sizes.scale, least);
+    const auto sieve =
+        std::make_unique<Sieve<T>>(function, mean, gauge, mesh, expansion.center, scan, least);
     add_points(*sieve);
     kept[part] = sieve->finish();
   };
@@ -115,17 +133,16 @@ Kept sieve(const MeshView& mesh, const FaceScan& scan, const Expansion& expansio
     fill(begin / kVertices, [&](Sieve<T>& sieve) {
       for (std::size_t i = begin; i < end; ++i) {
         if (!scan.is_used(i)) continue;
-        sieve.add(scan.sizes.scale * (mesh.vertex(i) - expansion.center), 0,
+        sieve.add(scan.sizes.scale * (mesh.vertex(i) - expansion.center),
                   -1 - static_cast<std::int64_t>(i));
       }
     });
   });
   parallel_for(n_runs, kRuns, context, {}, [&](std::size_t begin, std::size_t end) {
     fill(first_run + begin / kRuns, [&](Sieve<T>& sieve) {
-      visit_long_faces(mesh, expansion.center, scan, expansion.coefficients.degree(), begin, end,
-                       [&](const Vec3& x, double cosine, std::size_t t) {
-                         sieve.add(x, cosine, static_cast<std::int64_t>(t));
-                       });
+      visit_long_faces(
+          mesh, expansion.center, scan, expansion.coefficients.degree(), begin, end,
+          [&](const Vec3& x, std::size_t t) { sieve.add(x, static_cast<std::int64_t>(t)); });
     });
   });
   Kept all;
