@@ -2,7 +2,8 @@
 
 namespace rholm {
 
-NodesBetween::NodesBetween(NodeSink& sink) : nodes_(sink) {}
+NodesBetween::NodesBetween(const ScaledVertices& vertices, NodeSink& sink)
+    : vertices_(vertices), nodes_(sink) {}
 
 template <typename T>
 void NodesBetween::add(const MeshView& mesh, std::size_t first, std::size_t n,
@@ -11,21 +12,18 @@ void NodesBetween::add(const MeshView& mesh, std::size_t first, std::size_t n,
     const int rules[3] = {block.edge_rule[0][t], block.edge_rule[1][t], block.edge_rule[2][t]};
     if ((block.flag[t] & kNodes) != 0) continue;
     if ((rules[0] | rules[1] | rules[2] | block.face_rule[t]) == 0) continue;
+    const Triangle vertices = mesh.triangle(first + t);
+    for (int i = 0; i < 3; ++i) {
+      if (rules[i] == 0) continue;
+      add_edge(vertices[i], vertices[i == 2 ? 0 : i + 1],
+               {.rule = static_cast<std::uint32_t>(rules[i]), .weight = block.edge_node[i][t]});
+    }
+    if (block.face_rule[t] == 0) continue;
     std::array<Vec3, 3> p;
     for (int i = 0; i < 3; ++i) {
       p[i] = {block.corner[i][0][t], block.corner[i][1][t], block.corner[i][2][t]};
     }
-    const Triangle vertices = mesh.triangle(first + t);
-    for (int i = 0; i < 3; ++i) {
-      if (rules[i] == 0) continue;
-      const int j = i == 2 ? 0 : i + 1;
-      add_edge(vertices[i], vertices[j],
-               {.rule = static_cast<std::uint32_t>(rules[i]),
-                .weight = block.edge_node[i][t],
-                .a = p[i],
-                .b = p[j]});
-    }
-    if (block.face_rule[t] != 0) write_face(p, block.center_node[t], block.orbit_node[t]);
+    write_face(p, block.center_node[t], block.orbit_node[t]);
   }
 }
 
@@ -35,14 +33,16 @@ void NodesBetween::add_edge(std::uint32_t i, std::uint32_t j, const HalfEdge& ed
     twin.weight += other.weight;
     return true;
   };
-  waiting_.add(i, j, edge, join, [&](const HalfEdge& whole) { write_edge(whole); });
+  waiting_.add(i, j, edge, join, [&](std::uint32_t low, std::uint32_t high, const HalfEdge& whole) {
+    write_edge(low, high, whole);
+  });
 }
 
-void NodesBetween::write_edge(const HalfEdge& edge) {
-  const Vec3 sum = edge.a + edge.b;
+void NodesBetween::write_edge(std::uint32_t low, std::uint32_t high, const HalfEdge& edge) {
+  const Vec3 a = vertices_[low], b = vertices_[high], sum = a + b;
   if (edge.rule == 1) return nodes_.add(sum, edge.weight);  // a direction is what counts
-  nodes_.add(sum + edge.a, edge.weight);
-  nodes_.add(sum + edge.b, edge.weight);
+  nodes_.add(sum + a, edge.weight);
+  nodes_.add(sum + b, edge.weight);
 }
 
 void NodesBetween::write_face(const std::array<Vec3, 3>& p, double center, double orbit) {
@@ -55,7 +55,9 @@ void NodesBetween::write_face(const std::array<Vec3, 3>& p, double center, doubl
 }
 
 void NodesBetween::flush() {
-  waiting_.flush([&](const HalfEdge& edge) { write_edge(edge); });
+  waiting_.flush([&](std::uint32_t low, std::uint32_t high, const HalfEdge& edge) {
+    write_edge(low, high, edge);
+  });
   nodes_.flush();
 }
 

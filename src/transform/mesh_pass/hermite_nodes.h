@@ -15,7 +15,7 @@ namespace rholm {
 // rounding makes of their lengths.
 class NodesBetween {
  public:
-  explicit NodesBetween(NodeSink& sink);
+  NodesBetween(const ScaledVertices& vertices, NodeSink& sink);
 
   // Those of the block's first n triangles that are lumped.
   template <typename T>
@@ -27,12 +27,12 @@ class NodesBetween {
   struct HalfEdge {
     std::uint32_t rule = 0;
     double weight = 0;  // of each node
-    Vec3 a, b;
   };
   void add_edge(std::uint32_t i, std::uint32_t j, const HalfEdge& edge);
-  void write_edge(const HalfEdge& edge);
+  void write_edge(std::uint32_t low, std::uint32_t high, const HalfEdge& edge);
   void write_face(const std::array<Vec3, 3>& p, double center, double orbit);
 
+  ScaledVertices vertices_;
   NodeBuffer nodes_;
   TwinCache<HalfEdge> waiting_;
 };

@@ -3,8 +3,10 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
+#include "rholm/mesh_view.h"
 #include "rholm/vec3.h"
 
 namespace rholm {
@@ -26,6 +28,14 @@ class NodeSink {
   virtual void add_gradient(const GradientNode& node) = 0;
   // Into the sum that is not divided by l(l+1).
   virtual void add_undivided(const Vec3& x, double weight) = 0;
+};
+
+// Vertices relative to the centre, scaled: the corners of a TriangleBlock.
+struct ScaledVertices {
+  const MeshView& mesh;
+  Vec3 center;  // scaled
+  double scale = 1;
+  Vec3 operator[](std::uint32_t i) const { return scale * mesh.vertex(i) - center; }
 };
 
 // Hands weights on many at a time.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "rholm/error.h"
 #include "shape/face.h"
@@ -81,8 +80,9 @@ Crowd crowd_of(const std::array<Vec3, 3>& p, double d2, int degree) {
   }
   const double length = degree * std::sqrt(chord2), distance = distance_of(p);
   // A triangle's height is twice its area over its length.
-  const double twice_area = std::pow(degree, 2) * std::abs(d2) / std::pow(distance, 3);
-  return {.per_wave = twice_area > 0 ? length / twice_area : 0,
+  const double twice_area =
+      static_cast<double>(degree) * degree * std::abs(d2) / (distance * distance * distance);
+  return {.per_wave = twice_area > 0 ? static_cast<float>(length / twice_area) : 0.0F,
           .needle = length > 2 * std::numbers::pi};
 }
 
@@ -135,8 +135,9 @@ double visit_radius(const std::array<Vec3, 3>& p, double factor, const NodeAllow
 
 }  // namespace
 
-NodeWriter::NodeWriter(const NodeOptions& options, NodeSink& sink)
+NodeWriter::NodeWriter(const NodeOptions& options, const ScaledVertices& vertices, NodeSink& sink)
     : options_(options),
+      vertices_(vertices),
       grazing_(grazing_slope(options.divided.degree)),
       sink_(sink),
       nodes_(sink) {}
@@ -156,9 +157,8 @@ void NodeWriter::add_triangle(const std::array<Vec3, 3>& corners,
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;
     const double weight = grazing ? 0 : dot(n, cross(p[i], p[j])) / d2;
-    add_edge(
-        vertices[i], vertices[j],
-        {.a = p[i], .b = p[j], .weight = weight, .gradient = grazing ? 1.0 : 0.0, .crowd = crowd});
+    add_edge(vertices[i], vertices[j],
+             {.weight = weight, .gradient = grazing ? 1.0F : 0.0F, .crowd = crowd});
   }
   if (grazing) {
     error2_ += visit_radius(p, d2 / 2, options_.undivided, 0, 0,
@@ -170,32 +170,36 @@ void NodeWriter::add_triangle(const std::array<Vec3, 3>& corners,
 
 void NodeWriter::add_edge(std::uint32_t i, std::uint32_t j, HalfEdge edge) {
   // As seen from its lower vertex: a weight knows no direction, a gradient changes sign.
-  if (j < i) {
-    std::swap(edge.a, edge.b);
-    edge.gradient = -edge.gradient;
-  }
+  if (j < i) edge.gradient = -edge.gradient;
   const auto join = [](HalfEdge& twin, const HalfEdge& other) {
     twin.weight += other.weight;
     twin.gradient += other.gradient;
     if (other.crowd.per_wave > twin.crowd.per_wave) twin.crowd = other.crowd;
     return true;
   };
-  waiting_.add(i, j, edge, join, [&](const HalfEdge& whole) { write_edge(whole); });
+  waiting_.add(i, j, edge, join, [&](std::uint32_t low, std::uint32_t high, const HalfEdge& whole) {
+    write_edge(low, high, whole);
+  });
 }
 
 void NodeWriter::flush() {
-  waiting_.flush([&](const HalfEdge& edge) { write_edge(edge); });
+  waiting_.flush([&](std::uint32_t low, std::uint32_t high, const HalfEdge& edge) {
+    write_edge(low, high, edge);
+  });
   nodes_.flush();
 }
 
-void NodeWriter::write_edge(const HalfEdge& edge) {
-  if (edge.weight != 0 || edge.gradient != 0) write_piece(edge, edge.a, edge.b, 1);
+void NodeWriter::write_edge(std::uint32_t low, std::uint32_t high, const HalfEdge& edge) {
+  if (edge.weight == 0 && edge.gradient == 0) return;
+  const Vec3 a = vertices_[low], b = vertices_[high];
+  const Vec3 across = edge.gradient == 0 ? Vec3{} : -double{edge.gradient} * cross(a, b);
+  write_piece(edge, across, a, b, 1);
 }
 
-void NodeWriter::write_piece(const HalfEdge& edge, const Vec3& a, const Vec3& b, double share) {
+void NodeWriter::write_piece(const HalfEdge& edge, const Vec3& across, const Vec3& a, const Vec3& b,
+                             double share) {
   const double distance = distance_of(a, b);
   const double length = norm(b - a);
-  const Vec3 across = -edge.gradient * cross(edge.a, edge.b);
   EdgeRule rule;
   if (length <= kLongest * distance) {
     // A gradient is up to L / |x| times the harmonic, and bends more (6 times;
@@ -208,8 +212,8 @@ void NodeWriter::write_piece(const HalfEdge& edge, const Vec3& a, const Vec3& b,
   if (rule.nodes.empty()) {
     if (!(share > std::exp2(-kMaxDepth))) throw_on_surface();
     const Vec3 middle = 0.5 * (a + b);
-    write_piece(edge, a, middle, share / 2);
-    write_piece(edge, middle, b, share / 2);
+    write_piece(edge, across, a, middle, share / 2);
+    write_piece(edge, across, middle, b, share / 2);
     return;
   }
   error2_ += rule.error * rule.error;

@@ -19,8 +19,7 @@ struct NodeOptions {
 // Half-edges that have met their twins are summed: an edge of two triangles gets its nodes once.
 class NodeWriter {
  public:
-  NodeWriter(const NodeOptions& options, NodeSink& sink);
-  // `vertices` name the corners: equal names, equal points.
+  NodeWriter(const NodeOptions& options, const ScaledVertices& vertices, NodeSink& sink);
   void add_triangle(const std::array<Vec3, 3>& corners,
                     const std::array<std::uint32_t, 3>& vertices);
   // Half-edges and nodes that are left.
@@ -30,18 +29,21 @@ class NodeWriter {
   double error2() const { return error2_; }
 
  private:
+  // Of an edge from its lower vertex to its higher one, a to b.
   struct HalfEdge {
-    Vec3 a, b;
-    double weight = 0;    // W
-    double gradient = 0;  // of -(a x b) . grad
+    double weight = 0;   // W
+    float gradient = 0;  // of -(a x b) . grad
     Crowd crowd;
   };
   void add_edge(std::uint32_t i, std::uint32_t j, HalfEdge edge);
-  void write_edge(const HalfEdge& edge);
-  void write_piece(const HalfEdge& edge, const Vec3& a, const Vec3& b, double share);
+  void write_edge(std::uint32_t low, std::uint32_t high, const HalfEdge& edge);
+  // The piece from a to b, `share` of the whole; `across`: the gradient's factor.
+  void write_piece(const HalfEdge& edge, const Vec3& across, const Vec3& a, const Vec3& b,
+                   double share);
   void write_face(const std::array<Vec3, 3>& p, double weight, const Crowd& crowd, int depth);
 
   NodeOptions options_;
+  ScaledVertices vertices_;
   double grazing_;  // d_T / r
   NodeSink& sink_;
   NodeBuffer nodes_;

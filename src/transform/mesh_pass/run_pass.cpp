@@ -153,8 +153,10 @@ class Pass {
     auto lumps = arrays_.take();
     auto block = std::make_unique<TriangleBlock<Lump>>();
     PartSink<T> sink(part, grids_.empty() ? nullptr : grids_[p].get(), plan_);
-    NodeWriter writer({plan_.divided, plan_.undivided}, sink);
-    NodesBetween between(sink);
+    const ScaledVertices vertices{
+        .mesh = mesh_, .center = parameters.scale * parameters.center, .scale = parameters.scale};
+    NodeWriter writer({plan_.divided, plan_.undivided}, vertices, sink);
+    NodesBetween between(vertices, sink);
     const auto look_at = [&](std::size_t b) {
       const std::size_t first = b * kBlockSize;
       const std::size_t n = std::min(kBlockSize, mesh_.n_triangles - first);

@@ -17,8 +17,8 @@ class TwinCache {
   TwinCache() : slots_(std::size_t{1} << kBits) {}
 
   // The half-edge between vertices i and j, in either sense. Where its twin waits and
-  // join(twin, edge) takes the edge in and is true, work(twin) is called; else it waits itself, and
-  // one that waited in its place is worked.
+  // join(twin, edge) takes the edge in and is true, work(low, high, twin) is called with the
+  // vertices in order; else it waits itself, and one that waited in its place is worked.
   template <typename Join, typename Work>
   void add(std::uint32_t i, std::uint32_t j, const HalfEdge& edge, const Join& join,
            const Work& work) {
@@ -26,11 +26,10 @@ class TwinCache {
     const std::uint64_t name = (low << 32 | high) + 1;
     Slot& slot = slots_[(name * 0x9E3779B97F4A7C15U) >> (64 - kBits)];  // 2^64 / the golden ratio
     if (slot.name == name && join(slot.edge, edge)) {
-      slot.name = 0;
-      work(slot.edge);
+      work_slot(slot, work);
       return;
     }
-    if (slot.name != 0) work(slot.edge);
+    if (slot.name != 0) work_slot(slot, work);
     slot = {name, edge};
   }
 
@@ -38,17 +37,22 @@ class TwinCache {
   template <typename Work>
   void flush(const Work& work) {
     for (Slot& slot : slots_) {
-      if (slot.name != 0) work(slot.edge);
-      slot.name = 0;
+      if (slot.name != 0) work_slot(slot, work);
     }
   }
 
  private:
-  static constexpr int kBits = 12;  // chosen: some 300 kB
+  static constexpr int kBits = 12;  // chosen: some 130 kB
   struct Slot {
     std::uint64_t name = 0;  // of both ends, 0: none
     HalfEdge edge;
   };
+  template <typename Work>
+  static void work_slot(Slot& slot, const Work& work) {
+    const std::uint64_t ends = slot.name - 1;
+    slot.name = 0;
+    work(static_cast<std::uint32_t>(ends >> 32), static_cast<std::uint32_t>(ends), slot.edge);
+  }
   std::vector<Slot> slots_;
 };
 

@@ -29,7 +29,7 @@ struct FaceRule {
 //   M (2 pi / b) int_-L^L (k/L)^2p dk,  instead of  M int_{k < L} (k/L)^2p cos^2p psi d^2k,
 // that is 2 / (L b <cos^2p>) times as much, <cos^2p> about 1 / sqrt(pi p).
 struct Crowd {
-  double per_wave = 0;  // 1 / (L b)
+  float per_wave = 0;   // 1 / (L b)
   bool needle = false;  // a wave fits along
 };
 

@@ -24,10 +24,13 @@ struct Worked {
       twin.weight += other.weight;
       return true;
     };
-    cache.add(i, j, side, join, [&](const Side& s) { sides.push_back(s); });
+    cache.add(i, j, side, join, [&](std::uint32_t low, std::uint32_t high, const Side& s) {
+      EXPECT_LT(low, high);
+      sides.push_back(s);
+    });
   }
   void flush() {
-    cache.flush([&](const Side& s) { sides.push_back(s); });
+    cache.flush([&](std::uint32_t, std::uint32_t, const Side& s) { sides.push_back(s); });
   }
 };
 
