@@ -21,7 +21,9 @@ double predicted_error(const NonuniformNeeds& needs, int width, double sigma) {
   const double error = window_error(width, sigma) * 1.3 * (1 + 4 / degree);
   double derivatives = 1;
   if (needs.derivatives > 0) {
-    derivatives = std::max(derivatives, needs.gradient_size * gradient_factor(sigma));
+    derivatives = needs.gradient_size > 0
+                      ? std::max(derivatives, needs.gradient_size * gradient_factor(sigma))
+                      : counted_gradient_factor(sigma);
   }
   if (needs.derivatives > 1) {
     derivatives = std::max(

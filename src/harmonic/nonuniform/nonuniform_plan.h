@@ -26,7 +26,8 @@ struct NonuniformNeeds {
   int derivatives = 0;
   bool forbid_single = false;
   // L |g| and L^2 |h| beside |w|, root mean square over sources: the error is relative to the
-  // largest of the three. Smaller ones ask less of the windows.
+  // largest of the three. Smaller ones ask less of the windows; a gradient of 0: gradients are in
+  // the weights, by gradient_as_weight().
   double gradient_size = 1;
   double hessian_size = 1;
   // Sources that are sure to lie all over the sphere, as the vertices of a closed surface do: many

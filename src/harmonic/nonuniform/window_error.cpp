@@ -17,6 +17,7 @@ double window_error(int width, double sigma) {
 // Aliases have wave numbers around n - L, and longitudes near the poles count 1 / sin(theta) times:
 // the l2 norm of 1 / sin^2 down to a polar sine is 0.7 times its inverse, and three times that
 // where few sources are so near: fewer than thirty within twice the polar sine (chosen).
+constexpr double kGradientAsWeight = 9;  // gradient_factor() at an oversampling of 1.86
 double gradient_factor(double sigma) { return 2.6 * sigma * sigma; }
 double hessian_factor(double sigma, int degree, std::size_t sources) {
   const double sine = polar_sine(degree, 2);
@@ -25,7 +26,10 @@ double hessian_factor(double sigma, int degree, std::size_t sources) {
   return 4 + near / sine;
 }
 
-double gradient_as_weight(int degree) { return 9.0 * std::max(degree, 1); }
+double gradient_as_weight(int degree) { return kGradientAsWeight * std::max(degree, 1); }
+double counted_gradient_factor(double sigma) {
+  return std::max(1.0, gradient_factor(sigma) / kGradientAsWeight);
+}
 
 // Second differences near the poles divide the rounding of values by the square of their step.
 double single_rounding(int degree, int derivatives) {

@@ -16,8 +16,10 @@ double gradient_factor(double sigma);
 double hessian_factor(double sigma, int degree, std::size_t sources);
 
 // A gradient counts as a weight so many times its size, while oversampling is not known yet: some
-// 9 L, at the twofold one.
+// 9 L, at the twofold one. Where it is known, sums of squares that count gradients so are at most
+// the square of this factor too small.
 double gradient_as_weight(int degree);
+double counted_gradient_factor(double sigma);
 
 // What windows in single precision add (L = 16 ... 2000, up to 2.2e-7 for values and gradients,
 // with windows up to 10 wide).

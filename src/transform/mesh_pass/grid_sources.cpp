@@ -37,7 +37,7 @@ void GridSources<T>::add(const GradientNode& node) {
   put(gradients_, n_gradients_, node.x, 0);
   const double g[3] = {node.weight.x, node.weight.y, node.weight.z};
   for (int k = 0; k < 3; ++k) gradients_.gradient[k][n_gradients_] = static_cast<T>(g[k]);
-  source2_ += gradient2_ * dot(node.weight, node.weight);
+  source2_ += node_gradient2_ * dot(node.weight, node.weight);
   if (++n_gradients_ == kSize) flush_gradients();
 }
 
@@ -48,7 +48,7 @@ void GridSources<T>::add_vertices(const MeshView& mesh, std::size_t first, std::
   flush_gradients();
   const LumpSums sums = load_vertices(mesh, first, n, parameters, lumps, gradients_);
   if (parameters.hessians) {
-    source2_ += sums.weight2 + gradient2_ * sums.gradient2;
+    source2_ += sums.weight2 + vertex_gradient2_ * sums.gradient2;
     hessian2_ += std::pow(parameters.degree, 4) * sums.hessian2;
   }
   spreader_.add(gradients_, n, parameters.hessians ? 2 : 1);
@@ -90,7 +90,7 @@ void PartSink<T>::add_gradient(const GradientNode& node) {
   ++part_.nodes;
   if (grid_ != nullptr) return grid_->add(node);
   part_.source2 +=
-      std::pow(gradient_as_weight(plan_.divided.degree), 2) * dot(node.weight, node.weight);
+      std::pow(gradient_node_as_weight(plan_.divided.degree), 2) * dot(node.weight, node.weight);
   part_.too_many = part_.too_many || part_.kept_gradients.size() >= kMostKept;
   if (!part_.too_many) part_.kept_gradients.push_back(node);
 }

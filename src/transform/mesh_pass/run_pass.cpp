@@ -30,7 +30,6 @@ constexpr std::size_t kVerticesPerStep = 256 * kVerticesPerBlock;
 // Below so many nodes per triangle these are kept until the sums of squares are known
 // exactly; above, they are spread as they come, to a window chosen from the sample.
 constexpr double kFewNodes = 0.05;
-constexpr double kNodesEach = 5;  // of a triangle that has some, roughly
 
 // Windows that are chosen before the squares of sources are known take them for this many times
 // what the sample says: of steep surfaces it misses up to six times (Igea and Ryugu to degree 128
@@ -54,7 +53,7 @@ class Pass {
         n_blocks_((mesh.n_triangles + kBlockSize - 1) / kBlockSize) {}
 
   Outcome run(MeshPassResult& result) {
-    const bool upfront = kNodesEach * plan_.node_share + plan_.between > kFewNodes;
+    const bool upfront = plan_.nodes > kFewNodes;
     if (upfront) {
       choose_window(kUnseen2 * plan_.source2, kUnseen2 * plan_.hessian2, estimated_sources());
       make_grids();
@@ -104,9 +103,8 @@ class Pass {
 
  private:
   std::size_t estimated_sources() const {
-    const double nodes = kNodesEach * plan_.node_share + plan_.between;
     return mesh_.n_vertices +
-           static_cast<std::size_t>(nodes * static_cast<double>(mesh_.n_triangles));
+           static_cast<std::size_t>(plan_.nodes * static_cast<double>(mesh_.n_triangles));
   }
 
   // Parts of the triangles when they need no grids: as many as pay, whatever the number of threads.
@@ -166,6 +164,7 @@ class Pass {
       ask_for_lumps(mesh_, first, n, parameters.hessians, lumps->data());
       return largest;
     };
+    const double mean_reach2 = std::max(parameters.mean_reach2, parameters.mean_nodes_reach2);
     std::uint32_t next_largest = look_at(begin);
     for (std::size_t b = begin; b < end; ++b) {
       ask_cancel();
@@ -178,7 +177,7 @@ class Pass {
       scatter_lumps(mesh_, first, n, parameters.hessians, *block, lumps->data());
       if (block->has_nodes_between) between.add(mesh_, first, n, *block);
       sample_half_edges(*block, n, part.half_edges);
-      if (part.sums.nodes != before || part.sums.max_edge2 > plan_.block.mean_reach2) {
+      if (part.sums.nodes != before || part.sums.max_edge2 > mean_reach2) {
         write_nodes(*block, first, n, writer, part);
       }
       if ((b - begin) % kBlocksPerStep == kBlocksPerStep - 1) {

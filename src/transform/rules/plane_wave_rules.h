@@ -16,6 +16,15 @@ struct FaceNode {
   std::array<double, 3> at;  // barycentric
   double weight;             // sum 1
 };
+// Of the rule of six nodes, exact to degree 4 (Strang and Fix 1973): two orbits of
+// (at, at, 1 - 2 at), and what the rule leaves of plane waves per z^5.
+struct SixNodes {
+  double weight, at;
+};
+inline constexpr std::array<SixNodes, 2> kSixNodes = {
+    {{0.223381589678011, 0.445948490915965}, {0.109951743655322, 0.091576213509771}}};
+inline constexpr double kSixNodesConstant = 7.4e-7;
+
 struct FaceRule {
   std::span<const FaceNode> nodes;
   double error = 0;

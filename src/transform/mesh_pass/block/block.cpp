@@ -33,10 +33,30 @@ struct Elements {
   M clear, lumped;
 };
 
+// 24 times the mean of 1/|x|^2 over the faces, by six nodes.
+HWY_INLINE V mean_by_nodes(D d, const V3& p0, const V3& p1, const V3& p2) {
+  const V one = hn::Set(d, 1.0);
+  V sum = hn::Zero(d);
+  for (const SixNodes& orbit : kSixNodes) {
+    const V near = hn::Set(d, orbit.at), far = hn::Set(d, 1 - 2 * orbit.at);
+    const auto add = [&](const V3& a, const V3& b, const V3& c) HWY_ATTR {
+      const auto between = [&](V x, V y, V z) HWY_ATTR {
+        return hn::MulAdd(hn::Add(x, y), near, hn::Mul(z, far));
+      };
+      const V3 x = {between(a.x, b.x, c.x), between(a.y, b.y, c.y), between(a.z, b.z, c.z)};
+      sum = hn::MulAdd(hn::Set(d, 24 * orbit.weight), hn::Div(one, Dot(x, x)), sum);
+    };
+    add(p0, p1, p2);
+    add(p1, p2, p0);
+    add(p2, p0, p1);
+  }
+  return sum;
+}
+
 // What is out of the ordinary: triangles that are not lumped, new extremes, lanes at and beyond n,
 // which repeat others. Leaves them out of the terms of the sums.
 template <typename T>
-HWY_INLINE void sort_out(D d, const Elements& e, size_t at, size_t n,
+HWY_INLINE void sort_out(D d, const V3 (&p)[3], const Elements& e, size_t at, size_t n,
                          const BlockParameters& parameters, TriangleBlock<T>& b, V& volume6,
                          V& mean, V& face_error2, LaneSums& sums, BlockSums& counts) {
   const V zero = hn::Zero(d), one = hn::Set(d, 1.0);
@@ -44,8 +64,14 @@ HWY_INLINE void sort_out(D d, const Elements& e, size_t at, size_t n,
   const M lumped = hn::And(inside, e.lumped), refused = hn::AndNot(e.lumped, inside);
   const V over_near = hn::Max(e.q0, hn::Max(e.q1, e.q2));
   const V edge2 = hn::Mul(e.longest, over_near);
-  const M coarse =
-      hn::AndNot(hn::And(e.clear, hn::Le(edge2, hn::Set(d, parameters.mean_reach2))), inside);
+  const auto beyond = [&](double reach2) HWY_ATTR {
+    return hn::AndNot(hn::And(e.clear, hn::Le(edge2, hn::Set(d, reach2))), inside);
+  };
+  const M beyond_lumps = beyond(parameters.mean_reach2);
+  const M coarse = hn::And(beyond_lumps, beyond(parameters.mean_nodes_reach2));
+  if (!hn::AllFalse(d, hn::AndNot(coarse, beyond_lumps))) {
+    mean = hn::IfThenElse(beyond_lumps, hn::Mul(e.d2, mean_by_nodes(d, p[0], p[1], p[2])), mean);
+  }
   volume6 = hn::IfThenElseZero(seen, volume6);
   mean = hn::IfThenElseZero(hn::AndNot(coarse, inside), mean);
   face_error2 = hn::IfThenElseZero(lumped, face_error2);
@@ -165,7 +191,8 @@ HWY_INLINE void work_vector(D d, size_t at, size_t n, const BlockParameters& par
       hn::Le(hn::Mul(e.longest, more),
              hn::Mul(e.nearest, hn::Min(sums.max_edge2, hn::Set(d, parameters.mean_reach2)))));
   if (HWY_UNLIKELY(n < hn::MaxLanes(D()) || !hn::AllTrue(d, usual))) {
-    sort_out(d, e, at, n, parameters, b, volume6, mean, face_error2, sums, counts);
+    const V3 p[3] = {p0, p1, p2};
+    sort_out(d, p, e, at, n, parameters, b, volume6, mean, face_error2, sums, counts);
   }
   sums.volume6 = hn::Add(sums.volume6, volume6);
   sums.mean = hn::Add(sums.mean, mean);

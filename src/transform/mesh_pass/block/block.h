@@ -16,6 +16,7 @@
 
 #include "rholm/mesh_view.h"
 #include "transform/rules/hermite_rules.h"
+#include "transform/rules/plane_wave_rules.h"
 
 namespace rholm {
 
@@ -31,17 +32,18 @@ struct alignas(4 * sizeof(T)) VertexLump {
 constexpr std::size_t lumps_per_vertex(bool hessians) { return hessians ? 3 : 1; }
 
 struct BlockParameters {
-  Vec3 center;              // in the mesh's coordinates
-  double scale = 1;         // a power of two that brings lengths to about 1
-  double degree = 0;        // L
-  double grazing2 = 0;      // square of the slope d_T / r below which a triangle is grazing
-  double tolerance2 = 0;    // the largest square of a triangle's error (in weight) that is lumped
-  double mean_reach2 = 0;   // the largest (edge / radius)^2 for which lumps serve for c_00
-  double per_weight = 0;    // quanta per unit of weight,
-  double per_gradient = 0;  // and of gradient
-  double largest = 0;       // of a weight, in quanta
-  bool hessians = false;    // VGH, else VG; if so:
-  double per_hessian = 0;   // quanta per unit,
+  Vec3 center;             // in the mesh's coordinates
+  double scale = 1;        // a power of two that brings lengths to about 1
+  double degree = 0;       // L
+  double grazing2 = 0;     // square of the slope d_T / r below which a triangle is grazing
+  double tolerance2 = 0;   // the largest square of a triangle's error (in weight) that is lumped
+  double mean_reach2 = 0;  // the largest (edge / radius)^2 for which lumps serve for c_00,
+  double mean_nodes_reach2 = 0;                     // and six nodes
+  double per_weight = 0;                            // quanta per unit of weight,
+  double per_gradient = 0;                          // and of gradient
+  double largest = 0;                               // of a weight, in quanta
+  bool hessians = false;                            // VGH, else VG; if so:
+  double per_hessian = 0;                           // quanta per unit,
   HermiteReach edge_reach2 = {}, face_reach2 = {};  // and how far the rules reach
   // Half-edges with a name below this are kept: one in 2^32 / sampled_names of all edges, both
   // sides.

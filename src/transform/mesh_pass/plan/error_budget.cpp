@@ -46,7 +46,8 @@ PassError error_of_pass(const MeshPlan& plan, PassFacts& facts, const Coefficien
   const auto generic = [](double square) { return std::sqrt(square / (4 * std::numbers::pi)); };
   const double amplified =
       std::pow(hessian_factor(sigma, degree, facts.vertices), 2) * facts.hessian2;
-  const double window = relative_window * generic(facts.source2 + amplified) +
+  const double counted = std::pow(counted_gradient_factor(sigma), 2) * facts.source2;
+  const double window = relative_window * generic(counted + amplified) +
                         rounding * generic(facts.source2 + facts.hessian2);
   const double scale = plan.block.scale;
   // Vertices in step with the grid leave the window's error of the whole, see

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "harmonic/nonuniform/cost_model.h"
+#include "transform/rules/plane_wave_rules.h"
 
 namespace rholm {
 namespace {
@@ -222,6 +223,35 @@ double noded_share(const MeshSample& sample, double tolerance2) {
   double noded = 0;
   for (const MeshSample::Entry& entry : sample.entries) noded += entry.error2 > tolerance2;
   return noded / static_cast<double>(std::max<std::size_t>(sample.entries.size(), 1));
+}
+
+double own_nodes_of(const MeshSample& sample, const NodeAllowance& element) {
+  // Every so many edges and faces are enough (chosen): rules take as long to look up as nodes.
+  constexpr std::size_t kEvery = 4;
+  // An element that is better halved counts for two of the largest rules (chosen).
+  constexpr double kHalvedEdge = 16, kHalvedFace = 60;
+  double edges = 0, faces = 0, n_edges = 0, n_faces = 0;
+  const auto add_edge = [&](double weight, double z2) {
+    if (!std::isfinite(weight + z2) || weight == 0) return;
+    const EdgeRule rule = edge_rule(element, {.wave2 = z2}, weight);
+    edges += rule.nodes.empty() ? kHalvedEdge : static_cast<double>(rule.nodes.size());
+    ++n_edges;
+  };
+  for (std::size_t n = 0; n < sample.twins.size(); n += kEvery) {
+    const auto [a, b] = sample.twins[n];
+    add_edge(sample.triangles[a / 3].weight[a % 3] + sample.triangles[b / 3].weight[b % 3],
+             sample.triangles[a / 3].z2[a % 3]);
+  }
+  for (std::size_t t = 0; t < sample.triangles.size(); t += kEvery) {
+    const MeshSample::Triangle& triangle = sample.triangles[t];
+    const double z2 = *std::max_element(triangle.z2.begin(), triangle.z2.end());
+    if (sample.twins.empty()) add_edge(triangle.weight[t % 3], triangle.z2[t % 3]);
+    if (!std::isfinite(triangle.face + z2) || triangle.face == 0) continue;
+    const FaceRule rule = face_rule(element, {.wave2 = z2}, triangle.face);
+    faces += rule.nodes.empty() ? kHalvedFace : static_cast<double>(rule.nodes.size());
+    ++n_faces;
+  }
+  return 1.5 * edges / std::max(n_edges, 1.0) + faces / std::max(n_faces, 1.0);
 }
 
 std::optional<HermiteLumps> hermite_lumps(const MeshSample& sample, double allowed2) {

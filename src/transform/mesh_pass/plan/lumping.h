@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "transform/mesh_pass/plan/sample.h"
+#include "transform/rules/error_model.h"
 #include "transform/rules/hermite_rules.h"
 
 namespace rholm {
@@ -18,6 +19,9 @@ double tolerance_of(const MeshSample& sample, double allowed2);
 
 // The part of the triangles that is beyond it.
 double noded_share(const MeshSample& sample, double tolerance2);
+
+// How many nodes of its own a triangle gets in the mean, if edges and faces may leave this.
+double own_nodes_of(const MeshSample& sample, const NodeAllowance& element);
 
 // Rules with Hessians.
 struct HermiteLumps {

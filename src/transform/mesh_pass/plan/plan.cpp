@@ -60,6 +60,14 @@ double allowed_of_element(const MeshPlan& plan, const MeshSample& sample, std::s
          kTypicalShare;
 }
 
+// Derivative p of 1/|x|^2 along a line is below p! / |x|^(p + 2): what plane waves leave times p!.
+// They are means over directions, 3 times more are at most, and the face comes nearer to the centre
+// than its corners, by a seventh where edges are a quarter: again 3 times.
+double mean_nodes_reach2(double allowed) {
+  constexpr double kLeft = 9 * 120 * kSixNodesConstant;
+  return std::min(1.0 / 16, std::pow(allowed / kLeft, 2.0 / 5));
+}
+
 BlockParameters block_parameters(const MeshView& mesh, const MeshSample& sample, const Vec3& center,
                                  int degree, const MeshPlan& plan, const Quantum& quantum) {
   return {.center = center,
@@ -68,6 +76,7 @@ BlockParameters block_parameters(const MeshView& mesh, const MeshSample& sample,
           .grazing2 = std::pow(grazing_slope(degree), 2),
           // 1/|x|^2 by the rule of lumping leaves 5!/720 z^4 and less.
           .mean_reach2 = std::sqrt(6 * plan.allowed.mean),
+          .mean_nodes_reach2 = mean_nodes_reach2(plan.allowed.mean),
           .per_weight = 1 / quantum.size,
           .per_gradient = std::max(degree, 1) / quantum.size,
           // Sums wrap around: only those of whole vertices must fit into 31 bits, where the
@@ -162,6 +171,8 @@ MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& c
   const double element = allowed_of_element(plan, sample, mesh.n_triangles);
   plan.divided = {.degree = degree, .allowed = element, .divided = true};
   plan.undivided = {.degree = degree, .allowed = element, .divided = false};
+  plan.nodes = plan.between;
+  if (plan.node_share > 0) plan.nodes += plan.node_share * own_nodes_of(sample, plan.divided);
   return plan;
 }
 

@@ -77,6 +77,7 @@ struct MeshPlan {
   double quanta_error = 0;  // what rounding of lumps to quanta leaves
   double node_share = 0;    // part of the triangles that get nodes, as the sample has it
   double between = 0;   // nodes between the vertices of lumped triangles, per triangle, likewise
+  double nodes = 0;     // these and those of the others' own, per triangle, likewise
   double source2 = 0;   // sum of squares of the nodes' weights, as the sample has it
   double hessian2 = 0;  // and of L^2 times Hessians
   double node_modulus = 0;  // sum of the moduli of the nodes' weights

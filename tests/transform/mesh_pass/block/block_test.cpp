@@ -416,6 +416,29 @@ TEST(block, lumps_integrate_the_radius_to_a_sixth_of_the_fourth_power_of_the_edg
   }
 }
 
+// And by six nodes where edges are longer, with the bound of plan.cpp, on every target.
+TEST(block, six_nodes_integrate_the_radius_to_the_fifth_power_of_the_edge) {
+  test::for_each_target([&](const char* target) {
+    for (const int subdivisions : {2, 3, 4}) {
+      const Mesh mesh = test::rotated(bumpy_sphere(subdivisions));
+      const Vec3 center = {0.1, -0.2, 0.1};
+      BlockParameters parameters = parameters_about(center);
+      parameters.mean_reach2 = 1e-6;
+      parameters.mean_nodes_reach2 = kInfinity;
+      const BlockSums sums = work<double>(view_of(mesh), parameters).sums;
+      double expected = 0;
+      for (const Triangle& t : mesh.triangles) {
+        const std::array<Vec3, 3> p = {mesh.vertices[t[0]] - center, mesh.vertices[t[1]] - center,
+                                       mesh.vertices[t[2]] - center};
+        expected += radius_integral(p, 1e-14);
+      }
+      const double bound = 9 * 120 * kSixNodesConstant * std::pow(sums.max_edge2, 2.5);
+      EXPECT_NEAR(sums.mean / expected, 1, bound + 1e-13) << target;
+      EXPECT_GT(std::abs(sums.mean / expected - 1), 1e-6 * bound) << target;
+    }
+  });
+}
+
 // Blocks that are not full, down to one triangle: lanes without a triangle do not count.
 TEST(block, sums_do_not_depend_on_how_triangles_are_dealt_out) {
   const Mesh mesh = test::rotated(bumpy_sphere(2, 0.4));

@@ -6,6 +6,9 @@
 #include <vector>
 
 #include "rholm/primitives.h"
+#include "support/test_shapes.h"
+#include "transform/mesh_pass/pass.h"
+#include "transform/mesh_pass/plan/plan.h"
 
 namespace rholm {
 namespace {
@@ -94,6 +97,27 @@ TEST(hermite_lumps, cost_more_the_less_they_may_leave) {
     EXPECT_LE(lumps->face_reach2[0], lumps->face_reach2[1]);
     cost = lumps->cost;
   }
+}
+
+// Against the nodes of a pass in which every triangle has nodes of its own.
+TEST(own_nodes_of, are_those_that_a_pass_writes) {
+  const Mesh mesh = test::rotated(bumpy_sphere(4));
+  int compared = 0;
+  for (const int degree : {40, 90}) {
+    for (const double precision : {1e-8, 1e-11}) {
+      const MeshPassResult pass =
+          mesh_pass(view_of(mesh), {.degree = degree, .precision = precision}, {});
+      if (pass.report.lumped_triangles > 0) continue;
+      ++compared;
+      const MeshSample sample = sample_mesh(view_of(mesh), {}, degree);
+      const MeshPlan plan = plan_mesh(view_of(mesh), sample, {}, degree, precision, {});
+      const double each =
+          static_cast<double>(pass.report.nodes) / static_cast<double>(mesh.triangles.size());
+      EXPECT_NEAR(own_nodes_of(sample, plan.divided), each, 0.3 * each) << degree << precision;
+      EXPECT_GT(own_nodes_of(sample, plan.divided), 5);
+    }
+  }
+  EXPECT_GT(compared, 1);
 }
 
 }  // namespace
