@@ -21,18 +21,12 @@ namespace rholm {
 template <typename T>
 using LumpOf = std::conditional_t<sizeof(T) == 4, std::int32_t, double>;
 
-// Nodes with gradients stand in rows on the few edges of faces that are seen edge on, where windows
-// err up to three times as much as on even directions (pass_test judges).
-inline double gradient_node_as_weight(int degree) { return 3 * gradient_as_weight(degree); }
-
 // One grid and the sources that wait for it; windows in T.
 template <typename T>
 class GridSources {
  public:
   GridSources(const NonuniformPlan& plan, const GridKernel<T>& kernel)
-      : spreader_(plan, kernel),
-        vertex_gradient2_(std::pow(gradient_as_weight(plan.fourier.degree), 2)),
-        node_gradient2_(std::pow(gradient_node_as_weight(plan.fourier.degree), 2)) {}
+      : spreader_(plan, kernel), degree_(plan.fourier.degree) {}
 
   void add(std::span<const Node> nodes);
   void add(const GradientNode& node);
@@ -41,7 +35,8 @@ class GridSources {
                     const BlockParameters& parameters, const VertexLump<LumpOf<T>>* lumps);
   void flush();
 
-  // Sum of squares of all weights that were counted, gradients by gradient_as_weight().
+  // Sum of squares of all weights that were counted, gradients by gradient_as_weight(), nodes on a
+  // meridian three times.
   double source2() const { return source2_; }
   // And of L^2 times Hessians.
   double hessian2() const { return hessian2_; }
@@ -54,7 +49,7 @@ class GridSources {
 
   GridSpreader<T> spreader_;
   double source2_ = 0, hessian2_ = 0;
-  double vertex_gradient2_, node_gradient2_;  // squares of gradient_as_weight(), ..._node_...
+  int degree_;
   SourceBatch<T> values_, gradients_;
   std::size_t n_values_ = 0, n_gradients_ = 0;
 };
