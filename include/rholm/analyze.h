@@ -91,9 +91,9 @@ double radius_norm_squared(const MeshView& mesh, const Vec3& center, const Conte
 // S = sum_e int_e (r^2 s_e)^2 ds for the radius, sum_e int_e s_e^2 ds for the gauge: the energy
 // per degree is about S / (pi l^4) beyond the mesh's own resolution, method 5.
 double tail_strength(const StarChart& chart, RadialFunction function);
-// Of the radius, for a closed mesh where it lies: identical vertices count as one. 40 bytes of
-// memory per triangle.
-double tail_strength(const MeshView& mesh, const Vec3& center);
+// Of the radius, for a closed mesh where it lies: identical vertices count as one. 16 bytes of
+// memory for each side of an edge whose other side is far away in the order of the triangles.
+double tail_strength(const MeshView& mesh, const Vec3& center, const Context& context = {});
 
 // The largest truncation errors at vertices, times 2 pi (L + 1): max over vertices of |sum of s_e
 // over the edges that meet there|, times r^2 for the radius. Within 10 % of the largest error where

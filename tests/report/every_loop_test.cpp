@@ -96,11 +96,18 @@ TEST(every_loop, gives_the_same_bits_for_a_large_mesh_in_random_order) {
   });
 }
 
+TEST(every_loop, gives_the_same_bits_for_the_strength_of_the_tail) {
+  const Mesh mesh = bumpy_sphere(6, 0.3);  // three chunks
+  expect_same_bits([&](const Context& context) {
+    return Bits().add(tail_strength(view_of(mesh), {0.1, 0, 0}, context));
+  });
+}
+
 TEST(every_loop, gives_the_same_bits_for_centres_and_star_checks) {
   const Mesh mesh = bumpy_sphere(5, 0.3);
   expect_same_bits([&](const Context& context) {
     Bits bits;
-    for (const CenterKind kind : {CenterKind::kAuto, CenterKind::kCosine}) {
+    for (const CenterKind kind : {CenterKind::kAuto, CenterKind::kCosine, CenterKind::kVolume}) {
       const StarReport found = find_center(mesh, {.kind = kind, .rays = 3000}, context);
       bits.add(found.min_d).add(found.min_cos_gamma).add(found.once_share);
     }

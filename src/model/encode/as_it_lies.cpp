@@ -141,8 +141,8 @@ class AsItLies {
     expansion.norm_squared = norms().radius_squared;
     const bool paired = mesh_.n_triangles <= kMostPredicted;
     if (paired) {
-      expansion.tail_strength =
-          timed(analysis().times, "norms", [&] { return tail_strength(mesh_, center()); });
+      expansion.tail_strength = timed(analysis().times, "norms",
+                                      [&] { return tail_strength(mesh_, center(), context_); });
     }
     finish_analysis(options_.analyze, center(), analysis());
     ErrorSites sites(mesh_, center(), std::move(sizes_));

@@ -47,7 +47,7 @@ ErrorPoints extreme_points(const MeshView& mesh, const Vec3& center, const FaceS
 // About n points, evenly over the area: one in each of n equal parts of it, in the order of the
 // faces.
 ErrorPoints area_points(const MeshView& mesh, const Vec3& center, const FaceScan& scan,
-                        std::size_t n);
+                        std::size_t n, const Context& context = {});
 
 struct PointErrors {
   std::vector<double> radial;  // |r - r_L|

@@ -46,7 +46,7 @@ const ErrorPoints& ErrorSites::all(int degree) {
 const ErrorPoints& ErrorSites::over_area() {
   if (!over_area_) {
     const std::size_t n = std::clamp(kOnFace * mesh_.n_triangles, kFewAreaPoints, kAreaPoints);
-    over_area_ = area_points(mesh_, center_, scan(), n);
+    over_area_ = area_points(mesh_, center_, scan(), n, {.threads = threads_});
   }
   return *over_area_;
 }

@@ -3,10 +3,12 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "base/cancel.h"
 #include "base/compensated_sum.h"
+#include "base/parallel.h"
 #include "rholm/analyze.h"
 #include "shape/face.h"
 #include "shape/topology/vertex_place.h"
@@ -34,15 +36,20 @@ double tail_strength(const StarChart& chart, RadialFunction function) {
 
 namespace {
 
-// Half-edges that wait for their twins, by the coordinates of their ends. The last few thousand
-// are at hand; those that are pushed out wait apart, to be sorted in the end.
+struct HalfEdge {
+  std::uint64_t name = 0;  // by the coordinates of its ends
+  double value = 0;
+};
+
+// Half-edges that wait for their twins. The last few thousand are at hand; those that are pushed
+// out wait apart.
 class WaitingEdges {
  public:
   // Calls join(value, value) for two of a name.
   template <typename Join>
   void add(std::uint64_t name, double value, const Join& join) {
     name |= 1;  // 0 is an empty place
-    Half& half = at_hand_[name >> (64 - kBits)];
+    HalfEdge& half = at_hand_[name >> (64 - kBits)];
     if (half.name == name) {
       join(half.value, value);
       half.name = 0;
@@ -51,63 +58,83 @@ class WaitingEdges {
     if (half.name != 0) pushed_out_.push_back(half);
     half = {name, value};
   }
-  template <typename Join>
-  void finish(const Join& join) {
-    for (const Half& half : at_hand_) {
+  // Those that have met none.
+  std::vector<HalfEdge> take_rest() {
+    for (const HalfEdge& half : at_hand_) {
       if (half.name != 0) pushed_out_.push_back(half);
     }
-    std::ranges::stable_sort(pushed_out_, {}, &Half::name);
-    for (std::size_t i = 1; i < pushed_out_.size(); ++i) {
-      if (pushed_out_[i - 1].name != pushed_out_[i].name) continue;
-      join(pushed_out_[i - 1].value, pushed_out_[i].value);
-      ++i;
-    }
+    return std::move(pushed_out_);
   }
 
  private:
   static constexpr int kBits = 12;  // chosen: 64 kB
-  struct Half {
-    std::uint64_t name = 0;
-    double value = 0;
-  };
-  std::vector<Half> at_hand_ = std::vector<Half>(std::size_t{1} << kBits);
-  std::vector<Half> pushed_out_;
+  std::vector<HalfEdge> at_hand_ = std::vector<HalfEdge>(std::size_t{1} << kBits);
+  std::vector<HalfEdge> pushed_out_;
 };
+
+// Calls join(value, value) for two of a name.
+template <typename Join>
+void join_twins(std::vector<HalfEdge>& edges, const Join& join) {
+  std::ranges::stable_sort(edges, {}, &HalfEdge::name);
+  for (std::size_t i = 1; i < edges.size(); ++i) {
+    if (edges[i - 1].name != edges[i].name) continue;
+    join(edges[i - 1].value, edges[i].value);
+    ++i;
+  }
+}
+
+// One of the sides of each edge: the jump of the slope there, times the root of what the edge
+// counts.
+template <typename Visit>
+void visit_sides(const std::array<Vec3, 3>& p, const Visit& visit) {
+  std::array<std::uint64_t, 3> place;
+  for (std::size_t i = 0; i < 3; ++i) place[i] = place_hash(p[i]);
+  const FaceNormal normal = face_normal(p);
+  const double d2 = dot(normal.twice_area, p[0]);
+  const Vec3 slope = normal.degenerate || d2 == 0 ? Vec3{} : normal.twice_area / d2;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = i == 2 ? 0 : i + 1;
+    const Vec3 &a = p[i], &b = p[j];
+    const Vec3 across = cross(a, b);
+    const double size = norm(across);
+    // On both sides of an edge the same N up to its sign, which the product with the slope keeps.
+    const double side = size > 0 ? dot(slope, across) / size : 0.0;
+    const double weight = size * (dot(a, a) + dot(a, b) + dot(b, b)) / 3;
+    visit(mix_bits(place[i] ^ place[j]) + place[i] + place[j], side * std::sqrt(weight));
+  }
+}
 
 }  // namespace
 
-double tail_strength(const MeshView& mesh, const Vec3& center) {
+double tail_strength(const MeshView& mesh, const Vec3& center, const Context& context) {
   const double scale = unit_scale(mesh, center);
-  WaitingEdges waiting;
+  constexpr std::size_t kGrain = 1 << 15;  // chosen: some 2 ms, and few edges between two of them
+  struct Part {
+    CompensatedSum sum;
+    std::vector<HalfEdge> rest;
+  };
+  std::vector<Part> parts((mesh.n_triangles + kGrain - 1) / kGrain);
+  parallel_for(mesh.n_triangles, kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
+    Part& part = parts[begin / kGrain];
+    WaitingEdges waiting;
+    const auto join = [&](double one, double other) {
+      part.sum.add((one + other) * (one + other));
+    };
+    for (std::size_t t = begin; t < end; ++t) {
+      const Triangle triangle = mesh.triangle(t);
+      std::array<Vec3, 3> p;
+      for (std::size_t i = 0; i < 3; ++i) p[i] = scale * (mesh.vertex(triangle[i]) - center);
+      visit_sides(p, [&](std::uint64_t name, double value) { waiting.add(name, value, join); });
+    }
+    part.rest = waiting.take_rest();
+  });
   CompensatedSum sum;
-  // Of both sides of an edge, each times the root of what it counts.
-  const auto join = [&](double one, double other) { sum.add((one + other) * (one + other)); };
-  CancelPoll poll;
-  for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
-    poll();
-    const Triangle triangle = mesh.triangle(t);
-    std::array<Vec3, 3> p;
-    std::array<std::uint64_t, 3> place;
-    for (std::size_t i = 0; i < 3; ++i) {
-      p[i] = scale * (mesh.vertex(triangle[i]) - center);
-      place[i] = place_hash(p[i]);
-    }
-    const FaceNormal normal = face_normal(p);
-    const double d2 = dot(normal.twice_area, p[0]);
-    const Vec3 slope = normal.degenerate || d2 == 0 ? Vec3{} : normal.twice_area / d2;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t j = i == 2 ? 0 : i + 1;
-      const Vec3 &a = p[i], &b = p[j];
-      const Vec3 across = cross(a, b);
-      const double size = norm(across);
-      // On both sides of an edge the same N up to its sign, which the product with the slope keeps.
-      const double side = size > 0 ? dot(slope, across) / size : 0.0;
-      const double weight = size * (dot(a, a) + dot(a, b) + dot(b, b)) / 3;
-      waiting.add(mix_bits(place[i] ^ place[j]) + place[i] + place[j], side * std::sqrt(weight),
-                  join);
-    }
+  std::vector<HalfEdge> rest;
+  for (const Part& part : parts) {
+    sum.add(part.sum.value());
+    rest.insert(rest.end(), part.rest.begin(), part.rest.end());
   }
-  waiting.finish(join);
+  join_twins(rest, [&](double one, double other) { sum.add((one + other) * (one + other)); });
   return sum.value() / (scale * scale);
 }
 
