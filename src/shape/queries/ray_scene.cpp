@@ -15,23 +15,11 @@
 #include "rholm/error.h"
 #include "rholm/topology.h"
 #include "shape/face.h"
-#include "shape/queries/closest_point.h"
 
 namespace rholm {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kFloatRounding = 0x1p-24;  // relative error of a conversion to float
-
-// Beyond this (in units of the mesh) squares of float coordinates come near overflow at 2^128, and
-// the float boxes cannot tell the triangles apart anyway: every triangle is visited.
-constexpr double kFarthest = 0x1p50;
-
-// And queries are drawn in to here, so that their squares are finite in double.
-constexpr double kDrawnIn = 0x1p400;
-
-constexpr std::uint32_t kNoTriangle = std::numeric_limits<std::uint32_t>::max();
-
 [[noreturn]] void throw_embree_error(RTCError code, const std::string& what) {
   if (code == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
   if (code == RTC_ERROR_CANCELLED) throw Error(ErrorCode::kCancelled, what + " was cancelled");
@@ -58,10 +46,6 @@ using Geometry = std::unique_ptr<RTCGeometryTy, GeometryDeleter>;
 // scope, or another caller's.
 bool keep_building(void* scope, double) {
   return scope != cancel_scope() || static_cast<const CancelScope*>(scope)->keep_going();
-}
-
-double largest_component(const Vec3& a) {
-  return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
 }
 
 float clamped_to_float(double x) {
@@ -187,109 +171,6 @@ RTCRay RayScene::Impl::ray(const Vec3& origin, const Vec3& direction, double nea
 RayScene::RayScene(const Mesh& mesh, double ball_radius, RayTree tree)
     : impl_(std::make_unique<Impl>(mesh, ball_radius, tree)) {}
 RayScene::~RayScene() = default;
-
-// --- Closest point -------------------------------------------------------------------------
-
-namespace {
-
-struct ClosestSearch {
-  const Mesh* mesh = nullptr;
-  const UnitFrame* frame = nullptr;
-  Vec3 query;  // in that frame
-  bool far = false;
-  double best2 = kInfinity;
-  Vec3 best;
-  std::uint32_t triangle = kNoTriangle;
-};
-
-// Squared distance of a point to the corners' bounding box: cheap, and never above that to the
-// triangle.
-double box_distance2(const Vec3& p, const std::array<Vec3, 3>& c) {
-  const auto outside = [](double x, double a, double b, double d) {
-    return std::max({std::min({a, b, d}) - x, x - std::max({a, b, d}), 0.0});
-  };
-  const Vec3 gap = {outside(p.x, c[0].x, c[1].x, c[2].x), outside(p.y, c[0].y, c[1].y, c[2].y),
-                    outside(p.z, c[0].z, c[1].z, c[2].z)};
-  return dot(gap, gap);
-}
-
-// The radius, in float, within which Embree must look so that no triangle at distance d or less is
-// lost. Box corners are off by at most kFloatRounding per coordinate (they are at most 1), the
-// query by kFloatRounding |query|; sqrt(3) per vector, and 2 is more. The float arithmetic of the
-// squared distance has fewer than 16 roundings, as has this function.
-float search_radius(double d, double query_size) {
-  const double shifted = d + 2 * kFloatRounding * (1 + query_size);
-  return clamped_to_float(shifted * (1 + 32 * kFloatRounding));
-}
-
-// Whether the triangle is nearer than what has been found: then it is what has been.
-bool take_if_nearer(std::uint32_t triangle, ClosestSearch& search) {
-  Triangle t = search.mesh->triangles[triangle];
-  // In the order of the indices, an edge gives the same bits to both of its triangles: ties are
-  // ties.
-  std::sort(t.begin(), t.end());
-  std::array<Vec3, 3> corners;
-  for (int k = 0; k < 3; ++k) {
-    corners[k] = search.frame->to_local(search.mesh->vertices[t[k]]);
-  }
-  if (box_distance2(search.query, corners) > search.best2) return false;
-  const Vec3 candidate = closest_point_of_triangle(search.query, corners);
-  const Vec3 offset = search.query - candidate;
-  const double d2 = dot(offset, offset);
-  const bool tie = d2 == search.best2 && triangle < search.triangle;
-  if (!(d2 < search.best2) && !tie) return false;
-  search.best2 = d2;
-  search.best = candidate;
-  search.triangle = triangle;
-  return true;
-}
-
-// How far is to be looked now.
-float radius_of(const ClosestSearch& search) {
-  return search_radius(std::sqrt(search.best2), largest_component(search.query));
-}
-
-bool visit_triangle(RTCPointQueryFunctionArguments* args) {
-  auto& search = *static_cast<ClosestSearch*>(args->userPtr);
-  if (!take_if_nearer(args->primID, search) || search.far) return false;
-  const float radius = radius_of(search);
-  if (!(radius < args->query->radius)) return false;
-  args->query->radius = radius;
-  return true;
-}
-
-}  // namespace
-
-ClosestPoint RayScene::closest(const Vec3& point, std::uint32_t likely) const {
-  if (impl_->mesh.triangles.empty() || !is_finite(point)) {
-    throw Error(ErrorCode::kInvalidInput,
-                "a closest point needs a mesh with at least 1 triangle and finite coordinates; "
-                "this mesh has " +
-                    std::to_string(impl_->mesh.triangles.size()) + " triangles");
-  }
-  const Vec3 q = impl_->frame.to_local(point);
-  const auto drawn_in = [](double x) { return std::clamp(x, -kDrawnIn, kDrawnIn); };
-  ClosestSearch search;
-  search.mesh = &impl_->mesh;
-  search.frame = &impl_->frame;
-  search.query = {drawn_in(q.x), drawn_in(q.y), drawn_in(q.z)};
-  search.far = !(largest_component(q) < kFarthest);
-  const auto coordinate = [&](double x) { return search.far ? 0.0f : static_cast<float>(x); };
-  RTCPointQuery query = {coordinate(q.x), coordinate(q.y), coordinate(q.z), 0,
-                         std::numeric_limits<float>::infinity()};
-  if (likely < impl_->mesh.triangles.size() && take_if_nearer(likely, search) && !search.far) {
-    query.radius = radius_of(search);
-  }
-  RTCPointQueryContext context;
-  rtcInitPointQueryContext(&context);
-  rtcPointQuery(impl_->scene.get(), &query, &context, visit_triangle, &search);
-  const Vec3 result = impl_->frame.to_shape(search.best);
-  if (search.far) {
-    const Vec3 offset = point - result;
-    return {result, search.triangle, std::hypot(offset.x, offset.y, offset.z)};
-  }
-  return {result, search.triangle, norm(search.query - search.best) / impl_->frame.scale};
-}
 
 // --- Rays ----------------------------------------------------------------------------------
 

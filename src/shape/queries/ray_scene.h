@@ -1,7 +1,6 @@
-// Rays and closest points on a triangle mesh, or rays on balls: the one user of Embree.
+// Rays on a triangle mesh, or on balls: the one user of Embree.
 //
-// The tree is built on float boxes around coordinates shifted to the mesh's centre; closest
-// points are then found exactly, in double, on the mesh's own vertices. Rays are float.
+// All in float, in coordinates shifted to the mesh's centre.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +11,6 @@
 #include "rholm/mesh.h"
 
 namespace rholm {
-
-struct ClosestPoint {
-  Vec3 point;
-  std::uint32_t triangle = 0;
-  double distance = 0;
-};
 
 struct RayHit {
   bool hit = false;
@@ -51,11 +44,6 @@ class RayScene {
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;
 
-  // Exact closest point of the surface; the mesh must have a triangle. Ties go to the triangle
-  // with the smaller index. `likely`: a triangle near it, such as that of a neighbour, from which
-  // the search begins; the result is the same for any.
-  ClosestPoint closest(const Vec3& point, std::uint32_t likely = kAny) const;
-  static constexpr std::uint32_t kAny = 0xFFFFFFFFU;
   // First hit along origin + t direction, near < t < far; direction of unit length.
   RayHit first_hit(const Vec3& origin, const Vec3& direction, double near, double far) const;
   bool occluded(const Vec3& origin, const Vec3& direction, double near, double far) const;

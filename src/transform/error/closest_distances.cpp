@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 
 #include "base/cancel.h"
 #include "base/parallel.h"
@@ -27,13 +28,15 @@ constexpr std::size_t kPeaks = 16;
 // Extreme points are taken so many at a time.
 constexpr std::size_t kBatch = 500, kMostExtreme = 10'000;
 
-std::vector<double> closest(const RayScene& scene, const std::vector<Vec3>& points,
+std::vector<double> closest(const TriangleTree& tree, const std::vector<Vec3>& points,
                             const Context& context) {
   std::vector<double> distances(points.size());
   parallel_for(points.size(), kQueriesPerTask, context, {},
                [&](std::size_t begin, std::size_t end) {
-                 for (std::size_t i = begin; i < end; ++i) {
-                   distances[i] = scene.closest(points[i]).distance;
+                 std::size_t i = begin;
+                 for (const ClosestPoint& found :
+                      tree.closest(std::span(points).subspan(begin, end - begin))) {
+                   distances[i++] = found.distance;
                  }
                });
   return distances;
@@ -139,12 +142,12 @@ struct ClosestDistances::Model {
   const RadialSurface& surface;
   const Context& context;
   Mesh mesh;
-  std::unique_ptr<RayScene> scene;
+  std::unique_ptr<TriangleTree> tree;
 
   Model(const RadialSurface& s, const Mesh& sphere, const Context& c) : surface(s), context(c) {
     mesh.vertices = surface.points(sphere.vertices);
     mesh.triangles = sphere.triangles;
-    scene = std::make_unique<RayScene>(mesh);
+    tree = std::make_unique<TriangleTree>(mesh);
   }
 
   // Of points on rays, the model's point on the same ray being `opposite`.
@@ -152,9 +155,10 @@ struct ClosestDistances::Model {
                                 const std::vector<Vec3>& opposite) const {
     std::vector<Vec3> from(x.size());
     parallel_for(x.size(), kQueriesPerTask, context, {}, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        const Vec3 point = scene->closest(x[i]).point;
-        from[i] = normalized(squared_norm(point) > 0 ? point : x[i]);
+      std::size_t i = begin;
+      for (const ClosestPoint& found : tree->closest(std::span(x).subspan(begin, end - begin))) {
+        from[i] = normalized(squared_norm(found.point) > 0 ? found.point : x[i]);
+        ++i;
       }
     });
     std::vector<double> found = surface.distances(x, std::move(from), kSteps);
@@ -179,7 +183,7 @@ ClosestDistances::ClosestDistances(const MeshView& mesh, const Vec3& center, std
     poll();
     shape_.triangles[t] = mesh.triangle(t);
   }
-  scene_ = std::make_unique<RayScene>(shape_);
+  tree_ = std::make_unique<TriangleTree>(shape_);
 }
 
 const Mesh& ClosestDistances::sphere(int degree) {
@@ -238,7 +242,7 @@ ClosestDistances::Seen ClosestDistances::see_pieces(const Model& model,
   seen.points.radii = pieces_.radii;
   seen.points.owners = pieces_.faces;
   seen.to_model = model.distances(x, opposite.points);
-  seen.to_shape = closest(*scene_, opposite.points, context);
+  seen.to_shape = closest(*tree_, opposite.points, context);
   return seen;
 }
 
@@ -264,7 +268,7 @@ void ClosestDistances::see_extreme(const Model& model, const ErrorPoints& extrem
       seen.points.owners.push_back(extreme.owners[i]);
     }
     const std::vector<double> there = model.distances(points, across);
-    const std::vector<double> back = closest(*scene_, across, context);
+    const std::vector<double> back = closest(*tree_, across, context);
     seen.to_model.insert(seen.to_model.end(), there.begin(), there.end());
     seen.to_shape.insert(seen.to_shape.end(), back.begin(), back.end());
     most = std::max({most, largest(there), largest(back)});
@@ -280,7 +284,7 @@ double ClosestDistances::highest(const Model& model, const RadialSurface& surfac
     return model.distances(points, surface.points(at.directions));
   };
   const auto back_at = [&](const ErrorPoints& at) {
-    return closest(*scene_, surface.points(at.directions), alone);
+    return closest(*tree_, surface.points(at.directions), alone);
   };
   const MeshView view = view_of(shape_);
   return std::max(seen.most(),

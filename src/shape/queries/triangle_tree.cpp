@@ -1,0 +1,290 @@
+#include "shape/queries/triangle_tree.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <string>
+
+#include "base/cancel.h"
+#include "rholm/error.h"
+#include "rholm/topology.h"
+#include "shape/queries/closest_point.h"
+
+namespace rholm {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kFloatRounding = 0x1p-24;  // relative error of a conversion to float
+
+// Beyond this (in units of the mesh) squares of float coordinates come near overflow at 2^128, and
+// the float boxes cannot tell the triangles apart anyway: every triangle is tried.
+constexpr double kFarthest = 0x1p50;
+
+// And queries are drawn in to here, so that their squares are finite in double.
+constexpr double kDrawnIn = 0x1p400;
+
+constexpr double kLargestRadius = 0x1p60;
+
+constexpr std::size_t kManyTriangles = 8192;  // 1 ms: whether to cancel is asked
+
+constexpr std::uint32_t kNoTriangle = std::numeric_limits<std::uint32_t>::max();
+
+double largest_component(const Vec3& a) {
+  return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
+}
+
+// The middle of a triangle, -1 ... 1 as 0 ... 2^32 - 1.
+struct Middle {
+  std::array<std::uint32_t, 3> at;
+  std::uint32_t triangle;
+
+  std::uint64_t along(int axis) const { return std::uint64_t{at[axis]} << 32 | triangle; }
+};
+
+std::uint32_t fixed_point(double x) {
+  return static_cast<std::uint32_t>(std::clamp((x + 1) * 0x1p31, 0.0, 0x1p32 - 1));
+}
+
+int longest_axis(std::span<const Middle> middles) {
+  std::array<std::uint32_t, 3> low = middles[0].at, high = low;
+  for (const Middle& middle : middles) {
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], middle.at[axis]);
+      high[axis] = std::max(high[axis], middle.at[axis]);
+    }
+  }
+  const std::array<std::uint32_t, 3> length = {high[0] - low[0], high[1] - low[1],
+                                               high[2] - low[2]};
+  return static_cast<int>(std::max_element(length.begin(), length.end()) - length.begin());
+}
+
+// The n smallest first, as std::nth_element does: without branches that cannot be foreseen, in a
+// third of its time.
+void select(std::span<Middle> middles, std::size_t n, int axis) {
+  constexpr std::size_t kFew = 32;
+  for (int round = 0; round < 64 && middles.size() > kFew; ++round) {
+    std::array<std::uint64_t, 5> sample;
+    for (std::size_t k = 0; k < 5; ++k) {
+      sample[k] = middles[k * (middles.size() - 1) / 4].along(axis);
+    }
+    std::sort(sample.begin(), sample.end());
+    const std::uint64_t pivot = sample[2];
+    std::size_t below = 0;
+    for (Middle& middle : middles) {
+      const bool small = middle.along(axis) < pivot;
+      std::swap(middle, middles[below]);
+      below += small;
+    }
+    if (n < below) {
+      middles = middles.first(below);
+    } else {
+      middles = middles.subspan(below);
+      n -= below;
+    }
+  }
+  std::nth_element(middles.begin(), middles.begin() + static_cast<std::ptrdiff_t>(n), middles.end(),
+                   [&](const Middle& a, const Middle& b) { return a.along(axis) < b.along(axis); });
+}
+
+// Halves across the longest side of their box, the first one `whole` triangles or a half of it, a
+// quarter ..., down to those of a leaf.
+void split(std::span<Middle> middles, std::size_t whole) {
+  if (middles.size() <= kTreeWidth) return;
+  if (middles.size() > kManyTriangles) ask_cancel();
+  while (whole >= middles.size()) whole /= 2;
+  select(middles, whole, longest_axis(middles));
+  split(middles.first(whole), whole);
+  split(middles.subspan(whole), whole);
+}
+
+constexpr float kFloatInfinity = std::numeric_limits<float>::infinity();
+
+struct FloatBox {
+  std::array<float, 3> low = {kFloatInfinity, kFloatInfinity, kFloatInfinity};
+  std::array<float, 3> high = {-kFloatInfinity, -kFloatInfinity, -kFloatInfinity};
+};
+
+// Appends the nodes above the children with these boxes, the first of which is `first`; boxes are
+// theirs then.
+void add_level(std::vector<FloatBox>& boxes, std::size_t first, std::vector<BoxGroup>& nodes) {
+  std::vector<FloatBox> around((boxes.size() + kTreeWidth - 1) / kTreeWidth);
+  for (std::size_t g = 0; g < around.size(); ++g) {
+    BoxGroup& group = nodes.emplace_back();
+    group.first = static_cast<std::uint32_t>(first + kTreeWidth * g);
+    for (std::size_t k = 0; k < kTreeWidth; ++k) {
+      const std::size_t i = kTreeWidth * g + k;
+      for (int axis = 0; axis < 3; ++axis) {
+        group.low[axis][k] = group.high[axis][k] = kFloatInfinity;
+        if (i >= boxes.size()) continue;
+        group.low[axis][k] = boxes[i].low[axis];
+        group.high[axis][k] = boxes[i].high[axis];
+        around[g].low[axis] = std::min(around[g].low[axis], boxes[i].low[axis]);
+        around[g].high[axis] = std::max(around[g].high[axis], boxes[i].high[axis]);
+      }
+    }
+  }
+  boxes = std::move(around);
+}
+
+}  // namespace
+
+TriangleTree::TriangleTree(const Mesh& mesh)
+    : mesh_(mesh), frame_(unit_frame(bounds(mesh.vertices))) {
+  if (mesh.triangles.empty()) return;
+  sort_triangles();
+  build();
+}
+
+// So that each node holds triangles that are near each other.
+void TriangleTree::sort_triangles() {
+  AlignedArray<Middle> middles(mesh_.triangles.size());
+  CancelPoll poll;
+  for (std::size_t t = 0; t < middles.size(); ++t) {
+    poll();
+    const auto [a, b, c] = scaled_corners(mesh_, mesh_.triangles[t], frame_.scale);
+    const Vec3 x = (a + b + c) / 3.0 - frame_.center;
+    middles[t] = {{fixed_point(x.x), fixed_point(x.y), fixed_point(x.z)},
+                  static_cast<std::uint32_t>(t)};
+  }
+  std::size_t whole = kTreeWidth;
+  while (whole < middles.size()) whole *= 2;
+  split({middles.data(), middles.size()}, whole);
+  order_.reserve(middles.size() + kTreeWidth);
+  for (const Middle& middle : middles) order_.push_back(middle.triangle);
+}
+
+void TriangleTree::build() {
+  const std::size_t n_leaves = (order_.size() + kTreeWidth - 1) / kTreeWidth;
+  order_.resize(kTreeWidth * n_leaves, order_.back());  // the last one fills its leaf
+  nodes_.leaves = AlignedArray<PlaneGroup>(n_leaves);
+  std::vector<FloatBox> boxes(n_leaves);
+  CancelPoll poll;
+  for (std::size_t leaf = 0; leaf < n_leaves; ++leaf) {
+    alignas(32) std::array<TreeRows3, 3> corners;
+    for (std::size_t k = 0; k < kTreeWidth; ++k) {
+      poll();
+      const Triangle& t = mesh_.triangles[order_[kTreeWidth * leaf + k]];
+      for (int corner = 0; corner < 3; ++corner) {
+        const Vec3 q = frame_.to_local(mesh_.vertices[t[corner]]);
+        const std::array<double, 3> row = {q.x, q.y, q.z};
+        for (int axis = 0; axis < 3; ++axis) {
+          const auto x = static_cast<float>(row[axis]);
+          corners[corner][axis][k] = x;
+          boxes[leaf].low[axis] = std::min(boxes[leaf].low[axis], x);
+          boxes[leaf].high[axis] = std::max(boxes[leaf].high[axis], x);
+        }
+      }
+    }
+    set_planes(corners, nodes_.leaves[leaf]);
+  }
+  for (std::size_t first = 0; boxes.size() > 1;) {
+    const std::size_t n = boxes.size();
+    add_level(boxes, first, nodes_.inner);
+    first += n;
+  }
+}
+
+namespace {
+
+struct ClosestSearch {
+  const Mesh& mesh;
+  const UnitFrame& frame;
+  const std::vector<std::uint32_t>& order;
+  Vec3 query;      // in that frame
+  double at_most;  // how far away the mesh is
+  double best2 = kInfinity;
+  Vec3 best;
+  std::uint32_t triangle = kNoTriangle;
+
+  // How far is to be looked now, in float, so that no triangle at the distance found or less is
+  // lost: see walk_near(), and the square of the radius.
+  float radius() const {
+    const double shifted =
+        std::min(std::sqrt(best2), at_most) + 10 * kFloatRounding * (1 + largest_component(query));
+    return static_cast<float>(std::min(shifted * (1 + 14 * kFloatRounding), kLargestRadius));
+  }
+};
+
+// Squared distance of a point to the corners' bounding box: cheap, and never above that to the
+// triangle.
+double box_distance2(const Vec3& p, const std::array<Vec3, 3>& c) {
+  const auto outside = [](double x, double a, double b, double d) {
+    return std::max({std::min({a, b, d}) - x, x - std::max({a, b, d}), 0.0});
+  };
+  const Vec3 gap = {outside(p.x, c[0].x, c[1].x, c[2].x), outside(p.y, c[0].y, c[1].y, c[2].y),
+                    outside(p.z, c[0].z, c[1].z, c[2].z)};
+  return dot(gap, gap);
+}
+
+void take_if_nearer(std::uint32_t triangle, ClosestSearch& search) {
+  Triangle t = search.mesh.triangles[triangle];
+  // In the order of the indices, an edge gives the same bits to both of its triangles: ties are
+  // ties.
+  std::sort(t.begin(), t.end());
+  std::array<Vec3, 3> corners;
+  for (int k = 0; k < 3; ++k) corners[k] = search.frame.to_local(search.mesh.vertices[t[k]]);
+  if (box_distance2(search.query, corners) > search.best2) return;
+  const Vec3 candidate = closest_point_of_triangle(search.query, corners);
+  const Vec3 offset = search.query - candidate;
+  const double d2 = dot(offset, offset);
+  const bool tie = d2 == search.best2 && triangle < search.triangle;
+  if (!(d2 < search.best2) && !tie) return;
+  search.best2 = d2;
+  search.best = candidate;
+  search.triangle = triangle;
+}
+
+float try_triangle(void* data, std::size_t leaf, std::size_t k) {
+  auto& search = *static_cast<ClosestSearch*>(data);
+  take_if_nearer(search.order[kTreeWidth * leaf + k], search);
+  return search.radius();
+}
+
+}  // namespace
+
+ClosestPoint TriangleTree::closest_within(const Vec3& point, double at_most) const {
+  if (mesh_.triangles.empty() || !is_finite(point)) {
+    throw Error(ErrorCode::kInvalidInput,
+                "a closest point needs a mesh with at least 1 triangle and finite coordinates; "
+                "this mesh has " +
+                    std::to_string(mesh_.triangles.size()) + " triangles");
+  }
+  const Vec3 q = frame_.to_local(point);
+  const auto drawn_in = [](double x) { return std::clamp(x, -kDrawnIn, kDrawnIn); };
+  ClosestSearch search{.mesh = mesh_,
+                       .frame = frame_,
+                       .order = order_,
+                       .query = {drawn_in(q.x), drawn_in(q.y), drawn_in(q.z)},
+                       .at_most = at_most * frame_.scale,
+                       .best = {}};
+  if (!(largest_component(q) < kFarthest)) {
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) take_if_nearer(t, search);
+    const Vec3 result = frame_.to_shape(search.best);
+    const Vec3 offset = point - result;
+    return {result, search.triangle, std::hypot(offset.x, offset.y, offset.z)};
+  }
+  walk_near(nodes_, {static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z)},
+            search.radius(), &try_triangle, &search);
+  return {frame_.to_shape(search.best), search.triangle,
+          norm(search.query - search.best) / frame_.scale};
+}
+
+ClosestPoint TriangleTree::closest(const Vec3& point) const {
+  return closest_within(point, kInfinity);
+}
+
+// No farther than the mesh is from the last one, and that from this one.
+std::vector<ClosestPoint> TriangleTree::closest(std::span<const Vec3> points) const {
+  std::vector<ClosestPoint> found;
+  found.reserve(points.size());
+  double at_most = kInfinity;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (k > 0) at_most = found[k - 1].distance + norm(points[k] - points[k - 1]);
+    found.push_back(closest_within(points[k], at_most));
+  }
+  return found;
+}
+
+}  // namespace rholm
