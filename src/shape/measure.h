@@ -14,6 +14,9 @@ struct Sizes {
 };
 Sizes measure_sizes(const MeshView& mesh, const UnitFrame& frame, const Context& context);
 
+// The centroid of the solid, by plain sums: the middle of the frame where the volume is rounding.
+Vec3 volume_centroid(const MeshView& mesh, const UnitFrame& frame, const Context& context);
+
 // Compensated sums about the middle of the bounding box: relative errors of a few ulp, also far
 // from the origin. Results outside 1e-308 ... 1e308 become 0 or infinite.
 struct Measures {

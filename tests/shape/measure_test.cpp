@@ -32,6 +32,26 @@ TEST(Sizes, of_many_triangles_are_those_of_the_whole_measure) {
   EXPECT_NEAR(sizes.volume, all.volume, 1e-14 * all.volume);
 }
 
+TEST(volume_centroid, is_that_of_the_whole_measure_and_of_a_moved_box) {
+  const Mesh mesh = bumpy_sphere(5);
+  const Measures all = measure(view_of(mesh), frame_of(mesh));
+  EXPECT_NEAR(norm(volume_centroid(view_of(mesh), frame_of(mesh), {}) - all.volume_centroid), 0,
+              1e-14);
+  Mesh moved = box({1, 2, 3});
+  for (Vec3& v : moved.vertices) v = 1e80 * (v + Vec3{7, 0, -5});
+  const Bounds corners = bounds(moved.vertices);
+  const Vec3 middle = corners.min + 0.5 * (corners.max - corners.min);
+  EXPECT_NEAR(norm(volume_centroid(view_of(moved), frame_of(moved), {}) - middle) / 1e80, 0, 1e-13);
+}
+
+// A sheet seen from both sides encloses nothing.
+TEST(volume_centroid, of_no_volume_is_the_middle_of_the_frame) {
+  Mesh sheet;
+  sheet.vertices = {{0, 0, 1}, {2, 0, 1}, {0, 4, 1}};
+  sheet.triangles = {{0, 1, 2}, {0, 2, 1}};
+  EXPECT_EQ(volume_centroid(view_of(sheet), frame_of(sheet), {}), (Vec3{1, 2, 1}));
+}
+
 TEST(Sizes, of_nothing_are_none) {
   const Sizes sizes = measure_sizes(view_of(Mesh{}), {}, {});
   EXPECT_EQ(sizes.area, 0);

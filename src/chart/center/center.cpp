@@ -1,12 +1,8 @@
 #include <algorithm>
-#include <array>
 #include <charconv>
-#include <cmath>
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include "base/parallel.h"
 #include "chart/center/kernel.h"
 #include "chart/center/view_center.h"
 #include "rholm/error.h"
@@ -43,38 +39,6 @@ bool parse_point(std::string_view text, Vec3& point) {
     at = next;
   }
   return at == end && is_finite(point);
-}
-
-// The centroid of the solid, by tetrahedra from the middle of the frame.
-Vec3 volume_centroid(const LocalView& view, const Context& context) {
-  struct Part {
-    double volumes = 0, moduli = 0;  // six times each
-    Vec3 moment;
-  };
-  const std::size_t n = view.mesh.n_triangles, grain = triangle_grain(n);
-  std::vector<Part> parts((n + grain - 1) / grain);
-  parallel_for(n, grain, context, {}, [&](std::size_t begin, std::size_t end) {
-    Part part;
-    for (std::size_t t = begin; t < end; ++t) {
-      const std::array<Vec3, 3> corners = view.corners(t);
-      const Vec3 a = corners[0] - view.frame.center, b = corners[1] - view.frame.center;
-      const Vec3 c = corners[2] - view.frame.center;
-      const double volume = dot(cross(b - a, c - a), a);
-      part.volumes += volume;
-      part.moduli += std::abs(volume);
-      part.moment += volume * (a + b + c);
-    }
-    parts[begin / grain] = part;
-  });
-  Part whole;
-  for (const Part& part : parts) {
-    whole.volumes += part.volumes;
-    whole.moduli += part.moduli;
-    whole.moment += part.moment;
-  }
-  // As measure() has it: a volume that is rounding has no centroid.
-  if (!(std::abs(whole.volumes) > 0x1p-49 * whole.moduli)) return view.frame.to_shape({});
-  return view.frame.to_shape(whole.moment / (4 * whole.volumes));
 }
 
 }  // namespace
@@ -114,7 +78,8 @@ FoundCenter search_center(const LocalView& view, const CenterOptions& options,
       validate(view.mesh);
       return {.point = measure(view.mesh, view.frame).area_centroid};
     case CenterKind::kVolume:
-      return {.point = volume_centroid(view, context)};
+      validate(view.mesh);
+      return {.point = volume_centroid(view.mesh, view.frame, context)};
     case CenterKind::kAuto:
     case CenterKind::kCosine:
       break;

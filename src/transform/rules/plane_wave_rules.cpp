@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 #include <vector>
 
@@ -54,10 +55,6 @@ struct TriangleNodes {
   double constant;
 };
 
-void add_center(std::vector<FaceNode>& nodes, double weight) {
-  nodes.push_back({{1.0 / 3, 1.0 / 3, 1.0 / 3}, weight});
-}
-
 void add_turns(std::vector<FaceNode>& nodes, double weight, double a, double b) {
   const double c = 1 - a - b;
   nodes.push_back({{a, b, c}, weight});
@@ -65,10 +62,28 @@ void add_turns(std::vector<FaceNode>& nodes, double weight, double a, double b) 
   nodes.push_back({{c, a, b}, weight});
 }
 
-// All permutations of (a, b, 1 - a - b): three if a = b, else six.
-void add_orbit(std::vector<FaceNode>& nodes, double weight, double a, double b) {
-  add_turns(nodes, weight, a, b);
-  if (a != b) add_turns(nodes, weight, b, a);
+// Nodes at the permutations of (a, b, 1 - a - b): three if a = b, else six.
+struct Orbit {
+  double weight, a, b;
+};
+
+// A rule by the weight of its centre, if it has one, and by orbits.
+TriangleNodes symmetric(int power, double constant, double center,
+                        std::initializer_list<Orbit> orbits) {
+  TriangleNodes rule{{}, power, constant};
+  if (center > 0) rule.nodes.push_back({{1.0 / 3, 1.0 / 3, 1.0 / 3}, center});
+  for (const Orbit& orbit : orbits) {
+    add_turns(rule.nodes, orbit.weight, orbit.a, orbit.b);
+    if (orbit.a != orbit.b) add_turns(rule.nodes, orbit.weight, orbit.b, orbit.a);
+  }
+  return rule;
+}
+
+// One by the turns of (a, b, 1 - a - b) alone.
+TriangleNodes turned(int power, double constant, std::initializer_list<Orbit> turns) {
+  TriangleNodes rule{{}, power, constant};
+  for (const Orbit& turn : turns) add_turns(rule.nodes, turn.weight, turn.a, turn.b);
+  return rule;
 }
 
 // Products of Gauss's rules in collapsed coordinates, exact to degree 2n - 1.
@@ -93,65 +108,60 @@ std::vector<FaceNode> product_nodes(int n) {
 // small, on a needle; those of products follow 0.55/n times that of Gauss's rule.
 const std::vector<TriangleNodes>& triangle_rules() {
   static const std::vector<TriangleNodes> rules = [] {
-    std::vector<TriangleNodes> all;
-    const auto rule = [&](int power, double constant) -> std::vector<FaceNode>& {
-      return all.emplace_back(TriangleNodes{{}, power, constant}).nodes;
+    const auto [near, far] = kSixNodes;
+    std::vector<TriangleNodes> all = {
+        symmetric(2, 2.1e-2, 1, {}),
+        symmetric(3, 2.0e-4, 0, {{1.0 / 3, 1.0 / 6, 1.0 / 6}}),
+        symmetric(5, kSixNodesConstant, 0,
+                  {{near.weight, near.at, near.at}, {far.weight, far.at, far.at}}),
+        symmetric(6, 1.1e-7, 0.225,
+                  {{0.12593918054482715, 0.10128650732345634, 0.10128650732345634},
+                   {0.13239415278850618, 0.47014206410511509, 0.47014206410511509}}),
+        // Either of twelve is the better one on short or on long edges.
+        symmetric(7, 3.3e-10, 0,
+                  {{0.116786275726379, 0.249286745170910, 0.249286745170910},
+                   {0.050844906370207, 0.063089014491502, 0.063089014491502},
+                   {0.082851075618374, 0.053145049844817, 0.310352451033784}}),
+        turned(8, 9.1e-11,
+               {{0.05303405631487250, 0.06751786707391609, 0.06238226509440212},
+                {0.05755008556996317, 0.03432430294509715, 0.30472650086816720},
+                {0.08776281742889211, 0.62327204949109157, 0.32150249385198182},
+                {0.13498637401960555, 0.27771616697639178, 0.51584233435359178}}),
+        symmetric(9, 6.8e-13, 0.144315607677787,
+                  {{0.095091634267285, 0.459292588292723, 0.459292588292723},
+                   {0.103217370534718, 0.170569307751760, 0.170569307751760},
+                   {0.032458497623198, 0.050547228317031, 0.050547228317031},
+                   {0.027230314174435, 0.008394777409958, 0.263112829634638}}),
+        symmetric(10, 4.9e-14, 0.09713579628279884,
+                  {{0.03133470022713907, 0.48968251919873763, 0.48968251919873763},
+                   {0.02557767565869803, 0.04472951339445271, 0.04472951339445271},
+                   {0.07964773892721025, 0.18820353561903273, 0.18820353561903273},
+                   {0.07782754100477428, 0.43708959149293664, 0.43708959149293664},
+                   {0.04328353937728938, 0.22196298916076570, 0.03683841205473628}}),
+        symmetric(11, 9.8e-16, 0.07989450474123971,
+                  {{0.00822381869046420, 0.02330886751000019, 0.02330886751000019},
+                   {0.07112380223237733, 0.42508621060209057, 0.42508621060209057},
+                   {0.03735985623430528, 0.02994603195417089, 0.35874014186443146},
+                   {0.04543059229617002, 0.14792562620953444, 0.22376697357697301},
+                   {0.03088665688456399, 0.03563255958750348, 0.14329537042686715}}),
+        symmetric(13, 1.1e-19, 0,
+                  {{0.02848605206887755, 0.10925782765935429, 0.10925782765935429},
+                   {0.06254121319590276, 0.27146250701492608, 0.27146250701492608},
+                   {0.04991833492806094, 0.44011164865859311, 0.44011164865859311},
+                   {0.02426683808145203, 0.48820375094554155, 0.48820375094554155},
+                   {0.00793164250997364, 0.02464636343633559, 0.02464636343633559},
+                   {0.04322736365941421, 0.11629601967792659, 0.25545422863851735},
+                   {0.02178358503860756, 0.02303415635526714, 0.29165567973834096},
+                   {0.01508367757651144, 0.02138249025617059, 0.12727971723358937}}),
     };
-    add_center(rule(2, 2.1e-2), 1);
-    add_orbit(rule(3, 2.0e-4), 1.0 / 3, 1.0 / 6, 1.0 / 6);
-    std::vector<FaceNode>& six = rule(5, kSixNodesConstant);
-    for (const SixNodes& orbit : kSixNodes) add_orbit(six, orbit.weight, orbit.at, orbit.at);
-    std::vector<FaceNode>& seven = rule(6, 1.1e-7);
-    add_center(seven, 0.225);
-    add_orbit(seven, 0.12593918054482715, 0.10128650732345634, 0.10128650732345634);
-    add_orbit(seven, 0.13239415278850618, 0.47014206410511509, 0.47014206410511509);
-    // Either of twelve is the better one on short or on long edges.
-    std::vector<FaceNode>& twelve = rule(7, 3.3e-10);
-    add_orbit(twelve, 0.116786275726379, 0.249286745170910, 0.249286745170910);
-    add_orbit(twelve, 0.050844906370207, 0.063089014491502, 0.063089014491502);
-    add_orbit(twelve, 0.082851075618374, 0.053145049844817, 0.310352451033784);
-    std::vector<FaceNode>& turned = rule(8, 9.1e-11);
-    add_turns(turned, 0.05303405631487250, 0.06751786707391609, 0.06238226509440212);
-    add_turns(turned, 0.05755008556996317, 0.03432430294509715, 0.30472650086816720);
-    add_turns(turned, 0.08776281742889211, 0.62327204949109157, 0.32150249385198182);
-    add_turns(turned, 0.13498637401960555, 0.27771616697639178, 0.51584233435359178);
-    std::vector<FaceNode>& sixteen = rule(9, 6.8e-13);
-    add_center(sixteen, 0.144315607677787);
-    add_orbit(sixteen, 0.095091634267285, 0.459292588292723, 0.459292588292723);
-    add_orbit(sixteen, 0.103217370534718, 0.170569307751760, 0.170569307751760);
-    add_orbit(sixteen, 0.032458497623198, 0.050547228317031, 0.050547228317031);
-    add_orbit(sixteen, 0.027230314174435, 0.008394777409958, 0.263112829634638);
-    std::vector<FaceNode>& nineteen = rule(10, 4.9e-14);
-    add_center(nineteen, 0.09713579628279884);
-    add_orbit(nineteen, 0.03133470022713907, 0.48968251919873763, 0.48968251919873763);
-    add_orbit(nineteen, 0.02557767565869803, 0.04472951339445271, 0.04472951339445271);
-    add_orbit(nineteen, 0.07964773892721025, 0.18820353561903273, 0.18820353561903273);
-    add_orbit(nineteen, 0.07782754100477428, 0.43708959149293664, 0.43708959149293664);
-    add_orbit(nineteen, 0.04328353937728938, 0.22196298916076570, 0.03683841205473628);
-    std::vector<FaceNode>& twenty_five = rule(11, 9.8e-16);
-    add_center(twenty_five, 0.07989450474123971);
-    add_orbit(twenty_five, 0.00822381869046420, 0.02330886751000019, 0.02330886751000019);
-    add_orbit(twenty_five, 0.07112380223237733, 0.42508621060209057, 0.42508621060209057);
-    add_orbit(twenty_five, 0.03735985623430528, 0.02994603195417089, 0.35874014186443146);
-    add_orbit(twenty_five, 0.04543059229617002, 0.14792562620953444, 0.22376697357697301);
-    add_orbit(twenty_five, 0.03088665688456399, 0.03563255958750348, 0.14329537042686715);
-    std::vector<FaceNode>& thirty_three = rule(13, 1.1e-19);
-    add_orbit(thirty_three, 0.02848605206887755, 0.10925782765935429, 0.10925782765935429);
-    add_orbit(thirty_three, 0.06254121319590276, 0.27146250701492608, 0.27146250701492608);
-    add_orbit(thirty_three, 0.04991833492806094, 0.44011164865859311, 0.44011164865859311);
-    add_orbit(thirty_three, 0.02426683808145203, 0.48820375094554155, 0.48820375094554155);
-    add_orbit(thirty_three, 0.00793164250997364, 0.02464636343633559, 0.02464636343633559);
-    add_orbit(thirty_three, 0.04322736365941421, 0.11629601967792659, 0.25545422863851735);
-    add_orbit(thirty_three, 0.02178358503860756, 0.02303415635526714, 0.29165567973834096);
-    add_orbit(thirty_three, 0.01508367757651144, 0.02138249025617059, 0.12727971723358937);
     for (int n = 7; n <= kMaxProductOrder; ++n) {
       all.push_back({product_nodes(n), 2 * n, 0.6 / n * gauss_constant(n)});
     }
     // Weights known to 15 digits: sums of exactly 1.
-    for (TriangleNodes& finished : all) {
+    for (TriangleNodes& rule : all) {
       double sum = 0;
-      for (const FaceNode& node : finished.nodes) sum += node.weight;
-      for (FaceNode& node : finished.nodes) node.weight /= sum;
+      for (const FaceNode& node : rule.nodes) sum += node.weight;
+      for (FaceNode& node : rule.nodes) node.weight /= sum;
     }
     return all;
   }();

@@ -493,5 +493,15 @@ TEST(nonuniform, refuses_single_precision_where_it_is_forbidden) {
           .single);
 }
 
+// Gradients that were counted before the grid was known: at 1.86-fold oversampling rightly, beyond
+// too little.
+TEST(counted_gradient_factor, makes_up_for_what_finer_grids_do_to_gradients) {
+  EXPECT_EQ(counted_gradient_factor(1.5), 1);
+  for (const double sigma : {2.0, 3.0, 4.0}) {
+    EXPECT_NEAR(counted_gradient_factor(sigma) * gradient_as_weight(100),
+                gradient_factor(sigma) * 100, 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace rholm
