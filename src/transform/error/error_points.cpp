@@ -188,14 +188,13 @@ ErrorPoints area_points(const MeshView& mesh, const Vec3& center, const FaceScan
     double sum = before[begin / kGrain];
     auto next = std::min(n, static_cast<std::size_t>(part > 0 ? sum / part : 0));
     while (next > 0 && place(next - 1) >= sum) --next;
+    while (place(next) < sum) ++next;
     double at = place(next);
-    const auto take_next = [&] { at = place(++next); };
-    while (at < sum) take_next();
     for (std::size_t t = begin; t < end; ++t) {
       sum += areas[t];
       if (at >= sum) continue;
       const Face face = face_of(corners_of(mesh, t, center, scan.sizes.scale));
-      for (; at < sum; take_next()) {
+      for (; at < sum; at = place(++next)) {
         // Uniform on the triangle.
         const double s = std::sqrt(spread(next, 0.7548776662466927));
         const double b = s * spread(next, 0.5698402909980532);
