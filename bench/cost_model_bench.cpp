@@ -251,7 +251,7 @@ void error_points() {
   for (const int degree : {50, 100, 200, 400}) {
     for (const std::size_t n : {20'000u, 200'000u}) {
       const ErrorPoints points =
-          area_points(view_of(mesh), {}, scan_faces(view_of(mesh), {}, {}), n);
+          area_points(view_of(mesh), {}, scan_faces(view_of(mesh), Vec3{}, {}), n);
       const double time =
           least_time([&] { point_errors(points, expansion, degree, true, 1e-4, kOneThread); });
       fit.add(static_cast<double>(points.size()), static_cast<double>(degree * degree), time);

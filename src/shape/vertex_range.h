@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "rholm/context.h"
 #include "rholm/mesh_view.h"
 
 namespace rholm {
@@ -22,8 +23,10 @@ struct VertexRange {
   }
 };
 VertexRange vertex_range(const MeshView& mesh, std::size_t begin, std::size_t end);
+// Of all vertices, on several threads.
+VertexRange vertex_range(const MeshView& mesh, const Context& context);
 
 // Of the bounding box.
-double diagonal_of(const MeshView& mesh);
+double diagonal_of(const MeshView& mesh, const Context& context);
 
 }  // namespace rholm

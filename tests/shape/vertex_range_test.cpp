@@ -64,7 +64,7 @@ TEST(vertex_range, tells_of_coordinates_that_are_not_finite_wherever_they_stand)
 
 TEST(diagonal_of, is_that_of_the_bounding_box) {
   const Mesh mesh = box({1, 2, 3}, 2);
-  EXPECT_DOUBLE_EQ(diagonal_of(view_of(mesh)), bounds(mesh.vertices).diagonal());
+  EXPECT_DOUBLE_EQ(diagonal_of(view_of(mesh), {.threads = 1}), bounds(mesh.vertices).diagonal());
 }
 
 }  // namespace

@@ -13,17 +13,8 @@ namespace rholm {
 namespace {
 
 Bounds finite_bounds(const MeshView& mesh, const Context& context) {
-  constexpr std::size_t kGrain = 1 << 15;  // chosen: some 10 us
-  std::vector<VertexRange> parts((mesh.n_vertices + kGrain - 1) / kGrain);
-  parallel_for(mesh.n_vertices, kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
-    parts[begin / kGrain] = vertex_range(mesh, begin, end);
-  });
-  if (parts.empty()) return {};
-  VertexRange all;
-  for (const VertexRange& part : parts) {
-    for (std::size_t k = 0; k < 3; ++k) all.add(k, part.min[k], part.max[k]);
-    all.finite = all.finite && part.finite;
-  }
+  if (mesh.n_vertices == 0) return {};
+  const VertexRange all = vertex_range(mesh, context);
   if (!all.finite) validate(mesh);  // throws, and says which
   return {.min = {all.min[0], all.min[1], all.min[2]}, .max = {all.max[0], all.max[1], all.max[2]}};
 }

@@ -117,7 +117,7 @@ class AsItLies {
   std::optional<ToleranceProblem> tolerance_problem() {
     if (!options_.tolerance) return std::nullopt;
     ToleranceProblem problem =
-        rholm::tolerance_problem(mesh_, center(), norms(), options_.analyze.precision);
+        rholm::tolerance_problem(mesh_, center(), norms(), options_.analyze.precision, context_);
     problem.transform = [this](const TransformTarget& target) {
       MeshPassResult pass = pass_to(target);
       Analysis result;
@@ -145,7 +145,7 @@ class AsItLies {
                                       [&] { return tail_strength(mesh_, center(), context_); });
     }
     finish_analysis(options_.analyze, center(), analysis());
-    ErrorSites sites(mesh_, center(), std::move(sizes_));
+    ErrorSites sites(mesh_, center(), std::move(sizes_), context_.threads);
     add_errors(sites, paired, options_, context_, encoded_);
   }
 
@@ -163,7 +163,7 @@ class AsItLies {
   }
 
   void set_counts() {
-    encoded_.diagonal = diagonal_of(mesh_);
+    encoded_.diagonal = diagonal_of(mesh_, context_);
     encoded_.vertices = mesh_.n_vertices;
     encoded_.faces = mesh_.n_triangles;
     encoded_.edges = mesh_.n_triangles / 2 * 3;

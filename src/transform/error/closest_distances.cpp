@@ -290,7 +290,7 @@ double ClosestDistances::highest(const Model& model, const RadialSurface& surfac
   return std::max(seen.most(),
                   largest(highest_peaks(view, {}, seen.points,
                                         {{seen.to_model, there_at}, {seen.to_shape, back_at}},
-                                        degree, kPeaks)));
+                                        degree, kPeaks, alone)));
 }
 
 SurfaceDistances ClosestDistances::measure(const Expansion& expansion, int degree,

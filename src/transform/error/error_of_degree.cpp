@@ -90,7 +90,7 @@ double ErrorOfDegree::of(const Expansion& expansion, int degree, double limit) {
 bool ErrorOfDegree::may_be_refined(const Expansion& expansion, int degree, double limit) {
   const PointErrors errors = measured(few_points(), expansion, degree, limit);
   return rholm::may_be_refined(sites_.mesh(), expansion, largest(errors.radial),
-                               diagonal_of(sites_.mesh()));
+                               diagonal_of(sites_.mesh(), {.threads = sites_.threads()}));
 }
 
 // What the error to first order is to be multiplied by, unless closest points rule from now on:

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "base/cancel.h"
+#include "base/parallel.h"
 #include "shape/face.h"
 
 namespace rholm {
@@ -98,15 +98,24 @@ class FewVertices {
   }
   // Calls visit(k, t) for the k-th vertex and each of its faces t, in ascending order.
   template <typename Visit>
-  void visit_faces(const MeshView& mesh, const Visit& visit) const {
+  void visit_faces(const MeshView& mesh, const Context& context, const Visit& visit) const {
     if (vertices_.empty()) return;
-    CancelPoll poll;
-    for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
-      poll();
-      const Triangle v = mesh.triangle(t);
-      if (!(marks_[v[0] % kMarks] || marks_[v[1] % kMarks] || marks_[v[2] % kMarks])) continue;
-      for (std::size_t k = 0; k < vertices_.size(); ++k) {
-        if (std::ranges::find(v, vertices_[k]) != v.end()) visit(k, t);
+    constexpr std::size_t kGrain = 1 << 15;  // chosen: some 50 us
+    std::vector<std::vector<std::size_t>> near((mesh.n_triangles + kGrain - 1) / kGrain);
+    parallel_for(mesh.n_triangles, kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t t = begin; t < end; ++t) {
+        const Triangle v = mesh.triangle(t);
+        if (marks_[v[0] % kMarks] || marks_[v[1] % kMarks] || marks_[v[2] % kMarks]) {
+          near[begin / kGrain].push_back(t);
+        }
+      }
+    });
+    for (const std::vector<std::size_t>& part : near) {
+      for (const std::size_t t : part) {
+        const Triangle v = mesh.triangle(t);
+        for (std::size_t k = 0; k < vertices_.size(); ++k) {
+          if (std::ranges::find(v, vertices_[k]) != v.end()) visit(k, t);
+        }
       }
     }
   }
@@ -121,7 +130,7 @@ class FewVertices {
 std::vector<std::vector<Climber>> climbers(const MeshView& mesh, const Vec3& center, double scale,
                                            const ErrorPoints& points,
                                            const std::vector<PeakSearch>& searches, int degree,
-                                           std::size_t n_sites) {
+                                           std::size_t n_sites, const Context& context) {
   struct Start {
     std::size_t search, point;
   };
@@ -144,7 +153,8 @@ std::vector<std::vector<Climber>> climbers(const MeshView& mesh, const Vec3& cen
       }
     }
   }
-  vertices.visit_faces(mesh, [&](std::size_t k, std::size_t t) { begin(at_vertices[k], t); });
+  vertices.visit_faces(mesh, context,
+                       [&](std::size_t k, std::size_t t) { begin(at_vertices[k], t); });
   return found;
 }
 
@@ -186,10 +196,10 @@ void climb(std::vector<Climber>& climbers, double scale, const ErrorAt& error) {
 std::vector<double> highest_peaks(const MeshView& mesh, const Vec3& center,
                                   const ErrorPoints& points,
                                   const std::vector<PeakSearch>& searches, int degree,
-                                  std::size_t n_sites) {
+                                  std::size_t n_sites, const Context& context) {
   const double scale = std::exp2(-std::ilogb(std::max(largest(points.radii), 1e-300)));
   std::vector<std::vector<Climber>> all =
-      climbers(mesh, center, scale, points, searches, degree, n_sites);
+      climbers(mesh, center, scale, points, searches, degree, n_sites, context);
   std::vector<double> highest;
   for (std::size_t k = 0; k < searches.size(); ++k) {
     highest.push_back(largest(searches[k].values));

@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "rholm/context.h"
 #include "rholm/mesh_view.h"
 #include "transform/error/error_points.h"
 
@@ -23,6 +24,6 @@ struct PeakSearch {
 std::vector<double> highest_peaks(const MeshView& mesh, const Vec3& center,
                                   const ErrorPoints& points,
                                   const std::vector<PeakSearch>& searches, int degree,
-                                  std::size_t n_sites);
+                                  std::size_t n_sites, const Context& context);
 
 }  // namespace rholm

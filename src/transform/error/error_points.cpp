@@ -28,9 +28,8 @@ struct Face {
 };
 
 // From the centre, times `scale`.
-std::array<Vec3, 3> corners_of(const MeshView& mesh, std::size_t t, const Vec3& center,
+std::array<Vec3, 3> corners_of(const MeshView& mesh, const Triangle& triangle, const Vec3& center,
                                double scale) {
-  const Triangle triangle = mesh.triangle(t);
   std::array<Vec3, 3> corners;
   for (int i = 0; i < 3; ++i) corners[i] = scale * (mesh.vertex(triangle[i]) - center);
   return corners;
@@ -119,7 +118,7 @@ void visit_long_faces(const MeshView& mesh, const Vec3& center, const FaceScan& 
     if (degree * std::sqrt(scan.sizes.angles2[run]) <= kDense) continue;
     const std::size_t first = run * FaceSizes::kRun;
     for (std::size_t t = first; t < std::min(mesh.n_triangles, first + FaceSizes::kRun); ++t) {
-      const std::array<Vec3, 3> p = corners_of(mesh, t, center, scan.sizes.scale);
+      const std::array<Vec3, 3> p = corners_of(mesh, mesh.triangle(t), center, scan.sizes.scale);
       const int n = divisions(p, degree);
       for (int i = 0; i < n; ++i) {
         for (int j = i == 0 ? 1 : 0; i + j <= n; ++j) {
@@ -134,7 +133,7 @@ void visit_long_faces(const MeshView& mesh, const Vec3& center, const FaceScan& 
 
 std::optional<double> face_cosine(const MeshView& mesh, std::size_t t, const Vec3& center,
                                   const FaceScan& scan, const Vec3& x) {
-  const Face face = face_of(corners_of(mesh, t, center, scan.sizes.scale));
+  const Face face = face_of(corners_of(mesh, mesh.triangle(t), center, scan.sizes.scale));
   return face.normal.degenerate ? std::nullopt : cosine_at(face, x);
 }
 
@@ -161,13 +160,13 @@ ErrorPoints extreme_points(const MeshView& mesh, const Vec3& center, const FaceS
 ErrorPoints area_points(const MeshView& mesh, const Vec3& center, const FaceScan& scan,
                         std::size_t n, const Context& context) {
   const std::vector<double>& areas = scan.sizes.twice_areas;
-  constexpr std::size_t kGrain = 4096;  // chosen: some 100 us
-  // What comes before each chunk of faces.
+  constexpr std::size_t kGrain = 1024;  // groups of faces; chosen: some 100 us
+  // What comes before each chunk of them.
   std::vector<double> before;
   double whole = 0;
-  for (std::size_t t = 0; t < areas.size(); ++t) {
-    if (t % kGrain == 0) before.push_back(whole);
-    whole += areas[t];
+  for (std::size_t group = 0; group < areas.size(); ++group) {
+    if (group % kGrain == 0) before.push_back(whole);
+    whole += areas[group];
   }
   const double part = whole / static_cast<double>(n);
   constexpr std::uint64_t kSeed = 1;
@@ -182,26 +181,53 @@ ErrorPoints area_points(const MeshView& mesh, const Vec3& center, const FaceScan
     const double at = 0.5 + step * static_cast<double>(i);
     return at - std::floor(at);
   };
+  struct Group {
+    std::size_t first, last;  // faces
+    double from, to;          // areas
+  };
   std::vector<ErrorPoints> parts(before.size());
   parallel_for(areas.size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
-    ErrorPoints& points = parts[begin / kGrain];
     double sum = before[begin / kGrain];
     auto next = std::min(n, static_cast<std::size_t>(part > 0 ? sum / part : 0));
     while (next > 0 && place(next - 1) >= sum) --next;
     while (place(next) < sum) ++next;
+    // Groups with points on them; then their faces, all of them, then the corners: far apart in
+    // memory, which the processor fetches together.
+    std::vector<Group> groups;
+    std::vector<Triangle> triangles;
+    for (std::size_t group = begin, i = next; group < end; ++group) {
+      const double from = sum;
+      sum += areas[group];
+      if (place(i) >= sum) continue;
+      while (place(i) < sum) ++i;
+      const std::size_t first = group * FaceSizes::kGroup;
+      groups.push_back({first, std::min(mesh.n_triangles, first + FaceSizes::kGroup), from, sum});
+    }
+    for (const Group& group : groups) {
+      for (std::size_t t = group.first; t < group.last; ++t) triangles.push_back(mesh.triangle(t));
+    }
+    std::vector<std::array<Vec3, 3>> corners(triangles.size());
+    for (std::size_t k = 0; k < triangles.size(); ++k) {
+      corners[k] = corners_of(mesh, triangles[k], center, scan.sizes.scale);
+    }
+    const std::array<Vec3, 3>* of_face = corners.data();
     double at = place(next);
-    for (std::size_t t = begin; t < end; ++t) {
-      sum += areas[t];
-      if (at >= sum) continue;
-      const Face face = face_of(corners_of(mesh, t, center, scan.sizes.scale));
-      for (; at < sum; at = place(++next)) {
-        // Uniform on the triangle.
-        const double s = std::sqrt(spread(next, 0.7548776662466927));
-        const double b = s * spread(next, 0.5698402909980532);
-        const Vec3 x = (1 - s) * face.corners[0] + b * face.corners[1] + (s - b) * face.corners[2];
-        const std::optional<double> cosine = cosine_at(face, x);
-        if (cosine && !face.normal.degenerate) {
-          add_point(points, x, *cosine, static_cast<std::int64_t>(t));
+    for (const Group& group : groups) {
+      double up_to = group.from;
+      for (std::size_t t = group.first; t < group.last; ++t) {
+        const Face face = face_of(*of_face++);
+        // One by one they may come to more or less, by rounding.
+        up_to = t + 1 < group.last ? std::min(group.to, up_to + face.twice_area) : group.to;
+        for (; at < up_to; at = place(++next)) {
+          // Uniform on the triangle.
+          const double s = std::sqrt(spread(next, 0.7548776662466927));
+          const double b = s * spread(next, 0.5698402909980532);
+          const Vec3 x =
+              (1 - s) * face.corners[0] + b * face.corners[1] + (s - b) * face.corners[2];
+          const std::optional<double> cosine = cosine_at(face, x);
+          if (cosine && !face.normal.degenerate) {
+            add_point(parts[begin / kGrain], x, *cosine, static_cast<std::int64_t>(t));
+          }
         }
       }
     }

@@ -25,11 +25,12 @@ class ErrorSites {
   ErrorSites(const MeshView& mesh, const Vec3& center, int threads = 1)
       : mesh_(mesh), center_(center), threads_(threads) {}
   // Sizes as exact_norms() finds them about this centre.
-  ErrorSites(const MeshView& mesh, const Vec3& center, FaceSizes sizes)
-      : mesh_(mesh), center_(center), sizes_(std::move(sizes)) {}
+  ErrorSites(const MeshView& mesh, const Vec3& center, FaceSizes sizes, int threads)
+      : mesh_(mesh), center_(center), threads_(threads), sizes_(std::move(sizes)) {}
 
   const MeshView& mesh() const { return mesh_; }
   const Vec3& center() const { return center_; }
+  int threads() const { return threads_; }
 
   const FaceScan& scan();
   // That belong to faces.

@@ -31,7 +31,7 @@ class Pieces {
  public:
   Pieces(const MeshView& mesh, const Vec3& center, std::size_t n)
       : mesh_(mesh), center_(center), n_(static_cast<double>(n)), all_(mesh.n_triangles <= n) {
-    const VertexRange r = vertex_range(mesh, 0, mesh.n_vertices);
+    const VertexRange r = vertex_range(mesh, {.threads = 1});
     found_.scale =
         unit_frame({{r.min[0], r.min[1], r.min[2]}, {r.max[0], r.max[1], r.max[2]}}).scale;
   }

@@ -66,7 +66,7 @@ void climb(const Looked& looked, const RadialModel& model, ErrorSites& sites,
         [&](const ErrorPoints& at) { return point_errors(at, model, false, context).radial; }},
        {looked.errors.to_model,
         [&](const ErrorPoints& at) { return point_errors(at, model, true, context).to_model; }}},
-      model.degree, kPeaks);
+      model.degree, kPeaks, {.threads = sites.threads()});
   errors.measured_max = std::max(*errors.measured_max, highest[0]);
   errors.measured_max_distance = std::max(*errors.measured_max_distance, highest[1]);
 }
@@ -133,7 +133,7 @@ TruncationErrors truncation_errors(const MeshView& mesh, const Expansion& expans
 TruncationErrors truncation_errors(const Expansion& expansion, const TruncationOptions& options,
                                    ErrorSites& sites, const Context& context) {
   TruncationErrors errors;
-  errors.diagonal = diagonal_of(sites.mesh());
+  errors.diagonal = diagonal_of(sites.mesh(), {.threads = context.threads});
   const int degree = expansion.coefficients.degree();
   const Context silent{.threads = context.threads};
   report_progress(context, "errors", 0);

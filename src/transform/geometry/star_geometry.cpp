@@ -43,10 +43,10 @@ Vec3 second_moment(const std::array<Vec3, 3>& corners, double omega, const Vec3&
   return result;
 }
 
-double unit_scale(const MeshView& mesh, const Vec3& center) {
+double unit_scale(const MeshView& mesh, const Vec3& center, const Context& context) {
   double largest = 0;
   if (mesh.n_vertices > 0) {
-    const VertexRange range = vertex_range(mesh, 0, mesh.n_vertices);
+    const VertexRange range = vertex_range(mesh, context);
     if (!range.finite) validate(mesh);  // throws, and says which
     const double c[3] = {center.x, center.y, center.z};
     for (int k = 0; k < 3; ++k) {
@@ -66,7 +66,7 @@ double unit_scale(const MeshView& mesh, const Vec3& center) {
 StarGeometry star_geometry(const StarChart& chart) {
   StarGeometry geometry;
   geometry.chart = &chart;
-  geometry.scale = unit_scale(view_of(chart.mesh), {});
+  geometry.scale = unit_scale(view_of(chart.mesh), {}, {.threads = 1});
   geometry.vertices.reserve(chart.mesh.vertices.size());
   for (const Vec3& v : chart.mesh.vertices) geometry.vertices.push_back(geometry.scale * v);
   geometry.faces.resize(chart.mesh.triangles.size());

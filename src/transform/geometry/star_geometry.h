@@ -30,7 +30,7 @@ struct StarGeometry {
 
 // The power of two that brings lengths seen from the centre to about 1; throws InvalidInput outside
 // 1e-150 ... 1e150, or for a coordinate that is not finite.
-double unit_scale(const MeshView& mesh, const Vec3& center);
+double unit_scale(const MeshView& mesh, const Vec3& center, const Context& context);
 
 // Throws InvalidInput for a chart whose size is outside 1e-150 ... 1e150.
 StarGeometry star_geometry(const StarChart& chart);

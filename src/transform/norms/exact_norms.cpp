@@ -315,6 +315,17 @@ HWY_INLINE std::size_t SumBlock(const Block& block, std::size_t n, NormSums& res
   return n_left;
 }
 
+// Of groups of faces, n in all.
+void SumAreas(const Block& block, std::size_t n, double* sums) {
+  for (std::size_t at = 0; at < n; at += FaceSizes::kGroup) {
+    double sum = 0;
+    for (std::size_t i = at; i < HWY_MIN(n, at + FaceSizes::kGroup); ++i) {
+      sum += block.twice_area[i];
+    }
+    *sums++ = sum;
+  }
+}
+
 template <class T>
 HWY_INLINE void SumRangeOf(const MeshView& mesh, const Frame& frame, std::size_t begin,
                            std::size_t end, CompensatedSum* sums, FaceSizes* sizes) {
@@ -331,7 +342,7 @@ HWY_INLINE void SumRangeOf(const MeshView& mesh, const Frame& frame, std::size_t
     const double angle2 = PrepareBlock<T>(mesh, frame, first, last - first, whole, block);
     if (sizes != nullptr) {
       sizes->angles2[first / kBlock] = angle2;
-      std::copy_n(block.twice_area, last - first, sizes->twice_areas.data() + first);
+      SumAreas(block, last - first, sizes->twice_areas.data() + first / FaceSizes::kGroup);
     }
     NormSums plain;
     const std::size_t n_left = SumBlock(block, last - first, plain, left);
@@ -362,10 +373,10 @@ HWY_EXPORT(SumRange);
 
 ExactNorms exact_norms(const MeshView& mesh, const Vec3& center, const Context& context,
                        FaceSizes* sizes) {
-  const double scale = unit_scale(mesh, center);
+  const double scale = unit_scale(mesh, center, context);
   if (sizes != nullptr) {
     sizes->scale = scale;
-    sizes->twice_areas.resize(mesh.n_triangles);
+    sizes->twice_areas.resize((mesh.n_triangles + FaceSizes::kGroup - 1) / FaceSizes::kGroup);
     sizes->angles2.resize((mesh.n_triangles + kBlock - 1) / kBlock);
   }
   const Frame frame = {.shift = -scale * center, .scale = scale};

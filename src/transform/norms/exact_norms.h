@@ -28,9 +28,11 @@ struct ExactNorms {
 // How large the faces are and look, on request.
 struct FaceSizes {
   static constexpr std::size_t kRun = 128;  // faces t are taken in runs of this many
+  static constexpr std::size_t kGroup = 4;  // and in groups within them
 
-  double scale = 1;                 // a power of two that brings the largest coordinate to 1 ... 2
-  std::vector<double> twice_areas;  // of each face, of lengths times `scale`
+  double scale = 1;  // a power of two that brings the largest coordinate to 1 ... 2
+  // Of each group: twice the area of its faces together, of lengths times `scale`.
+  std::vector<double> twice_areas;
   // Of each run: the square of the longest edge over that of the nearest corner's distance from
   // the centre, at least the largest of that of each edge and its own ends.
   std::vector<double> angles2;

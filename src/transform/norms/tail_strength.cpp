@@ -107,7 +107,7 @@ void visit_sides(const std::array<Vec3, 3>& p, const Visit& visit) {
 }  // namespace
 
 double tail_strength(const MeshView& mesh, const Vec3& center, const Context& context) {
-  const double scale = unit_scale(mesh, center);
+  const double scale = unit_scale(mesh, center, context);
   constexpr std::size_t kGrain = 1 << 15;  // chosen: some 2 ms, and few edges between two of them
   struct Part {
     CompensatedSum sum;

@@ -74,7 +74,7 @@ void add_triangle(const std::array<Vec3, 3>& p, const std::array<VertexSums*, 3>
 
 ErrorStrengths vertex_error_strengths(const MeshView& mesh, const Vec3& center) {
   validate(mesh);
-  const double scale = unit_scale(mesh, center);
+  const double scale = unit_scale(mesh, center, {.threads = 1});
   const std::vector<std::uint32_t> first = first_at_place(mesh);
   std::vector<VertexSums> sums(mesh.n_vertices);
   const auto local = [&](std::uint32_t i) { return scale * (mesh.vertex(i) - center); };

@@ -32,11 +32,12 @@ int first_degree(std::size_t n_triangles, const Tolerance& tolerance) {
 }
 
 ToleranceProblem tolerance_problem(const MeshView& mesh, const Vec3& center,
-                                   const ExactNorms& norms, double precision) {
+                                   const ExactNorms& norms, double precision,
+                                   const Context& context) {
   return {.mesh = mesh,
           .center = center,
           .norm_squared = norms.radius_squared,
-          .diagonal = diagonal_of(mesh),
+          .diagonal = diagonal_of(mesh, context),
           .precision = precision,
           .pilot = {},
           .transform = {}};
@@ -128,7 +129,7 @@ ToleranceAnalysis analyze(const StarChart& chart, const Tolerance& tolerance,
   }
   const MeshView mesh = view_of(chart.mesh);
   ToleranceProblem problem =
-      tolerance_problem(mesh, {}, exact_norms(mesh, {}, context), options.precision);
+      tolerance_problem(mesh, {}, exact_norms(mesh, {}, context), options.precision, context);
   const auto analyzed = [&](AnalyzeOptions wanted, const TransformTarget& target) {
     wanted.degree = target.degree;
     wanted.precision = target.precision;

@@ -32,7 +32,8 @@ struct ToleranceProblem {
 };
 // All but how to transform. The mesh must outlive it.
 ToleranceProblem tolerance_problem(const MeshView& mesh, const Vec3& center,
-                                   const ExactNorms& norms, double precision);
+                                   const ExactNorms& norms, double precision,
+                                   const Context& context);
 
 // Throws InvalidInput for values out of range.
 void check(const Tolerance& tolerance);

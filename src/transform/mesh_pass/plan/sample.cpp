@@ -101,7 +101,7 @@ double scale_of(MeshView mesh, const Vec3& center) {
   const std::size_t step = std::max<std::size_t>(1, mesh.n_vertices / 1024);
   mesh.vertex_stride *= step;
   mesh.n_vertices = (mesh.n_vertices + step - 1) / step;
-  return unit_scale(mesh, center);
+  return unit_scale(mesh, center, {.threads = 1});
 }
 
 // Blocks of which only the errors are looked at: nothing is too large.
