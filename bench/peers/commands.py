@@ -9,7 +9,7 @@ SHAPES is a folder with asteroid-bennu.ply, igea.ply, bunny-closed-cgal.off, arm
 stanford-dragon.ply; what is missing has no row. Inputs that are made (points, a mesh of 5.2 million
 triangles, models) lie in a temporary folder: 0.4 GB. Programs and numbers of threads take turns, round
 by round, so that what else the machine does meets all of them; given are medians and quartiles of the
-rounds. Stages inside of analyze: scripts/performance; other packages: bench/python/compare.py.
+rounds. Stages inside of analyze: scripts/performance; other packages: bench/peers/libraries.py.
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """rholm beside other packages, on the same data: time, memory and error, in Markdown.
 
-    python bench/python/compare.py                                  # everything, on made shapes
-    python bench/python/compare.py --data SHAPES --json table.json  # on real ones
-    python bench/python/compare.py --rows sums,points --rounds 5
+    python bench/peers/libraries.py                                  # everything, on made shapes
+    python bench/peers/libraries.py --data SHAPES --json table.json  # on real ones
+    python bench/peers/libraries.py --rows sums,points --rounds 5
 
 Run it with an interpreter that has rholm: an installed one, or PYTHONPATH=build/release/python. The other
 packages, those of requirements.txt, go into an environment of their own, made once below

@@ -1,6 +1,6 @@
-"""What compare.py measures: each contender does one piece of work, in a process of its own.
+"""What libraries.py measures: each contender does one piece of work, in a process of its own.
 
-compare.py runs ``python contenders.py JOB.json`` with the interpreter of the contender's packages; the
+libraries.py runs ``python contenders.py JOB.json`` with the interpreter of the contender's packages; the
 last line that is printed is the measurement, as JSON. A contender takes arrays and options and returns
 a `Job`. Packages are imported by the contender that needs them, before anything is measured.
 """

@@ -1,4 +1,4 @@
-"""The tables of compare.py: which data, which contenders with which options, and how they are judged."""
+"""The tables of libraries.py: which data, which contenders with which options, and how they are judged."""
 
 from __future__ import annotations
 
