@@ -11,6 +11,7 @@
 #include <numeric>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "atlas/cover/cap_cover.h"
@@ -72,16 +73,18 @@ TEST(every_loop, gives_the_same_bits_for_each_method) {
 }
 
 TEST(every_loop, gives_the_same_bits_for_errors) {
-  const Mesh mesh = many_triangles();
-  const Expansion expansion = analyze(chart_of(mesh), {.degree = 100}).expansion;
-  expect_same_bits([&](const Context& context) {
-    const TruncationErrors errors = truncation_errors(view_of(mesh), expansion, {}, context);
-    Bits bits;
-    return bits.add(*errors.rms)
-        .add(*errors.measured_max)
-        .add(*errors.distance_rms)
-        .add(*errors.measured_max_distance);
-  });
+  // Many points, then many triangles.
+  for (const auto& [mesh, degree] : {std::pair{many_triangles(), 100}, {bumpy_sphere(6), 8}}) {
+    const Expansion expansion = analyze(chart_of(mesh), {.degree = degree}).expansion;
+    expect_same_bits([&](const Context& context) {
+      const TruncationErrors errors = truncation_errors(view_of(mesh), expansion, {}, context);
+      Bits bits;
+      return bits.add(*errors.rms)
+          .add(*errors.measured_max)
+          .add(*errors.distance_rms)
+          .add(*errors.measured_max_distance);
+    });
+  }
 }
 
 TEST(every_loop, gives_the_same_bits_for_a_large_mesh_in_random_order) {
@@ -111,6 +114,7 @@ TEST(every_loop, gives_the_same_bits_for_centres_and_star_checks) {
       const StarReport found = find_center(mesh, {.kind = kind, .rays = 3000}, context);
       bits.add(found.min_d).add(found.min_cos_gamma).add(found.once_share);
     }
+    bits.add(check_star(mesh, {2, 0, 0}, 3000, context).missed_share);
     Mesh open = mesh;
     open.triangles.pop_back();
     return bits.add(check_star(open, {}, 3000, context).missed_share);
