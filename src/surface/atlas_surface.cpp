@@ -11,6 +11,7 @@
 #include "atlas/cap/cap_pole.h"
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"
+#include "base/indices_where.h"
 #include "rholm/error.h"
 #include "rholm/topology.h"
 #include "shape/normal_attributes.h"
@@ -200,24 +201,20 @@ double guessed_share(const ExtractedSurface& surface, const Context& context) {
 
 // Vertices in no cap's support have the normals of their triangles. They are few: only their
 // triangles are summed.
-void complete_normals(Mesh& mesh) {
+void complete_normals(Mesh& mesh, const Context& context) {
   const NormalAttributes normals = normal_attributes(mesh);
-  constexpr std::uint32_t kKnown = ~std::uint32_t{0};
-  std::vector<std::uint32_t> place(mesh.vertices.size(), kKnown), missing;
-  for (std::uint32_t i = 0; i < place.size(); ++i) {
-    if (normals[i] != Vec3{}) continue;
-    place[i] = static_cast<std::uint32_t>(missing.size());
-    missing.push_back(i);
-  }
+  const auto is_missing = [&](std::uint32_t v) { return normals[v] == Vec3{}; };
+  const std::vector<std::uint32_t> missing =
+      indices_where(mesh.vertices.size(), context, is_missing);
   if (missing.empty()) return;
   std::vector<Vec3> sums(missing.size());
-  for (const Triangle& t : mesh.triangles) {
-    const auto is_missing = [&](std::uint32_t i) { return place[i] != kKnown; };
-    if (std::none_of(t.begin(), t.end(), is_missing)) continue;
+  for (const std::uint32_t i : around) {
+    const Triangle& t = mesh.triangles[i];
     const Vec3& a = mesh.vertices[t[0]];
     const Vec3 area = cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a);
-    for (const std::uint32_t i : t) {
-      if (is_missing(i)) sums[place[i]] += area;
+    for (const std::uint32_t v : t) {
+      const auto at = std::lower_bound(missing.begin(), missing.end(), v);
+      if (at != missing.end() && *at == v) sums[at - missing.begin()] += area;
     }
   }
   for (std::size_t k = 0; k < missing.size(); ++k) normals.set(missing[k], normalized(sums[k]));
@@ -235,6 +232,10 @@ AtlasSurface extract_atlas(const Atlas& atlas, const AtlasSurfaceOptions& option
                            const Context& context) {
   if (atlas.caps.empty()) {
     throw Error(ErrorCode::kInvalidInput, "an atlas without caps has no surface");
+  const std::vector<std::uint32_t> around =
+      indices_where(mesh.triangles.size(), context, [&](std::uint32_t t) {
+        return std::any_of(mesh.triangles[t].begin(), mesh.triangles[t].end(), is_missing);
+      });
   }
   AtlasSurface result;
   const CapBands bands(atlas, options.step, context);
@@ -270,8 +271,9 @@ AtlasSurface extract_atlas(const Atlas& atlas, const AtlasSurfaceOptions& option
   } else {
     result.mesh = std::move(surface.mesh);
   }
-  result.dropped_components = drop_small_components(result.mesh, options.min_component).dropped;
-  complete_normals(result.mesh);
+  result.dropped_components =
+      drop_small_components(result.mesh, options.min_component, context).dropped;
+  complete_normals(result.mesh, context);
   result.faces = result.mesh.triangles.size();
   if (options.simplify) {
     grid = {};

@@ -24,6 +24,7 @@
 #include "support/test_points.h"
 #include "support/test_shapes.h"
 #include "surface/grid/block_grid.h"
+#include "surface/level_set/components.h"
 #include "surface/level_set/cut_handles.h"
 #include "transform/error/closest_distances.h"
 
@@ -322,13 +323,34 @@ TEST(every_loop, gives_the_same_bits_for_bridges_that_are_cut) {
   });
 }
 
+TEST(every_loop, gives_the_same_bits_for_components_that_are_dropped) {
+  Mesh bodies = many_triangles();
+  const std::size_t n = bodies.vertices.size(), n_triangles = bodies.triangles.size();
+  for (const double scale : {0.01, 0.5, 0.02}) {
+    const auto first = static_cast<std::uint32_t>(bodies.vertices.size());
+    for (std::size_t v = 0; v < n; ++v) {
+      bodies.vertices.push_back(scale * bodies.vertices[v] + Vec3{5, 0, 0});
+    }
+    for (std::size_t t = 0; t < n_triangles; ++t) {
+      const Triangle& own = bodies.triangles[t];
+      bodies.triangles.push_back({first + own[0], first + own[1], first + own[2]});
+    }
+  }
+  test::add_normals(bodies);
+  expect_same_bits([&](const Context& context) {
+    Mesh mesh = bodies;
+    EXPECT_EQ(drop_small_components(mesh, 0.1, context).dropped, 2U);
+    return Bits().add(mesh);
+  });
+}
+
 Mesh surface_of(const PointCloud& cloud, HolePolicy holes, const Context& context) {
   return reconstruct(cloud, {.holes = holes, .simplify = SimplifyOptions{.share = 0.5}}, context)
       .mesh;
 }
 
 TEST(every_loop, gives_the_same_bits_for_surfaces_of_points) {
-  PointCloud cloud = sample_surface(icosphere(4), {.points = 1500, .holes = 2, .hole_radius = 0.2});
+  PointCloud cloud = sample_surface(icosphere(4), {.points = 2500, .holes = 2, .hole_radius = 0.2});
   cloud.attributes = {{"height", ScalarType::kFloat64, {}}};
   for (const Vec3& p : cloud.points) cloud.attributes[0].values.push_back(p.z);
   const PointCloud noisy = sample_surface(

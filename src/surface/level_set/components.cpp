@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
-#include "base/disjoint_sets.h"
+#include "base/indices_where.h"
+#include "base/parallel.h"
 
 namespace rholm {
 namespace {
@@ -21,37 +23,51 @@ struct Component {
   double volume = 0;
 };
 
+constexpr std::size_t kGrain = 8192;  // vertices or triangles; chosen
+
 // Component of each vertex, numbered by their first vertices.
-std::vector<std::uint32_t> number_components(const Mesh& mesh, std::size_t& n) {
-  DisjointSets sets(mesh.vertices.size());
-  for (const Triangle& t : mesh.triangles) {
-    sets.unite(t[0], t[1]);
-    sets.unite(t[1], t[2]);
-  }
-  std::vector<std::uint32_t> component(mesh.vertices.size());
-  n = 0;
-  for (std::uint32_t v = 0; v < component.size(); ++v) {
-    const std::uint32_t first = sets.find(v);
-    component[v] = first == v ? static_cast<std::uint32_t>(n++) : component[first];
-  }
+std::vector<std::uint32_t> number_components(SharedSets& sets,
+                                             const std::vector<std::uint32_t>& first,
+                                             const Context& context) {
+  std::vector<std::uint32_t> component(sets.size());
+  for (std::uint32_t c = 0; c < first.size(); ++c) component[first[c]] = c;
+  parallel_for(component.size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      const std::uint32_t own = sets.find(static_cast<std::uint32_t>(v));
+      if (own != v) component[v] = component[own];
+    }
+  });
   return component;
 }
 
 std::vector<Component> measure(const Mesh& mesh, const std::vector<std::uint32_t>& component,
-                               std::size_t n) {
-  std::vector<Component> measures(n);
-  for (std::size_t v = mesh.vertices.size(); v-- > 0;) {
-    measures[component[v]].origin = mesh.vertices[v];
-  }
-  for (const Triangle& t : mesh.triangles) {
-    Component& c = measures[component[t[0]]];
-    const Vec3 a = mesh.vertices[t[0]] - c.origin;
-    const Vec3 b = mesh.vertices[t[1]] - c.origin;
-    const Vec3 d = mesh.vertices[t[2]] - c.origin;
-    const Vec3 twice = cross(b - a, d - a);
-    c.area_vector += 0.5 * twice;
-    c.area += 0.5 * norm(twice);
-    c.volume += dot(a, cross(b, d)) / 6;
+                               const std::vector<std::uint32_t>& first, const Context& context) {
+  std::vector<Component> measures(first.size());
+  for (std::size_t c = 0; c < first.size(); ++c) measures[c].origin = mesh.vertices[first[c]];
+  // Sums over triangles one after the other of one component.
+  using Run = std::pair<std::uint32_t, Component>;
+  std::vector<std::vector<Run>> runs((mesh.triangles.size() + kGrain - 1) / kGrain);
+  parallel_for(mesh.triangles.size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
+    std::vector<Run>& own = runs[begin / kGrain];
+    for (std::size_t i = begin; i < end; ++i) {
+      const Triangle& t = mesh.triangles[i];
+      const std::uint32_t which = component[t[0]];
+      if (own.empty() || own.back().first != which) own.emplace_back(which, Component{});
+      Component& c = own.back().second;
+      const Vec3 a = mesh.vertices[t[0]] - measures[which].origin;
+      const Vec3 b = mesh.vertices[t[1]] - measures[which].origin;
+      const Vec3 d = mesh.vertices[t[2]] - measures[which].origin;
+      const Vec3 twice = cross(b - a, d - a);
+      c.area_vector += 0.5 * twice;
+      c.area += 0.5 * norm(twice);
+      c.volume += dot(a, cross(b, d)) / 6;
+    }
+  });
+  for (const std::vector<Run>& some : runs) {
+    for (const auto& [which, part] : some) {
+      Component& c = measures[which];
+      c.area_vector += part.area_vector, c.area += part.area, c.volume += part.volume;
+    }
   }
   return measures;
 }
@@ -106,12 +122,15 @@ bool has_area(const Mesh& mesh) {
 }
 
 // As the public function; `renumbered` is empty if nothing was dropped.
-DroppedComponents drop(Mesh& mesh, double least_share, std::vector<std::uint32_t>& renumbered) {
+DroppedComponents drop(Mesh& mesh, double least_share, std::vector<std::uint32_t>& renumbered,
+                       const Context& context) {
   DroppedComponents result;
-  std::size_t n = 0;
-  const std::vector<std::uint32_t> component = number_components(mesh, n);
+  SharedSets sets = connected_vertices(mesh, context);
+  const std::vector<std::uint32_t> first = first_members(sets, context);
+  const std::size_t n = first.size();
   if (n == 1 && has_area(mesh)) return {.components = 1};
-  const std::vector<Component> measures = measure(mesh, component, n);
+  const std::vector<std::uint32_t> component = number_components(sets, first, context);
+  const std::vector<Component> measures = measure(mesh, component, first, context);
   const std::vector<char> stays = choose(measures, least_share);
   double area = 0;
   for (std::size_t i = 0; i < n; ++i) {
@@ -124,24 +143,43 @@ DroppedComponents drop(Mesh& mesh, double least_share, std::vector<std::uint32_t
   if (std::find(stays.begin(), stays.end(), 0) == stays.end()) return result;
   renumbered = renumber(component, stays);
   std::erase_if(mesh.triangles, [&](const Triangle& t) { return !stays[component[t[0]]]; });
-  for (Triangle& t : mesh.triangles) {
-    for (std::uint32_t& v : t) v = renumbered[v];
-  }
-  keep(mesh.vertices, renumbered);
-  for (Attribute& attribute : mesh.attributes) keep(attribute.values, renumbered);
+  parallel_for(mesh.triangles.size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      for (std::uint32_t& v : mesh.triangles[t]) v = renumbered[v];
+    }
+  });
+  parallel_for(1 + mesh.attributes.size(), 1, context, {}, [&](std::size_t i, std::size_t) {
+    if (i == 0) return keep(mesh.vertices, renumbered);
+    keep(mesh.attributes[i - 1].values, renumbered);
+  });
   return result;
 }
 
 }  // namespace
 
-DroppedComponents drop_small_components(Mesh& mesh, double least_share) {
+SharedSets connected_vertices(const Mesh& mesh, const Context& context) {
+  SharedSets sets(mesh.vertices.size());
+  parallel_for(mesh.triangles.size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Triangle& t = mesh.triangles[i];
+      sets.unite(t[0], t[1]), sets.unite(t[1], t[2]);
+    }
+  });
+  return sets;
+}
+
+std::vector<std::uint32_t> first_members(const SharedSets& sets, const Context& context) {
+  return indices_where(sets.size(), context, [&](std::uint32_t v) { return sets.is_first(v); });
+}
+
+DroppedComponents drop_small_components(Mesh& mesh, double least_share, const Context& context) {
   std::vector<std::uint32_t> renumbered;
-  return drop(mesh, least_share, renumbered);
+  return drop(mesh, least_share, renumbered, context);
 }
 
 DroppedComponents drop_small_components(ExtractedSurface& surface, double least_share) {
   std::vector<std::uint32_t> renumbered;
-  const DroppedComponents result = drop(surface.mesh, least_share, renumbered);
+  const DroppedComponents result = drop(surface.mesh, least_share, renumbered, {.threads = 1});
   if (renumbered.empty()) return result;
   keep(surface.filled, renumbered);
   for (std::uint32_t& first : surface.first_vertex) first = renumbered[first];

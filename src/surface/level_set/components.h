@@ -2,11 +2,20 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
+#include "base/shared_sets.h"
+#include "rholm/context.h"
 #include "rholm/mesh.h"
 #include "surface/level_set/extract.h"
 
 namespace rholm {
+
+// Vertices that triangles connect.
+SharedSets connected_vertices(const Mesh& mesh, const Context& context);
+// The first of each set.
+std::vector<std::uint32_t> first_members(const SharedSets& sets, const Context& context);
 
 struct DroppedComponents {
   std::size_t components = 0;  // before
@@ -18,7 +27,8 @@ struct DroppedComponents {
 // the largest area, and closed ones whose enclosed volume is below least_share^(3/2) of the largest
 // volume: of bodies of one shape, the two agree, but a flat bubble has little
 // volume. 0 drops nothing. What is left keeps its order, vertices in no triangle go.
-DroppedComponents drop_small_components(Mesh& mesh, double least_share);
+DroppedComponents drop_small_components(Mesh& mesh, double least_share,
+                                        const Context& context = {});
 DroppedComponents drop_small_components(ExtractedSurface& surface, double least_share);
 
 }  // namespace rholm

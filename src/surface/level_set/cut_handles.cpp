@@ -8,12 +8,13 @@
 #include <unordered_set>
 #include <utility>
 
-#include "base/disjoint_sets.h"
 #include "base/parallel.h"
+#include "base/shared_sets.h"
 #include "shape/topology/cut_graph.h"
 #include "shape/topology/cut_loop.h"
 #include "shape/topology/mates.h"
 #include "shape/topology/short_loops.h"
+#include "surface/level_set/components.h"
 #include "surface/level_set/mesh_piece.h"
 #include "surface/level_set/tight_places.h"
 
@@ -65,14 +66,8 @@ class BitBasis {
 };
 
 // V - E + F against two for each part.
-bool has_handles(const Mesh& mesh) {
-  DisjointSets sets(mesh.vertices.size());
-  for (const Triangle& t : mesh.triangles) {
-    sets.unite(t[0], t[1]);
-    sets.unite(t[1], t[2]);
-  }
-  std::size_t parts = 0;
-  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) parts += sets.find(v) == v;
+bool has_handles(const Mesh& mesh, const Context& context) {
+  const std::size_t parts = first_members(connected_vertices(mesh, context), context).size();
   return 2 * mesh.vertices.size() < mesh.triangles.size() + 4 * parts;
 }
 
@@ -203,7 +198,8 @@ LoopSides on_whole(const MeshPiece& piece, LoopSides loop) {
 
 // Which may be cut together without parting the mesh: a spanning forest, of the longest, of the
 // parts that all of them leave is kept.
-std::vector<std::uint8_t> without_parting(const Mesh& mesh, const std::vector<LoopSides>& loops) {
+std::vector<std::uint8_t> without_parting(const Mesh& mesh, const std::vector<LoopSides>& loops,
+                                          const Context& context) {
   std::unordered_map<std::uint32_t, std::uint32_t> right;  // corners of the mesh, new vertices
   std::unordered_set<std::uint32_t> cut;
   auto n = static_cast<std::uint32_t>(mesh.vertices.size());
@@ -218,20 +214,22 @@ std::vector<std::uint8_t> without_parting(const Mesh& mesh, const std::vector<Lo
   }
   std::vector<std::uint32_t> in_order(cut.begin(), cut.end());
   std::sort(in_order.begin(), in_order.end());
-  DisjointSets sets(n);
-  auto next_cut = in_order.begin();
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    Triangle corners = mesh.triangles[t];
-    if (next_cut != in_order.end() && *next_cut == t) {
-      ++next_cut;
-      for (std::uint32_t k = 0; k < 3; ++k) {
-        const auto at = right.find(3 * t + k);
-        if (at != right.end()) corners[k] = at->second;
+  SharedSets sets(n);
+  parallel_for(mesh.triangles.size(), 8192, context, {}, [&](std::size_t begin, std::size_t end) {
+    auto next_cut = std::lower_bound(in_order.begin(), in_order.end(), begin);
+    for (std::size_t t = begin; t < end; ++t) {
+      Triangle corners = mesh.triangles[t];
+      if (next_cut != in_order.end() && *next_cut == t) {
+        ++next_cut;
+        for (std::size_t k = 0; k < 3; ++k) {
+          const auto at = right.find(static_cast<std::uint32_t>(3 * t + k));
+          if (at != right.end()) corners[k] = at->second;
+        }
       }
+      sets.unite(corners[0], corners[1]);
+      sets.unite(corners[1], corners[2]);
     }
-    sets.unite(corners[0], corners[1]);
-    sets.unite(corners[1], corners[2]);
-  }
+  });
   std::vector<std::uint8_t> may_be_cut(loops.size(), 0);
   for (std::size_t i = loops.size(); i-- > 0;) {
     if (sets.find(loops[i].vertices[0]) == sets.find(first[i])) {
@@ -256,7 +254,7 @@ std::size_t cut_once(Mesh& mesh, const Resolution& resolution, std::vector<std::
   std::vector<LoopSides> whole;
   whole.reserve(loops.size());
   for (const LoopSides& loop : loops) whole.push_back(on_whole(piece, loop));
-  const std::vector<std::uint8_t> may_be_cut = without_parting(mesh, whole);
+  const std::vector<std::uint8_t> may_be_cut = without_parting(mesh, whole, context);
   std::size_t n_cut = 0;
   for (std::size_t i = 0; i < loops.size(); ++i) {
     if (may_be_cut[i] == 0) continue;
@@ -321,7 +319,7 @@ CutHandles cut_handles(Mesh& mesh, const Resolution& resolution, const Context& 
   CutHandles result;
   std::vector<std::uint32_t> centers =
       tight_places(mesh, normal_attributes(mesh), kGirth * kCoarsest * resolution.typical, context);
-  if (centers.empty() || !has_handles(mesh)) return result;
+  if (centers.empty() || !has_handles(mesh, context)) return result;
   std::vector<std::uint32_t> middles;
   while (!centers.empty()) {
     const std::size_t n = cut_once(mesh, resolution, centers, result.copies, middles, context);
