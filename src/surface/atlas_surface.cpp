@@ -10,8 +10,9 @@
 
 #include "atlas/cap/cap_pole.h"
 #include "base/disjoint_sets.h"
-#include "base/parallel.h"
 #include "base/indices_where.h"
+#include "base/large_vector.h"
+#include "base/parallel.h"
 #include "rholm/error.h"
 #include "rholm/topology.h"
 #include "shape/normal_attributes.h"
@@ -100,9 +101,10 @@ BlockGrid make_grid(const Atlas& atlas, const std::vector<Disc>& discs,
                     const AtlasSurfaceOptions& options, const Context& context) {
   const Vec3 origin = lowest_corner(discs);
   try {
-    return make_block_grid(
-        origin, options.step,
-        list_blocks(origin, options.step, discs, blocks_within(options), context), context);
+    std::vector<BlockCoordinates> blocks =
+        list_blocks(origin, options.step, discs, blocks_within(options), context);
+    return_free_memory();
+    return make_block_grid(origin, options.step, std::move(blocks), context);
   } catch (const Error& error) {
     if (!is_too_fine(error)) throw;
     const double fits = step_that_fits(atlas, options, context);
@@ -136,6 +138,18 @@ AtlasDipoles dipoles_of(const Atlas& atlas, double step, const Context& context)
     dipoles.area_normals.push_back(cap.area * foot.normal);
   }
   return dipoles;
+}
+
+// The values of the caps, and of what lies between them.
+HoleFilling fill(const Atlas& atlas, const CapBands& bands, const CapLists& lists,
+                 const AtlasSurfaceOptions& options, BlockGrid& grid, const Context& context) {
+  const std::vector<std::uint64_t> doubtful = fill_grid(atlas, bands, lists, grid, context);
+  const AtlasDipoles dipoles = dipoles_of(atlas, options.step, context);
+  const WindingTree winding(dipoles.points, dipoles.area_normals);
+  clear_refuted(grid, doubtful, winding, context);
+  HoleFillOptions filled{.max_blocks = blocks_within(options), .support = {}, .seen = options.seen};
+  if (are_small(atlas)) filled.support = node_support(atlas, lists, grid, context);
+  return fill_holes(grid, dipoles.feet, winding, filled, context);
 }
 
 // A gap between random points is no hole; one of this many times a typical cap's disc is.
@@ -207,6 +221,10 @@ void complete_normals(Mesh& mesh, const Context& context) {
   const std::vector<std::uint32_t> missing =
       indices_where(mesh.vertices.size(), context, is_missing);
   if (missing.empty()) return;
+  const std::vector<std::uint32_t> around =
+      indices_where(mesh.triangles.size(), context, [&](std::uint32_t t) {
+        return std::any_of(mesh.triangles[t].begin(), mesh.triangles[t].end(), is_missing);
+      });
   std::vector<Vec3> sums(missing.size());
   for (const std::uint32_t i : around) {
     const Triangle& t = mesh.triangles[i];
@@ -232,28 +250,20 @@ AtlasSurface extract_atlas(const Atlas& atlas, const AtlasSurfaceOptions& option
                            const Context& context) {
   if (atlas.caps.empty()) {
     throw Error(ErrorCode::kInvalidInput, "an atlas without caps has no surface");
-  const std::vector<std::uint32_t> around =
-      indices_where(mesh.triangles.size(), context, [&](std::uint32_t t) {
-        return std::any_of(mesh.triangles[t].begin(), mesh.triangles[t].end(), is_missing);
-      });
   }
   AtlasSurface result;
   const CapBands bands(atlas, options.step, context);
-  const std::vector<Disc> discs = discs_of(atlas, bands);
+  std::vector<Disc> discs = discs_of(atlas, bands);
   BlockGrid grid = make_grid(atlas, discs, options, context);
   result.memory = memory_of(grid.n_blocks(), options);
   const CapLists lists = list_caps(grid, discs, context);
-  const std::vector<std::uint64_t> doubtful = fill_grid(atlas, bands, lists, grid, context);
-  const AtlasDipoles dipoles = dipoles_of(atlas, options.step, context);
-  const WindingTree winding(dipoles.points, dipoles.area_normals);
-  clear_refuted(grid, doubtful, winding, context);
-  HoleFillOptions filled{.max_blocks = blocks_within(options), .support = {}, .seen = options.seen};
-  if (are_small(atlas)) filled.support = node_support(atlas, lists, grid, context);
-  const HoleFilling filling = fill_holes(grid, dipoles.feet, winding, filled, context);
+  release(discs);
+  const HoleFilling filling = fill(atlas, bands, lists, options, grid, context);
   result.holes = filling.holes, result.smooth_holes = filling.smooth;
-  ExtractedSurface surface = extract_surface(grid, context);
+  return_free_memory();
+  ExtractedSurface surface = extract_last_surface(grid, context);
   // From here on only the places of blocks are asked for.
-  grid.values = {}, grid.neighbours = {};
+  release(grid.neighbours);
   project_vertices(atlas, bands, lists, grid, surface, context);
   result.guessed = guessed_share(surface, context);
   std::vector<double> support;

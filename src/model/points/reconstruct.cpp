@@ -192,6 +192,7 @@ Reconstruction reconstruct(PointCloud cloud, const ReconstructOptions& options,
     seen = points.seen_space(kCubesOfSpacing * spacing.median,
                              kEndOfSight * std::max(spacing.median, size.noise), context);
   }
+  if (!options.confidence) points.keep_tree();
   const Resolution resolution{
       .typical = std::max(spacing.median, report.step),
       .at = [&](const Vec3& place) { return std::max(points.spacing_at(place), report.step); }};

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/large_vector.h"
 #include "base/parallel.h"
 #include "rholm/error.h"
 #include "rholm/points.h"
@@ -261,6 +262,11 @@ std::optional<SeenSpace> WorkingPoints::seen_space(double edge, double margin,
   const std::vector<Vec3> sensors = sensors_of(cloud_);
   if (sensors.empty()) return std::nullopt;
   return std::make_optional<SeenSpace>(cloud_.points, sensors, edge, margin, context);
+}
+
+void WorkingPoints::keep_tree() {
+  release(cloud_.points), release(cloud_.normals);
+  release(points_), release(normals_);
 }
 
 void WorkingPoints::carry_attributes(Mesh& mesh, const Context& context) const {

@@ -31,7 +31,7 @@ class WorkingPoints {
   WorkingPoints(PointCloud cloud, const ReconstructOptions& options, ReconstructReport& report,
                 const Context& context);
 
-  std::size_t size() const { return points_.size(); }
+  std::size_t size() const { return tree_->size(); }
   OrderedPoints ordered() const { return {*tree_, points_, normals_, &gaps_, computed_}; }
   double diagonal() const { return diagonal_; }
   Spacing spacing(const Context& context) const;
@@ -47,9 +47,11 @@ class WorkingPoints {
   std::size_t remove_outliers(double noise, std::size_t most,
                               std::span<const std::uint32_t> suspects, const Context& context);
 
-  // Gives each vertex the mean of the attributes of the points around it.
   // Where all points have sensors; see SeenSpace.
   std::optional<SeenSpace> seen_space(double edge, double margin, const Context& context) const;
+  // Frees points and normals: spacing_at() and carry_attributes() do without.
+  void keep_tree();
+  // Gives each vertex the mean of the attributes of the points around it.
   void carry_attributes(Mesh& mesh, const Context& context) const;
 
  private:

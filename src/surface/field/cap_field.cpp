@@ -6,6 +6,7 @@
 #include <span>
 
 #include "atlas/cap/cap_support.h"
+#include "base/large_vector.h"
 #include "base/parallel.h"
 #include "base/poison.h"
 
@@ -442,10 +443,11 @@ struct VertexRows {
 };
 
 // nx, ny, nz of `mesh`, zero.
-std::array<double*, 3> add_vertex_normals(Mesh& mesh) {
+std::array<double*, 3> add_vertex_normals(Mesh& mesh, const Context& context) {
+  const std::size_t n = mesh.vertices.size();
   for (const char* name : {"nx", "ny", "nz"}) {
-    mesh.attributes.push_back(
-        {name, ScalarType::kFloat32, std::vector<double>(mesh.vertices.size())});
+    mesh.attributes.push_back({name, ScalarType::kFloat32, {}});
+    resize_large(mesh.attributes.back().values, n, room_for_copies(n), context);
   }
   const auto axis = mesh.attributes.end() - 3;
   return {axis[0].values.data(), axis[1].values.data(), axis[2].values.data()};
@@ -456,7 +458,7 @@ std::array<double*, 3> add_vertex_normals(Mesh& mesh) {
 void project_vertices(const Atlas& atlas, const CapBands& bands, const CapLists& lists,
                       const BlockGrid& grid, ExtractedSurface& surface, const Context& context) {
   const Lanes lanes = make_lanes(atlas, bands, grid);
-  const std::array<double*, 3> normals = add_vertex_normals(surface.mesh);
+  const std::array<double*, 3> normals = add_vertex_normals(surface.mesh, context);
   const std::size_t n_blocks = std::min(lists.first.size(), surface.first_vertex.size()) - 1;
   parallel_for(
       n_blocks, 64, context, {.name = "vertices"}, [&](std::size_t begin, std::size_t end) {

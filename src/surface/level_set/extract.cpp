@@ -6,7 +6,9 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <functional>
 
+#include "base/large_vector.h"
 #include "base/parallel.h"
 #include "rholm/error.h"
 #include "surface/grid/node_masks.h"
@@ -304,27 +306,45 @@ std::vector<BlockSurface> scan_blocks(const BlockGrid& grid, const Context& cont
   return blocks;
 }
 
-}  // namespace
-
-ExtractedSurface extract_surface(const BlockGrid& grid, const Context& context) {
+// `values_are_done` is called once vertices are known: no value is asked for after that.
+ExtractedSurface extract(const BlockGrid& grid, const std::function<void()>& values_are_done,
+                         const Context& context) {
   const std::vector<BlockSurface> blocks = scan_blocks(grid, context);
   Places places = places_of(blocks);
   ExtractedSurface result;
-  result.mesh.vertices.resize(places.vertices.back());
-  result.mesh.triangles.resize(places.triangles.back());
-  if (!grid.filled.empty()) result.filled.resize(places.vertices.back());
-  parallel_for(blocks.size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t b = begin; b < end; ++b) {
-      if (blocks[b].n_vertices > 0) {
-        write_vertices(grid, b, blocks[b], places.vertices[b], result);
+  const std::size_t n_vertices = places.vertices.back();
+  resize_large(result.mesh.vertices, n_vertices, room_for_copies(n_vertices), context);
+  if (!grid.filled.empty()) result.filled.resize(n_vertices);
+  const auto for_blocks = [&](std::uint32_t BlockSurface::*n, const auto& write) {
+    parallel_for(blocks.size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t b = begin; b < end; ++b) {
+        if (blocks[b].*n > 0) write(b);
       }
-      if (blocks[b].n_triangles > 0) {
-        write_triangles(grid, blocks, places, b, result.mesh.triangles);
-      }
-    }
+    });
+  };
+  for_blocks(&BlockSurface::n_vertices, [&](std::size_t b) {
+    write_vertices(grid, b, blocks[b], places.vertices[b], result);
+  });
+  values_are_done();
+  const std::size_t n_triangles = places.triangles.back();
+  resize_large(result.mesh.triangles, n_triangles, room_for_copies(n_triangles), context);
+  for_blocks(&BlockSurface::n_triangles, [&](std::size_t b) {
+    write_triangles(grid, blocks, places, b, result.mesh.triangles);
   });
   result.first_vertex = std::move(places.vertices);
   return result;
+}
+
+}  // namespace
+
+ExtractedSurface extract_surface(const BlockGrid& grid, const Context& context) {
+  return extract(
+      grid, [] {}, context);
+}
+
+ExtractedSurface extract_last_surface(BlockGrid& grid, const Context& context) {
+  return extract(
+      grid, [&] { grid.values = {}; }, context);
 }
 
 }  // namespace rholm

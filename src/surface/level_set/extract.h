@@ -1,6 +1,7 @@
 // The zero level of a block grid as a triangle mesh (marching cubes; method 7.9).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -19,9 +20,15 @@ struct ExtractedSurface {
   std::vector<std::uint8_t> filled;
 };
 
+// Room for what is cut (cut_handles.h): without it the mesh would be there twice for a while, and
+// does not cost memory before it is used.
+inline std::size_t room_for_copies(std::size_t n) { return n / 64 + 1024; }
+
 // Cubes with an unknown corner get no triangle. If no cube with both signs has one, the mesh is a
 // closed 2-manifold, else it has borders there (and may touch itself in a vertex). Vertices are
 // placed by linear interpolation. Throws Unsupported if there are more than 2^31 / 3 triangles.
 ExtractedSurface extract_surface(const BlockGrid& grid, const Context& context = {});
+// The same, and frees the grid's values before there are triangles: both take as much memory.
+ExtractedSurface extract_last_surface(BlockGrid& grid, const Context& context = {});
 
 }  // namespace rholm

@@ -232,6 +232,11 @@ TEST(Extract, threads_do_not_change_a_bit) {
   EXPECT_EQ(one.mesh.vertices, two.mesh.vertices);
   EXPECT_EQ(one.mesh.triangles, two.mesh.triangles);
   EXPECT_EQ(one.first_vertex, two.first_vertex);
+  BlockGrid last = random_grid(7, 0.3);
+  const ExtractedSurface released = extract_last_surface(last, {.threads = 2, .progress = {}});
+  EXPECT_EQ(released.mesh.vertices, one.mesh.vertices);
+  EXPECT_EQ(released.mesh.triangles, one.mesh.triangles);
+  EXPECT_EQ(last.values.size(), 0U);
 }
 
 TEST(Extract, no_blocks_give_an_empty_mesh) {
