@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -143,13 +144,24 @@ AtlasDipoles dipoles_of(const Atlas& atlas, double step, const Context& context)
 // The values of the caps, and of what lies between them.
 HoleFilling fill(const Atlas& atlas, const CapBands& bands, const CapLists& lists,
                  const AtlasSurfaceOptions& options, BlockGrid& grid, const Context& context) {
-  const std::vector<std::uint64_t> doubtful = fill_grid(atlas, bands, lists, grid, context);
-  const AtlasDipoles dipoles = dipoles_of(atlas, options.step, context);
-  const WindingTree winding(dipoles.points, dipoles.area_normals);
-  clear_refuted(grid, doubtful, winding, context);
+  std::vector<std::uint64_t> doubtful;
+  AtlasDipoles dipoles;
+  std::optional<WindingTree> winding;
+  // The tree is made on one thread, beside the values; these report progress.
+  Context silent = context;
+  silent.progress = {};
+  parallel_for(2, 1, silent, {}, [&](std::size_t begin, std::size_t) {
+    if (begin == 0) {
+      dipoles = dipoles_of(atlas, options.step, silent);
+      winding.emplace(dipoles.points, dipoles.area_normals);
+    } else {
+      doubtful = fill_grid(atlas, bands, lists, grid, context);
+    }
+  });
+  clear_refuted(grid, doubtful, *winding, context);
   HoleFillOptions filled{.max_blocks = blocks_within(options), .support = {}, .seen = options.seen};
   if (are_small(atlas)) filled.support = node_support(atlas, lists, grid, context);
-  return fill_holes(grid, dipoles.feet, winding, filled, context);
+  return fill_holes(grid, dipoles.feet, *winding, filled, context);
 }
 
 // A gap between random points is no hole; one of this many times a typical cap's disc is.
