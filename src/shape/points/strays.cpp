@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <limits>
 #include <utility>
 
-#include "base/cancel.h"
-#include "base/disjoint_sets.h"
 #include "base/parallel.h"
+#include "base/shared_sets.h"
 #include "shape/points/members.h"
 #include "shape/points/plane_fit.h"
 
@@ -22,7 +23,7 @@ constexpr double kReach = 1.5;
 // From a point to its neighbours the spacing of a surface grows by no more. Outliers among each
 // other have ways of their own; seen from the surface they are alone.
 constexpr float kGrows = 1.5f;
-constexpr int kSweeps = 40;
+constexpr int kSweeps = 40;              // 1.5^40: a hundred million times
 constexpr std::size_t kLeastGroup = 16;  // fewer points have no surface of their own
 // Groups that fill a volume: the least extent of 16 neighbours over the largest, squared, the
 // median over points. Random points of a volume have 0.37; of a sheet with noise of 0, 0.25, 0.5, 1
@@ -110,38 +111,40 @@ class Groups {
                  });
   }
 
+  template <typename Visit>
+  void for_points(const Visit& visit) const {
+    parallel_for(points_.size(), 1024, context_, {}, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) visit(static_cast<std::uint32_t>(i));
+    });
+  }
+
   // Groups of points whose links are within reach; each has the number of its first point.
   std::vector<std::uint32_t> join(const std::vector<float>& ways) const {
-    DisjointSets sets(points_.size());
-    CancelPoll poll;
-    for (std::uint32_t i = 0; i < points_.size(); ++i) {
-      poll();
+    SharedSets sets(points_.size());
+    for_points([&](std::uint32_t i) {
       for (const Neighbor& other : links_[i]) {
         const double reach = kReach * std::min(ways[i], ways[other.index]);
         if (other.distance2 <= reach * reach) sets.unite(i, other.index);
       }
-    }
+    });
     std::vector<std::uint32_t> group(points_.size());
-    for (std::uint32_t i = 0; i < group.size(); ++i) group[i] = sets.find(i);
+    for_points([&](std::uint32_t i) { group[i] = sets.find(i); });
     return group;
   }
 
   // The ways to the eighth neighbours, cut to what neighbours let them grow to.
   std::vector<float> steady_ways() const {
-    std::vector<float> ways = eighth_;
-    CancelPoll poll;
-    bool changed = true;
+    std::vector<float> ways = eighth_, shorter = ways;
+    std::atomic<bool> changed = true;
     for (int sweep = 0; changed && sweep < kSweeps; ++sweep) {
       changed = false;
-      for (std::size_t i = 0; i < ways.size(); ++i) {
-        poll();
+      for_points([&](std::uint32_t i) {
         for (const Neighbor& other : links_[i]) {
-          const float most = kGrows * ways[other.index];
-          if (!(ways[i] > most)) continue;
-          ways[i] = most;
-          changed = true;
+          shorter[i] = std::min(shorter[i], kGrows * ways[other.index]);
         }
-      }
+        if (shorter[i] < ways[i]) changed = true;
+      });
+      ways = shorter;
     }
     return ways;
   }
@@ -213,10 +216,36 @@ class Groups {
   std::vector<float> eighth_;  // the way to the eighth neighbour, between rows
 };
 
+// Whether so many points are in the outer quarters of the whole box, along its longest side, that
+// the box of all but those beyond is half as long: then none is far from it.
+bool is_compact(std::span<const Vec3> points) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Vec3 low{kInfinity, kInfinity, kInfinity}, high = -low;
+  std::size_t n = 0;
+  for (const Vec3& p : points) {
+    if (!is_finite(p)) continue;
+    ++n;
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const Vec3 size = high - low;
+  double Vec3::*axis = size.x >= size.y ? &Vec3::x : &Vec3::y;
+  if (size.z > size.*axis) axis = &Vec3::z;
+  const double quarter = size.*axis / 4, from = low.*axis + quarter, to = high.*axis - quarter;
+  std::size_t below = 0, above = 0;
+  for (const Vec3& p : points) {
+    if (!is_finite(p)) continue;
+    below += p.*axis < from;
+    above += p.*axis > to;
+  }
+  return std::min(below, above) > std::max<std::size_t>(1, n / kBeyond);
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> find_far_strays(std::span<const Vec3> points) {
   std::vector<std::uint8_t> flags(points.size(), 0);
+  if (is_compact(points)) return flags;
   Vec3 lower, upper;
   std::vector<double> values;
   for (double Vec3::*axis : {&Vec3::x, &Vec3::y, &Vec3::z}) {
