@@ -302,11 +302,11 @@ PointTree::PointTree(std::span<const Vec3> points, const Context& context) : ord
   const double extent = points.empty() ? 0 : norm(upper - lower);
   scale_ = extent > 0 ? 1 / extent : 1;
   std::vector<Item> items(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vec3 p = scale_ * (points[i] - middle_);
-    items[i] = {{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)},
-                static_cast<std::uint32_t>(i)};
-  }
+  parallel_for(items.size(), 8192, context, {}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      items[i] = {local(points[i]), static_cast<std::uint32_t>(i)};
+    }
+  });
   split(items, context);
   store(items, context);
 }

@@ -265,14 +265,16 @@ struct Lanes {
   std::vector<float> coefficients;
 };
 
-Lanes make_lanes(const Atlas& atlas, const CapBands& bands, const BlockGrid& grid) {
+Lanes make_lanes(const Atlas& atlas, const CapBands& bands, const BlockGrid& grid,
+                 const Context& context) {
   const double step = grid.step;
   Lanes lanes;
-  lanes.coefficients.assign(atlas.coefficients.begin(), atlas.coefficients.end());
-  lanes.caps.reserve(atlas.caps.size());
-  for (const Cap& cap : atlas.caps) {
-    CapLane lane;
-    const double band = bands[lanes.caps.size()];
+  lanes.coefficients.resize(atlas.coefficients.size());
+  lanes.caps.resize(atlas.caps.size());
+  const auto make_lane = [&](std::size_t c) {
+    const Cap& cap = atlas.caps[c];
+    CapLane& lane = lanes.caps[c];
+    const double band = bands[c];
     const CapFrame& f = cap.frame;
     lane.seed = (f.seed() - grid.origin) / step;
     lane.frame = lane_frame<float>(f, step);
@@ -304,15 +306,20 @@ Lanes make_lanes(const Atlas& atlas, const CapBands& bands, const BlockGrid& gri
     lane.noisy = atlas.noise > 0;
     lane.even = cap.basis == CapBasis::kEven;
     lane.by_powers = !lane.even && cap.degree == kSmallDegree;
+    const std::span<const double> own = atlas.coefficients_of(cap);
     float* const coefficients = lanes.coefficients.data() + cap.first;
     lane.coefficients = coefficients;
     if (lane.by_powers) {
       std::array<double, low_index(kSmallDegree + 1, 0)> powers;
-      to_powers(kSmallDegree, atlas.coefficients_of(cap).data(), powers.data());
+      to_powers(kSmallDegree, own.data(), powers.data());
       std::copy(powers.begin(), powers.end(), coefficients);
+    } else {
+      std::copy(own.begin(), own.end(), coefficients);
     }
-    lanes.caps.push_back(lane);
-  }
+  };
+  parallel_for(atlas.caps.size(), 256, context, {}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c) make_lane(c);
+  });
   return lanes;
 }
 
@@ -406,7 +413,7 @@ CapLists list_caps(const BlockGrid& grid, const std::vector<Disc>& discs, const 
 std::vector<std::uint64_t> fill_grid(const Atlas& atlas, const CapBands& bands,
                                      const CapLists& lists, BlockGrid& grid,
                                      const Context& context) {
-  const Lanes lanes = make_lanes(atlas, bands, grid);
+  const Lanes lanes = make_lanes(atlas, bands, grid, context);
   std::vector<std::uint64_t> doubtful(8 * grid.n_blocks(), 0);
   parallel_for(lists.first.size() - 1, 64, context, {.name = "grid"},
                [&](std::size_t begin, std::size_t end) {
@@ -457,7 +464,7 @@ std::array<double*, 3> add_vertex_normals(Mesh& mesh, const Context& context) {
 
 void project_vertices(const Atlas& atlas, const CapBands& bands, const CapLists& lists,
                       const BlockGrid& grid, ExtractedSurface& surface, const Context& context) {
-  const Lanes lanes = make_lanes(atlas, bands, grid);
+  const Lanes lanes = make_lanes(atlas, bands, grid, context);
   const std::array<double*, 3> normals = add_vertex_normals(surface.mesh, context);
   const std::size_t n_blocks = std::min(lists.first.size(), surface.first_vertex.size()) - 1;
   parallel_for(
