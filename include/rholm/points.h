@@ -91,7 +91,7 @@ struct CleanReport {
 // attributes. Its normal becomes the mean direction of all their normals, but for those at more
 // than 90 degrees to its own. Normals that are not finite become zero. Throws InvalidInput if
 // normals or attributes are not one per point.
-CleanReport clean(PointCloud& cloud);
+CleanReport clean(PointCloud& cloud, const Context& context = {});
 
 // What align_scans() did. Lengths are in the unit of the points.
 struct ScanAlignment {

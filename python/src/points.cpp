@@ -44,7 +44,8 @@ void bind_points(nb::module_& m) {
       .field("zero_normals", &CleanReport::zero_normals,
              "Of the points that stay, those with a zero normal.");
   m.def("clean", [](PointCloud cloud, const Caller& caller) {
-    const CleanReport report = caller.run([&](const Context&) { return clean(cloud); });
+    const CleanReport report =
+        caller.run([&](const Context& context) { return clean(cloud, context); });
     return nb::make_tuple(std::move(cloud), report);
   });
 

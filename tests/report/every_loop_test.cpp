@@ -18,6 +18,7 @@
 #include "model/points/reconstruct_points.h"
 #include "rholm/rholm.h"
 #include "shape/queries/sheet_gaps.h"
+#include "shape/queries/winding_tree.h"
 #include "support/bits.h"
 #include "support/random_data.h"
 #include "support/test_meshes.h"
@@ -341,6 +342,17 @@ TEST(every_loop, gives_the_same_bits_for_components_that_are_dropped) {
     Mesh mesh = bodies;
     EXPECT_EQ(drop_small_components(mesh, 0.1, context).dropped, 2U);
     return Bits().add(mesh);
+  });
+}
+
+TEST(every_loop, gives_the_same_bits_for_winding_numbers_and_identical_points) {
+  const PointCloud cloud = test::sphere_points(500), places = test::sphere_points(10000);
+  const WindingTree tree(cloud.points, cloud.normals);
+  PointCloud twice = test::joined(places, places);
+  expect_same_bits([&](const Context& context) {
+    PointCloud once = twice;
+    EXPECT_EQ(clean(once, context).duplicates, places.points.size());
+    return Bits().add(tree.winding(places.points, context)).add(once.points).add(once.normals);
   });
 }
 

@@ -111,7 +111,7 @@ WorkingPoints::WorkingPoints(PointCloud cloud, const ReconstructOptions& options
     report.outliers = static_cast<std::size_t>(std::count(far.begin(), far.end(), 1));
     if (report.outliers > 0) keep_points(cloud_, [&](std::size_t i) { return far[i] == 0; });
   }
-  clean(cloud_);
+  clean(cloud_, context);
   if (options.sensor) put_sensor(*options.sensor);
   const bool directed = std::any_of(cloud_.normals.begin(), cloud_.normals.end(),
                                     [](const Vec3& n) { return norm(n) > 0; });

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/parallel.h"
 #include "rholm/error.h"
 #include "rholm/points.h"
 #include "rholm/topology.h"
@@ -48,17 +49,18 @@ constexpr double kPlace = 0x1p-23;
 
 // The first point in the same cell of that size. Of two that are closer, but in two cells, both
 // stay.
-std::vector<std::uint32_t> first_in_place(const std::vector<Vec3>& points) {
+std::vector<std::uint32_t> first_in_place(const std::vector<Vec3>& points, const Context& context) {
   const Bounds box = bounds(points);
   const double per_length = 1 / (kPlace * box.diagonal());
-  if (!std::isnormal(per_length)) return first_identical(points);
-  std::vector<Vec3> places;
-  places.reserve(points.size());
-  for (const Vec3& p : points) {
-    const Vec3 cell = per_length * (p - box.min);
-    places.push_back({std::floor(cell.x), std::floor(cell.y), std::floor(cell.z)});
-  }
-  return first_identical(places);
+  if (!std::isnormal(per_length)) return first_identical(points, context);
+  std::vector<Vec3> places(points.size());
+  parallel_for(points.size(), 8192, context, {}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec3 cell = per_length * (points[i] - box.min);
+      places[i] = {std::floor(cell.x), std::floor(cell.y), std::floor(cell.z)};
+    }
+  });
+  return first_identical(places, context);
 }
 
 // Adds the normals of duplicates to those of the points that stay.
@@ -82,17 +84,17 @@ std::size_t merge_normals(const std::vector<std::uint32_t>& first, std::vector<V
 
 }  // namespace
 
-CleanReport clean(PointCloud& cloud) {
+CleanReport clean(PointCloud& cloud, const Context& context) {
   check_sizes(cloud);
   CleanReport report{.points = cloud.points.size()};
   std::vector<char> kept(cloud.points.size());
   for (std::size_t i = 0; i < kept.size(); ++i) kept[i] = is_finite(cloud.points[i]);
-  keep_only(kept, cloud);
-  report.not_finite = report.points - cloud.points.size();
+  report.not_finite = static_cast<std::size_t>(std::count(kept.begin(), kept.end(), 0));
+  if (report.not_finite > 0) keep_only(kept, cloud);
   for (Vec3& normal : cloud.normals) {
     if (!is_finite(normal)) normal = {};
   }
-  const std::vector<std::uint32_t> first = first_in_place(cloud.points);
+  const std::vector<std::uint32_t> first = first_in_place(cloud.points, context);
   kept.resize(first.size());
   for (std::uint32_t i = 0; i < first.size(); ++i) {
     kept[i] = first[i] == i;

@@ -24,6 +24,7 @@ constexpr std::uint32_t kLeafSize = 8;
 constexpr double kLeastRadius = 1e-30;
 // Queries that are worked on at a time; a multiple of any vector's length.
 constexpr std::size_t kGrain = 1024;
+constexpr std::size_t kSorted = 4096;            // chosen
 constexpr std::size_t kNodesPerQuestion = 4096;  // whether to cancel
 
 void check_finite(std::span<const Vec3> vectors, const char* what) {
@@ -90,7 +91,7 @@ WindingTree::WindingTree(std::span<const Vec3> points, std::span<const Vec3> are
   const double extent = std::max({half.x, half.y, half.z});
   scale_ = extent > 0 ? 1 / extent : 1;
   for (Vec3& p : local) p = scale_ * (p - middle_);
-  const std::vector<Key> keys = sorted_keys(local);
+  const std::vector<Key> keys = sorted_keys(local, {.threads = 1});
   order_.resize(keys.size());
   points_.resize(keys.size());
   for (std::size_t i = 0; i < keys.size(); ++i) {
@@ -101,17 +102,25 @@ WindingTree::WindingTree(std::span<const Vec3> points, std::span<const Vec3> are
   set_area_normals(area_normals);
 }
 
-std::vector<WindingTree::Key> WindingTree::sorted_keys(std::span<const Vec3> local) const {
+std::vector<WindingTree::Key> WindingTree::sorted_keys(std::span<const Vec3> local,
+                                                       const Context& context) {
   std::vector<Key> keys(local.size());
-  CancelPoll poll;
-  for (std::size_t i = 0; i < local.size(); ++i) {
-    poll();
-    keys[i] = {morton(local[i]), static_cast<std::uint32_t>(i)};
-  }
-  std::sort(keys.begin(), keys.end(), [&](const Key& a, const Key& b) {
-    poll();
+  const auto before = [](const Key& a, const Key& b) {
     return a.morton != b.morton ? a.morton < b.morton : a.index < b.index;
+  };
+  const auto at = [&](std::size_t i) { return keys.begin() + static_cast<std::ptrdiff_t>(i); };
+  // Parts, then pairs of them.
+  parallel_for(keys.size(), kSorted, context, {}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      keys[i] = {morton(local[i]), static_cast<std::uint32_t>(i)};
+    }
+    std::sort(at(begin), at(end), before);
   });
+  for (std::size_t half = kSorted; half < keys.size(); half *= 2) {
+    parallel_for(keys.size(), 2 * half, context, {}, [&](std::size_t begin, std::size_t end) {
+      if (begin + half < end) std::inplace_merge(at(begin), at(begin + half), at(end), before);
+    });
+  }
   return keys;
 }
 
@@ -191,7 +200,7 @@ std::vector<double> WindingTree::winding(std::span<const Vec3> x, const Context&
   std::vector<Vec3> local(x.size());
   for (std::size_t i = 0; i < x.size(); ++i) local[i] = scale_ * (x[i] - middle_);
   // Queries that lie near each other walk through the tree together.
-  const std::vector<Key> keys = sorted_keys(local);
+  const std::vector<Key> keys = sorted_keys(local, context);
   std::vector<double> result(x.size());
   parallel_for(x.size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
     std::vector<Vec3> at;

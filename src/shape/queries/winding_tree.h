@@ -40,7 +40,7 @@ class WindingTree {
     std::uint64_t morton;
     std::uint32_t index;
   };
-  std::vector<Key> sorted_keys(std::span<const Vec3> local) const;
+  static std::vector<Key> sorted_keys(std::span<const Vec3> local, const Context& context);
   void split(std::span<const Key> keys, std::uint32_t begin, std::uint32_t end, int level);
   void sum_moments();
 

@@ -1,7 +1,10 @@
 #include "shape/topology/identical.h"
-#include "base/cancel.h"
 
+#include <array>
 #include <bit>
+#include <utility>
+
+#include "base/parallel.h"
 
 namespace rholm {
 namespace {
@@ -16,23 +19,74 @@ std::uint64_t hash(const Vec3& v) {
   return h ^ (h >> 32);
 }
 
-}  // namespace
+// Points are sorted by the highest bits of their hashes into parts, each with a table of its own
+// that stays in the cache.
+constexpr std::size_t kParts = 64;
+constexpr std::size_t kGrain = 4096;  // chosen
 
-std::vector<std::uint32_t> first_identical(std::span<const Vec3> points) {
-  constexpr std::uint32_t kFree = 0xffffffff;
-  const std::size_t slots = std::bit_ceil(2 * points.size() + 1);
-  std::vector<std::uint32_t> table(slots, kFree);
-  std::vector<std::uint32_t> first(points.size());
-  CancelPoll poll;
-  for (std::uint32_t i = 0; i < points.size(); ++i) {
-    poll();
-    std::size_t slot = hash(points[i]) & (slots - 1);
-    while (table[slot] != kFree && !(points[table[slot]] == points[i])) {
+struct Hashed {
+  std::uint32_t low;  // bits of the hash
+  std::uint32_t index;
+};
+struct Parts {
+  std::vector<Hashed> points;                      // ascending within each part
+  std::array<std::uint32_t, kParts + 1> first{0};  // of each part, and the end
+};
+
+Parts sort_by_hash(std::span<const Vec3> points, const Context& context) {
+  const auto part_of = [](std::uint64_t h) { return static_cast<std::size_t>(h >> 58); };
+  Parts parts;
+  parts.points.resize(points.size());
+  std::vector<std::array<std::uint32_t, kParts>> places((points.size() + kGrain - 1) / kGrain);
+  parallel_for(points.size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
+    std::array<std::uint32_t, kParts>& counts = places[begin / kGrain];
+    counts.fill(0);
+    for (std::size_t i = begin; i < end; ++i) ++counts[part_of(hash(points[i]))];
+  });
+  std::uint32_t next = 0;
+  for (std::size_t p = 0; p < kParts; ++p) {
+    parts.first[p] = next;
+    for (auto& counts : places) next += std::exchange(counts[p], next);
+  }
+  parts.first[kParts] = next;
+  parallel_for(points.size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
+    std::array<std::uint32_t, kParts>& place = places[begin / kGrain];
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint64_t h = hash(points[i]);
+      parts.points[place[part_of(h)]++] = {static_cast<std::uint32_t>(h),
+                                           static_cast<std::uint32_t>(i)};
+    }
+  });
+  return parts;
+}
+
+void find_first(std::span<const Vec3> points, std::span<const Hashed> part,
+                std::vector<std::uint32_t>& first) {
+  constexpr Hashed kFree{0, 0xffffffff};
+  const std::size_t slots = std::bit_ceil(2 * part.size() + 1);
+  std::vector<Hashed> table(slots, kFree);
+  for (const Hashed& own : part) {
+    std::size_t slot = own.low & (slots - 1);
+    const auto is_other = [&](const Hashed& there) {
+      return there.low != own.low || !(points[there.index] == points[own.index]);
+    };
+    while (table[slot].index != kFree.index && is_other(table[slot])) {
       slot = (slot + 1) & (slots - 1);
     }
-    if (table[slot] == kFree) table[slot] = i;
-    first[i] = table[slot];
+    if (table[slot].index == kFree.index) table[slot] = own;
+    first[own.index] = table[slot].index;
   }
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> first_identical(std::span<const Vec3> points, const Context& context) {
+  const Parts parts = sort_by_hash(points, context);
+  std::vector<std::uint32_t> first(points.size());
+  parallel_for(kParts, 1, context, {}, [&](std::size_t p, std::size_t) {
+    const std::span<const Hashed> all(parts.points);
+    find_first(points, all.subspan(parts.first[p], parts.first[p + 1] - parts.first[p]), first);
+  });
   return first;
 }
 
