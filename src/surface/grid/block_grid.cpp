@@ -185,7 +185,11 @@ std::int32_t find_block(const BlockGrid& grid, const BlockCoordinates& coordinat
     if (std::abs(c) > kBlockLimit + 1) return kNoBlock;
   }
   std::size_t slot = first_slot(key_of(coordinates), n);
-  while (grid.slots[slot] != kNoBlock && grid.blocks[grid.slots[slot]] != coordinates) {
+  // Not by the arrays' own comparison, which is a call.
+  const auto is_other = [&](const BlockCoordinates& b) {
+    return ((b[0] ^ coordinates[0]) | (b[1] ^ coordinates[1]) | (b[2] ^ coordinates[2])) != 0;
+  };
+  while (grid.slots[slot] != kNoBlock && is_other(grid.blocks[grid.slots[slot]])) {
     slot = (slot + 1) & (n - 1);
   }
   return grid.slots[slot];
