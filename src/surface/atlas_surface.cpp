@@ -229,13 +229,15 @@ double guessed_share(const ExtractedSurface& surface, const Context& context) {
 // triangles are summed.
 void complete_normals(Mesh& mesh, const Context& context) {
   const NormalAttributes normals = normal_attributes(mesh);
-  const auto is_missing = [&](std::uint32_t v) { return normals[v] == Vec3{}; };
-  const std::vector<std::uint32_t> missing =
-      indices_where(mesh.vertices.size(), context, is_missing);
+  const std::vector<std::uint32_t> missing = indices_where(
+      mesh.vertices.size(), context, [&](std::uint32_t v) { return normals[v] == Vec3{}; });
   if (missing.empty()) return;
+  std::vector<std::uint8_t> flags(mesh.vertices.size(), 0);
+  for (const std::uint32_t v : missing) flags[v] = 1;
   const std::vector<std::uint32_t> around =
       indices_where(mesh.triangles.size(), context, [&](std::uint32_t t) {
-        return std::any_of(mesh.triangles[t].begin(), mesh.triangles[t].end(), is_missing);
+        const Triangle& c = mesh.triangles[t];
+        return (flags[c[0]] | flags[c[1]] | flags[c[2]]) != 0;
       });
   std::vector<Vec3> sums(missing.size());
   for (const std::uint32_t i : around) {
@@ -243,8 +245,8 @@ void complete_normals(Mesh& mesh, const Context& context) {
     const Vec3& a = mesh.vertices[t[0]];
     const Vec3 area = cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a);
     for (const std::uint32_t v : t) {
-      const auto at = std::lower_bound(missing.begin(), missing.end(), v);
-      if (at != missing.end() && *at == v) sums[at - missing.begin()] += area;
+      if (flags[v] == 0) continue;
+      sums[std::lower_bound(missing.begin(), missing.end(), v) - missing.begin()] += area;
     }
   }
   for (std::size_t k = 0; k < missing.size(); ++k) normals.set(missing[k], normalized(sums[k]));

@@ -8,6 +8,7 @@
 #include "atlas/cap/cap_fit.h"
 #include "atlas/cap/cap_support.h"
 #include "atlas/cover/cap_seed.h"
+#include "base/large_vector.h"
 #include "base/parallel.h"
 #include "chart/cap/cap_frame.h"
 
@@ -236,6 +237,8 @@ Cover cover(const OrderedPoints& points, const CoverOptions& options, const Cont
     n_caps += block.caps.size(), n_coefficients += block.coefficients.size();
   }
   result.caps.reserve(n_caps), result.coefficients.reserve(n_coefficients);
+  touch_pages(result.caps.data(), n_caps * sizeof(Cap), context);
+  touch_pages(result.coefficients.data(), n_coefficients * sizeof(double), context);
   for (Cover& block : made) {
     for (Cap& cap : block.caps) {
       cap.first += result.coefficients.size();

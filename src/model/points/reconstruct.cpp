@@ -120,18 +120,27 @@ double typical_support(const Atlas& atlas) {
 
 // The area with larger errors is kSparseShare of the whole.
 double error_of_sparse(const Atlas& atlas) {
-  std::vector<const Cap*> caps;
+  struct Part {
+    double error, area;
+  };
+  std::vector<Part> parts;
+  parts.reserve(atlas.caps.size());
   double area = 0;
   for (const Cap& cap : atlas.caps) {
-    caps.push_back(&cap);
+    parts.push_back({cap.error, cap.area});
     area += cap.area;
   }
-  std::sort(caps.begin(), caps.end(),
-            [](const Cap* a, const Cap* b) { return a->error > b->error; });
+  const auto larger = [](const Part& a, const Part& b) { return a.error > b.error; };
   double sum = 0;
-  for (const Cap* cap : caps) {
-    sum += cap->area;
-    if (sum > kSparseShare * area) return cap->error;
+  // The first few will do: no more are sorted.
+  for (auto part = parts.begin(); part != parts.end();) {
+    const auto end = part + (parts.end() - part + 15) / 16;
+    if (end != parts.end()) std::nth_element(part, end, parts.end(), larger);
+    std::sort(part, end, larger);
+    for (; part != end; ++part) {
+      sum += part->area;
+      if (sum > kSparseShare * area) return part->error;
+    }
   }
   return 0;
 }
