@@ -1,12 +1,13 @@
 // A cell is what a pixel sees in its middle. It sends few rays to the sky and one to the key, other
 // ones than its neighbours: each window of 4 x 4 cells has all of a Hammersley set (Keller,
 // Heidrich 2001, "Interleaved sampling"), and the mean over a window, of places on one surface
-// only, is what each of its cells sees of the lights. The first ray of each cell goes to the sky
-// and another to the key; where all of a window are free, no more do: with a blocked part b of
-// evenly spread directions, 16 of them are all free at a chance below (1 - b)^16, so that at most
-// max b (1 - b)^16 = 0.02 of a light is overlooked in the mean, a level or two of 255. Then pixels
-// that differ from their neighbours take the mean of several rays of sight, whose places are lit as
-// the pixel's middle is.
+// only, is what each of its cells sees of the lights. First one of 2 x 2 cells, a scout, sends one
+// ray to the sky and another to the key; where all of a window of scouts are free, no cell sends
+// more: with a blocked part b of evenly spread directions, 16 of them are all free at a chance
+// below (1 - b)^16, so that at most max b (1 - b)^16 = 0.02 of a light is overlooked in the mean, a
+// level or two of 255. A cell whose surface none of the scouts about it see asks itself. Then
+// pixels that differ from their neighbours take the mean of several rays of sight, whose places are
+// lit as the pixel's middle is.
 #include "report/picture/shared_light.h"
 
 #include <algorithm>
@@ -24,9 +25,13 @@ constexpr int kBlock = 4;  // cells of a block along its side
 // Of a window of 5 x 5: the outermost count half, so that each window has every ray once.
 constexpr int kReach = 2;
 constexpr std::array<float, 5> kTent = {0.5f, 1, 1, 1, 0.5f};
-// Cells beyond those of the pixels: windows that ask, windows of means, pixels that differ.
-constexpr int kMargin = 2 * kReach + 1;
-constexpr std::size_t kLanes = 8;     // cells whose windows are looked at together
+// One of these along rows and columns is a scout; measured by scripts/render-figures: with 2 no rms
+// is more than 1 % above that with 1, with 4 up to 7 %, and that of the worst block up to 60 %.
+constexpr int kScouts = 2;
+// Cells beyond those of the pixels: pixels that differ, windows of means, scouts, their windows.
+constexpr int kAskMargin = 1 + kReach, kScoutMargin = kAskMargin + kScouts;
+constexpr int kMargin = kScoutMargin + kReach * kScouts;
+constexpr std::size_t kLanes = 8;     // scouts whose windows are looked at together
 constexpr int kStripCells = 1 << 17;  // chosen: some 130 bytes each stay near the processor
 constexpr std::size_t kRows = 4;      // of a chunk: some 5 ms
 
@@ -49,6 +54,7 @@ struct Shared {
 
 // A strip of cells, one number beside the other.
 struct Cells {
+  // The lights are those of scouts.
   enum Plane { kX, kY, kZ, kNormalX, kNormalY, kNormalZ, kSide, kSky, kKeyAll, kKeyFree, kPlanes };
   int left = 0, top = 0, width = 0;
   std::array<std::vector<float>, kPlanes> planes;  // kSide: 1 in front, -1 behind, 0 nothing seen
@@ -83,7 +89,7 @@ Cells make_cells(int left, int right, int rows) {
   cells.left = left;
   cells.width = right - left;
   const std::size_t n = static_cast<std::size_t>(cells.width) * rows;
-  for (std::vector<float>& plane : cells.planes) plane.resize(n + kLanes);
+  for (std::vector<float>& plane : cells.planes) plane.resize(n + kLanes * kScouts);
   cells.faces.resize(n);
   cells.finishes.resize(n);
   cells.shared.resize(n);
@@ -122,6 +128,10 @@ inline float likeness(const Spot& a, const Spot& b, float per_half_depth) {
   const float along = std::max(0.0f, 1 - (1 - cosine) * (1 / kTurn));
   return std::max(0.0f, a.side * b.side) * near * along;
 }
+
+bool is_scout(int k) { return k % kScouts == 0; }
+// The scout at a row or column, or before it.
+int scout_before(int k) { return k - (k & (kScouts - 1)); }
 
 // Bits of x ^ y and y in turn, the lowest first: neighbours are far apart in the set.
 std::size_t place_in_block(int x, int y) {
@@ -185,6 +195,7 @@ class Drawing {
   }
 
   void see(Cells& cells, int y) const;
+  void scout(Cells& cells, int y) const;
   void ask(Cells& cells, int y) const;
   void share(Cells& cells, int y) const;
   void resolve(const Cells& cells, int y) const;
@@ -195,6 +206,7 @@ class Drawing {
   const LightSamples::Polar& sky_point(std::size_t at, int ray) const {
     return shared_sky_[at * static_cast<std::size_t>(sky_rays_) + ray];
   }
+  void hear_scouts(Cells& cells, int x, int y) const;
   bool differs(const Cells& cells, int x, int y) const;
 
   Canvas& canvas_;
@@ -222,7 +234,7 @@ void Drawing::see(Cells& cells, int y) const {
     cells.colors[cell] = cells.roots[cell] = kPaper;
     if (!hits[k].hit) continue;
     const Place place = place_of(panel_.subject, sight[k], hits[k]);
-    const std::size_t at = place_in_block(x, y);
+    const std::size_t at = place_in_block(scout_before(x) / kScouts, scout_before(y) / kScouts);
     const Vec3& to_key = shared_key_[at];
     const auto cosine = static_cast<float>(std::max(0.0, dot(to_key, place.normal)));
     const Spot spot = spot_of(place);
@@ -231,6 +243,8 @@ void Drawing::see(Cells& cells, int y) const {
     for (int p = 0; p < Cells::kPlanes; ++p) cells.planes[p][cell] = numbers[p];
     cells.faces[cell] = place.face;
     cells.finishes[cell] = finish(panel_.subject, panel_.lamps, panel_.scale, place);
+    cells.own[cell] = {1, cosine, cosine};
+    if (!is_scout(x) || !is_scout(y)) continue;
     if (sky_rays_ > 0) {
       sky.push_back({place.point, sky_direction(place, sky_point(at, 0), {})});
       of_sky.push_back(cell);
@@ -247,13 +261,9 @@ void Drawing::see(Cells& cells, int y) const {
   for (std::size_t k = 0; k < key.size(); ++k) {
     if (no_key[k]) cells.planes[Cells::kKeyFree][of_key[k]] = 0;
   }
-  for (std::size_t k = cells.at(cells.left, y), n = 0; n < hits.size(); ++k, ++n) {
-    const auto of = [&](Cells::Plane plane) { return cells.planes[plane][k]; };
-    cells.own[k] = {of(Cells::kSky), of(Cells::kKeyAll), of(Cells::kKeyFree)};
-  }
 }
 
-// Of the lights in the windows of kLanes cells of a row, the first at `cell`.
+// Of the lights in the windows of kLanes scouts of a row, the first at `cell`.
 struct Drawing::Windows {
   std::array<float, kLanes> all = {}, sky = {}, key_all = {}, key_free = {};
 };
@@ -264,66 +274,97 @@ Drawing::Windows Drawing::windows(const Cells& cells, std::size_t cell) const {
     return numbers;
   };
   const auto spot = [](const auto& of, std::size_t k) {
-    return Spot{of[0][k], of[1][k], of[2][k], of[3][k], of[4][k], of[5][k], of[6][k]};
+    const std::size_t i = k * kScouts;
+    return Spot{of[0][i], of[1][i], of[2][i], of[3][i], of[4][i], of[5][i], of[6][i]};
   };
   Windows w;
   const auto a = row(cell);
   for (int dy = -kReach; dy <= kReach; ++dy) {
     for (int dx = -kReach; dx <= kReach; ++dx) {
       const float tent = kTent[dx + kReach] * kTent[dy + kReach];
-      const auto b = row(cell + static_cast<std::size_t>(dy * cells.width + dx));
+      const auto b = row(cell + static_cast<std::size_t>(kScouts * (dy * cells.width + dx)));
       for (std::size_t k = 0; k < kLanes; ++k) {
         const float weight = tent * likeness(spot(a, k), spot(b, k), per_depth_);
         w.all[k] += weight;
-        w.sky[k] += weight * b[Cells::kSky][k];
-        w.key_all[k] += weight * b[Cells::kKeyAll][k];
-        w.key_free[k] += weight * b[Cells::kKeyFree][k];
+        w.sky[k] += weight * b[Cells::kSky][k * kScouts];
+        w.key_all[k] += weight * b[Cells::kKeyAll][k * kScouts];
+        w.key_free[k] += weight * b[Cells::kKeyFree][k * kScouts];
       }
     }
   }
   return w;
 }
 
-// More rays of cells in whose windows some see a light and some do not.
-void Drawing::ask(Cells& cells, int y) const {
-  std::vector<Ray> sky, key;
-  std::vector<std::size_t> of_sky, of_key;
-  std::vector<float> cosines;
-  const std::size_t first = cells.at(cells.left + kReach, y);
-  const std::size_t last = cells.at(cells.left + cells.width - kReach, y);
-  for (std::size_t begin = first; begin < last; begin += kLanes) {
-    const Windows w = windows(cells, begin);
-    for (std::size_t k = 0; k < kLanes && begin + k < last; ++k) {
-      const std::size_t cell = begin + k;
-      if (!cells.seen(cell)) continue;
+// Whether the windows of scouts see a light, or some of each do and some do not.
+void Drawing::scout(Cells& cells, int y) const {
+  if (!is_scout(y)) return;
+  const int before = kReach * kScouts, end = cells.left + cells.width - before;
+  for (int x = scout_before(cells.left + before + kScouts - 1); x < end; x += kLanes * kScouts) {
+    const Windows w = windows(cells, cells.at(x, y));
+    for (int k = 0; k < static_cast<int>(kLanes) && x + k * kScouts < end; ++k) {
+      const std::size_t cell = cells.at(x + k * kScouts, y);
       cells.mixed_sky[cell] = w.sky[k] < w.all[k];
       cells.mixed_key[cell] = w.key_free[k] > 0 && w.key_free[k] < w.key_all[k];
       // All, or none.
       cells.shared[cell] = {1, w.key_free[k] > 0 || !(w.key_all[k] > 0) ? 1.0f : 0.0f};
-      const int x = cells.left + kReach + static_cast<int>(cell - first);
-      const Place place = cells.place(cell);
-      if (cells.mixed_sky[cell]) {
-        for (int r = 1; r < sky_rays_; ++r) {
-          sky.push_back(
-              {place.point, sky_direction(place, sky_point(place_in_block(x, y), r), {})});
-          of_sky.push_back(cell);
-        }
-        const auto n = static_cast<float>(sky_rays_);
-        cells.own[cell].sky = (cells.own[cell].sky + n - 1) / n;
+    }
+  }
+}
+
+// Any other cell asks where a scout about it that sees the same surface does, where these do not
+// agree, and where there is none.
+void Drawing::hear_scouts(Cells& cells, int x, int y) const {
+  const std::size_t cell = cells.at(x, y);
+  const Spot spot = spot_of(cells, cell);
+  int heard = 0, lit = 0;
+  bool mixed_sky = false, mixed_key = false;
+  for (int v = scout_before(y); v < y + kScouts; v += kScouts) {
+    for (int u = scout_before(x); u < x + kScouts; u += kScouts) {
+      const std::size_t scout = cells.at(u, v);
+      if (!(likeness(spot, spot_of(cells, scout), per_depth_) > 0)) continue;
+      ++heard;
+      lit += cells.shared[scout].key > 0;
+      mixed_sky = mixed_sky || cells.mixed_sky[scout];
+      mixed_key = mixed_key || cells.mixed_key[scout];
+    }
+  }
+  const bool seen = cells.seen(cell);
+  cells.mixed_sky[cell] = seen && sky_rays_ > 0 && (mixed_sky || heard == 0);
+  cells.mixed_key[cell] = seen && (mixed_key || heard == 0 || (lit > 0 && lit < heard));
+  cells.shared[cell] = {1, lit > 0 ? 1.0f : 0.0f};
+}
+
+// Rays of cells in whose windows some see a light and some do not.
+void Drawing::ask(Cells& cells, int y) const {
+  std::vector<Ray> sky, key;
+  std::vector<std::size_t> of_sky, of_key;
+  std::vector<float> cosines;
+  const int before = kMargin - kAskMargin;
+  for (int x = cells.left + before; x < cells.left + cells.width - before; ++x) {
+    if (!is_scout(x) || !is_scout(y)) hear_scouts(cells, x, y);
+    const std::size_t cell = cells.at(x, y);
+    const Place place = cells.place(cell);
+    if (cells.mixed_sky[cell]) {
+      for (int r = 0; r < sky_rays_; ++r) {
+        sky.push_back({place.point, sky_direction(place, sky_point(place_in_block(x, y), r), {})});
+        of_sky.push_back(cell);
       }
-      if (!cells.mixed_key[cell]) continue;
-      cells.own[cell] = {cells.own[cell].sky, 0, 0};
-      const PixelShift shift = pixel_shift(pixel_seed(x, y));
-      for (const LightSamples::Polar& point : more_key_) {
-        const Vec3 to_key = key_direction(panel_.lamps, point, shift);
-        const auto cosine = static_cast<float>(std::max(0.0, dot(to_key, place.normal)));
-        cells.own[cell].key_all += cosine;
-        cells.own[cell].key_free += cosine;
-        if (!(cosine > 0 && dot(to_key, place.face) > 0)) continue;
-        key.push_back({place.point, to_key});
-        of_key.push_back(cell);
-        cosines.push_back(cosine);
-      }
+    }
+    if (!cells.mixed_key[cell]) {
+      if (!(cells.shared[cell].key > 0)) cells.own[cell].key_free = 0;
+      continue;
+    }
+    cells.own[cell] = {1, 0, 0};
+    const PixelShift shift = pixel_shift(pixel_seed(x, y));
+    for (const LightSamples::Polar& point : more_key_) {
+      const Vec3 to_key = key_direction(panel_.lamps, point, shift);
+      const auto cosine = static_cast<float>(std::max(0.0, dot(to_key, place.normal)));
+      cells.own[cell].key_all += cosine;
+      cells.own[cell].key_free += cosine;
+      if (!(cosine > 0 && dot(to_key, place.face) > 0)) continue;
+      key.push_back({place.point, to_key});
+      of_key.push_back(cell);
+      cosines.push_back(cosine);
     }
   }
   const std::vector<bool> no_sky = scene_.occluded(sky), no_key = scene_.occluded(key);
@@ -337,7 +378,7 @@ void Drawing::ask(Cells& cells, int y) const {
 
 // Means over windows, of 3 x 3 cells for the key, whose shadows have edges; then colours.
 void Drawing::share(Cells& cells, int y) const {
-  for (int x = cells.left + 2 * kReach; x < cells.left + cells.width - 2 * kReach; ++x) {
+  for (int x = cells.left + kMargin - 1; x < cells.left + cells.width - kMargin + 1; ++x) {
     const std::size_t cell = cells.at(x, y);
     if (!cells.seen(cell)) continue;
     const bool mixed_sky = cells.mixed_sky[cell], mixed_key = cells.mixed_key[cell];
@@ -455,7 +496,8 @@ void draw_shared(Canvas& canvas, const PanelPicture& p, const RayScene& scene,
       from = to;
     };
     pass(kMargin, 0.4, [&](int y) { drawing.see(cells, y); });
-    pass(kReach + 1, 0.3, [&](int y) { drawing.ask(cells, y); });
+    pass(kScoutMargin, 0.1, [&](int y) { drawing.scout(cells, y); });
+    pass(kAskMargin, 0.2, [&](int y) { drawing.ask(cells, y); });
     pass(1, 0.1, [&](int y) { drawing.share(cells, y); });
     pass(0, 0.2, [&](int y) { drawing.resolve(cells, y); });
   }

@@ -178,11 +178,8 @@ TEST(render, of_a_plate_has_the_light_of_its_direction) {
   }
 }
 
-// Against all rays for all samples: where shadows are, a few levels of 255; scripts/render-figures
-// measures more.
-TEST(render, shares_light_without_changing_it) {
-  const Mesh mesh = bumpy_sphere(4, 0.3);
-  RenderOptions options = front();
+// The rms difference of a picture from that of all rays for all samples, in levels of 255.
+double off_from_fine(const Mesh& mesh, RenderOptions options) {
   options.samples = 4;
   const Image shared = render_one(mesh, options);
   options.fine = true;
@@ -193,7 +190,29 @@ TEST(render, shares_light_without_changing_it) {
     const double off = double(shared.rgb[k]) - fine.rgb[k];
     sum += off * off;
   }
-  EXPECT_LT(std::sqrt(sum / static_cast<double>(fine.rgb.size())), 2);
+  return std::sqrt(sum / static_cast<double>(fine.rgb.size()));
+}
+
+// Where shadows are, a few levels of 255; scripts/render-figures measures more.
+TEST(render, shares_light_without_changing_it) {
+  EXPECT_LT(off_from_fine(bumpy_sphere(4, 0.3), front()), 2);
+}
+
+// Slats under a roof whose width makes a unit a pixel, no two neighbours at one depth, each within
+// a column between the cells that look for shadows first. Measured: 5.1 if all cells looked, 7.0 if
+// those that no other answers for did not ask themselves.
+TEST(render, sees_shadows_on_what_is_narrower_than_two_pixels) {
+  Mesh mesh;
+  const auto add_plate = [&](const Vec3& corner, const Vec3& u, const Vec3& v) {
+    const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), {corner, corner + u, corner + u + v, corner + v});
+    mesh.triangles.insert(mesh.triangles.end(), {{n, n + 1, n + 2}, {n, n + 2, n + 3}});
+  };
+  for (int k = 0; k < 20; ++k) {
+    add_plate({7.1 + 4 * k, k % 2 == 0 ? 0.0 : 8.0, 0}, {0.8, 0, 0}, {0, 0, 40});
+  }
+  add_plate({4.8, -40, 41}, {86.4, 0, 0}, {0, 80, 0});
+  EXPECT_LT(off_from_fine(mesh, front()), 6);
 }
 
 TEST(render, does_not_depend_on_the_unit_and_hardly_on_the_place) {
