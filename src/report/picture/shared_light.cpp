@@ -343,8 +343,8 @@ void Drawing::ask(Cells& cells, int y) const {
   for (int x = cells.left + before; x < cells.left + cells.width - before; ++x) {
     if (!is_scout(x) || !is_scout(y)) hear_scouts(cells, x, y);
     const std::size_t cell = cells.at(x, y);
-    const Place place = cells.place(cell);
     if (cells.mixed_sky[cell]) {
+      const Place place = cells.place(cell);
       for (int r = 0; r < sky_rays_; ++r) {
         sky.push_back({place.point, sky_direction(place, sky_point(place_in_block(x, y), r), {})});
         of_sky.push_back(cell);
@@ -355,6 +355,7 @@ void Drawing::ask(Cells& cells, int y) const {
       continue;
     }
     cells.own[cell] = {1, 0, 0};
+    const Place place = cells.place(cell);
     const PixelShift shift = pixel_shift(pixel_seed(x, y));
     for (const LightSamples::Polar& point : more_key_) {
       const Vec3 to_key = key_direction(panel_.lamps, point, shift);
@@ -441,10 +442,11 @@ void Drawing::resolve(const Cells& cells, int y) const {
     for (const PlanePoint& p : places_) rays.push_back(panel_.ray(x + p.x, y + p.y));
   }
   const std::vector<RayHit> hits = scene_.first_hits(rays);
+  std::vector<Place> places;
   for (std::size_t k = 0; k < edges.size(); ++k) {
     const std::size_t n = places_.size(), cell = cells.at(edges[k], y);
     const Spot middle = spot_of(cells, cell);
-    std::vector<Place> places;
+    places.clear();
     bool alike = true;
     for (std::size_t i = k * n; i < (k + 1) * n; ++i) {
       if (!hits[i].hit) continue;
@@ -452,7 +454,7 @@ void Drawing::resolve(const Cells& cells, int y) const {
       alike = alike && likeness(middle, spot_of(places.back()), per_depth_) > 0;
     }
     Color sum = static_cast<float>(n - places.size()) * kPaper;
-    const PixelShift shift = pixel_shift(pixel_seed(edges[k], y));
+    const PixelShift shift = alike ? PixelShift{} : pixel_shift(pixel_seed(edges[k], y));
     const Shared& shared = cells.shared[cell];
     for (std::size_t i = 0; i < places.size(); ++i) {
       sum = sum + (alike ? finish(panel_.subject, panel_.lamps, panel_.scale, places[i])

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "base/cancel.h"
 #include "rholm/error.h"
@@ -65,11 +66,15 @@ Ray View::ray(const PlanePoint& p) const {
 
 PlaneBox projected_box(const View& view, const Mesh& mesh) {
   if (mesh.triangles.empty()) return {};
-  PlaneBox box = kEmptyBox;
+  std::vector<bool> is_corner(mesh.vertices.size());
   CancelPoll poll;
   for (const Triangle& t : mesh.triangles) {
     poll();
-    for (const std::uint32_t corner : t) extend(box, view.project(mesh.vertices[corner]));
+    for (const std::uint32_t corner : t) is_corner[corner] = true;
+  }
+  PlaneBox box = kEmptyBox;
+  for (std::size_t k = 0; k < is_corner.size(); ++k) {
+    if (is_corner[k]) extend(box, view.project(mesh.vertices[k]));
   }
   return box;
 }
