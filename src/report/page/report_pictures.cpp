@@ -1,11 +1,13 @@
 #include "report/page/report_pictures.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "base/parallel.h"
 #include "report/page/html.h"
+#include "report/picture/render_views.h"
 #include "rholm/compare.h"
 #include "rholm/error.h"
 #include "rholm/file.h"
@@ -132,10 +134,10 @@ std::vector<Picture> draw_sides(const Panel& panel, int size, std::optional<Colo
     options.scale_min = scale->min;
     options.scale_max = scale->max;
   }
+  const std::array<Vec3, 2> directions = {options.view_direction, -options.view_direction};
   std::vector<Picture> sides;
-  for (const double side : {1.0, -1.0}) {
-    options.view_direction = side * RenderOptions{}.view_direction;
-    sides.push_back(picture_of(cut_apart(render({&panel, 1}, options, context), 1).front()));
+  for (const Image& side : render_views({&panel, 1}, options, directions, context)) {
+    sides.push_back(picture_of(cut_apart(side, 1).front()));
   }
   return sides;
 }

@@ -9,6 +9,7 @@
 #include "base/refuse.h"
 #include "report/picture/balls.h"
 #include "report/picture/canvas.h"
+#include "report/picture/render_views.h"
 #include "report/picture/scale_bar.h"
 #include "report/picture/shade.h"
 #include "report/picture/shared_light.h"
@@ -206,43 +207,48 @@ double pixels_per_unit(const std::vector<PlaneBox>& boxes, const Layout& layout)
   return std::isfinite(scale) ? scale : 1;
 }
 
-// A panel's thing, and how it is seen.
+std::vector<Subject> make_subjects(std::span<const Panel> panels, bool fit_each,
+                                   const Context& context) {
+  std::vector<Subject> subjects;
+  const double common = common_scale(panels);
+  for (const Panel& panel : panels) {
+    const double scale = fit_each ? common_scale({&panel, 1}) : common;
+    subjects.push_back(make_subject(panel, scale, context));
+  }
+  return subjects;
+}
+
+// How a subject is seen.
 struct Sight {
-  Subject subject;
   View view;
   PlaneBox box;
   double pixels_per_unit = 1;
 };
 
-// Of panels that have one scale.
-std::vector<Sight> sights_at_one_scale(std::span<const Panel> panels, const RenderOptions& options,
-                                       const Layout& layout, const Context& context) {
-  const double to_unit = common_scale(panels);
-  std::vector<Sight> sights;
+std::vector<Sight> sights_at_one_scale(std::span<const Subject> subjects,
+                                       const RenderOptions& options, const Layout& layout) {
   double radius = 0;
-  for (const Panel& panel : panels) {
-    sights.push_back({.subject = make_subject(panel, to_unit, context), .view = {}, .box = {}});
-    radius = std::max(radius, sights.back().subject.radius);
-  }
+  for (const Subject& subject : subjects) radius = std::max(radius, subject.radius);
+  const View view = make_view(options, radius > 0 ? radius : 1);
   std::vector<PlaneBox> boxes;
-  for (Sight& sight : sights) {
-    sight.view = make_view(options, radius > 0 ? radius : 1);
-    const Subject& subject = sight.subject;
-    sight.box = subject.ball_radius > 0
-                    ? projected_box(sight.view, subject.mesh.vertices, subject.ball_radius)
-                    : projected_box(sight.view, subject.mesh);
-    boxes.push_back(sight.box);
+  for (const Subject& subject : subjects) {
+    boxes.push_back(subject.ball_radius > 0
+                        ? projected_box(view, subject.mesh.vertices, subject.ball_radius)
+                        : projected_box(view, subject.mesh));
   }
-  for (Sight& sight : sights) sight.pixels_per_unit = pixels_per_unit(boxes, layout);
+  const double scale = pixels_per_unit(boxes, layout);
+  std::vector<Sight> sights;
+  sights.reserve(boxes.size());
+  for (const PlaneBox& box : boxes) sights.push_back({view, box, scale});
   return sights;
 }
 
-std::vector<Sight> make_sights(std::span<const Panel> panels, const RenderOptions& options,
-                               const Layout& layout, const Context& context) {
-  if (!options.fit_each) return sights_at_one_scale(panels, options, layout, context);
+std::vector<Sight> make_sights(std::span<const Subject> subjects, const RenderOptions& options,
+                               const Layout& layout) {
+  if (!options.fit_each) return sights_at_one_scale(subjects, options, layout);
   std::vector<Sight> sights;
-  for (const Panel& panel : panels) {
-    sights.push_back(std::move(sights_at_one_scale({&panel, 1}, options, layout, context).front()));
+  for (const Subject& subject : subjects) {
+    sights.push_back(sights_at_one_scale({&subject, 1}, options, layout).front());
   }
   return sights;
 }
@@ -261,14 +267,15 @@ Color pixel_color(const PanelPicture& p, const RayScene& scene, const LightSampl
   return (1.0f / static_cast<float>(side * side)) * sum;
 }
 
-void draw_panel(Canvas& canvas, const PanelPicture& p, const RenderOptions& options,
-                const Context& context, const ParallelStage& stage) {
+// `scene` is made where it is not there yet.
+void draw_panel(Canvas& canvas, const PanelPicture& p, std::optional<RayScene>& scene,
+                const RenderOptions& options, const Context& context, const ParallelStage& stage) {
   // Far below a pixel, beside something large, there is nothing to see; rays that start at the
   // large thing's distance would overflow in units of the small one.
   constexpr double kVisible = 1e-3;
   if (p.subject.radius * p.pixels_per_unit < kVisible) return;
-  const RayScene scene(p.subject.mesh, p.subject.ball_radius, RayTree::kQuick);
-  if (!options.fine) return draw_shared(canvas, p, scene, options, context, stage);
+  if (!scene) scene.emplace(p.subject.mesh, p.subject.ball_radius, RayTree::kQuick);
+  if (!options.fine) return draw_shared(canvas, p, *scene, options, context, stage);
   const LightSamples lights =
       make_light_samples(options.samples * options.samples, options.occlusion_rays);
   constexpr std::size_t kRows = 2;  // of a chunk: some 10 ms
@@ -276,7 +283,7 @@ void draw_panel(Canvas& canvas, const PanelPicture& p, const RenderOptions& opti
                [&](std::size_t begin, std::size_t end) {
                  for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
                    for (int x = p.left; x < p.right; ++x) {
-                     canvas.at(x, y) = pixel_color(p, scene, lights, options.samples, x, y);
+                     canvas.at(x, y) = pixel_color(p, *scene, lights, options.samples, x, y);
                    }
                  }
                });
@@ -308,37 +315,60 @@ std::vector<std::array<float, 3>> vertex_colors(const PointCloud& cloud) {
   return colors_of(cloud.attributes);
 }
 
-Image render(std::span<const Panel> panels, const RenderOptions& options, const Context& context) {
+std::vector<Image> render_views(std::span<const Panel> panels, const RenderOptions& options,
+                                std::span<const Vec3> directions, const Context& context) {
   check(panels, options);
   const std::optional<ColorScale> scale = color_scale(panels, options);
   const Layout layout = make_layout(panels, options, scale && options.scale_bar);
-  const std::vector<Sight> sights = make_sights(panels, options, layout, context);
+  const std::vector<Subject> subjects = make_subjects(panels, options.fit_each, context);
+  std::vector<std::vector<Sight>> sights;  // by direction
+  for (const Vec3& direction : directions) {
+    RenderOptions view = options;
+    view.view_direction = direction;
+    sights.push_back(make_sights(subjects, view, layout));
+  }
 
-  Canvas canvas = make_canvas(options.width, options.height, kPaper);
-  const auto n = static_cast<double>(panels.size());
+  std::vector<Canvas> canvases(directions.size(),
+                               make_canvas(options.width, options.height, kPaper));
+  const auto n = static_cast<double>(panels.size() * directions.size());
+  double done = 0;
   for (std::size_t k = 0; k < panels.size(); ++k) {
     const auto first = static_cast<double>(k);
     const double left = first * layout.panel_width, right = left + layout.panel_width;
-    const PanelPicture picture = {sights[k].subject,
-                                  sights[k].view,
-                                  Lamps(sights[k].view),
-                                  scale.value_or(ColorScale{}),
-                                  sights[k].box,
-                                  sights[k].pixels_per_unit,
-                                  0.5 * (left + right),
-                                  0.5 * layout.panel_height,
-                                  static_cast<int>(left),
-                                  static_cast<int>(right),
-                                  static_cast<int>(layout.panel_height)};
-    draw_panel(canvas, picture, options, context, {"render", first / n, (first + 1) / n});
-    draw_text(canvas, panels[k].label, picture.center_x, layout.label_baseline, layout.text_size,
-              kInk);
+    std::optional<RayScene> scene;
+    for (std::size_t v = 0; v < directions.size(); ++v) {
+      const Sight& sight = sights[v][k];
+      const PanelPicture picture = {subjects[k],
+                                    sight.view,
+                                    Lamps(sight.view),
+                                    scale.value_or(ColorScale{}),
+                                    sight.box,
+                                    sight.pixels_per_unit,
+                                    0.5 * (left + right),
+                                    0.5 * layout.panel_height,
+                                    static_cast<int>(left),
+                                    static_cast<int>(right),
+                                    static_cast<int>(layout.panel_height)};
+      draw_panel(canvases[v], picture, scene, options, context,
+                 {"render", done / n, (done + 1) / n});
+      draw_text(canvases[v], panels[k].label, picture.center_x, layout.label_baseline,
+                layout.text_size, kInk);
+      ++done;
+    }
   }
-  if (scale && options.scale_bar) {
-    draw_scale_bar(canvas, *scale, options.scale_label, 0.5 * options.width, layout.bar_top,
-                   0.5 * options.width, layout.text_size);
+  std::vector<Image> images;
+  for (Canvas& canvas : canvases) {
+    if (scale && options.scale_bar) {
+      draw_scale_bar(canvas, *scale, options.scale_label, 0.5 * options.width, layout.bar_top,
+                     0.5 * options.width, layout.text_size);
+    }
+    images.push_back(to_image(canvas));
   }
-  return to_image(canvas);
+  return images;
+}
+
+Image render(std::span<const Panel> panels, const RenderOptions& options, const Context& context) {
+  return render_views(panels, options, {&options.view_direction, 1}, context).front();
 }
 
 }  // namespace rholm
