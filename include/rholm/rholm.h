@@ -24,6 +24,7 @@
 #include "rholm/model.h"
 #include "rholm/monte_carlo.h"
 #include "rholm/patch_atlas.h"
+#include "rholm/point_stream.h"
 #include "rholm/points.h"
 #include "rholm/primitives.h"
 #include "rholm/recenter.h"

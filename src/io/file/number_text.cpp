@@ -29,9 +29,10 @@ std::string quoted_word(const TextCursor& text) {
   return word.empty() ? "the end" : in_quotes(word);
 }
 
-void fail_at_line(const std::string& name, const TextCursor& text, const std::string& what) {
+void fail_at_line(const std::string& name, const TextCursor& text, const std::string& what,
+                  std::size_t lines_before) {
   throw Error(ErrorCode::kInvalidInput,
-              name + ": line " + std::to_string(line_number(text)) + ": " + what);
+              name + ": line " + std::to_string(lines_before + line_number(text)) + ": " + what);
 }
 
 namespace {

@@ -31,9 +31,9 @@ std::string in_quotes(std::string_view text);
 // The word that begins here, quoted; "the end" if there is none.
 std::string quoted_word(const TextCursor& text);
 
-// Throws InvalidInput "name: line 7: what".
+// Throws InvalidInput "name: line 7: what". `lines_before`: of the file, before the text.
 [[noreturn]] void fail_at_line(const std::string& name, const TextCursor& text,
-                               const std::string& what);
+                               const std::string& what, std::size_t lines_before = 0);
 
 inline bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 inline bool is_line_end(char c) { return c == '\n' || c == '\r'; }

@@ -16,7 +16,8 @@ void PlyTextBody::fail_value(const PlyElement& element, const char* wanted) cons
                  " rows of element " + in_quotes(element.name) + " do");
   }
   fail_at_line(source_.name, text_,
-               quoted_word(text_) + " in element " + in_quotes(element.name) + " is not " + wanted);
+               quoted_word(text_) + " in element " + in_quotes(element.name) + " is not " + wanted,
+               source_.lines_before);
 }
 
 // A value takes at least a digit and a space, the last one only the digit.

@@ -66,7 +66,7 @@ void PlyVertices::reserve(std::size_t rows) {
 }
 
 void PlyVertices::append_block(std::size_t rows) {
-  const std::size_t before = positions.size();
+  const std::size_t before = source_.rows_before + positions.size();
   append(positions, position_block_, rows);
   if (!normal_block_.empty()) append(normals, normal_block_, rows);
   check_finite(source_, std::span(position_block_).first(rows), before, "vertex", "coordinate");

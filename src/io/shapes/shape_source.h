@@ -20,6 +20,8 @@ class ShapeSource {
   std::span<const char> bytes;  // without byte order mark
   std::string name;             // for messages
   bool attributes;              // whether they are wanted
+  // Of a piece of a file: what comes before it.
+  std::size_t rows_before = 0, lines_before = 0;
 
   // To be called now and then with the place reached: reports progress about every percent, or
   // throws Cancelled.

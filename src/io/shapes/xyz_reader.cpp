@@ -15,6 +15,7 @@
 #include "io/file/number_text.h"
 #include "io/shapes/shape_source.h"
 #include "io/shapes/xyz_columns.h"
+#include "io/shapes/xyz_reader.h"
 
 namespace rholm {
 namespace {
@@ -60,14 +61,6 @@ std::vector<std::string> take_names(TextCursor& text) {
   }
 }
 
-// What stands before the first row of values.
-struct XyzHeader {
-  std::vector<std::string> names;  // of the columns, or empty
-  bool has_count = false;
-  double count = 0;         // of points, as claimed
-  std::size_t columns = 0;  // values in the first row; 0 if there is none
-};
-
 std::size_t values_in_row(TextCursor text) {
   double value = 0;
   for (std::size_t n = 0;; ++n) {
@@ -84,8 +77,9 @@ std::vector<std::string> names_in_comment(TextCursor text) {
   return has_position(names) ? names : std::vector<std::string>();
 }
 
-// Moves `text` to the first row of values (or the end).
-XyzHeader take_header(TextCursor& text) {
+}  // namespace
+
+XyzHeader take_xyz_header(TextCursor& text) {
   XyzHeader header;
   bool names_are_comment = false;
   bool names_were_line = false;
@@ -117,30 +111,30 @@ XyzHeader take_header(TextCursor& text) {
   }
 }
 
+namespace {
+
 class XyzReader {
  public:
-  XyzReader(const ShapeSource& source, bool pwn)
-      : source_(source), text_(source.bytes), pwn_(pwn) {}
+  XyzReader(const ShapeSource& source, bool pwn, std::size_t at = 0)
+      : source_(source), text_(source.bytes), pwn_(pwn) {
+    text_.at += at;
+  }
 
   ShapeFile read() {
-    const XyzHeader header = take_header(text_);
+    const XyzHeader header = take_xyz_header(text_);
     check_header(header);
     const ColumnRoles roles = column_roles(header.names, header.columns);
-    columns_.resize(header.columns);
-    std::vector<double> row(header.columns);
-    for (std::size_t n = 0; next_row(); ++n) {
-      read_row(row);
-      const Vec3 p = {row[roles.position[0]], row[roles.position[1]], row[roles.position[2]]};
-      if (!is_finite(p)) fail_line("a coordinate is not a finite number");
-      points_.push_back(p);
-      for (const std::size_t k : roles.others) columns_[k].push_back(row[k]);
-      if (n % 256 == 0) source_.progress(text_.at);
-    }
+    read_rows(roles, header.columns);
     return finish(header, roles);
   }
 
- private:
-  void check_header(const XyzHeader& header) {
+  PointCloud read_piece(const std::vector<std::string>& names, std::size_t columns) {
+    const ColumnRoles roles = column_roles(names, columns);
+    read_rows(roles, columns);
+    return cloud_of(roles);
+  }
+
+  void check_header(const XyzHeader& header) const {
     if (!header.names.empty() && header.columns > 0 && !has_position(header.names)) {
       fail_line("the header names no columns x, y, z");
     }
@@ -155,6 +149,20 @@ class XyzReader {
     if (!header.names.empty() && header.names.size() != header.columns) {
       fail_line("the header names " + std::to_string(header.names.size()) +
                 " columns, but this line has " + counted(header.columns, "value", "values"));
+    }
+  }
+
+ private:
+  void read_rows(const ColumnRoles& roles, std::size_t columns) {
+    columns_.resize(columns);
+    std::vector<double> row(columns);
+    for (std::size_t n = 0; next_row(); ++n) {
+      read_row(row);
+      const Vec3 p = {row[roles.position[0]], row[roles.position[1]], row[roles.position[2]]};
+      if (!is_finite(p)) fail_line("a coordinate is not a finite number");
+      points_.push_back(p);
+      for (const std::size_t k : roles.others) columns_[k].push_back(row[k]);
+      if (n % 256 == 0) source_.progress(text_.at);
     }
   }
 
@@ -186,13 +194,13 @@ class XyzReader {
   }
 
   ShapeFile finish(const XyzHeader& header, const ColumnRoles& roles) {
-    PointCloud cloud;
+    std::vector<Vec3> normals;
     const std::size_t rows = points_.size();
     const bool normals_follow =
         header.has_count && header.columns == 3 && header.count == static_cast<double>(rows) / 2;
     if (normals_follow) {
       const auto middle = points_.begin() + static_cast<std::ptrdiff_t>(rows / 2);
-      cloud.normals.assign(middle, points_.end());
+      normals.assign(middle, points_.end());
       points_.resize(rows / 2);
     } else if (header.has_count && header.count != static_cast<double>(rows)) {
       char digits[kMaxNumberLength];
@@ -200,10 +208,9 @@ class XyzReader {
                    std::string(digits, format_number(digits, header.count)) + " points, but " +
                    std::to_string(rows) + " follow");
     }
-    cloud.points = std::move(points_);
-    take_columns(cloud, roles, columns_, pwn_);
-    check_finite(source_, cloud.normals, 0, "point", "normal");
-    if (!source_.attributes) cloud.attributes.clear();
+    PointCloud cloud = cloud_of(roles);
+    if (normals_follow) cloud.normals = std::move(normals);
+    if (normals_follow) check_finite(source_, cloud.normals, 0, "point", "normal");
     ShapeFile file;
     file.shape = std::move(cloud);
     file.format = ShapeFormat::kXyz;
@@ -211,8 +218,17 @@ class XyzReader {
     return file;
   }
 
+  PointCloud cloud_of(const ColumnRoles& roles) {
+    PointCloud cloud;
+    cloud.points = std::move(points_);
+    take_columns(cloud, roles, columns_, pwn_);
+    check_finite(source_, cloud.normals, source_.rows_before, "point", "normal");
+    if (!source_.attributes) cloud.attributes.clear();
+    return cloud;
+  }
+
   [[noreturn]] void fail_line(const std::string& what) const {
-    fail_at_line(source_.name, text_, what);
+    fail_at_line(source_.name, text_, what, source_.lines_before);
   }
 
   const ShapeSource& source_;
@@ -224,14 +240,24 @@ class XyzReader {
 
 }  // namespace
 
+bool is_pwn(const std::string& name) { return name.ends_with(".pwn") || name.ends_with(".PWN"); }
+
 ShapeFile read_xyz(const ShapeSource& source) {
-  const bool pwn = source.name.ends_with(".pwn") || source.name.ends_with(".PWN");
-  return XyzReader(source, pwn).read();
+  return XyzReader(source, is_pwn(source.name)).read();
+}
+
+void check_xyz_header(const ShapeSource& source, const XyzHeader& header, std::size_t at) {
+  XyzReader(source, false, at).check_header(header);
+}
+
+PointCloud read_xyz_piece(const ShapeSource& source, const std::vector<std::string>& names,
+                          std::size_t columns, bool pwn) {
+  return XyzReader(source, pwn).read_piece(names, columns);
 }
 
 bool looks_like_xyz(std::span<const char> bytes) {
   TextCursor text(bytes);
-  const XyzHeader header = take_header(text);
+  const XyzHeader header = take_xyz_header(text);
   return header.columns >= 3 && (header.names.empty() || has_position(header.names));
 }
 

@@ -1,0 +1,52 @@
+// Points of a file, some at a time: of files larger than memory. Layer: io.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rholm/context.h"
+#include "rholm/mesh.h"
+#include "rholm/shape_io.h"
+
+namespace rholm {
+
+// Reads a file from its begin to its end, and never holds more of it than is asked for at a time:
+// PLY (binary and ascii; of a mesh its vertices) and points as lines of numbers (XYZ, PWN, TXT,
+// CSV), with the same values as read_shape(). Where lines have no names of columns, the first piece
+// decides what they are: its first three columns behind the position are normals if all of its
+// lines have unit vectors there, colours if there are three of bytes, else scalars.
+class PointStream {
+ public:
+  // "-" is standard input. Throws Io if it cannot be read, InvalidInput if it is malformed or has
+  // no points, Unsupported for other formats, and for those whose points cannot be told one after
+  // the other: a PLY whose vertices have lists or do not come first, a PWN with normals behind all
+  // points.
+  explicit PointStream(const std::filesystem::path& path, const ShapeReadOptions& options = {});
+  ~PointStream();
+  PointStream(const PointStream&) = delete;
+  PointStream& operator=(const PointStream&) = delete;
+
+  // The next points, at most n of them, instead of what `cloud` holds; false at the end. Each has
+  // the same attributes, of the same types. Throws as above, and Cancelled; and InvalidInput for a
+  // value that is none of the type that its column has had so far.
+  bool read(std::size_t n, PointCloud& cloud, const Context& context = {});
+
+  std::uint64_t read_so_far() const;          // points
+  std::optional<std::uint64_t> size() const;  // points of the whole file, if it says how many
+  double part_read() const;                   // of the bytes; 0 while their number is not known
+  ShapeFormat format() const;                 // kPly or kXyz
+  const std::string& encoding() const;        // as in ShapeFile
+  bool has_faces() const;                     // a mesh
+  const std::vector<std::string>& warnings() const;  // what was passed over, with counts
+
+ private:
+  class Reader;
+  std::unique_ptr<Reader> reader_;
+};
+
+}  // namespace rholm

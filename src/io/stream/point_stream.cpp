@@ -1,0 +1,360 @@
+#include "rholm/point_stream.h"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <limits>
+#include <utility>
+
+#include "io/ply/ply_body.h"
+#include "io/ply/ply_header.h"
+#include "io/ply/ply_vertices.h"
+#include "io/shapes/shape_source.h"
+#include "io/shapes/xyz_columns.h"
+#include "io/shapes/xyz_reader.h"
+#include "io/stream/byte_window.h"
+#include "rholm/error.h"
+
+namespace rholm {
+namespace {
+
+constexpr std::size_t kMostHeader = std::size_t{1} << 20;   // bytes; chosen: any that makes sense
+constexpr std::size_t kMostPiece = std::size_t{64} << 20;   // bytes that are held; chosen
+constexpr std::size_t kMostLine = std::size_t{1} << 20;     // bytes
+constexpr std::size_t kTellingRows = std::size_t{1} << 16;  // that tell what columns are; chosen
+
+[[noreturn]] void refuse(const std::string& name, const std::string& what) {
+  throw Error(ErrorCode::kUnsupported, name + ": " + what);
+}
+
+// Behind so many words, or where the text ends.
+const char* behind_words(std::span<const char> text, std::uint64_t words) {
+  TextCursor cursor(text);
+  for (std::uint64_t k = 0; k < words && !cursor.at_end(); ++k) {
+    skip_spaces(cursor);
+    take_word(cursor);
+  }
+  return cursor.at;
+}
+
+std::size_t lines_in(std::span<const char> text) {
+  TextCursor end(text);
+  end.at = end.end;
+  return line_number(end) - 1;
+}
+
+// Names for columns that have none, as take_columns() would call them.
+std::vector<std::string> names_of(const PointCloud& cloud, std::size_t columns) {
+  std::vector<std::string> names = {"x", "y", "z"};
+  if (!cloud.normals.empty()) names.insert(names.end(), {"nx", "ny", "nz"});
+  for (const Attribute& attribute : cloud.attributes) names.push_back(attribute.name);
+  names.resize(columns);
+  return names;
+}
+
+}  // namespace
+
+class PointStream::Reader {
+ public:
+  Reader(const std::filesystem::path& path, const ShapeReadOptions& options)
+      : window_(path), options_(options) {
+    const std::span<const char> begin = window_.at_least(kFirst, {});
+    if (begin.empty()) source(begin).fail("is empty");
+    if (looks_like_ply(begin)) {
+      open_ply();
+    } else {
+      open_xyz();
+    }
+  }
+
+  bool read(std::size_t n, PointCloud& cloud, const Context& context) {
+    cloud = {};
+    if (n == 0) return !ended();
+    if (first_) {
+      cloud = cut_first(n);
+    } else {
+      const bool some =
+          format == ShapeFormat::kPly ? read_ply(n, cloud, context) : read_xyz(n, cloud, context);
+      if (!some) return false;
+    }
+    settle(cloud);
+    done += cloud.points.size();
+    return true;
+  }
+
+  double part() const {
+    if (window_.size() == 0) return 0;
+    return std::min(1.0,
+                    static_cast<double>(window_.passed()) / static_cast<double>(window_.size()));
+  }
+
+  ShapeFormat format = ShapeFormat::kPly;
+  std::string encoding = "ascii";
+  std::optional<std::uint64_t> size;
+  std::uint64_t done = 0;
+  bool has_faces = false;
+  std::vector<std::string> warnings;
+
+ private:
+  static constexpr std::size_t kFirst = std::size_t{1} << 16;  // bytes that tell the format
+
+  // Of a piece; how far the file is read the window tells.
+  ShapeSource source(std::span<const char> bytes) const {
+    ShapeSource made(bytes, window_.name(), options_, silent_, 0);
+    made.rows_before = done;
+    made.lines_before = lines_;
+    return made;
+  }
+  bool ended() { return !first_ && window_.at_least(1, {}).empty(); }
+
+  void pass(std::size_t n) {
+    if (encoding == "ascii") lines_ += lines_in(window_.bytes().first(n));
+    window_.pass(n);
+  }
+
+  // ---- PLY ----
+
+  void open_ply() {
+    constexpr std::string_view kEnd = "end_header";
+    std::size_t asked = kFirst;
+    const auto found = [&] {
+      const std::span<const char> bytes = window_.at_least(asked, {});
+      return std::string_view(bytes.data(), bytes.size()).find(kEnd) != std::string_view::npos;
+    };
+    while (!found() && asked < kMostHeader && !window_.ended()) asked *= 2;
+    window_.at_least(asked + 4, {});  // the end of that line
+    const ShapeSource whole = source(window_.bytes());
+    header_ = parse_ply_header(whole);
+    if (header_.encoding != PlyEncoding::kAscii) {
+      encoding = header_.encoding == PlyEncoding::kLittleEndian ? "binary little endian"
+                                                                : "binary big endian";
+    }
+    const PlyElement* vertex = find_element(header_, "vertex");
+    if (vertex == nullptr || vertex->count == 0) whole.fail("has no vertices");
+    for (const PlyElement& element : header_.elements) {
+      if (&element == vertex) break;
+      if (element.count > 0) {
+        refuse(window_.name(), "element " + in_quotes(element.name) +
+                                   " stands before the vertices, which cannot be read a piece at a "
+                                   "time then: 'rholm convert' writes them first");
+      }
+    }
+    for (const PlyProperty& property : vertex->properties) {
+      if (property.is_list) {
+        refuse(window_.name(), "the vertices have a list, " + in_quotes(property.name) +
+                                   ", and cannot be read a piece at a time");
+      }
+      row_bytes_ += size_of(property.type);
+    }
+    const auto has_rows = [&](const char* name) {
+      const PlyElement* element = find_element(header_, name);
+      return element != nullptr && element->count > 0;
+    };
+    has_faces = has_rows("face") || has_rows("tristrips");
+    size = left_ = vertex->count;
+    const std::size_t gone = header_.body + (window_.bytes().size() - whole.bytes.size());
+    header_.elements = {*vertex};
+    header_.body = 0;
+    pass(gone);
+  }
+
+  bool read_ply(std::size_t n, PointCloud& cloud, const Context& context) {
+    if (left_ == 0) return false;
+    PlyElement& vertex = header_.elements[0];
+    n = std::min<std::uint64_t>({n, left_, std::max<std::size_t>(1, kMostPiece / row_bytes_)});
+    vertex.count = n;
+    std::size_t bytes = n * row_bytes_;
+    if (header_.encoding == PlyEncoding::kAscii) {
+      bytes = text_of(n * vertex.properties.size(), context);
+    } else {
+      bytes = std::min(bytes, window_.at_least(bytes, context).size());
+    }
+    const ShapeSource piece = source(window_.bytes().first(bytes));
+    PlyVertices vertices(piece, vertex, !has_faces);
+    if (header_.encoding == PlyEncoding::kAscii) {
+      PlyTextBody(piece, header_).read_vertices(vertex, vertices);
+    } else {
+      if (bytes < n * row_bytes_) {
+        piece.fail("truncated: the file ends before the " + std::to_string(*size) + " vertices do");
+      }
+      PlyBinaryBody(piece, header_).read_vertices(vertex, vertices);
+    }
+    if (done == 0) warnings = vertices.warnings;
+    cloud.points = std::move(vertices.positions);
+    cloud.normals = std::move(vertices.normals);
+    cloud.attributes = std::move(vertices.attributes);
+    left_ -= n;
+    pass(bytes);
+    return true;
+  }
+
+  // Bytes up to the end of so many words, in the window.
+  std::size_t text_of(std::uint64_t words, const Context& context) {
+    for (std::size_t asked = std::min<std::uint64_t>(8 * words, kMostPiece);; asked *= 2) {
+      const std::span<const char> bytes = window_.at_least(asked, context);
+      const char* const end = behind_words(bytes, words);
+      // The last word may go on beyond the window.
+      if (end != bytes.data() + bytes.size() || window_.ended()) {
+        return static_cast<std::size_t>(end - bytes.data());
+      }
+    }
+  }
+
+  // ---- Lines of numbers ----
+
+  void open_xyz() {
+    format = ShapeFormat::kXyz;
+    window_.at_least(kMostHeader, {});
+    const ShapeSource whole = source(window_.bytes());
+    // Other formats are told from this one as read_shape() does.
+    if (looks_like_stl(whole.bytes) || looks_like_off(whole.bytes) || looks_like_obj(whole.bytes)) {
+      refuse(window_.name(),
+             "only PLY and points as lines of numbers can be read a piece at a time");
+    }
+    TextCursor text(whole.bytes);
+    const XyzHeader header = take_xyz_header(text);
+    const auto at = static_cast<std::size_t>(text.at - text.begin);
+    check_xyz_header(whole, header, at);
+    columns_ = header.columns;
+    names_ = header.names;
+    is_pwn_ = is_pwn(window_.name());
+    if (header.has_count && header.columns == 3) {
+      refuse(window_.name(),
+             "after its number of points come their normals or nothing, which "
+             "cannot be told a piece at a time");
+    }
+    if (header.has_count && header.count >= 0 && header.count < 1e18) {
+      size = static_cast<std::uint64_t>(header.count);
+    }
+    pass(at + (window_.bytes().size() - whole.bytes.size()));
+    if (!names_.empty()) return;
+    // Tells what the columns are, and is read once.
+    PointCloud telling;
+    if (!read_xyz(kTellingRows, telling, {})) whole.fail("has no points");
+    names_ = names_of(telling, columns_);
+    first_ = std::move(telling);
+  }
+
+  // The whole lines of at most n rows.
+  std::span<const char> lines_of(std::size_t n, const Context& context) {
+    std::size_t asked = std::min<std::size_t>(n * 8 * columns_, kMostPiece) + 1;
+    for (;;) {
+      const std::span<const char> bytes = window_.at_least(asked, context);
+      const char* end = bytes.data();
+      const char* at = end;
+      const char* const last = bytes.data() + bytes.size();
+      std::size_t lines = 0;
+      while (lines < n) {
+        at = std::find_if(at, last, is_line_end);
+        if (at == last) break;
+        const bool may_be_pair = *at == '\r';
+        ++at;
+        if (may_be_pair && at == last && !window_.ended()) break;
+        if (may_be_pair && at != last && *at == '\n') ++at;
+        end = at;
+        ++lines;
+      }
+      if (lines > 0 || window_.ended()) {
+        if (window_.ended() && lines < n) end = last;
+        return bytes.first(static_cast<std::size_t>(end - bytes.data()));
+      }
+      if (bytes.size() > kMostLine) {
+        source(bytes).fail("has a line of more than " + std::to_string(kMostLine) +
+                           " bytes: these are no points");
+      }
+      asked = 2 * bytes.size();
+    }
+  }
+
+  bool read_xyz(std::size_t n, PointCloud& cloud, const Context& context) {
+    while (cloud.points.empty()) {
+      const std::span<const char> lines = lines_of(n, context);
+      if (lines.empty()) {
+        if (size && *size != done) {
+          source(lines).fail("its first line promises " + std::to_string(*size) + " points, but " +
+                             std::to_string(done) + " follow");
+        }
+        return false;
+      }
+      cloud = read_xyz_piece(source(lines), names_, columns_, is_pwn_);  // comments have none
+      pass(lines.size());
+    }
+    return true;
+  }
+
+  // At most n of the first points, which are there already.
+  PointCloud cut_first(std::size_t n) {
+    PointCloud cloud = std::move(*first_);
+    first_.reset();
+    if (cloud.points.size() <= n) return cloud;
+    const auto cut = [n](auto& all) {
+      using All = std::remove_reference_t<decltype(all)>;
+      All rest;
+      if (all.size() > n) {
+        rest.assign(all.begin() + static_cast<std::ptrdiff_t>(n), all.end());
+        all.resize(n);
+      }
+      return rest;
+    };
+    PointCloud rest;
+    rest.points = cut(cloud.points);
+    rest.normals = cut(cloud.normals);
+    for (Attribute& attribute : cloud.attributes) {
+      rest.attributes.push_back({attribute.name, attribute.type, cut(attribute.values)});
+    }
+    first_ = std::move(rest);
+    return cloud;
+  }
+
+  // Types of attributes are those of the first piece.
+  void settle(PointCloud& cloud) {
+    if (encoding == "ascii") {
+      std::vector<std::string> changed;
+      settle_attribute_types(cloud.attributes, changed);
+      if (done == 0) warnings.insert(warnings.end(), changed.begin(), changed.end());
+    }
+    if (done == 0) {
+      for (const Attribute& attribute : cloud.attributes) types_.push_back(attribute.type);
+    }
+    for (std::size_t k = 0; k < types_.size(); ++k) {
+      Attribute& attribute = cloud.attributes[k];
+      if (attribute.type == types_[k]) continue;
+      const auto fits = [&](double value) { return is_value_of(types_[k], value); };
+      if (!std::all_of(attribute.values.begin(), attribute.values.end(), fits)) {
+        source({}).fail("attribute " + in_quotes(attribute.name) + " has values behind point " +
+                        std::to_string(done) + " that the type of those before cannot hold");
+      }
+      attribute.type = types_[k];
+    }
+  }
+
+  ByteWindow window_;
+  ShapeReadOptions options_;
+  Context silent_;
+  PlyHeader header_;
+  std::size_t row_bytes_ = 0;  // of a binary row
+  std::uint64_t left_ = 0;     // rows of a PLY
+  std::size_t columns_ = 0;
+  bool is_pwn_ = false;
+  std::vector<std::string> names_;
+  std::size_t lines_ = 0;  // before the window
+  std::optional<PointCloud> first_;
+  std::vector<ScalarType> types_;
+};
+
+PointStream::PointStream(const std::filesystem::path& path, const ShapeReadOptions& options)
+    : reader_(std::make_unique<Reader>(path, options)) {}
+PointStream::~PointStream() = default;
+
+bool PointStream::read(std::size_t n, PointCloud& cloud, const Context& context) {
+  return reader_->read(n, cloud, context);
+}
+std::uint64_t PointStream::read_so_far() const { return reader_->done; }
+std::optional<std::uint64_t> PointStream::size() const { return reader_->size; }
+double PointStream::part_read() const { return reader_->part(); }
+ShapeFormat PointStream::format() const { return reader_->format; }
+const std::string& PointStream::encoding() const { return reader_->encoding; }
+bool PointStream::has_faces() const { return reader_->has_faces; }
+const std::vector<std::string>& PointStream::warnings() const { return reader_->warnings; }
+
+}  // namespace rholm
