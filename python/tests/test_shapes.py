@@ -200,10 +200,13 @@ def test_compression_keeps_its_tolerance(ring, tmp_path):
     cap = a.cap(0)
     assert len(a.coefficients_of(0)) == rholm.n_coefficients(cap.basis, cap.degree)
     assert rholm.highest_degree(a) == max(a.cap(i).degree for i in range(len(a)))
-    distance, gradient, valid = a.evaluate(0, [cap.seed + 0.01 * cap.axes[2]])
-    assert valid[0]
+    # Samples farther from its surface than four tolerances are none of a cap's.
+    step = 0.01 * cap.axes[2]
+    distance, gradient, valid = a.evaluate(0, [cap.seed, cap.seed + step])
+    assert valid.all()
+    assert abs(distance[0]) <= 4 * 7e-3 * ring.bounds.diagonal
+    assert np.isclose(distance[1] - distance[0], gradient[0] @ step, rtol=0.02)
     assert np.isclose(np.linalg.norm(gradient[0]), 1, rtol=0.1)
-    assert abs(distance[0]) < 0.1
     assert a.colored(ring).colors.shape == (len(ring.vertices), 3)
     assert a.colored(ring, by="degree").colors is not None
     with pytest.raises(IndexError):
