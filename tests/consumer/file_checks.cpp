@@ -2,6 +2,7 @@
 #include <rholm/coefficients_io.h>
 #include <rholm/file.h>
 #include <rholm/mapped_mesh.h>
+#include <rholm/point_stream.h>
 #include <rholm/primitives.h>
 #include <rholm/shape_io.h>
 
@@ -32,6 +33,16 @@ void shape_io() {
          "what is written is read");
 }
 
+void point_stream() {
+  const rholm::Mesh box = rholm::box({1, 2, 3});
+  rholm::write_shape(box, "box.ply");
+  rholm::PointStream stream("box.ply");
+  rholm::PointCloud piece;
+  std::size_t n = 0;
+  while (stream.read(3, piece)) n += piece.points.size();
+  expect(n == box.vertices.size() && stream.size() == n, "all points come, three at a time");
+}
+
 void coefficients_io() {
   const std::string_view sphere = "0 0 2 0\n1 0 0 0\n1 1 0 0\n";  // 4-pi: C_00 is the radius
   const rholm::CoefficientsFile file = rholm::parse_coefficients(sphere, "sphere.sh");
@@ -56,6 +67,7 @@ void mapped_mesh() {
 std::vector<HeaderCheck> file_checks() {
   return {{"file.h", file},
           {"shape_io.h", shape_io},
+          {"point_stream.h", point_stream},
           {"coefficients_io.h", coefficients_io},
           {"mapped_mesh.h", mapped_mesh}};
 }
