@@ -122,7 +122,7 @@ class LatticeCells {
 // The cone of a face that turns its back, corners so that it turns its front: adds two to what it
 // contains.
 void add_back(const std::array<Vec3, 3>& corners, const LatticeCells& cells,
-              std::vector<std::atomic<int>>& counts) {
+              std::vector<int>& counts) {
   std::array<Vec3, 3> units;
   Vec3 middle;
   for (std::size_t k = 0; k < 3; ++k) middle += units[k] = normalized(corners[k]);
@@ -133,7 +133,7 @@ void add_back(const std::array<Vec3, 3>& corners, const LatticeCells& cells,
   const double angle = cosine > 1e-3 ? std::acos(std::min(1.0, cosine)) : kPi;
   cells.visit_near(middle, angle, [&](std::size_t i) {
     if (cone_contains(corners, cells.direction(i)) != 0)
-      counts[i].fetch_add(2, std::memory_order_relaxed);
+      std::atomic_ref(counts[i]).fetch_add(2, std::memory_order_relaxed);
   });
 }
 
@@ -199,15 +199,13 @@ std::optional<std::vector<int>> count_meetings(const LocalView& view, const Vec3
   std::vector<int> counts(n, *surplus);
   if (turned->empty()) return counts;
   const LatticeCells cells(n, context);
-  std::vector<std::atomic<int>> added(n);
   constexpr std::size_t kGrain = 256;  // chosen: some 50 us
   parallel_for(turned->size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const auto [a, b, c] = corners_from(view, (*turned)[k], center);
-      add_back({a, c, b}, cells, added);
+      add_back({a, c, b}, cells, counts);
     }
   });
-  for (std::size_t i = 0; i < n; ++i) counts[i] += added[i];
   return counts;
 }
 
