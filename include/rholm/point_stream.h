@@ -17,9 +17,9 @@ namespace rholm {
 
 // Reads a file from its begin to its end, and never holds more of it than is asked for at a time:
 // PLY (binary and ascii; of a mesh its vertices) and points as lines of numbers (XYZ, PWN, TXT,
-// CSV), with the same values as read_shape(). Where lines have no names of columns, the first piece
-// decides what they are: its first three columns behind the position are normals if all of its
-// lines have unit vectors there, colours if there are three of bytes, else scalars.
+// CSV), with the same values as read_shape(). Where lines have no names of columns, the first
+// 65 536 decide what they are: the first three columns behind the position are normals if all of
+// these lines have unit vectors there, colours if there are three of bytes, else scalars.
 class PointStream {
  public:
   // "-" is standard input. Throws Io if it cannot be read, InvalidInput if it is malformed or has

@@ -18,8 +18,9 @@
 namespace rholm {
 namespace {
 
-constexpr std::size_t kMostHeader = std::size_t{1} << 20;   // bytes; chosen: any that makes sense
-constexpr std::size_t kMostPiece = std::size_t{64} << 20;   // bytes that are held; chosen
+constexpr std::size_t kMostHeader = std::size_t{1} << 20;  // bytes; chosen: any that makes sense
+constexpr std::size_t kMostPiece = std::size_t{64} << 20;  // bytes that are held; chosen
+constexpr std::size_t kValueText = 16;  // bytes of a value and what is around it; chosen
 constexpr std::size_t kMostLine = std::size_t{1} << 20;     // bytes
 constexpr std::size_t kTellingRows = std::size_t{1} << 16;  // that tell what columns are; chosen
 
@@ -144,13 +145,15 @@ class PointStream::Reader {
         refuse(window_.name(), "the vertices have a list, " + in_quotes(property.name) +
                                    ", and cannot be read a piece at a time");
       }
-      row_bytes_ += size_of(property.type);
+      const bool is_text = header_.encoding == PlyEncoding::kAscii;
+      row_bytes_ += is_text ? kValueText : size_of(property.type);
     }
     const auto has_rows = [&](const char* name) {
       const PlyElement* element = find_element(header_, name);
       return element != nullptr && element->count > 0;
     };
     has_faces = has_rows("face") || has_rows("tristrips");
+    warnings = PlyVertices(whole, *vertex, !has_faces).warnings;  // throws without x, y, z
     size = left_ = vertex->count;
     const std::size_t gone = header_.body + (window_.bytes().size() - whole.bytes.size());
     header_.elements = {*vertex};
@@ -163,7 +166,7 @@ class PointStream::Reader {
     PlyElement& vertex = header_.elements[0];
     n = std::min<std::uint64_t>({n, left_, std::max<std::size_t>(1, kMostPiece / row_bytes_)});
     vertex.count = n;
-    std::size_t bytes = n * row_bytes_;
+    std::size_t bytes = n * row_bytes_;  // of text: about
     if (header_.encoding == PlyEncoding::kAscii) {
       bytes = text_of(n * vertex.properties.size(), context);
     } else {
@@ -179,7 +182,6 @@ class PointStream::Reader {
       }
       PlyBinaryBody(piece, header_).read_vertices(vertex, vertices);
     }
-    if (done == 0) warnings = vertices.warnings;
     cloud.points = std::move(vertices.positions);
     cloud.normals = std::move(vertices.normals);
     cloud.attributes = std::move(vertices.attributes);
@@ -190,12 +192,16 @@ class PointStream::Reader {
 
   // Bytes up to the end of so many words, in the window.
   std::size_t text_of(std::uint64_t words, const Context& context) {
-    for (std::size_t asked = std::min<std::uint64_t>(8 * words, kMostPiece);; asked *= 2) {
+    for (std::size_t asked = kValueText * words;; asked *= 2) {
       const std::span<const char> bytes = window_.at_least(asked, context);
       const char* const end = behind_words(bytes, words);
       // The last word may go on beyond the window.
       if (end != bytes.data() + bytes.size() || window_.ended()) {
         return static_cast<std::size_t>(end - bytes.data());
+      }
+      if (asked > 4 * kMostPiece) {
+        source(bytes).fail("has " + std::to_string(asked) + " bytes where " +
+                           std::to_string(words) + " values should be: these are no points");
       }
     }
   }
@@ -332,7 +338,7 @@ class PointStream::Reader {
   ShapeReadOptions options_;
   Context silent_;
   PlyHeader header_;
-  std::size_t row_bytes_ = 0;  // of a binary row
+  std::size_t row_bytes_ = 0;  // of text about
   std::uint64_t left_ = 0;     // rows of a PLY
   std::size_t columns_ = 0;
   bool is_pwn_ = false;

@@ -188,6 +188,7 @@ TEST(PointStream, tells_where_something_is_wrong) {
       {"infinite.ply", header + "3 nan 3\n"},
       {"none.ply", "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nend_header\n"},
       {"no_x.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float y\nend_header\n1\n"},
+      {"no_properties.ply", "ply\nformat ascii 1.0\nelement vertex 3\nend_header\n"},
       {"empty.xyz", ""},
   };
   for (const auto& [name, text] : files) {
