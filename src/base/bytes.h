@@ -1,0 +1,92 @@
+// Numbers as bytes between processes of one program, in the machine's own byte order. Layer: base.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "rholm/error.h"
+
+namespace rholm {
+
+class ByteWriter {
+ public:
+  template <typename T>
+  void value(const T& v) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    append(&v, sizeof v);
+  }
+  // With its length.
+  template <typename T>
+  void array(std::span<const T> values) {
+    value(std::uint64_t{values.size()});
+    row(values);
+  }
+  void text(std::string_view characters) { array(std::span(characters)); }
+  template <typename T>
+  void row(std::span<const T> values) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    append(values.data(), values.size_bytes());
+  }
+  std::string take() { return std::move(bytes_); }
+
+ private:
+  void append(const void* data, std::size_t n) {
+    if (n > 0) bytes_.append(static_cast<const char*>(data), n);
+  }
+  std::string bytes_;
+};
+
+// Reads what a ByteWriter wrote, in its order; throws Io where it ends too early.
+class ByteReader {
+ public:
+  explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
+  template <typename T>
+  void value(T& v) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    std::memcpy(&v, take(sizeof v), sizeof v);
+  }
+  template <typename T>
+  void array(std::vector<T>& values) {
+    std::uint64_t n = 0;
+    value(n);
+    if (n > bytes_.size() / sizeof(T)) refuse();
+    values.resize(n);
+    row(std::span<T>(values));
+  }
+  // Good as long as the bytes.
+  std::string_view text() {
+    std::uint64_t n = 0;
+    value(n);
+    return {take(n), n};
+  }
+  template <typename T>
+  void row(std::span<T> values) {
+    const char* from = take(values.size_bytes());
+    if (!values.empty()) std::memcpy(values.data(), from, values.size_bytes());
+  }
+  std::string_view rest() const { return bytes_; }
+  // That was all.
+  void finish() const {
+    if (!bytes_.empty()) refuse();
+  }
+  [[noreturn]] static void refuse() {
+    throw Error(ErrorCode::kIo, "what another process sent is damaged");
+  }
+
+ private:
+  const char* take(std::size_t n) {
+    if (n > bytes_.size()) refuse();
+    const char* at = bytes_.data();
+    bytes_ = bytes_.substr(n);
+    return at;
+  }
+  std::string_view bytes_;
+};
+
+}  // namespace rholm
