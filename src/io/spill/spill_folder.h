@@ -1,0 +1,49 @@
+// The folder of a store: its lock, its manifest, the files of its pieces. Layer: io, private.
+//
+// FOLDER/lock, FOLDER/manifest, and FOLDER/pieces with a file for each piece. What is not whole has
+// a name that ends in ".part"; no piece has.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "io/spill/spill_file.h"
+
+namespace rholm {
+
+class SpillFolder {
+ public:
+  // As PieceStore does.
+  SpillFolder(const std::filesystem::path& path, const std::string& manifest);
+  // One that another process has opened, and will remove. Throws Io if it is not there.
+  explicit SpillFolder(const std::filesystem::path& path);
+  // Removes all that is its own, unless `kept`.
+  ~SpillFolder();
+  SpillFolder(const SpillFolder&) = delete;
+  SpillFolder& operator=(const SpillFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path pieces() const { return path_ / "pieces"; }
+  bool was_there() const { return was_there_; }
+  std::uint64_t bytes_there() const { return bytes_there_; }  // of pieces, when it was opened
+  void check_room(std::uint64_t bytes) const;
+  void keep(bool kept) { kept_ = kept; }
+  bool is_kept() const { return kept_; }
+
+ private:
+  void lock();
+  void take_up(const std::string& wanted);
+  void clear() noexcept;
+
+  std::filesystem::path path_;
+  bool made_ = false;  // the folder itself, now or by the run that is taken up
+  bool was_there_ = false;
+  bool kept_ = false;
+  bool locked_ = false;
+  std::uint64_t bytes_there_ = 0;
+  std::unique_ptr<SpillFile> lock_;
+};
+
+}  // namespace rholm
