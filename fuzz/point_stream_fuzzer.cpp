@@ -1,30 +1,11 @@
 #include "rholm/point_stream.h"
 
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <optional>
 
-#include "shape_fuzzing.h"
+#include "named_bytes.h"
 
 namespace rholm::fuzzing {
 namespace {
-
-// A file in memory that has a name.
-class NamedBytes {
- public:
-  explicit NamedBytes(std::span<const char> bytes) : file_(::memfd_create("fuzz", 0)) {
-    require(file_ >= 0);
-    require(::write(file_, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()));
-  }
-  ~NamedBytes() { ::close(file_); }
-  NamedBytes(const NamedBytes&) = delete;
-  NamedBytes& operator=(const NamedBytes&) = delete;
-  std::string name() const { return "/proc/self/fd/" + std::to_string(file_); }
-
- private:
-  int file_;
-};
 
 std::optional<std::vector<Vec3>> read_in_pieces(const std::string& name, std::size_t n) {
   std::vector<Vec3> points;
@@ -51,7 +32,7 @@ void check(std::span<const char> bytes) {
   try {
     const ShapeFile whole = parse_shape(bytes, file.name());
     const ShapeView view = view_of(whole);
-    require(std::equal(found->begin(), found->end(), view.points.begin(), view.points.end()));
+    require(*found == all_of(view.points));
   } catch (const Error&) {
     return;  // of what lies behind the points
   }

@@ -4,12 +4,24 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "rholm/context.h"
 #include "rholm/mesh_view.h"
 
 namespace rholm {
+
+// A scalar of every vertex beside its coordinates: that of vertex i lies at first + i * stride.
+struct MappedScalar {
+  std::string name = {};                   // as in the file
+  ScalarType type = ScalarType::kFloat32;  // in the machine's own byte order
+  const std::byte* first = nullptr;        // that of vertex 0
+  std::size_t stride = 0;                  // bytes from one to the next
+};
+
+struct MappedRows;
 
 // A memory map of a file, for reading. Nothing of it is in memory before it is used, and the system
 // may drop what has been.
@@ -30,6 +42,9 @@ class MappedMesh {
   // indices are in range. Good as long as this object.
   const MeshView& view() const { return view_; }
 
+  // Attributes of the vertices, in the order of the file.
+  const std::vector<MappedScalar>& scalars() const { return scalars_; }
+
   // Whether each of n faces from `first` on is a triangle; what the view shows of others has no
   // meaning, and the file must be read with read_shape(). Meant for blocks of faces that are in the
   // cache anyway: some 0.5 ns each.
@@ -40,12 +55,14 @@ class MappedMesh {
   void release(std::size_t first, std::size_t n) const;
 
  private:
+  friend std::optional<MappedRows> map_rows(const std::filesystem::path&, const Context&);
   friend std::optional<MappedMesh> map_mesh(const std::filesystem::path&, const Context&);
   MappedMesh(void* map, std::size_t size) : map_(map), size_(size) {}
 
   void* map_ = nullptr;
   std::size_t size_ = 0;
   MeshView view_;
+  std::vector<MappedScalar> scalars_;
 };
 
 // Maps a PLY file in the machine's own byte order that holds vertices with x, y, z side by side,

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 
 #include "rholm/mesh.h"
 
@@ -47,6 +48,14 @@ struct MeshView {
 MeshView view_of(const Mesh& mesh);
 // A copy of what the view shows, without attributes. Nothing is checked.
 Mesh mesh_of(const MeshView& view);
+
+// A mesh that need not fit in memory, and what takes rows that have been used out of it: they come
+// back when they are used again. Without a function rows stay.
+struct MeshInPlace {
+  MeshView mesh;                                                                 // as it lies
+  std::function<void(std::size_t first, std::size_t n)> release_vertices = {};   // n from the first
+  std::function<void(std::size_t first, std::size_t n)> release_triangles = {};  // likewise
+};
 
 // Throws InvalidInput unless every coordinate is finite and every index is below the number of
 // vertices.

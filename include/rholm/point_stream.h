@@ -42,11 +42,28 @@ class PointStream {
   ShapeFormat format() const;                 // kPly or kXyz
   const std::string& encoding() const;        // as in ShapeFile
   bool has_faces() const;                     // a mesh
+  // Whether the file is a binary PLY of these points, to the byte, and of nothing else.
+  bool is_all() const;
   const std::vector<std::string>& warnings() const;  // what was passed over, with counts
 
  private:
   class Reader;
   std::unique_ptr<Reader> reader_;
 };
+
+// What convert_points() has written.
+struct ConvertedPoints {
+  std::uint64_t points = 0;                // how many
+  std::vector<Attribute> attributes = {};  // of the file that was read, without values
+  std::vector<std::string> warnings = {};  // of read_shape(), but for those of other elements
+};
+// Writes the points of a file as write_shape() does what read_shape() has read, with the same
+// bytes, to PLY or XYZ (options.format, or the extension), and never holds more than some of them:
+// 30 MB. Of lines without names the columns are what PointStream takes them for. The file is read
+// twice where points must be counted (of lines of numbers to PLY) or their normals looked at (to
+// XYZ). Throws as both of them, and Unsupported for other formats and for meshes, whose faces would
+// be lost; nothing is written then.
+ConvertedPoints convert_points(const std::filesystem::path& from, const std::filesystem::path& to,
+                               const ShapeWriteOptions& options = {}, const Context& context = {});
 
 }  // namespace rholm

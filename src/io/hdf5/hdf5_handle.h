@@ -4,6 +4,7 @@
 
 #include <hdf5.h>
 
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -37,10 +38,11 @@ class Handle {
   herr_t (*close_)(hid_t) = nullptr;
 };
 
-// While it lives, HDF5 does not print its errors on this thread.
+// While it lives, HDF5 is this thread's alone, and does not print its errors: some builds of the
+// library are not made for several threads, and keep state of their own between calls.
 class QuietErrors {
  public:
-  QuietErrors() {
+  QuietErrors() : alone_(mutex) {
     H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   }
@@ -52,6 +54,8 @@ class QuietErrors {
   QuietErrors& operator=(const QuietErrors&) = delete;
 
  private:
+  static inline std::mutex mutex;
+  std::lock_guard<std::mutex> alone_;
   H5E_auto2_t print_ = nullptr;
   void* data_ = nullptr;
 };

@@ -216,6 +216,18 @@ std::string to_text(const File& file, const Array& array) {
   return std::string(text.substr(0, text.find('\0')));
 }
 
+std::vector<std::string> to_texts(const File& file, const Array& array) {
+  if (array.type.kind != Kind::kFixedString) {
+    damaged(file, "'" + array.path + "' must be strings of one length");
+  }
+  std::vector<std::string> texts(count_of(array));
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    const std::string_view text = array.data.substr(i * array.type.size, array.type.size);
+    texts[i] = text.substr(0, text.find('\0'));
+  }
+  return texts;
+}
+
 std::vector<double> to_doubles(const File& file, const Array& array) {
   if (array.type.kind != Kind::kFloat) {
     damaged(file, "'" + array.path + "' must have floating point numbers");

@@ -31,6 +31,8 @@ Array read_dataset(const File& file, const Object& dataset);
 
 // The values, as many as the array has. Throw InvalidInput for an array of another kind.
 std::string to_text(const File& file, const Array& array);  // of exactly one string
+// Of strings of one length, without the zeros at their ends.
+std::vector<std::string> to_texts(const File& file, const Array& array);
 std::vector<double> to_doubles(const File& file, const Array& array);
 std::vector<std::int64_t> to_integers(const File& file, const Array& array);
 std::int64_t to_integer(const File& file, const Array& array);  // of exactly one integer

@@ -12,13 +12,13 @@
 #include <limits>
 #include <span>
 
+#include "io/ply/mapped_rows.h"
 #include "io/ply/ply_header.h"
 #include "io/shapes/shape_source.h"
+#include "rholm/large_mesh.h"
 
 namespace rholm {
 namespace {
-
-constexpr std::size_t kFaceBytes = 1 + 3 * 4;  // the length 3 and three indices
 
 // The content of a regular file that is not empty, else nothing.
 std::span<std::byte> map_file(const std::filesystem::path& path) {
@@ -37,6 +37,7 @@ std::span<std::byte> map_file(const std::filesystem::path& path) {
 }
 
 struct VertexRow {
+  std::size_t x = 0;  // the number of that property
   ScalarType coordinate = ScalarType::kFloat64;
   std::size_t offset = 0;  // of x
   std::size_t stride = 0;
@@ -48,7 +49,7 @@ std::optional<VertexRow> row_of(const PlyElement& vertex) {
       find_property(vertex, "z") != x + 2) {
     return {};
   }
-  VertexRow row{.coordinate = vertex.properties[x].type};
+  VertexRow row{.x = x, .coordinate = vertex.properties[x].type};
   if (row.coordinate != ScalarType::kFloat32 && row.coordinate != ScalarType::kFloat64) return {};
   for (std::size_t i = 0; i < vertex.properties.size(); ++i) {
     const PlyProperty& property = vertex.properties[i];
@@ -60,6 +61,20 @@ std::optional<VertexRow> row_of(const PlyElement& vertex) {
   return row;
 }
 
+// What the rows at `first` have beside the coordinates.
+std::vector<MappedScalar> scalars_of(const PlyElement& vertex, const VertexRow& row,
+                                     const std::byte* first) {
+  std::vector<MappedScalar> scalars;
+  for (std::size_t i = 0; i < vertex.properties.size(); ++i) {
+    const PlyProperty& property = vertex.properties[i];
+    if (i < row.x || i >= row.x + 3) {
+      scalars.push_back({property.name, property.type, first, row.stride});
+    }
+    first += size_of(property.type);
+  }
+  return scalars;
+}
+
 bool is_plain_list(const PlyElement& face) {
   if (face.properties.size() != 1) return false;
   const PlyProperty& list = face.properties[0];
@@ -68,8 +83,15 @@ bool is_plain_list(const PlyElement& face) {
          (list.name == "vertex_indices" || list.name == "vertex_index");
 }
 
+struct Rows {
+  MeshView view;
+  std::vector<MappedScalar> scalars;
+  std::uint64_t n_faces = 0;
+  std::size_t face_bytes = 0;
+};
+
 // What the bytes hold, if it can be used where it lies.
-std::optional<MeshView> view_in(const ShapeSource& source) {
+std::optional<Rows> rows_in(const ShapeSource& source) {
   if (!looks_like_ply(source.bytes)) return {};
   const PlyHeader header = parse_ply_header(source);
   const PlyEncoding native = std::endian::native == std::endian::little ? PlyEncoding::kLittleEndian
@@ -84,18 +106,18 @@ std::optional<MeshView> view_in(const ShapeSource& source) {
   // The size must be right to the byte; counts are as claimed and may be anything.
   const std::uint64_t left = source.bytes.size() - header.body;
   if (vertex.count > left / row->stride) return {};
-  const std::uint64_t face_bytes = left - vertex.count * row->stride;
-  if (face.count == 0 || face_bytes % kFaceBytes != 0 || face_bytes / kFaceBytes != face.count) {
-    return {};
-  }
+  if (face.count == 0) return {};
   const auto* body = reinterpret_cast<const std::byte*>(source.bytes.data()) + header.body;
-  return MeshView{.vertices = body + row->offset,
-                  .n_vertices = vertex.count,
-                  .vertex_stride = row->stride,
-                  .coordinate = row->coordinate,
-                  .triangles = body + vertex.count * row->stride + 1,
-                  .n_triangles = face.count,
-                  .triangle_stride = kFaceBytes};
+  return Rows{.view = {.vertices = body + row->offset,
+                       .n_vertices = vertex.count,
+                       .vertex_stride = row->stride,
+                       .coordinate = row->coordinate,
+                       .triangles = body + vertex.count * row->stride + 1,
+                       .n_triangles = 0,
+                       .triangle_stride = kFaceBytes},
+              .scalars = scalars_of(vertex, *row, body),
+              .n_faces = face.count,
+              .face_bytes = left - vertex.count * row->stride};
 }
 
 // In 16 faces the lengths come back to the same places of 16-byte vectors: whole vectors of bytes
@@ -113,6 +135,7 @@ MappedMesh& MappedMesh::operator=(MappedMesh&& other) noexcept {
   std::swap(map_, other.map_);
   std::swap(size_, other.size_);
   std::swap(view_, other.view_);
+  std::swap(scalars_, other.scalars_);
   return *this;
 }
 
@@ -146,17 +169,42 @@ void MappedMesh::release(std::size_t first, std::size_t n) const {
   if (last > begin) ::madvise(static_cast<std::byte*>(map_) + begin, last - begin, MADV_DONTNEED);
 }
 
-std::optional<MappedMesh> map_mesh(const std::filesystem::path& path, const Context& context) {
+void release_vertices(const MappedMesh& mesh, std::size_t first, std::size_t n) {
+  const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
+  const MeshView& view = mesh.view();
+  // Whole pages, as above; what lies behind the vertices is the file's too.
+  const auto page_of = [&](std::size_t vertex) {
+    const std::byte* const at = view.vertices + vertex * view.vertex_stride;
+    return const_cast<std::byte*>(at - reinterpret_cast<std::uintptr_t>(at) % page);
+  };
+  std::byte* const begin = page_of(first);
+  std::byte* const end = page_of(first + n);
+  if (end > begin) ::madvise(begin, static_cast<std::size_t>(end - begin), MADV_DONTNEED);
+}
+
+std::optional<MappedRows> map_rows(const std::filesystem::path& path, const Context& context) {
   if (path == "-") return {};
   const std::span<std::byte> bytes = map_file(path);
   if (bytes.empty()) return {};
   MappedMesh mesh(bytes.data(), bytes.size());
   const ShapeSource source({reinterpret_cast<const char*>(bytes.data()), bytes.size()},
                            path.string(), {}, context, 0);
-  const std::optional<MeshView> view = view_in(source);
-  if (!view) return {};
-  mesh.view_ = *view;
-  return mesh;
+  std::optional<Rows> rows = rows_in(source);
+  if (!rows) return {};
+  mesh.view_ = rows->view;
+  mesh.scalars_ = std::move(rows->scalars);
+  return MappedRows{
+      .mesh = std::move(mesh), .n_faces = rows->n_faces, .face_bytes = rows->face_bytes};
+}
+
+std::optional<MappedMesh> map_mesh(const std::filesystem::path& path, const Context& context) {
+  std::optional<MappedRows> rows = map_rows(path, context);
+  if (!rows) return {};
+  const bool fits =
+      rows->face_bytes % kFaceBytes == 0 && rows->face_bytes / kFaceBytes == rows->n_faces;
+  if (!fits) return {};
+  rows->mesh.view_.n_triangles = rows->n_faces;
+  return std::move(rows->mesh);
 }
 
 }  // namespace rholm

@@ -185,6 +185,11 @@ std::size_t find_property(const PlyElement& element, const std::string& name) {
   return kNoProperty;
 }
 
+std::string passed_over_warning(const PlyElement& element) {
+  return "element " + in_quotes(element.name) + " with " + counted(element.count, "row", "rows") +
+         " passed over";
+}
+
 std::size_t size_of(ScalarType type) { return entry(type).size; }
 const char* ply_type_name(ScalarType type) { return entry(type).old_name.data(); }
 

@@ -41,6 +41,9 @@ const PlyElement* find_element(const PlyHeader& header, const char* name);
 inline constexpr std::size_t kNoProperty = SIZE_MAX;
 std::size_t find_property(const PlyElement& element, const std::string& name);
 
+// Of an element that is not read: "element 'edge' with 3 rows passed over".
+std::string passed_over_warning(const PlyElement& element);
+
 std::size_t size_of(ScalarType type);        // in bytes
 const char* ply_type_name(ScalarType type);  // "uchar", "float", ...
 

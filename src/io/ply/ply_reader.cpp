@@ -56,8 +56,7 @@ void note_passed_over(const PlyElement& element, std::vector<std::string>& warni
   if (element.count == 0) return;
   const bool faces = element.name == "face" || element.name == "tristrips";
   if (!faces) {
-    warnings.push_back("element " + in_quotes(element.name) + " with " +
-                       counted(element.count, "row", "rows") + " passed over");
+    warnings.push_back(passed_over_warning(element));
   } else if (element.properties.size() > 1) {
     warnings.push_back(counted(element.properties.size() - 1, "property", "properties") +
                        " of element " + in_quotes(element.name) + " passed over");

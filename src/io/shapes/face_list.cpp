@@ -7,6 +7,10 @@
 
 namespace rholm {
 
+std::string skipped_warning(std::size_t faces) {
+  return counted(faces, "face", "faces") + " with fewer than 3 corners skipped";
+}
+
 void FaceList::add(std::span<const std::uint32_t> corners) {
   if (corners.size() == 3) {
     triangles_.push_back({corners[0], corners[1], corners[2]});
@@ -34,7 +38,7 @@ void FaceList::add_polygon(std::span<const std::uint32_t> corners) {
 std::vector<Triangle> FaceList::finish(const std::vector<Vec3>& vertices,
                                        std::vector<std::string>& warnings) {
   if (skipped_ > 0) {
-    warnings.push_back(counted(skipped_, "face", "faces") + " with fewer than 3 corners skipped");
+    warnings.push_back(skipped_warning(skipped_));
   }
   if (polygons_.empty()) return std::move(triangles_);
   std::vector<Triangle> all;

@@ -11,6 +11,9 @@
 
 namespace rholm {
 
+// Of so many faces.
+std::string skipped_warning(std::size_t faces);
+
 class FaceList {
  public:
   void reserve(std::size_t faces) { triangles_.reserve(faces); }

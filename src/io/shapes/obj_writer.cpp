@@ -5,21 +5,21 @@ namespace rholm {
 namespace {
 
 // Colours of OBJ files run from 0 to 1.
-double color_value(const Attribute& attribute, std::size_t i) {
-  return attribute.type == ScalarType::kUint8 ? attribute.values[i] / 255 : attribute.values[i];
+double color_value(const ScalarRange& color, std::size_t i) {
+  return color.type == ScalarType::kUint8 ? color[i] / 255 : color[i];
 }
 
 void put_positions(const ShapeView& shape, OutputBuffer& out) {
-  const auto colors = find_group<3>(shape.attributes, {"red", "green", "blue"});
-  for (std::size_t i = 0; i < shape.points.size(); ++i) {
+  const auto colors = find_group<3, ScalarRange>(shape.attributes, {"red", "green", "blue"});
+  shape.points.visit([&](std::size_t i, const Vec3& point) {
     out.text("v ");
-    put_vector(shape.points[i], colors ? ' ' : '\n', out);
+    put_vector(point, colors ? ' ' : '\n', out);
     if (colors) {
       const auto& [red, green, blue] = *colors;
       put_vector({color_value(*red, i), color_value(*green, i), color_value(*blue, i)}, '\n', out);
     }
     out.rows(1);
-  }
+  });
 }
 
 // a, a/a, a//a or a/a/a
@@ -41,27 +41,30 @@ void put_corner(std::uint32_t vertex, bool texture, bool normal, OutputBuffer& o
 
 void format_obj(const ShapeView& shape, OutputBuffer& out) {
   put_positions(shape, out);
-  const auto texture = find_texture(shape.attributes);
+  const auto texture = find_texture<ScalarRange>(shape.attributes);
   if (texture) {
-    for (std::size_t i = 0; i < shape.points.size(); ++i) {
+    const auto& [u, v] = *texture;
+    shape.points.visit_numbers([&](std::size_t i) {
       out.text("vt ");
-      out.number((*texture)[0]->values[i], ' ');
-      out.number((*texture)[1]->values[i], '\n');
-    }
+      out.number((*u)[i], ' ');
+      out.number((*v)[i], '\n');
+    });
   }
-  const std::vector<Vec3> normals = normals_of(shape);
-  for (const Vec3& normal : normals) {
-    out.text("vn ");
-    put_vector(normal, '\n', out);
+  const NormalRange normals(shape);
+  if (!normals.empty()) {
+    shape.points.visit_numbers([&](std::size_t i) {
+      out.text("vn ");
+      put_vector(normals[i], '\n', out);
+    });
   }
-  for (const Triangle& t : shape.triangles) {
+  shape.triangles.visit([&](std::size_t, const Triangle& t) {
     out.text("f");
     for (const std::uint32_t corner : t) {
       put_corner(corner, texture.has_value(), !normals.empty(), out);
     }
     out.text("\n");
     out.rows(1);
-  }
+  });
 }
 
 }  // namespace rholm

@@ -4,11 +4,13 @@
 namespace rholm {
 
 void format_off(const ShapeView& shape, OutputBuffer& out) {
-  const std::vector<Vec3> normals = normals_of(shape);
-  std::vector<const Attribute*> colors;
-  if (const auto group = find_group<4>(shape.attributes, {"red", "green", "blue", "alpha"})) {
+  const NormalRange normals(shape);
+  std::vector<const ScalarRange*> colors;
+  if (const auto group =
+          find_group<4, ScalarRange>(shape.attributes, {"red", "green", "blue", "alpha"})) {
     colors.assign(group->begin(), group->end());
-  } else if (const auto opaque = find_group<3>(shape.attributes, {"red", "green", "blue"})) {
+  } else if (const auto opaque =
+                 find_group<3, ScalarRange>(shape.attributes, {"red", "green", "blue"})) {
     colors.assign(opaque->begin(), opaque->end());
   }
   if (!colors.empty()) out.text("C");
@@ -17,21 +19,21 @@ void format_off(const ShapeView& shape, OutputBuffer& out) {
   out.number(shape.points.size(), ' ');
   out.number(shape.triangles.size(), ' ');
   out.text("0\n");
-  for (std::size_t i = 0; i < shape.points.size(); ++i) {
-    put_vector(shape.points[i], normals.empty() && colors.empty() ? '\n' : ' ', out);
+  shape.points.visit([&](std::size_t i, const Vec3& point) {
+    put_vector(point, normals.empty() && colors.empty() ? '\n' : ' ', out);
     if (!normals.empty()) put_vector(normals[i], colors.empty() ? '\n' : ' ', out);
-    for (const Attribute* color : colors) {
-      out.number(color->values[i], color == colors.back() ? '\n' : ' ');
+    for (const ScalarRange* color : colors) {
+      out.number((*color)[i], color == colors.back() ? '\n' : ' ');
     }
     out.rows(1);
-  }
-  for (const Triangle& t : shape.triangles) {
+  });
+  shape.triangles.visit([&](std::size_t, const Triangle& t) {
     out.text("3 ");
     out.number(t[0], ' ');
     out.number(t[1], ' ');
     out.number(t[2], '\n');
     out.rows(1);
-  }
+  });
 }
 
 }  // namespace rholm

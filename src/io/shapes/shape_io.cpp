@@ -94,9 +94,7 @@ void note_values_not_finite(ShapeFile& file) {
     const auto n = std::count_if(attribute.values.begin(), attribute.values.end(),
                                  [](double value) { return !std::isfinite(value); });
     if (n > 0) {
-      file.warnings.push_back("attribute " + in_quotes(attribute.name) + " has " +
-                              counted(static_cast<std::size_t>(n), "value", "values") +
-                              " that are not finite numbers");
+      file.warnings.push_back(not_finite_warning(attribute.name, static_cast<std::size_t>(n)));
     }
   }
 }
@@ -114,23 +112,7 @@ template <class Shape>
 void write(const Shape& shape, const std::filesystem::path& path, const ShapeWriteOptions& options,
            const Context& context) {
   validate(shape);
-  const std::optional<ShapeFormat> format =
-      options.format ? options.format : format_of_extension(path);
-  if (!format && path == "-") {
-    throw Error(ErrorCode::kInvalidInput, "standard output has no extension: name the format");
-  }
-  if (!format) {
-    throw Error(ErrorCode::kUnsupported,
-                path.string() +
-                    ": the extension names no format; ply, obj, off, stl and xyz can be "
-                    "written");
-  }
-  const ShapeView view = shape_view_of(shape);
-  AtomicFile file(path, context);
-  OutputBuffer out(&file, view.points.size() + view.triangles.size(), context);
-  format_shape(view, *format, options.ascii, path.string(), out);
-  out.flush();
-  file.commit();
+  write_view(shape_view_of(shape), path, options, context);
 }
 
 }  // namespace
@@ -156,6 +138,31 @@ ShapeFile read_shape(const std::filesystem::path& path, const ShapeReadOptions& 
 ShapeFile parse_shape(std::span<const char> bytes, const std::string& name,
                       const ShapeReadOptions& options, const Context& context) {
   return parse(bytes, name, options, context, 0);
+}
+
+ShapeFormat written_format(const std::filesystem::path& path, const ShapeWriteOptions& options) {
+  const std::optional<ShapeFormat> format =
+      options.format ? options.format : format_of_extension(path);
+  if (!format && path == "-") {
+    throw Error(ErrorCode::kInvalidInput, "standard output has no extension: name the format");
+  }
+  if (!format) {
+    throw Error(ErrorCode::kUnsupported,
+                path.string() +
+                    ": the extension names no format; ply, obj, off, stl and xyz can be "
+                    "written");
+  }
+  return *format;
+}
+
+void write_view(const ShapeView& shape, const std::filesystem::path& path,
+                const ShapeWriteOptions& options, const Context& context) {
+  const ShapeFormat format = written_format(path, options);
+  AtomicFile file(path, context);
+  OutputBuffer out(&file, shape.points.size() + shape.triangles.size(), context);
+  format_shape(shape, format, options.ascii, path.string(), out);
+  out.flush();
+  file.commit();
 }
 
 void write_shape(const Mesh& mesh, const std::filesystem::path& path,

@@ -132,6 +132,11 @@ void settle_attribute_types(std::vector<Attribute>& attributes,
   }
 }
 
+std::string not_finite_warning(const std::string& attribute, std::size_t n) {
+  return "attribute " + in_quotes(attribute) + " has " + counted(n, "value", "values") +
+         " that are not finite numbers";
+}
+
 std::string counted(std::size_t n, const char* singular, const char* plural) {
   return std::to_string(n) + " " + (n == 1 ? singular : plural);
 }

@@ -65,6 +65,8 @@ std::vector<Attribute> vector_attributes(std::span<const Vec3> vectors,
 void settle_attribute_types(std::vector<Attribute>& attributes, std::vector<std::string>& warnings);
 // Whether a value is exactly one of the type; NaN and infinities are for both floating types.
 bool is_value_of(ScalarType type, double value);
+// Of an attribute that has n such values.
+std::string not_finite_warning(const std::string& attribute, std::size_t n);
 
 // "1 face", "3 faces".
 std::string counted(std::size_t n, const char* singular, const char* plural);

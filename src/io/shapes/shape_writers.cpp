@@ -2,13 +2,14 @@
 
 #include <algorithm>
 
+#include "io/file/scalar_bytes.h"
 #include "rholm/error.h"
 
 namespace rholm {
 namespace {
 
 template <std::size_t kSize>
-void add_group(const AttributeGroup<kSize>& group, std::vector<const Attribute*>& to) {
+void add_group(const AttributeGroup<kSize, Attribute>& group, std::vector<const Attribute*>& to) {
   if (group) to.insert(to.end(), group->begin(), group->end());
 }
 
@@ -16,18 +17,36 @@ void add_group(const AttributeGroup<kSize>& group, std::vector<const Attribute*>
 std::vector<const Attribute*> written(std::span<const Attribute> attributes, ShapeFormat format) {
   std::vector<const Attribute*> kept;
   if (format == ShapeFormat::kStl) return kept;
-  add_group(find_group<3>(attributes, {"nx", "ny", "nz"}), kept);
+  add_group(find_group<3, Attribute>(attributes, {"nx", "ny", "nz"}), kept);
   if (format == ShapeFormat::kXyz) return kept;
-  add_group(find_group<3>(attributes, {"red", "green", "blue"}), kept);
+  add_group(find_group<3, Attribute>(attributes, {"red", "green", "blue"}), kept);
   if (format == ShapeFormat::kOff) {
-    add_group(find_group<4>(attributes, {"red", "green", "blue", "alpha"}), kept);
+    add_group(find_group<4, Attribute>(attributes, {"red", "green", "blue", "alpha"}), kept);
   } else {
-    add_group(find_texture(attributes), kept);
+    add_group(find_texture<Attribute>(attributes), kept);
   }
   return kept;
 }
 
+std::vector<ScalarRange> scalar_ranges(const std::vector<Attribute>& attributes) {
+  return {attributes.begin(), attributes.end()};
+}
+
 }  // namespace
+
+void ScalarRange::load(std::size_t begin, std::size_t n, double* to) const {
+  if (first_ == nullptr) {
+    std::copy_n(values_.data() + begin, n, to);
+    return;
+  }
+  const char* const from = reinterpret_cast<const char*>(first_) + begin * stride_;
+  with_scalar_type(type, [&](auto tag) {
+    using T = typename decltype(tag)::type;
+    for (std::size_t i = 0; i < n; ++i) {
+      to[i] = static_cast<double>(rholm::load<T, false>(from + i * stride_));
+    }
+  });
+}
 
 std::vector<std::string> attributes_left_out(std::span<const Attribute> attributes,
                                              ShapeFormat format) {
@@ -41,31 +60,23 @@ std::vector<std::string> attributes_left_out(std::span<const Attribute> attribut
 }
 
 ShapeView shape_view_of(const Mesh& mesh) {
-  return {.points = mesh.vertices,
+  return {.points = PointRange(mesh.vertices),
           .normals = {},
-          .triangles = mesh.triangles,
-          .attributes = mesh.attributes,
+          .triangles = TriangleRange(mesh.triangles),
+          .attributes = scalar_ranges(mesh.attributes),
           .is_mesh = true};
 }
 
 ShapeView shape_view_of(const PointCloud& cloud) {
-  return {.points = cloud.points,
+  return {.points = PointRange(cloud.points),
           .normals = cloud.normals,
           .triangles = {},
-          .attributes = cloud.attributes,
+          .attributes = scalar_ranges(cloud.attributes),
           .is_mesh = false};
 }
 
-std::vector<Vec3> normals_of(const ShapeView& shape) {
-  std::vector<Vec3> normals(shape.normals.begin(), shape.normals.end());
-  const auto group = find_group<3>(shape.attributes, {"nx", "ny", "nz"});
-  if (!normals.empty() || !group) return normals;
-  normals.reserve(shape.points.size());
-  const auto& [x, y, z] = *group;
-  for (std::size_t i = 0; i < shape.points.size(); ++i) {
-    normals.push_back({x->values[i], y->values[i], z->values[i]});
-  }
-  return normals;
+NormalRange::NormalRange(const ShapeView& shape) : vectors_(shape.normals) {
+  if (vectors_.empty()) scalars_ = find_group<3, ScalarRange>(shape.attributes, {"nx", "ny", "nz"});
 }
 
 void format_shape(const ShapeView& shape, ShapeFormat format, bool ascii, const std::string& name,
@@ -74,7 +85,7 @@ void format_shape(const ShapeView& shape, ShapeFormat format, bool ascii, const 
     throw Error(ErrorCode::kUnsupported,
                 name + ": STL holds facets, not points; write PLY, OBJ, OFF or XYZ");
   }
-  if (format == ShapeFormat::kXyz && !shape.triangles.empty()) {
+  if (format == ShapeFormat::kXyz && shape.triangles.size() > 0) {
     throw Error(ErrorCode::kUnsupported,
                 name + ": XYZ holds points, not triangles; write PLY, OBJ, OFF or STL");
   }

@@ -1,24 +1,117 @@
 // The writers of shapes. Layer: io.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/file/output_buffer.h"
+#include "rholm/mapped_mesh.h"
 #include "rholm/mesh.h"
+#include "rholm/mesh_view.h"
 #include "rholm/shape_io.h"
 
 namespace rholm {
 
+// Called with what has been written, of a mesh that lies in a file.
+using ReleaseRows = std::function<void(std::size_t first, std::size_t n)>;
+
+// Points or vertices, or triangles, of a mesh, in memory or where they lie in a file.
+template <typename T>
+class RowRange {
+ public:
+  RowRange() = default;
+  explicit RowRange(std::span<const T> rows) : rows_(rows), size_(rows.size()) {}
+  RowRange(const MeshView& mesh, ReleaseRows release)
+      : mesh_(&mesh),
+        release_(std::move(release)),
+        size_(kPoints ? mesh.n_vertices : mesh.n_triangles) {}
+  // n rows that are told one after the other each time they are asked for.
+  using Walk = std::function<void(const std::function<void(const T&)>& visit)>;
+  RowRange(std::size_t n, Walk walk) : walk_(std::move(walk)), size_(n) {}
+  std::size_t size() const { return size_; }
+  // Not of rows that are told.
+  T operator[](std::size_t i) const {
+    if (mesh_ == nullptr) return rows_[i];
+    if constexpr (kPoints) {
+      return mesh_->vertex(i);
+    } else {
+      return mesh_->triangle(i);
+    }
+  }
+  // Calls visit(i) for all numbers in order; rows that have been visited are released.
+  template <typename Visit>
+  void visit_numbers(const Visit& visit) const {
+    for (std::size_t first = 0; first < size_; first += kVisited) {
+      const std::size_t n = std::min(kVisited, size_ - first);
+      for (std::size_t i = first; i < first + n; ++i) visit(i);
+      release(first, n);
+    }
+  }
+  // The same with the rows: visit(i, row).
+  template <typename Visit>
+  void visit(const Visit& visit) const {
+    if (!walk_) return visit_numbers([&](std::size_t i) { visit(i, (*this)[i]); });
+    std::size_t i = 0;
+    walk_([&](const T& row) { visit(i++, row); });
+  }
+  void release(std::size_t first, std::size_t n) const {
+    if (release_) release_(first, n);
+  }
+  static constexpr std::size_t kVisited = std::size_t{1} << 16;  // some 1 MB
+
+ private:
+  static constexpr bool kPoints = std::is_same_v<T, Vec3>;
+  std::span<const T> rows_;
+  const MeshView* mesh_ = nullptr;
+  ReleaseRows release_;
+  Walk walk_;
+  std::size_t size_ = 0;
+};
+using PointRange = RowRange<Vec3>;
+using TriangleRange = RowRange<Triangle>;
+
+// An attribute of all points or vertices, in memory or in their rows in a file.
+class ScalarRange {
+ public:
+  explicit ScalarRange(const Attribute& attribute)
+      : name(attribute.name), type(attribute.type), values_(attribute.values) {}
+  explicit ScalarRange(const MappedScalar& scalar)
+      : name(scalar.name), type(scalar.type), first_(scalar.first), stride_(scalar.stride) {}
+
+  double operator[](std::size_t i) const {
+    if (first_ == nullptr) return values_[i];
+    double value = 0;
+    load(i, 1, &value);
+    return value;
+  }
+  // All of them, if they are in memory as doubles.
+  const double* in_memory() const { return first_ == nullptr ? values_.data() : nullptr; }
+  // n values from `begin` on.
+  void load(std::size_t begin, std::size_t n, double* to) const;
+
+  std::string name;
+  ScalarType type;
+
+ private:
+  std::span<const double> values_;
+  const std::byte* first_ = nullptr;
+  std::size_t stride_ = 0;
+};
+
 // A mesh or points, as writers see them.
 struct ShapeView {
-  std::span<const Vec3> points;
+  PointRange points;
   std::span<const Vec3> normals;  // of points; those of a mesh are attributes
-  std::span<const Triangle> triangles;
-  std::span<const Attribute> attributes;
+  TriangleRange triangles;
+  std::vector<ScalarRange> attributes;
   bool is_mesh = false;
 };
 ShapeView shape_view_of(const Mesh& mesh);
@@ -29,21 +122,46 @@ ShapeView shape_view_of(const PointCloud& cloud);
 void format_shape(const ShapeView& shape, ShapeFormat format, bool ascii, const std::string& name,
                   OutputBuffer& out);
 
+// What the options or the extension say. Throws InvalidInput for "-" without a format, Unsupported
+// for an extension that names none.
+ShapeFormat written_format(const std::filesystem::path& path, const ShapeWriteOptions& options);
+
+// write_shape() of a valid shape.
+void write_view(const ShapeView& shape, const std::filesystem::path& path,
+                const ShapeWriteOptions& options, const Context& context);
+
 void format_ply(const ShapeView& shape, bool ascii, OutputBuffer& out);
 void format_obj(const ShapeView& shape, OutputBuffer& out);
 void format_off(const ShapeView& shape, OutputBuffer& out);
 void format_stl(const ShapeView& shape, bool ascii, const std::string& name, OutputBuffer& out);
 void format_xyz(const ShapeView& shape, OutputBuffer& out);
 
+// Points that come a piece at a time, all with normals or none, and with the same attributes, whose
+// types hold their values. What is written is what format_ply() writes of all of them.
+class PlyPoints {
+ public:
+  PlyPoints(std::uint64_t n, bool ascii, OutputBuffer& out) : n_(n), ascii_(ascii), out_(out) {}
+  void put(const PointCloud& piece);
+
+ private:
+  std::uint64_t n_;
+  bool ascii_;
+  bool begun_ = false;
+  OutputBuffer& out_;
+};
+// Parts of format_xyz(): what comes before the rows, and rows.
+void put_xyz_header(bool unit_normals, OutputBuffer& out);
+void put_xyz_rows(const ShapeView& shape, OutputBuffer& out);
+
 // Several attributes that belong together, if all are there.
-template <std::size_t kSize>
-using AttributeGroup = std::optional<std::array<const Attribute*, kSize>>;
-template <std::size_t kSize>
-AttributeGroup<kSize> find_group(std::span<const Attribute> attributes,
-                                 const std::array<const char*, kSize>& names) {
-  std::array<const Attribute*, kSize> group = {};
+template <std::size_t kSize, class One = ScalarRange>
+using AttributeGroup = std::optional<std::array<const One*, kSize>>;
+template <std::size_t kSize, class One>
+AttributeGroup<kSize, One> find_group(std::span<const One> attributes,
+                                      const std::array<const char*, kSize>& names) {
+  std::array<const One*, kSize> group = {};
   for (std::size_t k = 0; k < kSize; ++k) {
-    for (const Attribute& a : attributes) {
+    for (const One& a : attributes) {
       if (group[k] == nullptr && a.name == names[k]) group[k] = &a;
     }
     if (group[k] == nullptr) return std::nullopt;
@@ -52,16 +170,31 @@ AttributeGroup<kSize> find_group(std::span<const Attribute> attributes,
 }
 
 // The names that texture coordinates go by.
-inline AttributeGroup<2> find_texture(std::span<const Attribute> attributes) {
+template <class One>
+AttributeGroup<2, One> find_texture(std::span<const One> attributes) {
   for (const std::array<const char*, 2>& names :
        {std::array{"u", "v"}, std::array{"s", "t"}, std::array{"texture_u", "texture_v"}}) {
-    if (auto group = find_group<2>(attributes, names)) return group;
+    if (auto group = find_group<2, One>(attributes, names)) return group;
   }
   return std::nullopt;
 }
 
-// One normal per point or vertex, from where they are; empty if there are none.
-std::vector<Vec3> normals_of(const ShapeView& shape);
+// One normal per point or vertex, where they are.
+class NormalRange {
+ public:
+  // Good as long as the shape.
+  explicit NormalRange(const ShapeView& shape);
+  bool empty() const { return vectors_.empty() && !scalars_; }
+  Vec3 operator[](std::size_t i) const {
+    if (!scalars_) return vectors_[i];
+    const auto& [x, y, z] = *scalars_;
+    return {(*x)[i], (*y)[i], (*z)[i]};
+  }
+
+ private:
+  std::span<const Vec3> vectors_;
+  AttributeGroup<3> scalars_;
+};
 
 // The numbers of a position or normal and a blank between each.
 inline void put_vector(const Vec3& v, char last, OutputBuffer& out) {

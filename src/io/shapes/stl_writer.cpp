@@ -14,9 +14,9 @@ namespace {
 // may round to 0, those of a whole shape may not.
 void check_range(const ShapeView& shape, const std::string& name) {
   double largest = 0;
-  for (const Vec3& p : shape.points) {
+  shape.points.visit([&](std::size_t, const Vec3& p) {
     largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  }
+  });
   const bool small = largest > 0 && largest < std::numeric_limits<float>::min();
   if (largest < kInfiniteAsFloat && !small) return;
   char digits[kMaxNumberLength];
@@ -47,7 +47,7 @@ void put_binary(const ShapeView& shape, OutputBuffer& out) {
   char* count = out.room(4);
   store_little_endian(count, static_cast<std::uint32_t>(shape.triangles.size()));
   out.advance(count + 4);
-  for (const Triangle& t : shape.triangles) {
+  shape.triangles.visit([&](std::size_t, const Triangle& t) {
     constexpr std::size_t kFacet = 50;
     char* to = out.room(kFacet);
     put_floats(facet_normal(shape, t), to);
@@ -55,7 +55,7 @@ void put_binary(const ShapeView& shape, OutputBuffer& out) {
     to[48] = to[49] = 0;
     out.advance(to + kFacet);
     out.rows(1);
-  }
+  });
 }
 
 void put_float_text(const Vec3& v, OutputBuffer& out) {
@@ -66,7 +66,7 @@ void put_float_text(const Vec3& v, OutputBuffer& out) {
 
 void put_ascii(const ShapeView& shape, OutputBuffer& out) {
   out.text("solid rholm\n");
-  for (const Triangle& t : shape.triangles) {
+  shape.triangles.visit([&](std::size_t, const Triangle& t) {
     out.text("facet normal ");
     put_float_text(facet_normal(shape, t), out);
     out.text("outer loop\n");
@@ -76,7 +76,7 @@ void put_ascii(const ShapeView& shape, OutputBuffer& out) {
     }
     out.text("endloop\nendfacet\n");
     out.rows(1);
-  }
+  });
   out.text("endsolid rholm\n");
 }
 

@@ -54,6 +54,12 @@ std::vector<Vec3> join(const std::vector<std::vector<double>>& columns, const Pl
   return vectors;
 }
 
+bool are_unit_normals(const std::vector<Vec3>& vectors) {
+  UnitVectors units;
+  for (const Vec3& v : vectors) units.add(v);
+  return units.all_are();
+}
+
 bool are_bytes(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(),
                      [](double v) { return is_value_of(ScalarType::kUint8, v); });
@@ -106,14 +112,9 @@ void take_named(ColumnTaker& taker, const ColumnRoles& roles) {
 
 }  // namespace
 
-bool are_unit_normals(const std::vector<Vec3>& vectors) {
-  bool some = false;
-  for (const Vec3& v : vectors) {
-    if (v == Vec3{}) continue;
-    if (!(std::abs(norm(v) - 1) <= 0.01)) return false;
-    some = true;
-  }
-  return some;
+void UnitVectors::add(const Vec3& v) {
+  if (v == Vec3{}) return;
+  (std::abs(norm(v) - 1) <= 0.01 ? some_ : other_) = true;
 }
 
 bool has_position(const std::vector<std::string>& names) {

@@ -28,7 +28,15 @@ ColumnRoles column_roles(const std::vector<std::string>& names, std::size_t n);
 void take_columns(PointCloud& cloud, const ColumnRoles& roles,
                   std::vector<std::vector<double>>& columns, bool first_are_normals);
 
-// Whether all are of length 1 to 1 % (written with two digits or more), or zero, and some not zero.
-bool are_unit_normals(const std::vector<Vec3>& vectors);
+// Whether vectors are all of length 1 to 1 % (written with two digits or more), or zero, and some
+// not zero.
+class UnitVectors {
+ public:
+  void add(const Vec3& v);
+  bool all_are() const { return some_ && !other_; }
+
+ private:
+  bool some_ = false, other_ = false;
+};
 
 }  // namespace rholm

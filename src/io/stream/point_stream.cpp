@@ -94,6 +94,7 @@ class PointStream::Reader {
   std::optional<std::uint64_t> size;
   std::uint64_t done = 0;
   bool has_faces = false;
+  bool has_more = false;
   std::vector<std::string> warnings;
 
  private:
@@ -153,9 +154,18 @@ class PointStream::Reader {
       return element != nullptr && element->count > 0;
     };
     has_faces = has_rows("face") || has_rows("tristrips");
-    warnings = PlyVertices(whole, *vertex, !has_faces).warnings;  // throws without x, y, z
+    for (const PlyElement& element : header_.elements) {
+      if (&element == vertex || element.count == 0) continue;
+      has_more = true;
+      if (!has_faces) warnings.push_back(passed_over_warning(element));
+    }
+    const PlyVertices read(whole, *vertex, !has_faces);  // throws without x, y, z
+    warnings.insert(warnings.end(), read.warnings.begin(), read.warnings.end());
     size = left_ = vertex->count;
     const std::size_t gone = header_.body + (window_.bytes().size() - whole.bytes.size());
+    // Divided, as a header may claim any number.
+    const std::uint64_t rest = window_.size() > gone ? window_.size() - gone : 0;
+    has_more = has_more || rest % row_bytes_ != 0 || rest / row_bytes_ != vertex->count;
     header_.elements = {*vertex};
     header_.body = 0;
     pass(gone);
@@ -361,6 +371,9 @@ double PointStream::part_read() const { return reader_->part(); }
 ShapeFormat PointStream::format() const { return reader_->format; }
 const std::string& PointStream::encoding() const { return reader_->encoding; }
 bool PointStream::has_faces() const { return reader_->has_faces; }
+bool PointStream::is_all() const {
+  return reader_->format == ShapeFormat::kPly && reader_->encoding != "ascii" && !reader_->has_more;
+}
 const std::vector<std::string>& PointStream::warnings() const { return reader_->warnings; }
 
 }  // namespace rholm

@@ -1,0 +1,25 @@
+// The rows of a binary PLY of a mesh where they lie. Layer: io, private.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+#include "rholm/context.h"
+#include "rholm/mapped_mesh.h"
+
+namespace rholm {
+
+inline constexpr std::size_t kFaceBytes = 1 + 3 * 4;  // of a triangle: the length, three indices
+
+// What map_mesh() maps, before it is known how many corners faces have: the view shows no triangle,
+// but where the first one would be.
+struct MappedRows {
+  MappedMesh mesh;
+  std::uint64_t n_faces = 0;
+  std::size_t face_bytes = 0;  // of all faces, to the end of the file
+};
+std::optional<MappedRows> map_rows(const std::filesystem::path& path, const Context& context);
+
+}  // namespace rholm

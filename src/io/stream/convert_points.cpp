@@ -1,0 +1,111 @@
+// Points from file to file, a piece at a time.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "io/file/atomic_file.h"
+#include "io/file/output_buffer.h"
+#include "io/shapes/shape_source.h"
+#include "io/shapes/shape_writers.h"
+#include "io/shapes/xyz_columns.h"
+#include "rholm/error.h"
+#include "rholm/point_stream.h"
+
+namespace rholm {
+namespace {
+
+constexpr std::size_t kPiece = std::size_t{1} << 16;  // points; chosen: 10 MB with ten attributes
+
+// What the first rows of a file depend on.
+struct Ahead {
+  std::uint64_t points = 0;
+  UnitVectors normals;
+};
+
+Ahead look_ahead(const std::filesystem::path& from, const Context& context) {
+  PointStream stream(from, {.attributes = false});
+  Ahead ahead;
+  PointCloud piece;
+  while (stream.read(kPiece, piece, context)) {
+    for (const Vec3& normal : piece.normals) ahead.normals.add(normal);
+  }
+  ahead.points = stream.read_so_far();
+  return ahead;
+}
+
+// The attributes of all pieces, and which values of them are not finite.
+class AttributeNotes {
+ public:
+  void add(PointCloud& piece) {
+    not_finite_.resize(piece.attributes.size());
+    for (std::size_t k = 0; k < not_finite_.size(); ++k) {
+      const std::vector<double>& values = piece.attributes[k].values;
+      not_finite_[k] += static_cast<std::size_t>(std::count_if(
+          values.begin(), values.end(), [](double value) { return !std::isfinite(value); }));
+    }
+    if (!described_.empty()) return;
+    for (const Attribute& a : piece.attributes) described_.push_back({a.name, a.type, {}});
+  }
+  void take_to(ConvertedPoints& converted) {
+    for (std::size_t k = 0; k < not_finite_.size(); ++k) {
+      if (not_finite_[k] == 0) continue;
+      converted.warnings.push_back(not_finite_warning(described_[k].name, not_finite_[k]));
+    }
+    converted.attributes = std::move(described_);
+  }
+
+ private:
+  std::vector<Attribute> described_;
+  std::vector<std::size_t> not_finite_;
+};
+
+[[noreturn]] void refuse_changed(const std::filesystem::path& from) {
+  throw Error(ErrorCode::kIo, from.string() + " changed while it was read");
+}
+
+}  // namespace
+
+ConvertedPoints convert_points(const std::filesystem::path& from, const std::filesystem::path& to,
+                               const ShapeWriteOptions& options, const Context& context) {
+  const ShapeFormat format = written_format(to, options);
+  if (format != ShapeFormat::kPly && format != ShapeFormat::kXyz) {
+    throw Error(ErrorCode::kUnsupported,
+                std::string("points are written a piece at a time as ply and xyz only, not as ") +
+                    to_string(format));
+  }
+  PointStream stream(from);
+  if (stream.has_faces()) {
+    throw Error(ErrorCode::kUnsupported, from.string() + " is a mesh: its faces would be lost");
+  }
+  PointCloud piece;
+  if (!stream.read(kPiece, piece, context)) {
+    throw Error(ErrorCode::kInvalidInput, from.string() + " has no points");
+  }
+  const bool counted = stream.size().has_value() || format == ShapeFormat::kXyz;
+  const bool look = format == ShapeFormat::kXyz ? !piece.normals.empty() : !counted;
+  const Ahead ahead = look ? look_ahead(from, context) : Ahead{stream.size().value_or(0), {}};
+
+  AtomicFile file(to, context);
+  OutputBuffer out(&file, ahead.points, context);
+  PlyPoints ply(stream.size().value_or(ahead.points), options.ascii, out);
+  if (format == ShapeFormat::kXyz) {
+    put_xyz_header(piece.normals.empty() || ahead.normals.all_are(), out);
+  }
+  AttributeNotes notes;
+  do {
+    notes.add(piece);
+    if (format == ShapeFormat::kPly) {
+      ply.put(piece);
+    } else {
+      put_xyz_rows(shape_view_of(piece), out);
+    }
+  } while (stream.read(kPiece, piece, context));
+  ConvertedPoints converted{.points = stream.read_so_far(), .warnings = stream.warnings()};
+  if (look && converted.points != ahead.points) refuse_changed(from);
+  out.flush();
+  file.commit();
+  notes.take_to(converted);
+  return converted;
+}
+
+}  // namespace rholm
