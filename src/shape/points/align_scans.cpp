@@ -12,6 +12,7 @@
 #include "shape/points/plane_fit.h"
 #include "shape/points/point_tree.h"
 #include "shape/points/sampling_gaps.h"
+#include "shape/points/scan_labels.h"
 #include "shape/points/scan_motions.h"
 #include "shape/points/sensors.h"
 #include "shape/rigid_motion.h"
@@ -61,13 +62,7 @@ std::optional<ScanLabels> labels_of(const PointCloud& cloud) {
   const Attribute* scan = find_attribute(cloud.attributes, "scan");
   if (scan == nullptr) return std::nullopt;
   std::vector<double> different;
-  for (const double value : scan->values) {
-    if (!(std::isfinite(value) && value == std::round(value))) return std::nullopt;
-    const auto at = std::lower_bound(different.begin(), different.end(), value);
-    if (at != different.end() && *at == value) continue;
-    if (different.size() == kMaxScans) return std::nullopt;
-    different.insert(at, value);
-  }
+  if (!add_scans(scan->values, different)) return std::nullopt;
   ScanLabels labels{.of = std::vector<std::uint32_t>(scan->values.size()), .n = different.size()};
   for (std::size_t i = 0; i < labels.of.size(); ++i) {
     labels.of[i] = static_cast<std::uint32_t>(

@@ -61,18 +61,18 @@ FitOfPoint fit_point(const PointTree& tree, std::span<const Vec3> points, std::s
   return fit;
 }
 
-// In rows half of them are the nearest, the others of the disc that reaches other rows.
-void keep_neighbors(const PointTree& tree, std::size_t i, std::size_t stride, Neighborhood& near,
-                    LocalFits& fits) {
+// Into the row of point i; `found` has the nearest points, and gets more if these are too few.
+void keep_neighbors(const PointTree& tree, std::size_t i, std::size_t stride,
+                    std::vector<Neighbor>& found, std::span<std::uint32_t> rows) {
   const std::size_t reach = stride * kGraphNeighbors + 1;
-  if (near.found.size() < reach) tree.nearest_to(i, reach, near.found);
-  const std::size_t last = std::min(reach, near.found.size());
+  if (found.size() < reach) tree.nearest_to(i, reach, found);
+  const std::size_t last = std::min(reach, found.size());
   const std::size_t nearest = stride > 1 ? kGraphNeighbors / 2 : kGraphNeighbors;
-  std::uint32_t* row = &fits.neighbors[i * kGraphNeighbors];
+  std::uint32_t* row = &rows[i * kGraphNeighbors];
   std::size_t n = 0;
   for (std::size_t j = 0; j < last && n < kGraphNeighbors; ++j) {
     const bool taken = n < nearest || (j + stride / 2) % stride == 0;
-    if (near.found[j].index != i && taken) row[n++] = near.found[j].index;
+    if (found[j].index != i && taken) row[n++] = found[j].index;
   }
   std::fill(row + n, row + kGraphNeighbors, static_cast<std::uint32_t>(i));
 }
@@ -189,12 +189,28 @@ int choose_neighbors(const PointTree& tree, std::span<const Vec3> points, const 
   return kLadder[best];
 }
 
+bool are_noisy(int n_neighbors) { return n_neighbors > kLadder[0]; }
+
+std::vector<std::uint32_t> graph_neighbors(const PointTree& tree, const SamplingGaps& gaps,
+                                           const Context& context) {
+  std::vector<std::uint32_t> rows(tree.size() * kGraphNeighbors);
+  parallel_for(tree.size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
+    std::vector<Neighbor> found;
+    for (std::size_t i = begin; i < end; ++i) {
+      found.clear();
+      keep_neighbors(tree, i, gaps.stride(i), found, rows);
+    }
+  });
+  return rows;
+}
+
 LocalFits fit_normals(const PointTree& tree, std::span<const Vec3> points, const SamplingGaps& gaps,
-                      std::span<const Vec3> given, int n_neighbors, const Context& context) {
+                      std::span<const Vec3> given, int n_neighbors, const Context& context,
+                      std::span<const std::uint8_t> skipped) {
   LocalFits fits;
   const std::size_t n = points.size();
   fits.n_neighbors = n_neighbors > 0 ? n_neighbors : choose_neighbors(tree, points, gaps, context);
-  fits.noisy = fits.n_neighbors > kLadder[0];
+  fits.noisy = are_noisy(fits.n_neighbors);
   const bool curved = fits.n_neighbors <= kMostForCurvature;
   fits.normals.resize(n);
   fits.radius.resize(n);
@@ -204,12 +220,13 @@ LocalFits fit_normals(const PointTree& tree, std::span<const Vec3> points, const
                [&](std::size_t begin, std::size_t end) {
                  Neighborhood near;
                  for (std::size_t i = begin; i < end; ++i) {
+                   if (!skipped.empty() && skipped[i] != 0) continue;
                    const std::size_t k = gaps.scaled(i, fits.n_neighbors);
                    const FitOfPoint fit = fit_point(tree, points, i, k, curved, near);
                    fits.normals[i] = fit.normal;
                    fits.radius[i] = static_cast<float>(fit.radius);
                    fits.residual[i] = static_cast<float>(fit.residual);
-                   keep_neighbors(tree, i, gaps.stride(i), near, fits);
+                   keep_neighbors(tree, i, gaps.stride(i), near.found, fits.neighbors);
                  }
                });
   std::vector<float> residuals = fits.residual;

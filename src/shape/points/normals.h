@@ -32,17 +32,28 @@ struct LocalFits {
 
 // Weighted planes, then paraboloids, over the `n_neighbors` nearest points, or as many as the data
 // ask for if that is 0; where two smooth parts meet, planes through one of them (see
-// refine_at_edges). Keeps `given` normals that are not zero, if there are any.
+// refine_at_edges). Keeps `given` normals that are not zero, if there are any. Points that are
+// `skipped`, if there are any, get no fit: for neighbourhoods beyond kMostForCurvature, where none
+// is needed by others.
 LocalFits fit_normals(const PointTree& tree, std::span<const Vec3> points, const SamplingGaps& gaps,
-                      std::span<const Vec3> given, int n_neighbors, const Context& context);
+                      std::span<const Vec3> given, int n_neighbors, const Context& context,
+                      std::span<const std::uint8_t> skipped = {});
+
+// Whether a fit of so many neighbours is one of noisy points (LocalFits::noisy).
+bool are_noisy(int n_neighbors);
+
+// LocalFits::neighbors alone: in rows half of them are the nearest, the others of the disc that
+// reaches other rows.
+std::vector<std::uint32_t> graph_neighbors(const PointTree& tree, const SamplingGaps& gaps,
+                                           const Context& context);
 
 // Fits once more, to the neighbours on the same side of `sheet` only: unit vectors that point out
 // of what the points bound, which tell two close sheets apart. Where a fit has nothing to do with
-// its own the vector's direction is taken. The normals point out. Returns the median residual of
-// the fits, of their radius; 1 where they have nothing to do with the vectors.
-double refit_on_sheets(const PointTree& tree, std::span<const Vec3> points,
-                       const SamplingGaps& gaps, std::span<const Vec3> sheet, LocalFits& fits,
-                       const Context& context);
+// its own the vector's direction is taken. The normals point out. Returns the residuals of the
+// fits, of their radius; 1 where they have nothing to do with the vectors.
+std::vector<float> refit_on_sheets(const PointTree& tree, std::span<const Vec3> points,
+                                   const SamplingGaps& gaps, std::span<const Vec3> sheet,
+                                   LocalFits& fits, const Context& context);
 
 // The number of neighbours that makes the error of normals least: the sum of a variance, from two
 // disjoint halves of the neighbours, and of a bias, from the change against smaller

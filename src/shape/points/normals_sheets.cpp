@@ -42,9 +42,9 @@ void gather_sheet(const PointTree& tree, std::span<const Vec3> points, std::span
 
 }  // namespace
 
-double refit_on_sheets(const PointTree& tree, std::span<const Vec3> points,
-                       const SamplingGaps& gaps, std::span<const Vec3> sheet, LocalFits& fits,
-                       const Context& context) {
+std::vector<float> refit_on_sheets(const PointTree& tree, std::span<const Vec3> points,
+                                   const SamplingGaps& gaps, std::span<const Vec3> sheet,
+                                   LocalFits& fits, const Context& context) {
   const bool curved = fits.n_neighbors <= kMostForCurvature;
   std::vector<float> residuals(points.size(), 1.0f);
   parallel_for(points.size(), 256, context, {}, [&](std::size_t begin, std::size_t end) {
@@ -66,9 +66,7 @@ double refit_on_sheets(const PointTree& tree, std::span<const Vec3> points,
       fits.normals[i] = cosine > 0 ? fit.normal : -fit.normal;
     }
   });
-  const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 2);
-  std::nth_element(residuals.begin(), middle, residuals.end());
-  return *middle;
+  return residuals;
 }
 
 }  // namespace rholm

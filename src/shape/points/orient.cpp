@@ -9,17 +9,13 @@
 #include "base/refuse.h"
 #include "rholm/points.h"
 #include "shape/points/normals.h"
-#include "shape/points/orient_graph.h"
 #include "shape/points/orient_scene.h"
+#include "shape/points/orient_sight.h"
 #include "shape/points/orient_signs.h"
 #include "shape/points/sensors.h"
 
 namespace rholm {
 namespace {
-
-// Cosine of the angle between a normal and the line of sight below which the sign is that of
-// others: normals of exact points are off by less than these six degrees, of noisy ones most are.
-constexpr float kGlancing = 0.1f;
 
 void check(const PointCloud& cloud, const OrientOptions& options) {
   validate(cloud);
@@ -63,42 +59,6 @@ std::vector<Vec3> sensors_of(const PointCloud& cloud, const OrientScene& scene,
   for (std::size_t i = 0; i < n; ++i) sensors[i] = scene.frame.to_local(given[scene.place[i]]);
   return sensors;
 }
-
-// Signs by the line of sight.
-OrientSigns turn_by_sight(const OrientScene& scene, const LocalFits& fits,
-                          std::span<const Vec3> sensors, bool from_inside) {
-  OrientSigns signs{.normals = fits.normals};
-  const std::size_t n = signs.normals.size();
-  signs.agreement.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const Vec3 away = normalized(scene.points[i] - sensors[i]);
-    const double cosine = dot(signs.normals[i], from_inside ? away : -away);
-    if (cosine < 0) signs.normals[i] = -signs.normals[i];
-    signs.agreement[i] = static_cast<float>(std::abs(cosine));
-  }
-  return signs;
-}
-
-// What is seen at a glancing angle agrees with what is seen better around it.
-void turn_glancing(const OrientScene& scene, const LocalFits& fits, OrientSigns& signs) {
-  const std::vector<Vec3> seen = signs.normals;
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    if (!(signs.agreement[i] < kGlancing)) continue;
-    double sum = 0;
-    for (std::size_t k = 0; k < kGraphNeighbors; ++k) {
-      const std::uint32_t j = fits.neighbors[i * kGraphNeighbors + k];
-      if (signs.agreement[j] < kGlancing) continue;
-      sum += agreement(scene.points[i], seen[i], scene.points[j], seen[j], 0);
-    }
-    if (sum < 0) signs.normals[i] = -seen[i];
-  }
-}
-
-// The sign is right with the probability 1 / 2 + confidence / 2, or a larger one. Of 2.4 million
-// points of sixty inputs (scripts/scan-figures) with an agreement of 0.15, 0.25, 0.35, 0.45, 0.55,
-// 0.65 are wrong 0.034, 0.032, 0.009, 0.003, 0.001, 0.0008; this says 0.11, 0.04, 0.015, 0.006,
-// 0.002, 0.0008.
-double confidence_of(double agreement) { return 1 - std::exp(-10 * agreement); }
 
 // Writes the normals to the points of the input and counts what has become of them.
 void hand_back(const OrientScene& scene, const OrientSigns& signs, const OrientOptions& options,
@@ -146,8 +106,8 @@ OrientReport orient(PointCloud& cloud, const OrientOptions& options, const Conte
   const std::vector<Vec3> sensors = sensors_of(cloud, scene, options);
   OrientSigns signs = sensors.empty()
                           ? find_signs(scene, given, fits, report, context)
-                          : turn_by_sight(scene, fits, sensors, options.center.has_value());
-  if (!sensors.empty() && !by_sight) turn_glancing(scene, fits, signs);
+                          : turn_by_sight(scene.points, fits, sensors, options.center.has_value());
+  if (!sensors.empty() && !by_sight) turn_glancing(scene.points, fits, signs);
   report.neighbors = fits.n_neighbors;
   hand_back(scene, signs, options, cloud, report);
   return report;

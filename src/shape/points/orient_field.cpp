@@ -14,13 +14,9 @@
 namespace rholm {
 namespace {
 
-// The first sample has at most so many points, a finer one at most four times as many; beyond the
-// most the field of a sample is asked at all points. Chosen: a second, and half a minute.
-constexpr std::size_t kFirst = 6000, kMost = 200000;
-constexpr double kFiner = 2;  // times as far apart in a coarser sample
-// Points nearer than this part of the spacing say nothing new: points of one row. Of 0, 0.3, 0.5
-// and 0.7 this has most signs right.
-constexpr double kThinned = 0.3;
+// The first sample has at most so many points, a finer one at most four times as many. Chosen: a
+// second.
+constexpr std::size_t kFirst = 6000;
 // What lies closer is one place to single precision; and samples become smaller from one to the
 // next.
 constexpr double kLeastSpacing = 1e-5;
@@ -35,10 +31,12 @@ double length2(std::span<const double> v) {
   return sum;
 }
 
+}  // namespace
+
 // Points of one level with their area normals.
-class Sample {
+class FieldSample {
  public:
-  Sample(const std::vector<Vec3>& points, const Context& context)
+  FieldSample(const std::vector<Vec3>& points, const Context& context)
       : tree_(points, context), points_(points.size()), spacing_(points.size()) {
     for (std::size_t i = 0; i < points.size(); ++i) points_[i] = points[tree_.order()[i]];
     parallel_for(points.size(), 256, context, {}, [&](std::size_t begin, std::size_t end) {
@@ -53,11 +51,11 @@ class Sample {
     area_normals_.resize(points.size());
     field_.emplace(tree_, points_, areas, context);
   }
-  Sample(const Sample&) = delete;
-  Sample& operator=(const Sample&) = delete;
+  FieldSample(const FieldSample&) = delete;
+  FieldSample& operator=(const FieldSample&) = delete;
 
   // Directions of a coarser sample.
-  void begin_with(const Sample& coarser, const Context& context) {
+  void begin_with(const FieldSample& coarser, const Context& context) {
     area_normals_ = coarser.fall_at(tree_, points_, spacing_, context);
     for (std::size_t i = 0; i < points_.size(); ++i) {
       area_normals_[i] = spacing_[i] * spacing_[i] * normalized(area_normals_[i]);
@@ -109,18 +107,20 @@ class Sample {
   std::optional<GaussField> field_;
 };
 
+namespace {
+
 std::vector<std::vector<std::uint32_t>> make_levels(const PointTree& tree,
                                                     std::span<const Vec3> points,
-                                                    std::span<const double> spacing) {
+                                                    std::span<const double> spacing, double first) {
   std::vector<std::vector<std::uint32_t>> levels;
   std::vector<double> reach(points.size());
-  for (double part = kThinned;; part *= kFiner) {
+  for (double part = first;; part *= kFiner) {
     for (std::size_t i = 0; i < reach.size(); ++i) {
       reach[i] = part * std::max(spacing[i], kLeastSpacing);
     }
     std::vector<std::uint32_t> level = thin_out(tree, points, reach);
     const std::size_t n = level.size();
-    if (n <= kMost) levels.push_back(std::move(level));
+    if (n <= kMostOfField) levels.push_back(std::move(level));
     if (n <= kFirst) return levels;
   }
 }
@@ -143,25 +143,39 @@ std::vector<std::uint32_t> thin_out(const PointTree& tree, std::span<const Vec3>
   return kept;
 }
 
-std::vector<Vec3> field_normals(const PointTree& tree, std::span<const Vec3> points,
-                                std::span<const double> spacing, double width,
-                                const Context& context) {
-  const std::vector<std::vector<std::uint32_t>> levels = make_levels(tree, points, spacing);
-  std::unique_ptr<Sample> last;
+SolvedField::SolvedField(const PointTree& tree, std::span<const Vec3> points,
+                         std::span<const double> spacing, double part, const Context& context) {
+  const std::vector<std::vector<std::uint32_t>> levels = make_levels(tree, points, spacing, part);
   for (std::size_t level = levels.size(); level-- > 0;) {
     const double done = static_cast<double>(level) / static_cast<double>(levels.size());
     report_progress(context, "signs", 0.9 - 0.4 * done);
     std::vector<Vec3> chosen;
     for (const std::uint32_t i : levels[level]) chosen.push_back(points[i]);
-    auto sample = std::make_unique<Sample>(chosen, context);
-    if (last) sample->begin_with(*last, context);
-    sample->improve(last ? kWidestFiner : kWidest, kNarrowest, last ? kStepsFiner : kSteps,
+    auto sample = std::make_unique<FieldSample>(chosen, context);
+    if (sample_) sample->begin_with(*sample_, context);
+    sample->improve(sample_ ? kWidestFiner : kWidest, kNarrowest, sample_ ? kStepsFiner : kSteps,
                     context);
-    last = std::move(sample);
+    sample_ = std::move(sample);
   }
+}
+
+SolvedField::~SolvedField() = default;
+SolvedField::SolvedField(SolvedField&&) noexcept = default;
+SolvedField& SolvedField::operator=(SolvedField&&) noexcept = default;
+
+std::vector<Vec3> SolvedField::normals_at(const PointTree& tree, std::span<const Vec3> points,
+                                          std::span<const double> spacing, double width,
+                                          const Context& context) const {
   std::vector<double> widths(spacing.begin(), spacing.end());
   for (double& w : widths) w *= width;
-  return last->fall_at(tree, points, widths, context);
+  return sample_->fall_at(tree, points, widths, context);
+}
+
+std::vector<Vec3> field_normals(const PointTree& tree, std::span<const Vec3> points,
+                                std::span<const double> spacing, double width,
+                                const Context& context) {
+  return SolvedField(tree, points, spacing, kThinned, context)
+      .normals_at(tree, points, spacing, width, context);
 }
 
 }  // namespace rholm

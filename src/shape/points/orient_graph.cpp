@@ -110,12 +110,16 @@ struct Votes {
   double sum = 0;              // positive: the pieces' first points have the same sign
 };
 
-std::vector<Votes> count_votes(const Graph& graph, const SortedEdges& sorted, SignedSets& sets) {
+// counts(e): whether the edge has a vote. By pieces.
+template <typename Counts>
+std::vector<Votes> sum_votes(const Graph& graph, const SortedEdges& sorted, const Counts& counts,
+                             SignedSets& sets) {
   std::vector<Votes> votes;
   CancelPoll poll;
   for (std::size_t place = sorted.n_sure; place < sorted.edges.size(); ++place) {
     poll();
     const EdgeIndex e = sorted.edges[place];
+    if (!counts(e)) continue;
     SignedSets::Member a = sets.find(graph.from(e)), b = sets.find(graph.to(e));
     if (a.set == b.set) continue;
     if (a.set > b.set) std::swap(a, b);
@@ -135,10 +139,38 @@ std::vector<Votes> count_votes(const Graph& graph, const SortedEdges& sorted, Si
     }
   }
   votes.resize(n);
+  return votes;
+}
+
+// The most decided ones first.
+std::vector<Votes> count_votes(const Graph& graph, const SortedEdges& sorted, SignedSets& sets) {
+  std::vector<Votes> votes = sum_votes(
+      graph, sorted, [](EdgeIndex) { return true; }, sets);
   std::stable_sort(votes.begin(), votes.end(), [](const Votes& x, const Votes& y) {
     return std::abs(x.sum) > std::abs(y.sum);
   });
   return votes;
+}
+
+void unite_sure(const Graph& graph, const SortedEdges& sorted, SignedSets& sets) {
+  CancelPoll poll;
+  for (std::size_t place = 0; place < sorted.n_sure; ++place) {
+    poll();
+    const EdgeIndex e = sorted.edges[place];
+    sets.unite(graph.from(e), graph.to(e), sorted.opposite[place]);
+  }
+}
+
+void unite_small(const Graph& graph, const SortedEdges& sorted, std::size_t least, SignedSets& sets,
+                 std::size_t n) {
+  std::vector<std::uint32_t> size(n, 0);
+  for (std::uint32_t i = 0; i < n; ++i) ++size[sets.find(i).set];
+  for (const Votes& votes : count_votes(graph, sorted, sets)) {
+    const std::uint32_t a = sets.find(votes.a).set, b = sets.find(votes.b).set;
+    if (a == b || (size[a] >= least && size[b] >= least)) continue;
+    sets.unite(votes.a, votes.b, votes.sum < 0);
+    size[std::min(a, b)] = size[a] + size[b];
+  }
 }
 
 // The sets numbered by their first points.
@@ -171,12 +203,7 @@ OrientedParts orient_along_graph(std::span<const Vec3> points, const LocalFits& 
   const Graph graph(points, fits, normals);
   const SortedEdges sorted = sort_edges(graph);
   SignedSets sets(points.size());
-  CancelPoll poll;
-  for (std::size_t place = 0; place < sorted.n_sure; ++place) {
-    poll();
-    const EdgeIndex e = sorted.edges[place];
-    sets.unite(graph.from(e), graph.to(e), sorted.opposite[place]);
-  }
+  unite_sure(graph, sorted, sets);
   OrientedParts parts;
   parts.piece.resize(points.size());
   parts.component.resize(points.size());
@@ -189,6 +216,55 @@ OrientedParts orient_along_graph(std::span<const Vec3> points, const LocalFits& 
     if (sets.find(i).opposite) normals[i] = -normals[i];
   }
   return parts;
+}
+
+OrientedPieces orient_pieces(std::span<const Vec3> points, const LocalFits& fits, std::size_t least,
+                             std::span<const std::uint8_t> foreign, std::vector<Vec3>& normals) {
+  const Graph graph(points, fits, normals);
+  const SortedEdges sorted = sort_edges(graph);
+  SignedSets sets(points.size());
+  unite_sure(graph, sorted, sets);
+  unite_small(graph, sorted, least, sets, points.size());
+  OrientedPieces pieces;
+  pieces.piece.resize(points.size());
+  pieces.n_pieces = number_sets(sets, pieces.piece);
+  const auto counts = [&](EdgeIndex e) { return foreign[graph.from(e)] == 0; };
+  for (const Votes& votes : sum_votes(graph, sorted, counts, sets)) {
+    pieces.votes.push_back({pieces.piece[votes.a], pieces.piece[votes.b], votes.sum});
+  }
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    if (sets.find(i).opposite) normals[i] = -normals[i];
+  }
+  return pieces;
+}
+
+PieceAgreement agreement_of_pieces(std::span<const Vec3> points, const LocalFits& fits,
+                                   const OrientedPieces& pieces,
+                                   std::span<const std::uint8_t> foreign,
+                                   std::span<const Vec3> normals) {
+  const Graph graph(points, fits, normals);
+  PieceAgreement sums;
+  sums.within.assign(points.size(), 0.0f);
+  sums.edges.assign(points.size(), 0);
+  CancelPoll poll;
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    poll();
+    if (foreign[i] != 0) continue;
+    double sum = 0;
+    for (EdgeIndex e = i * kGraphNeighbors; e < (i + 1) * kGraphNeighbors; ++e) {
+      if (!graph.exists(e)) continue;
+      ++sums.edges[i];
+      const double agreed = graph.agreement_of(e);
+      const std::uint32_t other = pieces.piece[graph.to(e)];
+      if (other == pieces.piece[i]) {
+        sum += agreed;
+      } else {
+        sums.across.push_back({i, other, static_cast<float>(agreed)});
+      }
+    }
+    sums.within[i] = static_cast<float>(sum);
+  }
+  return sums;
 }
 
 std::vector<float> mean_agreement(std::span<const Vec3> points, const LocalFits& fits,

@@ -34,6 +34,38 @@ double agreement(const Vec3& p, const Vec3& np, const Vec3& q, const Vec3& nq, d
 OrientedParts orient_along_graph(std::span<const Vec3> points, const LocalFits& fits,
                                  std::vector<Vec3>& normals);
 
+// The votes of all edges between two pieces.
+struct PieceVotes {
+  std::uint32_t a = 0, b = 0;  // pieces, a < b
+  double sum = 0;              // of agreements: negative if one of the pieces should be turned
+};
+
+// The first of the two steps.
+struct OrientedPieces {
+  std::vector<std::uint32_t> piece = {};  // per point; numbered by their first points
+  std::size_t n_pieces = 0;
+  std::vector<PieceVotes> votes = {};  // by a, then by b
+};
+// Turns normals within each piece only. What has fewer than `least` points goes with another piece,
+// if any edge leads to one. Votes are those of edges that begin at points which are not `foreign`.
+OrientedPieces orient_pieces(std::span<const Vec3> points, const LocalFits& fits, std::size_t least,
+                             std::span<const std::uint8_t> foreign, std::vector<Vec3>& normals);
+
+// What mean_agreement() is made of, as long as the signs of pieces to each other are open.
+struct PieceAgreement {
+  struct Across {
+    std::uint32_t point = 0, other = 0;  // the other end's piece
+    float agreement = 0;
+  };
+  std::vector<float> within = {};        // per point: the sum over edges within its piece
+  std::vector<std::uint8_t> edges = {};  // per point: all of them
+  std::vector<Across> across = {};       // by points; of those which are not foreign
+};
+PieceAgreement agreement_of_pieces(std::span<const Vec3> points, const LocalFits& fits,
+                                   const OrientedPieces& pieces,
+                                   std::span<const std::uint8_t> foreign,
+                                   std::span<const Vec3> normals);
+
 // Mean agreement of each point with its neighbours, 0 (none, or against) ... 1.
 std::vector<float> mean_agreement(std::span<const Vec3> points, const LocalFits& fits,
                                   std::span<const Vec3> normals);

@@ -25,10 +25,6 @@ constexpr std::size_t kMostParts = 64;
 constexpr std::size_t kSamples = 2000;  // points of a part at which the winding number is asked
 constexpr int kRounds = 3;
 constexpr double kDoubtful = 0.5;
-// Radii of a patch, whose field has no jump beyond the first.
-constexpr double kClear = 2;
-// Nearer, where thin sheets still are between: their field is seen, with the pattern of the points.
-constexpr double kNear = 1.5;
 // A part of which volume over area and size is less is open: 1/3 for a sphere, 0.05 for a closed
 // box that is fifteen times as wide as thick.
 constexpr double kOpen = 0.02;
@@ -55,10 +51,9 @@ struct Sample {
 };
 
 // At some points, as many radii of a patch behind and before them.
-std::vector<Sample> ask_both_sides(const WindingTree& tree, std::span<const Vec3> points,
+std::vector<Sample> ask_both_sides(const WindingNumbers& winding, std::span<const Vec3> points,
                                    const Patches& patches, std::span<const Vec3> normals,
-                                   std::span<const std::uint32_t> chosen, double radii,
-                                   const Context& context) {
+                                   std::span<const std::uint32_t> chosen, double radii) {
   std::vector<Sample> samples(chosen.size());
   std::vector<Vec3> x(2 * samples.size());
   for (std::size_t s = 0; s < samples.size(); ++s) {
@@ -68,7 +63,7 @@ std::vector<Sample> ask_both_sides(const WindingTree& tree, std::span<const Vec3
     x[2 * s] = points[i] - step * normals[i];
     x[2 * s + 1] = points[i] + step * normals[i];
   }
-  const std::vector<double> w = tree.winding(x, context);
+  const std::vector<double> w = winding(x, kWindingOpening);
   for (std::size_t s = 0; s < samples.size(); ++s) {
     samples[s].behind = w[2 * s];
     samples[s].before = w[2 * s + 1];
@@ -189,7 +184,8 @@ class Sides {
     std::vector<std::uint32_t> chosen(std::min(part.size(), kSamples));
     for (std::size_t s = 0; s < chosen.size(); ++s)
       chosen[s] = part[s * part.size() / chosen.size()];
-    return ask_both_sides(tree, points_, patches_, normals_, chosen, kClear, context_);
+    return ask_both_sides(tree.numbers(context_), points_, patches_, normals_, chosen,
+                          kClearOfPatches);
   }
 
   // `others` is the field of all but the piece.
@@ -238,11 +234,19 @@ double doubtful_share(std::span<const Vec3> points, const Patches& patches,
   for (std::size_t s = 0; s < n; ++s) {
     chosen[s] = static_cast<std::uint32_t>(s * points.size() / n);
   }
-  std::size_t doubtful = 0;
-  for (const Sample& s : ask_both_sides(tree, points, patches, normals, chosen, kNear, context)) {
-    if (s.trust() < kDoubtful) ++doubtful;
-  }
-  return static_cast<double>(doubtful) / static_cast<double>(n);
+  return static_cast<double>(count_doubtful(tree.numbers(context), points, patches, normals, chosen,
+                                            kNearPatches)) /
+         static_cast<double>(n);
+}
+
+std::size_t count_doubtful(const WindingNumbers& winding, std::span<const Vec3> points,
+                           const Patches& patches, std::span<const Vec3> normals,
+                           std::span<const std::uint32_t> chosen, double radii) {
+  const std::vector<Sample> samples =
+      ask_both_sides(winding, points, patches, normals, chosen, radii);
+  return static_cast<std::size_t>(
+      std::count_if(samples.begin(), samples.end(),
+                    [](const Sample& sample) { return sample.trust() < kDoubtful; }));
 }
 
 std::vector<double> trust_in_sides(std::span<const Vec3> points, const Patches& patches,
@@ -256,7 +260,8 @@ std::vector<double> trust_in_sides(std::span<const Vec3> points, const Patches& 
   const WindingTree tree(points, area_normals);
   std::vector<double> trust;
   trust.reserve(all.size());
-  for (const Sample& s : ask_both_sides(tree, points, patches, normals, all, kNear, context)) {
+  for (const Sample& s :
+       ask_both_sides(tree.numbers(context), points, patches, normals, all, kNearPatches)) {
     trust.push_back(s.trust());
   }
   return trust;

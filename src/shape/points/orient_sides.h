@@ -1,12 +1,15 @@
 // Which side of oriented parts is the outer one. Layer: shape.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "rholm/context.h"
 #include "rholm/vec3.h"
 #include "shape/points/orient_graph.h"
+#include "shape/queries/winding_tree.h"
 
 namespace rholm {
 
@@ -33,6 +36,14 @@ SideTrust turn_outwards(std::span<const Vec3> points, const Patches& patches,
 // the pattern of the points a little. To compare.
 double doubtful_share(std::span<const Vec3> points, const Patches& patches,
                       std::span<const Vec3> normals, const Context& context);
+
+// Radii of a patch behind and before points: turn_outwards() asks where the field of a patch is
+// clear of jumps, doubtful_share() nearer.
+inline constexpr double kClearOfPatches = 2, kNearPatches = 1.5;
+// Of the `chosen` points, how many are doubtful: asked so many radii away.
+std::size_t count_doubtful(const WindingNumbers& winding, std::span<const Vec3> points,
+                           const Patches& patches, std::span<const Vec3> normals,
+                           std::span<const std::uint32_t> chosen, double radii);
 
 // The same trust at every point.
 std::vector<double> trust_in_sides(std::span<const Vec3> points, const Patches& patches,

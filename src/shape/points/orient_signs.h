@@ -9,6 +9,7 @@
 #include "rholm/vec3.h"
 #include "shape/points/normals.h"
 #include "shape/points/orient_scene.h"
+#include "shape/points/orient_sides.h"
 
 namespace rholm {
 
@@ -23,5 +24,17 @@ struct OrientSigns {
 // sheet. Counts components in the report, and the neighbours of fits.
 OrientSigns find_signs(const OrientScene& scene, std::span<const Vec3> given, LocalFits& fits,
                        OrientReport& report, const Context& context);
+
+// So many points share the disc of a fit. Noise is seen through by patches that are `spread` times
+// as coarse.
+Patches patches_of(const LocalFits& fits, const SamplingGaps& gaps, double spread);
+// For so many neighbours of a fit, and for signs along the graph with them: 1 unless there is much
+// noise.
+double spread_of(int n_neighbors);
+double spread_of_graph(int n_neighbors);
+
+// Of how far what is known of a normal agrees with it: its sign is right with a probability of
+// (1 + confidence) / 2, or a larger one.
+double confidence_of(double agreement);
 
 }  // namespace rholm

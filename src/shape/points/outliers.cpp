@@ -79,6 +79,17 @@ std::vector<std::uint8_t> find_outliers(const PointTree& tree, std::span<const V
   return flags;
 }
 
+bool has_wrong_normal(const PointTree& tree, std::span<const Vec3> normals, std::size_t point,
+                      std::vector<Neighbor>& near) {
+  tree.nearest_to(point, kNeighbours + 1, near);
+  Vec3 sum;
+  for (const Neighbor& other : near) {
+    if (other.index != point) sum += normals[other.index];
+  }
+  const bool agreed = norm(sum) > kOneMind * static_cast<double>(near.size() - 1);
+  return agreed && dot(normals[point], normalized(sum)) < kAgree;
+}
+
 double share_of_wrong_normals(const PointTree& tree, std::span<const Vec3> normals,
                               const Context& context) {
   const std::size_t n = normals.size(), seeds = std::min(n, kSeeds);
@@ -87,22 +98,16 @@ double share_of_wrong_normals(const PointTree& tree, std::span<const Vec3> norma
   parallel_for(seeds, 128, context, {}, [&](std::size_t begin, std::size_t end) {
     std::vector<Neighbor> near;
     for (std::size_t s = begin; s < end; ++s) {
-      const std::size_t i = s * n / seeds;
-      tree.nearest_to(i, kNeighbours + 1, near);
-      Vec3 sum;
-      for (const Neighbor& other : near) {
-        if (other.index != i) sum += normals[other.index];
-      }
-      const bool agreed = norm(sum) > kOneMind * static_cast<double>(near.size() - 1);
-      wrong[s] = agreed && dot(normals[i], normalized(sum)) < kAgree ? 1 : 0;
+      wrong[s] = has_wrong_normal(tree, normals, s * n / seeds, near) ? 1 : 0;
     }
   });
   const auto found = std::count(wrong.begin(), wrong.end(), 1);
   return static_cast<double>(found) / static_cast<double>(seeds);
 }
 
-std::vector<std::uint8_t> find_small_groups(const PointTree& tree, std::span<const Vec3> normals,
-                                            std::size_t least, const Context& context) {
+void for_links_of_groups(const PointTree& tree, std::span<const Vec3> normals,
+                         const std::function<void(std::uint32_t, std::uint32_t)>& visit,
+                         const Context& context) {
   const std::size_t n = normals.size();
   std::vector<float> spacing(n);
   std::vector<std::array<std::uint32_t, kEighth>> links(n);
@@ -115,14 +120,21 @@ std::vector<std::uint8_t> find_small_groups(const PointTree& tree, std::span<con
       for (std::size_t j = 0; j < std::min(kEighth, near.size()); ++j) links[i][j] = near[j].index;
     }
   });
-  DisjointSets groups(n);
   for (std::uint32_t i = 0; i < n; ++i) {
     for (const std::uint32_t j : links[i]) {
       // As near as both have others: a point alone is far from where its neighbours are at home.
       const bool close = spacing[i] < kIsolated * spacing[j] && spacing[j] < kIsolated * spacing[i];
-      if (close && dot(normals[i], normals[j]) > 0.5) groups.unite(i, j);
+      if (close && dot(normals[i], normals[j]) > 0.5) visit(i, j);
     }
   }
+}
+
+std::vector<std::uint8_t> find_small_groups(const PointTree& tree, std::span<const Vec3> normals,
+                                            std::size_t least, const Context& context) {
+  const std::size_t n = normals.size();
+  DisjointSets groups(n);
+  const auto unite = [&](std::uint32_t i, std::uint32_t j) { groups.unite(i, j); };
+  for_links_of_groups(tree, normals, unite, context);
   std::vector<std::uint32_t> sizes(n, 0);
   for (std::uint32_t i = 0; i < n; ++i) ++sizes[groups.find(i)];
   std::vector<std::uint8_t> flags(n);

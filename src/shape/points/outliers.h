@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -26,9 +27,18 @@ std::vector<std::uint8_t> find_outliers(const PointTree& tree, std::span<const V
 double share_of_wrong_normals(const PointTree& tree, std::span<const Vec3> normals,
                               const Context& context = {});
 
+// The same of one point.
+bool has_wrong_normal(const PointTree& tree, std::span<const Vec3> normals, std::size_t point,
+                      std::vector<Neighbor>& near);
+
 // One flag per point: 1 for a point of a group of fewer than `least`. Points are of one group if
 // they are near neighbours, as near as both have others, and their normals agree.
 std::vector<std::uint8_t> find_small_groups(const PointTree& tree, std::span<const Vec3> normals,
                                             std::size_t least, const Context& context = {});
+
+// Calls visit(i, j) for near neighbours that are of one group, on one thread.
+void for_links_of_groups(const PointTree& tree, std::span<const Vec3> normals,
+                         const std::function<void(std::uint32_t, std::uint32_t)>& visit,
+                         const Context& context = {});
 
 }  // namespace rholm

@@ -42,6 +42,10 @@ struct SamplingGaps {
 
 inline constexpr double kMostGapRatio = 30;
 
+// Around a place: between its nearest points, or between their rows.
+double spacing_around(const PointTree& tree, const SamplingGaps& gaps, const Vec3& place,
+                      std::vector<Neighbor>& near);
+
 // Cosine of two normals below which their points belong to different sheets; noise may turn a few
 // that far (method 7.11).
 inline constexpr double kOtherSheet = -0.2;

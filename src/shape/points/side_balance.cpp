@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "base/parallel.h"
@@ -35,6 +36,18 @@ SideBalance balance_sides(const PointTree& tree, std::span<const Vec3> points,
       areas[j] = near.back().distance2;  // to a common factor
     }
   });
+  std::vector<Vec3> some, some_normals;
+  for (std::size_t j = 0; j < seeds; ++j) {
+    some.push_back(points[j * n / seeds]);
+    some_normals.push_back(normals[j * n / seeds]);
+  }
+  return balance_of(std::move(areas), some, some_normals);
+}
+
+SideBalance balance_of(std::vector<double> areas, std::span<const Vec3> points,
+                       std::span<const Vec3> normals) {
+  const std::size_t seeds = areas.size();
+  if (seeds == 0) return {};
   std::vector<double> sorted = areas;
   std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(seeds / 2),
                    sorted.end());
@@ -44,8 +57,8 @@ SideBalance balance_sides(const PointTree& tree, std::span<const Vec3> points,
   Vec3 middle, mean_normal;
   for (std::size_t j = 0; j < seeds; ++j) {
     area += areas[j];
-    middle += areas[j] * points[j * n / seeds];
-    mean_normal += areas[j] * normals[j * n / seeds];
+    middle += areas[j] * points[j];
+    mean_normal += areas[j] * normals[j];
   }
   SideBalance balance;
   if (!(area > 0)) return balance;
@@ -53,7 +66,7 @@ SideBalance balance_sides(const PointTree& tree, std::span<const Vec3> points,
   middle = middle / area;
   double volume = 0, variance = 0;
   for (std::size_t j = 0; j < seeds; ++j) {
-    const double own = areas[j] * dot(points[j * n / seeds] - middle, normals[j * n / seeds]);
+    const double own = areas[j] * dot(points[j] - middle, normals[j]);
     volume += own;
     variance += own * own;
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "rholm/context.h"
 #include "rholm/vec3.h"
@@ -20,5 +21,9 @@ struct SideBalance {
 // Unit normals and points in the order of the tree.
 SideBalance balance_sides(const PointTree& tree, std::span<const Vec3> points,
                           std::span<const Vec3> normals, const Context& context);
+
+// Of some points, with the area that each stands for, to a common factor.
+SideBalance balance_of(std::vector<double> areas, std::span<const Vec3> points,
+                       std::span<const Vec3> normals);
 
 }  // namespace rholm

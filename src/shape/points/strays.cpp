@@ -243,9 +243,7 @@ bool is_compact(std::span<const Vec3> points) {
 
 }  // namespace
 
-std::vector<std::uint8_t> find_far_strays(std::span<const Vec3> points) {
-  std::vector<std::uint8_t> flags(points.size(), 0);
-  if (is_compact(points)) return flags;
+FarBall find_far_ball(std::span<const Vec3> points) {
   Vec3 lower, upper;
   std::vector<double> values;
   for (double Vec3::*axis : {&Vec3::x, &Vec3::y, &Vec3::z}) {
@@ -254,7 +252,7 @@ std::vector<std::uint8_t> find_far_strays(std::span<const Vec3> points) {
       if (is_finite(p)) values.push_back(p.*axis);
     }
     const std::size_t beyond = std::max<std::size_t>(1, values.size() / kBeyond);
-    if (values.size() < kFewestForBox) return flags;
+    if (values.size() < kFewestForBox) return {};
     const auto low = values.begin() + static_cast<std::ptrdiff_t>(beyond);
     std::nth_element(values.begin(), low, values.end());
     lower.*axis = *low;
@@ -264,9 +262,15 @@ std::vector<std::uint8_t> find_far_strays(std::span<const Vec3> points) {
   }
   const Vec3 middle = 0.5 * lower + 0.5 * upper;
   const double diagonal = norm(upper - middle) * 2;
+  return {.middle = middle, .radius = kFarOutside * diagonal};
+}
+
+std::vector<std::uint8_t> find_far_strays(std::span<const Vec3> points) {
+  std::vector<std::uint8_t> flags(points.size(), 0);
+  if (is_compact(points)) return flags;
+  const FarBall ball = find_far_ball(points);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const bool far = norm(points[i] - middle) > kFarOutside * diagonal;
-    flags[i] = is_finite(points[i]) && diagonal > 0 && far ? 1 : 0;
+    flags[i] = is_finite(points[i]) && ball.is_far(points[i]) ? 1 : 0;
   }
   return flags;
 }

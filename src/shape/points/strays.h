@@ -17,6 +17,15 @@ namespace rholm {
 // relative to all points means, would suffer from them. Points need not be finite.
 std::vector<std::uint8_t> find_far_strays(std::span<const Vec3> points);
 
+// The ball beyond which they are. Radius 0: there are none, for the points are too few or nearly
+// all at one place.
+struct FarBall {
+  Vec3 middle = {};
+  double radius = 0;
+  bool is_far(const Vec3& p) const { return radius > 0 && norm(p - middle) > radius; }
+};
+FarBall find_far_ball(std::span<const Vec3> points);
+
 // Once the ones found are gone, a second and a third look find those that they have hidden.
 inline constexpr int kStrayPasses = 3;
 

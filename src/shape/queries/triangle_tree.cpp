@@ -29,8 +29,6 @@ constexpr double kLargestRadius = 0x1p60;
 
 constexpr std::size_t kManyTriangles = 8192;  // 1 ms: whether to cancel is asked
 
-constexpr std::uint32_t kNoTriangle = std::numeric_limits<std::uint32_t>::max();
-
 double largest_component(const Vec3& a) {
   return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
 }
@@ -131,8 +129,12 @@ void add_level(std::vector<FloatBox>& boxes, std::size_t first, std::vector<BoxG
 }  // namespace
 
 TriangleTree::TriangleTree(const Mesh& mesh)
-    : mesh_(mesh), frame_(unit_frame(bounds(mesh.vertices))) {
-  if (mesh.triangles.empty()) return;
+    : TriangleTree(mesh, unit_frame(bounds(mesh.vertices)), {}) {}
+
+TriangleTree::TriangleTree(const Mesh& portion, const UnitFrame& whole,
+                           const PortionNumbers& numbers)
+    : mesh_(portion), frame_(whole), numbers_(numbers) {
+  if (portion.triangles.empty()) return;
   sort_triangles();
   build();
 }
@@ -188,15 +190,35 @@ void TriangleTree::build() {
 
 namespace {
 
+Vec3 drawn_in(const Vec3& q) {
+  const auto drawn = [](double x) { return std::clamp(x, -kDrawnIn, kDrawnIn); };
+  return {drawn(q.x), drawn(q.y), drawn(q.z)};
+}
+
 struct ClosestSearch {
+  ClosestSearch(const Mesh& searched, const UnitFrame& its_frame,
+                const std::vector<std::uint32_t>& its_order, const PortionNumbers& its_numbers,
+                const Vec3& point, double farthest, const ClosestSoFar& so_far)
+      : mesh(searched),
+        frame(its_frame),
+        order(its_order),
+        numbers(its_numbers),
+        query(drawn_in(frame.to_local(point))),
+        at_most(farthest * frame.scale),
+        best2(so_far.square),
+        number(so_far.triangle) {}
+
   const Mesh& mesh;
   const UnitFrame& frame;
   const std::vector<std::uint32_t>& order;
+  PortionNumbers numbers;
   Vec3 query;      // in that frame
   double at_most;  // how far away the mesh is
-  double best2 = kInfinity;
-  Vec3 best;
-  std::uint32_t triangle = kNoTriangle;
+  double best2;
+  std::uint64_t number;  // of the best triangle, in the whole mesh
+  Vec3 best = {};
+  std::uint32_t triangle = 0;  // in this one
+  bool found = false;
 
   // How far is to be looked now, in float, so that no triangle at the distance found or less is
   // lost: see walk_near(), and the square of the radius.
@@ -207,15 +229,19 @@ struct ClosestSearch {
   }
 };
 
-// Squared distance of a point to the corners' bounding box: cheap, and never above that to the
-// triangle.
-double box_distance2(const Vec3& p, const std::array<Vec3, 3>& c) {
-  const auto outside = [](double x, double a, double b, double d) {
-    return std::max({std::min({a, b, d}) - x, x - std::max({a, b, d}), 0.0});
-  };
-  const Vec3 gap = {outside(p.x, c[0].x, c[1].x, c[2].x), outside(p.y, c[0].y, c[1].y, c[2].y),
-                    outside(p.z, c[0].z, c[1].z, c[2].z)};
+// Squared distance of a point to a box: rounded, it is still never above that to a box within.
+double box_distance2(const Vec3& p, const Vec3& low, const Vec3& high) {
+  const Vec3 gap = {std::max({low.x - p.x, p.x - high.x, 0.0}),
+                    std::max({low.y - p.y, p.y - high.y, 0.0}),
+                    std::max({low.z - p.z, p.z - high.z, 0.0})};
   return dot(gap, gap);
+}
+double box_distance2(const Vec3& p, const std::array<Vec3, 3>& c) {
+  return box_distance2(p,
+                       {std::min({c[0].x, c[1].x, c[2].x}), std::min({c[0].y, c[1].y, c[2].y}),
+                        std::min({c[0].z, c[1].z, c[2].z})},
+                       {std::max({c[0].x, c[1].x, c[2].x}), std::max({c[0].y, c[1].y, c[2].y}),
+                        std::max({c[0].z, c[1].z, c[2].z})});
 }
 
 void take_if_nearer(std::uint32_t triangle, ClosestSearch& search) {
@@ -225,15 +251,21 @@ void take_if_nearer(std::uint32_t triangle, ClosestSearch& search) {
   std::sort(t.begin(), t.end());
   std::array<Vec3, 3> corners;
   for (int k = 0; k < 3; ++k) corners[k] = search.frame.to_local(search.mesh.vertices[t[k]]);
-  if (box_distance2(search.query, corners) > search.best2) return;
+  const double box2 = box_distance2(search.query, corners);
+  if (box2 > search.best2) return;
   const Vec3 candidate = closest_point_of_triangle(search.query, corners);
   const Vec3 offset = search.query - candidate;
-  const double d2 = dot(offset, offset);
-  const bool tie = d2 == search.best2 && triangle < search.triangle;
+  // Rounding may bring the point into the box's distance. What a box is passed over for must hold
+  // of all triangles in it, or ties would depend on which comes first.
+  const double d2 = std::max(dot(offset, offset), box2);
+  const std::uint64_t number = search.numbers.first + triangle * search.numbers.step;
+  const bool tie = d2 == search.best2 && number < search.number;
   if (!(d2 < search.best2) && !tie) return;
   search.best2 = d2;
   search.best = candidate;
   search.triangle = triangle;
+  search.number = number;
+  search.found = true;
 }
 
 float try_triangle(void* data, std::size_t leaf, std::size_t k) {
@@ -242,7 +274,34 @@ float try_triangle(void* data, std::size_t leaf, std::size_t k) {
   return search.radius();
 }
 
+// The closest point of all triangles, where it is closer than the best; its distance.
+double search_all(ClosestSearch& search, const TriangleTreeNodes& nodes, const Vec3& point) {
+  const Vec3 q = search.frame.to_local(point);
+  if (!(largest_component(q) < kFarthest)) {
+    const auto n = static_cast<std::uint32_t>(search.mesh.triangles.size());
+    for (std::uint32_t t = 0; t < n; ++t) take_if_nearer(t, search);
+    const Vec3 offset = point - search.frame.to_shape(search.best);
+    return std::hypot(offset.x, offset.y, offset.z);
+  }
+  walk_near(nodes, {static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z)},
+            search.radius(), &try_triangle, &search);
+  return norm(search.query - search.best) / search.frame.scale;
+}
+
 }  // namespace
+
+bool may_be_closer(const Bounds& box, const UnitFrame& whole, const Vec3& point,
+                   const ClosestSoFar& so_far) {
+  return box_distance2(drawn_in(whole.to_local(point)), box.min, box.max) <= so_far.square;
+}
+
+bool TriangleTree::improve(const Vec3& point, double at_most, ClosestSoFar& so_far) const {
+  if (mesh_.triangles.empty()) return false;
+  ClosestSearch search(mesh_, frame_, order_, numbers_, point, at_most, so_far);
+  const double distance = search_all(search, nodes_, point);
+  if (search.found) so_far = {search.best2, search.number, distance};
+  return search.found;
+}
 
 ClosestPoint TriangleTree::closest_within(const Vec3& point, double at_most) const {
   if (mesh_.triangles.empty() || !is_finite(point)) {
@@ -251,24 +310,9 @@ ClosestPoint TriangleTree::closest_within(const Vec3& point, double at_most) con
                 "this mesh has " +
                     std::to_string(mesh_.triangles.size()) + " triangles");
   }
-  const Vec3 q = frame_.to_local(point);
-  const auto drawn_in = [](double x) { return std::clamp(x, -kDrawnIn, kDrawnIn); };
-  ClosestSearch search{.mesh = mesh_,
-                       .frame = frame_,
-                       .order = order_,
-                       .query = {drawn_in(q.x), drawn_in(q.y), drawn_in(q.z)},
-                       .at_most = at_most * frame_.scale,
-                       .best = {}};
-  if (!(largest_component(q) < kFarthest)) {
-    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) take_if_nearer(t, search);
-    const Vec3 result = frame_.to_shape(search.best);
-    const Vec3 offset = point - result;
-    return {result, search.triangle, std::hypot(offset.x, offset.y, offset.z)};
-  }
-  walk_near(nodes_, {static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z)},
-            search.radius(), &try_triangle, &search);
-  return {frame_.to_shape(search.best), search.triangle,
-          norm(search.query - search.best) / frame_.scale};
+  ClosestSearch search(mesh_, frame_, order_, numbers_, point, at_most, {});
+  const double distance = search_all(search, nodes_, point);
+  return {frame_.to_shape(search.best), search.triangle, distance};
 }
 
 ClosestPoint TriangleTree::closest(const Vec3& point) const {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -20,11 +21,35 @@ struct ClosestPoint {
   double distance = 0;
 };
 
+// Of a mesh that is searched a portion at a time: the closest point of all portions so far.
+struct ClosestSoFar {
+  double square = std::numeric_limits<double>::infinity();  // of the distance, in the frame
+  std::uint64_t triangle = std::numeric_limits<std::uint64_t>::max();  // its number in the whole
+  double distance = std::numeric_limits<double>::infinity();
+};
+
+// What triangle k of a portion is in the whole mesh: number first + k step.
+struct PortionNumbers {
+  std::uint64_t first = 0, step = 1;
+};
+
+// Whether a portion whose vertices have that box, in the frame of the whole mesh, may have a closer
+// point, or one as close: no other needs to be asked.
+bool may_be_closer(const Bounds& box, const UnitFrame& whole, const Vec3& point,
+                   const ClosestSoFar& so_far);
+
 // Keeps a reference to `mesh`, which must outlive it. Queries may come from several threads at
 // once.
 class TriangleTree {
  public:
   explicit TriangleTree(const Mesh& mesh);
+  // Of a portion of a mesh, with vertices in the order that they have there, and that mesh's frame.
+  TriangleTree(const Mesh& portion, const UnitFrame& whole, const PortionNumbers& numbers);
+
+  // Takes the closest point of the portion if it is closer than what was found, or as close and of
+  // a triangle with a smaller number, and says so. Whatever the portions and their order, in the
+  // end there is what closest() has of the whole mesh. The mesh is no farther away than `at_most`.
+  bool improve(const Vec3& point, double at_most, ClosestSoFar& so_far) const;
 
   // The mesh must have a triangle. Ties go to the triangle with the smaller index.
   ClosestPoint closest(const Vec3& point) const;
@@ -38,6 +63,7 @@ class TriangleTree {
 
   const Mesh& mesh_;
   UnitFrame frame_;
+  PortionNumbers numbers_;
   std::vector<std::uint32_t> order_;  // of the triangles in the leaves
   TriangleTreeNodes nodes_;
 };

@@ -195,6 +195,49 @@ void WindingTree::sum_moments() {
   }
 }
 
+WindingTree WindingTree::top(int levels) const {
+  WindingTree kept;
+  kept.middle_ = middle_, kept.scale_ = scale_;
+  struct Parent {
+    std::size_t kept, end;  // where it is there, and the node here that is not below it
+  };
+  std::vector<Parent> parents;
+  const auto close = [&](std::size_t at) {
+    while (!parents.empty() && parents.back().end <= at) {
+      kept.nodes_[parents.back().kept].skip = static_cast<std::uint32_t>(kept.nodes_.size());
+      parents.pop_back();
+    }
+  };
+  for (std::size_t i = 0; i < nodes_.size();) {
+    close(i);
+    const WindingNode& node = nodes_[i];
+    const bool is_last = node.leaf || parents.size() == static_cast<std::size_t>(levels);
+    parents.push_back({kept.nodes_.size(), node.skip});
+    kept.nodes_.push_back(node);
+    kept.nodes_.back().leaf = false;
+    kept.nodes_.back().begin = kept.nodes_.back().end = 0;
+    if (is_last) kept.left_out_.push_back({node.center, node.radius});
+    i = is_last ? node.skip : i + 1;
+  }
+  close(nodes_.size());
+  return kept;
+}
+
+bool WindingTree::has_all(const Vec3& x, double opening) const {
+  // Rounding may not decide: a place that is nearer than this much more is asked in the whole tree.
+  constexpr double kMargin = 1 + 1e-9;
+  const Vec3 local = scale_ * (x - middle_);
+  return std::none_of(left_out_.begin(), left_out_.end(), [&](const WindingBall& ball) {
+    return norm(local - ball.center) <= kMargin * opening * ball.radius;
+  });
+}
+
+WindingNumbers WindingTree::numbers(const Context& context) const {
+  return [this, context](std::span<const Vec3> x, double opening) {
+    return winding(x, context, opening);
+  };
+}
+
 std::vector<double> WindingTree::winding(std::span<const Vec3> x, const Context& context,
                                          double opening) const {
   std::vector<Vec3> local(x.size());

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,17 @@
 #include "shape/queries/winding_kernels.h"
 
 namespace rholm {
+
+// w at each of x, as WindingTree::winding() has it.
+using WindingNumbers = std::function<std::vector<double>(std::span<const Vec3> x, double opening)>;
+// Where nothing is known of the precision that is needed.
+inline constexpr double kWindingOpening = 2;
+
+// Holds the points with their patches.
+struct WindingBall {
+  Vec3 center;
+  double radius = 0;
+};
 
 class WindingTree {
  public:
@@ -33,9 +45,16 @@ class WindingTree {
   // Fastest where x are many near each other, in any order; the result at one of them does not
   // depend on the others, nor on the number of threads. `opening` must be at least 1.
   std::vector<double> winding(std::span<const Vec3> x, const Context& context = {},
-                              double opening = 2) const;
+                              double opening = kWindingOpening) const;
+  // The first levels of the tree, without points: the same numbers where has_all().
+  WindingTree top(int levels) const;
+  // Whether a place is so far from all that top() has left out that it is not asked there.
+  bool has_all(const Vec3& x, double opening) const;
+  // The same as a function; good as long as the tree.
+  WindingNumbers numbers(const Context& context = {}) const;
 
  private:
+  WindingTree() = default;
   struct Key {
     std::uint64_t morton;
     std::uint32_t index;
@@ -45,10 +64,11 @@ class WindingTree {
   void sum_moments();
 
   Vec3 middle_;
-  double scale_ = 1;                  // the points lie in -1 ... 1
-  std::vector<std::uint32_t> order_;  // index of each of points_
-  std::vector<WindingPoint> points_;  // along a Morton curve
-  std::vector<WindingNode> nodes_;    // parents before children
+  double scale_ = 1;                   // the points lie in -1 ... 1
+  std::vector<std::uint32_t> order_;   // index of each of points_
+  std::vector<WindingPoint> points_;   // along a Morton curve
+  std::vector<WindingNode> nodes_;     // parents before children
+  std::vector<WindingBall> left_out_;  // what is below nodes of top(), and on leaves, there
 };
 
 }  // namespace rholm

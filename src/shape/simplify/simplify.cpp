@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "rholm/topology.h"
 #include "shape/face.h"
 #include "shape/simplify/plane_quadric.h"
+#include "shape/simplify/simplify_part.h"
 #include "shape/topology/half_edges.h"
 #include "shape/topology/vertex_stars.h"
 
@@ -40,22 +42,30 @@ struct Collapse {
   std::size_t place = 0;   // of the vertex it becomes among its neighbours
 };
 
-void erase_flat(std::vector<Triangle>& triangles) { std::erase_if(triangles, has_repeated_corner); }
-
 // The mesh as it shrinks: after each pass the vertices that are left, in their order.
 class Simplifier {
  public:
-  Simplifier(std::vector<Vec3> points, std::vector<Triangle> triangles,
-             const SimplifyOptions& options, const Context& context)
+  // Of a whole mesh: nothing is locked, the unit is its mean edge.
+  Simplifier(SimplifyPart part, const SimplifyOptions& options, const Context& context,
+             bool is_whole)
       : options_(options),
         context_(context),
-        points_(std::move(points)),
-        triangles_(std::move(triangles)),
+        points_(std::move(part.points)),
+        triangles_(std::move(part.triangles)),
         given_(points_.size()),
-        quadrics_(points_.size()) {
-    erase_flat(triangles_);
+        kinds_(std::move(part.kinds)),
+        quadrics_(std::move(part.quadrics)),
+        per_length_(1 / part.unit) {
+    if (!is_whole) {
+      origins_.resize(triangles_.size());
+      std::iota(origins_.begin(), origins_.end(), 0U);
+    }
+    erase_flat();
     for (std::uint32_t v = 0; v < given_.size(); ++v) given_[v] = v;
-    find_scale();
+    kinds_.resize(points_.size(), PartVertex::kFree);
+    quadrics_.resize(points_.size());
+    if (is_whole) find_scale();
+    most_ = std::pow(options_.max_error * per_length_, 2);
     stars_ = make_vertex_stars(points_.size(), triangles_);
     make_quadrics();
     compact(std::vector<std::uint8_t>(points_.size(), 1));
@@ -77,12 +87,16 @@ class Simplifier {
         if (cheapest >= n) return;
         cheapest *= kMoreOfPass;
       }
+      steps_.push_back({cost_, triangles_.size()});
     }
   }
 
   std::vector<Vec3>& points() { return points_; }
   std::vector<Triangle>& triangles() { return triangles_; }
   const std::vector<std::uint32_t>& given() const { return given_; }
+  std::vector<std::uint32_t>& origins() { return origins_; }
+  std::vector<PlaneQuadric>& quadrics() { return quadrics_; }
+  std::vector<SimplifiedPart::Step>& steps() { return steps_; }
   double error() const { return std::sqrt(largest_) / per_length_; }
 
  private:
@@ -91,7 +105,6 @@ class Simplifier {
     double sum = 0;
     for (const Triangle& t : triangles_) sum += norm(points_[t[1]] - points_[t[0]]);
     if (sum > 0) per_length_ = static_cast<double>(triangles_.size()) / sum;
-    most_ = std::pow(options_.max_error * per_length_, 2);
   }
 
   Vec3 offset(std::uint32_t from, std::uint32_t to) const {
@@ -103,10 +116,14 @@ class Simplifier {
     parallel_for(points_.size(), kGrain, context_, {}, [&](std::size_t begin, std::size_t end) {
       Ring ring;
       for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
+        const bool is_given = quadrics_[v].weight > 0;
+        if (is_given && kinds_[v] != PartVertex::kUnlocked) continue;
         for (const std::uint32_t t : stars_.of(v)) {
+          if (is_given) break;
           const Vec3 twice = twice_area(t);
           quadrics_[v].add(normalized(twice), norm(twice) / 2);
         }
+        if (is_locked(v)) continue;  // open in this part, perhaps not in all
         find_ring(triangles_, stars_, v, ring);
         if (ring.kind != RingKind::kOpen) continue;
         const std::vector<std::uint32_t>& around = ring.neighbours;
@@ -127,6 +144,20 @@ class Simplifier {
     return cross(offset(c[0], c[1]), offset(c[0], c[2]));
   }
 
+  void erase_flat() {
+    if (origins_.empty()) {
+      std::erase_if(triangles_, has_repeated_corner);
+      return;
+    }
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      if (has_repeated_corner(triangles_[t])) continue;
+      triangles_[kept] = triangles_[t], origins_[kept] = origins_[t];
+      ++kept;
+    }
+    triangles_.resize(kept), origins_.resize(kept);
+  }
+
   // Drops vertices that do not stay or are in no triangle.
   void compact(std::vector<std::uint8_t> stays) {
     std::vector<std::uint8_t> used(points_.size(), 0);
@@ -137,9 +168,10 @@ class Simplifier {
       renumbered[v] = next;
       if (used[v] == 0 || stays[v] == 0) continue;
       points_[next] = points_[v], quadrics_[next] = quadrics_[v], given_[next] = given_[v];
+      kinds_[next] = kinds_[v];
       ++next;
     }
-    points_.resize(next), quadrics_.resize(next), given_.resize(next);
+    points_.resize(next), quadrics_.resize(next), given_.resize(next), kinds_.resize(next);
     for (Triangle& t : triangles_) {
       for (std::uint32_t& v : t) v = renumbered[v];
     }
@@ -173,10 +205,13 @@ class Simplifier {
       }
     }
     if (done == 0) return false;
+    for (const float limit : limits) {
+      if (limit != HUGE_VALF) cost_ = std::max(cost_, static_cast<double>(limit));
+    }
     for (Triangle& t : triangles_) {
       for (std::uint32_t& v : t) v = becomes[v];
     }
-    erase_flat(triangles_);
+    erase_flat();
     compact(std::move(stays));
     return true;
   }
@@ -186,6 +221,7 @@ class Simplifier {
     std::vector<float> errors(points_.size(), HUGE_VALF);
     parallel_for(points_.size(), kGrain, context_, {}, [&](std::size_t begin, std::size_t end) {
       for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
+        if (is_locked(v)) continue;
         for (const std::uint32_t t : stars_.of(v)) {
           const Triangle& c = triangles_[t];
           const std::uint32_t next = c[0] == v ? c[1] : c[1] == v ? c[2] : c[0];
@@ -283,6 +319,7 @@ class Simplifier {
     if (target_.kind == RingKind::kComplex) return false;
     const std::size_t before = place > 0 ? place - 1 : closed ? n - 1 : n;
     const std::size_t after = place + 1 < n ? place + 1 : closed ? 0 : n;
+    if (may_meet_elsewhere(place, before, after)) return false;
     const std::vector<std::uint32_t>& there = target_.neighbours;
     for (std::size_t i = 0; i < n; ++i) {
       if (i == place || i == before || i == after) continue;
@@ -294,19 +331,37 @@ class Simplifier {
     return n > 2 || there.size() > 2;
   }
 
+  // Whether an edge, or a triangle, would come that may be there in another part.
+  bool may_meet_elsewhere(std::size_t place, std::size_t before, std::size_t after) const {
+    const std::vector<std::uint32_t>& around = ring_.neighbours;
+    if (!is_locked(around[place])) return false;
+    bool all = true;
+    for (std::size_t i = 0; i < around.size(); ++i) {
+      const bool locked = is_locked(around[i]);
+      if (locked && i != place && i != before && i != after) return true;
+      all = all && locked;
+    }
+    return all && around.size() == 3;
+  }
+  bool is_locked(std::uint32_t v) const { return kinds_[v] == PartVertex::kLocked; }
+
   const SimplifyOptions& options_;
   const Context& context_;
   std::vector<Vec3> points_;
   std::vector<Triangle> triangles_;
   std::vector<std::uint32_t> given_;  // the index each vertex was given with
+  std::vector<PartVertex> kinds_;
   std::vector<PlaneQuadric> quadrics_;
+  std::vector<std::uint32_t> origins_;  // of a part: which triangle of the given ones each was
+  std::vector<SimplifiedPart::Step> steps_;
   VertexStars stars_;
   std::vector<std::uint8_t> locked_;
   Ring ring_, target_;
   std::vector<Collapse> ways_;
-  double per_length_ = 1;
+  double per_length_;
   double most_ = 0;     // square of the error allowed, in mean edges
   double largest_ = 0;  // square of the error, in mean edges
+  double cost_ = 0;     // of the vertices that have gone: those of passes so far cost no more
 };
 
 void check(const SimplifyOptions& options) {
@@ -350,7 +405,8 @@ Simplification simplify(Mesh mesh, const SimplifyOptions& options, const Context
   for (Vec3& v : mesh.vertices) v *= scale;
   const SimplifyOptions wanted{.triangles = std::max(options.triangles, share),
                                .max_error = options.max_error * scale};
-  Simplifier simplifier(std::move(mesh.vertices), std::move(mesh.triangles), wanted, context);
+  SimplifyPart whole{.points = std::move(mesh.vertices), .triangles = std::move(mesh.triangles)};
+  Simplifier simplifier(std::move(whole), wanted, context, true);
   simplifier.run();
   Simplification result;
   result.error = simplifier.error() / scale;
@@ -359,6 +415,23 @@ Simplification simplify(Mesh mesh, const SimplifyOptions& options, const Context
   result.mesh.triangles = std::move(simplifier.triangles());
   result.mesh.attributes = std::move(mesh.attributes);
   for (Attribute& attribute : result.mesh.attributes) keep(attribute.values, simplifier.given());
+  return result;
+}
+
+SimplifiedPart simplify_part(SimplifyPart part, std::size_t triangles, double max_error,
+                             const Context& context) {
+  const SimplifyOptions wanted{.triangles = triangles, .max_error = max_error};
+  Simplifier simplifier(std::move(part), wanted, context, false);
+  simplifier.run();
+  SimplifiedPart result{.triangles = std::move(simplifier.triangles()),
+                        .origins = std::move(simplifier.origins()),
+                        .vertices = simplifier.given(),
+                        .quadrics = std::move(simplifier.quadrics()),
+                        .error = simplifier.error(),
+                        .steps = std::move(simplifier.steps())};
+  for (Triangle& t : result.triangles) {
+    for (std::uint32_t& v : t) v = result.vertices[v];
+  }
   return result;
 }
 

@@ -146,6 +146,72 @@ TEST(closest_point, ties_go_to_the_smaller_index) {
   for (int k = 0; k < 200; ++k) EXPECT_LT(doubled.closest(random_point(3, k)).triangle, 12u);
 }
 
+// Flat triangles along the axes, whose boxes are as far away as they are, but for rounding; each is
+// there three times, far from itself.
+TEST(closest_point, of_equal_triangles_is_on_the_first) {
+  Mesh mesh = moved(cube(), 0.7, {0.123, 0.456, 0.789});
+  std::vector<Triangle> all;
+  for (int k = 0; k < 3; ++k) {
+    for (int copy = 0; copy < 100; ++copy) {
+      for (const Triangle& t : mesh.triangles) {
+        const auto first = static_cast<std::uint32_t>(8 * copy);
+        all.push_back({first + t[0], first + t[1], first + t[2]});
+      }
+    }
+  }
+  const std::vector<Vec3> corners = mesh.vertices;
+  for (int copy = 1; copy < 100; ++copy) {
+    const Vec3 offset = 3.0 * random_point(21, copy);
+    for (const Vec3& corner : corners) mesh.vertices.push_back(corner + offset);
+  }
+  mesh.triangles = all;
+  const TriangleTree tree(mesh);
+  for (int k = 0; k < 20000; ++k) {
+    ASSERT_LT(tree.closest(4.0 * random_point(22, k)).triangle, all.size() / 3);
+  }
+}
+
+// Portions of any size, in any order: each triangle alone, one in seven, halves.
+TEST(closest_point, of_portions_is_that_of_the_whole) {
+  Mesh mesh = cube();
+  const Mesh more = soup(19, 300);
+  for (const Triangle& t : more.triangles) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    for (const std::uint32_t corner : t) mesh.vertices.push_back(more.vertices[corner]);
+  }
+  for (const Triangle& t : cube().triangles) mesh.triangles.push_back(t);  // again
+  const UnitFrame frame = unit_frame(bounds(mesh.vertices));
+  const TriangleTree whole(mesh);
+  const std::size_t n = mesh.triangles.size();
+  for (const std::size_t step : {n, n / 2, std::size_t{7}, std::size_t{1}}) {
+    std::vector<Mesh> portions;
+    std::vector<TriangleTree> trees;
+    trees.reserve(step);
+    for (std::size_t first = 0; first < step; ++first) {
+      Mesh& portion = portions.emplace_back(Mesh{mesh.vertices, {}, {}});
+      for (std::size_t t = first; t < n; t += step) portion.triangles.push_back(mesh.triangles[t]);
+    }
+    for (std::size_t first = 0; first < step; ++first) {
+      trees.emplace_back(portions[first], frame, PortionNumbers{first, step});
+    }
+    for (int k = 0; k < 400; ++k) {
+      Vec3 p = (k % 3 == 0 ? 0.1 : 1.0) * random_point(23, k);
+      if (k % 5 == 0) p = {0.25 * (k % 7), 0.25 * (k % 11), 0.25 * (k % 13)};  // ties
+      if (k == 399) p = {1e300, -1e20, 1e9};
+      const ClosestPoint expected = whole.closest(p);
+      for (const bool backwards : {false, true}) {
+        ClosestSoFar found;
+        for (std::size_t i = 0; i < step; ++i) {
+          trees[backwards ? step - 1 - i : i].improve(p, kInfinity, found);
+        }
+        ASSERT_EQ(found.triangle, expected.triangle) << step << ' ' << k;
+        ASSERT_EQ(found.distance, expected.distance) << step << ' ' << k;
+      }
+    }
+  }
+}
+
 TEST(closest_point, of_a_degenerate_triangle_is_that_of_its_edges) {
   EXPECT_EQ(closest_point_of_triangle({0.3, 5, 0}, {{{0, 0, 0}, {1, 0, 0}, {0.5, 0, 0}}}),
             (Vec3{0.3, 0, 0}));

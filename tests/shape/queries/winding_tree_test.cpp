@@ -203,5 +203,30 @@ TEST(WindingTree, degenerate_points_give_finite_numbers) {
   EXPECT_THROW(WindingTree(good, same), Error);
 }
 
+// The first levels have the same bits where nothing is asked of what they have left out, and that
+// is nearly everywhere.
+TEST(winding_tree, has_the_same_numbers_by_its_first_levels) {
+  const Sheet sheet = sphere(5000);
+  const WindingTree tree(sheet.points, sheet.area_normals);
+  const std::vector<Vec3> x = random_points(2001, 3, 4);
+  const std::vector<double> whole = tree.winding(x);
+  std::size_t n_before = 0;
+  for (const int levels : {0, 1, 2, 4}) {
+    const WindingTree top = tree.top(levels);
+    const std::vector<double> found = top.winding(x);
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      if (!top.has_all(x[i], kWindingOpening)) continue;
+      EXPECT_EQ(found[i], whole[i]);
+      ++n;
+    }
+    EXPECT_GT(n, n_before);
+    n_before = n;
+    EXPECT_FALSE(top.has_all(sheet.points[7], kWindingOpening));
+  }
+  EXPECT_GT(n_before, x.size() * 9 / 10);
+  EXPECT_TRUE(WindingTree({}, {}).top(2).has_all({}, kWindingOpening));
+}
+
 }  // namespace
 }  // namespace rholm

@@ -16,6 +16,7 @@
 #include "rholm/error.h"
 #include "rholm/primitives.h"
 #include "rholm/topology.h"
+#include "shape/simplify/simplify_part.h"
 #include "shape/topology/vertex_stars.h"
 #include "support/random_data.h"
 #include "support/test_meshes.h"
@@ -247,6 +248,64 @@ TEST(simplify, options_out_of_range_are_refused) {
         SimplifyOptions{.max_error = nan}}) {
     EXPECT_EQ(code_of([&] { simplify(mesh, options); }), ErrorCode::kInvalidInput);
   }
+}
+
+// Halves of a sphere, each by itself, with what they share locked; then all with what each knows.
+TEST(simplify, parts_fit_together_and_go_on_together) {
+  const Mesh mesh = icosphere(5);
+  std::vector<std::uint8_t> sides(mesh.vertices.size(), 0);
+  const auto side_of = [&](const Triangle& t) {
+    const double z = mesh.vertices[t[0]].z + mesh.vertices[t[1]].z + mesh.vertices[t[2]].z;
+    return std::size_t{z > 0 ? 1U : 0U};
+  };
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t v : t)
+      sides[v] = static_cast<std::uint8_t>(sides[v] | 1U << side_of(t));
+  }
+  SimplifyPart all{.points = mesh.vertices, .unit = 0.05};
+  all.kinds.assign(mesh.vertices.size(), PartVertex::kFree);
+  all.quadrics.resize(mesh.vertices.size());
+  std::size_t n_locked = 0;
+  for (std::size_t v = 0; v < sides.size(); ++v) {
+    if (sides[v] == 3) all.kinds[v] = PartVertex::kLocked, ++n_locked;
+  }
+  double error = 0;
+  for (const std::size_t side : {0U, 1U}) {
+    SimplifyPart part{.points = mesh.vertices, .kinds = all.kinds, .unit = 0.05};
+    for (const Triangle& t : mesh.triangles) {
+      if (side_of(t) == side) part.triangles.push_back(t);
+    }
+    const SimplifiedPart found = simplify_part(part, 1000, HUGE_VAL);
+    EXPECT_EQ(found.triangles.size(), 1000U);
+    ASSERT_EQ(found.origins.size(), 1000U);
+    for (std::size_t i = 0; i < found.vertices.size(); ++i) {
+      all.quadrics[found.vertices[i]].add(found.quadrics[i]);
+    }
+    for (std::size_t i = 1; i < found.steps.size(); ++i) {
+      EXPECT_LT(found.steps[i].triangles, found.steps[i - 1].triangles);
+      EXPECT_GE(found.steps[i].cost, found.steps[i - 1].cost);
+    }
+    EXPECT_EQ(found.steps.back().triangles, 1000U);
+    all.triangles.insert(all.triangles.end(), found.triangles.begin(), found.triangles.end());
+    error = std::max(error, found.error);
+  }
+  const Inspection halves = inspect({.vertices = mesh.vertices, .triangles = all.triangles});
+  EXPECT_TRUE(halves.closed && halves.manifold);
+  EXPECT_EQ(halves.euler_characteristic, 2);
+  std::set<std::uint32_t> left;
+  for (const Triangle& t : all.triangles) left.insert(t.begin(), t.end());
+  std::size_t locked = 0;
+  for (std::uint32_t v = 0; v < sides.size(); ++v) locked += sides[v] == 3 && left.contains(v);
+  EXPECT_EQ(locked, n_locked);
+  for (PartVertex& kind : all.kinds) {
+    if (kind == PartVertex::kLocked) kind = PartVertex::kUnlocked;
+  }
+  const SimplifiedPart whole = simplify_part(all, 1000, HUGE_VAL);
+  const Inspection found = inspect({.vertices = mesh.vertices, .triangles = whole.triangles});
+  EXPECT_TRUE(found.closed && found.manifold);
+  EXPECT_EQ(found.triangles, 1000U);
+  // As if it had been one from the beginning.
+  EXPECT_NEAR(whole.error, simplify(mesh, {.triangles = 1000}).error, 0.15 * whole.error);
 }
 
 TEST(simplify, can_be_cancelled) {
