@@ -203,6 +203,10 @@ void cover_block(const OrderedPoints& all, std::size_t begin, std::size_t end,
                  const CoverOptions& options, Cover& block) {
   CapWorker worker;
   std::vector<std::uint8_t> covered(end - begin, 0);
+  if (!options.foreign.empty()) {
+    std::copy(options.foreign.begin() + static_cast<std::ptrdiff_t>(begin),
+              options.foreign.begin() + static_cast<std::ptrdiff_t>(end), covered.begin());
+  }
   for (std::size_t seed = begin; seed < end; ++seed) {
     if (covered[seed - begin] != 0) continue;
     Cap cap;

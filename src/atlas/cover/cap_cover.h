@@ -34,6 +34,9 @@ struct CoverOptions {
   double gradient_weight = 0.3;
   double tolerance = 0;  // caps grow while their residuals stay below it; 0: they do not grow
   double core = 0.5;     // points nearer than this part of the support need no cap of their own
+  // Points, in the order of the tree, that need none at all, being covered elsewhere: one flag
+  // each, or none.
+  std::span<const std::uint8_t> foreign = {};
 };
 
 struct Cover {

@@ -21,6 +21,7 @@ class GridSpreader {
   void add(SourceBatch<T>& batch, std::size_t n, int derivatives);
   // All that was added; no more may be.
   double* grid() { return grid_.data(); }
+  std::size_t n_cells() const { return plan_.fourier.layout.cells(); }
 
  private:
   void add_polar(const SourceBatch<T>& batch, const PolarSources& polar, int derivatives);

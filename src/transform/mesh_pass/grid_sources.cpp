@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr std::size_t kMostKept = std::size_t{1} << 20;  // nodes, 32 MB
+constexpr std::size_t kCellsInRow = 64;  // chosen: a part of a mesh in order leaves most rows empty
 constexpr std::size_t kMostUndivided = std::size_t{1} << 18;
 
 template <typename T>
@@ -70,6 +71,42 @@ void GridSources<T>::add_vertices(const MeshView& mesh, std::size_t first, std::
 }
 
 template <typename T>
+void GridSources<T>::write(ByteWriter& writer) {
+  writer.value(source2_);
+  writer.value(hessian2_);
+  const std::span<const double> all(cells(), spreader_.n_cells());
+  writer.value(std::uint64_t{all.size()});
+  for (std::size_t at = 0; at < all.size(); at += kCellsInRow) {
+    const auto row = all.subspan(at, std::min(kCellsInRow, all.size() - at));
+    const bool is_empty = std::ranges::all_of(row, [](double cell) { return cell == 0; });
+    writer.value(static_cast<std::uint8_t>(is_empty ? 0 : 1));
+    if (!is_empty) writer.row(row);
+  }
+}
+
+template <typename T>
+void GridSources<T>::add_written(ByteReader& reader) {
+  double source2 = 0, hessian2 = 0;
+  std::uint64_t n = 0;
+  reader.value(source2);
+  reader.value(hessian2);
+  reader.value(n);
+  const std::span<double> all(cells(), spreader_.n_cells());
+  if (n != all.size()) ByteReader::refuse();
+  source2_ += source2;
+  hessian2_ += hessian2;
+  double row[kCellsInRow];
+  for (std::size_t at = 0; at < n; at += kCellsInRow) {
+    std::uint8_t has_cells = 0;
+    reader.value(has_cells);
+    if (has_cells == 0) continue;
+    const std::size_t count = std::min<std::size_t>(kCellsInRow, n - at);
+    reader.row(std::span(row, count));
+    for (std::size_t i = 0; i < count; ++i) all[at + i] += row[i];
+  }
+}
+
+template <typename T>
 void GridSources<T>::flush() {
   flush_values();
   flush_gradients();
@@ -100,7 +137,9 @@ void PartSink<T>::add(std::span<const Node> nodes) {
   if (grid_ != nullptr) return grid_->add(nodes);
   for (const Node& node : nodes) part_.source2 += node.weight * node.weight;
   part_.too_many = part_.too_many || part_.kept.size() + nodes.size() > kMostKept;
-  if (!part_.too_many) part_.kept.insert(part_.kept.end(), nodes.begin(), nodes.end());
+  if (part_.too_many) return;
+  part_.kept.insert(part_.kept.end(), nodes.begin(), nodes.end());
+  part_.n_kept += nodes.size();
 }
 
 template <typename T>
@@ -109,7 +148,9 @@ void PartSink<T>::add_gradient(const GradientNode& node) {
   if (grid_ != nullptr) return grid_->add(node);
   part_.source2 += counted2(node, plan_.divided.degree);
   part_.too_many = part_.too_many || part_.kept_gradients.size() >= kMostKept;
-  if (!part_.too_many) part_.kept_gradients.push_back(node);
+  if (part_.too_many) return;
+  part_.kept_gradients.push_back(node);
+  ++part_.n_kept;
 }
 
 template <typename T>

@@ -7,19 +7,17 @@
 #include <span>
 #include <vector>
 
+#include "base/bytes.h"
 #include "harmonic/nonuniform/nonuniform.h"
 #include "harmonic/nonuniform/window_error.h"
 #include "rholm/coefficients.h"
 #include "transform/mesh_pass/block/block.h"
+#include "transform/mesh_pass/mesh_part.h"
 #include "transform/mesh_pass/node_sink.h"
 #include "transform/mesh_pass/plan/plan.h"
 #include "transform/mesh_pass/vertex_lumps.h"
 
 namespace rholm {
-
-// Single precision goes with sums in whole quanta of 32 bits.
-template <typename T>
-using LumpOf = std::conditional_t<sizeof(T) == 4, std::int32_t, double>;
 
 // One grid and the sources that wait for it; windows in T.
 template <typename T>
@@ -41,6 +39,17 @@ class GridSources {
   // And of L^2 times Hessians.
   double hessian2() const { return hessian2_; }
   GridSpreader<T> take_spreader() { return std::move(spreader_); }
+  // The cells, once all is flushed.
+  double* cells() { return spreader_.grid(); }
+  // What another grid has spread counts as this one's; its cells are added by whoever calls.
+  void count_as_own(const GridSources& other) {
+    source2_ += other.source2_;
+    hessian2_ += other.hessian2_;
+  }
+  // What is in the grid, once all is flushed: of its cells those that are not zero.
+  void write(ByteWriter& writer);
+  // Adds what another grid of the same kind has written.
+  void add_written(ByteReader& reader);
 
  private:
   static constexpr std::size_t kSize = SourceBatch<T>::kSize;
@@ -54,28 +63,11 @@ class GridSources {
   std::size_t n_values_ = 0, n_gradients_ = 0;
 };
 
-// What one part of the triangles leaves.
-struct MeshPart {
-  BlockSums sums = no_triangles();
-  double mean = 0;  // int r dOmega over triangles with nodes for it
-  std::vector<SampledHalfEdge> half_edges;
-  // Nodes that wait for a grid, unless they are too many.
-  std::vector<Node> kept;
-  std::vector<GradientNode> kept_gradients;
-  bool too_many = false;
-  double source2 = 0;      // of those kept
-  double weight = 0;       // sum of weights, of all that are divided by l(l+1)
-  double modulus = 0;      // and of their moduli
-  std::size_t nodes = 0;   // of all
-  double node_error2 = 0;  // see NodeWriter::error2()
-  Coefficients undivided;  // of nodes that are not divided by l(l+1), if there are any
-};
-
 // Where a part's nodes go: to a grid or, if there is none yet, kept.
 template <typename T>
 class PartSink : public NodeSink {
  public:
-  PartSink(MeshPart& part, GridSources<T>* grid, const MeshPlan& plan)
+  PartSink(MeshPart<T>& part, GridSources<T>* grid, const MeshPlan& plan)
       : part_(part), grid_(grid), plan_(plan) {}
   void add(std::span<const Node> nodes) override;
   void add_gradient(const GradientNode& node) override;
@@ -83,7 +75,7 @@ class PartSink : public NodeSink {
   void sum_undivided();
 
  private:
-  MeshPart& part_;
+  MeshPart<T>& part_;
   GridSources<T>* grid_;
   const MeshPlan& plan_;
   std::vector<Vec3> undivided_;

@@ -3,10 +3,12 @@
 
 #include <functional>
 
+#include "base/shared_tasks.h"
 #include "rholm/analyze.h"
 #include "rholm/coefficients.h"
 #include "rholm/context.h"
 #include "rholm/mesh_view.h"
+#include "transform/mesh_pass/division.h"
 
 namespace rholm {
 
@@ -19,6 +21,13 @@ struct MeshPassOptions {
   // the first returns false if they are not triangles after all.
   std::function<bool(std::size_t first, std::size_t n)> check = {};
   std::function<void(std::size_t first, std::size_t n)> release = {};
+  // Called with ranges of vertices that will hardly be used any more.
+  std::function<void(std::size_t first, std::size_t n)> release_vertices = {};
+  std::size_t most_held = kMostHeld;  // triangles, see division.h; another for tests
+  std::size_t streamed_parts = 0;     // beyond them; 0: as division.h says
+  // Other processes that work parts, by a PassHelper of the same mesh (shared_parts.h); none: this
+  // one works all. Not for triangles that have to be ordered first.
+  ShareTasks share = {};
 };
 
 struct MeshPassResult {

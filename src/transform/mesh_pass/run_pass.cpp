@@ -3,30 +3,26 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
+#include <optional>
+#include <utility>
 #include <vector>
 
-#include "base/cancel.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "base/stopwatch.h"
 #include "harmonic/coefficients/laplacian.h"
-#include "harmonic/nonuniform/window_error.h"
 #include "rholm/error.h"
+#include "transform/mesh_pass/division.h"
 #include "transform/mesh_pass/grid_sources.h"
-#include "transform/mesh_pass/hermite_nodes.h"
-#include "transform/mesh_pass/own_nodes.h"
-#include "transform/mesh_pass/plan/error_budget.h"
-#include "transform/mesh_pass/scatter.h"
-#include "transform/mesh_pass/vertex_lumps.h"
+#include "transform/mesh_pass/part_worker.h"
+#include "transform/mesh_pass/pass_sums.h"
+#include "transform/mesh_pass/shared_parts.h"
 
 namespace rholm {
 namespace {
 
-constexpr std::size_t kBlockSize = kTrianglesPerBlock;
-// Blocks between two reports of progress: about 1 ms.
-constexpr std::size_t kBlocksPerStep = 512;
-constexpr std::size_t kVerticesPerStep = 256 * kVerticesPerBlock;
+// Parts, and grids with them, that are there at a time: as many as are held.
+constexpr std::size_t kPartsAtATime = 8;
 // Below so many nodes per triangle these are kept until the sums of squares are known
 // exactly; above, they are spread as they come, to a window chosen from the sample.
 constexpr double kFewNodes = 0.05;
@@ -41,63 +37,43 @@ constexpr double kUnseen2 = 8;
 template <typename T>
 class Pass {
  public:
-  using Lump = LumpOf<T>;
-
   Pass(const MeshView& mesh, const MeshPassOptions& options, const MeshPlan& plan,
        const Context& context)
       : mesh_(mesh),
         options_(options),
         plan_(plan),
         context_(context),
-        arrays_(mesh.n_vertices, plan.block.hessians),
-        n_blocks_((mesh.n_triangles + kBlockSize - 1) / kBlockSize) {}
+        streamed_(mesh.n_triangles > options.most_held),
+        upfront_(streamed_ || plan.nodes > kFewNodes),
+        sums_(plan_) {}
 
   Outcome run(MeshPassResult& result) {
-    const bool upfront = plan_.nodes > kFewNodes;
-    if (upfront) {
+    if (upfront_) {
       choose_window(kUnseen2 * plan_.source2, kUnseen2 * plan_.hessian2, estimated_sources());
-      make_grids();
     }
-    parts_ = std::vector<MeshPart>(upfront ? grids_.size() : part_count());
+    division_ = divide_triangles(mesh_.n_triangles, part_count());
+    worker_.emplace(mesh_, options_, plan_, division_);
+    if (options_.share) groups_ = group_count();
+    if (groups_ > 1) shared_.emplace(mesh_, options_, plan_, division_);
     {
       const StageTimer timer(result.times, "triangles");
-      work_triangles();
+      find_ranges();
+      if (shared_) {
+        share_parts();
+      } else {
+        work_parts();
+      }
     }
-    BlockSums sums = no_triangles();
-    double kept2 = 0, node_weight = 0;
-    std::size_t kept = 0;
-    for (const MeshPart& part : parts_) {
-      if (part.too_many) return Outcome::kTooManyNodes;
-      sums.add(part.sums);
-      kept2 += part.source2;
-      node_weight += part.weight;
-      kept += part.kept.size() + part.kept_gradients.size();
-      result.report.nodes += part.nodes;
-    }
-    check_sums(sums);
-    const LumpSums lumps = sum_all_lumps();
-    // The weights of each triangle add up to nothing.
-    const double whole_weight = lumps.weight + plan_.block.per_weight * node_weight;
-    if (sizeof(T) == 4 && std::abs(whole_weight) > 0x1p31) return Outcome::kOutOfRange;
-    const double lumps2 = squares_of(lumps);
-    const double hessian2 =
-        plan_.block.hessians
-            ? std::pow(std::pow(plan_.divided.degree, 2) / plan_.block.per_hessian, 2) *
-                  lumps.hessian2
-            : 0;
-    if (!upfront) {
-      choose_window(kept2 + lumps2, hessian2, mesh_.n_vertices + kept);
-      make_grids();
-    }
+    if (const Outcome outcome = sums_.finish(*worker_); outcome != Outcome::kDone) return outcome;
     {
       const StageTimer timer(result.times, "spread");
-      spread_vertices();
+      if (!upfront_) spread_held();
+      spread_border();
     }
     {
       const StageTimer timer(result.times, "fourier");
       transform_grids(result);
     }
-    set_result(sums, plan_.block.hessians ? 0 : lumps2, result);
     return Outcome::kDone;
   }
 
@@ -107,13 +83,30 @@ class Pass {
            static_cast<std::size_t>(plan_.nodes * static_cast<double>(mesh_.n_triangles));
   }
 
-  // Parts of the triangles when they need no grids: as many as pay, whatever the number of threads.
   std::size_t part_count() const {
-    return std::clamp<std::size_t>(mesh_.n_triangles / 20000, 1, 8);
+    if (!streamed_) {
+      return upfront_ ? grid_count(transform_, estimated_sources()) : held_parts(mesh_.n_triangles);
+    }
+    if (options_.streamed_parts > 0) return options_.streamed_parts;
+    return streamed_parts(mesh_.n_triangles, plan_.divided.degree);
+  }
+
+  // Tasks of other processes: what is held goes from a process as whole grids.
+  std::size_t group_count() const {
+    if (upfront_) return division_.count;
+    const std::size_t sources = estimated_sources();
+    const NonuniformPlan likely =
+        window_plan(kUnseen2 * plan_.source2, kUnseen2 * plan_.hessian2, sources);
+    return std::min(division_.count, grid_count(likely, sources));
+  }
+
+  void choose_window(double source2, double hessian2, std::size_t sources) {
+    transform_ = window_plan(source2, hessian2, sources);
+    kernel_ = grid_kernel<T>(transform_.fourier);
   }
 
   // `hessian2`: L^2 times Hessians, whose part in the error depends on the grid.
-  void choose_window(double source2, double hessian2, std::size_t sources) {
+  NonuniformPlan window_plan(double source2, double hessian2, std::size_t sources) const {
     const double allowed = options_.window_share * allowed_window_error(plan_, source2);
     NonuniformNeeds needs{.degree = plan_.divided.degree,
                           .allowed = std::clamp(allowed, 1e-15, 1e-2),
@@ -124,233 +117,176 @@ class Pass {
                           .gradient_size = 0,
                           .hessian_size = std::sqrt(hessian2 / std::max(source2, 1e-300)),
                           .spread_out = mesh_.n_vertices};
-    transform_ = plan_nonuniform(needs);
-    transform_.single = sizeof(T) == 4;
-    kernel_ = grid_kernel<T>(transform_.fourier);
+    NonuniformPlan plan = plan_nonuniform(needs);
+    plan.single = sizeof(T) == 4;
+    return plan;
   }
 
-  void make_grids() {
-    const std::size_t n = grid_count(transform_, estimated_sources());
-    for (std::size_t i = 0; i < n; ++i) {
-      grids_.push_back(std::make_unique<GridSources<T>>(transform_, kernel_));
+  std::unique_ptr<GridSources<T>> new_grid() const {
+    return std::make_unique<GridSources<T>>(transform_, kernel_);
+  }
+
+  void find_ranges() {
+    std::vector<IndexRange> ranges(division_.count);
+    if (shared_) {
+      options_.share(
+          {ranges_job(plan_, division_), ranges.size()},
+          [&](std::size_t p) { return shared_->range_of(p); },
+          [&](std::size_t p, const std::string& bytes) { ByteReader(bytes).value(ranges[p]); });
+      shared_->set_ranges(ranges, groups_);
+      if (upfront_) shared_->set_transform(transform_);
+      return worker_->set_ranges(std::move(ranges));
     }
+    parallel_for(ranges.size(), 1, {.threads = context_.threads}, {},
+                 [&](std::size_t p, std::size_t) { ranges[p] = worker_->range_of(p); });
+    worker_->set_ranges(std::move(ranges));
   }
 
-  void work_triangles() {
-    const std::size_t n = parts_.size(), size = (n_blocks_ + n - 1) / n;
-    SharedProgress progress(context_, "triangles", 0, 0.5, static_cast<double>(n_blocks_));
-    const Context silent{.threads = context_.threads};
-    parallel_for(n_blocks_, size, silent, {}, [&](std::size_t begin, std::size_t end) {
-      work_part(begin / size, begin, end, progress);
-    });
-  }
-
-  void work_part(std::size_t p, std::size_t begin, std::size_t end, SharedProgress& progress) {
-    MeshPart& part = parts_[p];
-    BlockParameters parameters = plan_.block;
-    auto lumps = arrays_.take();
-    auto block = std::make_unique<TriangleBlock<Lump>>();
-    PartSink<T> sink(part, grids_.empty() ? nullptr : grids_[p].get(), plan_);
-    const ScaledVertices vertices{
-        .mesh = mesh_, .center = parameters.scale * parameters.center, .scale = parameters.scale};
-    NodeWriter writer({plan_.divided, plan_.undivided}, vertices, sink);
-    NodesBetween between(vertices, sink);
-    const auto look_at = [&](std::size_t b) {
-      const std::size_t first = b * kBlockSize;
-      const std::size_t n = std::min(kBlockSize, mesh_.n_triangles - first);
-      check_triangles(options_, first, n);
-      const std::uint32_t largest = largest_index(mesh_, first, n);
-      if (largest >= mesh_.n_vertices) refuse_mesh();
-      ask_for_lumps(mesh_, first, n, parameters.hessians, lumps->data());
-      return largest;
-    };
-    const double mean_reach2 = std::max(parameters.mean_reach2, parameters.mean_nodes_reach2);
-    std::uint32_t next_largest = look_at(begin);
-    for (std::size_t b = begin; b < end; ++b) {
-      ask_cancel();
-      const std::size_t first = b * kBlockSize;
-      const std::size_t n = std::min(kBlockSize, mesh_.n_triangles - first);
-      parameters.largest_index = next_largest;
-      if (b + 1 < end) next_largest = look_at(b + 1);
-      const std::size_t before = part.sums.nodes;
-      work_block(mesh_, first, n, parameters, *block, part.sums);
-      scatter_lumps(mesh_, first, n, parameters.hessians, *block, lumps->data());
-      if (block->has_nodes_between) between.add(mesh_, first, n, *block);
-      sample_half_edges(*block, n, part.half_edges);
-      if (part.sums.nodes != before || part.sums.max_edge2 > mean_reach2) {
-        write_nodes(*block, first, n, writer, part);
-      }
-      if ((b - begin) % kBlocksPerStep == kBlocksPerStep - 1) {
-        if (options_.release) {
-          options_.release(first + n - kBlocksPerStep * kBlockSize, kBlocksPerStep * kBlockSize);
+  // A few parts at a time: what they leave is added up in their order before the next begin.
+  void work_parts() {
+    SharedProgress progress(context_, "triangles", 0, upfront_ ? 0.9 : 0.5,
+                            static_cast<double>(mesh_.n_triangles));
+    for (std::size_t first = 0; first < division_.count; first += kPartsAtATime) {
+      const std::size_t n = std::min(kPartsAtATime, division_.count - first);
+      std::vector<WorkedPart<T>> worked(n);
+      std::vector<std::unique_ptr<GridSources<T>>> grids(upfront_ ? n : 0);
+      parallel_for(n, 1, {.threads = context_.threads}, {}, [&](std::size_t i, std::size_t) {
+        if (!upfront_) {
+          worked[i] = worker_->work(first + i, nullptr, progress);
+          return;
         }
-        progress.add(kBlocksPerStep);
+        grids[i] = new_grid();
+        worked[i] = worker_->work(first + i, grids[i].get(), progress);
+        worker_->spread(worked[i], *grids[i]);
+        grids[i]->flush();
+        worked[i].mesh = {};
+        worked[i].lumps = {};
+      });
+      for (const WorkedPart<T>& one : worked) sums_.add(one.part);
+      if (!upfront_) {
+        held_ = std::move(worked);
+      } else if (division_.count <= kPartsAtATime) {
+        grids_ = std::move(grids);
+      } else {
+        add_to_whole(grids);
+        spread_done_border(first + n);
       }
     }
-    writer.flush();
-    part.node_error2 = writer.error2();
-    between.flush();
-    sink.sum_undivided();
-    arrays_.give_back(std::move(lumps));
   }
 
-  void write_nodes(const TriangleBlock<Lump>& block, std::size_t first, std::size_t n,
-                   NodeWriter& writer, MeshPart& part) {
-    for (std::size_t t = 0; t < n; ++t) {
-      if (block.flag[t] == kLumped) continue;
-      std::array<Vec3, 3> p;
-      for (int i = 0; i < 3; ++i) {
-        p[i] = {block.corner[i][0][t], block.corner[i][1][t], block.corner[i][2][t]};
-      }
-      if ((block.flag[t] & kNodes) != 0) {
-        writer.add_triangle(p, mesh_.triangle(first + t));
-      }
-      if ((block.flag[t] & kMeanNodes) != 0) part.mean += radius_integral(p, plan_.allowed.mean);
-    }
-  }
-
-  void check_sums(const BlockSums& sums) const {
-    if (!std::isfinite(sums.probe)) refuse_mesh();
-  }
-
-  // Says what is wrong with a mesh in which something is.
-  [[noreturn]] void refuse_mesh() const {
-    validate(mesh_);
-    throw Error(ErrorCode::kInvalidInput, "the coordinates are too large to be multiplied");
-  }
-
-  LumpSums sum_all_lumps() const {
-    std::vector<LumpSums> steps((mesh_.n_vertices + kVerticesPerStep - 1) / kVerticesPerStep);
-    parallel_for(mesh_.n_vertices, kVerticesPerStep, {.threads = context_.threads}, {},
-                 [&](std::size_t begin, std::size_t end) {
-                   LumpSums& step = steps[begin / kVerticesPerStep];
-                   visit_lumps(begin, end, [&](std::size_t, std::size_t n, const auto* lumps) {
-                     step.add(sum_lumps(lumps, n, plan_.block.hessians));
-                   });
-                 });
-    LumpSums sums;
-    for (const LumpSums& step : steps) sums.add(step);
-    return sums;
-  }
-
-  // Calls visit(first, n, lumps) for blocks of vertices.
-  template <typename Visit>
-  void visit_lumps(std::size_t begin, std::size_t end, const Visit& visit) const {
-    alignas(64) VertexLump<Lump> room[kLumpsPerBlock];
-    for (std::size_t first = begin; first < end; first += kVerticesPerBlock) {
-      const std::size_t n = std::min(kVerticesPerBlock, end - first);
-      visit(first, n, arrays_.sums(first, n, room));
-    }
-  }
-
-  // Gradients as much as they count in a window's error.
-  double squares_of(const LumpSums& lumps) const {
-    const double weight = 1 / plan_.block.per_weight,
-                 slope = gradient_as_weight(plan_.divided.degree) / plan_.block.per_gradient;
-    return weight * weight * lumps.weight2 + slope * slope * lumps.gradient2;
-  }
-
-  void spread_vertices() {
-    const std::size_t n = grids_.size();
-    // In whole blocks.
-    const std::size_t blocks = (mesh_.n_vertices + kVerticesPerBlock - 1) / kVerticesPerBlock;
-    const std::size_t size = (blocks + n - 1) / n * kVerticesPerBlock;
-    SharedProgress progress(context_, "spread", 0.5, 0.9, static_cast<double>(mesh_.n_vertices));
-    parallel_for(n, 1, {.threads = context_.threads}, {}, [&](std::size_t g, std::size_t) {
-      GridSources<T>& grid = *grids_[g];
-      for (std::size_t p = g; p < parts_.size(); p += n) {
-        grid.add(parts_[p].kept);
-        for (const GradientNode& node : parts_[p].kept_gradients) grid.add(node);
-      }
-      const std::size_t end = std::min(mesh_.n_vertices, (g + 1) * size);
-      for (std::size_t from = g * size; from < end; from += kVerticesPerStep) {
-        const std::size_t to = std::min(end, from + kVerticesPerStep);
-        visit_lumps(from, to, [&](std::size_t first, std::size_t count, const auto* lumps) {
-          grid.add_vertices(mesh_, first, count, plan_.block, lumps);
+  // The same by several processes: what they leave is added up in the order of the parts.
+  void share_parts() {
+    SharedProgress progress(context_, "triangles", 0, upfront_ ? 0.9 : 0.5,
+                            static_cast<double>(mesh_.n_triangles));
+    options_.share(
+        {parts_job(worker_->ranges(), groups_, upfront_ ? &transform_ : nullptr), groups_,
+         !upfront_},
+        [&](std::size_t group) { return shared_->work(group); },
+        [&](std::size_t group, const std::string& bytes) {
+          ByteReader reader(bytes);
+          const std::size_t first = shared_->first(group, groups_);
+          const std::size_t end = shared_->first(group + 1, groups_);
+          for (std::size_t p = first; p < end; ++p) {
+            sums_.add(read_part<T>(reader));
+            if (upfront_) take_grid(p, reader);
+            progress.add(division_.n(p));
+          }
+          reader.finish();
         });
-        progress.add(to - from);
+  }
+
+  void take_grid(std::size_t p, ByteReader& reader) {
+    if (division_.count <= kPartsAtATime || grids_.empty()) grids_.push_back(new_grid());
+    grids_.back()->add_written(reader);
+    if (division_.count <= kPartsAtATime) return;
+    if ((p + 1) % kPartsAtATime == 0 || p + 1 == division_.count) spread_done_border(p + 1);
+  }
+
+  // Of the parts before p: else what parts share would grow with the mesh.
+  void spread_done_border(std::size_t p) {
+    const auto done = sums_.take_border(ranges_from(worker_->ranges(), p), *worker_);
+    worker_->spread(done, 0, done.vertices.size(), *grids_[0]);
+  }
+
+  void add_to_whole(const std::vector<std::unique_ptr<GridSources<T>>>& grids) {
+    if (grids_.empty()) grids_.push_back(new_grid());
+    double* const whole = grids_[0]->cells();
+    constexpr std::size_t kCells = std::size_t{1} << 16;  // chosen: some 100 us
+    parallel_for(transform_.fourier.layout.cells(), kCells, {.threads = context_.threads}, {},
+                 [&](std::size_t begin, std::size_t end) {
+                   for (const auto& grid : grids) {
+                     const double* cells = grid->cells();
+                     for (std::size_t i = begin; i < end; ++i) whole[i] += cells[i];
+                   }
+                 });
+    for (const auto& grid : grids) grids_[0]->count_as_own(*grid);
+  }
+
+  // Parts that were held, to as many grids as pay.
+  void spread_held() {
+    choose_window(sums_.source2(), sums_.hessian2(), mesh_.n_vertices + sums_.n_kept());
+    const std::size_t parts = division_.count;
+    const std::size_t n = std::min(parts, grid_count(transform_, estimated_sources()));
+    for (std::size_t g = 0; g < n; ++g) grids_.push_back(new_grid());
+    SharedProgress progress(context_, "spread", 0.5, 0.9, static_cast<double>(parts));
+    if (shared_) {
+      shared_->set_transform(transform_);
+      return options_.share(
+          {grids_job(n, transform_), n, true}, [&](std::size_t g) { return shared_->spread(g, n); },
+          [&](std::size_t g, const std::string& bytes) {
+            ByteReader reader(bytes);
+            grids_[g]->add_written(reader);
+            reader.finish();
+            progress.add(shared_->first(g + 1, n) - shared_->first(g, n));
+          });
+    }
+    parallel_for(n, 1, {.threads = context_.threads}, {}, [&](std::size_t g, std::size_t) {
+      for (std::size_t p = g * parts / n; p < (g + 1) * parts / n; ++p) {
+        worker_->spread(held_[p], *grids_[g]);
+        progress.add(1);
       }
-      grid.flush();
+      grids_[g]->flush();
+    });
+    held_.clear();
+  }
+
+  void spread_border() {
+    const std::size_t n = grids_.size(), vertices = sums_.border().vertices.size();
+    parallel_for(n, 1, {.threads = context_.threads}, {}, [&](std::size_t g, std::size_t) {
+      worker_->spread(sums_.border(), g * vertices / n, (g + 1) * vertices / n, *grids_[g]);
+      grids_[g]->flush();
     });
   }
 
   void transform_grids(MeshPassResult& result) {
     Coefficients sum(plan_.divided.degree);
     std::vector<GridSpreader<T>> spreaders;
+    double source2 = 0, hessian2 = 0;
     for (auto& grid : grids_) {
-      source2_ += grid->source2();
-      hessian2_ += grid->hessian2();
+      source2 += grid->source2();
+      hessian2 += grid->hessian2();
       spreaders.push_back(grid->take_spreader());
     }
     finish_adjoint<T>(transform_, spreaders, sum, context_, {"transform", 0.9, 1});
     divide_by_eigenvalue(sum);
-    for (const MeshPart& part : parts_) {
-      if (part.undivided.degree() != sum.degree()) continue;
-      for (std::size_t i = 0; i < sum.values().size(); ++i) {
-        sum.values()[i] += part.undivided.values()[i];
-      }
-    }
-    result.coefficients = std::move(sum);
-  }
-
-  void set_result(const BlockSums& sums, double lumps2, MeshPassResult& result) {
-    double mean = sums.mean;
-    for (const MeshPart& part : parts_) mean += part.mean;
-    Coefficients& c = result.coefficients;
-    c.c(0, 0) = mean / std::sqrt(4 * std::numbers::pi);
-    const double unscale = 1 / plan_.block.scale;
-    for (double& value : c.values()) value *= unscale;
-    result.volume = sums.volume6 / 6 * unscale * unscale * unscale;
-    result.closed = sums.hash1 == 0 && sums.hash2 == 0;
-    const auto root = [](double x) { return std::copysign(std::sqrt(std::abs(x)), x); };
-    result.min_d = root(sums.min_d2) * unscale;
-    result.min_cos_gamma = root(sums.min_cos2);
-    result.bad_triangles = sums.bad;
-    FastReport& report = result.report;
-    report.single = sizeof(T) == 4;
-    report.width = transform_.fourier.layout.width;
-    report.oversampling = static_cast<double>(transform_.fourier.layout.n_phi) /
-                          (2.0 * std::max(plan_.divided.degree, 1));
-    report.lumped_triangles = mesh_.n_triangles - sums.nodes;
-    report.vertices = mesh_.n_vertices;
-    set_error(sums, lumps2, result);
-  }
-
-  void set_error(const BlockSums& sums, double lumps2, MeshPassResult& result) {
-    PassFacts facts{.face_error2 = sums.face_error2,
-                    .half_edges = {},
-                    .source2 = source2_ + lumps2,
-                    .hessian2 = hessian2_,
-                    .vertices = mesh_.n_vertices,
-                    .transform = transform_};
-    for (const MeshPart& part : parts_) {
-      facts.node_error2 += part.node_error2;
-      facts.node_modulus += part.modulus;
-      facts.half_edges.insert(facts.half_edges.end(), part.half_edges.begin(),
-                              part.half_edges.end());
-    }
-    const PassError error = error_of_pass(plan_, facts, result.coefficients);
-    const int degree = plan_.divided.degree;
-    const auto relative = [&](double absolute, int first) {
-      const double norm = norm_of_degrees(result.coefficients, first, degree);
-      return norm > 0 ? absolute / norm : 0.0;
-    };
-    result.report.error = relative(error.whole, 1);
-    result.report.band_error = relative(error.band, 3 * degree / 4 + 1);
+    sums_.set_result(mesh_, std::move(sum), source2, hessian2, transform_, result);
   }
 
   const MeshView& mesh_;
   const MeshPassOptions& options_;
   MeshPlan plan_;
   const Context& context_;
-  LumpArrays<Lump> arrays_;
-  std::size_t n_blocks_;
-  std::vector<MeshPart> parts_;
+  bool streamed_;  // what parts leave is not held: see kMostHeld
+  bool upfront_;   // the window is chosen before the triangles are worked
+  PassSums<T> sums_;
+  Division division_;
+  std::optional<PartWorker<T>> worker_;
+  std::size_t groups_ = 0;                // of parts, see group_count()
+  std::optional<SharedParts<T>> shared_;  // with other processes, if there are any
+  std::vector<WorkedPart<T>> held_;
   NonuniformPlan transform_;
   GridKernel<T> kernel_;
   std::vector<std::unique_ptr<GridSources<T>>> grids_;
-  double source2_ = 0;  // of nodes; of vertices as well if they have Hessians
-  double hessian2_ = 0;
 };
 
 }  // namespace

@@ -23,12 +23,12 @@ void add_lump(const T* lump, T* sum) {
 
 template <bool kHessians, typename T>
 void add_triangle(const std::byte* record, const TriangleBlock<T>& block, std::size_t t,
-                  VertexLump<T>* vertices) {
+                  VertexLump<T>* vertices, std::uint32_t first_vertex) {
   const std::size_t slot = lump_slot<T>(t);
   for (std::size_t i = 0; i < 3; ++i) {
     std::uint32_t corner;
     std::memcpy(&corner, record + 4 * i, sizeof corner);
-    VertexLump<T>* vertex = vertices + lumps_per_vertex(kHessians) * corner;
+    VertexLump<T>* vertex = vertices + lumps_per_vertex(kHessians) * (corner - first_vertex);
     add_lump(block.lump[i][slot].value, vertex[0].value);
     if constexpr (kHessians) {
       add_lump(block.hessian[0][i][slot].value, vertex[1].value);
@@ -39,7 +39,7 @@ void add_triangle(const std::byte* record, const TriangleBlock<T>& block, std::s
 
 template <bool kHessians, typename T>
 void scatter(const std::byte* record, std::size_t stride, std::size_t n,
-             const TriangleBlock<T>& block, VertexLump<T>* vertices) {
+             const TriangleBlock<T>& block, VertexLump<T>* vertices, std::uint32_t first_vertex) {
   for (std::size_t at = 0; at < n; at += 8, record += 8 * stride) {
     std::uint64_t flags;
     std::memcpy(&flags, block.flag + at, sizeof flags);
@@ -48,14 +48,14 @@ void scatter(const std::byte* record, std::size_t stride, std::size_t n,
         const std::byte* one = record + odd * stride;
 #pragma GCC unroll 4
         for (std::size_t t = odd; t < 8; t += 2, one += 2 * stride) {
-          add_triangle<kHessians>(one, block, at + t, vertices);
+          add_triangle<kHessians>(one, block, at + t, vertices, first_vertex);
         }
       }
       continue;
     }
     for (std::size_t t = 0; t < 8 && at + t < n; ++t) {
       if ((block.flag[at + t] & kNodes) == 0) {
-        add_triangle<kHessians>(record + t * stride, block, at + t, vertices);
+        add_triangle<kHessians>(record + t * stride, block, at + t, vertices, first_vertex);
       }
     }
   }
@@ -65,23 +65,38 @@ void scatter(const std::byte* record, std::size_t stride, std::size_t n,
 
 template <typename T>
 void scatter_lumps(const MeshView& mesh, std::size_t first, std::size_t n, bool hessians,
-                   const TriangleBlock<T>& block, VertexLump<T>* vertices) {
+                   const TriangleBlock<T>& block, VertexLump<T>* vertices,
+                   std::uint32_t first_vertex) {
   const std::size_t stride = mesh.triangle_stride;
   const std::byte* record = mesh.triangles + first * stride;
-  if (hessians) return scatter<true>(record, stride, n, block, vertices);
-  scatter<false>(record, stride, n, block, vertices);
+  if (hessians) return scatter<true>(record, stride, n, block, vertices, first_vertex);
+  scatter<false>(record, stride, n, block, vertices, first_vertex);
 }
 
 template <typename T>
 void ask_for_lumps(const MeshView& mesh, std::size_t first, std::size_t n, bool hessians,
-                   const VertexLump<T>* vertices) {
+                   const VertexLump<T>* vertices, std::uint32_t first_vertex) {
   const std::byte* record = mesh.triangles + first * mesh.triangle_stride;
   for (std::size_t t = 0; t < n; ++t, record += mesh.triangle_stride) {
     for (std::size_t i = 0; i < 3; ++i) {
       std::uint32_t corner;
       std::memcpy(&corner, record + 4 * i, sizeof corner);
-      hwy::Prefetch(vertices + lumps_per_vertex(hessians) * corner);
+      hwy::Prefetch(vertices + lumps_per_vertex(hessians) * (corner - first_vertex));
     }
+  }
+}
+
+template <typename T>
+void link_fans(const MeshView& mesh, std::size_t first, std::size_t n,
+               const TriangleBlock<T>& block, std::uint32_t* fans, std::uint32_t first_vertex) {
+  const std::byte* record = mesh.triangles + first * mesh.triangle_stride;
+  for (std::size_t t = 0; t < n; ++t, record += mesh.triangle_stride) {
+    std::uint32_t corner[3];
+    std::memcpy(corner, record, sizeof corner);
+    const std::uint32_t name[3] = {block.hash[0][t], block.hash[1][t], block.hash[2][t]};
+    fans[corner[0] - first_vertex] += name[1] - name[2];
+    fans[corner[1] - first_vertex] += name[2] - name[0];
+    fans[corner[2] - first_vertex] += name[0] - name[1];
   }
 }
 
@@ -106,13 +121,18 @@ void sample_half_edges(const TriangleBlock<T>& block, std::size_t n,
 }
 
 template void ask_for_lumps(const MeshView&, std::size_t, std::size_t, bool,
-                            const VertexLump<std::int32_t>*);
+                            const VertexLump<std::int32_t>*, std::uint32_t);
 template void ask_for_lumps(const MeshView&, std::size_t, std::size_t, bool,
-                            const VertexLump<double>*);
+                            const VertexLump<double>*, std::uint32_t);
 template void scatter_lumps(const MeshView&, std::size_t, std::size_t, bool,
-                            const TriangleBlock<std::int32_t>&, VertexLump<std::int32_t>*);
+                            const TriangleBlock<std::int32_t>&, VertexLump<std::int32_t>*,
+                            std::uint32_t);
 template void scatter_lumps(const MeshView&, std::size_t, std::size_t, bool,
-                            const TriangleBlock<double>&, VertexLump<double>*);
+                            const TriangleBlock<double>&, VertexLump<double>*, std::uint32_t);
+template void link_fans(const MeshView&, std::size_t, std::size_t,
+                        const TriangleBlock<std::int32_t>&, std::uint32_t*, std::uint32_t);
+template void link_fans(const MeshView&, std::size_t, std::size_t, const TriangleBlock<double>&,
+                        std::uint32_t*, std::uint32_t);
 template void sample_half_edges(const TriangleBlock<std::int32_t>&, std::size_t,
                                 std::vector<SampledHalfEdge>&);
 template void sample_half_edges(const TriangleBlock<double>&, std::size_t,

@@ -228,8 +228,6 @@ LumpSums load_vertices(const MeshView& mesh, std::size_t first, std::size_t n,
 
 namespace {
 
-constexpr std::size_t kVectorLanes = 8;  // lumps are read so many at a time
-
 std::int32_t sum_of(std::int32_t a, std::int32_t b) {  // modulo 2^32
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
 }
@@ -273,46 +271,33 @@ LumpSums sum_lumps(const VertexLump<double>* lumps, std::size_t n, bool hessians
 }
 
 template <typename L>
-std::unique_ptr<typename LumpArrays<L>::Array> LumpArrays<L>::take() {
-  const std::lock_guard lock(mutex_);
-  if (!free_.empty()) {
-    std::unique_ptr<Array> array = std::move(free_.back());
-    free_.pop_back();
-    return array;
+void add_lumps(const VertexLump<L>* lumps, std::size_t n, VertexLump<L>* sums) {
+  for (std::size_t k = 0; k < n; ++k) {
+    for (int c = 0; c < 4; ++c) sums[k].value[c] = sum_of(sums[k].value[c], lumps[k].value[c]);
   }
-  return std::make_unique<Array>(Array::zeros(per_vertex_ * n_vertices_ + kVectorLanes));
 }
 
 template <typename L>
-void LumpArrays<L>::give_back(std::unique_ptr<Array> array) {
-  const std::lock_guard lock(mutex_);
-  free_.push_back(std::move(array));
-}
-
-template <typename L>
-const VertexLump<L>* LumpArrays<L>::sums(std::size_t first, std::size_t n,
-                                         VertexLump<L>* room) const {
-  if (free_.size() == 1 && per_vertex_ == 1) return free_[0]->data() + first;
-  for (std::size_t k = 0; k < per_vertex_; ++k) {
+const VertexLump<L>* arranged(const VertexLump<L>* lumps, std::size_t n, bool hessians,
+                              VertexLump<L>* room) {
+  if (!hessians && n == kVerticesPerBlock) return lumps;
+  constexpr std::size_t kLanes = 8;  // lumps are read so many at a time
+  const std::size_t padded = (n + kLanes - 1) / kLanes * kLanes;
+  const std::size_t per_vertex = lumps_per_vertex(hessians);
+  for (std::size_t k = 0; k < per_vertex; ++k) {
     VertexLump<L>* to = room + k * kVerticesPerBlock;
-    const std::size_t padded = (n + kVectorLanes - 1) / kVectorLanes * kVectorLanes;
+    for (std::size_t i = 0; i < n; ++i) to[i] = lumps[i * per_vertex + k];
     std::fill(to + n, to + padded, VertexLump<L>{});
-    for (std::size_t a = 0; a < free_.size(); ++a) {
-      const VertexLump<L>* from = free_[a]->data() + first * per_vertex_ + k;
-      for (std::size_t i = 0; i < n; ++i, from += per_vertex_) {
-        if (a == 0) {
-          to[i] = *from;
-          continue;
-        }
-        for (int c = 0; c < 4; ++c) to[i].value[c] = sum_of(to[i].value[c], from->value[c]);
-      }
-    }
   }
   return room;
 }
 
-template class LumpArrays<std::int32_t>;
-template class LumpArrays<double>;
+template void add_lumps(const VertexLump<std::int32_t>*, std::size_t, VertexLump<std::int32_t>*);
+template void add_lumps(const VertexLump<double>*, std::size_t, VertexLump<double>*);
+template const VertexLump<std::int32_t>* arranged(const VertexLump<std::int32_t>*, std::size_t,
+                                                  bool, VertexLump<std::int32_t>*);
+template const VertexLump<double>* arranged(const VertexLump<double>*, std::size_t, bool,
+                                            VertexLump<double>*);
 
 }  // namespace rholm
 #endif  // HWY_ONCE

@@ -3,11 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
-#include <mutex>
-#include <vector>
 
-#include "base/aligned_array.h"
 #include "harmonic/nonuniform/spread.h"
 #include "rholm/mesh_view.h"
 #include "transform/mesh_pass/block/block.h"
@@ -19,26 +15,16 @@ inline constexpr std::size_t kVerticesPerBlock = SourceBatch<double>::kSize;
 // Room for the lumps of a block.
 inline constexpr std::size_t kLumpsPerBlock = lumps_per_vertex(true) * kVerticesPerBlock;
 
-// Arrays of lumps, one a thread. Sums of lumps are exact in any order: a thread takes any array
-// that is free.
+// sums += n lumps: exact, in integers modulo 2^32.
 template <typename L>
-class LumpArrays {
- public:
-  using Array = AlignedArray<VertexLump<L>>;
-  LumpArrays(std::size_t n_vertices, bool hessians)
-      : n_vertices_(n_vertices), per_vertex_(lumps_per_vertex(hessians)) {}
-  std::unique_ptr<Array> take();
-  void give_back(std::unique_ptr<Array> array);
-  // The sums of all arrays for n <= kVerticesPerBlock vertices from `first` on, which may be in
-  // `room`; zeros beyond the last vertex of the mesh. With Hessians, what is first of all vertices
-  // comes first, then kVerticesPerBlock lumps further on what is second, and third.
-  const VertexLump<L>* sums(std::size_t first, std::size_t n, VertexLump<L>* room) const;
+void add_lumps(const VertexLump<L>* lumps, std::size_t n, VertexLump<L>* sums);
 
- private:
-  std::size_t n_vertices_, per_vertex_;
-  std::vector<std::unique_ptr<Array>> free_;
-  std::mutex mutex_;
-};
+// Lumps of n <= kVerticesPerBlock vertices, as sum_lumps() and load_vertices() take them, which may
+// be in `room`: with Hessians, what is first of all vertices comes first, then kVerticesPerBlock
+// lumps further on what is second, and third; zeros up to whole vectors behind the last.
+template <typename L>
+const VertexLump<L>* arranged(const VertexLump<L>* lumps, std::size_t n, bool hessians,
+                              VertexLump<L>* room);
 
 // Of lumps, in quanta.
 struct LumpSums {
@@ -49,7 +35,7 @@ struct LumpSums {
 
   void add(const LumpSums& other);
 };
-// Of a block, as LumpArrays::sums() has them.
+// Of a block, as arranged() has them.
 LumpSums sum_lumps(const VertexLump<std::int32_t>* lumps, std::size_t n, bool hessians);
 LumpSums sum_lumps(const VertexLump<double>* lumps, std::size_t n, bool hessians);
 

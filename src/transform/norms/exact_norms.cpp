@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <span>
+#include <string>
 #include <vector>
 
 #undef HWY_TARGET_INCLUDE
@@ -12,9 +14,12 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "base/bytes.h"
+#include "base/cancel.h"
 #include "base/compensated_sum.h"
 #include "base/parallel.h"
 #include "base/poison.h"
+#include "base/progress.h"
 #include "shape/queries/corner_rows-inl.h"
 #include "transform/geometry/star_geometry.h"
 #include "transform/norms/exact_norms_rules.h"
@@ -371,28 +376,117 @@ namespace rholm {
 
 HWY_EXPORT(SumRange);
 
-ExactNorms exact_norms(const MeshView& mesh, const Vec3& center, const Context& context,
-                       FaceSizes* sizes) {
-  const double scale = unit_scale(mesh, center, context);
-  if (sizes != nullptr) {
-    sizes->scale = scale;
-    sizes->twice_areas.resize((mesh.n_triangles + FaceSizes::kGroup - 1) / FaceSizes::kGroup);
-    sizes->angles2.resize((mesh.n_triangles + kBlock - 1) / kBlock);
-  }
-  const Frame frame = {.shift = -scale * center, .scale = scale};
-  constexpr std::size_t kGrain = 32 * kBlock;  // chosen: about 50 us
-  std::vector<NormSums> parts((mesh.n_triangles + kGrain - 1) / kGrain);
-  parallel_for(mesh.n_triangles, kGrain, context, {"norms", 0, 1},
-               [&](std::size_t begin, std::size_t end) {
-                 CompensatedSum sums[3];
-                 HWY_DYNAMIC_DISPATCH(SumRange)(mesh, frame, begin, end, sums, sizes);
-                 parts[begin / kGrain] = {sums[0].value(), sums[1].value(), sums[2].value()};
-               });
+namespace {
+
+constexpr std::size_t kGrain = 32 * kBlock;      // chosen: about 50 us
+constexpr std::size_t kTask = 256 * kGrain;      // chosen: a million triangles, some 20 ms
+static_assert(kBlock % FaceSizes::kGroup == 0);  // tasks have whole groups
+
+// What another process needs to know.
+struct NormsJob {
+  Vec3 center;
+  double scale = 1;
+  bool with_sizes = false;
+
+  Frame frame() const { return {.shift = -scale * center, .scale = scale}; }
+};
+
+NormSums sums_of(const MeshView& mesh, const Frame& frame, std::size_t begin, std::size_t end,
+                 FaceSizes* sizes) {
+  CompensatedSum sums[3];
+  HWY_DYNAMIC_DISPATCH(SumRange)(mesh, frame, begin, end, sums, sizes);
+  return {sums[0].value(), sums[1].value(), sums[2].value()};
+}
+
+void make_room(std::size_t n_triangles, double scale, FaceSizes& sizes) {
+  sizes.scale = scale;
+  sizes.twice_areas.resize((n_triangles + FaceSizes::kGroup - 1) / FaceSizes::kGroup);
+  sizes.angles2.resize((n_triangles + kBlock - 1) / kBlock);
+}
+
+ExactNorms norms_of(const std::vector<NormSums>& parts, double scale) {
   CompensatedSum sums[3];
   for (const NormSums& part : parts) add_sums(part, sums);
   return {.radius_squared = sums[0].value() / 2 / (scale * scale),
           .solid_angle = sums[1].value() / 2,
           .volume = sums[2].value() / 6 / (scale * scale * scale)};
+}
+
+// The triangles of a task as a mesh, its sums and sizes as bytes.
+std::string work(const MeshView& mesh, const NormsJob& job, std::size_t task) {
+  MeshView some = mesh;
+  some.triangles += task * kTask * mesh.triangle_stride;
+  some.n_triangles = std::min(kTask, mesh.n_triangles - task * kTask);
+  FaceSizes sizes;
+  if (job.with_sizes) make_room(some.n_triangles, job.scale, sizes);
+  std::vector<NormSums> parts;
+  for (std::size_t at = 0; at < some.n_triangles; at += kGrain) {
+    ask_cancel();
+    parts.push_back(sums_of(some, job.frame(), at, std::min(some.n_triangles, at + kGrain),
+                            job.with_sizes ? &sizes : nullptr));
+  }
+  ByteWriter writer;
+  writer.array(std::span<const NormSums>(parts));
+  writer.array(std::span<const double>(sizes.twice_areas));
+  writer.array(std::span<const double>(sizes.angles2));
+  return writer.take();
+}
+
+// Puts them where they belong.
+void take(std::size_t task, const std::string& bytes, std::vector<NormSums>& parts,
+          FaceSizes* sizes) {
+  const auto put = [](const auto& from, std::size_t at, auto& to) {
+    if (at + from.size() > to.size()) ByteReader::refuse();
+    std::copy(from.begin(), from.end(), to.begin() + static_cast<std::ptrdiff_t>(at));
+  };
+  std::vector<NormSums> sums;
+  std::vector<double> areas, angles;
+  ByteReader reader(bytes);
+  reader.array(sums);
+  reader.array(areas);
+  reader.array(angles);
+  reader.finish();
+  put(sums, task * (kTask / kGrain), parts);
+  if (sizes == nullptr) return;
+  put(areas, task * (kTask / FaceSizes::kGroup), sizes->twice_areas);
+  put(angles, task * (kTask / kBlock), sizes->angles2);
+}
+
+}  // namespace
+
+ExactNorms exact_norms(const MeshView& mesh, const Vec3& center, const Context& context,
+                       FaceSizes* sizes, const ShareTasks& share) {
+  const double scale = unit_scale(mesh, center, context);
+  if (sizes != nullptr) make_room(mesh.n_triangles, scale, *sizes);
+  const NormsJob job = {.center = center, .scale = scale, .with_sizes = sizes != nullptr};
+  std::vector<NormSums> parts((mesh.n_triangles + kGrain - 1) / kGrain);
+  const std::size_t tasks = (mesh.n_triangles + kTask - 1) / kTask;
+  if (share && tasks > 1) {
+    ByteWriter writer;
+    writer.value(job);
+    SharedProgress progress(context, "norms", 0, 1, static_cast<double>(tasks));
+    share(
+        {.job = writer.take(), .count = tasks},
+        [&](std::size_t task) { return work(mesh, job, task); },
+        [&](std::size_t task, const std::string& bytes) {
+          take(task, bytes, parts, sizes);
+          progress.add(1);
+        });
+    return norms_of(parts, scale);
+  }
+  parallel_for(mesh.n_triangles, kGrain, context, {"norms", 0, 1},
+               [&](std::size_t begin, std::size_t end) {
+                 parts[begin / kGrain] = sums_of(mesh, job.frame(), begin, end, sizes);
+               });
+  return norms_of(parts, scale);
+}
+
+DoSharedTask norms_tasks(const MeshView& mesh, std::string_view job) {
+  NormsJob wanted;
+  ByteReader reader(job);
+  reader.value(wanted);
+  reader.finish();
+  return [&mesh, wanted](std::size_t task) { return work(mesh, wanted, task); };
 }
 
 bool covers_once(const ExactNorms& norms) {

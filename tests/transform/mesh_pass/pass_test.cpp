@@ -25,15 +25,7 @@ namespace rholm {
 namespace {
 
 using test::relative_error;
-
-// Random radii: every edge is a crease.
-Mesh rough_sphere(int subdivisions) {
-  Mesh mesh = icosphere(subdivisions);
-  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    mesh.vertices[i] *= test::random_in(0.8, 1.2, 5, i);
-  }
-  return mesh;
-}
+using test::rough_sphere;
 
 // With flat triangles: each of the first n loses its first edge a -> b to a triangle a, b, m with m
 // in the middle of the edge, but for rounding.

@@ -147,6 +147,38 @@ TEST(exact_norms, have_the_same_bits_for_any_number_of_threads) {
   }
 }
 
+// By another process that has the mesh and knows what the job says.
+TEST(exact_norms, have_the_same_bits_where_another_process_sums_ranges) {
+  const auto file = test::packed<float>(bumpy_sphere(8), 9);  // more than a million triangles
+  const Vec3 center = {0.05, 0.02, 0.01};
+  for (const bool with_sizes : {false, true}) {
+    FaceSizes alone_sizes, shared_sizes;
+    const ExactNorms alone =
+        exact_norms(file.view, center, {}, with_sizes ? &alone_sizes : nullptr);
+    std::size_t n = 0;
+    const ShareTasks share = [&](const SharedTasks& tasks, const DoSharedTask& here,
+                                 const TakeSharedResult& take) {
+      n = tasks.count;
+      const DoSharedTask there = norms_tasks(file.view, tasks.job);
+      EXPECT_THROW(take(0, "nonsense"), Error);
+      for (std::size_t task = 0; task < n; ++task) {
+        take(task, task % 2 == 0 ? there(task) : here(task));
+      }
+    };
+    const ExactNorms shared =
+        exact_norms(file.view, center, {}, with_sizes ? &shared_sizes : nullptr, share);
+    EXPECT_EQ(n, 2u);
+    EXPECT_EQ(shared.radius_squared, alone.radius_squared);
+    EXPECT_EQ(shared.solid_angle, alone.solid_angle);
+    EXPECT_EQ(shared.volume, alone.volume);
+    EXPECT_EQ(shared_sizes.scale, alone_sizes.scale);
+    EXPECT_EQ(shared_sizes.twice_areas, alone_sizes.twice_areas);
+    EXPECT_EQ(shared_sizes.angles2, alone_sizes.angles2);
+    EXPECT_EQ(alone_sizes.angles2.empty(), !with_sizes);
+  }
+  EXPECT_THROW(norms_tasks(file.view, "nonsense"), Error);
+}
+
 // <1/|x|> and <1/|x|^3> of single triangles at distance 1: every rule up to its reach, and the
 // closed form and the pieces beyond. The ratio to the volume leaves the rounding of d2 out.
 TEST(exact_norms, mean_powers_of_a_triangle_of_any_size_shape_and_tilt) {

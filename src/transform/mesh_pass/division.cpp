@@ -1,0 +1,110 @@
+#include "transform/mesh_pass/division.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <iterator>
+#include <utility>
+
+#include "transform/mesh_pass/block/block.h"
+
+namespace rholm {
+namespace {
+
+// Chosen: a part and what is between it and others are large against its rim, and its lumps (8 ...
+// 50 MB) small.
+constexpr std::size_t kStreamedSize = std::size_t{1} << 20;
+
+}  // namespace
+
+std::size_t Division::n(std::size_t p) const { return std::min(size, n_triangles - first(p)); }
+
+Division divide_triangles(std::size_t n_triangles, std::size_t wanted) {
+  const std::size_t blocks = (n_triangles + kTrianglesPerBlock - 1) / kTrianglesPerBlock;
+  const std::size_t each = (blocks + wanted - 1) / wanted;
+  return {.n_triangles = n_triangles,
+          .size = each * kTrianglesPerBlock,
+          .count = (blocks + each - 1) / each};
+}
+
+std::size_t held_parts(std::size_t n_triangles) {
+  return std::clamp<std::size_t>(n_triangles / 20000, 1, 8);
+}
+
+std::size_t streamed_parts(std::size_t n_triangles, int degree) {
+  // A grid has some 3 L^2 cells, each of which costs a tenth of a triangle to make and to add.
+  const auto degrees = static_cast<std::size_t>(degree);
+  const std::size_t size = std::max(kStreamedSize, 2 * degrees * degrees);
+  return (n_triangles + size - 1) / size;
+}
+
+IndexRange index_range(const MeshView& mesh, std::size_t first, std::size_t n) {
+  using Four [[gnu::vector_size(16)]] = std::uint32_t;
+  const std::size_t stride = mesh.triangle_stride;
+  const std::byte* record = mesh.triangles + first * stride;
+  Four low = {UINT32_MAX, UINT32_MAX, UINT32_MAX, 0}, high = {};
+  std::size_t t = 0;
+  // Records are read with 4 bytes more, but for the last.
+  for (; t + 1 < n; ++t, record += stride) {
+    Four corners;
+    std::memcpy(&corners, record, sizeof corners);
+    low = corners < low ? corners : low;
+    high = corners > high ? corners : high;
+  }
+  IndexRange range;
+  const auto add = [&](std::uint32_t smallest, std::uint32_t largest) {
+    range.low = std::min(range.low, smallest);
+    range.high = std::max(range.high, largest);
+  };
+  for (std::size_t i = 0; i < 3 && t > 0; ++i) add(low[i], high[i]);
+  for (; t < n; ++t, record += stride) {
+    std::uint32_t corners[3];
+    std::memcpy(corners, record, sizeof corners);
+    for (const std::uint32_t corner : corners) add(corner, corner);
+  }
+  return range;
+}
+
+namespace {
+
+std::vector<IndexRange> merged(std::vector<IndexRange> ranges) {
+  std::sort(ranges.begin(), ranges.end(),
+            [](const IndexRange& a, const IndexRange& b) { return a.low < b.low; });
+  std::size_t n = 0;
+  for (const IndexRange& range : ranges) {
+    if (n > 0 && range.low <= ranges[n - 1].high) {
+      ranges[n - 1].high = std::max(ranges[n - 1].high, range.high);
+    } else {
+      ranges[n++] = range;
+    }
+  }
+  ranges.resize(n);
+  return ranges;
+}
+
+}  // namespace
+
+std::vector<IndexRange> ranges_from(const std::vector<IndexRange>& ranges, std::size_t p) {
+  std::vector<IndexRange> later(ranges.begin() + static_cast<std::ptrdiff_t>(p), ranges.end());
+  std::erase_if(later, [](const IndexRange& range) { return range.size() == 0; });
+  return merged(std::move(later));
+}
+
+bool contains(const std::vector<IndexRange>& in_order, std::uint32_t index) {
+  const auto behind =
+      std::upper_bound(in_order.begin(), in_order.end(), index,
+                       [](std::uint32_t i, const IndexRange& range) { return i < range.low; });
+  return behind != in_order.begin() && index <= std::prev(behind)->high;
+}
+
+std::vector<IndexRange> shared_ranges(const std::vector<IndexRange>& ranges, std::size_t p) {
+  const IndexRange& own = ranges[p];
+  std::vector<IndexRange> shared;
+  for (std::size_t q = 0; q < ranges.size(); ++q) {
+    const IndexRange both = {std::max(own.low, ranges[q].low), std::min(own.high, ranges[q].high)};
+    if (q != p && both.low <= both.high) shared.push_back(both);
+  }
+  return merged(std::move(shared));
+}
+
+}  // namespace rholm

@@ -1,0 +1,46 @@
+// A mesh pass in parts: ranges of the triangles as they lie, fixed by their number, the degree and
+// the plan, whatever there is of threads, ranks and memory.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "rholm/mesh_view.h"
+
+namespace rholm {
+
+struct Division {
+  std::size_t n_triangles = 0;
+  std::size_t size = 0;   // triangles of every part but the last: whole blocks
+  std::size_t count = 0;  // of parts
+
+  std::size_t first(std::size_t p) const { return p * size; }
+  std::size_t n(std::size_t p) const;
+};
+// At most `wanted` parts of the same size.
+Division divide_triangles(std::size_t n_triangles, std::size_t wanted);
+
+// How many parts pay before the sources are spread, when no grid goes with each.
+std::size_t held_parts(std::size_t n_triangles);
+// Beyond so many triangles what parts leave is not held until the window is known: they are spread
+// one after the other, each to a grid of its own, as streamed_parts() says.
+inline constexpr std::size_t kMostHeld = std::size_t{1} << 23;
+std::size_t streamed_parts(std::size_t n_triangles, int degree);
+
+// The smallest and the largest index of a vertex; none if low > high.
+struct IndexRange {
+  std::uint32_t low = UINT32_MAX, high = 0;
+  std::size_t size() const { return low > high ? 0 : std::size_t{high} - low + 1; }
+};
+// Of n triangles from `first` on.
+IndexRange index_range(const MeshView& mesh, std::size_t first, std::size_t n);
+
+// The indices in the ranges of part p and those behind it: in order, without overlaps.
+std::vector<IndexRange> ranges_from(const std::vector<IndexRange>& ranges, std::size_t p);
+bool contains(const std::vector<IndexRange>& in_order, std::uint32_t index);
+
+// What of the range of part p lies in those of others: in order, without overlaps.
+std::vector<IndexRange> shared_ranges(const std::vector<IndexRange>& ranges, std::size_t p);
+
+}  // namespace rholm

@@ -1,0 +1,231 @@
+#include "transform/mesh_pass/part_worker.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "base/cancel.h"
+#include "rholm/error.h"
+#include "transform/mesh_pass/hermite_nodes.h"
+#include "transform/mesh_pass/run_pass.h"
+#include "transform/mesh_pass/scatter.h"
+
+namespace rholm {
+namespace {
+
+constexpr std::size_t kBlockSize = kTrianglesPerBlock;
+// Blocks between two reports of progress: about 1 ms.
+constexpr std::size_t kBlocksPerStep = 512;
+
+}  // namespace
+
+// The triangles of one part on their way.
+template <typename T>
+class PartWorker<T>::Triangles {
+ public:
+  // `fans`: see link_fans(), if anything is to be linked.
+  Triangles(const PartWorker& worker, WorkedPart<T>& worked, GridSources<T>* grid,
+            std::uint32_t* fans)
+      : worker_(worker),
+        worked_(worked),
+        mesh_(worked.mesh.view),
+        parameters_(worker.plan_.block),
+        fans_(fans),
+        sink_(worked.part, grid, worker.plan_),
+        vertices_{.mesh = mesh_,
+                  .center = parameters_.scale * parameters_.center,
+                  .scale = parameters_.scale},
+        writer_({worker.plan_.divided, worker.plan_.undivided}, vertices_, sink_),
+        between_(vertices_, sink_) {}
+
+  void run(std::size_t first_in_mesh, SharedProgress& progress) {
+    const std::size_t n = worked_.mesh.n_triangles;
+    const bool copied = !worked_.mesh.names.empty();
+    const auto& release = worker_.options_.release;
+    const auto done = [&](std::size_t from, std::size_t count) {
+      if (release) release(first_in_mesh + from, count);
+      progress.add(count);
+    };
+    if (copied) done(0, n);
+    std::uint32_t next_largest = look_at(0);
+    for (std::size_t at = 0; at < n; at += kBlockSize) {
+      ask_cancel();
+      parameters_.largest_index = next_largest;
+      if (at + kBlockSize < n) next_largest = look_at(at + kBlockSize);
+      work(worked_.mesh.first_triangle + at, std::min(kBlockSize, n - at));
+      constexpr std::size_t kStep = kBlocksPerStep * kBlockSize;
+      const std::size_t end = at + kBlockSize;
+      if (!copied && end % kStep == 0 && end <= n) done(end - kStep, kStep);
+    }
+    writer_.flush();
+    worked_.part.node_error2 = writer_.error2();
+    between_.flush();
+    sink_.sum_undivided();
+  }
+
+ private:
+  std::uint32_t look_at(std::size_t at) const {
+    const std::size_t first = worked_.mesh.first_triangle + at;
+    const std::size_t n = std::min(kBlockSize, worked_.mesh.n_triangles - at);
+    if (worked_.mesh.names.empty()) check_triangles(worker_.options_, first, n);
+    const std::uint32_t largest = largest_index(mesh_, first, n);
+    ask_for_lumps(mesh_, first, n, parameters_.hessians, worked_.lumps.data(),
+                  worked_.mesh.first_vertex);
+    return largest;
+  }
+
+  void work(std::size_t first, std::size_t n) {
+    MeshPart<T>& part = worked_.part;
+    const std::uint32_t first_vertex = worked_.mesh.first_vertex;
+    const double mean_reach2 = std::max(parameters_.mean_reach2, parameters_.mean_nodes_reach2);
+    const std::size_t before = part.sums.nodes;
+    work_block(mesh_, first, n, parameters_, *block_, part.sums);
+    scatter_lumps(mesh_, first, n, parameters_.hessians, *block_, worked_.lumps.data(),
+                  first_vertex);
+    if (fans_ != nullptr) link_fans(mesh_, first, n, *block_, fans_, first_vertex);
+    if (block_->has_nodes_between) between_.add(mesh_, first, n, *block_);
+    sample_half_edges(*block_, n, part.half_edges);
+    if (part.sums.nodes != before || part.sums.max_edge2 > mean_reach2) write_nodes(first, n);
+  }
+
+  void write_nodes(std::size_t first, std::size_t n) {
+    const TriangleBlock<Lump>& block = *block_;
+    for (std::size_t t = 0; t < n; ++t) {
+      if (block.flag[t] == kLumped) continue;
+      std::array<Vec3, 3> p;
+      for (int i = 0; i < 3; ++i) {
+        p[i] = {block.corner[i][0][t], block.corner[i][1][t], block.corner[i][2][t]};
+      }
+      if ((block.flag[t] & kNodes) != 0) {
+        writer_.add_triangle(p, mesh_.triangle(first + t));
+      }
+      if ((block.flag[t] & kMeanNodes) != 0) {
+        worked_.part.mean += radius_integral(p, worker_.plan_.allowed.mean);
+      }
+    }
+  }
+
+  const PartWorker& worker_;
+  WorkedPart<T>& worked_;
+  const MeshView& mesh_;
+  BlockParameters parameters_;
+  std::uint32_t* fans_;
+  std::unique_ptr<TriangleBlock<Lump>> block_ = std::make_unique<TriangleBlock<Lump>>();
+  PartSink<T> sink_;
+  ScaledVertices vertices_;
+  NodeWriter writer_;
+  NodesBetween between_;
+};
+
+template <typename T>
+IndexRange PartWorker<T>::range_of(std::size_t p) const {
+  const IndexRange range = index_range(mesh_, division_.first(p), division_.n(p));
+  if (range.high >= mesh_.n_vertices) refuse_mesh();
+  return range;
+}
+
+template <typename T>
+WorkedPart<T> PartWorker<T>::work(std::size_t p, GridSources<T>* grid,
+                                  SharedProgress& progress) const {
+  const bool hessians = plan_.block.hessians;
+  WorkedPart<T> worked;
+  worked.mesh =
+      part_mesh(mesh_, division_.first(p), division_.n(p), ranges_[p],
+                [&](std::size_t first, std::size_t n) { check_triangles(options_, first, n); });
+  const std::size_t n_vertices = worked.mesh.n_vertices;
+  worked.lumps = AlignedArray<VertexLump<Lump>>::zeros(lumps_per_vertex(hessians) * n_vertices);
+  worked.part.border.per_vertex = lumps_per_vertex(hessians);
+  AlignedArray<std::uint32_t> fans;
+  if (!shared_ranges(ranges_, p).empty()) fans = AlignedArray<std::uint32_t>::zeros(n_vertices);
+  Triangles(*this, worked, grid, fans.data()).run(division_.first(p), progress);
+  std::vector<std::uint32_t>().swap(worked.mesh.triangles);
+  if (fans.size() > 0) take_border(p, fans.data(), worked);
+  visit_lumps(worked.lumps.data(), n_vertices,
+              [&](std::size_t, std::size_t n, const VertexLump<Lump>* lumps) {
+                worked.part.lumps.add(sum_lumps(lumps, n, hessians));
+              });
+  return worked;
+}
+
+// What is around a vertex lies in this part if it is closed: others may have the vertex, but none a
+// triangle next to one of these.
+template <typename T>
+void PartWorker<T>::take_border(std::size_t p, const std::uint32_t* fans,
+                                WorkedPart<T>& worked) const {
+  MeshPart<T>& part = worked.part;
+  const std::size_t per_vertex = part.border.per_vertex;
+  for (const IndexRange& shared : shared_ranges(ranges_, p)) {
+    const PartMesh::Places places = worked.mesh.places(shared);
+    for (std::size_t i = places.begin; i < places.end; ++i) {
+      if (fans[i] == 0) continue;
+      VertexLump<Lump>* lumps = worked.lumps.data() + per_vertex * i;
+      part.border.add(worked.mesh.name(i), lumps);
+      part.border_weight += static_cast<double>(lumps->value[0]);
+      std::fill(lumps, lumps + per_vertex, VertexLump<Lump>{});
+    }
+  }
+}
+
+template <typename T>
+template <typename Visit>
+void PartWorker<T>::visit_lumps(const VertexLump<Lump>* lumps, std::size_t n,
+                                const Visit& visit) const {
+  const bool hessians = plan_.block.hessians;
+  alignas(64) VertexLump<Lump> room[kLumpsPerBlock];
+  for (std::size_t first = 0; first < n; first += kVerticesPerBlock) {
+    const std::size_t count = std::min(kVerticesPerBlock, n - first);
+    visit(first, count,
+          arranged(lumps + lumps_per_vertex(hessians) * first, count, hessians, room));
+  }
+}
+
+template <typename T>
+void PartWorker<T>::spread(const WorkedPart<T>& worked, GridSources<T>& grid) const {
+  grid.add(worked.part.kept);
+  for (const GradientNode& node : worked.part.kept_gradients) grid.add(node);
+  const PartMesh& mesh = worked.mesh;
+  visit_lumps(worked.lumps.data(), mesh.n_vertices,
+              [&](std::size_t first, std::size_t n, const VertexLump<Lump>* lumps) {
+                if (first % (256 * kVerticesPerBlock) == 0) ask_cancel();
+                grid.add_vertices(mesh.view, mesh.first_vertex + first, n, plan_.block, lumps);
+              });
+  if (options_.release_vertices && mesh.names.empty()) {
+    options_.release_vertices(mesh.first_vertex, mesh.n_vertices);
+  }
+}
+
+template <typename T>
+void PartWorker<T>::spread(const BorderLumps<Lump>& border, std::size_t begin, std::size_t end,
+                           GridSources<T>& grid) const {
+  if (begin >= end) return;
+  const auto at = [](std::size_t i) { return static_cast<std::ptrdiff_t>(i); };
+  const std::vector<std::uint32_t> names(border.vertices.begin() + at(begin),
+                                         border.vertices.begin() + at(end));
+  std::vector<std::byte> bytes;
+  const MeshView view = gathered(mesh_, names, bytes);
+  visit_lumps(border.lumps.data() + border.per_vertex * begin, names.size(),
+              [&](std::size_t first, std::size_t n, const VertexLump<Lump>* lumps) {
+                grid.add_vertices(view, first, n, plan_.block, lumps);
+              });
+}
+
+template <typename T>
+LumpSums PartWorker<T>::sums_of(const BorderLumps<Lump>& border) const {
+  LumpSums sums;
+  visit_lumps(border.lumps.data(), border.vertices.size(),
+              [&](std::size_t, std::size_t n, const VertexLump<Lump>* lumps) {
+                sums.add(sum_lumps(lumps, n, plan_.block.hessians));
+              });
+  return sums;
+}
+
+template <typename T>
+void PartWorker<T>::refuse_mesh() const {
+  validate(mesh_);
+  throw Error(ErrorCode::kInvalidInput, "the coordinates are too large to be multiplied");
+}
+
+template class PartWorker<float>;
+template class PartWorker<double>;
+
+}  // namespace rholm

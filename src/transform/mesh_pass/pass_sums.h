@@ -1,0 +1,54 @@
+// The parts of a mesh pass added up.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "transform/mesh_pass/mesh_part.h"
+#include "transform/mesh_pass/part_worker.h"
+#include "transform/mesh_pass/pass.h"
+#include "transform/mesh_pass/plan/error_budget.h"
+#include "transform/mesh_pass/plan/plan.h"
+#include "transform/mesh_pass/run_pass.h"
+
+namespace rholm {
+
+// Parts are added in their order, then finish() is called, then the rest may be asked for.
+template <typename T>
+class PassSums {
+ public:
+  explicit PassSums(const MeshPlan& plan) : plan_(plan), border_sums_(plan.block.hessians) {}
+
+  void add(const MeshPart<T>& part);
+  // What is complete of the border, none of whose vertices is in the ranges `later`, to be spread.
+  BorderLumps<LumpOf<T>> take_border(const std::vector<IndexRange>& later,
+                                     const PartWorker<T>& worker);
+  // Throws InvalidInput if something is wrong with the mesh.
+  Outcome finish(const PartWorker<T>& worker);
+
+  const BorderLumps<LumpOf<T>>& border() const { return *border_; }
+  std::size_t n_kept() const { return n_kept_; }
+  // Sums of squares of what is spread, as far as it is known before: of nodes that were kept and
+  // vertices, and of L^2 times Hessians.
+  double source2() const { return kept2_ + lumps2_; }
+  double hessian2() const;
+
+  // `sum`: of all grids, transformed. `source2`, `hessian2`: what the grids have counted.
+  void set_result(const MeshView& mesh, Coefficients sum, double source2, double hessian2,
+                  const NonuniformPlan& transform, MeshPassResult& result);
+
+ private:
+  void set_error(const MeshView& mesh, double source2, double hessian2,
+                 const NonuniformPlan& transform, MeshPassResult& result);
+
+  const MeshPlan& plan_;
+  MeshPart<T> whole_;  // but for its border and what is kept
+  BorderSums<LumpOf<T>> border_sums_;
+  const BorderLumps<LumpOf<T>>* border_ = nullptr;  // what was not taken
+  LumpSums border_lumps_;
+  std::size_t n_kept_ = 0;
+  double kept2_ = 0, lumps2_ = 0;
+  bool out_of_range_ = false;
+};
+
+}  // namespace rholm

@@ -1,0 +1,157 @@
+// Parts of a mesh pass worked by several processes: here by helpers that have the mesh each, and
+// know of a pass what the jobs say.
+#include "transform/mesh_pass/shared_parts.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "rholm/error.h"
+#include "rholm/primitives.h"
+#include "support/packed_mesh.h"
+#include "support/random_data.h"
+#include "support/test_meshes.h"
+#include "support/test_shapes.h"
+
+namespace rholm {
+namespace {
+
+using test::rough_sphere;
+
+// A process besides the one that runs the pass.
+struct Other {
+  explicit Other(const Mesh& m) : mesh(m), view(view_of(mesh)), helper(view, hooks) {}
+  Mesh mesh;
+  MeshView view;
+  MeshPassOptions hooks;
+  PassHelper helper;
+};
+
+// Does the tasks of all of them, one after the other.
+class Processes {
+ public:
+  Processes(const Mesh& mesh, std::size_t n) {
+    for (std::size_t i = 1; i < n; ++i) others_.push_back(std::make_unique<Other>(mesh));
+  }
+
+  ShareTasks share() {
+    return [this](const SharedTasks& tasks, const DoSharedTask& here,
+                  const TakeSharedResult& take) {
+      std::vector<DoSharedTask> work = {here};
+      for (const auto& other : others_) work.push_back(other->helper.tasks_of(tasks.job));
+      ++rounds;
+      std::vector<std::string> results(tasks.count);
+      for (std::size_t i = 0; i < tasks.count; ++i) {
+        const std::size_t task = tasks.count - 1 - i;  // any order is good
+        const std::size_t who = tasks.dealt && !is_dealt_badly ? task * work.size() / tasks.count
+                                                               : (7 * task + rounds) % work.size();
+        results[task] = work[who](task);
+        bytes += who == 0 ? 0 : results[task].size();
+      }
+      for (std::size_t task = 0; task < tasks.count; ++task) take(task, results[task]);
+    };
+  }
+
+  bool is_dealt_badly = false;  // grids to others than those that hold their parts
+  std::size_t rounds = 0, bytes = 0;
+
+ private:
+  std::vector<std::unique_ptr<Other>> others_;
+};
+
+void expect_same_bits(const MeshPassResult& a, const MeshPassResult& b) {
+  ASSERT_EQ(a.coefficients.degree(), b.coefficients.degree());
+  EXPECT_TRUE(std::ranges::equal(a.coefficients.values(), b.coefficients.values()));
+  EXPECT_EQ(a.volume, b.volume);
+  EXPECT_EQ(a.closed, b.closed);
+  EXPECT_EQ(a.min_d, b.min_d);
+  EXPECT_EQ(a.min_cos_gamma, b.min_cos_gamma);
+  EXPECT_EQ(a.bad_triangles, b.bad_triangles);
+  EXPECT_EQ(a.report.error, b.report.error);
+  EXPECT_EQ(a.report.band_error, b.report.band_error);
+  EXPECT_EQ(a.report.nodes, b.report.nodes);
+  EXPECT_EQ(a.report.lumped_triangles, b.report.lumped_triangles);
+  EXPECT_EQ(a.report.passes, b.report.passes);
+}
+
+// Parts that are held until the window is known (three rounds), and spread at once, with lumps of
+// both precisions and with Hessians; up to eight grids, and one that all are added to; a mesh of
+// one part is not shared.
+TEST(shared_parts, give_the_bits_of_one_process) {
+  const Mesh fine = bumpy_sphere(7), rough = rough_sphere(5);
+  std::set<std::size_t> rounds;
+  for (const Mesh* mesh : {&fine, &rough}) {
+    for (const double precision : {1e-2, 1e-6, 1e-10}) {
+      for (const std::size_t streamed : {0u, 3u, 21u}) {
+        MeshPassOptions options{.degree = 12,
+                                .precision = precision,
+                                .center = {0.05, 0.02, 0.01},
+                                .most_held = streamed > 0 ? 100 : kMostHeld,
+                                .streamed_parts = streamed};
+        const MeshPassResult alone = mesh_pass(view_of(*mesh), options, {});
+        for (const std::size_t n : {1u, 3u}) {
+          Processes processes(*mesh, n);
+          options.share = processes.share();
+          expect_same_bits(mesh_pass(view_of(*mesh), options, {.threads = 2}), alone);
+          ASSERT_EQ(processes.rounds % static_cast<std::size_t>(alone.report.passes), 0u);
+          rounds.insert(processes.rounds / static_cast<std::size_t>(alone.report.passes));
+          EXPECT_EQ(processes.bytes > 0, n > 1 && processes.rounds > 0);
+        }
+      }
+    }
+  }
+  EXPECT_EQ(rounds, (std::set<std::size_t>{0, 2, 3}));
+}
+
+TEST(shared_parts, that_are_not_where_they_are_spread_are_worked_again) {
+  const Mesh mesh = bumpy_sphere(7);
+  MeshPassOptions options{.degree = 12, .precision = 1e-6};
+  const MeshPassResult alone = mesh_pass(view_of(mesh), options, {});
+  Processes processes(mesh, 3);
+  processes.is_dealt_badly = true;
+  options.share = processes.share();
+  expect_same_bits(mesh_pass(view_of(mesh), options, {}), alone);
+  EXPECT_EQ(processes.rounds, 3u);
+}
+
+// Others do not know the order that they are brought into.
+TEST(shared_parts, triangles_in_random_order_are_not_shared) {
+  Mesh mesh = bumpy_sphere(6);
+  test::shuffle(mesh.triangles, 3);
+  MeshPassOptions options{.degree = 12, .precision = 1e-6};
+  const MeshPassResult alone = mesh_pass(view_of(mesh), options, {});
+  Processes processes(mesh, 3);
+  options.share = processes.share();
+  expect_same_bits(mesh_pass(view_of(mesh), options, {}), alone);
+  EXPECT_EQ(processes.rounds, 0u);
+}
+
+// A part of a mesh in order covers a small part of the sphere, and leaves as much of a grid.
+TEST(shared_parts, send_what_is_in_a_grid) {
+  const Mesh mesh = latitude_longitude_sphere(256, 512);
+  MeshPassOptions options{.degree = 100, .precision = 1e-4, .most_held = 100, .streamed_parts = 64};
+  Processes processes(mesh, 2);
+  options.share = processes.share();
+  const MeshPassResult result = mesh_pass(view_of(mesh), options, {});
+  const auto passes = static_cast<std::size_t>(result.report.passes);
+  const std::size_t whole = std::size_t{4} * 100 * 2 * 100 * sizeof(double);  // or more
+  EXPECT_GT(result.report.oversampling, 2);
+  EXPECT_LT(processes.bytes / (32 * passes), whole / 3);
+}
+
+TEST(shared_parts, bytes_that_are_no_job_are_refused) {
+  Other other(icosphere(2));
+  EXPECT_THROW(other.helper.tasks_of(""), Error);
+  EXPECT_THROW(other.helper.tasks_of("nonsense"), Error);
+  EXPECT_THROW(other.helper.tasks_of(grids_job(1, {})), Error);  // of a pass that did not begin
+  const std::string job = ranges_job({}, divide_triangles(other.mesh.triangles.size(), 2));
+  EXPECT_THROW(other.helper.tasks_of(job.substr(0, job.size() - 1)), Error);
+  EXPECT_EQ(other.helper.tasks_of(job)(1).size(), sizeof(IndexRange));
+}
+
+}  // namespace
+}  // namespace rholm
