@@ -7,6 +7,7 @@
 
 #include "rholm/context.h"
 #include "rholm/mesh.h"
+#include "rholm/mesh_view.h"
 
 namespace rholm {
 
@@ -45,6 +46,12 @@ struct Comparison {
 // InvalidInput for a mesh without area, samples out of range or a threshold that is not positive.
 Comparison compare(const Mesh& a, const Mesh& b, const CompareOptions& options = {},
                    const Context& context = {});
+
+// The same, with the same bits, of meshes that need not fit in memory: they are gone through some
+// times, in portions of triangles that take no more than `memory` bytes, or 3 MB, besides some 110
+// bytes a sample. Triangles near each other in memory are best near each other in space, too.
+Comparison compare(const MeshInPlace& a, const MeshInPlace& b, std::size_t memory,
+                   const CompareOptions& options = {}, const Context& context = {});
 
 // Distance from each point to the surface: exact closest points.
 std::vector<double> distances_to_surface(const std::vector<Vec3>& points, const Mesh& surface,

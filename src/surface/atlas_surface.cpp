@@ -158,23 +158,22 @@ HoleFilling fill(const Atlas& atlas, const CapBands& bands, const CapLists& list
       doubtful = fill_grid(atlas, bands, lists, grid, context);
     }
   });
-  clear_refuted(grid, doubtful, *winding, context);
+  const WindingNumbers numbers = winding->numbers(context);
+  clear_refuted(grid, doubtful, numbers);
   HoleFillOptions filled{.max_blocks = blocks_within(options), .support = {}, .seen = options.seen};
   if (are_small(atlas)) filled.support = node_support(atlas, lists, grid, context);
-  return fill_holes(grid, dipoles.feet, *winding, filled, context);
+  return fill_holes(
+      grid, [&](std::span<const Hole>) { return std::move(dipoles.feet); }, numbers, filled,
+      context);
 }
 
-// A gap between random points is no hole; one of this many times a typical cap's disc is.
-constexpr double kGap = 1.0;
-constexpr double kBridged = 0.01;  // support of a vertex that stays: above 0
-
-double typical_area(const Atlas& atlas) {
+double median_support(const Atlas& atlas) {
   std::vector<double> supports;
   supports.reserve(atlas.caps.size());
   for (const Cap& cap : atlas.caps) supports.push_back(cap.frame.support);
   const auto middle = supports.begin() + static_cast<std::ptrdiff_t>(supports.size() / 2);
   std::nth_element(supports.begin(), middle, supports.end());
-  return std::numbers::pi * *middle * *middle;
+  return *middle;
 }
 
 // Connected parts without support that are smaller than `least` are kept.
@@ -252,13 +251,16 @@ void complete_normals(Mesh& mesh, const Context& context) {
   for (std::size_t k = 0; k < missing.size(); ++k) normals.set(missing[k], normalized(sums[k]));
 }
 
-SimplifyOptions stops(SimplifyOptions options, double step) {
+}  // namespace
+
+SimplifyOptions simplify_stops(SimplifyOptions options, double step) {
   const bool none = options.triangles == 0 && options.share == 0 && std::isinf(options.max_error);
   if (none) options.max_error = kSimplifyError * step;
   return options;
 }
 
-}  // namespace
+// The disc of a typical cap.
+double least_hole(double support) { return std::numbers::pi * support * support; }
 
 AtlasSurface extract_atlas(const Atlas& atlas, const AtlasSurfaceOptions& options,
                            const Context& context) {
@@ -290,7 +292,7 @@ AtlasSurface extract_atlas(const Atlas& atlas, const AtlasSurfaceOptions& option
     }
   }
   if (options.keep_holes) {
-    bridge_gaps(surface.mesh, kGap * typical_area(atlas), support);
+    bridge_gaps(surface.mesh, least_hole(median_support(atlas)), support);
     result.mesh = trim(surface.mesh, support);
   } else {
     result.mesh = std::move(surface.mesh);
@@ -302,7 +304,7 @@ AtlasSurface extract_atlas(const Atlas& atlas, const AtlasSurfaceOptions& option
   if (options.simplify) {
     grid = {};
     Simplification simple =
-        simplify(std::move(result.mesh), stops(*options.simplify, options.step), context);
+        simplify(std::move(result.mesh), simplify_stops(*options.simplify, options.step), context);
     result.mesh = std::move(simple.mesh);
     result.simplify_error = simple.error;
   }

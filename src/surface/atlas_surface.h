@@ -13,6 +13,14 @@
 
 namespace rholm {
 
+// Connected parts without support that are smaller are kept: a gap between random points is no
+// hole. Of the median of the supports of caps.
+double least_hole(double support);
+inline constexpr double kBridged = 0.01;  // support of a vertex that stays: above 0
+
+// Where to stop on a surface of a grid, if nothing says so.
+SimplifyOptions simplify_stops(SimplifyOptions options, double step);
+
 struct AtlasSurfaceOptions {
   double step = 0;          // edge of the grid's cubes
   bool keep_holes = false;  // cut away what is in no support, instead of closing it

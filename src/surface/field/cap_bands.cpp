@@ -40,12 +40,14 @@ double other_sheet(const std::vector<CapFoot>& feet, const PointTree& tree, std:
 
 }  // namespace
 
+double band_of_support(double support) { return kBandOfSupport * support; }
+
 double band_of(const Atlas& atlas, double step) { return std::max(kBandSteps * step, atlas.band); }
 
 CapBands::CapBands(const Atlas& atlas, double step, const Context& context)
     : least_(band_of(atlas, step)) {
   const auto wanted = [](const Cap& cap) {
-    return is_small(cap) ? kBandOfSupport * cap.frame.support : 0;
+    return is_small(cap) ? band_of_support(cap.frame.support) : 0;
   };
   if (std::none_of(atlas.caps.begin(), atlas.caps.end(),
                    [&](const Cap& cap) { return wanted(cap) > least_; })) {

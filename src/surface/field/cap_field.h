@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "rholm/atlas.h"
@@ -18,12 +19,17 @@ inline constexpr double kBandSteps = 2.5;
 // The same as a length: at least Atlas::band.
 double band_of(const Atlas& atlas, double step);
 
+// What a small cap would have by its support alone.
+double band_of_support(double support);
+
 // The band of each cap: of small ones at least a part of their support, as long as no sheet that
 // faces the other way is so near. Where points are sparser than those that the step was chosen for
 // caps disagree by more than some steps.
 class CapBands {
  public:
   CapBands(const Atlas& atlas, double step, const Context& context = {});
+  // As found before: one of each cap, or none if all have the least.
+  CapBands(double least, std::vector<double> own) : least_(least), own_(std::move(own)) {}
   double operator[](std::size_t cap) const { return own_.empty() ? least_ : own_[cap]; }
 
  private:

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 #include "base/parallel.h"
@@ -42,19 +43,43 @@ bool is_fully_known(const NodeMasks& masks) {
                      [](std::uint64_t word) { return ~word == 0; });
 }
 
-Search start_search(const BlockGrid& grid, const Context& context) {
-  Search search;
+// The masks of the blocks that have none yet.
+void take_blocks(const BlockGrid& grid, Search& search, const Context& context) {
+  const std::size_t before = search.masks.size(), n = grid.n_blocks() - before;
   search.masks.resize(grid.n_blocks());
   search.fully_known.resize(grid.n_blocks());
-  search.open.resize(grid.n_blocks());
-  parallel_for(grid.n_blocks(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
-    node_masks(grid.block_values(begin), end - begin, &search.masks[begin]);
-    for (std::size_t b = begin; b < end; ++b) {
+  parallel_for(n, kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
+    node_masks(grid.block_values(before + begin), end - begin, &search.masks[before + begin]);
+    for (std::size_t b = before + begin; b < before + end; ++b) {
       search.fully_known[b] = is_fully_known(search.masks[b]);
-      search.open[b] = static_cast<std::uint32_t>(b);
     }
   });
+}
+
+Search start_search(const BlockGrid& grid, const GridPart* part, const Context& context) {
+  Search search;
+  take_blocks(grid, search, context);
+  if (part != nullptr) {
+    search.open = part->open;
+  } else {
+    search.open.resize(grid.n_blocks());
+    std::iota(search.open.begin(), search.open.end(), 0);
+  }
   return search;
+}
+
+// All that the open blocks have around them.
+void complete(const GridPart* part, BlockGrid& grid, Search& search, Closing& closing,
+              const Context& context) {
+  if (part == nullptr) return;
+  part->complete(grid, search.open);
+  take_blocks(grid, search, context);
+  closing.seen.insert(closing.seen.end(), search.open.begin(), search.open.end());
+}
+
+void sort_seen(Closing& closing) {
+  std::sort(closing.seen.begin(), closing.seen.end());
+  closing.seen.erase(std::unique(closing.seen.begin(), closing.seen.end()), closing.seen.end());
 }
 
 void look_for_wanted(const BlockGrid& grid, Search& search, const Context& context) {
@@ -155,16 +180,20 @@ void open_changed(const BlockGrid& grid, const NodeList& list, std::size_t block
 }  // namespace
 
 Closing close_grid(BlockGrid& grid, const NodeValues& values, std::size_t max_blocks,
-                   const Context& context) {
+                   const Context& context, const GridPart* part) {
   Closing closing;
-  Search search = start_search(grid, context);
+  Search search = start_search(grid, part, context);
   while (true) {
     report_progress(context, "", 0);  // may cancel
+    complete(part, grid, search, closing, context);
     look_for_wanted(grid, search, context);
     const std::size_t blocks_before = grid.n_blocks();
     const NodeList list = list_nodes(grid, search);
     add_wanted_blocks(grid, search, max_blocks);
-    if (list.nodes.empty() && grid.n_blocks() == blocks_before) return closing;
+    if (list.nodes.empty() && grid.n_blocks() == blocks_before) {
+      sort_seen(closing);
+      return closing;
+    }
     std::vector<double> found(list.places.size());
     if (!found.empty()) values(list.places, found);
     set_nodes(grid, list, found, search);
@@ -175,8 +204,20 @@ Closing close_grid(BlockGrid& grid, const NodeValues& values, std::size_t max_bl
   }
 }
 
+std::vector<std::uint32_t> open_blocks(const BlockGrid& grid, std::size_t n_blocks,
+                                       const Context& context) {
+  Search search = start_search(grid, nullptr, context);
+  search.open.resize(n_blocks);
+  look_for_wanted(grid, search, context);
+  std::vector<std::uint32_t> open;
+  for (std::uint32_t b = 0; b < n_blocks; ++b) {
+    if (search.wanted[b].any) open.push_back(b);
+  }
+  return open;
+}
+
 std::size_t clear_refuted(BlockGrid& grid, std::span<const std::uint64_t> doubtful,
-                          const WindingTree& tree, const Context& context) {
+                          const WindingNumbers& winding) {
   std::vector<float*> values;
   std::vector<Vec3> places;
   for (std::size_t word = 0; word < doubtful.size(); ++word) {
@@ -186,7 +227,7 @@ std::size_t clear_refuted(BlockGrid& grid, std::span<const std::uint64_t> doubtf
       places.push_back(grid.node(word / 8, node));
     }
   }
-  const std::vector<double> w = tree.winding(places, context, kRefutingOpening);
+  const std::vector<double> w = winding(places, kRefutingOpening);
   std::size_t cleared = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double inside = *values[i] < 0 ? w[i] : 1 - w[i];
@@ -199,11 +240,11 @@ std::size_t clear_refuted(BlockGrid& grid, std::span<const std::uint64_t> doubtf
 
 double winding_value(double winding, double step) { return (0.5 - winding) * 2 * step; }
 
-NodeValues winding_values(const WindingTree& tree, double step, const Context& context) {
-  return [&tree, step, context](std::span<const Vec3> x, std::span<double> values) {
-    const std::vector<double> w = tree.winding(x, context);
+NodeValues winding_values(const WindingNumbers& winding, double step) {
+  return [winding, step](std::span<const Vec3> x, std::span<double> values) {
+    const std::vector<double> w = winding(x, kWindingOpening);
     std::transform(w.begin(), w.end(), values.begin(),
-                   [step](double winding) { return winding_value(winding, step); });
+                   [step](double number) { return winding_value(number, step); });
   };
 }
 

@@ -65,33 +65,36 @@ bool may_bridge(const BlockGrid& grid, const Hole& hole) {
   return hole.radius >= kLeastBridgeSteps * grid.step && count_borders(grid, hole) > 1;
 }
 
-// Foot points by the block they lie in.
+// Foot points by the block of the grid they lie in, or would.
 struct FeetOfBlocks {
-  std::vector<std::uint32_t> first;  // n_blocks + 1
+  std::vector<BlockCoordinates> blocks;  // that have some
+  std::vector<std::uint32_t> first;      // of each, and the end
   std::vector<std::uint32_t> feet;
 };
 
 FeetOfBlocks sort_feet(const BlockGrid& grid, std::span<const FootPoint> feet) {
   FeetOfBlocks result;
-  result.first.assign(grid.n_blocks() + 1, 0);
-  std::vector<std::int32_t> block_of(feet.size());
-  for (std::size_t f = 0; f < feet.size(); ++f) {
+  const auto block_of = [&](std::uint32_t f) -> BlockCoordinates {
     const Vec3 p = (feet[f].at - grid.origin) / (8 * grid.step);
     const auto cell = [](double c) {
       return static_cast<std::int32_t>(
           std::floor(std::clamp(c, -1.0 * kBlockLimit, 1.0 * kBlockLimit)));
     };
-    block_of[f] = is_finite(p) ? find_block(grid, {cell(p.x), cell(p.y), cell(p.z)}) : kNoBlock;
-    if (block_of[f] != kNoBlock) ++result.first[block_of[f] + 1];
+    return {cell(p.x), cell(p.y), cell(p.z)};
+  };
+  std::vector<std::pair<BlockCoordinates, std::uint32_t>> sorted;
+  for (std::uint32_t f = 0; f < feet.size(); ++f) {
+    if (is_finite(feet[f].at)) sorted.emplace_back(block_of(f), f);
   }
-  for (std::size_t b = 0; b < grid.n_blocks(); ++b) result.first[b + 1] += result.first[b];
-  result.feet.resize(result.first.back());
-  std::vector<std::uint32_t> next(result.first.begin(), result.first.end() - 1);
-  for (std::size_t f = 0; f < feet.size(); ++f) {
-    if (block_of[f] != kNoBlock) {
-      result.feet[next[block_of[f]]++] = static_cast<std::uint32_t>(f);
+  std::sort(sorted.begin(), sorted.end());
+  for (const auto& [block, foot] : sorted) {
+    if (result.blocks.empty() || result.blocks.back() != block) {
+      result.blocks.push_back(block);
+      result.first.push_back(static_cast<std::uint32_t>(result.feet.size()));
     }
+    result.feet.push_back(foot);
   }
+  result.first.push_back(static_cast<std::uint32_t>(result.feet.size()));
   return result;
 }
 
@@ -121,11 +124,11 @@ std::vector<Candidate> candidates_of(const BlockGrid& grid, const Hole& hole,
     rim.push_back(grid.node(hole.rim[i].block, hole.rim[i].node));
   }
   std::vector<Candidate> found, of_grid;
-  for (std::size_t b = 0; b < grid.n_blocks(); ++b) {
-    if (feet_of.first[b] == feet_of.first[b + 1]) continue;
-    const Vec3 middle = grid.node(b, 0, 0, 0) + 3.5 * grid.step * Vec3{1, 1, 1};
-    // 14 steps is a block's diagonal: supports of caps are shorter.
-    if (norm(middle - hole.center) > hole.reach + kBorder * hole.radius + 28 * grid.step) continue;
+  for (std::size_t b = 0; b < feet_of.blocks.size(); ++b) {
+    const BlockCoordinates& block = feet_of.blocks[b];
+    const Vec3 middle = grid.origin + grid.step * Vec3{8.0 * block[0] + 3.5, 8.0 * block[1] + 3.5,
+                                                       8.0 * block[2] + 3.5};
+    if (norm(middle - hole.center) > reach_of_feet(hole, grid.step)) continue;
     for (std::uint32_t i = feet_of.first[b]; i < feet_of.first[b + 1]; ++i) {
       const FootPoint& foot = feet[feet_of.feet[i]];
       double square = std::numeric_limits<double>::infinity();
@@ -179,8 +182,8 @@ struct Fill {
   bool wanted = false;
 };
 
-// Measured nodes in the blocks of the rims and next to them.
-std::vector<NodeId> nodes_around(const BlockGrid& grid, const std::vector<Fill>& fills) {
+// The blocks of the rims, and those next to them.
+std::vector<std::uint32_t> blocks_around(const BlockGrid& grid, const std::vector<Fill>& fills) {
   std::vector<char> near(grid.n_blocks(), 0);
   for (const Fill& fill : fills) {
     for (const NodeId& id : fill.hole.rim) {
@@ -189,9 +192,17 @@ std::vector<NodeId> nodes_around(const BlockGrid& grid, const std::vector<Fill>&
       }
     }
   }
-  std::vector<NodeId> nodes;
+  std::vector<std::uint32_t> blocks;
   for (std::uint32_t b = 0; b < grid.n_blocks(); ++b) {
-    if (!near[b]) continue;
+    if (near[b]) blocks.push_back(b);
+  }
+  return blocks;
+}
+
+// The measured nodes there.
+std::vector<NodeId> nodes_around(const BlockGrid& grid, const std::vector<Fill>& fills) {
+  std::vector<NodeId> nodes;
+  for (const std::uint32_t b : blocks_around(grid, fills)) {
     for (std::uint16_t n = 0; n < BlockGrid::kNodes; ++n) {
       if (std::isfinite(grid.block_values(b)[n]) && !grid.is_filled(b, n)) nodes.push_back({b, n});
     }
@@ -302,10 +313,10 @@ const Fill* fill_at(const std::vector<Fill>& fills, const Vec3& x) {
   return nearest;
 }
 
-NodeValues smooth_values(const std::vector<Fill>& fills, const WindingTree& tree, double step,
+NodeValues smooth_values(const std::vector<Fill>& fills, const WindingNumbers& winding, double step,
                          const Context& context) {
-  return [&fills, &tree, step, context](std::span<const Vec3> x, std::span<double> values) {
-    const std::vector<double> w = tree.winding(x, context);
+  return [&fills, winding, step, context](std::span<const Vec3> x, std::span<double> values) {
+    const std::vector<double> w = winding(x, kWindingOpening);
     parallel_for(x.size(), 64, context, {}, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const Fill* const fill = fill_at(fills, x[i]);
@@ -365,21 +376,33 @@ void hand_over(BlockGrid& grid, const std::vector<Fill>& fills, const NodeSuppor
 
 }  // namespace
 
-HoleFilling fill_holes(BlockGrid& grid, std::span<const FootPoint> feet, const WindingTree& tree,
+// 14 steps is a block's diagonal: supports of caps are shorter.
+double reach_of_feet(const Hole& hole, double step) {
+  return hole.reach + kBorder * hole.radius + 28 * step;
+}
+
+HoleFilling fill_holes(BlockGrid& grid, const FeetNear& feet, const WindingNumbers& winding,
                        const HoleFillOptions& options, const Context& context) {
   HoleFilling result;
-  result.filled_nodes =
-      close_grid(grid, carved(winding_values(tree, grid.step, context), options.seen, grid.step),
-                 options.max_blocks, context)
-          .filled_nodes;
+  GridPart part = options.part != nullptr ? *options.part : GridPart{};
+  const GridPart* const whole_or_part = options.part != nullptr ? &part : nullptr;
+  const auto close = [&](const NodeValues& values) {
+    const Closing closing = close_grid(grid, values, options.max_blocks, context, whole_or_part);
+    part.open = closing.seen;
+    return closing.filled_nodes;
+  };
+  result.filled_nodes = close(carved(winding_values(winding, grid.step), options.seen, grid.step));
   if (result.filled_nodes == 0) return result;
+  std::vector<Hole> holes = find_holes(grid);
+  std::vector<FootPoint> all_feet = feet(holes);
   std::vector<Fill> fills;
-  for (Hole& hole : find_holes(grid)) {
-    const bool wanted = is_large(hole, grid.step) || may_bridge(grid, hole);
-    fills.push_back({std::move(hole), {}, wanted});
+  fills.reserve(holes.size());
+  for (Hole& hole : holes) fills.push_back({std::move(hole), {}, false});
+  if (options.part != nullptr) part.complete(grid, blocks_around(grid, fills));
+  for (Fill& fill : fills) {
+    fill.wanted = is_large(fill.hole, grid.step) || may_bridge(grid, fill.hole);
   }
   result.holes = fills.size();
-  std::vector<FootPoint> all_feet(feet.begin(), feet.end());
   if (options.support) {
     std::erase_if(fills, [&](const Fill& fill) { return !fill.wanted; });
     add_feet_of_grid(grid, fills, options.support, all_feet);
@@ -392,13 +415,13 @@ HoleFilling fill_holes(BlockGrid& grid, std::span<const FootPoint> feet, const W
   result.smooth = fills.size();
   if (fills.empty()) return result;
   const NodeValues values =
-      carved(smooth_values(fills, tree, grid.step, context), options.seen, grid.step);
+      carved(smooth_values(fills, winding, grid.step, context), options.seen, grid.step);
   for (const Fill& fill : fills) {
     clear(grid, fill.hole);
     result.filled_nodes -= fill.hole.nodes.size();
   }
   if (options.support) hand_over(grid, fills, options.support, values);
-  result.filled_nodes += close_grid(grid, values, options.max_blocks, context).filled_nodes;
+  result.filled_nodes += close(values);
   return result;
 }
 

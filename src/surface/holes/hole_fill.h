@@ -10,6 +10,8 @@
 #include "rholm/vec3.h"
 #include "shape/queries/winding_tree.h"
 #include "surface/grid/block_grid.h"
+#include "surface/holes/close_grid.h"
+#include "surface/holes/hole_sets.h"
 #include "surface/holes/seen_space.h"
 
 namespace rholm {
@@ -22,6 +24,9 @@ struct FootPoint {
   double support = 0;
 };
 
+// The foot points near some holes, and perhaps more.
+using FeetNear = std::function<std::vector<FootPoint>(std::span<const Hole> holes)>;
+
 // How far data reach at each of x: support[i] is 1 where the value of the grid is to be believed
 // and 0 where it is a cap's guess, far from all points.
 using NodeSupport = std::function<void(std::span<const Vec3> x, std::span<double> support)>;
@@ -33,6 +38,7 @@ struct HoleFillOptions {
   NodeSupport support = {};
   // If given, nothing is filled where it is empty.
   const SeenSpace* seen = nullptr;
+  const GridPart* part = nullptr;  // if the grid is one
 };
 
 struct HoleFilling {
@@ -45,7 +51,9 @@ struct HoleFilling {
 // RBF through foot points around its rim, so that the fill meets its border with the same normals.
 // Foot points must lie on the surface the known values describe; they are thinned out here.
 // Nodes without data are marked as filled. Deterministic.
-HoleFilling fill_holes(BlockGrid& grid, std::span<const FootPoint> feet, const WindingTree& tree,
+HoleFilling fill_holes(BlockGrid& grid, const FeetNear& feet, const WindingNumbers& winding,
                        const HoleFillOptions& options, const Context& context = {});
+// How far from a hole's centre feet count, but for what is beyond the longest support.
+double reach_of_feet(const Hole& hole, double step);
 
 }  // namespace rholm

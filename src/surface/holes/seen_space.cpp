@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "base/parallel.h"
-#include "rholm/topology.h"
 
 namespace rholm {
 namespace {
@@ -39,8 +38,13 @@ bool clip(const Vec3& p, const Vec3& q, const std::array<double, 3>& size, doubl
 }  // namespace
 
 SeenSpace::SeenSpace(std::span<const Vec3> points, std::span<const Vec3> sensors, double edge,
-                     double margin, const Context& context) {
-  const Bounds box = bounds({points.begin(), points.end()});
+                     double margin, const Context& context)
+    : SeenSpace(bounds({points.begin(), points.end()}), edge) {
+  add_lines(points, sensors, margin, context);
+  smooth(context);
+}
+
+SeenSpace::SeenSpace(const Bounds& box, double edge) {
   const Vec3 extent = box.max - box.min;
   edge_ = std::max(edge, std::max({extent.x, extent.y, extent.z}) / (kMostCubes - 3));
   // A layer of cubes all around.
@@ -48,6 +52,10 @@ SeenSpace::SeenSpace(std::span<const Vec3> points, std::span<const Vec3> sensors
   const double sides[3] = {extent.x, extent.y, extent.z};
   for (std::size_t k = 0; k < 3; ++k) size_[k] = static_cast<std::size_t>(sides[k] / edge_) + 3;
   seen_.assign(size_[0] * size_[1] * size_[2], 0);
+}
+
+void SeenSpace::add_lines(std::span<const Vec3> points, std::span<const Vec3> sensors,
+                          double margin, const Context& context) {
   parallel_for(points.size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Vec3 sight = points[i] - sensors[i];
@@ -55,7 +63,20 @@ SeenSpace::SeenSpace(std::span<const Vec3> points, std::span<const Vec3> sensors
       if (length > margin) go_through(sensors[i], points[i] - margin / length * sight);
     }
   });
-  soften(context);
+}
+
+std::vector<std::uint64_t> SeenSpace::cubes() const {
+  std::vector<std::uint64_t> bits((seen_.size() + 63) / 64, 0);
+  for (std::size_t c = 0; c < seen_.size(); ++c) {
+    if (seen_[c] != 0) bits[c / 64] |= std::uint64_t{1} << c % 64;
+  }
+  return bits;
+}
+
+void SeenSpace::add_cubes(std::span<const std::uint64_t> cubes) {
+  for (std::size_t c = 0; c < seen_.size(); ++c) {
+    if ((cubes[c / 64] >> c % 64 & 1) != 0) seen_[c] = 1;
+  }
 }
 
 // Amanatides and Woo (1987). Cubes are only ever set, so that the order of lines does not matter.
@@ -87,7 +108,7 @@ void SeenSpace::go_through(Vec3 from, Vec3 to) {
   }
 }
 
-void SeenSpace::soften(const Context& context) {
+void SeenSpace::smooth(const Context& context) {
   const std::size_t strides[3] = {1, size_[0], size_[0] * size_[1]};
   std::vector<std::uint8_t> before;
   for (std::size_t axis = 0; axis < 3; ++axis) {

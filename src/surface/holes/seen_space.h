@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "rholm/context.h"
+#include "rholm/topology.h"
 #include "rholm/vec3.h"
 
 namespace rholm {
@@ -19,6 +20,15 @@ class SeenSpace {
   SeenSpace(std::span<const Vec3> points, std::span<const Vec3> sensors, double edge, double margin,
             const Context& context = {});
 
+  // Of points that are not there all at once: nothing has been seen in their box. Lines are added,
+  // or the cubes that were seen in parts of the same box and edge; smooth() ends that.
+  SeenSpace(const Bounds& box, double edge);
+  void add_lines(std::span<const Vec3> points, std::span<const Vec3> sensors, double margin,
+                 const Context& context = {});
+  std::vector<std::uint64_t> cubes() const;  // a bit each
+  void add_cubes(std::span<const std::uint64_t> cubes);
+  void smooth(const Context& context = {});
+
   // How empty it is at x: 1 where all cubes around have been seen, 0 where none has; continuous.
   double emptiness(const Vec3& x) const;
 
@@ -27,7 +37,6 @@ class SeenSpace {
     return i + size_[0] * (j + size_[1] * k);
   }
   void go_through(Vec3 from, Vec3 to);
-  void soften(const Context& context);
 
   Vec3 origin_;
   double edge_ = 1;

@@ -16,11 +16,8 @@ namespace {
 // of the area, what an opening leaves is far above unless it is of no account.
 constexpr double kClosed = 1e-9;
 
-struct Component {
+struct Component : ComponentSize {
   Vec3 origin;  // one of its vertices
-  Vec3 area_vector;
-  double area = 0;
-  double volume = 0;
 };
 
 constexpr std::size_t kGrain = 8192;  // vertices or triangles; chosen
@@ -72,26 +69,6 @@ std::vector<Component> measure(const Mesh& mesh, const std::vector<std::uint32_t
   return measures;
 }
 
-// Which components stay.
-std::vector<char> choose(const std::vector<Component>& measures, double least_share) {
-  double largest_area = 0;
-  double largest_volume = 0;
-  const auto is_closed = [](const Component& c) { return norm(c.area_vector) <= kClosed * c.area; };
-  for (const Component& c : measures) {
-    largest_area = std::max(largest_area, c.area);
-    if (is_closed(c)) largest_volume = std::max(largest_volume, std::abs(c.volume));
-  }
-  const double least_volume = std::pow(least_share, 1.5) * largest_volume;
-  std::vector<char> stays(measures.size());
-  for (std::size_t i = 0; i < measures.size(); ++i) {
-    const Component& c = measures[i];
-    // A vertex without a triangle has no area.
-    stays[i] = c.area > 0 && c.area >= least_share * largest_area &&
-               (!is_closed(c) || std::abs(c.volume) >= least_volume);
-  }
-  return stays;
-}
-
 // Keeps the vertices of components that stay, and tells the new index of each.
 std::vector<std::uint32_t> renumber(const std::vector<std::uint32_t>& component,
                                     const std::vector<char>& stays) {
@@ -131,7 +108,8 @@ DroppedComponents drop(Mesh& mesh, double least_share, std::vector<std::uint32_t
   if (n == 1 && has_area(mesh)) return {.components = 1};
   const std::vector<std::uint32_t> component = number_components(sets, first, context);
   const std::vector<Component> measures = measure(mesh, component, first, context);
-  const std::vector<char> stays = choose(measures, least_share);
+  const std::vector<char> stays =
+      large_components(std::vector<ComponentSize>(measures.begin(), measures.end()), least_share);
   double area = 0;
   for (std::size_t i = 0; i < n; ++i) {
     result.components += measures[i].area > 0;
@@ -156,6 +134,27 @@ DroppedComponents drop(Mesh& mesh, double least_share, std::vector<std::uint32_t
 }
 
 }  // namespace
+
+std::vector<char> large_components(std::span<const ComponentSize> sizes, double least_share) {
+  double largest_area = 0;
+  double largest_volume = 0;
+  const auto is_closed = [](const ComponentSize& c) {
+    return norm(c.area_vector) <= kClosed * c.area;
+  };
+  for (const ComponentSize& c : sizes) {
+    largest_area = std::max(largest_area, c.area);
+    if (is_closed(c)) largest_volume = std::max(largest_volume, std::abs(c.volume));
+  }
+  const double least_volume = std::pow(least_share, 1.5) * largest_volume;
+  std::vector<char> stays(sizes.size());
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const ComponentSize& c = sizes[i];
+    // A vertex without a triangle has no area.
+    stays[i] = c.area > 0 && c.area >= least_share * largest_area &&
+               (!is_closed(c) || std::abs(c.volume) >= least_volume);
+  }
+  return stays;
+}
 
 SharedSets connected_vertices(const Mesh& mesh, const Context& context) {
   SharedSets sets(mesh.vertices.size());

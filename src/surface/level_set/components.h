@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/shared_sets.h"
@@ -16,6 +17,16 @@ namespace rholm {
 SharedSets connected_vertices(const Mesh& mesh, const Context& context);
 // The first of each set.
 std::vector<std::uint32_t> first_members(const SharedSets& sets, const Context& context);
+
+// Of a component's triangles.
+struct ComponentSize {
+  Vec3 area_vector;
+  double area = 0;
+  double volume = 0;  // if it is closed
+};
+
+// Which stay, 1 or 0 each, by the rule below.
+std::vector<char> large_components(std::span<const ComponentSize> sizes, double least_share);
 
 struct DroppedComponents {
   std::size_t components = 0;  // before

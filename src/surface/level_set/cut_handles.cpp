@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <numbers>
+#include <optional>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -169,6 +170,13 @@ class LoopsOfPiece {
 
   // The bases of short loops.
   std::vector<Candidate> candidates(const Context& context) const {
+    if (resolution_.foresee) {
+      std::vector<Vec3> places;
+      for (const std::uint32_t v : graph_.vertices) {
+        if (outgoing_[v] != kNoMate) places.push_back(mesh_.vertices[v]);
+      }
+      resolution_.foresee(places);
+    }
     std::vector<Candidate> all(graph_.vertices.size());
     parallel_for(all.size(), 64, context, {}, [&](std::size_t begin, std::size_t end) {
       LoopSearch search(mesh_, mates_, outgoing_, graph_);
@@ -199,7 +207,7 @@ LoopSides on_whole(const MeshPiece& piece, LoopSides loop) {
 // Which may be cut together without parting the mesh: a spanning forest, of the longest, of the
 // parts that all of them leave is kept.
 std::vector<std::uint8_t> without_parting(const Mesh& mesh, const std::vector<LoopSides>& loops,
-                                          const Context& context) {
+                                          const JoinedOutside& outside, const Context& context) {
   std::unordered_map<std::uint32_t, std::uint32_t> right;  // corners of the mesh, new vertices
   std::unordered_set<std::uint32_t> cut;
   auto n = static_cast<std::uint32_t>(mesh.vertices.size());
@@ -214,7 +222,8 @@ std::vector<std::uint8_t> without_parting(const Mesh& mesh, const std::vector<Lo
   }
   std::vector<std::uint32_t> in_order(cut.begin(), cut.end());
   std::sort(in_order.begin(), in_order.end());
-  SharedSets sets(n);
+  SharedSets sets(n + outside.n);
+  for (const auto& [v, piece] : outside.vertices) sets.unite(v, n + piece);
   parallel_for(mesh.triangles.size(), 8192, context, {}, [&](std::size_t begin, std::size_t end) {
     auto next_cut = std::lower_bound(in_order.begin(), in_order.end(), begin);
     for (std::size_t t = begin; t < end; ++t) {
@@ -245,7 +254,7 @@ std::vector<std::uint8_t> without_parting(const Mesh& mesh, const std::vector<Lo
 // Returns how many; `copies` and `middles` get vertices of the mesh.
 std::size_t cut_once(Mesh& mesh, const Resolution& resolution, std::vector<std::uint32_t>& centers,
                      std::vector<std::uint32_t>& copies, std::vector<std::uint32_t>& middles,
-                     const Context& context) {
+                     const std::function<const JoinedOutside&()>& outside, const Context& context) {
   const MeshPiece piece = piece_around(mesh, centers, kReach * resolution.typical, context);
   centers.clear();
   const std::vector<LoopSides> loops = LoopsOfPiece(piece, resolution).choose(centers, context);
@@ -254,7 +263,7 @@ std::size_t cut_once(Mesh& mesh, const Resolution& resolution, std::vector<std::
   std::vector<LoopSides> whole;
   whole.reserve(loops.size());
   for (const LoopSides& loop : loops) whole.push_back(on_whole(piece, loop));
-  const std::vector<std::uint8_t> may_be_cut = without_parting(mesh, whole, context);
+  const std::vector<std::uint8_t> may_be_cut = without_parting(mesh, whole, outside(), context);
   std::size_t n_cut = 0;
   for (std::size_t i = 0; i < loops.size(); ++i) {
     if (may_be_cut[i] == 0) continue;
@@ -315,14 +324,41 @@ void smooth_ends(Mesh& mesh, std::vector<std::uint32_t> ends, double reach,
 
 }  // namespace
 
-CutHandles cut_handles(Mesh& mesh, const Resolution& resolution, const Context& context) {
+double length_of_tight_places(double typical) { return kGirth * kCoarsest * typical; }
+
+// piece_around() takes less than twice its reach along each axis.
+double reach_of_cuts(double typical) { return 2 * std::max(kReach, kGirth) * typical; }
+
+// What decides on a loop lies within kBeside local resolutions and half its length of it, in the
+// piece around the places within kReach of that.
+std::vector<std::uint32_t> places_to_cut(const Mesh& mesh, const std::vector<std::uint32_t>& places,
+                                         const Resolution& resolution, const Context& context) {
+  const MeshPiece piece = piece_around(mesh, places, kReach * resolution.typical, context);
+  std::vector<std::uint32_t> left_out;  // beside what is chosen
+  std::vector<Vec3> on_loops;
+  for (const LoopSides& loop : LoopsOfPiece(piece, resolution).choose(left_out, context)) {
+    for (const std::uint32_t v : loop.vertices) on_loops.push_back(piece.mesh.vertices[v]);
+  }
+  const NearPlaces near(on_loops, (kCoarsest * (kBeside + kGirth) + kReach) * resolution.typical);
+  std::vector<std::uint32_t> kept;
+  for (const std::uint32_t v : places) {
+    if (near.has(mesh.vertices[v])) kept.push_back(v);
+  }
+  return kept;
+}
+
+CutHandles cut_handles_at(Mesh& mesh, std::vector<std::uint32_t> places,
+                          const Resolution& resolution,
+                          const std::function<JoinedOutside()>& outside, const Context& context) {
+  std::optional<JoinedOutside> known;
+  const auto once = [&]() -> const JoinedOutside& {
+    if (!known) known = outside ? outside() : JoinedOutside{};
+    return *known;
+  };
   CutHandles result;
-  std::vector<std::uint32_t> centers =
-      tight_places(mesh, normal_attributes(mesh), kGirth * kCoarsest * resolution.typical, context);
-  if (centers.empty() || !has_handles(mesh, context)) return result;
   std::vector<std::uint32_t> middles;
-  while (!centers.empty()) {
-    const std::size_t n = cut_once(mesh, resolution, centers, result.copies, middles, context);
+  while (!places.empty()) {
+    const std::size_t n = cut_once(mesh, resolution, places, result.copies, middles, once, context);
     if (n == 0) break;
     result.handles += n;
   }
@@ -330,6 +366,13 @@ CutHandles cut_handles(Mesh& mesh, const Resolution& resolution, const Context& 
     smooth_ends(mesh, std::move(middles), kGirth * resolution.typical, context);
   }
   return result;
+}
+
+CutHandles cut_handles(Mesh& mesh, const Resolution& resolution, const Context& context) {
+  std::vector<std::uint32_t> places = tight_places(
+      mesh, normal_attributes(mesh), length_of_tight_places(resolution.typical), context);
+  if (places.empty() || !has_handles(mesh, context)) return {};
+  return cut_handles_at(mesh, std::move(places), resolution, {}, context);
 }
 
 }  // namespace rholm

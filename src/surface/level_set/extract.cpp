@@ -153,7 +153,8 @@ struct Places {
   std::vector<std::uint32_t> vertices, triangles;  // first of each block, and the end
 };
 
-Places places_of(const std::vector<BlockSurface>& blocks) {
+// Triangles of the first `n_own` blocks.
+Places places_of(const std::vector<BlockSurface>& blocks, std::size_t n_own) {
   Places places;
   places.vertices.assign(blocks.size() + 1, 0);
   places.triangles.assign(blocks.size() + 1, 0);
@@ -161,7 +162,7 @@ Places places_of(const std::vector<BlockSurface>& blocks) {
   std::uint64_t triangles = 0;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     vertices += blocks[b].n_vertices;
-    triangles += blocks[b].n_triangles;
+    if (b < n_own) triangles += blocks[b].n_triangles;
     places.vertices[b + 1] = static_cast<std::uint32_t>(vertices);
     places.triangles[b + 1] = static_cast<std::uint32_t>(triangles);
   }
@@ -202,6 +203,7 @@ void write_vertices(const BlockGrid& grid, std::size_t b, const BlockSurface& bl
         if (!result.filled.empty()) {
           result.filled[v] = grid.is_filled(b, node) || grid.is_filled(other_block, other);
         }
+        if (!result.edges.empty()) result.edges[v] = static_cast<std::uint16_t>(node | axis << 9);
         ++v;
       });
     }
@@ -306,29 +308,35 @@ std::vector<BlockSurface> scan_blocks(const BlockGrid& grid, const Context& cont
   return blocks;
 }
 
-// `values_are_done` is called once vertices are known: no value is asked for after that.
-ExtractedSurface extract(const BlockGrid& grid, const std::function<void()>& values_are_done,
-                         const Context& context) {
+constexpr std::size_t kAllBlocks = ~std::size_t{0};
+
+// Triangles of the first `n_own` blocks. `values_are_done` is called once vertices are known: no
+// value is asked for after that.
+ExtractedSurface extract(const BlockGrid& grid, std::size_t n_own,
+                         const std::function<void()>& values_are_done, const Context& context) {
   const std::vector<BlockSurface> blocks = scan_blocks(grid, context);
-  Places places = places_of(blocks);
+  const std::size_t n_cut = std::min(n_own, blocks.size());
+  Places places = places_of(blocks, n_cut);
   ExtractedSurface result;
   const std::size_t n_vertices = places.vertices.back();
   resize_large(result.mesh.vertices, n_vertices, room_for_copies(n_vertices), context);
   if (!grid.filled.empty()) result.filled.resize(n_vertices);
-  const auto for_blocks = [&](std::uint32_t BlockSurface::*n, const auto& write) {
-    parallel_for(blocks.size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
+  if (n_own != kAllBlocks) result.edges.resize(n_vertices);
+  const auto for_blocks = [&](std::size_t n_blocks, std::uint32_t BlockSurface::*n,
+                              const auto& write) {
+    parallel_for(n_blocks, kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
       for (std::size_t b = begin; b < end; ++b) {
         if (blocks[b].*n > 0) write(b);
       }
     });
   };
-  for_blocks(&BlockSurface::n_vertices, [&](std::size_t b) {
+  for_blocks(blocks.size(), &BlockSurface::n_vertices, [&](std::size_t b) {
     write_vertices(grid, b, blocks[b], places.vertices[b], result);
   });
   values_are_done();
   const std::size_t n_triangles = places.triangles.back();
   resize_large(result.mesh.triangles, n_triangles, room_for_copies(n_triangles), context);
-  for_blocks(&BlockSurface::n_triangles, [&](std::size_t b) {
+  for_blocks(n_cut, &BlockSurface::n_triangles, [&](std::size_t b) {
     write_triangles(grid, blocks, places, b, result.mesh.triangles);
   });
   result.first_vertex = std::move(places.vertices);
@@ -339,12 +347,17 @@ ExtractedSurface extract(const BlockGrid& grid, const std::function<void()>& val
 
 ExtractedSurface extract_surface(const BlockGrid& grid, const Context& context) {
   return extract(
-      grid, [] {}, context);
+      grid, kAllBlocks, [] {}, context);
+}
+
+ExtractedSurface extract_part(const BlockGrid& grid, std::size_t n_blocks, const Context& context) {
+  return extract(
+      grid, n_blocks, [] {}, context);
 }
 
 ExtractedSurface extract_last_surface(BlockGrid& grid, const Context& context) {
   return extract(
-      grid, [&] { grid.values = {}; }, context);
+      grid, kAllBlocks, [&] { grid.values = {}; }, context);
 }
 
 }  // namespace rholm

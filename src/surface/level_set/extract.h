@@ -18,6 +18,9 @@ struct ExtractedSurface {
   std::vector<std::uint32_t> first_vertex;  // n_blocks + 1
   // Per vertex, whether an end of its edge is a filled node; empty if the grid has none.
   std::vector<std::uint8_t> filled;
+  // Per vertex, its edge: the node it starts at, 0 ... 511, + 512 times its axis; of a part of a
+  // grid only.
+  std::vector<std::uint16_t> edges;
 };
 
 // Room for what is cut (cut_handles.h): without it the mesh would be there twice for a while, and
@@ -28,7 +31,12 @@ inline std::size_t room_for_copies(std::size_t n) { return n / 64 + 1024; }
 // closed 2-manifold, else it has borders there (and may touch itself in a vertex). Vertices are
 // placed by linear interpolation. Throws Unsupported if there are more than 2^31 / 3 triangles.
 ExtractedSurface extract_surface(const BlockGrid& grid, const Context& context = {});
-// The same, and frees the grid's values before there are triangles: both take as much memory.
+// Of the cubes of the first blocks only, as a part of the whole surface: with all vertices that
+// start in these blocks, if all blocks around them are there, and those of others.
+ExtractedSurface extract_part(const BlockGrid& grid, std::size_t n_blocks,
+                              const Context& context = {});
+// The same as the first, and frees the grid's values before there are triangles: both take as much
+// memory.
 ExtractedSurface extract_last_surface(BlockGrid& grid, const Context& context = {});
 
 }  // namespace rholm

@@ -1,25 +1,33 @@
 #include "surface/level_set/mesh_piece.h"
 
-#include <unordered_set>
-
 #include "base/indices_where.h"
 #include "surface/level_set/cubes.h"
 
 namespace rholm {
 
+NearPlaces::NearPlaces(std::span<const Vec3> centers, double reach) : reach_(reach) {
+  std::unordered_set<std::uint64_t> seen;
+  for (const Vec3& center : centers) {
+    const Cube cube = cube_of(center, reach);
+    if (!seen.insert(key_of(cube)).second) continue;
+    for_each_near(cube, [&](std::uint64_t key) { cubes_.insert(key); });
+  }
+}
+
+bool NearPlaces::has(const Vec3& place) const {
+  return cubes_.contains(key_of(cube_of(place, reach_)));
+}
+
 MeshPiece piece_around(const Mesh& mesh, const std::vector<std::uint32_t>& centers, double reach,
                        const Context& context) {
   constexpr std::uint32_t kOutside = ~std::uint32_t{0};
-  std::unordered_set<std::uint64_t> seen, near;
-  for (const std::uint32_t v : centers) {
-    const Cube cube = cube_of(mesh.vertices[v], reach);
-    if (!seen.insert(key_of(cube)).second) continue;
-    for_each_near(cube, [&](std::uint64_t key) { near.insert(key); });
-  }
+  std::vector<Vec3> places;
+  places.reserve(centers.size());
+  for (const std::uint32_t v : centers) places.push_back(mesh.vertices[v]);
+  const NearPlaces near(places, reach);
   MeshPiece piece;
-  piece.vertices = indices_where(mesh.vertices.size(), context, [&](std::uint32_t v) {
-    return near.contains(key_of(cube_of(mesh.vertices[v], reach)));
-  });
+  piece.vertices = indices_where(mesh.vertices.size(), context,
+                                 [&](std::uint32_t v) { return near.has(mesh.vertices[v]); });
   std::vector<std::uint32_t> place(mesh.vertices.size(), kOutside);
   for (const std::uint32_t v : piece.vertices) {
     place[v] = static_cast<std::uint32_t>(piece.mesh.vertices.size());

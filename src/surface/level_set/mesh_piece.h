@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <unordered_set>
 #include <vector>
 
 #include "rholm/context.h"
@@ -12,6 +14,17 @@ namespace rholm {
 struct MeshPiece {
   Mesh mesh;                                       // without attributes
   std::vector<std::uint32_t> vertices, triangles;  // of the whole mesh, ascending
+};
+
+// Which places piece_around() takes.
+class NearPlaces {
+ public:
+  NearPlaces(std::span<const Vec3> centers, double reach);
+  bool has(const Vec3& place) const;
+
+ private:
+  std::unordered_set<std::uint64_t> cubes_;
+  double reach_;
 };
 
 // All triangles within `reach` of some vertices, and some more.

@@ -14,11 +14,13 @@ namespace {
 // Chosen: of the cosine, for normals that are not those of the loop itself.
 constexpr double kOneSide = 0.2;
 
-// Vertices from which an edge leaves along which the normal turns as fast as, on the average, along
-// a loop of a length: its normals turn by 2 pi at least, as the curve itself does (Fenchel 1929) if
-// it is the shortest. Edges much shorter than others do not count more.
+}  // namespace
+
+// Normals turn by 2 pi at least, as the curve itself does (Fenchel 1929) if it is the shortest.
+// Edges much shorter than others do not count more.
 std::vector<std::uint32_t> sharp_vertices(const Mesh& mesh, const NormalAttributes& normals,
-                                          double length, const Context& context) {
+                                          double length, std::size_t n_own,
+                                          const Context& context) {
   constexpr std::size_t kChunk = 16384;
   const double least = length / 30;  // chosen: a third of a usual edge
   // Chords of turns up to pi are longer than this part of the turn: 1 - pi^2 / 24.
@@ -36,7 +38,7 @@ std::vector<std::uint32_t> sharp_vertices(const Mesh& mesh, const NormalAttribut
       for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t next = k == 2 ? 0 : k + 1;
         const std::uint32_t a = corners[k], b = corners[next];
-        if (a > b) continue;
+        if (a > b && a < n_own) continue;
         const bool known = dot(own[k], own[k]) > 0 && dot(own[next], own[next]) > 0;
         const Vec3 way = at[next] - at[k], change = own[next] - own[k];
         const double edge2 = std::clamp(dot(way, way), least * least, length * length / 4);
@@ -56,20 +58,19 @@ std::vector<std::uint32_t> sharp_vertices(const Mesh& mesh, const NormalAttribut
 
 // Those of the vertices around which, as far as half of such a loop reaches, normals are on all
 // sides: those of a closed curve that is the shortest are in no half-space.
-std::vector<std::uint32_t> turning_around(const Mesh& mesh, const NormalAttributes& normals,
-                                          const std::vector<std::uint32_t>& sharp, double length) {
+std::vector<std::uint32_t> turning_around(const std::vector<SharpVertex>& sharp, double length) {
   struct Group {
     Cube cube;
     std::vector<std::uint32_t> vertices;
     Vec3 sum;
   };
   std::unordered_map<std::uint64_t, Group> groups;
-  for (const std::uint32_t v : sharp) {
-    const Cube cube = cube_of(mesh.vertices[v], length / 2);
+  for (std::uint32_t v = 0; v < sharp.size(); ++v) {
+    const Cube cube = cube_of(sharp[v].at, length / 2);
     Group& group = groups[key_of(cube)];
     group.cube = cube;
     group.vertices.push_back(v);
-    group.sum += normals[v];
+    group.sum += sharp[v].normal;
   }
   std::vector<std::uint32_t> kept;
   for (const auto& [key, group] : groups) {
@@ -84,7 +85,7 @@ std::vector<std::uint32_t> turning_around(const Mesh& mesh, const NormalAttribut
     const Vec3 mean = normalized(sum);
     const bool on_one_side = std::all_of(near.begin(), near.end(), [&](const Group* other) {
       return std::all_of(other->vertices.begin(), other->vertices.end(),
-                         [&](std::uint32_t v) { return dot(normals[v], mean) > kOneSide; });
+                         [&](std::uint32_t v) { return dot(sharp[v].normal, mean) > kOneSide; });
     });
     if (!on_one_side) kept.insert(kept.end(), group.vertices.begin(), group.vertices.end());
   }
@@ -92,11 +93,16 @@ std::vector<std::uint32_t> turning_around(const Mesh& mesh, const NormalAttribut
   return kept;
 }
 
-}  // namespace
-
 std::vector<std::uint32_t> tight_places(const Mesh& mesh, const NormalAttributes& normals,
                                         double length, const Context& context) {
-  return turning_around(mesh, normals, sharp_vertices(mesh, normals, length, context), length);
+  const std::vector<std::uint32_t> all =
+      sharp_vertices(mesh, normals, length, mesh.vertices.size(), context);
+  std::vector<SharpVertex> sharp;
+  sharp.reserve(all.size());
+  for (const std::uint32_t v : all) sharp.push_back({mesh.vertices[v], normals[v]});
+  std::vector<std::uint32_t> places = turning_around(sharp, length);
+  for (std::uint32_t& v : places) v = all[v];
+  return places;
 }
 
 }  // namespace rholm

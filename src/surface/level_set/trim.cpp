@@ -43,7 +43,8 @@ void check(const Mesh& mesh, std::span<const double> support) {
 
 // Means over the triangles around a vertex, weighted with their areas: tiny triangles, of which a
 // mesh of marching cubes has many, do not pull.
-std::vector<double> smoothed(const Mesh& mesh, std::span<const double> support, int rounds) {
+std::vector<double> smoothed(const Mesh& mesh, std::span<const double> support,
+                             const std::vector<std::uint8_t>& fixed, int rounds) {
   std::vector<double> values(support.begin(), support.end());
   std::vector<double> sums(values.size());
   std::vector<double> weights(values.size());
@@ -60,7 +61,8 @@ std::vector<double> smoothed(const Mesh& mesh, std::span<const double> support, 
       }
     }
     for (std::size_t v = 0; v < values.size(); ++v) {
-      if (weights[v] > 0) values[v] = sums[v] / weights[v];
+      const bool moves = fixed.empty() || fixed[v] == 0;
+      if (moves && weights[v] > 0) values[v] = sums[v] / weights[v];
     }
   }
   return values;
@@ -95,7 +97,10 @@ class Trimmer {
 
   Mesh run() {
     number_vertices();
-    for (const Triangle& t : mesh_.triangles) cut(t);
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+      cut(mesh_.triangles[t]);
+      of_.resize(result_.triangles.size(), t);
+    }
     result_.vertices.reserve(sources_.size());
     for (const Source& s : sources_) {
       const Vec3& from = mesh_.vertices[s.from];
@@ -112,6 +117,15 @@ class Trimmer {
     }
     return std::move(result_);
   }
+
+  // As TrimmedPart has them.
+  std::vector<std::uint32_t> vertices() const {
+    std::vector<std::uint32_t> old;
+    old.reserve(n_old_);
+    for (std::uint32_t v = 0; v < n_old_; ++v) old.push_back(sources_[v].from);
+    return old;
+  }
+  std::vector<std::uint32_t>& triangles() { return of_; }
 
   // Edges along the cut, by the vertices of the result.
   const std::vector<std::array<std::uint32_t, 2>>& border() const { return border_; }
@@ -191,6 +205,7 @@ class Trimmer {
   std::uint32_t n_old_ = 0;
   std::vector<std::array<std::uint32_t, 2>> border_;
   Mesh result_;
+  std::vector<std::uint32_t> of_;  // which triangle each of the result is of
 };
 
 // Neighbours along the border, and triangles, of the vertices of a cut.
@@ -258,10 +273,16 @@ void smooth_border(Mesh& mesh, const std::vector<std::array<std::uint32_t, 2>>& 
 }  // namespace
 
 Mesh trim(const Mesh& mesh, std::span<const double> support, int smoothing) {
+  return trim_part(mesh, support, {}, smoothing).mesh;
+}
+
+TrimmedPart trim_part(const Mesh& mesh, std::span<const double> support,
+                      const std::vector<std::uint8_t>& fixed, int smoothing) {
   check(mesh, support);
-  Trimmer trimmer(mesh, smoothed(mesh, support, smoothing));
-  Mesh result = trimmer.run();
-  smooth_border(result, trimmer.border());
+  Trimmer trimmer(mesh, smoothed(mesh, support, fixed, smoothing));
+  TrimmedPart result{.mesh = trimmer.run(), .vertices = trimmer.vertices(), .triangles = {}};
+  result.triangles = std::move(trimmer.triangles());
+  smooth_border(result.mesh, trimmer.border());
   return result;
 }
 

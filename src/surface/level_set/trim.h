@@ -1,7 +1,9 @@
 // Open surfaces with clean borders. Layer: surface.
 #pragma once
 
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "rholm/mesh.h"
 
@@ -14,5 +16,16 @@ namespace rholm {
 // edge from its ends. Attributes are interpolated; vertices in no triangle go. Throws InvalidInput
 // if the number of values is not that of the vertices, or one is not finite.
 Mesh trim(const Mesh& mesh, std::span<const double> support, int smoothing = 2);
+
+// What is left of a part of a mesh.
+struct TrimmedPart {
+  Mesh mesh;
+  std::vector<std::uint32_t> vertices;   // of the part, that the first ones are; others are new
+  std::vector<std::uint32_t> triangles;  // of the part, that each is of
+};
+// The same in a part: the support of vertices that others' triangles have too, of which there is a
+// flag, stays what it is.
+TrimmedPart trim_part(const Mesh& mesh, std::span<const double> support,
+                      const std::vector<std::uint8_t>& fixed, int smoothing = 2);
 
 }  // namespace rholm

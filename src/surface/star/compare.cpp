@@ -2,95 +2,31 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <numbers>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "base/compensated_sum.h"
 #include "base/parallel.h"
+#include "base/progress.h"
 #include "rholm/error.h"
-#include "rholm/topology.h"
-#include "shape/face.h"
 #include "shape/queries/triangle_tree.h"
-#include "surface/star/area_samples.h"
+#include "surface/star/portion_compare.h"
+#include "surface/star/shared_compare.h"
 
 namespace rholm {
 namespace {
 
-constexpr std::size_t kGrain =
-    256;  // queries of a chunk: some 50 ms where the shapes are far apart
-
-constexpr std::size_t kNormalGrain = 1024;  // triangles of a chunk: 0.1 ms
-
-void check(const CompareOptions& options) {
-  if (options.samples == 0 || options.samples > kMaxSamples) {
-    throw Error(ErrorCode::kInvalidInput, "samples is " + std::to_string(options.samples) +
-                                              ", it must be 1 ... " + std::to_string(kMaxSamples));
-  }
-  if (!(options.threshold > 0) || !std::isfinite(options.threshold)) {
-    throw Error(ErrorCode::kInvalidInput, "threshold is " + std::to_string(options.threshold) +
-                                              ", it must be a positive fraction of the diagonal");
-  }
-}
-
-// The power of two that brings both shapes to the order of 1, so that squares can be formed.
-double common_scale(const Mesh& a, const Mesh& b) {
-  const Bounds of_a = bounds(a.vertices), of_b = bounds(b.vertices);
-  return unit_frame(bounds({of_a.min, of_a.max, of_b.min, of_b.max})).scale;
-}
-
-Mesh scaled(const Mesh& mesh, double scale) {
-  Mesh result{mesh.vertices, mesh.triangles, {}};
-  for (Vec3& vertex : result.vertices) vertex *= scale;
-  return result;
-}
-
-double angle_degrees(const Vec3& a, const Vec3& b) {
-  return std::atan2(norm(cross(a, b)), dot(a, b)) * (180 / std::numbers::pi);
-}
-
-// Of unit length; zero for a triangle that is degenerate, which has none.
-std::vector<Vec3> unit_normals(const Mesh& mesh, const Context& context) {
-  std::vector<Vec3> normals(mesh.triangles.size());
-  parallel_for(normals.size(), kNormalGrain, context, {}, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) {
-      const FaceNormal face = face_normal(scaled_corners(mesh, mesh.triangles[t], 1));
-      if (!face.degenerate) normals[t] = normalized(face.twice_area);
-    }
+// All samples of one way, on the threads of this process.
+SampleDistances measure_way(CompareSamples& samples, Way way, std::size_t n, const Context& context,
+                            const ParallelStage& stage) {
+  samples.prepare(way);
+  SampleDistances all(n);
+  parallel_for(n, kQueriesOfChunk, context, stage, [&](std::size_t begin, std::size_t end) {
+    samples.measure(way, begin, std::span(all.distances).subspan(begin, end - begin),
+                    std::span(all.angles).subspan(begin, end - begin));
   });
-  return normals;
-}
-
-// A mesh to measure from and to.
-struct Side {
-  const Mesh& mesh;
-  TriangleTree tree;
-  std::vector<Vec3> normals;
-  Side(const Mesh& m, const Context& context)
-      : mesh(m), tree(m), normals(unit_normals(m, context)) {}
-};
-
-struct OneSided {
-  std::vector<double> distances;
-  std::vector<double> angles;  // negative: the closest triangle is degenerate, it has no normal
-};
-
-OneSided measure_one_sided(const Side& from, const Side& to, const CompareOptions& options,
-                           const Context& context, const ParallelStage& stage) {
-  const AreaSamples samples = sample_by_area(from.mesh, options.samples, options.seed);
-  OneSided result{std::vector<double>(options.samples), std::vector<double>(options.samples)};
-  parallel_for(options.samples, kGrain, context, stage, [&](std::size_t begin, std::size_t end) {
-    const std::vector<ClosestPoint> closest =
-        to.tree.closest(std::span(samples.points).subspan(begin, end - begin));
-    for (std::size_t k = begin; k < end; ++k) {
-      const Vec3& there = to.normals[closest[k - begin].triangle];
-      result.distances[k] = closest[k - begin].distance;
-      result.angles[k] =
-          there == Vec3{} ? -1 : angle_degrees(from.normals[samples.triangles[k]], there);
-    }
-  });
-  return result;
+  return all;
 }
 
 Distances summarize(const std::vector<double>& distances, double unit) {
@@ -131,19 +67,9 @@ void summarize_angles(std::vector<double> angles, const std::vector<double>& mor
   result.normal_median_degrees = median(angles);
 }
 
-}  // namespace
-
-Comparison compare(const Mesh& a, const Mesh& b, const CompareOptions& options,
-                   const Context& context) {
-  check(options);
-  validate(a);
-  validate(b);
-  const double scale = common_scale(a, b);
-  const Mesh mesh_a = scaled(a, scale), mesh_b = scaled(b, scale);
-  const Side side_a(mesh_a, context), side_b(mesh_b, context);
-  const OneSided forth = measure_one_sided(side_a, side_b, options, context, {"compare", 0, 0.5});
-  const OneSided back = measure_one_sided(side_b, side_a, options, context, {"compare", 0.5, 1});
-  const double diagonal = bounds(mesh_a.vertices).diagonal();
+// Lengths are scaled, the diagonal of A too.
+Comparison summary_of(double scale, double diagonal, const CompareOptions& options,
+                      const SampleDistances& forth, const SampleDistances& back) {
   Comparison result;
   result.samples = options.samples;
   result.seed = options.seed;
@@ -160,12 +86,67 @@ Comparison compare(const Mesh& a, const Mesh& b, const CompareOptions& options,
   return result;
 }
 
+Bounds bounds_of(const std::string& name, const MeshInPlace& mesh, const Context& context) {
+  try {
+    return checked_bounds(mesh, context);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::kInvalidInput) throw;
+    throw Error(error.code(), name + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+Comparison compare(const Mesh& a, const Mesh& b, const CompareOptions& options,
+                   const Context& context) {
+  CompareSamples samples(a, b, options);
+  const std::size_t n = options.samples;
+  const SampleDistances forth = measure_way(samples, Way::kForth, n, context, {"compare", 0, 0.5});
+  const SampleDistances back = measure_way(samples, Way::kBack, n, context, {"compare", 0.5, 1});
+  return summary_of(samples.scale(), samples.diagonal(), options, forth, back);
+}
+
+Comparison compare(const MeshInPlace& a, const MeshInPlace& b, std::size_t memory,
+                   const CompareOptions& options, const Context& context) {
+  const std::size_t n_vertices = std::max(a.mesh.n_vertices, b.mesh.n_vertices);
+  return compare_in_portions(a, b, triangles_of_portion(n_vertices, memory), options, context);
+}
+
+Comparison compare_in_portions(const MeshInPlace& a, const MeshInPlace& b, std::size_t triangles,
+                               const CompareOptions& options, const Context& context) {
+  check(options);
+  const Bounds of_a = bounds_of("A", a, context), of_b = bounds_of("B", b, context);
+  const double scale = common_scale(of_a, of_b);
+  const SurveyedMesh surveyed_a(MeshPortions(a, of_a, scale, triangles));
+  const SurveyedMesh surveyed_b(MeshPortions(b, of_b, scale, triangles));
+  const SampleDistances forth =
+      measure_in_portions(surveyed_a, surveyed_b, options, {"compare", 0, 0.5}, context);
+  const SampleDistances back =
+      measure_in_portions(surveyed_b, surveyed_a, options, {"compare", 0.5, 1}, context);
+  return summary_of(scale, surveyed_a.portions.bounds().diagonal(), options, forth, back);
+}
+
+Comparison compare(CompareSamples& samples, const CompareOptions& options, const Context& context,
+                   const ShareTasks& share) {
+  SampleDistances forth(options.samples), back(options.samples);
+  const std::size_t n = samples.n_parts();
+  SharedProgress progress(context, "compare", 0, 1, static_cast<double>(n));
+  // Dealt: who has samples of one way only needs one of the two trees.
+  share(
+      {.job = {}, .count = n, .dealt = true}, [&](std::size_t part) { return samples.work(part); },
+      [&](std::size_t part, const std::string& bytes) {
+        samples.take(part, bytes, forth, back);
+        progress.add(1);
+      });
+  return summary_of(samples.scale(), samples.diagonal(), options, forth, back);
+}
+
 std::vector<double> distances_to_surface(const std::vector<Vec3>& points, const Mesh& surface,
                                          const Context& context) {
   validate(surface);
   const TriangleTree tree(surface);
   std::vector<double> distances(points.size());
-  parallel_for(points.size(), kGrain, context, {"distances"},
+  parallel_for(points.size(), kQueriesOfChunk, context, {"distances"},
                [&](std::size_t begin, std::size_t end) {
                  std::size_t k = begin;
                  for (const ClosestPoint& closest :

@@ -34,6 +34,10 @@ void expect_closed_manifold(const Mesh& mesh) {
   EXPECT_FALSE(found.inside_out);
 }
 
+FeetNear all_of(std::vector<FootPoint> feet) {
+  return [feet = std::move(feet)](std::span<const Hole>) { return feet; };
+}
+
 // The unit sphere without the part within `half_angle` of z: points, values known where the
 // nearest point of the sphere is there, and blocks only where something is known.
 struct OpenSphere {
@@ -76,7 +80,7 @@ TEST(CloseGrid, a_hole_is_closed_by_the_winding_number) {
   const std::size_t before = sphere.grid.n_blocks();
   EXPECT_GT(inspect(extract_surface(sphere.grid).mesh).boundary_edges, 0U);
   const Closing closing =
-      close_grid(sphere.grid, winding_values(tree, sphere.grid.step, {}), 100000);
+      close_grid(sphere.grid, winding_values(tree.numbers(), sphere.grid.step), 100000);
   EXPECT_GT(closing.filled_nodes, 0U);
   EXPECT_EQ(sphere.grid.n_blocks(), before + closing.added_blocks);
   const ExtractedSurface surface = extract_surface(sphere.grid);
@@ -110,7 +114,7 @@ TEST(CloseGrid, doubtful_values_on_the_wrong_side_become_unknown) {
     }
   }
   EXPECT_GT(n_wrong, 1000U);
-  EXPECT_EQ(clear_refuted(grid, doubtful, tree), n_wrong);
+  EXPECT_EQ(clear_refuted(grid, doubtful, tree.numbers()), n_wrong);
   for (std::size_t i = 0; i < expected.size(); ++i) {
     const float value = grid.block_values(i / BlockGrid::kNodes)[i % BlockGrid::kNodes];
     EXPECT_TRUE(value == expected[i] || (std::isnan(value) && std::isnan(expected[i]))) << i;
@@ -130,7 +134,7 @@ TEST(CloseGrid, a_side_is_refuted_beyond_0_15_from_a_half) {
     const float side = w < 0.5 ? -0.5F : 0.5F;  // what is less likely
     grid.block_values(0)[0] = side;
     const bool refuted = w < 0.35 || w > 0.65;
-    EXPECT_EQ(clear_refuted(grid, doubtful, tree), refuted ? 1U : 0U);
+    EXPECT_EQ(clear_refuted(grid, doubtful, tree.numbers()), refuted ? 1U : 0U);
     EXPECT_EQ(std::isnan(grid.block_values(0)[0]), refuted);
   }
 }
@@ -253,8 +257,8 @@ TEST(HoleFill, missing_cap_of_a_sphere_is_filled_to_a_small_part_of_its_sagitta)
   for (const double step : {0.04, 0.02}) {
     OpenSphere sphere = open_sphere(half_angle, step, static_cast<int>(4 * pi / (step * step)));
     const WindingTree tree(sphere.points, sphere.area_normals);
-    const HoleFilling filling =
-        fill_holes(sphere.grid, sphere.feet, tree, {.max_blocks = 100000, .support = {}});
+    const HoleFilling filling = fill_holes(sphere.grid, all_of(sphere.feet), tree.numbers(),
+                                           {.max_blocks = 100000, .support = {}});
     EXPECT_EQ(filling.holes, 1U);
     EXPECT_EQ(filling.smooth, 1U);
     const ExtractedSurface surface = extract_surface(sphere.grid);
@@ -303,7 +307,8 @@ TEST(HoleFill, values_without_support_are_handed_over_to_the_fill) {
       s[i] = std::clamp(s[i], 0.0, 1.0);
     }
   };
-  fill_holes(sphere.grid, sphere.feet, tree, {.max_blocks = 100000, .support = support});
+  fill_holes(sphere.grid, all_of(sphere.feet), tree.numbers(),
+             {.max_blocks = 100000, .support = support});
   const ExtractedSurface surface = extract_surface(sphere.grid);
   expect_closed_manifold(surface.mesh);
   for (const Vec3& v : surface.mesh.vertices) {
@@ -320,7 +325,7 @@ TEST(HoleFill, the_grid_itself_says_where_the_fill_begins) {
   };
   // Without a single foot of a cap.
   const HoleFilling filling =
-      fill_holes(sphere.grid, {}, tree, {.max_blocks = 100000, .support = all});
+      fill_holes(sphere.grid, all_of({}), tree.numbers(), {.max_blocks = 100000, .support = all});
   EXPECT_EQ(filling.smooth, 1U);
   const ExtractedSurface surface = extract_surface(sphere.grid);
   expect_closed_manifold(surface.mesh);
@@ -362,7 +367,7 @@ TEST(HoleFill, a_hole_in_two_sheets_is_no_bridge_between_them) {
     const NodeSupport all = [](std::span<const Vec3> x, std::span<double> support) {
       std::fill_n(support.begin(), x.size(), 1.0);
     };
-    fill_holes(shell.grid, feet, tree, {.max_blocks = 100000, .support = all});
+    fill_holes(shell.grid, all_of(feet), tree.numbers(), {.max_blocks = 100000, .support = all});
     const Mesh mesh = extract_surface(shell.grid).mesh;
     expect_closed_manifold(mesh);
     EXPECT_EQ(inspect(mesh).components, 2U) << half_angle;
@@ -381,7 +386,7 @@ TEST(HoleSets, a_hole_between_sheets_has_two_borders) {
   OpenSphere shell = open_shell(0.2, 0.15, 0.05, 14000);
   for (OpenSphere* open : {&sphere, &shell}) {
     const WindingTree tree(open->points, open->area_normals);
-    close_grid(open->grid, winding_values(tree, open->grid.step, {}), 100000);
+    close_grid(open->grid, winding_values(tree.numbers(), open->grid.step), 100000);
     const std::vector<Hole> holes = find_holes(open->grid);
     ASSERT_EQ(holes.size(), 1U);
     EXPECT_EQ(count_borders(open->grid, holes[0]), open == &sphere ? 1U : 2U);
@@ -393,8 +398,8 @@ TEST(HoleFill, threads_do_not_change_a_bit) {
   for (const int threads : {1, 2}) {
     OpenSphere sphere = open_sphere(0.4, 0.05, 5000);
     const WindingTree tree(sphere.points, sphere.area_normals);
-    fill_holes(sphere.grid, sphere.feet, tree, {.max_blocks = 100000, .support = {}},
-               {.threads = threads, .progress = {}});
+    fill_holes(sphere.grid, all_of(sphere.feet), tree.numbers(),
+               {.max_blocks = 100000, .support = {}}, {.threads = threads, .progress = {}});
     meshes.push_back(extract_surface(sphere.grid).mesh);
   }
   EXPECT_EQ(meshes[0].vertices, meshes[1].vertices);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <span>
 #include <vector>
 
 #include "support/test_points.h"
@@ -48,6 +49,30 @@ TEST(seen_space, ends_where_the_cone_of_a_near_sensor_does) {
     EXPECT_EQ(seen.emptiness({half + 0.15, 0, z}), 0) << z;
     // The edge itself is about a half.
     EXPECT_NEAR(seen.emptiness({half, 0, z}), 0.5, 0.4) << z;
+  }
+}
+
+// Half of the lines in one part, half in another.
+TEST(seen_space, of_parts_is_that_of_all) {
+  const PointCloud cloud = test::sphere_points(4000);
+  std::vector<Vec3> sensors;
+  sensors.reserve(cloud.points.size());
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    sensors.push_back(3 * cloud.points[i] + Vec3{1, i % 2 == 0 ? 1.0 : -1.0, 0});
+  }
+  const SeenSpace all(cloud.points, sensors, 0.05, 0.1);
+  const Bounds box = bounds(cloud.points);
+  SeenSpace sum(box, 0.05);
+  for (const std::size_t first : {0U, 2000U}) {
+    SeenSpace part(box, 0.05);
+    part.add_lines(std::span(cloud.points).subspan(first, 2000),
+                   std::span(sensors).subspan(first, 2000), 0.1);
+    sum.add_cubes(part.cubes());
+  }
+  sum.smooth();
+  for (const Vec3& p : cloud.points) {
+    for (const double r : {0.5, 0.9, 1.0, 1.3})
+      ASSERT_EQ(sum.emptiness(r * p), all.emptiness(r * p));
   }
 }
 

@@ -6,11 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "rholm/primitives.h"
 #include "rholm/topology.h"
 #include "support/test_shapes.h"
+#include "surface/level_set/tight_places.h"
 
 namespace rholm {
 namespace {
@@ -19,8 +21,8 @@ constexpr double kRadius = 2;
 
 // A ring around z whose tube has a radius that depends on the angle.
 template <typename Tube>
-Mesh ring(const Tube& tube_radius) {
-  Mesh mesh = torus(kRadius, 0.5, 300, 48);
+Mesh ring(const Tube& tube_radius, int around = 48) {
+  Mesh mesh = torus(kRadius, 0.5, 300, around);
   for (Vec3& v : mesh.vertices) {
     const double phi = std::atan2(v.y, v.x);
     const Vec3 middle{kRadius * std::cos(phi), kRadius * std::sin(phi), 0};
@@ -106,6 +108,34 @@ TEST(cut_handles, leaves_necks_without_which_there_would_be_two_parts) {
   EXPECT_EQ(cut_handles(two, everywhere(0.15), {}).handles, 1U);
   EXPECT_EQ(inspect(two).components, 1U);
   EXPECT_EQ(inspect(two).euler_characteristic, 2);
+}
+
+// A ring with a neck that is cut on one side, and a rod that stays on the other.
+TEST(places_to_cut, are_all_that_cutting_needs) {
+  constexpr double kResolution = 0.07;
+  const Mesh whole = ring(
+      [](double phi) {
+        const double neck = std::hypot(0.05, 4 * kRadius * phi);
+        const double rod = 0.05 + 2 * std::max(0.0, std::numbers::pi - std::abs(phi) - 0.4);
+        return std::min({0.6, neck, rod});
+      },
+      12);
+  Mesh with_normals = whole;
+  const std::vector<std::uint32_t> places =
+      tight_places(whole, normal_attributes(with_normals), length_of_tight_places(kResolution), {});
+  const auto is_of_rod = [&](std::uint32_t v) { return whole.vertices[v].x < 0; };
+  ASSERT_TRUE(std::any_of(places.begin(), places.end(), is_of_rod));
+  const std::vector<std::uint32_t> kept = places_to_cut(whole, places, everywhere(kResolution), {});
+  EXPECT_FALSE(kept.empty());
+  EXPECT_FALSE(std::any_of(kept.begin(), kept.end(), is_of_rod));
+  Mesh few = whole, all = whole;
+  EXPECT_EQ(cut_handles_at(few, kept, everywhere(kResolution), {}, {}).handles, 1U);
+  EXPECT_EQ(cut_handles_at(all, places, everywhere(kResolution), {}, {}).handles, 1U);
+  EXPECT_EQ(few.vertices, all.vertices);
+  EXPECT_EQ(few.triangles, all.triangles);
+  std::vector<std::uint32_t> of_rod;
+  std::copy_if(places.begin(), places.end(), std::back_inserter(of_rod), is_of_rod);
+  EXPECT_TRUE(places_to_cut(whole, of_rod, everywhere(kResolution), {}).empty());
 }
 
 }  // namespace

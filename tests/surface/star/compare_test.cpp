@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <vector>
 
 #include "rholm/error.h"
 #include "rholm/primitives.h"
 #include "rholm/topology.h"
 #include "surface/star/area_samples.h"
+#include "surface/star/shared_compare.h"
 
 namespace rholm {
 namespace {
@@ -71,6 +74,26 @@ TEST(sample_by_area, passes_over_triangles_without_area) {
   const auto last = static_cast<std::uint32_t>(mesh.triangles.size() - 1);
   for (const std::uint32_t t : sample_by_area(mesh, 5000, 1).triangles) {
     ASSERT_TRUE(t != 0 && t != last);
+  }
+}
+
+TEST(sample_by_area, gives_any_range_of_the_samples_by_itself) {
+  Mesh mesh = bumpy_sphere(2, 0.5);
+  for (std::size_t t = 0; t < 40; ++t) mesh.triangles[t] = {0, 0, 1};  // without area
+  for (const std::size_t n : {1u, 5u, 3000u}) {
+    const AreaSamples all = sample_by_area(mesh, n, 3);
+    const AreaSampler sampler(mesh, n, 3);
+    for (const std::size_t count : {1u, 7u, 1000u}) {
+      for (std::size_t first = 0; first < n; first += count) {
+        const std::size_t here = std::min(count, n - first);
+        const AreaSamples range = sampler.range(first, here);
+        ASSERT_EQ(range.points.size(), here);
+        for (std::size_t k = 0; k < here; ++k) {
+          EXPECT_EQ(range.points[k], all.points[first + k]);
+          EXPECT_EQ(range.triangles[k], all.triangles[first + k]);
+        }
+      }
+    }
   }
 }
 
@@ -200,6 +223,38 @@ TEST(compare, gives_the_same_bits_for_any_number_of_threads) {
   const Comparison one = compare(a, b, {.samples = 20000}, {.threads = 1});
   for (const int threads : {2, 4, 7}) {
     expect_same(one, compare(a, b, {.samples = 20000}, {.threads = threads}));
+  }
+}
+
+// By processes that have samples of their own of the same surfaces.
+TEST(compare, gives_the_same_bits_where_other_processes_measure_parts) {
+  const Mesh a = bumpy_sphere(4), b = moved(icosphere(3), 1.05, {0.01, 0, 0});
+  for (const std::size_t samples : {1u, 8192u, 20000u}) {
+    const CompareOptions options{.samples = samples, .seed = 5};
+    const Comparison alone = compare(a, b, options);
+    std::vector<std::unique_ptr<CompareSamples>> processes;
+    processes.reserve(3);
+    for (int i = 0; i < 3; ++i)
+      processes.push_back(std::make_unique<CompareSamples>(a, b, options));
+    const ShareTasks share = [&](const SharedTasks& tasks, const DoSharedTask& here,
+                                 const TakeSharedResult& take) {
+      EXPECT_THROW(take(0, "nonsense"), Error);
+      for (std::size_t p = 0; p < tasks.count; ++p) {
+        const std::size_t who = p * 3 / tasks.count;
+        take(p, who == 0 ? here(p) : processes[who]->work(p));
+      }
+    };
+    const Comparison shared = compare(*processes[0], options, {}, share);
+    for (const auto member : {&Comparison::a_to_b, &Comparison::b_to_a}) {
+      EXPECT_EQ((shared.*member).rms, (alone.*member).rms);
+      EXPECT_EQ((shared.*member).mean, (alone.*member).mean);
+      EXPECT_EQ((shared.*member).max, (alone.*member).max);
+    }
+    EXPECT_EQ(shared.f_score, alone.f_score);
+    EXPECT_EQ(shared.diagonal, alone.diagonal);
+    EXPECT_EQ(shared.threshold, alone.threshold);
+    EXPECT_EQ(shared.normal_mean_degrees, alone.normal_mean_degrees);
+    EXPECT_EQ(shared.normal_median_degrees, alone.normal_median_degrees);
   }
 }
 
