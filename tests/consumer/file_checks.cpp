@@ -1,8 +1,11 @@
 // Bytes in and out.
 #include <rholm/coefficients_io.h>
+#include <rholm/compare.h>
 #include <rholm/file.h>
+#include <rholm/large_mesh.h>
 #include <rholm/mapped_mesh.h>
 #include <rholm/point_stream.h>
+#include <rholm/points.h>
 #include <rholm/primitives.h>
 #include <rholm/shape_io.h>
 
@@ -41,6 +44,8 @@ void point_stream() {
   std::size_t n = 0;
   while (stream.read(3, piece)) n += piece.points.size();
   expect(n == box.vertices.size() && stream.size() == n, "all points come, three at a time");
+  rholm::write_shape(rholm::sample_surface(box, {.points = 50}), "points.ply");
+  expect(rholm::convert_points("points.ply", "points.xyz").points == 50, "and are converted");
 }
 
 void coefficients_io() {
@@ -62,6 +67,18 @@ void mapped_mesh() {
   expect(mapped->view().vertex(5) == sphere.vertices[5], "vertices lie where they should");
 }
 
+void large_mesh() {
+  rholm::write_shape(rholm::icosphere(3), "large.ply");
+  const auto mapped = rholm::map_mesh("large.ply");
+  expect(mapped && rholm::has_triangles_only(*mapped) && !rholm::has_attributes(*mapped),
+         "it is plain");
+  expect(mapped && rholm::survey_mesh(*mapped).closed, "and closed");
+  if (!mapped) return;
+  const rholm::MeshInPlace large = rholm::in_place(*mapped);
+  expect(rholm::compare(large, large, 1 << 20, {.samples = 100}).hausdorff < 1e-12, "no distance");
+  expect(rholm::convert_mesh("large.ply", "large.off").has_value(), "and it is converted");
+}
+
 }  // namespace
 
 std::vector<HeaderCheck> file_checks() {
@@ -69,5 +86,6 @@ std::vector<HeaderCheck> file_checks() {
           {"shape_io.h", shape_io},
           {"point_stream.h", point_stream},
           {"coefficients_io.h", coefficients_io},
-          {"mapped_mesh.h", mapped_mesh}};
+          {"mapped_mesh.h", mapped_mesh},
+          {"large_mesh.h", large_mesh}};
 }

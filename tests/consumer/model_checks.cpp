@@ -1,15 +1,18 @@
 // Whole pipelines.
+#include <rholm/batch.h>
 #include <rholm/compress.h>
 #include <rholm/model.h>
 #include <rholm/patch_atlas.h>
 #include <rholm/points.h>
 #include <rholm/primitives.h>
 #include <rholm/reconstruct.h>
+#include <rholm/reconstruct_bricks.h>
 #include <rholm/synthesize.h>
 #include <rholm/topology.h>
 
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "check.h"
 
@@ -49,6 +52,15 @@ void reconstruct() {
               "the volume of a torus");
 }
 
+void reconstruct_bricks() {
+  const rholm::Mesh torus = rholm::torus(1, 0.4, 60, 30);
+  const std::filesystem::path out = std::filesystem::temp_directory_path() / "consumer-bricks.ply";
+  const rholm::BrickReconstruction made = rholm::reconstruct_bricks(
+      rholm::sample_surface(torus, {.points = 5000}), out, {}, {.points_per_brick = 2000});
+  std::filesystem::remove(out);
+  expect(made.bricks == 4 && made.triangles > 5000, "a torus is made in four bricks");
+}
+
 void patch_atlas() {
   const rholm::Mesh sphere = rholm::icosphere(4);
   const rholm::PatchPicture picture = rholm::patch_picture(sphere, rholm::PatchView::kPatches);
@@ -60,11 +72,29 @@ void patch_atlas() {
   expect_near(made.rms_along_rays, 0, 1.1e-3, "what caps miss of a sphere");
 }
 
+void batch() {
+  const std::string list = "path,mineral\na.ply,quartz\nb.ply,olivine\n";
+  const rholm::Manifest manifest = rholm::parse_manifest(list, "list.csv");
+  expect(manifest.items.size() == 2 && manifest.items[1].values[0] == "olivine", "two grains");
+  rholm::write_batch(
+      rholm::gather_batch(
+          {}, 2,
+          [&](std::size_t i) -> rholm::BatchRow {
+            return {{"path", manifest.items[i].path}, {"volume", 0.5 + static_cast<double>(i)}};
+          }),
+      "grains.h5");
+  const rholm::BatchRow row = rholm::read_batch("grains.h5").row(1);
+  expect(row == rholm::BatchRow{{"path", std::string("b.ply")}, {"volume", 1.5}},
+         "what is written is read");
+}
+
 }  // namespace
 
 std::vector<HeaderCheck> model_checks() {
   return {{"model.h", model},
           {"compress.h", compress},
           {"reconstruct.h", reconstruct},
-          {"patch_atlas.h", patch_atlas}};
+          {"reconstruct_bricks.h", reconstruct_bricks},
+          {"patch_atlas.h", patch_atlas},
+          {"batch.h", batch}};
 }

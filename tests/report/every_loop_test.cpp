@@ -3,10 +3,12 @@
 // run: small, but for what a loop splits into chunks of thousands. scripts/check_loops says which
 // loops they do not reach (docs/testing.md).
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <numeric>
 #include <span>
@@ -15,6 +17,9 @@
 #include <vector>
 
 #include "atlas/cover/cap_cover.h"
+#include "model/bricks/brick_fit.h"
+#include "model/bricks/brick_normals.h"
+#include "model/bricks/brick_run.h"
 #include "model/points/reconstruct_points.h"
 #include "rholm/rholm.h"
 #include "shape/queries/sheet_gaps.h"
@@ -24,10 +29,12 @@
 #include "support/test_meshes.h"
 #include "support/test_points.h"
 #include "support/test_shapes.h"
+#include "surface/bricks/brick_grid.h"
 #include "surface/grid/block_grid.h"
 #include "surface/level_set/components.h"
 #include "surface/level_set/cut_handles.h"
 #include "transform/error/closest_distances.h"
+#include "transform/mesh_pass/pass.h"
 
 namespace rholm {
 namespace {
@@ -59,6 +66,16 @@ Mesh large_mesh_in_random_order() {
 }
 
 // ---- Expansions ----
+
+// Parts that are spread as they come, more than are there at a time.
+TEST(every_loop, gives_the_same_bits_for_a_mesh_in_parts) {
+  const Mesh mesh = many_triangles();
+  expect_same_bits([&](const Context& context) {
+    const MeshPassOptions options{
+        .degree = 120, .precision = 1e-4, .most_held = 100, .streamed_parts = 10};
+    return Bits().add(mesh_pass(view_of(mesh), options, context).coefficients);
+  });
+}
 
 TEST(every_loop, gives_the_same_bits_for_each_method) {
   const StarChart few = chart_of(bumpy_sphere(2)), many = chart_of(many_triangles());
@@ -216,8 +233,11 @@ TEST(every_loop, gives_the_same_bits_for_surfaces_of_expansions_and_their_distan
   expect_same_bits([&](const Context& context) {
     const Mesh mesh = synthesize(expansion, sphere, context);
     const Comparison found = compare(mesh, sphere, {.samples = 2000}, context);
+    const Comparison in_portions =
+        compare({.mesh = view_of(mesh)}, {.mesh = view_of(sphere)}, 0, {.samples = 2000}, context);
     return Bits()
         .add(mesh)
+        .add(in_portions.a_to_b.rms)
         .add(found.a_to_b.rms)
         .add(found.b_to_a.mean)
         .add(measure(expansion, context).area)
@@ -289,6 +309,72 @@ TEST(every_loop, gives_the_same_bits_for_normals_of_thin_and_rowed_points) {
   });
 }
 
+TEST(every_loop, gives_the_same_bits_for_normals_in_bricks) {
+  PointCloud bare = test::sphere_points(6000);
+  bare.normals.clear();
+  expect_same_bits([&](const Context& context) {
+    PieceStore store;
+    const auto source = points_in_memory(bare);
+    const Survey found = survey(*source, {.points_per_brick = 3000}, context);
+    const BrickPlan plan = make_plan(found, 3000);
+    distribute(*source, found, plan, store, {}, context);
+    for (std::size_t brick = 0; brick < plan.n_bricks(); ++brick) sort_points(store, brick);
+    OneProcess alone;
+    StageTimes times;
+    BrickStages stages(alone, {}, times, context);
+    orient_bricks(store, plan, spacings_of_sample(found, plan, found.n_different), {}, stages);
+    Bits bits;
+    for (std::size_t brick = 0; brick < plan.n_bricks(); ++brick) {
+      bits.add(std::span<const BrickNormal>(read_normals(store, brick)));
+    }
+    return bits;
+  });
+}
+
+TEST(every_loop, gives_the_same_bits_for_blocks_of_a_brick) {
+  const GridFrame frame{
+      {}, 1.0, [](const Vec3& x) { return static_cast<std::uint32_t>(x.x < 120 ? 0 : 1); }};
+  std::vector<BlockCoordinates> all;
+  for (std::int32_t z = 0; z < 30; ++z) {
+    for (std::int32_t y = 0; y < 30; ++y) {
+      for (std::int32_t x = 0; x < 30; ++x) all.push_back({x, y, z});
+    }
+  }
+  expect_same_bits([&](const Context& context) {
+    const OwnBlocks blocks = own_blocks(frame, 0, all, context);
+    const std::vector<std::uint32_t> border = border_blocks(frame, 0, blocks.own, context);
+    EXPECT_EQ(blocks.around.size(), 900U);
+    EXPECT_EQ(border.size(), 900U);
+    return Bits().add(std::span(blocks.own)).add(std::span(blocks.around)).add(std::span(border));
+  });
+}
+
+// A wavy sheet: its borders are cut open, and behind them its surface turns around.
+TEST(every_loop, gives_the_same_bits_for_surfaces_in_bricks) {
+  PointCloud sheet;
+  for (std::size_t i = 0; i < 18000; ++i) {
+    const double x = test::random_in(-1, 1, 5, 2 * i), y = test::random_in(-1, 1, 5, 2 * i + 1);
+    sheet.points.push_back({x, y, 0.2 * std::sin(3 * x)});
+    sheet.normals.push_back(normalized(Vec3{-0.6 * std::cos(3 * x), 0, 1}));
+  }
+  expect_same_bits([&](const Context& context) {
+    PieceStore store;
+    const auto source = points_in_memory(sheet);
+    OneProcess alone;
+    const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) /
+                                       ("bricks_of_loops_" + std::to_string(::getpid()) + ".ply");
+    const BrickRunOptions wanted{.reconstruct = {.step = 0.02,
+                                                 .holes = HolePolicy::kKeep,
+                                                 .confidence = true,
+                                                 .simplify = SimplifyOptions{.share = 0.3}},
+                                 .points_per_brick = 9000};
+    run_bricks(*source, store, file, wanted, alone, context);
+    const Mesh made = std::get<Mesh>(read_shape(file).shape);
+    std::filesystem::remove(file);
+    return Bits{}.add(made.vertices).add(made.triangles).add(made.attributes.back().values);
+  });
+}
+
 TEST(every_loop, gives_the_same_bits_for_scans_brought_together) {
   const Mesh body = bumpy_sphere(4);
   expect_same_bits([&](const Context& context) {
@@ -309,12 +395,7 @@ TEST(every_loop, gives_the_same_bits_for_caps_of_different_sizes) {
 
 TEST(every_loop, gives_the_same_bits_for_bridges_that_are_cut) {
   // A ring with a neck: 20 000 vertices, of which some hundred are on two loops.
-  Mesh ring = torus(2, 0.5, 400, 50);
-  for (Vec3& v : ring.vertices) {
-    const double phi = std::atan2(v.y, v.x);
-    const Vec3 middle{2 * std::cos(phi), 2 * std::sin(phi), 0};
-    v = middle + std::min(1.0, std::hypot(0.1, 16 * phi)) * (v - middle);
-  }
+  Mesh ring = test::ring_with_neck(0.1);
   test::add_normals(ring);
   const Resolution resolution{.typical = 0.15, .at = [](const Vec3&) { return 0.15; }};
   expect_same_bits([&](const Context& context) {

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "rholm/mesh.h"
@@ -55,6 +57,36 @@ inline PointCloud joined(PointCloud a, const PointCloud& b) {
   a.normals.insert(a.normals.end(), b.normals.begin(), b.normals.end());
   a.attributes.clear();
   return a;
+}
+
+// A box of edge 2 with a bore of radius 0.4 from above, 1.5 deep, whose wall no scanner has met.
+inline PointCloud bored_box(bool sensors) {
+  PointCloud cloud;
+  std::vector<double> at[3];
+  const auto add = [&](const Vec3& point, const Vec3& normal) {
+    cloud.points.push_back(point), cloud.normals.push_back(normal);
+    at[0].push_back(10 * normal.x), at[1].push_back(10 * normal.y), at[2].push_back(10 * normal.z);
+  };
+  const Vec3 axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  std::uint64_t next = 0;
+  const auto uniform = [&](double half) { return random_in(-half, half, 11, next++); };
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (const double side : {-1.0, 1.0}) {
+      for (int i = 0; i < 4000; ++i) {
+        const double u = uniform(1), v = uniform(1);
+        if (k == 2 && side == 1 && std::hypot(u, v) < 0.4) continue;
+        add(u * axes[(k + 1) % 3] + v * axes[(k + 2) % 3] + side * axes[k], side * axes[k]);
+      }
+    }
+  }
+  for (int i = 0; i < 800; ++i) {
+    const double u = uniform(0.4), v = uniform(0.4);
+    if (std::hypot(u, v) < 0.4) add({u, v, -0.5}, axes[2]);
+  }
+  for (std::size_t k = 0; sensors && k < 3; ++k) {
+    cloud.attributes.push_back({std::string("sensor_") + "xyz"[k], ScalarType::kFloat64, at[k]});
+  }
+  return cloud;
 }
 
 }  // namespace rholm::test

@@ -1,6 +1,7 @@
 // Shapes that tests share.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "rholm/mesh.h"
 #include "rholm/primitives.h"
 #include "rholm/topology.h"
+#include "support/random_data.h"
 
 namespace rholm::test {
 
@@ -21,6 +23,26 @@ inline Vec3 rotated(const Vec3& u) {
 
 inline Mesh rotated(Mesh mesh) {
   for (Vec3& v : mesh.vertices) v = rotated(v);
+  return mesh;
+}
+
+// A torus whose tube is `narrow` times as wide at one place as elsewhere.
+inline Mesh ring_with_neck(double narrow) {
+  Mesh ring = torus(2, 0.5, 400, 50);
+  for (Vec3& v : ring.vertices) {
+    const double phi = std::atan2(v.y, v.x);
+    const Vec3 middle{2 * std::cos(phi), 2 * std::sin(phi), 0};
+    v = middle + std::min(1.0, std::hypot(narrow, 16 * phi)) * (v - middle);
+  }
+  return ring;
+}
+
+// Random radii: every edge is a crease.
+inline Mesh rough_sphere(int subdivisions) {
+  Mesh mesh = icosphere(subdivisions);
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    mesh.vertices[i] *= random_in(0.8, 1.2, 5, i);
+  }
   return mesh;
 }
 

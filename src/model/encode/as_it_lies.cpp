@@ -45,7 +45,13 @@ class AsItLies {
  public:
   AsItLies(const MeshView& mesh, const EncodeOptions& options, const MeshPassOptions& hooks,
            const Context& context)
-      : mesh_(mesh), options_(options), pass_options_(hooks), context_(context) {}
+      : mesh_(mesh),
+        options_(options),
+        pass_options_(hooks),
+        share_(hooks.share),
+        context_(context) {
+    pass_options_.share = with_tag(share_, kPassTag);
+  }
 
   std::variant<Encoded, NotAsItLies> run() {
     if (!find_center()) return NotAsItLies::kNoCenter;
@@ -102,7 +108,8 @@ class AsItLies {
   const ExactNorms& norms() {
     if (!norms_) {
       norms_ = timed(analysis().times, "norms", [&] {
-        return exact_norms(mesh_, center(), context_, options_.errors ? &sizes_ : nullptr);
+        return exact_norms(mesh_, center(), context_, options_.errors ? &sizes_ : nullptr,
+                           with_tag(share_, kNormsTag));
       });
     }
     return *norms_;
@@ -172,6 +179,7 @@ class AsItLies {
   const MeshView& mesh_;
   const EncodeOptions& options_;
   MeshPassOptions pass_options_;  // with the centre, once it is found
+  ShareTasks share_;
   const Context& context_;
   std::optional<StarReport> folded_;  // of a surface without a kernel
   std::optional<ExactNorms> norms_;
@@ -180,6 +188,16 @@ class AsItLies {
 };
 
 }  // namespace
+
+ShareTasks with_tag(const ShareTasks& share, char tag) {
+  if (!share) return {};
+  return [share, tag](const SharedTasks& tasks, const DoSharedTask& here,
+                      const TakeSharedResult& take) {
+    SharedTasks tagged = tasks;
+    tagged.job.insert(tagged.job.begin(), tag);
+    share(tagged, here, take);
+  };
+}
 
 std::variant<Encoded, NotAsItLies> encode_as_it_lies(const MeshView& mesh,
                                                      const EncodeOptions& options,

@@ -3,6 +3,7 @@
 
 #include <variant>
 
+#include "base/shared_tasks.h"
 #include "rholm/mesh_view.h"
 #include "rholm/model.h"
 #include "transform/mesh_pass/pass.h"
@@ -21,9 +22,14 @@ enum class NotAsItLies {
   kCoveredTwice,  // no face turns its back, and directions meet more than one
 };
 
-// Everything from the mesh as it lies. `hooks`: `check` and `release` of it. Throws InvalidInput
-// for options out of range, and what is no fault of the mesh: Io, OutOfMemory, Cancelled, and
-// whatever else a hook or the progress callback throws.
+// What jobs of other processes that have the mesh begin with: which tasks they are of.
+inline constexpr char kPassTag = 'p';   // PassHelper::tasks_of()
+inline constexpr char kNormsTag = 'n';  // norms_tasks()
+ShareTasks with_tag(const ShareTasks& share, char tag);
+
+// Everything from the mesh as it lies. `hooks`: `check` and `release` of it, and `share`. Throws
+// InvalidInput for options out of range, and what is no fault of the mesh: Io, OutOfMemory,
+// Cancelled, and whatever else a hook or the progress callback throws.
 std::variant<Encoded, NotAsItLies> encode_as_it_lies(const MeshView& mesh,
                                                      const EncodeOptions& options,
                                                      const MeshPassOptions& hooks,

@@ -11,6 +11,7 @@
 #include "atlas/cover/cap_size.h"
 #include "base/stopwatch.h"
 #include "model/points/reconstruct_points.h"
+#include "model/points/reconstruct_rules.h"
 #include "model/points/surface_confidence.h"
 #include "rholm/error.h"
 #include "shape/measure.h"
@@ -19,66 +20,8 @@
 namespace rholm {
 namespace {
 
-constexpr int kDegree = 3;  // of small caps: method 7.3
-// Steps of the grid. Of the spacing (method 7.7): from 0.7 to 0.6 normals gain 3 %, faces and time
-// grow by a third; below distances gain nothing more. Of a cap's support: its surface has no waves
-// shorter than a third of it, and a step of half of that shows them.
-constexpr double kStepOfSpacing = 0.6;
-constexpr double kStepOfSupport = 0.15;
-// Where points are a thousand times sparser than elsewhere caps differ by more than the band of 2.5
-// fine steps: all but this share of the surface has smaller errors, and they may be this part of a
-// step (scripts/constants): 0.07 steps on even points, 0.25 where density falls 30 times, both
-// untouched; 2 where it falls 1000 times, torn to sheets below 1.2 steps of their error.
-constexpr double kSparseShare = 0.02;
-constexpr double kStepOfError = 2;
-// Share of the points far from all others that makes outliers near the surface likely.
-constexpr double kSuspicious = 1e-3;
-// The same of wrong normals of some of the points; and how many more there may be, by chance, and
-// where they are so many that those around are not of one mind.
-constexpr double kSuspiciousNormals = 0.01, kMoreWrong = 2;
-// Standard deviations of the noise within which caps are averaged: one that is off by as much must
-// not count alone.
-constexpr double kBandOfNoise = 3;
-
-// Edges of the cubes of seen space: lines of sight to even points go through every one before them.
-constexpr double kCubesOfSpacing = 2;
-// Lines of sight end so many spacings, or deviations of the noise, before their points: beyond is
-// the surface's own band, and what a line passes close to the rim of a hole.
-constexpr double kEndOfSight = 4;
-
 // Of a point with its normal, its part of trees and caps: measured on 50 000 to 500 000.
 constexpr std::size_t kMemoryOfPoint = 300;
-
-void check(const ReconstructOptions& options) {
-  const auto refuse = [](const char* what, double value, const char* limit) {
-    throw Error(ErrorCode::kInvalidInput, fmt::format("{} is {}: {}", what, value, limit));
-  };
-  if (!(options.step >= 0) || !std::isfinite(options.step)) {
-    refuse("the step of the grid", options.step, "it must be positive, or 0 to choose it");
-  }
-  if (!(options.tolerance >= 0) || !std::isfinite(options.tolerance)) {
-    refuse("the tolerance", options.tolerance, "it must be positive, or 0 for none");
-  }
-  if (options.noise && !(*options.noise >= 0 && std::isfinite(*options.noise))) {
-    refuse("the noise", *options.noise, "it must be 0 or positive");
-  }
-  if (options.sensor && !is_finite(*options.sensor)) {
-    const Vec3& at = *options.sensor;
-    refuse("a coordinate of the sensor", std::isfinite(at.x) ? at.y + at.z : at.x,
-           "it must be finite");
-  }
-  if (!(options.min_component >= 0 && options.min_component <= 1)) {
-    refuse("the least component", options.min_component, "it must be 0 ... 1 of the largest");
-  }
-}
-
-CoverOptions cover_options(const ReconstructOptions& options, const CapSize& size) {
-  return {.neighbours = size.neighbours,
-          .degree = kDegree,
-          .noise = size.noise,
-          .gradient_weight = size.gradient_weight,
-          .tolerance = options.tolerance};
-}
 
 // Caps for the points, without those near the surface that belong to none.
 Cover fit_caps(WorkingPoints& points, const ReconstructOptions& options, CapSize& size,
@@ -89,14 +32,11 @@ Cover fit_caps(WorkingPoints& points, const ReconstructOptions& options, CapSize
   };
   measure();
   const auto fit = [&] { return cover(points.ordered(), cover_options(options, size), context); };
-  // Where none is far from the surface, and no normals are wrong, none is near it either: what no
-  // cap fits is an edge. The box of random outliers has several times as many far ones.
   const auto n = static_cast<double>(points.size());
   const auto strays = static_cast<double>(report.outliers);
   const double wrong = options.remove_outliers ? n * points.wrong_normals(context) : 0;
-  if (strays <= kSuspicious * n && wrong <= kSuspiciousNormals * n) return fit();
-  const auto most = static_cast<std::size_t>(strays + kMoreWrong * wrong);
-  std::size_t found = points.remove_outliers(size.noise, most, {}, context);
+  if (!are_suspicious(n, strays, wrong)) return fit();
+  std::size_t found = points.remove_outliers(size.noise, most_outliers(strays, wrong), {}, context);
   Cover caps;
   if (found == 0) {
     caps = fit();
@@ -145,16 +85,6 @@ double error_of_sparse(const Atlas& atlas) {
   return 0;
 }
 
-double choose_step(const ReconstructOptions& options, const CapSize& size, double fine_spacing,
-                   const Atlas& atlas) {
-  if (options.step > 0) return options.step;
-  const double step = kStepOfSpacing * fine_spacing;
-  if (size.noise == 0 && options.tolerance == 0) {
-    return std::max(step, kStepOfError * error_of_sparse(atlas));
-  }
-  return std::max(step, kStepOfSupport * typical_support(atlas));
-}
-
 }  // namespace
 
 const char* to_string(HolePolicy policy) { return policy == HolePolicy::kFill ? "fill" : "keep"; }
@@ -194,7 +124,11 @@ Reconstruction reconstruct(PointCloud cloud, const ReconstructOptions& options,
   report.spacing = spacing.median, report.noise = size.noise;
   report.normal_noise_degrees = size.normal_noise * 180 / std::numbers::pi;
   report.neighbours = size.neighbours;
-  report.step = choose_step(options, size, spacing.fine, atlas);
+  report.step = options.step;
+  if (options.step == 0) {
+    const double wanted = is_even(size, options) ? error_of_sparse(atlas) : typical_support(atlas);
+    report.step = choose_step(spacing.fine, wanted, is_even(size, options));
+  }
 
   std::optional<SeenSpace> seen;
   if (options.holes == HolePolicy::kFill) {
@@ -233,7 +167,9 @@ Reconstruction reconstruct(PointCloud cloud, const ReconstructOptions& options,
   if (options.holes == HolePolicy::kFill) report.closed_area = surface.guessed * report.area;
   timed(times, "attributes", [&] {
     points.carry_attributes(result.mesh, context);
-    if (options.confidence) add_confidence(points.ordered(), result.mesh, report, context);
+    if (options.confidence) {
+      put_areas(add_confidence(points.ordered(), result.mesh, context), report);
+    }
   });
   return result;
 }

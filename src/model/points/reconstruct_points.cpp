@@ -5,11 +5,10 @@
 #include <numeric>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "base/large_vector.h"
 #include "base/parallel.h"
-#include "rholm/error.h"
+#include "model/points/carry_attributes.h"
+#include "model/points/reconstruct_rules.h"
 #include "rholm/points.h"
 #include "rholm/topology.h"
 #include "shape/on_line.h"
@@ -21,23 +20,9 @@
 namespace rholm {
 namespace {
 
-constexpr std::size_t kFewestPoints = 16;  // as many as a cap has coefficients
 constexpr std::size_t kSpacingSeeds = 2000;
-// Of one place: the radius of 24 random points scatters by a tenth, that of 8 by a fifth.
-constexpr std::size_t kCircles = 3;
 // Of even random points the tenth lies at 0.8 of the median; a finer part of uneven ones below.
 constexpr double kTenthOfEven = 0.8;
-// Of the diagonal: points no farther from one line than this have no surface, whatever their
-// normals; far above what single precision does to a line.
-constexpr double kLine = 1e-5;
-// Length of the mean normal from which nothing is enclosed: of a cap of a sphere of 37 degrees.
-constexpr double kFlat = 0.9;
-// Diagonals: squares of distances between neighbours must stay within single precision.
-constexpr double kSmallest = 1e-12, kLargest = 1e12;
-// Each sees what the one before has left (method 7.4).
-constexpr int kOutlierPasses = 3;
-// Of the points; smaller groups, where there are outliers, are made of them.
-constexpr double kLeastGroup = 0.002;
 
 // keep(i): whether point i stays.
 template <typename Keep>
@@ -68,36 +53,6 @@ bool lists_fit(const PointCloud& cloud) {
 // Points without a direction are of no use here.
 void drop_zero_normals(PointCloud& cloud) {
   keep_points(cloud, [&](std::size_t i) { return norm(cloud.normals[i]) > 0; });
-}
-
-void check_spread(const PointCloud& cloud, double diagonal) {
-  if (cloud.points.size() < kFewestPoints) {
-    throw Error(
-        ErrorCode::kInvalidInput,
-        fmt::format("{} different {} too few for a surface: {} at least", cloud.points.size(),
-                    cloud.points.size() == 1 ? "point with a normal is" : "points with normals are",
-                    kFewestPoints));
-  }
-  if (!(diagonal > kSmallest && diagonal < kLargest)) {
-    throw Error(ErrorCode::kInvalidInput,
-                fmt::format("the points span {}: {} ... {} can be worked with; take another unit",
-                            diagonal, kSmallest, kLargest));
-  }
-}
-
-void check_width(const std::vector<Vec3>& points, double diagonal) {
-  if (!lie_on_line(points, kLine * diagonal)) return;
-  throw Error(ErrorCode::kInvalidInput,
-              fmt::format("all {} points lie on one line, within {:.0e} of its length: give "
-                          "points of a surface",
-                          points.size(), kLine));
-}
-
-[[noreturn]] void refuse_flat(std::size_t n) {
-  throw Error(ErrorCode::kInvalidInput,
-              fmt::format("these {} points bound no solid: their normals all point to one side, as "
-                          "of a plane; '--holes keep' (HolePolicy::kKeep) makes an open sheet",
-                          n));
 }
 
 }  // namespace
@@ -143,7 +98,7 @@ WorkingPoints::WorkingPoints(PointCloud cloud, const ReconstructOptions& options
   }
   report.dropped_points = report.points - report.outliers - cloud_.points.size();
   const SideBalance balance = balance_sides(*tree_, points_, normals_, context);
-  if (options.holes == HolePolicy::kFill && balance.one_sided > kFlat) refuse_flat(size());
+  if (options.holes == HolePolicy::kFill) check_sides(balance, size());
   report.turned_normals = directed && balance.inwards;
   if (report.turned_normals) {
     for (Vec3& normal : cloud_.normals) normal = -normal;
@@ -153,8 +108,8 @@ WorkingPoints::WorkingPoints(PointCloud cloud, const ReconstructOptions& options
 
 void WorkingPoints::check_points() {
   diagonal_ = bounds(cloud_.points).diagonal();
-  check_spread(cloud_, diagonal_);
-  check_width(cloud_.points, diagonal_);
+  check_spread(cloud_.points.size(), diagonal_);
+  if (lie_on_line(cloud_.points, kLine * diagonal_)) refuse_one_line(cloud_.points.size());
 }
 
 void WorkingPoints::put_sensor(const Vec3& sensor) {
@@ -217,9 +172,7 @@ Spacing WorkingPoints::spacing(const Context& context) const {
 
 double WorkingPoints::spacing_at(const Vec3& place) const {
   std::vector<Neighbor> near;
-  tree_->nearest(place, 1, near);
-  tree_->nearest(place, kCircles * gaps_.scaled(near.front().index, kCircle), near);
-  return spacing_of_circle(near.back().distance2 / kCircles);
+  return spacing_around(*tree_, gaps_, place, near);
 }
 
 bool WorkingPoints::remove(const std::vector<std::uint8_t>& gone, const Context& context) {
@@ -252,8 +205,7 @@ std::size_t WorkingPoints::remove_outliers(double noise, std::size_t most,
   for (int pass = 1; remove(gone, context) && pass < kOutlierPasses; ++pass) {
     gone = find_outliers(*tree_, points_, normals_, noise, context);
   }
-  const auto least = static_cast<std::size_t>(kLeastGroup * static_cast<double>(size()));
-  remove(find_small_groups(*tree_, normals_, std::max(kFewestPoints, least), context), context);
+  remove(find_small_groups(*tree_, normals_, least_group(size()), context), context);
   return before - size();
 }
 
@@ -270,52 +222,11 @@ void WorkingPoints::keep_tree() {
 }
 
 void WorkingPoints::carry_attributes(Mesh& mesh, const Context& context) const {
-  const std::size_t n = mesh.vertices.size(), first = mesh.attributes.size();
-  for (const Attribute& attribute : cloud_.attributes) {
-    mesh.attributes.push_back({attribute.name, attribute.type, std::vector<double>(n)});
-  }
-  if (mesh.attributes.size() == first) return;
-  parallel_for(n, 1024, context, {.name = "attributes"}, [&](std::size_t begin, std::size_t end) {
-    std::vector<Neighbor> near;
-    std::vector<double> weights;
-    const auto blended = [&](const Attribute& attribute) {
-      // Where a scanner had no value there may be no number: the others count alone.
-      double value = 0, sum = 0;
-      for (std::size_t j = 0; j < near.size(); ++j) {
-        const double own = attribute.values[tree_->order()[near[j].index]];
-        if (!std::isfinite(own)) continue;
-        value += weights[j] * own;
-        sum += weights[j];
-      }
-      return value / sum;
-    };
-    for (std::size_t v = begin; v < end; ++v) {
-      tree_->nearest(mesh.vertices[v], kCircle, near);
-      // The weight of method 7.5, its support a little beyond the farthest.
-      const double support2 = 1.3 * std::max(1e-300, static_cast<double>(near.back().distance2));
-      weights.clear();
-      for (const Neighbor& p : near) {
-        const double rest = 1 - p.distance2 / support2;
-        weights.push_back(rest * rest * rest);
-      }
-      for (std::size_t a = 0; a < cloud_.attributes.size(); ++a) {
-        mesh.attributes[first + a].values[v] = blended(cloud_.attributes[a]);
-      }
-    }
-  });
+  rholm::carry_attributes(*tree_, cloud_.attributes, mesh, context);
   if (has_one_sensor_) {
     std::erase_if(mesh.attributes, [](const Attribute& attribute) {
       return std::find(kSensorAxes.begin(), kSensorAxes.end(), attribute.name) != kSensorAxes.end();
     });
-  }
-  // Values keep to their type: whole numbers stay whole, floats floats.
-  for (std::size_t a = first; a < mesh.attributes.size(); ++a) {
-    Attribute& attribute = mesh.attributes[a];
-    if (attribute.type == ScalarType::kFloat64) continue;
-    const bool real = attribute.type == ScalarType::kFloat32;
-    for (double& value : attribute.values) {
-      value = real ? static_cast<double>(static_cast<float>(value)) : std::round(value);
-    }
   }
 }
 

@@ -43,11 +43,24 @@ std::vector<Around> look_around(const OrderedPoints& all, const Context& context
 
 }  // namespace
 
-void add_confidence(const OrderedPoints& all, Mesh& mesh, ReconstructReport& report,
-                    const Context& context) {
+ConfidenceAreas& operator+=(ConfidenceAreas& sum, const ConfidenceAreas& part) {
+  sum.all += part.all, sum.unseen += part.unseen;
+  sum.thin += part.thin, sum.unsure += part.unsure;
+  return sum;
+}
+
+void put_areas(const ConfidenceAreas& areas, ReconstructReport& report) {
+  if (!(areas.all > 0)) return;
+  report.unseen_area = areas.unseen / areas.all;
+  report.thin_area = areas.thin / areas.all;
+  report.unsure_area = areas.unsure / areas.all;
+}
+
+ConfidenceAreas add_confidence(const OrderedPoints& all, Mesh& mesh, const Context& context) {
+  ConfidenceAreas areas;
   const auto found = std::find_if(mesh.attributes.begin(), mesh.attributes.end(),
                                   [](const Attribute& a) { return a.name == "confidence"; });
-  if (found == mesh.attributes.end()) return;
+  if (found == mesh.attributes.end()) return areas;
   const std::vector<Around> around = look_around(all, context);
   const std::size_t n = mesh.vertices.size();
   std::vector<std::uint8_t> unseen(n), thin(n);
@@ -64,20 +77,18 @@ void add_confidence(const OrderedPoints& all, Mesh& mesh, ReconstructReport& rep
       thin[v] = own.apart < kHalf ? 1 : 0;
     }
   });
-  double area = 0;
   for (const auto& t : mesh.triangles) {
     const double third = norm(cross(mesh.vertices[t[1]] - mesh.vertices[t[0]],
                                     mesh.vertices[t[2]] - mesh.vertices[t[0]])) /
                          6;
     for (const std::uint32_t v : t) {
-      area += third;
-      if (unseen[v] != 0) report.unseen_area += third;
-      if (thin[v] != 0) report.thin_area += third;
-      if (confidence[v] < kHalf) report.unsure_area += third;
+      areas.all += third;
+      if (unseen[v] != 0) areas.unseen += third;
+      if (thin[v] != 0) areas.thin += third;
+      if (confidence[v] < kHalf) areas.unsure += third;
     }
   }
-  if (!(area > 0)) return;
-  report.unseen_area /= area, report.thin_area /= area, report.unsure_area /= area;
+  return areas;
 }
 
 }  // namespace rholm

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <string>
+#include <thread>
+#include <vector>
 
 #include "base/crc32.h"
 #include "io/coefficients/test_support.h"
@@ -54,6 +57,24 @@ TEST(model_file, round_trip_keeps_every_bit) {
   Expansion plain;
   const Expansion back = parse_model(model_bytes(plain), "test");
   expect_same_description(back, plain);
+}
+
+// HDF5 may be built for one thread only.
+TEST(model_file, several_threads_write_at_once) {
+  const Expansion expansion = random_expansion(9);
+  const std::string expected = model_bytes(expansion);  // by a folder of this test's, too
+  const TemporaryFolder folder;
+  std::vector<std::jthread> threads;
+  threads.reserve(4);
+  for (int i = 0; i < 4; ++i) {
+    threads.emplace_back([&, i] {
+      const std::string name = std::to_string(i) + ".h5";
+      for (int k = 0; k < 50; ++k) {
+        write_model(expansion, folder / name.c_str());
+        EXPECT_EQ(read_all(folder / name.c_str()), expected);
+      }
+    });
+  }
 }
 
 TEST(model_file, same_expansion_gives_the_same_bytes) {

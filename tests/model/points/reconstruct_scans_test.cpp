@@ -20,7 +20,6 @@ namespace rholm {
 namespace {
 
 using test::expect_closed_manifold;
-using test::random_in;
 using test::sphere_points;
 
 TEST(Reconstruct, scans_that_are_off_make_one_sheet) {
@@ -39,43 +38,13 @@ TEST(Reconstruct, scans_that_are_off_make_one_sheet) {
   EXPECT_GT(left.report.noise, 0.1 * 0.02 * diagonal);
 }
 
-// A box of edge 2 with a bore of radius 0.4 from above, 1.5 deep, whose wall no scanner has met.
-PointCloud bored_box(bool sensors) {
-  PointCloud cloud;
-  std::vector<double> at[3];
-  const auto add = [&](const Vec3& point, const Vec3& normal) {
-    cloud.points.push_back(point), cloud.normals.push_back(normal);
-    at[0].push_back(10 * normal.x), at[1].push_back(10 * normal.y), at[2].push_back(10 * normal.z);
-  };
-  const Vec3 axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  std::uint64_t next = 0;
-  const auto uniform = [&](double half) { return random_in(-half, half, 11, next++); };
-  for (std::size_t k = 0; k < 3; ++k) {
-    for (const double side : {-1.0, 1.0}) {
-      for (int i = 0; i < 4000; ++i) {
-        const double u = uniform(1), v = uniform(1);
-        if (k == 2 && side == 1 && std::hypot(u, v) < 0.4) continue;
-        add(u * axes[(k + 1) % 3] + v * axes[(k + 2) % 3] + side * axes[k], side * axes[k]);
-      }
-    }
-  }
-  for (int i = 0; i < 800; ++i) {
-    const double u = uniform(0.4), v = uniform(0.4);
-    if (std::hypot(u, v) < 0.4) add({u, v, -0.5}, axes[2]);
-  }
-  for (std::size_t k = 0; sensors && k < 3; ++k) {
-    cloud.attributes.push_back({std::string("sensor_") + "xyz"[k], ScalarType::kFloat64, at[k]});
-  }
-  return cloud;
-}
-
 TEST(Reconstruct, what_has_been_seen_to_be_empty_is_not_closed) {
   const double whole = 8, bore = std::numbers::pi * 0.16 * 1.5;
-  const Reconstruction blind = reconstruct(bored_box(false));
+  const Reconstruction blind = reconstruct(test::bored_box(false));
   // The bottom of the bore is a bubble, the bore is closed.
   EXPECT_EQ(expect_closed_manifold(blind.mesh).euler_characteristic, 4);
   EXPECT_GT(blind.report.volume, whole - 0.4 * bore);
-  const Reconstruction made = reconstruct(bored_box(true));
+  const Reconstruction made = reconstruct(test::bored_box(true));
   EXPECT_EQ(expect_closed_manifold(made.mesh).euler_characteristic, 2);
   // Two spacings of 0.03 less of the radius.
   EXPECT_NEAR(made.report.volume, whole - bore, 0.3 * bore);

@@ -1,0 +1,38 @@
+// The file of a BatchJournal. Layer: model, private.
+//
+// "RHOLMBJ1", the job (8 bytes), the number of rows (8), the CRC-32 of these 24 bytes; then
+// records: the number of bytes of what follows the checksum (4), the CRC-32 of that number and of
+// those bytes (4), the index of the row (8), the row (row_bytes.h). All little endian.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rholm/batch.h"
+
+namespace rholm {
+
+inline constexpr std::size_t kJournalHead = 28;
+inline constexpr std::size_t kRecordHead = 16;
+
+std::string journal_head(std::uint64_t job, std::size_t rows);
+std::string journal_record(std::size_t row, const BatchRow& cells);
+
+// Where the row stands, without the head of the record; size 0: it is not there.
+struct JournalPlace {
+  std::uint64_t at = 0;
+  std::uint32_t size = 0;
+};
+struct JournalContent {
+  std::vector<JournalPlace> places;  // of all rows
+  std::size_t done = 0;
+  std::size_t whole = 0;  // bytes up to what is damaged or not whole; 0: not even the head is there
+};
+// Throws InvalidInput (`name` is the file) for the journal of another job, and for what is none.
+JournalContent parse_journal(std::string_view bytes, const std::string& name, std::uint64_t job,
+                             std::size_t rows);
+
+}  // namespace rholm

@@ -1,0 +1,117 @@
+#include "model/bricks/brick_output.h"
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <system_error>
+
+#include "io/ply/ply_parts.h"
+#include "model/points/carry_attributes.h"
+#include "shape/points/sensors.h"
+
+namespace rholm {
+namespace {
+
+// What is known of the signs of normals: of given ones nothing.
+void put_confidence(BrickScene& scene) {
+  std::vector<double> sure(scene.cloud.points.size(), 1.0);
+  for (std::size_t i = 0; i < scene.confidence.size(); ++i) {
+    sure[scene.tree->order()[i]] = static_cast<double>(scene.confidence[i]);
+  }
+  set_attribute(scene.cloud.attributes, {"confidence", ScalarType::kFloat32, std::move(sure)});
+}
+
+}  // namespace
+
+// What a run that was killed has left beside the output.
+void BrickOutput::remove_half_written() const {
+  const std::vector<char> name = store_.open("output").values<char>(0);
+  std::error_code ignored;  // it may be gone
+  if (!name.empty()) std::filesystem::remove(std::string(name.begin(), name.end()), ignored);
+}
+
+void BrickOutput::write(const BrickParts& parts, const BrickParts::Whole& whole,
+                        const std::filesystem::path& output) const {
+  const PlyLayout layout(whole.vertices, whole.triangles, attributes());
+  std::optional<PlyParts> file;
+  stages_.once("write", [&] {
+    if (store_.has("output")) remove_half_written();
+    file.emplace(output, layout, stages_.context());
+    const std::string name = file->file().string();
+    const std::span<const std::byte> sections[] = {std::as_bytes(std::span(name))};
+    store_.write("output", sections);
+  });
+  const std::vector<char> name = store_.open("output").values<char>(0);
+  const std::filesystem::path path(std::string(name.begin(), name.end()));
+  const auto part = [&](std::size_t brick) {
+    PlyPart made = parts.part(brick);
+    carry(brick, made.vertices);
+    return made;
+  };
+  if (!path.empty()) {
+    stages_.each("write", n_bricks_,
+                 [&](std::size_t brick) { PlyParts::put(path, layout, part(brick)); });
+  }
+  stages_.once("write", [&] {
+    for (std::size_t brick = 0; path.empty() && brick < n_bricks_; ++brick) {
+      file->append(ply_vertices(part(brick).vertices));
+    }
+    for (std::size_t brick = 0; path.empty() && brick < n_bricks_; ++brick) {
+      file->append(ply_triangles(parts.part(brick).triangles));
+    }
+    file->commit();
+    store_.remove("output");
+  });
+}
+
+std::vector<Attribute> BrickOutput::attributes() const {
+  std::vector<Attribute> attributes;
+  for (const char* axis : {"nx", "ny", "nz"}) {
+    attributes.push_back({axis, ScalarType::kFloat32, {}});
+  }
+  for (const ColumnLayout& column : layout_.columns) {
+    if (!is_left_out(column.name)) attributes.push_back({column.name, column.type, {}});
+  }
+  if (options_.confidence) set_attribute(attributes, {"confidence", ScalarType::kFloat32, {}});
+  return attributes;
+}
+
+// Of one sensor for all, surfaces need not know.
+bool BrickOutput::is_left_out(const std::string& attribute) const {
+  return options_.sensor &&
+         std::find(kSensorAxes.begin(), kSensorAxes.end(), attribute) != kSensorAxes.end();
+}
+
+// What the points of a brick tell of its vertices.
+void BrickOutput::carry(std::size_t brick, Mesh& vertices) const {
+  if (layout_.columns.empty() && !options_.confidence) return;
+  BrickScene scene = load_(brick);
+  if (options_.confidence) put_confidence(scene);
+  std::erase_if(scene.cloud.attributes, [&](const Attribute& a) { return is_left_out(a.name); });
+  carry_attributes(*scene.tree, scene.cloud.attributes, vertices, stages_.context());
+  if (options_.confidence) add_confidence(scene.ordered(), vertices, stages_.context());
+}
+
+// Of the triangles of each brick.
+ConfidenceAreas BrickOutput::measure_confidence(const BrickParts& parts) const {
+  const auto name_of = [](std::size_t brick) { return "confidence/" + std::to_string(brick); };
+  stages_.each("confidence", n_bricks_, [&](std::size_t brick) {
+    if (store_.has(name_of(brick))) return;
+    BrickScene scene = load_(brick);
+    put_confidence(scene);
+    std::erase_if(scene.cloud.attributes,
+                  [](const Attribute& a) { return a.name != "confidence"; });
+    Mesh mesh = parts.kept_mesh(brick).mesh;
+    carry_attributes(*scene.tree, scene.cloud.attributes, mesh, stages_.context());
+    const ConfidenceAreas areas = add_confidence(scene.ordered(), mesh, stages_.context());
+    const std::span<const std::byte> sections[] = {bytes_of(std::span(&areas, 1))};
+    store_.write(name_of(brick), sections);
+  });
+  ConfidenceAreas sum;
+  for (std::size_t brick = 0; brick < n_bricks_; ++brick) {
+    sum += store_.open(name_of(brick)).values<ConfidenceAreas>(0).at(0);
+  }
+  return sum;
+}
+
+}  // namespace rholm

@@ -1,0 +1,33 @@
+// Signs of the pieces of all bricks to each other, and their outer side. Layer: model, private.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "io/spill/piece_store.h"
+#include "model/bricks/brick_signs.h"
+#include "rholm/context.h"
+
+namespace rholm {
+
+// Of the pieces of all bricks, first those of brick 0.
+struct JoinedSides {
+  std::vector<std::uint64_t> first = {};         // piece of each brick, and the end
+  std::vector<std::uint8_t> turned = {};         // per piece
+  std::vector<float> trust = {};                 // per piece: that of its component, see SideTrust
+  std::vector<std::uint32_t> component = {};     // per piece
+  std::size_t n_components = 0;                  // that have own points
+  double doubtful = 0;                           // share of the samples
+  bool in_rows = false;                          // points of some brick
+  std::vector<SideSample> samples = {};          // of all bricks, with the signs that come of it
+  std::vector<std::uint64_t> first_sample = {};  // of each brick, and the end
+};
+
+// From the pieces "signs/BRICK" and "votes/BRICK" of all bricks. Pieces of two bricks become one by
+// the votes of the points that they share, the most decided first, where most of them agree; those
+// by the votes of edges in doubt, as orient_along_graph() does; and what is still open by the
+// winding number of the samples, as turn_outwards() does.
+JoinedSides join_sides(const PieceStore& store, std::size_t n_bricks, const Context& context);
+
+}  // namespace rholm

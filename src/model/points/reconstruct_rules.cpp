@@ -1,0 +1,108 @@
+#include "model/points/reconstruct_rules.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "rholm/error.h"
+
+namespace rholm {
+namespace {
+
+// Share of the points far from all others that makes outliers near the surface likely: where none
+// is far from it, and no normals are wrong, none is near it either, and what no cap fits is an
+// edge. The box of random outliers has several times as many far ones.
+constexpr double kSuspicious = 1e-3;
+// The same of wrong normals of some of the points; and how many more there may be, by chance, and
+// where they are so many that those around are not of one mind.
+constexpr double kSuspiciousNormals = 0.01, kMoreWrong = 2;
+constexpr double kLeastGroup = 0.002;  // of the points
+// Length of the mean normal from which nothing is enclosed: of a cap of a sphere of 37 degrees.
+constexpr double kFlat = 0.9;
+// Diagonals: squares of distances between neighbours must stay within single precision.
+constexpr double kSmallest = 1e-12, kLargest = 1e12;
+
+}  // namespace
+
+bool are_suspicious(double n, double strays, double wrong) {
+  return strays > kSuspicious * n || wrong > kSuspiciousNormals * n;
+}
+
+std::size_t most_outliers(double strays, double wrong) {
+  return static_cast<std::size_t>(strays + kMoreWrong * wrong);
+}
+
+std::size_t least_group(std::size_t n) {
+  return std::max(kFewestPoints, static_cast<std::size_t>(kLeastGroup * static_cast<double>(n)));
+}
+
+void check(const ReconstructOptions& options) {
+  const auto refuse = [](const char* what, double value, const char* limit) {
+    throw Error(ErrorCode::kInvalidInput, fmt::format("{} is {}: {}", what, value, limit));
+  };
+  if (!(options.step >= 0) || !std::isfinite(options.step)) {
+    refuse("the step of the grid", options.step, "it must be positive, or 0 to choose it");
+  }
+  if (!(options.tolerance >= 0) || !std::isfinite(options.tolerance)) {
+    refuse("the tolerance", options.tolerance, "it must be positive, or 0 for none");
+  }
+  if (options.noise && !(*options.noise >= 0 && std::isfinite(*options.noise))) {
+    refuse("the noise", *options.noise, "it must be 0 or positive");
+  }
+  if (options.sensor && !is_finite(*options.sensor)) {
+    const Vec3& at = *options.sensor;
+    refuse("a coordinate of the sensor", std::isfinite(at.x) ? at.y + at.z : at.x,
+           "it must be finite");
+  }
+  if (!(options.min_component >= 0 && options.min_component <= 1)) {
+    refuse("the least component", options.min_component, "it must be 0 ... 1 of the largest");
+  }
+}
+
+void check_spread(std::size_t n, double diagonal) {
+  if (n < kFewestPoints) {
+    throw Error(
+        ErrorCode::kInvalidInput,
+        fmt::format("{} different {} too few for a surface: {} at least", n,
+                    n == 1 ? "point with a normal is" : "points with normals are", kFewestPoints));
+  }
+  if (!(diagonal > kSmallest && diagonal < kLargest)) {
+    throw Error(ErrorCode::kInvalidInput,
+                fmt::format("the points span {}: {} ... {} can be worked with; take another unit",
+                            diagonal, kSmallest, kLargest));
+  }
+}
+
+void refuse_one_line(std::size_t n) {
+  throw Error(ErrorCode::kInvalidInput,
+              fmt::format("all {} points lie on one line, within {:.0e} of its length: give "
+                          "points of a surface",
+                          n, kLine));
+}
+
+void check_sides(const SideBalance& balance, std::size_t n) {
+  if (!(balance.one_sided > kFlat)) return;
+  throw Error(ErrorCode::kInvalidInput,
+              fmt::format("these {} points bound no solid: their normals all point to one side, as "
+                          "of a plane; '--holes keep' (HolePolicy::kKeep) makes an open sheet",
+                          n));
+}
+
+CoverOptions cover_options(const ReconstructOptions& options, const CapSize& size) {
+  return {.neighbours = size.neighbours,
+          .degree = kDegree,
+          .noise = size.noise,
+          .gradient_weight = size.gradient_weight,
+          .tolerance = options.tolerance};
+}
+
+bool is_even(const CapSize& size, const ReconstructOptions& options) {
+  return size.noise == 0 && options.tolerance == 0;
+}
+
+double choose_step(double fine_spacing, double wanted, bool even) {
+  return std::max(kStepOfSpacing * fine_spacing, (even ? kStepOfError : kStepOfSupport) * wanted);
+}
+
+}  // namespace rholm
