@@ -1,0 +1,81 @@
+#include "mpi/analyze.h"
+
+#include <algorithm>
+#include <memory>
+#include <set>
+
+#include "cli/commands/analyze.h"
+#include "cli/terminal/interrupt.h"
+#include "model/encode/shared_encode.h"
+#include "mpi/share.h"
+
+namespace rholm::mpi {
+namespace {
+
+// Ranks share one expansion by the fast engine with the method edge; of all else they would wait
+// for rank 0.
+void keep_what_is_shared(cli::Command& command) {
+  static const std::set<std::string> others = {"atlas",     "fit",          "extension", "samples",
+                                               "deviation", "most-samples", "seed",      "weld"};
+  std::erase_if(command.options,
+                [](const cli::Option& option) { return others.contains(option.name); });
+  for (cli::Option& option : command.options) {
+    if (option.name == "method") {
+      option.choices = {"edge"};
+      option.help = "edge: the radius, over edges and faces; 'rholm analyze' has others";
+    } else if (option.name == "SHAPE") {
+      option.help = "file of a closed mesh, or, on one rank, - for standard input";
+    } else if (option.name == "engine") {
+      option.choices = {"fast"};
+      option.help = "fast: sums on an oversampled grid; 'rholm analyze' has another";
+    }
+  }
+}
+
+}  // namespace
+
+cli::Command analyze_command(Ranks* ranks) {
+  cli::Command command = cli::analyze_command_by(
+      {.encode_file =
+           [ranks](const std::string& path, const EncodeOptions& options, const Context& context,
+                   const std::function<Mesh()>& read) {
+             if (ranks->size() == 1) return encode_file(path, options, context, read);
+             return encode_file(path, options, context, read, [&](const std::string& mesh) {
+               return share_over(*ranks, kAnalyzeService, mesh, context.threads);
+             });
+           },
+       .check_input = [ranks](const std::string& path) { check_input(*ranks, path); }});
+  keep_what_is_shared(command);
+  command.description =
+      "Expands the radius of a star-shaped mesh in real spherical harmonics, with the result of "
+      "rholm analyze to the byte.\n\nThe ranks share the pass over the triangles, and the norms. "
+      "Each rank opens the file itself, whose path means the same on all machines. Rank 0 alone "
+      "looks for the centre, measures errors and writes; it makes the pass alone where triangles "
+      "lie "
+      "in random order, and all of a mesh that has to be changed first: not closed, inside out. "
+      "Atlases, other methods and --weld are those of rholm analyze.";
+  command.examples = {
+      "mpirun -n 16 rholm-mpi analyze huge.ply --degree 480 -o huge.h5",
+      "srun rholm-mpi analyze huge.ply --tolerance 1e-3 --unit diagonal -o huge.h5"};
+  command.if_not_star = "--center auto, --signed";
+  return command;
+}
+
+std::function<void(Ranks& ranks, const std::string& bytes)> analyze_service() {
+  struct Opened {
+    std::string subject;
+    std::unique_ptr<SharedMesh> mesh;
+  };
+  return [opened = std::make_shared<Opened>()](Ranks& ranks, const std::string& bytes) {
+    const SharedCall call = shared_call(bytes);
+    if (opened->subject != call.subject || !opened->mesh) {
+      const CancelScope scope(cli::keep_going);
+      opened->mesh.reset();
+      opened->mesh = std::make_unique<SharedMesh>(call.subject, Context{.threads = call.threads});
+      opened->subject = call.subject;
+    }
+    serve_shared(ranks, call.threads, opened->mesh->tasks_of(call.job));
+  };
+}
+
+}  // namespace rholm::mpi

@@ -1,0 +1,17 @@
+// rholm batch with its rows over ranks. Layer: mpi.
+#pragma once
+
+#include <string>
+
+#include "cli/grammar/command.h"
+#include "cluster/ranks.h"
+
+namespace rholm::mpi {
+
+inline constexpr const char* kBatchService = "batch";
+
+cli::Command batch_command(Ranks* ranks);
+// On other ranks, called for by the command.
+void serve_batch(Ranks& ranks, const std::string& bytes);
+
+}  // namespace rholm::mpi

@@ -1,0 +1,187 @@
+"""rholm-mpi analyze: the bytes of rholm analyze on any number of ranks, and how runs end."""
+
+import json
+import os
+import signal
+import struct
+import subprocess
+import sys
+import time
+import unittest
+
+sys.path.insert(0, os.path.dirname(__file__))
+from harness_mpi import ProgramTest, RANKS, RHOLM, RHOLM_MPI
+
+
+class Analyze(ProgramTest):
+    def check_same(self, *words, ranks=RANKS, threads=(1, 2), code=0):
+        """The file, and the report but for its times."""
+        one = self.rholm("analyze", *words, "--json", "-o", "one.h5", code=code)
+        for n in ranks:
+            for t in threads:
+                run = self.finished(RHOLM_MPI, "analyze", *words, "--json", "-o", "all.h5", "--threads", t, ranks=n)
+                self.assertEqual(run.code, code, run)
+                self.assertEqual(self.bytes("all.h5"), self.bytes("one.h5"), f"{words} on {n} ranks")
+                reports = [json.loads(text) for text in (one.stdout, run.stdout)]
+                for report in reports:
+                    for key in ("output", "seconds", "cpu_seconds", "peak_memory_bytes"):
+                        report.pop(key)
+                self.assertEqual(*reports)
+                (self.folder / "all.h5").unlink()
+        return json.loads(one.stdout)
+
+
+class SameBytes(Analyze):
+    def test_of_a_mesh_where_it_lies(self):
+        self.make("mesh.ply", "bumpy", "--subdivisions", 7)
+        for words in (("--degree", 24), ("--degree", 24, "--precision", 1e-3), ("--tolerance", 1e-3)):
+            self.check_same("mesh.ply", *words)
+        self.assertGreater(self.exchanged("analyze", "mesh.ply", "--degree", 24, "-o", "all.h5"), 2e4)
+
+    def test_of_a_mesh_that_is_read(self):
+        self.make("mesh.obj", "bumpy", "--subdivisions", 6)
+        self.check_same("mesh.obj", "--degree", 100, "--no-errors", ranks=(1, 3))
+        self.assertGreater(self.exchanged("analyze", "mesh.obj", "--degree", 100, "-o", "all.h5"), 2e4)
+
+    def test_of_a_mesh_that_is_changed_first(self):
+        self.make("mesh.ply", "bumpy", "--subdivisions", 5)
+        self.rholm("convert", "mesh.ply", "mesh.off")
+        lines = (self.folder / "mesh.off").read_text().splitlines()
+        turned = [line if not line.startswith("3 ") or len(line.split()) != 4
+                  else "3 {2} {1} {0}".format(*line.split()[1:]) for line in lines]
+        (self.folder / "inward.off").write_text("\n".join(turned) + "\n")
+        report = self.check_same("inward.off", "--degree", 16, ranks=(1, 3), threads=(1,))
+        self.assertTrue(report["flipped"])
+
+    def test_of_a_small_mesh_on_many_ranks(self):
+        self.make("mesh.ply", "bumpy", "--subdivisions", 1)
+        self.check_same("mesh.ply", "--degree", 4, ranks=(4,))
+
+    def test_of_standard_input_on_one_rank(self):
+        self.make("mesh.ply", "bumpy", "--subdivisions", 3)
+        self.rholm("analyze", "mesh.ply", "--degree", 8, "-o", "one.h5")
+        with open(self.folder / "mesh.ply", "rb") as mesh:
+            run = subprocess.run([RHOLM_MPI, "analyze", "-", "--degree", "8", "-o", "all.h5"], cwd=self.folder,
+                                 stdin=mesh, capture_output=True)
+        self.assertEqual(run.returncode, 0, run)
+        self.assertEqual(self.bytes("all.h5"), self.bytes("one.h5"))
+
+    def test_a_tolerance_that_is_not_kept_is_told_with_exit_code_4(self):
+        self.make("mesh.ply", "bumpy", "--subdivisions", 6)
+        self.check_same("mesh.ply", "--tolerance", 1e-9, "--max-degree", 8, ranks=(1, 2), threads=(1,), code=4)
+
+
+class Refused(Analyze):
+    def check(self, words, code, says, ranks=3):
+        run = self.finished(RHOLM_MPI, *words, ranks=ranks)
+        self.assertEqual(run.code, code, run)
+        self.assertEqual(len(self.errors(run)), 1, run)
+        self.assertIn(says, self.errors(run)[0])
+        self.assertFalse((self.folder / "o.h5").exists())
+
+    def test_what_ranks_do_not_share(self):
+        self.make("mesh.ply", "bumpy", "--subdivisions", 3)
+        for words in (("--atlas",), ("--weld", "1e-3"), ("--method", "gauge"), ("--engine", "direct"),
+                      ("--method", "monte-carlo-edge"), ("--samples", "4")):
+            self.check(("analyze", "mesh.ply", "--degree", 8, "-o", "o.h5", *words), 2, words[0])
+
+    def test_standard_input_on_several_ranks(self):
+        self.check(("analyze", "-", "--degree", 8, "-o", "o.h5"), 2, "standard input can be read by one rank alone")
+        os.mkfifo(self.folder / "pipe.ply")
+        self.check(("analyze", "pipe.ply", "--degree", 8, "-o", "o.h5"), 2, "pipe.ply can be read by one rank alone")
+
+    def test_an_output_that_cannot_be_written(self):
+        self.make("mesh.ply", "bumpy", "--subdivisions", 3)
+        self.check(("analyze", "mesh.ply", "--degree", 8, "-o", "none/o.h5"), 1, "none/o.h5")
+
+    def test_files_that_no_rank_can_use(self):
+        self.make("mesh.ply", "bumpy", "--subdivisions", 6)
+        whole = self.bytes("mesh.ply")
+        head = whole.index(b"end_header\n") + len(b"end_header\n")
+        row = 24 if b"double x" in whole else 12
+        numbers = "<ddd" if row == 24 else "<fff"
+        files = {"missing.ply": None, "empty.ply": b"", "short.ply": whole[:-100],
+                 "nan.ply": whole[:head] + struct.pack(numbers, float("nan"), 0, 0) + whole[head + row:],
+                 "index.ply": whole[:-4] + struct.pack("<i", 10**6)}
+        for name, data in files.items():
+            if data is not None:
+                (self.folder / name).write_bytes(data)
+            words = ("analyze", name, "--degree", 8, "-o", "o.h5")
+            alone = subprocess.run([RHOLM, *[str(w) for w in words]], cwd=self.folder, capture_output=True, text=True)
+            self.assertGreater(alone.returncode, 0)
+            message = alone.stderr.strip().splitlines()[-1].split(": error: ")[-1]
+            self.check(words, alone.returncode, message)
+
+    def test_a_file_that_is_bad_on_one_rank(self):
+        self.make("mesh.ply", "bumpy", "--subdivisions", 7)
+        self.make("other.ply", "bumpy", "--subdivisions", 7, "--seed", 9)
+        whole = self.bytes("mesh.ply")
+        head = whole.index(b"end_header\n")
+        cases = ((None, 1, "mesh.ply"), (whole[:-1000], 3, "mesh.ply"), (whole[:head // 2], 3, "mesh.ply"),
+                 (self.bytes("other.ply"), 3, "mesh.ply is not the file of that name"))
+        for data, code, says in cases:
+            for rank in range(3):
+                (self.folder / str(rank)).mkdir(exist_ok=True)
+                (self.folder / str(rank) / "mesh.ply").write_bytes(whole)
+            bad = self.folder / "2" / "mesh.ply"
+            bad.unlink()
+            if data is not None:
+                bad.write_bytes(data)
+            run = self.apart(RHOLM_MPI, "analyze", "mesh.ply", "--degree", 16, "-o", "o.h5", ranks=3)
+            self.assertEqual(run.code, code, run)
+            self.assertEqual(len(self.errors(run)), 1, run)
+            self.assertRegex(self.errors(run)[0], r": error: rank 2 on \S+: ")
+            self.assertIn(says, self.errors(run)[0])
+            self.assertEqual([p.name for p in (self.folder / "0").iterdir()], ["mesh.ply"])
+
+
+class Stopped(Analyze):
+    """Runs that end too early: nothing is written, and no rank stays."""
+
+    def setUp(self):
+        super().setUp()
+        self.make("mesh.ply", "bumpy", "--subdivisions", 8)
+
+    def start_working(self, ranks):
+        # So fine that every triangle has nodes of its own: some seconds of both halves.
+        run = self.start(RHOLM_MPI, "analyze", "mesh.ply", "--degree", 700, "--precision", 1e-13, "-o", "o.h5",
+                         "--threads", 1, "--patience", 6, ranks=ranks)
+        end = time.monotonic() + 60
+        while len(run.pids()) < ranks and time.monotonic() < end:
+            time.sleep(0.05)
+        pids = run.pids()
+        self.assertEqual(len(pids), ranks)
+        time.sleep(1)  # MPI has begun: before that nobody can say that a rank is stopped
+        self.assertIsNone(run.process.poll())
+        return run, pids
+
+    def check_ended(self, run, pids, by_mpiexec=False):
+        run.wait(30)
+        if not by_mpiexec:  # that of MPICH ends with 0 then
+            self.assertNotEqual(run.code, 0, run)
+        self.assertEqual([p.name for p in self.folder.iterdir()], ["mesh.ply"])
+        self.assertEqual(run.pids(), {})
+
+    def test_a_rank_that_is_killed_ends_the_run(self):
+        for ranks, killed, after in ((2, 1, 0), (3, 0, 0.5), (4, 2, 1.0)):
+            run, pids = self.start_working(ranks)
+            time.sleep(after)
+            os.kill(pids[killed], signal.SIGKILL)
+            self.check_ended(run, pids)
+
+    def test_a_rank_that_is_stopped_ends_the_run(self):
+        run, pids = self.start_working(3)
+        os.kill(pids[2], signal.SIGSTOP)
+        self.check_ended(run, pids)
+        self.assertRegex("\n".join(self.errors(run)), "rank 2")
+
+    def test_ctrl_c_ends_the_run(self):
+        for ranks in (1, 3):
+            run, pids = self.start_working(ranks)
+            time.sleep(0.5)
+            os.kill(run.process.pid, signal.SIGINT)
+            self.check_ended(run, pids, by_mpiexec=True)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

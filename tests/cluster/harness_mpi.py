@@ -1,0 +1,133 @@
+"""Runs programs over ranks as a user does, with either MPI: MPIEXEC is the program that starts them."""
+
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "cli"))
+
+RHOLM = os.environ.get("RHOLM", "rholm")
+RHOLM_MPI = os.environ.get("RHOLM_MPI", "rholm-mpi")
+MPIEXEC = os.environ.get("MPIEXEC", "mpiexec")
+TIMEOUT = 120
+RANKS = (1, 2, 3, 4)
+# Of Open MPI; MPICH reads none of these. More ranks than processors, as root, in a container, where
+# ranks that wait must not be in the way of the others.
+ENVIRONMENT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+               "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_hwloc_base_binding_policy": "none",
+               "OMPI_MCA_mpi_yield_when_idle": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
+
+
+def is_running(pid):
+    """Not if it has ended, and nobody has asked how."""
+    try:
+        state = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
+    except OSError:
+        return False
+    return state not in "ZX"
+
+
+class RanksRun:
+    """A run that goes on: words started on n ranks in a folder."""
+
+    def __init__(self, words, ranks, folder, wrap=(), environment=None):
+        self.folder, self.ranks = Path(folder), ranks
+        self.out, self.err = tempfile.TemporaryFile(), tempfile.TemporaryFile()
+        self.process = subprocess.Popen(
+            [*wrap, MPIEXEC, "-n", str(ranks), *[str(w) for w in words]], cwd=folder, stdout=self.out,
+            stderr=self.err, stdin=subprocess.DEVNULL, start_new_session=True,
+            env={**os.environ, **ENVIRONMENT, **(environment or {})})
+        self.program = os.path.basename(str(words[0]))
+
+    def pids(self):
+        """Of the ranks, by their number: they run in our folder."""
+        found = {}
+        for entry in Path("/proc").iterdir():
+            if not entry.name.isdigit():
+                continue
+            try:
+                if (os.readlink(entry / "cwd") != str(self.folder)
+                        or os.path.basename(os.readlink(entry / "exe")) != self.program):
+                    continue
+                variables = dict(v.split("=", 1) for v in
+                                 (entry / "environ").read_bytes().decode(errors="replace").split("\0") if "=" in v)
+            except OSError:
+                continue
+            rank = variables.get("OMPI_COMM_WORLD_RANK", variables.get("PMI_RANK"))
+            if rank is not None:
+                found[int(rank)] = int(entry.name)
+        return found
+
+    def wait(self, seconds=TIMEOUT):
+        """The exit code; the texts are in stdout and stderr. Nothing is left running."""
+        begin = time.monotonic()
+        try:
+            self.code = self.process.wait(seconds)
+        except subprocess.TimeoutExpired:
+            for pid in self.pids().values():
+                os.kill(pid, signal.SIGKILL)
+            self.process.kill()
+            self.process.wait()
+            raise
+        finally:
+            self.seconds = time.monotonic() - begin
+            for stream, name in ((self.out, "stdout"), (self.err, "stderr")):
+                stream.seek(0)
+                setattr(self, name, stream.read().decode("utf-8", "replace"))
+                stream.close()
+        return self.code
+
+    def __str__(self):
+        return f"-> {self.code}\n{self.stdout[-2000:]}\n{self.stderr[-3000:]}"
+
+
+class MpiTest(unittest.TestCase):
+    """Each test has an empty folder, self.folder, in which ranks run."""
+
+    def setUp(self):
+        self.folder = Path(os.path.realpath(tempfile.mkdtemp(prefix="rholm-mpi-test-")))
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def start(self, *words, ranks, **options):
+        return RanksRun(words, ranks, self.folder, **options)
+
+    def apart(self, program, *words, ranks, **options):
+        """Rank r runs in the folder r: each may have other files under the same names."""
+        script = 'cd "${OMPI_COMM_WORLD_RANK:-$PMI_RANK}" && exec "$@"'
+        return self.finished("sh", "-c", script, "sh", program, *words, ranks=ranks, **options)
+
+    def errors(self, run):
+        """What a program of ours has said went wrong."""
+        return [line for line in run.stderr.splitlines() if line.startswith("rholm") and ": error:" in line]
+
+    def finished(self, *words, ranks, seconds=TIMEOUT, **options):
+        run = self.start(*words, ranks=ranks, **options)
+        run.wait(seconds)
+        return run
+
+
+class ProgramTest(MpiTest):
+    """Of rholm-mpi beside rholm, which works alone."""
+
+    def rholm(self, *words, code=0):
+        run = subprocess.run([RHOLM, *[str(w) for w in words]], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(run.returncode, code, run)
+        return run
+
+    def make(self, name, shape="bumpy", *words):
+        self.rholm("make", shape, *words, "--quiet", "-o", name)
+
+    def bytes(self, name):
+        return (self.folder / name).read_bytes()
+
+    def exchanged(self, *words, ranks=2):
+        """How many bytes ranks have sent to each other."""
+        run = self.finished(RHOLM_MPI, *words, "--timings", ranks=ranks)
+        self.assertEqual(run.code, 0, run)
+        return 1e6 * float(run.stderr.split(" MB in ")[0].split()[-1])

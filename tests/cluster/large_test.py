@@ -1,0 +1,18 @@
+"""One message of more than 2^31 bytes, which MPI cannot count."""
+
+import os
+import sys
+import unittest
+
+sys.path.insert(0, os.path.dirname(__file__))
+from harness_mpi import MpiTest
+
+
+class Large(MpiTest):
+    def test_more_bytes_than_an_int_counts(self):
+        run = self.finished(os.environ["RANKS_PROGRAM"], "large", ranks=2, seconds=600)
+        self.assertEqual(run.code, 0, run)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

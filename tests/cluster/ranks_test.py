@@ -1,0 +1,134 @@
+"""The layer cluster on 1 ... 4 ranks: messages, tasks, and how runs end."""
+
+import os
+import signal
+import sys
+import time
+import unittest
+
+sys.path.insert(0, os.path.dirname(__file__))
+from harness_mpi import MpiTest, RANKS, is_running
+
+PROGRAM = os.environ.get("RANKS_PROGRAM", "ranks_program")
+
+
+class Ranks(MpiTest):
+    def case(self, *words, ranks, code=0, graceful=True):
+        for left in self.folder.iterdir():
+            left.unlink()
+        run = self.finished(PROGRAM, *words, ranks=ranks)
+        what = f"{words} on {ranks} ranks: {run}"
+        errors = [line for line in run.stderr.splitlines() if line.startswith("error: ")]
+        if code == 0:
+            self.assertEqual(run.code, 0, what)
+            self.assertEqual(errors, [], what)
+        else:
+            self.assertNotEqual(run.code, 0, what)
+            self.assertEqual(len(errors), 1, what)
+        if graceful:  # every rank has ended by itself, with that code
+            codes = {p.name: p.read_text() for p in self.folder.glob("code.*")}
+            self.assertEqual(codes, {f"code.{i}": str(code) for i in range(ranks)}, what)
+        return run, errors
+
+    def test_bytes_of_any_size_go_to_all_and_come_from_all(self):
+        for ranks in RANKS:
+            self.case("collect", ranks=ranks)
+
+    def test_messages_arrive_in_their_order(self):
+        for ranks in RANKS:
+            self.case("order", ranks=ranks)
+
+    def test_every_task_is_done_once(self):
+        for ranks in RANKS:
+            self.case("tasks", ranks=ranks)
+
+    def test_results_of_ordered_tasks_are_taken_in_their_order_until_one_is_the_last(self):
+        for ranks in RANKS:
+            self.case("ordered", ranks=ranks)
+
+    def test_ranks_without_work_end_with_rank_0(self):
+        for ranks in RANKS:
+            run, _ = self.case("leaves", ranks=ranks)
+            self.assertIn(f"{ranks} ranks\n", run.stdout)
+
+    def test_a_rank_that_throws_ends_all_with_its_code_and_one_message(self):
+        for ranks in RANKS:
+            for chosen in {0, ranks - 1}:
+                _, errors = self.case("throws", chosen, ranks=ranks, code=3)
+                self.assertRegex(errors[0], rf"^error: rank {chosen} on \S+: a bad file; go on so$")
+
+    def test_of_ranks_that_throw_at_once_one_speaks(self):
+        for ranks in RANKS:
+            _, errors = self.case("throws-at-once", ranks=ranks, code=3)
+            self.assertRegex(errors[0], r"^error: rank (\d).*: bad file \1; go on so$")
+
+    def test_results_that_cannot_be_kept_end_the_run(self):
+        for ranks in RANKS:
+            run, errors = self.case("does-not-take", ranks=ranks, code=1)
+            self.assertRegex(errors[0], r"^error: rank 0 on \S+: the disk is full; go on so$")
+            self.assertLess(run.seconds, 30)
+
+    def test_a_task_without_progress_ends_the_run(self):
+        for ranks, chosen in ((1, 0), (3, 0), (3, 2)):
+            run, errors = self.case("stuck", chosen, ranks=ranks, code=1, graceful=False)
+            self.assertRegex(errors[0], rf"^error: rank {chosen} on \S+: has made no progress for 3 s "
+                                        r"\(--patience\), and is ended; go on so$")
+            self.assertLess(run.seconds, 30)
+
+
+class Signals(MpiTest):
+    def started(self, ranks):
+        for left in self.folder.iterdir():
+            left.unlink()
+        run = self.start(PROGRAM, "slow", ranks=ranks)
+        end = time.monotonic() + 30
+        while len(list(self.folder.glob("pid.*"))) < ranks and time.monotonic() < end:
+            time.sleep(0.05)
+        time.sleep(0.5)
+        return run, [int((self.folder / f"pid.{i}").read_text()) for i in range(ranks)]
+
+    def check_ended(self, run, pids):
+        run.wait(60)
+        self.assertNotEqual(run.code, 0, run)
+        self.check_gone(run, pids)
+
+    def check_gone(self, run, pids):
+        time.sleep(0.5)
+        for pid in pids:
+            self.assertFalse(is_running(pid), f"a rank still runs: {run}")
+
+    def test_a_rank_that_is_killed_ends_the_run(self):
+        for ranks, killed in ((1, 0), (2, 1), (4, 0), (4, 3)):
+            run, pids = self.started(ranks)
+            os.kill(pids[killed], signal.SIGKILL)
+            self.check_ended(run, pids)
+
+    def test_a_rank_that_is_stopped_ends_the_run(self):
+        for ranks, stopped in ((2, 0), (3, 2)):
+            run, pids = self.started(ranks)
+            os.kill(pids[stopped], signal.SIGSTOP)
+            self.check_ended(run, pids)
+            errors = [line for line in run.stderr.splitlines() if line.startswith("error: ")]
+            self.assertEqual(len(errors), 1, run)
+            self.assertRegex(errors[0], rf"^error: rank {stopped}\b.* has not been heard of")
+
+    def test_ctrl_c_ends_the_run(self):
+        for ranks in (1, 3):
+            run, pids = self.started(ranks)
+            os.kill(run.process.pid, signal.SIGINT)
+            run.wait(60)  # mpiexec of MPICH ends with 0
+            self.check_gone(run, pids)
+            codes = {p.read_text() for p in self.folder.glob("code.*")}
+            self.assertLessEqual(codes, {str(128 + signal.SIGINT), str(128 + signal.SIGTERM)}, run)
+
+    def test_a_rank_that_is_told_to_end_ends_the_run(self):
+        for ranks, told in ((1, 0), (3, 2)):
+            run, pids = self.started(ranks)
+            os.kill(pids[told], signal.SIGTERM)
+            self.check_ended(run, pids)
+            errors = [line for line in run.stderr.splitlines() if line.startswith("error: ")]
+            self.assertEqual(errors, ["error: interrupted; go on so"], run)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,108 @@
+"""rholm-mpi reconstruct: the bytes of rholm reconstruct, whatever happens to the ranks."""
+
+import os
+import signal
+import sys
+import time
+import unittest
+
+sys.path.insert(0, os.path.dirname(__file__))
+from harness_mpi import ProgramTest, RANKS, RHOLM_MPI
+
+
+class Reconstruct(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.make("t.ply", "torus")
+        self.sample("p.ply", 12000)
+        (self.folder / "work").mkdir()
+
+    def sample(self, name, n):
+        self.rholm("make", "sample", "t.ply", "--points", n, "-o", name, "--quiet")
+
+    def words(self, out, *more, points="p.ply", n=2000):
+        return ("reconstruct", points, "--brick-points", n, "-o", out, "--work-dir", "work", "--quiet", *more)
+
+    def errors(self, run):
+        return [line for line in run.stderr.splitlines() if line.startswith("rholm") and ": error:" in line]
+
+    def killed(self, ranks, killed, reached):
+        """A run of which a rank was killed once reached() is true. One that has ended by then, on a fast machine,
+        is made again."""
+        for _ in range(10):
+            run = self.start(RHOLM_MPI, *self.words("all.ply", "--resume", "--threads", 1), ranks=ranks)
+            end = time.monotonic() + 60
+            while run.process.poll() is None and time.monotonic() < end and not reached():
+                time.sleep(0.002)
+            try:
+                os.kill(run.pids()[killed], signal.SIGKILL)
+            except (KeyError, ProcessLookupError):
+                pass
+            run.wait(60)
+            if not (self.folder / "all.ply").exists():
+                return run
+            (self.folder / "all.ply").unlink()
+        raise AssertionError("it always ended before it could be stopped")
+
+    def bare(self):
+        """Without normals, in their file's order."""
+        self.rholm("convert", "p.ply", "p.xyz", "--quiet")
+        rows = [line.split()[:3] for line in (self.folder / "p.xyz").read_text().splitlines()
+                if not line.startswith("#")]
+        (self.folder / "bare.xyz").write_text("".join(" ".join(row) + "\n" for row in rows))
+
+    def test_any_number_of_ranks_gives_the_same_bytes(self):
+        self.rholm(*self.words("one.ply", "--model", "one.h5"))
+        for ranks in RANKS:
+            run = self.finished(RHOLM_MPI, *self.words("all.ply", "--threads", 1 + ranks % 2, "--model", "all.h5"),
+                                ranks=ranks)
+            self.assertEqual(run.code, 0, run)
+            self.assertEqual(self.bytes("all.ply"), self.bytes("one.ply"))
+            self.assertEqual(self.bytes("all.h5"), self.bytes("one.h5"))
+            self.assertEqual(os.listdir(self.folder / "work"), [])
+
+    def test_normals_and_open_holes_are_those_of_one_process(self):
+        self.bare()
+        for points, more in (("bare.xyz", ()), ("p.ply", ("--holes", "keep"))):
+            self.rholm(*self.words("one.ply", *more, points=points))
+            run = self.finished(RHOLM_MPI, *self.words("all.ply", *more, points=points), ranks=3)
+            self.assertEqual(run.code, 0, run)
+            self.assertEqual(self.bytes("all.ply"), self.bytes("one.ply"), points)
+
+    def test_few_points_are_left_to_one_rank(self):
+        self.rholm("reconstruct", "p.ply", "-o", "one.ply")
+        run = self.finished(RHOLM_MPI, "reconstruct", "p.ply", "-o", "all.ply", ranks=2)
+        self.assertEqual(run.code, 0, run)
+        self.assertEqual(self.bytes("all.ply"), self.bytes("one.ply"))
+
+    def test_a_killed_rank_costs_its_bricks_only(self):
+        self.sample("p.ply", 24000)
+        self.rholm(*self.words("one.ply"))
+        pieces = self.folder / "work" / "all.ply.bricks" / "pieces"
+        for stage, ranks, killed in (("caps", 3, 2), ("grid", 2, 0), ("mesh", 4, 1)):
+            run = self.killed(ranks, killed, lambda: len(list((pieces / stage).glob("[0-9]*"))) >= 3)
+            self.assertNotEqual(run.code, 0, run)
+            self.assertGreater(len(list((pieces / stage).glob("[0-9]*"))), 0)
+        run = self.finished(RHOLM_MPI, *self.words("all.ply", "--resume"), ranks=2)
+        self.assertEqual(run.code, 0, run)
+        self.assertEqual(self.bytes("all.ply"), self.bytes("one.ply"))
+        self.assertEqual(os.listdir(self.folder / "work"), [])
+
+    def test_what_is_wrong_is_said_once(self):
+        (self.folder / "short.ply").write_bytes(self.bytes("p.ply")[:-5])
+        for words, code, says in (
+                (self.words("a.ply", points="short.ply"), 3, "short.ply"),
+                (self.words("a.ply", points="none.ply"), 1, "none.ply"),
+                (self.words("a.ply", "--max-memory", "1e-5"), 1, "--brick-points"),
+                (("reconstruct", "p.ply", "--brick-points", 2000, "-o", "a.ply"), 2, "--work-dir"),
+                (self.words("none/a.ply"), 1, "none/a.ply")):
+            run = self.finished(RHOLM_MPI, *words, ranks=3)
+            self.assertEqual(run.code, code, run)
+            self.assertEqual(len(self.errors(run)), 1, run)
+            self.assertIn(says, self.errors(run)[0])
+            self.assertEqual(os.listdir(self.folder / "work"), [])
+            self.assertFalse((self.folder / "a.ply").exists())
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

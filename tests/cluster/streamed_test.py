@@ -1,0 +1,18 @@
+"""rholm-mpi analyze of a mesh whose parts are spread one after the other: more than eight million triangles."""
+
+import os
+import sys
+import unittest
+
+sys.path.insert(0, os.path.dirname(__file__))
+from analyze_test import Analyze
+
+
+class Streamed(Analyze):
+    def test_the_bytes_are_those_of_one_process(self):
+        self.make("mesh.ply", "box", "--size", "3,2,1", "--cells", 850)
+        self.check_same("mesh.ply", "--degree", 200, ranks=(2, 3, 4), threads=(1, 2))
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
