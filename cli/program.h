@@ -4,9 +4,17 @@
 #include <string>
 #include <vector>
 
+#include "cli/grammar/command.h"
+#include "cli/grammar/help.h"
+#include "cli/grammar/run.h"
+
 namespace rholm::cli {
 
 // Runs `words` (without the program's name) and returns the exit code (exit_code.h); never throws.
 int run_program(const std::vector<std::string>& words);
+
+// The same of a program with other commands; who calls says what became of it.
+Outcome run_program(const ProgramText& program, const std::vector<Command>& commands,
+                    const std::vector<std::string>& words);
 
 }  // namespace rholm::cli

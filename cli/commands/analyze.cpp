@@ -1,9 +1,12 @@
 // rholm analyze: from a mesh to its coefficients.
+#include <filesystem>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "cli/commands/analyze.h"
 #include "cli/commands/analyze_options.h"
 #include "cli/commands/analyze_report.h"
 #include "cli/commands/atlas_report.h"
@@ -11,6 +14,7 @@
 #include "cli/files/inputs.h"
 #include "cli/files/outputs.h"
 #include "cli/files/prepare.h"
+#include "cli/files/spooled_input.h"
 #include "cli/grammar/parse.h"
 #include "cli/terminal/json_text.h"
 #include "rholm/error.h"
@@ -36,16 +40,53 @@ EncodeOptions encode_options(const Options& options) {
   return wanted;
 }
 
-// A mesh that can stay where it lies in its file is not read.
-Encoded encode_input(const std::string& path, const EncodeOptions& wanted, Session& session) {
-  const auto read = [&] { return read_mesh(path, session); };
-  if (path != "-") return encode_file(path, wanted, session.context(), read);
+// Throws OutOfMemory if a mesh of a file of that size surely needs more than there is once it is
+// read: twice the file, as numbers and edges.
+void check_room_to_read(std::uintmax_t bytes, const std::string& path, const Options& options) {
+  const double needed = 2.0 * static_cast<double>(bytes);
+  const auto limit = static_cast<double>(options.memory.limit());
+  if (needed <= limit) return;
+  throw Error(
+      ErrorCode::kOutOfMemory,
+      fmt::format(
+          "{} cannot be worked through where it lies, and needs {:.3g} GiB or more to be "
+          "read, of {:.3g} GiB; only a binary PLY file of triangles that are closed, turned "
+          "outwards and star-shaped can be larger than memory, with the method edge and "
+          "without --weld",
+          display_name(path), needed / 0x1p30, limit / 0x1p30));
+}
+
+// From a stream: what does not fit in memory is worked through in a file.
+Encoded encode_stream(const Options& options, const EncodeOptions& wanted, Session& session) {
   const Stopwatch reading;
-  const Mesh mesh = read();
-  const StageTime read_in = reading.elapsed();
-  Encoded encoded = encode(mesh, wanted, session.context());
-  encoded.times["read"] = read_in;
-  return encoded;
+  StageTime read_in;
+  const SpooledInput input(options.input, options.memory.limit() / 4, options.memory.folder());
+  const auto with_time = [&](Encoded encoded) {
+    encoded.times["read"] = read_in;
+    return encoded;
+  };
+  if (const std::optional<MappedMesh> mapped = input.mesh(session.context())) {
+    read_in = reading.elapsed();
+    if (auto encoded = encode_mapped(*mapped, wanted, session.context())) {
+      return with_time(std::move(*encoded));
+    }
+  }
+  if (input.is_in_file()) check_room_to_read(input.bytes().size(), options.input, options);
+  const Mesh mesh = read_mesh_of(input.bytes(), options.input, session);
+  read_in = reading.elapsed();
+  return with_time(encode(mesh, wanted, session.context()));
+}
+
+// A mesh that can stay where it lies in its file is not read.
+Encoded encode_input(const Options& options, const EncodeOptions& wanted, const AnalyzeBy& by,
+                     Session& session) {
+  if (options.input == "-") return encode_stream(options, wanted, session);
+  return by.encode_file(options.input, wanted, session.context(), [&] {
+    std::error_code none;
+    const std::uintmax_t size = std::filesystem::file_size(options.input, none);
+    if (!none) check_room_to_read(size, options.input, options);
+    return read_mesh(options.input, session);
+  });
 }
 
 // Throws NotConverged for what was wanted and not reached; the output is written by then.
@@ -67,7 +108,8 @@ void check_reached(const Options& options, const Encoded& encoded) {
                           text_of(fast->error)));
 }
 
-int run(const Options& options, Session& session) {
+int run(const Options& options, const AnalyzeBy& by, Session& session) {
+  by.check_input(options.input);
   if (options.atlas) return analyze_atlas(options, session);
   if (!options.fit.empty() || !options.extension.empty()) {
     throw UsageError("--fit and --extension go with --atlas");
@@ -93,7 +135,7 @@ int run(const Options& options, Session& session) {
   check_writable(options.output);
 
   Run run;
-  run.encoded = encode_input(options.input, wanted, session);
+  run.encoded = encode_input(options, wanted, by, session);
   run.diagonal = run.encoded.diagonal;
   run.encoded.analysis.expansion.unit = options.length_unit;
   run.times.insert(run.encoded.times.begin(), run.encoded.times.end());
@@ -211,6 +253,7 @@ std::vector<Option> option_list(Options& o) {
                               "file of coefficients: .h5 (model file), .sh (SHTOOLS text), "
                               ".gfc, .json, .npy; - for standard output"),
                 format_option(o.format, coefficients_formats())});
+  append(list, memory_options(o.memory));
   append(list, convention_options(o.convention));
   list.push_back(json_option(o.json));
   return list;
@@ -219,6 +262,15 @@ std::vector<Option> option_list(Options& o) {
 }  // namespace
 
 Command analyze_command() {
+  return analyze_command_by({.encode_file =
+                                 [](const std::string& path, const EncodeOptions& options,
+                                    const Context& context, const std::function<Mesh()>& read) {
+                                   return encode_file(path, options, context, read);
+                                 },
+                             .check_input = [](const std::string&) {}});
+}
+
+Command analyze_command_by(const AnalyzeBy& by) {
   auto options = std::make_shared<Options>();
   return {
       .name = "analyze",
@@ -241,8 +293,9 @@ Command analyze_command() {
                    "bumpy.h5",
                    "rholm analyze bumpy.ply --degree 8 --format shtools -o -",
                    "rholm analyze bumpy.ply --atlas --tolerance 1e-2 --unit diagonal -o caps.h5"},
-      .run = [options](Session& session) { return run(*options, session); },
-      .if_not_star = "--center auto, --atlas, --signed"};
+      .run = [options, by](Session& session) { return run(*options, by, session); },
+      .if_not_star = "--center auto, --atlas, --signed",
+      .per_shape = PerShape{.extension = "h5"}};
 }
 
 }  // namespace rholm::cli

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "cli/options/convention.h"
+#include "cli/options/memory_options.h"
 #include "cli/options/tolerance_options.h"
 #include "cli/terminal/session.h"
 #include "rholm/model.h"
@@ -32,6 +33,7 @@ struct AnalyzeCommandOptions {
   int rays = 100'000;
   double weld = 0;
   std::string length_unit;
+  MemoryOptions memory;
   std::string output;
   std::string format;
   ConventionOptions convention;

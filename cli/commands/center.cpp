@@ -81,7 +81,8 @@ Command center_command() {
                       weld_option(options->weld),
                       json_option(options->json)},
           .examples = {"rholm center bumpy.ply", "rholm center bumpy.ply --center cosine --json"},
-          .run = [options](Session& session) { return run(*options, session); }};
+          .run = [options](Session& session) { return run(*options, session); },
+          .per_shape = PerShape{}};
 }
 
 }  // namespace rholm::cli

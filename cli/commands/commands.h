@@ -1,9 +1,13 @@
 // The commands in the order of the pipeline, one file each. Layer: cli.
 #pragma once
 
+#include <functional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "cli/grammar/command.h"
+#include "cli/grammar/help.h"
 
 namespace rholm::cli {
 
@@ -28,10 +32,20 @@ Command transfer_command();
 Command orient_command();
 Command partition_command();
 Command reconstruct_command();
+Command batch_command();
 Command bench_command();
 Command completion_command();
 Command man_page_command();
+// The same for another program, by its commands; and whose page is made with the date it bears.
+using ListCommands = std::function<std::vector<Command>()>;
+Command completion_command(const std::string& program, ListCommands commands);
+using PageOfDate = std::function<std::string(const std::string& date)>;
+Command man_page_command(const std::string& program, PageOfDate page);
 
 std::vector<Command> all_commands();
+// What the program says of itself.
+ProgramText rholm_text();
+// What makes each of them, with options of its own every time.
+std::span<Command (*const)()> command_makers();
 
 }  // namespace rholm::cli

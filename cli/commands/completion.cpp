@@ -1,6 +1,9 @@
 // rholm completion: what the shells offer.
 #include <cstdio>
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "cli/commands/commands.h"
 #include "cli/grammar/completion.h"
@@ -13,32 +16,35 @@ struct Options {
   std::string shell;
 };
 
-int run(const Options& options) {
-  const std::vector<Command> commands = all_commands();
-  const std::string text = options.shell == "bash"  ? bash_completion(commands)
-                           : options.shell == "zsh" ? zsh_completion(commands)
-                                                    : fish_completion(commands);
+int run(const Options& options, const std::string& program, const std::vector<Command>& commands) {
+  const std::string text = options.shell == "bash"  ? bash_completion(program, commands)
+                           : options.shell == "zsh" ? zsh_completion(program, commands)
+                                                    : fish_completion(program, commands);
   std::fwrite(text.data(), 1, text.size(), stdout);
   return kDone;
 }
 
 }  // namespace
 
-Command completion_command() {
+Command completion_command(const std::string& program, ListCommands commands) {
   auto options = std::make_shared<Options>();
   return {.name = "completion",
           .summary = "Completions for a shell",
-          .description =
-              "Writes to standard output what makes a shell complete rholm's commands, options "
-              "and files. An installed rholm has brought them along; this is for one that runs "
-              "from where it was built.",
+          .description = "Writes to standard output what makes a shell complete " + program +
+                         "'s commands, options and files. An installed " + program +
+                         " has brought them along; this is for one that runs from where it was "
+                         "built.",
           .options = {{.name = "SHELL",
                        .help = "bash, zsh or fish",
                        .target = &options->shell,
                        .required = true,
                        .choices = {"bash", "zsh", "fish"}}},
-          .examples = {"rholm completion bash > rholm.bash"},
-          .run = [options](Session&) { return run(*options); }};
+          .examples = {program + " completion bash > " + program + ".bash"},
+          .run = [options, program, commands = std::move(commands)](Session&) {
+            return run(*options, program, commands());
+          }};
 }
+
+Command completion_command() { return completion_command("rholm", all_commands); }
 
 }  // namespace rholm::cli

@@ -1,6 +1,10 @@
 // rholm convert: the same data in another format or convention.
 #include <algorithm>
+#include <filesystem>
 #include <memory>
+#include <optional>
+#include <span>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,10 +12,15 @@
 #include "cli/commands/commands.h"
 #include "cli/files/inputs.h"
 #include "cli/files/outputs.h"
+#include "cli/files/spooled_input.h"
 #include "cli/grammar/parse.h"
 #include "cli/options/convention.h"
+#include "cli/options/memory_options.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/session.h"
+#include "rholm/error.h"
+#include "rholm/large_mesh.h"
+#include "rholm/point_stream.h"
 
 namespace rholm::cli {
 namespace {
@@ -22,8 +31,13 @@ struct Options {
   std::string format;
   ConventionOptions to;
   InputConvention from;
+  MemoryOptions memory;
   bool ascii = false;
 };
+
+// Reading points takes their file and what becomes of it: of 15 bytes, three floats and a colour,
+// six doubles, which is most. Together 4.2 times the file.
+constexpr double kMemoryPerByte = 5;
 
 std::vector<std::string> all_formats() {
   std::vector<std::string> formats = shape_formats();
@@ -44,6 +58,12 @@ bool is_one_of(const std::string& name, const std::vector<std::string>& formats)
   return std::find(formats.begin(), formats.end(), name) != formats.end();
 }
 
+void warn(const Options& options, const std::vector<std::string>& warnings, Session& session) {
+  for (const std::string& warning : warnings) {
+    session.warn(fmt::format("{}: {}", display_name(options.input), warning));
+  }
+}
+
 void convert_shape(const Options& options, const ShapeFile& file, Session& session) {
   const std::string wanted = named_format(options);
   if (is_one_of(wanted, coefficients_formats()) && extension_of(options.output) != ".txt") {
@@ -53,15 +73,26 @@ void convert_shape(const Options& options, const ShapeFile& file, Session& sessi
                     display_name(options.input), wanted, options.input, options.output));
   }
   const ShapeFormat format = shape_output(options.output, options.format);
-  for (const std::string& warning : file.warnings) {
-    session.warn(fmt::format("{}: {}", display_name(options.input), warning));
-  }
+  warn(options, file.warnings, session);
   std::visit(
       [&](const auto& shape) {
         write_shape(shape, options.output, {format, options.ascii}, session.context());
         note_attributes_left_out(shape.attributes, format, options.output, session);
       },
       file.shape);
+}
+
+// A mesh in a binary PLY is written from where it lies, in little memory; false if it is not
+// one, or no shape is wanted.
+bool convert_mapped(const Options& options, const std::string& path, Session& session) {
+  if (!is_one_of(named_format(options), shape_formats())) return false;
+  const ShapeFormat format = shape_output(options.output, options.format);
+  const std::optional<ConvertedMesh> mesh =
+      convert_mesh(path, options.output, {format, options.ascii}, session.context());
+  if (!mesh) return false;
+  warn(options, mesh->warnings, session);
+  note_attributes_left_out(mesh->attributes, format, options.output, session);
+  return true;
 }
 
 void convert_coefficients(const Options& options, const CoefficientsFile& file,
@@ -77,18 +108,79 @@ void convert_coefficients(const Options& options, const CoefficientsFile& file,
   write_coefficients_output(file.expansion, output, convention, session);
 }
 
+// Whether it is points that are written as they are read: always those that take no more time then
+// (binary ones; text, which is read twice, takes half as long again).
+bool are_read_in_pieces(const Options& options, const std::string& path, bool large) {
+  const std::string wanted = named_format(options);
+  if (wanted != "ply" && wanted != "xyz") return false;
+  const bool spooled = path != options.input;
+  if (!is_shape(path).value_or(spooled || extension_of(path) == ".csv")) return false;
+  try {
+    const PointStream stream(path);
+    return !stream.has_faces() && (large || stream.is_all());
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::kCancelled) throw;
+    return false;  // who reads it whole says what is wrong
+  }
+}
+
+// Points that are written as they are read; false if there are none.
+bool convert_in_pieces(const Options& options, const std::string& path, Session& session) {
+  std::error_code none;
+  const auto size = static_cast<double>(std::filesystem::file_size(path, none));
+  const auto limit = static_cast<double>(options.memory.limit());
+  if (none || !are_read_in_pieces(options, path, kMemoryPerByte * size > limit)) return false;
+  const ShapeFormat format = shape_output(options.output, options.format);
+  const ConvertedPoints converted =
+      convert_points(path, options.output, {format, options.ascii}, session.context());
+  warn(options, converted.warnings, session);
+  note_attributes_left_out(converted.attributes, format, options.output, session);
+  return true;
+}
+
+// Whether a shape was written without being read whole.
+bool convert_in_place(const Options& options, const std::string& path, Session& session) {
+  return convert_mapped(options, path, session) || convert_in_pieces(options, path, session);
+}
+
+// What the input holds, unless it was converted in place already. A stream that does not fit in a
+// quarter of the memory waits in a file.
+std::optional<Input> rest_of_input(const Options& options, Session& session) {
+  if (!is_stream(options.input)) {
+    if (convert_in_place(options, options.input, session)) return {};
+    return read_input(options.input, session, options.from);
+  }
+  SpooledInput spooled(options.input, options.memory.limit() / 4, options.memory.folder());
+  if (!spooled.is_in_file()) {
+    return read_input_of(spooled.take_bytes(), options.input, session, options.from);
+  }
+  const std::string path = spooled.path_of_file();
+  try {
+    if (convert_in_place(options, path, session)) return {};
+  } catch (const Error& error) {
+    std::string what = error.what();
+    if (const std::size_t at = what.find(path); at != std::string::npos) {
+      what.replace(at, path.size(), display_name(options.input));
+    }
+    throw Error(error.code(), what);
+  }
+  const std::span<const char> bytes = spooled.bytes();
+  return read_input_of({bytes.begin(), bytes.end()}, options.input, session, options.from);
+}
+
 int run(const Options& options, Session& session) {
   const Convention convention = options.to.output_convention();
   if (options.output == "-" && options.format.empty()) {
     throw UsageError("standard output has no extension: say --format");
   }
   check_writable(options.output);
-  const Input input = read_input(options.input, session, options.from);
+  const std::optional<Input> input = rest_of_input(options, session);
+  if (!input) return 0;
   stop_if_interrupted();
-  if (const auto* shape = std::get_if<ShapeFile>(&input)) {
+  if (const auto* shape = std::get_if<ShapeFile>(&*input)) {
     convert_shape(options, *shape, session);
   } else {
-    convert_coefficients(options, std::get<CoefficientsFile>(input), convention, session);
+    convert_coefficients(options, std::get<CoefficientsFile>(*input), convention, session);
   }
   return 0;
 }
@@ -113,6 +205,7 @@ std::vector<Option> option_list(Options& o) {
                  .target = &o.from.override_file},
                 format_option(o.format, all_formats()),
                 {.name = "ascii", .help = "PLY and STL as text", .target = &o.ascii}});
+  append(list, memory_options(o.memory));
   return list;
 }
 
@@ -126,7 +219,10 @@ Command convert_command() {
               "Coefficients become coefficients: model file (.h5), SHTOOLS text (.sh, .txt, "
               ".shtools), ICGEM-like text (.gfc, .icgem), JSON (.json), NumPy (.npy). Shapes "
               "become shapes: .ply, .obj, .off, .stl, .xyz, with the attributes the format has "
-              "room for; what is left out is said.\n\nConventions are those of the text, JSON and "
+              "room for; what is left out is said. A mesh in a binary PLY is written from "
+              "where it lies, and points of a binary PLY, and those that need more than "
+              "--max-memory, as they are read, to PLY "
+              "and XYZ.\n\nConventions are those of the text, JSON and "
               "NumPy files; a model "
               "file is always orthonormal without Condon-Shortley phase. Where an input does not "
               "say its convention, it is taken to be that of --input-normalization and "

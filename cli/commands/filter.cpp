@@ -240,7 +240,8 @@ Command filter_command() {
           .options = option_list(*options),
           .examples = {"rholm filter bumpy.h5 --low-pass 12 --window heat -o smooth.h5",
                        "rholm filter bumpy.h5 --low-pass 8 --sharpen 0.5 --json -o sharp.h5"},
-          .run = [options](Session& session) { return run(*options, session); }};
+          .run = [options](Session& session) { return run(*options, session); },
+          .per_shape = PerShape{.extension = "h5"}};
 }
 
 }  // namespace rholm::cli

@@ -1,38 +1,36 @@
-// rholm man-page: the manual page.
-#include <cstdio>
+// rholm man-page, and that of other programs: the manual page.
 #include <memory>
+#include <utility>
 
 #include "cli/commands/commands.h"
 #include "cli/grammar/help.h"
 #include "cli/terminal/exit_code.h"
+#include "cli/terminal/session.h"
 
 namespace rholm::cli {
-namespace {
 
-struct Options {
-  std::string date = "1970-01-01";
-};
-
-int run(const Options& options) {
-  const std::string text = man_page(all_commands(), options.date);
-  std::fwrite(text.data(), 1, text.size(), stdout);
-  return kDone;
-}
-
-}  // namespace
-
-Command man_page_command() {
-  auto options = std::make_shared<Options>();
+Command man_page_command(const std::string& program, PageOfDate page) {
+  auto date = std::make_shared<std::string>("1970-01-01");
   return {.name = "man-page",
           .summary = "Write the manual page",
           .description = "Writes the manual page in troff's man macros to standard output.",
           .options = {{.name = "date",
                        .value = "YYYY-MM-DD",
                        .help = "the date it bears",
-                       .target = &options->date}},
-          .examples = {"rholm man-page --date 2000-01-01 | man -l -"},
-          .run = [options](Session&) { return run(*options); },
+                       .target = date.get()}},
+          .examples = {program + " man-page --date 2000-01-01 | man -l -"},
+          .run =
+              [date, page = std::move(page)](Session&) {
+                print_text(page(*date));
+                return kDone;
+              },
           .hidden = true};
+}
+
+Command man_page_command() {
+  return man_page_command("rholm", [](const std::string& date) {
+    return man_page(rholm_text(), all_commands(), date);
+  });
 }
 
 }  // namespace rholm::cli

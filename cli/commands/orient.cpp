@@ -179,7 +179,8 @@ Command orient_command() {
           .options = option_list(*options),
           .examples = {"rholm orient points.ply -o oriented.ply",
                        "rholm orient points.ply --center 0,0,0 --json -o radial.ply"},
-          .run = [options](Session& session) { return run(*options, session); }};
+          .run = [options](Session& session) { return run(*options, session); },
+          .per_shape = PerShape{.extension = "ply"}};
 }
 
 }  // namespace rholm::cli

@@ -141,7 +141,8 @@ Command partition_command() {
                       json_option(o.json)},
           .examples = {"rholm partition bumpy.ply --tolerance 1e-2 -o caps.ply",
                        "rholm partition bumpy.ply --show spheres -o spheres.ply"},
-          .run = [options](Session& session) { return run(*options, session); }};
+          .run = [options](Session& session) { return run(*options, session); },
+          .per_shape = PerShape{.extension = "ply"}};
 }
 
 }  // namespace rholm::cli

@@ -118,7 +118,8 @@ Command recenter_command() {
       .options = option_list(*options),
       .examples = {"rholm recenter bumpy.h5 -o centred.h5",
                    "rholm recenter bumpy.h5 --center 0.05,0,0 --json -o moved.h5"},
-      .run = [options](Session& session) { return run(*options, session); }};
+      .run = [options](Session& session) { return run(*options, session); },
+      .per_shape = PerShape{.extension = "h5"}};
 }
 
 }  // namespace rholm::cli

@@ -1,16 +1,25 @@
 // rholm reconstruct: surfaces from points.
 #include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
 #include <memory>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "cli/commands/commands.h"
+#include "cli/commands/reconstruct.h"
+#include "cli/commands/reconstruct_report.h"
 #include "cli/files/inputs.h"
 #include "cli/files/outputs.h"
+#include "cli/files/points_input.h"
 #include "cli/grammar/parse.h"
 #include "cli/grammar/values.h"
+#include "cli/options/memory_options.h"
 #include "cli/options/simplify_option.h"
+#include "cli/terminal/freed_memory.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/json_text.h"
 #include "cli/terminal/session.h"
@@ -18,6 +27,7 @@
 #include "rholm/error.h"
 #include "rholm/points.h"
 #include "rholm/reconstruct.h"
+#include "rholm/reconstruct_bricks.h"
 #include "rholm/topology.h"
 
 namespace rholm::cli {
@@ -33,7 +43,9 @@ struct Options {
   std::optional<int> resolution;
   double min_component = 0.01;
   std::string simplify = kNotSimplified;
-  double max_memory = 8;
+  MemoryOptions memory;
+  std::optional<int> brick_points;
+  bool resume = false;
   bool keep_outliers = false;
   bool keep_scans = false;
   bool confidence = false;
@@ -43,30 +55,6 @@ struct Options {
   bool ascii = false;
   bool json = false;
 };
-
-// Of a mesh the vertices, with the mean normals of their faces.
-PointCloud points_of(Mesh mesh) {
-  PointCloud cloud;
-  cloud.normals = area_normals(mesh.vertices, mesh.triangles);
-  std::erase_if(mesh.attributes, [](const Attribute& a) {
-    return a.name == "nx" || a.name == "ny" || a.name == "nz";
-  });
-  cloud.points = std::move(mesh.vertices);
-  cloud.attributes = std::move(mesh.attributes);
-  return cloud;
-}
-
-PointCloud read_points(const std::string& path, Session& session) {
-  ShapeFile file = read_shape_input(path, session);
-  for (const std::string& warning : file.warnings) {
-    session.warn(fmt::format("{}: {}", display_name(path), warning));
-  }
-  if (auto* cloud = std::get_if<PointCloud>(&file.shape)) return std::move(*cloud);
-  Mesh& mesh = std::get<Mesh>(file.shape);
-  session.note(fmt::format("{} is a mesh: its {} vertices are taken as points", display_name(path),
-                           mesh.vertices.size()));
-  return points_of(std::move(mesh));
-}
 
 void check_noise(const std::string& option, const std::string& text) {
   const std::optional<double> value = read_number(text);
@@ -88,166 +76,79 @@ ReconstructOptions library_options(const Options& o, const Bounds& box) {
   options.align_scans = !o.keep_scans;
   options.confidence = o.confidence;
   options.simplify = parse_simplify("--simplify", o.simplify);
-  options.max_memory = static_cast<std::size_t>(o.max_memory * 0x1p30);
+  options.max_memory = o.memory.limit();
+  if (!o.sensor.empty()) options.sensor = parse_vector("--sensor", o.sensor);
   return options;
 }
 
-Json json_of(const Reconstruction& made, double diagonal, bool confidence) {
-  const ReconstructReport& r = made.report;
-  Json json = {{"points", r.points},
-               {"dropped_points", r.dropped_points},
-               {"outliers", r.outliers},
-               {"computed_normals", r.computed_normals},
-               {"unsure", r.unsure},
-               {"turned_normals", r.turned_normals},
-               {"spacing", r.spacing},
-               {"noise", r.noise},
-               {"normal_noise_degrees", r.normal_noise_degrees},
-               {"neighbours", r.neighbours},
-               {"caps", r.caps},
-               {"coefficients", made.atlas.coefficients.size()},
-               {"step", r.step},
-               {"holes", r.holes},
-               {"smooth_holes", r.smooth_holes},
-               {"cut_handles", r.cut_handles},
-               {"dropped_components", r.dropped_components},
-               {"vertices", made.mesh.vertices.size()},
-               {"faces", made.mesh.triangles.size()},
-               {"full_faces", r.faces},
-               {"simplify_error", r.simplify_error},
-               {"area", r.area},
-               {"closed_area", r.closed_area},
-               {"points_area", r.points_area},
-               {"volume", r.volume},
-               {"diagonal", diagonal},
-               {"foreseen_memory", r.memory}};
-  if (r.scans.scans > 1) {
-    json["scans"] = {{"scans", r.scans.scans},
-                     {"pairs", r.scans.pairs},
-                     {"distance_before", r.scans.distance_before},
-                     {"distance", r.scans.distance},
-                     {"moved", r.scans.moved}};
+// A brick that fits into the memory, if none is asked for: the surface of smaller bricks is another
+// one, as good.
+std::uint64_t points_per_brick(const Options& options) {
+  if (options.brick_points) return static_cast<std::uint64_t>(*options.brick_points);
+  constexpr std::uint64_t kSmall = 1 << 14;  // chosen: smaller ones are little but halo
+  std::uint64_t points = kBrickPoints;
+  while (points > kSmall && foresee_bricks(points, points).memory > options.memory.limit()) {
+    points /= 2;
   }
-  if (confidence) {
-    json["unseen_area"] = r.unseen_area;
-    json["thin_area"] = r.thin_area;
-    json["unsure_area"] = r.unsure_area;
-  }
-  for (const auto& [name, time] : r.times) {
-    json["stages"][name] = {{"wall_seconds", time.wall}, {"cpu_seconds", time.cpu}};
-  }
-  return json;
+  return points;
 }
 
-std::string report_text(const Reconstruction& made, double diagonal,
-                        const ReconstructOptions& options) {
-  const ReconstructReport& r = made.report;
-  const auto relative = [&](double length) {
-    return fmt::format("{} ({:.3g} of the diagonal)", text_of(length), length / diagonal);
-  };
-  std::string text = line("points", fmt::format("{}", r.points));
-  if (r.dropped_points > 0) {
-    text += line("dropped",
-                 fmt::format("{} (not finite, doubled, or without a normal)", r.dropped_points));
-  }
-  if (r.outliers > 0) text += line("outliers", fmt::format("{}, left out", r.outliers));
-  if (r.scans.scans > 1) {
-    text += line("scans", fmt::format("{}, {} apart, moved by {}: {} apart", r.scans.scans,
-                                      text_of(r.scans.distance_before), text_of(r.scans.moved),
-                                      text_of(r.scans.distance)));
-  }
-  if (r.computed_normals) {
-    text +=
-        line("normals", fmt::format("computed, as by rholm orient: {:.2f} % of their signs unsure",
-                                    100 * r.unsure));
-  }
-  if (r.turned_normals) text += line("normals", "all pointed inwards, turned outwards");
-  text += line("spacing", relative(r.spacing));
-  text += line("noise", r.noise > 0 ? relative(r.noise) : "within what the caps explain");
-  text += line("caps", fmt::format("{} of about {} points", r.caps, r.neighbours));
-  text += line("grid", fmt::format("cubes of {}", relative(r.step)));
-  if (r.holes > 0) {
-    text += line("places without data", options.holes == HolePolicy::kKeep
-                                            ? fmt::format("{}", r.holes)
-                                            : fmt::format("{} closed, {} of them wide: smoothly",
-                                                          r.holes, r.smooth_holes));
-  }
-  if (r.cut_handles > 0) text += line("small handles", fmt::format("{} cut", r.cut_handles));
-  if (r.dropped_components > 0)
-    text += line("small parts", fmt::format("{} dropped", r.dropped_components));
-  if (made.mesh.triangles.size() < r.faces) {
-    text += line("simplified", fmt::format("from {} faces, moved by at most {}", r.faces,
-                                           relative(r.simplify_error)));
-  }
-  if (options.confidence) {
-    text += line("not known",
-                 fmt::format("{:.2f} % of the area is far from data, {:.2f} % thin, {:.2f} "
-                             "% below a confidence of 1/2",
-                             100 * r.unseen_area, 100 * r.thin_area, 100 * r.unsure_area));
-  }
-  return text + line("surface",
-                     fmt::format("{}, {}", counted(made.mesh.vertices.size(), "vertex", "vertices"),
-                                 counted(made.mesh.triangles.size(), "face")));
+// Whether what lies between the steps fits into memory with the rest.
+bool is_small(const PointsInput& input, const BrickOptions& bricks, const Options& options) {
+  if (!input.n) return false;
+  const BrickForecast forecast = foresee_bricks(*input.n, bricks.points_per_brick);
+  return forecast.memory + forecast.stored < options.memory.limit() / 2;
 }
 
-constexpr double kSaid = 0.02;  // share of unsure signs that is worth a warning
+// The folder of a run in bricks: one that others find again, or one of its own, which is gone when
+// this is.
+class BrickFolder {
+ public:
+  explicit BrickFolder(const Options& options) {
+    const std::filesystem::path base = options.memory.folder();
+    if (options.resume) {
+      path_ = base / (std::filesystem::path(options.output).filename().string() + ".bricks");
+      return;
+    }
+    std::string name = (base / "rholm-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) {
+      throw Error(ErrorCode::kIo, fmt::format("no folder can be made in {}: {}", base.string(),
+                                              std::strerror(errno)));
+    }
+    path_ = name;
+    is_own_ = true;
+  }
+  ~BrickFolder() {
+    std::error_code ignored;  // it is empty by now
+    if (is_own_) std::filesystem::remove(path_, ignored);
+  }
+  BrickFolder(const BrickFolder&) = delete;
+  BrickFolder& operator=(const BrickFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
 
-// Of the area that points stand for: less is worth a warning; noisy points have 0.8.
-constexpr double kSaidArea = 0.7;
+ private:
+  std::filesystem::path path_;
+  bool is_own_ = false;
+};
 
-// Says what makes the surface doubtful; throws NotConverged where it should not be trusted. The
-// output is written by then.
-void judge(const Reconstruction& made, bool filled, Session& session) {
-  const double unsure = made.report.unsure;
-  const std::string side =
-      fmt::format("the side of {:.3g} % of the normals is unsure", 100 * unsure);
-  if (unsure > kTooUnsure) {
-    throw Error(
-        ErrorCode::kNotConverged,
-        side +
-            ": the surface, which is written, may be wrong all over; give normals, or where "
-            "points were measured from (--sensor, attributes sensor_x, "
-            "sensor_y, sensor_z)");
+void end(const Reconstructed& made, const ReconstructOptions& wanted, const Options& options,
+         Session& session) {
+  if (options.json) {
+    Json json;
+    json["file"] = options.input;
+    json.update(json_of(made, wanted.confidence));
+    print_json(json);
+  } else if (options.output != "-") {
+    session.report(fmt::format("{}: reconstructed\n", display_name(options.input)) +
+                   report_text(made, wanted));
   }
-  if (unsure > kSaid) {
-    session.warn(side + ": thin or sparse parts may be wrong; --confidence shows where");
-  }
-  const double seen = made.report.area - made.report.closed_area;
-  const double share = seen / made.report.points_area;
-  const std::string much = fmt::format(
-      "the surface has {:.3g} times the area that the points stand for: they contradict each "
-      "other, "
-      "as double walls or scans that are off do",
-      share);
-  if (share < kLeastArea || share > kMostArea) {
-    throw Error(ErrorCode::kNotConverged, much + "; it is written, but may be wrong all over");
-  }
-  if (share < kSaidArea) session.warn(much);
-  if (made.report.closed_area > made.report.points_area) {
-    session.warn(
-        "more of the surface closes holes than there are points for: the points are open, "
-        "as of one side; --holes keep leaves them so");
-  }
-  if (filled && made.report.volume < 0) {
-    throw Error(ErrorCode::kNotConverged,
-                "the surface, which is written, encloses a negative volume: normals point inwards");
-  }
+  judge(made.report, wanted.holes == HolePolicy::kFill, session);
 }
 
-int run(const Options& options, Session& session) {
-  std::optional<Vec3> sensor;
-  if (!options.sensor.empty()) sensor = parse_vector("--sensor", options.sensor);
-  const ShapeFormat format = mesh_output(options.output, options.format, options.json);
-  check_writable(options.output);
-  if (!options.model.empty()) {
-    if (options.model == "-") throw UsageError("a model file is written in place: --model NAME.h5");
-    check_writable(options.model);
-  }
-  PointCloud cloud = read_points(options.input, session);
-  validate(cloud);
+void run_in_one_piece(PointCloud cloud, ShapeFormat format, const Options& options,
+                      Session& session) {
   const Bounds box = bounds(cloud.points);
-  ReconstructOptions wanted = library_options(options, box);
-  wanted.sensor = sensor;
+  const ReconstructOptions wanted = library_options(options, box);
   const Reconstruction made = reconstruct(std::move(cloud), wanted, session.context());
   stop_if_interrupted();
   write_shape(made.mesh, options.output, {format, options.ascii}, session.context());
@@ -262,16 +163,91 @@ int run(const Options& options, Session& session) {
                  .method = "reconstruct"},
                 options.model);
   }
-  if (options.json) {
-    Json json;
-    json["file"] = options.input;
-    json.update(json_of(made, box.diagonal(), wanted.confidence));
-    print_json(json);
-  } else if (options.output != "-") {
-    session.report(fmt::format("{}: reconstructed\n", display_name(options.input)) +
-                   report_text(made, box.diagonal(), wanted));
+  end({.report = made.report,
+       .coefficients = made.atlas.coefficients.size(),
+       .vertices = made.mesh.vertices.size(),
+       .triangles = made.mesh.triangles.size(),
+       .diagonal = box.diagonal()},
+      wanted, options, session);
+}
+
+// Who works on bricks.
+struct BrickWorkers {
+  RunBricks run;
+  std::function<bool()> several;
+};
+
+void run_in_bricks(const PointsInput& input, ShapeFormat format, const Options& options,
+                   const BrickWorkers& by, Session& session) {
+  if (format != ShapeFormat::kPly || options.ascii) {
+    throw UsageError(
+        "so many points are reconstructed in bricks, to a binary PLY: -o NAME.ply; rholm convert "
+        "makes other files of it");
   }
-  judge(made, wanted.holes == HolePolicy::kFill, session);
+  // What is a part of the diagonal is known once the box is.
+  const bool relative = options.resolution || options.tolerance || options.noise != "auto";
+  Bounds box;
+  if (relative) {
+    box = input.cloud ? bounds(input.cloud->points) : bounds_of_points(input.file, session);
+  }
+  const ReconstructOptions wanted = library_options(options, box);
+  BrickOptions bricks{.points_per_brick = points_per_brick(options),
+                      .resume = options.resume,
+                      .model = options.model};
+  std::optional<BrickFolder> folder;
+  const bool shared = by.several();
+  if (shared && options.memory.work_dir.empty()) {
+    throw UsageError("several ranks need a folder that all of them see: --work-dir DIR");
+  }
+  if (shared || options.resume || !is_small(input, bricks, options)) {
+    bricks.work_dir = folder.emplace(options).path();
+  }
+  bricks.foreseen = [&](const BrickForecast& forecast) {
+    constexpr double kGigabyte = 1e9;
+    session.note(fmt::format(
+        "{} points in {} bricks: some {:.1f} GB of memory, {:.1f} GB {}, {:.1f} GB of surface",
+        forecast.points, forecast.bricks, static_cast<double>(forecast.memory) / kGigabyte,
+        static_cast<double>(forecast.stored) / kGigabyte,
+        bricks.work_dir.empty() ? "more" : "in " + bricks.work_dir.string(),
+        static_cast<double>(forecast.written) / kGigabyte));
+  };
+  keep_large_freed_memory();
+  const BrickReconstruction made = by.run(input, options.output, wanted, bricks, session);
+  for (const std::string& warning : made.warnings) {
+    session.warn(fmt::format("{}: {}", display_name(options.input), warning));
+  }
+  end({.report = made.report,
+       .coefficients = made.coefficients,
+       .vertices = made.vertices,
+       .triangles = made.triangles,
+       .diagonal = made.bounds.diagonal(),
+       .bricks = made.bricks,
+       .stored = made.stored},
+      wanted, options, session);
+}
+
+int run(const Options& options, const BrickWorkers& by, Session& session) {
+  if (!options.sensor.empty()) parse_vector("--sensor", options.sensor);  // before anything is read
+  const ShapeFormat format = mesh_output(options.output, options.format, options.json);
+  check_writable(options.output);
+  if (!options.model.empty()) {
+    if (options.model == "-") throw UsageError("a model file is written in place: --model NAME.h5");
+    check_writable(options.model);
+  }
+  if (options.resume && is_stream(options.input)) {
+    throw UsageError("--resume needs a file: standard input cannot be read again");
+  }
+  if (options.resume && options.output == "-") {
+    throw UsageError("--resume needs an output with a name: -o NAME.ply");
+  }
+  const std::uint64_t most = points_per_brick(options);
+  PointsInput input = read_points_input(options.input, most, options.memory, session);
+  if (input.cloud) validate(*input.cloud);
+  if (input.cloud && input.cloud->points.size() <= most) {
+    run_in_one_piece(std::move(*input.cloud), format, options, session);
+  } else {
+    run_in_bricks(input, format, options, by, session);
+  }
   return 0;
 }
 
@@ -331,12 +307,24 @@ std::vector<Option> option_list(Options& o) {
        .help = "give each vertex its confidence, 0 ... 1, as an attribute: less where signs are "
                "unsure, far from data, and where the surface is thin",
        .target = &o.confidence},
-      {.name = "max-memory",
-       .value = "GIB",
-       .help = "refuse what would need more; 8 by default",
-       .target = &o.max_memory,
-       .min = 0.01,
-       .max = 65536},
+      {.name = "brick-points",
+       .value = "N",
+       .help = "more points than that are cut into bricks of at most so many, worked on one after "
+               "the other; 1048576 by default, or as many as memory has room for",
+       .target = &o.brick_points,
+       .min = 1000,
+       .max = 1 << 28},
+      max_memory_option(o.memory),
+      {.name = "work-dir",
+       .value = "DIR",
+       .help =
+           "where bricks are kept meanwhile, and what of standard input does not fit in memory; "
+           "by default that of the system's temporary files",
+       .target = &o.memory.work_dir},
+      {.name = "resume",
+       .help = "keep what is done, in a folder of --work-dir with the output's name, if work in "
+               "bricks ends early, and take up what is there",
+       .target = &o.resume},
       {.name = "model",
        .value = "FILE",
        .help = "write the caps to a model file, .h5, as well; rholm synthesize reads it",
@@ -351,6 +339,18 @@ std::vector<Option> option_list(Options& o) {
 }  // namespace
 
 Command reconstruct_command() {
+  return reconstruct_command_by(
+      [](const PointsInput& points, const std::filesystem::path& mesh,
+         const ReconstructOptions& options, const BrickOptions& bricks, Session& session) {
+        return points.cloud
+                   ? reconstruct_bricks(*points.cloud, mesh, options, bricks, session.context())
+                   : reconstruct_bricks(std::filesystem::path(points.file), mesh, options, bricks,
+                                        session.context());
+      },
+      [] { return false; });
+}
+
+Command reconstruct_command_by(RunBricks run_bricks, std::function<bool()> several) {
   auto options = std::make_shared<Options>();
   return {.name = "reconstruct",
           .summary = "From points to a closed surface",
@@ -363,7 +363,9 @@ Command reconstruct_command() {
           .options = option_list(*options),
           .examples = {"rholm reconstruct points.ply -o surface.ply",
                        "rholm reconstruct points.ply --holes keep --json -o surface.obj"},
-          .run = [options](Session& session) { return run(*options, session); }};
+          .run = [options, by = BrickWorkers{std::move(run_bricks), std::move(several)}](
+                     Session& session) { return run(*options, by, session); },
+          .per_shape = PerShape{.extension = "ply", .one_file = "model"}};
 }
 
 }  // namespace rholm::cli

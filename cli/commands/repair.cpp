@@ -219,7 +219,8 @@ Command repair_command() {
       .options = option_list(*options),
       .examples = {"rholm repair bumpy.ply -o repaired.ply",
                    "rholm repair bumpy.ply --weld 1e-6 --max-hole 20 --json -o repaired.ply"},
-      .run = [options](Session& session) { return run(*options, session); }};
+      .run = [options](Session& session) { return run(*options, session); },
+      .per_shape = PerShape{.extension = "ply"}};
 }
 
 }  // namespace rholm::cli

@@ -187,7 +187,8 @@ Command rotate_command() {
           .examples = {"rholm rotate bumpy.h5 --axis 0,0,1 --angle 30 -o turned.h5",
                        "rholm rotate bumpy.h5 --principal-axes --json -o laid.h5",
                        "rholm rotate bumpy.h5 --mirror x -o image.h5"},
-          .run = [options](Session& session) { return run(*options, session); }};
+          .run = [options](Session& session) { return run(*options, session); },
+          .per_shape = PerShape{.extension = "h5"}};
 }
 
 }  // namespace rholm::cli

@@ -141,7 +141,8 @@ Command simplify_command() {
           .examples = {"rholm simplify bumpy.ply -o fewer.ply",
                        "rholm simplify bumpy.ply --faces 20% --json -o fewer.ply",
                        "rholm simplify bumpy.ply --faces 5000 --max-error 0.01 -o fewer.ply"},
-          .run = [options](Session& session) { return run(*options, session); }};
+          .run = [options](Session& session) { return run(*options, session); },
+          .per_shape = PerShape{.extension = "ply"}};
 }
 
 }  // namespace rholm::cli

@@ -173,7 +173,8 @@ Command smooth_command() {
                        "-o smooth.ply",
                        "rholm smooth bumpy.ply --region vertex:7,0.3 --wavelength 0.25 --repair "
                        "--json -o repaired.ply"},
-          .run = [options](Session& session) { return run(*options, session); }};
+          .run = [options](Session& session) { return run(*options, session); },
+          .per_shape = PerShape{.extension = "ply"}};
 }
 
 }  // namespace rholm::cli

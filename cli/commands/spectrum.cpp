@@ -1,13 +1,11 @@
 // rholm spectrum: energy per degree.
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <memory>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include "cli/commands/commands.h"
+#include "cli/commands/spectrum_report.h"
 #include "cli/files/inputs.h"
 #include "cli/files/outputs.h"
 #include "cli/grammar/parse.h"
@@ -28,31 +26,6 @@ struct Options {
   InputConvention convention;
   bool json = false;
 };
-
-struct Spectrum {
-  std::vector<double> energy;      // per degree
-  std::vector<double> cumulative;  // of degrees 0 ... l
-  std::vector<double> rms_beyond;  // over solid angle, of what degrees above l hold
-  bool includes_tail = false;      // what lies above L is known and in rms_beyond
-};
-
-// Summed from the top, so that small remainders are not lost against the large first degrees.
-Spectrum spectrum_of(const Expansion& expansion) {
-  Spectrum s;
-  s.energy = power_spectrum(expansion.coefficients);
-  const std::size_t n = s.energy.size();
-  s.cumulative.resize(n);
-  s.rms_beyond.resize(n);
-  double sum = 0;
-  for (std::size_t l = 0; l < n; ++l) s.cumulative[l] = sum += s.energy[l];
-  s.includes_tail = expansion.norm_squared.has_value();
-  double beyond = s.includes_tail ? std::max(0.0, *expansion.norm_squared - sum) : 0.0;
-  for (std::size_t l = n; l-- > 0;) {
-    s.rms_beyond[l] = std::sqrt(beyond / (4 * std::numbers::pi));
-    beyond += s.energy[l];
-  }
-  return s;
-}
 
 std::string table(const Spectrum& s, const std::string& format, const std::string& heading) {
   std::string text = heading;
@@ -77,12 +50,7 @@ std::optional<int> degree_within(const Spectrum& s, double tolerance) {
 Json report_json(const Options& options, const Expansion& expansion, const Spectrum& s) {
   Json json;
   json["file"] = options.input;
-  json["degree"] = expansion.coefficients.degree();
-  json["function"] = to_string(expansion.function);
-  json["energy"] = s.energy;
-  json["cumulative"] = s.cumulative;
-  json["rms_beyond"] = s.rms_beyond;
-  json["rms_beyond_includes_tail"] = s.includes_tail;
+  json.update(spectrum_json(expansion, s));
   json["tolerance"] = json_of(options.tolerance);
   if (options.tolerance) json["tolerance_degree"] = json_of(degree_within(s, *options.tolerance));
   json["norm_squared"] = json_of(expansion.norm_squared);
@@ -170,7 +138,8 @@ Command spectrum_command() {
           .options = option_list(*options),
           .examples = {"rholm spectrum bumpy.h5",
                        "rholm spectrum bumpy.h5 --tolerance 1e-3 -o spectrum.svg"},
-          .run = [options](Session& session) { return run(*options, session); }};
+          .run = [options](Session& session) { return run(*options, session); },
+          .per_shape = PerShape{.extension = "svg", .writes_always = false}};
 }
 
 }  // namespace rholm::cli

@@ -193,7 +193,8 @@ Command synthesize_command() {
           .options = option_list(*options),
           .examples = {"rholm synthesize bumpy.h5 -o smooth.ply",
                        "rholm synthesize bumpy.h5 --degree 4,8,16 --grid 90x180 -o level.obj"},
-          .run = [options](Session& session) { return run(*options, session); }};
+          .run = [options](Session& session) { return run(*options, session); },
+          .per_shape = PerShape{.extension = "ply"}};
 }
 
 }  // namespace rholm::cli

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "cli/files/spooled_input.h"
 #include "cli/terminal/interrupt.h"
 #include "rholm/compress.h"
 #include "rholm/error.h"
@@ -69,13 +70,6 @@ Bytes read_bytes(const std::string& path, std::size_t limit) {
 }
 
 // A file whose bytes can be had only once: standard input, a pipe.
-bool is_stream(const std::string& path) {
-  std::error_code ignored;
-  const auto status = std::filesystem::status(path, ignored);
-  return path == "-" || std::filesystem::is_fifo(status) ||
-         std::filesystem::is_character_file(status) || std::filesystem::is_socket(status);
-}
-
 bool begins_with(std::span<const char> bytes, std::string_view text) {
   return bytes.size() >= text.size() && std::equal(text.begin(), text.end(), bytes.begin());
 }
@@ -176,6 +170,14 @@ bool is_coefficients(Guess guess) {
   return guess == Guess::kCoefficients || guess == Guess::kModel;
 }
 
+void check_shape(Guess guess, const std::string& path) {
+  if (!is_coefficients(guess)) return;
+  throw Error(ErrorCode::kInvalidInput,
+              fmt::format("{} holds coefficients, and a shape is needed; make one with 'rholm "
+                          "synthesize {} -o OUT.ply'",
+                          display_name(path), path));
+}
+
 CoefficientsFile read_file(const std::string& path, Session& session,
                            const InputConvention& convention) {
   const Source source = look_at(path);
@@ -188,8 +190,7 @@ CoefficientsFile read_file(const std::string& path, Session& session,
   return read_coefficients_of(source, session, convention.reading());
 }
 
-Input read_either(const std::string& path, Session& session, const InputConvention& convention) {
-  const Source source = look_at(path);
+Input read_either(const Source& source, Session& session, const InputConvention& convention) {
   if (source.guess == Guess::kShape) return read_shape_of(source, session);
   if (is_coefficients(source.guess)) {
     return read_coefficients_of(source, session, convention.reading());
@@ -201,6 +202,14 @@ Input read_either(const std::string& path, Session& session, const InputConventi
     if (error.code() == ErrorCode::kIo || error.code() == ErrorCode::kCancelled) throw;
     return read_shape_of(source, session);
   }
+}
+
+Input told(Input input, const std::string& path, Session& session,
+           const InputConvention& convention) {
+  if (const auto* file = std::get_if<CoefficientsFile>(&input)) {
+    say_what_it_means(*file, path, session, convention);
+  }
+  return input;
 }
 
 }  // namespace
@@ -221,6 +230,10 @@ Option mesh_operand(std::string& path) {
           .offer = Offer::kShapes};
 }
 
+std::vector<char> read_all_bytes(const std::string& path) {
+  return read_bytes(path, std::numeric_limits<std::size_t>::max());
+}
+
 std::string display_name(const std::string& path) { return path == "-" ? "standard input" : path; }
 
 std::string extension_of(const std::string& path) {
@@ -230,14 +243,16 @@ std::string extension_of(const std::string& path) {
   return extension;
 }
 
+bool is_stream(const std::string& path) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(path, ignored);
+  return path == "-" || std::filesystem::is_fifo(status) ||
+         std::filesystem::is_character_file(status) || std::filesystem::is_socket(status);
+}
+
 ShapeFile read_shape_input(const std::string& path, Session& session) {
   const Source source = look_at(path);
-  if (is_coefficients(source.guess)) {
-    throw Error(ErrorCode::kInvalidInput,
-                fmt::format("{} holds coefficients, and a shape is needed; make one with 'rholm "
-                            "synthesize {} -o OUT.ply'",
-                            display_name(path), path));
-  }
+  check_shape(source.guess, path);
   return read_shape_of(source, session);
 }
 
@@ -257,16 +272,25 @@ Expansion read_expansion(const std::string& path, Session& session,
 }
 
 Input read_input(const std::string& path, Session& session, const InputConvention& convention) {
-  Input input = read_either(path, session, convention);
-  if (const auto* file = std::get_if<CoefficientsFile>(&input)) {
-    say_what_it_means(*file, path, session, convention);
-  }
-  return input;
+  return told(read_either(look_at(path), session, convention), path, session, convention);
+}
+
+Input read_input_of(std::vector<char> bytes, const std::string& path, Session& session,
+                    const InputConvention& convention) {
+  Source source{.path = path, .stream = std::move(bytes)};
+  source.guess = guess(*source.stream, path);
+  return told(read_either(source, session, convention), path, session, convention);
+}
+
+std::optional<bool> is_shape(const std::string& path) {
+  const Guess what = guess(read_bytes(path, kHead), path);
+  if (what == Guess::kUnknown) return {};
+  return what == Guess::kShape;
 }
 
 Input read_surface_input(const std::string& path, Session& session,
                          const InputConvention& convention) {
-  Input input = read_either(path, session, convention);
+  Input input = read_either(look_at(path), session, convention);
   if (const auto* file = std::get_if<CoefficientsFile>(&input)) {
     check_surface(*file, path);
     say_what_it_means(*file, path, session, convention);
@@ -299,6 +323,15 @@ Mesh mesh_of(ShapeFile file, const std::string& path, Session& session) {
 
 Mesh read_mesh(const std::string& path, Session& session) {
   return mesh_of(read_shape_input(path, session), path, session);
+}
+
+ShapeFile read_shape_of(std::span<const char> bytes, const std::string& path, Session& session) {
+  check_shape(guess(bytes.first(std::min(kHead, bytes.size())), path), path);
+  return parse_shape(bytes, display_name(path), {}, session.context());
+}
+
+Mesh read_mesh_of(std::span<const char> bytes, const std::string& path, Session& session) {
+  return mesh_of(read_shape_of(bytes, path, session), path, session);
 }
 
 }  // namespace rholm::cli

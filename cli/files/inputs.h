@@ -4,8 +4,10 @@
 // that their content can be looked at and Ctrl-C ends the wait.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "cli/grammar/command.h"
 #include "cli/options/convention.h"
@@ -36,12 +38,24 @@ Expansion read_expansion(const std::string& path, Session& session,
 Input read_surface_input(const std::string& path, Session& session,
                          const InputConvention& convention);
 
+// Standard input, a pipe or the like: what can be read once only.
+bool is_stream(const std::string& path);
+
+// Whether the beginning of a file, or its name, says that it is a shape; none: neither says.
+std::optional<bool> is_shape(const std::string& path);
+// As read_input() of bytes that came from there.
+Input read_input_of(std::vector<char> bytes, const std::string& path, Session& session,
+                    const InputConvention& convention);
+
 // Whether a file holds an atlas; streams and what cannot be read do not.
 bool holds_atlas(const std::string& path);
 
 // The mesh of a file, its warnings passed on; points are refused.
 Mesh mesh_of(ShapeFile file, const std::string& path, Session& session);
 Mesh read_mesh(const std::string& path, Session& session);
+
+// All bytes of a file or of standard input. Throws Io, Cancelled.
+std::vector<char> read_all_bytes(const std::string& path);
 
 // What a person calls it: "standard input" for "-".
 std::string display_name(const std::string& path);

@@ -12,6 +12,7 @@
 
 #include "cli/files/inputs.h"
 #include "cli/grammar/parse.h"
+#include "cli/terminal/capture.h"
 #include "cli/terminal/interrupt.h"
 #include "rholm/error.h"
 #include "rholm/model.h"
@@ -164,6 +165,7 @@ void note_attributes_left_out(std::span<const Attribute> attributes, ShapeFormat
 void write_coefficients_output(const Expansion& expansion, const CoefficientsOutput& output,
                                const Convention& convention, Session& session) {
   stop_if_interrupted();
+  if (Capture* listener = capture()) listener->expansion = expansion;
   if (!output.format) return write_model(expansion, output.path);
   write_coefficients(expansion, output.path, {output.format, convention});
   const std::string name = output.path == "-" ? "standard output" : output.path;

@@ -43,15 +43,23 @@ struct Option {
   std::string typed() const { return is_operand() ? name : "--" + name; }
 };
 
+// What a batch has to know of a command that takes one file, its first operand, and reports on it.
+struct PerShape {
+  std::string extension = {};  // of the file it writes by default; empty: it writes none
+  bool writes_always = true;   // whether it needs a place for that file
+  std::string one_file = {};   // an option that would name the same file for all shapes
+};
+
 struct Command {
   std::string name;
   std::string summary;      // one line, without a full stop
   std::string description;  // paragraphs separated by empty lines
   std::vector<Option> options;
-  std::vector<std::string> examples;      // whole command lines
-  std::function<int(Session&)> run = {};  // returns the exit code
-  std::string if_not_star = {};           // what to do with a shape that is not star-shaped
-  bool hidden = false;                    // not in the list of commands
+  std::vector<std::string> examples;       // whole command lines
+  std::function<int(Session&)> run = {};   // returns the exit code
+  std::string if_not_star = {};            // what to do with a shape that is not star-shaped
+  bool hidden = false;                     // not in the list of commands
+  std::optional<PerShape> per_shape = {};  // none: not for a batch
 };
 
 // --threads and --quiet, which every command has.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "cli/terminal/session.h"
 
@@ -44,6 +45,18 @@ std::vector<Option> offered_options(const Command& command) {
   for (const Option& option : common_options(common)) options.push_back(option);
   options.push_back({.name = "help", .letter = 'h', .help = "what it does", .target = &help});
   return options;
+}
+
+std::string of_program(std::string text, const std::string& program) {
+  std::string function = program;
+  std::replace(function.begin(), function.end(), '-', '_');
+  for (const auto& [mark, name] :
+       {std::pair<std::string, std::string>{"@program@", program}, {"@function@", function}}) {
+    for (std::size_t at = text.find(mark); at != text.npos; at = text.find(mark, at)) {
+      text.replace(at, mark.size(), name);
+    }
+  }
+  return text;
 }
 
 std::string first_clause(const std::string& help) {

@@ -8,9 +8,10 @@ namespace {
 
 // Neither bash-completion nor extended globs are needed: a file is offered if its extension fits,
 // or if none does.
-constexpr const char* kHead = R"(# bash completion for rholm, written by 'rholm completion bash'
+constexpr const char* kHead =
+    R"(# bash completion for @program@, written by '@program@ completion bash'
 
-_rholm_files()
+_@function@_files()
 {
     local file
     compopt -o filenames 2>/dev/null
@@ -20,12 +21,12 @@ _rholm_files()
     if [[ ${#COMPREPLY[@]} -eq 0 ]]; then mapfile -t COMPREPLY < <(compgen -f -- "$cur"); fi
 }
 
-_rholm_words()
+_@function@_words()
 {
     mapfile -t COMPREPLY < <(compgen -W "$1" -- "$cur")
 }
 
-_rholm()
+_@function@()
 {
     local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]} command=${COMP_WORDS[1]}
     COMPREPLY=()
@@ -38,13 +39,13 @@ _rholm()
 )";
 
 std::string files_call(Offer offer) {
-  return fmt::format("_rholm_files '{}'", fmt::join(offered_extensions(offer), "|"));
+  return fmt::format("_@function@_files '{}'", fmt::join(offered_extensions(offer), "|"));
 }
 
 // What to do for the word after an option, or for an operand.
 std::string action(const Option& option) {
   if (!option.choices.empty()) {
-    return fmt::format("_rholm_words '{}'", fmt::join(option.choices, " "));
+    return fmt::format("_@function@_words '{}'", fmt::join(option.choices, " "));
   }
   return option.offer == Offer::kNothing ? "" : files_call(option.offer);
 }
@@ -72,27 +73,29 @@ std::string command_case(const Command& command) {
   }
   words.pop_back();
   return fmt::format(
-      "    {})\n        if [[ $cur == -* ]]; then _rholm_words '{}'; else {}; fi ;;\n",
+      "    {})\n        if [[ $cur == -* ]]; then _@function@_words '{}'; else {}; fi ;;\n",
       command.name, words, operand.empty() ? ":" : operand);
 }
 
 }  // namespace
 
-std::string bash_completion(std::span<const Command> commands) {
+std::string bash_completion(const std::string& program, std::span<const Command> commands) {
   std::string names, values, cases;
   for (const Command& command : offered_commands(commands)) {
     names += command.name + " ";
     values += value_cases(command);
     cases += command_case(command);
   }
-  return std::string(kHead) +
-         fmt::format(
-             "    if [[ $COMP_CWORD -eq 1 ]]; then\n"
-             "        _rholm_words '{0}help --help --version'\n        return\n    fi\n"
-             "    case \"$command $prev\" in\n{1}    esac\n"
-             "    case $command in\n{2}    help) _rholm_words '{0}' ;;\n    esac\n}}\n\n"
-             "complete -F _rholm rholm\n",
-             names, values, cases);
+  return of_program(
+      std::string(kHead) +
+          fmt::format(
+              "    if [[ $COMP_CWORD -eq 1 ]]; then\n"
+              "        _@function@_words '{0}help --help --version'\n        return\n    fi\n"
+              "    case \"$command $prev\" in\n{1}    esac\n"
+              "    case $command in\n{2}    help) _@function@_words '{0}' ;;\n    esac\n}}\n\n"
+              "complete -F _@function@ @program@\n",
+              names, values, cases),
+      program);
 }
 
 }  // namespace rholm::cli

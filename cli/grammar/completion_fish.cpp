@@ -1,3 +1,5 @@
+#include <utility>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -30,7 +32,7 @@ std::string values(const Option& option) {
 
 std::string option_line(const Command& command, const Option& option) {
   std::string text =
-      fmt::format("complete -c rholm -n '__fish_seen_subcommand_from {}'", command.name);
+      fmt::format("complete -c @program@ -n '__fish_seen_subcommand_from {}'", command.name);
   if (option.is_operand()) {
     return values(option).empty() ? "" : text + " " + values(option) + "\n";
   }
@@ -43,22 +45,24 @@ std::string option_line(const Command& command, const Option& option) {
 
 }  // namespace
 
-std::string fish_completion(std::span<const Command> commands) {
+std::string fish_completion(const std::string& program, std::span<const Command> commands) {
   std::string text =
-      "# fish completion for rholm, written by 'rholm completion fish'\n\ncomplete -c rholm -f\n";
+      "# fish completion for @program@, written by '@program@ completion fish'\n\ncomplete -c "
+      "@program@ -f\n";
   for (const Command& command : offered_commands(commands)) {
-    text += fmt::format("complete -c rholm -n __fish_use_subcommand -a {} -d {}\n", command.name,
-                        quoted(command.summary));
+    text += fmt::format("complete -c @program@ -n __fish_use_subcommand -a {} -d {}\n",
+                        command.name, quoted(command.summary));
   }
   text +=
-      "complete -c rholm -n __fish_use_subcommand -a help -d 'What rholm or a command does'\n"
-      "complete -c rholm -n __fish_use_subcommand -l help -d 'What rholm does'\n"
-      "complete -c rholm -n __fish_use_subcommand -l version -d 'The version'\n";
+      "complete -c @program@ -n __fish_use_subcommand -a help -d 'What @program@ or a command "
+      "does'\n"
+      "complete -c @program@ -n __fish_use_subcommand -l help -d 'What @program@ does'\n"
+      "complete -c @program@ -n __fish_use_subcommand -l version -d 'The version'\n";
   for (const Command& command : offered_commands(commands)) {
     text += '\n';
     for (const Option& option : offered_options(command)) text += option_line(command, option);
   }
-  return text;
+  return of_program(std::move(text), program);
 }
 
 }  // namespace rholm::cli

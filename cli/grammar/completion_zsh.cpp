@@ -62,42 +62,43 @@ std::string command_case(const Command& command) {
 
 }  // namespace
 
-std::string zsh_completion(std::span<const Command> commands) {
+std::string zsh_completion(const std::string& program, std::span<const Command> commands) {
   std::string names, cases;
   for (const Command& command : offered_commands(commands)) {
     names += fmt::format("    '{}:{}'\n", command.name, escaped(command.summary));
     cases += command_case(command);
   }
-  return fmt::format(R"(#compdef rholm
-# zsh completion for rholm, written by 'rholm completion zsh'
+  return of_program(fmt::format(R"(#compdef @program@
+# zsh completion for @program@, written by '@program@ completion zsh'
 
-_rholm() {{
+_@function@() {{
   local curcontext="$curcontext" state line ret=1
   local -a commands
   commands=(
-{}    'help:What rholm or a command does'
+{}    'help:What @program@ or a command does'
   )
   _arguments -C '(- *)--help[what it does]' '(- *)--version[the version]' \
     '1: :->command' '*:: :->argument' && ret=0
   case $state in
     command)
-      _describe -t commands 'rholm command' commands && ret=0 ;;
+      _describe -t commands '@program@ command' commands && ret=0 ;;
     argument)
       case $words[1] in
 {}        help)
-          _describe -t commands 'rholm command' commands && ret=0 ;;
+          _describe -t commands '@program@ command' commands && ret=0 ;;
       esac ;;
   esac
   return ret
 }}
 
-if [[ $funcstack[1] == _rholm ]]; then
-  _rholm "$@"
+if [[ $funcstack[1] == _@program@ ]]; then
+  _@function@ "$@"
 else
-  compdef _rholm rholm
+  compdef _@function@ @program@
 fi
 )",
-                     names, cases);
+                                names, cases),
+                    program);
 }
 
 }  // namespace rholm::cli

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "cli/terminal/program_name.h"
 #include "cli/terminal/session.h"
 #include "rholm/version.h"
 
@@ -67,7 +68,9 @@ std::string wrap(const std::string& text, std::size_t indent, std::size_t width)
   return result;
 }
 
-std::string version_text() { return fmt::format("rholm {}\n", kVersion); }
+std::string version_text(const ProgramText& program) {
+  return fmt::format("{} {}\n", program.name, kVersion);
+}
 
 std::string option_heading(const Option& option) {
   if (option.is_operand()) return option.name;
@@ -77,7 +80,7 @@ std::string option_heading(const Option& option) {
 }
 
 std::string usage_line(const Command& command, std::size_t width) {
-  std::string result, line = "rholm " + command.name;
+  std::string result, line = program_name() + " " + command.name;
   const std::size_t indent = line.size() + 1;
   for (const Option& option : command.options) {
     const std::string word = usage_word(option);
@@ -90,29 +93,28 @@ std::string usage_line(const Command& command, std::size_t width) {
   return result + line;
 }
 
-std::string program_help(std::span<const Command> commands) {
-  std::string text =
-      "rholm: spherical harmonics of 3D objects, from a mesh to coefficients and back\n\n"
-      "Usage: rholm COMMAND ... [--threads N] [--quiet]\n\nCommands:\n";
+std::string program_help(const ProgramText& program, std::span<const Command> commands) {
+  std::string text = fmt::format("{0}: {1}\n\nUsage: {0} {2}\n\nCommands:\n", program.name,
+                                 program.summary, program.usage);
   for (const Command& command : commands) {
     if (!command.hidden) text += fmt::format("  {:<12} {}\n", command.name, command.summary);
   }
-  text +=
-      "\n'rholm help COMMAND' tells more, 'rholm --version' the version.\n"
+  text += fmt::format(
+      "\n'{0} help COMMAND' tells more, '{0} --version' the version.\n"
       "A file named - is standard input or output.\n"
       "Exit codes: 0 done, 1 failure (a file cannot be read or written, no memory),\n"
       "2 wrong usage, 3 input refused, 4 precision not reached, 130 interrupted,\n"
       "141 nobody reads standard output any more.\n"
-      "\nExample:\n"
-      "  rholm make bumpy -o bumpy.ply\n"
-      "  rholm analyze bumpy.ply --degree 32 -o bumpy.h5\n"
-      "  rholm synthesize bumpy.h5 --degree 4,16,32 -o smooth.ply\n";
+      "\nExample:\n",
+      program.name);
+  for (const std::string& example : program.examples) text += "  " + example + "\n";
   return text;
 }
 
 std::string command_help(const Command& command) {
   CommonOptions common;
-  std::string text = fmt::format("rholm {}: {}\n\nUsage: ", command.name, command.summary);
+  std::string text =
+      fmt::format("{} {}: {}\n\nUsage: ", program_name(), command.name, command.summary);
   // The first line of the usage stands after "Usage: ".
   std::string usage = usage_line(command, kWidth - 7);
   for (std::size_t at = 0; (at = usage.find('\n', at)) != std::string::npos; at += 8) {

@@ -3,13 +3,22 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "cli/grammar/command.h"
 
 namespace rholm::cli {
 
-std::string version_text();
-std::string program_help(std::span<const Command> commands);
+// What a program says of itself besides its commands.
+struct ProgramText {
+  std::string name, summary;
+  std::string usage;                  // what follows the name
+  std::vector<std::string> examples;  // whole command lines
+  std::string description;            // paragraphs separated by empty lines
+};
+
+std::string version_text(const ProgramText& program);
+std::string program_help(const ProgramText& program, std::span<const Command> commands);
 std::string command_help(const Command& command);
 
 // "rholm analyze SHAPE --degree L [--method edge|gauge] -o OUT", broken into lines of at most
@@ -20,7 +29,8 @@ std::string usage_line(const Command& command, std::size_t width);
 std::string option_heading(const Option& option);
 
 // The manual page, in the man macros of troff. `date` as YYYY-MM-DD.
-std::string man_page(std::span<const Command> commands, const std::string& date);
+std::string man_page(const ProgramText& program, std::span<const Command> commands,
+                     const std::string& date);
 
 // Breaks text at spaces into lines of at most `width` letters after `indent` spaces; empty lines
 // stay.

@@ -1,7 +1,10 @@
 // The manual page, written in troff's man macros.
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "cli/grammar/help.h"
+#include "cli/terminal/program_name.h"
 #include "cli/terminal/session.h"
 #include "rholm/version.h"
 
@@ -46,7 +49,7 @@ std::string option_items(const std::vector<Option>& options) {
 }
 
 std::string command_section(const Command& command) {
-  std::string text = fmt::format(".SS rholm {}\n", command.name);
+  std::string text = fmt::format(".SS {} {}\n", escaped(program_name()), command.name);
   text += ".nf\n" + escaped(usage_line(command, 76)) + "\n.fi\n.PP\n";
   text += escaped(command.summary) + ".\n.PP\n" + paragraphs(command.description);
   text += option_items(command.options);
@@ -57,20 +60,23 @@ std::string command_section(const Command& command) {
 
 }  // namespace
 
-std::string man_page(std::span<const Command> commands, const std::string& date) {
+std::string man_page(const ProgramText& program, std::span<const Command> commands,
+                     const std::string& date) {
   CommonOptions common;
-  std::string text =
-      fmt::format(".TH RHOLM 1 \"{}\" \"rholm {}\" \"User Commands\"\n", date, kVersion);
+  std::string upper = program.name;
+  std::transform(upper.begin(), upper.end(), upper.begin(),
+                 [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c; });
+  const std::string name = escaped(program.name);
+  std::string text = fmt::format(".TH {} 1 \"{}\" \"{} {}\" \"User Commands\"\n", escaped(upper),
+                                 date, name, kVersion);
+  text += fmt::format(".SH NAME\n{} \\- {}\n.SH SYNOPSIS\n.B {}\n", name, escaped(program.summary),
+                      name);
   text +=
-      ".SH NAME\nrholm \\- spherical harmonics of 3D objects\n"
-      ".SH SYNOPSIS\n.B rholm\n.I COMMAND\n\\&... [\\fB\\-\\-threads\\fR \\fIN\\fR] "
+      ".I COMMAND\n\\&... [\\fB\\-\\-threads\\fR \\fIN\\fR] "
       "[\\fB\\-\\-quiet\\fR]\n"
-      ".SH DESCRIPTION\n"
-      "Turns closed triangle meshes into coefficients of spherical harmonics, exactly and with an\n"
-      "error that is known, and coefficients into meshes, pictures and reports.\n"
-      "A file named \\- is standard input or output; standard output needs\n\\fB\\-\\-format\\fR.\n"
-      "Data and reports go to standard output, everything else to standard error.\n"
-      ".SH OPTIONS OF EVERY COMMAND\n";
+      ".SH DESCRIPTION\n";
+  text += paragraphs(program.description);
+  text += ".SH OPTIONS OF EVERY COMMAND\n";
   text += option_items(common_options(common));
   text += ".TP\n\\fB\\-\\-help\\fR\nWhat the command does, its options and an example.\n";
   text += ".SH COMMANDS\n";

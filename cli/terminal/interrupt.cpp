@@ -12,6 +12,7 @@ namespace rholm::cli {
 namespace {
 
 std::atomic<int> caught_signal = 0;
+std::atomic<std::uint64_t> questions = 0;
 static_assert(std::atomic<int>::is_always_lock_free, "used in a signal handler");
 
 // Exit codes of shells: 128 + signal, 130 for SIGINT.
@@ -49,6 +50,18 @@ void install_signal_handlers() {
 }
 
 int interrupting_signal() { return caught_signal.load(); }
+
+void interrupt(int signal) {
+  int none = 0;
+  caught_signal.compare_exchange_strong(none, signal);
+}
+
+bool keep_going() {
+  questions.fetch_add(1, std::memory_order_relaxed);
+  return interrupting_signal() == 0;
+}
+
+std::uint64_t questions_asked() { return questions.load(std::memory_order_relaxed); }
 
 void stop_if_interrupted() {
   if (interrupting_signal() != 0) throw Error(ErrorCode::kCancelled, "interrupted");

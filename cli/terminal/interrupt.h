@@ -5,12 +5,22 @@
 // the second removes unfinished files and leaves at once. Blocking calls return with EINTR.
 #pragma once
 
+#include <cstdint>
+
 namespace rholm::cli {
 
 void install_signal_handlers();
 
 // The signal that asked to stop, 0 if none did.
 int interrupting_signal();
+
+// As if that signal had come: for a program that is told to stop in another way. The first counts.
+void interrupt(int signal);
+
+// What a CancelScope of the program asks: whether no signal came. Counts the questions, which come
+// as long as something is computed.
+bool keep_going();
+std::uint64_t questions_asked();
 
 // Throws Error{kCancelled} if one did: asked between the steps of a command, so that an output
 // is not begun any more.

@@ -1,9 +1,9 @@
 #include "cli/terminal/json_text.h"
 
-#include <cstdio>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include "cli/terminal/session.h"
 
 namespace rholm::cli {
 namespace {
@@ -71,8 +71,6 @@ void print_json(const Json& json) {
   // Names of files may hold any bytes: those that are not UTF-8 are replaced.
   print_text(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
-
-void print_text(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stdout); }
 
 std::string line(const std::string& name, const std::string& value) {
   return fmt::format("  {:<18} {}\n", name, value);

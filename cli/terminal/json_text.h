@@ -32,9 +32,8 @@ inline Json json_of(const std::optional<TruncationErrors>& errors) {
   return errors ? json_of(*errors) : Json(nullptr);
 }
 
-// Writes a report to standard output.
+// Writes a report as print_text() does (session.h).
 void print_json(const Json& json);
-void print_text(const std::string& text);
 
 // A line "  name            value\n" of a report in text.
 std::string line(const std::string& name, const std::string& value);

@@ -8,7 +8,9 @@
 
 #include <fmt/format.h>
 
+#include "cli/terminal/capture.h"
 #include "cli/terminal/interrupt.h"
+#include "cli/terminal/program_name.h"
 
 namespace rholm::cli {
 namespace {
@@ -35,17 +37,27 @@ bool colours() { return stderr_is_terminal() && !environment_has("NO_COLOR"); }
 void print_message(const char* kind, const char* colour, const std::string& text) {
   const std::string label =
       colours() ? fmt::format("\x1b[{}m{}:\x1b[0m", colour, kind) : fmt::format("{}:", kind);
-  const std::string line = fmt::format("rholm: {} {}\n", label, text);
+  const std::string line = fmt::format("{}: {} {}\n", program_name(), label, text);
   std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
 }  // namespace
 
+void print_text(const std::string& text) {
+  if (Capture* listener = capture()) {
+    listener->report += text;
+  } else {
+    std::fwrite(text.data(), 1, text.size(), stdout);
+  }
+}
+
 void print_error(const std::string& message) { print_message("error", "1;31", message); }
+
+void print_note(const std::string& message) { print_message("note", "36", message); }
 
 Session::Session(const CommonOptions& options)
     : options_(options),
-      bar_wanted_(stderr_is_terminal() && !options.quiet),
+      bar_wanted_(capture() == nullptr && stderr_is_terminal() && !options.quiet),
       bar_due_(std::chrono::steady_clock::now() + kBarDelay) {
   context_.threads = options.threads;
   context_.progress = [this](std::string_view stage, double fraction) {
@@ -56,18 +68,20 @@ Session::Session(const CommonOptions& options)
 Session::~Session() { erase_bar(); }
 
 void Session::note(const std::string& message) {
+  if (Capture* listener = capture()) return listener->notes.push_back(message);
   erase_bar();
-  if (!options_.quiet) print_message("note", "36", message);
+  if (!options_.quiet) print_note(message);
 }
 
 void Session::warn(const std::string& message) {
+  if (Capture* listener = capture()) return listener->warnings.push_back(message);
   erase_bar();
   if (!options_.quiet) print_message("warning", "1;33", message);
 }
 
 void Session::report(const std::string& text) {
   erase_bar();
-  if (!options_.quiet) std::fwrite(text.data(), 1, text.size(), stdout);
+  if (!options_.quiet) print_text(text);
 }
 
 bool Session::on_progress(std::string_view stage, double fraction) {

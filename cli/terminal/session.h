@@ -17,8 +17,12 @@ struct CommonOptions {
   bool quiet = false;
 };
 
+// Writes a report to standard output, or to the Capture of this thread (capture.h).
+void print_text(const std::string& text);
+
 // Text on standard error. Colours only on a terminal and without NO_COLOR.
 void print_error(const std::string& message);
+void print_note(const std::string& message);
 
 class Session {
  public:

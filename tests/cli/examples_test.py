@@ -45,6 +45,7 @@ class Examples(CliTest):
     def test_help_texts(self):
         # The examples of one command may use what those of earlier ones made.
         listed = self.rholm("help").out.split("Commands:\n")[1].split("\n\n")[0]
+        self.write("shapes.csv", "path\nbumpy.ply\nellipsoid.ply\n")  # for batch
         first = ["make", "info", "center", "analyze", "synthesize"]
         commands = [line.split()[0] for line in listed.splitlines()]
         self.assertLessEqual(set(first), set(commands))

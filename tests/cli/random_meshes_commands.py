@@ -42,6 +42,8 @@ def looked_at(trial):
     m = trial.mesh
     trial.do("info", m, codes=DONE)
     trial.do("info --json", "info", m, "--json", codes=DONE)
+    (trial.folder / "all.csv").write_text(f"path\n{m}\nnone.ply\n")
+    trial.do("batch", "all.csv", "--command", "info", out="all-info.csv", codes=DONE)
     trial.do("center", m, "--json")
     trial.do("center --center", "center", m, "--rays", "200", "--center",
              trial.one_of("cosine", "volume", "centroid", "none"))

@@ -4,10 +4,12 @@ import json
 import math
 import os
 import re
+import subprocess
 import sys
+import time
 
 sys.path.insert(0, os.path.dirname(__file__))
-from harness import CliTest, main
+from harness import RHOLM, CliTest, main
 
 
 def rows(path):
@@ -263,6 +265,98 @@ class Reconstruct(CliTest):
         report = self.rholm("compare", "s.ply", "again.ply", "--json").json()
         self.assertLess(report["relative"]["a_to_b"]["rms"], 1e-4)
         self.rholm("reconstruct", "p.xyz", "--model", "-", "-o", "s.ply", code=2)
+
+
+class Bricks(CliTest):
+    """More points than --brick-points: the surface of all is made of parts."""
+
+    def setUp(self):
+        super().setUp()
+        self.rholm("make", "torus", "-o", "t.ply")
+        self.rholm("make", "sample", "t.ply", "--points", "12000", "-o", "p.ply")
+
+    def bricks(self, *words, output="s.ply", n=3000, **options):
+        return self.rholm("reconstruct", *words, "--brick-points", n, "-o", output, **options)
+
+    def bytes(self, name):
+        return (self.folder / name).read_bytes()
+
+    def test_a_torus_in_bricks_is_that_in_one_piece(self):
+        report = json.loads(self.bricks("p.ply", "--json").out)
+        self.assertEqual((report["points"], report["bricks"]), (12000, 4))
+        shape = self.rholm("info", "s.ply", "--json").json()
+        self.assertEqual((shape["components"], shape["genus"], shape["closed"]), (1, 1, True))
+        self.assertEqual((shape["counts"]["vertices"], shape["counts"]["faces"]),
+                         (report["vertices"], report["faces"]))
+        one = self.rholm("reconstruct", "p.ply", "-o", "one.ply", "--json").json()
+        self.assertNotIn("bricks", one)
+        self.assertAlmostEqual(report["area"] / one["area"], 1, delta=1e-3)
+        self.assertAlmostEqual(report["diagonal"], one["diagonal"], delta=1e-6)
+        said = self.bricks("p.ply")
+        self.assertRegex(said.out, r"(?m)^  bricks +4, ")
+        self.assertRegex(said.err, r"12000 points in 4 bricks: some [\d.]+ GB of memory")
+        # As many as there are make no bricks.
+        self.bricks("p.ply", n=12000, output="same.ply")
+        self.assertEqual(self.bytes("same.ply"), self.bytes("one.ply"))
+
+    def test_neither_memory_nor_threads_nor_the_way_of_reading_changes_a_byte(self):
+        self.bricks("p.ply")
+        content = self.bytes("p.ply")
+        (self.folder / "work").mkdir()
+        for words, options in ((["p.ply", "--threads", "1", "--max-memory", "0.012"], {}),
+                               (["-"], {"stdin": content}),
+                               (["-", "--max-memory", "0.012"], {"stdin": content})):
+            self.bricks(*words, "--work-dir", "work", output="other.ply", **options)
+            self.assertEqual(self.bytes("other.ply"), self.bytes("s.ply"), words)
+            self.assertEqual(os.listdir(self.folder / "work"), [])
+        self.rholm("convert", "p.ply", "p.xyz")
+        self.bricks("p.xyz", output="other.ply")
+        self.assertEqual(self.bytes("other.ply"), self.bytes("s.ply"))
+
+    def test_little_memory_makes_bricks(self):
+        self.rholm("make", "sample", "t.ply", "--points", "40000", "-o", "p.ply")
+        said = self.rholm("reconstruct", "p.ply", "-o", "s.ply", "--max-memory", "0.03")
+        self.assertIn("40000 points in", said.err)
+        self.assertEqual(self.rholm("info", "s.ply", "--json").json()["genus"], 1)
+        self.assertIn("--brick-points", self.bricks("p.ply", "--max-memory", "0.01", n=30000, code=1).err)
+
+    def test_a_run_that_was_killed_is_taken_up(self):
+        self.bricks("p.ply")
+        words = ("p.ply", "--resume", "--work-dir", "work")
+        (self.folder / "work").mkdir()
+        folder = self.folder / "work" / "r.ply.bricks"
+        for stage in ("caps", "mesh", "output"):  # the last one is a file
+            def begun():
+                piece = folder / "pieces" / stage
+                return any(piece.glob("[0-9]")) if piece.is_dir() else piece.is_file()
+            for _ in range(10):  # until it has not ended before
+                (self.folder / "r.ply").unlink(missing_ok=True)
+                with subprocess.Popen([RHOLM, "reconstruct", *words, "--brick-points", "3000", "-o", "r.ply",
+                                       "--threads", "1"], cwd=self.folder, stdout=subprocess.DEVNULL,
+                                      stderr=subprocess.DEVNULL) as run:
+                    while run.poll() is None and not begun():
+                        time.sleep(0.002)
+                    run.kill()
+                if not (self.folder / "r.ply").exists():
+                    break
+            self.assertFalse((self.folder / "r.ply").exists())
+            self.assertTrue(begun())
+        self.assertIn("another run", self.bricks(*words, "--noise", "0", output="r.ply", code=3).err)
+        self.bricks(*words, output="r.ply")
+        self.assertEqual(self.bytes("r.ply"), self.bytes("s.ply"))
+        self.assertEqual(os.listdir(self.folder / "work"), [])
+        self.assertEqual(self.files(), ["p.ply", "r.ply", "s.ply", "t.ply", "work"])
+
+    def test_what_cannot_be_done_in_bricks_is_said_before_the_work(self):
+        self.assertIn("rholm convert", self.bricks("p.ply", output="s.obj", code=2).err)
+        self.assertIn("rholm convert", self.bricks("p.ply", "--ascii", code=2).err)
+        self.assertIn("--resume", self.bricks("-", "--resume", stdin=b"", code=2).err)
+        self.assertIn("--resume", self.bricks("p.ply", "--resume", "--format", "ply", output="-", code=2).err)
+        self.assertIn("nowhere", self.bricks("p.ply", "--max-memory", "0.012", "--work-dir", "nowhere", code=1).err)
+        self.assertIn("--brick-points", self.bricks("p.ply", n=10, code=2).err)
+        self.write("short.ply", self.bytes("p.ply")[:-7])
+        self.bricks("short.ply", "--work-dir", ".", "--max-memory", "0.012", code=3)
+        self.assertEqual(self.files(), ["p.ply", "short.ply", "t.ply"])
 
 
 if __name__ == "__main__":

@@ -26,12 +26,13 @@ NEEDS = {
     "orient": ["none.xyz", "-o", "out.ply"], "partition": ["none.ply", "-o", "out.ply"],
     "reconstruct": ["none.xyz", "-o", "out.ply"], "bench": ["none.ply"],
     "repair": ["none.ply", "-o", "out.ply"], "simplify": ["none.ply", "-o", "out.ply"],
+    "batch": ["none.csv", "--command", "info", "-o", "out.csv"],
     "recenter": ["none.h5", "-o", "out.h5"], "completion": ["bash"],
 }
 
 # Values that are words of the user's own: names of files, of units, labels.
 FREE = {"output", "against", "like", "shape", "from", "to", "gain", "model", "labels",
-        "length-unit"}
+        "length-unit", "outputs", "work-dir"}
 
 BAD = ["", "text", "nan", "-inf", "1e400", "1,2,3,4,5,6,7,8,9,10,11,12,"]
 
@@ -40,7 +41,7 @@ BEYOND = {
     "threads": ["-1", "4097"], "seed": ["-1", "99999999999999999999"], "weld": ["-1e-9"],
     "analyze --degree": ["-1", "16385", "1.5", "0x10"], "report --degree": ["-1", "16385"],
     "synthesize --degree": ["-1", "4,16385", "4,,5"], "tolerance": ["0", "-1"],
-    "reconstruct --tolerance": ["-1", "1.1"],
+    "reconstruct --tolerance": ["-1", "1.1"], "brick-points": ["999", "268435457"],
     "max-degree": ["-1", "16385"], "precision": ["0", "1"], "rays": ["-1", "1e3"],
     "samples": ["0", "-1"], "deviation": ["0", "2"], "most-samples": ["1"],
     "center": ["1,2", "1,2,nan"], "length-unit": ["x" * 300, "a\nb", " km", "\udcff"],
@@ -69,7 +70,7 @@ BEYOND = {
     "max-memory": ["0"], "bench --faces": ["11", "82000,0"],
     "max-hole": ["-1", "501"], "simplify --faces": ["0", "3", "0%", "101%", "none"],
     "max-error": ["-1"], "repeat": ["0", "1001"],
-    "thread-counts": ["0", "1,4097"],
+    "thread-counts": ["0", "1,4097"], "shard": ["0/2", "3/2", "1/2/3", "1/0"],
 }
 
 

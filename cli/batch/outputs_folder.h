@@ -1,0 +1,30 @@
+// Where the files go that a command writes for each shape. Layer: cli.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "rholm/batch.h"
+
+namespace rholm::cli {
+
+// Names of files without extension, one for each shape: its id, with _ for what is not a letter of
+// ASCII, a digit, a dot, - or _. Where that is too long or not unique (the case of letters does not
+// count), the number of the row is added.
+std::vector<std::string> file_names(const Manifest& manifest);
+
+// A folder for files that are not kept, deleted with all that is in it.
+class ScratchFolder {
+ public:
+  ScratchFolder();  // throws Io
+  ~ScratchFolder();
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace rholm::cli

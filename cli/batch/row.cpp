@@ -1,0 +1,123 @@
+#include "cli/batch/row.h"
+
+#include <time.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cli/batch/flatten.h"
+#include "cli/grammar/run.h"
+#include "cli/terminal/capture.h"
+#include "cli/terminal/exit_code.h"
+#include "cli/terminal/interrupt.h"
+
+namespace rholm::cli {
+namespace {
+
+double seconds_of(clockid_t clock) {
+  timespec now = {};
+  clock_gettime(clock, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// Where the command writes. Files that are not kept have a folder each: some commands write
+// several.
+std::string output_of(const BatchJob& job, std::size_t row, const std::filesystem::path& scratch) {
+  if (job.extension.empty()) return {};
+  if (!job.options.outputs.empty()) {
+    return (std::filesystem::path(job.options.outputs) /
+            fmt::format("{}.{}", job.file_names[row], job.extension))
+        .string();
+  }
+  const std::filesystem::path folder = scratch / fmt::format("{}", row);
+  std::filesystem::create_directories(folder);
+  return (folder / ("out." + job.extension)).string();
+}
+
+// Degrees one after the other, within each m = -l ... l: C_lm at l^2 + l + m, S_lm at l^2 + l - m.
+std::vector<double> listed(const Coefficients& coefficients) {
+  std::vector<double> list;
+  for (int l = 0; l <= coefficients.degree(); ++l) {
+    for (int m = l; m > 0; --m) list.push_back(coefficients.s(l, m));
+    for (int m = 0; m <= l; ++m) list.push_back(coefficients.c(l, m));
+  }
+  return list;
+}
+
+// A name that the manifest or the results have already is given that of the command in front.
+std::string free_name(const BatchJob& job, const std::string& name) {
+  const auto& columns = job.manifest.columns;
+  const bool taken = is_batch_column(name) ||
+                     std::any_of(columns.begin(), columns.end(), [&](const std::string& column) {
+                       return column == name || column.starts_with(name + ".");
+                     });
+  return taken ? job.options.command + "." + name : name;
+}
+
+// Where files are is no result, nor what a clock of all threads together says of one of them.
+bool is_wanted(const BatchJob& job, const std::string& name) {
+  if (name == "file" || name == "output" || name == "peak_memory_bytes") return false;
+  if (name.ends_with(".cpu") || name.starts_with("cpu_seconds") || name.ends_with(".cpu_seconds")) {
+    return false;
+  }
+  return !job.options.no_times || !is_of_the_run(name);
+}
+
+void add_results(const BatchJob& job, const Capture& said, BatchRow& row) {
+  BatchRow found;
+  const auto wanted = [&](const std::string& name) { return is_wanted(job, name); };
+  const Json report = Json::parse(said.report, nullptr, false);
+  flatten(report, wanted, found);
+  if (said.expansion) {
+    flatten(job.commands.describe(*said.expansion), wanted, found);
+    row.emplace_back("coefficients", listed(said.expansion->coefficients));
+  }
+  for (auto& [name, cell] : found) row.emplace_back(free_name(job, name), std::move(cell));
+}
+
+}  // namespace
+
+std::filesystem::path path_of(const BatchJob& job, std::size_t row) {
+  const std::filesystem::path path = job.manifest.items[row].path;
+  // A shape is neither standard input nor an option.
+  const bool is_word = job.folder.empty() && path.native().starts_with('-');
+  return (is_word ? "." : job.folder) / path;
+}
+
+bool has_failed(const BatchRow& row) {
+  const auto found =
+      std::find_if(row.begin(), row.end(), [](const auto& c) { return c.first == "exit_code"; });
+  return found == row.end() || found->second != Cell(std::int64_t{kDone});
+}
+
+std::optional<BatchRow> run_row(const BatchJob& job, std::size_t row, int threads,
+                                const std::filesystem::path& scratch) {
+  // A row on one thread has a clock of its own; on several it is alone.
+  const clockid_t cpu = threads == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_PROCESS_CPUTIME_ID;
+  const double wall_begin = seconds_of(CLOCK_MONOTONIC), cpu_begin = seconds_of(cpu);
+  Capture said;
+  const Outcome outcome = outcome_of([&] {
+    std::vector<std::string> words =
+        command_words(job, path_of(job, row).string(), output_of(job, row, scratch));
+    words.push_back(fmt::format("--threads={}", threads));
+    return run_command(job.commands.make(job.options.command), words);
+  });
+  std::error_code ignored;
+  std::filesystem::remove_all(scratch / fmt::format("{}", row), ignored);
+  if (interrupting_signal() != 0) return std::nullopt;
+  BatchRow cells = {{"exit_code", std::int64_t{outcome.code}},
+                    {"message", outcome.message},
+                    {"warnings", fmt::format("{}", fmt::join(said.warnings, "; "))}};
+  if (!job.options.no_times) {
+    cells.emplace_back("seconds", seconds_of(CLOCK_MONOTONIC) - wall_begin);
+    cells.emplace_back("cpu_seconds", seconds_of(cpu) - cpu_begin);
+  }
+  add_results(job, said, cells);
+  return cells;
+}
+
+}  // namespace rholm::cli

@@ -1,0 +1,163 @@
+#include "cli/commands/reconstruct_report.h"
+
+#include <fmt/format.h>
+
+#include "cli/terminal/json_text.h"
+#include "rholm/error.h"
+#include "rholm/points.h"
+
+namespace rholm::cli {
+namespace {
+
+std::string size_text(std::uint64_t bytes) {
+  return fmt::format("{:.3g} GB", static_cast<double>(bytes) / 1e9);
+}
+
+constexpr double kSaid = 0.02;  // share of unsure signs that is worth a warning
+
+// Of the area that points stand for: less is worth a warning; noisy points have 0.8.
+constexpr double kSaidArea = 0.7;
+
+}  // namespace
+
+Json json_of(const Reconstructed& made, bool confidence) {
+  const ReconstructReport& r = made.report;
+  Json json = {{"points", r.points},
+               {"dropped_points", r.dropped_points},
+               {"outliers", r.outliers},
+               {"computed_normals", r.computed_normals},
+               {"unsure", r.unsure},
+               {"turned_normals", r.turned_normals},
+               {"spacing", r.spacing},
+               {"noise", r.noise},
+               {"normal_noise_degrees", r.normal_noise_degrees},
+               {"neighbours", r.neighbours},
+               {"caps", r.caps},
+               {"coefficients", made.coefficients},
+               {"step", r.step},
+               {"holes", r.holes},
+               {"smooth_holes", r.smooth_holes},
+               {"cut_handles", r.cut_handles},
+               {"dropped_components", r.dropped_components},
+               {"vertices", made.vertices},
+               {"faces", made.triangles},
+               {"full_faces", r.faces},
+               {"simplify_error", r.simplify_error},
+               {"area", r.area},
+               {"closed_area", r.closed_area},
+               {"points_area", r.points_area},
+               {"volume", r.volume},
+               {"diagonal", made.diagonal},
+               {"foreseen_memory", r.memory}};
+  if (made.bricks > 0) {
+    json["bricks"] = made.bricks;
+    json["stored_bytes"] = made.stored;
+  }
+  if (r.scans.scans > 1) {
+    json["scans"] = {{"scans", r.scans.scans},
+                     {"pairs", r.scans.pairs},
+                     {"distance_before", r.scans.distance_before},
+                     {"distance", r.scans.distance},
+                     {"moved", r.scans.moved}};
+  }
+  if (confidence) {
+    json["unseen_area"] = r.unseen_area;
+    json["thin_area"] = r.thin_area;
+    json["unsure_area"] = r.unsure_area;
+  }
+  for (const auto& [name, time] : r.times) {
+    json["stages"][name] = {{"wall_seconds", time.wall}, {"cpu_seconds", time.cpu}};
+  }
+  return json;
+}
+
+std::string report_text(const Reconstructed& made, const ReconstructOptions& options) {
+  const ReconstructReport& r = made.report;
+  const auto relative = [&](double length) {
+    return fmt::format("{} ({:.3g} of the diagonal)", text_of(length), length / made.diagonal);
+  };
+  std::string text = line("points", fmt::format("{}", r.points));
+  if (r.dropped_points > 0) {
+    text += line("dropped",
+                 fmt::format("{} (not finite, doubled, or without a normal)", r.dropped_points));
+  }
+  if (made.bricks > 0) {
+    text += line("bricks", fmt::format("{}, {} beside them", made.bricks, size_text(made.stored)));
+  }
+  if (r.outliers > 0) text += line("outliers", fmt::format("{}, left out", r.outliers));
+  if (r.scans.scans > 1) {
+    text += line("scans", fmt::format("{}, {} apart, moved by {}: {} apart", r.scans.scans,
+                                      text_of(r.scans.distance_before), text_of(r.scans.moved),
+                                      text_of(r.scans.distance)));
+  }
+  if (r.computed_normals) {
+    text +=
+        line("normals", fmt::format("computed, as by rholm orient: {:.2f} % of their signs unsure",
+                                    100 * r.unsure));
+  }
+  if (r.turned_normals) text += line("normals", "all pointed inwards, turned outwards");
+  text += line("spacing", relative(r.spacing));
+  text += line("noise", r.noise > 0 ? relative(r.noise) : "within what the caps explain");
+  text += line("caps", fmt::format("{} of about {} points", r.caps, r.neighbours));
+  text += line("grid", fmt::format("cubes of {}", relative(r.step)));
+  if (r.holes > 0) {
+    text += line("places without data", options.holes == HolePolicy::kKeep
+                                            ? fmt::format("{}", r.holes)
+                                            : fmt::format("{} closed, {} of them wide: smoothly",
+                                                          r.holes, r.smooth_holes));
+  }
+  if (r.cut_handles > 0) text += line("small handles", fmt::format("{} cut", r.cut_handles));
+  if (r.dropped_components > 0)
+    text += line("small parts", fmt::format("{} dropped", r.dropped_components));
+  if (made.triangles < r.faces) {
+    text += line("simplified", fmt::format("from {} faces, moved by at most {}", r.faces,
+                                           relative(r.simplify_error)));
+  }
+  if (options.confidence) {
+    text += line("not known",
+                 fmt::format("{:.2f} % of the area is far from data, {:.2f} % thin, {:.2f} "
+                             "% below a confidence of 1/2",
+                             100 * r.unseen_area, 100 * r.thin_area, 100 * r.unsure_area));
+  }
+  return text + line("surface", fmt::format("{}, {}", counted(made.vertices, "vertex", "vertices"),
+                                            counted(made.triangles, "face")));
+}
+
+void judge(const ReconstructReport& report, bool filled, Session& session) {
+  const double unsure = report.unsure;
+  const std::string side =
+      fmt::format("the side of {:.3g} % of the normals is unsure", 100 * unsure);
+  if (unsure > kTooUnsure) {
+    throw Error(
+        ErrorCode::kNotConverged,
+        side +
+            ": the surface, which is written, may be wrong all over; give normals, or where "
+            "points were measured from (--sensor, attributes sensor_x, "
+            "sensor_y, sensor_z)");
+  }
+  if (unsure > kSaid) {
+    session.warn(side + ": thin or sparse parts may be wrong; --confidence shows where");
+  }
+  const double seen = report.area - report.closed_area;
+  const double share = seen / report.points_area;
+  const std::string much = fmt::format(
+      "the surface has {:.3g} times the area that the points stand for: they contradict each "
+      "other, "
+      "as double walls or scans that are off do",
+      share);
+  if (share < kLeastArea || share > kMostArea) {
+    throw Error(ErrorCode::kNotConverged, much + "; it is written, but may be wrong all over");
+  }
+  if (share < kSaidArea) session.warn(much);
+  if (report.closed_area > report.points_area) {
+    session.warn(
+        "more of the surface closes holes than there are points for: the points are open, "
+        "as of one side; --holes keep leaves them so");
+  }
+  if (filled && report.volume < 0) {
+    throw Error(ErrorCode::kNotConverged,
+                "the surface, which is written, encloses a negative volume: normals point inwards");
+  }
+}
+
+}  // namespace rholm::cli

@@ -1,0 +1,23 @@
+// Energy per degree, as rholm spectrum and batches report it. Layer: cli.
+#pragma once
+
+#include <vector>
+
+#include "cli/terminal/json_text.h"
+#include "rholm/coefficients.h"
+
+namespace rholm::cli {
+
+struct Spectrum {
+  std::vector<double> energy;      // per degree
+  std::vector<double> cumulative;  // of degrees 0 ... l
+  std::vector<double> rms_beyond;  // over solid angle, of what degrees above l hold
+  bool includes_tail = false;      // what lies above L is known and in rms_beyond
+};
+
+Spectrum spectrum_of(const Expansion& expansion);
+
+// What the expansion is, and its spectrum.
+Json spectrum_json(const Expansion& expansion, const Spectrum& s);
+
+}  // namespace rholm::cli

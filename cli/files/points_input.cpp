@@ -1,0 +1,104 @@
+#include "cli/files/points_input.h"
+
+#include <utility>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "cli/files/inputs.h"
+#include "cli/files/outputs.h"
+#include "cli/terminal/interrupt.h"
+#include "rholm/error.h"
+#include "rholm/point_stream.h"
+#include "rholm/topology.h"
+
+namespace rholm::cli {
+namespace {
+
+// Of lines with three numbers of one digit each.
+constexpr std::uintmax_t kShortestLine = 6;
+constexpr std::size_t kAtATime = std::size_t{1} << 14;
+
+// Of a mesh the vertices, with the mean normals of their faces.
+PointCloud points_of(Mesh mesh) {
+  PointCloud cloud;
+  cloud.normals = area_normals(mesh.vertices, mesh.triangles);
+  std::erase_if(mesh.attributes, [](const Attribute& a) {
+    return a.name == "nx" || a.name == "ny" || a.name == "nz";
+  });
+  cloud.points = std::move(mesh.vertices);
+  cloud.attributes = std::move(mesh.attributes);
+  return cloud;
+}
+
+PointCloud points_of(ShapeFile file, const std::string& path, Session& session) {
+  for (const std::string& warning : file.warnings) {
+    session.warn(fmt::format("{}: {}", display_name(path), warning));
+  }
+  if (auto* cloud = std::get_if<PointCloud>(&file.shape)) return std::move(*cloud);
+  Mesh& mesh = std::get<Mesh>(file.shape);
+  session.note(fmt::format("{} is a mesh: its {} vertices are taken as points", display_name(path),
+                           mesh.vertices.size()));
+  return points_of(std::move(mesh));
+}
+
+// Whether a file has more points than that, and they can be read one after the other; how many, if
+// it says so.
+bool has_more(const std::string& path, std::uint64_t most, std::optional<std::uint64_t>& n,
+              Session& session) {
+  if (file_size_of(path).value_or(0) / kShortestLine <= most) return false;
+  try {
+    PointStream stream(path);
+    if (stream.has_faces()) return false;
+    n = stream.size();
+    if (n) return *n > most;
+    PointCloud some;
+    while (stream.read_so_far() <= most && stream.read(kAtATime, some, session.context())) {
+      stop_if_interrupted();
+    }
+    return stream.read_so_far() > most;
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::kCancelled) throw;
+    return false;  // the reader of the whole file says what is wrong
+  }
+}
+
+}  // namespace
+
+PointsInput read_points_input(const std::string& path, std::uint64_t most,
+                              const MemoryOptions& memory, Session& session) {
+  PointsInput input;
+  if (is_stream(path)) {
+    input.spooled = std::make_unique<SpooledInput>(path, memory.limit() / 4, memory.folder());
+    if (!input.spooled->is_in_file()) {
+      input.cloud = points_of(read_shape_of(input.spooled->bytes(), path, session), path, session);
+      input.n = input.cloud->points.size();
+      input.spooled.reset();
+      return input;
+    }
+  }
+  input.file = input.spooled ? input.spooled->path_of_file() : path;
+  if (!has_more(input.file, most, input.n, session)) {
+    input.cloud = points_of(read_shape_input(input.file, session), path, session);
+  }
+  if (input.cloud) input.n = input.cloud->points.size();
+  return input;
+}
+
+Bounds bounds_of_points(const std::string& file, Session& session) {
+  PointStream stream(file);
+  PointCloud some;
+  Bounds box;
+  bool none = true;
+  while (stream.read(kAtATime, some, session.context())) {
+    stop_if_interrupted();
+    std::erase_if(some.points, [](const Vec3& p) { return !is_finite(p); });
+    if (some.points.empty()) continue;
+    if (!none) some.points.insert(some.points.end(), {box.min, box.max});
+    box = bounds(some.points);
+    none = false;
+  }
+  return box;
+}
+
+}  // namespace rholm::cli

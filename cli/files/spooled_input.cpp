@@ -1,0 +1,145 @@
+#include "cli/files/spooled_input.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "cli/files/inputs.h"
+#include "cli/terminal/interrupt.h"
+#include "rholm/error.h"
+
+namespace rholm::cli {
+namespace {
+
+constexpr std::size_t kChunk = std::size_t{1} << 20;  // chosen: large against a system call
+
+std::string reason() { return std::strerror(errno); }
+
+// Closed with its object.
+struct InputDescriptor {
+  explicit InputDescriptor(const std::string& path)
+      : number(path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
+  ~InputDescriptor() {
+    if (number > STDERR_FILENO) ::close(number);
+  }
+  InputDescriptor(const InputDescriptor&) = delete;
+  InputDescriptor& operator=(const InputDescriptor&) = delete;
+  int number;
+};
+
+// How many bytes came: 0 at the end.
+std::size_t read_some(int file, std::span<char> room, const std::string& path) {
+  for (;;) {
+    const ssize_t n = ::read(file, room.data(), room.size());
+    const int error = errno;
+    stop_if_interrupted();
+    if (n >= 0) return static_cast<std::size_t>(n);
+    if (error != EINTR) {
+      throw Error(ErrorCode::kIo,
+                  fmt::format("{} cannot be read: {}", display_name(path), std::strerror(error)));
+    }
+  }
+}
+
+int nameless_file(const std::string& folder) {
+#ifdef O_TMPFILE
+  const int file = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+  if (file >= 0) return file;
+#endif
+  std::string name = folder + "/rholm-XXXXXX";
+  const int named = ::mkstemp(name.data());
+  if (named >= 0) ::unlink(name.c_str());
+  return named;
+}
+
+}  // namespace
+
+SpooledInput::SpooledInput(const std::string& path, std::size_t in_memory,
+                           const std::string& folder)
+    : path_(path) {
+  const InputDescriptor input(path);
+  stop_if_interrupted();
+  if (input.number < 0) {
+    throw Error(ErrorCode::kIo, fmt::format("{} cannot be opened: {}", path, reason()));
+  }
+  try {
+    std::vector<char> chunk(kChunk);
+    while (const std::size_t n = read_some(input.number, chunk, path)) {
+      if (!is_in_file() && size_ + n > in_memory) to_file(folder);
+      const std::span<const char> got = std::span(chunk).first(n);
+      if (is_in_file()) {
+        write(got, folder);
+      } else {
+        memory_.insert(memory_.end(), got.begin(), got.end());
+      }
+      size_ += n;
+    }
+    if (!is_in_file()) return;
+    map_ = ::mmap(nullptr, size_, PROT_READ, MAP_PRIVATE, file_, 0);
+    if (map_ == MAP_FAILED) {
+      map_ = nullptr;
+      throw Error(ErrorCode::kIo, fmt::format("what was kept of {} in {} cannot be mapped: {}",
+                                              display_name(path), folder, reason()));
+    }
+  } catch (...) {
+    if (file_ >= 0) ::close(file_);
+    throw;
+  }
+}
+
+SpooledInput::~SpooledInput() {
+  if (map_ != nullptr) ::munmap(map_, size_);
+  if (file_ >= 0) ::close(file_);
+}
+
+void SpooledInput::to_file(const std::string& folder) {
+  file_ = nameless_file(folder);
+  if (file_ < 0) {
+    throw Error(ErrorCode::kIo,
+                fmt::format("{} is larger than a quarter of --max-memory, and no file can be made "
+                            "in {} to keep it: {}; --work-dir names another folder",
+                            display_name(path_), folder, reason()));
+  }
+  write(memory_, folder);
+  std::vector<char>().swap(memory_);
+}
+
+void SpooledInput::write(std::span<const char> bytes, const std::string& folder) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::write(file_, bytes.data(), bytes.size());
+    const int error = errno;
+    stop_if_interrupted();
+    if (n > 0) {
+      bytes = bytes.subspan(static_cast<std::size_t>(n));
+    } else if (error != EINTR) {
+      throw Error(ErrorCode::kIo,
+                  fmt::format("{} cannot keep {}, of which {:.3g} GiB have come: {}; --work-dir "
+                              "names another folder",
+                              folder, display_name(path_), static_cast<double>(size_) / 0x1p30,
+                              std::strerror(error)));
+    }
+  }
+}
+
+std::span<const char> SpooledInput::bytes() const {
+  if (map_ != nullptr) return {static_cast<const char*>(map_), size_};
+  return memory_;
+}
+
+std::optional<MappedMesh> SpooledInput::mesh(const Context& context) const {
+  if (!is_in_file()) return {};
+  return map_mesh(fmt::format("/proc/self/fd/{}", file_), context);
+}
+
+std::string SpooledInput::path_of_file() const {
+  return is_in_file() ? fmt::format("/proc/self/fd/{}", file_) : std::string();
+}
+
+}  // namespace rholm::cli

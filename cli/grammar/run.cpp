@@ -1,0 +1,72 @@
+#include "cli/grammar/run.h"
+
+#include <filesystem>
+#include <new>
+
+#include <fmt/format.h>
+
+#include "cli/grammar/parse.h"
+#include "cli/terminal/exit_code.h"
+#include "cli/terminal/interrupt.h"
+#include "cli/terminal/program_name.h"
+#include "cli/terminal/session.h"
+#include "rholm/error.h"
+
+namespace rholm::cli {
+namespace {
+
+int exit_code_of(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::kIo:
+    case ErrorCode::kOutOfMemory:
+      return kFailure;
+    case ErrorCode::kInvalidInput:
+    case ErrorCode::kUnsupported:
+    case ErrorCode::kNotStarShaped:
+      return kRefused;
+    case ErrorCode::kNotConverged:
+      return kNotConverged;
+    case ErrorCode::kCancelled:
+      return 128 + interrupting_signal();
+  }
+  return kFailure;
+}
+
+}  // namespace
+
+Outcome outcome_of(const std::function<int()>& work) {
+  try {
+    return {work()};
+  } catch (const UsageError& error) {
+    return {kUsage, error.what()};
+  } catch (const Error& error) {
+    const bool stopped = error.code() == ErrorCode::kCancelled;
+    return {exit_code_of(error.code()),
+            stopped ? "interrupted; nothing was written" : error.what()};
+  } catch (const std::bad_alloc&) {
+    return {kFailure,
+            "there is not enough memory for this; ask for a lower degree or fewer vertices"};
+  } catch (const std::filesystem::filesystem_error& error) {
+    return {kFailure, fmt::format("{}: {}", error.path1().string(), error.code().message())};
+  } catch (const std::exception& error) {
+    return {kFailure, fmt::format("unexpected: {}", error.what())};
+  }
+}
+
+int run_command(const Command& command, std::span<const std::string> words) {
+  CommonOptions common;
+  try {
+    parse(command, words, common);
+    Session session(common);
+    return command.run(session);
+  } catch (const UsageError& error) {
+    throw UsageError(
+        fmt::format("{}\nTry '{} {} --help'.", error.what(), program_name(), command.name));
+  } catch (const Error& error) {
+    // The library speaks of ideas; what they are called here, the command knows.
+    if (error.code() != ErrorCode::kNotStarShaped || command.if_not_star.empty()) throw;
+    throw Error(error.code(), fmt::format("{} ({})", error.what(), command.if_not_star));
+  }
+}
+
+}  // namespace rholm::cli
