@@ -33,6 +33,7 @@ from ._atlas import (
     set_degree_colors,
     size_of,
 )
+from ._batch import BatchTable, batch, read_batch
 from ._charts import (
     Analyzed,
     MonteCarlo,
@@ -67,6 +68,8 @@ from ._core import (
     AtlasErrors,
     AtlasSize,
     Bounds,
+    BrickForecast,
+    BrickReconstruction,
     Cap,
     CleanReport,
     Comparison,
@@ -179,7 +182,9 @@ from ._primitives import (
 )
 from ._reconstruct import (
     Reconstruction,
+    foresee_bricks,
     reconstruct,
+    reconstruct_bricks,
 )
 from ._rotations import (
     Rotation,
@@ -262,7 +267,10 @@ __all__ = [
     "Atlas",
     "AtlasErrors",
     "AtlasSize",
+    "BatchTable",
     "Bounds",
+    "BrickForecast",
+    "BrickReconstruction",
     "CancelledError",
     "Cap",
     "CleanReport",
@@ -338,6 +346,7 @@ __all__ = [
     "attributes_left_out",
     "axis_angle_of",
     "band_pass",
+    "batch",
     "bounds",
     "box",
     "bumpy_sphere",
@@ -368,6 +377,7 @@ __all__ = [
     "filter",
     "find_center",
     "flip",
+    "foresee_bricks",
     "from_array",
     "from_convention",
     "from_pyshtools",
@@ -409,11 +419,13 @@ __all__ = [
     "radius_norm_squared",
     "read_any_coefficients",
     "read_atlas",
+    "read_batch",
     "read_coefficients",
     "read_model",
     "read_shape",
     "recentered",
     "reconstruct",
+    "reconstruct_bricks",
     "region_weights",
     "render",
     "repair",

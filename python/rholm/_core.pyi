@@ -1,6 +1,8 @@
 """The C++ library; use rholm itself."""
 
 from collections.abc import Sequence
+import os
+import pathlib
 from typing import Annotated, Any, overload
 
 import numpy
@@ -2184,6 +2186,119 @@ class ReconstructReport:
 
 def reconstruct(arg0: PointCloud, arg1: ReconstructOptions, arg2: Caller, /) -> tuple: ...
 
+BRICK_POINTS: int = 1048576
+
+class BrickOptions:
+    """How points are cut into bricks, and what is kept."""
+
+    def __init__(self, **fields: Any) -> None: ...
+
+    def __repr__(self) -> str: ...
+
+    @property
+    def points_per_brick(self) -> int: ...
+
+    @points_per_brick.setter
+    def points_per_brick(self, arg: int | None, /) -> None: ...
+
+    @property
+    def work_dir(self) -> pathlib.Path: ...
+
+    @work_dir.setter
+    def work_dir(self, arg: str | os.PathLike | None, /) -> None: ...
+
+    @property
+    def resume(self) -> bool: ...
+
+    @resume.setter
+    def resume(self, arg: bool | None, /) -> None: ...
+
+    @property
+    def model(self) -> pathlib.Path: ...
+
+    @model.setter
+    def model(self, arg: str | os.PathLike | None, /) -> None: ...
+
+class BrickForecast:
+    """What a reconstruction in bricks will take, about."""
+
+    def __repr__(self) -> str: ...
+
+    def to_dict(self) -> dict:
+        """All fields by name; records within it are dicts, too."""
+
+    @property
+    def points(self) -> int:
+        """That are finite, and no far strays."""
+
+    @property
+    def bricks(self) -> int:
+        """That space is cut into."""
+
+    @property
+    def memory(self) -> int:
+        """Bytes, beside what is stored."""
+
+    @property
+    def stored(self) -> int:
+        """Bytes in the folder, or in memory if there is none."""
+
+    @property
+    def written(self) -> int:
+        """Bytes of the surface's file."""
+
+class BrickReconstruction:
+    """
+    What was found in points that were worked on in bricks, and how much was made of them; lengths are in their unit.
+    """
+
+    def __repr__(self) -> str: ...
+
+    def to_dict(self) -> dict:
+        """All fields by name; records within it are dicts, too."""
+
+    @property
+    def report(self) -> ReconstructReport:
+        """
+        What was found in the points, and what became of them, with the times of the stages in bricks.
+        """
+
+    @property
+    def bounds(self) -> Bounds:
+        """The box of the points, without far strays."""
+
+    @property
+    def bricks(self) -> int:
+        """Number that space was cut into."""
+
+    @property
+    def vertices(self) -> int:
+        """Number of them, of the surface."""
+
+    @property
+    def triangles(self) -> int:
+        """Number of them, of the surface."""
+
+    @property
+    def coefficients(self) -> int:
+        """Number of those of all caps."""
+
+    @property
+    def stored(self) -> int:
+        """
+        Bytes between the steps, at most at a time, in the folder or in memory.
+        """
+
+    @property
+    def warnings(self) -> list[str]:
+        """Of the file of points, list of str."""
+
+def is_streamed(arg: str | os.PathLike, /) -> bool: ...
+
+def foresee_bricks(arg0: int, arg1: int, /) -> BrickForecast: ...
+
+def reconstruct_bricks(points: PointCloud | str | os.PathLike, mesh: str | os.PathLike, options: ReconstructOptions, bricks: BrickOptions, foreseen: object | None, caller: Caller) -> BrickReconstruction: ...
+
 def region_weights(arg0: Mesh, arg1: Sequence[str], arg2: float, /) -> NDArray[numpy.float64]: ...
 
 class PatchOptions:
@@ -2516,3 +2631,37 @@ class ReportOptions:
     def set_commands(self, arg: Sequence[tuple[str, str]], /) -> None: ...
 
 def report_html(arg0: Expansion | AtlasModel, arg1: Mesh | None, arg2: ReportOptions, arg3: Caller, /) -> str: ...
+
+class BatchTable:
+    """Rows as columns."""
+
+    @property
+    def rows(self) -> int: ...
+
+    @property
+    def leading(self) -> int: ...
+
+    @property
+    def columns(self) -> list: ...
+
+    def write(self, arg0: str, arg1: bool, /) -> None: ...
+
+class BatchJournal:
+    """Rows that are done, in a file."""
+
+    def __init__(self, arg0: str, arg1: Sequence[str], arg2: int, /) -> None: ...
+
+    @property
+    def done(self) -> int: ...
+
+    def has(self, arg: int, /) -> bool: ...
+
+    def append(self, arg0: int, arg1: dict, /) -> None: ...
+
+    def read(self, arg: int, /) -> dict: ...
+
+    def remove(self) -> None: ...
+
+def gather_batch(arg0: Sequence[str], arg1: list, /) -> BatchTable: ...
+
+def read_batch(arg: str, /) -> BatchTable: ...

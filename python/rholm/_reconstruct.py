@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
+from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
 import numpy.typing as npt
@@ -10,6 +12,7 @@ import numpy.typing as npt
 from . import _core
 from ._arrays import triple
 from ._atlas import Atlas
+from ._errors import InvalidInputError, UnsupportedError
 from ._run import Progress, caller
 from ._shapes import Mesh, PointsLike, as_points
 from ._topology import simplify_options
@@ -110,20 +113,180 @@ def reconstruct(
         If more than allowed would be needed, with the step that would do.
     """
     cloud = as_points(points, normals, attributes)
-    options = _core.ReconstructOptions(
+    options = _options(
+        holes=holes,
         step=step,
         tolerance=tolerance,
         noise=noise,
-        holes=holes,
         blend=blend,
         min_component=min_component,
-        remove_outliers=not keep_outliers,
-        sensor=None if sensor is None else triple(sensor, "sensor"),
-        align_scans=not keep_scans,
+        keep_outliers=keep_outliers,
+        sensor=sensor,
+        keep_scans=keep_scans,
         confidence=confidence,
-        simplify=simplify_options(simplify),
+        simplify=simplify,
         max_memory=max_memory,
     )
     with caller(threads, progress) as how:
         mesh, atlas, report = _core.reconstruct(cloud._core, options, how)
     return Reconstruction(Mesh._of(mesh), Atlas._of(_core.AtlasModel(atlas, report.step, "")), report)
+
+
+def reconstruct_bricks(
+    points: PointsLike,
+    mesh_path: str | os.PathLike[str],
+    *,
+    normals: npt.ArrayLike | None = None,
+    attributes: Any = None,
+    points_per_brick: int = _core.BRICK_POINTS,
+    work_dir: str | os.PathLike[str] | None = None,
+    resume: bool = False,
+    model: str | os.PathLike[str] | None = None,
+    foreseen: Callable[[_core.BrickForecast], Any] | None = None,
+    holes: Literal["fill", "keep"] = "fill",
+    step: float = 0.0,
+    tolerance: float = 0.0,
+    noise: float | None = None,
+    blend: Literal["smooth", "spline"] = "smooth",
+    min_component: float = 0.01,
+    keep_outliers: bool = False,
+    sensor: npt.ArrayLike | None = None,
+    keep_scans: bool = False,
+    confidence: bool = False,
+    simplify: Any = None,
+    max_memory: int = 8 << 30,
+    threads: int = 0,
+    progress: Progress = None,
+) -> _core.BrickReconstruction:
+    """A surface from more points than fit into memory, brick by brick, to a file.
+
+    Space is cut into bricks, each is worked on with the points around it, and the parts are one
+    surface, without seams: the same bytes for any number of threads, any memory and any order of the
+    points, but for attributes of points at one place, of which the first counts.
+
+    Parameters
+    ----------
+    points : path, or what `reconstruct` takes
+        At least 16 different ones. A binary or text PLY of points and lines of numbers are read a
+        piece at a time; other files, and meshes, of which the vertices are taken, as a whole.
+    mesh_path : path
+        The surface: a binary PLY, which appears when it is complete.
+    normals : array_like, (N, 3), optional
+        In the place of the points' own; they point outwards.
+    attributes : mapping of str to array_like, optional
+        In the place of the points' own, (N,) or (N, k) each: carried over to the vertices.
+    points_per_brick : int
+        At most, 1000 ... 2**28; fewer take less memory, more less time. By default 2**20: some
+        1.8 GB on two threads.
+    work_dir : path, optional
+        A folder for what is known between the steps, some 480 bytes a point: one that is not there, or
+        is empty, or is that of an earlier run. It is gone at the end. None: in memory.
+    resume : bool
+        Leave the folder where it is if the run ends early, and take up what is there. The input and
+        the options that change the surface must be those of the earlier run.
+    model : path, optional
+        A model file of all caps is written as well, as `write_atlas` does; they must fit into memory.
+    foreseen : callable, optional
+        Called as ``f(forecast)`` with a `BrickForecast` before the work, once the points have been
+        counted; what it raises ends the run.
+    holes, step, tolerance, noise, blend, min_component, keep_outliers, sensor, confidence, simplify
+        As in `reconstruct`; lengths are in the unit of the points.
+    keep_scans : bool
+        As in `reconstruct`; several scans cannot be brought together in bricks.
+    max_memory : int
+        Bytes, without what is stored: refused if a brick needs more.
+    threads, progress
+        See `rholm.caller`.
+
+    Returns
+    -------
+    r : BrickReconstruction
+        ``r.report`` as of `reconstruct`, ``r.bounds``, numbers of ``r.bricks``, ``r.vertices``,
+        ``r.triangles`` and ``r.coefficients``, ``r.stored`` bytes, ``r.warnings`` of the file.
+
+    Raises
+    ------
+    InvalidInputError
+        As by `reconstruct`; for a malformed file; for a folder that has other files, or what a run
+        with another input or other options has left; for `resume` without a folder.
+    IoError
+        If a file cannot be read or written, a disk has not the room that is foreseen, or another
+        process works in the folder.
+    OutOfMemoryError
+        If `max_memory` is too little for a brick.
+    UnsupportedError
+        For several scans without `keep_scans`, and a `mesh_path` that is named as another format.
+    """
+    if Path(mesh_path).suffix.lower() not in ("", ".ply"):
+        raise UnsupportedError(f"{os.fspath(mesh_path)}: the surface is a binary PLY: NAME.ply")
+    if resume and work_dir is None:
+        raise InvalidInputError("what is in memory cannot be resumed: give a work_dir")
+    if foreseen is not None and not callable(foreseen):
+        raise TypeError(f"foreseen is a callable or None, not {foreseen!r}")
+    options = _options(
+        holes=holes,
+        step=step,
+        tolerance=tolerance,
+        noise=noise,
+        blend=blend,
+        min_component=min_component,
+        keep_outliers=keep_outliers,
+        sensor=sensor,
+        keep_scans=keep_scans,
+        confidence=confidence,
+        simplify=simplify,
+        max_memory=max_memory,
+    )
+    bricks = _core.BrickOptions(
+        points_per_brick=points_per_brick,
+        work_dir=None if work_dir is None else Path(work_dir),
+        resume=resume,
+        model=None if model is None else Path(model),
+    )
+    source = _brick_points(points, normals, attributes)
+    with caller(threads, progress) as how:
+        return _core.reconstruct_bricks(source, Path(mesh_path), options, bricks, foreseen, how)
+
+
+def foresee_bricks(points: int, points_per_brick: int = _core.BRICK_POINTS) -> _core.BrickForecast:
+    """What `reconstruct_bricks` will take, about; attributes of the points are not counted.
+
+    Parameters
+    ----------
+    points : int
+        How many there are.
+    points_per_brick : int
+        At most, 1000 ... 2**28.
+
+    Returns
+    -------
+    forecast : BrickForecast
+        Numbers of ``points`` and ``bricks``; bytes of ``memory``, ``stored`` beside it or in a
+        folder, and ``written`` to the surface's file.
+
+    Raises
+    ------
+    InvalidInputError
+        For bricks of another size.
+    """
+    return _core.foresee_bricks(points, points_per_brick)
+
+
+def _brick_points(points: PointsLike, normals: Any, attributes: Any) -> _core.PointCloud | Path:
+    """A file that is read a piece at a time, or points in memory."""
+    own = normals is None and attributes is None
+    if own and isinstance(points, (str, os.PathLike)) and _core.is_streamed(Path(points)):
+        return Path(points)
+    return as_points(points, normals, attributes)._core
+
+
+def _options(
+    *, keep_outliers: bool, sensor: Any, keep_scans: bool, simplify: Any, **same: Any
+) -> _core.ReconstructOptions:
+    return _core.ReconstructOptions(
+        remove_outliers=not keep_outliers,
+        sensor=None if sensor is None else triple(sensor, "sensor"),
+        align_scans=not keep_scans,
+        simplify=simplify_options(simplify),
+        **same,
+    )

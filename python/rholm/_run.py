@@ -55,6 +55,21 @@ class _Bar:
 
 
 @contextmanager
+def reporter(progress: Progress) -> Iterator[Any]:
+    """What is called for a Progress: a callable f(stage, fraction), or None."""
+    bar: _Bar | None = None
+    if progress is True or (progress is None and _bar_is_seen()):
+        bar = _Bar()
+    elif progress is not None and progress is not False and not callable(progress):
+        raise TypeError(f"progress is a callable, a bool or None, not {progress!r}")
+    try:
+        yield bar if bar is not None else (progress if callable(progress) else None)
+    finally:
+        if bar is not None:
+            bar.close()
+
+
+@contextmanager
 def caller(threads: int = 0, progress: Progress = None) -> Iterator[_core.Caller]:
     """Threads and progress for one call of the library.
 
@@ -69,13 +84,5 @@ def caller(threads: int = 0, progress: Progress = None) -> Iterator[_core.Caller
     """
     if not isinstance(threads, int) or threads < 0:
         raise ValueError(f"threads is a whole number from 0 on, not {threads!r}")
-    bar: _Bar | None = None
-    if progress is True or (progress is None and _bar_is_seen()):
-        bar = _Bar()
-    elif progress is not None and progress is not False and not callable(progress):
-        raise TypeError(f"progress is a callable, a bool or None, not {progress!r}")
-    try:
-        yield _core.Caller(threads, bar if bar is not None else (progress if callable(progress) else None))
-    finally:
-        if bar is not None:
-            bar.close()
+    with reporter(progress) as report:
+        yield _core.Caller(threads, report)

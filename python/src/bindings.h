@@ -17,6 +17,7 @@ void bind_surfaces(nanobind::module_& m);      // from an expansion to a mesh, d
 void bind_atlases(nanobind::module_& m);       // compression, the paper's atlas
 void bind_reconstruction(nanobind::module_& m);
 void bind_edits(nanobind::module_& m);     // smoothing, transfer
+void bind_batches(nanobind::module_& m);   // tables of many shapes
 void bind_pictures(nanobind::module_& m);  // pictures, pages
 
 }  // namespace rholm::python

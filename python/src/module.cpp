@@ -26,4 +26,5 @@ NB_MODULE(_core, m) {
   bind_reconstruction(m);
   bind_edits(m);
   bind_pictures(m);
+  bind_batches(m);
 }

@@ -1,17 +1,98 @@
 // Surfaces from points.
 #include "rholm/reconstruct.h"
 
+#include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/variant.h>
 
+#include <filesystem>
+#include <system_error>
 #include <utility>
+#include <variant>
 
 #include "bindings.h"
 #include "caller.h"
 #include "casters.h"
 #include "record.h"
+#include "rholm/error.h"
+#include "rholm/point_stream.h"
+#include "rholm/reconstruct_bricks.h"
 
 namespace rholm::python {
+namespace {
+
+using Points = std::variant<const PointCloud*, std::filesystem::path>;
+
+// Whether the points of a file are read a piece at a time: not where faces have to be asked for
+// normals. Pipes are not opened to find out, as they are read once.
+bool is_streamed(const std::filesystem::path& path) {
+  std::error_code error;
+  if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error)) {
+    return true;
+  }
+  try {
+    return !PointStream(path).has_faces();
+  } catch (const Error& refused) {
+    if (refused.code() == ErrorCode::kUnsupported) return false;
+    throw;
+  }
+}
+
+BrickReconstruction reconstruct_in_bricks(const Points& points, const std::filesystem::path& mesh,
+                                          const ReconstructOptions& options, BrickOptions bricks,
+                                          const nb::object& foreseen, const Caller& caller) {
+  if (!foreseen.is_none()) {
+    bricks.foreseen = [&foreseen](const BrickForecast& forecast) {
+      const nb::gil_scoped_acquire acquired;
+      foreseen(forecast);
+    };
+  }
+  return caller.run([&](const Context& context) {
+    if (const auto* path = std::get_if<std::filesystem::path>(&points)) {
+      return reconstruct_bricks(*path, mesh, options, bricks, context);
+    }
+    return reconstruct_bricks(*std::get<const PointCloud*>(points), mesh, options, bricks, context);
+  });
+}
+
+void bind_bricks(nb::module_& m) {
+  m.attr("BRICK_POINTS") = kBrickPoints;
+  Options<BrickOptions>(m, "BrickOptions", "How points are cut into bricks, and what is kept.")
+      .field("points_per_brick", &BrickOptions::points_per_brick)
+      .field("work_dir", &BrickOptions::work_dir)
+      .field("resume", &BrickOptions::resume)
+      .field("model", &BrickOptions::model);
+  Record<BrickForecast>(m, "BrickForecast", "What a reconstruction in bricks will take, about.")
+      .field("points", &BrickForecast::points, "That are finite, and no far strays.")
+      .field("bricks", &BrickForecast::bricks, "That space is cut into.")
+      .field("memory", &BrickForecast::memory, "Bytes, beside what is stored.")
+      .field("stored", &BrickForecast::stored,
+             "Bytes in the folder, or in memory if there is none.")
+      .field("written", &BrickForecast::written, "Bytes of the surface's file.");
+  Record<BrickReconstruction>(m, "BrickReconstruction",
+                              "What was found in points that were worked on in bricks, and how "
+                              "much was made of them; lengths are in their unit.")
+      .field("report", &BrickReconstruction::report,
+             "What was found in the points, and what became of them, with the times of the stages "
+             "in bricks.")
+      .field("bounds", &BrickReconstruction::bounds, "The box of the points, without far strays.")
+      .field("bricks", &BrickReconstruction::bricks, "Number that space was cut into.")
+      .field("vertices", &BrickReconstruction::vertices, "Number of them, of the surface.")
+      .field("triangles", &BrickReconstruction::triangles, "Number of them, of the surface.")
+      .field("coefficients", &BrickReconstruction::coefficients, "Number of those of all caps.")
+      .field("stored", &BrickReconstruction::stored,
+             "Bytes between the steps, at most at a time, in the folder or in memory.")
+      .field("warnings", &BrickReconstruction::warnings, "Of the file of points, list of str.");
+  m.def("is_streamed", [](const std::filesystem::path& path) {
+    return unlocked([&] { return is_streamed(path); });
+  });
+  m.def("foresee_bricks", &foresee_bricks);
+  m.def("reconstruct_bricks", &reconstruct_in_bricks, nb::arg("points"), nb::arg("mesh"),
+        nb::arg("options"), nb::arg("bricks"), nb::arg("foreseen").none(), nb::arg("caller"));
+}
+
+}  // namespace
 
 void bind_reconstruction(nb::module_& m) {
   Options<ReconstructOptions>(m, "ReconstructOptions", "What is wanted of the surface.")
@@ -84,6 +165,7 @@ void bind_reconstruction(nb::module_& m) {
           return nb::make_tuple(std::move(result.mesh), std::move(result.atlas),
                                 std::move(result.report));
         });
+  bind_bricks(m);
 }
 
 }  // namespace rholm::python

@@ -23,10 +23,25 @@ FUNCTION = re.compile(
 #: What stands for functions that have no face of their name, and why.
 ELSEWHERE = {
     "add_adjoint": "adjoint",  # returns the sums
+    "batch_columns": "BatchTable.columns",
+    "column_before": "BatchTable.columns",  # are in that order
+    "fingerprint": "batch",  # of a journal
+    "gather_batch": "batch",
+    "is_batch_column": "",  # for manifests, which the program reads
+    "write_batch": "BatchTable.to_hdf5",
     "discard_unfinished_files": "",  # for signal handlers of programs: Python's raise exceptions
     "encode_file": "expand",  # of a path
     "encode_mapped": "expand",  # of a path
     "find_attribute": "Mesh.attributes",
+    "attribute_warnings": "map_mesh",
+    "described_attributes": "map_mesh",
+    "in_place": "map_mesh",
+    "convert_mesh": "write_shape",  # of what was read; the program converts files larger than memory
+    "convert_points": "write_shape",
+    "has_attributes": "map_mesh",  # the arrays of a mapped file are NumPy's
+    "has_triangles_only": "map_mesh",
+    "release_vertices": "",  # the system does so where memory is short
+    "survey_mesh": "inspect",
     "set_attribute": "Mesh.attributes",  # a dict
     "mesh_of": "Mesh",  # of arrays
     "view_of": "Mesh.vertices",  # an array over the mesh's memory

@@ -1,0 +1,114 @@
+// Populations: the journal of what is done, tables and their files.
+#include "rholm/batch.h"
+
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/variant.h>
+#include <nanobind/stl/vector.h>
+
+#include <memory>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "bindings.h"
+#include "caller.h"
+#include "casters.h"
+
+namespace rholm::python {
+namespace {
+
+nb::dict dict_of(const BatchRow& cells) {
+  nb::dict row;
+  for (const auto& [name, cell] : cells) {
+    std::visit(
+        [&, &key = name](const auto& value) {
+          using T = std::decay_t<decltype(value)>;
+          if constexpr (std::is_same_v<T, std::vector<double>>) {
+            row[key.c_str()] = array_of(value);
+          } else if constexpr (!std::is_same_v<T, std::monostate>) {
+            row[key.c_str()] = value;
+          }
+        },
+        cell);
+  }
+  return row;
+}
+
+// Values that the face has made bool, int, float, str or a list of float; None is no value.
+BatchRow row_of(const nb::dict& cells) {
+  BatchRow row;
+  for (const auto [key, value] : cells) {
+    std::pair<std::string, Cell>& one = row.emplace_back(nb::cast<std::string>(key), Cell());
+    if (nb::isinstance<nb::bool_>(value)) {
+      one.second = nb::cast<bool>(value);
+    } else if (nb::isinstance<nb::int_>(value)) {
+      one.second = nb::cast<std::int64_t>(value);
+    } else if (nb::isinstance<nb::float_>(value)) {
+      one.second = nb::cast<double>(value);
+    } else if (nb::isinstance<nb::str>(value)) {
+      one.second = nb::cast<std::string>(value);
+    } else if (!value.is_none()) {
+      one.second = nb::cast<std::vector<double>>(value);
+    }
+  }
+  return row;
+}
+
+// The values of a column: NumPy's arrays, but a list of texts. Booleans are int8: 1, 0, -1.
+nb::object values_of(const BatchColumn& column, std::size_t rows) {
+  return std::visit(
+      [&](const auto& values) -> nb::object {
+        using T = typename std::decay_t<decltype(values)>::value_type;
+        if constexpr (std::is_same_v<T, std::string>) {
+          return nb::cast(values);
+        } else {
+          auto copy = values;
+          return column.width == 0 ? nb::cast(array_of<T>(std::move(copy), {rows}))
+                                   : nb::cast(array_of<T>(std::move(copy), {rows, column.width}));
+        }
+      },
+      column.values);
+}
+
+nb::list columns_of(const BatchTable& table) {
+  nb::list columns;
+  for (const BatchColumn& column : table.columns) {
+    columns.append(nb::make_tuple(column.name, values_of(column, table.rows)));
+  }
+  return columns;
+}
+
+}  // namespace
+
+void bind_batches(nb::module_& m) {
+  nb::class_<BatchTable>(m, "BatchTable", "Rows as columns.")
+      .def_prop_ro("rows", [](const BatchTable& table) { return table.rows; })
+      .def_prop_ro("leading", [](const BatchTable& table) { return table.leading; })
+      .def_prop_ro("columns", &columns_of)
+      .def("write", [](const BatchTable& table, const std::string& path, bool with_coefficients) {
+        const nb::gil_scoped_release release;
+        write_batch(table, path, with_coefficients);
+      });
+  nb::class_<BatchJournal>(m, "BatchJournal", "Rows that are done, in a file.")
+      .def("__init__",
+           [](BatchJournal* self, const std::string& path, const std::vector<std::string>& job,
+              std::size_t rows) { new (self) BatchJournal(path, fingerprint(job), rows); })
+      .def_prop_ro("done", &BatchJournal::done)
+      .def("has", &BatchJournal::has)
+      .def("append", [](BatchJournal& journal, std::size_t row,
+                        const nb::dict& cells) { journal.append(row, row_of(cells)); })
+      .def("read",
+           [](const BatchJournal& journal, std::size_t row) { return dict_of(journal.read(row)); })
+      .def("remove", &BatchJournal::remove);
+  m.def("gather_batch", [](const std::vector<std::string>& leading, const nb::list& rows) {
+    return gather_batch(leading, rows.size(),
+                        [&](std::size_t i) { return row_of(nb::cast<nb::dict>(rows[i])); });
+  });
+  m.def("read_batch", [](const std::string& path) {
+    const nb::gil_scoped_release release;
+    return read_batch(path);
+  });
+}
+
+}  // namespace rholm::python
