@@ -242,9 +242,12 @@ void Ranks::look_at_others(double now) {
   }
   const double patience = patience_ + 2 * kPulseSeconds + kAbortSeconds * (rank() - 1);
   if (!watch_->look(now, patience, rank(), 0)) return;
-  program_.error(of_rank(
-      0,
-      fmt::format("has not been heard of by rank {} for {:.0f} s (--patience)", rank(), patience)));
+  // A rank that is asked to stop is so because another one has said it before.
+  if (program_.interrupted() == 0) {
+    program_.error(
+        of_rank(0, fmt::format("has not been heard of by rank {} for {:.0f} s (--patience)", rank(),
+                               patience)));
+  }
   code_ = program_.failure;
   abort();
 }

@@ -158,7 +158,7 @@ class Stopped(Batch):
                 stop(run)
             except (KeyError, ProcessLookupError):
                 pass  # it has ended
-            run.wait(60)
+            run.wait()
             if not (self.folder / "all.h5").exists():
                 return run
             (self.folder / "all.h5").unlink()

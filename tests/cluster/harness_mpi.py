@@ -15,7 +15,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "cli"))
 RHOLM = os.environ.get("RHOLM", "rholm")
 RHOLM_MPI = os.environ.get("RHOLM_MPI", "rholm-mpi")
 MPIEXEC = os.environ.get("MPIEXEC", "mpiexec")
-TIMEOUT = 120
+TIMEOUT = 300
 RANKS = (1, 2, 3, 4)
 # Of Open MPI; MPICH reads none of these. More ranks than processors, as root, in a container, where
 # ranks that wait must not be in the way of the others.
@@ -65,10 +65,15 @@ class RanksRun:
         return found
 
     def wait(self, seconds=TIMEOUT):
-        """The exit code; the texts are in stdout and stderr. Nothing is left running."""
+        """The exit code; the texts are in stdout and stderr. Nothing is left running: mpiexec may end before
+        ranks that it has killed, and these still write until they notice."""
         begin = time.monotonic()
         try:
             self.code = self.process.wait(seconds)
+            while self.pids():
+                if time.monotonic() - begin > seconds:
+                    raise subprocess.TimeoutExpired(self.program, seconds)
+                time.sleep(0.01)
         except subprocess.TimeoutExpired:
             for pid in self.pids().values():
                 os.kill(pid, signal.SIGKILL)
