@@ -29,17 +29,22 @@ struct ReportOptions {
   double weld_tolerance = 0;             // of the shape, in its unit
   int picture_size = 480;                // pixels of each picture's side, 16 ... 4096
   std::optional<std::uint64_t> file_bytes = {};  // of an atlas: how large its file is
+  // JavaScript that shows view_data() in the page, the file viewer/viewer.js of the studio's: the
+  // surface of an expansion can be turned, and any degree of it looked at. Not of an atlas.
+  std::string viewer = {};
 };
 
-// A page of HTML (UTF-8) that needs no other file and runs no script: pictures of the shape and of
-// the model at a few degrees, where they differ, the spectrum, a table of degrees and their errors,
-// figures, conventions, and how to get all that again. For a screen of any width and for paper.
+// A page of HTML (UTF-8) that needs no other file and runs no script but the viewer, if there is
+// one: pictures of the shape and of the model at a few degrees, where they differ, the spectrum, a
+// table of degrees and their errors, figures, conventions, and how to get all that again. For a
+// screen of any width and for paper.
 //
 // `shape`: the mesh that the model is of, or nullptr if it is not at hand: then there is no picture
 // of it, and of errors only what the expansion itself knows. Below 3 MB with pictures of the
-// default size. No degree above 512 is drawn or measured point by point: neither the pictures
-// nor the patience have room for it. Same input, same bytes, for any number of threads. Throws
-// InvalidInput for options out of range, an empty mesh, or coefficients that have no surface.
+// default size, and up to 7 MB more with a viewer. No degree above 512 is drawn or measured point
+// by point: neither the pictures nor the patience have room for it. Same input, same bytes, for any
+// number of threads. Throws InvalidInput for options out of range, an empty mesh, or coefficients
+// that have no surface.
 std::string report_html(const Expansion& expansion, const Mesh* shape, const ReportOptions& options,
                         const Context& context = {});
 
@@ -50,5 +55,12 @@ std::string report_html(const Expansion& expansion, const Mesh* shape, const Rep
 // as above, and for an atlas without caps.
 std::string report_html(const AtlasModel& model, const Mesh* shape, const ReportOptions& options,
                         const Context& context = {});
+
+// What a viewer shows of an expansion, as docs/studio.md has it ("arrays"): its coefficients to
+// degree 512, errors of degrees, and the shape, with at most 200 000 faces; none if it cannot be
+// made as simple. `shape` may be nullptr. Throws InvalidInput for coefficients that have no
+// surface.
+std::string view_data(const Expansion& expansion, const Mesh* shape, const std::string& title,
+                      const Context& context = {});
 
 }  // namespace rholm

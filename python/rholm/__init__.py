@@ -258,6 +258,7 @@ from ._topology import (
     surface_area,
     weld,
 )
+from ._view import view, view_data
 
 __all__ = [
     "AlignedRotation",
@@ -458,6 +459,8 @@ __all__ = [
     "vertex_error_strength",
     "vertex_error_strengths",
     "volume_centroid",
+    "view",
+    "view_data",
     "weld",
     "write_atlas",
     "write_coefficients",

@@ -320,6 +320,7 @@ def report_html(
     commands: Sequence[tuple[str, str]] = (),
     tolerance: float | None = None,
     picture_size: int = 480,
+    interactive: bool = False,
     threads: int = 0,
     progress: Progress = None,
 ) -> str:
@@ -343,11 +344,24 @@ def report_html(
         A wanted rms error: a line in the plots.
     picture_size : int
         Pixels of each picture's side, 16 ... 4096.
+    interactive : bool
+        Of an expansion: the surface is there to be turned, and cut off at any degree; no network is
+        needed.
     threads, progress
         See `rholm.caller`.
+
+    Raises
+    ------
+    InvalidInputError
+        For an atlas that is to be interactive, options out of range, and what has no surface.
+    UnsupportedError
+        If it is to be interactive and this package was built without the viewer.
     """
     from ._atlas import Atlas
+    from ._view import viewer_script
 
+    if interactive and isinstance(model, Atlas):
+        raise InvalidInputError("interactive pages are of expansions, not of atlases")
     if not isinstance(model, Atlas):
         model = as_expansion(model)
     known = model._shape if shape is None else shape
@@ -358,6 +372,7 @@ def report_html(
         notes=list(notes),
         tolerance=tolerance,
         picture_size=picture_size,
+        viewer=viewer_script() if interactive else "",
     )
     options.set_commands([(what, command) for what, command in commands])
     with caller(threads, progress) as how:

@@ -116,6 +116,7 @@ void bind_pages(nb::module_& m) {
       .field("weld_tolerance", &ReportOptions::weld_tolerance)
       .field("picture_size", &ReportOptions::picture_size)
       .field("file_bytes", &ReportOptions::file_bytes)
+      .field("viewer", &ReportOptions::viewer)
       .type()
       .def("set_commands", [](ReportOptions& options,
                               const std::vector<std::pair<std::string, std::string>>& commands) {
@@ -132,6 +133,15 @@ void bind_pages(nb::module_& m) {
           return std::visit(
               [&](const auto* it) { return report_html(*it, shape, options, context); }, model);
         });
+      },
+      nb::arg(), nb::arg().none(), nb::arg(), nb::arg());
+  m.def(
+      "view_data",
+      [](const Expansion& expansion, const Mesh* shape, const std::string& title,
+         const Caller& caller) {
+        const std::string bytes = caller.run(
+            [&](const Context& context) { return view_data(expansion, shape, title, context); });
+        return nb::bytes(bytes.data(), bytes.size());
       },
       nb::arg(), nb::arg().none(), nb::arg(), nb::arg());
 }

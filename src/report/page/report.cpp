@@ -12,6 +12,7 @@
 #include "report/page/report_markup.h"
 #include "report/page/report_pictures.h"
 #include "report/page/report_text.h"
+#include "report/page/viewer_data.h"
 
 namespace rholm {
 namespace {
@@ -29,7 +30,14 @@ std::string page_of(const Expansion& expansion, std::optional<report::ShapeFigur
                     const ReportOptions& options, const Context& context) {
   const report::Data data = report::find_data(expansion, std::move(shape), context);
   const report::Pictures pictures = report::draw(expansion, data, options, context);
-  std::string sections = report::levels_section(expansion, data, options, pictures);
+  std::string sections, scripts;
+  if (!options.viewer.empty()) {
+    const Mesh* mesh = data.shape ? &data.shape->mesh : nullptr;
+    sections += report::viewer_place();
+    scripts = report::viewer_scripts(
+        report::view_bytes(expansion, mesh, options.title, data, context), options.viewer);
+  }
+  sections += report::levels_section(expansion, data, options, pictures);
   sections += report::error_map_section(expansion, data, options, pictures);
   sections += report::spectrum_section(expansion, data, options);
   sections += report::degrees_section(expansion, data);
@@ -38,7 +46,7 @@ std::string page_of(const Expansion& expansion, std::optional<report::ShapeFigur
   sections += report::conventions_section(expansion, options);
   sections += report::commands_section(options);
   return report::page(options, report::lead(expansion, options), report::facts(expansion, data),
-                      sections);
+                      sections, scripts);
 }
 
 }  // namespace

@@ -12,16 +12,17 @@
 namespace rholm::report {
 namespace {
 
-// Nothing may be loaded from elsewhere, and nothing may run.
-std::string head(const ReportOptions& options) {
+// Nothing may be loaded from elsewhere, and nothing may run but what the page itself brings.
+std::string head(const ReportOptions& options, bool has_scripts) {
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:{}; "
       "style-src 'unsafe-inline'\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta name=\"generator\" content=\"rholm {}\">\n<title>{}</title>\n"
       "<style>{}</style>\n</head>\n<body>\n",
-      kVersion, html::escaped(options.title), kStyle);
+      has_scripts ? " blob:; script-src 'unsafe-inline'" : "", kVersion,
+      html::escaped(options.title), kStyle);
 }
 
 std::string markup_of(const Row& row, const std::vector<Column>& columns) {
@@ -48,13 +49,14 @@ std::string fact(const std::string& name, const std::string& value, const std::s
 }
 
 std::string page(const ReportOptions& options, const std::string& lead, const std::string& facts,
-                 const std::string& sections) {
-  std::string html = head(options);
+                 const std::string& sections, const std::string& scripts) {
+  std::string html = head(options, !scripts.empty());
   html += fmt::format("<header>\n<h1>{}</h1>\n<p class=\"lead\">{}</p>\n",
                       html::escaped(options.title), lead);
   for (const std::string& text : options.notes) html += note(html::escaped(text));
   html += facts + "</header>\n<main>\n" + sections;
-  return html + fmt::format("</main>\n<footer>rholm {}</footer>\n</body>\n</html>\n", kVersion);
+  return html +
+         fmt::format("</main>\n<footer>rholm {}</footer>\n{}</body>\n</html>\n", kVersion, scripts);
 }
 
 std::string commands_section(const ReportOptions& options) {

@@ -16,9 +16,10 @@ std::string note(const std::string& markup);
 std::string section(const std::string& title, const std::string& content);
 std::string fact(const std::string& name, const std::string& value, const std::string& small);
 
-// The page around its content, with the header: title, lead (a sentence), notes, facts.
+// The page around its content, with the header: title, lead (a sentence), notes, facts; scripts run
+// after it, and only if there are any.
 std::string page(const ReportOptions& options, const std::string& lead, const std::string& facts,
-                 const std::string& sections);
+                 const std::string& sections, const std::string& scripts = {});
 // How to get it again; empty without commands.
 std::string commands_section(const ReportOptions& options);
 

@@ -1,0 +1,45 @@
+// Arrays as the pages of web/ read them: "RHOLM1\0\0", a length (u32), JSON of that length that
+// says what follows, the arrays, little-endian, each at a multiple of 8 bytes from the beginning.
+// The JSON: {"arrays": [{"name", "type": "f32" | "f64" | "u32" | "u8", "shape": [...], "offset"}],
+// "meta": what else is to be said}.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rholm/mesh.h"
+#include "rholm/vec3.h"
+
+namespace rholm {
+
+class NamedArrays {
+ public:
+  using Shape = std::initializer_list<std::size_t>;
+  // An array of that shape, row by row. The name is printable, without quotes.
+  void add(const char* name, std::span<const double> values, Shape shape);
+  void add(const char* name, std::span<const float> values, Shape shape);
+  void add(const char* name, std::span<const std::uint32_t> values, Shape shape);
+  void add(const char* name, std::span<const std::uint8_t> values, Shape shape);
+
+  // `meta`: JSON.
+  std::string bytes(std::string_view meta) const;
+
+ private:
+  void add_bytes(const char* name, const char* type, std::span<const std::byte> bytes, Shape shape);
+
+  struct Part {
+    std::string about;  // JSON, but for the offset and the end
+    std::string bytes;
+  };
+  std::vector<Part> parts_;
+};
+
+std::vector<float> floats_of(std::span<const Vec3> points);                  // [n][3]
+std::vector<std::uint32_t> indices_of(std::span<const Triangle> triangles);  // [m][3]
+
+}  // namespace rholm
