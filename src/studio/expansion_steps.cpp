@@ -1,0 +1,231 @@
+// Steps on expansions: made, looked at, aligned, blended.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "rholm/align.h"
+#include "rholm/error.h"
+#include "rholm/model.h"
+#include "rholm/rotate.h"
+#include "studio/blend.h"
+#include "studio/step.h"
+
+namespace rholm::studio {
+namespace {
+
+ItemPtr with_model(const Json& request, const char* field, const Document& now) {
+  ItemPtr item = item_in(request, field, now);
+  if (!item->model) throw wrong_kind(*item, "it has no expansion yet; analyze it first");
+  return item;
+}
+
+// Wishes of analyze.
+struct Wanted {
+  EncodeOptions options;
+  std::string shell, python;  // the same, as options
+};
+
+Wanted analysis_in(const Json& request) {
+  Wanted wanted;
+  const std::optional<double> tolerance = maybe_number(request, "tolerance");
+  if (tolerance) {
+    wanted.options.tolerance = Tolerance{.error = *tolerance};
+    wanted.shell = " --tolerance " + digits(*tolerance);
+    wanted.python = ", tolerance=" + digits(*tolerance);
+  } else {
+    const int degree = integer_of(request, "degree");
+    if (degree < 0 || degree > kMaxDegree) {
+      throw bad_request(fmt::format("the degree must be within 0 ... {}", kMaxDegree));
+    }
+    wanted.options.analyze.degree = degree;
+    wanted.shell = fmt::format(" --degree {}", degree);
+    wanted.python = fmt::format(", degree={}", degree);
+  }
+  const std::string center = string_or(request, "center", "auto");
+  if (center != "auto") {
+    wanted.options.chart.center = parse_center(center);
+    wanted.shell += " --center=" + shell_word(center);
+    wanted.python += wanted.options.chart.center.kind == CenterKind::kGiven
+                         ? ", center=(" + center + ")"
+                         : ", center=" + python_text(center);
+  }
+  return wanted;
+}
+
+// A mesh of its own: as it was read, or what is shown of a series or caps.
+std::shared_ptr<const Mesh> shape_of(const Item& item) {
+  return item.original ? item.original : item.shown;
+}
+
+// The files of that mesh.
+Named shape_of(Recipe& recipe, const Item& item) {
+  return item.original ? Named{item.file, item.variable} : surface_of(recipe, item);
+}
+
+Step analyze_item(const Json& request, const Document& now, Counters& counters) {
+  const ItemPtr item = item_in(request, "item", now);
+  if (item->points) throw wrong_kind(*item, "it has no faces; reconstruct makes a surface of it");
+  const Wanted wanted = analysis_in(request);
+  return {"Analyze " + item->name, true, [=, &counters](Document& document, const Context& context) {
+            const std::shared_ptr<const Mesh> mesh = shape_of(*item);
+            Encoded encoded = encode(*mesh, wanted.options, context);
+            Item changed = *item;
+            const Named shape = shape_of(document.recipe, *item);
+            changed.file = shape.file;
+            changed.variable = shape.variable;
+            changed.kind = Kind::kMesh;
+            changed.original = mesh;
+            changed.atlas = nullptr;
+            changed.caps = 0;
+            changed.limit = std::nullopt;
+            encoded.analysis.expansion.unit = item->unit;
+            changed.model = make_model(std::move(encoded.analysis.expansion), mesh, context);
+            changed = with_look(changed, whole(*changed.model), context);
+            changed.revision = ++counters.revisions;
+            changed.model_file = document.recipe.file(stem_of(item->name), ".h5");
+            changed.model_variable = document.recipe.variable(stem_of(item->name) + "_model");
+            const std::string unit = item->unit.empty() ? "" : " --length-unit " + shell_word(item->unit);
+            document.recipe.shell.push_back(fmt::format("rholm analyze {}{}{} -o {}",
+                                                        shell_word(shape.file), wanted.shell, unit,
+                                                        shell_word(changed.model_file)));
+            document.recipe.python.push_back(fmt::format("{} = rholm.expand({}{})",
+                                                         changed.model_variable, shape.variable,
+                                                         wanted.python));
+            put(document, std::move(changed));
+          }};
+}
+
+Step look_at(const Json& request, const Document& now, Counters& counters) {
+  const ItemPtr item = with_model(request, "item", now);
+  const Look look = look_in(request, *item->model);
+  return {"Look at " + item->name, false, [=, &counters](Document& document, const Context& context) {
+            Item changed = with_look(*item, look, context);
+            changed.revision = ++counters.revisions;
+            put(document, std::move(changed));
+          }};
+}
+
+// Every point p becomes R M (p - from) + to, directions turn along; a mirror image is turned inside
+// out, so that it faces outwards again.
+Mesh placed_mesh(Mesh mesh, const Placement& placement) {
+  const AlignedRotation& best = placement.alignment.best;
+  const auto turned = [&](Vec3 v) {
+    if (best.mirrored) v.x = -v.x;
+    return rotate(v, best.rotation);
+  };
+  for (Vec3& v : mesh.vertices) v = turned(v - placement.from) + placement.to;
+  if (best.mirrored) {
+    for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+  }
+  Attribute* normals[3] = {};
+  for (Attribute& a : mesh.attributes) {
+    if (a.name == "nx") normals[0] = &a;
+    if (a.name == "ny") normals[1] = &a;
+    if (a.name == "nz") normals[2] = &a;
+  }
+  if (std::count(normals, normals + 3, nullptr) > 0) return mesh;
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    const Vec3 n = turned({normals[0]->values[i], normals[1]->values[i], normals[2]->values[i]});
+    normals[0]->values[i] = n.x;
+    normals[1]->values[i] = n.y;
+    normals[2]->values[i] = n.z;
+  }
+  return mesh;
+}
+
+// As `rholm align`: by the centroids of the solids, or the models' own centres where one does not
+// see its surface from there.
+Placement placement_of(const Expansion& a, const Expansion& b, bool mirror, const Context& context) {
+  const AlignOptions options = {.allow_mirror = mirror};
+  try {
+    return align(a, b, AlignCenters::kVolume, options, context);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::kNotStarShaped) throw;
+  }
+  return align(a, b, AlignCenters::kOwn, options, context);
+}
+
+void record_aligned(Recipe& recipe, const Item& a, const Item& b, bool mirror, Item& moved) {
+  moved.model_file = recipe.file(stem_of(a.name) + "-aligned", ".h5");
+  moved.model_variable = recipe.variable(stem_of(a.name) + "_aligned");
+  recipe.shell.push_back(fmt::format("rholm align {} {}{} -o {}", shell_word(a.model_file),
+                                     shell_word(b.model_file), mirror ? " --mirror" : "",
+                                     shell_word(moved.model_file)));
+  recipe.python.push_back(fmt::format("{0} = rholm.placed({1}, rholm.align({1}, {2}{3}))",
+                                      moved.model_variable, a.model_variable, b.model_variable,
+                                      mirror ? ", mirror=True" : ""));
+}
+
+Step align_items(const Json& request, const Document& now, Counters& counters) {
+  const ItemPtr a = with_model(request, "a", now), b = with_model(request, "b", now);
+  const bool mirror = flag_of(request, "mirror");
+  if (a == b) throw bad_request("an item is not aligned with itself: 'a' and 'b' must differ");
+  return {"Align " + a->name, true, [=, &counters](Document& document, const Context& context) {
+            const Expansion& before = a->model->expansion;
+            const Placement placement =
+                placement_of(before, b->model->expansion, mirror, context);
+            Expansion moved = placed(before, placement, context);
+            std::shared_ptr<const Mesh> mesh;
+            if (a->original) {
+              mesh = std::make_shared<const Mesh>(placed_mesh(*a->original, placement));
+            }
+            Item changed = *a;
+            changed.original = mesh;
+            changed.model = make_model(std::move(moved), mesh, context);
+            changed = with_look(changed, a->look, context);
+            changed.facts = std::make_shared<const MeshFacts>(
+                facts_of(mesh ? *mesh : *changed.shown, context));
+            changed.revision = ++counters.revisions;
+            record_aligned(document.recipe, *a, *b, mirror, changed);
+            put(document, std::move(changed));
+          }};
+}
+
+// The program has no command for it: the shell calls Python.
+void record_blend(Recipe& recipe, const Named& from, const Named& to, const Model& made, double t,
+                  const std::string& variable) {
+  const int degree = made.expansion.coefficients.degree();
+  const Vec3& center = made.expansion.center;
+  const auto call = [&](const std::string& a, const std::string& b) {
+    return fmt::format(
+        "rholm.Expansion({} * {}.truncate({degree}).coeffs + {} * {}.truncate({degree}).coeffs, "
+        "center=({}, {}, {}), function=\"{}\")",
+        digits(1 - t), a, digits(t), b, center.x, center.y, center.z,
+        to_string(made.expansion.function), fmt::arg("degree", degree));
+  };
+  const auto loaded = [](const std::string& file) { return "rholm.load(" + python_text(file) + ")"; };
+  recipe.shell.push_back("python3 -c " +
+                         shell_word("import rholm; " + call(loaded(from.file), loaded(to.file)) +
+                                    ".save(" + python_text(variable + ".h5") + ")"));
+  recipe.python.push_back(variable + " = " + call(from.variable, to.variable));
+}
+
+Step blend_items(const Json& request, const Document& now, Counters& counters) {
+  const ItemPtr a = with_model(request, "a", now), b = with_model(request, "b", now);
+  const double t = number_of(request, "t");
+  return {"Blend " + a->name, true, [=, &counters](Document& document, const Context& context) {
+            Item made = item_of(blended(expansion_of(*a->model, a->look),
+                                        expansion_of(*b->model, b->look), t),
+                                context);
+            Recipe& recipe = document.recipe;
+            const Named from = model_of(recipe, *a), to = model_of(recipe, *b);
+            made.model_variable = recipe.variable(stem_of(a->name) + "_" + stem_of(b->name));
+            made.model_file = made.model_variable + ".h5";
+            made.name = made.model_file;
+            record_blend(recipe, from, to, *made.model, t, made.model_variable);
+            add(document, std::move(made), counters);
+          }};
+}
+
+}  // namespace
+
+std::optional<Step> expansion_step(const std::string& op, const Json& request, const Document& now,
+                                   Counters& counters) {
+  if (op == "analyze") return analyze_item(request, now, counters);
+  if (op == "look") return look_at(request, now, counters);
+  if (op == "align") return align_items(request, now, counters);
+  if (op == "blend") return blend_items(request, now, counters);
+  return std::nullopt;
+}
+
+}  // namespace rholm::studio

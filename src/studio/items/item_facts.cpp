@@ -1,0 +1,124 @@
+// What is found out about a mesh when it comes in, and how people are told.
+#include <fmt/format.h>
+
+#include "rholm/atlas.h"
+#include "studio/items/item.h"
+
+namespace rholm::studio {
+namespace {
+
+// "24 503".
+std::string grouped(std::size_t n) {
+  std::string text = std::to_string(n);
+  for (auto at = static_cast<std::ptrdiff_t>(text.size()) - 3; at > 0; at -= 3) {
+    text.insert(static_cast<std::size_t>(at), " ");
+  }
+  return text;
+}
+
+std::string length(double value, const std::string& unit) {
+  return fmt::format("{:.5g}{}{}", value, unit.empty() ? "" : " ", unit);
+}
+
+std::vector<std::uint32_t> offending_triangles(const Mesh& mesh, const Vec3& center) {
+  std::vector<std::uint32_t> offending;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Triangle& corners = mesh.triangles[t];
+    const Vec3& a = mesh.vertices[corners[0]];
+    const Vec3 normal = cross(mesh.vertices[corners[1]] - a, mesh.vertices[corners[2]] - a);
+    if (dot(normal, normal) > 0 && dot(normal, a - center) <= 0) {
+      offending.push_back(static_cast<std::uint32_t>(t));
+    }
+  }
+  return offending;
+}
+
+void add(Json& facts, const char* label, const std::string& value) {
+  facts.push_back({{"label", label}, {"value", value}});
+}
+
+void add_mesh_facts(const Item& item, Json& facts) {
+  const Inspection& found = item.facts->inspection;
+  add(facts, "Vertices", grouped(item.shown->vertices.size()));
+  add(facts, "Faces", grouped(item.shown->triangles.size()));
+  add(facts, "Size", length(found.bounds.diagonal(), item.unit));
+  add(facts, "Closed", found.closed ? "yes"
+                                    : fmt::format("no, {} open edges", grouped(found.boundary_edges)));
+  if (found.components > 1) add(facts, "Parts", grouped(found.components));
+  if (found.closed && found.manifold && found.genus > 0) {
+    add(facts, "Handles", grouped(found.genus));
+  }
+  if (found.closed && found.oriented) {
+    add(facts, "Volume", fmt::format("{:.5g}", std::abs(found.volume)));
+  }
+  if (item.facts->star) add(facts, "Star-shaped", item.facts->star->star_shaped ? "yes" : "no");
+}
+
+void add_model_facts(const Item& item, Json& facts) {
+  const Expansion& expansion = item.model->expansion;
+  add(facts, "Degree", std::to_string(expansion.coefficients.degree()));
+  add(facts, "Coefficients",
+      grouped((expansion.coefficients.degree() + std::size_t{1}) *
+              (expansion.coefficients.degree() + std::size_t{1})));
+  if (!item.model->rms.empty()) add(facts, "Error, rms", length(item.model->rms.back(), item.unit));
+}
+
+void add_atlas_facts(const Item& item, Json& facts) {
+  const AtlasSize size = size_of(item.atlas->atlas);
+  add(facts, "Caps", grouped(size.caps));
+  add(facts, "Numbers", grouped(size.numbers()));
+  add(facts, "Highest degree", std::to_string(highest_degree(item.atlas->atlas)));
+  if (item.atlas->errors) add(facts, "Error, rms", length(item.atlas->errors->rms(), item.unit));
+}
+
+std::string why_not(const Item& item) {
+  const StarReport& star = *item.facts->star;
+  if (star.star_shaped) return "Every point of the surface is seen once from the centre.";
+  std::string text;
+  if (const std::size_t n = item.facts->offending.size(); n > 0) {
+    text = fmt::format("{} {} their back to the centre. ", grouped(n), n == 1 ? "face shows" : "faces show");
+  }
+  if (star.rays > 0) {
+    text += fmt::format("{:.1f} % of the directions meet the surface once. ", 100 * star.once_share);
+  }
+  return text + "Caps, by Compress, take any shape.";
+}
+
+}  // namespace
+
+MeshFacts facts_of(const Mesh& mesh, const Context& context) {
+  MeshFacts facts;
+  const Welded welded = weld(mesh);
+  facts.inspection = inspect(welded.mesh);
+  const Inspection& found = facts.inspection;
+  if (!found.closed || !found.oriented || found.inside_out || !(found.area > 0)) return facts;
+  facts.star = find_center(welded.mesh, {}, context);
+  if (!facts.star->star_shaped) facts.offending = offending_triangles(mesh, facts.star->center);
+  return facts;
+}
+
+Json facts_json(const Item& item) {
+  Json facts = Json::array();
+  if (item.kind == Kind::kPoints) {
+    add(facts, "Points", grouped(item.points->points.size()));
+    add(facts, "Size", length(bounds(item.points->points).diagonal(), item.unit));
+    add(facts, "Normals", item.points->normals.empty() ? "none" : "yes");
+    return facts;
+  }
+  if (item.atlas) add_atlas_facts(item, facts);
+  add_mesh_facts(item, facts);
+  if (item.model) add_model_facts(item, facts);
+  return facts;
+}
+
+Json star_json(const Item& item) {
+  if (!item.facts || !item.facts->star) return nullptr;
+  const StarReport& star = *item.facts->star;
+  return {{"star_shaped", star.star_shaped},
+          {"center", {star.center.x, star.center.y, star.center.z}},
+          {"visible", star.rays > 0 ? Json(star.once_share) : Json(nullptr)},
+          {"offending", item.facts->offending.size()},
+          {"why", why_not(item)}};
+}
+
+}  // namespace rholm::studio

@@ -1,0 +1,72 @@
+// An item as the page is told of it.
+#include <algorithm>
+
+#include "studio/items/item.h"
+
+namespace rholm::studio {
+namespace {
+
+// Degrees of a table that people read: all small ones, then six to an octave.
+std::vector<int> shown_degrees(int last) {
+  std::vector<int> degrees;
+  for (int d = 0; d < last; d += std::max(1, d / 6)) degrees.push_back(d);
+  degrees.push_back(last);
+  return degrees;
+}
+
+Json number(const std::vector<double>& values, int d) {
+  return values.empty() ? Json(nullptr) : Json(values[static_cast<std::size_t>(d)]);
+}
+
+Json expansion_json(const Model& model) {
+  const Expansion& expansion = model.expansion;
+  const int degree = expansion.coefficients.degree();
+  Json json = {{"degree", degree},
+               {"function", to_string(expansion.function)},
+               {"center", {expansion.center.x, expansion.center.y, expansion.center.z}},
+               {"rms_per_degree", model.rms.empty() ? Json(nullptr) : Json(model.rms)},
+               {"error", Json::array()},
+               {"tail", nullptr},
+               {"power", model.power}};
+  if (!model.rms.empty() || !model.max.empty()) {
+    for (const int d : shown_degrees(degree)) {
+      json["error"].push_back({d, number(model.rms, d), number(model.max, d)});
+    }
+  }
+  if (expansion.tail_strength) json["tail"] = {{"strength", *expansion.tail_strength}};
+  return json;
+}
+
+}  // namespace
+
+Json json_of(const Item& item) {
+  const std::vector<Vec3>& at = item.points ? item.points->points : item.shown->vertices;
+  const Bounds box = bounds(at);
+  const Vec3 middle = 0.5 * box.min + 0.5 * box.max;
+  Json json = {{"id", item.id},
+               {"name", item.name},
+               {"kind", to_string(item.kind)},
+               {"revision", item.revision},
+               {"facts", facts_json(item)},
+               {"vertices", at.size()},
+               {"faces", item.shown ? item.shown->triangles.size() : 0},
+               {"diagonal", box.diagonal()},
+               {"center", {middle.x, middle.y, middle.z}},
+               {"unit", item.unit},
+               {"closed", item.facts && item.facts->inspection.closed},
+               {"star", star_json(item)},
+               {"expansion", item.model ? expansion_json(*item.model) : Json(nullptr)},
+               {"normals", item.points && !item.points->normals.empty()},
+               {"caps", item.caps},
+               {"bytes", item.atlas ? Json(8 * size_of(item.atlas->atlas).numbers()) : Json(nullptr)},
+               {"look", nullptr}};
+  if (item.model) {
+    json["look"] = {{"degree", item.look.degree},
+                    {"gains", item.look.gains.empty() ? Json(nullptr) : Json(item.look.gains)}};
+  } else if (item.limit) {
+    json["look"] = {{"degree", *item.limit}, {"gains", nullptr}};
+  }
+  return json;
+}
+
+}  // namespace rholm::studio

@@ -1,0 +1,46 @@
+// Work on a thread of its own, as those see it who wait for it. Layer: studio.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <mutex>
+#include <string>
+
+#include "rholm/context.h"
+#include "studio/items/fields.h"
+
+namespace rholm::studio {
+
+class Job {
+ public:
+  // `changed` is called, from the job's thread, when there is something new to be told: some times
+  // a second at most.
+  Job(int id, std::string label, std::function<void()> changed)
+      : id_(id), label_(std::move(label)), changed_(std::move(changed)) {}
+
+  int id() const { return id_; }
+  // For the library: progress is noted, and the work ends when it is cancelled.
+  Context context(int threads);
+  void cancel() { cancelled_ = true; }
+  bool cancelled() const { return cancelled_; }
+  bool running() const;
+  // The end: "done", "failed", "cancelled".
+  void finish(const std::string& state, const std::string& message = {});
+  Json json() const;
+
+ private:
+  bool on_progress(std::string_view stage, double fraction);
+
+  const int id_;
+  const std::string label_;
+  const std::function<void()> changed_;
+  const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  std::atomic<bool> cancelled_{false};
+  mutable std::mutex mutex_;  // of what follows
+  std::string stage_, state_ = "running", message_;
+  double fraction_ = 0, seconds_ = 0;
+  std::chrono::steady_clock::time_point told_ = begin_;
+};
+
+}  // namespace rholm::studio

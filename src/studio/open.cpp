@@ -1,0 +1,97 @@
+#include "studio/open.h"
+
+#include <algorithm>
+#include <cctype>
+#include <optional>
+
+#include "rholm/coefficients_io.h"
+#include "rholm/error.h"
+#include "rholm/model.h"
+#include "rholm/shape_io.h"
+
+namespace rholm::studio {
+namespace {
+
+constexpr std::size_t kMaxName = 200;  // bytes; chosen: longer ones are no names
+constexpr std::size_t kHead = 4096;    // bytes; enough for every signature
+
+std::string ending_of(const std::string& name) {
+  std::string ending = std::filesystem::path(name).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending;
+}
+
+// A model file is read by its name only.
+Item open_model(std::string_view bytes, Scratch& scratch, const Context& context) {
+  std::optional<Item> item;
+  scratch.read(bytes, ".h5", [&](const std::filesystem::path& path) {
+    item = is_atlas_file(path) ? item_of(read_atlas(path), context)
+                               : item_of(read_model(path), context);
+  });
+  return *std::move(item);
+}
+
+// By the first bytes; by the name where they do not tell. Text that says nothing may be either:
+// none.
+std::optional<bool> is_shape(std::string_view bytes, const std::string& name) {
+  for (const char* mark : {"ply", "OFF", "solid"}) {
+    if (bytes.starts_with(mark)) return true;
+  }
+  if (looks_like_coefficients(bytes.substr(0, kHead))) return false;
+  const std::string ending = ending_of(name);
+  for (const char* shape : {".ply", ".obj", ".off", ".stl", ".xyz", ".pwn"}) {
+    if (ending == shape) return true;
+  }
+  if (ending != ".txt" && coefficients_format_of("x" + ending)) return false;
+  return std::nullopt;
+}
+
+Item open_shape(std::string_view bytes, const std::string& name, const Context& context) {
+  ShapeFile file = parse_shape(bytes, name, {}, context);
+  if (auto* mesh = std::get_if<Mesh>(&file.shape)) return item_of(std::move(*mesh), context);
+  return item_of(std::get<PointCloud>(std::move(file.shape)));
+}
+
+Item open_coefficients(std::string_view bytes, const std::string& name, const Context& context) {
+  return item_of(parse_coefficients(bytes, name).expansion, context);
+}
+
+Item open_text(std::string_view bytes, const std::string& name, const Context& context) {
+  const std::optional<bool> shape = is_shape(bytes, name);
+  if (shape) {
+    return *shape ? open_shape(bytes, name, context) : open_coefficients(bytes, name, context);
+  }
+  std::string reason;
+  try {
+    return open_shape(bytes, name, context);
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::kCancelled || error.code() == ErrorCode::kOutOfMemory) throw;
+    reason = error.what();
+  }
+  try {
+    return open_coefficients(bytes, name, context);
+  } catch (const Error&) {
+    throw Error(ErrorCode::kUnsupported,
+                name + " is neither a shape nor coefficients that are known: " + reason);
+  }
+}
+
+}  // namespace
+
+std::string plain_name(const std::string& name) {
+  std::string plain = name.substr(name.find_last_of("/\\") + 1);
+  std::erase_if(plain, [](unsigned char c) { return c < 32 || c == 127; });
+  if (plain.size() > kMaxName) plain.resize(kMaxName);
+  return plain.empty() || plain == "." || plain == ".." ? "shape" : plain;
+}
+
+Item open_item(const std::string& name, std::string_view bytes, Scratch& scratch,
+               const Context& context) {
+  const std::string plain = plain_name(name);
+  Item item = bytes.starts_with("\x89HDF\r\n\x1a\n") ? open_model(bytes, scratch, context)
+                                                    : open_text(bytes, plain, context);
+  item.name = plain;
+  return item;
+}
+
+}  // namespace rholm::studio

@@ -1,0 +1,97 @@
+// Steps that need no thread: shapes made, removed, renamed.
+#include <fmt/format.h>
+
+#include "rholm/points.h"
+#include "rholm/primitives.h"
+#include "studio/step.h"
+
+namespace rholm::studio {
+namespace {
+
+constexpr std::size_t kMaxName = 200;  // bytes; chosen: longer ones are no names
+
+// As `rholm make` makes them by default.
+Mesh shape_of(const std::string& kind) {
+  if (kind == "bumpy" || kind == "points") return bumpy_sphere(5);
+  if (kind == "sphere") return icosphere(5);
+  if (kind == "ellipsoid") return ellipsoid({3, 2, 1}, 5);
+  if (kind == "torus") return torus(1, 0.4, 96, 48);
+  if (kind == "box") return box({1, 1, 1}, 24);
+  throw bad_request("the field 'shape' must be bumpy, sphere, ellipsoid, torus, box or points");
+}
+
+// What Python calls for the same.
+std::string python_of(const std::string& kind) {
+  if (kind == "sphere") return "rholm.icosphere(5)";
+  if (kind == "ellipsoid") return "rholm.ellipsoid((3, 2, 1), 5)";
+  if (kind == "torus") return "rholm.torus(1, 0.4, 96, 48)";
+  if (kind == "box") return "rholm.box((1, 1, 1), 24)";
+  return "rholm.bumpy_sphere(5)";
+}
+
+constexpr int kPoints = 20000;  // chosen: a surface is made of them in a second
+
+void record_made(Recipe& recipe, Item& item, const std::string& kind) {
+  const bool points = kind == "points";
+  const std::string mesh = recipe.file(points ? "bumpy" : kind, ".ply");
+  const std::string variable = recipe.variable(stem_of(mesh));
+  recipe.shell.push_back(fmt::format("rholm make {}{} -o {}", points ? "bumpy" : kind,
+                                     kind == "box" ? " --cells 24" : "", mesh));
+  recipe.python.push_back(variable + " = " + python_of(kind));
+  item.file = mesh;
+  item.variable = variable;
+  if (points) {
+    item.file = recipe.file("points", ".ply");
+    item.variable = recipe.variable(stem_of(item.file));
+    recipe.shell.push_back(
+        fmt::format("rholm make sample {} --points {} -o {}", mesh, kPoints, item.file));
+    recipe.python.push_back(
+        fmt::format("{} = rholm.sample_surface({}, {})", item.variable, variable, kPoints));
+  }
+  item.name = item.file;
+}
+
+Step make(const Json& request, Counters& counters) {
+  const std::string kind = string_or(request, "shape", "bumpy");
+  shape_of(kind);
+  return {"Make " + kind, false, [kind, &counters](Document& document, const Context& context) {
+            Mesh mesh = shape_of(kind);
+            Item item = kind == "points"
+                            ? item_of(sample_surface(mesh, {.points = kPoints}, context))
+                            : item_of(std::move(mesh), context);
+            record_made(document.recipe, item, kind);
+            add(document, std::move(item), counters);
+          }};
+}
+
+Step remove(const Json& request, const Document& now) {
+  const ItemPtr item = item_in(request, "item", now);
+  return {"Remove " + item->name, false, [item](Document& document, const Context&) {
+            std::erase(document.items, item);
+          }};
+}
+
+Step rename(const Json& request, const Document& now) {
+  const ItemPtr item = item_in(request, "item", now);
+  const std::string name = string_of(request, "name");
+  if (name.empty() || name.size() > kMaxName) {
+    throw bad_request(fmt::format("a name has 1 ... {} bytes", kMaxName));
+  }
+  return {"Rename " + item->name, false, [item, name](Document& document, const Context&) {
+            Item changed = *item;
+            changed.name = name;
+            put(document, std::move(changed));
+          }};
+}
+
+}  // namespace
+
+std::optional<Step> plain_step(const std::string& op, const Json& request, const Document& now,
+                               Counters& counters) {
+  if (op == "make") return make(request, counters);
+  if (op == "remove") return remove(request, now);
+  if (op == "rename") return rename(request, now);
+  return std::nullopt;
+}
+
+}  // namespace rholm::studio

@@ -1,0 +1,160 @@
+// Steps from points to surfaces, and to and on caps.
+#include <fmt/format.h>
+
+#include "rholm/compress.h"
+#include "rholm/points.h"
+#include "rholm/reconstruct.h"
+#include "studio/step.h"
+
+namespace rholm::studio {
+namespace {
+
+ItemPtr with_points(const Json& request, const Document& now) {
+  ItemPtr item = item_in(request, "item", now);
+  if (!item->points) throw wrong_kind(*item, "points are needed");
+  return item;
+}
+
+Step orient_item(const Json& request, const Document& now, Counters& counters) {
+  const ItemPtr item = with_points(request, now);
+  return {"Orient " + item->name, true, [=, &counters](Document& document, const Context& context) {
+            PointCloud cloud = *item->points;
+            orient(cloud, {}, context);
+            Item changed = *item;
+            changed.points = std::make_shared<const PointCloud>(std::move(cloud));
+            changed.revision = ++counters.revisions;
+            record(document.recipe, changed, "-oriented", "rholm orient " + shell_word(item->file),
+                   fmt::format("rholm.orient({}).points", item->variable));
+            put(document, std::move(changed));
+          }};
+}
+
+struct ReconstructWish {
+  ReconstructOptions options;
+  std::string shell, python;
+};
+
+ReconstructWish reconstruct_in(const Json& request) {
+  ReconstructWish wish;
+  const std::string holes = string_or(request, "holes", "close");
+  const std::string noise = string_or(request, "noise", "auto");
+  if (holes != "close" && holes != "keep") throw bad_request("'holes' must be close or keep");
+  if (noise != "auto" && noise != "none") throw bad_request("'noise' must be auto or none");
+  if (holes == "keep") {
+    wish.options.holes = HolePolicy::kKeep;
+    wish.shell += " --holes keep";
+    wish.python += ", holes=\"keep\"";
+  }
+  if (noise == "none") {
+    wish.options.noise = 0;
+    wish.shell += " --noise 0";
+    wish.python += ", noise=0";
+  }
+  if (const std::optional<double> share = maybe_number(request, "simplify")) {
+    if (!(*share > 0 && *share <= 1)) throw bad_request("'simplify' is a share, above 0, at most 1");
+    wish.options.simplify = SimplifyOptions{.share = *share};
+    wish.shell += fmt::format(" --simplify {}%", 100 * *share);
+    wish.python += fmt::format(", simplify={{\"share\": {}}}", *share);
+  }
+  return wish;
+}
+
+Step reconstruct_item(const Json& request, const Document& now, Counters& counters) {
+  const ItemPtr item = with_points(request, now);
+  const ReconstructWish wish = reconstruct_in(request);
+  return {"Reconstruct " + item->name, true,
+          [=, &counters](Document& document, const Context& context) {
+            Reconstruction found = reconstruct(*item->points, wish.options, context);
+            Item made = item_of(std::move(found.mesh), context);
+            made.name = item->name;
+            made.unit = item->unit;
+            made.caps = found.report.caps;
+            record(document.recipe, made, "-surface",
+                   "rholm reconstruct " + shell_word(item->file) + wish.shell,
+                   fmt::format("rholm.reconstruct({}{}).mesh", item->variable, wish.python));
+            made.name = made.file;
+            add(document, std::move(made), counters);
+          }};
+}
+
+// As `rholm analyze --atlas` takes a mesh.
+Mesh prepared(const Mesh& mesh) {
+  Mesh welded = weld(mesh).mesh;
+  if (inspect(welded).inside_out) flip(welded);
+  return welded;
+}
+
+Step compress_item(const Json& request, const Document& now, Counters& counters) {
+  const ItemPtr item = item_in(request, "item", now);
+  if (item->atlas) throw wrong_kind(*item, "it is caps already");
+  CompressOptions options;
+  options.tolerance = number_of(request, "tolerance");
+  options.max_degree = integer_or(request, "max_degree", options.max_degree);
+  return {"Compress " + item->name, true, [=, &counters](Document& document, const Context& context) {
+            Compressed found = item->points ? compress(*item->points, options, context)
+                                            : compress(prepared(*item->shown), options, context);
+            found.model.unit = item->unit;
+            Item made = item_of(std::move(found.model), context);
+            Recipe& recipe = document.recipe;
+            const Named from = item->points ? Named{item->file, item->variable}
+                                            : surface_of(recipe, *item);
+            const bool usual = options.max_degree == CompressOptions{}.max_degree;
+            made.model_file = recipe.file(stem_of(item->name) + "-caps", ".h5");
+            made.model_variable = recipe.variable(stem_of(item->name) + "_caps");
+            recipe.shell.push_back(fmt::format(
+                "rholm analyze {} --atlas --tolerance {}{}{} -o {}", shell_word(from.file),
+                digits(options.tolerance),
+                usual ? "" : fmt::format(" --max-degree {}", options.max_degree),
+                item->unit.empty() ? "" : " --length-unit " + shell_word(item->unit),
+                shell_word(made.model_file)));
+            recipe.python.push_back(
+                fmt::format("{} = rholm.compress({}, {}{})", made.model_variable, from.variable,
+                            digits(options.tolerance),
+                            usual ? "" : fmt::format(", max_degree={}", options.max_degree)));
+            made.file = made.model_file;  // as edits take the surface of a file of caps
+            made.variable = made.model_variable + ".mesh()";
+            made.name = made.model_file;
+            add(document, std::move(made), counters);
+          }};
+}
+
+// Caps of no higher degrees: the surface, and nothing else, is another.
+Step look_at_atlas(const Json& request, const Document& now, Counters& counters) {
+  const ItemPtr item = item_in(request, "item", now);
+  if (!item->atlas) throw wrong_kind(*item, "caps are needed");
+  const int highest = highest_degree(item->atlas->atlas);
+  const int limit = integer_of(request, "limit");
+  if (limit < 0) throw bad_request("'limit' must not be negative");
+  return {"Look at " + item->name, true, [=, &counters](Document& document, const Context& context) {
+            Item changed = *item;
+            const bool all = limit >= highest;
+            changed.limit = all ? std::nullopt : std::optional(limit);
+            changed.shown = std::make_shared<const Mesh>(
+                synthesize(*item->atlas, {.degree = changed.limit}, context));
+            changed.facts = std::make_shared<const MeshFacts>(facts_of(*changed.shown, context));
+            changed.revision = ++counters.revisions;
+            if (all) {
+              changed.file = item->model_file;
+              changed.variable = item->model_variable + ".mesh()";
+            } else {
+              record(document.recipe, changed, "-surface",
+                     fmt::format("rholm synthesize {} --degree-limit {}",
+                                 shell_word(item->model_file), limit),
+                     fmt::format("{}.mesh(degree={})", item->model_variable, limit));
+            }
+            put(document, std::move(changed));
+          }};
+}
+
+}  // namespace
+
+std::optional<Step> point_step(const std::string& op, const Json& request, const Document& now,
+                               Counters& counters) {
+  if (op == "orient") return orient_item(request, now, counters);
+  if (op == "reconstruct") return reconstruct_item(request, now, counters);
+  if (op == "compress") return compress_item(request, now, counters);
+  if (op == "atlas_look") return look_at_atlas(request, now, counters);
+  return std::nullopt;
+}
+
+}  // namespace rholm::studio

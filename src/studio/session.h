@@ -1,0 +1,91 @@
+// One page's work: its shapes, what can be undone, the job that runs. Layer: studio.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "studio/items/message.h"
+#include "studio/job.h"
+#include "studio/live.h"
+#include "studio/scratch.h"
+#include "studio/step.h"
+
+namespace rholm::studio {
+
+// How much of what happens a listener has been told.
+struct EventMark {
+  std::uint64_t state = 0, job = 0;
+};
+struct Event {
+  std::string name;  // "state", "job"
+  std::string data;  // JSON in one line
+};
+
+// All functions may be called by several threads at once. They throw Refusal, and what the library
+// throws.
+class Session {
+ public:
+  Session(std::string id, int threads, Scratch& scratch);
+  ~Session();  // cancels the job and waits for it
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  const std::string& id() const { return id_; }
+  Json state() const;
+  // A file of any kind that the program reads, or of a session, whose items are added.
+  Response open(const std::string& name, std::string_view bytes);
+  Response step(const Json& request);
+  Response live(const Json& request);
+  Response surface(int item, bool original) const;
+  Response measures(int item) const;
+  Response save(int item, const std::string& format, const std::string& size) const;
+  Response session_file() const;
+  Response cancel(int job);
+
+  // What is new since the mark, which moves on; waits so long for it.
+  std::vector<Event> wait(EventMark& mark, std::chrono::milliseconds time) const;
+  // Ends all waiting.
+  void close();
+  bool closed() const;
+
+ private:
+  struct Moment {
+    std::string label;  // of the step between this document and the next one
+    Document document;
+  };
+
+  Document document() const;
+  Json state_locked() const;
+  void refuse_while_busy() const;
+  void commit(const std::string& label, Document document);
+  Response undo(bool redo);
+  Response degree_for_tolerance(const Json& request) const;
+  Response start(Step step);
+  void run(const Step& step, const std::shared_ptr<Job>& job, Document document);
+  void tell_of_job();
+
+  const std::string id_;
+  const int threads_;
+  Scratch& scratch_;
+  Counters counters_;
+  Live live_;
+  std::mutex steps_;  // held by whoever changes the document without a job
+  mutable std::mutex mutex_;  // of all that follows
+  mutable std::condition_variable changed_;
+  Document now_;
+  std::vector<Moment> past_, future_;
+  std::shared_ptr<Job> job_;  // the last one
+  int jobs_ = 0;
+  std::uint64_t state_number_ = 1, job_number_ = 0;
+  bool closed_ = false;
+  std::thread thread_;
+};
+
+}  // namespace rholm::studio
