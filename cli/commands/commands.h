@@ -33,6 +33,9 @@ Command orient_command();
 Command partition_command();
 Command reconstruct_command();
 Command batch_command();
+#ifdef RHOLM_STUDIO
+Command studio_command();
+#endif
 Command bench_command();
 Command completion_command();
 Command man_page_command();

@@ -40,7 +40,8 @@ Response points_answer(const Item& item) {
   }
   const std::vector<std::uint8_t> colors = colors_of(cloud);
   if (!colors.empty()) binary.add("colors", colors, {n, 3});
-  binary.meta = {{"item", item.id}, {"revision", item.revision}, {"of", item.points->points.size()}};
+  binary.meta = {
+      {"item", item.id}, {"revision", item.revision}, {"of", item.points->points.size()}};
   return binary.response();
 }
 

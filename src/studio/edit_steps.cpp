@@ -45,17 +45,17 @@ Step smooth_item(const Json& request, const Document& now, Counters& counters) {
             const Named from = surface_of(document.recipe, *item);
             const bool robust = wish.fitting == "robust", full = wish.strength == 1;
             const bool repair = wish.options.repair;
-            const std::string shell = fmt::format(
-                "rholm smooth {}{} --wavelength {}{}{}{}", shell_word(from.file),
-                region_options("region", wish.regions), digits(wish.options.wavelength),
-                full ? "" : fmt::format(" --strength={}", wish.strength),
-                robust ? "" : " --fit " + wish.fitting, repair ? " --repair" : "");
-            const std::string python = fmt::format(
-                "rholm.smooth({}, {}, {}{}{}{})", from.variable, python_list(wish.regions),
-                digits(wish.options.wavelength),
-                full ? "" : fmt::format(", strength={}", wish.strength),
-                robust ? "" : ", fitting=" + python_text(wish.fitting),
-                repair ? ", repair=True" : "");
+            const std::string shell =
+                fmt::format("rholm smooth {}{} --wavelength {}{}{}{}", shell_word(from.file),
+                            region_options("region", wish.regions), digits(wish.options.wavelength),
+                            full ? "" : fmt::format(" --strength={}", wish.strength),
+                            robust ? "" : " --fit " + wish.fitting, repair ? " --repair" : "");
+            const std::string python =
+                fmt::format("rholm.smooth({}, {}, {}{}{}{})", from.variable,
+                            python_list(wish.regions), digits(wish.options.wavelength),
+                            full ? "" : fmt::format(", strength={}", wish.strength),
+                            robust ? "" : ", fitting=" + python_text(wish.fitting),
+                            repair ? ", repair=True" : "");
             finish(document, *item, std::move(mesh), "-smooth", shell, python, counters, context);
           }};
 }
@@ -81,9 +81,8 @@ std::string transfer_shell(const TransferWish& wish, const Named& from, const Na
 std::string transfer_python(const TransferWish& wish, const Named& from, const Named& to) {
   const TransferOptions& o = wish.options;
   const TransferUpdate& u = wish.update;
-  std::string text =
-      fmt::format("rholm.transfer({}, {}, {}, {}", from.variable, python_list(wish.from), to.variable,
-                  python_list(wish.to));
+  std::string text = fmt::format("rholm.transfer({}, {}, {}, {}", from.variable,
+                                 python_list(wish.from), to.variable, python_list(wish.to));
   if (o.from_degree != TransferOptions{}.from_degree) {
     text += fmt::format(", from_degree={}", o.from_degree);
   }
@@ -118,27 +117,26 @@ Step simplify_item(const Json& request, const Document& now, Counters& counters)
   if (error ? !(*error > 0) : faces < 1) {
     throw bad_request("simplify needs 'faces' of at least 1, or an 'error' above 0");
   }
-  return {"Simplify " + item->name, true,
-          [=, &counters](Document& document, const Context& context) {
-            SimplifyOptions options;
-            if (error) options.max_error = *error;
-            if (faces > 0) options.triangles = static_cast<std::size_t>(faces);
-            Mesh mesh = simplify(*item->shown, options, context).mesh;
-            const Named from = surface_of(document.recipe, *item);
-            std::string shell = "rholm simplify " + shell_word(from.file);
-            std::vector<std::string> python = {from.variable};
-            if (faces > 0) {
-              shell += fmt::format(" --faces {}", faces);
-              python.push_back(fmt::format("triangles={}", faces));
-            }
-            if (error) {
-              shell += " --max-error " + digits(*error);
-              python.push_back("max_error=" + digits(*error));
-            }
-            finish(document, *item, std::move(mesh), "-simple", shell,
-                   fmt::format("rholm.simplify({}).mesh", fmt::join(python, ", ")), counters,
-                   context);
-          }};
+  return {
+      "Simplify " + item->name, true, [=, &counters](Document& document, const Context& context) {
+        SimplifyOptions options;
+        if (error) options.max_error = *error;
+        if (faces > 0) options.triangles = static_cast<std::size_t>(faces);
+        Mesh mesh = simplify(*item->shown, options, context).mesh;
+        const Named from = surface_of(document.recipe, *item);
+        std::string shell = "rholm simplify " + shell_word(from.file);
+        std::vector<std::string> python = {from.variable};
+        if (faces > 0) {
+          shell += fmt::format(" --faces {}", faces);
+          python.push_back(fmt::format("triangles={}", faces));
+        }
+        if (error) {
+          shell += " --max-error " + digits(*error);
+          python.push_back("max_error=" + digits(*error));
+        }
+        finish(document, *item, std::move(mesh), "-simple", shell,
+               fmt::format("rholm.simplify({}).mesh", fmt::join(python, ", ")), counters, context);
+      }};
 }
 
 Step repair_item(const Json& request, const Document& now, Counters& counters) {

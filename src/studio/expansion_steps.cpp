@@ -66,7 +66,8 @@ Step analyze_item(const Json& request, const Document& now, Counters& counters) 
   const ItemPtr item = item_in(request, "item", now);
   if (item->points) throw wrong_kind(*item, "it has no faces; reconstruct makes a surface of it");
   const Wanted wanted = analysis_in(request);
-  return {"Analyze " + item->name, true, [=, &counters](Document& document, const Context& context) {
+  return {"Analyze " + item->name, true,
+          [=, &counters](Document& document, const Context& context) {
             const std::shared_ptr<const Mesh> mesh = shape_of(*item);
             Encoded encoded = encode(*mesh, wanted.options, context);
             Item changed = *item;
@@ -84,13 +85,13 @@ Step analyze_item(const Json& request, const Document& now, Counters& counters) 
             changed.revision = ++counters.revisions;
             changed.model_file = document.recipe.file(stem_of(item->name), ".h5");
             changed.model_variable = document.recipe.variable(stem_of(item->name) + "_model");
-            const std::string unit = item->unit.empty() ? "" : " --length-unit " + shell_word(item->unit);
+            const std::string unit =
+                item->unit.empty() ? "" : " --length-unit " + shell_word(item->unit);
             document.recipe.shell.push_back(fmt::format("rholm analyze {}{}{} -o {}",
                                                         shell_word(shape.file), wanted.shell, unit,
                                                         shell_word(changed.model_file)));
-            document.recipe.python.push_back(fmt::format("{} = rholm.expand({}{})",
-                                                         changed.model_variable, shape.variable,
-                                                         wanted.python));
+            document.recipe.python.push_back(fmt::format(
+                "{} = rholm.expand({}{})", changed.model_variable, shape.variable, wanted.python));
             put(document, std::move(changed));
           }};
 }
@@ -98,7 +99,8 @@ Step analyze_item(const Json& request, const Document& now, Counters& counters) 
 Step look_at(const Json& request, const Document& now, Counters& counters) {
   const ItemPtr item = with_model(request, "item", now);
   const Look look = look_in(request, *item->model);
-  return {"Look at " + item->name, false, [=, &counters](Document& document, const Context& context) {
+  return {"Look at " + item->name, false,
+          [=, &counters](Document& document, const Context& context) {
             Item changed = with_look(*item, look, context);
             changed.revision = ++counters.revisions;
             put(document, std::move(changed));
@@ -135,7 +137,8 @@ Mesh placed_mesh(Mesh mesh, const Placement& placement) {
 
 // As `rholm align`: by the centroids of the solids, or the models' own centres where one does not
 // see its surface from there.
-Placement placement_of(const Expansion& a, const Expansion& b, bool mirror, const Context& context) {
+Placement placement_of(const Expansion& a, const Expansion& b, bool mirror,
+                       const Context& context) {
   const AlignOptions options = {.allow_mirror = mirror};
   try {
     return align(a, b, AlignCenters::kVolume, options, context);
@@ -162,8 +165,7 @@ Step align_items(const Json& request, const Document& now, Counters& counters) {
   if (a == b) throw bad_request("an item is not aligned with itself: 'a' and 'b' must differ");
   return {"Align " + a->name, true, [=, &counters](Document& document, const Context& context) {
             const Expansion& before = a->model->expansion;
-            const Placement placement =
-                placement_of(before, b->model->expansion, mirror, context);
+            const Placement placement = placement_of(before, b->model->expansion, mirror, context);
             Expansion moved = placed(before, placement, context);
             std::shared_ptr<const Mesh> mesh;
             if (a->original) {
@@ -173,8 +175,8 @@ Step align_items(const Json& request, const Document& now, Counters& counters) {
             changed.original = mesh;
             changed.model = make_model(std::move(moved), mesh, context);
             changed = with_look(changed, a->look, context);
-            changed.facts = std::make_shared<const MeshFacts>(
-                facts_of(mesh ? *mesh : *changed.shown, context));
+            changed.facts =
+                std::make_shared<const MeshFacts>(facts_of(mesh ? *mesh : *changed.shown, context));
             changed.revision = ++counters.revisions;
             record_aligned(document.recipe, *a, *b, mirror, changed);
             put(document, std::move(changed));
@@ -193,7 +195,9 @@ void record_blend(Recipe& recipe, const Named& from, const Named& to, const Mode
         digits(1 - t), a, digits(t), b, center.x, center.y, center.z,
         to_string(made.expansion.function), fmt::arg("degree", degree));
   };
-  const auto loaded = [](const std::string& file) { return "rholm.load(" + python_text(file) + ")"; };
+  const auto loaded = [](const std::string& file) {
+    return "rholm.load(" + python_text(file) + ")";
+  };
   recipe.shell.push_back("python3 -c " +
                          shell_word("import rholm; " + call(loaded(from.file), loaded(to.file)) +
                                     ".save(" + python_text(variable + ".h5") + ")"));
@@ -204,9 +208,9 @@ Step blend_items(const Json& request, const Document& now, Counters& counters) {
   const ItemPtr a = with_model(request, "a", now), b = with_model(request, "b", now);
   const double t = number_of(request, "t");
   return {"Blend " + a->name, true, [=, &counters](Document& document, const Context& context) {
-            Item made = item_of(blended(expansion_of(*a->model, a->look),
-                                        expansion_of(*b->model, b->look), t),
-                                context);
+            Item made = item_of(
+                blended(expansion_of(*a->model, a->look), expansion_of(*b->model, b->look), t),
+                context);
             Recipe& recipe = document.recipe;
             const Named from = model_of(recipe, *a), to = model_of(recipe, *b);
             made.model_variable = recipe.variable(stem_of(a->name) + "_" + stem_of(b->name));

@@ -109,8 +109,8 @@ Response Live::brush(const Json& request, const Document& document) const {
 Response Live::smooth(const Json& request, const Document& document) {
   const ItemPtr item = item_with_mesh(request, "item", document);
   const SmoothWish wish = smooth_in(request);
-  const std::string key = fmt::format("{} {} {}", fmt::join(wish.regions, " "), wish.fitting,
-                                      wish.options.repair);
+  const std::string key =
+      fmt::format("{} {} {}", fmt::join(wish.regions, " "), wish.fitting, wish.options.repair);
   const double wavelength = wish.options.wavelength;
   const bool usable = patch_.analysis && patch_.key == key && patch_.of[0] == item->shown &&
                       wavelength >= patch_.analysis->wavelength &&
@@ -157,8 +157,8 @@ Response Live::transfer(const Json& request, const Document& document) {
 Response Live::blend(const Json& request, const Document& document) const {
   const ItemPtr a = item_with_model(request, "a", document);
   const ItemPtr b = item_with_model(request, "b", document);
-  const Expansion blend = blended(expansion_of(*a->model, a->look), expansion_of(*b->model, b->look),
-                                  number_of(request, "t"));
+  const Expansion blend = blended(expansion_of(*a->model, a->look),
+                                  expansion_of(*b->model, b->look), number_of(request, "t"));
   const Mesh& sphere = a->model->directions;
   const std::vector<double> values =
       evaluate(blend.coefficients, sphere.vertices, {.precision = 1e-6}, context());

@@ -89,7 +89,7 @@ Item open_item(const std::string& name, std::string_view bytes, Scratch& scratch
                const Context& context) {
   const std::string plain = plain_name(name);
   Item item = bytes.starts_with("\x89HDF\r\n\x1a\n") ? open_model(bytes, scratch, context)
-                                                    : open_text(bytes, plain, context);
+                                                     : open_text(bytes, plain, context);
   item.name = plain;
   return item;
 }

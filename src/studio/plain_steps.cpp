@@ -66,9 +66,8 @@ Step make(const Json& request, Counters& counters) {
 
 Step remove(const Json& request, const Document& now) {
   const ItemPtr item = item_in(request, "item", now);
-  return {"Remove " + item->name, false, [item](Document& document, const Context&) {
-            std::erase(document.items, item);
-          }};
+  return {"Remove " + item->name, false,
+          [item](Document& document, const Context&) { std::erase(document.items, item); }};
 }
 
 Step rename(const Json& request, const Document& now) {

@@ -51,7 +51,8 @@ ReconstructWish reconstruct_in(const Json& request) {
     wish.python += ", noise=0";
   }
   if (const std::optional<double> share = maybe_number(request, "simplify")) {
-    if (!(*share > 0 && *share <= 1)) throw bad_request("'simplify' is a share, above 0, at most 1");
+    if (!(*share > 0 && *share <= 1))
+      throw bad_request("'simplify' is a share, above 0, at most 1");
     wish.options.simplify = SimplifyOptions{.share = *share};
     wish.shell += fmt::format(" --simplify {}%", 100 * *share);
     wish.python += fmt::format(", simplify={{\"share\": {}}}", *share);
@@ -90,23 +91,24 @@ Step compress_item(const Json& request, const Document& now, Counters& counters)
   CompressOptions options;
   options.tolerance = number_of(request, "tolerance");
   options.max_degree = integer_or(request, "max_degree", options.max_degree);
-  return {"Compress " + item->name, true, [=, &counters](Document& document, const Context& context) {
+  return {"Compress " + item->name, true,
+          [=, &counters](Document& document, const Context& context) {
             Compressed found = item->points ? compress(*item->points, options, context)
                                             : compress(prepared(*item->shown), options, context);
             found.model.unit = item->unit;
             Item made = item_of(std::move(found.model), context);
             Recipe& recipe = document.recipe;
-            const Named from = item->points ? Named{item->file, item->variable}
-                                            : surface_of(recipe, *item);
+            const Named from =
+                item->points ? Named{item->file, item->variable} : surface_of(recipe, *item);
             const bool usual = options.max_degree == CompressOptions{}.max_degree;
             made.model_file = recipe.file(stem_of(item->name) + "-caps", ".h5");
             made.model_variable = recipe.variable(stem_of(item->name) + "_caps");
-            recipe.shell.push_back(fmt::format(
-                "rholm analyze {} --atlas --tolerance {}{}{} -o {}", shell_word(from.file),
-                digits(options.tolerance),
-                usual ? "" : fmt::format(" --max-degree {}", options.max_degree),
-                item->unit.empty() ? "" : " --length-unit " + shell_word(item->unit),
-                shell_word(made.model_file)));
+            recipe.shell.push_back(
+                fmt::format("rholm analyze {} --atlas --tolerance {}{}{} -o {}",
+                            shell_word(from.file), digits(options.tolerance),
+                            usual ? "" : fmt::format(" --max-degree {}", options.max_degree),
+                            item->unit.empty() ? "" : " --length-unit " + shell_word(item->unit),
+                            shell_word(made.model_file)));
             recipe.python.push_back(
                 fmt::format("{} = rholm.compress({}, {}{})", made.model_variable, from.variable,
                             digits(options.tolerance),
@@ -125,7 +127,8 @@ Step look_at_atlas(const Json& request, const Document& now, Counters& counters)
   const int highest = highest_degree(item->atlas->atlas);
   const int limit = integer_of(request, "limit");
   if (limit < 0) throw bad_request("'limit' must not be negative");
-  return {"Look at " + item->name, true, [=, &counters](Document& document, const Context& context) {
+  return {"Look at " + item->name, true,
+          [=, &counters](Document& document, const Context& context) {
             Item changed = *item;
             const bool all = limit >= highest;
             changed.limit = all ? std::nullopt : std::optional(limit);

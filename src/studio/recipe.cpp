@@ -11,8 +11,8 @@ namespace rholm::studio {
 namespace {
 
 bool is_plain(unsigned char c) {
-  return std::isalnum(c) != 0 || std::string_view("_-./:,+=@%").find(static_cast<char>(c)) !=
-                                     std::string_view::npos;
+  return std::isalnum(c) != 0 ||
+         std::string_view("_-./:,+=@%").find(static_cast<char>(c)) != std::string_view::npos;
 }
 
 bool is_whole(const Item& item) { return item.look == whole(*item.model); }
@@ -43,16 +43,18 @@ std::string Recipe::file(const std::string& stem, const std::string& ending) {
 }
 
 std::string Recipe::variable(const std::string& stem) {
-  static const std::set<std::string> kReserved = {"rholm", "and", "as", "assert", "async", "await",
-      "break", "class", "continue", "def", "del", "elif", "else", "except", "finally", "for", "from",
-      "global", "if", "import", "in", "is", "lambda", "nonlocal", "not", "or", "pass", "raise",
-      "return", "try", "while", "with", "yield", "False", "None", "True"};
+  static const std::set<std::string> kReserved = {
+      "rholm", "and",    "as",   "assert", "async",  "await",    "break", "class", "continue",
+      "def",   "del",    "elif", "else",   "except", "finally",  "for",   "from",  "global",
+      "if",    "import", "in",   "is",     "lambda", "nonlocal", "not",   "or",    "pass",
+      "raise", "return", "try",  "while",  "with",   "yield",    "False", "None",  "True"};
   std::string plain;
   for (const char c : stem) {
     const auto byte = static_cast<unsigned char>(c);
     plain += byte < 128 && std::isalnum(byte) != 0 ? static_cast<char>(std::tolower(byte)) : '_';
   }
-  if (plain.empty() || std::isdigit(static_cast<unsigned char>(plain[0])) != 0) plain = "s_" + plain;
+  if (plain.empty() || std::isdigit(static_cast<unsigned char>(plain[0])) != 0)
+    plain = "s_" + plain;
   if (kReserved.contains(plain)) plain += "_";
   std::string name = plain;
   for (int n = 2; !variables.insert(name).second; ++n) name = fmt::format("{}_{}", plain, n);
@@ -97,14 +99,14 @@ Named model_of(Recipe& recipe, const Item& item) {
   std::string options = item.look.gains.empty()
                             ? fmt::format("--low-pass {} --window ideal", item.look.degree)
                             : "--gain " + shell_word(gain_file(recipe, item));
-  recipe.shell.push_back(fmt::format("rholm filter {} {} -o {}", shell_word(item.model_file), options,
-                                     shell_word(made.file)));
-  recipe.python.push_back(
-      item.look.gains.empty()
-          ? fmt::format("{} = {}.low_pass({}, window=\"ideal\")", made.variable, item.model_variable,
-                        item.look.degree)
-          : fmt::format("{} = {}.filter([{}])", made.variable, item.model_variable,
-                        fmt::join(texts_of(item.look.gains), ", ")));
+  recipe.shell.push_back(fmt::format("rholm filter {} {} -o {}", shell_word(item.model_file),
+                                     options, shell_word(made.file)));
+  recipe.python.push_back(item.look.gains.empty()
+                              ? fmt::format("{} = {}.low_pass({}, window=\"ideal\")", made.variable,
+                                            item.model_variable, item.look.degree)
+                              : fmt::format("{} = {}.filter([{}])", made.variable,
+                                            item.model_variable,
+                                            fmt::join(texts_of(item.look.gains), ", ")));
   return made;
 }
 
@@ -140,9 +142,9 @@ void add_reading(Recipe& recipe, Item& item) {
     item.file = item.name;
     item.variable = variable + ".mesh()";
   }
-  recipe.python.push_back(series ? fmt::format("{} = rholm.load({})", variable, python_text(item.name))
-                                 : fmt::format("{} = rholm.read_shape({}).shape", variable,
-                                               python_text(item.name)));
+  recipe.python.push_back(
+      series ? fmt::format("{} = rholm.load({})", variable, python_text(item.name))
+             : fmt::format("{} = rholm.read_shape({}).shape", variable, python_text(item.name)));
 }
 
 }  // namespace rholm::studio

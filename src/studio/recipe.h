@@ -11,8 +11,8 @@
 namespace rholm::studio {
 
 struct Recipe {
-  std::vector<std::string> shell, python;     // lines
-  std::set<std::string> files, variables;     // names that are taken
+  std::vector<std::string> shell, python;  // lines
+  std::set<std::string> files, variables;  // names that are taken
 
   // A name that is not taken yet, and now is: "bumpy-2.ply" for "bumpy" and ".ply".
   std::string file(const std::string& stem, const std::string& ending);

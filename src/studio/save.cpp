@@ -111,8 +111,8 @@ Response save_answer(const Item& item, const Recipe& recipe, const std::string& 
              (item.model && is_one_of(format, {"h5", "json", "npy", "shtools", "icgem", "txt"}))) {
     response.body = coefficients_bytes(item, format, scratch);
   } else {
-    throw bad_request(fmt::format("{} ({}) is not saved as '{}'", item.name, to_string(item.kind),
-                                  format));
+    throw bad_request(
+        fmt::format("{} ({}) is not saved as '{}'", item.name, to_string(item.kind), format));
   }
   return response;
 }

@@ -1,4 +1,5 @@
-// Files in a folder of their own, for what the library reads and writes by name only. Layer: studio.
+// Files in a folder of their own, for what the library reads and writes by name only. Layer:
+// studio.
 #pragma once
 
 #include <filesystem>

@@ -146,9 +146,8 @@ Response Session::start(Step step) {
   job_ = std::make_shared<Job>(++jobs_, step.label, [this] { tell_of_job(); });
   ++job_number_;
   changed_.notify_all();
-  thread_ = std::thread([this, step = std::move(step), job = job_, document = now_] {
-    run(step, job, document);
-  });
+  thread_ = std::thread(
+      [this, step = std::move(step), job = job_, document = now_] { run(step, job, document); });
   return json_response({{"job", job_->json()}}, 202);
 }
 

@@ -76,7 +76,7 @@ class Session {
   Scratch& scratch_;
   Counters counters_;
   Live live_;
-  std::mutex steps_;  // held by whoever changes the document without a job
+  std::mutex steps_;          // held by whoever changes the document without a job
   mutable std::mutex mutex_;  // of all that follows
   mutable std::condition_variable changed_;
   Document now_;

@@ -14,8 +14,8 @@ namespace rholm::studio {
 namespace {
 
 constexpr std::string_view kMagic = "RHOLMSS1";
-constexpr std::size_t kHead = 24;          // bytes
-constexpr std::size_t kMaxItems = 10000;   // the sanity limit
+constexpr std::size_t kHead = 24;         // bytes
+constexpr std::size_t kMaxItems = 10000;  // the sanity limit
 
 [[noreturn]] void refuse(const std::string& what) {
   throw Error(ErrorCode::kInvalidInput, "the session file " + what);
@@ -60,18 +60,12 @@ std::string model_file(const Item& item, Scratch& scratch) {
 }
 
 Json about(const Item& item, std::size_t shape, std::size_t model) {
-  return {{"name", item.name},
-          {"unit", item.unit},
-          {"caps", item.caps},
-          {"shape_bytes", shape},
-          {"model_bytes", model},
-          {"degree", item.look.degree},
-          {"gains", item.look.gains},
-          {"limit", item.limit ? Json(*item.limit) : Json(nullptr)},
-          {"file", item.file},
-          {"model_file", item.model_file},
-          {"variable", item.variable},
-          {"model_variable", item.model_variable}};
+  return {{"name", item.name},         {"unit", item.unit},
+          {"caps", item.caps},         {"shape_bytes", shape},
+          {"model_bytes", model},      {"degree", item.look.degree},
+          {"gains", item.look.gains},  {"limit", item.limit ? Json(*item.limit) : Json(nullptr)},
+          {"file", item.file},         {"model_file", item.model_file},
+          {"variable", item.variable}, {"model_variable", item.model_variable}};
 }
 
 // Both files of an item together again.
@@ -98,8 +92,8 @@ Item read_item(const Json& json, Parts& parts, Scratch& scratch, const Context& 
   if (item.kind == Kind::kExpansion) item = with_look(item, look_in(json, *item.model), context);
   if (item.atlas && json.value("limit", Json(nullptr)).is_number_integer()) {
     item.limit = integer_of(json, "limit");
-    item.shown = std::make_shared<const Mesh>(
-        synthesize(*item.atlas, {.degree = item.limit}, context));
+    item.shown =
+        std::make_shared<const Mesh>(synthesize(*item.atlas, {.degree = item.limit}, context));
   }
   item.name = plain_name(string_of(json, "name"));
   item.unit = string_of(json, "unit");

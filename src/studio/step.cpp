@@ -37,7 +37,8 @@ Look look_in(const Json& request, const Model& model) {
   Look look = {.degree = integer_or(request, "degree", highest),
                .gains = numbers_of(request, "gains")};
   if (look.degree < 0 || look.degree > highest) {
-    throw bad_request(fmt::format("the degree must be within 0 ... {}, not {}", highest, look.degree));
+    throw bad_request(
+        fmt::format("the degree must be within 0 ... {}, not {}", highest, look.degree));
   }
   if (look.gains.size() > look.degree + std::size_t{1}) {
     throw bad_request(fmt::format("{} gains for degree {}: there are {} degrees", look.gains.size(),

@@ -99,9 +99,10 @@ Response Studio::answer_in(Session& session, const Request& request) {
   if (request.method != "POST") throw unknown_path(request);
   if (path == "api/file") {
     if (request.body.size() > options_.max_upload) {
-      throw Refusal(413, "too_large", fmt::format("a file may have at most {} bytes; see rholm "
-                                                  "studio --max-upload",
-                                                  options_.max_upload));
+      throw Refusal(413, "too_large",
+                    fmt::format("a file may have at most {} bytes; see rholm "
+                                "studio --max-upload",
+                                options_.max_upload));
     }
     return session.open(value_of(request, "name"), request.body);
   }

@@ -44,14 +44,16 @@ TEST(DegreeTable, SumsAreThoseOfTheLibraryAtEveryDegree) {
     const std::vector<double> values = evaluate(c.resized(d), u, {.engine = Engine::kDirect});
     const std::span<const float> row = table.cut_off_at(d);
     ASSERT_EQ(row.size(), u.size());
-    for (std::size_t j = 0; j < u.size(); ++j) EXPECT_NEAR(row[j], values[j], 1e-6) << d << ' ' << j;
+    for (std::size_t j = 0; j < u.size(); ++j)
+      EXPECT_NEAR(row[j], values[j], 1e-6) << d << ' ' << j;
   }
 }
 
 TEST(DegreeTable, HighDegreesDoNotUnderflowWhereTheyCount) {
   const int degree = 400;
   const Coefficients c = random_coefficients(degree);
-  const std::vector<Vec3> u = {normalized({0.02, 0.01, 1}), normalized({0.5, -0.2, 0.4}), {0, 1, 0}};
+  const std::vector<Vec3> u = {
+      normalized({0.02, 0.01, 1}), normalized({0.5, -0.2, 0.4}), {0, 1, 0}};
   const std::vector<double> values = evaluate(c, u, {.engine = Engine::kDirect});
   const DegreeTable table(c, u, values);  // what is left of it is nothing
   for (const float left : table.cut_off_at(degree)) EXPECT_NEAR(left, 0, 1e-10);

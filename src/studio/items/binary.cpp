@@ -8,8 +8,9 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "arrays are sent as they lie");
 
-constexpr std::size_t kAligned = 8;  // every array begins at a multiple of this: doubles may be seen
-constexpr std::size_t kHead = 12;    // magic and length
+constexpr std::size_t kAligned =
+    8;                             // every array begins at a multiple of this: doubles may be seen
+constexpr std::size_t kHead = 12;  // magic and length
 
 std::size_t padded(std::size_t n) { return (n + kAligned - 1) / kAligned * kAligned; }
 

@@ -44,10 +44,10 @@ std::vector<Order> orders_of(const Coefficients& coefficients) {
 
 // Directions of one block.
 struct Block {
-  double x[kLanes] = {}, sine[kLanes] = {};       // cos and sin of the colatitude
+  double x[kLanes] = {}, sine[kLanes] = {};  // cos and sin of the colatitude
   double cos_phi[kLanes] = {}, sin_phi[kLanes] = {};
-  double sectoral[kLanes];                        // P_mm
-  double cos_m[kLanes], sin_m[kLanes];            // of m phi
+  double sectoral[kLanes];              // P_mm
+  double cos_m[kLanes], sin_m[kLanes];  // of m phi
 };
 
 Block block_of(std::span<const Vec3> directions) {
@@ -111,25 +111,26 @@ DegreeTable::DegreeTable(const Coefficients& coefficients, std::span<const Vec3>
       n_(directions.size()),
       values_((degree_ + std::size_t{1}) * n_) {
   const std::vector<Order> orders = orders_of(coefficients);
-  parallel_for(n_, 16 * kLanes, context, {"degrees", 0, 1}, [&](std::size_t begin, std::size_t end) {
-    std::vector<double> sums(orders.size() * kLanes);
-    for (std::size_t first = begin; first < end; first += kLanes) {
-      const std::size_t count = std::min(kLanes, end - first);
-      Block block = block_of(directions.subspan(first, count));
-      std::fill(sums.begin(), sums.end(), 0.0);
-      for (int m = 0; m <= degree_; ++m) {
-        if (m > 0 && !next_order(m, block)) break;
-        add_order(m, orders[m], block, sums.data());
-      }
-      for (std::size_t k = 0; k < count; ++k) {
-        double f = -base[first + k];
-        for (int l = 0; l <= degree_; ++l) {
-          f += sums[l * kLanes + k];
-          values_[l * n_ + first + k] = static_cast<float>(f);
-        }
-      }
-    }
-  });
+  parallel_for(n_, 16 * kLanes, context, {"degrees", 0, 1},
+               [&](std::size_t begin, std::size_t end) {
+                 std::vector<double> sums(orders.size() * kLanes);
+                 for (std::size_t first = begin; first < end; first += kLanes) {
+                   const std::size_t count = std::min(kLanes, end - first);
+                   Block block = block_of(directions.subspan(first, count));
+                   std::fill(sums.begin(), sums.end(), 0.0);
+                   for (int m = 0; m <= degree_; ++m) {
+                     if (m > 0 && !next_order(m, block)) break;
+                     add_order(m, orders[m], block, sums.data());
+                   }
+                   for (std::size_t k = 0; k < count; ++k) {
+                     double f = -base[first + k];
+                     for (int l = 0; l <= degree_; ++l) {
+                       f += sums[l * kLanes + k];
+                       values_[l * n_ + first + k] = static_cast<float>(f);
+                     }
+                   }
+                 }
+               });
 }
 
 // By parts: sum g_l f_l = sum (g_l - g_l+1) F_l of the cut off F_l.

@@ -4,10 +4,14 @@ namespace rholm::studio {
 
 const char* to_string(Kind kind) {
   switch (kind) {
-    case Kind::kMesh: return "mesh";
-    case Kind::kPoints: return "points";
-    case Kind::kExpansion: return "expansion";
-    case Kind::kAtlas: return "atlas";
+    case Kind::kMesh:
+      return "mesh";
+    case Kind::kPoints:
+      return "points";
+    case Kind::kExpansion:
+      return "expansion";
+    case Kind::kAtlas:
+      return "atlas";
   }
   return "";
 }

@@ -25,9 +25,9 @@ const char* to_string(Kind kind);  // "mesh", "points", "expansion", "atlas"
 
 // What is known of a mesh.
 struct MeshFacts {
-  Inspection inspection;                   // of the mesh welded exactly
-  std::optional<StarReport> star;          // of one that is closed and oriented
-  std::vector<std::uint32_t> offending;    // triangles that turn their back to its centre
+  Inspection inspection;                 // of the mesh welded exactly
+  std::optional<StarReport> star;        // of one that is closed and oriented
+  std::vector<std::uint32_t> offending;  // triangles that turn their back to its centre
 };
 
 struct Item {
@@ -37,15 +37,15 @@ struct Item {
   std::uint64_t revision = 0;  // of its surface: two surfaces of a session never have the same
   std::string unit;            // of lengths, empty if unknown
 
-  std::shared_ptr<const Mesh> original;       // of meshes: as read, or as the last edit left it
-  std::shared_ptr<const Model> model;         // of expansions, and meshes that were analysed
-  std::shared_ptr<const AtlasModel> atlas;    // of atlases
-  std::shared_ptr<const PointCloud> points;   // of points
-  std::shared_ptr<const Mesh> shown;          // the surface with its look; nullptr for points
-  std::shared_ptr<const MeshFacts> facts;     // of `shown`, or of the original if it was analysed
-  Look look;                                  // with a model
-  std::optional<int> limit;                   // of the degree of the caps of an atlas
-  std::size_t caps = 0;                       // of an atlas, or of a reconstruction
+  std::shared_ptr<const Mesh> original;      // of meshes: as read, or as the last edit left it
+  std::shared_ptr<const Model> model;        // of expansions, and meshes that were analysed
+  std::shared_ptr<const AtlasModel> atlas;   // of atlases
+  std::shared_ptr<const PointCloud> points;  // of points
+  std::shared_ptr<const Mesh> shown;         // the surface with its look; nullptr for points
+  std::shared_ptr<const MeshFacts> facts;    // of `shown`, or of the original if it was analysed
+  Look look;                                 // with a model
+  std::optional<int> limit;                  // of the degree of the caps of an atlas
+  std::size_t caps = 0;                      // of an atlas, or of a reconstruction
 
   // Where the lines of the recipe have it: the file of the shape and that of its coefficients or
   // caps, the variable of Python of each. Empty if there is none.

@@ -42,8 +42,8 @@ void add_mesh_facts(const Item& item, Json& facts) {
   add(facts, "Vertices", grouped(item.shown->vertices.size()));
   add(facts, "Faces", grouped(item.shown->triangles.size()));
   add(facts, "Size", length(found.bounds.diagonal(), item.unit));
-  add(facts, "Closed", found.closed ? "yes"
-                                    : fmt::format("no, {} open edges", grouped(found.boundary_edges)));
+  add(facts, "Closed",
+      found.closed ? "yes" : fmt::format("no, {} open edges", grouped(found.boundary_edges)));
   if (found.components > 1) add(facts, "Parts", grouped(found.components));
   if (found.closed && found.manifold && found.genus > 0) {
     add(facts, "Handles", grouped(found.genus));
@@ -76,10 +76,12 @@ std::string why_not(const Item& item) {
   if (star.star_shaped) return "Every point of the surface is seen once from the centre.";
   std::string text;
   if (const std::size_t n = item.facts->offending.size(); n > 0) {
-    text = fmt::format("{} {} their back to the centre. ", grouped(n), n == 1 ? "face shows" : "faces show");
+    text = fmt::format("{} {} their back to the centre. ", grouped(n),
+                       n == 1 ? "face shows" : "faces show");
   }
   if (star.rays > 0) {
-    text += fmt::format("{:.1f} % of the directions meet the surface once. ", 100 * star.once_share);
+    text +=
+        fmt::format("{:.1f} % of the directions meet the surface once. ", 100 * star.once_share);
   }
   return text + "Caps, by Compress, take any shape.";
 }

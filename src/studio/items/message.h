@@ -9,18 +9,18 @@ namespace rholm::studio {
 
 // As of HTTP, without it.
 struct Request {
-  std::string method = "GET";                       // "GET", "POST", "DELETE"
-  std::string path;                                 // below the address of the page: "api/state"
-  std::map<std::string, std::string> query = {};    // decoded
-  std::string body = {};                            // bytes
-  std::string session = {};                         // header X-Session, may be empty
+  std::string method = "GET";                     // "GET", "POST", "DELETE"
+  std::string path;                               // below the address of the page: "api/state"
+  std::map<std::string, std::string> query = {};  // decoded
+  std::string body = {};                          // bytes
+  std::string session = {};                       // header X-Session, may be empty
 };
 
 struct Response {
-  int status = 200;                         // of HTTP
-  std::string type = "application/json";    // of the body
-  std::string body = {};                    // bytes
-  std::string download = {};                // name of a file to be saved; empty: none
+  int status = 200;                       // of HTTP
+  std::string type = "application/json";  // of the body
+  std::string body = {};                  // bytes
+  std::string download = {};              // name of a file to be saved; empty: none
 };
 
 // A request that cannot be answered as it is. The code is for the page, the message for people.
@@ -37,9 +37,7 @@ class Refusal : public std::runtime_error {
 };
 
 // 400: the request itself is wrong. 404: there is no such thing.
-inline Refusal bad_request(const std::string& message) {
-  return {400, "bad_request", message};
-}
+inline Refusal bad_request(const std::string& message) { return {400, "bad_request", message}; }
 inline Refusal not_found(const std::string& message) { return {404, "not_found", message}; }
 
 }  // namespace rholm::studio

@@ -23,9 +23,9 @@ struct Model {
   Expansion expansion;
   std::shared_ptr<const Mesh> original;  // the shape it is of; nullptr if that is not there
   Mesh directions;                       // unit vectors from the centre, and triangles
-  std::vector<double> base;              // the function at the directions: of the shape, if there is one
-  std::optional<DegreeTable> table;      // where it fits
-  std::vector<double> power;             // energy of each degree
+  std::vector<double> base;  // the function at the directions: of the shape, if there is one
+  std::optional<DegreeTable> table;  // where it fits
+  std::vector<double> power;         // energy of each degree
   // Errors of the radius when cut off at each degree, in the unit of lengths: rms over solid angle,
   // largest at the vertices. Empty where they are not known.
   std::vector<double> rms, max;
@@ -49,7 +49,8 @@ Expansion expansion_of(const Model& model, const Look& look);
 // The same surface for a screen, quickly: [n][3] each.
 struct QuickSurface {
   std::vector<float> positions, normals;
-  std::vector<float> error;  // [n], outside of the shape positive, along rays; empty without a shape
+  std::vector<float>
+      error;  // [n], outside of the shape positive, along rays; empty without a shape
 };
 QuickSurface quick_surface(const Model& model, const Look& look, const Context& context = {});
 

@@ -1,0 +1,120 @@
+// rholm studio: shapes worked on in the browser.
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "cli/commands/commands.h"
+#include "cli/files/inputs.h"
+#include "cli/options/memory_options.h"
+#include "cli/studio/browser.h"
+#include "cli/studio/page.h"
+#include "cli/studio/server.h"
+#include "cli/terminal/exit_code.h"
+#include "cli/terminal/interrupt.h"
+#include "cli/terminal/json_text.h"
+#include "cli/terminal/session.h"
+#include "rholm/error.h"
+#include "studio/studio.h"
+
+namespace rholm::cli {
+namespace {
+
+struct Options {
+  std::vector<std::string> files;
+  std::optional<int> port;
+  bool no_open = false;
+  std::uint64_t max_upload = studio::StudioOptions{}.max_upload;
+  std::string page;
+};
+
+// What the studio says of a file that it does not take, as an error of the program.
+[[noreturn]] void throw_refused(const std::string& path, const studio::Response& answer) {
+  const Json error = Json::parse(answer.body).at("error");
+  const std::string code = error.at("code").get<std::string>();
+  const std::string message = error.at("message").get<std::string>();
+  throw Error(
+      code == "io"              ? ErrorCode::kIo
+      : code == "out_of_memory" ? ErrorCode::kOutOfMemory
+      : code == "unsupported"   ? ErrorCode::kUnsupported
+                                : ErrorCode::kInvalidInput,
+      message.find(path) == std::string::npos ? display_name(path) + ": " + message : message);
+}
+
+// The first page begins with them.
+void open_files(const Options& options, studio::Studio& studio) {
+  if (options.files.empty()) return;
+  const std::string session = studio.offered_session();
+  for (const std::string& path : options.files) {
+    const std::vector<char> bytes = read_all_bytes(path);
+    const studio::Response answer =
+        studio.handle({.method = "POST",
+                       .path = "api/file",
+                       .query = {{"name", path == "-" ? "input" : path}},
+                       .body = {bytes.begin(), bytes.end()},
+                       .session = session});
+    if (answer.status != 200) throw_refused(path, answer);
+    stop_if_interrupted();
+  }
+}
+
+int run(const Options& options, Session& session) {
+  const std::string folder = MemoryOptions{}.folder();
+  studio::Studio studio(
+      {.folder = folder, .threads = session.context().threads, .max_upload = options.max_upload});
+  open_files(options, studio);
+  StudioServer server(studio, options.page.empty() ? own_page() : read_page(options.page),
+                      {.port = options.port.value_or(0), .max_upload = options.max_upload});
+  print_note(fmt::format("the studio is at {}", server.address()));
+  std::optional<Browser> browser;
+  if (!options.no_open) {
+    browser.emplace(server.address(), folder);
+    if (!browser->opened()) session.note("no browser could be opened: open the address yourself");
+  }
+  session.note("Ctrl-C ends it");
+  server.run([&] { return interrupting_signal() != 0 || studio.quitting(); });
+  return kDone;
+}
+
+std::vector<Option> option_list(Options& o) {
+  return {{.name = "FILES",
+           .help = "shapes, models and sessions to begin with",
+           .target = &o.files,
+           .offer = Offer::kShapesAndCoefficients},
+          {.name = "port",
+           .value = "N",
+           .help = "port of this machine to listen on; by default one that is free",
+           .target = &o.port,
+           .min = 1,
+           .max = 65535},
+          {.name = "no-open", .help = "do not open the browser", .target = &o.no_open},
+          {.name = "max-upload",
+           .value = "BYTES",
+           .help = "largest file that the page may send; 2147483647 by default",
+           .target = &o.max_upload},
+          {.name = "page",
+           .value = "DIR",
+           .help = "folder with the page, instead of the one that is installed",
+           .target = &o.page}};
+}
+
+}  // namespace
+
+Command studio_command() {
+  auto options = std::make_shared<Options>();
+  return {.name = "studio",
+          .summary = "Shapes worked on in the browser",
+          .description =
+              "Opens a page in the browser where shapes are looked at, analyzed, smoothed, given "
+              "texture, made from points and saved, with all steps undone and redone at will, and "
+              "the commands that do the same.\n\nThe page is served on this machine only, to who "
+              "knows the address that is printed: keep it to yourself, it has a key in it. Ctrl-C, "
+              "or the page's own button, ends the studio with exit code 0; what is not saved is "
+              "lost then.",
+          .options = option_list(*options),
+          .examples = {"rholm studio bumpy.ply"},
+          .run = [options](Session& session) { return run(*options, session); }};
+}
+
+}  // namespace rholm::cli

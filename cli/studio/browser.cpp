@@ -1,0 +1,69 @@
+#include "cli/studio/browser.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "rholm/error.h"
+#include "rholm/file.h"
+
+namespace rholm::cli {
+namespace {
+
+// Starts a program that nobody waits for: a child of a child, which the system takes over. False if
+// there is no such program.
+bool start(const char* program, const std::string& argument) {
+  int report[2] = {};
+  if (::pipe2(report, O_CLOEXEC) != 0) return false;
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::setsid();
+    if (::fork() != 0) ::_exit(0);
+    const int nothing = ::open("/dev/null", O_RDWR | O_CLOEXEC);
+    for (int stream = 0; stream < 3; ++stream) ::dup2(nothing, stream);
+    ::signal(SIGPIPE, SIG_DFL);
+    ::execlp(program, program, argument.c_str(), nullptr);
+    const char failed = 1;
+    [[maybe_unused]] const ssize_t n = ::write(report[1], &failed, 1);
+    ::_exit(127);
+  }
+  ::close(report[1]);
+  char failed = 0;
+  // Ends without a byte when the program has begun.
+  const bool begun = child > 0 && ::read(report[0], &failed, 1) == 0;
+  ::close(report[0]);
+  if (child > 0) ::waitpid(child, nullptr, 0);
+  return begun;
+}
+
+}  // namespace
+
+Browser::Browser(const std::string& address, const std::filesystem::path& temporary) {
+  std::string name = (temporary / "rholm-studio-XXXXXX").string();
+  if (::mkdtemp(name.data()) == nullptr) return;  // for its owner only
+  folder_ = name;
+  const std::string text = fmt::format(
+      "<!doctype html><meta charset=\"utf-8\"><meta http-equiv=\"refresh\" content=\"0;url={0}\">"
+      "<title>rholm studio</title><a href=\"{0}\">rholm studio</a>",
+      address);
+  const std::filesystem::path file = folder_ / "studio.html";
+  try {
+    write_file(file, text);
+    opened_ = start("xdg-open", file.string());
+  } catch (const Error&) {
+    opened_ = false;
+  }
+}
+
+Browser::~Browser() {
+  std::error_code ignored;
+  if (!folder_.empty()) std::filesystem::remove_all(folder_, ignored);
+}
+
+}  // namespace rholm::cli
