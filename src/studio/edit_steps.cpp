@@ -20,9 +20,9 @@ ItemPtr with_surface(const Json& request, const char* field, const Document& now
 
 // The edited mesh in place of the item, its recipe written.
 void finish(Document& document, const Item& before, Mesh mesh, const std::string& suffix,
-            const std::string& shell, const std::string& python, Counters& counters,
+            const std::string& shell, const std::string& python, Shared& shared,
             const Context& context) {
-  Item changed = edited(before, std::move(mesh), counters, context);
+  Item changed = edited(before, std::move(mesh), shared, context);
   record(document.recipe, changed, suffix, shell, python);
   put(document, std::move(changed));
 }
@@ -35,10 +35,10 @@ std::string region_options(const char* name, const std::vector<std::string>& reg
   return text;
 }
 
-Step smooth_item(const Json& request, const Document& now, Counters& counters) {
+Step smooth_item(const Json& request, const Document& now, Shared& shared) {
   const ItemPtr item = with_surface(request, "item", now);
   const SmoothWish wish = smooth_in(request);
-  return {"Smooth " + item->name, true, [=, &counters](Document& document, const Context& context) {
+  return {"Smooth " + item->name, true, [=, &shared](Document& document, const Context& context) {
             Mesh mesh = *item->shown;
             const Patch patch = analyze_patch(mesh, parsed(wish.regions), wish.options, context);
             apply(patch, update(patch, {.strength = wish.strength}), mesh);
@@ -56,7 +56,7 @@ Step smooth_item(const Json& request, const Document& now, Counters& counters) {
                             full ? "" : fmt::format(", strength={}", wish.strength),
                             robust ? "" : ", fitting=" + python_text(wish.fitting),
                             repair ? ", repair=True" : "");
-            finish(document, *item, std::move(mesh), "-smooth", shell, python, counters, context);
+            finish(document, *item, std::move(mesh), "-smooth", shell, python, shared, context);
           }};
 }
 
@@ -95,69 +95,69 @@ std::string transfer_python(const TransferWish& wish, const Named& from, const N
   return text + ")";
 }
 
-Step transfer_item(const Json& request, const Document& now, Counters& counters) {
+Step transfer_item(const Json& request, const Document& now, Shared& shared) {
   const ItemPtr source = with_surface(request, "source", now);
   const ItemPtr target = with_surface(request, "target", now);
   const TransferWish wish = transfer_in(request);
   return {"Transfer to " + target->name, true,
-          [=, &counters](Document& document, const Context& context) {
+          [=, &shared](Document& document, const Context& context) {
             Mesh mesh = transfer(*source->shown, parsed(wish.from), *target->shown, parsed(wish.to),
                                  wish.options, wish.update, context);
             const Named from = surface_of(document.recipe, *source);
             const Named to = source == target ? from : surface_of(document.recipe, *target);
             finish(document, *target, std::move(mesh), "-transfer", transfer_shell(wish, from, to),
-                   transfer_python(wish, from, to), counters, context);
+                   transfer_python(wish, from, to), shared, context);
           }};
 }
 
-Step simplify_item(const Json& request, const Document& now, Counters& counters) {
+Step simplify_item(const Json& request, const Document& now, Shared& shared) {
   const ItemPtr item = with_surface(request, "item", now);
   const std::optional<double> error = maybe_number(request, "error");
   const int faces = integer_or(request, "faces", 0);
   if (error ? !(*error > 0) : faces < 1) {
     throw bad_request("simplify needs 'faces' of at least 1, or an 'error' above 0");
   }
-  return {
-      "Simplify " + item->name, true, [=, &counters](Document& document, const Context& context) {
-        SimplifyOptions options;
-        if (error) options.max_error = *error;
-        if (faces > 0) options.triangles = static_cast<std::size_t>(faces);
-        Mesh mesh = simplify(*item->shown, options, context).mesh;
-        const Named from = surface_of(document.recipe, *item);
-        std::string shell = "rholm simplify " + shell_word(from.file);
-        std::vector<std::string> python = {from.variable};
-        if (faces > 0) {
-          shell += fmt::format(" --faces {}", faces);
-          python.push_back(fmt::format("triangles={}", faces));
-        }
-        if (error) {
-          shell += " --max-error " + digits(*error);
-          python.push_back("max_error=" + digits(*error));
-        }
-        finish(document, *item, std::move(mesh), "-simple", shell,
-               fmt::format("rholm.simplify({}).mesh", fmt::join(python, ", ")), counters, context);
-      }};
+  return {"Simplify " + item->name, true, [=, &shared](Document& document, const Context& context) {
+            SimplifyOptions options;
+            if (error) options.max_error = *error;
+            if (faces > 0) options.triangles = static_cast<std::size_t>(faces);
+            Mesh mesh = simplify(*item->shown, options, context).mesh;
+            const Named from = surface_of(document.recipe, *item);
+            std::string shell = "rholm simplify " + shell_word(from.file);
+            std::vector<std::string> python = {from.variable};
+            if (faces > 0) {
+              shell += fmt::format(" --faces {}", faces);
+              python.push_back(fmt::format("triangles={}", faces));
+            }
+            if (error) {
+              shell += " --max-error " + digits(*error);
+              python.push_back("max_error=" + digits(*error));
+            }
+            finish(document, *item, std::move(mesh), "-simple", shell,
+                   fmt::format("rholm.simplify({}).mesh", fmt::join(python, ", ")), shared,
+                   context);
+          }};
 }
 
-Step repair_item(const Json& request, const Document& now, Counters& counters) {
+Step repair_item(const Json& request, const Document& now, Shared& shared) {
   const ItemPtr item = with_surface(request, "item", now);
-  return {"Repair " + item->name, true, [=, &counters](Document& document, const Context& context) {
+  return {"Repair " + item->name, true, [=, &shared](Document& document, const Context& context) {
             Mesh mesh = repair(*item->shown, {}, context).mesh;
             const Named from = surface_of(document.recipe, *item);
             finish(document, *item, std::move(mesh), "-repaired",
                    "rholm repair " + shell_word(from.file),
-                   fmt::format("rholm.repair({}).mesh", from.variable), counters, context);
+                   fmt::format("rholm.repair({}).mesh", from.variable), shared, context);
           }};
 }
 
 }  // namespace
 
 std::optional<Step> edit_step(const std::string& op, const Json& request, const Document& now,
-                              Counters& counters) {
-  if (op == "smooth") return smooth_item(request, now, counters);
-  if (op == "transfer") return transfer_item(request, now, counters);
-  if (op == "simplify") return simplify_item(request, now, counters);
-  if (op == "repair") return repair_item(request, now, counters);
+                              Shared& shared) {
+  if (op == "smooth") return smooth_item(request, now, shared);
+  if (op == "transfer") return transfer_item(request, now, shared);
+  if (op == "simplify") return simplify_item(request, now, shared);
+  if (op == "repair") return repair_item(request, now, shared);
   return std::nullopt;
 }
 

@@ -62,12 +62,11 @@ Named shape_of(Recipe& recipe, const Item& item) {
   return item.original ? Named{item.file, item.variable} : surface_of(recipe, item);
 }
 
-Step analyze_item(const Json& request, const Document& now, Counters& counters) {
+Step analyze_item(const Json& request, const Document& now, Shared& shared) {
   const ItemPtr item = item_in(request, "item", now);
   if (item->points) throw wrong_kind(*item, "it has no faces; reconstruct makes a surface of it");
   const Wanted wanted = analysis_in(request);
-  return {"Analyze " + item->name, true,
-          [=, &counters](Document& document, const Context& context) {
+  return {"Analyze " + item->name, true, [=, &shared](Document& document, const Context& context) {
             const std::shared_ptr<const Mesh> mesh = shape_of(*item);
             Encoded encoded = encode(*mesh, wanted.options, context);
             Item changed = *item;
@@ -77,12 +76,13 @@ Step analyze_item(const Json& request, const Document& now, Counters& counters) 
             changed.kind = Kind::kMesh;
             changed.original = mesh;
             changed.atlas = nullptr;
+            changed.atlas_file = nullptr;
             changed.caps = 0;
             changed.limit = std::nullopt;
             encoded.analysis.expansion.unit = item->unit;
             changed.model = make_model(std::move(encoded.analysis.expansion), mesh, context);
             changed = with_look(changed, whole(*changed.model), context);
-            changed.revision = ++counters.revisions;
+            changed.revision = ++shared.revisions;
             changed.model_file = document.recipe.file(stem_of(item->name), ".h5");
             changed.model_variable = document.recipe.variable(stem_of(item->name) + "_model");
             const std::string unit =
@@ -96,13 +96,12 @@ Step analyze_item(const Json& request, const Document& now, Counters& counters) 
           }};
 }
 
-Step look_at(const Json& request, const Document& now, Counters& counters) {
+Step look_at(const Json& request, const Document& now, Shared& shared) {
   const ItemPtr item = with_model(request, "item", now);
   const Look look = look_in(request, *item->model);
-  return {"Look at " + item->name, false,
-          [=, &counters](Document& document, const Context& context) {
+  return {"Look at " + item->name, false, [=, &shared](Document& document, const Context& context) {
             Item changed = with_look(*item, look, context);
-            changed.revision = ++counters.revisions;
+            changed.revision = ++shared.revisions;
             put(document, std::move(changed));
           }};
 }
@@ -159,11 +158,11 @@ void record_aligned(Recipe& recipe, const Item& a, const Item& b, bool mirror, I
                                       mirror ? ", mirror=True" : ""));
 }
 
-Step align_items(const Json& request, const Document& now, Counters& counters) {
+Step align_items(const Json& request, const Document& now, Shared& shared) {
   const ItemPtr a = with_model(request, "a", now), b = with_model(request, "b", now);
   const bool mirror = flag_of(request, "mirror");
   if (a == b) throw bad_request("an item is not aligned with itself: 'a' and 'b' must differ");
-  return {"Align " + a->name, true, [=, &counters](Document& document, const Context& context) {
+  return {"Align " + a->name, true, [=, &shared](Document& document, const Context& context) {
             const Expansion& before = a->model->expansion;
             const Placement placement = placement_of(before, b->model->expansion, mirror, context);
             Expansion moved = placed(before, placement, context);
@@ -177,7 +176,7 @@ Step align_items(const Json& request, const Document& now, Counters& counters) {
             changed = with_look(changed, a->look, context);
             changed.facts =
                 std::make_shared<const MeshFacts>(facts_of(mesh ? *mesh : *changed.shown, context));
-            changed.revision = ++counters.revisions;
+            changed.revision = ++shared.revisions;
             record_aligned(document.recipe, *a, *b, mirror, changed);
             put(document, std::move(changed));
           }};
@@ -204,10 +203,10 @@ void record_blend(Recipe& recipe, const Named& from, const Named& to, const Mode
   recipe.python.push_back(variable + " = " + call(from.variable, to.variable));
 }
 
-Step blend_items(const Json& request, const Document& now, Counters& counters) {
+Step blend_items(const Json& request, const Document& now, Shared& shared) {
   const ItemPtr a = with_model(request, "a", now), b = with_model(request, "b", now);
   const double t = number_of(request, "t");
-  return {"Blend " + a->name, true, [=, &counters](Document& document, const Context& context) {
+  return {"Blend " + a->name, true, [=, &shared](Document& document, const Context& context) {
             Item made = item_of(
                 blended(expansion_of(*a->model, a->look), expansion_of(*b->model, b->look), t),
                 context);
@@ -217,18 +216,18 @@ Step blend_items(const Json& request, const Document& now, Counters& counters) {
             made.model_file = made.model_variable + ".h5";
             made.name = made.model_file;
             record_blend(recipe, from, to, *made.model, t, made.model_variable);
-            add(document, std::move(made), counters);
+            add(document, std::move(made), shared);
           }};
 }
 
 }  // namespace
 
 std::optional<Step> expansion_step(const std::string& op, const Json& request, const Document& now,
-                                   Counters& counters) {
-  if (op == "analyze") return analyze_item(request, now, counters);
-  if (op == "look") return look_at(request, now, counters);
-  if (op == "align") return align_items(request, now, counters);
-  if (op == "blend") return blend_items(request, now, counters);
+                                   Shared& shared) {
+  if (op == "analyze") return analyze_item(request, now, shared);
+  if (op == "look") return look_at(request, now, shared);
+  if (op == "align") return align_items(request, now, shared);
+  if (op == "blend") return blend_items(request, now, shared);
   return std::nullopt;
 }
 

@@ -28,6 +28,7 @@ Item open_model(std::string_view bytes, Scratch& scratch, const Context& context
     item = is_atlas_file(path) ? item_of(read_atlas(path), context)
                                : item_of(read_model(path), context);
   });
+  if (item->atlas) item->atlas_file = std::make_shared<const std::string>(bytes);
   return *std::move(item);
 }
 

@@ -51,16 +51,16 @@ void record_made(Recipe& recipe, Item& item, const std::string& kind) {
   item.name = item.file;
 }
 
-Step make(const Json& request, Counters& counters) {
+Step make(const Json& request, Shared& shared) {
   const std::string kind = string_or(request, "shape", "bumpy");
   shape_of(kind);
-  return {"Make " + kind, false, [kind, &counters](Document& document, const Context& context) {
+  return {"Make " + kind, false, [kind, &shared](Document& document, const Context& context) {
             Mesh mesh = shape_of(kind);
             Item item = kind == "points"
                             ? item_of(sample_surface(mesh, {.points = kPoints}, context))
                             : item_of(std::move(mesh), context);
             record_made(document.recipe, item, kind);
-            add(document, std::move(item), counters);
+            add(document, std::move(item), shared);
           }};
 }
 
@@ -86,8 +86,8 @@ Step rename(const Json& request, const Document& now) {
 }  // namespace
 
 std::optional<Step> plain_step(const std::string& op, const Json& request, const Document& now,
-                               Counters& counters) {
-  if (op == "make") return make(request, counters);
+                               Shared& shared) {
+  if (op == "make") return make(request, shared);
   if (op == "remove") return remove(request, now);
   if (op == "rename") return rename(request, now);
   return std::nullopt;

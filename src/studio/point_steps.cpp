@@ -15,14 +15,14 @@ ItemPtr with_points(const Json& request, const Document& now) {
   return item;
 }
 
-Step orient_item(const Json& request, const Document& now, Counters& counters) {
+Step orient_item(const Json& request, const Document& now, Shared& shared) {
   const ItemPtr item = with_points(request, now);
-  return {"Orient " + item->name, true, [=, &counters](Document& document, const Context& context) {
+  return {"Orient " + item->name, true, [=, &shared](Document& document, const Context& context) {
             PointCloud cloud = *item->points;
             orient(cloud, {}, context);
             Item changed = *item;
             changed.points = std::make_shared<const PointCloud>(std::move(cloud));
-            changed.revision = ++counters.revisions;
+            changed.revision = ++shared.revisions;
             record(document.recipe, changed, "-oriented", "rholm orient " + shell_word(item->file),
                    fmt::format("rholm.orient({}).points", item->variable));
             put(document, std::move(changed));
@@ -60,11 +60,11 @@ ReconstructWish reconstruct_in(const Json& request) {
   return wish;
 }
 
-Step reconstruct_item(const Json& request, const Document& now, Counters& counters) {
+Step reconstruct_item(const Json& request, const Document& now, Shared& shared) {
   const ItemPtr item = with_points(request, now);
   const ReconstructWish wish = reconstruct_in(request);
   return {"Reconstruct " + item->name, true,
-          [=, &counters](Document& document, const Context& context) {
+          [=, &shared](Document& document, const Context& context) {
             Reconstruction found = reconstruct(*item->points, wish.options, context);
             Item made = item_of(std::move(found.mesh), context);
             made.name = item->name;
@@ -74,8 +74,20 @@ Step reconstruct_item(const Json& request, const Document& now, Counters& counte
                    "rholm reconstruct " + shell_word(item->file) + wish.shell,
                    fmt::format("rholm.reconstruct({}{}).mesh", item->variable, wish.python));
             made.name = made.file;
-            add(document, std::move(made), counters);
+            add(document, std::move(made), shared);
           }};
+}
+
+// As its file has it, which is rounded: what is shown is what another program will show.
+Item item_of_written(const AtlasModel& model, Scratch& scratch, const Context& context) {
+  AtlasModel read;
+  std::string bytes = scratch.written(".h5", [&](const std::filesystem::path& path) {
+    write_atlas(model, path);
+    read = read_atlas(path);
+  });
+  Item item = item_of(std::move(read), context);
+  item.atlas_file = std::make_shared<const std::string>(std::move(bytes));
+  return item;
 }
 
 // As `rholm analyze --atlas` takes a mesh.
@@ -85,18 +97,17 @@ Mesh prepared(const Mesh& mesh) {
   return welded;
 }
 
-Step compress_item(const Json& request, const Document& now, Counters& counters) {
+Step compress_item(const Json& request, const Document& now, Shared& shared) {
   const ItemPtr item = item_in(request, "item", now);
   if (item->atlas) throw wrong_kind(*item, "it is caps already");
   CompressOptions options;
   options.tolerance = number_of(request, "tolerance");
   options.max_degree = integer_or(request, "max_degree", options.max_degree);
-  return {"Compress " + item->name, true,
-          [=, &counters](Document& document, const Context& context) {
+  return {"Compress " + item->name, true, [=, &shared](Document& document, const Context& context) {
             Compressed found = item->points ? compress(*item->points, options, context)
                                             : compress(prepared(*item->shown), options, context);
             found.model.unit = item->unit;
-            Item made = item_of(std::move(found.model), context);
+            Item made = item_of_written(found.model, shared.scratch, context);
             Recipe& recipe = document.recipe;
             const Named from =
                 item->points ? Named{item->file, item->variable} : surface_of(recipe, *item);
@@ -116,26 +127,21 @@ Step compress_item(const Json& request, const Document& now, Counters& counters)
             made.file = made.model_file;  // as edits take the surface of a file of caps
             made.variable = made.model_variable + ".mesh()";
             made.name = made.model_file;
-            add(document, std::move(made), counters);
+            add(document, std::move(made), shared);
           }};
 }
 
 // Caps of no higher degrees: the surface, and nothing else, is another.
-Step look_at_atlas(const Json& request, const Document& now, Counters& counters) {
+Step look_at_atlas(const Json& request, const Document& now, Shared& shared) {
   const ItemPtr item = item_in(request, "item", now);
   if (!item->atlas) throw wrong_kind(*item, "caps are needed");
   const int highest = highest_degree(item->atlas->atlas);
   const int limit = integer_of(request, "limit");
   if (limit < 0) throw bad_request("'limit' must not be negative");
-  return {"Look at " + item->name, true,
-          [=, &counters](Document& document, const Context& context) {
-            Item changed = *item;
+  return {"Look at " + item->name, true, [=, &shared](Document& document, const Context& context) {
             const bool all = limit >= highest;
-            changed.limit = all ? std::nullopt : std::optional(limit);
-            changed.shown = std::make_shared<const Mesh>(
-                synthesize(*item->atlas, {.degree = changed.limit}, context));
-            changed.facts = std::make_shared<const MeshFacts>(facts_of(*changed.shown, context));
-            changed.revision = ++counters.revisions;
+            Item changed = with_limit(*item, all ? std::nullopt : std::optional(limit), context);
+            changed.revision = ++shared.revisions;
             if (all) {
               changed.file = item->model_file;
               changed.variable = item->model_variable + ".mesh()";
@@ -152,11 +158,11 @@ Step look_at_atlas(const Json& request, const Document& now, Counters& counters)
 }  // namespace
 
 std::optional<Step> point_step(const std::string& op, const Json& request, const Document& now,
-                               Counters& counters) {
-  if (op == "orient") return orient_item(request, now, counters);
-  if (op == "reconstruct") return reconstruct_item(request, now, counters);
-  if (op == "compress") return compress_item(request, now, counters);
-  if (op == "atlas_look") return look_at_atlas(request, now, counters);
+                               Shared& shared) {
+  if (op == "orient") return orient_item(request, now, shared);
+  if (op == "reconstruct") return reconstruct_item(request, now, shared);
+  if (op == "compress") return compress_item(request, now, shared);
+  if (op == "atlas_look") return look_at_atlas(request, now, shared);
   return std::nullopt;
 }
 

@@ -41,8 +41,8 @@ std::string shape_bytes(const Item& item, const std::string& format, Scratch& sc
 }
 
 std::string coefficients_bytes(const Item& item, const std::string& format, Scratch& scratch) {
+  if (item.atlas) return *item.atlas_file;
   return scratch.written(ending_of(format), [&](const std::filesystem::path& path) {
-    if (item.atlas) return write_atlas(*item.atlas, path);
     const Expansion expansion = expansion_of(*item.model, item.look);
     if (format == "h5") return write_model(expansion, path);
     const CoefficientsFormat written =

@@ -24,7 +24,11 @@ Json recipe_json(const Recipe& recipe) {
 }  // namespace
 
 Session::Session(std::string id, int threads, Scratch& scratch)
-    : id_(std::move(id)), threads_(threads), scratch_(scratch), live_(threads) {}
+    : id_(std::move(id)),
+      threads_(threads),
+      scratch_(scratch),
+      shared_{.scratch = scratch},
+      live_(threads) {}
 
 Session::~Session() {
   close();
@@ -87,11 +91,11 @@ Response Session::open(const std::string& name, std::string_view bytes) {
   Document changed = document();
   const Context context = {.threads = threads_};
   if (is_session_file(bytes)) {
-    open_session(bytes, scratch_, changed, counters_, context);
+    open_session(bytes, scratch_, changed, shared_, context);
   } else {
     Item item = open_item(name, bytes, scratch_, context);
     add_reading(changed.recipe, item);
-    add(changed, std::move(item), counters_);
+    add(changed, std::move(item), shared_);
   }
   const std::lock_guard lock(mutex_);
   commit("Open " + plain_name(name), std::move(changed));
@@ -130,7 +134,7 @@ Response Session::step(const Json& request) {
   refuse_while_busy();
   if (op == "undo" || op == "redo") return undo(op == "redo");
   Document changed = document();
-  Step step = step_of(request, changed, counters_);
+  Step step = step_of(request, changed, shared_);
   if (step.slow) return start(std::move(step));
   step.work(changed, {.threads = threads_});
   const std::lock_guard lock(mutex_);

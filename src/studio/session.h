@@ -74,7 +74,7 @@ class Session {
   const std::string id_;
   const int threads_;
   Scratch& scratch_;
-  Counters counters_;
+  Shared shared_;
   Live live_;
   std::mutex steps_;          // held by whoever changes the document without a job
   mutable std::mutex mutex_;  // of all that follows

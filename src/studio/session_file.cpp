@@ -49,14 +49,10 @@ std::string shape_file(const Item& item, Scratch& scratch) {
 }
 
 std::string model_file(const Item& item, Scratch& scratch) {
-  if (!item.model && !item.atlas) return {};
-  return scratch.written(".h5", [&](const std::filesystem::path& path) {
-    if (item.atlas) {
-      write_atlas(*item.atlas, path);
-    } else {
-      write_model(item.model->expansion, path);
-    }
-  });
+  if (item.atlas) return *item.atlas_file;
+  if (!item.model) return {};
+  return scratch.written(
+      ".h5", [&](const std::filesystem::path& path) { write_model(item.model->expansion, path); });
 }
 
 Json about(const Item& item, std::size_t shape, std::size_t model) {
@@ -91,9 +87,7 @@ Item read_item(const Json& json, Parts& parts, Scratch& scratch, const Context& 
   Item item = joined(shape, model, json, scratch, context);
   if (item.kind == Kind::kExpansion) item = with_look(item, look_in(json, *item.model), context);
   if (item.atlas && json.value("limit", Json(nullptr)).is_number_integer()) {
-    item.limit = integer_of(json, "limit");
-    item.shown =
-        std::make_shared<const Mesh>(synthesize(*item.atlas, {.degree = item.limit}, context));
+    item = with_limit(item, integer_of(json, "limit"), context);
   }
   item.name = plain_name(string_of(json, "name"));
   item.unit = string_of(json, "unit");
@@ -152,7 +146,7 @@ std::string session_bytes(const Document& document, Scratch& scratch) {
   return all + body;
 }
 
-void open_session(std::string_view bytes, Scratch& scratch, Document& document, Counters& counters,
+void open_session(std::string_view bytes, Scratch& scratch, Document& document, Shared& shared,
                   const Context& context) {
   Parts parts(bytes);
   try {
@@ -163,7 +157,7 @@ void open_session(std::string_view bytes, Scratch& scratch, Document& document, 
     }
     for (const Json& one : *items) {
       if (!one.is_object()) refuse("has an item that is none");
-      add(document, read_item(one, parts, scratch, context), counters);
+      add(document, read_item(one, parts, scratch, context), shared);
     }
     if (!parts.at_end()) refuse("has more bytes than it says");
     join(document.recipe, json);

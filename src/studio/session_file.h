@@ -19,7 +19,7 @@ std::string session_bytes(const Document& document, Scratch& scratch);
 
 // Adds its items, and its recipe. Throws Error{kInvalidInput} for a file that is not whole, or says
 // what cannot be; no length in it is believed before it is compared with the bytes that are there.
-void open_session(std::string_view bytes, Scratch& scratch, Document& document, Counters& counters,
+void open_session(std::string_view bytes, Scratch& scratch, Document& document, Shared& shared,
                   const Context& context);
 
 }  // namespace rholm::studio

@@ -8,10 +8,10 @@
 
 namespace rholm::studio {
 
-Step step_of(const Json& request, const Document& now, Counters& counters) {
+Step step_of(const Json& request, const Document& now, Shared& shared) {
   const std::string op = string_of(request, "op");
   for (const auto make : {plain_step, expansion_step, edit_step, point_step}) {
-    if (std::optional<Step> step = make(op, request, now, counters)) return *std::move(step);
+    if (std::optional<Step> step = make(op, request, now, shared)) return *std::move(step);
   }
   throw bad_request(fmt::format("there is no op '{}'", op));
 }
@@ -73,18 +73,18 @@ void put(Document& document, Item item) {
   *place = std::make_shared<const Item>(std::move(item));
 }
 
-void add(Document& document, Item item, Counters& counters) {
-  item.id = ++counters.items;
-  item.revision = ++counters.revisions;
+void add(Document& document, Item item, Shared& shared) {
+  item.id = ++shared.items;
+  item.revision = ++shared.revisions;
   document.items.push_back(std::make_shared<const Item>(std::move(item)));
 }
 
-Item edited(const Item& item, Mesh mesh, Counters& counters, const Context& context) {
+Item edited(const Item& item, Mesh mesh, Shared& shared, const Context& context) {
   Item changed = item_of(std::move(mesh), context);
   changed.id = item.id;
   changed.name = item.name;
   changed.unit = item.unit;
-  changed.revision = ++counters.revisions;
+  changed.revision = ++shared.revisions;
   return changed;
 }
 

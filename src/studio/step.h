@@ -13,6 +13,7 @@
 #include "studio/items/item.h"
 #include "studio/items/message.h"
 #include "studio/recipe.h"
+#include "studio/scratch.h"
 
 namespace rholm::studio {
 
@@ -22,8 +23,10 @@ struct Document {
   Recipe recipe;
 };
 
-// Numbers that no two things of a session share, whatever is undone.
-struct Counters {
+// What all steps of a session share. Numbers that were given once are not given again, whatever is
+// undone.
+struct Shared {
+  Scratch& scratch;
   std::atomic<int> items{0};
   std::atomic<std::uint64_t> revisions{0};
 };
@@ -37,17 +40,17 @@ struct Step {
 
 // What the request {"op": ...} asks for. Throws Refusal 400 for a request that is wrong as it
 // stands, 404 for an item that is not there, 422 for one of the wrong kind.
-Step step_of(const Json& request, const Document& now, Counters& counters);
+Step step_of(const Json& request, const Document& now, Shared& shared);
 
 // Steps by what they work on; each gives none for an op that it does not know.
 std::optional<Step> plain_step(const std::string& op, const Json& request, const Document& now,
-                               Counters& counters);  // make, remove, rename
+                               Shared& shared);  // make, remove, rename
 std::optional<Step> expansion_step(const std::string& op, const Json& request, const Document& now,
-                                   Counters& counters);  // analyze, look, align, blend
+                                   Shared& shared);  // analyze, look, align, blend
 std::optional<Step> edit_step(const std::string& op, const Json& request, const Document& now,
-                              Counters& counters);  // smooth, transfer, simplify, repair
+                              Shared& shared);  // smooth, transfer, simplify, repair
 std::optional<Step> point_step(const std::string& op, const Json& request, const Document& now,
-                               Counters& counters);  // orient, reconstruct, compress, atlas_look
+                               Shared& shared);  // orient, reconstruct, compress, atlas_look
 
 // The item with the number that stands in a field. Throws Refusal 400, 404.
 ItemPtr item_of(const Document& document, int id);
@@ -63,9 +66,9 @@ std::vector<Region> parsed(const std::vector<std::string>& regions);
 
 // In place of the item of the same number, and behind all others.
 void put(Document& document, Item item);
-void add(Document& document, Item item, Counters& counters);
+void add(Document& document, Item item, Shared& shared);
 // The item with another mesh and nothing else known of it but its name.
-Item edited(const Item& item, Mesh mesh, Counters& counters, const Context& context);
+Item edited(const Item& item, Mesh mesh, Shared& shared, const Context& context);
 
 // The result of an edit: its names in the recipe, with the line of the shell that makes the file
 // and what Python calls.

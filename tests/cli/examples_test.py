@@ -6,13 +6,14 @@ clone of the project and are recognised by the words below."""
 
 import os
 import re
+import signal
 import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(__file__))
 from harness import CliTest, RHOLM, SOURCE, TIMEOUT, main
 
-NOT_HERE = ("scripts/", "cmake ", "git ", "ninja", "ctest", "sudo ", "man rholm", "python3 -m venv", "pip install", "apt ")
+NOT_HERE = ("scripts/", "cmake ", "git ", "ninja", "ctest", "sudo ", "man rholm", "python3 -m venv", "pip install", "apt ", "rholm studio")
 
 
 class Examples(CliTest):
@@ -53,7 +54,20 @@ class Examples(CliTest):
             text = self.rholm(command, "--help").out
             for line in re.split(r"\nExamples?:\n", text)[1].splitlines():
                 with self.subTest(line):
-                    self.shell(line, command)
+                    if command == "studio":
+                        self.start_and_end(line)
+                    else:
+                        self.shell(line, command)
+
+    def start_and_end(self, line):
+        """A command that goes on until it is told to end."""
+        process = subprocess.Popen([*line.split(), "--no-open"], cwd=self.folder, env=self.environment,
+                                   stdin=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.stderr.close)
+        self.addCleanup(process.kill)
+        self.assertIn("http://127.0.0.1:", process.stderr.readline(), line)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(TIMEOUT), 0, line)
 
 
 if __name__ == "__main__":

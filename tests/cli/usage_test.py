@@ -11,7 +11,8 @@ sys.path.insert(0, os.path.dirname(__file__))
 from harness import CliTest, OCTAHEDRON, RHOLM, SOURCE, Terminal, main, off
 
 COMMANDS = ["info", "center", "analyze", "synthesize", "spectrum", "compare", "convert", "render",
-            "report", "make", "filter", "rotate", "align", "smooth", "transfer", "orient", "reconstruct", "bench", "completion"]
+            "report", "make", "filter", "rotate", "align", "smooth", "transfer", "orient", "reconstruct", "bench", "studio",
+            "completion"]
 
 
 class Help(CliTest):

@@ -27,12 +27,13 @@ NEEDS = {
     "reconstruct": ["none.xyz", "-o", "out.ply"], "bench": ["none.ply"],
     "repair": ["none.ply", "-o", "out.ply"], "simplify": ["none.ply", "-o", "out.ply"],
     "batch": ["none.csv", "--command", "info", "-o", "out.csv"],
+    "studio": ["none.ply", "--no-open"],
     "recenter": ["none.h5", "-o", "out.h5"], "completion": ["bash"],
 }
 
 # Values that are words of the user's own: names of files, of units, labels.
 FREE = {"output", "against", "like", "shape", "from", "to", "gain", "model", "labels",
-        "length-unit", "outputs", "work-dir"}
+        "length-unit", "outputs", "page", "work-dir"}
 
 BAD = ["", "text", "nan", "-inf", "1e400", "1,2,3,4,5,6,7,8,9,10,11,12,"]
 
@@ -70,6 +71,7 @@ BEYOND = {
     "max-memory": ["0"], "bench --faces": ["11", "82000,0"],
     "max-hole": ["-1", "501"], "simplify --faces": ["0", "3", "0%", "101%", "none"],
     "max-error": ["-1"], "repeat": ["0", "1001"],
+    "port": ["0", "65536"], "max-upload": ["0", "-1"],
     "thread-counts": ["0", "1,4097"], "shard": ["0/2", "3/2", "1/2/3", "1/0"],
 }
 

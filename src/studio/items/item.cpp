@@ -62,4 +62,13 @@ Item with_look(const Item& item, const Look& look, const Context& context) {
   return changed;
 }
 
+Item with_limit(const Item& item, std::optional<int> limit, const Context& context) {
+  Item changed = item;
+  changed.limit = limit;
+  changed.shown =
+      std::make_shared<const Mesh>(synthesize(*item.atlas, {.degree = limit}, context));
+  changed.facts = std::make_shared<const MeshFacts>(facts_of(*changed.shown, context));
+  return changed;
+}
+
 }  // namespace rholm::studio

@@ -37,9 +37,11 @@ struct Item {
   std::uint64_t revision = 0;  // of its surface: two surfaces of a session never have the same
   std::string unit;            // of lengths, empty if unknown
 
-  std::shared_ptr<const Mesh> original;      // of meshes: as read, or as the last edit left it
-  std::shared_ptr<const Model> model;        // of expansions, and meshes that were analysed
-  std::shared_ptr<const AtlasModel> atlas;   // of atlases
+  std::shared_ptr<const Mesh> original;     // of meshes: as read, or as the last edit left it
+  std::shared_ptr<const Model> model;       // of expansions, and meshes that were analysed
+  std::shared_ptr<const AtlasModel> atlas;  // of atlases
+  // Its file. What was read and written again may have other last digits: this is given back.
+  std::shared_ptr<const std::string> atlas_file;
   std::shared_ptr<const PointCloud> points;  // of points
   std::shared_ptr<const Mesh> shown;         // the surface with its look; nullptr for points
   std::shared_ptr<const MeshFacts> facts;    // of `shown`, or of the original if it was analysed
@@ -62,6 +64,9 @@ Item item_of(AtlasModel atlas, const Context& context);
 
 // Another look at the same model: the surface, and nothing else, is new.
 Item with_look(const Item& item, const Look& look, const Context& context);
+
+// The same caps with no higher degrees; none: all of them.
+Item with_limit(const Item& item, std::optional<int> limit, const Context& context);
 
 MeshFacts facts_of(const Mesh& mesh, const Context& context);
 

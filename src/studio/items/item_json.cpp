@@ -43,24 +43,23 @@ Json json_of(const Item& item) {
   const std::vector<Vec3>& at = item.points ? item.points->points : item.shown->vertices;
   const Bounds box = bounds(at);
   const Vec3 middle = 0.5 * box.min + 0.5 * box.max;
-  Json json = {
-      {"id", item.id},
-      {"name", item.name},
-      {"kind", to_string(item.kind)},
-      {"revision", item.revision},
-      {"facts", facts_json(item)},
-      {"vertices", at.size()},
-      {"faces", item.shown ? item.shown->triangles.size() : 0},
-      {"diagonal", box.diagonal()},
-      {"center", {middle.x, middle.y, middle.z}},
-      {"unit", item.unit},
-      {"closed", item.facts && item.facts->inspection.closed},
-      {"star", star_json(item)},
-      {"expansion", item.model ? expansion_json(*item.model) : Json(nullptr)},
-      {"normals", item.points && !item.points->normals.empty()},
-      {"caps", item.caps},
-      {"bytes", item.atlas ? Json(8 * size_of(item.atlas->atlas).numbers()) : Json(nullptr)},
-      {"look", nullptr}};
+  Json json = {{"id", item.id},
+               {"name", item.name},
+               {"kind", to_string(item.kind)},
+               {"revision", item.revision},
+               {"facts", facts_json(item)},
+               {"vertices", at.size()},
+               {"faces", item.shown ? item.shown->triangles.size() : 0},
+               {"diagonal", box.diagonal()},
+               {"center", {middle.x, middle.y, middle.z}},
+               {"unit", item.unit},
+               {"closed", item.facts && item.facts->inspection.closed},
+               {"star", star_json(item)},
+               {"expansion", item.model ? expansion_json(*item.model) : Json(nullptr)},
+               {"normals", item.points && !item.points->normals.empty()},
+               {"caps", item.caps},
+               {"bytes", item.atlas ? Json(item.atlas_file->size()) : Json(nullptr)},
+               {"look", nullptr}};
   if (item.model) {
     json["look"] = {{"degree", item.look.degree},
                     {"gains", item.look.gains.empty() ? Json(nullptr) : Json(item.look.gains)}};

@@ -1,0 +1,185 @@
+// Work on a thread: how it ends, what it leaves, who is told.
+#include <malloc.h>
+
+#include <chrono>
+#include <filesystem>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "studio/client.h"
+
+namespace rholm::studio {
+namespace {
+
+using namespace std::chrono_literals;
+using test::Client;
+using test::code_of;
+using test::document_of;
+
+// A job of some seconds: many coefficients, an exact oracle would take an hour.
+Json long_job() { return {{"op", "analyze"}, {"item", 1}, {"degree", 900}}; }
+
+struct WithJob : Client {
+  WithJob() {
+    step({{"op", "make"}, {"shape", "bumpy"}});
+    const Response answer = post(long_job());
+    EXPECT_EQ(answer.status, 202) << answer.body;
+    job = Json::parse(answer.body).at("job").at("id");
+  }
+  int job = 0;
+};
+
+TEST(Jobs, ACancelledOneLeavesNothing) {
+  WithJob client;
+  const Json before = client.state();
+  EXPECT_EQ(client.ask("POST", "api/job/" + std::to_string(client.job) + "/cancel").status, 200);
+  const Json after = client.finished();
+  EXPECT_EQ(after.at("job").at("state"), "cancelled");
+  EXPECT_EQ(document_of(after), document_of(before));
+  EXPECT_EQ(after.at("undo"), before.at("undo"));
+  // And the session goes on.
+  EXPECT_EQ(client.step({{"op", "analyze"}, {"item", 1}, {"degree", 3}}).at("job").at("state"),
+            "done");
+}
+
+TEST(Jobs, OneAtATime) {
+  WithJob client;
+  for (const Json& step : std::vector<Json>{long_job(), {{"op", "make"}}, {{"op", "undo"}}}) {
+    const Response answer = client.post(step);
+    EXPECT_EQ(answer.status, 409) << step;
+    EXPECT_EQ(code_of(answer), "busy") << step;
+  }
+  EXPECT_EQ(client.open("a.off", "OFF\n").status, 409);
+  // Looking goes on.
+  EXPECT_EQ(client.ask("GET", "api/item/1/surface").status, 200);
+  EXPECT_EQ(client.live({{"live", "brush"}, {"item", 1}, {"points", {1}}, {"radius", 0.2}}).status,
+            200);
+  EXPECT_EQ(client.ask("POST", "api/job/77/cancel").status, 404);
+}
+
+TEST(Jobs, ASessionCanEndDuringOne) {
+  WithJob client;
+  EXPECT_EQ(client.ask("DELETE", "api/session").status, 200);
+  EXPECT_EQ(client.ask("GET", "api/state").status, 404);
+}
+
+TEST(Jobs, TheStudioCanEndDuringOne) {
+  WithJob client;
+  client.studio.close();
+  EXPECT_EQ(client.ask("GET", "api/state").status, 404);
+}
+
+TEST(Jobs, ListenersHearOfThem) {
+  Client client;
+  const auto listener = client.studio.listen(client.id);
+  ASSERT_TRUE(listener);
+  std::vector<Event> events = listener->wait(0ms);
+  ASSERT_EQ(events.size(), 1U);  // what is there already
+  EXPECT_EQ(events[0].name, "state");
+  EXPECT_TRUE(listener->wait(0ms).empty());
+  client.step({{"op", "make"}, {"shape", "bumpy"}});
+  client.post({{"op", "analyze"}, {"item", 1}, {"degree", 6}});
+  bool done = false;
+  Json state;
+  while (!done) {
+    events = listener->wait(10s);
+    ASSERT_FALSE(events.empty());
+    for (const Event& event : events) {
+      EXPECT_EQ(event.data.find('\n'), std::string::npos);
+      if (event.name == "state") state = Json::parse(event.data);
+      if (event.name == "job") done = Json::parse(event.data).at("state") == "done";
+    }
+  }
+  EXPECT_EQ(state.at("items")[0].at("expansion").at("degree"), 6);
+  EXPECT_FALSE(client.studio.listen("nobody"));
+}
+
+TEST(Jobs, ListenersWakeWhenTheSessionEnds) {
+  Client client;
+  const auto listener = client.studio.listen(client.id);
+  listener->wait(0ms);
+  std::thread end([&] {
+    std::this_thread::sleep_for(20ms);
+    client.ask("DELETE", "api/session");
+  });
+  while (!listener->ended()) EXPECT_TRUE(listener->wait(100s).empty());
+  end.join();
+}
+
+TEST(Jobs, ASessionGoesSomeTimeAfterItsPage) {
+  Client client({.threads = 1, .patience = 30ms});
+  std::this_thread::sleep_for(60ms);
+  EXPECT_EQ(client.ask("GET", "api/state").status, 200);  // no page has listened yet
+  {
+    const auto listener = client.studio.listen(client.id);
+    std::this_thread::sleep_for(60ms);
+    EXPECT_EQ(client.ask("GET", "api/state").status, 200);  // one does
+  }
+  client.studio.listen(client.id).reset();  // as a page that is loaded again
+  EXPECT_EQ(client.ask("GET", "api/state").status, 200);
+  std::this_thread::sleep_for(60ms);
+  EXPECT_EQ(client.ask("GET", "api/state").status, 404);
+}
+
+TEST(Jobs, SessionsDoNotSeeEachOther) {
+  Client client;
+  client.step({{"op", "make"}, {"shape", "bumpy"}});
+  const std::string first = client.id;
+  client.id = Json::parse(client.ask("POST", "api/session").body).at("session");
+  EXPECT_TRUE(client.state().at("items").empty());
+  EXPECT_EQ(client.ask("GET", "api/item/1/surface").status, 404);
+  client.post(long_job());  // of an item that is not there
+  client.step({{"op", "make"}, {"shape", "box"}});
+  client.id = first;
+  EXPECT_EQ(client.state().at("items").size(), 1U);
+}
+
+TEST(Jobs, TheFirstPageGetsWhatWasOpenedForIt) {
+  Client client;
+  const std::string offered = client.studio.offered_session();
+  EXPECT_EQ(Json::parse(client.ask("POST", "api/session").body).at("session"), offered);
+  EXPECT_NE(Json::parse(client.ask("POST", "api/session").body).at("session"), offered);
+}
+
+// Bytes in use by this process's allocator; 0 where another one is in its place (sanitizers).
+std::size_t used() { return mallinfo2().uordblks + mallinfo2().hblkhd; }
+
+TEST(Jobs, MemoryIsGivenBack) {
+  if (used() == 0) GTEST_SKIP() << "the allocator does not tell what is in use";
+  Client client;
+  client.step({{"op", "make"}, {"shape", "bumpy"}});  // what the library keeps for good
+  client.step({{"op", "analyze"}, {"item", 1}, {"degree", 100}});
+  client.ask("DELETE", "api/session");
+  const std::size_t before = used();
+  client.id = Json::parse(client.ask("POST", "api/session").body).at("session");
+  client.step({{"op", "make"}, {"shape", "bumpy"}});
+  client.step({{"op", "analyze"}, {"item", 1}, {"degree", 100}});
+  client.live(
+      {{"live", "smooth"}, {"item", 1}, {"regions", {"vertex:5,0.4"}}, {"wavelength", 0.3}});
+  const std::size_t during = used();
+  client.ask("DELETE", "api/session");
+  const std::size_t after = used();
+  EXPECT_GT(during, before + 4000000);  // the degrees of 10 242 vertices alone are 4.1 MB
+  EXPECT_LT(after, before + 500000);
+}
+
+TEST(Jobs, TemporaryFilesGo) {
+  const auto folder = std::filesystem::path(::testing::TempDir()) / "rholm-studio-jobs-test";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directory(folder);
+  {
+    Client client({.folder = folder, .threads = 1});
+    client.step({{"op", "make"}, {"shape", "box"}});
+    EXPECT_TRUE(std::filesystem::is_empty(folder));
+    EXPECT_EQ(client.save(1, "ply").status, 200);
+    const auto own = *std::filesystem::directory_iterator(folder);
+    EXPECT_TRUE(std::filesystem::is_empty(own));
+    EXPECT_EQ(std::filesystem::status(own).permissions(), std::filesystem::perms::owner_all);
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder));
+  std::filesystem::remove(folder);
+}
+
+}  // namespace
+}  // namespace rholm::studio

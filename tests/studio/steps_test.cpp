@@ -1,0 +1,179 @@
+// Every step, taken back and done again.
+#include <gtest/gtest.h>
+
+#include "rholm/mesh.h"
+#include "rholm/shape_io.h"
+#include "studio/client.h"
+
+namespace rholm::studio {
+namespace {
+
+using test::Client;
+using test::document_of;
+using test::highest_degree_of;
+using test::last_item;
+
+// The step changes something; undo brings back all that was, redo all that was made.
+Json check_undone(Client& client, const Json& step) {
+  const Json before = client.state();
+  const Json after = client.step(step);
+  EXPECT_NE(document_of(before), document_of(after)) << step;
+  EXPECT_TRUE(after.at("undo").is_string()) << step;
+  EXPECT_TRUE(after.at("redo").is_null()) << step;
+  const Json undone = client.step({{"op", "undo"}});
+  EXPECT_EQ(document_of(undone), document_of(before)) << step;
+  EXPECT_EQ(undone.at("redo"), after.at("undo")) << step;
+  const Json again = client.step({{"op", "redo"}});
+  EXPECT_EQ(document_of(again), document_of(after)) << step;
+  return again;
+}
+
+TEST(Steps, ShapesAreMadeRenamedRemoved) {
+  Client client;
+  for (const char* shape : {"bumpy", "sphere", "ellipsoid", "torus", "box", "points"}) {
+    const Json state = check_undone(client, {{"op", "make"}, {"shape", shape}});
+    EXPECT_EQ(state.at("items").back().at("kind"),
+              shape == std::string("points") ? "points" : "mesh");
+  }
+  const int item = last_item(client.state());
+  Json state = check_undone(client, {{"op", "rename"}, {"item", item}, {"name", "other"}});
+  EXPECT_EQ(state.at("items").back().at("name"), "other");
+  state = check_undone(client, {{"op", "remove"}, {"item", item}});
+  EXPECT_EQ(state.at("items").size(), 5U);
+}
+
+TEST(Steps, ExpansionsAreMadeLookedAtAlignedBlended) {
+  Client client;
+  check_undone(client, {{"op", "make"}, {"shape", "bumpy"}});
+  const int a = last_item(client.state());
+  Json state = check_undone(client, {{"op", "analyze"}, {"item", a}, {"degree", 12}});
+  EXPECT_EQ(state.at("items")[0].at("expansion").at("degree"), 12);
+  EXPECT_EQ(state.at("items")[0].at("expansion").at("power").size(), 13U);
+  state = check_undone(client, {{"op", "look"}, {"item", a}, {"degree", 4}});
+  EXPECT_EQ(state.at("items")[0].at("look").at("degree"), 4);
+  state = check_undone(client,
+                       {{"op", "look"}, {"item", a}, {"degree", 3}, {"gains", {1, 0.5, 2, 0.25}}});
+  EXPECT_EQ(state.at("items")[0].at("look").at("gains").size(), 4U);
+
+  client.step({{"op", "make"}, {"shape", "ellipsoid"}});
+  const int b = last_item(client.state());
+  state = check_undone(client, {{"op", "analyze"}, {"item", b}, {"tolerance", 0.05}});
+  EXPECT_LE(state.at("items")[1].at("expansion").at("rms_per_degree").back().get<double>(), 0.05);
+  check_undone(client, {{"op", "align"}, {"a", a}, {"b", b}, {"mirror", true}});
+  state = check_undone(client, {{"op", "blend"}, {"a", a}, {"b", b}, {"t", 0.5}});
+  EXPECT_EQ(state.at("items").back().at("kind"), "expansion");
+  EXPECT_EQ(state.at("items").size(), 3U);
+}
+
+TEST(Steps, SurfacesAreEdited) {
+  Client client;
+  client.step({{"op", "make"}, {"shape", "bumpy"}});
+  const int a = last_item(client.state());
+  Json state = check_undone(client, {{"op", "smooth"},
+                                     {"item", a},
+                                     {"regions", {"vertex:5,0.4"}},
+                                     {"wavelength", 0.4},
+                                     {"strength", 0.5},
+                                     {"fitting", "mean"}});
+  check_undone(client, {{"op", "smooth"},
+                        {"item", a},
+                        {"points", {5, 9}},
+                        {"radius", 0.3},
+                        {"wavelength", 0.3},
+                        {"repair", true}});
+  check_undone(client, {{"op", "transfer"},
+                        {"source", a},
+                        {"from", {"vertex:5,0.4"}},
+                        {"target", a},
+                        {"to", {"vertex:500,0.4"}},
+                        {"height", 2},
+                        {"angle", 30},
+                        {"refine", true},
+                        {"remove_own", true}});
+  state = check_undone(client, {{"op", "simplify"}, {"item", a}, {"faces", 3000}});
+  EXPECT_LE(state.at("items")[0].at("faces").get<int>(), 3000);
+  check_undone(client, {{"op", "simplify"}, {"item", a}, {"error", 0.01}});
+}
+
+TEST(Steps, PointsBecomeSurfacesAndCaps) {
+  Client client;
+  client.step({{"op", "make"}, {"shape", "points"}});
+  const int points = last_item(client.state());
+  check_undone(client, {{"op", "orient"}, {"item", points}});
+  Json state = check_undone(client, {{"op", "reconstruct"},
+                                     {"item", points},
+                                     {"holes", "keep"},
+                                     {"noise", "none"},
+                                     {"simplify", 0.2}});
+  EXPECT_EQ(state.at("items").back().at("kind"), "mesh");
+  EXPECT_GT(state.at("items").back().at("caps").get<int>(), 0);
+  const int surface = last_item(state);
+  state = check_undone(client, {{"op", "compress"}, {"item", surface}, {"tolerance", 0.02}});
+  EXPECT_EQ(state.at("items").back().at("kind"), "atlas");
+  EXPECT_GT(state.at("items").back().at("bytes").get<int>(), 0);
+  const int caps = last_item(state), highest = highest_degree_of(state.at("items").back());
+  state = check_undone(client, {{"op", "atlas_look"}, {"item", caps}, {"limit", highest - 1}});
+  EXPECT_EQ(state.at("items").back().at("look").at("degree"), highest - 1);
+}
+
+TEST(Steps, DamagedMeshesAreMended) {
+  Client client;
+  // An octahedron without one face.
+  const std::string open =
+      "OFF\n6 7 0\n1 0 0\n-1 0 0\n0 1 0\n0 -1 0\n0 0 1\n0 0 -1\n3 0 2 4\n3 2 1 4\n3 1 3 4\n"
+      "3 3 0 4\n3 2 0 5\n3 1 2 5\n3 3 1 5\n";
+  ASSERT_EQ(client.open("open.off", open).status, 200);
+  EXPECT_FALSE(client.state().at("items")[0].at("closed").get<bool>());
+  EXPECT_TRUE(client.state().at("items")[0].at("star").is_null());
+  const Json state = check_undone(client, {{"op", "repair"}, {"item", 1}});
+  EXPECT_TRUE(state.at("items")[0].at("closed").get<bool>());
+  EXPECT_TRUE(state.at("items")[0].at("star").at("star_shaped").get<bool>());
+}
+
+TEST(Steps, TheWholeHistoryIsThere) {
+  Client client;
+  std::vector<Json> states = {document_of(client.state())};
+  for (int i = 0; i < 5; ++i) {
+    states.push_back(document_of(client.step({{"op", "make"}, {"shape", "box"}})));
+  }
+  for (int i = 4; i >= 0; --i) EXPECT_EQ(document_of(client.step({{"op", "undo"}})), states[i]);
+  EXPECT_EQ(client.post({{"op", "undo"}}).status, 422);
+  for (int i = 1; i <= 5; ++i) EXPECT_EQ(document_of(client.step({{"op", "redo"}})), states[i]);
+  EXPECT_EQ(client.post({{"op", "redo"}}).status, 422);
+  // A step after an undo ends what could be redone.
+  client.step({{"op", "undo"}});
+  client.step({{"op", "make"}, {"shape", "sphere"}});
+  EXPECT_EQ(client.post({{"op", "redo"}}).status, 422);
+}
+
+TEST(Steps, RevisionsAndNumbersNeverComeAgain) {
+  Client client;
+  std::set<int> items;
+  std::set<std::uint64_t> revisions;
+  for (int i = 0; i < 3; ++i) {
+    const Json item = client.step({{"op", "make"}, {"shape", "box"}}).at("items").back();
+    EXPECT_TRUE(items.insert(item.at("id").get<int>()).second);
+    EXPECT_TRUE(revisions.insert(item.at("revision").get<std::uint64_t>()).second);
+    client.step({{"op", "undo"}});
+  }
+}
+
+TEST(Steps, TheDegreeOfAToleranceIsTheSmallest) {
+  Client client;
+  client.step({{"op", "make"}, {"shape", "bumpy"}});
+  const Json state = client.step({{"op", "analyze"}, {"item", 1}, {"degree", 20}});
+  const Json rms = state.at("items")[0].at("expansion").at("rms_per_degree");
+  const Json found =
+      Json::parse(client.post({{"op", "degree_for"}, {"item", 1}, {"tolerance", 0.01}}).body);
+  const int degree = found.at("degree");
+  EXPECT_TRUE(found.at("met").get<bool>());
+  EXPECT_LE(rms[degree].get<double>(), 0.01);
+  EXPECT_GT(rms[degree - 1].get<double>(), 0.01);
+  const Json none =
+      Json::parse(client.post({{"op", "degree_for"}, {"item", 1}, {"tolerance", 1e-9}}).body);
+  EXPECT_FALSE(none.at("met").get<bool>());
+  EXPECT_EQ(client.state().at("undo"), state.at("undo"));  // no step
+}
+
+}  // namespace
+}  // namespace rholm::studio
