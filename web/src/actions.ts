@@ -1,0 +1,164 @@
+// What people do, as requests to the studio.
+import type { Fields, Item, Job, State } from "./protocol";
+import { busy, demo, items, job, lost, notice, selected, studio } from "./state";
+import {
+  getJson,
+  HttpTransport,
+  LostError,
+  postFile,
+  postJson,
+  RefusedError,
+  type Transport,
+} from "./transport";
+
+export const transport: Transport = new HttpTransport();
+const sessionKey = "rholm-session";
+let unsubscribe: (() => void) | null = null;
+
+// Takes up the session of this tab, or a new one; with nothing open, asks for a shape.
+export async function start(): Promise<void> {
+  try {
+    await openSession();
+    lost.value = false;
+    listen();
+    if (items.value.length === 0) {
+      demo.value = true;
+      await step({ op: "make", shape: "bumpy" }, "Making a shape");
+      const made = items.value.at(-1);
+      if (made) await step({ op: "analyze", item: made.id, degree: 32, center: "auto" }, "Analysing");
+    }
+  } catch (error) {
+    fail(error);
+  }
+}
+
+async function openSession(): Promise<void> {
+  const before = sessionStorage.getItem(sessionKey);
+  if (before) {
+    transport.session = before;
+    try {
+      take(await getJson<State>(transport, "state"));
+      return;
+    } catch (error) {
+      if (!(error instanceof RefusedError)) throw error;
+    }
+  }
+  transport.session = "";
+  const opened = await postJson<{ session: string; state: State }>(transport, "session", {});
+  transport.session = opened.session;
+  sessionStorage.setItem(sessionKey, opened.session);
+  take(opened.state);
+}
+
+function listen(): void {
+  unsubscribe?.();
+  unsubscribe = transport.subscribe({
+    state: take,
+    job: takeJob,
+    connected: (yes) => {
+      if (yes && lost.value) void start();
+      lost.value = !yes;
+    },
+  });
+}
+
+function takeJob(told: Job): void {
+  job.value = told;
+  if (told.state === "failed") notice.value = { text: told.message, bad: true };
+  if (told.state === "done" || told.state === "cancelled") job.value = null;
+}
+
+// A new item is selected; so is another one when the selected one goes.
+export function take(state: State): void {
+  const before = new Set(items.value.map(({ id }) => id));
+  const added = state.items.findLast(({ id }) => !before.has(id));
+  const there = state.items.some(({ id }) => id === selected.value);
+  studio.value = state;
+  job.value = state.job?.state === "running" ? state.job : null;
+  if (added) selected.value = added.id;
+  else if (!there) selected.value = state.items.at(-1)?.id ?? null;
+}
+
+export function fail(error: unknown): void {
+  if (error instanceof LostError) {
+    lost.value = true;
+    return;
+  }
+  if (error instanceof RefusedError && error.code === "superseded") return;
+  const text = error instanceof Error ? error.message : String(error);
+  notice.value = { text, bad: true };
+}
+
+async function during(label: string, work: () => Promise<void>): Promise<boolean> {
+  if (busy.value !== null) return false;
+  busy.value = label;
+  notice.value = null;
+  try {
+    await work();
+    return true;
+  } catch (error) {
+    fail(error);
+    return false;
+  } finally {
+    busy.value = null;
+  }
+}
+
+// Whether it was done, or goes on as a job.
+export function step(fields: Fields, label: string): Promise<boolean> {
+  return during(label, async () => {
+    const answer = await postJson<State | { job: Job }>(transport, "step", fields);
+    if ("items" in answer) take(answer);
+    else takeJob(answer.job);
+  });
+}
+
+// A question: nothing changes by it. Null where there is no answer.
+export async function ask<T>(fields: Fields, label: string): Promise<T | null> {
+  let answer: T | null = null;
+  await during(label, async () => {
+    answer = await postJson<T>(transport, "step", fields);
+  });
+  return answer;
+}
+
+export async function openFiles(files: Iterable<File>): Promise<void> {
+  for (const file of files) {
+    const opened = await during(`Reading ${file.name}`, async () => {
+      const state = await postFile<State>(transport, file.name, file);
+      demo.value = false;
+      take(state);
+    });
+    if (!opened) return;
+  }
+}
+
+export const undo = () => studio.value?.undo && step({ op: "undo" }, "Undoing");
+export const redo = () => studio.value?.redo && step({ op: "redo" }, "Redoing");
+export const removeItem = (item: Item) => step({ op: "remove", item: item.id }, "Removing");
+
+export async function cancelJob(): Promise<void> {
+  const running = job.value;
+  if (!running) return;
+  try {
+    await transport.request("POST", `job/${running.id}/cancel`);
+  } catch (error) {
+    fail(error);
+  }
+}
+
+// Fetches the file of a format and gives it to the browser to save.
+export function saveAs(path: string, name: string): Promise<boolean> {
+  return during(`Writing ${name}`, async () => {
+    const { bytes, type } = await transport.request("GET", path);
+    offer(new Blob([bytes as BlobPart], { type }), name);
+  });
+}
+
+export function offer(blob: Blob, name: string): void {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(blob);
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10_000); // chosen: a browser takes it at once
+}

@@ -1,0 +1,93 @@
+// Normals of vertices, area weighted, as the studio has them.
+
+// Writes unit normals [n, 3] of all vertices, or of those that `touched` (1 of [n]) names.
+export function vertexNormals(
+  positions: Float32Array,
+  triangles: Uint32Array,
+  normals: Float32Array,
+  touched?: Uint8Array,
+): void {
+  for (let v = 0; v < positions.length / 3; ++v) {
+    if (touched && !touched[v]) continue;
+    normals.fill(0, 3 * v, 3 * v + 3);
+  }
+  for (let t = 0; t < triangles.length; t += 3) {
+    const a = triangles[t] ?? 0;
+    const b = triangles[t + 1] ?? 0;
+    const c = triangles[t + 2] ?? 0;
+    if (touched && !touched[a] && !touched[b] && !touched[c]) continue;
+    addFace(positions, normals, [a, b, c], touched);
+  }
+  for (let v = 0; v < positions.length; v += 3) {
+    if (touched && !touched[v / 3]) continue;
+    const x = normals[v] ?? 0;
+    const y = normals[v + 1] ?? 0;
+    const z = normals[v + 2] ?? 0;
+    const scale = 1 / (Math.hypot(x, y, z) || 1);
+    normals[v] = x * scale;
+    normals[v + 1] = y * scale;
+    normals[v + 2] = z * scale;
+  }
+}
+
+function addFace(
+  positions: Float32Array,
+  normals: Float32Array,
+  corners: [number, number, number],
+  touched?: Uint8Array,
+): void {
+  const [a, b, c] = corners;
+  const at = (v: number, k: number) => positions[3 * v + k] ?? 0;
+  const ux = at(b, 0) - at(a, 0);
+  const uy = at(b, 1) - at(a, 1);
+  const uz = at(b, 2) - at(a, 2);
+  const vx = at(c, 0) - at(a, 0);
+  const vy = at(c, 1) - at(a, 1);
+  const vz = at(c, 2) - at(a, 2);
+  const nx = uy * vz - uz * vy;
+  const ny = uz * vx - ux * vz;
+  const nz = ux * vy - uy * vx;
+  for (const v of corners) {
+    if (touched && !touched[v]) continue;
+    normals[3 * v] = (normals[3 * v] ?? 0) + nx;
+    normals[3 * v + 1] = (normals[3 * v + 1] ?? 0) + ny;
+    normals[3 * v + 2] = (normals[3 * v + 2] ?? 0) + nz;
+  }
+}
+
+// The vertices whose normals change when those of `moved` do: of all faces at them. [n], 0 or 1.
+export function aroundVertices(
+  count: number,
+  triangles: Uint32Array,
+  moved: Uint32Array,
+): Uint8Array {
+  const flags = new Uint8Array(count);
+  for (const v of moved) flags[v] = 1;
+  const around = flags.slice();
+  for (let t = 0; t < triangles.length; t += 3) {
+    const a = triangles[t] ?? 0;
+    const b = triangles[t + 1] ?? 0;
+    const c = triangles[t + 2] ?? 0;
+    if (flags[a] || flags[b] || flags[c]) around[a] = around[b] = around[c] = 1;
+  }
+  return around;
+}
+
+// Centre and radius of a ball around all points.
+export function ballOf(positions: Float32Array): { center: [number, number, number]; radius: number } {
+  const low = [Infinity, Infinity, Infinity];
+  const high = [-Infinity, -Infinity, -Infinity];
+  for (let i = 0; i < positions.length; ++i) {
+    const value = positions[i] ?? 0;
+    const k = i % 3;
+    if (value < (low[k] ?? 0)) low[k] = value;
+    if (value > (high[k] ?? 0)) high[k] = value;
+  }
+  const middle = (k: number) => ((low[k] ?? 0) + (high[k] ?? 0)) / 2;
+  const side = (k: number) => (high[k] ?? 0) - (low[k] ?? 0);
+  if (positions.length === 0) return { center: [0, 0, 0], radius: 1 };
+  return {
+    center: [middle(0), middle(1), middle(2)],
+    radius: Math.hypot(side(0), side(1), side(2)) / 2 || 1,
+  };
+}

@@ -1,0 +1,27 @@
+// Live answers: the slider moves, the surface follows. One request in flight, the latest wish wins.
+import { fail, transport } from "./actions";
+import type { Binary } from "./binary";
+import { recordLatency } from "./latency";
+import { latestWins, type Latest } from "./latest";
+import type { Fields } from "./protocol";
+import { theView } from "./show";
+import { postLive } from "./transport";
+
+interface Wish {
+  fields: Fields;
+  since: number; // the input event's time stamp, ms
+}
+
+// A channel for one kind of request. `apply` puts the answer on the screen.
+export function liveChannel(
+  kind: string,
+  apply: (answer: Binary, fields: Fields) => void,
+): Latest<Wish> {
+  return latestWins<Wish>(async ({ fields, since }, current) => {
+    const answer = await postLive(transport, { live: kind, ...fields });
+    if (!current()) return;
+    apply(answer, fields);
+    await theView()?.drawn();
+    recordLatency(kind, since);
+  }, fail);
+}

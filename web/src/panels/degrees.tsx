@@ -1,0 +1,189 @@
+import { useEffect } from "preact/hooks";
+import { step } from "../actions";
+import { number, withUnit } from "../format";
+import { bandMeans, windows } from "../harmonics/windows";
+import { Spectrum } from "../plots/spectrum";
+import type { Item } from "../protocol";
+import { coloring, hideOther, layout, showOther } from "../show";
+import { item } from "../state";
+import * as tool from "../tools/degrees";
+import { Button, Check, Hint, Select, Slider } from "../widgets";
+import { signal } from "@preact/signals";
+
+const wanted = signal(32);
+const maxAsked = 1024; // chosen: what a page still moves live
+
+function Analyze({ one }: { one: Item }) {
+  const surface = one.kind === "mesh";
+  if (!surface) return <Hint>Degrees are of closed surfaces. Open one, or make one of points first.</Hint>;
+  return (
+    <>
+      <Hint>{one.star && !one.star.star_shaped ? one.star.why : "Split the shape into degrees: coarse form first, then detail."}</Hint>
+      <Slider
+        label="Up to degree"
+        value={wanted.value}
+        min={1}
+        max={maxAsked}
+        log
+        onInput={(value) => (wanted.value = Math.round(value))}
+      />
+      <Button
+        main
+        onClick={() =>
+          step({ op: "analyze", item: one.id, degree: wanted.value, center: "auto" }, "Analysing")
+        }
+      >
+        Analyse
+      </Button>
+    </>
+  );
+}
+
+function Equalizer() {
+  const bands = tool.bands.value;
+  const set = (k: number, value: number, since: number) => {
+    tool.bandValues.value = bands.map((_, i) => (i === k ? value : (tool.bandValues.value[i] ?? 1)));
+    tool.showLook(since);
+  };
+  return (
+    <div class="bands" role="group" aria-label="Gain of each band of degrees">
+      {bands.map(({ from, to }, k) => (
+        <label key={from}>
+          <input
+            type="range"
+            min={0}
+            max={3}
+            step={0.01}
+            value={tool.bandValues.value[k] ?? 1}
+            aria-label={`Gain of degrees ${from} to ${to}`}
+            onInput={(event) => set(k, Number(event.currentTarget.value), event.timeStamp)}
+            onChange={() => void tool.keepLook()}
+          />
+          <span>{number(tool.bandValues.value[k] ?? 1)}</span>
+          <small>{from === to ? from : `${from}–${to}`}</small>
+        </label>
+      ))}
+    </div>
+  );
+}
+
+function changeMode(mode: tool.Mode): void {
+  const gains = tool.wish.value.gains;
+  if (mode === "bands") {
+    const all = Array.from({ length: tool.top.value + 1 }, (_, l) =>
+      gains ? (gains[l] ?? 0) : Number(l <= tool.degree.value),
+    );
+    tool.bandValues.value = bandMeans(tool.bands.value, all);
+  } else if (mode !== "cut" && tool.degree.value === tool.top.value) {
+    tool.degree.value = Math.max(1, Math.round(tool.top.value / 4)); // chosen: something to be seen
+  }
+  tool.mode.value = mode;
+  tool.showLook(performance.now());
+  void tool.keepLook();
+}
+
+function Filter() {
+  const mode = tool.mode.value;
+  const live = (since: number) => tool.showLook(since);
+  return (
+    <>
+      {mode !== "bands" && (
+        <Slider
+          label="Degree"
+          value={tool.degree.value}
+          min={0}
+          max={tool.top.value}
+          onInput={(value, since) => {
+            tool.degree.value = Math.round(value);
+            live(since);
+          }}
+          onChange={() => void tool.keepLook()}
+        />
+      )}
+      <Select label="Degrees kept" value={mode} options={tool.modes} onChange={changeMode} />
+      {mode !== "cut" && mode !== "bands" && (
+        <Select
+          label="Window"
+          value={tool.window.value}
+          options={windows}
+          onChange={(value) => {
+            tool.window.value = value;
+            live(performance.now());
+            void tool.keepLook();
+          }}
+        />
+      )}
+      {mode === "sharpen" && (
+        <Slider
+          label="Amount"
+          value={tool.amount.value}
+          min={0}
+          max={4}
+          step={0.01}
+          onInput={(value, since) => {
+            tool.amount.value = value;
+            live(since);
+          }}
+          onChange={() => void tool.keepLook()}
+        />
+      )}
+      {mode === "bands" && <Equalizer />}
+    </>
+  );
+}
+
+function Comparison({ one }: { one: Item }) {
+  useEffect(() => () => hideOther(), [one.id]);
+  return (
+    <div class="row wrap">
+      <Check label="Error in colours" checked={coloring.value === "error"} onChange={tool.setErrorMap} />
+      <Check
+        label="Beside the original"
+        checked={layout.value === "side"}
+        onChange={(on) => (on ? void showOther(one, true, "side") : hideOther())}
+      />
+    </div>
+  );
+}
+
+function ErrorRow({ one }: { one: Item }) {
+  const row = one.expansion?.error.findLast(([l]) => l <= tool.degree.value);
+  const rms = one.expansion?.rms_per_degree?.[tool.degree.value] ?? row?.[1];
+  if (rms === null || rms === undefined || tool.mode.value !== "cut") return null;
+  const exact = row?.[0] === tool.degree.value ? row[2] : null;
+  return (
+    <Hint>
+      At degree {tool.degree.value} the surface is {withUnit(rms, one.unit)} off (rms)
+      {exact === null ? "" : `, ${withUnit(exact, one.unit)} at most`}.
+    </Hint>
+  );
+}
+
+export function DegreesPanel() {
+  const one = item.value;
+  if (!one) return <Hint>Open a shape first.</Hint>;
+  if (!one.expansion) return <Analyze one={one} />;
+  return (
+    <>
+      <Filter />
+      <ErrorRow one={one} />
+      <Comparison one={one} />
+      <Spectrum power={one.expansion.power} tail={one.expansion.tail} degree={tool.degree.value} />
+      <Slider
+        label="Allowed error (of the diagonal)"
+        value={tool.tolerance.value}
+        min={1e-4}
+        max={1e-1}
+        log
+        onInput={(value) => (tool.tolerance.value = value)}
+      />
+      <Button onClick={() => tool.degreeForTolerance(one)}>Find the degree</Button>
+      {one.kind === "mesh" && (
+        <details>
+          <summary>Analyse again</summary>
+          <Analyze one={one} />
+        </details>
+      )}
+    </>
+  );
+}

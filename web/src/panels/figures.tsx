@@ -1,0 +1,103 @@
+import { openFiles, step } from "../actions";
+import { number } from "../format";
+import { coloring, markOffending, type Coloring } from "../show";
+import { demo, item } from "../state";
+import { theView } from "../show";
+import { Button, Check, Facts, Hint, Select } from "../widgets";
+
+// Shapes with known answers, to begin with.
+const made = ["bumpy", "sphere", "ellipsoid", "torus", "cube"] as const;
+
+export function FileButton() {
+  return (
+    <label class="button main">
+      Open files
+      <input
+        type="file"
+        multiple
+        onChange={(event) => {
+          const input = event.currentTarget;
+          void openFiles([...(input.files ?? [])]).then(() => (input.value = ""));
+        }}
+      />
+    </label>
+  );
+}
+
+function Welcome() {
+  return (
+    <div class="welcome">
+      <p>This shape is here to play with: drag it to turn it.</p>
+      <p>Move the slider under Degrees and watch detail come and go.</p>
+      <p>Drop a file of your own on the page when you like.</p>
+    </div>
+  );
+}
+
+function StarFacts() {
+  const star = item.value?.star;
+  if (!star || star.star_shaped) return null;
+  return (
+    <>
+      <Hint>{star.why}</Hint>
+      <Check
+        label={`Show the ${number(star.offending)} faces that the centre does not see`}
+        checked={markOffending.value}
+        onChange={(on) => (markOffending.value = on)}
+      />
+    </>
+  );
+}
+
+function Colors() {
+  const surface = theView()?.surface("main");
+  const options: [Coloring, string][] = [["plain", "Stone"]];
+  if (surface?.colors) options.push(["own", "Its own"]);
+  if (surface?.labels) options.push(["caps", "Caps"]);
+  if (options.length === 1) return null;
+  return (
+    <Select
+      label="Colours"
+      value={coloring.value === "error" ? "plain" : coloring.value}
+      options={options}
+      onChange={(value) => (coloring.value = value)}
+    />
+  );
+}
+
+export function FiguresPanel() {
+  const one = item.value;
+  return (
+    <>
+      {demo.value && <Welcome />}
+      <div class="row wrap">
+        <FileButton />
+        <label class="field inline">
+          <span>Make</span>
+          <select
+            aria-label="Make a shape"
+            value=""
+            onChange={(event) => {
+              const shape = event.currentTarget.value;
+              event.currentTarget.value = "";
+              if (shape) void step({ op: "make", shape }, "Making a shape");
+            }}
+          >
+            <option value="">a shape …</option>
+            {made.map((shape) => (
+              <option key={shape} value={shape}>
+                {shape}
+              </option>
+            ))}
+          </select>
+        </label>
+      </div>
+      {one && <Facts facts={one.facts} />}
+      <StarFacts />
+      <Colors />
+      {one && !one.closed && one.kind === "mesh" && (
+        <Button onClick={() => step({ op: "repair", item: one.id }, "Repairing")}>Repair</Button>
+      )}
+    </>
+  );
+}

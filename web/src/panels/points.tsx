@@ -1,0 +1,118 @@
+import { signal } from "@preact/signals";
+import { step } from "../actions";
+import type { Item } from "../protocol";
+import { item, items } from "../state";
+import { Button, Check, Hint, Select, Slider } from "../widgets";
+
+const holes = signal<"close" | "keep">("close");
+const noise = signal<"auto" | "none">("auto");
+const simplified = signal(false);
+const share = signal(0.1);
+
+const faces = signal(10_000);
+const leastFaces = 100; // chosen: a shape that can be told
+
+function Cloud({ one }: { one: Item }) {
+  return (
+    <>
+      <Hint>
+        {one.normals
+          ? "These points have normals: they can become a surface at once."
+          : "These points have no normals; they are found first."}
+      </Hint>
+      <Button onClick={() => step({ op: "orient", item: one.id }, "Finding normals")}>
+        Find normals
+      </Button>
+      <Select
+        label="Holes"
+        value={holes.value}
+        options={[
+          ["close", "are closed"],
+          ["keep", "stay open"],
+        ]}
+        onChange={(value) => (holes.value = value)}
+      />
+      <Select
+        label="Noise"
+        value={noise.value}
+        options={[
+          ["auto", "is found"],
+          ["none", "there is none"],
+        ]}
+        onChange={(value) => (noise.value = value)}
+      />
+      <Check
+        label="Fewer faces"
+        checked={simplified.value}
+        onChange={(on) => (simplified.value = on)}
+      />
+      {simplified.value && (
+        <Slider
+          label="Faces left (of all)"
+          value={share.value}
+          min={0.01}
+          max={1}
+          log
+          onInput={(value) => (share.value = value)}
+        />
+      )}
+      <Button
+        main
+        onClick={() =>
+          step(
+            {
+              op: "reconstruct",
+              item: one.id,
+              simplify: simplified.value ? share.value : null,
+              holes: holes.value,
+              noise: noise.value,
+            },
+            "Making a surface",
+          )
+        }
+      >
+        Make a surface
+      </Button>
+    </>
+  );
+}
+
+function Simplify({ one }: { one: Item }) {
+  const most = Math.max(one.faces, leastFaces + 1);
+  const wanted = Math.min(Math.max(faces.value, leastFaces), most);
+  return (
+    <>
+      <Hint>Fewer faces for the same surface.</Hint>
+      <Slider
+        label="Faces"
+        value={wanted}
+        min={leastFaces}
+        max={most}
+        log
+        onInput={(value) => (faces.value = Math.round(value))}
+      />
+      <Button
+        main
+        onClick={() => step({ op: "simplify", item: one.id, faces: Math.round(wanted) }, "Simplifying")}
+      >
+        Simplify
+      </Button>
+    </>
+  );
+}
+
+export function PointsPanel() {
+  const one = item.value;
+  if (one?.kind === "points") return <Cloud one={one} />;
+  const cloud = items.value.some(({ kind }) => kind === "points");
+  return (
+    <>
+      <Hint>
+        {cloud
+          ? "Choose the points in the list to make a surface of them."
+          : "Open points (PLY, XYZ, PWN, CSV) to make a surface of them."}
+      </Hint>
+      {one?.kind === "mesh" && <Simplify one={one} />}
+    </>
+  );
+}

@@ -1,0 +1,110 @@
+import { signal } from "@preact/signals";
+import { fail, offer, saveAs } from "../actions";
+import { stem } from "../format";
+import type { Item, Kind } from "../protocol";
+import { theView } from "../show";
+import { item, studio } from "../state";
+import { Button, Copy, Hint, Select, Slider } from "../widgets";
+
+type Format = readonly [format: string, label: string];
+const meshes: readonly Format[] = [
+  ["ply", "PLY"],
+  ["obj", "OBJ"],
+  ["off", "OFF"],
+  ["stl", "STL"],
+];
+const coefficients: readonly Format[] = [
+  ["h5", "Model (HDF5)"],
+  ["json", "Coefficients, JSON"],
+  ["npy", "Coefficients, NumPy"],
+  ["shtools", "Coefficients, SHTOOLS"],
+  ["icgem", "Coefficients, ICGEM"],
+];
+// The ending of a file's name where it is not the format's.
+const endings: Record<string, string> = { shtools: "sh", icgem: "gfc" };
+
+export function formatsOf(kind: Kind, expanded: boolean): readonly Format[] {
+  if (kind === "points") {
+    return [
+      ["ply", "PLY"],
+      ["xyz", "XYZ"],
+    ];
+  }
+  const model: readonly Format[] = kind === "atlas" ? [["h5", "Model (HDF5)"]] : [];
+  return [...meshes, ...(expanded ? coefficients : model)];
+}
+
+const format = signal("ply");
+const width = signal(1600);
+const mostPixels = 16_384; // chosen: what browsers take as a canvas
+
+function SaveShape({ one }: { one: Item }) {
+  const formats = formatsOf(one.kind, one.expansion !== null);
+  const chosen = formats.some(([key]) => key === format.value) ? format.value : "ply";
+  const name = `${stem(one.name)}.${endings[chosen] ?? chosen}`;
+  return (
+    <>
+      <Select label="Format" value={chosen} options={formats} onChange={(value) => (format.value = value)} />
+      <Button main onClick={() => saveAs(`save?item=${one.id}&format=${chosen}`, name)}>
+        Save {name}
+      </Button>
+    </>
+  );
+}
+
+async function savePicture(one: Item): Promise<void> {
+  const view = theView();
+  if (!view) return;
+  try {
+    offer(await view.picture(width.value, Math.round((width.value * 3) / 4)), `${stem(one.name)}.png`);
+  } catch (error) {
+    fail(error);
+  }
+}
+
+function Pictures({ one }: { one: Item }) {
+  return (
+    <>
+      <h3>Picture and report</h3>
+      <Slider
+        label="Width"
+        unit="px"
+        value={width.value}
+        min={200}
+        max={mostPixels}
+        log
+        onInput={(value) => (width.value = Math.round(value))}
+      />
+      <div class="row wrap">
+        <Button onClick={() => savePicture(one)}>Save what is seen</Button>
+        {one.expansion && (
+          <Button onClick={() => saveAs(`save?item=${one.id}&format=html`, `${stem(one.name)}.html`)}>
+            Save a report
+          </Button>
+        )}
+      </div>
+    </>
+  );
+}
+
+export function SavePanel() {
+  const one = item.value;
+  const recipe = studio.value?.recipe;
+  return (
+    <>
+      {one ? <SaveShape one={one} /> : <Hint>Nothing is open.</Hint>}
+      {one && <Pictures one={one} />}
+      <h3>Session</h3>
+      <Hint>All shapes and steps in one file; open it like any other.</Hint>
+      <Button onClick={() => saveAs("session-file", "session.rholm")}>Save the session</Button>
+      {recipe && (
+        <>
+          <h3>Recipe</h3>
+          <Hint>The same steps without this page.</Hint>
+          <Copy label="Shell" text={recipe.shell} />
+          <Copy label="Python" text={recipe.python} />
+        </>
+      )}
+    </>
+  );
+}

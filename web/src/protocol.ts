@@ -1,0 +1,79 @@
+// What the studio and the page say to each other: docs/studio.md.
+
+export interface Fact {
+  label: string;
+  value: string;
+}
+
+export interface Star {
+  star_shaped: boolean;
+  center: Vector;
+  visible: number; // share of the area that is seen from the centre, 0 ... 1
+  offending: number; // faces not seen from the centre
+  why: string;
+}
+
+export interface ItemExpansion {
+  degree: number;
+  function: string;
+  rms_per_degree: number[] | null; // in the unit of lengths, after degrees 0 ... L
+  error: [degree: number, rms: number | null, max: number | null][];
+  tail: { strength: number } | null; // S of the predicted energy S / (pi l^4)
+  power: number[]; // energy of degrees 0 ... L
+}
+
+export type Vector = [number, number, number];
+export type Kind = "mesh" | "points" | "expansion" | "atlas";
+
+export interface Item {
+  id: number;
+  name: string;
+  kind: Kind;
+  revision: number;
+  facts: Fact[];
+  vertices: number;
+  faces: number;
+  diagonal: number; // of the bounding box
+  center: Vector;
+  unit: string;
+  closed: boolean;
+  star: Star | null;
+  expansion: ItemExpansion | null;
+  normals?: boolean;
+  caps?: number;
+  bytes?: number;
+  look: { degree: number; gains: number[] | null } | null;
+}
+
+export interface Job {
+  id: number;
+  label: string;
+  stage: string;
+  fraction: number;
+  state: "running" | "done" | "failed" | "cancelled";
+  message: string;
+  seconds: number;
+}
+
+export interface State {
+  version: string;
+  session: string;
+  items: Item[];
+  undo: string | null;
+  redo: string | null;
+  recipe: { shell: string; python: string };
+  job: Job | null;
+}
+
+// A request of POST api/step or api/live: its fields are those of docs/studio.md.
+export type Fields = Record<string, unknown>;
+
+// What is drawn of an item. Lengths are in the unit of the item.
+export interface Surface {
+  positions: Float32Array; // [n, 3]
+  normals: Float32Array | null; // [n, 3]
+  triangles: Uint32Array | null; // [m, 3]; null: points
+  colors: Uint8Array | null; // [n, 3], sRGB
+  labels: Uint32Array | null; // [n], the cap a vertex belongs to
+  offending: Uint32Array | null; // faces not seen from the centre
+}

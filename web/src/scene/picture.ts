@@ -1,0 +1,48 @@
+// Pictures of any size: what is too large for one drawing buffer is drawn in tiles.
+import { Vector2, type PerspectiveCamera, type WebGLRenderer } from "three";
+
+const tile = 2048; // pixels; every WebGL 2 has it
+
+interface Wish {
+  renderer: WebGLRenderer;
+  camera: PerspectiveCamera;
+  width: number;
+  height: number;
+  draw: () => void;
+}
+
+// A PNG of width times height pixels with a transparent ground. Size and camera are afterwards what
+// they were.
+export async function takePicture({ renderer, camera, width, height, draw }: Wish): Promise<Blob> {
+  const page = document.createElement("canvas");
+  page.width = width;
+  page.height = height;
+  const paper = page.getContext("2d");
+  if (!paper) throw new Error("this browser cannot make a picture");
+  const size = renderer.getSize(new Vector2());
+  const ratio = renderer.getPixelRatio();
+  const aspect = camera.aspect;
+  renderer.setPixelRatio(1);
+  renderer.setScissorTest(false);
+  camera.aspect = width / height;
+  for (let y = 0; y < height; y += tile) {
+    for (let x = 0; x < width; x += tile) {
+      const w = Math.min(tile, width - x);
+      const h = Math.min(tile, height - y);
+      renderer.setSize(w, h, false);
+      renderer.setViewport(0, 0, w, h);
+      camera.setViewOffset(width, height, x, y, w, h);
+      draw();
+      paper.drawImage(renderer.domElement, x, y);
+    }
+  }
+  camera.clearViewOffset();
+  camera.aspect = aspect;
+  camera.updateProjectionMatrix();
+  renderer.setPixelRatio(ratio);
+  renderer.setSize(size.x, size.y);
+  draw();
+  return new Promise((done, fail) => {
+    page.toBlob((blob) => (blob ? done(blob) : fail(new Error("the picture is too large"))));
+  });
+}

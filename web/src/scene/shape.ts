@@ -1,0 +1,167 @@
+// One surface or cloud of points on the screen.
+import {
+  BufferAttribute,
+  BufferGeometry,
+  DoubleSide,
+  Group,
+  Mesh,
+  MeshBasicMaterial,
+  MeshStandardMaterial,
+  Points,
+  PointsMaterial,
+  type Ray,
+} from "three";
+import { MeshBVH } from "three-mesh-bvh";
+import type { Rgb } from "../geometry/colors";
+import { marked, plain } from "../geometry/colors";
+import { aroundVertices, ballOf, vertexNormals } from "../geometry/normals";
+import type { Surface } from "../protocol";
+
+export interface Touch {
+  vertex: number; // the nearest corner of the face that is hit
+  point: [number, number, number];
+  normal: [number, number, number];
+  distance: number;
+}
+
+export interface Shape {
+  group: Group;
+  surface: Surface; // as it came; what is drawn may have moved since
+  ball: { center: [number, number, number]; radius: number };
+  positions: BufferAttribute;
+  normals: BufferAttribute | null;
+  colors: BufferAttribute;
+  material: MeshStandardMaterial | PointsMaterial;
+  index: BufferAttribute | null;
+  marks: Mesh | null;
+  bvh: MeshBVH | null;
+  bvhMoved: boolean;
+}
+
+export function makeShape(surface: Surface): Shape {
+  const geometry = new BufferGeometry();
+  const positions = new BufferAttribute(surface.positions.slice(), 3);
+  const colors = new BufferAttribute(new Float32Array(surface.positions.length), 3);
+  geometry.setAttribute("position", positions);
+  geometry.setAttribute("color", colors);
+  const ball = ballOf(surface.positions);
+  const group = new Group();
+  const shape = { group, surface, ball, positions, colors, marks: null, bvh: null, bvhMoved: false };
+  if (!surface.triangles) {
+    // Of a cloud that fills a ball's picture, chosen: points of a 250th of its radius.
+    const material = new PointsMaterial({ vertexColors: true, size: ball.radius / 125 });
+    group.add(keep(new Points(geometry, material)));
+    return paintOne({ ...shape, normals: null, index: null, material }, plain);
+  }
+  const given = surface.normals?.slice() ?? new Float32Array(surface.positions.length);
+  if (!surface.normals) vertexNormals(surface.positions, surface.triangles, given);
+  const normals = new BufferAttribute(given, 3);
+  // Its own copy: the tree of faces sorts it.
+  const index = new BufferAttribute(surface.triangles.slice(), 1);
+  geometry.setAttribute("normal", normals);
+  geometry.setIndex(index);
+  const material = new MeshStandardMaterial({
+    vertexColors: true,
+    side: DoubleSide,
+    roughness: 0.75,
+    metalness: 0,
+  });
+  group.add(keep(new Mesh(geometry, material)));
+  return paintOne({ ...shape, normals, index, material }, plain);
+}
+
+// Shapes move within themselves: no culling by a ball that would have to be kept up.
+function keep<T extends Mesh | Points>(object: T): T {
+  object.frustumCulled = false;
+  return object;
+}
+
+// Puts vertices elsewhere: all, or those of `indices`.
+export function moveShape(
+  shape: Shape,
+  positions: Float32Array,
+  normals: Float32Array | null,
+  indices?: Uint32Array,
+): void {
+  const array = shape.positions.array as Float32Array;
+  if (indices) {
+    indices.forEach((v, i) => array.set(positions.subarray(3 * i, 3 * i + 3), 3 * v));
+  } else {
+    array.set(positions);
+  }
+  shape.positions.needsUpdate = true;
+  shape.bvhMoved = true;
+  if (!shape.normals || !shape.surface.triangles) return;
+  const directions = shape.normals.array as Float32Array;
+  if (normals) directions.set(normals);
+  else {
+    const { triangles } = shape.surface;
+    const touched = indices && aroundVertices(array.length / 3, triangles, indices);
+    vertexNormals(array, triangles, directions, touched);
+  }
+  shape.normals.needsUpdate = true;
+}
+
+export function paintOne(shape: Shape, color: Rgb): Shape {
+  const array = shape.colors.array as Float32Array;
+  for (let i = 0; i < array.length; i += 3) array.set(color, i);
+  shape.colors.needsUpdate = true;
+  return shape;
+}
+
+// Faces of these numbers in a colour of their own; null: none.
+export function markFaces(shape: Shape, faces: Uint32Array | null): void {
+  if (shape.marks) {
+    shape.group.remove(shape.marks);
+    shape.marks.geometry.dispose();
+    (shape.marks.material as MeshBasicMaterial).dispose();
+    shape.marks = null;
+  }
+  const triangles = shape.surface.triangles;
+  if (!faces?.length || !triangles) return;
+  const index = new Uint32Array(3 * faces.length);
+  faces.forEach((face, i) => index.set(triangles.subarray(3 * face, 3 * face + 3), 3 * i));
+  const geometry = new BufferGeometry();
+  geometry.setAttribute("position", shape.positions);
+  geometry.setIndex(new BufferAttribute(index, 1));
+  const material = new MeshBasicMaterial({ side: DoubleSide, polygonOffset: true });
+  material.color.setRGB(...marked);
+  material.polygonOffsetFactor = material.polygonOffsetUnits = -2;
+  shape.marks = keep(new Mesh(geometry, material));
+  shape.group.add(shape.marks);
+}
+
+export function setOpacity(shape: Shape, opacity: number): void {
+  shape.material.transparent = opacity < 1;
+  shape.material.opacity = opacity;
+  shape.material.depthWrite = opacity === 1;
+  shape.material.needsUpdate = true;
+}
+
+// Where a ray meets the surface first; null for points.
+export function touchShape(shape: Shape, ray: Ray): Touch | null {
+  if (!shape.index) return null;
+  const geometry = (shape.group.children[0] as Mesh).geometry;
+  if (!shape.bvh) shape.bvh = new MeshBVH(geometry, { indirect: true });
+  else if (shape.bvhMoved) shape.bvh.refit();
+  shape.bvhMoved = false;
+  const hit = shape.bvh.raycastFirst(ray, DoubleSide);
+  if (!hit?.face) return null;
+  const array = shape.positions.array as Float32Array;
+  const far = (v: number) =>
+    Math.hypot(...hit.point.toArray().map((x, k) => x - (array[3 * v + k] ?? 0)));
+  const { a, b, c, normal } = hit.face;
+  const vertex = [a, b, c].reduce((best, v) => (far(v) < far(best) ? v : best));
+  return {
+    vertex,
+    point: hit.point.toArray(),
+    normal: normal.toArray(),
+    distance: hit.distance,
+  };
+}
+
+export function disposeShape(shape: Shape): void {
+  markFaces(shape, null);
+  (shape.group.children[0] as Mesh).geometry.dispose();
+  shape.material.dispose();
+}

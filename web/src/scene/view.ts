@@ -1,0 +1,306 @@
+// The canvas: one shape or two, light, camera, rings. Everything of three.js is below this folder.
+import CameraControls from "camera-controls";
+import {
+  AmbientLight,
+  Box3,
+  DirectionalLight,
+  Matrix4,
+  PerspectiveCamera,
+  Plane,
+  Quaternion,
+  Raycaster,
+  Scene,
+  Sphere,
+  Spherical,
+  Vector2,
+  Vector3,
+  Vector4,
+  WebGLRenderer,
+} from "three";
+import type { Rgb } from "../geometry/colors";
+import { mapColors, type Range } from "../geometry/colors";
+import type { Surface } from "../protocol";
+import { Markers, ringFrame, type Ring } from "./markers";
+import { takePicture } from "./picture";
+import {
+  disposeShape,
+  makeShape,
+  markFaces,
+  moveShape,
+  paintOne,
+  setOpacity,
+  touchShape,
+  type Shape,
+  type Touch,
+} from "./shape";
+
+CameraControls.install({
+  THREE: {
+    Box3,
+    Matrix4,
+    Quaternion,
+    Raycaster,
+    Sphere,
+    Spherical,
+    Vector2,
+    Vector3,
+    Vector4,
+  },
+});
+
+export type Which = "main" | "other";
+export type Layout = "one" | "side" | "over"; // "side": other left, main right; "over": both at one place
+export type PointerKind = "down" | "move" | "up" | "leave";
+// Says whether the pointer is taken, so that the camera stays.
+export type PointerTool = (kind: PointerKind, touch: Touch | null, event: PointerEvent) => boolean;
+
+const fieldOfView = 32; // degrees; chosen: little perspective
+
+export class NoWebGlError extends Error {}
+
+export class View {
+  pointer: PointerTool | null = null;
+  private readonly renderer: WebGLRenderer;
+  private readonly scene = new Scene();
+  private readonly camera = new PerspectiveCamera(fieldOfView, 1, 0.01, 100);
+  private readonly controls: CameraControls;
+  private readonly markers = new Markers();
+  private readonly watch: ResizeObserver;
+  private shapes: Record<Which, Shape | null> = { main: null, other: null };
+  private layout: Layout = "one";
+  private dirty = true;
+  private ended = false;
+  private waiting: (() => void)[] = [];
+  private last = performance.now();
+
+  // Throws NoWebGlError where the browser has no WebGL 2.
+  constructor(private readonly host: HTMLElement) {
+    try {
+      this.renderer = new WebGLRenderer({ antialias: true, alpha: true });
+    } catch (error) {
+      throw new NoWebGlError("This browser has no WebGL 2.", { cause: error });
+    }
+    const canvas = this.renderer.domElement;
+    canvas.setAttribute("role", "img");
+    canvas.tabIndex = 0;
+    host.append(canvas);
+    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
+    const key = new DirectionalLight(0xffffff, 2.4);
+    key.position.set(-0.6, 0.9, 1);
+    this.camera.add(key);
+    this.scene.add(this.camera, new AmbientLight(0xffffff, 0.7), this.markers.group);
+    this.listen(canvas);
+    this.controls = new CameraControls(this.camera, canvas);
+    this.controls.smoothTime = 0.08;
+    this.controls.draggingSmoothTime = 0.02;
+    this.controls.dollyToCursor = true;
+    this.watch = new ResizeObserver(() => this.resize());
+    this.watch.observe(host);
+    this.resize();
+    requestAnimationFrame(() => this.frame());
+  }
+
+  // Shows a surface, or takes it away. The first one is brought into view.
+  show(which: Which, surface: Surface | null): void {
+    const before = this.shapes[which];
+    if (before) {
+      this.scene.remove(before.group);
+      disposeShape(before);
+    }
+    const shape = surface && makeShape(surface);
+    this.shapes[which] = shape;
+    if (shape) this.scene.add(shape.group);
+    this.dirty = true;
+  }
+
+  has(which: Which): boolean {
+    return this.shapes[which] !== null;
+  }
+
+  surface(which: Which): Surface | null {
+    return this.shapes[which]?.surface ?? null;
+  }
+
+  move(positions: Float32Array, normals: Float32Array | null, indices?: Uint32Array): void {
+    this.change("main", (shape) => moveShape(shape, positions, normals, indices));
+  }
+
+  paint(which: Which, color: Rgb): void {
+    this.change(which, (shape) => paintOne(shape, color));
+  }
+
+  // Colours by numbers of vertices.
+  paintValues(range: Range, values: ArrayLike<number>): void {
+    this.change("main", (shape) => {
+      mapColors(range, values, shape.colors.array as Float32Array);
+      shape.colors.needsUpdate = true;
+    });
+  }
+
+  // Writes colours [n, 3] by `fill`.
+  paintBy(which: Which, fill: (colors: Float32Array) => void): void {
+    this.change(which, (shape) => {
+      fill(shape.colors.array as Float32Array);
+      shape.colors.needsUpdate = true;
+    });
+  }
+
+  mark(faces: Uint32Array | null): void {
+    this.change("main", (shape) => markFaces(shape, faces));
+  }
+
+  arrange(layout: Layout, opacity = 1): void {
+    this.layout = layout;
+    this.change("other", (shape) => setOpacity(shape, opacity));
+    this.resize();
+  }
+
+  rings(rings: readonly Ring[]): void {
+    this.markers.show(rings);
+    this.dirty = true;
+  }
+
+  // All of what is shown, from where the camera looks.
+  fit(smoothly = true): void {
+    const shape = this.shapes.main ?? this.shapes.other;
+    if (!shape) return;
+    const { center, radius } = shape.ball;
+    this.camera.near = radius / 100;
+    this.camera.far = radius * 100;
+    this.controls.minDistance = radius / 20;
+    this.controls.maxDistance = radius * 50;
+    void this.controls.fitToSphere(new Sphere(new Vector3(...center), radius * 1.05), smoothly);
+    this.dirty = true;
+  }
+
+  turn(azimuth: number, polar: number): void {
+    void this.controls.rotate(azimuth, polar, true);
+  }
+
+  zoom(factor: number): void {
+    void this.controls.dollyTo(this.controls.distance / factor, true);
+  }
+
+  describe(text: string): void {
+    this.renderer.domElement.setAttribute("aria-label", text);
+  }
+
+  // Until the next frame is on its way to the screen.
+  drawn(): Promise<void> {
+    this.dirty = true;
+    return new Promise((done) => this.waiting.push(done));
+  }
+
+  picture(width: number, height: number): Promise<Blob> {
+    const { renderer, scene, camera } = this;
+    return takePicture({ renderer, camera, width, height, draw: () => renderer.render(scene, camera) });
+  }
+
+  // Angle (radians) and distance from the ring's centre of where the pointer is in its plane.
+  inPlane(ring: Ring, event: PointerEvent): { angle: number; distance: number } | null {
+    const normal = new Vector3(...ring.normal).normalize();
+    const plane = new Plane().setFromNormalAndCoplanarPoint(normal, new Vector3(...ring.center));
+    const at = this.caster(event).ray.intersectPlane(plane, new Vector3());
+    if (!at) return null;
+    at.sub(new Vector3(...ring.center)).applyQuaternion(ringFrame(ring).invert());
+    return { angle: Math.atan2(at.y, at.x), distance: Math.hypot(at.x, at.y) };
+  }
+
+  dispose(): void {
+    this.ended = true;
+    this.watch.disconnect();
+    this.show("main", null);
+    this.show("other", null);
+    this.markers.dispose();
+    this.controls.dispose();
+    this.renderer.dispose();
+    this.renderer.domElement.remove();
+  }
+
+  private change(which: Which, work: (shape: Shape) => void): void {
+    const shape = this.shapes[which];
+    if (!shape) return;
+    work(shape);
+    this.dirty = true;
+  }
+
+  // Before the camera listens to the same events.
+  private listen(canvas: HTMLCanvasElement): void {
+    const tell = (kind: PointerKind) => (event: PointerEvent) => {
+      const held = event.buttons !== 0 && kind === "move" && this.controls.enabled;
+      const mouseOnly = event.pointerType === "mouse" && event.button > 0;
+      if (!this.pointer || held || (kind === "down" && mouseOnly)) return;
+      const taken = this.pointer(kind, kind === "leave" ? null : this.touch(event), event);
+      if (kind === "down" && taken) {
+        this.controls.enabled = false;
+        canvas.setPointerCapture(event.pointerId);
+      }
+      if (kind === "up") this.controls.enabled = true;
+    };
+    canvas.addEventListener("pointerdown", tell("down"));
+    canvas.addEventListener("pointermove", tell("move"));
+    canvas.addEventListener("pointerup", tell("up"));
+    canvas.addEventListener("pointercancel", tell("up"));
+    canvas.addEventListener("pointerleave", tell("leave"));
+    // Alt and the wheel are the brush's.
+    canvas.addEventListener("wheel", (event) => event.altKey && event.stopImmediatePropagation());
+  }
+
+  private caster(event: PointerEvent): Raycaster {
+    const box = this.renderer.domElement.getBoundingClientRect();
+    const side = this.layout === "side";
+    const width = side ? box.width / 2 : box.width;
+    const left = side && event.clientX - box.left > width ? box.left + width : box.left;
+    const caster = new Raycaster();
+    const x = (2 * (event.clientX - left)) / width - 1;
+    caster.setFromCamera(new Vector2(x, 1 - (2 * (event.clientY - box.top)) / box.height), this.camera);
+    return caster;
+  }
+
+  private touch(event: PointerEvent): Touch | null {
+    const shape = this.shapes.main;
+    return shape && touchShape(shape, this.caster(event).ray);
+  }
+
+  private resize(): void {
+    const { clientWidth: width, clientHeight: height } = this.host;
+    if (width === 0 || height === 0) return;
+    this.renderer.setSize(width, height);
+    this.camera.aspect = (this.layout === "side" ? width / 2 : width) / height;
+    this.camera.updateProjectionMatrix();
+    this.render();
+  }
+
+  private frame(): void {
+    if (this.ended) return;
+    const now = performance.now();
+    const moved = this.controls.update((now - this.last) / 1000);
+    this.last = now;
+    if (moved || this.dirty) this.render();
+    requestAnimationFrame(() => this.frame());
+  }
+
+  private render(): void {
+    this.dirty = false;
+    const { main, other } = this.shapes;
+    const size = this.renderer.getSize(new Vector2());
+    const half = Math.floor(size.x / 2);
+    const draw = (showMain: boolean, showOther: boolean, left: number, width: number) => {
+      if (main) main.group.visible = showMain;
+      if (other) other.group.visible = showOther;
+      this.renderer.setViewport(left, 0, width, size.y);
+      this.renderer.setScissor(left, 0, width, size.y);
+      this.renderer.setScissorTest(true);
+      this.renderer.render(this.scene, this.camera);
+    };
+    if (this.layout === "side" && other) {
+      draw(false, true, 0, half);
+      draw(true, false, half, size.x - half);
+    } else {
+      draw(true, this.layout === "over", 0, size.x);
+    }
+    const done = this.waiting;
+    this.waiting = [];
+    if (done.length) setTimeout(() => done.forEach((tell) => tell()));
+  }
+}

@@ -1,0 +1,141 @@
+// Which surface is on the screen, and in which colours: follows the selected item and its revision.
+import { effect, signal } from "@preact/signals";
+import { fail, transport } from "./actions";
+import { surfaceOf } from "./binary";
+import { fromSrgb, labelColor, plain, second, type Range } from "./geometry/colors";
+import type { Item, Surface } from "./protocol";
+import type { Layout, View } from "./scene/view";
+import { item, tab } from "./state";
+import { getBinary } from "./transport";
+
+export type Coloring = "plain" | "own" | "caps" | "error";
+export const coloring = signal<Coloring>("plain");
+export const legend = signal<{ range: Range; label: string; unit: string } | null>(null);
+export const layout = signal<Layout>("one");
+export const shown = signal<{ id: number; revision: number } | null>(null);
+export const markOffending = signal(true);
+
+let view: View | null = null;
+export const theView = (): View | null => view;
+
+const cache = new Map<string, Surface>();
+
+// The surface of an item as it is now, or as it was read.
+export async function surfaceFor(one: Item, original = false): Promise<Surface> {
+  const key = `${one.id}/${one.revision}/${original}`;
+  const kept = cache.get(key);
+  if (kept) return kept;
+  const path = `item/${one.id}/surface?revision=${one.revision}${original ? "&original=1" : ""}`;
+  const surface = surfaceOf(await getBinary(transport, path));
+  cache.set(key, surface);
+  // The item's own and the other one's, now and as read.
+  for (const old of cache.keys()) if (cache.size > 4) cache.delete(old);
+  return surface;
+}
+
+let wanted = "";
+
+async function showItem(one: Item | null): Promise<void> {
+  const key = one ? `${one.id}/${one.revision}` : "";
+  if (key === wanted) return;
+  wanted = key;
+  if (!one) {
+    view?.show("main", null);
+    shown.value = null;
+    return;
+  }
+  try {
+    const surface = await surfaceFor(one);
+    if (wanted !== key || !view) return;
+    const fresh = shown.peek()?.id !== one.id;
+    view.show("main", surface);
+    view.describe(`The shape ${one.name}`);
+    legend.value = null;
+    if (fresh) {
+      coloring.value = naturalColoring(surface);
+      layout.value = "one";
+      view.fit(false);
+    }
+    repaint();
+    shown.value = { id: one.id, revision: one.revision };
+  } catch (error) {
+    wanted = "";
+    fail(error);
+  }
+}
+
+function naturalColoring(surface: Surface): Coloring {
+  if (surface.labels) return "caps";
+  return surface.colors ? "own" : "plain";
+}
+
+// Colours that are the surface's; errors are painted by those who know them.
+export function repaint(): void {
+  const surface = view?.surface("main");
+  if (!view || !surface) return;
+  const { colors, labels } = surface;
+  if (coloring.value === "caps" && labels) {
+    view.paintBy("main", (out) => labels.forEach((label, v) => out.set(labelColor(label), 3 * v)));
+  } else if (coloring.value === "own" && colors) {
+    view.paintBy("main", (out) => colors.forEach((byte, i) => (out[i] = fromSrgb(byte / 255))));
+  } else {
+    view.paint("main", plain);
+  }
+  view.mark(markOffending.value ? surface.offending : null);
+}
+
+// What is on the screen again as the studio has it.
+export function restoreSurface(): void {
+  const surface = view?.surface("main");
+  if (!view || !surface) return;
+  const kept = item.peek();
+  if (kept && surface !== cache.get(`${kept.id}/${kept.revision}/false`)) {
+    wanted = "";
+    void showItem(kept);
+    return;
+  }
+  view.move(surface.positions, surface.normals);
+  repaint();
+}
+
+// A second shape: the selected item's original, or another item.
+export async function showOther(one: Item, original: boolean, how: Layout): Promise<void> {
+  try {
+    const surface = await surfaceFor(one, original);
+    view?.show("other", surface);
+    view?.paint("other", original ? plain : second);
+    arrange(how);
+  } catch (error) {
+    fail(error);
+  }
+}
+
+export function hideOther(): void {
+  view?.show("other", null);
+  arrange("one");
+}
+
+function arrange(how: Layout): void {
+  layout.value = how;
+  view?.arrange(how);
+}
+
+// Paints values of vertices, with a legend.
+export function paintValues(values: Float32Array, label: string, range: Range): void {
+  view?.paintValues(range, values);
+  legend.value = { range, label, unit: item.peek()?.unit ?? "" };
+}
+
+export function attach(made: View): void {
+  view = made;
+  effect(() => void showItem(item.value));
+  effect(() => {
+    if (tab.value !== "align" && tab.value !== "degrees" && layout.peek() !== "one") hideOther();
+  });
+  effect(() => {
+    if (coloring.value !== "error") {
+      legend.value = null;
+      repaint();
+    }
+  });
+}

@@ -1,0 +1,60 @@
+// What the page knows: signals that panels read and actions.ts sets.
+import { computed, signal } from "@preact/signals";
+import type { Item, Job, State } from "./protocol";
+
+export const tabs = [
+  ["figures", "Figures"],
+  ["degrees", "Degrees"],
+  ["smooth", "Smooth"],
+  ["texture", "Texture"],
+  ["points", "Points"],
+  ["caps", "Caps"],
+  ["align", "Align"],
+  ["save", "Save"],
+] as const;
+export type Tab = (typeof tabs)[number][0];
+
+export const studio = signal<State | null>(null);
+export const lost = signal(false);
+export const tab = signal<Tab>("figures");
+export const selected = signal<number | null>(null);
+export const busy = signal<string | null>(null); // what the page waits for
+export const job = signal<Job | null>(null);
+export const notice = signal<{ text: string; bad: boolean } | null>(null);
+export const helpOpen = signal(false);
+export const demo = signal(false); // the shape is the page's own, to play with
+
+export const items = computed<Item[]>(() => studio.value?.items ?? []);
+export const item = computed<Item | null>(
+  () => items.value.find(({ id }) => id === selected.value) ?? null,
+);
+export const working = computed(() => busy.value !== null || job.value?.state === "running");
+
+// The last item but that one that has faces: the other shape of two.
+export function otherItem(than: number | null): Item | null {
+  return items.value.findLast((one) => one.id !== than && one.faces > 0) ?? null;
+}
+
+export type Theme = "auto" | "light" | "dark";
+const themeKey = "rholm-theme";
+export const theme = signal<Theme>(readTheme());
+
+function readTheme(): Theme {
+  const kept = storage()?.getItem(themeKey);
+  return kept === "light" || kept === "dark" ? kept : "auto";
+}
+
+export function setTheme(wanted: Theme): void {
+  theme.value = wanted;
+  storage()?.setItem(themeKey, wanted);
+  document.documentElement.dataset.theme = wanted;
+}
+
+// Null where the browser keeps nothing.
+function storage(): Storage | null {
+  try {
+    return window.localStorage;
+  } catch {
+    return null;
+  }
+}

@@ -1,0 +1,21 @@
+// The page of `rholm studio`.
+import { render } from "preact";
+import "uplot/dist/uPlot.min.css";
+import "./style.css";
+import { start } from "./actions";
+import { App } from "./app";
+import { listenToKeys } from "./keys";
+import { latencies } from "./latency";
+import { setTheme, theme } from "./state";
+import { forgetWithItem } from "./tools/brush";
+import { followItem } from "./tools/degrees";
+
+const page = document.getElementById("page");
+if (!page) throw new Error("this document is not the studio's");
+window.rholmLatency = latencies;
+setTheme(theme.value);
+render(<App />, page);
+followItem();
+forgetWithItem();
+listenToKeys();
+void start();

@@ -1,0 +1,108 @@
+// A region painted on the surface: discs about vertices, one radius for all.
+import { computed, effect, signal } from "@preact/signals";
+import { needArray } from "../binary";
+import { painted, plain } from "../geometry/colors";
+import { liveChannel } from "../live";
+import type { PointerKind, PointerTool } from "../scene/view";
+import type { Touch } from "../scene/shape";
+import { repaint, shown, theView } from "../show";
+import { item, tab } from "../state";
+
+export interface Dab {
+  vertex: number;
+  point: [number, number, number];
+}
+
+export const painting = signal(true); // else the pointer turns the shape
+export const dabs = signal<Dab[]>([]);
+export const radiusShare = signal(0.06); // of the diagonal
+export const radius = computed(() => radiusShare.value * (item.value?.diagonal ?? 1));
+export const regions = computed(() =>
+  dabs.value.map(({ vertex }) => `vertex:${vertex},${Number(radius.value.toPrecision(6))}`),
+);
+
+const spacing = 0.35; // of the radius; chosen: dabs overlap by far
+
+let held = false;
+let cursor: Touch | null = null;
+
+// Weights shown as a blend from stone to the brush's colour.
+const weigh = liveChannel("brush", (answer, fields) => {
+  if (fields.item !== shown.value?.id) return;
+  const indices = needArray(answer, "indices", Uint32Array);
+  const weights = needArray(answer, "weights", Float32Array);
+  repaint();
+  theView()?.paintBy("main", (colors) =>
+    indices.forEach((v, i) => {
+      const w = weights[i] ?? 0;
+      for (let k = 0; k < 3; ++k) {
+        colors[3 * v + k] = (1 - w) * (colors[3 * v + k] ?? plain[k] ?? 0) + w * (painted[k] ?? 0);
+      }
+    }),
+  );
+});
+
+export function showWeights(since: number): void {
+  const one = item.peek();
+  if (!one) return;
+  if (dabs.value.length === 0) {
+    weigh.drop();
+    repaint();
+    return;
+  }
+  const points = dabs.value.map(({ vertex }) => vertex);
+  weigh({ fields: { item: one.id, points, radius: radius.value }, since });
+}
+
+export function clearRegion(): void {
+  dabs.value = [];
+  showWeights(performance.now());
+}
+
+export function setRadius(share: number, since: number): void {
+  radiusShare.value = Math.min(0.5, Math.max(0.005, share));
+  showCursor();
+  showWeights(since);
+}
+
+function showCursor(): void {
+  const ring = cursor && { center: cursor.point, normal: cursor.normal, radius: radius.value, color: painted };
+  theView()?.rings(ring ? [ring] : []);
+}
+
+function dab(touch: Touch, since: number): void {
+  const near = spacing * radius.value;
+  const far = (one: Dab) => Math.hypot(...one.point.map((x, k) => x - (touch.point[k] ?? 0)));
+  if (dabs.value.some((one) => one.vertex === touch.vertex || far(one) < near)) return;
+  dabs.value = [...dabs.value, { vertex: touch.vertex, point: touch.point }];
+  showWeights(since);
+}
+
+// `painted` is told when a stroke ends.
+export function brushPointer(strokeEnded: () => void): PointerTool {
+  return (kind: PointerKind, touch: Touch | null, event: PointerEvent) => {
+    cursor = touch;
+    showCursor();
+    if (kind === "down") {
+      held = painting.value && touch !== null;
+      if (touch && held) dab(touch, event.timeStamp);
+      return held;
+    }
+    if (kind === "move" && held && touch) dab(touch, event.timeStamp);
+    if (kind === "up" && held) {
+      held = false;
+      strokeEnded();
+    }
+    return false;
+  };
+}
+
+// Vertices have other numbers in another shape; where there is another tab the region is gone.
+export function forgetWithItem(): void {
+  let faces = 0;
+  effect(() => {
+    const count = item.value?.faces ?? 0;
+    if (count !== faces || !["smooth", "texture"].includes(tab.value)) dabs.value = [];
+    faces = count;
+  });
+}

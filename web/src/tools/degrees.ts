@@ -1,0 +1,119 @@
+// The look of an expansion: its degree, gains of degrees, error; live, and kept when let go.
+import { computed, effect, signal } from "@preact/signals";
+import { ask, step } from "../actions";
+import { arrayOf, needArray, type Binary } from "../binary";
+import { isDiverging, rangeOf } from "../geometry/colors";
+import {
+  bandGains,
+  highPass,
+  lowPass,
+  octaves,
+  sharpen,
+  trimmed,
+  type Window,
+} from "../harmonics/windows";
+import { liveChannel } from "../live";
+import type { Fields, Item } from "../protocol";
+import { coloring, paintValues, shown, theView } from "../show";
+import { item, tab } from "../state";
+
+export const modes = [
+  ["cut", "Cut off"],
+  ["low", "Low pass"],
+  ["high", "High pass"],
+  ["sharpen", "Sharpen"],
+  ["bands", "Equaliser"],
+] as const;
+export type Mode = (typeof modes)[number][0];
+
+export const mode = signal<Mode>("cut");
+export const degree = signal(0);
+export const window = signal<Window>("lanczos");
+export const amount = signal(1);
+export const bandValues = signal<number[]>([]);
+export const tolerance = signal(1e-2); // parts of the diagonal
+
+export const top = computed(() => item.value?.expansion?.degree ?? 0);
+export const bands = computed(() => octaves(top.value));
+
+// What is asked for: null gains where the series is only cut off.
+export const wish = computed<{ degree: number; gains: number[] | null }>(() => {
+  const last = top.value;
+  const at = Math.min(degree.value, last);
+  switch (mode.value) {
+    case "cut":
+      return { degree: at, gains: null };
+    case "low":
+      return trimmed(lowPass(at, last, window.value));
+    case "high":
+      return trimmed(highPass(Math.max(1, at), last, window.value));
+    case "sharpen":
+      return trimmed(sharpen(at, last, window.value, amount.value));
+    case "bands":
+      return trimmed(bandGains(bands.value, bandValues.value, last));
+  }
+});
+
+const live = liveChannel("degree", (answer: Binary, fields: Fields) => {
+  if (fields.item !== shown.value?.id) return;
+  const positions = needArray(answer, "positions", Float32Array);
+  theView()?.move(positions, arrayOf(answer, "normals", Float32Array));
+  const error = arrayOf(answer, "error", Float32Array);
+  if (error && coloring.value === "error") paintError(error);
+});
+
+// One scale for all degrees would show nothing at high ones: it follows the error, symmetric if
+// the error has both signs.
+function paintError(error: Float32Array): void {
+  const range = rangeOf(error);
+  const size = Math.max(-range.min, range.max);
+  paintValues(error, "Error", isDiverging(range) ? { min: -size, max: size } : range);
+}
+
+export function showLook(since: number): void {
+  const one = item.peek();
+  if (!one?.expansion) return;
+  const error = coloring.peek() === "error";
+  live({ fields: { item: one.id, ...wish.value, error }, since });
+}
+
+export async function keepLook(): Promise<void> {
+  const one = item.peek();
+  if (!one?.expansion) return;
+  await live.idle();
+  const { degree: d, gains } = wish.value;
+  if (one.look?.degree === d && JSON.stringify(one.look.gains) === JSON.stringify(gains)) return;
+  await step({ op: "look", item: one.id, degree: d, gains }, "Keeping");
+}
+
+export function setErrorMap(on: boolean): void {
+  coloring.value = on ? "error" : "plain";
+  if (on) showLook(performance.now());
+}
+
+// Moves the slider to the degree that keeps the tolerance.
+export async function degreeForTolerance(one: Item): Promise<void> {
+  const fields = { op: "degree_for", item: one.id, tolerance: tolerance.value };
+  const answer = await ask<{ degree: number }>(fields, "Looking for the degree");
+  if (!answer) return;
+  mode.value = "cut";
+  degree.value = answer.degree;
+  showLook(performance.now());
+  await keepLook();
+}
+
+// Sliders follow the item and what undo does to it; the error map comes back with a new surface.
+export function followItem(): void {
+  effect(() => {
+    const one = item.value;
+    const look = one?.look;
+    if (!one?.expansion) return;
+    const gains = look?.gains ?? null;
+    if (JSON.stringify({ degree: look?.degree, gains }) === JSON.stringify(wish.peek())) return;
+    degree.value = look?.degree ?? one.expansion.degree;
+    if (gains === null) mode.value = "cut";
+  });
+  effect(() => {
+    if (shown.value && coloring.value === "error" && tab.value === "degrees") showLook(performance.now());
+  });
+}

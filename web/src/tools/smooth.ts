@@ -1,0 +1,69 @@
+// Smoothing of the painted region: live while sliders move, kept by a button.
+import { computed, signal } from "@preact/signals";
+import { step } from "../actions";
+import { needArray } from "../binary";
+import { liveChannel } from "../live";
+import { restoreSurface, shown, theView } from "../show";
+import { item } from "../state";
+import { clearRegion, radius, regions, showWeights } from "./brush";
+
+export const actions = [
+  ["smooth", "Smooth: detail goes"],
+  ["repair", "Repair: what stands out goes"],
+  ["bridge", "Bridge: the rim goes on"],
+] as const;
+export type Action = (typeof actions)[number][0];
+
+export const action = signal<Action>("smooth");
+export const strength = signal(1);
+export const wavelengthShare = signal(0.08); // of the diagonal
+export const wavelength = computed(() => wavelengthShare.value * (item.value?.diagonal ?? 1));
+export const previewed = signal(false);
+
+// A bridge spans up to half a wavelength: it is as long as four radii.
+const bridgeRadii = 4;
+
+function fields(): Record<string, unknown> {
+  const bridge = action.value === "bridge";
+  return {
+    item: item.peek()?.id,
+    regions: regions.value,
+    wavelength: bridge ? Math.max(wavelength.value, bridgeRadii * radius.value) : wavelength.value,
+    strength: strength.value,
+    fitting: bridge ? "around" : "robust",
+    repair: action.value === "repair",
+  };
+}
+
+const live = liveChannel("smooth", (answer, asked) => {
+  if (asked.item !== shown.value?.id) return;
+  const view = theView();
+  const surface = view?.surface("main");
+  if (!view || !surface) return;
+  const indices = needArray(answer, "indices", Uint32Array);
+  const positions = surface.positions.slice();
+  const moved = needArray(answer, "positions", Float32Array);
+  indices.forEach((v, i) => positions.set(moved.subarray(3 * i, 3 * i + 3), 3 * v));
+  view.move(positions, null);
+  previewed.value = true;
+});
+
+export function preview(since: number): void {
+  if (regions.value.length === 0 || !item.peek()) return;
+  live({ fields: fields(), since });
+}
+
+export async function keep(): Promise<void> {
+  await live.idle();
+  if (await step({ op: "smooth", ...fields() }, "Smoothing")) {
+    previewed.value = false;
+    clearRegion();
+  }
+}
+
+export function discard(): void {
+  live.drop();
+  previewed.value = false;
+  restoreSurface();
+  showWeights(performance.now());
+}

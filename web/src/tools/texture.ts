@@ -1,0 +1,172 @@
+// The detail of one place laid on another: two discs on the surface, turned and scaled by a handle.
+import { computed, signal } from "@preact/signals";
+import { step } from "../actions";
+import { arrayOf, needArray, surfaceOf, type Binary } from "../binary";
+import { painted, placed } from "../geometry/colors";
+import { liveChannel } from "../live";
+import type { PointerTool } from "../scene/view";
+import type { Ring } from "../scene/markers";
+import type { Touch } from "../scene/shape";
+import { repaint, restoreSurface, shown, theView } from "../show";
+import { item } from "../state";
+
+interface Disc {
+  item: number; // its id
+  diagonal: number; // of the item
+  vertex: number;
+  point: [number, number, number];
+  normal: [number, number, number];
+}
+
+export type Picking = "from" | "to" | "none";
+export const picking = signal<Picking>("from");
+export const from = signal<Disc | null>(null);
+export const to = signal<Disc | null>(null);
+export const radiusShare = signal(0.12); // of the diagonal, of the source
+export const targetShare = signal(0.12); // of the target
+export const scale = signal(1);
+export const height = signal(1);
+export const angle = signal<number | null>(null); // degrees; null: where it is most like what is there
+export const repeat = signal(false);
+export const removeOwn = signal(false);
+export const refine = signal(false);
+export const fromDegree = signal(8);
+export const previewed = signal(false);
+
+export const ready = computed(() => from.value !== null && to.value !== null);
+
+function regionOf(disc: Disc | null, share: number): string[] {
+  return disc ? [`vertex:${disc.vertex},${Number((share * disc.diagonal).toPrecision(6))}`] : [];
+}
+
+function fields(): Record<string, unknown> {
+  return {
+    source: from.value?.item,
+    target: to.value?.item,
+    from: regionOf(from.value, radiusShare.value),
+    to: regionOf(to.value, targetShare.value),
+    from_degree: fromDegree.value,
+    scale: scale.value,
+    height: height.value,
+    angle: angle.value,
+    repeat: repeat.value,
+    remove_own: removeOwn.value,
+    refine: refine.value,
+  };
+}
+
+const live = liveChannel("transfer", (answer: Binary, asked) => {
+  const view = theView();
+  const surface = view?.surface("main");
+  if (!view || !surface || asked.target !== shown.value?.id) return;
+  if (arrayOf(answer, "triangles", Uint32Array)) {
+    view.show("main", surfaceOf(answer));
+    repaint();
+  } else {
+    const positions = surface.positions.slice();
+    const moved = needArray(answer, "positions", Float32Array);
+    needArray(answer, "indices", Uint32Array).forEach((v, i) =>
+      positions.set(moved.subarray(3 * i, 3 * i + 3), 3 * v),
+    );
+    view.move(positions, null);
+  }
+  previewed.value = true;
+});
+
+export function preview(since: number): void {
+  showRings();
+  if (ready.value) live({ fields: fields(), since });
+}
+
+function targetRing(disc: Disc): Ring {
+  const turn = ((angle.value ?? 0) * Math.PI) / 180;
+  const size = targetShare.value * disc.diagonal;
+  return { center: disc.point, normal: disc.normal, radius: size, color: placed, handle: turn };
+}
+
+export function showRings(): void {
+  const rings: Ring[] = [];
+  const source = from.value;
+  const id = item.peek()?.id;
+  if (source?.item === id && source) {
+    const size = radiusShare.value * source.diagonal;
+    rings.push({ center: source.point, normal: source.normal, radius: size, color: painted });
+  }
+  if (to.value?.item === id && to.value) rings.push(targetRing(to.value));
+  theView()?.rings(rings);
+}
+
+const handleReach = 0.3; // of the ring's radius; chosen: twice the ball
+let dragging = false;
+
+// Where the pointer is on the target's plane, if it has hold of the handle.
+function atHandle(event: PointerEvent): boolean {
+  if (to.value?.item !== item.peek()?.id || !to.value) return false;
+  const ring = targetRing(to.value);
+  const at = theView()?.inPlane(ring, event);
+  if (!at) return false;
+  const turn = ring.handle ?? 0;
+  const away = Math.hypot(
+    at.distance * Math.cos(at.angle) - ring.radius * Math.cos(turn),
+    at.distance * Math.sin(at.angle) - ring.radius * Math.sin(turn),
+  );
+  return away < handleReach * ring.radius;
+}
+
+function dragHandle(event: PointerEvent): void {
+  if (!to.value) return;
+  const at = theView()?.inPlane(targetRing(to.value), event);
+  if (!at) return;
+  const before = targetShare.value;
+  angle.value = Math.round((at.angle * 180) / Math.PI);
+  targetShare.value = Math.min(0.5, Math.max(0.01, at.distance / to.value.diagonal));
+  scale.value *= targetShare.value / before;
+  preview(event.timeStamp);
+}
+
+function pick(touch: Touch, since: number): void {
+  const one = item.peek();
+  if (!one) return;
+  const { vertex, point, normal } = touch;
+  const disc = { item: one.id, diagonal: one.diagonal, vertex, point, normal };
+  if (picking.value === "from") {
+    from.value = disc;
+    picking.value = "to";
+  } else {
+    to.value = disc;
+    picking.value = "none";
+  }
+  preview(since);
+}
+
+export const texturePointer: PointerTool = (kind, touch, event) => {
+  if (kind === "down") {
+    dragging = atHandle(event);
+    if (dragging) return true;
+    if (!touch || picking.value === "none") return false;
+    if (previewed.value) restoreSurface();
+    pick(touch, event.timeStamp);
+    return true;
+  }
+  if (kind === "move" && dragging) dragHandle(event);
+  if (kind === "up") dragging = false;
+  return dragging;
+};
+
+export async function keep(): Promise<void> {
+  await live.idle();
+  if (await step({ op: "transfer", ...fields() }, "Laying the texture")) forget();
+}
+
+function forget(): void {
+  previewed.value = false;
+  from.value = to.value = null;
+  picking.value = "from";
+  theView()?.rings([]);
+}
+
+export function discard(): void {
+  live.drop();
+  if (previewed.value) restoreSurface();
+  forget();
+}

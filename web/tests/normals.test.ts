@@ -1,0 +1,47 @@
+import { expect, it } from "vitest";
+import { aroundVertices, ballOf, vertexNormals } from "../src/geometry/normals";
+
+// An octahedron: the normal of each vertex is the vertex.
+const corners = [1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1];
+const positions = new Float32Array(corners);
+const triangles = new Uint32Array([
+  0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5,
+]);
+
+it("normals of an octahedron are its corners", () => {
+  const normals = new Float32Array(18);
+  vertexNormals(positions, triangles, normals);
+  corners.forEach((x, i) => expect(normals[i]).toBeCloseTo(x, 6));
+});
+
+it("larger faces weigh more", () => {
+  // Two faces at vertex 0: one in the plane z = 0 of area 1/2, one in x = 0 of area 2.
+  const place = new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 2, 0, 0, 0, 2]);
+  const normals = new Float32Array(15);
+  vertexNormals(place, new Uint32Array([0, 1, 2, 0, 3, 4]), normals);
+  expect([...normals.slice(0, 3)]).toEqual([4, 0, 1].map((x) => Math.fround(x / Math.hypot(4, 1))));
+});
+
+it("of touched vertices only, they are those of all", () => {
+  const moved = positions.slice();
+  moved[12] = 0.5;
+  const all = new Float32Array(18);
+  vertexNormals(moved, triangles, all);
+  const some = new Float32Array(18);
+  vertexNormals(positions, triangles, some);
+  const touched = aroundVertices(6, triangles, new Uint32Array([4]));
+  expect([...touched]).toEqual([1, 1, 1, 1, 1, 0]);
+  vertexNormals(moved, triangles, some, touched);
+  expect(some).toEqual(all);
+});
+
+it("a vertex without faces has no direction, and no NaN", () => {
+  const normals = new Float32Array(3).fill(7);
+  vertexNormals(new Float32Array(3), new Uint32Array(0), normals);
+  expect([...normals]).toEqual([0, 0, 0]);
+});
+
+it("the ball is around the box", () => {
+  expect(ballOf(new Float32Array([0, 0, 0, 2, 4, 4]))).toEqual({ center: [1, 2, 2], radius: 3 });
+  expect(ballOf(new Float32Array(0)).radius).toBe(1);
+});
