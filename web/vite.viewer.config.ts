@@ -10,6 +10,6 @@ export default defineConfig({
     minify: true,
     chunkSizeWarningLimit: 2000,
     lib: { entry: "src/viewer.tsx", formats: ["es"], fileName: () => "viewer.js" },
-    rolldownOptions: { output: { codeSplitting: false } },
+    rolldownOptions: { output: { codeSplitting: false, minify: true } },
   },
 });

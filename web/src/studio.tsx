@@ -1,6 +1,7 @@
 // The page of `rholm studio`.
 import { render } from "preact";
 import "uplot/dist/uPlot.min.css";
+import "./theme.css";
 import "./style.css";
 import { start } from "./actions";
 import { App } from "./app";

@@ -1,7 +1,6 @@
 // The few controls that all panels are made of.
 import type { ComponentChildren } from "preact";
 import { useId, useState } from "preact/hooks";
-import { working } from "./state";
 import { fromLog, number, toLog } from "./format";
 
 interface SliderProps {
@@ -60,29 +59,6 @@ export function Slider(props: SliderProps) {
         onChange={(event) => props.onChange?.(read(event.currentTarget.value))}
       />
     </div>
-  );
-}
-
-interface ButtonProps {
-  children: ComponentChildren;
-  onClick: () => unknown;
-  disabled?: boolean;
-  main?: boolean;
-  title?: string;
-  always?: boolean; // also while something is worked on
-}
-
-export function Button({ children, onClick, disabled = false, main = false, title, always }: ButtonProps) {
-  return (
-    <button
-      type="button"
-      class={main ? "main" : ""}
-      disabled={disabled || (!always && working.value)}
-      {...(title ? { title } : {})}
-      onClick={() => void onClick()}
-    >
-      {children}
-    </button>
   );
 }
 

@@ -1,9 +1,10 @@
 import { useEffect } from "preact/hooks";
 import { step } from "../actions";
+import { Button } from "../button";
 import { hideOther, showOther } from "../show";
 import { item, items, selected } from "../state";
 import * as tool from "../tools/blend";
-import { Button, Check, Hint, Select, Slider } from "../widgets";
+import { Check, Hint, Select, Slider } from "../widgets";
 
 // Both shapes at one place while this panel is open; the second alone while it is blended.
 function useBoth(): void {

@@ -1,10 +1,11 @@
 import { computed, signal } from "@preact/signals";
 import { step } from "../actions";
+import { Button } from "../button";
 import { bytes } from "../format";
 import type { Item } from "../protocol";
 import { coloring } from "../show";
 import { item } from "../state";
-import { Button, Check, Facts, Hint, Slider } from "../widgets";
+import { Check, Facts, Hint, Slider } from "../widgets";
 
 const tolerance = signal(3e-3); // parts of the diagonal
 const maxDegree = signal(32);

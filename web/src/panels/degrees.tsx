@@ -1,5 +1,6 @@
 import { useEffect } from "preact/hooks";
 import { step } from "../actions";
+import { Button } from "../button";
 import { number, withUnit } from "../format";
 import { bandMeans, windows } from "../harmonics/windows";
 import { Spectrum } from "../plots/spectrum";
@@ -7,7 +8,7 @@ import type { Item } from "../protocol";
 import { coloring, hideOther, layout, showOther } from "../show";
 import { item } from "../state";
 import * as tool from "../tools/degrees";
-import { Button, Check, Hint, Select, Slider } from "../widgets";
+import { Check, Hint, Select, Slider } from "../widgets";
 import { signal } from "@preact/signals";
 
 const wanted = signal(32);

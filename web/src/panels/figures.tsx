@@ -1,9 +1,10 @@
 import { openFiles, step } from "../actions";
+import { Button } from "../button";
 import { number } from "../format";
 import { coloring, markOffending, type Coloring } from "../show";
 import { demo, item } from "../state";
 import { theView } from "../show";
-import { Button, Check, Facts, Hint, Select } from "../widgets";
+import { Check, Facts, Hint, Select } from "../widgets";
 
 // Shapes with known answers, to begin with.
 const made = ["bumpy", "sphere", "ellipsoid", "torus", "cube"] as const;

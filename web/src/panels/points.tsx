@@ -1,8 +1,9 @@
 import { signal } from "@preact/signals";
 import { step } from "../actions";
+import { Button } from "../button";
 import type { Item } from "../protocol";
 import { item, items } from "../state";
-import { Button, Check, Hint, Select, Slider } from "../widgets";
+import { Check, Hint, Select, Slider } from "../widgets";
 
 const holes = signal<"close" | "keep">("close");
 const noise = signal<"auto" | "none">("auto");

@@ -1,10 +1,11 @@
 import { signal } from "@preact/signals";
 import { fail, offer, saveAs } from "../actions";
+import { Button } from "../button";
 import { stem } from "../format";
 import type { Item, Kind } from "../protocol";
 import { theView } from "../show";
 import { item, studio } from "../state";
-import { Button, Copy, Hint, Select, Slider } from "../widgets";
+import { Copy, Hint, Select, Slider } from "../widgets";
 
 type Format = readonly [format: string, label: string];
 const meshes: readonly Format[] = [

@@ -1,10 +1,11 @@
 import { useEffect } from "preact/hooks";
 import { theView } from "../show";
+import { Button } from "../button";
 import { item } from "../state";
 import * as brush from "../tools/brush";
 import * as tool from "../tools/smooth";
 import { withUnit } from "../format";
-import { Button, Check, Hint, Select, Slider } from "../widgets";
+import { Check, Hint, Select, Slider } from "../widgets";
 
 // While this panel is open the pointer paints.
 function usePointer(): void {

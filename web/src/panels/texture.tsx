@@ -1,8 +1,9 @@
 import { useEffect } from "preact/hooks";
 import { theView } from "../show";
+import { Button } from "../button";
 import { item } from "../state";
 import * as tool from "../tools/texture";
-import { Button, Check, Hint, Select, Slider } from "../widgets";
+import { Check, Hint, Select, Slider } from "../widgets";
 import type { Signal } from "@preact/signals";
 
 const picks = [

@@ -23,8 +23,8 @@ const height = 190; // px
 // eslint-disable-next-line @typescript-eslint/no-unsafe-enum-assignment
 const logarithmic = 3 as uPlot.Scale.Distr;
 
-function options(props: ChartProps, width: number, mark: () => number | null): uPlot.Options {
-  const style = getComputedStyle(document.documentElement);
+function options(props: ChartProps, host: HTMLElement, mark: () => number | null): uPlot.Options {
+  const style = getComputedStyle(host);
   const ink = style.getPropertyValue("--ink").trim();
   const faint = style.getPropertyValue("--line").trim();
   const axis = { stroke: ink, grid: { stroke: faint, width: 1 }, ticks: { stroke: faint, width: 1 } };
@@ -42,7 +42,7 @@ function options(props: ChartProps, width: number, mark: () => number | null): u
     plot.ctx.restore();
   };
   return {
-    width,
+    width: host.clientWidth,
     height,
     scales: { x: { time: false, ...(props.logX ? { distr: logarithmic } : {}) }, y: { distr: logarithmic } },
     axes: [
@@ -81,7 +81,7 @@ export function Chart(props: ChartProps) {
     const element = host.current;
     if (!element) return undefined;
     const made = new uPlot(
-      options(props, element.clientWidth, () => mark.current),
+      options(props, element, () => mark.current),
       [props.x, ...props.curves.map(({ values }) => values)],
       element,
     );

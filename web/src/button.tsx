@@ -1,0 +1,26 @@
+// A button of the studio's page: it rests while something is worked on.
+import type { ComponentChildren } from "preact";
+import { working } from "./state";
+
+interface ButtonProps {
+  children: ComponentChildren;
+  onClick: () => unknown;
+  disabled?: boolean;
+  main?: boolean;
+  title?: string;
+  always?: boolean; // also while something is worked on
+}
+
+export function Button({ children, onClick, disabled = false, main = false, title, always }: ButtonProps) {
+  return (
+    <button
+      type="button"
+      class={main ? "main" : ""}
+      disabled={disabled || (!always && working.value)}
+      {...(title ? { title } : {})}
+      onClick={() => void onClick()}
+    >
+      {children}
+    </button>
+  );
+}
