@@ -31,7 +31,7 @@ function summary(one: Item): string {
   if (one.kind === "points") return `${number(one.vertices)} points`;
   if (one.kind === "atlas") return `${one.caps ?? 0} caps, ${bytes(one.bytes ?? 0)}`;
   const faces = `${one.faces.toLocaleString("en").replaceAll(",", "\u202f")} faces`;
-  return one.expansion ? `${faces}, degree ${one.expansion.degree}` : faces;
+  return one.expansion ? `${faces} · degree ${one.expansion.degree}` : faces;
 }
 
 function Items() {

@@ -1,4 +1,4 @@
-// Times from an input event until its answer is on the screen, by kind.
+// Times from an input event until its answer is there, and until it is on the screen, by kind.
 
 const kept = 500; // chosen: the last ones of a kind, a minute of dragging
 const times = new Map<string, number[]>();

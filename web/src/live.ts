@@ -20,6 +20,7 @@ export function liveChannel(
   return latestWins<Wish>(async ({ fields, since }, current) => {
     const answer = await postLive(transport, { live: kind, ...fields });
     if (!current()) return;
+    recordLatency(`${kind} (answer)`, since);
     apply(answer, fields);
     await theView()?.drawn();
     recordLatency(kind, since);

@@ -131,6 +131,7 @@ export function attach(made: View): void {
   effect(() => void showItem(item.value));
   effect(() => {
     if (tab.value !== "align" && tab.value !== "degrees" && layout.peek() !== "one") hideOther();
+    if (tab.value !== "degrees" && coloring.peek() === "error") coloring.value = "plain";
   });
   effect(() => {
     if (coloring.value !== "error") {

@@ -73,7 +73,7 @@ export function aroundVertices(
   return around;
 }
 
-// Centre and radius of a ball around all points.
+// A ball around all points, about the middle of their box.
 export function ballOf(positions: Float32Array): { center: [number, number, number]; radius: number } {
   const low = [Infinity, Infinity, Infinity];
   const high = [-Infinity, -Infinity, -Infinity];
@@ -84,10 +84,14 @@ export function ballOf(positions: Float32Array): { center: [number, number, numb
     if (value > (high[k] ?? 0)) high[k] = value;
   }
   const middle = (k: number) => ((low[k] ?? 0) + (high[k] ?? 0)) / 2;
-  const side = (k: number) => (high[k] ?? 0) - (low[k] ?? 0);
   if (positions.length === 0) return { center: [0, 0, 0], radius: 1 };
-  return {
-    center: [middle(0), middle(1), middle(2)],
-    radius: Math.hypot(side(0), side(1), side(2)) / 2 || 1,
-  };
+  const center: [number, number, number] = [middle(0), middle(1), middle(2)];
+  let square = 0;
+  for (let i = 0; i < positions.length; i += 3) {
+    const x = (positions[i] ?? 0) - center[0];
+    const y = (positions[i + 1] ?? 0) - center[1];
+    const z = (positions[i + 2] ?? 0) - center[2];
+    square = Math.max(square, x * x + y * y + z * z);
+  }
+  return { center, radius: Math.sqrt(square) || 1 };
 }

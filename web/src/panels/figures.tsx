@@ -72,7 +72,6 @@ export function FiguresPanel() {
     <>
       {demo.value && <Welcome />}
       <div class="row wrap">
-        <FileButton />
         <label class="field inline">
           <span>Make</span>
           <select

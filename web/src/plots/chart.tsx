@@ -47,7 +47,13 @@ function options(props: ChartProps, host: HTMLElement, mark: () => number | null
     scales: { x: { time: false, ...(props.logX ? { distr: logarithmic } : {}) }, y: { distr: logarithmic } },
     axes: [
       { ...axis, label: props.xLabel, labelSize: 18, size: 34, labelFont: "12px system-ui" },
-      { ...axis, size: 58, values: (_, ticks) => ticks.map((tick) => powerLabel(tick)) },
+      {
+        ...axis,
+        grid: { ...axis.grid, filter: powersOnly },
+        ticks: { ...axis.ticks, filter: powersOnly },
+        size: 58,
+        values: (_, ticks) => ticks.map((tick) => powerLabel(tick)),
+      },
     ],
     cursor: { y: false },
     series: [
@@ -65,11 +71,20 @@ function options(props: ChartProps, host: HTMLElement, mark: () => number | null
   };
 }
 
-// Powers of ten only; others have no label.
-function powerLabel(tick: number | null): string {
-  if (tick === null || tick <= 0) return "";
+// Only powers of ten have lines and labels.
+function powerOf(tick: number | null): number | null {
+  if (tick === null || tick <= 0) return null;
   const power = Math.log10(tick);
-  return Math.abs(power - Math.round(power)) < 1e-9 ? `1e${Math.round(power)}` : "";
+  return Math.abs(power - Math.round(power)) < 1e-9 ? Math.round(power) : null;
+}
+
+function powerLabel(tick: number | null): string {
+  const power = powerOf(tick);
+  return power === null ? "" : `1e${power}`;
+}
+
+function powersOnly(_: uPlot, ticks: number[]): (number | null)[] {
+  return ticks.map((tick) => (powerOf(tick) === null ? null : tick));
 }
 
 export function Chart(props: ChartProps) {

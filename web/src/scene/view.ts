@@ -85,12 +85,15 @@ export class View {
     canvas.tabIndex = 0;
     host.append(canvas);
     this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
-    const key = new DirectionalLight(0xffffff, 2.4);
+    const key = new DirectionalLight(0xffffff, 2.7);
     key.position.set(-0.6, 0.9, 1);
     this.camera.add(key);
-    this.scene.add(this.camera, new AmbientLight(0xffffff, 0.7), this.markers.group);
+    this.scene.add(this.camera, new AmbientLight(0xffffff, 1), this.markers.group);
     this.listen(canvas);
+    this.camera.up.set(0, 0, 1);
     this.controls = new CameraControls(this.camera, canvas);
+    // From a little above the equator, as pictures of the program.
+    void this.controls.rotateTo(Math.PI / 6, 0.4 * Math.PI, false);
     this.controls.smoothTime = 0.08;
     this.controls.draggingSmoothTime = 0.02;
     this.controls.dollyToCursor = true;
