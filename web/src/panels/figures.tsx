@@ -7,7 +7,7 @@ import { theView } from "../show";
 import { Check, Facts, Hint, Select } from "../widgets";
 
 // Shapes with known answers, to begin with.
-const made = ["bumpy", "sphere", "ellipsoid", "torus", "cube"] as const;
+const made = ["bumpy", "sphere", "ellipsoid", "torus", "box"] as const;
 
 export function FileButton() {
   return (

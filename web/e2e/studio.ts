@@ -1,0 +1,168 @@
+// The program, a browser and a page of the studio in it.
+//   RHOLM_PROGRAM   the program; needed
+//   RHOLM_PICTURES  a folder for pictures of what is seen; none without it
+//   RHOLM_CHROMIUM  the browser; /usr/bin/chromium by default
+import { execFileSync, spawn, type ChildProcess } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { chromium, type Browser, type BrowserContextOptions, type Page } from "playwright-core";
+
+const dist = fileURLToPath(new URL("../dist", import.meta.url));
+const pictures = process.env.RHOLM_PICTURES;
+
+export function programPath(): string {
+  const path = process.env.RHOLM_PROGRAM;
+  if (!path) throw new Error("RHOLM_PROGRAM does not name the program");
+  return path;
+}
+
+export interface Studio {
+  address: string;
+  folder: string; // for files of the test
+  process: ChildProcess;
+  browser: Browser;
+}
+
+// Runs the program to its end; throws where it fails.
+export function rholm(studio: Studio, ...words: string[]): string {
+  const options = { cwd: studio.folder, encoding: "utf8", stdio: "pipe" } as const;
+  return execFileSync(programPath(), words, options);
+}
+
+// What a shell makes of these lines, `rholm` being the program.
+export function shell(studio: Studio, lines: string): void {
+  const script = `set -e\nrholm() { "$RHOLM_PROGRAM" "$@"; }\n${lines}\n`;
+  execFileSync("/bin/sh", ["-c", script], { cwd: studio.folder, stdio: "pipe" });
+}
+
+export const inFolder = (studio: Studio, name: string) => join(studio.folder, name);
+export const bytesOf = (studio: Studio, name: string) => readFileSync(inFolder(studio, name));
+
+export async function startStudio(): Promise<Studio> {
+  const folder = mkdtempSync(join(tmpdir(), "rholm-studio-"));
+  const words = ["studio", "--no-open", "--page", dist];
+  const started = spawn(programPath(), words, { cwd: folder, stdio: ["ignore", "ignore", "pipe"] });
+  const address = await new Promise<string>((found, fail) => {
+    let said = "";
+    started.stderr.on("data", (bytes: Buffer) => {
+      said += bytes.toString();
+      const match = /http:\/\/127\.0\.0\.1:\d+\/[0-9a-f]+\//.exec(said);
+      if (match) found(match[0]);
+    });
+    started.on("exit", (code) => fail(new Error(`the studio ended with ${String(code)}: ${said}`)));
+  });
+  return { address, folder, process: started, browser: await launch() };
+}
+
+export function launch(): Promise<Browser> {
+  return chromium.launch({
+    executablePath: process.env.RHOLM_CHROMIUM ?? "/usr/bin/chromium",
+    // WebGL in software: pictures do not depend on the machine's card. No sandbox: containers have none.
+    args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+  });
+}
+
+export async function stopStudio(studio: Studio): Promise<void> {
+  await studio.browser.close();
+  if (studio.process.exitCode === null) {
+    const ended = new Promise((done) => studio.process.once("exit", done));
+    studio.process.kill("SIGINT");
+    await ended;
+  }
+  rmSync(studio.folder, { recursive: true, force: true });
+}
+
+export interface Visit {
+  page: Page;
+  complaints: string[]; // what the browser's console said of errors, the content policy among them
+}
+
+export async function visit(studio: Studio, options: BrowserContextOptions = {}): Promise<Visit> {
+  const context = await studio.browser.newContext({
+    viewport: { width: 1280, height: 800 },
+    permissions: ["clipboard-read", "clipboard-write"],
+    ...options,
+  });
+  const page = await context.newPage();
+  const complaints: string[] = [];
+  page.on("pageerror", (error) => complaints.push(error.message));
+  page.on("console", (message) => {
+    if (message.type() === "error") complaints.push(message.text());
+  });
+  await page.goto(studio.address);
+  return { page, complaints };
+}
+
+// Until nothing is worked on and the first shape is there.
+export async function settled(page: Page): Promise<void> {
+  await page.waitForTimeout(150); // what a click begins has begun
+  await page.waitForFunction(() => !document.querySelector(".progress"), null, { timeout: 120_000 });
+  await page.waitForTimeout(100); // its surface is drawn
+}
+
+export async function ready(page: Page): Promise<void> {
+  await page.locator(".items li").first().waitFor();
+  await settled(page);
+}
+
+export async function picture(page: Page, name: string): Promise<void> {
+  if (pictures) await page.screenshot({ path: join(pictures, `${name}.png`) });
+}
+
+export async function openTab(page: Page, name: string): Promise<void> {
+  await page.getByRole("tab", { name }).click();
+}
+
+// By the field beside the slider.
+export async function setNumber(page: Page, label: string, value: number): Promise<void> {
+  const field = page.getByLabel(`${label}, exactly`);
+  await field.fill(String(value));
+  await field.press("Enter");
+  await settled(page);
+}
+
+// Moves the slider itself, as a drag does: input after input, then its change.
+export async function drag(page: Page, label: string, values: readonly number[]): Promise<void> {
+  const slider = page.getByRole("slider", { name: label, exact: true });
+  for (const value of values) {
+    await slider.evaluate((element: HTMLInputElement, at) => {
+      element.value = String(at);
+      element.dispatchEvent(new InputEvent("input", { bubbles: true }));
+    }, value);
+    await page.waitForTimeout(30);
+  }
+  await slider.dispatchEvent("change");
+  await settled(page);
+}
+
+export async function press(page: Page, name: string | RegExp): Promise<void> {
+  await page.getByRole("button", { name }).click();
+  await settled(page);
+}
+
+export async function openFile(studio: Studio, page: Page, ...names: string[]): Promise<void> {
+  const paths = names.map((name) => inFolder(studio, name));
+  await page.locator("nav input[type=file]").setInputFiles(paths);
+  await settled(page);
+}
+
+// What a click on this button gives to save.
+export async function saved(page: Page, name: string | RegExp): Promise<Buffer> {
+  const coming = page.waitForEvent("download");
+  await page.getByRole("button", { name }).click();
+  return readFileSync(await (await coming).path());
+}
+
+// The canvas as pixels, to see that it changes.
+export async function canvas(page: Page): Promise<Buffer> {
+  return page.locator(".canvas canvas").screenshot();
+}
+
+// A place on the canvas, in parts of its size.
+export async function at(page: Page, x: number, y: number): Promise<[number, number]> {
+  const box = await page.locator(".canvas canvas").boundingBox();
+  if (!box) throw new Error("there is no canvas");
+  return [box.x + x * box.width, box.y + y * box.height];
+}
