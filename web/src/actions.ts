@@ -46,6 +46,7 @@ async function openSession(): Promise<void> {
   transport.session = "";
   const opened = await postJson<{ session: string; state: State }>(transport, "session", {});
   transport.session = opened.session;
+  ended = 0;
   sessionStorage.setItem(sessionKey, opened.session);
   take(opened.state);
 }
@@ -62,10 +63,14 @@ function listen(): void {
   });
 }
 
+let ended = 0; // the last job that has ended: the answer to a step may come after that
+
 function takeJob(told: Job): void {
+  if (told.id <= ended) return;
+  if (told.state !== "running") ended = told.id;
   job.value = told;
   if (told.state === "failed") notice.value = { text: told.message, bad: true };
-  if (told.state === "done" || told.state === "cancelled") job.value = null;
+  if (told.state !== "running") job.value = null;
 }
 
 // A new item is selected; so is another one when the selected one goes.
@@ -145,6 +150,17 @@ export async function cancelJob(): Promise<void> {
   } catch (error) {
     fail(error);
   }
+}
+
+// Ends the program.
+export async function quit(): Promise<void> {
+  try {
+    await transport.request("POST", "quit");
+  } catch (error) {
+    fail(error);
+  }
+  unsubscribe?.();
+  lost.value = true;
 }
 
 // Fetches the file of a format and gives it to the browser to save.

@@ -1,7 +1,7 @@
 // The page: what is open on the left, the shape, one panel for each activity.
 import type { ComponentType } from "preact";
 import { useEffect, useRef } from "preact/hooks";
-import { redo, removeItem, undo } from "./actions";
+import { quit, redo, removeItem, undo } from "./actions";
 import { bytes, number } from "./format";
 import { help } from "./keys";
 import { AlignPanel } from "./panels/align";
@@ -149,9 +149,14 @@ function Help() {
         ))}
       </dl>
       <p class="hint">Version {studio.value?.version}. Nothing leaves this machine.</p>
-      <button type="button" class="main" onClick={() => (helpOpen.value = false)}>
-        Close
-      </button>
+      <div class="row">
+        <button type="button" class="main" onClick={() => (helpOpen.value = false)}>
+          Close
+        </button>
+        <button type="button" onClick={() => void quit().then(() => (helpOpen.value = false))}>
+          Stop the program
+        </button>
+      </div>
     </dialog>
   );
 }

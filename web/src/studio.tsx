@@ -10,6 +10,7 @@ import { latencies } from "./latency";
 import { setTheme, theme } from "./state";
 import { forgetWithItem } from "./tools/brush";
 import { followItem } from "./tools/degrees";
+import { followWavelength } from "./tools/smooth";
 
 const page = document.getElementById("page");
 if (!page) throw new Error("this document is not the studio's");
@@ -17,6 +18,7 @@ window.rholmLatency = latencies;
 setTheme(theme.value);
 render(<App />, page);
 followItem();
+followWavelength();
 forgetWithItem();
 listenToKeys();
 void start();

@@ -8,9 +8,9 @@ import { item } from "../state";
 import { Check, Facts, Hint, Slider } from "../widgets";
 
 const tolerance = signal(3e-3); // parts of the diagonal
-const maxDegree = signal(32);
-const limit = signal(32);
-const mostDegrees = 64; // chosen: larger caps say no more
+const maxDegree = signal(14);
+const mostDegrees = 24; // of a cap, as the library has them
+const limit = signal(mostDegrees);
 
 // What a mesh costs as 32-bit floats and indices.
 const meshBytes = computed(() => 12 * (item.value?.vertices ?? 0) + 12 * (item.value?.faces ?? 0));
@@ -30,11 +30,11 @@ function Compress({ one }: { one: Item }) {
       <Slider
         label="Largest degree of a cap"
         value={maxDegree.value}
-        min={4}
+        min={2}
         max={mostDegrees}
         onInput={(value) => (maxDegree.value = value)}
       />
-      <Facts facts={[{ label: "As a mesh", value: bytes(meshBytes.value) }]} />
+      {one.faces > 0 && <Facts facts={[{ label: "As a mesh", value: bytes(meshBytes.value) }]} />}
       <Button
         main
         onClick={() =>
@@ -42,7 +42,7 @@ function Compress({ one }: { one: Item }) {
             {
               op: "compress",
               item: one.id,
-              tolerance: tolerance.value,
+              tolerance: tolerance.value * one.diagonal,
               max_degree: maxDegree.value,
             },
             "Compressing",
@@ -84,6 +84,6 @@ function Atlas({ one }: { one: Item }) {
 export function CapsPanel() {
   const one = item.value;
   if (one?.kind === "atlas") return <Atlas one={one} />;
-  if (one?.kind === "mesh") return <Compress one={one} />;
-  return <Hint>Open a mesh, or make one of points first.</Hint>;
+  if (one) return <Compress one={one} />;
+  return <Hint>Open a shape first.</Hint>;
 }

@@ -15,8 +15,7 @@ const wanted = signal(32);
 const maxAsked = 1024; // chosen: what a page still moves live
 
 function Analyze({ one }: { one: Item }) {
-  const surface = one.kind === "mesh";
-  if (!surface) return <Hint>Degrees are of closed surfaces. Open one, or make one of points first.</Hint>;
+  if (one.faces === 0) return <Hint>Degrees are of closed surfaces. Make one of these points first.</Hint>;
   return (
     <>
       <Hint>{one.star && !one.star.star_shaped ? one.star.why : "Split the shape into degrees: coarse form first, then detail."}</Hint>

@@ -4,10 +4,10 @@ import { number } from "../format";
 import { coloring, markOffending, type Coloring } from "../show";
 import { demo, item } from "../state";
 import { theView } from "../show";
-import { Check, Facts, Hint, Select } from "../widgets";
+import { Check, Facts, Hint, Select, TextField } from "../widgets";
 
 // Shapes with known answers, to begin with.
-const made = ["bumpy", "sphere", "ellipsoid", "torus", "box"] as const;
+const made = ["bumpy", "sphere", "ellipsoid", "torus", "box", "points"] as const;
 
 export function FileButton() {
   return (
@@ -92,6 +92,13 @@ export function FiguresPanel() {
           </select>
         </label>
       </div>
+      {one && (
+        <TextField
+          label="Name"
+          value={one.name}
+          onChange={(name) => void step({ op: "rename", item: one.id, name }, "Renaming")}
+        />
+      )}
       {one && <Facts facts={one.facts} />}
       <StarFacts />
       <Colors />

@@ -113,7 +113,7 @@ export function PointsPanel() {
           ? "Choose the points in the list to make a surface of them."
           : "Open points (PLY, XYZ, PWN, CSV) to make a surface of them."}
       </Hint>
-      {one?.kind === "mesh" && <Simplify one={one} />}
+      {one && one.faces > 0 && <Simplify one={one} />}
     </>
   );
 }

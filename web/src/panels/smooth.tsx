@@ -46,7 +46,7 @@ export function BrushControls({ after }: { after: (since: number) => void }) {
 export function SmoothPanel() {
   usePointer();
   const one = item.value;
-  if (one?.kind !== "mesh") return <Hint>Smoothing is of meshes: open one.</Hint>;
+  if (!one?.faces) return <Hint>Smoothing is of surfaces: open one.</Hint>;
   const none = brush.dabs.value.length === 0;
   return (
     <>

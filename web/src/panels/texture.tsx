@@ -84,7 +84,7 @@ export function TexturePanel() {
       tool.discard();
     };
   }, []);
-  if (item.value?.kind !== "mesh") return <Hint>Textures are of meshes: open one.</Hint>;
+  if (!item.value?.faces) return <Hint>Textures are of surfaces: open one.</Hint>;
   return (
     <>
       <Hint>Click where the texture is taken, then where it goes. Drag the ball on the ring to turn and scale it.</Hint>

@@ -21,6 +21,9 @@ export const regions = computed(() =>
   dabs.value.map(({ vertex }) => `vertex:${vertex},${Number(radius.value.toPrecision(6))}`),
 );
 
+// How far the region fades, in the unit; null: half the radius.
+export const transition = signal<number | null>(null);
+
 const spacing = 0.35; // of the radius; chosen: dabs overlap by far
 
 let held = false;
@@ -51,7 +54,8 @@ export function showWeights(since: number): void {
     return;
   }
   const points = dabs.value.map(({ vertex }) => vertex);
-  weigh({ fields: { item: one.id, points, radius: radius.value }, since });
+  const wavelength = transition.value === null ? {} : { wavelength: transition.value };
+  weigh({ fields: { item: one.id, points, radius: radius.value, ...wavelength }, since });
 }
 
 export function clearRegion(): void {

@@ -1,6 +1,6 @@
 // The look of an expansion: its degree, gains of degrees, error; live, and kept when let go.
 import { computed, effect, signal } from "@preact/signals";
-import { ask, step } from "../actions";
+import { ask, fail, step } from "../actions";
 import { arrayOf, needArray, type Binary } from "../binary";
 import { isDiverging, rangeOf } from "../geometry/colors";
 import {
@@ -12,10 +12,11 @@ import {
   trimmed,
   type Window,
 } from "../harmonics/windows";
+import { latestWins } from "../latest";
 import { liveChannel } from "../live";
 import type { Fields, Item } from "../protocol";
 import { coloring, paintValues, shown, theView } from "../show";
-import { item, tab } from "../state";
+import { item, notice, tab } from "../state";
 
 export const modes = [
   ["cut", "Cut off"],
@@ -77,13 +78,22 @@ export function showLook(since: number): void {
   live({ fields: { item: one.id, ...wish.value, error }, since });
 }
 
-export async function keepLook(): Promise<void> {
-  const one = item.peek();
-  if (!one?.expansion) return;
+type Look = { degree: number; gains: number[] | null } | null;
+const textOf = (look: Look) => JSON.stringify([look?.degree, look?.gains ?? null]);
+let sent = ""; // the look that was asked for last: sliders do not follow its coming back
+
+const keeper = latestWins<null>(async () => {
   await live.idle();
-  const { degree: d, gains } = wish.value;
-  if (one.look?.degree === d && JSON.stringify(one.look.gains) === JSON.stringify(gains)) return;
-  await step({ op: "look", item: one.id, degree: d, gains }, "Keeping");
+  const one = item.peek();
+  if (!one?.expansion || textOf(one.look) === textOf(wish.value)) return;
+  sent = textOf(wish.value);
+  await step({ op: "look", item: one.id, ...wish.value }, "Keeping");
+}, fail);
+
+// Keeps what is shown, as a step.
+export function keepLook(): Promise<void> {
+  keeper(null);
+  return keeper.idle();
 }
 
 export function setErrorMap(on: boolean): void {
@@ -93,27 +103,36 @@ export function setErrorMap(on: boolean): void {
 
 // Moves the slider to the degree that keeps the tolerance.
 export async function degreeForTolerance(one: Item): Promise<void> {
-  const fields = { op: "degree_for", item: one.id, tolerance: tolerance.value };
-  const answer = await ask<{ degree: number }>(fields, "Looking for the degree");
+  const fields = { op: "degree_for", item: one.id, tolerance: tolerance.value * one.diagonal };
+  const answer = await ask<{ degree: number; met: boolean }>(fields, "Looking for the degree");
   if (!answer) return;
+  if (!answer.met) {
+    notice.value = { text: "No degree is that close: analyse again, to a higher one.", bad: false };
+  }
   mode.value = "cut";
   degree.value = answer.degree;
   showLook(performance.now());
   await keepLook();
 }
 
-// Sliders follow the item and what undo does to it; the error map comes back with a new surface.
+let followed = -1;
+
+// Sliders follow the item and what undo does to it; a new surface
+// gets its error map, or what sliders are ahead of it.
 export function followItem(): void {
   effect(() => {
     const one = item.value;
-    const look = one?.look;
     if (!one?.expansion) return;
-    const gains = look?.gains ?? null;
-    if (JSON.stringify({ degree: look?.degree, gains }) === JSON.stringify(wish.peek())) return;
+    const { look } = one;
+    if (one.id === followed && (textOf(look) === sent || textOf(look) === textOf(wish.peek()))) return;
+    followed = one.id;
+    sent = textOf(look);
     degree.value = look?.degree ?? one.expansion.degree;
-    if (gains === null) mode.value = "cut";
+    if (!look?.gains) mode.value = "cut";
   });
   effect(() => {
-    if (shown.value && coloring.value === "error" && tab.value === "degrees") showLook(performance.now());
+    if (!shown.value || tab.value !== "degrees") return;
+    const ahead = textOf(item.peek()?.look ?? null) !== textOf(wish.peek());
+    if (coloring.value === "error" || ahead) showLook(performance.now());
   });
 }

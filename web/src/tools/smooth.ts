@@ -1,11 +1,11 @@
 // Smoothing of the painted region: live while sliders move, kept by a button.
-import { computed, signal } from "@preact/signals";
+import { computed, effect, signal } from "@preact/signals";
 import { step } from "../actions";
 import { needArray } from "../binary";
 import { liveChannel } from "../live";
 import { restoreSurface, shown, theView } from "../show";
 import { item } from "../state";
-import { clearRegion, radius, regions, showWeights } from "./brush";
+import { clearRegion, radius, regions, showWeights, transition } from "./brush";
 
 export const actions = [
   ["smooth", "Smooth: detail goes"],
@@ -48,9 +48,17 @@ const live = liveChannel("smooth", (answer, asked) => {
   previewed.value = true;
 });
 
+// The region fades over a wavelength; a bridge has no use for that.
+export function followWavelength(): void {
+  effect(() => {
+    transition.value = action.value === "bridge" ? null : wavelength.value;
+  });
+}
+
 export function preview(since: number): void {
   if (regions.value.length === 0 || !item.peek()) return;
   live({ fields: fields(), since });
+  showWeights(since);
 }
 
 export async function keep(): Promise<void> {

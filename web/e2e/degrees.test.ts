@@ -1,0 +1,172 @@
+// Degrees, filters, errors, and files: the bytes are those that the program writes.
+import { afterAll, beforeAll, expect, it } from "vitest";
+import {
+  bytesOf,
+  canvas,
+  drag,
+  openFile,
+  openTab,
+  picture,
+  press,
+  ready,
+  rholm,
+  saved,
+  setNumber,
+  settled,
+  startStudio,
+  stopStudio,
+  visit,
+  type Studio,
+  type Visit,
+} from "./studio";
+
+let studio: Studio;
+let now: Visit;
+
+beforeAll(async () => {
+  studio = await startStudio();
+  rholm(studio, "make", "bumpy", "--seed", "3", "-o", "rock.ply");
+  rholm(studio, "analyze", "rock.ply", "--degree", "40", "-o", "rock.h5");
+  now = await visit(studio);
+  await ready(now.page);
+  await openFile(studio, now.page, "rock.ply");
+  await openTab(now.page, "Degrees");
+  await setNumber(now.page, "Up to degree", 40);
+  await press(now.page, "Analyse");
+});
+afterAll(async () => {
+  expect(now.complaints).toEqual([]);
+  await stopStudio(studio);
+});
+
+async function save(format: string): Promise<Buffer> {
+  await openTab(now.page, "Save");
+  await now.page.getByLabel("Format").selectOption(format);
+  const bytes = await saved(now.page, /^Save rock\./);
+  await openTab(now.page, "Degrees");
+  return bytes;
+}
+
+it.each(["obj", "off", "stl", "ply"])("the whole series as %s is the program's synthesis", async (format) => {
+  rholm(studio, "synthesize", "rock.h5", "--like", "rock.ply", "-o", `whole.${format}`);
+  expect(Buffer.compare(await save(format), bytesOf(studio, `whole.${format}`))).toBe(0);
+});
+
+it.each([
+  ["h5", "h5"],
+  ["json", "json"],
+  ["npy", "npy"],
+  ["shtools", "sh"],
+  ["icgem", "gfc"],
+])("coefficients as %s are the program's", async (format, ending) => {
+  if (format !== "h5") rholm(studio, "convert", "rock.h5", `rock.${ending}`);
+  expect(Buffer.compare(await save(format), bytesOf(studio, `rock.${ending}`))).toBe(0);
+});
+
+it("the surface follows the slider, and what is kept is what is saved", async () => {
+  const { page } = now;
+  const before = await canvas(page);
+  await drag(page, "Degree", [30, 20, 12, 8]);
+  expect(Buffer.compare(before, await canvas(page))).not.toBe(0);
+  await picture(page, "degree-8");
+  rholm(studio, "synthesize", "rock.h5", "--degree", "8", "--like", "rock.ply", "-o", "d8.ply");
+  expect(Buffer.compare(await save("ply"), bytesOf(studio, "d8.ply"))).toBe(0);
+});
+
+it("undo brings the degree back", async () => {
+  const { page } = now;
+  await press(page, "Undo");
+  expect(await page.getByLabel("Degree, exactly").inputValue()).toBe("40");
+  await press(page, "Redo");
+  expect(await page.getByLabel("Degree, exactly").inputValue()).toBe("8");
+});
+
+it("errors are painted, with a scale, beside the original", async () => {
+  const { page } = now;
+  const plain = await canvas(page);
+  await page.getByLabel("Error in colours").check();
+  await settled(page);
+  await page.locator("figure.legend").waitFor();
+  const painted = await canvas(page);
+  expect(Buffer.compare(plain, painted)).not.toBe(0);
+  await page.getByLabel("Beside the original").check();
+  await settled(page);
+  expect(Buffer.compare(painted, await canvas(page))).not.toBe(0);
+  await picture(page, "error-side-by-side");
+  await page.getByLabel("Beside the original").uncheck();
+  await page.getByLabel("Error in colours").uncheck();
+});
+
+it("an equaliser's gains change the shape", async () => {
+  const { page } = now;
+  await page.getByLabel("Degrees kept").selectOption("bands");
+  await settled(page);
+  const before = await canvas(page);
+  await drag(page, "Gain of degrees 5 to 8", [0.5, 2.5]);
+  expect(Buffer.compare(before, await canvas(page))).not.toBe(0);
+  await picture(page, "equaliser");
+});
+
+it("a low pass is that of the program", async () => {
+  const { page } = now;
+  await page.getByLabel("Degrees kept").selectOption("low");
+  await setNumber(page, "Degree", 12);
+  rholm(studio, "filter", "rock.h5", "--low-pass", "12", "--window", "lanczos", "-o", "low.h5");
+  rholm(studio, "convert", "low.h5", "low.npy");
+  const [ours, theirs] = [await save("npy"), bytesOf(studio, "low.npy")];
+  expect(ours).toHaveLength(theirs.length);
+  // Gains are computed in another language: the last bits may differ.
+  const from = theirs.indexOf("\n") + 1;
+  for (let at = from; at + 8 <= theirs.length; at += 8) {
+    expect(ours.readDoubleLE(at)).toBeCloseTo(theirs.readDoubleLE(at), 14);
+  }
+  await page.getByLabel("Degrees kept").selectOption("cut");
+  await settled(page);
+});
+
+it("finds the degree for an error", async () => {
+  const { page } = now;
+  await setNumber(page, "Allowed error (of the diagonal)", 0.005);
+  await press(page, "Find the degree");
+  const degree = Number(await page.getByLabel("Degree, exactly").inputValue());
+  expect(degree).toBeGreaterThan(2);
+  expect(degree).toBeLessThan(40);
+});
+
+it("a picture has the size that was asked for", async () => {
+  const { page } = now;
+  await openTab(page, "Save");
+  await setNumber(page, "Width", 3000); // more than one tile
+  const png = await saved(page, "Save what is seen");
+  expect(png.subarray(1, 4).toString()).toBe("PNG");
+  expect([png.readUInt32BE(16), png.readUInt32BE(20)]).toEqual([3000, 2250]);
+});
+
+it("a report and a session are saved, and the session opens again", async () => {
+  const { page } = now;
+  const report = await saved(page, "Save a report");
+  expect(report.toString("utf8", 0, 15).toLowerCase()).toBe("<!doctype html>");
+  const session = await saved(page, "Save the session");
+  const other = await visit(studio);
+  await ready(other.page);
+  const file = { name: "s.rholm", mimeType: "application/octet-stream", buffer: session };
+  await other.page.locator("nav input[type=file]").setInputFiles(file);
+  await settled(other.page);
+  await other.page.locator(".items").getByText("rock.ply").waitFor();
+  expect(other.complaints).toEqual([]);
+  await other.page.context().close();
+});
+
+it("the recipe is there to copy", async () => {
+  const { page } = now;
+  await page.getByRole("button", { name: "Copy: Shell" }).click();
+  const text = await page.evaluate(() => navigator.clipboard.readText());
+  expect(text).toContain("rholm analyze rock.ply --degree 40");
+  await picture(page, "save");
+});
+
+it("measures its own latency", async () => {
+  const said = await now.page.evaluate(() => window.rholmLatency());
+  expect(said.degree?.count).toBeGreaterThan(5);
+  expect(said.degree?.p50).toBeGreaterThan(0);
+});

@@ -1,0 +1,139 @@
+// Smoothing under the brush, textures: what is kept is what the recipe's commands make.
+import { afterAll, beforeAll, expect, it } from "vitest";
+import {
+  at,
+  bytesOf,
+  canvas,
+  drag,
+  openFile,
+  openTab,
+  picture,
+  press,
+  ready,
+  rholm,
+  saved,
+  settled,
+  shell,
+  startStudio,
+  stopStudio,
+  visit,
+  type Studio,
+  type Visit,
+} from "./studio";
+
+let studio: Studio;
+let now: Visit;
+
+beforeAll(async () => {
+  studio = await startStudio();
+  rholm(studio, "make", "bumpy", "--seed", "5", "--amplitude", "0.4", "-o", "rock.ply");
+  now = await visit(studio);
+  await ready(now.page);
+  await openFile(studio, now.page, "rock.ply");
+});
+afterAll(async () => {
+  expect(now.complaints).toEqual([]);
+  await stopStudio(studio);
+});
+
+// The file that the last command of the recipe writes, and what the page saves.
+async function recipeAndSaved(): Promise<[Buffer, Buffer]> {
+  const { page } = now;
+  await openTab(page, "Save");
+  await page.getByLabel("Format").selectOption("ply");
+  const bytes = await saved(page, /^Save rock/);
+  const lines = await page.locator(".copy pre").first().innerText();
+  shell(studio, lines);
+  const name = /-o (\S+)\s*$/.exec(lines)?.[1];
+  if (!name) throw new Error(`the recipe ends without a file: ${lines}`);
+  return [bytesOf(studio, name), bytes];
+}
+
+it("the brush paints, sliders smooth live, and what is kept is the recipe's", async () => {
+  const { page } = now;
+  await openTab(page, "Smooth");
+  const before = await canvas(page);
+  await page.mouse.move(...(await at(page, 0.45, 0.5)));
+  await page.mouse.down();
+  await page.mouse.move(...(await at(page, 0.55, 0.52)), { steps: 6 });
+  await settled(page);
+  await picture(page, "brush");
+  await page.mouse.up();
+  await settled(page);
+  expect(Buffer.compare(before, await canvas(page))).not.toBe(0);
+  await drag(page, "Strength", [0.5, 0.8]);
+  const some = await canvas(page);
+  await drag(page, "Strength", [-1]);
+  expect(Buffer.compare(some, await canvas(page))).not.toBe(0);
+  await drag(page, "Strength", [1]);
+  await picture(page, "smoothed");
+  await press(page, "Keep");
+  expect(await page.getByRole("alert").count()).toBe(0);
+  const [theirs, ours] = await recipeAndSaved();
+  expect(Buffer.compare(theirs, ours)).toBe(0);
+});
+
+it("the brush grows and shrinks by keys and wheel", async () => {
+  const { page } = now;
+  await openTab(page, "Smooth");
+  const field = page.getByLabel("Brush radius (of the diagonal), exactly");
+  const size = async () => Number(await field.inputValue());
+  const first = await size();
+  await page.locator(".canvas canvas").focus();
+  await page.keyboard.press("]");
+  expect(await size()).toBeGreaterThan(first);
+  await page.keyboard.press("[");
+  expect(await size()).toBeCloseTo(first, 3);
+  await page.mouse.move(...(await at(page, 0.5, 0.5)));
+  await page.keyboard.down("Alt");
+  await page.mouse.wheel(0, -100);
+  await page.keyboard.up("Alt");
+  await settled(page);
+  expect(await size()).toBeGreaterThan(first);
+  await page.keyboard.press("[");
+});
+
+it("discarding brings the surface back", async () => {
+  const { page } = now;
+  await page.mouse.move(...(await at(page, 0.1, 0.1)));
+  await settled(page);
+  const before = await canvas(page);
+  await page.mouse.click(...(await at(page, 0.5, 0.5)));
+  await settled(page);
+  await page.mouse.move(...(await at(page, 0.1, 0.1)));
+  expect(Buffer.compare(before, await canvas(page))).not.toBe(0);
+  await press(page, "Clear");
+  await page.mouse.move(...(await at(page, 0.1, 0.1)));
+  await settled(page);
+  expect(Buffer.compare(before, await canvas(page))).toBe(0);
+});
+
+it("a texture is taken, laid, turned by its handle, and kept", async () => {
+  const { page } = now;
+  await openTab(page, "Texture");
+  await page.mouse.click(...(await at(page, 0.4, 0.45)));
+  await settled(page);
+  await page.mouse.click(...(await at(page, 0.58, 0.55)));
+  await settled(page);
+  await page.waitForTimeout(1500);
+  const laid = await canvas(page);
+  await drag(page, "Height", [1.5, 2.5]);
+  expect(Buffer.compare(laid, await canvas(page))).not.toBe(0);
+  await picture(page, "texture");
+  await page.getByLabel("Turned to what is there").uncheck();
+  await drag(page, "Turned by", [30, 60]);
+  await picture(page, "texture-turned");
+  await press(page, "Keep");
+  expect(await page.getByRole("alert").count()).toBe(0);
+  const [theirs, ours] = await recipeAndSaved();
+  expect(Buffer.compare(theirs, ours)).toBe(0);
+});
+
+it("all of it is undone, step by step", async () => {
+  const { page } = now;
+  await press(page, "Undo");
+  await press(page, "Undo");
+  await openTab(page, "Save");
+  await page.getByLabel("Format").selectOption("ply");
+  expect(Buffer.compare(await saved(page, /^Save rock/), bytesOf(studio, "rock.ply"))).toBe(0);
+});

@@ -1,0 +1,188 @@
+// The page itself: first look, sizes, themes, keys, what goes wrong.
+import { afterAll, beforeAll, beforeEach, expect, it } from "vitest";
+import { writeFileSync } from "node:fs";
+import {
+  canvas,
+  inFolder,
+  openFile,
+  openTab,
+  picture,
+  press,
+  ready,
+  rholm,
+  settled,
+  startStudio,
+  stopStudio,
+  visit,
+  type Studio,
+  type Visit,
+} from "./studio";
+
+let studio: Studio;
+let now: Visit;
+const names = ["Figures", "Degrees", "Smooth", "Texture", "Points", "Caps", "Align", "Save"];
+
+beforeAll(async () => {
+  studio = await startStudio();
+  rholm(studio, "make", "torus", "-o", "torus.ply");
+  writeFileSync(inFolder(studio, "broken.ply"), "ply\nformat ascii 1.0\nelement vertex 3\n");
+});
+afterAll(() => stopStudio(studio));
+beforeEach(async () => {
+  now = await visit(studio);
+  await ready(now.page);
+  return async () => {
+    const said = now.complaints;
+    await now.page.context().close();
+    expect(said).toEqual([]);
+  };
+});
+
+it("shows a shape, analysed, and three sentences", async () => {
+  const { page } = now;
+  await page.getByText("· degree 32").waitFor();
+  expect(await page.locator(".welcome p").count()).toBe(3);
+  await picture(page, "first-look");
+});
+
+it("has one script and one style sheet and asks nobody else", async () => {
+  const { page } = now;
+  const asked: string[] = [];
+  page.on("request", (request) => asked.push(request.url()));
+  await page.reload();
+  await ready(page);
+  const beyond = asked.filter((url) => !url.startsWith(studio.address) && !url.startsWith("data:"));
+  expect(beyond).toEqual([]);
+  expect(asked.filter((url) => url.includes("/assets/"))).toHaveLength(2);
+});
+
+it("keeps the work over a reload", async () => {
+  const { page } = now;
+  await openFile(studio, page, "torus.ply");
+  await page.reload();
+  await ready(page);
+  expect(await page.locator(".items li").count()).toBe(2);
+});
+
+it("gives every control a name and every panel a place to stand, at 1280 and 800 pixels", async () => {
+  const { page } = now;
+  for (const width of [1280, 800]) {
+    await page.setViewportSize({ width, height: 900 });
+    for (const name of names) {
+      await openTab(page, name);
+      await settled(page);
+      const nameless = await page.evaluate(() =>
+        [...document.querySelectorAll("button, input, select")]
+          .filter((one) => {
+            const labels = (one as HTMLInputElement).labels;
+            const label = labels?.length ? labels[0]?.textContent : one.textContent;
+            return !(one.getAttribute("aria-label") ?? label)?.trim();
+          })
+          .map((one) => one.outerHTML),
+      );
+      expect(nameless, name).toEqual([]);
+      const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+      expect(wide, name).toBeLessThanOrEqual(width);
+      await picture(page, `panel-${name.toLowerCase()}-${width}`);
+    }
+  }
+});
+
+it("is dark when the system is, and when it is told", async () => {
+  const { page } = now;
+  const paper = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+  const light = await paper();
+  await page.emulateMedia({ colorScheme: "dark" });
+  const dark = await paper();
+  expect(dark).not.toBe(light);
+  await press(page, "Light/dark");
+  expect(await paper()).toBe(light);
+  await press(page, /^Light$/);
+  await page.emulateMedia({ colorScheme: "light" });
+  expect(await paper()).toBe(dark);
+  await openTab(page, "Degrees");
+  await settled(page);
+  await picture(page, "dark");
+});
+
+it("obeys its keys", async () => {
+  const { page } = now;
+  await page.keyboard.press("?");
+  await page.getByRole("dialog").waitFor();
+  await picture(page, "keys");
+  await page.keyboard.press("Escape");
+  expect(await page.getByRole("dialog").count()).toBe(0);
+  await page.keyboard.press("2");
+  expect(await page.getByRole("tab", { name: "Degrees" }).getAttribute("aria-selected")).toBe("true");
+  const before = await canvas(page);
+  await page.locator(".canvas canvas").focus();
+  await page.keyboard.press("ArrowLeft");
+  await page.waitForTimeout(800);
+  expect(Buffer.compare(before, await canvas(page))).not.toBe(0);
+  await page.keyboard.press("Control+z"); // the analysis
+  await settled(page);
+  expect(await page.getByText("· degree 32").count()).toBe(0);
+  await page.keyboard.press("Control+Shift+Z");
+  await settled(page);
+  await page.getByText("· degree 32").waitFor();
+});
+
+it("takes files that are dropped", async () => {
+  const { page } = now;
+  const text = rholm(studio, "make", "box", "--ascii", "--format", "ply", "-o", "-");
+  const transfer = await page.evaluateHandle((content) => {
+    const data = new DataTransfer();
+    data.items.add(new File([content], "dropped.ply"));
+    return data;
+  }, text);
+  await page.dispatchEvent("body", "drop", { dataTransfer: transfer });
+  await settled(page);
+  await page.locator(".items").getByText("dropped.ply").waitFor();
+});
+
+it("says why a shape is not star-shaped, and where", async () => {
+  const { page } = now;
+  await openFile(studio, page, "torus.ply");
+  await openTab(page, "Figures");
+  const box = page.getByLabel(/faces that the centre does not see/);
+  expect(await box.isChecked()).toBe(true);
+  await picture(page, "offending");
+  const marked = await canvas(page);
+  await box.uncheck();
+  await settled(page);
+  expect(Buffer.compare(marked, await canvas(page))).not.toBe(0);
+});
+
+it("says what is wrong with a file, and goes on", async () => {
+  const { page } = now;
+  await openFile(studio, page, "broken.ply");
+  await page.getByRole("alert").waitFor();
+  await picture(page, "broken-file");
+  now.complaints.length = 0; // the browser logs the refusal
+  await press(page, "Close");
+  await openFile(studio, page, "torus.ply");
+  expect(await page.locator(".items li").count()).toBe(2);
+});
+
+it("says that there is no WebGL 2, and lists what is open all the same", async () => {
+  const { page } = now;
+  await page.addInitScript(() => {
+    HTMLCanvasElement.prototype.getContext = () => null;
+  });
+  await page.reload();
+  await ready(page);
+  await page.getByText("no WebGL 2").waitFor();
+  expect(await page.locator(".items li").count()).toBe(1);
+  await picture(page, "no-webgl");
+  now.complaints.length = 0; // three.js says it as well
+});
+
+it("says that the program has gone", async () => {
+  const { page } = now;
+  studio.process.kill("SIGINT");
+  await page.getByText("The studio does not answer").waitFor();
+  await picture(page, "lost");
+  await page.getByRole("button", { name: "Try again" }).click();
+  await page.getByText("The studio does not answer").waitFor();
+  now.complaints.length = 0; // lost connections
+});

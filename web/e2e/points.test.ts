@@ -1,0 +1,126 @@
+// Points to surfaces, caps, and two shapes.
+import { afterAll, beforeAll, expect, it } from "vitest";
+import {
+  bytesOf,
+  canvas,
+  drag,
+  openFile,
+  openTab,
+  picture,
+  press,
+  ready,
+  rholm,
+  saved,
+  setNumber,
+  settled,
+  startStudio,
+  stopStudio,
+  visit,
+  type Studio,
+  type Visit,
+} from "./studio";
+
+let studio: Studio;
+let now: Visit;
+
+beforeAll(async () => {
+  studio = await startStudio();
+  rholm(studio, "make", "torus", "-o", "torus.ply");
+  rholm(studio, "make", "sample", "torus.ply", "--points", "8000", "--no-normals", "-o", "scan.ply");
+  rholm(studio, "make", "sample", "torus.ply", "--points", "200000", "-o", "large.ply");
+  rholm(studio, "make", "bumpy", "--seed", "3", "-o", "rock.ply");
+  rholm(studio, "make", "ellipsoid", "-o", "egg.ply");
+  now = await visit(studio);
+  await ready(now.page);
+});
+afterAll(async () => {
+  expect(now.complaints).toEqual([]);
+  await stopStudio(studio);
+});
+
+const chosen = () => now.page.locator(".items li.chosen .name").innerText();
+async function choose(name: string): Promise<void> {
+  await now.page.locator(".items .name", { hasText: name }).first().click();
+  await settled(now.page);
+}
+
+it("points get normals and become a surface, as by the program", async () => {
+  const { page } = now;
+  await openFile(studio, page, "scan.ply");
+  await openTab(page, "Points");
+  await picture(page, "points");
+  await press(page, "Find normals");
+  await press(page, "Make a surface");
+  expect(await chosen()).toContain("surface");
+  await picture(page, "reconstructed");
+  rholm(studio, "orient", "scan.ply", "-o", "oriented.ply");
+  rholm(studio, "reconstruct", "oriented.ply", "-o", "surface.ply");
+  await openTab(page, "Save");
+  await page.getByLabel("Format").selectOption("ply");
+  const ours = await saved(page, /^Save .*\.ply/);
+  expect(Buffer.compare(ours, bytesOf(studio, "surface.ply"))).toBe(0);
+});
+
+it("a surface is simplified", async () => {
+  const { page } = now;
+  await openTab(page, "Points");
+  await setNumber(page, "Faces", 2000);
+  await press(page, "Simplify");
+  const text = (await page.locator(".items li.chosen small").innerText()).replaceAll(/\D/g, "");
+  expect(Number(text)).toBeLessThanOrEqual(2000);
+});
+
+it("a job is cancelled and leaves nothing", async () => {
+  const { page } = now;
+  await openFile(studio, page, "large.ply");
+  const before = await page.locator(".items li").count();
+  await openTab(page, "Points");
+  await page.getByRole("button", { name: "Make a surface" }).click();
+  await page.locator("progress").waitFor();
+  await page.waitForTimeout(500);
+  await picture(page, "progress");
+  await press(page, "Cancel");
+  expect(await page.locator(".items li").count()).toBe(before);
+});
+
+it("a shape is compressed to caps, shown in colours", async () => {
+  const { page } = now;
+  await openFile(studio, page, "torus.ply");
+  await openTab(page, "Caps");
+  await press(page, "Compress");
+  expect(await page.locator(".items li.chosen small").innerText()).toMatch(/caps/);
+  const colored = await canvas(page);
+  await picture(page, "caps");
+  await page.getByLabel("Caps in colours").uncheck();
+  await settled(page);
+  expect(Buffer.compare(colored, await canvas(page))).not.toBe(0);
+});
+
+it("of two shapes one is turned onto the other, and what lies between is shown", async () => {
+  const { page } = now;
+  await openFile(studio, page, "egg.ply");
+  await openTab(page, "Degrees");
+  await press(page, "Analyse");
+  await openFile(studio, page, "rock.ply");
+  await openTab(page, "Degrees");
+  await press(page, "Analyse");
+  await openTab(page, "Align");
+  await page.getByLabel(/stone\) onto/).selectOption({ label: "egg.ply" });
+  await settled(page);
+  await picture(page, "two-shapes");
+  await press(page, "Align");
+  expect(await page.getByRole("alert").count()).toBe(0);
+  const before = await canvas(page);
+  await drag(page, "Between the two", [0.2, 0.5]);
+  expect(Buffer.compare(before, await canvas(page))).not.toBe(0);
+  await picture(page, "between");
+  await page.getByRole("button", { name: "Animate" }).click();
+  await page.waitForTimeout(1500);
+  await page.getByRole("button", { name: "Stop", exact: true }).click();
+  await settled(page);
+  await drag(page, "Between the two", [0.5]);
+  const count = await page.locator(".items li").count();
+  await press(page, "Keep as a shape");
+  expect(await page.locator(".items li").count()).toBe(count + 1);
+  await choose("rock.ply");
+});
