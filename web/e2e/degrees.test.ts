@@ -137,9 +137,10 @@ it("a picture has the size that was asked for", async () => {
   const { page } = now;
   await openTab(page, "Save");
   await setNumber(page, "Width", 3000); // more than one tile
+  await setNumber(page, "Height", 2500);
   const png = await saved(page, "Save what is seen");
   expect(png.subarray(1, 4).toString()).toBe("PNG");
-  expect([png.readUInt32BE(16), png.readUInt32BE(20)]).toEqual([3000, 2250]);
+  expect([png.readUInt32BE(16), png.readUInt32BE(20)]).toEqual([3000, 2500]);
 });
 
 it("a report and a session are saved, and the session opens again", async () => {

@@ -14,7 +14,7 @@ function Progress() {
     return (
       <div class="progress" role="status">
         <span>
-          {running.label}: {running.stage}
+          {running.label}: {running.stage} ({Math.round(running.seconds)} s)
         </span>
         <progress value={running.fraction} max={1} aria-label={running.label} />
         <button type="button" onClick={() => void cancelJob()}>

@@ -97,4 +97,5 @@ export const plain = fromOklch(0.78, 0.03, 80); // a warm stone
 export const second = fromOklch(0.7, 0.1, 245); // the other shape of two
 export const marked = fromOklch(0.62, 0.24, 350); // faces not seen from the centre
 export const painted = fromOklch(0.72, 0.16, 55); // under the brush
+export const ringed = fromOklch(0.38, 0.11, 45); // the brush's rim
 export const placed = fromOklch(0.68, 0.14, 160); // where a texture is laid

@@ -1,4 +1,4 @@
-import { signal } from "@preact/signals";
+import { signal, type Signal } from "@preact/signals";
 import { fail, offer, saveAs } from "../actions";
 import { Button } from "../button";
 import { stem } from "../format";
@@ -37,6 +37,7 @@ export function formatsOf(kind: Kind, expanded: boolean): readonly Format[] {
 
 const format = signal("ply");
 const width = signal(1600);
+const height = signal(1200);
 const mostPixels = 16_384; // chosen: what browsers take as a canvas
 
 function SaveShape({ one }: { one: Item }) {
@@ -57,25 +58,32 @@ async function savePicture(one: Item): Promise<void> {
   const view = theView();
   if (!view) return;
   try {
-    offer(await view.picture(width.value, Math.round((width.value * 3) / 4)), `${stem(one.name)}.png`);
+    offer(await view.picture(width.value, height.value), `${stem(one.name)}.png`);
   } catch (error) {
     fail(error);
   }
+}
+
+function Pixels({ label, value }: { label: string; value: Signal<number> }) {
+  return (
+    <Slider
+      label={label}
+      unit="px"
+      value={value.value}
+      min={200}
+      max={mostPixels}
+      log
+      onInput={(pixels) => (value.value = Math.round(pixels))}
+    />
+  );
 }
 
 function Pictures({ one }: { one: Item }) {
   return (
     <>
       <h3>Picture and report</h3>
-      <Slider
-        label="Width"
-        unit="px"
-        value={width.value}
-        min={200}
-        max={mostPixels}
-        log
-        onInput={(value) => (width.value = Math.round(value))}
-      />
+      <Pixels label="Width" value={width} />
+      <Pixels label="Height" value={height} />
       <div class="row wrap">
         <Button onClick={() => savePicture(one)}>Save what is seen</Button>
         {one.expansion && (

@@ -22,6 +22,7 @@ import { mapColors, type Range } from "../geometry/colors";
 import type { Surface } from "../protocol";
 import { Markers, ringFrame, type Ring } from "./markers";
 import { takePicture } from "./picture";
+import { listenToPointer, type PointerTool } from "./pointer";
 import {
   disposeShape,
   makeShape,
@@ -50,9 +51,6 @@ CameraControls.install({
 
 export type Which = "main" | "other";
 export type Layout = "one" | "side" | "over"; // "side": other left, main right; "over": both at one place
-export type PointerKind = "down" | "move" | "up" | "leave";
-// Says whether the pointer is taken, so that the camera stays.
-export type PointerTool = (kind: PointerKind, touch: Touch | null, event: PointerEvent) => boolean;
 
 const fieldOfView = 32; // degrees; chosen: little perspective
 
@@ -89,7 +87,12 @@ export class View {
     key.position.set(-0.6, 0.9, 1);
     this.camera.add(key);
     this.scene.add(this.camera, new AmbientLight(0xffffff, 1), this.markers.group);
-    this.listen(canvas);
+    // Before the camera listens to the same events.
+    listenToPointer(canvas, {
+      tool: () => this.pointer,
+      touch: (event) => this.touch(event),
+      camera: (on) => (this.controls.enabled = on),
+    });
     this.camera.up.set(0, 0, 1);
     this.controls = new CameraControls(this.camera, canvas);
     // From a little above the equator, as pictures of the program.
@@ -225,28 +228,6 @@ export class View {
     if (!shape) return;
     work(shape);
     this.dirty = true;
-  }
-
-  // Before the camera listens to the same events.
-  private listen(canvas: HTMLCanvasElement): void {
-    const tell = (kind: PointerKind) => (event: PointerEvent) => {
-      const held = event.buttons !== 0 && kind === "move" && this.controls.enabled;
-      const mouseOnly = event.pointerType === "mouse" && event.button > 0;
-      if (!this.pointer || held || (kind === "down" && mouseOnly)) return;
-      const taken = this.pointer(kind, kind === "leave" ? null : this.touch(event), event);
-      if (kind === "down" && taken) {
-        this.controls.enabled = false;
-        canvas.setPointerCapture(event.pointerId);
-      }
-      if (kind === "up") this.controls.enabled = true;
-    };
-    canvas.addEventListener("pointerdown", tell("down"));
-    canvas.addEventListener("pointermove", tell("move"));
-    canvas.addEventListener("pointerup", tell("up"));
-    canvas.addEventListener("pointercancel", tell("up"));
-    canvas.addEventListener("pointerleave", tell("leave"));
-    // Alt and the wheel are the brush's.
-    canvas.addEventListener("wheel", (event) => event.altKey && event.stopImmediatePropagation());
   }
 
   private caster(event: PointerEvent): Raycaster {

@@ -1,9 +1,9 @@
 // A region painted on the surface: discs about vertices, one radius for all.
 import { computed, effect, signal } from "@preact/signals";
 import { needArray } from "../binary";
-import { painted, plain } from "../geometry/colors";
+import { painted, plain, ringed } from "../geometry/colors";
 import { liveChannel } from "../live";
-import type { PointerKind, PointerTool } from "../scene/view";
+import type { PointerKind, PointerTool } from "../scene/pointer";
 import type { Touch } from "../scene/shape";
 import { repaint, shown, theView } from "../show";
 import { item, tab } from "../state";
@@ -26,6 +26,8 @@ export const transition = signal<number | null>(null);
 
 const spacing = 0.35; // of the radius; chosen: dabs overlap by far
 
+const cover = 0.6; // of the colour at weight 1; chosen: the surface is seen through it
+
 let held = false;
 let cursor: Touch | null = null;
 
@@ -37,7 +39,7 @@ const weigh = liveChannel("brush", (answer, fields) => {
   repaint();
   theView()?.paintBy("main", (colors) =>
     indices.forEach((v, i) => {
-      const w = weights[i] ?? 0;
+      const w = cover * (weights[i] ?? 0);
       for (let k = 0; k < 3; ++k) {
         colors[3 * v + k] = (1 - w) * (colors[3 * v + k] ?? plain[k] ?? 0) + w * (painted[k] ?? 0);
       }
@@ -70,7 +72,7 @@ export function setRadius(share: number, since: number): void {
 }
 
 function showCursor(): void {
-  const ring = cursor && { center: cursor.point, normal: cursor.normal, radius: radius.value, color: painted };
+  const ring = cursor && { center: cursor.point, normal: cursor.normal, radius: radius.value, color: ringed };
   theView()?.rings(ring ? [ring] : []);
 }
 

@@ -4,7 +4,7 @@ import { step } from "../actions";
 import { arrayOf, needArray, surfaceOf, type Binary } from "../binary";
 import { painted, placed } from "../geometry/colors";
 import { liveChannel } from "../live";
-import type { PointerTool } from "../scene/view";
+import type { PointerTool } from "../scene/pointer";
 import type { Ring } from "../scene/markers";
 import type { Touch } from "../scene/shape";
 import { repaint, restoreSurface, shown, theView } from "../show";
