@@ -76,9 +76,9 @@ it("the surface follows the slider, and what is kept is what is saved", async ()
 it("undo brings the degree back", async () => {
   const { page } = now;
   await press(page, "Undo");
-  expect(await page.getByLabel("Degree, exactly").inputValue()).toBe("40");
+  expect(await page.getByLabel("Degree, exactly", { exact: true }).inputValue()).toBe("40");
   await press(page, "Redo");
-  expect(await page.getByLabel("Degree, exactly").inputValue()).toBe("8");
+  expect(await page.getByLabel("Degree, exactly", { exact: true }).inputValue()).toBe("8");
 });
 
 it("errors are painted, with a scale, beside the original", async () => {
@@ -128,7 +128,7 @@ it("finds the degree for an error", async () => {
   const { page } = now;
   await setNumber(page, "Allowed error (of the diagonal)", 0.005);
   await press(page, "Find the degree");
-  const degree = Number(await page.getByLabel("Degree, exactly").inputValue());
+  const degree = Number(await page.getByLabel("Degree, exactly", { exact: true }).inputValue());
   expect(degree).toBeGreaterThan(2);
   expect(degree).toBeLessThan(40);
 });

@@ -111,7 +111,7 @@ it("obeys its keys", async () => {
   await page.getByRole("dialog").waitFor();
   await picture(page, "keys");
   await page.keyboard.press("Escape");
-  expect(await page.getByRole("dialog").count()).toBe(0);
+  await page.getByRole("dialog").waitFor({ state: "hidden" });
   await page.keyboard.press("2");
   expect(await page.getByRole("tab", { name: "Degrees" }).getAttribute("aria-selected")).toBe("true");
   const before = await canvas(page);

@@ -117,7 +117,7 @@ export async function openTab(page: Page, name: string): Promise<void> {
 
 // By the field beside the slider.
 export async function setNumber(page: Page, label: string, value: number): Promise<void> {
-  const field = page.getByLabel(`${label}, exactly`);
+  const field = page.getByLabel(`${label}, exactly`, { exact: true });
   await field.fill(String(value));
   await field.press("Enter");
   await settled(page);

@@ -2,7 +2,7 @@
 import type { ComponentType } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 import { quit, redo, removeItem, undo } from "./actions";
-import { bytes, number } from "./format";
+import { bytes, count } from "./format";
 import { help } from "./keys";
 import { AlignPanel } from "./panels/align";
 import { CapsPanel } from "./panels/caps";
@@ -28,9 +28,9 @@ const panels: Record<Tab, ComponentType> = {
 };
 
 function summary(one: Item): string {
-  if (one.kind === "points") return `${number(one.vertices)} points`;
+  if (one.kind === "points") return `${count(one.vertices)} points`;
   if (one.kind === "atlas") return `${one.caps ?? 0} caps, ${bytes(one.bytes ?? 0)}`;
-  const faces = `${one.faces.toLocaleString("en").replaceAll(",", "\u202f")} faces`;
+  const faces = `${count(one.faces)} faces`;
   return one.expansion ? `${faces} · degree ${one.expansion.degree}` : faces;
 }
 

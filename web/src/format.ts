@@ -8,6 +8,11 @@ export function number(value: number | null | undefined): string {
   return String(Number(value.toPrecision(3)));
 }
 
+// All digits, in groups of three.
+export function count(value: number): string {
+  return value.toLocaleString("en").replaceAll(",", "\u202f");
+}
+
 export function withUnit(value: number | null | undefined, unit: string): string {
   return unit ? `${number(value)} ${unit}` : number(value);
 }

@@ -1,5 +1,5 @@
 // Which surface is on the screen, and in which colours: follows the selected item and its revision.
-import { effect, signal } from "@preact/signals";
+import { effect, signal, untracked } from "@preact/signals";
 import { fail, transport } from "./actions";
 import { surfaceOf } from "./binary";
 import { fromSrgb, labelColor, plain, second, type Range } from "./geometry/colors";
@@ -134,9 +134,12 @@ export function attach(made: View): void {
     if (tab.value !== "degrees" && coloring.peek() === "error") coloring.value = "plain";
   });
   effect(() => {
-    if (coloring.value !== "error") {
-      legend.value = null;
-      repaint();
-    }
+    const marking = markOffending.value;
+    view?.mark(marking ? (view.surface("main")?.offending ?? null) : null);
+  });
+  effect(() => {
+    if (coloring.value === "error") return;
+    legend.value = null;
+    untracked(repaint);
   });
 }

@@ -1,5 +1,5 @@
 import { expect, it } from "vitest";
-import { bytes, fromLog, number, stem, toLog, withUnit } from "../src/format";
+import { bytes, count, fromLog, number, stem, toLog, withUnit } from "../src/format";
 import { percentile } from "../src/latency";
 import { spectrumCurves } from "../src/plots/spectrum";
 
@@ -11,6 +11,7 @@ it("numbers have three digits", () => {
   expect(number(-2e-5)).toBe("-2.00e-5");
   expect(number(NaN)).toBe("–");
   expect(number(null)).toBe("–");
+  expect(count(1234567)).toBe("1\u202f234\u202f567");
   expect(withUnit(2, "km")).toBe("2 km");
   expect(withUnit(2, "")).toBe("2");
 });

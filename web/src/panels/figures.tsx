@@ -1,6 +1,6 @@
 import { openFiles, step } from "../actions";
 import { Button } from "../button";
-import { number } from "../format";
+import { count } from "../format";
 import { coloring, markOffending, type Coloring } from "../show";
 import { demo, item } from "../state";
 import { theView } from "../show";
@@ -42,7 +42,7 @@ function StarFacts() {
     <>
       <Hint>{star.why}</Hint>
       <Check
-        label={`Show the ${number(star.offending)} faces that the centre does not see`}
+        label={`Show the ${count(star.offending)} faces that the centre does not see`}
         checked={markOffending.value}
         onChange={(on) => (markOffending.value = on)}
       />

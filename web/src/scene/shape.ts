@@ -5,7 +5,6 @@ import {
   DoubleSide,
   Group,
   Mesh,
-  MeshBasicMaterial,
   MeshStandardMaterial,
   Points,
   PointsMaterial,
@@ -114,7 +113,7 @@ export function markFaces(shape: Shape, faces: Uint32Array | null): void {
   if (shape.marks) {
     shape.group.remove(shape.marks);
     shape.marks.geometry.dispose();
-    (shape.marks.material as MeshBasicMaterial).dispose();
+    (shape.marks.material as MeshStandardMaterial).dispose();
     shape.marks = null;
   }
   const triangles = shape.surface.triangles;
@@ -123,10 +122,11 @@ export function markFaces(shape: Shape, faces: Uint32Array | null): void {
   faces.forEach((face, i) => index.set(triangles.subarray(3 * face, 3 * face + 3), 3 * i));
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", shape.positions);
+  if (shape.normals) geometry.setAttribute("normal", shape.normals);
   geometry.setIndex(new BufferAttribute(index, 1));
-  const material = new MeshBasicMaterial({ side: DoubleSide, polygonOffset: true });
+  const material = new MeshStandardMaterial({ side: DoubleSide, polygonOffset: true, roughness: 0.75 });
   material.color.setRGB(...marked);
-  material.polygonOffsetFactor = material.polygonOffsetUnits = -2;
+  material.polygonOffsetFactor = material.polygonOffsetUnits = -1;
   shape.marks = keep(new Mesh(geometry, material));
   shape.group.add(shape.marks);
 }
