@@ -95,6 +95,7 @@ it("the brush grows and shrinks by keys and wheel", async () => {
 
 it("discarding brings the surface back", async () => {
   const { page } = now;
+  await page.locator(".canvas canvas").blur(); // its frame is no part of the surface
   await page.mouse.move(...(await at(page, 0.1, 0.1)));
   await settled(page);
   const before = await canvas(page);
@@ -105,6 +106,7 @@ it("discarding brings the surface back", async () => {
   await press(page, "Clear");
   await page.mouse.move(...(await at(page, 0.1, 0.1)));
   await settled(page);
+  await picture(page, "discarded");
   expect(Buffer.compare(before, await canvas(page))).toBe(0);
 });
 
@@ -118,6 +120,7 @@ it("a texture is taken, laid, turned by its handle, and kept", async () => {
   await page.waitForTimeout(1500);
   const laid = await canvas(page);
   await drag(page, "Height", [1.5, 2.5]);
+  await picture(page, "texture");
   expect(Buffer.compare(laid, await canvas(page))).not.toBe(0);
   await picture(page, "texture");
   await page.getByLabel("Turned to what is there").uncheck();

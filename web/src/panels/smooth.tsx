@@ -1,4 +1,4 @@
-import { useEffect } from "preact/hooks";
+import { useLayoutEffect } from "preact/hooks";
 import { theView } from "../show";
 import { Button } from "../button";
 import { item } from "../state";
@@ -9,7 +9,7 @@ import { Check, Hint, Select, Slider } from "../widgets";
 
 // While this panel is open the pointer paints.
 function usePointer(): void {
-  useEffect(() => {
+  useLayoutEffect(() => {
     const view = theView();
     if (!view) return undefined;
     view.pointer = brush.brushPointer(() => tool.preview(performance.now()));

@@ -1,4 +1,4 @@
-import { useEffect } from "preact/hooks";
+import { useLayoutEffect } from "preact/hooks";
 import { theView } from "../show";
 import { Button } from "../button";
 import { item } from "../state";
@@ -75,7 +75,7 @@ function Turn() {
 }
 
 export function TexturePanel() {
-  useEffect(() => {
+  useLayoutEffect(() => {
     const view = theView();
     if (!view) return undefined;
     view.pointer = tool.texturePointer;

@@ -1,4 +1,5 @@
-// A plot of uPlot as a component: made once for a set of curves, then given data.
+// A plot of positive values over many powers of ten, by uPlot, as a component: made once for a set of
+// curves, then given data.
 import { useEffect, useRef } from "preact/hooks";
 import uPlot from "uplot";
 
@@ -44,15 +45,14 @@ function options(props: ChartProps, host: HTMLElement, mark: () => number | null
   return {
     width: host.clientWidth,
     height,
-    scales: { x: { time: false, ...(props.logX ? { distr: logarithmic } : {}) }, y: { distr: logarithmic } },
+    scales: { x: { time: false, ...(props.logX ? { distr: logarithmic } : {}) }, y: { range: (_, low, high) => powerRange(low, high) } },
     axes: [
       { ...axis, label: props.xLabel, labelSize: 18, size: 34, labelFont: "12px system-ui" },
       {
         ...axis,
-        grid: { ...axis.grid, filter: powersOnly },
-        ticks: { ...axis.ticks, filter: powersOnly },
         size: 58,
-        values: (_, ticks) => ticks.map((tick) => powerLabel(tick)),
+        splits: (_, __, low, high) => powersBetween(low, high),
+        values: (_, powers) => powers.map((power) => `1e${power}`),
       },
     ],
     cursor: { y: false },
@@ -63,7 +63,7 @@ function options(props: ChartProps, host: HTMLElement, mark: () => number | null
         stroke: curve.color,
         width: 1.5,
         points: { show: false },
-        value: (_: uPlot, value: number | null) => (value === null ? "–" : value.toExponential(2)),
+        value: (_: uPlot, power: number | null) => (power === null ? "–" : (10 ** power).toExponential(2)),
         ...(curve.dash ? { dash: curve.dash } : {}),
       })),
     ],
@@ -71,20 +71,26 @@ function options(props: ChartProps, host: HTMLElement, mark: () => number | null
   };
 }
 
-// Only powers of ten have lines and labels.
-function powerOf(tick: number | null): number | null {
-  if (tick === null || tick <= 0) return null;
-  const power = Math.log10(tick);
-  return Math.abs(power - Math.round(power)) < 1e-9 ? Math.round(power) : null;
+// The vertical scale is linear in the power of ten: uPlot's own logarithmic one does not end where
+// values are as small as rounding leaves them.
+const decades = 24; // chosen: what lies further below the largest value is rounding
+const mostLabels = 9; // chosen: what fits
+
+function powersBetween(low: number, high: number): number[] {
+  const step = Math.max(1, Math.ceil((high - low) / mostLabels));
+  const first = Math.ceil(low / step) * step;
+  return Array.from({ length: Math.max(0, Math.floor((high - first) / step) + 1) }, (_, k) => first + k * step);
 }
 
-function powerLabel(tick: number | null): string {
-  const power = powerOf(tick);
-  return power === null ? "" : `1e${power}`;
+function powerRange(low: number | null, high: number | null): [number, number] {
+  if (low === null || high === null) return [0, 1];
+  const top = Math.ceil(high);
+  return [Math.max(Math.floor(low), top - decades), Math.max(top, Math.floor(low) + 1)];
 }
 
-function powersOnly(_: uPlot, ticks: number[]): (number | null)[] {
-  return ticks.map((tick) => (powerOf(tick) === null ? null : tick));
+function dataOf({ x, curves }: ChartProps): uPlot.AlignedData {
+  const power = (value: number | null) => (value !== null && value > 0 ? Math.log10(value) : null);
+  return [x, ...curves.map(({ values }) => values.map(power))];
 }
 
 export function Chart(props: ChartProps) {
@@ -97,7 +103,7 @@ export function Chart(props: ChartProps) {
     if (!element) return undefined;
     const made = new uPlot(
       options(props, element, () => mark.current),
-      [props.x, ...props.curves.map(({ values }) => values)],
+      dataOf(props),
       element,
     );
     plot.current = made;
@@ -110,7 +116,7 @@ export function Chart(props: ChartProps) {
     };
   }, [shape]);
   useEffect(() => {
-    plot.current?.setData([props.x, ...props.curves.map(({ values }) => values)]);
+    plot.current?.setData(dataOf(props));
   }, [props.x, props.curves]);
   useEffect(() => {
     mark.current = props.mark ?? null;
