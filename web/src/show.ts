@@ -2,7 +2,7 @@
 import { effect, signal, untracked } from "@preact/signals";
 import { fail, transport } from "./actions";
 import { surfaceOf } from "./binary";
-import { fromSrgb, labelColor, plain, second, type Range } from "./geometry/colors";
+import { dotted, fromSrgb, labelColor, plain, second, shadePoints, type Range } from "./geometry/colors";
 import type { Item, Surface } from "./protocol";
 import type { Layout, View } from "./scene/view";
 import { item, tab } from "./state";
@@ -78,10 +78,20 @@ export function repaint(): void {
     view.paintBy("main", (out) => labels.forEach((label, v) => out.set(labelColor(label), 3 * v)));
   } else if (coloring.value === "own" && colors) {
     view.paintBy("main", (out) => colors.forEach((byte, i) => (out[i] = fromSrgb(byte / 255))));
-  } else {
+  } else if (surface.triangles) {
     view.paint("main", plain);
+  } else if (surface.normals) {
+    const { normals } = surface;
+    view.paintBy("main", (out) => shadePoints(normals, out));
+  } else {
+    view.paint("main", dotted);
   }
-  view.mark(markOffending.value ? surface.offending : null);
+  markFaces(surface);
+}
+
+// Caps take shapes that no centre sees: nothing offends them.
+function markFaces(surface: Surface): void {
+  view?.mark(markOffending.value && item.peek()?.kind !== "atlas" ? surface.offending : null);
 }
 
 // What is on the screen again as the studio has it.
@@ -116,8 +126,10 @@ export function hideOther(): void {
 }
 
 function arrange(how: Layout): void {
+  const fresh = layout.peek() !== how;
   layout.value = how;
   view?.arrange(how);
+  if (fresh) view?.fit();
 }
 
 // Paints values of vertices, with a legend.
@@ -134,8 +146,9 @@ export function attach(made: View): void {
     if (tab.value !== "degrees" && coloring.peek() === "error") coloring.value = "plain";
   });
   effect(() => {
-    const marking = markOffending.value;
-    view?.mark(marking ? (view.surface("main")?.offending ?? null) : null);
+    const surface = view?.surface("main");
+    if (markOffending.value && surface) markFaces(surface);
+    else view?.mark(null);
   });
   effect(() => {
     if (coloring.value === "error") return;

@@ -1,5 +1,5 @@
 import { expect, it } from "vitest";
-import { aroundVertices, ballOf, vertexNormals } from "../src/geometry/normals";
+import { aroundVertices, ballAround, ballOf, vertexNormals } from "../src/geometry/normals";
 
 // An octahedron: the normal of each vertex is the vertex.
 const corners = [1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1];
@@ -41,7 +41,17 @@ it("a vertex without faces has no direction, and no NaN", () => {
   expect([...normals]).toEqual([0, 0, 0]);
 });
 
-it("the ball is around the box", () => {
+it("a ball around two balls touches both, or is the one that holds the other", () => {
+  const small = { center: [5, 0, 0] as [number, number, number], radius: 1 };
+  const large = { center: [0, 0, 0] as [number, number, number], radius: 2 };
+  expect(ballAround([large, small])).toEqual({ center: [2, 0, 0], radius: 4 });
+  expect(ballAround([small, large])).toEqual({ center: [2, 0, 0], radius: 4 });
+  expect(ballAround([large, { ...small, center: [1, 0, 0] }])).toBe(large);
+  expect(ballAround([small])).toBe(small);
+  expect(ballAround([]).radius).toBe(1);
+});
+
+it("the ball is around the points, about the middle of their box", () => {
   expect(ballOf(new Float32Array([0, 0, 0, 2, 4, 4]))).toEqual({ center: [1, 2, 2], radius: 3 });
   expect(ballOf(new Float32Array(0)).radius).toBe(1);
 });

@@ -93,7 +93,16 @@ export function labelColor(label: number): Rgb {
   return fromOklch(0.74, 0.11, (label * 137.50776405) % 360); // the golden angle
 }
 
+// Colours of points by their normals: as if lit from above, a little.
+export function shadePoints(normals: Float32Array, out: Float32Array): void {
+  for (let i = 0; i < normals.length; i += 3) {
+    const light = 0.75 + 0.25 * (normals[i + 2] ?? 0);
+    for (let k = 0; k < 3; ++k) out[i + k] = light * (dotted[k] ?? 0);
+  }
+}
+
 export const plain = fromOklch(0.78, 0.03, 80); // a warm stone
+export const dotted = fromOklch(0.6, 0.07, 60); // points, which have no shade of their own
 export const second = fromOklch(0.7, 0.1, 245); // the other shape of two
 export const marked = fromOklch(0.62, 0.24, 350); // faces not seen from the centre
 export const painted = fromOklch(0.72, 0.16, 55); // under the brush

@@ -73,8 +73,26 @@ export function aroundVertices(
   return around;
 }
 
+interface Ball {
+  center: [number, number, number];
+  radius: number;
+}
+
+// A ball around one or two others; the unit ball around none.
+export function ballAround([a, b]: readonly Ball[]): Ball {
+  if (!a || !b) return a ?? { center: [0, 0, 0], radius: 1 };
+  const way = a.center.map((x, k) => (b.center[k] ?? 0) - x);
+  const distance = Math.hypot(...way);
+  if (distance + b.radius <= a.radius) return a;
+  if (distance + a.radius <= b.radius) return b;
+  const radius = (distance + a.radius + b.radius) / 2;
+  const share = (radius - a.radius) / distance;
+  const at = (k: 0 | 1 | 2) => a.center[k] + share * (way[k] ?? 0);
+  return { center: [at(0), at(1), at(2)], radius };
+}
+
 // A ball around all points, about the middle of their box.
-export function ballOf(positions: Float32Array): { center: [number, number, number]; radius: number } {
+export function ballOf(positions: Float32Array): Ball {
   const low = [Infinity, Infinity, Infinity];
   const high = [-Infinity, -Infinity, -Infinity];
   for (let i = 0; i < positions.length; ++i) {

@@ -12,7 +12,7 @@ import {
 } from "three";
 import { MeshBVH } from "three-mesh-bvh";
 import type { Rgb } from "../geometry/colors";
-import { marked, plain } from "../geometry/colors";
+import { dotted, marked, plain } from "../geometry/colors";
 import { aroundVertices, ballOf, vertexNormals } from "../geometry/normals";
 import type { Surface } from "../protocol";
 
@@ -47,10 +47,12 @@ export function makeShape(surface: Surface): Shape {
   const group = new Group();
   const shape = { group, surface, ball, positions, colors, marks: null, bvh: null, bvhMoved: false };
   if (!surface.triangles) {
-    // Of a cloud that fills a ball's picture, chosen: points of a 250th of its radius.
-    const material = new PointsMaterial({ vertexColors: true, size: ball.radius / 125 });
+    // Chosen: on a sphere they would cover half of it, and in a ball's picture are never lost.
+    const covering = Math.sqrt(8 / Math.max(1, positions.count));
+    const size = ball.radius * Math.min(0.05, Math.max(1 / 400, covering));
+    const material = new PointsMaterial({ vertexColors: true, size });
     group.add(keep(new Points(geometry, material)));
-    return paintOne({ ...shape, normals: null, index: null, material }, plain);
+    return paintOne({ ...shape, normals: null, index: null, material }, dotted);
   }
   const given = surface.normals?.slice() ?? new Float32Array(surface.positions.length);
   if (!surface.normals) vertexNormals(surface.positions, surface.triangles, given);

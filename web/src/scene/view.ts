@@ -19,6 +19,7 @@ import {
 } from "three";
 import type { Rgb } from "../geometry/colors";
 import { mapColors, type Range } from "../geometry/colors";
+import { ballAround } from "../geometry/normals";
 import type { Surface } from "../protocol";
 import { Markers, ringFrame, type Ring } from "./markers";
 import { takePicture } from "./picture";
@@ -168,9 +169,9 @@ export class View {
 
   // All of what is shown, from where the camera looks.
   fit(smoothly = true): void {
-    const shape = this.shapes.main ?? this.shapes.other;
-    if (!shape) return;
-    const { center, radius } = shape.ball;
+    const { main, other } = this.shapes;
+    const balls = [main, this.layout === "over" ? other : null].flatMap((shape) => shape?.ball ?? []);
+    const { center, radius } = ballAround(balls);
     this.camera.near = radius / 100;
     this.camera.far = radius * 100;
     this.controls.minDistance = radius / 20;
