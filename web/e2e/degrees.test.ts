@@ -35,8 +35,8 @@ beforeAll(async () => {
   await press(now.page, "Analyse");
 });
 afterAll(async () => {
-  expect(now.complaints).toEqual([]);
   await stopStudio(studio);
+  expect(now.complaints).toEqual([]);
 });
 
 async function save(format: string): Promise<Buffer> {

@@ -32,8 +32,8 @@ beforeAll(async () => {
   await openFile(studio, now.page, "rock.ply");
 });
 afterAll(async () => {
-  expect(now.complaints).toEqual([]);
   await stopStudio(studio);
+  expect(now.complaints).toEqual([]);
 });
 
 // The file that the last command of the recipe writes, and what the page saves.

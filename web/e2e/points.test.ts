@@ -34,8 +34,8 @@ beforeAll(async () => {
   await ready(now.page);
 });
 afterAll(async () => {
-  expect(now.complaints).toEqual([]);
   await stopStudio(studio);
+  expect(now.complaints).toEqual([]);
 });
 
 const chosen = () => now.page.locator(".items li.chosen .name").innerText();

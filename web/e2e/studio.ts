@@ -150,9 +150,11 @@ export async function openFile(studio: Studio, page: Page, ...names: string[]): 
 
 // What a click on this button gives to save.
 export async function saved(page: Page, name: string | RegExp): Promise<Buffer> {
-  const coming = page.waitForEvent("download");
-  await page.getByRole("button", { name }).click();
-  return readFileSync(await (await coming).path());
+  const [download] = await Promise.all([
+    page.waitForEvent("download"),
+    page.getByRole("button", { name }).click(),
+  ]);
+  return readFileSync(await download.path());
 }
 
 // The canvas as pixels, to see that it changes.

@@ -5,7 +5,7 @@ import {
   DoubleSide,
   Group,
   Mesh,
-  MeshStandardMaterial,
+  MeshLambertMaterial,
   Points,
   PointsMaterial,
   type Ray,
@@ -30,7 +30,7 @@ export interface Shape {
   positions: BufferAttribute;
   normals: BufferAttribute | null;
   colors: BufferAttribute;
-  material: MeshStandardMaterial | PointsMaterial;
+  material: MeshLambertMaterial | PointsMaterial;
   index: BufferAttribute | null;
   marks: Mesh | null;
   bvh: MeshBVH | null;
@@ -61,11 +61,9 @@ export function makeShape(surface: Surface): Shape {
   const index = new BufferAttribute(surface.triangles.slice(), 1);
   geometry.setAttribute("normal", normals);
   geometry.setIndex(index);
-  const material = new MeshStandardMaterial({
+  const material = new MeshLambertMaterial({
     vertexColors: true,
     side: DoubleSide,
-    roughness: 0.75,
-    metalness: 0,
   });
   group.add(keep(new Mesh(geometry, material)));
   return paintOne({ ...shape, normals, index, material }, plain);
@@ -115,7 +113,7 @@ export function markFaces(shape: Shape, faces: Uint32Array | null): void {
   if (shape.marks) {
     shape.group.remove(shape.marks);
     shape.marks.geometry.dispose();
-    (shape.marks.material as MeshStandardMaterial).dispose();
+    (shape.marks.material as MeshLambertMaterial).dispose();
     shape.marks = null;
   }
   const triangles = shape.surface.triangles;
@@ -126,7 +124,7 @@ export function markFaces(shape: Shape, faces: Uint32Array | null): void {
   geometry.setAttribute("position", shape.positions);
   if (shape.normals) geometry.setAttribute("normal", shape.normals);
   geometry.setIndex(new BufferAttribute(index, 1));
-  const material = new MeshStandardMaterial({ side: DoubleSide, polygonOffset: true, roughness: 0.75 });
+  const material = new MeshLambertMaterial({ side: DoubleSide, polygonOffset: true });
   material.color.setRGB(...marked);
   material.polygonOffsetFactor = material.polygonOffsetUnits = -1;
   shape.marks = keep(new Mesh(geometry, material));
