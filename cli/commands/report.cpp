@@ -9,6 +9,7 @@
 #include "cli/commands/commands.h"
 #include "cli/files/inputs.h"
 #include "cli/files/outputs.h"
+#include "cli/files/page_folder.h"
 #include "cli/files/prepare.h"
 #include "cli/grammar/parse.h"
 #include "cli/options/tolerance_options.h"
@@ -34,6 +35,7 @@ struct Options {
   double weld = 0;
   std::string length_unit;
   int size = ReportOptions{}.picture_size;
+  bool interactive = false;
   std::string output;
   std::string format;
   InputConvention convention;
@@ -108,6 +110,7 @@ std::string page_command(const Options& options, const std::string& choices) {
   if (options.size != ReportOptions{}.picture_size) {
     text += option_text("size", std::to_string(options.size));
   }
+  if (options.interactive) text += " --interactive";
   if (!options.format.empty()) text += option_text("format", options.format);
   return text + " -o " + quoted(options.output);
 }
@@ -247,6 +250,10 @@ std::optional<ReportCommand> atlas_command(const Options& options, const AtlasMo
 }
 
 std::string page_of_atlas(const Options& options, Session& session) {
+  if (options.interactive) {
+    throw UsageError(fmt::format("{} holds an atlas of caps: --interactive is for expansions",
+                                 display_name(options.input)));
+  }
   if (options.degree || options.tolerance.tolerance || !options.center.empty() ||
       options.weld > 0 || !options.length_unit.empty()) {
     throw UsageError(
@@ -274,6 +281,7 @@ int run(const Options& options, Session& session) {
   check_options(options);
   encode_options(options);  // refuses wrong values before anything is read
   check_writable(options.output);
+  const std::string viewer = options.interactive ? viewer_script() : "";
   if (holds_atlas(options.input)) {
     const std::string page = page_of_atlas(options, session);
     stop_if_interrupted();
@@ -284,6 +292,7 @@ int run(const Options& options, Session& session) {
   subject.page.title = name_of(options.input);
   subject.page.weld_tolerance = options.weld;
   subject.page.picture_size = options.size;
+  subject.page.viewer = viewer;
   const std::string page = report_html(subject.expansion, subject.shape ? &*subject.shape : nullptr,
                                        subject.page, session.context());
   stop_if_interrupted();
@@ -315,17 +324,21 @@ std::vector<Option> input_options(Options& o) {
 }
 
 std::vector<Option> shape_and_page_options(Options& o) {
-  return {center_option(o.center),
-          weld_option(o.weld),
-          length_unit_option(o.length_unit),
-          {.name = "size",
-           .value = "N",
-           .help = "pixels of the side of each picture, 16 ... 4096; 480 by default",
-           .target = &o.size,
-           .min = 16,
-           .max = 4096},
-          output_option(o.output, "page to write: .html; - for standard output"),
-          format_option(o.format, {"html"})};
+  return {
+      center_option(o.center),
+      weld_option(o.weld),
+      length_unit_option(o.length_unit),
+      {.name = "size",
+       .value = "N",
+       .help = "pixels of the side of each picture, 16 ... 4096; 480 by default",
+       .target = &o.size,
+       .min = 16,
+       .max = 4096},
+      {.name = "interactive",
+       .help = "the surface of an expansion can be turned in the page, and cut off at any degree",
+       .target = &o.interactive},
+      output_option(o.output, "page to write: .html; - for standard output"),
+      format_option(o.format, {"html"})};
 }
 
 std::vector<Option> option_list(Options& o) {
@@ -350,8 +363,10 @@ Command report_command() {
           "conventions, and the commands that make model and page again. It can be read on a "
           "screen of any width and on paper.\n\nA mesh is analysed first, with the method edge. "
           "Coefficients are taken as they are; with --shape they are set beside the mesh they "
-          "are of; an atlas of caps likewise. There are no dates in the page: the same input gives "
-          "the same bytes.",
+          "are of; an atlas of caps likewise. With --interactive the page also has the surface "
+          "itself, to be turned "
+          "and to be seen to any degree; it still needs no other file and no network. There are no "
+          "dates in the page: the same input gives the same bytes.",
       .options = option_list(*options),
       .examples = {"rholm report bumpy.ply --degree 32 --size 160 -o report.html",
                    "rholm report bumpy.h5 --shape bumpy.ply --size 160 -o report.html"},

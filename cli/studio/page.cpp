@@ -1,11 +1,11 @@
 #include "cli/studio/page.h"
 
 #include <filesystem>
-#include <optional>
 
 #include <fmt/format.h>
 
 #include "cli/files/inputs.h"
+#include "cli/files/page_folder.h"
 #include "rholm/error.h"
 
 namespace rholm::cli {
@@ -62,16 +62,7 @@ Page read_page(const std::string& folder) {
 }
 
 Page own_page() {
-  namespace fs = std::filesystem;
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
-  // PREFIX/bin/rholm, and build/PRESET/cli/rholm.
-  for (const char* place : {"../share/rholm/studio", "../../../web/dist"}) {
-    const fs::path folder = program / place;
-    if (!program.empty() && fs::is_regular_file(folder / "index.html", error)) {
-      return read_page(folder.string());
-    }
-  }
+  if (const auto folder = page_folder()) return read_page(*folder);
   const std::string_view text = kNoPage;
   return {{"index.html", file_of("index.html", {text.begin(), text.end()})}};
 }

@@ -1,13 +1,17 @@
 """The page of rholm report, read as a browser reads it: elements, references, words."""
 
+import base64
+import json
 import os
 import re
 import shlex
+import shutil
+import subprocess
 import sys
 from html.parser import HTMLParser
 
 sys.path.insert(0, os.path.dirname(__file__))
-from harness import CliTest, OCTAHEDRON, main, off
+from harness import CliTest, OCTAHEDRON, RHOLM, main, off
 
 VOID = {"meta", "img", "br", "link", "hr", "input"}
 # Elements that a page without needs of its own does not have, attributes that load something.
@@ -192,6 +196,41 @@ class Report(CliTest):
         result = self.run_rholm("report", "zero.sh", "-o", "o.html", "--size", "16")
         self.assertIn(result.code, (0, 3), str(result))
         self.check_decent(result)
+
+    def installed(self, with_viewer):
+        """The program as it is installed, in a folder of its own."""
+        (self.folder / "bin").mkdir()
+        program = shutil.copy(RHOLM, self.folder / "bin")
+        if with_viewer:
+            viewer = self.folder / "share" / "rholm" / "studio" / "viewer"
+            viewer.mkdir(parents=True)
+            (viewer.parent / "index.html").write_text("<!doctype html>")
+            (viewer / "viewer.js").write_text("const end = '</script>';")
+        return program
+
+    def interactive(self, program, *words):
+        words = [program, "report", *words, "--interactive", "--size", "16", "-o", "o.html"]
+        return subprocess.run(words, cwd=self.folder, capture_output=True, text=True)
+
+    def test_interactive_has_the_viewer_that_is_installed(self):
+        self.rholm("make", "bumpy", "--subdivisions", "2", "-o", "a.ply")
+        run = self.interactive(self.installed(with_viewer=True), "a.ply", "--degree", "5")
+        self.assertEqual(run.returncode, 0, run)
+        text = (self.folder / "o.html").read_text()
+        self.assertIn(r"const end = '<\x2fscript>';", text)
+        self.assertIn("--interactive", text)  # among the commands
+        data = base64.b64decode(re.search(r'id="rholm-data">([^<]+)<', text)[1])
+        self.assertEqual(data[:8], b"RHOLM1\0\0")
+        meta = json.loads(data[12:12 + int.from_bytes(data[8:12], "little")])["meta"]
+        self.assertEqual(meta["expansion"]["degree"], 5)
+        self.assertEqual(meta["title"], "a.ply")
+
+    def test_interactive_without_the_viewer_says_how_to_get_it(self):
+        self.rholm("make", "bumpy", "--subdivisions", "2", "-o", "a.ply")
+        run = self.interactive(self.installed(with_viewer=False), "a.ply")
+        self.assertEqual(run.returncode, 3, run)
+        self.assertIn("scripts/studio", run.stderr)
+        self.assertFalse((self.folder / "o.html").exists())
 
 
 if __name__ == "__main__":

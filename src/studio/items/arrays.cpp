@@ -22,23 +22,6 @@ std::vector<std::uint8_t> bytes_of(const std::vector<std::array<float, 3>>& colo
 
 }  // namespace
 
-std::vector<float> floats_of(std::span<const Vec3> points) {
-  std::vector<float> values(3 * points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    values[3 * i] = static_cast<float>(points[i].x);
-    values[3 * i + 1] = static_cast<float>(points[i].y);
-    values[3 * i + 2] = static_cast<float>(points[i].z);
-  }
-  return values;
-}
-
-std::vector<std::uint32_t> indices_of(std::span<const Triangle> triangles) {
-  std::vector<std::uint32_t> values;
-  values.reserve(3 * triangles.size());
-  for (const Triangle& t : triangles) values.insert(values.end(), t.begin(), t.end());
-  return values;
-}
-
 std::vector<float> normals_of(std::span<const float> positions,
                               std::span<const Triangle> triangles) {
   std::vector<float> normals(positions.size(), 0.0F);

@@ -10,8 +10,6 @@
 
 namespace rholm::studio {
 
-std::vector<float> floats_of(std::span<const Vec3> points);                  // [n][3]
-std::vector<std::uint32_t> indices_of(std::span<const Triangle> triangles);  // [m][3]
 // Unit normals of vertices, weighted by areas; 0 where there is no area. positions and result
 // [n][3].
 std::vector<float> normals_of(std::span<const float> positions,

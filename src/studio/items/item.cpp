@@ -65,8 +65,7 @@ Item with_look(const Item& item, const Look& look, const Context& context) {
 Item with_limit(const Item& item, std::optional<int> limit, const Context& context) {
   Item changed = item;
   changed.limit = limit;
-  changed.shown =
-      std::make_shared<const Mesh>(synthesize(*item.atlas, {.degree = limit}, context));
+  changed.shown = std::make_shared<const Mesh>(synthesize(*item.atlas, {.degree = limit}, context));
   changed.facts = std::make_shared<const MeshFacts>(facts_of(*changed.shown, context));
   return changed;
 }
