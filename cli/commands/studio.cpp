@@ -54,8 +54,8 @@ void open_files(const Options& options, studio::Studio& studio) {
                        .query = {{"name", path == "-" ? "input" : path}},
                        .body = {bytes.begin(), bytes.end()},
                        .session = session});
-    if (answer.status != 200) throw_refused(path, answer);
     stop_if_interrupted();
+    if (answer.status != 200) throw_refused(path, answer);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <signal.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <thread>
@@ -21,7 +22,8 @@ using HttpResponse = httplib::Response;
 constexpr int kThreads = 64;     // chosen: an open page holds one for its events, a request one
 constexpr int kMaxStreams = 40;  // chosen: the rest of them answer
 constexpr int kIdleSeconds = 2;  // chosen: how long a connection waits for its next request
-constexpr auto kBeat = std::chrono::seconds(10);         // of streams with nothing to say
+constexpr std::uint64_t kReserved = std::uint64_t{64} << 20;  // bytes; more only as they come
+constexpr auto kBeat = std::chrono::seconds(10);              // of streams with nothing to say
 constexpr auto kLook = std::chrono::milliseconds(1000);  // how soon a stream notices that all ends
 
 httplib::Headers safe_headers() {
@@ -206,7 +208,7 @@ class StudioServer::Parts {
       return refuse(response, 400, "bad_request", "a body is the bytes themselves, no form");
     }
     std::string body;
-    body.reserve(request.get_header_value<std::uint64_t>("Content-Length"));
+    body.reserve(std::min(request.get_header_value<std::uint64_t>("Content-Length"), kReserved));
     const bool whole = read([&](const char* bytes, std::size_t n) {
       if (body.size() + n > max_upload_) return false;
       body.append(bytes, n);

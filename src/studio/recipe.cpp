@@ -19,6 +19,7 @@ bool is_whole(const Item& item) { return item.look == whole(*item.model); }
 
 std::vector<std::string> texts_of(const std::vector<double>& values) {
   std::vector<std::string> texts;
+  texts.reserve(values.size());
   for (const double value : values) texts.push_back(digits(value));
   return texts;
 }
@@ -55,7 +56,7 @@ std::string Recipe::variable(const std::string& stem) {
   }
   if (plain.empty() || std::isdigit(static_cast<unsigned char>(plain[0])) != 0)
     plain = "s_" + plain;
-  if (kReserved.contains(plain)) plain += "_";
+  if (kReserved.contains(plain)) plain += '_';
   std::string name = plain;
   for (int n = 2; !variables.insert(name).second; ++n) name = fmt::format("{}_{}", plain, n);
   return name;
@@ -81,6 +82,7 @@ std::string python_text(const std::string& text) {
 
 std::string python_list(const std::vector<std::string>& texts) {
   std::vector<std::string> quoted;
+  quoted.reserve(texts.size());
   for (const std::string& text : texts) quoted.push_back(python_text(text));
   return fmt::format("[{}]", fmt::join(quoted, ", "));
 }

@@ -14,7 +14,8 @@
 namespace rholm::studio {
 namespace {
 
-constexpr std::size_t kMaxPast = 100;  // steps; chosen: each may hold a shape
+constexpr std::size_t kMaxPast = 100;  // steps; chosen: more than anybody takes back
+constexpr std::size_t kMaxPastBytes = std::size_t{2} << 30;  // chosen: what a laptop can spare
 
 Json recipe_json(const Recipe& recipe) {
   return {{"shell", fmt::format("{}", fmt::join(recipe.shell, "\n"))},
@@ -75,10 +76,22 @@ void Session::refuse_while_busy() const {
   if (job_ && job_->running()) throw Refusal(409, "busy", "another job runs; wait or cancel it");
 }
 
+// With mutex_ held. The last step can always be undone.
+void Session::forget_oldest() {
+  if (past_.size() > kMaxPast) past_.erase(past_.begin());
+  std::vector<const Document*> documents;
+  for (const Moment& moment : past_) documents.push_back(&moment.document);
+  while (documents.size() > 1 && bytes_of(documents) > kMaxPastBytes) {
+    documents.erase(documents.begin());
+    past_.erase(past_.begin());
+    for (std::size_t i = 0; i < past_.size(); ++i) documents[i] = &past_[i].document;
+  }
+}
+
 // With mutex_ held.
 void Session::commit(const std::string& label, Document document) {
   past_.push_back({label, std::move(now_)});
-  if (past_.size() > kMaxPast) past_.erase(past_.begin());
+  forget_oldest();
   future_.clear();
   now_ = std::move(document);
   ++state_number_;

@@ -65,6 +65,7 @@ class Session {
   Json state_locked() const;
   void refuse_while_busy() const;
   void commit(const std::string& label, Document document);
+  void forget_oldest();
   Response undo(bool redo);
   Response degree_for_tolerance(const Json& request) const;
   Response start(Step step);

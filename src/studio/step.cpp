@@ -1,12 +1,56 @@
 #include "studio/step.h"
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 
 #include "rholm/region.h"
 
 namespace rholm::studio {
+namespace {
+
+std::size_t attribute_bytes(const std::vector<Attribute>& attributes) {
+  std::size_t bytes = 0;
+  for (const Attribute& a : attributes) bytes += sizeof(double) * a.values.size();
+  return bytes;
+}
+
+std::size_t bytes_of(const Mesh& mesh) {
+  return sizeof(Vec3) * mesh.vertices.size() + sizeof(Triangle) * mesh.triangles.size() +
+         attribute_bytes(mesh.attributes);
+}
+
+std::size_t bytes_of(const Model& model) {
+  const std::size_t table =
+      model.table ? (model.table->degree() + std::size_t{1}) * model.table->directions() : 0;
+  return bytes_of(model.directions) + sizeof(float) * table + sizeof(double) * model.base.size() +
+         sizeof(double) * model.expansion.coefficients.values().size();
+}
+
+std::size_t bytes_of(const PointCloud& cloud) {
+  return sizeof(Vec3) * (cloud.points.size() + cloud.normals.size()) +
+         attribute_bytes(cloud.attributes);
+}
+
+}  // namespace
+
+std::size_t bytes_of(std::span<const Document* const> documents) {
+  std::set<const void*> seen;
+  std::size_t bytes = 0;
+  const auto count = [&](const auto& thing) {
+    if (thing && seen.insert(thing.get()).second) bytes += bytes_of(*thing);
+  };
+  for (const Document* document : documents) {
+    for (const ItemPtr& item : document->items) {
+      count(item->original);
+      count(item->shown);
+      count(item->model);
+      count(item->points);
+    }
+  }
+  return bytes;
+}
 
 Step step_of(const Json& request, const Document& now, Shared& shared) {
   const std::string op = string_of(request, "op");
@@ -63,6 +107,7 @@ std::vector<std::string> regions_in(const Json& request, const char* field) {
 
 std::vector<Region> parsed(const std::vector<std::string>& regions) {
   std::vector<Region> all;
+  all.reserve(regions.size());
   for (const std::string& text : regions) all.push_back(parse_region(text));
   return all;
 }

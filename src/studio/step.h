@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,9 @@ struct Document {
   std::vector<ItemPtr> items;  // oldest first
   Recipe recipe;
 };
+
+// Bytes of the meshes, points and tables of documents, each once whoever shares it.
+std::size_t bytes_of(std::span<const Document* const> documents);
 
 // What all steps of a session share. Numbers that were given once are not given again, whatever is
 // undone.

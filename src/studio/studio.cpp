@@ -55,7 +55,7 @@ Studio::Studio(StudioOptions options)
     : options_(std::move(options)),
       scratch_(options_.folder.empty() ? std::filesystem::path("/tmp") : options_.folder) {}
 
-Response Studio::handle(const Request& request) noexcept {
+Response Studio::handle(const Request& request) {
   try {
     return answer(request);
   } catch (const Refusal& refusal) {

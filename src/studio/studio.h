@@ -31,8 +31,9 @@ class Studio {
  public:
   explicit Studio(StudioOptions options);
 
-  // Answers any request, also wrong ones; throws nothing. May be called by several threads at once.
-  Response handle(const Request& request) noexcept;
+  // Answers any request, also wrong ones, by statuses of errors, not by exceptions. May be called
+  // by several threads at once.
+  Response handle(const Request& request);
 
   // A session for the next page that asks for a new one, with shapes in it: what is opened in it
   // before (POST api/file) is what the page begins with.

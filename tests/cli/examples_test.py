@@ -66,7 +66,7 @@ class Examples(CliTest):
         self.addCleanup(process.stderr.close)
         self.addCleanup(process.kill)
         self.assertIn("http://127.0.0.1:", process.stderr.readline(), line)
-        process.send_signal(signal.SIGINT)
+        process.send_signal(signal.SIGTERM)
         self.assertEqual(process.wait(TIMEOUT), 0, line)
 
 

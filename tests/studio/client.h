@@ -54,7 +54,7 @@ inline std::map<std::string, Array> arrays_of(const std::string& bytes) {
 
 class Client {
  public:
-  explicit Client(StudioOptions options = {.threads = 2}) : studio(options) {
+  explicit Client(StudioOptions options = {.threads = 2}) : studio(std::move(options)) {
     id = Json::parse(ask("POST", "api/session").body).at("session");
   }
 

@@ -188,6 +188,7 @@ TEST(Live, OfManyAtOnceTheNewestIsAnswered) {
   Client client;
   client.step({{"op", "make"}, {"shape", "bumpy"}});
   std::vector<std::future<Response>> answers;
+  answers.reserve(40);
   for (int i = 0; i < 40; ++i) {
     answers.push_back(std::async(std::launch::async, [&client, i] {
       return client.live({{"live", "smooth"},

@@ -1,8 +1,12 @@
 // Every step, taken back and done again.
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
 #include "rholm/mesh.h"
-#include "rholm/shape_io.h"
 #include "studio/client.h"
 
 namespace rholm::studio {
@@ -144,6 +148,34 @@ TEST(Steps, TheWholeHistoryIsThere) {
   client.step({{"op", "undo"}});
   client.step({{"op", "make"}, {"shape", "sphere"}});
   EXPECT_EQ(client.post({{"op", "redo"}}).status, 422);
+}
+
+TEST(Steps, WhatDocumentsShareCountsOnce) {
+  Document one;
+  Item item;
+  Mesh mesh;
+  mesh.vertices.resize(1000);
+  item.original = std::make_shared<const Mesh>(mesh);
+  item.shown = item.original;
+  one.items.push_back(std::make_shared<const Item>(item));
+  Document two = one;
+  const std::vector<const Document*> both = {&one, &two};
+  EXPECT_EQ(bytes_of(both), 1000 * sizeof(Vec3));
+  item.shown = std::make_shared<const Mesh>(mesh);
+  two.items.push_back(std::make_shared<const Item>(item));
+  EXPECT_EQ(bytes_of(both), 2000 * sizeof(Vec3));
+  EXPECT_EQ(bytes_of(std::span(both).first(1)), 1000 * sizeof(Vec3));
+}
+
+TEST(Steps, AHundredStepsAreKept) {
+  Client client;
+  client.step({{"op", "make"}, {"shape", "box"}});
+  for (int i = 0; i < 105; ++i) {
+    client.step({{"op", "rename"}, {"item", 1}, {"name", std::to_string(i)}});
+  }
+  int undone = 0;
+  while (client.post({{"op", "undo"}}).status == 200) ++undone;
+  EXPECT_EQ(undone, 100);
 }
 
 TEST(Steps, RevisionsAndNumbersNeverComeAgain) {
