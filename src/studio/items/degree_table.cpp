@@ -10,7 +10,7 @@ namespace rholm::studio {
 namespace {
 
 constexpr std::size_t kMaxBytes = std::size_t{256} << 20;  // chosen: small against what pages take
-constexpr double kMaxWork = 8e9;  // terms; some four seconds on one processor
+constexpr double kMaxWork = 2e9;  // terms; chosen: some two seconds on one processor
 // sin^m theta below this is taken for 0: up to degree 1600 what such an order adds to any degree is
 // below rounding, as P_lm is of any size only where m < l sin theta, and there sin^m theta is above
 // exp(-L / e). Numbers without their full length would be slow.
