@@ -61,8 +61,10 @@ void open_files(const Options& options, studio::Studio& studio) {
 
 int run(const Options& options, Session& session) {
   const std::string folder = MemoryOptions{}.folder();
-  studio::Studio studio(
-      {.folder = folder, .threads = session.context().threads, .max_upload = options.max_upload});
+  studio::Studio studio({.folder = folder,
+                         .threads = session.context().threads,
+                         .max_upload = options.max_upload,
+                         .keep_going = keep_going});
   open_files(options, studio);
   StudioServer server(studio, options.page.empty() ? own_page() : read_page(options.page),
                       {.port = options.port.value_or(0), .max_upload = options.max_upload});

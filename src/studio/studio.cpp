@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "rholm/context.h"
 #include "rholm/error.h"
 #include "studio/answers.h"
 
@@ -86,6 +87,8 @@ Response Studio::answer(const Request& request) {
 
 Response Studio::answer_in(Session& session, const Request& request) {
   const std::string& path = request.path;
+  const CancelScope scope(
+      [&] { return !session.closed() && (!options_.keep_going || options_.keep_going()); });
   if (request.method == "GET") {
     if (path == "api/state") return json_response(session.state());
     if (path == "api/session-file") return session.session_file();

@@ -23,6 +23,8 @@ struct StudioOptions {
   int threads = 0;                    // of the library; 0: one per processor
   std::size_t max_upload = (std::size_t{1} << 31) - 1;  // bytes of a file
   std::size_t max_sessions = 16;  // chosen: more pages than that nobody looks at
+  // Asked from time to time while a request is answered, by several threads: whether to go on.
+  std::function<bool()> keep_going = {};
   // How long a session waits for a page that has closed its event stream.
   std::chrono::milliseconds patience = std::chrono::seconds(60);
 };

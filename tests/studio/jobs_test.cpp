@@ -1,6 +1,7 @@
 // Work on a thread: how it ends, what it leaves, who is told.
 #include <malloc.h>
 
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <thread>
@@ -120,6 +121,19 @@ TEST(Jobs, ASessionGoesSomeTimeAfterItsPage) {
   EXPECT_EQ(client.ask("GET", "api/state").status, 200);
   std::this_thread::sleep_for(60ms);
   EXPECT_EQ(client.ask("GET", "api/state").status, 404);
+}
+
+TEST(Jobs, AnswersEndWithEverythingElse) {
+  std::atomic<bool> going = true;
+  Client client({.threads = 1, .keep_going = [&] { return going.load(); }});
+  client.step({{"op", "make"}, {"shape", "bumpy"}});
+  going = false;
+  const Response answer = client.live(
+      {{"live", "smooth"}, {"item", 1}, {"regions", {"vertex:5,0.4"}}, {"wavelength", 0.3}});
+  EXPECT_EQ(answer.status, 422);
+  EXPECT_EQ(code_of(answer), "cancelled");
+  going = true;
+  EXPECT_EQ(client.ask("GET", "api/item/1/surface").status, 200);
 }
 
 TEST(Jobs, SessionsDoNotSeeEachOther) {
