@@ -80,6 +80,7 @@ void Session::refuse_while_busy() const {
 void Session::forget_oldest() {
   if (past_.size() > kMaxPast) past_.erase(past_.begin());
   std::vector<const Document*> documents;
+  documents.reserve(past_.size());
   for (const Moment& moment : past_) documents.push_back(&moment.document);
   while (documents.size() > 1 && bytes_of(documents) > kMaxPastBytes) {
     documents.erase(documents.begin());
