@@ -111,12 +111,17 @@ class StudioServer::Parts {
   const std::string& address() const { return address_; }
 
   void run(const std::function<bool()>& stop) {
-    std::thread listening([this] { server_.listen_after_bind(); });
-    // An ended server cannot be told from one that has not begun.
-    while (!server_.is_running() && !stop()) std::this_thread::sleep_for(kPause);
-    while (!stop()) std::this_thread::sleep_for(kPause);
+    std::atomic<bool> ended = false;
+    std::thread listening([&] {
+      server_.listen_after_bind();
+      ended = true;
+    });
+    while (!stop() && !ended) std::this_thread::sleep_for(kPause);
     stopping_ = true;
     studio_.close();
+    // A server that has not begun yet cannot be stopped, and would never end.
+    while (!server_.is_running() && !ended)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
     server_.stop();
     listening.join();
   }

@@ -332,6 +332,10 @@ class End(CliTest):
         self.assertEqual(studio.json("POST", "api/quit"), {"quit": True})
         self.assertEqual(studio.process.wait(TIMEOUT), 0)
 
+    def test_it_ends_as_soon_as_it_has_begun(self):
+        for _ in range(10):
+            self.assertEqual(Studio(self).end(signal.SIGTERM), 0)
+
     def test_it_ends_during_a_job(self):
         studio = Studio(self, TMPDIR=str(self.folder))
         studio.begin()
