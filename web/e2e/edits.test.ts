@@ -1,5 +1,6 @@
 // Smoothing under the brush, textures: what is kept is what the recipe's commands make.
 import { afterAll, beforeAll, expect, it } from "vitest";
+import { placed } from "../src/geometry/colors";
 import {
   at,
   bytesOf,
@@ -17,6 +18,7 @@ import {
   startStudio,
   stopStudio,
   visit,
+  whereIs,
   type Studio,
   type Visit,
 } from "./studio";
@@ -126,16 +128,46 @@ it("a texture is taken, laid, turned by its handle, and kept", async () => {
   await page.getByLabel("Turned to what is there").uncheck();
   await drag(page, "Turned by", [30, 60]);
   await picture(page, "texture-turned");
+  const ball = await whereIs(page, placed);
+  if (!ball) throw new Error("there is no handle");
+  await page.mouse.move(...ball);
+  await page.mouse.down();
+  await page.mouse.move(ball[0] - 60, ball[1] - 60, { steps: 5 });
+  await page.mouse.up();
+  await settled(page);
+  const turned = Number(await page.getByLabel("Turned by, exactly").inputValue());
+  expect(Math.abs(turned - 60)).toBeGreaterThan(5);
+  await page.getByLabel("Repeat it side by side").check();
+  await settled(page);
+  await page.getByLabel("Refine the mesh there").check();
+  await settled(page);
+  await page.waitForTimeout(1500);
+  await picture(page, "texture-refined");
   await press(page, "Keep");
   expect(await page.getByRole("alert").count()).toBe(0);
   const [theirs, ours] = await recipeAndSaved();
   expect(Buffer.compare(theirs, ours)).toBe(0);
 });
 
+it.each([
+  ["repair", "--repair"],
+  ["bridge", "--fit around"],
+])("to %s is another way of smoothing", async (action, option) => {
+  const { page } = now;
+  await openTab(page, "Smooth");
+  await page.getByLabel("What happens there").selectOption(action);
+  await page.mouse.click(...(await at(page, 0.5, 0.4)));
+  await settled(page);
+  await press(page, "Keep");
+  expect(await page.getByRole("alert").count()).toBe(0);
+  const [theirs, ours] = await recipeAndSaved();
+  expect(Buffer.compare(theirs, ours)).toBe(0);
+  expect(await page.locator(".copy pre").first().innerText()).toContain(option);
+});
+
 it("all of it is undone, step by step", async () => {
   const { page } = now;
-  await press(page, "Undo");
-  await press(page, "Undo");
+  for (let steps = 0; steps < 4; ++steps) await press(page, "Undo");
   await openTab(page, "Save");
   await page.getByLabel("Format").selectOption("ply");
   expect(Buffer.compare(await saved(page, /^Save rock/), bytesOf(studio, "rock.ply"))).toBe(0);

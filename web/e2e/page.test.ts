@@ -2,6 +2,7 @@
 import { afterAll, beforeAll, beforeEach, expect, it } from "vitest";
 import { writeFileSync } from "node:fs";
 import {
+  at,
   canvas,
   inFolder,
   openFile,
@@ -125,6 +126,23 @@ it("obeys its keys", async () => {
   await page.keyboard.press("Control+Shift+Z");
   await settled(page);
   await page.getByText("· degree 32").waitFor();
+});
+
+it("is painted on by a finger", async () => {
+  const other = await visit(studio, { hasTouch: true, isMobile: true, viewport: { width: 800, height: 900 } });
+  const { page } = other;
+  await ready(page);
+  await page.getByRole("tab", { name: "Smooth" }).tap();
+  await settled(page);
+  const before = await canvas(page);
+  await page.touchscreen.tap(...(await at(page, 0.5, 0.5)));
+  await settled(page);
+  await page.waitForTimeout(1000);
+  expect(Buffer.compare(before, await canvas(page))).not.toBe(0);
+  expect(await page.getByRole("button", { name: "Keep" }).isEnabled()).toBe(true);
+  await picture(page, "touch");
+  expect(other.complaints).toEqual([]);
+  await page.context().close();
 });
 
 it("takes files that are dropped", async () => {

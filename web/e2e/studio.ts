@@ -8,6 +8,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { chromium, type Browser, type BrowserContextOptions, type Page } from "playwright-core";
+import { toSrgb, type Rgb } from "../src/geometry/colors";
 
 const dist = fileURLToPath(new URL("../dist", import.meta.url));
 const pictures = process.env.RHOLM_PICTURES;
@@ -160,6 +161,36 @@ export async function saved(page: Page, name: string | RegExp): Promise<Buffer> 
 // The canvas as pixels, to see that it changes.
 export async function canvas(page: Page): Promise<Buffer> {
   return page.locator(".canvas canvas").screenshot();
+}
+
+// The middle of what has that colour (sRGB, within 8 of 255) on the page; null if nothing has.
+export async function whereIs(page: Page, color: Rgb): Promise<[number, number] | null> {
+  const png = (await page.screenshot()).toString("base64");
+  const wanted = color.map((x) => 255 * toSrgb(x));
+  return page.evaluate(
+    async ([data, rgb]) => {
+      const bytes = Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0));
+      const image = await createImageBitmap(new Blob([bytes], { type: "image/png" }));
+      const canvas = new OffscreenCanvas(image.width, image.height);
+      const paper = canvas.getContext("2d");
+      if (!paper) return null;
+      paper.drawImage(image, 0, 0);
+      const pixels = paper.getImageData(0, 0, image.width, image.height).data;
+      let [x, y, n] = [0, 0, 0];
+      for (let i = 0; i < pixels.length; i += 4) {
+        if (rgb.some((c, k) => Math.abs(c - (pixels[i + k] ?? 0)) > 8)) continue;
+        // Rings are as thin as a pixel: only what has the same to the right and below counts.
+        const [right, below] = [i + 16, i + 16 * image.width];
+        if (rgb.some((c, k) => Math.abs(c - (pixels[right + k] ?? 0)) > 8)) continue;
+        if (rgb.some((c, k) => Math.abs(c - (pixels[below + k] ?? 0)) > 8)) continue;
+        x += (i / 4) % image.width;
+        y += Math.floor(i / 4 / image.width);
+        n += 1;
+      }
+      return n > 0 ? ([x / n, y / n] as [number, number]) : null;
+    },
+    [png, wanted] as const,
+  );
 }
 
 // A place on the canvas, in parts of its size.

@@ -128,7 +128,8 @@ export function hideOther(): void {
 function arrange(how: Layout): void {
   const fresh = layout.peek() !== how;
   layout.value = how;
-  view?.arrange(how);
+  // Through the one the other is seen; chosen: both can be told.
+  view?.arrange(how, how === "over" ? 0.45 : 1);
   if (fresh) view?.fit();
 }
 

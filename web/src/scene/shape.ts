@@ -126,7 +126,7 @@ export function markFaces(shape: Shape, faces: Uint32Array | null): void {
   geometry.setIndex(new BufferAttribute(index, 1));
   const material = new MeshLambertMaterial({ side: DoubleSide, polygonOffset: true });
   material.color.setRGB(...marked);
-  material.polygonOffsetFactor = material.polygonOffsetUnits = -1;
+  material.polygonOffsetUnits = -4; // before the same faces of the shape, and no others
   shape.marks = keep(new Mesh(geometry, material));
   shape.group.add(shape.marks);
 }
