@@ -119,7 +119,6 @@ it("a texture is taken, laid, turned by its handle, and kept", async () => {
   await settled(page);
   await page.mouse.click(...(await at(page, 0.58, 0.55)));
   await settled(page);
-  await page.waitForTimeout(1500);
   const laid = await canvas(page);
   await drag(page, "Height", [1.5, 2.5]);
   await picture(page, "texture");
@@ -141,7 +140,6 @@ it("a texture is taken, laid, turned by its handle, and kept", async () => {
   await settled(page);
   await page.getByLabel("Refine the mesh there").check();
   await settled(page);
-  await page.waitForTimeout(1500);
   await picture(page, "texture-refined");
   await press(page, "Keep");
   expect(await page.getByRole("alert").count()).toBe(0);

@@ -118,7 +118,7 @@ it("obeys its keys", async () => {
   const before = await canvas(page);
   await page.locator(".canvas canvas").focus();
   await page.keyboard.press("ArrowLeft");
-  await page.waitForTimeout(800);
+  await settled(page);
   expect(Buffer.compare(before, await canvas(page))).not.toBe(0);
   await page.keyboard.press("Control+z"); // the analysis
   await settled(page);
@@ -137,7 +137,6 @@ it("is painted on by a finger", async () => {
   const before = await canvas(page);
   await page.touchscreen.tap(...(await at(page, 0.5, 0.5)));
   await settled(page);
-  await page.waitForTimeout(1000);
   expect(Buffer.compare(before, await canvas(page))).not.toBe(0);
   expect(await page.getByRole("button", { name: "Keep" }).isEnabled()).toBe(true);
   await picture(page, "touch");

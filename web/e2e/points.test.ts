@@ -77,7 +77,6 @@ it("a job is cancelled and leaves nothing", async () => {
   await openTab(page, "Points");
   await page.getByRole("button", { name: "Make a surface" }).click();
   await page.locator("progress").waitFor();
-  await page.waitForTimeout(500);
   await picture(page, "progress");
   await press(page, "Cancel");
   expect(await page.locator(".items li").count()).toBe(before);
@@ -115,7 +114,8 @@ it("of two shapes one is turned onto the other, and what lies between is shown",
   expect(Buffer.compare(before, await canvas(page))).not.toBe(0);
   await picture(page, "between");
   await page.getByRole("button", { name: "Animate" }).click();
-  await page.waitForTimeout(1500);
+  const slider = page.getByRole("slider", { name: "Between the two" });
+  await expect.poll(() => slider.inputValue(), { timeout: 30_000 }).not.toBe("0.5");
   await page.getByRole("button", { name: "Stop", exact: true }).click();
   await settled(page);
   await drag(page, "Between the two", [0.5]);

@@ -8,6 +8,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { chromium, type Browser, type BrowserContextOptions, type Page } from "playwright-core";
+import type {} from "../src/idle";
 import { toSrgb, type Rgb } from "../src/geometry/colors";
 
 const dist = fileURLToPath(new URL("../dist", import.meta.url));
@@ -96,11 +97,12 @@ export async function visit(studio: Studio, options: BrowserContextOptions = {})
   return { page, complaints };
 }
 
-// Until nothing is worked on and the first shape is there.
+// Until the page is at rest.
 export async function settled(page: Page): Promise<void> {
-  await page.waitForTimeout(150); // what a click begins has begun
-  await page.waitForFunction(() => !document.querySelector(".progress"), null, { timeout: 120_000 });
-  await page.waitForTimeout(100); // its surface is drawn
+  const late = new Promise<never>((_, fail) =>
+    setTimeout(() => fail(new Error("the page does not come to rest")), 60_000).unref(),
+  );
+  await Promise.race([page.evaluate(() => window.rholmIdle()), late]);
 }
 
 export async function ready(page: Page): Promise<void> {
@@ -132,7 +134,7 @@ export async function drag(page: Page, label: string, values: readonly number[])
       element.value = String(at);
       element.dispatchEvent(new InputEvent("input", { bubbles: true }));
     }, value);
-    await page.waitForTimeout(30);
+    await page.evaluate(() => new Promise(requestAnimationFrame));
   }
   await slider.dispatchEvent("change");
   await settled(page);

@@ -4,7 +4,7 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
-import type { Browser } from "playwright-core";
+import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, expect, it } from "vitest";
 import { encodeBinary } from "../src/binary";
 import { factors, nextDegree, startColumn } from "../src/harmonics/legendre";
@@ -12,6 +12,9 @@ import { gridFor, startSynthesis, sumTo, type Coefficients } from "../src/harmon
 import { launch, picture, programPath } from "./studio";
 
 const degree = 48;
+// That of the report's page.
+const policy =
+  "default-src 'none'; img-src data: blob:; style-src 'unsafe-inline'; script-src 'unsafe-inline'";
 let folder = "";
 let browser: Browser;
 let center: [number, number, number] = [0, 0, 0];
@@ -45,6 +48,11 @@ afterAll(async () => {
   await browser.close();
   rmSync(folder, { recursive: true, force: true });
 });
+
+// Until what was done is drawn.
+async function frames(page: Page): Promise<void> {
+  for (let k = 0; k < 4; ++k) await page.evaluate(() => new Promise(requestAnimationFrame));
+}
 
 // The function in a direction, term by term.
 function direct(cut: number, direction: readonly number[]): number {
@@ -101,7 +109,7 @@ it("a page with data and script in it shows the shape, from a file, without a ne
   const path = join(folder, "page.html");
   writeFileSync(
     path,
-    `<!doctype html><meta charset="utf-8"><title>viewer</title><div id="rholm-view"></div>
+    `<!doctype html><meta charset="utf-8"><meta http-equiv="Content-Security-Policy" content="${policy}"><title>viewer</title><div id="rholm-view"></div>
 <script type="application/octet-stream;base64" id="rholm-data">${data}</script>
 <script type="module">${script}</script>`,
   );
@@ -109,18 +117,21 @@ it("a page with data and script in it shows the shape, from a file, without a ne
   const page = await context.newPage();
   const complaints: string[] = [];
   page.on("pageerror", (error) => complaints.push(error.message));
+  page.on("console", (message) => {
+    if (message.type() === "error") complaints.push(message.text());
+  });
   await page.goto(pathToFileURL(path).href);
   const canvas = page.locator("canvas").first();
   await canvas.waitFor();
-  await page.waitForTimeout(500);
+  await frames(page);
   const before = await canvas.screenshot();
   await page.getByLabel("Degree, exactly").fill("3");
   await page.keyboard.press("Enter");
-  await page.waitForTimeout(500);
+  await frames(page);
   expect(Buffer.compare(before, await canvas.screenshot())).not.toBe(0);
   await page.getByLabel("Colours").selectOption("difference");
   await page.locator("figure.legend").waitFor();
-  await page.waitForTimeout(300);
+  await frames(page);
   await picture(page, "viewer");
   expect(complaints).toEqual([]);
   await context.close();

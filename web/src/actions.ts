@@ -1,6 +1,6 @@
 // What people do, as requests to the studio.
 import type { Fields, Item, Job, State } from "./protocol";
-import { busy, demo, items, job, lost, notice, selected, studio } from "./state";
+import { busy, demo, items, job, lost, notice, selected, studio, working } from "./state";
 import {
   getJson,
   HttpTransport,
@@ -23,7 +23,7 @@ export async function start(): Promise<void> {
     listen();
     if (items.value.length === 0) {
       demo.value = true;
-      await step({ op: "make", shape: "bumpy" }, "Making a shape");
+      await step({ op: "make", shape: "bumpy", amplitude: 0.45, seed: 5 }, "Making a shape");
       const made = items.value.at(-1);
       if (made) await step({ op: "analyze", item: made.id, degree: 32, center: "auto" }, "Analysing");
     }
@@ -63,11 +63,15 @@ function listen(): void {
   });
 }
 
+let expected = false; // a job has ended, and the state it leaves has not come yet
 let ended = 0; // the last job that has ended: the answer to a step may come after that
 
 function takeJob(told: Job): void {
   if (told.id <= ended) return;
-  if (told.state !== "running") ended = told.id;
+  if (told.state !== "running") {
+    ended = told.id;
+    expected = true;
+  }
   job.value = told;
   if (told.state === "failed") notice.value = { text: told.message, bad: true };
   if (told.state !== "running") job.value = null;
@@ -79,9 +83,15 @@ export function take(state: State): void {
   const added = state.items.findLast(({ id }) => !before.has(id));
   const there = state.items.some(({ id }) => id === selected.value);
   studio.value = state;
+  expected = false;
   job.value = state.job?.state === "running" ? state.job : null;
   if (added) selected.value = added.id;
   else if (!there) selected.value = state.items.at(-1)?.id ?? null;
+}
+
+// Whether all that was asked for has come.
+export function quiet(): boolean {
+  return transport.pending === 0 && !working.value && !expected;
 }
 
 export function fail(error: unknown): void {

@@ -19,6 +19,7 @@ export interface Transport {
   request(method: "GET" | "POST" | "DELETE", path: string, body?: BodyInit): Promise<Answer>;
   subscribe(listener: Listener): () => void;
   session: string;
+  readonly pending: number; // requests without an answer yet
 }
 
 // Nobody answers.
@@ -44,6 +45,7 @@ const refusals: Record<number, string> = {
 
 export class HttpTransport implements Transport {
   session = "";
+  pending = 0;
 
   constructor(private readonly base = new URL("api/", document.baseURI)) {}
 
@@ -52,6 +54,7 @@ export class HttpTransport implements Transport {
     if (typeof body === "string") headers["Content-Type"] = "application/json";
     let response: Response;
     let bytes: Uint8Array;
+    this.pending += 1;
     try {
       const init: RequestInit = { method, headers, cache: "no-store" };
       if (body !== undefined) init.body = body;
@@ -59,6 +62,8 @@ export class HttpTransport implements Transport {
       bytes = new Uint8Array(await response.arrayBuffer());
     } catch (error) {
       throw new LostError("The studio does not answer.", { cause: error });
+    } finally {
+      this.pending -= 1;
     }
     const type = response.headers.get("Content-Type") ?? "";
     if (!response.ok) throw refusal(response.status, bytes);

@@ -68,6 +68,7 @@ export class View {
   private shapes: Record<Which, Shape | null> = { main: null, other: null };
   private layout: Layout = "one";
   private dirty = true;
+  private moving = true;
   private ended = false;
   private waiting: (() => void)[] = [];
   private last = performance.now();
@@ -192,6 +193,11 @@ export class View {
     this.renderer.domElement.setAttribute("aria-label", text);
   }
 
+  // Whether the camera moves, or what is shown is not yet drawn.
+  get busy(): boolean {
+    return this.dirty || this.waiting.length > 0 || this.moving;
+  }
+
   // Until the next frame is on its way to the screen.
   drawn(): Promise<void> {
     this.dirty = true;
@@ -259,9 +265,9 @@ export class View {
   private frame(): void {
     if (this.ended) return;
     const now = performance.now();
-    const moved = this.controls.update((now - this.last) / 1000);
+    this.moving = this.controls.update((now - this.last) / 1000);
     this.last = now;
-    if (moved || this.dirty) this.render();
+    if (this.moving || this.dirty) this.render();
     requestAnimationFrame(() => this.frame());
   }
 
