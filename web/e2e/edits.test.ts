@@ -112,6 +112,25 @@ it("discarding brings the surface back", async () => {
   expect(Buffer.compare(before, await canvas(page))).toBe(0);
 });
 
+it("says that a bridge cannot be that wide, until that is not asked for", async () => {
+  const { page } = now;
+  for (const y of [0.4, 0.5, 0.6]) {
+    for (const x of [0.4, 0.47, 0.54, 0.6]) {
+      await page.mouse.click(...(await at(page, x, y)));
+      await settled(page);
+    }
+  }
+  await page.getByLabel("What happens there").selectOption("bridge");
+  await settled(page);
+  await page.getByRole("alert").waitFor({ timeout: 5000 });
+  await picture(page, "refused");
+  await page.getByLabel("What happens there").selectOption("smooth");
+  await settled(page);
+  expect(await page.getByRole("alert").count()).toBe(0);
+  now.complaints.length = 0; // the browser logs the refusal
+  await press(page, "Clear");
+});
+
 it("a texture is taken, laid, turned by its handle, and kept", async () => {
   const { page } = now;
   await openTab(page, "Texture");

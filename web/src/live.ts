@@ -5,7 +5,15 @@ import { recordLatency } from "./latency";
 import { latestWins, type Latest } from "./latest";
 import type { Fields } from "./protocol";
 import { theView } from "./show";
+import { notice } from "./state";
 import { postLive } from "./transport";
+
+let refused: typeof notice.value = null; // what the last refusal said: gone with the next answer
+
+function refuse(error: unknown): void {
+  fail(error);
+  refused = notice.peek();
+}
 
 interface Wish {
   fields: Fields;
@@ -20,9 +28,10 @@ export function liveChannel(
   return latestWins<Wish>(async ({ fields, since }, current) => {
     const answer = await postLive(transport, { live: kind, ...fields });
     if (!current()) return;
+    if (refused && notice.peek() === refused) notice.value = null;
     recordLatency(`${kind} (answer)`, since);
     apply(answer, fields);
     await theView()?.drawn();
     recordLatency(kind, since);
-  }, fail);
+  }, refuse);
 }

@@ -6,7 +6,7 @@ import { bandMeans, windows } from "../harmonics/windows";
 import { Spectrum } from "../plots/spectrum";
 import type { Item } from "../protocol";
 import { coloring, hideOther, layout, showOther } from "../show";
-import { item } from "../state";
+import { item, theme } from "../state";
 import * as tool from "../tools/degrees";
 import { Check, Hint, Select, Slider } from "../widgets";
 import { signal } from "@preact/signals";
@@ -168,7 +168,7 @@ export function DegreesPanel() {
       <Filter />
       <ErrorRow one={one} />
       <Comparison one={one} />
-      <Spectrum power={one.expansion.power} tail={one.expansion.tail} degree={tool.degree.value} />
+      <Spectrum key={theme.value} power={one.expansion.power} tail={one.expansion.tail} degree={tool.degree.value} />
       <Slider
         label="Allowed error (of the diagonal)"
         value={tool.tolerance.value}
