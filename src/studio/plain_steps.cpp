@@ -10,9 +10,30 @@ namespace {
 
 constexpr std::size_t kMaxName = 200;  // bytes; chosen: longer ones are no names
 
+// What is made.
+struct Making {
+  std::string kind;
+  double amplitude = 0.2;  // of bumpy shapes, and points on them
+  std::uint64_t seed = 1;
+};
+
+Making making_of(const Json& request) {
+  Making making = {.kind = string_or(request, "shape", "bumpy")};
+  making.amplitude = number_or(request, "amplitude", making.amplitude);
+  const int seed = integer_or(request, "seed", static_cast<int>(making.seed));
+  // As `rholm make` takes them.
+  if (!(making.amplitude >= 0 && making.amplitude <= 0.99)) {
+    throw bad_request("the field 'amplitude' must be within 0 ... 0.99");
+  }
+  if (seed < 0) throw bad_request("the field 'seed' must not be negative");
+  making.seed = static_cast<std::uint64_t>(seed);
+  return making;
+}
+
 // As `rholm make` makes them by default.
-Mesh shape_of(const std::string& kind) {
-  if (kind == "bumpy" || kind == "points") return bumpy_sphere(5);
+Mesh shape_of(const Making& making) {
+  const std::string& kind = making.kind;
+  if (kind == "bumpy" || kind == "points") return bumpy_sphere(5, making.amplitude, making.seed);
   if (kind == "sphere") return icosphere(5);
   if (kind == "ellipsoid") return ellipsoid({3, 2, 1}, 5);
   if (kind == "torus") return torus(1, 0.4, 96, 48);
@@ -21,23 +42,39 @@ Mesh shape_of(const std::string& kind) {
 }
 
 // What Python calls for the same.
-std::string python_of(const std::string& kind) {
+std::string python_of(const Making& making) {
+  const std::string& kind = making.kind;
   if (kind == "sphere") return "rholm.icosphere(5)";
   if (kind == "ellipsoid") return "rholm.ellipsoid((3, 2, 1), 5)";
   if (kind == "torus") return "rholm.torus(1, 0.4, 96, 48)";
   if (kind == "box") return "rholm.box((1, 1, 1), 24)";
-  return "rholm.bumpy_sphere(5)";
+  const Making usual;
+  std::string more;
+  if (making.amplitude != usual.amplitude) more += fmt::format(", amplitude={}", making.amplitude);
+  if (making.seed != usual.seed) more += fmt::format(", seed={}", making.seed);
+  return "rholm.bumpy_sphere(5" + more + ")";
+}
+
+// What a shell is told for the same.
+std::string shell_of(const Making& making) {
+  if (making.kind == "box") return "box --cells 24";
+  if (making.kind != "bumpy" && making.kind != "points") return making.kind;
+  const Making usual;
+  std::string words = "bumpy";
+  if (making.amplitude != usual.amplitude)
+    words += fmt::format(" --amplitude {}", making.amplitude);
+  if (making.seed != usual.seed) words += fmt::format(" --seed {}", making.seed);
+  return words;
 }
 
 constexpr int kPoints = 20000;  // chosen: a surface is made of them in a second
 
-void record_made(Recipe& recipe, Item& item, const std::string& kind) {
-  const bool points = kind == "points";
-  const std::string mesh = recipe.file(points ? "bumpy" : kind, ".ply");
+void record_made(Recipe& recipe, Item& item, const Making& making) {
+  const bool points = making.kind == "points";
+  const std::string mesh = recipe.file(points ? "bumpy" : making.kind, ".ply");
   const std::string variable = recipe.variable(stem_of(mesh));
-  recipe.shell.push_back(fmt::format("rholm make {}{} -o {}", points ? "bumpy" : kind,
-                                     kind == "box" ? " --cells 24" : "", mesh));
-  recipe.python.push_back(variable + " = " + python_of(kind));
+  recipe.shell.push_back(fmt::format("rholm make {} -o {}", shell_of(making), mesh));
+  recipe.python.push_back(variable + " = " + python_of(making));
   item.file = mesh;
   item.variable = variable;
   if (points) {
@@ -52,14 +89,15 @@ void record_made(Recipe& recipe, Item& item, const std::string& kind) {
 }
 
 Step make(const Json& request, Shared& shared) {
-  const std::string kind = string_or(request, "shape", "bumpy");
-  shape_of(kind);
-  return {"Make " + kind, false, [kind, &shared](Document& document, const Context& context) {
-            Mesh mesh = shape_of(kind);
-            Item item = kind == "points"
+  const Making making = making_of(request);
+  shape_of(making);
+  return {"Make " + making.kind, false,
+          [making, &shared](Document& document, const Context& context) {
+            Mesh mesh = shape_of(making);
+            Item item = making.kind == "points"
                             ? item_of(sample_surface(mesh, {.points = kPoints}, context))
                             : item_of(std::move(mesh), context);
-            record_made(document.recipe, item, kind);
+            record_made(document.recipe, item, making);
             add(document, std::move(item), shared);
           }};
 }

@@ -182,7 +182,7 @@ class Work(CliTest):
     def test_recipes_make_what_is_saved(self):
         studio = Studio(self)
         studio.begin()
-        studio.step(op="make", shape="bumpy")
+        studio.step(op="make", shape="bumpy", amplitude=0.45, seed=5)
         studio.step(op="analyze", item=1, degree=12)
         studio.step(op="look", item=1, degree=5)
         saved = {}

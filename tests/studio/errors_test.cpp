@@ -84,6 +84,9 @@ TEST(Errors, FieldsThatAreMissingOrWrong) {
   const std::vector<Json> wrong = {
       {{"op", "make"}, {"shape", "pear"}},
       {{"op", "make"}, {"shape", 3}},
+      {{"op", "make"}, {"shape", "bumpy"}, {"amplitude", 1}},
+      {{"op", "make"}, {"shape", "bumpy"}, {"amplitude", -0.1}},
+      {{"op", "make"}, {"shape", "bumpy"}, {"seed", -1}},
       {{"op", "rename"}, {"item", 1}},
       {{"op", "rename"}, {"item", 1}, {"name", ""}},
       {{"op", "rename"}, {"item", 1}, {"name", std::string(300, 'x')}},
