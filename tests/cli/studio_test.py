@@ -295,8 +295,11 @@ class Work(CliTest):
         def chunks():
             for _ in range(100):
                 yield b"x" * 100
-        status, _, data = studio.ask("POST", "api/file?name=a.ply", chunks())
-        self.assertEqual(status, 413, data)
+        try:
+            status, _, data = studio.ask("POST", "api/file?name=a.ply", chunks())
+            self.assertEqual(status, 413, data)
+        except (BrokenPipeError, ConnectionResetError):
+            pass  # it has hung up before all was sent, and its answer is lost with that
         self.assertEqual(len(studio.json("GET", "api/state")["items"]), 1)
 
     def test_requests_that_are_none(self):
