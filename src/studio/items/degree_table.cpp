@@ -111,26 +111,24 @@ DegreeTable::DegreeTable(const Coefficients& coefficients, std::span<const Vec3>
       n_(directions.size()),
       values_((degree_ + std::size_t{1}) * n_) {
   const std::vector<Order> orders = orders_of(coefficients);
-  parallel_for(n_, 16 * kLanes, context, {"degrees", 0, 1},
-               [&](std::size_t begin, std::size_t end) {
-                 std::vector<double> sums(orders.size() * kLanes);
-                 for (std::size_t first = begin; first < end; first += kLanes) {
-                   const std::size_t count = std::min(kLanes, end - first);
-                   Block block = block_of(directions.subspan(first, count));
-                   std::fill(sums.begin(), sums.end(), 0.0);
-                   for (int m = 0; m <= degree_; ++m) {
-                     if (m > 0 && !next_order(m, block)) break;
-                     add_order(m, orders[m], block, sums.data());
-                   }
-                   for (std::size_t k = 0; k < count; ++k) {
-                     double f = -base[first + k];
-                     for (int l = 0; l <= degree_; ++l) {
-                       f += sums[l * kLanes + k];
-                       values_[l * n_ + first + k] = static_cast<float>(f);
-                     }
-                   }
-                 }
-               });
+  std::vector<double> sums(orders.size() * kLanes);
+  for (std::size_t first = 0; first < n_; first += kLanes) {
+    report_progress(context, "degrees", static_cast<double>(first) / static_cast<double>(n_));
+    const std::size_t count = std::min(kLanes, n_ - first);
+    Block block = block_of(directions.subspan(first, count));
+    std::fill(sums.begin(), sums.end(), 0.0);
+    for (int m = 0; m <= degree_; ++m) {
+      if (m > 0 && !next_order(m, block)) break;
+      add_order(m, orders[m], block, sums.data());
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      double f = -base[first + k];
+      for (int l = 0; l <= degree_; ++l) {
+        f += sums[l * kLanes + k];
+        values_[l * n_ + first + k] = static_cast<float>(f);
+      }
+    }
+  }
 }
 
 // By parts: sum g_l f_l = sum (g_l - g_l+1) F_l of the cut off F_l.

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/parallel.h"
 #include "rholm/filter.h"
 #include "rholm/harmonic.h"
 #include "rholm/primitives.h"
@@ -133,20 +132,17 @@ QuickSurface quick_surface(const Model& model, const Look& look, const Context& 
   QuickSurface surface;
   surface.positions.resize(3 * u.size());
   if (model.original) surface.error.resize(u.size());
-  constexpr std::size_t kGrain = 16384;  // chosen: large against what a thread costs
-  parallel_for(u.size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t j = begin; j < end; ++j) {
-      const double f = model.base[j] + double{left[j]};
-      const double r = gauge ? 1 / f : f;
-      float* x = &surface.positions[3 * j];
-      x[0] = static_cast<float>(center.x + r * u[j].x);
-      x[1] = static_cast<float>(center.y + r * u[j].y);
-      x[2] = static_cast<float>(center.z + r * u[j].z);
-      if (model.original) {
-        surface.error[j] = gauge ? static_cast<float>(r - 1 / model.base[j]) : left[j];
-      }
+  for (std::size_t j = 0; j < u.size(); ++j) {
+    const double f = model.base[j] + double{left[j]};
+    const double r = gauge ? 1 / f : f;
+    float* x = &surface.positions[3 * j];
+    x[0] = static_cast<float>(center.x + r * u[j].x);
+    x[1] = static_cast<float>(center.y + r * u[j].y);
+    x[2] = static_cast<float>(center.z + r * u[j].z);
+    if (model.original) {
+      surface.error[j] = gauge ? static_cast<float>(r - 1 / model.base[j]) : left[j];
     }
-  });
+  }
   surface.normals = normals_of(surface.positions, model.directions.triangles);
   return surface;
 }
