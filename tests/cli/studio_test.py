@@ -15,6 +15,9 @@ import time
 sys.path.insert(0, os.path.dirname(__file__))
 from harness import RHOLM, TIMEOUT, CliTest, main
 
+# Where tests are run in the background it is ignored, and programs that they start would inherit that.
+signal.signal(signal.SIGINT, signal.default_int_handler)
+
 TETRAHEDRON = b"OFF\n4 4 0\n1 1 1\n1 -1 -1\n-1 1 -1\n-1 -1 1\n3 0 1 2\n3 0 3 1\n3 0 2 3\n3 1 3 2\n"
 
 
