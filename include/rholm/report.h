@@ -56,7 +56,7 @@ std::string report_html(const Expansion& expansion, const Mesh* shape, const Rep
 std::string report_html(const AtlasModel& model, const Mesh* shape, const ReportOptions& options,
                         const Context& context = {});
 
-// What a viewer shows of an expansion, as docs/studio.md has it ("arrays"): its coefficients to
+// What a viewer shows of an expansion, as docs/studio.md has it: its coefficients to
 // degree 512, errors of degrees, and the shape, with at most 200 000 faces; none if it cannot be
 // made as simple. `shape` may be nullptr. Throws InvalidInput for coefficients that have no
 // surface.
