@@ -16,7 +16,7 @@
 #include "cli/terminal/json_text.h"
 #include "cli/terminal/session.h"
 #include "rholm/error.h"
-#include "studio/studio.h"
+#include "rholm/studio.h"
 
 namespace rholm::cli {
 namespace {
@@ -25,12 +25,12 @@ struct Options {
   std::vector<std::string> files;
   std::optional<int> port;
   bool no_open = false;
-  std::uint64_t max_upload = studio::StudioOptions{}.max_upload;
+  std::uint64_t max_upload = StudioOptions{}.max_upload;
   std::string page;
 };
 
 // What the studio says of a file that it does not take, as an error of the program.
-[[noreturn]] void throw_refused(const std::string& path, const studio::Response& answer) {
+[[noreturn]] void throw_refused(const std::string& path, const StudioResponse& answer) {
   const Json error = Json::parse(answer.body).at("error");
   const std::string code = error.at("code").get<std::string>();
   const std::string message = error.at("message").get<std::string>();
@@ -43,17 +43,16 @@ struct Options {
 }
 
 // The first page begins with them.
-void open_files(const Options& options, studio::Studio& studio) {
+void open_files(const Options& options, Studio& studio) {
   if (options.files.empty()) return;
   const std::string session = studio.offered_session();
   for (const std::string& path : options.files) {
     const std::vector<char> bytes = read_all_bytes(path);
-    const studio::Response answer =
-        studio.handle({.method = "POST",
-                       .path = "api/file",
-                       .query = {{"name", path == "-" ? "input" : path}},
-                       .body = {bytes.begin(), bytes.end()},
-                       .session = session});
+    const StudioResponse answer = studio.handle({.method = "POST",
+                                                 .path = "api/file",
+                                                 .query = {{"name", path == "-" ? "input" : path}},
+                                                 .body = {bytes.begin(), bytes.end()},
+                                                 .session = session});
     stop_if_interrupted();
     if (answer.status != 200) throw_refused(path, answer);
   }
@@ -61,10 +60,10 @@ void open_files(const Options& options, studio::Studio& studio) {
 
 int run(const Options& options, Session& session) {
   const std::string folder = MemoryOptions{}.folder();
-  studio::Studio studio({.folder = folder,
-                         .threads = session.context().threads,
-                         .max_upload = options.max_upload,
-                         .keep_going = keep_going});
+  Studio studio({.folder = folder,
+                 .threads = session.context().threads,
+                 .max_upload = options.max_upload,
+                 .keep_going = keep_going});
   open_files(options, studio);
   StudioServer server(studio, options.page.empty() ? own_page() : read_page(options.page),
                       {.port = options.port.value_or(0), .max_upload = options.max_upload});

@@ -50,7 +50,7 @@ void set_body(HttpResponse& response, std::shared_ptr<const std::string> body,
       });
 }
 
-void give(const studio::Response& answer, HttpResponse& response) {
+void give(const StudioResponse& answer, HttpResponse& response) {
   response.status = answer.status;
   if (!answer.download.empty()) {
     response.set_header("Content-Disposition",
@@ -77,12 +77,12 @@ bool is_foreign(const HttpRequest& request, bool is_page) {
            request.get_header_value("Sec-Fetch-Dest") == "document");
 }
 
-studio::Request request_of(const HttpRequest& request, std::string path, std::string body) {
-  studio::Request asked = {.method = request.method == "HEAD" ? "GET" : request.method,
-                           .path = std::move(path),
-                           .query = {request.params.begin(), request.params.end()},
-                           .body = std::move(body),
-                           .session = request.get_header_value("X-Session")};
+StudioRequest request_of(const HttpRequest& request, std::string path, std::string body) {
+  StudioRequest asked = {.method = request.method == "HEAD" ? "GET" : request.method,
+                         .path = std::move(path),
+                         .query = {request.params.begin(), request.params.end()},
+                         .body = std::move(body),
+                         .session = request.get_header_value("X-Session")};
   return asked;
 }
 
@@ -90,7 +90,7 @@ studio::Request request_of(const HttpRequest& request, std::string path, std::st
 
 class StudioServer::Parts {
  public:
-  Parts(studio::Studio& studio, Page page, const ServerOptions& options)
+  Parts(Studio& studio, Page page, const ServerOptions& options)
       : studio_(studio), page_(std::move(page)), max_upload_(options.max_upload) {
     set_up();
     int port = options.port;
@@ -228,7 +228,7 @@ class StudioServer::Parts {
   void stream(const HttpRequest& request, HttpResponse& response) {
     std::string session = request.get_header_value("X-Session");
     if (session.empty()) session = request.get_param_value("session");
-    std::shared_ptr<studio::Studio::Listener> listener = studio_.listen(session);
+    std::shared_ptr<StudioListener> listener = studio_.listen(session);
     if (!listener) return refuse(response, 404, "no_session", "there is no such session");
     if (streams_ >= kMaxStreams) {
       return refuse(response, 503, "too_many_sessions", "too many pages are open; close one first");
@@ -243,14 +243,14 @@ class StudioServer::Parts {
         [this](bool) { --streams_; });
   }
 
-  bool send_events(studio::Studio::Listener& listener, std::chrono::steady_clock::time_point& beat,
+  bool send_events(StudioListener& listener, std::chrono::steady_clock::time_point& beat,
                    httplib::DataSink& out) const {
     if (stopping_ || listener.ended()) {
       out.done();
       return true;
     }
     std::string text;
-    for (const studio::Event& event : listener.wait(kLook)) {
+    for (const StudioEvent& event : listener.wait(kLook)) {
       text += fmt::format("event: {}\ndata: {}\n\n", event.name, event.data);
     }
     const auto now = std::chrono::steady_clock::now();
@@ -260,7 +260,7 @@ class StudioServer::Parts {
     return out.write(text.data(), text.size());
   }
 
-  studio::Studio& studio_;
+  Studio& studio_;
   const Page page_;
   const std::size_t max_upload_;
   const std::string token_ = random_token();
@@ -270,7 +270,7 @@ class StudioServer::Parts {
   httplib::Server server_;
 };
 
-StudioServer::StudioServer(studio::Studio& studio, Page page, const ServerOptions& options)
+StudioServer::StudioServer(Studio& studio, Page page, const ServerOptions& options)
     : parts_(std::make_unique<Parts>(studio, std::move(page), options)) {}
 StudioServer::~StudioServer() = default;
 

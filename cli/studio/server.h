@@ -7,7 +7,7 @@
 #include <string>
 
 #include "cli/studio/page.h"
-#include "studio/studio.h"
+#include "rholm/studio.h"
 
 namespace rholm::cli {
 
@@ -21,7 +21,7 @@ struct ServerOptions {
 class StudioServer {
  public:
   // Throws Io if the port is taken.
-  StudioServer(studio::Studio& studio, Page page, const ServerOptions& options);
+  StudioServer(Studio& studio, Page page, const ServerOptions& options);
   ~StudioServer();
   StudioServer(const StudioServer&) = delete;
   StudioServer& operator=(const StudioServer&) = delete;

@@ -1,5 +1,5 @@
 // rholm: spherical harmonics of 3D objects. The whole public interface.
-// Layer: report.
+// Layer: studio.
 #pragma once
 
 #include "rholm/align.h"
@@ -41,6 +41,7 @@
 #include "rholm/simplify.h"
 #include "rholm/smooth.h"
 #include "rholm/star.h"
+#include "rholm/studio.h"
 #include "rholm/synthesize.h"
 #include "rholm/topology.h"
 #include "rholm/transfer.h"

@@ -23,10 +23,6 @@ namespace rholm::studio {
 struct EventMark {
   std::uint64_t state = 0, job = 0;
 };
-struct Event {
-  std::string name;  // "state", "job"
-  std::string data;  // JSON in one line
-};
 
 // All functions may be called by several threads at once. They throw Refusal, and what the library
 // throws.

@@ -3,6 +3,7 @@
 #include <rholm/primitives.h>
 #include <rholm/render.h>
 #include <rholm/report.h>
+#include <rholm/studio.h>
 
 #include <array>
 
@@ -36,6 +37,21 @@ void report() {
   expect(page.find("<script") == std::string::npos, "and without scripts");
 }
 
+void studio() {
+  rholm::Studio studio({.threads = 1});
+  const std::string session = studio.offered_session();
+  const rholm::StudioResponse state = studio.handle({.path = "api/state", .session = session});
+  expect(state.status == 200, "a session has a state");
+  expect(state.body.find("\"items\":[]") != std::string::npos, "without shapes");
+  expect(studio.handle({.path = "api/state"}).status == 404, "which nobody else has");
+  const std::unique_ptr<rholm::StudioListener> listener = studio.listen(session);
+  expect(listener->wait(std::chrono::seconds(10)).size() == 1, "who listens is told it");
+  studio.close();
+  expect(listener->ended(), "and when it ends");
+}
+
 }  // namespace
 
-std::vector<HeaderCheck> report_checks() { return {{"render.h", render}, {"report.h", report}}; }
+std::vector<HeaderCheck> report_checks() {
+  return {{"render.h", render}, {"report.h", report}, {"studio.h", studio}};
+}

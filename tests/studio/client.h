@@ -10,8 +10,9 @@
 
 #include <gtest/gtest.h>
 
+#include "rholm/studio.h"
 #include "studio/items/fields.h"
-#include "studio/studio.h"
+#include "studio/items/message.h"
 
 namespace rholm::studio::test {
 

@@ -8,6 +8,7 @@
 
 #include "rholm/mesh.h"
 #include "studio/client.h"
+#include "studio/step.h"
 
 namespace rholm::studio {
 namespace {

@@ -1,27 +1,16 @@
 // What is asked, what is answered, and what is refused. Layer: studio.
 #pragma once
 
-#include <map>
 #include <stdexcept>
 #include <string>
 
+#include "rholm/studio.h"
+
 namespace rholm::studio {
 
-// As of HTTP, without it.
-struct Request {
-  std::string method = "GET";                     // "GET", "POST", "DELETE"
-  std::string path;                               // below the address of the page: "api/state"
-  std::map<std::string, std::string> query = {};  // decoded
-  std::string body = {};                          // bytes
-  std::string session = {};                       // header X-Session, may be empty
-};
-
-struct Response {
-  int status = 200;                       // of HTTP
-  std::string type = "application/json";  // of the body
-  std::string body = {};                  // bytes
-  std::string download = {};              // name of a file to be saved; empty: none
-};
+using Request = StudioRequest;
+using Response = StudioResponse;
+using Event = StudioEvent;
 
 // A request that cannot be answered as it is. The code is for the page, the message for people.
 class Refusal : public std::runtime_error {
