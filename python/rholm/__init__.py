@@ -220,6 +220,7 @@ from ._shapes import (
     validate,
     vertex_colors,
 )
+from ._studio import Studio, studio
 from ._sums import (
     adjoint,
     analyze_grid,
@@ -322,6 +323,7 @@ __all__ = [
     "SmoothEditor",
     "StarChart",
     "StarReport",
+    "Studio",
     "SurfaceMeasures",
     "ToleranceReport",
     "TransferEditor",
@@ -445,6 +447,7 @@ __all__ = [
     "smallest_grid",
     "smooth",
     "spectrum_svg",
+    "studio",
     "surface_area",
     "synthesize",
     "synthesize_grid",

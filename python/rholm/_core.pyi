@@ -1,6 +1,6 @@
 """The C++ library; use rholm itself."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 import os
 import pathlib
 from typing import Annotated, Any, overload
@@ -2639,6 +2639,27 @@ class ReportOptions:
 def report_html(arg0: Expansion | AtlasModel, arg1: Mesh | None, arg2: ReportOptions, arg3: Caller, /) -> str: ...
 
 def view_data(arg0: Expansion, arg1: Mesh | None, arg2: str, arg3: Caller, /) -> bytes: ...
+
+class StudioListener:
+    """Who listens to a session."""
+
+    def wait(self, seconds: float) -> list: ...
+
+    @property
+    def ended(self) -> bool: ...
+
+class Studio:
+    """Requests in, responses out."""
+
+    def __init__(self, folder: str, threads: int) -> None: ...
+
+    def handle(self, method: str, path: str, query: Mapping[str, str], body: bytes, session: str) -> tuple: ...
+
+    def offered_session(self) -> str: ...
+
+    def listen(self, session: str) -> StudioListener: ...
+
+    def close(self) -> None: ...
 
 class BatchTable:
     """Rows as columns."""

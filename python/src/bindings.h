@@ -19,5 +19,6 @@ void bind_reconstruction(nanobind::module_& m);
 void bind_edits(nanobind::module_& m);     // smoothing, transfer
 void bind_batches(nanobind::module_& m);   // tables of many shapes
 void bind_pictures(nanobind::module_& m);  // pictures, pages
+void bind_studio(nanobind::module_& m);    // what pages of notebooks ask
 
 }  // namespace rholm::python

@@ -26,5 +26,6 @@ NB_MODULE(_core, m) {
   bind_reconstruction(m);
   bind_edits(m);
   bind_pictures(m);
+  bind_studio(m);
   bind_batches(m);
 }

@@ -1,6 +1,7 @@
 // What people do, as requests to the studio.
 import type { Fields, Item, Job, State } from "./protocol";
 import { busy, demo, items, job, lost, notice, selected, studio, working } from "./state";
+import { PortTransport } from "./messages";
 import {
   getJson,
   HttpTransport,
@@ -11,8 +12,9 @@ import {
   type Transport,
 } from "./transport";
 
-export const transport: Transport = new HttpTransport();
-const sessionKey = "rholm-session";
+// A frame of a notebook says that it is one.
+const framed = document.querySelector('meta[name="rholm-frame"]') !== null;
+export const transport: Transport = framed ? new PortTransport(window) : new HttpTransport();
 let unsubscribe: (() => void) | null = null;
 
 // Takes up the session of this tab, or a new one; with nothing open, asks for a shape.
@@ -33,7 +35,7 @@ export async function start(): Promise<void> {
 }
 
 async function openSession(): Promise<void> {
-  const before = sessionStorage.getItem(sessionKey);
+  const before = await transport.remembered();
   if (before) {
     transport.session = before;
     try {
@@ -47,7 +49,7 @@ async function openSession(): Promise<void> {
   const opened = await postJson<{ session: string; state: State }>(transport, "session", {});
   transport.session = opened.session;
   ended = 0;
-  sessionStorage.setItem(sessionKey, opened.session);
+  transport.remember(opened.session);
   take(opened.state);
 }
 

@@ -1,7 +1,7 @@
 // The page: what is open on the left, the shape, one panel for each activity.
 import type { ComponentType } from "preact";
 import { useEffect, useRef } from "preact/hooks";
-import { quit, redo, removeItem, undo } from "./actions";
+import { quit, redo, removeItem, transport, undo } from "./actions";
 import { bytes, count } from "./format";
 import { help } from "./keys";
 import { AlignPanel } from "./panels/align";
@@ -153,9 +153,11 @@ function Help() {
         <button type="button" class="main" onClick={() => (helpOpen.value = false)}>
           Close
         </button>
-        <button type="button" onClick={() => void quit().then(() => (helpOpen.value = false))}>
-          Stop the program
-        </button>
+        {transport.endsProgram && (
+          <button type="button" onClick={() => void quit().then(() => (helpOpen.value = false))}>
+            Stop the program
+          </button>
+        )}
       </div>
     </dialog>
   );

@@ -1,7 +1,7 @@
 // The canvas and what lies over it: legend, progress, notices.
 import { useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
-import { cancelJob, start } from "./actions";
+import { cancelJob, start, transport } from "./actions";
 import { listenToPointer } from "./keys";
 import { ColorScale } from "./plots/legend";
 import { NoWebGlError, View } from "./scene/view";
@@ -35,7 +35,7 @@ function Notice() {
   if (lost.value) {
     return (
       <div class="notice bad" role="alert">
-        <p>The studio does not answer. Is the program still running?</p>
+        <p>The studio does not answer. Is the {transport.program} still running?</p>
         <button type="button" onClick={() => void start()}>
           Try again
         </button>

@@ -1,4 +1,4 @@
-// The way to the studio: requests and events. Pages use HTTP; whatever else carries both will do.
+// The way to the studio: requests and events. Pages use HTTP; frames of notebooks messages.ts.
 import type { Fields, Job, State } from "./protocol";
 import { decodeBinary, type Binary } from "./binary";
 
@@ -19,6 +19,11 @@ export interface Transport {
   request(method: "GET" | "POST" | "DELETE", path: string, body?: BodyInit): Promise<Answer>;
   subscribe(listener: Listener): () => void;
   session: string;
+  // The session that this page had before, or was given; "" for none.
+  remembered(): Promise<string>;
+  remember(session: string): void;
+  readonly program: string; // what answers: may it still be running?
+  readonly endsProgram: boolean; // whether the page may end it
   readonly pending: number; // requests without an answer yet
 }
 
@@ -43,9 +48,13 @@ const refusals: Record<number, string> = {
   503: "Too many pages are open: close one.",
 };
 
+const sessionKey = "rholm-session";
+
 export class HttpTransport implements Transport {
   session = "";
   pending = 0;
+  readonly program = "program";
+  readonly endsProgram = true;
 
   constructor(private readonly base = new URL("api/", document.baseURI)) {}
 
@@ -66,8 +75,15 @@ export class HttpTransport implements Transport {
       this.pending -= 1;
     }
     const type = response.headers.get("Content-Type") ?? "";
-    if (!response.ok) throw refusal(response.status, bytes);
-    return { status: response.status, type, bytes };
+    return accepted({ status: response.status, type, bytes });
+  }
+
+  remembered(): Promise<string> {
+    return Promise.resolve(sessionStorage.getItem(sessionKey) ?? "");
+  }
+
+  remember(session: string): void {
+    sessionStorage.setItem(sessionKey, session);
   }
 
   subscribe(listener: Listener): () => void {
@@ -86,13 +102,17 @@ export class HttpTransport implements Transport {
   }
 }
 
-function refusal(status: number, bytes: Uint8Array): RefusedError {
+// The answer itself; throws RefusedError for a no.
+export function accepted(answer: Answer): Answer {
+  const { status, bytes } = answer;
+  if (status < 400) return answer;
+  let said: { code: string; message: string };
   try {
-    const said = (json(bytes) as { error: { code: string; message: string } }).error;
-    return new RefusedError(status, said.code, said.message);
+    said = (json(bytes) as { error: { code: string; message: string } }).error;
   } catch {
-    return new RefusedError(status, "", refusals[status] ?? `The studio says ${status}.`);
+    throw new RefusedError(status, "", refusals[status] ?? `The studio says ${status}.`);
   }
+  throw new RefusedError(status, said.code, said.message);
 }
 
 function json(bytes: Uint8Array): unknown {

@@ -1,5 +1,5 @@
 // The viewer of static pages and notebooks, one module without a server:
-//   render({model, el})   for anywidget: `data` of the model are the bytes of src/viewdata.ts
+//   default.render({model, el})  for anywidget: `data` of the model are the bytes of src/viewdata.ts
 //   mount(element, data)  anywhere; returns what takes it away again
 //   mountPage()           a page that has the bytes as base64 in #rholm-data and a place #rholm-view
 import { render as draw } from "preact";
@@ -37,7 +37,7 @@ function bytesOf(value: unknown): Uint8Array {
   throw new Error("the model's data are no bytes");
 }
 
-export function render({ model, el }: { model: AnyModel; el: HTMLElement }): () => void {
+function render({ model, el }: { model: AnyModel; el: HTMLElement }): () => void {
   let end: (() => void) | null = null;
   const show = () => {
     end?.();
