@@ -70,7 +70,7 @@ class StudioListener {
 // functions may be called by several threads at once.
 class Studio {
  public:
-  // Throws Io if there can be no folder for temporary files.
+  // Nothing is written before somebody asks.
   explicit Studio(StudioOptions options = {});
   ~Studio();  // cancels what runs, and waits for it
   Studio(const Studio&) = delete;

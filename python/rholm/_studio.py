@@ -105,7 +105,7 @@ class Studio:
 
     def __init__(self, threads: int = 0, height: int = _HEIGHT) -> None:
         kind = _widget_class()
-        self._core = _core.Studio(tempfile.gettempdir(), threads)
+        self._core: _core.Studio | None = _core.Studio(tempfile.gettempdir(), threads)
         self._session = self._core.offered_session()
         self.widget: anywidget.AnyWidget = kind(session=self._session, height=height)
         self.widget.on_msg(self._answer)
@@ -117,17 +117,19 @@ class Studio:
         atexit.register(self.close)
 
     def _ask(self, method: str, path: str, body: bytes = b"", **query: str) -> bytes:
+        if self._core is None:
+            raise InvalidInputError("this studio has been closed")
         status, _, answer, _ = self._core.handle(method, f"api/{path}", query, body, self._session)
         if status < 400:
             return bytes(answer)
         error = json.loads(answer)["error"]
-        if error["code"] == "no_session":
-            raise InvalidInputError("this studio has been closed")
         named = error["code"].title().replace("_", "")
         raise BY_CODE.get(named, InvalidInputError)(error["message"])
 
     # The body of what is asked and the bytes that answer go beside the messages.
     def _answer(self, widget: Any, asked: dict[str, Any], buffers: list[Any]) -> None:
+        if self._core is None:
+            return
         body = bytes(buffers[0]) if buffers else b""
         how = asked["method"], asked["path"], asked["query"], body, asked["session"]
         status, kind, answer, _ = self._core.handle(*how)
@@ -167,7 +169,7 @@ class Studio:
         Parameters
         ----------
         shape : mesh-like, PointCloud, array (N, 3) of points, Expansion, Atlas, path
-            Of a path the file itself: anything that `rholm studio` opens, sessions among them.
+            Of a path the file itself: anything that ``rholm studio`` opens, sessions among them.
         name : str
             What it is called; by default as its file.
 
@@ -234,10 +236,13 @@ class Studio:
 
     def close(self) -> None:
         """Ends it: what runs is cancelled, memory is given back. The page says that nobody answers."""
+        if self._core is None:
+            return
         self._core.close()
         atexit.unregister(self.close)
         if threading.current_thread() is not self._teller:
             self._teller.join()
+        self._core = None
 
     def __len__(self) -> int:
         return len(self._state()["items"])

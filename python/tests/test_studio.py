@@ -160,8 +160,11 @@ def test_a_session_is_a_file(bumpy, tmp_path):
     assert data.startswith(b"RHOLMSS1")
 
 
-def test_it_ends_with_its_widget(bumpy):
+def test_it_ends_with_its_widget(bumpy, tmp_path, monkeypatch):
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     studio = rholm.studio(bumpy)
+    assert len(studio[0].triangles) == 1280
+    assert len(list(tmp_path.glob("rholm-studio-*"))) == 1
     job = {"op": "compress", "item": 1, "tolerance": 1e-6}
     studio._ask("POST", "step", json.dumps(job).encode())
     begin = time.monotonic()
@@ -172,6 +175,7 @@ def test_it_ends_with_its_widget(bumpy):
         studio.add(bumpy)
     assert repr(studio) == "<rholm.Studio: closed>"
     studio.close()
+    assert not list(tmp_path.glob("rholm-studio-*"))
 
 
 def test_without_the_page_it_is_said_how_to_get_it(script):
