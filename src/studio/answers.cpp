@@ -58,7 +58,7 @@ Response surface_answer(const Item& item, bool original) {
   const std::vector<float> positions = floats_of(mesh.vertices);
   Binary binary;
   binary.add("positions", positions, {n, 3});
-  binary.add("normals", normals_of(positions, mesh.triangles), {n, 3});
+  binary.add("normals", normals_of(positions, mesh.triangles, joined_triangles(mesh)), {n, 3});
   binary.add("triangles", indices_of(mesh.triangles), {m, 3});
   // A series has the colours of the shape it is of: its vertices are those of the shape.
   const std::vector<std::uint8_t> colors = colors_of(item.original ? *item.original : mesh);

@@ -24,7 +24,8 @@ std::size_t bytes_of(const Mesh& mesh) {
 std::size_t bytes_of(const Model& model) {
   const std::size_t table =
       model.table ? (model.table->degree() + std::size_t{1}) * model.table->directions() : 0;
-  return bytes_of(model.directions) + sizeof(float) * table + sizeof(double) * model.base.size() +
+  return bytes_of(model.directions) + sizeof(Triangle) * model.joined.size() +
+         sizeof(float) * table + sizeof(double) * model.base.size() +
          sizeof(double) * model.expansion.coefficients.values().size();
 }
 

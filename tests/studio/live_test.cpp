@@ -2,6 +2,7 @@
 #include <cmath>
 #include <future>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "rholm/filter.h"
@@ -71,6 +72,29 @@ TEST(Live, DegreesAreTheSurfacesOfTheLibrary) {
       EXPECT_NEAR(error[i], along, 1e-6);
     }
   }
+}
+
+// A sphere as a file of triangles one by one: none of them shares a vertex with another one.
+TEST(Live, ASeamOfTheFileIsNoCrease) {
+  const Mesh sphere = icosphere(3);
+  std::vector<Vec3> corners;
+  std::string vertices, faces;
+  for (const Triangle& t : sphere.triangles) {
+    const std::size_t n = corners.size();
+    faces += fmt::format("3 {} {} {}\n", n, n + 1, n + 2);
+    for (const std::uint32_t corner : t) {
+      const Vec3& v = corners.emplace_back(sphere.vertices[corner]);
+      vertices += fmt::format("{} {} {}\n", v.x, v.y, v.z);
+    }
+  }
+  const std::string head = fmt::format("OFF\n{} {} 0\n", corners.size(), sphere.triangles.size());
+  Client client;
+  client.open("cut.off", head + vertices + faces);
+  const Response surface = client.ask("GET", "api/item/1/surface");
+  expect_near(arrays_of(surface.body).at("normals"), corners, 0.02);
+  client.step({{"op", "analyze"}, {"item", 1}, {"degree", 4}});
+  const Response look = client.live({{"live", "degree"}, {"item", 1}, {"degree", 4}});
+  expect_near(arrays_of(look.body).at("normals"), corners, 0.02);
 }
 
 TEST(Live, GainsAreAFilter) {

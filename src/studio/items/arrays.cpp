@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "rholm/render.h"
+#include "shape/topology/identical.h"
 
 namespace rholm::studio {
 namespace {
@@ -22,10 +23,19 @@ std::vector<std::uint8_t> bytes_of(const std::vector<std::array<float, 3>>& colo
 
 }  // namespace
 
-std::vector<float> normals_of(std::span<const float> positions,
-                              std::span<const Triangle> triangles) {
+std::vector<Triangle> joined_triangles(const Mesh& mesh) {
+  const std::vector<std::uint32_t> first = first_identical(mesh.vertices);
+  std::vector<Triangle> joined = mesh.triangles;
+  for (Triangle& t : joined) {
+    for (std::uint32_t& corner : t) corner = first[corner];
+  }
+  return joined;
+}
+
+std::vector<float> normals_of(std::span<const float> positions, std::span<const Triangle> triangles,
+                              std::span<const Triangle> joined) {
   std::vector<float> normals(positions.size(), 0.0F);
-  for (const Triangle& t : triangles) {
+  for (const Triangle& t : joined) {
     const float* a = &positions[3 * std::size_t{t[0]}];
     const float* b = &positions[3 * std::size_t{t[1]}];
     const float* c = &positions[3 * std::size_t{t[2]}];
@@ -45,6 +55,13 @@ std::vector<float> normals_of(std::span<const float> positions,
         std::sqrt(double{n[0]} * n[0] + double{n[1]} * n[1] + double{n[2]} * n[2]);
     const double factor = length > 0 ? 1 / length : 0;
     for (int k = 0; k < 3; ++k) n[k] = static_cast<float>(n[k] * factor);
+  }
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t from = joined[t][k], to = triangles[t][k];
+      if (from != to)
+        std::copy_n(&normals[3 * std::size_t{from}], 3, &normals[3 * std::size_t{to}]);
+    }
   }
   return normals;
 }

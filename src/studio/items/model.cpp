@@ -90,9 +90,11 @@ std::shared_ptr<const Model> make_model(Expansion expansion, std::shared_ptr<con
   model->power = power_spectrum(coefficients);
   if (model->original) {
     model->directions = directions_of(*model->original, model->expansion.center);
+    model->joined = joined_triangles(*model->original);
     model->base = values_of_shape(*model->original, model->expansion.center, is_gauge(*model));
   } else {
     model->directions = icosphere(subdivisions_for(coefficients.degree()));
+    model->joined = model->directions.triangles;
     model->base = evaluate(coefficients, model->directions.vertices, {}, context);
   }
   model->rms = rms_errors(model->expansion, model->power);
@@ -143,7 +145,7 @@ QuickSurface quick_surface(const Model& model, const Look& look, const Context& 
       surface.error[j] = gauge ? static_cast<float>(r - 1 / model.base[j]) : left[j];
     }
   }
-  surface.normals = normals_of(surface.positions, model.directions.triangles);
+  surface.normals = normals_of(surface.positions, model.directions.triangles, model.joined);
   return surface;
 }
 

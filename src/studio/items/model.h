@@ -23,6 +23,7 @@ struct Model {
   Expansion expansion;
   std::shared_ptr<const Mesh> original;  // the shape it is of; nullptr if that is not there
   Mesh directions;                       // unit vectors from the centre, and triangles
+  std::vector<Triangle> joined;          // joined_triangles() of the shape
   std::vector<double> base;  // the function at the directions: of the shape, if there is one
   std::optional<DegreeTable> table;  // where it fits
   std::vector<double> power;         // energy of each degree

@@ -1,7 +1,58 @@
 // Normals of vertices, area weighted, as the studio has them.
 
-// Writes unit normals [n, 3] of all vertices, or of those that `touched` (1 of [n]) names.
+// Triangles whose corners are the first vertices of all at the same place: what a seam of the file
+// cuts is one surface. The same array where no two are.
+export function joinedTriangles(positions: Float32Array, triangles: Uint32Array): Uint32Array {
+  const first = firstAtPlace(positions);
+  return first ? triangles.map((v) => first[v] ?? v) : triangles;
+}
+
+// For each vertex the first one with the same coordinates; null if all differ.
+function firstAtPlace(positions: Float32Array): Uint32Array | null {
+  const count = positions.length / 3;
+  const bits = new Uint32Array(positions.map((x) => x + 0).buffer); // -0 is 0
+  const first = new Uint32Array(count);
+  let size = 4;
+  while (size < 2 * count) size *= 2;
+  const table = new Uint32Array(size); // vertices, from 1 on, by their places; 0 is free
+  let different = true;
+  for (let v = 0; v < count; ++v) {
+    const [x = 0, y = 0, z = 0] = [bits[3 * v], bits[3 * v + 1], bits[3 * v + 2]];
+    // Chosen: the multipliers of Teschner and others' spatial hash, mixed once more.
+    const mixed = Math.imul(x, 73856093) ^ Math.imul(y, 19349663) ^ Math.imul(z, 83492791);
+    let slot = Math.imul(mixed ^ (mixed >>> 15), 0x9e3779b1) & (size - 1);
+    first[v] = v;
+    for (let known = table[slot]; known; slot = (slot + 1) & (size - 1), known = table[slot]) {
+      const at = 3 * (known - 1);
+      if (bits[at] === x && bits[at + 1] === y && bits[at + 2] === z) {
+        first[v] = known - 1;
+        different = false;
+        break;
+      }
+    }
+    if (first[v] === v) table[slot] = v + 1;
+  }
+  return different ? null : first;
+}
+
+// Writes unit normals [n, 3] of all vertices, or of those that `touched` (1 of [n]) names. `joined`
+// are joinedTriangles(): a vertex that is in none of these has the normal of the first in its place.
 export function vertexNormals(
+  positions: Float32Array,
+  triangles: Uint32Array,
+  joined: Uint32Array,
+  normals: Float32Array,
+  touched?: Uint8Array,
+): void {
+  sumNormals(positions, joined, normals, touched);
+  if (joined === triangles) return;
+  for (let i = 0; i < triangles.length; ++i) {
+    const [from = 0, to = 0] = [joined[i], triangles[i]];
+    if (from !== to) normals.copyWithin(3 * to, 3 * from, 3 * from + 3);
+  }
+}
+
+function sumNormals(
   positions: Float32Array,
   triangles: Uint32Array,
   normals: Float32Array,

@@ -13,7 +13,7 @@ import {
 import { MeshBVH } from "three-mesh-bvh";
 import type { Rgb } from "../geometry/colors";
 import { dotted, marked, plain } from "../geometry/colors";
-import { aroundVertices, ballOf, vertexNormals } from "../geometry/normals";
+import { aroundVertices, ballOf, joinedTriangles, vertexNormals } from "../geometry/normals";
 import type { Surface } from "../protocol";
 
 export interface Touch {
@@ -32,6 +32,7 @@ export interface Shape {
   colors: BufferAttribute;
   material: MeshLambertMaterial | PointsMaterial;
   index: BufferAttribute | null;
+  joined: Uint32Array | null; // joinedTriangles(), once they are wanted
   marks: Mesh | null;
   bvh: MeshBVH | null;
   bvhMoved: boolean;
@@ -45,7 +46,8 @@ export function makeShape(surface: Surface): Shape {
   geometry.setAttribute("color", colors);
   const ball = ballOf(surface.positions);
   const group = new Group();
-  const shape = { group, surface, ball, positions, colors, marks: null, bvh: null, bvhMoved: false };
+  const none = { marks: null, joined: null, bvh: null, bvhMoved: false };
+  const shape = { group, surface, ball, positions, colors, ...none };
   if (!surface.triangles) {
     // Chosen: on a sphere they would cover half of it, and in a ball's picture are never lost.
     const covering = Math.sqrt(8 / Math.max(1, positions.count));
@@ -55,7 +57,8 @@ export function makeShape(surface: Surface): Shape {
     return paintOne({ ...shape, normals: null, index: null, material }, dotted);
   }
   const given = surface.normals?.slice() ?? new Float32Array(surface.positions.length);
-  if (!surface.normals) vertexNormals(surface.positions, surface.triangles, given);
+  const joined = surface.normals ? null : joinedTriangles(surface.positions, surface.triangles);
+  if (joined) vertexNormals(surface.positions, surface.triangles, joined, given);
   const normals = new BufferAttribute(given, 3);
   // Its own copy: the tree of faces sorts it.
   const index = new BufferAttribute(surface.triangles.slice(), 1);
@@ -94,9 +97,10 @@ export function moveShape(
   const directions = shape.normals.array as Float32Array;
   if (normals) directions.set(normals);
   else {
-    const { triangles } = shape.surface;
-    const touched = indices && aroundVertices(array.length / 3, triangles, indices);
-    vertexNormals(array, triangles, directions, touched);
+    const { positions: before, triangles } = shape.surface;
+    const joined = (shape.joined ??= joinedTriangles(before, triangles));
+    const touched = indices && aroundVertices(array.length / 3, joined, indices);
+    vertexNormals(array, triangles, joined, directions, touched);
   }
   shape.normals.needsUpdate = true;
 }

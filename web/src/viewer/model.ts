@@ -38,7 +38,7 @@ export function setDegree(model: Model, degree: number): void {
   model.radii = sumTo(model.synthesis, degree).map(radiusOf(expansion.function));
   placeVertices(model.directions, model.radii, expansion.center, model.surface.positions);
   const { positions, triangles } = model.surface;
-  if (triangles) vertexNormals(positions, triangles, model.normals);
+  if (triangles) vertexNormals(positions, triangles, triangles, model.normals);
 }
 
 export type Coloring = "plain" | "radius" | "difference";
