@@ -12,7 +12,7 @@ import type {} from "../src/idle";
 import { toSrgb, type Rgb } from "../src/geometry/colors";
 
 const dist = fileURLToPath(new URL("../dist", import.meta.url));
-const pictures = process.env.RHOLM_PICTURES;
+export const pictures = process.env.RHOLM_PICTURES;
 
 export function programPath(): string {
   const path = process.env.RHOLM_PROGRAM;
@@ -20,15 +20,18 @@ export function programPath(): string {
   return path;
 }
 
-export interface Studio {
+export interface Program {
   address: string;
   folder: string; // for files of the test
   process: ChildProcess;
+}
+
+export interface Studio extends Program {
   browser: Browser;
 }
 
 // Runs the program to its end; throws where it fails.
-export function rholm(studio: Studio, ...words: string[]): string {
+export function rholm(studio: Program, ...words: string[]): string {
   const options = { cwd: studio.folder, encoding: "utf8", stdio: "pipe" } as const;
   return execFileSync(programPath(), words, options);
 }
@@ -39,10 +42,14 @@ export function shell(studio: Studio, lines: string): void {
   execFileSync("/bin/sh", ["-c", script], { cwd: studio.folder, stdio: "pipe" });
 }
 
-export const inFolder = (studio: Studio, name: string) => join(studio.folder, name);
-export const bytesOf = (studio: Studio, name: string) => readFileSync(inFolder(studio, name));
+export const inFolder = (studio: Program, name: string) => join(studio.folder, name);
+export const bytesOf = (studio: Program, name: string) => readFileSync(inFolder(studio, name));
 
 export async function startStudio(): Promise<Studio> {
+  return { ...(await startProgram()), browser: await launch() };
+}
+
+export async function startProgram(): Promise<Program> {
   const folder = mkdtempSync(join(tmpdir(), "rholm-studio-"));
   const words = ["studio", "--no-open", "--page", dist];
   const started = spawn(programPath(), words, { cwd: folder, stdio: ["ignore", "ignore", "pipe"] });
@@ -55,7 +62,7 @@ export async function startStudio(): Promise<Studio> {
     });
     started.on("exit", (code) => fail(new Error(`the studio ended with ${String(code)}: ${said}`)));
   });
-  return { address, folder, process: started, browser: await launch() };
+  return { address, folder, process: started };
 }
 
 export function launch(): Promise<Browser> {
@@ -68,12 +75,16 @@ export function launch(): Promise<Browser> {
 
 export async function stopStudio(studio: Studio): Promise<void> {
   await studio.browser.close();
-  if (studio.process.exitCode === null) {
-    const ended = new Promise((done) => studio.process.once("exit", done));
-    studio.process.kill("SIGINT");
+  await stopProgram(studio);
+}
+
+export async function stopProgram(program: Program): Promise<void> {
+  if (program.process.exitCode === null) {
+    const ended = new Promise((done) => program.process.once("exit", done));
+    program.process.kill("SIGINT");
     await ended;
   }
-  rmSync(studio.folder, { recursive: true, force: true });
+  rmSync(program.folder, { recursive: true, force: true });
 }
 
 export interface Visit {
