@@ -42,6 +42,9 @@ struct TransferOptions {
   // Splits the target's edges until they are as short as the source's are there. Coinciding
   // vertices become one, and new ones come after the old.
   bool refine = false;
+  // Whether the angle at which the detail is most like the target's own is looked for, which is half
+  // of the analysis. Without it the report's angle and correlation are 0.
+  bool find_angle = true;
   // Of the target region; by default the wavelength of its base, at most a quarter of its radius.
   double transition = -1;
 };
@@ -50,7 +53,8 @@ struct TransferOptions {
 struct TransferUpdate {
   double height = 1;  // of the texture, times what `scale` makes of it
   // Radians, counter-clockwise seen from outside; at 0 the texture lies as the shortest turn
-  // between the patches' axes lays it. By default where it is most like the target's own detail.
+  // between the patches' axes lays it. By default where it is most like the target's own detail, if
+  // the analysis has looked for that, else 0.
   std::optional<double> angle = {};
   // Where the texture is smaller than the target region it is laid again, side by side, turned
   // alike, where neighbours agree best; they meet along the lines where they differ least.

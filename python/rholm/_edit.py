@@ -393,6 +393,7 @@ def analyze_transfer(
     scale: float = 1.0,
     refine: bool = False,
     transition: float | None = None,
+    find_angle: bool = True,
     threads: int = 0,
     progress: Progress = None,
 ) -> TransferEditor:
@@ -402,6 +403,9 @@ def analyze_transfer(
     ----------
     source, source_region, target, target_region, from_degree, scale, refine, transition
         As in `transfer`.
+    find_angle : bool
+        Whether the angle at which the detail is most like the target's own is looked for, which is
+        half of the work; without it that angle is 0.
     threads, progress
         See `rholm.caller`.
 
@@ -413,7 +417,7 @@ def analyze_transfer(
     taken, from_ = _with_region(as_mesh(source), source_region)
     laid, to = _with_region(as_mesh(target), target_region)
     options = _core.TransferOptions(
-        from_degree=from_degree, scale=scale, refine=refine, transition=transition
+        from_degree=from_degree, scale=scale, refine=refine, transition=transition, find_angle=find_angle
     )
     with caller(threads, progress) as how:
         return TransferEditor(_core.analyze_transfer(taken._core, from_, laid._core, to, options, how))
@@ -475,6 +479,7 @@ def transfer(
         scale=scale,
         refine=refine,
         transition=transition,
+        find_angle=angle is None,
         threads=threads,
         progress=progress,
     )

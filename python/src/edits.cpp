@@ -120,6 +120,7 @@ void bind_transfer(nb::module_& m) {
       .field("from_degree", &TransferOptions::from_degree)
       .field("scale", &TransferOptions::scale)
       .field("refine", &TransferOptions::refine)
+      .field("find_angle", &TransferOptions::find_angle)
       .field("transition", &TransferOptions::transition);
   Record<TransferReport>(m, "TransferReport",
                          "What the analysis found; lengths are in the units of the two meshes.")

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -141,8 +142,9 @@ void check_degree(const Mesh& source, std::span<const double> weights, double ra
 struct TransferState {
   TexturedPatch source, target;
   DetailMap texture;
-  RepeatedMap repeated;
   TransferOptions options;
+  mutable std::once_flag repeating;
+  mutable RepeatedMap repeated;  // once it is wanted
 };
 
 TransferAnalysis analyze_transfer(const Mesh& source, std::span<const Region> from,
@@ -185,11 +187,12 @@ TransferAnalysis analyze_transfer(const Mesh& source, std::span<const Region> fr
   report.target_radius = state->target.chart.unit;
   report.scale = options.scale * report.target_radius / report.source_radius;
   state->texture = detail_of(state->source);
-  state->repeated = repeat(state->texture);
   report.source_rms = rms_in_disc(state->texture);
-  const Alignment best = align_maps(state->texture, 1 / options.scale, detail_of(state->target));
-  report.angle = best.angle;
-  report.correlation = best.correlation;
+  if (options.find_angle) {
+    const Alignment best = align_maps(state->texture, 1 / options.scale, detail_of(state->target));
+    report.angle = best.angle;
+    report.correlation = best.correlation;
+  }
   std::erase_if(mesh.attributes, [](const Attribute& a) { return a.name == kCarriedName; });
   analysis.patch = state->target.patch;
   analysis.state = std::move(state);
@@ -204,6 +207,9 @@ std::vector<Vec3> update(const TransferAnalysis& analysis, const TransferUpdate&
     return swap_coefficients(state.source, state.target, state.options.from_degree, angle,
                              wanted.height);
   }
+  if (wanted.repeat) {
+    std::call_once(state.repeating, [&] { state.repeated = repeat(state.texture); });
+  }
   const Texture texture{state.texture, state.repeated, state.options.scale, angle, wanted.repeat};
   return displaced(state.target, texture, wanted.height * analysis.report.scale, wanted.remove_own);
 }
@@ -212,7 +218,9 @@ Mesh transfer(const Mesh& source, std::span<const Region> from, const Mesh& targ
               std::span<const Region> to, const TransferOptions& options,
               const TransferUpdate& wanted, const Context& context) {
   check_update(wanted, options.from_degree);
-  TransferAnalysis analysis = analyze_transfer(source, from, target, to, options, context);
+  TransferOptions needed = options;
+  if (wanted.angle) needed.find_angle = false;
+  TransferAnalysis analysis = analyze_transfer(source, from, target, to, needed, context);
   apply(analysis.patch, update(analysis, wanted), analysis.mesh);
   return std::move(analysis.mesh);
 }

@@ -130,11 +130,14 @@ Response Live::smooth(const Json& request, const Document& document) {
 Response Live::transfer(const Json& request, const Document& document) {
   const ItemPtr source = item_with_mesh(request, "source", document);
   const ItemPtr target = item_with_mesh(request, "target", document);
-  const TransferWish wish = transfer_in(request);
+  TransferWish wish = transfer_in(request);
+  // A hand that turns it does not wait for what it does not want to know.
+  wish.options.find_angle = !wish.update.angle;
   const std::string key =
       fmt::format("{} / {} / {} {} {}", fmt::join(wish.from, " "), fmt::join(wish.to, " "),
                   wish.options.from_degree, wish.options.scale, wish.options.refine);
-  const bool usable = transfer_.analysis && transfer_.key == key &&
+  const bool knows = !wish.options.find_angle || transfer_angle_;
+  const bool usable = knows && transfer_.analysis && transfer_.key == key &&
                       transfer_.of[0] == source->shown && transfer_.of[1] == target->shown;
   if (!usable) {
     transfer_ = {};
@@ -142,6 +145,7 @@ Response Live::transfer(const Json& request, const Document& document) {
         analyze_transfer(*source->shown, parsed(wish.from), *target->shown, parsed(wish.to),
                          wish.options, context()));
     transfer_.key = key;
+    transfer_angle_ = wish.options.find_angle;
     transfer_.of[0] = source->shown;
     transfer_.of[1] = target->shown;
   }

@@ -50,6 +50,7 @@ class Live {
   std::mutex mutex_;  // of the map
   Kept<Patch> patch_;
   Kept<TransferAnalysis> transfer_;
+  bool transfer_angle_ = false;  // whether it has looked for the angle
 };
 
 }  // namespace rholm::studio

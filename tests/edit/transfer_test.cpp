@@ -141,6 +141,21 @@ TEST(Transfer, angle_is_found_within_a_degree) {
   }
 }
 
+TEST(Transfer, an_angle_that_is_given_need_not_be_found) {
+  const Mesh mesh = test::sheet(60, 0.02, [](double x, double y) { return 0.004 * pattern(x, y); });
+  const Regions disc = {BallRegion{{0, 0, 0}, 0.5}};
+  const TransferAnalysis found = analyze_transfer(mesh, disc, mesh, disc);
+  const TransferAnalysis given = analyze_transfer(mesh, disc, mesh, disc, {.find_angle = false});
+  EXPECT_EQ(given.report.angle, 0);
+  EXPECT_EQ(given.report.correlation, 0);
+  for (const double angle : {0.0, 1.0}) {
+    EXPECT_EQ(update(given, {.angle = angle}), update(found, {.angle = angle}));
+    EXPECT_EQ(update(given, {.angle = angle, .repeat = true}),
+              update(found, {.angle = angle, .repeat = true}));
+  }
+  EXPECT_EQ(update(given), update(found, {.angle = 0}));
+}
+
 TEST(Transfer, what_replaces_its_own_detail_changes_little) {
   const Mesh mesh =
       test::sheet(180, 0.01, [](double x, double y) { return 0.004 * pattern(x, y); });
