@@ -134,6 +134,13 @@ Named surface_of(Recipe& recipe, const Item& item) {
   return made;
 }
 
+Recipe with_looks(Recipe recipe, std::span<const ItemPtr> items) {
+  for (const ItemPtr& item : items) {
+    if (item->model && !is_whole(*item)) surface_of(recipe, *item);
+  }
+  return recipe;
+}
+
 void add_reading(Recipe& recipe, Item& item) {
   recipe.files.insert(item.name);
   const std::string variable = recipe.variable(stem_of(item.name));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,9 @@ struct Named {
 Named surface_of(Recipe& recipe, const Item& item);
 // The same of its coefficients, filtered as it is shown.
 Named model_of(Recipe& recipe, const Item& item);
+
+// The recipe, and lines that make what is shown of series that are cut off or filtered.
+Recipe with_looks(Recipe recipe, std::span<const ItemPtr> items);
 
 // Gives an item that came from a file its names, with the line of Python that reads it.
 void add_reading(Recipe& recipe, Item& item);

@@ -66,7 +66,7 @@ Json Session::state_locked() const {
           {"items", std::move(items)},
           {"undo", past_.empty() ? Json(nullptr) : Json(past_.back().label)},
           {"redo", future_.empty() ? Json(nullptr) : Json(future_.back().label)},
-          {"recipe", recipe_json(now_.recipe)},
+          {"recipe", recipe_json(with_looks(now_.recipe, now_.items))},
           {"job", job_ ? job_->json() : Json(nullptr)}};
 }
 

@@ -126,7 +126,7 @@ it("a low pass is that of the program", async () => {
 
 it("finds the degree for an error", async () => {
   const { page } = now;
-  await setNumber(page, "Allowed error (of the diagonal)", 0.005);
+  await setNumber(page, "Allowed error (rms, of the diagonal)", 0.005);
   await press(page, "Find the degree");
   const degree = Number(await page.getByLabel("Degree, exactly", { exact: true }).inputValue());
   expect(degree).toBeGreaterThan(2);

@@ -140,14 +140,21 @@ export async function ask<T>(fields: Fields, label: string): Promise<T | null> {
 }
 
 export async function openFiles(files: Iterable<File>): Promise<void> {
+  const refused: string[] = [];
+  let opened = 0;
   for (const file of files) {
-    const opened = await during(`Reading ${file.name}`, async () => {
+    const done = await during(`Reading ${file.name}`, async () => {
       const state = await postFile<State>(transport, file.name, file);
       demo.value = false;
       take(state);
     });
-    if (!opened) return;
+    if (lost.value) return;
+    if (done) opened += 1;
+    else if (notice.value) refused.push(notice.value.text);
   }
+  if (refused.length === 0) return;
+  const others = opened > 0 ? `${opened} opened, not these: ` : "";
+  notice.value = { text: others + refused.join("; "), bad: true };
 }
 
 export const undo = () => studio.value?.undo && step({ op: "undo" }, "Undoing");
@@ -180,8 +187,15 @@ export function saveAs(path: string, name: string): Promise<boolean> {
   return during(`Writing ${name}`, async () => {
     const { bytes, type } = await transport.request("GET", path);
     offer(new Blob([bytes as BlobPart], { type }), name);
+    saved = steps();
   });
 }
+
+let saved = ""; // what had been done when something was saved last
+const steps = () => studio.peek()?.recipe.shell ?? "";
+
+// Whether closing the page would lose work: a session of a notebook stays where it is.
+export const unsaved = () => transport.endsProgram && !lost.peek() && !demo.peek() && steps() !== saved;
 
 export function offer(blob: Blob, name: string): void {
   const link = document.createElement("a");

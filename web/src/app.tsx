@@ -37,6 +37,7 @@ function summary(one: Item): string {
 function Items() {
   return (
     <nav class="items" aria-label="Shapes">
+      <FileButton />
       <ul>
         {items.value.map((one) => (
           <li key={one.id} class={one.id === selected.value ? "chosen" : ""}>
@@ -60,7 +61,6 @@ function Items() {
           </li>
         ))}
       </ul>
-      <FileButton />
     </nav>
   );
 }

@@ -3,6 +3,7 @@ import { openFiles, redo, undo } from "./actions";
 import { theView } from "./show";
 import { helpOpen, tab, tabs } from "./state";
 import { radiusShare, setRadius } from "./tools/brush";
+import { undoStroke } from "./tools/smooth";
 
 export const help: readonly (readonly [keys: string, what: string])[] = [
   ["1 … 8", "the panels, in their order"],
@@ -10,7 +11,7 @@ export const help: readonly (readonly [keys: string, what: string])[] = [
   ["+ and −", "nearer, further"],
   ["F", "all of the shape in view"],
   ["[ and ]", "a smaller, a larger brush; also Alt and the wheel"],
-  ["Ctrl Z", "undo"],
+  ["Ctrl Z", "undo; of a brush, its last stroke"],
   ["Ctrl Shift Z, Ctrl Y", "redo"],
   ["?", "this list"],
   ["Esc", "close it"],
@@ -22,13 +23,13 @@ const brushStep = 1.15; // chosen
 
 function typing(event: KeyboardEvent): boolean {
   const target = event.target as HTMLElement;
-  const input = target instanceof HTMLInputElement && !["range", "checkbox"].includes(target.type);
+  const input = target instanceof HTMLInputElement && !["range", "checkbox", "file"].includes(target.type);
   return input || target instanceof HTMLTextAreaElement;
 }
 
 function command(event: KeyboardEvent): (() => unknown) | null {
   const key = event.key.toLowerCase();
-  if (key === "z") return event.shiftKey ? redo : undo;
+  if (key === "z") return event.shiftKey ? redo : () => undoStroke() || undo();
   return key === "y" ? redo : null;
 }
 

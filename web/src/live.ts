@@ -8,13 +8,6 @@ import { theView } from "./show";
 import { notice } from "./state";
 import { postLive } from "./transport";
 
-let refused: typeof notice.value = null; // what the last refusal said: gone with the next answer
-
-function refuse(error: unknown): void {
-  fail(error);
-  refused = notice.peek();
-}
-
 interface Wish {
   fields: Fields;
   since: number; // the input event's time stamp, ms
@@ -25,6 +18,11 @@ export function liveChannel(
   kind: string,
   apply: (answer: Binary, fields: Fields) => void,
 ): Latest<Wish> {
+  let refused: typeof notice.value = null; // what the last refusal said: gone with the next answer
+  const refuse = (error: unknown) => {
+    fail(error);
+    refused = notice.peek();
+  };
   return latestWins<Wish>(async ({ fields, since }, current) => {
     const answer = await postLive(transport, { live: kind, ...fields });
     if (!current()) return;

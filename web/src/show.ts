@@ -1,5 +1,5 @@
 // Which surface is on the screen, and in which colours: follows the selected item and its revision.
-import { effect, signal, untracked } from "@preact/signals";
+import { computed, effect, signal, untracked } from "@preact/signals";
 import { fail, transport } from "./actions";
 import { surfaceOf } from "./binary";
 import { dotted, fromSrgb, labelColor, plain, second, shadePoints, type Range } from "./geometry/colors";
@@ -89,9 +89,12 @@ export function repaint(): void {
   markFaces(surface);
 }
 
+// Elsewhere than where a centre is wanted the surface is looked at.
+const marking = computed(() => markOffending.value && ["figures", "degrees"].includes(tab.value));
+
 // Caps take shapes that no centre sees: nothing offends them.
 function markFaces(surface: Surface): void {
-  view?.mark(markOffending.value && item.peek()?.kind !== "atlas" ? surface.offending : null);
+  view?.mark(marking.value && item.peek()?.kind !== "atlas" ? surface.offending : null);
 }
 
 // What is on the screen again as the studio has it.
@@ -114,7 +117,8 @@ export async function showOther(one: Item, original: boolean, how: Layout): Prom
     const surface = await surfaceFor(one, original);
     view?.show("other", surface);
     view?.paint("other", original ? plain : second);
-    arrange(how);
+    arrange(how, otherId !== one.id);
+    otherId = one.id;
   } catch (error) {
     fail(error);
   }
@@ -122,11 +126,14 @@ export async function showOther(one: Item, original: boolean, how: Layout): Prom
 
 export function hideOther(): void {
   view?.show("other", null);
-  arrange("one");
+  otherId = null;
+  arrange("one", false);
 }
 
-function arrange(how: Layout): void {
-  const fresh = layout.peek() !== how;
+let otherId: number | null = null; // of the second shape that is shown
+
+function arrange(how: Layout, another: boolean): void {
+  const fresh = another || layout.peek() !== how;
   layout.value = how;
   // Through the one the other is seen; chosen: both can be told.
   view?.arrange(how, how === "over" ? 0.45 : 1);
@@ -148,7 +155,7 @@ export function attach(made: View): void {
   });
   effect(() => {
     const surface = view?.surface("main");
-    if (markOffending.value && surface) markFaces(surface);
+    if (marking.value && surface) markFaces(surface);
     else view?.mark(null);
   });
   effect(() => {

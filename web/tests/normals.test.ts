@@ -36,7 +36,7 @@ it("of touched vertices only, they are those of all", () => {
   vertexNormals(moved, triangles, triangles, all);
   const some = new Float32Array(18);
   vertexNormals(positions, triangles, triangles, some);
-  const touched = aroundVertices(6, triangles, new Uint32Array([4]));
+  const touched = aroundVertices(6, triangles, [new Uint32Array([4])]);
   expect([...touched]).toEqual([1, 1, 1, 1, 1, 0]);
   vertexNormals(moved, triangles, triangles, some, touched);
   expect(some).toEqual(all);

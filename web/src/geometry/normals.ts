@@ -106,14 +106,14 @@ function addFace(
   }
 }
 
-// The vertices whose normals change when those of `moved` do: of all faces at them. [n], 0 or 1.
+// The vertices whose normals change when those of `moved` move: of all faces at them. [n], 0 or 1.
 export function aroundVertices(
   count: number,
   triangles: Uint32Array,
-  moved: Uint32Array,
+  moved: readonly Uint32Array[],
 ): Uint8Array {
   const flags = new Uint8Array(count);
-  for (const v of moved) flags[v] = 1;
+  for (const some of moved) for (const v of some) flags[v] = 1;
   const around = flags.slice();
   for (let t = 0; t < triangles.length; t += 3) {
     const a = triangles[t] ?? 0;

@@ -170,9 +170,9 @@ export function DegreesPanel() {
       <Comparison one={one} />
       <Spectrum key={theme.value} power={one.expansion.power} tail={one.expansion.tail} degree={tool.degree.value} />
       <Slider
-        label="Allowed error (of the diagonal)"
+        label="Allowed error (rms, of the diagonal)"
         value={tool.tolerance.value}
-        min={1e-4}
+        min={1e-6}
         max={1e-1}
         log
         onInput={(value) => (tool.tolerance.value = value)}

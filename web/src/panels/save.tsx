@@ -31,18 +31,18 @@ export function formatsOf(kind: Kind, expanded: boolean): readonly Format[] {
       ["xyz", "XYZ"],
     ];
   }
-  const model: readonly Format[] = kind === "atlas" ? [["h5", "Model (HDF5)"]] : [];
-  return [...meshes, ...(expanded ? coefficients : model)];
+  const model: readonly Format[] = [["h5", "Model (HDF5)"]];
+  return kind === "atlas" ? [...model, ...meshes] : [...meshes, ...(expanded ? coefficients : [])];
 }
 
-const format = signal("ply");
+const format = signal(""); // as chosen; else the first one that the item has
 const width = signal(1600);
 const height = signal(1200);
 const mostPixels = 16_384; // chosen: what browsers take as a canvas
 
 function SaveShape({ one }: { one: Item }) {
   const formats = formatsOf(one.kind, one.expansion !== null);
-  const chosen = formats.some(([key]) => key === format.value) ? format.value : "ply";
+  const chosen = formats.find(([key]) => key === format.value)?.[0] ?? formats[0]?.[0] ?? "ply";
   const name = `${stem(one.name)}.${endings[chosen] ?? chosen}`;
   return (
     <>

@@ -80,7 +80,7 @@ export function SmoothPanel() {
         step={0.01}
         onInput={(value, since) => {
           tool.strength.value = value;
-          tool.preview(since);
+          tool.preview(since, false);
         }}
       />
       <Hint>

@@ -46,40 +46,55 @@ function circle(): BufferGeometry {
   return new BufferGeometry().setAttribute("position", new BufferAttribute(points, 3));
 }
 
-export class Markers {
-  readonly group = new Group();
-  private readonly loop = circle();
-  private materials: (LineBasicMaterial | MeshBasicMaterial)[] = [];
-  private readonly ball = new SphereGeometry(1, 24, 16);
+// A line and a ball that serve one ring after the other: a material that is thrown away takes its
+// compiled program with it.
+class Marker {
+  readonly line: LineLoop<BufferGeometry, LineBasicMaterial>;
+  readonly ball: Mesh<BufferGeometry, MeshBasicMaterial>;
 
-  show(rings: readonly Ring[]): void {
-    this.group.clear();
-    this.materials.forEach((material) => material.dispose());
-    this.materials = [];
-    for (const ring of rings) this.add(ring);
+  constructor(loop: BufferGeometry, ball: BufferGeometry) {
+    this.line = new LineLoop(loop, new LineBasicMaterial({ depthTest: false }));
+    this.line.renderOrder = 1;
+    this.ball = new Mesh(ball, new MeshBasicMaterial({ depthTest: false }));
+    this.ball.renderOrder = 2;
   }
 
-  private add(ring: Ring): void {
-    const line = new LineLoop(this.loop, new LineBasicMaterial({ depthTest: false }));
-    line.material.color.setRGB(...ring.color);
-    line.position.set(...ring.center);
-    line.quaternion.copy(ringFrame(ring));
-    line.scale.setScalar(ring.radius);
-    line.renderOrder = 1;
-    this.group.add(line);
-    this.materials.push(line.material);
-    if (ring.handle === undefined) return;
-    const ball = new Mesh(this.ball, new MeshBasicMaterial({ depthTest: false }));
-    ball.material.color.setRGB(...ring.color);
-    ball.position.copy(handlePlace(ring));
-    ball.scale.setScalar(ring.radius / 8);
-    ball.renderOrder = 2;
-    this.group.add(ball);
-    this.materials.push(ball.material);
+  show(ring: Ring | undefined): void {
+    this.line.visible = ring !== undefined;
+    this.ball.visible = ring?.handle !== undefined;
+    if (!ring) return;
+    this.line.material.color.setRGB(...ring.color);
+    this.line.position.set(...ring.center);
+    this.line.quaternion.copy(ringFrame(ring));
+    this.line.scale.setScalar(ring.radius);
+    this.ball.material.color.setRGB(...ring.color);
+    this.ball.position.copy(handlePlace(ring));
+    this.ball.scale.setScalar(ring.radius / 8);
   }
 
   dispose(): void {
-    this.show([]);
+    this.line.material.dispose();
+    this.ball.material.dispose();
+  }
+}
+
+export class Markers {
+  readonly group = new Group();
+  private readonly loop = circle();
+  private readonly ball = new SphereGeometry(1, 24, 16);
+  private readonly markers: Marker[] = [];
+
+  show(rings: readonly Ring[]): void {
+    while (this.markers.length < rings.length) {
+      const made = new Marker(this.loop, this.ball);
+      this.markers.push(made);
+      this.group.add(made.line, made.ball);
+    }
+    this.markers.forEach((marker, i) => marker.show(rings[i]));
+  }
+
+  dispose(): void {
+    this.markers.forEach((marker) => marker.dispose());
     this.loop.dispose();
     this.ball.dispose();
   }

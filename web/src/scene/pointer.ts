@@ -2,8 +2,9 @@
 import type { Touch } from "./shape";
 
 export type PointerKind = "down" | "move" | "up" | "leave";
-// Says whether the pointer is taken, so that the camera stays.
-export type PointerTool = (kind: PointerKind, touch: Touch | null, event: PointerEvent) => boolean;
+// Says whether the pointer is taken, so that the camera stays. Where it touches the shape is looked for
+// if it is asked.
+export type PointerTool = (kind: PointerKind, touch: () => Touch | null, event: PointerEvent) => boolean;
 
 interface Canvas {
   tool: () => PointerTool | null;
@@ -18,7 +19,7 @@ export function listenToPointer(canvas: HTMLCanvasElement, { tool, touch, camera
     const otherButton = kind === "down" && event.pointerType === "mouse" && event.button > 0;
     const use = tool();
     if (!use || turning || otherButton) return;
-    const wants = use(kind, kind === "leave" ? null : touch(event), event);
+    const wants = use(kind, () => (kind === "leave" ? null : touch(event)), event);
     if (kind === "down" && wants) {
       taken = true;
       camera(false);

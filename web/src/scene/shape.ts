@@ -33,6 +33,7 @@ export interface Shape {
   material: MeshLambertMaterial | PointsMaterial;
   index: BufferAttribute | null;
   joined: Uint32Array | null; // joinedTriangles(), once they are wanted
+  moved: Uint32Array | null; // vertices that are not where the surface has them; null: unknown, or none
   marks: Mesh | null;
   bvh: MeshBVH | null;
   bvhMoved: boolean;
@@ -46,7 +47,7 @@ export function makeShape(surface: Surface): Shape {
   geometry.setAttribute("color", colors);
   const ball = ballOf(surface.positions);
   const group = new Group();
-  const none = { marks: null, joined: null, bvh: null, bvhMoved: false };
+  const none = { marks: null, joined: null, moved: null, bvh: null, bvhMoved: false };
   const shape = { group, surface, ball, positions, colors, ...none };
   if (!surface.triangles) {
     // Chosen: on a sphere they would cover half of it, and in a ball's picture are never lost.
@@ -78,29 +79,44 @@ function keep<T extends Mesh | Points>(object: T): T {
   return object;
 }
 
-// Puts vertices elsewhere: all, or those of `indices`.
-export function moveShape(
-  shape: Shape,
-  positions: Float32Array,
-  normals: Float32Array | null,
-  indices?: Uint32Array,
-): void {
+// Puts all vertices elsewhere.
+export function moveShape(shape: Shape, positions: Float32Array, normals: Float32Array | null): void {
+  (shape.positions.array as Float32Array).set(positions);
+  shape.moved = null;
+  hasMoved(shape, normals, undefined);
+}
+
+// Puts these vertices elsewhere, and those that the call before put elsewhere, and this one does not
+// name, back to their places.
+export function moveSome(shape: Shape, indices: Uint32Array, positions: Float32Array): void {
   const array = shape.positions.array as Float32Array;
-  if (indices) {
-    indices.forEach((v, i) => array.set(positions.subarray(3 * i, 3 * i + 3), 3 * v));
-  } else {
-    array.set(positions);
-  }
+  const before = shape.moved ?? new Uint32Array();
+  const home = shape.surface.positions;
+  for (const v of before) array.set(home.subarray(3 * v, 3 * v + 3), 3 * v);
+  indices.forEach((v, i) => array.set(positions.subarray(3 * i, 3 * i + 3), 3 * v));
+  shape.moved = indices;
+  const { triangles } = shape.surface;
+  if (!triangles) return;
+  const joined = joinedOf(shape, triangles);
+  const touched = aroundVertices(array.length / 3, joined, [before, indices]);
+  hasMoved(shape, null, touched);
+}
+
+function joinedOf(shape: Shape, triangles: Uint32Array): Uint32Array {
+  return (shape.joined ??= joinedTriangles(shape.surface.positions, triangles));
+}
+
+function hasMoved(shape: Shape, normals: Float32Array | null, touched: Uint8Array | undefined): void {
   shape.positions.needsUpdate = true;
   shape.bvhMoved = true;
-  if (!shape.normals || !shape.surface.triangles) return;
+  const { triangles } = shape.surface;
+  if (!shape.normals || !triangles) return;
   const directions = shape.normals.array as Float32Array;
-  if (normals) directions.set(normals);
-  else {
-    const { positions: before, triangles } = shape.surface;
-    const joined = (shape.joined ??= joinedTriangles(before, triangles));
-    const touched = indices && aroundVertices(array.length / 3, joined, indices);
-    vertexNormals(array, triangles, joined, directions, touched);
+  if (normals) {
+    directions.set(normals);
+  } else {
+    const array = shape.positions.array as Float32Array;
+    vertexNormals(array, triangles, joinedOf(shape, triangles), directions, touched);
   }
   shape.normals.needsUpdate = true;
 }

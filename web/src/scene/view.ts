@@ -29,6 +29,7 @@ import {
   makeShape,
   markFaces,
   moveShape,
+  moveSome,
   paintOne,
   setOpacity,
   touchShape,
@@ -129,8 +130,13 @@ export class View {
     return this.shapes[which]?.surface ?? null;
   }
 
-  move(positions: Float32Array, normals: Float32Array | null, indices?: Uint32Array): void {
-    this.change("main", (shape) => moveShape(shape, positions, normals, indices));
+  move(positions: Float32Array, normals: Float32Array | null): void {
+    this.change("main", (shape) => moveShape(shape, positions, normals));
+  }
+
+  // Only these vertices are not where the surface has them.
+  moveSome(indices: Uint32Array, positions: Float32Array): void {
+    this.change("main", (shape) => moveSome(shape, indices, positions));
   }
 
   paint(which: Which, color: Rgb): void {
@@ -175,6 +181,7 @@ export class View {
     const { center, radius } = ballAround(balls);
     this.camera.near = radius / 100;
     this.camera.far = radius * 100;
+    this.camera.updateProjectionMatrix();
     this.controls.minDistance = radius / 20;
     this.controls.maxDistance = radius * 50;
     void this.controls.fitToSphere(new Sphere(new Vector3(...center), radius * 1.05), smoothly);

@@ -26,9 +26,12 @@ export const transition = signal<number | null>(null);
 
 const spacing = 0.35; // of the radius; chosen: dabs overlap by far
 
-const cover = 0.6; // of the colour at weight 1; chosen: the surface is seen through it
+// Of the colour at weight 1; chosen: while it is painted, and after that what becomes of the surface is seen.
+const coverPainting = 0.6;
+const cover = 0.3;
 
 let held = false;
+let strokes: number[] = []; // how many dabs there were before each
 let cursor: Touch | null = null;
 
 // Weights shown as a blend from stone to the brush's colour.
@@ -39,7 +42,7 @@ const weigh = liveChannel("brush", (answer, fields) => {
   repaint();
   theView()?.paintBy("main", (colors) =>
     indices.forEach((v, i) => {
-      const w = cover * (weights[i] ?? 0);
+      const w = (held ? coverPainting : cover) * (weights[i] ?? 0);
       for (let k = 0; k < 3; ++k) {
         colors[3 * v + k] = (1 - w) * (colors[3 * v + k] ?? plain[k] ?? 0) + w * (painted[k] ?? 0);
       }
@@ -60,8 +63,18 @@ export function showWeights(since: number): void {
   weigh({ fields: { item: one.id, points, radius: radius.value, ...wavelength }, since });
 }
 
+// Takes back what was painted last; false if nothing is.
+export function takeBackStroke(): boolean {
+  const last = strokes.pop();
+  if (last === undefined || dabs.value.length === 0) return false;
+  dabs.value = dabs.value.slice(0, last);
+  showWeights(performance.now());
+  return true;
+}
+
 export function clearRegion(): void {
   dabs.value = [];
+  strokes = [];
   showWeights(performance.now());
 }
 
@@ -73,7 +86,9 @@ export function setRadius(share: number, since: number): void {
 
 function showCursor(): void {
   const ring = cursor && { center: cursor.point, normal: cursor.normal, radius: radius.value, color: ringed };
-  theView()?.rings(ring ? [ring] : []);
+  // The brush, and how far it fades.
+  const fades = transition.value ?? radius.value / 2;
+  theView()?.rings(ring ? [ring, { ...ring, radius: radius.value + fades, color: painted }] : []);
 }
 
 function dab(touch: Touch, since: number): void {
@@ -86,11 +101,13 @@ function dab(touch: Touch, since: number): void {
 
 // `painted` is told when a stroke ends.
 export function brushPointer(strokeEnded: () => void): PointerTool {
-  return (kind: PointerKind, touch: Touch | null, event: PointerEvent) => {
+  return (kind: PointerKind, find: () => Touch | null, event: PointerEvent) => {
+    const touch = find();
     cursor = touch;
     showCursor();
     if (kind === "down") {
       held = painting.value && touch !== null;
+      if (held) strokes.push(dabs.value.length);
       if (touch && held) dab(touch, event.timeStamp);
       return held;
     }
@@ -108,7 +125,10 @@ export function forgetWithItem(): void {
   let faces = 0;
   effect(() => {
     const count = item.value?.faces ?? 0;
-    if (count !== faces || !["smooth", "texture"].includes(tab.value)) dabs.value = [];
+    if (count !== faces || !["smooth", "texture"].includes(tab.value)) {
+      dabs.value = [];
+      strokes = [];
+    }
     faces = count;
   });
 }

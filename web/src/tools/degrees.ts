@@ -106,13 +106,13 @@ export async function degreeForTolerance(one: Item): Promise<void> {
   const fields = { op: "degree_for", item: one.id, tolerance: tolerance.value * one.diagonal };
   const answer = await ask<{ degree: number; met: boolean }>(fields, "Looking for the degree");
   if (!answer) return;
-  if (!answer.met) {
-    notice.value = { text: "No degree is that close: analyse again, to a higher one.", bad: false };
-  }
   mode.value = "cut";
   degree.value = answer.degree;
   showLook(performance.now());
   await keepLook();
+  if (answer.met) return;
+  const text = `Degree ${answer.degree} is not enough for that: analyse again, to a higher one.`;
+  notice.value = { text, bad: false };
 }
 
 let followed = -1;

@@ -4,8 +4,8 @@ import { step } from "../actions";
 import { needArray } from "../binary";
 import { liveChannel } from "../live";
 import { restoreSurface, shown, theView } from "../show";
-import { item } from "../state";
-import { clearRegion, radius, regions, showWeights, transition } from "./brush";
+import { item, tab } from "../state";
+import { clearRegion, radius, regions, showWeights, takeBackStroke, transition } from "./brush";
 
 export const actions = [
   ["smooth", "Smooth: detail goes"],
@@ -37,14 +37,8 @@ function fields(): Record<string, unknown> {
 
 const live = liveChannel("smooth", (answer, asked) => {
   if (asked.item !== shown.value?.id) return;
-  const view = theView();
-  const surface = view?.surface("main");
-  if (!view || !surface) return;
   const indices = needArray(answer, "indices", Uint32Array);
-  const positions = surface.positions.slice();
-  const moved = needArray(answer, "positions", Float32Array);
-  indices.forEach((v, i) => positions.set(moved.subarray(3 * i, 3 * i + 3), 3 * v));
-  view.move(positions, null);
+  theView()?.moveSome(indices, needArray(answer, "positions", Float32Array));
   previewed.value = true;
 });
 
@@ -55,10 +49,19 @@ export function followWavelength(): void {
   });
 }
 
-export function preview(since: number): void {
+// Weights depend on the wavelength, not on the strength.
+export function preview(since: number, weights = true): void {
   if (regions.value.length === 0 || !item.peek()) return;
   live({ fields: fields(), since });
-  showWeights(since);
+  if (weights) showWeights(since);
+}
+
+// Undoing begins with what is painted and not kept.
+export function undoStroke(): boolean {
+  if (tab.value !== "smooth" || !takeBackStroke()) return false;
+  if (regions.value.length > 0) preview(performance.now());
+  else discard();
+  return true;
 }
 
 export async function keep(): Promise<void> {

@@ -1,5 +1,5 @@
 // The detail of one place laid on another: two discs on the surface, turned and scaled by a handle.
-import { computed, signal } from "@preact/signals";
+import { computed, effect, signal, untracked } from "@preact/signals";
 import { step } from "../actions";
 import { arrayOf, needArray, surfaceOf, type Binary } from "../binary";
 import { painted, placed } from "../geometry/colors";
@@ -8,7 +8,7 @@ import type { PointerTool } from "../scene/pointer";
 import type { Ring } from "../scene/markers";
 import type { Touch } from "../scene/shape";
 import { repaint, restoreSurface, shown, theView } from "../show";
-import { item } from "../state";
+import { item, tab } from "../state";
 
 interface Disc {
   item: number; // its id
@@ -57,31 +57,35 @@ function fields(): Record<string, unknown> {
 
 const live = liveChannel("transfer", (answer: Binary, asked) => {
   const view = theView();
-  const surface = view?.surface("main");
-  if (!view || !surface || asked.target !== shown.value?.id) return;
+  if (!view || asked.target !== shown.value?.id) return;
   if (arrayOf(answer, "triangles", Uint32Array)) {
     view.show("main", surfaceOf(answer));
     repaint();
   } else {
-    const positions = surface.positions.slice();
-    const moved = needArray(answer, "positions", Float32Array);
-    needArray(answer, "indices", Uint32Array).forEach((v, i) =>
-      positions.set(moved.subarray(3 * i, 3 * i + 3), 3 * v),
-    );
-    view.move(positions, null);
+    const indices = needArray(answer, "indices", Uint32Array);
+    view.moveSome(indices, needArray(answer, "positions", Float32Array));
   }
   previewed.value = true;
+  showRings();
 });
 
+// Rings and what is laid in them come together, in one picture.
 export function preview(since: number): void {
-  showRings();
   if (ready.value) live({ fields: fields(), since });
+  else showRings();
 }
 
 function targetRing(disc: Disc): Ring {
   const turn = ((angle.value ?? 0) * Math.PI) / 180;
   const size = targetShare.value * disc.diagonal;
   return { center: disc.point, normal: disc.normal, radius: size, color: placed, handle: turn };
+}
+
+// Rings are of the shape that is seen.
+export function followShape(): void {
+  effect(() => {
+    if (shown.value && tab.value === "texture") untracked(showRings);
+  });
 }
 
 export function showRings(): void {
@@ -139,11 +143,12 @@ function pick(touch: Touch, since: number): void {
   preview(since);
 }
 
-export const texturePointer: PointerTool = (kind, touch, event) => {
+export const texturePointer: PointerTool = (kind, find, event) => {
   if (kind === "down") {
     dragging = atHandle(event);
     if (dragging) return true;
-    if (!touch || picking.value === "none") return false;
+    const touch = picking.value === "none" ? null : find();
+    if (!touch) return false;
     if (previewed.value) restoreSurface();
     pick(touch, event.timeStamp);
     return true;
