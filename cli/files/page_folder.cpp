@@ -13,8 +13,8 @@ std::optional<std::string> page_folder() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
   if (program.empty()) return std::nullopt;
-  // PREFIX/bin/rholm, and build/PRESET/cli/rholm.
-  for (const char* place : {"../share/rholm/studio", "../../../web/dist"}) {
+  // PREFIX/bin/rholm, build/cli/rholm, and build/PRESET/cli/rholm.
+  for (const char* place : {"../share/rholm/studio", "../../web/dist", "../../../web/dist"}) {
     const fs::path folder = program / place;
     if (fs::is_regular_file(folder / "index.html", error)) return folder.string();
   }
