@@ -208,5 +208,22 @@ TEST(Steps, TheDegreeOfAToleranceIsTheSmallest) {
   EXPECT_EQ(client.state().at("undo"), state.at("undo"));  // no step
 }
 
+// What is shown may be saved: the recipe has the line for it, until it is whole again.
+TEST(Recipe, HasWhatIsOnlyShown) {
+  Client client;
+  client.step({{"op", "make"}, {"shape", "bumpy"}});
+  const auto recipe_of = [](const Json& state) {
+    return state.at("recipe").at("shell").get<std::string>();
+  };
+  const std::string whole = recipe_of(client.step({{"op", "analyze"}, {"item", 1}, {"degree", 8}}));
+  const std::string cut = recipe_of(client.step({{"op", "look"}, {"item", 1}, {"degree", 3}}));
+  EXPECT_EQ(cut, whole +
+                     "\nrholm synthesize bumpy.h5 --degree 3 --like bumpy.ply -o "
+                     "bumpy-surface.ply");
+  EXPECT_EQ(recipe_of(client.step({{"op", "look"}, {"item", 1}, {"degree", 2}})),
+            whole + "\nrholm synthesize bumpy.h5 --degree 2 --like bumpy.ply -o bumpy-surface.ply");
+  EXPECT_EQ(recipe_of(client.step({{"op", "look"}, {"item", 1}, {"degree", 8}})), whole);
+}
+
 }  // namespace
 }  // namespace rholm::studio

@@ -95,6 +95,24 @@ it("the brush grows and shrinks by keys and wheel", async () => {
   await page.keyboard.press("[");
 });
 
+it("undoing takes back what was painted last, before any step", async () => {
+  const { page } = now;
+  const undo = page.getByRole("button", { name: "Undo", exact: true });
+  const before = await undo.getAttribute("title");
+  const keep = page.getByRole("button", { name: "Keep" });
+  for (const x of [0.4, 0.6]) {
+    await page.mouse.click(...(await at(page, x, 0.5)));
+    await settled(page);
+  }
+  await page.keyboard.press("Control+z");
+  await settled(page);
+  expect(await keep.isEnabled()).toBe(true);
+  await page.keyboard.press("Control+z");
+  await settled(page);
+  expect(await keep.isEnabled()).toBe(false);
+  expect(await undo.getAttribute("title")).toBe(before);
+});
+
 it("discarding brings the surface back", async () => {
   const { page } = now;
   await page.locator(".canvas canvas").blur(); // its frame is no part of the surface

@@ -1,6 +1,7 @@
 // The page itself: first look, sizes, themes, keys, what goes wrong.
 import { afterAll, beforeAll, beforeEach, expect, it } from "vitest";
 import { writeFileSync } from "node:fs";
+import type { Page } from "playwright-core";
 import {
   at,
   canvas,
@@ -11,6 +12,7 @@ import {
   press,
   ready,
   rholm,
+  saved,
   settled,
   startStudio,
   stopStudio,
@@ -26,6 +28,13 @@ const names = ["Figures", "Degrees", "Smooth", "Texture", "Points", "Caps", "Ali
 beforeAll(async () => {
   studio = await startStudio();
   rholm(studio, "make", "torus", "-o", "torus.ply");
+  const ball = ["0 0 1", "1 0 0", "0 1 0", "-1 0 0", "0 -1 0", "0 0 -1"].map((corner) =>
+    corner.split(" ").map((x) => 5000 + 300 * Number(x)).join(" "),
+  );
+  const faces = ["0 1 2", "0 2 3", "0 3 4", "0 4 1", "5 2 1", "5 3 2", "5 4 3", "5 1 4"];
+  const lines = ["OFF", "6 8 0", ...ball, ...faces.map((face) => `3 ${face}`)];
+  writeFileSync(inFolder(studio, "far.off"), lines.join("\n"));
+  rholm(studio, "convert", "far.off", "far.ply");
   writeFileSync(inFolder(studio, "broken.ply"), "ply\nformat ascii 1.0\nelement vertex 3\n");
 });
 afterAll(() => stopStudio(studio));
@@ -179,6 +188,69 @@ it("says what is wrong with a file, and goes on", async () => {
   await press(page, "Close");
   await openFile(studio, page, "torus.ply");
   expect(await page.locator(".items li").count()).toBe(2);
+});
+
+it("opens the others of several files when one is broken", async () => {
+  const { page } = now;
+  await openFile(studio, page, "torus.ply", "broken.ply", "far.ply");
+  expect(await page.locator(".items li").count()).toBe(3);
+  expect(await page.getByRole("alert").innerText()).toContain("2 opened, not these: broken.ply");
+  now.complaints.length = 0; // the browser logs the refusal
+});
+
+// Of the pixels of the view: how many are stone, less how many are blue as the other shape of two. The
+// ground behind is neither.
+async function warmth(page: Page): Promise<number> {
+  const png = (await canvas(page)).toString("base64");
+  return page.evaluate(async (data) => {
+    const bytes = Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0));
+    const image = await createImageBitmap(new Blob([bytes], { type: "image/png" }));
+    const paper = new OffscreenCanvas(image.width, image.height).getContext("2d");
+    paper?.drawImage(image, 0, 0);
+    const pixels = paper?.getImageData(0, 0, image.width, image.height).data ?? [];
+    let sum = 0;
+    for (let i = 0; i < pixels.length; i += 4) {
+      const warm = (pixels[i] ?? 0) - (pixels[i + 2] ?? 0);
+      if (Math.abs(warm) > 15) sum += Math.sign(warm);
+    }
+    return sum;
+  }, png);
+}
+
+// Of other sizes and elsewhere: what the camera saw before is no measure for it.
+it("shows shapes of any size, wherever they are", async () => {
+  const { page } = now;
+  await openFile(studio, page, "far.ply");
+  expect(await warmth(page)).toBeGreaterThan(0);
+  await openTab(page, "Align");
+  await settled(page);
+  expect(await warmth(page)).toBeGreaterThan(0);
+  await page.locator(".items li").first().getByRole("button").first().click();
+  await settled(page);
+  await page.getByRole("button", { name: "Fit" }).click();
+  await settled(page);
+  await picture(page, "far-apart");
+  expect(await warmth(page)).toBeLessThan(0);
+});
+
+it("asks before work is lost, and not where there is none", async () => {
+  const { page } = now;
+  const leave = async () => {
+    const asked = page.waitForEvent("dialog", { timeout: 3000 }).catch(() => null);
+    await page.close({ runBeforeUnload: true });
+    const dialog = await asked;
+    await dialog?.dismiss();
+    return dialog?.type() ?? null;
+  };
+  await openFile(studio, page, "torus.ply");
+  await openTab(page, "Figures");
+  await page.getByLabel("Make a shape").selectOption("sphere");
+  await settled(page);
+  expect(await leave()).toBe("beforeunload");
+  await openTab(page, "Save");
+  await saved(page, "Save the session");
+  await settled(page);
+  expect(await leave()).toBeNull();
 });
 
 it("says that there is no WebGL 2, and lists what is open all the same", async () => {
