@@ -24,6 +24,9 @@ if "RHOLM_TEST_TARGET" in os.environ:
 RHOLM = os.environ.get("RHOLM", "rholm")
 SOURCE = Path(__file__).resolve().parents[2]
 
+# Whether the program was built with `rholm studio` (RHOLM_BUILD_STUDIO).
+STUDIO = os.environ.get("RHOLM_TEST_STUDIO", "1") == "1"
+
 # Nothing should come near this, under sanitizers either. Builds that are slower still say how much.
 SLOWNESS = float(os.environ.get("RHOLM_TEST_SLOWNESS", "1"))
 TIMEOUT = 120 * SLOWNESS

@@ -8,11 +8,11 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.dirname(__file__))
-from harness import CliTest, OCTAHEDRON, RHOLM, SOURCE, Terminal, main, off
+from harness import CliTest, OCTAHEDRON, RHOLM, SOURCE, STUDIO, Terminal, main, off
 
 COMMANDS = ["info", "center", "analyze", "synthesize", "spectrum", "compare", "convert", "render",
-            "report", "make", "filter", "rotate", "align", "smooth", "transfer", "orient", "reconstruct", "bench", "studio",
-            "completion"]
+            "report", "make", "filter", "rotate", "align", "smooth", "transfer", "orient", "reconstruct", "bench",
+            "completion", *(["studio"] if STUDIO else [])]
 
 
 class Help(CliTest):

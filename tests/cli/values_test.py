@@ -7,7 +7,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(__file__))
-from harness import CliTest, RHOLM, main
+from harness import CliTest, RHOLM, STUDIO, main
 
 # What else a command needs. The files are not there: a value that is accepted ends with exit
 # code 1, one that is refused with 2.
@@ -27,7 +27,6 @@ NEEDS = {
     "reconstruct": ["none.xyz", "-o", "out.ply"], "bench": ["none.ply"],
     "repair": ["none.ply", "-o", "out.ply"], "simplify": ["none.ply", "-o", "out.ply"],
     "batch": ["none.csv", "--command", "info", "-o", "out.csv"],
-    "studio": ["none.ply", "--no-open"],
     "recenter": ["none.h5", "-o", "out.h5"], "completion": ["bash"],
 }
 
@@ -71,9 +70,12 @@ BEYOND = {
     "max-memory": ["0"], "bench --faces": ["11", "82000,0"],
     "max-hole": ["-1", "501"], "simplify --faces": ["0", "3", "0%", "101%", "none"],
     "max-error": ["-1"], "repeat": ["0", "1001"],
-    "port": ["0", "65536"], "max-upload": ["0", "-1"],
     "thread-counts": ["0", "1,4097"], "shard": ["0/2", "3/2", "1/2/3", "1/0"],
 }
+
+if STUDIO:
+    NEEDS["studio"] = ["none.ply", "--no-open"]
+    BEYOND |= {"port": ["0", "65536"], "max-upload": ["0", "-1"]}
 
 
 def described_options():
