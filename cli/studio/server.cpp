@@ -1,6 +1,9 @@
 #include "cli/studio/server.h"
 
 #include <signal.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include <algorithm>
 #include <atomic>
@@ -21,9 +24,9 @@ using HttpResponse = httplib::Response;
 
 constexpr int kThreads = 64;     // chosen: an open page holds one for its events, a request one
 constexpr int kMaxStreams = 40;  // chosen: the rest of them answer
-constexpr int kIdleSeconds = 2;  // chosen: how long a connection waits for its next request
 constexpr std::uint64_t kReserved = std::uint64_t{64} << 20;  // bytes; more only as they come
-constexpr auto kBeat = std::chrono::seconds(10);              // of streams with nothing to say
+constexpr int kKept = 1 << 20;  // bytes of a heap; chosen: what a look allocates, and no more
+constexpr auto kBeat = std::chrono::seconds(10);         // of streams with nothing to say
 constexpr auto kLook = std::chrono::milliseconds(1000);  // how soon a stream notices that all ends
 
 httplib::Headers safe_headers() {
@@ -33,6 +36,15 @@ httplib::Headers safe_headers() {
           {"Content-Security-Policy",
            "default-src 'self'; connect-src 'self'; img-src 'self' data: blob:; "
            "style-src 'self' 'unsafe-inline'; worker-src 'self' blob:; frame-ancestors 'none'"}};
+}
+
+// Otherwise the allocator learns from large arrays to keep as much at the end of every heap, and
+// threads have heaps of their own.
+void keep_little_memory() {
+#ifdef __GLIBC__
+  ::mallopt(M_MMAP_THRESHOLD, kKept);
+  ::mallopt(M_TRIM_THRESHOLD, kKept);
+#endif
 }
 
 // By a provider, so that the library does not compress it: nothing leaves this machine.
@@ -103,6 +115,8 @@ class StudioServer::Parts {
                       "or it may not be used; leave out --port for one that is free",
                       options.port));
     }
+    // The library lets five wait, and more that come at once are hung up on.
+    ::listen(listening_, SOMAXCONN);
     hosts_[0] = fmt::format("127.0.0.1:{}", port);
     hosts_[1] = fmt::format("localhost:{}", port);
     address_ = fmt::format("http://{}/{}/", hosts_[0], token_);
@@ -116,7 +130,10 @@ class StudioServer::Parts {
       server_.listen_after_bind();
       ended = true;
     });
-    while (!stop() && !ended) std::this_thread::sleep_for(kPause);
+    while (!stop() && !ended) {
+      studio_.tend();
+      std::this_thread::sleep_for(kPause);
+    }
     stopping_ = true;
     studio_.close();
     // A server that has not begun yet cannot be stopped, and would never end.
@@ -131,22 +148,27 @@ class StudioServer::Parts {
 
   void set_up() {
     ::signal(SIGPIPE, SIG_IGN);  // of connections whose browser has gone
+    keep_little_memory();
     server_.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
     server_.set_default_headers(safe_headers());
     server_.set_payload_max_length(max_upload_);
-    server_.set_keep_alive_timeout(kIdleSeconds);
+    // The rest of a body that is refused would be taken for the next request, and its end sought.
+    server_.set_keep_alive_max_count(1);
     server_.set_tcp_nodelay(true);
     // Without the library's SO_REUSEPORT, by which another program could share the port.
-    server_.set_socket_options([](socket_t socket) {
+    server_.set_socket_options([this](socket_t socket) {
       const int yes = 1;
       ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+      listening_ = socket;
     });
     server_.set_pre_routing_handler([this](const HttpRequest& request, HttpResponse& response) {
       return may_ask(request, response) ? httplib::Server::HandlerResponse::Unhandled
                                         : httplib::Server::HandlerResponse::Handled;
     });
     server_.set_expect_100_continue_handler(
-        [this](const HttpRequest& request, HttpResponse&) { return fits(request) ? 100 : 413; });
+        [this](const HttpRequest& request, HttpResponse& response) {
+          return may_ask(request, response) ? 100 : response.status;
+        });
     server_.Get(".*", [this](const HttpRequest& request, HttpResponse& response) {
       answer_get(request, response);
     });
@@ -265,6 +287,7 @@ class StudioServer::Parts {
   const std::size_t max_upload_;
   const std::string token_ = random_token();
   std::string hosts_[2], address_;
+  socket_t listening_ = INVALID_SOCKET;
   std::atomic<bool> stopping_{false};
   std::atomic<int> streams_{0};
   httplib::Server server_;

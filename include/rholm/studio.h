@@ -86,6 +86,9 @@ class Studio {
   // nullptr for a session that is not there.
   std::unique_ptr<StudioListener> listen(const std::string& session);
 
+  // To be called some times a second: ends sessions whose pages have gone, with their jobs, and
+  // gives the memory of those that have ended back to the system.
+  void tend();
   // Whether a page has asked to end it all (POST api/quit).
   bool quitting() const;
   // Ends all sessions: jobs are cancelled, listeners wake.

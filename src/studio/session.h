@@ -34,6 +34,8 @@ class Session {
   Session& operator=(const Session&) = delete;
 
   const std::string& id() const { return id_; }
+  // Expires when the session is no more and its memory is free.
+  std::weak_ptr<const bool> life() const { return life_; }
   Json state() const;
   // A file of any kind that the program reads, or of a session, whose items are added.
   Response open(const std::string& name, std::string_view bytes);
@@ -68,6 +70,7 @@ class Session {
   void run(const Step& step, const std::shared_ptr<Job>& job, Document document);
   void tell_of_job();
 
+  const std::shared_ptr<const bool> life_ = std::make_shared<const bool>(true);  // goes last
   const std::string id_;
   const int threads_;
   Scratch& scratch_;

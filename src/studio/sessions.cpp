@@ -1,7 +1,6 @@
 #include "studio/sessions.h"
 
 #include <random>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -56,6 +55,7 @@ void Sessions::end(const std::string& id) {
   session->close();
   const std::lock_guard lock(mutex_);
   places_.erase(id);
+  ended_.push_back(session->life());
 }
 
 void Sessions::end_all() {
@@ -76,11 +76,17 @@ void Sessions::drop_forgotten() {
     if (left && now - *left >= options_.patience) {
       place->second.session->close();
       dropped.push_back(place->second.session);
+      ended_.push_back(place->second.session->life());
       place = places_.erase(place);
     } else {
       ++place;
     }
   }
+}
+
+std::size_t Sessions::gone() {
+  const std::lock_guard lock(mutex_);
+  return std::erase_if(ended_, [](const auto& life) { return life.expired(); });
 }
 
 void Sessions::enter(const std::string& id) {

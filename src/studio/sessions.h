@@ -2,11 +2,13 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "rholm/studio.h"
 #include "studio/scratch.h"
@@ -29,6 +31,8 @@ class Sessions {
   void end_all();
   // Those whose pages have gone for longer than the patience.
   void drop_forgotten();
+  // How many have ended and been given up by all who held them, since this was asked last.
+  std::size_t gone();
 
   // Who listens comes and goes; while one does, the session is not dropped.
   void enter(const std::string& id);
@@ -48,6 +52,7 @@ class Sessions {
   Scratch& scratch_;
   std::mutex mutex_;  // of what follows
   std::map<std::string, Place> places_;
+  std::vector<std::weak_ptr<const bool>> ended_;  // sessions; who answers in one may still hold it
   std::string offered_;
 };
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/large_vector.h"
 #include "rholm/context.h"
 #include "rholm/error.h"
 #include "studio/answers.h"
@@ -158,6 +159,11 @@ StudioResponse Studio::handle(const StudioRequest& request) {
 }
 
 std::string Studio::offered_session() { return state_->sessions.offer(); }
+void Studio::tend() {
+  state_->sessions.drop_forgotten();
+  if (state_->sessions.gone() > 0) return_free_memory();
+}
+
 bool Studio::quitting() const { return state_->quitting; }
 void Studio::close() { state_->sessions.end_all(); }
 

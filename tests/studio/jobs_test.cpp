@@ -22,7 +22,7 @@ using test::document_of;
 Json long_job() { return {{"op", "analyze"}, {"item", 1}, {"degree", 900}}; }
 
 struct WithJob : Client {
-  WithJob() {
+  explicit WithJob(StudioOptions options = {.threads = 2}) : Client(std::move(options)) {
     step({{"op", "make"}, {"shape", "bumpy"}});
     const Response answer = post(long_job());
     EXPECT_EQ(answer.status, 202) << answer.body;
@@ -176,6 +176,22 @@ TEST(Jobs, MemoryIsGivenBack) {
   const std::size_t after = used();
   EXPECT_GT(during, before + 4000000);  // the degrees of 10 242 vertices alone are 4.1 MB
   EXPECT_LT(after, before + 500000);
+}
+
+TEST(Jobs, APageThatIsClosedTakesItsJobAlong) {
+  if (used() == 0) GTEST_SKIP() << "the allocator does not tell what is in use";
+  WithJob client({.threads = 1, .patience = 30ms});
+  client.ask("POST", "api/job/" + std::to_string(client.job) + "/cancel");
+  client.finished();  // what the library keeps for good
+  const std::size_t before = used();
+  ASSERT_EQ(client.post(long_job()).status, 202);
+  while (used() < before + 4000000) std::this_thread::sleep_for(1ms);
+  client.studio.tend();
+  EXPECT_GT(used(), before + 3000000);  // nobody has left
+  client.studio.listen(client.id).reset();
+  std::this_thread::sleep_for(60ms);
+  client.studio.tend();  // and nothing is asked for
+  EXPECT_LT(used(), before);
 }
 
 TEST(Jobs, TemporaryFilesGo) {
