@@ -1,12 +1,14 @@
 """The studio of notebooks from Python's side. That its page works is tested in JupyterLab (web/e2e)."""
 
 import json
+import re
 import threading
 import time
 
 import numpy as np
 import pytest
 import rholm
+from conftest import ROOT
 from rholm import _studio
 
 pytest.importorskip("anywidget")
@@ -183,3 +185,13 @@ def test_without_the_page_it_is_said_how_to_get_it(script):
     _studio._widget_class.cache_clear()
     with pytest.raises(rholm.UnsupportedError, match="scripts/studio"):
         rholm.studio()
+
+
+@pytest.mark.skipif(not (ROOT / "docs").exists(), reason="the documents are not here")
+def test_the_example_of_the_document_runs(capsys):
+    text = (ROOT / "docs/studio.md").read_text()
+    (block,) = re.findall(r"^```python\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
+    names = {}
+    exec(block, names)
+    assert "import rholm" in capsys.readouterr().out  # the recipe
+    assert repr(names["studio"]) == "<rholm.Studio: closed>"
