@@ -55,6 +55,7 @@ async function startLab(jupyter: string): Promise<void> {
 async function openNotebook(name: string): Promise<void> {
   const context = await browser.newContext({ viewport: { width: 1600, height: 1000 } });
   page = await context.newPage();
+  page.setDefaultTimeout(90_000); // chosen: JupyterLab and a kernel begin on a busy machine
   // A workspace of its own: nothing of another test is opened again.
   await page.goto(address.replace("/lab?", `/lab/workspaces/${name}/tree/${name}.ipynb?`));
   await page.locator(".jp-Notebook .jp-CodeCell").first().waitFor();
@@ -65,8 +66,8 @@ async function openNotebook(name: string): Promise<void> {
 async function run(cell: number): Promise<void> {
   const place = page.locator(".jp-CodeCell").nth(cell);
   const prompt = place.locator(".jp-InputPrompt");
-  for (let tries = 0; tries < 10 && (await prompt.textContent()) === "[ ]:"; ++tries) {
-    await place.locator(".cm-content").click();
+  for (let tries = 0; tries < 30 && (await prompt.textContent()) === "[ ]:"; ++tries) {
+    await place.locator(".cm-content").focus(); // a click would wait for what lies over it
     await page.keyboard.press("Control+Enter");
     await page.waitForTimeout(2000);
   }
