@@ -24,9 +24,10 @@ Json recipe_json(const Recipe& recipe) {
 
 }  // namespace
 
-Session::Session(std::string id, int threads, Scratch& scratch)
+Session::Session(std::string id, int threads, std::size_t max_upload, Scratch& scratch)
     : id_(std::move(id)),
       threads_(threads),
+      max_upload_(max_upload),
       scratch_(scratch),
       shared_{.scratch = scratch},
       live_(threads) {}
@@ -63,6 +64,7 @@ Json Session::state_locked() const {
   for (const ItemPtr& item : now_.items) items.push_back(json_of(*item));
   return {{"version", kVersion},
           {"session", id_},
+          {"max_upload", max_upload_},
           {"items", std::move(items)},
           {"undo", past_.empty() ? Json(nullptr) : Json(past_.back().label)},
           {"redo", future_.empty() ? Json(nullptr) : Json(future_.back().label)},

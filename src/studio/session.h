@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -28,7 +29,8 @@ struct EventMark {
 // throws.
 class Session {
  public:
-  Session(std::string id, int threads, Scratch& scratch);
+  // `max_upload`: bytes of a file, for pages to know.
+  Session(std::string id, int threads, std::size_t max_upload, Scratch& scratch);
   ~Session();  // cancels the job and waits for it
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -73,6 +75,7 @@ class Session {
   const std::shared_ptr<const bool> life_ = std::make_shared<const bool>(true);  // goes last
   const std::string id_;
   const int threads_;
+  const std::size_t max_upload_;
   Scratch& scratch_;
   Shared shared_;
   Live live_;

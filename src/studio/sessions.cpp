@@ -21,7 +21,8 @@ std::shared_ptr<Session> Sessions::make() {
     throw Refusal(503, "too_many_sessions",
                   fmt::format("{} pages are open; close one first", places_.size()));
   }
-  auto session = std::make_shared<Session>(random_name(), options_.threads, scratch_);
+  auto session =
+      std::make_shared<Session>(random_name(), options_.threads, options_.max_upload, scratch_);
   places_[session->id()] = {.session = session};
   return session;
 }

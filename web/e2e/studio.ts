@@ -68,8 +68,9 @@ export async function startProgram(): Promise<Program> {
 export function launch(): Promise<Browser> {
   return chromium.launch({
     executablePath: process.env.RHOLM_CHROMIUM ?? "/usr/bin/chromium",
-    // WebGL in software: pictures do not depend on the machine's card. No sandbox: containers have none.
-    args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+    // WebGL in software: pictures do not depend on the machine's card. No sandbox, and no shared memory to
+    // speak of: containers have none.
+    args: ["--no-sandbox", "--disable-dev-shm-usage", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
   });
 }
 
@@ -85,6 +86,12 @@ export async function stopProgram(program: Program): Promise<void> {
     await ended;
   }
   rmSync(program.folder, { recursive: true, force: true });
+}
+
+// Bytes of memory that the program has.
+export function resident(studio: Studio): number {
+  const status = readFileSync(`/proc/${studio.process.pid}/status`, "utf8");
+  return 1024 * Number(/VmRSS:\s+(\d+)/.exec(status)?.[1]);
 }
 
 export interface Visit {
@@ -159,6 +166,20 @@ export async function press(page: Page, name: string | RegExp): Promise<void> {
 export async function openFile(studio: Studio, page: Page, ...names: string[]): Promise<void> {
   const paths = names.map((name) => inFolder(studio, name));
   await page.locator("nav input[type=file]").setInputFiles(paths);
+  await settled(page);
+}
+
+// Files dropped on the page, by name and content.
+export async function drop(page: Page, files: readonly (readonly [string, Buffer])[]): Promise<void> {
+  const plain = files.map(([name, bytes]) => [name, bytes.toString("base64")] as const);
+  const transfer = await page.evaluateHandle((list) => {
+    const data = new DataTransfer();
+    for (const [name, text] of list) {
+      data.items.add(new File([Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0))], name));
+    }
+    return data;
+  }, plain);
+  await page.dispatchEvent("body", "drop", { dataTransfer: transfer });
   await settled(page);
 }
 

@@ -1,7 +1,8 @@
 // What people do, as requests to the studio.
-import type { Fields, Item, Job, State } from "./protocol";
-import { busy, demo, items, job, lost, notice, selected, studio, working } from "./state";
+import { count } from "./format";
 import { PortTransport } from "./messages";
+import type { Fields, Item, Job, State } from "./protocol";
+import { busy, demo, items, job, lost, notice, selected, stopped, studio, working } from "./state";
 import {
   getJson,
   HttpTransport,
@@ -59,8 +60,8 @@ function listen(): void {
     state: take,
     job: takeJob,
     connected: (yes) => {
-      if (yes && lost.value) void start();
-      lost.value = !yes;
+      if (!yes) lose();
+      else if (lost.value) void start();
     },
   });
 }
@@ -96,9 +97,16 @@ export function quiet(): boolean {
   return transport.pending === 0 && !working.value && !expected;
 }
 
+// What was worked on may still be, or not: the state tells, if it ever comes.
+function lose(): void {
+  lost.value = true;
+  job.value = null;
+  expected = false;
+}
+
 export function fail(error: unknown): void {
   if (error instanceof LostError) {
-    lost.value = true;
+    lose();
     return;
   }
   if (error instanceof RefusedError && error.code === "superseded") return;
@@ -139,18 +147,31 @@ export async function ask<T>(fields: Fields, label: string): Promise<T | null> {
   return answer;
 }
 
+async function openFile(file: File): Promise<void> {
+  const most = studio.value?.max_upload ?? Infinity;
+  // Sent all the same, it would be hung up on, without an answer that browsers read.
+  if (file.size > most) {
+    throw new Error(`it has ${count(file.size)} bytes; the studio takes ${count(most)} (--max-upload).`);
+  }
+  const state = await postFile<State>(transport, file.name, file);
+  demo.value = false;
+  take(state);
+}
+
+// All of them; of those that are refused it says why.
 export async function openFiles(files: Iterable<File>): Promise<void> {
+  if (busy.value !== null) {
+    fail(new Error(`${busy.value}: wait for that first.`));
+    return;
+  }
   const refused: string[] = [];
   let opened = 0;
   for (const file of files) {
-    const done = await during(`Reading ${file.name}`, async () => {
-      const state = await postFile<State>(transport, file.name, file);
-      demo.value = false;
-      take(state);
-    });
+    const done = await during(`Reading ${file.name}`, () => openFile(file));
     if (lost.value) return;
+    const why = notice.peek()?.text ?? "";
     if (done) opened += 1;
-    else if (notice.value) refused.push(notice.value.text);
+    else refused.push(why.includes(file.name) ? why : `${file.name}: ${why}`);
   }
   if (refused.length === 0) return;
   const others = opened > 0 ? `${opened} opened, not these: ` : "";
@@ -175,11 +196,12 @@ export async function cancelJob(): Promise<void> {
 export async function quit(): Promise<void> {
   try {
     await transport.request("POST", "quit");
+    stopped.value = true;
   } catch (error) {
     fail(error);
   }
   unsubscribe?.();
-  lost.value = true;
+  lose();
 }
 
 // Fetches the file of a format and gives it to the browser to save.

@@ -58,6 +58,7 @@ export interface Job {
 export interface State {
   version: string;
   session: string;
+  max_upload: number; // bytes of a file
   items: Item[];
   undo: string | null;
   redo: string | null;

@@ -6,7 +6,7 @@ import { listenToPointer } from "./keys";
 import { ColorScale } from "./plots/legend";
 import { NoWebGlError, View } from "./scene/view";
 import { attach, layout, legend, theView } from "./show";
-import { busy, job, lost, notice } from "./state";
+import { busy, job, lost, notice, stopped } from "./state";
 
 function Progress() {
   const running = job.value;
@@ -32,6 +32,13 @@ function Progress() {
 }
 
 function Notice() {
+  if (stopped.value) {
+    return (
+      <div class="notice" role="alert">
+        <p>The program has ended. This page can be closed.</p>
+      </div>
+    );
+  }
   if (lost.value) {
     return (
       <div class="notice bad" role="alert">

@@ -16,6 +16,7 @@ export type Tab = (typeof tabs)[number][0];
 
 export const studio = signal<State | null>(null);
 export const lost = signal(false);
+export const stopped = signal(false); // the program has ended as it was told
 export const tab = signal<Tab>("figures");
 export const selected = signal<number | null>(null);
 export const busy = signal<string | null>(null); // what the page waits for
