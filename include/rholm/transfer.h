@@ -42,8 +42,8 @@ struct TransferOptions {
   // Splits the target's edges until they are as short as the source's are there. Coinciding
   // vertices become one, and new ones come after the old.
   bool refine = false;
-  // Whether the angle at which the detail is most like the target's own is looked for, which is half
-  // of the analysis. Without it the report's angle and correlation are 0.
+  // Whether the angle at which the detail is most like the target's own is looked for, which is
+  // half of the analysis. Without it the report's angle and correlation are 0.
   bool find_angle = true;
   // Of the target region; by default the wavelength of its base, at most a quarter of its radius.
   double transition = -1;
