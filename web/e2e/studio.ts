@@ -80,7 +80,7 @@ export async function stopStudio(studio: Studio): Promise<void> {
 }
 
 export async function stopProgram(program: Program): Promise<void> {
-  if (program.process.exitCode === null) {
+  if (program.process.exitCode === null && program.process.signalCode === null) {
     const ended = new Promise((done) => program.process.once("exit", done));
     program.process.kill("SIGINT");
     await ended;
