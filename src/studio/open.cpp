@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <functional>
 #include <optional>
 
 #include "rholm/coefficients_io.h"
@@ -21,12 +22,28 @@ std::string ending_of(const std::string& name) {
   return ending;
 }
 
+// Throws what `read` throws, with the name that people know in place of the file's.
+void read_as(const std::string& name, const std::filesystem::path& path,
+             const std::function<void()>& read) {
+  try {
+    read();
+  } catch (const Error& error) {
+    std::string message = error.what();
+    const std::size_t at = message.find(path.string());
+    if (at == std::string::npos) throw;
+    throw Error(error.code(), message.replace(at, path.string().size(), name));
+  }
+}
+
 // A model file is read by its name only.
-Item open_model(std::string_view bytes, Scratch& scratch, const Context& context) {
+Item open_model(std::string_view bytes, const std::string& name, Scratch& scratch,
+                const Context& context) {
   std::optional<Item> item;
   scratch.read(bytes, ".h5", [&](const std::filesystem::path& path) {
-    item = is_atlas_file(path) ? item_of(read_atlas(path), context)
-                               : item_of(read_model(path), context);
+    read_as(name, path, [&] {
+      item = is_atlas_file(path) ? item_of(read_atlas(path), context)
+                                 : item_of(read_model(path), context);
+    });
   });
   if (item->atlas) item->atlas_file = std::make_shared<const std::string>(bytes);
   return *std::move(item);
@@ -89,7 +106,7 @@ std::string plain_name(const std::string& name) {
 Item open_item(const std::string& name, std::string_view bytes, Scratch& scratch,
                const Context& context) {
   const std::string plain = plain_name(name);
-  Item item = bytes.starts_with("\x89HDF\r\n\x1a\n") ? open_model(bytes, scratch, context)
+  Item item = bytes.starts_with("\x89HDF\r\n\x1a\n") ? open_model(bytes, plain, scratch, context)
                                                      : open_text(bytes, plain, context);
   item.name = plain;
   return item;

@@ -174,8 +174,8 @@ export async function openFiles(files: Iterable<File>): Promise<void> {
     else refused.push(why.includes(file.name) ? why : `${file.name}: ${why}`);
   }
   if (refused.length === 0) return;
-  const others = opened > 0 ? `${opened} opened, not these: ` : "";
-  notice.value = { text: others + refused.join("; "), bad: true };
+  if (opened > 0) refused.push(opened === 1 ? "The other one is open." : `The other ${opened} are open.`);
+  notice.value = { text: refused.join("\n"), bad: true };
 }
 
 export const undo = () => studio.value?.undo && step({ op: "undo" }, "Undoing");
