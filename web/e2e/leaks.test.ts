@@ -17,6 +17,7 @@ import {
 
 const loads = Number(process.env.RHOLM_LOADS ?? 20);
 const first = Math.ceil(loads / 4); // what is kept for good is there by then
+const patience = 180_000 + 9_000 * loads; // ms; chosen, as in vitest.config.ts
 const mebibyte = 2 ** 20;
 let studio: Studio;
 let now: Visit;
@@ -59,7 +60,7 @@ it("over many loads", async () => {
     await now.page.reload();
     await ready(now.page);
   });
-});
+}, patience);
 
 // Removed ones can be brought back, a hundred steps: the program keeps those.
 it("over many shapes", async () => {
@@ -68,4 +69,4 @@ it("over many shapes", async () => {
     await now.page.getByRole("button", { name: "Remove torus.ply" }).click();
     await settled(now.page);
   });
-});
+}, patience);
