@@ -4,6 +4,7 @@ import {
   bytesOf,
   canvas,
   drag,
+  leave,
   openFile,
   openTab,
   picture,
@@ -155,7 +156,7 @@ it("a report and a session are saved, and the session opens again", async () => 
   await settled(other.page);
   await other.page.locator(".items").getByText("rock.ply").waitFor();
   expect(other.complaints).toEqual([]);
-  await other.page.context().close();
+  await leave(studio, other);
 });
 
 it("the recipe is there to copy", async () => {

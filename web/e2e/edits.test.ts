@@ -140,7 +140,7 @@ it("says that a bridge cannot be that wide, until that is not asked for", async 
   }
   await page.getByLabel("What happens there").selectOption("bridge");
   await settled(page);
-  await page.getByRole("alert").waitFor({ timeout: 5000 });
+  await page.getByRole("alert").waitFor();
   await picture(page, "refused");
   await page.getByLabel("What happens there").selectOption("smooth");
   await settled(page);

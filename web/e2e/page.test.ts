@@ -1,11 +1,12 @@
 // The page itself: first look, sizes, themes, keys, what goes wrong.
 import { afterAll, beforeAll, beforeEach, expect, it } from "vitest";
 import { writeFileSync } from "node:fs";
-import type { Page } from "playwright-core";
+import type { Dialog, Page } from "playwright-core";
 import {
   at,
   canvas,
   inFolder,
+  leave,
   openFile,
   openTab,
   picture,
@@ -43,7 +44,7 @@ beforeEach(async () => {
   await ready(now.page);
   return async () => {
     const said = now.complaints;
-    await now.page.context().close();
+    await leave(studio, now);
     expect(said).toEqual([]);
   };
 });
@@ -150,7 +151,7 @@ it("is painted on by a finger", async () => {
   expect(await page.getByRole("button", { name: "Keep" }).isEnabled()).toBe(true);
   await picture(page, "touch");
   expect(other.complaints).toEqual([]);
-  await page.context().close();
+  await leave(studio, other);
 });
 
 it("takes files that are dropped", async () => {
@@ -237,8 +238,11 @@ it("shows shapes of any size, wherever they are", async () => {
 
 it("asks before work is lost, and not where there is none", async () => {
   const { page } = now;
-  const leave = async () => {
-    const asked = page.waitForEvent("dialog", { timeout: 3000 }).catch(() => null);
+  const close = async () => {
+    const asked = new Promise<Dialog | null>((done) => {
+      page.once("dialog", done);
+      page.once("close", () => done(null));
+    });
     await page.close({ runBeforeUnload: true });
     const dialog = await asked;
     await dialog?.dismiss();
@@ -248,11 +252,11 @@ it("asks before work is lost, and not where there is none", async () => {
   await openTab(page, "Figures");
   await page.getByLabel("Make a shape").selectOption("sphere");
   await settled(page);
-  expect(await leave()).toBe("beforeunload");
+  expect(await close()).toBe("beforeunload");
   await openTab(page, "Save");
   await saved(page, "Save the session");
   await settled(page);
-  expect(await leave()).toBeNull();
+  expect(await close()).toBeNull();
 });
 
 it("says that there is no WebGL 2, and lists what is open all the same", async () => {

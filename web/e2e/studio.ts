@@ -9,7 +9,12 @@ import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { chromium, type Browser, type BrowserContextOptions, type Page } from "playwright-core";
 import type {} from "../src/idle";
+import { sessionKey } from "../src/transport";
 import { toSrgb, type Rgb } from "../src/geometry/colors";
+
+// Chosen: a browser that draws in software, on a machine that does other things. Nothing waits for it where
+// all is well.
+export const patience = 120_000;
 
 const dist = fileURLToPath(new URL("../dist", import.meta.url));
 export const pictures = process.env.RHOLM_PICTURES;
@@ -68,6 +73,7 @@ export async function startProgram(): Promise<Program> {
 export function launch(): Promise<Browser> {
   return chromium.launch({
     executablePath: process.env.RHOLM_CHROMIUM ?? "/usr/bin/chromium",
+    timeout: patience,
     // WebGL in software: pictures do not depend on the machine's card. No sandbox, and no shared memory to
     // speak of: containers have none.
     args: ["--no-sandbox", "--disable-dev-shm-usage", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
@@ -105,6 +111,7 @@ export async function visit(studio: Studio, options: BrowserContextOptions = {})
     permissions: ["clipboard-read", "clipboard-write"],
     ...options,
   });
+  context.setDefaultTimeout(patience);
   const page = await context.newPage();
   const complaints: string[] = [];
   page.on("pageerror", (error) => complaints.push(error.stack ?? error.message));
@@ -115,10 +122,18 @@ export async function visit(studio: Studio, options: BrowserContextOptions = {})
   return { page, complaints };
 }
 
+// Closes a page, and ends its session: a studio has sixteen at most, and one that nobody is at stays for a minute.
+export async function leave(studio: Studio, { page }: Visit): Promise<void> {
+  const session = page.isClosed() ? null : await page.evaluate((key) => sessionStorage.getItem(key), sessionKey);
+  await page.context().close();
+  if (!session || studio.process.killed) return;
+  await fetch(`${studio.address}api/session/close`, { method: "POST", headers: { "X-Session": session } });
+}
+
 // Until the page is at rest.
 export async function settled(page: Page): Promise<void> {
   const late = new Promise<never>((_, fail) =>
-    setTimeout(() => fail(new Error("the page does not come to rest")), 60_000).unref(),
+    setTimeout(() => fail(new Error("the page does not come to rest")), patience).unref(),
   );
   await Promise.race([page.evaluate(() => window.rholmIdle()), late]);
 }

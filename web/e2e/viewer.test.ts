@@ -9,7 +9,7 @@ import { afterAll, beforeAll, expect, it } from "vitest";
 import { encodeBinary } from "../src/binary";
 import { factors, nextDegree, startColumn } from "../src/harmonics/legendre";
 import { gridFor, startSynthesis, sumTo, type Coefficients } from "../src/harmonics/synthesis";
-import { launch, picture, programPath } from "./studio";
+import { launch, patience, picture, programPath } from "./studio";
 
 const degree = 48;
 // That of the report's page.
@@ -127,8 +127,8 @@ it("a page with data and script in it shows the shape, from a file, without a ne
   const before = await canvas.screenshot();
   await page.getByLabel("Degree, exactly").fill("3");
   await page.keyboard.press("Enter");
-  await frames(page);
-  expect(Buffer.compare(before, await canvas.screenshot())).not.toBe(0);
+  const compared = async () => Buffer.compare(before, await canvas.screenshot());
+  await expect.poll(compared, { timeout: patience }).not.toBe(0);
   await page.getByLabel("Colours").selectOption("difference");
   await page.locator("figure.legend").waitFor();
   await frames(page);

@@ -48,7 +48,7 @@ const refusals: Record<number, string> = {
   503: "Too many pages are open: close one.",
 };
 
-const sessionKey = "rholm-session";
+export const sessionKey = "rholm-session";
 
 export class HttpTransport implements Transport {
   session = "";
