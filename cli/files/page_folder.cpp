@@ -13,8 +13,10 @@ std::optional<std::string> page_folder() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
   if (program.empty()) return std::nullopt;
-  // PREFIX/bin/rholm, build/cli/rholm, and build/PRESET/cli/rholm.
-  for (const char* place : {"../share/rholm/studio", "../../web/dist", "../../../web/dist"}) {
+  // PREFIX/bin/rholm; of a wheel PREFIX/lib/pythonX.Y/site-packages/rholm.scripts/rholm, where
+  // auditwheel moves it to; build/cli/rholm, and build/PRESET/cli/rholm.
+  for (const char* place : {"../share/rholm/studio", "../../../../share/rholm/studio",
+                            "../../web/dist", "../../../web/dist"}) {
     const fs::path folder = program / place;
     if (fs::is_regular_file(folder / "index.html", error)) return folder.string();
   }
