@@ -1,9 +1,11 @@
 // Degrees, filters, errors, and files: the bytes are those that the program writes.
+import { writeFileSync } from "node:fs";
 import { afterAll, beforeAll, expect, it } from "vitest";
 import {
   bytesOf,
   canvas,
   drag,
+  inFolder,
   leave,
   openFile,
   openTab,
@@ -46,6 +48,15 @@ async function save(format: string): Promise<Buffer> {
   const bytes = await saved(now.page, /^Save rock\./);
   await openTab(now.page, "Degrees");
   return bytes;
+}
+
+// What a report says and shows, without its title and the commands that made it: those of the studio are its steps.
+function shownBy(report: Buffer): string {
+  return report
+    .toString("utf8")
+    .replaceAll(/<(title|h1)>[^<]*<\/\1>/g, "")
+    .replaceAll(", beside the shape rock.ply", "")
+    .replaceAll(/<p[^>]*>[^<]*<\/p>\s*<pre>.*?<\/pre>\s*/gs, "");
 }
 
 it.each(["obj", "off", "stl", "ply"])("the whole series as %s is the program's synthesis", async (format) => {
@@ -147,7 +158,12 @@ it("a picture has the size that was asked for", async () => {
 it("a report and a session are saved, and the session opens again", async () => {
   const { page } = now;
   const report = await saved(page, "Save a report");
-  expect(report.toString("utf8", 0, 15).toLowerCase()).toBe("<!doctype html>");
+  writeFileSync(inFolder(studio, "shown.h5"), await save("h5"));
+  rholm(studio, "report", "shown.h5", "--shape", "rock.ply", "-o", "report.html");
+  const theirs = shownBy(bytesOf(studio, "report.html"));
+  expect(theirs.match(/<(img|svg)/g)?.length).toBeGreaterThan(3);
+  expect(shownBy(report) === theirs).toBe(true); // a difference of megabytes is no message
+  await openTab(page, "Save");
   const session = await saved(page, "Save the session");
   const other = await visit(studio);
   await ready(other.page);

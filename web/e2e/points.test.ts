@@ -5,6 +5,7 @@ import {
   canvas,
   drag,
   openFile,
+  openForLongJob,
   openTab,
   patience,
   picture,
@@ -14,6 +15,7 @@ import {
   saved,
   setNumber,
   settled,
+  startLongJob,
   startStudio,
   stopStudio,
   visit,
@@ -83,16 +85,11 @@ it("a shape is compressed to caps, shown in colours", async () => {
   expect(Buffer.compare(colored, await canvas(page))).not.toBe(0);
 });
 
-// Caps of degree 2 at most for a small error: seconds of work, which a page that is slow to draw still sees.
 it("a job is cancelled and leaves nothing", async () => {
   const { page } = now;
-  await openFile(studio, page, "torus.ply");
+  await openForLongJob(studio, page);
   const before = await page.locator(".items li").count();
-  await openTab(page, "Caps");
-  await setNumber(page, "Allowed error (of the diagonal)", 3e-4);
-  await setNumber(page, "Largest degree of a cap", 2);
-  await page.getByRole("button", { name: "Compress" }).click();
-  await page.locator("progress").waitFor();
+  await startLongJob(page);
   await picture(page, "progress");
   await press(page, "Cancel");
   expect(await page.locator(".items li").count()).toBe(before);

@@ -248,3 +248,17 @@ export async function at(page: Page, x: number, y: number): Promise<[number, num
   if (!box) throw new Error("there is no canvas");
   return [box.x + x * box.width, box.y + y * box.height];
 }
+
+// A shape for startLongJob(), and that: caps of degree 2 at most for a small error, a minute of two processors.
+// Whoever starts it ends it, and sees it, however slowly the page draws.
+export async function openForLongJob(studio: Studio, page: Page): Promise<void> {
+  rholm(studio, "make", "torus", "--segments", "384x192", "-o", "fine.ply");
+  await openFile(studio, page, "fine.ply");
+}
+export async function startLongJob(page: Page): Promise<void> {
+  await openTab(page, "Caps");
+  await setNumber(page, "Allowed error (of the diagonal)", 1e-4);
+  await setNumber(page, "Largest degree of a cap", 2);
+  await page.getByRole("button", { name: "Compress" }).click();
+  await page.locator("progress").waitFor();
+}

@@ -11,14 +11,15 @@ import {
   drop,
   inFolder,
   openFile,
+  openForLongJob,
   openTab,
   picture,
   press,
   ready,
   resident,
   rholm,
-  setNumber,
   settled,
+  startLongJob,
   startStudio,
   stopStudio,
   visit,
@@ -54,14 +55,6 @@ const names = (page: Page) => page.locator(".items .name").allInnerTexts();
 async function recipe(page: Page): Promise<string> {
   await openTab(page, "Save");
   return page.locator(".copy pre").first().innerText();
-}
-
-// Until it is on its way.
-async function analyseForLong(page: Page): Promise<void> {
-  await openTab(page, "Degrees");
-  await setNumber(page, "Up to degree", 800);
-  await page.getByRole("button", { name: "Analyse" }).click();
-  await page.locator("progress").waitFor();
 }
 
 it("refuses two gigabytes in words, and goes on", async () => {
@@ -102,12 +95,12 @@ it("says of every broken file among those dropped why it is none, and opens the 
 
 it("comes back as it was when it is loaded again during a job, with the job", async () => {
   const { page } = now;
-  await openFile(studio, page, "rock.ply");
+  await openForLongJob(studio, page);
   const before = [await names(page), await recipe(page)];
-  await analyseForLong(page);
+  await startLongJob(page);
   await page.reload();
   await page.locator("progress").waitFor();
-  expect(await page.getByRole("button", { name: "Undo" }).getAttribute("title")).toContain("rock.ply");
+  expect(await page.getByRole("button", { name: "Undo" }).getAttribute("title")).toContain("fine.ply");
   await press(page, "Cancel");
   expect([await names(page), await recipe(page)]).toEqual(before);
 });
@@ -200,13 +193,13 @@ it("does nothing for another page, even one that knows its address", async () =>
 
 it("says that the program was killed during a job, and hangs nowhere", async () => {
   const { page } = now;
-  await openFile(studio, page, "rock.ply");
-  await analyseForLong(page);
+  await openForLongJob(studio, page);
+  await startLongJob(page);
   studio.process.kill("SIGKILL");
   await page.getByText("The studio does not answer").waitFor();
   await settled(page);
   expect(await page.locator(".progress").count()).toBe(0);
-  for (const name of ["Undo", "Analyse", "Try again"]) {
+  for (const name of ["Undo", "Compress", "Try again"]) {
     await press(page, name);
     await page.getByText("The studio does not answer").waitFor();
   }
@@ -218,7 +211,7 @@ it("says that the program was killed during a job, and hangs nowhere", async () 
   await page.locator(".canvas canvas").focus();
   await page.keyboard.press("ArrowLeft");
   await settled(page);
-  expect(await names(page)).toEqual(["bumpy.ply", "rock.ply"]);
+  expect(await names(page)).toEqual(["bumpy.ply", "fine.ply"]);
   await picture(page, "killed");
   now.complaints.length = 0; // lost connections
 });
