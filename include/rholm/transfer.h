@@ -75,7 +75,16 @@ struct TransferReport {
   std::size_t new_vertices = 0;             // by refinement
 };
 
+struct TransferSourceState;
 struct TransferState;
+
+// A texture taken from its source, to be laid on any number of targets.
+struct TransferSource {
+  int from_degree = 0;                               // of the options
+  double radius = 0;                                 // of a disc with the area of the region
+  double wavelength = 0, edge = 0, rms = 0;          // source_... of TransferReport
+  std::shared_ptr<const TransferSourceState> state;  // the texture; shared by copies
+};
 
 // What an analysis knows.
 struct TransferAnalysis {
@@ -91,6 +100,15 @@ struct TransferAnalysis {
 TransferAnalysis analyze_transfer(const Mesh& source, std::span<const Region> from,
                                   const Mesh& target, std::span<const Region> to,
                                   const TransferOptions& options = {}, const Context& context = {});
+
+// The same in two: what is of the source, of which options.from_degree matters alone, and what is
+// of a target, which may be one that moves under a hand. The second also throws InvalidInput for a
+// source without a texture, and for another from_degree than the source's.
+TransferSource analyze_source(const Mesh& source, std::span<const Region> from,
+                              const TransferOptions& options = {}, const Context& context = {});
+TransferAnalysis analyze_transfer(const TransferSource& source, const Mesh& target,
+                                  std::span<const Region> to, const TransferOptions& options = {},
+                                  const Context& context = {});
 
 // New positions of analysis.patch.vertices, for apply(). Throws InvalidInput for numbers that are
 // not finite, and with kCoefficients for from_degree >= kMaxSwapDegree.

@@ -139,34 +139,59 @@ void check_degree(const Mesh& source, std::span<const double> weights, double ra
 
 }  // namespace
 
-struct TransferState {
-  TexturedPatch source, target;
+struct TransferSourceState {
+  TexturedPatch patch;
   DetailMap texture;
-  TransferOptions options;
   mutable std::once_flag repeating;
   mutable RepeatedMap repeated;  // once it is wanted
 };
 
-TransferAnalysis analyze_transfer(const Mesh& source, std::span<const Region> from,
-                                  const Mesh& target, std::span<const Region> to,
-                                  const TransferOptions& options, const Context& context) {
+struct TransferState {
+  std::shared_ptr<const TransferSourceState> source;
+  TexturedPatch target;
+  TransferOptions options;
+};
+
+TransferSource analyze_source(const Mesh& source, std::span<const Region> from,
+                              const TransferOptions& options, const Context& context) {
   check_options(options);
   validate(source);
+  if (from.empty()) refuse("a source region is needed");
+  TransferSource analysis;
+  analysis.from_degree = options.from_degree;
+  analysis.radius = region_radius(source, from);
+  analysis.wavelength = 4 * analysis.radius / options.from_degree;
+  const double fading = std::min(analysis.wavelength, kTransition * analysis.radius);
+  check_degree(source, region_weights(source, from, fading), analysis.radius, options.from_degree);
+  auto state = std::make_shared<TransferSourceState>();
+  state->patch = texture_of(source, from, analysis.wavelength, fading, context);
+  state->texture = detail_of(state->patch);
+  analysis.edge = median_edge(state->patch);
+  analysis.rms = rms_in_disc(state->texture);
+  analysis.state = std::move(state);
+  return analysis;
+}
+
+TransferAnalysis analyze_transfer(const TransferSource& source, const Mesh& target,
+                                  std::span<const Region> to, const TransferOptions& options,
+                                  const Context& context) {
+  check_options(options);
   validate(target);
-  if (from.empty() || to.empty()) refuse("a source region and a target region are needed");
+  if (!source.state) refuse("the source has no texture: analyze_source() takes one");
+  if (options.from_degree != source.from_degree) {
+    refuse(fmt::format("the source's detail begins above degree {}, not {}", source.from_degree,
+                       options.from_degree));
+  }
+  if (to.empty()) refuse("a target region is needed");
+  const TexturedPatch& patch = source.state->patch;
   TransferAnalysis analysis;
   analysis.mesh = target;
   TransferReport& report = analysis.report;
-  auto state = std::make_shared<TransferState>();
-  state->options = options;
-  const double source_radius = region_radius(source, from);
-  report.source_wavelength = 4 * source_radius / options.from_degree;
-  const double fading = std::min(report.source_wavelength, kTransition * source_radius);
-  check_degree(source, region_weights(source, from, fading), source_radius, options.from_degree);
-  state->source = texture_of(source, from, report.source_wavelength, fading, context);
-  report.source_edge = median_edge(state->source);
+  report.source_wavelength = source.wavelength;
+  report.source_edge = source.edge;
+  report.source_rms = source.rms;
   const double target_radius = region_radius(target, to);
-  const double about = options.scale * target_radius / source_radius;
+  const double about = options.scale * target_radius / source.radius;
   const double wanted = report.source_wavelength * about;
   std::vector<Region> regions(to.begin(), to.end());
   const double transition =
@@ -179,17 +204,19 @@ TransferAnalysis analyze_transfer(const Mesh& source, std::span<const Region> fr
   const double edge =
       median_edge(mesh.vertices, mesh.triangles, region_weights(mesh, regions, transition));
   report.target_wavelength = std::max(wanted, kFewestBaseEdges * edge);
+  auto state = std::make_shared<TransferState>();
+  state->source = source.state;
+  state->options = options;
   state->target = texture_of(mesh, regions, report.target_wavelength, transition, context);
-  count_azimuths_like(state->source.chart, state->target.chart);
+  count_azimuths_like(patch.chart, state->target.chart);
   report.target_edge = median_edge(state->target);
   // Of the bases: the detail on them does not count in how large they are.
-  report.source_radius = state->source.chart.unit;
+  report.source_radius = patch.chart.unit;
   report.target_radius = state->target.chart.unit;
   report.scale = options.scale * report.target_radius / report.source_radius;
-  state->texture = detail_of(state->source);
-  report.source_rms = rms_in_disc(state->texture);
   if (options.find_angle) {
-    const Alignment best = align_maps(state->texture, 1 / options.scale, detail_of(state->target));
+    const Alignment best =
+        align_maps(source.state->texture, 1 / options.scale, detail_of(state->target));
     report.angle = best.angle;
     report.correlation = best.correlation;
   }
@@ -199,18 +226,26 @@ TransferAnalysis analyze_transfer(const Mesh& source, std::span<const Region> fr
   return analysis;
 }
 
+TransferAnalysis analyze_transfer(const Mesh& source, std::span<const Region> from,
+                                  const Mesh& target, std::span<const Region> to,
+                                  const TransferOptions& options, const Context& context) {
+  return analyze_transfer(analyze_source(source, from, options, context), target, to, options,
+                          context);
+}
+
 std::vector<Vec3> update(const TransferAnalysis& analysis, const TransferUpdate& wanted) {
   const TransferState& state = *analysis.state;
+  const TransferSourceState& source = *state.source;
   check_update(wanted, state.options.from_degree);
   const double angle = wanted.angle.value_or(analysis.report.angle);
   if (wanted.mode == TransferMode::kCoefficients) {
-    return swap_coefficients(state.source, state.target, state.options.from_degree, angle,
+    return swap_coefficients(source.patch, state.target, state.options.from_degree, angle,
                              wanted.height);
   }
   if (wanted.repeat) {
-    std::call_once(state.repeating, [&] { state.repeated = repeat(state.texture); });
+    std::call_once(source.repeating, [&] { source.repeated = repeat(source.texture); });
   }
-  const Texture texture{state.texture, state.repeated, state.options.scale, angle, wanted.repeat};
+  const Texture texture{source.texture, source.repeated, state.options.scale, angle, wanted.repeat};
   return displaced(state.target, texture, wanted.height * analysis.report.scale, wanted.remove_own);
 }
 

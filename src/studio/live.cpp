@@ -133,17 +133,24 @@ Response Live::transfer(const Json& request, const Document& document) {
   TransferWish wish = transfer_in(request);
   // A hand that turns it does not wait for what it does not want to know.
   wish.options.find_angle = !wish.update.angle;
-  const std::string key =
-      fmt::format("{} / {} / {} {} {}", fmt::join(wish.from, " "), fmt::join(wish.to, " "),
-                  wish.options.from_degree, wish.options.scale, wish.options.refine);
+  const std::string of_source =
+      fmt::format("{} / {}", fmt::join(wish.from, " "), wish.options.from_degree);
+  if (!source_.analysis || source_.key != of_source || source_.of[0] != source->shown) {
+    source_ = {};
+    source_.analysis = std::make_shared<const TransferSource>(
+        analyze_source(*source->shown, parsed(wish.from), wish.options, context()));
+    source_.key = of_source;
+    source_.of[0] = source->shown;
+  }
+  const std::string key = fmt::format("{} / {} / {} {}", of_source, fmt::join(wish.to, " "),
+                                      wish.options.scale, wish.options.refine);
   const bool knows = !wish.options.find_angle || transfer_angle_;
   const bool usable = knows && transfer_.analysis && transfer_.key == key &&
                       transfer_.of[0] == source->shown && transfer_.of[1] == target->shown;
   if (!usable) {
     transfer_ = {};
-    transfer_.analysis = std::make_shared<const TransferAnalysis>(
-        analyze_transfer(*source->shown, parsed(wish.from), *target->shown, parsed(wish.to),
-                         wish.options, context()));
+    transfer_.analysis = std::make_shared<const TransferAnalysis>(analyze_transfer(
+        *source_.analysis, *target->shown, parsed(wish.to), wish.options, context()));
     transfer_.key = key;
     transfer_angle_ = wish.options.find_angle;
     transfer_.of[0] = source->shown;

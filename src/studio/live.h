@@ -49,6 +49,7 @@ class Live {
   std::map<std::string, Kind> kinds_;
   std::mutex mutex_;  // of the map
   Kept<Patch> patch_;
+  Kept<TransferSource> source_;  // the texture, while its target moves
   Kept<TransferAnalysis> transfer_;
   bool transfer_angle_ = false;  // whether it has looked for the angle
 };

@@ -156,6 +156,44 @@ TEST(Transfer, an_angle_that_is_given_need_not_be_found) {
   EXPECT_EQ(update(given), update(found, {.angle = 0}));
 }
 
+TEST(Transfer, a_source_serves_several_targets_alike) {
+  const Mesh source = patterned_sphere(5, 1, 0.02);
+  const Mesh smooth = icosphere(5), own = patterned_sphere(5, 2, 0.04);
+  const Regions from{BallRegion{{0, 0, 1}, 0.6}};
+  const TransferOptions options{.from_degree = 6, .scale = 0.8};
+  const TransferUpdate wanted{.repeat = true};
+  const TransferSource texture = analyze_source(source, from, options);
+  for (const Mesh* target : {&smooth, &own, &smooth}) {
+    for (const Vec3 at : {Vec3{0, 0, 1}, Vec3{0, 1, 0}}) {
+      const Regions to{BallRegion{norm(target->vertices[0]) * at, 0.5}};
+      const Result at_once = moved_by(source, from, *target, to, options, wanted);
+      TransferAnalysis analysis = analyze_transfer(texture, *target, to, options);
+      apply(analysis.patch, update(analysis, wanted), analysis.mesh);
+      ASSERT_EQ(analysis.mesh.vertices.size(), at_once.mesh.vertices.size());
+      std::size_t moved = 0;
+      for (std::size_t i = 0; i < analysis.mesh.vertices.size(); ++i) {
+        EXPECT_EQ(test::bits_of(analysis.mesh.vertices[i]),
+                  test::bits_of(at_once.mesh.vertices[i]));
+        moved += test::bits_of(analysis.mesh.vertices[i]) != test::bits_of(target->vertices[i]);
+      }
+      EXPECT_GT(moved, 100u);
+      EXPECT_EQ(analysis.report.source_rms, at_once.report.source_rms);
+      EXPECT_EQ(analysis.report.angle, at_once.report.angle);
+    }
+  }
+}
+
+TEST(Transfer, a_source_of_another_detail_is_refused) {
+  const Mesh ball = icosphere(4);
+  const Regions disc{BallRegion{{0, 0, 1}, 0.5}};
+  const TransferSource texture = analyze_source(ball, disc, {.from_degree = 4});
+  EXPECT_NO_THROW(analyze_transfer(texture, ball, disc, {.from_degree = 4}));
+  EXPECT_THROW(analyze_transfer(texture, ball, disc, {.from_degree = 5}), Error);
+  EXPECT_THROW(analyze_transfer(TransferSource{}, ball, disc, {.from_degree = 4}), Error);
+  EXPECT_THROW(analyze_transfer(texture, ball, {}, {.from_degree = 4}), Error);
+  EXPECT_THROW(analyze_source(ball, {}, {.from_degree = 4}), Error);
+}
+
 TEST(Transfer, what_replaces_its_own_detail_changes_little) {
   const Mesh mesh =
       test::sheet(180, 0.01, [](double x, double y) { return 0.004 * pattern(x, y); });
