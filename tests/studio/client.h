@@ -96,14 +96,6 @@ class Client {
 
 inline int last_item(const Json& state) { return state.at("items").back().at("id"); }
 
-// Of the caps of an atlas.
-inline int highest_degree_of(const Json& item) {
-  for (const Json& fact : item.at("facts")) {
-    if (fact.at("label") == "Highest degree") return std::stoi(fact.at("value").get<std::string>());
-  }
-  return -1;
-}
-
 // An answer's code of an error; empty for none.
 inline std::string code_of(const Response& answer) {
   if (answer.status < 400) return "";

@@ -55,7 +55,7 @@ TEST(SessionFile, BringsEverythingBack) {
   client.step({{"op", "look"}, {"item", 1}, {"degree", 4}});
   client.step({{"op", "make"}, {"shape", "points"}});
   client.step({{"op", "compress"}, {"item", 1}, {"tolerance", 0.05}});
-  const int highest = test::highest_degree_of(client.state().at("items").back());
+  const int highest = client.state().at("items").back().at("atlas").at("degree");
   client.step({{"op", "atlas_look"}, {"item", 3}, {"limit", highest - 1}});
   const Response expansion = client.save(1, "h5");
   client.open("series.h5", expansion.body);

@@ -15,7 +15,6 @@ namespace {
 
 using test::Client;
 using test::document_of;
-using test::highest_degree_of;
 using test::last_item;
 
 // The step changes something; undo brings back all that was, redo all that was made.
@@ -115,8 +114,12 @@ TEST(Steps, PointsBecomeSurfacesAndCaps) {
   const int surface = last_item(state);
   state = check_undone(client, {{"op", "compress"}, {"item", surface}, {"tolerance", 0.02}});
   EXPECT_EQ(state.at("items").back().at("kind"), "atlas");
-  EXPECT_GT(state.at("items").back().at("bytes").get<int>(), 0);
-  const int caps = last_item(state), highest = highest_degree_of(state.at("items").back());
+  const Json atlas = state.at("items").back().at("atlas");
+  EXPECT_GT(atlas.at("bytes").get<int>(), 0);
+  EXPECT_GT(atlas.at("error").at("rms").get<double>(), 0);
+  EXPECT_GT(atlas.at("error").at("max").get<double>(), atlas.at("error").at("rms").get<double>());
+  EXPECT_LT(atlas.at("error").at("rms").get<double>(), 0.02);
+  const int caps = last_item(state), highest = atlas.at("degree").get<int>();
   state = check_undone(client, {{"op", "atlas_look"}, {"item", caps}, {"limit", highest - 1}});
   EXPECT_EQ(state.at("items").back().at("look").at("degree"), highest - 1);
 }

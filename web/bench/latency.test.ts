@@ -54,7 +54,7 @@ async function open(path: string): Promise<number> {
   return (await page.evaluate(() => performance.now())) - begin;
 }
 
-// Moves a slider as a hand does, waiting for each answer.
+// Moves a slider as a hand does, waiting for each answer, and lets it go.
 async function slide(label: string, values: readonly number[]): Promise<void> {
   const slider = page.getByRole("slider", { name: label, exact: true });
   for (const value of values) {
@@ -64,6 +64,7 @@ async function slide(label: string, values: readonly number[]): Promise<void> {
     }, value);
     await page.waitForTimeout(pause);
   }
+  await slider.dispatchEvent("change");
   await settled(page);
 }
 
@@ -95,7 +96,7 @@ it("degrees", async () => {
   await openTab(page, "Degrees");
   await setNumber(page, "Up to degree", 180);
   await press(page, "Analyse");
-  await slide("Degree", Array.from({ length: moves }, (_, k) => (37 * k) % 181));
+  await slide("Degree", [...Array.from({ length: moves }, (_, k) => (37 * k) % 181), 180]);
   const { degree, "degree (answer)": answer } = await times();
   report("degree slider, to the answer (49 000 faces, L 180)", answer, "");
   report("degree slider, to the picture", degree, "50 / 100");
@@ -103,12 +104,12 @@ it("degrees", async () => {
 
 it("brush", async () => {
   await openTab(page, "Smooth");
-  await setNumber(page, "Brush radius (of the diagonal)", 0.2);
+  await setNumber(page, "Brush radius (of the diagonal)", 0.22);
   page.on("response", (response) => void readMoving(response));
-  await page.mouse.click(...(await at(page, 0.5, 0.5)));
-  await settled(page);
-  await page.mouse.click(...(await at(page, 0.56, 0.54)));
-  await settled(page);
+  for (const [x, y] of [[0.5, 0.5], [0.65, 0.6], [0.4, 0.4], [0.6, 0.35]] as const) {
+    await page.mouse.click(...(await at(page, x, y)));
+    await settled(page);
+  }
   await slide("Strength", [1]);
   const before = (await times()).smooth?.count ?? 0;
   await slide("Strength", Array.from({ length: moves }, (_, k) => ((k * 37) % 100) / 50 - 1));

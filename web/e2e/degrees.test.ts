@@ -155,6 +155,56 @@ it("a picture has the size that was asked for", async () => {
   expect([png.readUInt32BE(16), png.readUInt32BE(20)]).toEqual([3000, 2500]);
 });
 
+// Of the left and the right half of a picture: the share that is drawn on, and how much of that is more blue than
+// red, as stone never is, but half of the errors.
+async function halvesOf(png: Buffer): Promise<{ drawn: number; blue: number }[]> {
+  return now.page.evaluate(async (text) => {
+    const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+    const image = await createImageBitmap(new Blob([bytes]));
+    const paper = new OffscreenCanvas(image.width, image.height).getContext("2d");
+    if (!paper) throw new Error("no paper");
+    paper.drawImage(image, 0, 0);
+    const half = image.width / 2;
+    return [0, half].map((left) => {
+      const { data } = paper.getImageData(left, 0, half, image.height);
+      let drawn = 0;
+      let blue = 0;
+      for (let i = 0; i < data.length; i += 4) {
+        if (data[i + 3] !== 255) continue;
+        const [red = 0, , other = 0] = data.subarray(i, i + 3);
+        ++drawn;
+        if (other > red) ++blue;
+      }
+      return { drawn: (4 * drawn) / data.length, blue: blue / drawn };
+    });
+  }, png.toString("base64"));
+}
+
+it("a picture of what is compared has both, and their colours", async () => {
+  const { page } = now;
+  await openTab(page, "Degrees");
+  await setNumber(page, "Degree", 5);
+  await page.getByLabel("Error in colours").check();
+  await page.getByLabel("Beside the original").check();
+  await settled(page);
+  await openTab(page, "Save");
+  await page.locator("figure.legend").waitFor();
+  await setNumber(page, "Width", 1200);
+  await setNumber(page, "Height", 600);
+  const [left, right] = await halvesOf(await saved(page, "Save what is seen"));
+  await picture(page, "comparison-saved");
+  if (!left || !right) throw new Error("there is no picture");
+  expect(left.drawn).toBeGreaterThan(0.1);
+  expect(right.drawn / left.drawn).toBeCloseTo(1, 1); // a shape, and the same one smoother
+  expect(left.blue).toBe(0);
+  expect(right.blue).toBeGreaterThan(0.2);
+  await openTab(page, "Figures");
+  await settled(page);
+  expect(await page.locator("figure.legend").count()).toBe(0);
+  await press(page, "Undo");
+  await openTab(page, "Save");
+});
+
 it("a report and a session are saved, and the session opens again", async () => {
   const { page } = now;
   const report = await saved(page, "Save a report");

@@ -1,9 +1,12 @@
 // Points to surfaces, caps, and two shapes.
+import { writeFileSync } from "node:fs";
 import { afterAll, beforeAll, expect, it } from "vitest";
+import { number } from "../src/format";
 import {
   bytesOf,
   canvas,
   drag,
+  inFolder,
   openFile,
   openForLongJob,
   openTab,
@@ -78,6 +81,16 @@ it("a shape is compressed to caps, shown in colours", async () => {
   await openTab(page, "Caps");
   await press(page, "Compress");
   expect(await page.locator(".items li.chosen small").innerText()).toMatch(/caps/);
+  // What the program says of the same file.
+  const said = await page.getByRole("tabpanel").innerText();
+  await openTab(page, "Save");
+  await page.getByLabel("Format").selectOption("h5");
+  writeFileSync(inFolder(studio, "caps.h5"), await saved(page, /^Save .*\.h5/));
+  await openTab(page, "Caps");
+  const { errors } = JSON.parse(rholm(studio, "info", "caps.h5", "--json")) as { errors: Record<string, number> };
+  for (const kind of ["rms", "max"]) {
+    expect(said).toContain(number(Math.max(errors[`${kind}_from_shape`] ?? NaN, errors[`${kind}_to_shape`] ?? NaN)));
+  }
   const colored = await canvas(page);
   await picture(page, "caps");
   await page.getByLabel("Caps in colours").uncheck();

@@ -29,7 +29,7 @@ const panels: Record<Tab, ComponentType> = {
 
 function summary(one: Item): string {
   if (one.kind === "points") return `${count(one.vertices)} points`;
-  if (one.kind === "atlas") return `${one.caps ?? 0} caps, ${bytes(one.bytes ?? 0)}`;
+  if (one.kind === "atlas") return `${one.caps ?? 0} caps, ${bytes(one.atlas?.bytes ?? 0)}`;
   const faces = `${count(one.faces)} faces`;
   return one.expansion ? `${faces} · degree ${one.expansion.degree}` : faces;
 }

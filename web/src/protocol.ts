@@ -22,6 +22,12 @@ export interface ItemExpansion {
   power: number[]; // energy of degrees 0 ... L
 }
 
+export interface ItemAtlas {
+  bytes: number; // of its file
+  degree: number; // the highest of a cap
+  error: { rms: number; max: number } | null; // of the whole surface, as measured, in the unit of lengths
+}
+
 export type Vector = [number, number, number];
 export type Kind = "mesh" | "points" | "expansion" | "atlas";
 
@@ -41,7 +47,7 @@ export interface Item {
   expansion: ItemExpansion | null;
   normals?: boolean;
   caps?: number;
-  bytes?: number;
+  atlas?: ItemAtlas | null;
   look: { degree: number; gains: number[] | null } | null;
 }
 

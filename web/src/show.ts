@@ -53,6 +53,7 @@ async function showItem(one: Item | null): Promise<void> {
     legend.value = null;
     if (fresh) {
       coloring.value = naturalColoring(surface);
+      if (tab.peek() === "save") hideOther();
       layout.value = "one";
       view.fit(false);
     }
@@ -150,8 +151,10 @@ export function attach(made: View): void {
   view = made;
   effect(() => void showItem(item.value));
   effect(() => {
-    if (tab.value !== "align" && tab.value !== "degrees" && layout.peek() !== "one") hideOther();
-    if (tab.value !== "degrees" && coloring.peek() === "error") coloring.value = "plain";
+    // What is compared is still there for a picture of it.
+    const comparing = ["align", "degrees", "save"].includes(tab.value);
+    if (!comparing && layout.peek() !== "one") hideOther();
+    if (!comparing && coloring.peek() === "error") coloring.value = "plain";
   });
   effect(() => {
     const surface = view?.surface("main");

@@ -41,7 +41,7 @@ void add_mesh_facts(const Item& item, Json& facts) {
   const Inspection& found = item.facts->inspection;
   add(facts, "Vertices", grouped(item.shown->vertices.size()));
   add(facts, "Faces", grouped(item.shown->triangles.size()));
-  add(facts, "Size", length(found.bounds.diagonal(), item.unit));
+  add(facts, "Diagonal", length(found.bounds.diagonal(), item.unit));
   add(facts, "Closed",
       found.closed ? "yes" : fmt::format("no, {} open edges", grouped(found.boundary_edges)));
   if (found.components > 1) add(facts, "Parts", grouped(found.components));
@@ -68,7 +68,10 @@ void add_atlas_facts(const Item& item, Json& facts) {
   add(facts, "Caps", grouped(size.caps));
   add(facts, "Numbers", grouped(size.numbers()));
   add(facts, "Highest degree", std::to_string(highest_degree(item.atlas->atlas)));
-  if (item.atlas->errors) add(facts, "Error, rms", length(item.atlas->errors->rms(), item.unit));
+  if (const auto& errors = item.atlas->errors) {
+    add(facts, "Error, rms", length(errors->rms(), item.unit));
+    add(facts, "Error, largest", length(errors->max(), item.unit));
+  }
 }
 
 std::string why_not(const Item& item) {
@@ -103,7 +106,7 @@ Json facts_json(const Item& item) {
   Json facts = Json::array();
   if (item.kind == Kind::kPoints) {
     add(facts, "Points", grouped(item.points->points.size()));
-    add(facts, "Size", length(bounds(item.points->points).diagonal(), item.unit));
+    add(facts, "Diagonal", length(bounds(item.points->points).diagonal(), item.unit));
     add(facts, "Normals", item.points->normals.empty() ? "none" : "yes");
     return facts;
   }

@@ -37,6 +37,16 @@ Json expansion_json(const Model& model) {
   return json;
 }
 
+Json atlas_json(const Item& item) {
+  Json json = {{"bytes", item.atlas_file->size()},
+               {"degree", highest_degree(item.atlas->atlas)},
+               {"error", nullptr}};
+  if (const auto& errors = item.atlas->errors) {
+    json["error"] = {{"rms", errors->rms()}, {"max", errors->max()}};
+  }
+  return json;
+}
+
 }  // namespace
 
 Json json_of(const Item& item) {
@@ -58,7 +68,7 @@ Json json_of(const Item& item) {
                {"expansion", item.model ? expansion_json(*item.model) : Json(nullptr)},
                {"normals", item.points && !item.points->normals.empty()},
                {"caps", item.caps},
-               {"bytes", item.atlas ? Json(item.atlas_file->size()) : Json(nullptr)},
+               {"atlas", item.atlas ? atlas_json(item) : Json(nullptr)},
                {"look", nullptr}};
   if (item.model) {
     json["look"] = {{"degree", item.look.degree},

@@ -2,7 +2,7 @@ import { useEffect } from "preact/hooks";
 import { step } from "../actions";
 import { Button } from "../button";
 import { hideOther, showOther } from "../show";
-import { item, items, selected } from "../state";
+import { item, items, selected, tab } from "../state";
 import * as tool from "../tools/blend";
 import { Check, Hint, Select, Slider } from "../widgets";
 
@@ -17,7 +17,7 @@ function useBoth(): void {
   useEffect(
     () => () => {
       tool.stop();
-      hideOther();
+      if (tab.peek() !== "save") hideOther();
     },
     [],
   );

@@ -1,8 +1,8 @@
 import { computed, signal } from "@preact/signals";
 import { step } from "../actions";
 import { Button } from "../button";
-import { bytes } from "../format";
-import type { Item } from "../protocol";
+import { bytes, withUnit } from "../format";
+import type { Item, ItemAtlas } from "../protocol";
 import { coloring } from "../show";
 import { item } from "../state";
 import { Check, Facts, Hint, Slider } from "../widgets";
@@ -10,7 +10,6 @@ import { Check, Facts, Hint, Slider } from "../widgets";
 const tolerance = signal(3e-3); // parts of the diagonal
 const maxDegree = signal(14);
 const mostDegrees = 24; // of a cap, as the library has them
-const limit = signal(mostDegrees);
 
 // What a mesh costs as 32-bit floats and indices.
 const meshBytes = computed(() => 12 * (item.value?.vertices ?? 0) + 12 * (item.value?.faces ?? 0));
@@ -55,15 +54,28 @@ function Compress({ one }: { one: Item }) {
   );
 }
 
-function Atlas({ one }: { one: Item }) {
+// The degree that the slider is at, until the surface is there.
+const moved = signal<{ id: number; limit: number } | null>(null);
+
+function Atlas({ one, atlas }: { one: Item; atlas: ItemAtlas }) {
+  const limit = moved.value?.id === one.id ? moved.value.limit : (one.look?.degree ?? atlas.degree);
+  const { error } = atlas;
+  const errors = error
+    ? [
+        { label: "Error, rms", value: withUnit(error.rms, one.unit) },
+        { label: "Error, largest", value: withUnit(error.max, one.unit) },
+      ]
+    : [];
   return (
     <>
       <Facts
         facts={[
           { label: "Caps", value: String(one.caps ?? 0) },
-          { label: "Size", value: bytes(one.bytes ?? 0) },
+          { label: "File", value: bytes(atlas.bytes) },
+          ...errors,
         ]}
       />
+      {error && limit < atlas.degree && <Hint>The errors are those of all degrees.</Hint>}
       <Check
         label="Caps in colours"
         checked={coloring.value === "caps"}
@@ -71,11 +83,15 @@ function Atlas({ one }: { one: Item }) {
       />
       <Slider
         label="Degrees shown"
-        value={limit.value}
+        value={limit}
         min={1}
-        max={mostDegrees}
-        onInput={(value) => (limit.value = value)}
-        onChange={(value) => void step({ op: "atlas_look", item: one.id, limit: value }, "Making the surface")}
+        max={atlas.degree}
+        onInput={(value) => (moved.value = { id: one.id, limit: value })}
+        onChange={(value) =>
+          void step({ op: "atlas_look", item: one.id, limit: value }, "Making the surface").finally(
+            () => (moved.value = null),
+          )
+        }
       />
     </>
   );
@@ -83,7 +99,7 @@ function Atlas({ one }: { one: Item }) {
 
 export function CapsPanel() {
   const one = item.value;
-  if (one?.kind === "atlas") return <Atlas one={one} />;
+  if (one?.atlas) return <Atlas one={one} atlas={one.atlas} />;
   if (one) return <Compress one={one} />;
   return <Hint>Open a shape first.</Hint>;
 }

@@ -6,7 +6,7 @@ import { bandMeans, windows } from "../harmonics/windows";
 import { Spectrum } from "../plots/spectrum";
 import type { Item } from "../protocol";
 import { coloring, hideOther, layout, showOther } from "../show";
-import { item, theme } from "../state";
+import { item, tab, theme } from "../state";
 import * as tool from "../tools/degrees";
 import { Check, Hint, Select, Slider } from "../widgets";
 import { signal } from "@preact/signals";
@@ -133,7 +133,12 @@ function Filter() {
 }
 
 function Comparison({ one }: { one: Item }) {
-  useEffect(() => () => hideOther(), [one.id]);
+  useEffect(
+    () => () => {
+      if (tab.peek() !== "save") hideOther();
+    },
+    [one.id],
+  );
   return (
     <div class="row wrap">
       <Check label="Error in colours" checked={coloring.value === "error"} onChange={tool.setErrorMap} />

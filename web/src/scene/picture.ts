@@ -3,17 +3,25 @@ import { Vector2, type PerspectiveCamera, type WebGLRenderer } from "three";
 
 const tile = 2048; // pixels; every WebGL 2 has it
 
+// Columns of a picture, of the screen or saved; show() makes visible what is drawn in them.
+export interface Part {
+  left: number; // pixels
+  width: number;
+  show: () => void;
+}
+
 interface Wish {
   renderer: WebGLRenderer;
   camera: PerspectiveCamera;
   width: number;
   height: number;
+  parts: readonly Part[]; // side by side, as wide as all
   draw: () => void;
 }
 
 // A PNG of width times height pixels with a transparent ground. Size and camera are afterwards what
 // they were.
-export async function takePicture({ renderer, camera, width, height, draw }: Wish): Promise<Blob> {
+export async function takePicture({ renderer, camera, width, height, parts, draw }: Wish): Promise<Blob> {
   const page = document.createElement("canvas");
   page.width = width;
   page.height = height;
@@ -24,16 +32,19 @@ export async function takePicture({ renderer, camera, width, height, draw }: Wis
   const aspect = camera.aspect;
   renderer.setPixelRatio(1);
   renderer.setScissorTest(false);
-  camera.aspect = width / height;
-  for (let y = 0; y < height; y += tile) {
-    for (let x = 0; x < width; x += tile) {
-      const w = Math.min(tile, width - x);
-      const h = Math.min(tile, height - y);
-      renderer.setSize(w, h, false);
-      renderer.setViewport(0, 0, w, h);
-      camera.setViewOffset(width, height, x, y, w, h);
-      draw();
-      paper.drawImage(renderer.domElement, x, y);
+  for (const part of parts) {
+    part.show();
+    camera.aspect = part.width / height;
+    for (let y = 0; y < height; y += tile) {
+      for (let x = 0; x < part.width; x += tile) {
+        const w = Math.min(tile, part.width - x);
+        const h = Math.min(tile, height - y);
+        renderer.setSize(w, h, false);
+        renderer.setViewport(0, 0, w, h);
+        camera.setViewOffset(part.width, height, x, y, w, h);
+        draw();
+        paper.drawImage(renderer.domElement, part.left + x, y);
+      }
     }
   }
   camera.clearViewOffset();

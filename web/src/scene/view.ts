@@ -22,7 +22,7 @@ import { mapColors, type Range } from "../geometry/colors";
 import { ballAround } from "../geometry/normals";
 import type { Surface } from "../protocol";
 import { Markers, ringFrame, type Ring } from "./markers";
-import { takePicture } from "./picture";
+import { takePicture, type Part } from "./picture";
 import { listenToPointer, type PointerTool } from "./pointer";
 import {
   disposeShape,
@@ -213,7 +213,10 @@ export class View {
 
   picture(width: number, height: number): Promise<Blob> {
     const { renderer, scene, camera } = this;
-    return takePicture({ renderer, camera, width, height, draw: () => renderer.render(scene, camera) });
+    const draw = () => renderer.render(scene, camera);
+    const parts = this.parts(width);
+    this.dirty = true;
+    return takePicture({ renderer, camera, width, height, parts, draw });
   }
 
   // Angle (radians) and distance from the ring's centre of where the pointer is in its plane.
@@ -278,24 +281,32 @@ export class View {
     requestAnimationFrame(() => this.frame());
   }
 
-  private render(): void {
-    this.dirty = false;
+  // What of a picture that wide shows which shape.
+  private parts(width: number): Part[] {
     const { main, other } = this.shapes;
-    const size = this.renderer.getSize(new Vector2());
-    const half = Math.floor(size.x / 2);
-    const draw = (showMain: boolean, showOther: boolean, left: number, width: number) => {
+    const showing = (showMain: boolean, showOther: boolean) => () => {
       if (main) main.group.visible = showMain;
       if (other) other.group.visible = showOther;
+    };
+    if (this.layout !== "side" || !other) {
+      return [{ left: 0, width, show: showing(true, this.layout === "over") }];
+    }
+    const half = Math.floor(width / 2);
+    return [
+      { left: 0, width: half, show: showing(false, true) },
+      { left: half, width: width - half, show: showing(true, false) },
+    ];
+  }
+
+  private render(): void {
+    this.dirty = false;
+    const size = this.renderer.getSize(new Vector2());
+    for (const { left, width, show } of this.parts(size.x)) {
+      show();
       this.renderer.setViewport(left, 0, width, size.y);
       this.renderer.setScissor(left, 0, width, size.y);
       this.renderer.setScissorTest(true);
       this.renderer.render(this.scene, this.camera);
-    };
-    if (this.layout === "side" && other) {
-      draw(false, true, 0, half);
-      draw(true, false, half, size.x - half);
-    } else {
-      draw(true, this.layout === "over", 0, size.x);
     }
     const done = this.waiting;
     this.waiting = [];
