@@ -61,7 +61,8 @@ Json about(const Item& item, std::size_t shape, std::size_t model) {
           {"model_bytes", model},      {"degree", item.look.degree},
           {"gains", item.look.gains},  {"limit", item.limit ? Json(*item.limit) : Json(nullptr)},
           {"file", item.file},         {"model_file", item.model_file},
-          {"variable", item.variable}, {"model_variable", item.model_variable}};
+          {"variable", item.variable}, {"model_variable", item.model_variable},
+          {"placed", item.placed}};
 }
 
 // Both files of an item together again.
@@ -96,6 +97,7 @@ Item read_item(const Json& json, Parts& parts, Scratch& scratch, const Context& 
   item.model_file = string_of(json, "model_file");
   item.variable = string_of(json, "variable");
   item.model_variable = string_of(json, "model_variable");
+  if (json.contains("placed")) item.placed = string_of(json, "placed");
   return item;
 }
 

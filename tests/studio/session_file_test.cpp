@@ -60,6 +60,8 @@ TEST(SessionFile, BringsEverythingBack) {
   const Response expansion = client.save(1, "h5");
   client.open("series.h5", expansion.body);
   client.step({{"op", "look"}, {"item", 4}, {"degree", 2}, {"gains", {1, 1, 0.5}}});
+  client.step({{"op", "align"}, {"a", 4}, {"b", 1}});
+  EXPECT_TRUE(client.state().at("items").back().at("placed").is_string());
   const Response file = client.ask("GET", "api/session-file");
   EXPECT_EQ(file.download, "session.rholm");
   Client other;

@@ -63,7 +63,14 @@ TEST(Steps, ExpansionsAreMadeLookedAtAlignedBlended) {
   const int b = last_item(client.state());
   state = check_undone(client, {{"op", "analyze"}, {"item", b}, {"tolerance", 0.05}});
   EXPECT_LE(state.at("items")[1].at("expansion").at("rms_per_degree").back().get<double>(), 0.05);
-  check_undone(client, {{"op", "align"}, {"a", a}, {"b", b}, {"mirror", true}});
+  state = check_undone(client, {{"op", "align"}, {"a", a}, {"b", b}, {"mirror", true}});
+  EXPECT_TRUE(state.at("items")[0].at("placed").is_string());
+  EXPECT_TRUE(state.at("items")[1].at("placed").is_null());
+  state = check_undone(client, {{"op", "align"}, {"a", b}, {"b", a}});
+  const std::string placed = state.at("items")[1].at("placed");
+  EXPECT_NE(placed.find("onto bumpy.ply: radii differ by "), std::string::npos) << placed;
+  // Half turns about its axes leave an ellipsoid as it is.
+  EXPECT_NE(placed.find("3 other turns are nearly as good."), std::string::npos) << placed;
   state = check_undone(client, {{"op", "blend"}, {"a", a}, {"b", b}, {"t", 0.5}});
   EXPECT_EQ(state.at("items").back().at("kind"), "expansion");
   EXPECT_EQ(state.at("items").size(), 3U);

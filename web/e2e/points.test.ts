@@ -122,6 +122,7 @@ it("of two shapes one is turned onto the other, and what lies between is shown",
   await picture(page, "two-shapes");
   await press(page, "Align");
   expect(await page.getByRole("alert").count()).toBe(0);
+  await page.getByText(/urned by [\d.]+ degrees onto egg\.ply: radii differ by /).waitFor();
   const before = await canvas(page);
   await drag(page, "Between the two", [0.2, 0.5]);
   expect(Buffer.compare(before, await canvas(page))).not.toBe(0);

@@ -47,6 +47,7 @@ export interface Item {
   expansion: ItemExpansion | null;
   normals?: boolean;
   caps?: number;
+  placed?: string | null; // how it was laid on another one, for people
   atlas?: ItemAtlas | null;
   look: { degree: number; gains: number[] | null } | null;
 }

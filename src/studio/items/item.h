@@ -48,6 +48,7 @@ struct Item {
   Look look;                                 // with a model
   std::optional<int> limit;                  // of the degree of the caps of an atlas
   std::size_t caps = 0;                      // of an atlas, or of a reconstruction
+  std::string placed;  // how it was laid on another one, for people; empty if it was not
 
   // Where the lines of the recipe have it: the file of the shape and that of its coefficients or
   // caps, the variable of Python of each. Empty if there is none.

@@ -60,6 +60,8 @@ void add_model_facts(const Item& item, Json& facts) {
   add(facts, "Coefficients",
       grouped((expansion.coefficients.degree() + std::size_t{1}) *
               (expansion.coefficients.degree() + std::size_t{1})));
+  const Vec3& c = expansion.center;
+  add(facts, "Centre", fmt::format("{:.4g}, {:.4g}, {:.4g}", c.x, c.y, c.z));
   if (!item.model->rms.empty()) add(facts, "Error, rms", length(item.model->rms.back(), item.unit));
 }
 

@@ -68,6 +68,7 @@ Json json_of(const Item& item) {
                {"expansion", item.model ? expansion_json(*item.model) : Json(nullptr)},
                {"normals", item.points && !item.points->normals.empty()},
                {"caps", item.caps},
+               {"placed", item.placed.empty() ? Json(nullptr) : Json(item.placed)},
                {"atlas", item.atlas ? atlas_json(item) : Json(nullptr)},
                {"look", nullptr}};
   if (item.model) {

@@ -53,6 +53,7 @@ export function AlignPanel() {
       >
         Align
       </Button>
+      <Hint>{one.placed ?? "It is turned and moved; its size stays."}</Hint>
       <Slider
         label="Between the two"
         value={tool.between.value}
