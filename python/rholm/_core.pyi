@@ -2457,6 +2457,24 @@ class TransferReport:
     def new_vertices(self) -> int:
         """By refinement."""
 
+class TransferSource:
+    """A texture taken from its source."""
+
+    @property
+    def from_degree(self) -> int: ...
+
+    @property
+    def radius(self) -> float: ...
+
+    @property
+    def wavelength(self) -> float: ...
+
+    @property
+    def edge(self) -> float: ...
+
+    @property
+    def rms(self) -> float: ...
+
 class TransferAnalysis:
     """What an analysis knows."""
 
@@ -2469,7 +2487,9 @@ class TransferAnalysis:
     @property
     def report(self) -> TransferReport: ...
 
-def analyze_transfer(arg0: Mesh, arg1: Sequence[str], arg2: Mesh, arg3: Sequence[str], arg4: TransferOptions, arg5: Caller, /) -> TransferAnalysis: ...
+def analyze_source(arg0: Mesh, arg1: Sequence[str], arg2: TransferOptions, arg3: Caller, /) -> TransferSource: ...
+
+def analyze_transfer(arg0: TransferSource, arg1: Mesh, arg2: Sequence[str], arg3: TransferOptions, arg4: Caller, /) -> TransferAnalysis: ...
 
 def update_transfer(arg0: TransferAnalysis, arg1: float, arg2: float | None, arg3: bool, arg4: bool, arg5: str, arg6: Caller, /) -> NDArray[numpy.float64]: ...
 

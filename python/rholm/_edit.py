@@ -383,6 +383,105 @@ def _sliders(wanted: dict[str, Any]) -> tuple[float, float | None, bool, bool, s
     return wanted["height"], wanted["angle"], wanted["repeat"], wanted["remove_own"], wanted["mode"]
 
 
+class TransferSource:
+    """A texture taken from its source, to be laid on any number of targets: made by `analyze_source`."""
+
+    __slots__ = ("_source",)
+
+    def __init__(self, source: _core.TransferSource) -> None:
+        self._source = source
+
+    @property
+    def from_degree(self) -> int:
+        """What harmonics up to this degree leave of the source is the texture."""
+        return self._source.from_degree
+
+    @property
+    def radius(self) -> float:
+        """Of a disc with the area of the region."""
+        return self._source.radius
+
+    @property
+    def wavelength(self) -> float:
+        """Of the source's base."""
+        return self._source.wavelength
+
+    @property
+    def edge(self) -> float:
+        """Median length of an edge there."""
+        return self._source.edge
+
+    @property
+    def rms(self) -> float:
+        """Height of the texture in its region."""
+        return self._source.rms
+
+    def onto(
+        self,
+        target: MeshLike,
+        target_region: RegionLike,
+        *,
+        scale: float = 1.0,
+        refine: bool = False,
+        transition: float | None = None,
+        find_angle: bool = True,
+        threads: int = 0,
+        progress: Progress = None,
+    ) -> TransferEditor:
+        """Looks at where it is to be laid: the target's half of `analyze_transfer`.
+
+        Parameters
+        ----------
+        target, target_region, scale, refine, transition, find_angle
+            As in `analyze_transfer`.
+        threads, progress
+            See `rholm.caller`.
+
+        Returns
+        -------
+        editor : TransferEditor
+            Whose `TransferEditor.height` is 0 and moves the target when it is set.
+        """
+        laid, to = _with_region(as_mesh(target), target_region)
+        options = _core.TransferOptions(
+            from_degree=self.from_degree,
+            scale=scale,
+            refine=refine,
+            transition=transition,
+            find_angle=find_angle,
+        )
+        with caller(threads, progress) as how:
+            return TransferEditor(_core.analyze_transfer(self._source, laid._core, to, options, how))
+
+
+def analyze_source(
+    source: MeshLike,
+    source_region: RegionLike,
+    *,
+    from_degree: int = 8,
+    threads: int = 0,
+    progress: Progress = None,
+) -> TransferSource:
+    """Takes the detail of a region, once for any number of targets: the source's half of `analyze_transfer`.
+
+    Parameters
+    ----------
+    source, source_region, from_degree
+        As in `transfer`.
+    threads, progress
+        See `rholm.caller`.
+
+    Returns
+    -------
+    texture : TransferSource
+        To be laid by `TransferSource.onto`.
+    """
+    taken, from_ = _with_region(as_mesh(source), source_region)
+    options = _core.TransferOptions(from_degree=from_degree)
+    with caller(threads, progress) as how:
+        return TransferSource(_core.analyze_source(taken._core, from_, options, how))
+
+
 def analyze_transfer(
     source: MeshLike,
     source_region: RegionLike,
@@ -414,13 +513,19 @@ def analyze_transfer(
     editor : TransferEditor
         Whose `TransferEditor.height` is 0 and moves the target when it is set.
     """
-    taken, from_ = _with_region(as_mesh(source), source_region)
-    laid, to = _with_region(as_mesh(target), target_region)
-    options = _core.TransferOptions(
-        from_degree=from_degree, scale=scale, refine=refine, transition=transition, find_angle=find_angle
+    texture = analyze_source(
+        source, source_region, from_degree=from_degree, threads=threads, progress=progress
     )
-    with caller(threads, progress) as how:
-        return TransferEditor(_core.analyze_transfer(taken._core, from_, laid._core, to, options, how))
+    return texture.onto(
+        target,
+        target_region,
+        scale=scale,
+        refine=refine,
+        transition=transition,
+        find_angle=find_angle,
+        threads=threads,
+        progress=progress,
+    )
 
 
 def transfer(

@@ -137,18 +137,30 @@ void bind_transfer(nb::module_& m) {
       .field("correlation", &TransferReport::correlation,
              "With the target's own detail there, -1 ... 1.")
       .field("new_vertices", &TransferReport::new_vertices, "By refinement.");
+  nb::class_<TransferSource>(m, "TransferSource", "A texture taken from its source.")
+      .def_ro("from_degree", &TransferSource::from_degree)
+      .def_ro("radius", &TransferSource::radius)
+      .def_ro("wavelength", &TransferSource::wavelength)
+      .def_ro("edge", &TransferSource::edge)
+      .def_ro("rms", &TransferSource::rms);
   nb::class_<TransferAnalysis>(m, "TransferAnalysis", "What an analysis knows.")
       .def_prop_ro("mesh", [](const TransferAnalysis& a) { return a.mesh; })
       .def_prop_ro("patch", [](const TransferAnalysis& a) { return a.patch; })
       .def_ro("report", &TransferAnalysis::report);
-  m.def("analyze_transfer", [](const Mesh& source, const std::vector<std::string>& from,
-                               const Mesh& target, const std::vector<std::string>& to,
-                               const TransferOptions& options, const Caller& caller) {
-    const std::vector<Region> taken = regions_of(from), laid = regions_of(to);
-    return caller.run([&](const Context& context) {
-      return analyze_transfer(source, taken, target, laid, options, context);
-    });
+  m.def("analyze_source", [](const Mesh& source, const std::vector<std::string>& from,
+                             const TransferOptions& options, const Caller& caller) {
+    const std::vector<Region> taken = regions_of(from);
+    return caller.run(
+        [&](const Context& context) { return analyze_source(source, taken, options, context); });
   });
+  m.def("analyze_transfer",
+        [](const TransferSource& source, const Mesh& target, const std::vector<std::string>& to,
+           const TransferOptions& options, const Caller& caller) {
+          const std::vector<Region> laid = regions_of(to);
+          return caller.run([&](const Context& context) {
+            return analyze_transfer(source, target, laid, options, context);
+          });
+        });
   m.def(
       "update_transfer",
       [](const TransferAnalysis& analysis, double height, std::optional<double> angle, bool repeat,

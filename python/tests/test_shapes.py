@@ -318,6 +318,24 @@ def test_detail_is_transferred(random):
         editor.set(hight=1)
 
 
+def test_a_texture_is_taken_once_for_several_targets():
+    plain = rholm.icosphere(5)
+    rough = rholm.Mesh(plain.vertices * (1 + 0.01 * np.sin(40 * plain.vertices[:, :1])), plain.triangles)
+    at, other = "ball:0,0,1,0.5", "ball:0,1,0,0.6"
+    texture = rholm.analyze_source(rough, at, from_degree=6)
+    assert texture.from_degree == 6
+    assert texture.wavelength == pytest.approx(4 * texture.radius / 6)
+    assert texture.radius == pytest.approx(0.5, rel=0.02)
+    for target, region in ((plain, at), (rough, other), (plain, other)):
+        editor = texture.onto(target, region, scale=0.9)
+        editor.height = 1
+        at_once = rholm.transfer(rough, at, target, region, scale=0.9, from_degree=6)
+        assert np.array_equal(editor.mesh.vertices, at_once.vertices)
+        assert not np.array_equal(at_once.vertices, target.vertices)
+        assert editor.report.source_rms == texture.rms > 0
+        assert editor.report.source_edge == texture.edge
+
+
 def test_distances(bumpy):
     assert rholm.compare(bumpy, bumpy).hausdorff < 1e-14
     larger = rholm.Mesh(2 * rholm.icosphere(4).vertices, rholm.icosphere(4).triangles)
