@@ -115,7 +115,14 @@ def mark_parameters(app, what, name, thing, options, lines):
 
 def no_signature(app, what, name, thing, options, signature, answer):
     """What the library makes is shown without a signature: how to call it says nothing."""
-    made = ("Atlas", "Picture", "SmoothEditor", "StarChart", "TransferEditor", "TransferSource")
+    made = (
+        "Atlas",
+        "Picture",
+        "SmoothEditor",
+        "StarChart",
+        "TransferEditor",
+        "TransferSource",
+    )
     if (
         what == "class"
         and signature
