@@ -101,11 +101,12 @@ TransferAnalysis analyze_transfer(const Mesh& source, std::span<const Region> fr
                                   const Mesh& target, std::span<const Region> to,
                                   const TransferOptions& options = {}, const Context& context = {});
 
-// The same in two: what is of the source, of which options.from_degree matters alone, and what is
-// of a target, which may be one that moves under a hand. The second also throws InvalidInput for a
+// The same in two: what is of the source, with from_degree as in the options, and what is of a
+// target, which may be one that moves under a hand. The second also throws InvalidInput for a
 // source without a texture, and for another from_degree than the source's.
 TransferSource analyze_source(const Mesh& source, std::span<const Region> from,
-                              const TransferOptions& options = {}, const Context& context = {});
+                              int from_degree = TransferOptions{}.from_degree,
+                              const Context& context = {});
 TransferAnalysis analyze_transfer(const TransferSource& source, const Mesh& target,
                                   std::span<const Region> to, const TransferOptions& options = {},
                                   const Context& context = {});

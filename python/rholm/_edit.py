@@ -477,9 +477,8 @@ def analyze_source(
         To be laid by `TransferSource.onto`.
     """
     taken, from_ = _with_region(as_mesh(source), source_region)
-    options = _core.TransferOptions(from_degree=from_degree)
     with caller(threads, progress) as how:
-        return TransferSource(_core.analyze_source(taken._core, from_, options, how))
+        return TransferSource(_core.analyze_source(taken._core, from_, from_degree, how))
 
 
 def analyze_transfer(

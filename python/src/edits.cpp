@@ -148,10 +148,11 @@ void bind_transfer(nb::module_& m) {
       .def_prop_ro("patch", [](const TransferAnalysis& a) { return a.patch; })
       .def_ro("report", &TransferAnalysis::report);
   m.def("analyze_source", [](const Mesh& source, const std::vector<std::string>& from,
-                             const TransferOptions& options, const Caller& caller) {
+                             int from_degree, const Caller& caller) {
     const std::vector<Region> taken = regions_of(from);
-    return caller.run(
-        [&](const Context& context) { return analyze_source(source, taken, options, context); });
+    return caller.run([&](const Context& context) {
+      return analyze_source(source, taken, from_degree, context);
+    });
   });
   m.def("analyze_transfer",
         [](const TransferSource& source, const Mesh& target, const std::vector<std::string>& to,

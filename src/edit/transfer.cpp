@@ -26,11 +26,15 @@ constexpr double kTransition = 0.25;
 // half an edge apart, and heights between them cubic.
 constexpr double kRefined = 1;
 
-void check_options(const TransferOptions& o) {
-  if (o.from_degree < 2 || o.from_degree > kMaxTransferDegree) {
+void check_from_degree(int degree) {
+  if (degree < 2 || degree > kMaxTransferDegree) {
     refuse(fmt::format("the degree above which the detail begins is {}; it must be within 2 ... {}",
-                       o.from_degree, kMaxTransferDegree));
+                       degree, kMaxTransferDegree));
   }
+}
+
+void check_options(const TransferOptions& o) {
+  check_from_degree(o.from_degree);
   if (!(o.scale > 0) || !(o.scale < 1e6)) {
     refuse(fmt::format("the scale must be within 0 ... 1e6, not {:g}", o.scale));
   }
@@ -152,17 +156,17 @@ struct TransferState {
   TransferOptions options;
 };
 
-TransferSource analyze_source(const Mesh& source, std::span<const Region> from,
-                              const TransferOptions& options, const Context& context) {
-  check_options(options);
+TransferSource analyze_source(const Mesh& source, std::span<const Region> from, int from_degree,
+                              const Context& context) {
+  check_from_degree(from_degree);
   validate(source);
   if (from.empty()) refuse("a source region is needed");
   TransferSource analysis;
-  analysis.from_degree = options.from_degree;
+  analysis.from_degree = from_degree;
   analysis.radius = region_radius(source, from);
-  analysis.wavelength = 4 * analysis.radius / options.from_degree;
+  analysis.wavelength = 4 * analysis.radius / from_degree;
   const double fading = std::min(analysis.wavelength, kTransition * analysis.radius);
-  check_degree(source, region_weights(source, from, fading), analysis.radius, options.from_degree);
+  check_degree(source, region_weights(source, from, fading), analysis.radius, from_degree);
   auto state = std::make_shared<TransferSourceState>();
   state->patch = texture_of(source, from, analysis.wavelength, fading, context);
   state->texture = detail_of(state->patch);
@@ -229,8 +233,9 @@ TransferAnalysis analyze_transfer(const TransferSource& source, const Mesh& targ
 TransferAnalysis analyze_transfer(const Mesh& source, std::span<const Region> from,
                                   const Mesh& target, std::span<const Region> to,
                                   const TransferOptions& options, const Context& context) {
-  return analyze_transfer(analyze_source(source, from, options, context), target, to, options,
-                          context);
+  check_options(options);  // before the work
+  return analyze_transfer(analyze_source(source, from, options.from_degree, context), target, to,
+                          options, context);
 }
 
 std::vector<Vec3> update(const TransferAnalysis& analysis, const TransferUpdate& wanted) {

@@ -138,7 +138,7 @@ Response Live::transfer(const Json& request, const Document& document) {
   if (!source_.analysis || source_.key != of_source || source_.of[0] != source->shown) {
     source_ = {};
     source_.analysis = std::make_shared<const TransferSource>(
-        analyze_source(*source->shown, parsed(wish.from), wish.options, context()));
+        analyze_source(*source->shown, parsed(wish.from), wish.options.from_degree, context()));
     source_.key = of_source;
     source_.of[0] = source->shown;
   }

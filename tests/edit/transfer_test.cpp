@@ -162,7 +162,7 @@ TEST(Transfer, a_source_serves_several_targets_alike) {
   const Regions from{BallRegion{{0, 0, 1}, 0.6}};
   const TransferOptions options{.from_degree = 6, .scale = 0.8};
   const TransferUpdate wanted{.repeat = true};
-  const TransferSource texture = analyze_source(source, from, options);
+  const TransferSource texture = analyze_source(source, from, options.from_degree);
   for (const Mesh* target : {&smooth, &own, &smooth}) {
     for (const Vec3 at : {Vec3{0, 0, 1}, Vec3{0, 1, 0}}) {
       const Regions to{BallRegion{norm(target->vertices[0]) * at, 0.5}};
@@ -186,12 +186,15 @@ TEST(Transfer, a_source_serves_several_targets_alike) {
 TEST(Transfer, a_source_of_another_detail_is_refused) {
   const Mesh ball = icosphere(4);
   const Regions disc{BallRegion{{0, 0, 1}, 0.5}};
-  const TransferSource texture = analyze_source(ball, disc, {.from_degree = 4});
+  const TransferSource texture = analyze_source(ball, disc, 4);
   EXPECT_NO_THROW(analyze_transfer(texture, ball, disc, {.from_degree = 4}));
   EXPECT_THROW(analyze_transfer(texture, ball, disc, {.from_degree = 5}), Error);
   EXPECT_THROW(analyze_transfer(TransferSource{}, ball, disc, {.from_degree = 4}), Error);
   EXPECT_THROW(analyze_transfer(texture, ball, {}, {.from_degree = 4}), Error);
-  EXPECT_THROW(analyze_source(ball, {}, {.from_degree = 4}), Error);
+  EXPECT_THROW(analyze_source(ball, {}, 4), Error);
+  for (const int degree : {1, kMaxTransferDegree + 1}) {
+    EXPECT_THROW(analyze_source(ball, disc, degree), Error);
+  }
 }
 
 TEST(Transfer, what_replaces_its_own_detail_changes_little) {
