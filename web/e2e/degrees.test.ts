@@ -171,9 +171,9 @@ async function halvesOf(png: Buffer): Promise<{ drawn: number; blue: number }[]>
       let blue = 0;
       for (let i = 0; i < data.length; i += 4) {
         if (data[i + 3] !== 255) continue;
-        const [red = 0, , other = 0] = data.subarray(i, i + 3);
+        const [red = 0, , b = 0] = data.subarray(i, i + 3);
         ++drawn;
-        if (other > red) ++blue;
+        if (b > red) ++blue;
       }
       return { drawn: (4 * drawn) / data.length, blue: blue / drawn };
     });
@@ -198,7 +198,12 @@ it("a picture of what is compared has both, and their colours", async () => {
   expect(right.drawn / left.drawn).toBeCloseTo(1, 1); // a shape, and the same one smoother
   expect(left.blue).toBe(0);
   expect(right.blue).toBeGreaterThan(0.2);
-  await openTab(page, "Figures");
+  // And it goes with the panel, by whatever way.
+  await openTab(page, "Degrees");
+  expect(await page.getByLabel("Beside the original").isChecked()).toBe(true);
+  await page.locator("figure.legend").waitFor();
+  await openTab(page, "Save");
+  await openTab(page, "Align");
   await settled(page);
   expect(await page.locator("figure.legend").count()).toBe(0);
   await press(page, "Undo");

@@ -124,6 +124,14 @@ it("of two shapes one is turned onto the other, and what lies between is shown",
   expect(await page.getByRole("alert").count()).toBe(0);
   await page.getByText(/urned by [\d.]+ degrees onto egg\.ply: radii differ by /).waitFor();
   const before = await canvas(page);
+  await openTab(page, "Save");
+  await settled(page);
+  expect(Buffer.compare(before, await canvas(page))).toBe(0);
+  await openTab(page, "Degrees");
+  await settled(page);
+  expect(Buffer.compare(before, await canvas(page))).not.toBe(0);
+  await openTab(page, "Align");
+  await settled(page);
   await drag(page, "Between the two", [0.2, 0.5]);
   expect(Buffer.compare(before, await canvas(page))).not.toBe(0);
   await picture(page, "between");

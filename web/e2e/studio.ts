@@ -249,8 +249,8 @@ export async function at(page: Page, x: number, y: number): Promise<[number, num
   return [box.x + x * box.width, box.y + y * box.height];
 }
 
-// A shape for startLongJob(), and that: caps of degree 2 at most for a small error, a minute of two processors.
-// Whoever starts it ends it, and sees it, however slowly the page draws.
+// A shape for startLongJob(), and that: caps of degree 2 at most for a small error, which takes more than a
+// minute of processor time. Whoever starts it ends it, and sees it, however slowly the page draws.
 export async function openForLongJob(studio: Studio, page: Page): Promise<void> {
   rholm(studio, "make", "torus", "--segments", "384x192", "-o", "fine.ply");
   await openFile(studio, page, "fine.ply");

@@ -149,12 +149,14 @@ export function paintValues(values: Float32Array, label: string, range: Range): 
 
 export function attach(made: View): void {
   view = made;
+  let compared = tab.peek(); // the panel of what is compared
   effect(() => void showItem(item.value));
   effect(() => {
-    // What is compared is still there for a picture of it.
-    const comparing = ["align", "degrees", "save"].includes(tab.value);
-    if (!comparing && layout.peek() !== "one") hideOther();
-    if (!comparing && coloring.peek() === "error") coloring.value = "plain";
+    // What is compared stays for a picture of it, and goes where another panel is opened.
+    if (tab.value === "save" || tab.value === compared) return;
+    compared = tab.value;
+    if (layout.peek() !== "one") hideOther();
+    if (coloring.peek() === "error") coloring.value = "plain";
   });
   effect(() => {
     const surface = view?.surface("main");

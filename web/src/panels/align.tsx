@@ -2,7 +2,7 @@ import { useEffect } from "preact/hooks";
 import { step } from "../actions";
 import { Button } from "../button";
 import { hideOther, showOther } from "../show";
-import { item, items, selected, tab } from "../state";
+import { item, items, selected } from "../state";
 import * as tool from "../tools/blend";
 import { Check, Hint, Select, Slider } from "../widgets";
 
@@ -14,13 +14,7 @@ function useBoth(): void {
     if (other && !alone) void showOther(other, false, "over");
     else hideOther();
   }, [other?.id, other?.revision, selected.value, alone]);
-  useEffect(
-    () => () => {
-      tool.stop();
-      if (tab.peek() !== "save") hideOther();
-    },
-    [],
-  );
+  useEffect(() => tool.stop, []);
 }
 
 export function AlignPanel() {

@@ -20,7 +20,7 @@ interface Wish {
 }
 
 // A PNG of width times height pixels with a transparent ground. Size and camera are afterwards what
-// they were.
+// they were; what was on the canvas is to be drawn again.
 export async function takePicture({ renderer, camera, width, height, parts, draw }: Wish): Promise<Blob> {
   const page = document.createElement("canvas");
   page.width = width;
@@ -52,7 +52,6 @@ export async function takePicture({ renderer, camera, width, height, parts, draw
   camera.updateProjectionMatrix();
   renderer.setPixelRatio(ratio);
   renderer.setSize(size.x, size.y);
-  draw();
   return new Promise((done, fail) => {
     page.toBlob((blob) => (blob ? done(blob) : fail(new Error("the picture is too large"))));
   });
