@@ -193,9 +193,10 @@ Step align_items(const Json& request, const Document& now, Shared& shared) {
             changed.original = mesh;
             changed.placed = told_of(placement.alignment, *b);
             changed.model = make_model(std::move(moved), mesh, context);
-            const Mesh all =
-                mesh ? *mesh : surface_of(*changed.model, whole(*changed.model), context);
-            changed.facts = std::make_shared<const MeshFacts>(facts_of(all, context));
+            const Model& model = *changed.model;
+            changed.facts = std::make_shared<const MeshFacts>(
+                mesh ? facts_of(*mesh, context)
+                     : facts_of(surface_of(model, whole(model), context), context));
             changed = with_look(changed, a->look, context);
             changed.revision = ++shared.revisions;
             record_aligned(document.recipe, *a, *b, mirror, changed);
