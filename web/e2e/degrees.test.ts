@@ -10,6 +10,7 @@ import {
   openFile,
   openTab,
   picture,
+  pixelsOf,
   press,
   ready,
   rholm,
@@ -19,6 +20,7 @@ import {
   startStudio,
   stopStudio,
   visit,
+  warmthAt,
   type Studio,
   type Visit,
 } from "./studio";
@@ -158,26 +160,14 @@ it("a picture has the size that was asked for", async () => {
 // Of the left and the right half of a picture: the share that is drawn on, and how much of that is more blue than
 // red, as stone never is, but half of the errors.
 async function halvesOf(png: Buffer): Promise<{ drawn: number; blue: number }[]> {
-  return now.page.evaluate(async (text) => {
-    const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
-    const image = await createImageBitmap(new Blob([bytes]));
-    const paper = new OffscreenCanvas(image.width, image.height).getContext("2d");
-    if (!paper) throw new Error("no paper");
-    paper.drawImage(image, 0, 0);
-    const half = image.width / 2;
-    return [0, half].map((left) => {
-      const { data } = paper.getImageData(left, 0, half, image.height);
-      let drawn = 0;
-      let blue = 0;
-      for (let i = 0; i < data.length; i += 4) {
-        if (data[i + 3] !== 255) continue;
-        const [red = 0, , b = 0] = data.subarray(i, i + 3);
-        ++drawn;
-        if (b > red) ++blue;
-      }
-      return { drawn: (4 * drawn) / data.length, blue: blue / drawn };
-    });
-  }, png.toString("base64"));
+  const pixels = await pixelsOf(now.page, png);
+  const { width, height, data } = pixels;
+  return [true, false].map((left) => {
+    const half = Array.from({ length: width * height }, (_, i) => i).filter((i) => i % width < width / 2 === left);
+    const drawn = half.filter((i) => data[4 * i + 3] === 255);
+    const blue = drawn.filter((i) => warmthAt(pixels, i) < 0);
+    return { drawn: drawn.length / half.length, blue: blue.length / drawn.length };
+  });
 }
 
 it("a picture of what is compared has both, and their colours", async () => {

@@ -10,6 +10,7 @@ import {
   openFile,
   openTab,
   picture,
+  pixelsOf,
   press,
   ready,
   rholm,
@@ -18,6 +19,7 @@ import {
   startStudio,
   stopStudio,
   visit,
+  warmthAt,
   type Studio,
   type Visit,
 } from "./studio";
@@ -185,7 +187,7 @@ it("says what is wrong with a file, and goes on", async () => {
   await openFile(studio, page, "broken.ply");
   await page.getByRole("alert").waitFor();
   await picture(page, "broken-file");
-  now.complaints.length = 0; // the browser logs the refusal
+  now.complaints = []; // the browser logs the refusal
   await press(page, "Close");
   await openFile(studio, page, "torus.ply");
   expect(await page.locator(".items li").count()).toBe(2);
@@ -198,26 +200,19 @@ it("opens the others of several files when one is broken", async () => {
   const said = (await page.getByRole("alert").innerText()).split("\n");
   expect(said[0]).toMatch(/^broken\.ply: /);
   expect(said[1]).toBe("The other 2 are open.");
-  now.complaints.length = 0; // the browser logs the refusal
+  now.complaints = []; // the browser logs the refusal
 });
 
 // Of the pixels of the view: how many are stone, less how many are blue as the other shape of two. The
 // ground behind is neither.
 async function warmth(page: Page): Promise<number> {
-  const png = (await canvas(page)).toString("base64");
-  return page.evaluate(async (data) => {
-    const bytes = Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0));
-    const image = await createImageBitmap(new Blob([bytes], { type: "image/png" }));
-    const paper = new OffscreenCanvas(image.width, image.height).getContext("2d");
-    paper?.drawImage(image, 0, 0);
-    const pixels = paper?.getImageData(0, 0, image.width, image.height).data ?? [];
-    let sum = 0;
-    for (let i = 0; i < pixels.length; i += 4) {
-      const warm = (pixels[i] ?? 0) - (pixels[i + 2] ?? 0);
-      if (Math.abs(warm) > 15) sum += Math.sign(warm);
-    }
-    return sum;
-  }, png);
+  const pixels = await pixelsOf(page, await canvas(page));
+  let sum = 0;
+  for (let i = 0; i < pixels.width * pixels.height; ++i) {
+    const warm = warmthAt(pixels, i);
+    if (Math.abs(warm) > 15) sum += Math.sign(warm);
+  }
+  return sum;
 }
 
 // Of other sizes and elsewhere: what the camera saw before is no measure for it.
@@ -269,7 +264,7 @@ it("says that there is no WebGL 2, and lists what is open all the same", async (
   await page.getByText("no WebGL 2").waitFor();
   expect(await page.locator(".items li").count()).toBe(1);
   await picture(page, "no-webgl");
-  now.complaints.length = 0; // three.js says it as well
+  now.complaints = []; // three.js says it as well
 });
 
 it("says that the program has gone", async () => {
@@ -279,5 +274,5 @@ it("says that the program has gone", async () => {
   await picture(page, "lost");
   await page.getByRole("button", { name: "Try again" }).click();
   await page.getByText("The studio does not answer").waitFor();
-  now.complaints.length = 0; // lost connections
+  now.complaints = []; // lost connections
 });

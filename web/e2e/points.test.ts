@@ -12,6 +12,7 @@ import {
   openTab,
   patience,
   picture,
+  pixelsOf,
   press,
   ready,
   rholm,
@@ -22,6 +23,7 @@ import {
   startStudio,
   stopStudio,
   visit,
+  warmthAt,
   type Studio,
   type Visit,
 } from "./studio";
@@ -134,6 +136,10 @@ it("of two shapes one is turned onto the other, and what lies between is shown",
   await settled(page);
   await drag(page, "Between the two", [0.2, 0.5]);
   expect(Buffer.compare(before, await canvas(page))).not.toBe(0);
+  // Larger than what was there before, it is in view as both were: at the sides there is no stone.
+  const pixels = await pixelsOf(page, await canvas(page));
+  const sides = Array.from({ length: 2 * pixels.height }, (_, k) => Math.floor((k + 1) / 2) * pixels.width - (k % 2));
+  expect(Math.max(...sides.map((i) => Math.abs(warmthAt(pixels, i))))).toBeLessThan(15);
   await picture(page, "between");
   await page.getByRole("button", { name: "Animate" }).click();
   const slider = page.getByRole("slider", { name: "Between the two" });

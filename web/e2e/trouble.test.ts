@@ -90,7 +90,7 @@ it("says of every broken file among those dropped why it is none, and opens the 
   expect(said.filter((line) => line.includes("/tmp"))).toEqual([]);
   await picture(page, "broken-files");
   expect(await names(page)).toEqual([...before, "torus.ply"]);
-  now.complaints.length = 0; // the browser logs the refusals
+  now.complaints = []; // the browser logs the refusals
 });
 
 it("comes back as it was when it is loaded again during a job, with the job", async () => {
@@ -213,5 +213,5 @@ it("says that the program was killed during a job, and hangs nowhere", async () 
   await settled(page);
   expect(await names(page)).toEqual(["bumpy.ply", "fine.ply"]);
   await picture(page, "killed");
-  now.complaints.length = 0; // lost connections
+  now.complaints = []; // lost connections
 });

@@ -125,20 +125,21 @@ export async function showOther(one: Item, original: boolean, how: Layout): Prom
   }
 }
 
-export function hideOther(): void {
+// The view stays where what is shown next takes the room of both.
+export function hideOther(stay = false): void {
   view?.show("other", null);
   otherId = null;
-  arrange("one", false);
+  arrange("one", false, stay);
 }
 
 let otherId: number | null = null; // of the second shape that is shown
 
-function arrange(how: Layout, another: boolean): void {
+function arrange(how: Layout, another: boolean, stay = false): void {
   const fresh = another || layout.peek() !== how;
   layout.value = how;
   // Through the one the other is seen; chosen: both can be told.
   view?.arrange(how, how === "over" ? 0.45 : 1);
-  if (fresh) view?.fit();
+  if (fresh && !stay) view?.fit();
 }
 
 // Paints values of vertices, with a legend.

@@ -12,7 +12,7 @@ function useBoth(): void {
   const alone = tool.previewed.value;
   useEffect(() => {
     if (other && !alone) void showOther(other, false, "over");
-    else hideOther();
+    else hideOther(alone);
   }, [other?.id, other?.revision, selected.value, alone]);
   useEffect(() => tool.stop, []);
 }
