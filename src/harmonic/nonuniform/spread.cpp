@@ -49,25 +49,31 @@ HWY_INLINE hn::Vec<DD> add_products(DD dd, D d, hn::Vec<DD> cells, const T* cons
   }
 }
 
-template <int kPadded, int kOrders, typename T>
+// kColumns are added to in each row: from the first tap on or, of wide windows, from the group on
+// that it lies in.
+template <int kColumns, int kOrders, typename T>
 void spread_rows(const GridLayout& layout, const Placed<T>& p, const Windows<T>& w, size_t n,
                  double* HWY_RESTRICT grid) {
-  using DD = hn::CappedTag<double, kPadded>;
+  constexpr bool kWide = kColumns > kWidestNarrow;
+  using DD = hn::CappedTag<double, kWide ? kGroup : kColumns>;
   using D = hn::Rebind<T, DD>;
   const DD dd;
   const D d;
   constexpr size_t kLanes = hn::MaxLanes(DD());
-  constexpr size_t kVectors = kPadded / kLanes;
+  constexpr size_t kVectors = kColumns / kLanes;
   const size_t stride = layout.stride;
   const int width = layout.width;
   visit_apart<T>(n, [&](size_t j) HWY_ATTR {
+    const size_t before = kWide ? static_cast<size_t>(p.column[j]) % kGroup : 0;
     hn::Vec<D> q[kOrders * kVectors];
     for (int order = 0; order < kOrders; ++order) {
       for (size_t v = 0; v < kVectors; ++v) {
-        q[order * kVectors + v] = load_taps(d, w.phi[order], j, v * kLanes);
+        q[order * kVectors + v] =
+            kWide ? hn::LoadU(d, w.wide[order][j] + kGroup - before + v * kLanes)
+                  : load_taps(d, w.phi[order], j, v * kLanes);
       }
     }
-    double* HWY_RESTRICT row = grid + static_cast<size_t>(p.row[j]) * stride + p.column[j];
+    double* HWY_RESTRICT row = grid + static_cast<size_t>(p.row[j]) * stride + p.column[j] - before;
     for (int i = 0; i < width; ++i, row += stride) {
       const T* factor[kOrders];
       for (int order = 0; order < kOrders; ++order) factor[order] = &w.theta[order][i][j];
@@ -175,6 +181,17 @@ HWY_INLINE void with_padded_width(int width, const Work& work) {
   work(std::integral_constant<int, 16>());
 }
 
+// Calls work with the columns of spread_rows() as a constant.
+template <class Work>
+HWY_INLINE void with_columns(int width, const Work& work) {
+  if (width <= 4) return work(std::integral_constant<int, 4>());
+  if (width <= kWidestNarrow) return work(std::integral_constant<int, kWidestNarrow>());
+  // Where the first tap may be the last column of its group.
+  if (width <= 9) return work(std::integral_constant<int, 12>());
+  if (width <= 13) return work(std::integral_constant<int, 16>());
+  work(std::integral_constant<int, 20>());
+}
+
 template <int kOrders, typename T>
 HWY_INLINE void place_block(const GridKernel<T>& kernel, const SourceBatch<T>& batch, size_t from,
                             size_t count, size_t n, T polar_sine, Placed<T>& placed,
@@ -204,15 +221,16 @@ void spread_batch(const GridKernel<T>& kernel, const SourceBatch<T>& batch, size
                   double polar_sine, double* grid, PolarSources& polar) {
   Placed<T> placed;
   Windows<T> windows;
+  poison_all(windows);
   const GridLayout& layout = kernel.layout;
+  if (layout.width > kWidestNarrow) clear_around_taps<kOrders>(layout.width, windows);
   for (size_t from = 0; from < n; from += kBlock<T>) {
     const size_t count = HWY_MIN(kBlock<T>, n - from);
     poison_all(placed);
-    poison_all(windows);
     place_block<kOrders>(kernel, batch, from, count, n, static_cast<T>(polar_sine), placed, polar);
     evaluate_windows<kOrders, true>(kernel, placed, count, windows);
-    with_padded_width(layout.width, [&](auto padded) {
-      spread_rows<padded.value, kOrders>(layout, placed, windows, count, grid);
+    with_columns(layout.width, [&](auto columns) {
+      spread_rows<columns.value, kOrders>(layout, placed, windows, count, grid);
     });
   }
 }

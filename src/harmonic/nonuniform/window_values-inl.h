@@ -20,13 +20,34 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr int kMaxTaps = kMaxSpreadWidth;
 
+// Columns that are added to the grid together by wide windows, from a multiple of it on: a vector
+// that lies across two lines of the cache takes twice as long.
+constexpr int kGroup = 4;
+constexpr int kWidestNarrow = 8;
+
 // Windows and derivatives of a block of sources. In theta one array per tap, ready to be broadcast;
-// in phi four taps of a source together, ready to be loaded as vectors.
+// in phi four taps of a source together, ready to be loaded as vectors, or, to spread wide ones,
+// all of them, a group of zeros before them and zeros behind.
 template <typename T>
 struct Windows {
   alignas(64) T theta[3][kMaxTaps][kBlock<T>];
   alignas(64) T phi[3][kMaxTaps / 4][kBlock<T>][4];
+  alignas(64) T wide[3][kBlock<T>][kGroup + kMaxTaps + kGroup];
 };
+
+// What stays as it is from block to block: the zeros around the taps of wide windows.
+template <int kOrders, typename T>
+HWY_INLINE void clear_around_taps(int width, Windows<T>& w) {
+  const hn::CappedTag<T, kGroup> d;
+  const size_t behind = kGroup + static_cast<size_t>(width);
+  for (int order = 0; order < kOrders; ++order) {
+    for (auto& row : w.wide[order]) {
+      for (size_t at = 0; at < kGroup + kMaxTaps + kGroup; at += hn::MaxLanes(d)) {
+        if (at < kGroup || at >= behind) hn::Store(hn::Zero(d), d, row + at);
+      }
+    }
+  }
+}
 
 // The window and its derivatives at one tap, lanes are sources.
 template <class V>
@@ -93,6 +114,26 @@ HWY_INLINE void store_tap(D d, const Tap<V>& tap, hn::TFromD<D>* to, size_t stri
   if constexpr (kOrders > 2) hn::Store(tap.curvature, d, to + 2 * stride);
 }
 
+// Four taps of as many sources as d has lanes, one after the other in `taps`, source by source.
+template <class D, typename T = hn::TFromD<D>>
+HWY_INLINE void store_fours(D d, const T* taps, T* to) {
+  constexpr size_t kLanes = hn::MaxLanes(D());
+  hn::StoreInterleaved4(hn::Load(d, taps), hn::Load(d, taps + kLanes),
+                        hn::Load(d, taps + 2 * kLanes), hn::Load(d, taps + 3 * kLanes), d, to);
+}
+template <class D, typename T = hn::TFromD<D>, size_t kRow>
+HWY_INLINE void store_fours(D d, const T* taps, T (*rows)[kRow], int first) {
+  constexpr size_t kLanes = hn::MaxLanes(D());
+  const hn::CappedTag<T, 4> four;
+  alignas(64) T fours[4 * kLanes];
+  store_fours(d, taps, fours);
+  for (size_t i = 0; i < kLanes; ++i) {
+    for (size_t v = 0; v < 4; v += hn::MaxLanes(four)) {
+      hn::Store(hn::Load(four, fours + 4 * i + v), four, rows[i] + first + v);
+    }
+  }
+}
+
 // Windows of n placed sources, rounded up to whole vectors; those in theta times the factors of
 // the sources if kFactors.
 template <int kTerms, int kOrders, bool kFactors, typename T>
@@ -101,8 +142,9 @@ void evaluate_windows(const GridKernel<T>& kernel, const Placed<T>& p, size_t n,
   using V = hn::Vec<decltype(d)>;
   constexpr size_t kLanes = hn::MaxLanes(hn::CappedTag<T, 16>());
   constexpr size_t kThetaStride = kMaxTaps * kBlock<T>, kPhiStride = kMaxTaps * kLanes;
-  // As many as spread_rows() and interpolate_rows() load, zeros beyond the width.
-  const int blocks = padded_width(kernel.layout.width) / 4;
+  // Zeros beyond the width, as far as is loaded.
+  const bool wide = kFactors && kernel.layout.width > kWidestNarrow;
+  const int blocks = (wide ? kernel.layout.width + 3 : padded_width(kernel.layout.width)) / 4;
   alignas(64) T taps[kOrders * kPhiStride] = {};
   for (size_t at = 0; at < n; at += kLanes) {
     windows_at<kTerms, kOrders>(
@@ -121,9 +163,11 @@ void evaluate_windows(const GridKernel<T>& kernel, const Placed<T>& p, size_t n,
     for (int order = 0; order < kOrders; ++order) {
       for (int block = 0; block < blocks; ++block) {
         const T* first = taps + order * kPhiStride + 4 * (block * kLanes);
-        hn::StoreInterleaved4(hn::Load(d, first), hn::Load(d, first + kLanes),
-                              hn::Load(d, first + 2 * kLanes), hn::Load(d, first + 3 * kLanes), d,
-                              out.phi[order][block][at]);
+        if (wide) {
+          store_fours(d, first, out.wide[order] + at, kGroup + 4 * block);
+        } else {
+          store_fours(d, first, out.phi[order][block][at]);
+        }
       }
     }
   }
