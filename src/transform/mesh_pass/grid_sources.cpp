@@ -58,11 +58,11 @@ void GridSources<T>::add(const GradientNode& node) {
 }
 
 template <typename T>
-void GridSources<T>::add_vertices(const MeshView& mesh, std::size_t first, std::size_t n,
+void GridSources<T>::add_vertices(const MeshView& mesh, const std::uint32_t* numbers, std::size_t n,
                                   const BlockParameters& parameters,
                                   const VertexLump<LumpOf<T>>* lumps) {
   flush_gradients();
-  const LumpSums sums = load_vertices(mesh, first, n, parameters, lumps, gradients_);
+  const LumpSums sums = load_vertices(mesh, numbers, n, parameters, lumps, gradients_);
   if (parameters.hessians) {
     source2_ += sums.weight2 + std::pow(gradient_as_weight(degree_), 2) * sums.gradient2;
     hessian2_ += std::pow(parameters.degree, 4) * sums.hessian2;

@@ -29,7 +29,7 @@ class GridSources {
   void add(std::span<const Node> nodes);
   void add(const GradientNode& node);
   // Vertices as load_vertices() takes them; counted only if they have Hessians.
-  void add_vertices(const MeshView& mesh, std::size_t first, std::size_t n,
+  void add_vertices(const MeshView& mesh, const std::uint32_t* numbers, std::size_t n,
                     const BlockParameters& parameters, const VertexLump<LumpOf<T>>* lumps);
   void flush();
 

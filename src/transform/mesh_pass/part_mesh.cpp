@@ -3,14 +3,38 @@
 #include <algorithm>
 #include <cstring>
 
-#include "base/ranked_set.h"
-#include "transform/mesh_pass/block/block.h"
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "transform/mesh_pass/part_mesh.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
 
+HWY_BEFORE_NAMESPACE();
 namespace rholm {
+namespace HWY_NAMESPACE {
+
+// Compiled for each target because most have an instruction that counts bits.
+void RankCorners(const RankedSet& set, const std::byte* record, std::size_t stride, std::size_t n,
+                 std::uint32_t* ranks) {
+  for (std::size_t t = 0; t < n; ++t, record += stride, ranks += 3) {
+    std::uint32_t corner[3];
+    std::memcpy(corner, record, sizeof corner);
+    for (int k = 0; k < 3; ++k) ranks[k] = set.rank(corner[k]);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace rholm
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace rholm {
+
+HWY_EXPORT(RankCorners);
+
 namespace {
 
 // A closed mesh has half as many vertices as triangles: where half as many again are in the range,
-// the others cost less than a copy.
+// the others cost less than names.
 bool lies_together(const IndexRange& range, std::size_t n_triangles) {
   return range.size() <= n_triangles / 4 * 3 + 64;
 }
@@ -30,51 +54,40 @@ PartMesh::Places PartMesh::places(const IndexRange& range) const {
   return {at(range.low), at(std::uint64_t{range.high} + 1)};
 }
 
-MeshView gathered(const MeshView& mesh, const std::vector<std::uint32_t>& names,
-                  std::vector<std::byte>& bytes) {
-  const std::size_t row = mesh.coordinate == ScalarType::kFloat32 ? 12 : 24;
-  bytes.resize(row * names.size());
-  std::byte* to = bytes.data();
-  for (const std::uint32_t name : names) {
-    std::memcpy(to, mesh.vertices + name * mesh.vertex_stride, row);
-    to += row;
-  }
-  return {.vertices = bytes.data(),
-          .n_vertices = names.size(),
-          .vertex_stride = row,
-          .coordinate = mesh.coordinate};
+CornerPlaces PartMesh::corners(const MeshView& mesh, std::size_t first, std::size_t n,
+                               BlockPlaces& room) const {
+  const std::size_t stride = mesh.triangle_stride;
+  const std::byte* const record = mesh.triangles + first * stride;
+  if (!ranks) return {record, stride, first_vertex};
+  HWY_DYNAMIC_DISPATCH(RankCorners)(*ranks, record, stride, n, room);
+  return {reinterpret_cast<const std::byte*>(room), 3 * sizeof room[0], 0};
 }
 
 PartMesh part_mesh(const MeshView& mesh, std::size_t first, std::size_t n, const IndexRange& range,
                    const std::function<void(std::size_t first, std::size_t n)>& check) {
   PartMesh part;
+  part.first_triangle = first;
   part.n_triangles = n;
   if (lies_together(range, n)) {
-    part.view = mesh;
-    part.first_triangle = first;
     part.first_vertex = range.low;
     part.n_vertices = range.size();
     return part;
   }
-  part.triangles.resize(3 * n);
-  std::uint32_t* corners = part.triangles.data();
-  RankedSet set(range.low, range.size());
+  RankedSet& set = part.ranks.emplace(range.low, range.size());
   for (std::size_t t = 0; t < n; t += kTrianglesPerBlock) {
     const std::size_t count = std::min(kTrianglesPerBlock, n - t);
     check(first + t, count);
-    for (std::size_t i = 0; i < count; ++i, corners += 3) {
-      std::memcpy(corners, mesh.triangles + (first + t + i) * mesh.triangle_stride, 12);
-      for (std::size_t k = 0; k < 3; ++k) set.add(corners[k]);
+    const std::byte* record = mesh.triangles + (first + t) * mesh.triangle_stride;
+    for (std::size_t i = 0; i < count; ++i, record += mesh.triangle_stride) {
+      std::uint32_t corner[3];
+      std::memcpy(corner, record, sizeof corner);
+      for (std::size_t k = 0; k < 3; ++k) set.add(corner[k]);
     }
   }
   part.names = set.sorted();
-  for (std::uint32_t& corner : part.triangles) corner = set.rank(corner);
-  part.view = gathered(mesh, part.names, part.vertices);
-  part.view.triangles = reinterpret_cast<const std::byte*>(part.triangles.data());
-  part.view.n_triangles = n;
-  part.view.triangle_stride = 12;
   part.n_vertices = part.names.size();
   return part;
 }
 
 }  // namespace rholm
+#endif  // HWY_ONCE

@@ -28,7 +28,7 @@ class PartWorker<T>::Triangles {
             std::uint32_t* fans)
       : worker_(worker),
         worked_(worked),
-        mesh_(worked.mesh.view),
+        mesh_(worker.mesh_),
         parameters_(worker.plan_.block),
         fans_(fans),
         sink_(worked.part, grid, worker.plan_),
@@ -38,24 +38,20 @@ class PartWorker<T>::Triangles {
         writer_({worker.plan_.divided, worker.plan_.undivided}, vertices_, sink_),
         between_(vertices_, sink_) {}
 
-  void run(std::size_t first_in_mesh, SharedProgress& progress) {
-    const std::size_t n = worked_.mesh.n_triangles;
-    const bool copied = !worked_.mesh.names.empty();
+  void run(SharedProgress& progress) {
+    const std::size_t first = worked_.mesh.first_triangle, n = worked_.mesh.n_triangles;
     const auto& release = worker_.options_.release;
-    const auto done = [&](std::size_t from, std::size_t count) {
-      if (release) release(first_in_mesh + from, count);
-      progress.add(count);
-    };
-    if (copied) done(0, n);
-    std::uint32_t next_largest = look_at(0);
+    look_at(0);
     for (std::size_t at = 0; at < n; at += kBlockSize) {
       ask_cancel();
-      parameters_.largest_index = next_largest;
-      if (at + kBlockSize < n) next_largest = look_at(at + kBlockSize);
-      work(worked_.mesh.first_triangle + at, std::min(kBlockSize, n - at));
+      std::swap(here_, next_);
+      if (at + kBlockSize < n) look_at(at + kBlockSize);
+      work(first + at, std::min(kBlockSize, n - at));
       constexpr std::size_t kStep = kBlocksPerStep * kBlockSize;
       const std::size_t end = at + kBlockSize;
-      if (!copied && end % kStep == 0 && end <= n) done(end - kStep, kStep);
+      if (end % kStep != 0 || end > n) continue;
+      if (release) release(first + end - kStep, kStep);
+      progress.add(kStep);
     }
     writer_.flush();
     worked_.part.node_error2 = writer_.error2();
@@ -64,25 +60,30 @@ class PartWorker<T>::Triangles {
   }
 
  private:
-  std::uint32_t look_at(std::size_t at) const {
+  // What is known of a block before it is worked.
+  struct Ahead {
+    std::uint32_t largest = 0;
+    CornerPlaces places;
+    BlockPlaces room;
+  };
+
+  void look_at(std::size_t at) {
     const std::size_t first = worked_.mesh.first_triangle + at;
     const std::size_t n = std::min(kBlockSize, worked_.mesh.n_triangles - at);
     if (worked_.mesh.names.empty()) check_triangles(worker_.options_, first, n);
-    const std::uint32_t largest = largest_index(mesh_, first, n);
-    ask_for_lumps(mesh_, first, n, parameters_.hessians, worked_.lumps.data(),
-                  worked_.mesh.first_vertex);
-    return largest;
+    next_->largest = largest_index(mesh_, first, n);
+    next_->places = worked_.mesh.corners(mesh_, first, n, next_->room);
+    ask_for_lumps(next_->places, n, parameters_.hessians, worked_.lumps.data());
   }
 
   void work(std::size_t first, std::size_t n) {
     MeshPart<T>& part = worked_.part;
-    const std::uint32_t first_vertex = worked_.mesh.first_vertex;
+    parameters_.largest_index = here_->largest;
     const double mean_reach2 = std::max(parameters_.mean_reach2, parameters_.mean_nodes_reach2);
     const std::size_t before = part.sums.nodes;
     work_block(mesh_, first, n, parameters_, *block_, part.sums);
-    scatter_lumps(mesh_, first, n, parameters_.hessians, *block_, worked_.lumps.data(),
-                  first_vertex);
-    if (fans_ != nullptr) link_fans(mesh_, first, n, *block_, fans_, first_vertex);
+    scatter_lumps(here_->places, n, parameters_.hessians, *block_, worked_.lumps.data());
+    if (fans_ != nullptr) link_fans(here_->places, n, *block_, fans_);
     if (block_->has_nodes_between) between_.add(mesh_, first, n, *block_);
     sample_half_edges(*block_, n, part.half_edges);
     if (part.sums.nodes != before || part.sums.max_edge2 > mean_reach2) write_nodes(first, n);
@@ -110,6 +111,7 @@ class PartWorker<T>::Triangles {
   const MeshView& mesh_;
   BlockParameters parameters_;
   std::uint32_t* fans_;
+  std::unique_ptr<Ahead> here_ = std::make_unique<Ahead>(), next_ = std::make_unique<Ahead>();
   std::unique_ptr<TriangleBlock<Lump>> block_ = std::make_unique<TriangleBlock<Lump>>();
   PartSink<T> sink_;
   ScaledVertices vertices_;
@@ -137,8 +139,8 @@ WorkedPart<T> PartWorker<T>::work(std::size_t p, GridSources<T>* grid,
   worked.part.border.per_vertex = lumps_per_vertex(hessians);
   AlignedArray<std::uint32_t> fans;
   if (!shared_ranges(ranges_, p).empty()) fans = AlignedArray<std::uint32_t>::zeros(n_vertices);
-  Triangles(*this, worked, grid, fans.data()).run(division_.first(p), progress);
-  std::vector<std::uint32_t>().swap(worked.mesh.triangles);
+  Triangles(*this, worked, grid, fans.data()).run(progress);
+  worked.mesh.ranks.reset();
   if (fans.size() > 0) take_border(p, fans.data(), worked);
   visit_lumps(worked.lumps.data(), n_vertices,
               [&](std::size_t, std::size_t n, const VertexLump<Lump>* lumps) {
@@ -184,10 +186,12 @@ void PartWorker<T>::spread(const WorkedPart<T>& worked, GridSources<T>& grid) co
   grid.add(worked.part.kept);
   for (const GradientNode& node : worked.part.kept_gradients) grid.add(node);
   const PartMesh& mesh = worked.mesh;
+  std::uint32_t names[kVerticesPerBlock];
   visit_lumps(worked.lumps.data(), mesh.n_vertices,
               [&](std::size_t first, std::size_t n, const VertexLump<Lump>* lumps) {
                 if (first % (256 * kVerticesPerBlock) == 0) ask_cancel();
-                grid.add_vertices(mesh.view, mesh.first_vertex + first, n, plan_.block, lumps);
+                for (std::size_t i = 0; i < n; ++i) names[i] = mesh.name(first + i);
+                grid.add_vertices(mesh_, names, n, plan_.block, lumps);
               });
   if (options_.release_vertices && mesh.names.empty()) {
     options_.release_vertices(mesh.first_vertex, mesh.n_vertices);
@@ -198,14 +202,10 @@ template <typename T>
 void PartWorker<T>::spread(const BorderLumps<Lump>& border, std::size_t begin, std::size_t end,
                            GridSources<T>& grid) const {
   if (begin >= end) return;
-  const auto at = [](std::size_t i) { return static_cast<std::ptrdiff_t>(i); };
-  const std::vector<std::uint32_t> names(border.vertices.begin() + at(begin),
-                                         border.vertices.begin() + at(end));
-  std::vector<std::byte> bytes;
-  const MeshView view = gathered(mesh_, names, bytes);
-  visit_lumps(border.lumps.data() + border.per_vertex * begin, names.size(),
+  visit_lumps(border.lumps.data() + border.per_vertex * begin, end - begin,
               [&](std::size_t first, std::size_t n, const VertexLump<Lump>* lumps) {
-                grid.add_vertices(view, first, n, plan_.block, lumps);
+                grid.add_vertices(mesh_, border.vertices.data() + begin + first, n, plan_.block,
+                                  lumps);
               });
 }
 

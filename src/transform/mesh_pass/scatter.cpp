@@ -64,39 +64,37 @@ void scatter(const std::byte* record, std::size_t stride, std::size_t n,
 }  // namespace
 
 template <typename T>
-void scatter_lumps(const MeshView& mesh, std::size_t first, std::size_t n, bool hessians,
-                   const TriangleBlock<T>& block, VertexLump<T>* vertices,
-                   std::uint32_t first_vertex) {
-  const std::size_t stride = mesh.triangle_stride;
-  const std::byte* record = mesh.triangles + first * stride;
-  if (hessians) return scatter<true>(record, stride, n, block, vertices, first_vertex);
-  scatter<false>(record, stride, n, block, vertices, first_vertex);
+void scatter_lumps(const CornerPlaces& places, std::size_t n, bool hessians,
+                   const TriangleBlock<T>& block, VertexLump<T>* vertices) {
+  const auto [record, stride, first] = places;
+  if (hessians) return scatter<true>(record, stride, n, block, vertices, first);
+  scatter<false>(record, stride, n, block, vertices, first);
 }
 
 template <typename T>
-void ask_for_lumps(const MeshView& mesh, std::size_t first, std::size_t n, bool hessians,
-                   const VertexLump<T>* vertices, std::uint32_t first_vertex) {
-  const std::byte* record = mesh.triangles + first * mesh.triangle_stride;
-  for (std::size_t t = 0; t < n; ++t, record += mesh.triangle_stride) {
+void ask_for_lumps(const CornerPlaces& places, std::size_t n, bool hessians,
+                   const VertexLump<T>* vertices) {
+  const std::byte* record = places.record;
+  for (std::size_t t = 0; t < n; ++t, record += places.stride) {
     for (std::size_t i = 0; i < 3; ++i) {
       std::uint32_t corner;
       std::memcpy(&corner, record + 4 * i, sizeof corner);
-      hwy::Prefetch(vertices + lumps_per_vertex(hessians) * (corner - first_vertex));
+      hwy::Prefetch(vertices + lumps_per_vertex(hessians) * (corner - places.first));
     }
   }
 }
 
 template <typename T>
-void link_fans(const MeshView& mesh, std::size_t first, std::size_t n,
-               const TriangleBlock<T>& block, std::uint32_t* fans, std::uint32_t first_vertex) {
-  const std::byte* record = mesh.triangles + first * mesh.triangle_stride;
-  for (std::size_t t = 0; t < n; ++t, record += mesh.triangle_stride) {
+void link_fans(const CornerPlaces& places, std::size_t n, const TriangleBlock<T>& block,
+               std::uint32_t* fans) {
+  const std::byte* record = places.record;
+  for (std::size_t t = 0; t < n; ++t, record += places.stride) {
     std::uint32_t corner[3];
     std::memcpy(corner, record, sizeof corner);
     const std::uint32_t name[3] = {block.hash[0][t], block.hash[1][t], block.hash[2][t]};
-    fans[corner[0] - first_vertex] += name[1] - name[2];
-    fans[corner[1] - first_vertex] += name[2] - name[0];
-    fans[corner[2] - first_vertex] += name[0] - name[1];
+    fans[corner[0] - places.first] += name[1] - name[2];
+    fans[corner[1] - places.first] += name[2] - name[0];
+    fans[corner[2] - places.first] += name[0] - name[1];
   }
 }
 
@@ -120,19 +118,17 @@ void sample_half_edges(const TriangleBlock<T>& block, std::size_t n,
   }
 }
 
-template void ask_for_lumps(const MeshView&, std::size_t, std::size_t, bool,
-                            const VertexLump<std::int32_t>*, std::uint32_t);
-template void ask_for_lumps(const MeshView&, std::size_t, std::size_t, bool,
-                            const VertexLump<double>*, std::uint32_t);
-template void scatter_lumps(const MeshView&, std::size_t, std::size_t, bool,
-                            const TriangleBlock<std::int32_t>&, VertexLump<std::int32_t>*,
-                            std::uint32_t);
-template void scatter_lumps(const MeshView&, std::size_t, std::size_t, bool,
-                            const TriangleBlock<double>&, VertexLump<double>*, std::uint32_t);
-template void link_fans(const MeshView&, std::size_t, std::size_t,
-                        const TriangleBlock<std::int32_t>&, std::uint32_t*, std::uint32_t);
-template void link_fans(const MeshView&, std::size_t, std::size_t, const TriangleBlock<double>&,
-                        std::uint32_t*, std::uint32_t);
+template void ask_for_lumps(const CornerPlaces&, std::size_t, bool,
+                            const VertexLump<std::int32_t>*);
+template void ask_for_lumps(const CornerPlaces&, std::size_t, bool, const VertexLump<double>*);
+template void scatter_lumps(const CornerPlaces&, std::size_t, bool,
+                            const TriangleBlock<std::int32_t>&, VertexLump<std::int32_t>*);
+template void scatter_lumps(const CornerPlaces&, std::size_t, bool, const TriangleBlock<double>&,
+                            VertexLump<double>*);
+template void link_fans(const CornerPlaces&, std::size_t, const TriangleBlock<std::int32_t>&,
+                        std::uint32_t*);
+template void link_fans(const CornerPlaces&, std::size_t, const TriangleBlock<double>&,
+                        std::uint32_t*);
 template void sample_half_edges(const TriangleBlock<std::int32_t>&, std::size_t,
                                 std::vector<SampledHalfEdge>&);
 template void sample_half_edges(const TriangleBlock<double>&, std::size_t,

@@ -86,26 +86,24 @@ HWY_INLINE void add_squares(D d, V x, V y, V z, V weight, V gx, V gy, V gz, cons
 }
 
 template <typename Scalar, typename L, typename T>
-HWY_INLINE LumpSums load_any(const MeshView& mesh, std::size_t first, std::size_t n,
+HWY_INLINE LumpSums load_any(const MeshView& mesh, const std::uint32_t* numbers, std::size_t n,
                              const BlockParameters& p, const VertexLump<L>* lumps,
                              SourceBatch<T>& batch) {
   const D d;
   constexpr std::size_t kLanes = hn::MaxLanes(D());
-  // Vertices one after the other are corners of "triangles" whose indices follow each other.
-  std::uint32_t indices[kVerticesPerBlock];
-  for (std::size_t j = 0; j < n; ++j) indices[j] = static_cast<std::uint32_t>(first + j);
+  // Vertices are corners of "triangles" whose indices follow each other.
   MeshView view = mesh;
   view.triangle_stride = sizeof(std::uint32_t);
-  const auto* const at = reinterpret_cast<const std::byte*>(indices);
+  const auto* const at = reinterpret_cast<const std::byte*>(numbers);
   // Rows of floats are read with 4 bytes more.
-  const std::size_t readable = mesh.n_vertices - (sizeof(Scalar) == sizeof(float)) - first;
+  const std::size_t readable = mesh.n_vertices - (sizeof(Scalar) == sizeof(float));
   const V scale = hn::Set(d, p.scale);
   const V x0 = hn::Set(d, p.center.x), y0 = hn::Set(d, p.center.y), z0 = hn::Set(d, p.center.z);
   const V none = hn::Zero(d);
   LaneSquares squares = {none, none, none};
   const V weight = hn::Set(d, 1 / p.per_weight), slope = hn::Set(d, 1 / p.per_gradient);
   for (std::size_t j = 0; j < n; j += kLanes) {
-    const Vector3 v = kWholeVectors && j + kLanes <= HWY_MIN(n, readable)
+    const Vector3 v = kWholeVectors && j + kLanes <= n && numbers[j + kLanes - 1] < readable
                           ? LoadWhole(d, view, at + 4 * j, Scalar())
                           : LoadFew<Scalar>(d, view, at + 4 * j, HWY_MIN(kLanes, n - j));
     const Lumps l = load_lumps(d, lumps + j);
@@ -136,13 +134,13 @@ HWY_INLINE LumpSums load_any(const MeshView& mesh, std::size_t first, std::size_
 }
 
 template <typename L, typename T>
-HWY_INLINE LumpSums load_by_type(const MeshView& mesh, std::size_t first, std::size_t n,
+HWY_INLINE LumpSums load_by_type(const MeshView& mesh, const std::uint32_t* numbers, std::size_t n,
                                  const BlockParameters& p, const VertexLump<L>* lumps,
                                  SourceBatch<T>& batch) {
   if (mesh.coordinate == ScalarType::kFloat32) {
-    return load_any<float>(mesh, first, n, p, lumps, batch);
+    return load_any<float>(mesh, numbers, n, p, lumps, batch);
   }
-  return load_any<double>(mesh, first, n, p, lumps, batch);
+  return load_any<double>(mesh, numbers, n, p, lumps, batch);
 }
 
 HWY_INLINE V load_numbers(D d, const double* from) { return hn::LoadU(d, from); }
@@ -190,15 +188,15 @@ LumpSums SumSingle(const VertexLump<std::int32_t>* lumps, std::size_t n) {
 }
 LumpSums SumDouble(const VertexLump<double>* lumps, std::size_t n) { return sum_any(lumps, n); }
 
-LumpSums LoadSingle(const MeshView& mesh, std::size_t first, std::size_t n,
+LumpSums LoadSingle(const MeshView& mesh, const std::uint32_t* numbers, std::size_t n,
                     const BlockParameters& p, const VertexLump<std::int32_t>* lumps,
                     SourceBatch<float>& batch) {
-  return load_by_type(mesh, first, n, p, lumps, batch);
+  return load_by_type(mesh, numbers, n, p, lumps, batch);
 }
-LumpSums LoadDouble(const MeshView& mesh, std::size_t first, std::size_t n,
+LumpSums LoadDouble(const MeshView& mesh, const std::uint32_t* numbers, std::size_t n,
                     const BlockParameters& p, const VertexLump<double>* lumps,
                     SourceBatch<double>& batch) {
-  return load_by_type(mesh, first, n, p, lumps, batch);
+  return load_by_type(mesh, numbers, n, p, lumps, batch);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -213,17 +211,17 @@ HWY_EXPORT(SumDouble);
 HWY_EXPORT(LoadSingle);
 HWY_EXPORT(LoadDouble);
 
-LumpSums load_vertices(const MeshView& mesh, std::size_t first, std::size_t n,
+LumpSums load_vertices(const MeshView& mesh, const std::uint32_t* numbers, std::size_t n,
                        const BlockParameters& parameters, const VertexLump<std::int32_t>* lumps,
                        SourceBatch<float>& batch) {
   poison_all(batch);
-  return HWY_DYNAMIC_DISPATCH(LoadSingle)(mesh, first, n, parameters, lumps, batch);
+  return HWY_DYNAMIC_DISPATCH(LoadSingle)(mesh, numbers, n, parameters, lumps, batch);
 }
-LumpSums load_vertices(const MeshView& mesh, std::size_t first, std::size_t n,
+LumpSums load_vertices(const MeshView& mesh, const std::uint32_t* numbers, std::size_t n,
                        const BlockParameters& parameters, const VertexLump<double>* lumps,
                        SourceBatch<double>& batch) {
   poison_all(batch);
-  return HWY_DYNAMIC_DISPATCH(LoadDouble)(mesh, first, n, parameters, lumps, batch);
+  return HWY_DYNAMIC_DISPATCH(LoadDouble)(mesh, numbers, n, parameters, lumps, batch);
 }
 
 namespace {

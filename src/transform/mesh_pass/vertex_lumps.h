@@ -39,15 +39,15 @@ struct LumpSums {
 LumpSums sum_lumps(const VertexLump<std::int32_t>* lumps, std::size_t n, bool hessians);
 LumpSums sum_lumps(const VertexLump<double>* lumps, std::size_t n, bool hessians);
 
-// Sources of n <= kVerticesPerBlock vertices from `first` on, whose lumps are given, eight at a
-// time: read up to a multiple of that. Vertices without a lump may lie anywhere. With Hessians,
-// returns sums of squares of the sources: derivatives at unit distance and as far as they are
-// tangential, for a harmonic does not change along the radius, which on steep surfaces most of an
-// edge may be.
-LumpSums load_vertices(const MeshView& mesh, std::size_t first, std::size_t n,
+// Sources of n <= kVerticesPerBlock vertices with these numbers, in ascending order, whose lumps
+// are given, eight at a time: read up to a multiple of that. Vertices without a lump may lie
+// anywhere. With Hessians, returns sums of squares of the sources: derivatives at unit distance and
+// as far as they are tangential, for a harmonic does not change along the radius, which on steep
+// surfaces most of an edge may be.
+LumpSums load_vertices(const MeshView& mesh, const std::uint32_t* numbers, std::size_t n,
                        const BlockParameters& parameters, const VertexLump<std::int32_t>* lumps,
                        SourceBatch<float>& batch);
-LumpSums load_vertices(const MeshView& mesh, std::size_t first, std::size_t n,
+LumpSums load_vertices(const MeshView& mesh, const std::uint32_t* numbers, std::size_t n,
                        const BlockParameters& parameters, const VertexLump<double>* lumps,
                        SourceBatch<double>& batch);
 

@@ -14,6 +14,7 @@
 #include "support/oracle.h"
 #include "support/packed_mesh.h"
 #include "support/random_data.h"
+#include "support/targets.h"
 #include "support/test_meshes.h"
 #include "support/test_shapes.h"
 #include "transform/mesh_pass/border_lumps.h"
@@ -114,7 +115,7 @@ TEST(border_sums, that_are_complete_can_be_taken) {
   EXPECT_EQ(sums.finish().lumps[2].value[0], 18);
 }
 
-TEST(part_mesh, a_copy_has_the_same_corners_and_knows_where_they_were) {
+TEST(part_mesh, knows_where_scattered_corners_are_among_its_own) {
   Mesh mesh = icosphere(4);
   test::shuffle(mesh.triangles, 5);
   const auto file = test::packed<double>(mesh, 5);
@@ -124,13 +125,20 @@ TEST(part_mesh, a_copy_has_the_same_corners_and_knows_where_they_were) {
                                   [&](std::size_t, std::size_t count) { checked += count; });
   ASSERT_FALSE(part.names.empty());
   EXPECT_EQ(checked, n);
-  for (std::size_t t = 0; t < n; ++t) {
-    const Triangle here = part.view.triangle(part.first_triangle + t);
-    for (std::size_t k = 0; k < 3; ++k) {
-      EXPECT_EQ(part.name(here[k]), mesh.triangles[first + t][k]);
-      EXPECT_EQ(part.view.vertex(here[k]), mesh.vertices[mesh.triangles[first + t][k]]);
+  test::for_each_target([&](const char* target) {
+    SCOPED_TRACE(target);
+    for (std::size_t t = 0; t < n; t += 100) {
+      BlockPlaces room;
+      const CornerPlaces places = part.corners(file.view, first + t, 100, room);
+      EXPECT_EQ(places.first, 0u);
+      for (std::size_t i = 0; i < 300; ++i) {
+        std::uint32_t place;
+        std::memcpy(&place, places.record + i / 3 * places.stride + i % 3 * 4, sizeof place);
+        ASSERT_LT(place, part.n_vertices);
+        EXPECT_EQ(part.name(place), mesh.triangles[first + t + i / 3][i % 3]);
+      }
     }
-  }
+  });
   EXPECT_TRUE(std::is_sorted(part.names.begin(), part.names.end()));
   const PartMesh::Places places = part.places({part.names[3], part.names[7]});
   EXPECT_EQ(places.begin, 3u);

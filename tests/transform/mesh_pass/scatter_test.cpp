@@ -43,7 +43,9 @@ std::vector<VertexLump<T>> scattered(const Mesh& mesh, const BlockParameters& pa
     const std::size_t first = (backwards ? blocks - 1 - k : k) * kTrianglesPerBlock;
     const std::size_t n = std::min(kTrianglesPerBlock, n_triangles - first);
     work_block(view_of(mesh), first, n, parameters, *block, sums);
-    scatter_lumps(view_of(mesh), first, n, parameters.hessians, *block, lumps.data());
+    const MeshView view = view_of(mesh);
+    const CornerPlaces places{view.triangles + first * view.triangle_stride, view.triangle_stride};
+    scatter_lumps(places, n, parameters.hessians, *block, lumps.data());
   }
   return lumps;
 }
