@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
+#include <string>
+#include <utility>
 
 #include "base/cancel.h"
 #include "base/parallel.h"
@@ -49,6 +53,15 @@ void add_point(ErrorPoints& points, const Vec3& x, double cosine, std::int64_t o
   if (r > 0) points.add(x / r, r, cosine, owner);
 }
 
+// Without those that were not set: their radius is 0.
+void drop_unset(ErrorPoints& points) {
+  std::vector<std::size_t> set;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points.radii[i] > 0) set.push_back(i);
+  }
+  points = points.subset(set);
+}
+
 // cos gamma at the point x of the face, none where nobody sees it.
 std::optional<double> cosine_at(const Face& face, const Vec3& x) {
   const double size = norm(x) * face.twice_area;
@@ -76,6 +89,13 @@ void ErrorPoints::reserve(std::size_t n) {
   radii.reserve(n);
   cosines.reserve(n);
   owners.reserve(n);
+}
+
+void ErrorPoints::resize(std::size_t n) {
+  directions.resize(n);
+  radii.resize(n);
+  cosines.resize(n);
+  owners.resize(n);
 }
 
 void ErrorPoints::add(const Vec3& direction, double radius, double cosine, std::int64_t owner) {
@@ -185,7 +205,9 @@ ErrorPoints area_points(const MeshView& mesh, const Vec3& center, const FaceScan
     std::size_t first, last;  // faces
     double from, to;          // areas
   };
-  std::vector<ErrorPoints> parts(before.size());
+  ErrorPoints points;
+  points.resize(n);
+  std::atomic<std::size_t> n_set = 0;
   parallel_for(areas.size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
     double sum = before[begin / kGrain];
     auto next = std::min(n, static_cast<std::size_t>(part > 0 ? sum / part : 0));
@@ -195,11 +217,12 @@ ErrorPoints area_points(const MeshView& mesh, const Vec3& center, const FaceScan
     // memory, which the processor fetches together.
     std::vector<Group> groups;
     std::vector<Triangle> triangles;
+    double at = place(next);
     for (std::size_t group = begin, i = next; group < end; ++group) {
       const double from = sum;
       sum += areas[group];
-      if (place(i) >= sum) continue;
-      while (place(i) < sum) ++i;
+      if (at >= sum) continue;
+      while (at < sum) at = place(++i);
       const std::size_t first = group * FaceSizes::kGroup;
       groups.push_back({first, std::min(mesh.n_triangles, first + FaceSizes::kGroup), from, sum});
     }
@@ -211,7 +234,8 @@ ErrorPoints area_points(const MeshView& mesh, const Vec3& center, const FaceScan
       corners[k] = corners_of(mesh, triangles[k], center, scan.sizes.scale);
     }
     const std::array<Vec3, 3>* of_face = corners.data();
-    double at = place(next);
+    at = place(next);
+    std::size_t here = 0;
     for (const Group& group : groups) {
       double up_to = group.from;
       for (std::size_t t = group.first; t < group.last; ++t) {
@@ -224,54 +248,47 @@ ErrorPoints area_points(const MeshView& mesh, const Vec3& center, const FaceScan
           const double b = s * spread(next, 0.5698402909980532);
           const Vec3 x =
               (1 - s) * face.corners[0] + b * face.corners[1] + (s - b) * face.corners[2];
+          const double r = norm(x);
           const std::optional<double> cosine = cosine_at(face, x);
-          if (cosine && !face.normal.degenerate) {
-            add_point(parts[begin / kGrain], x, *cosine, static_cast<std::int64_t>(t));
-          }
+          if (!cosine || face.normal.degenerate || !(r > 0)) continue;
+          points.directions[next] = x / r;
+          points.radii[next] = r / scan.sizes.scale;
+          points.cosines[next] = *cosine;
+          points.owners[next] = static_cast<std::int64_t>(t);
+          ++here;
         }
       }
     }
+    n_set += here;
   });
-  ErrorPoints points;
-  points.reserve(n);
-  for (const ErrorPoints& some : parts) points.append(some);
-  for (double& r : points.radii) r /= scan.sizes.scale;
+  if (n_set < n) drop_unset(points);
   return points;
 }
 
 namespace {
 
-// The model along the points' directions, and the square of the tangent of its slope.
+// The model along some directions, and the square of the tangent of its slope.
 struct ModelSurface {
   std::vector<double> radii, tangents2;
 };
 
-ModelSurface model_surface(const ErrorPoints& points, const RadialModel& of, bool slopes,
-                           const Context& context) {
-  ValuesAndGradients found = of.sums.at(points.directions, slopes, context);
+ModelSurface model_surface(std::span<const Vec3> directions, const RadialModel& of, bool slopes) {
+  ValuesAndGradients found = of.sums.at(directions, slopes, {.threads = 1});
   ModelSurface model;
   model.radii = std::move(found.values);
-  if (slopes) {
-    model.tangents2.resize(points.size());
-    // |grad r| / r is the same for r and 1/r.
-    CancelPoll poll;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      poll();
-      const double r2 = model.radii[i] * model.radii[i];
-      model.tangents2[i] = dot(found.gradients[i], found.gradients[i]) / std::max(r2, 1e-300);
-    }
+  // |grad r| / r is the same for r and 1/r.
+  for (std::size_t i = 0; i < found.gradients.size(); ++i) {
+    const double r2 = model.radii[i] * model.radii[i];
+    model.tangents2.push_back(dot(found.gradients[i], found.gradients[i]) / std::max(r2, 1e-300));
   }
-  if (of.is_gauge) {
-    CancelPoll poll;
-    for (double& q : model.radii) {
-      poll();
-      if (!(q > 0)) {
-        throw Error(ErrorCode::kInvalidInput,
-                    "the gauge of degree " + std::to_string(of.degree) +
-                        " is not positive everywhere: it has no surface; take another degree");
-      }
-      q = 1 / q;
+  if (!of.is_gauge) return model;
+  for (double& q : model.radii) {
+    if (!(q > 0)) {
+      throw Error(ErrorCode::kInvalidInput,
+                  "the gauge of degree " + std::to_string(of.degree) +
+                      " is not positive everywhere: it has no surface; take another degree");
     }
+    q = 1 / q;
   }
   return model;
 }
@@ -306,7 +323,6 @@ PointErrors point_errors(const ErrorPoints& points, const Expansion& expansion, 
 
 PointErrors point_errors(const ErrorPoints& points, const RadialModel& model, bool slopes,
                          const Context& context) {
-  const ModelSurface surface = model_surface(points, model, slopes, context);
   PointErrors errors;
   errors.radial.resize(points.size());
   if (slopes) {
@@ -314,19 +330,23 @@ PointErrors point_errors(const ErrorPoints& points, const RadialModel& model, bo
     errors.to_shape.resize(points.size());
     errors.stretch.resize(points.size());
   }
-  CancelPoll poll;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    poll();
-    const double radial = std::abs(points.radii[i] - surface.radii[i]);
-    errors.radial[i] = radial;
-    if (!slopes) continue;
-    const double cosine = 1 / std::sqrt(1 + surface.tangents2[i]);
-    const double face = points.cosines[i] > 0 ? points.cosines[i] : cosine;
-    errors.to_model[i] = radial * cosine;
-    errors.to_shape[i] = radial * face;
-    const double ratio = surface.radii[i] / points.radii[i];
-    errors.stretch[i] = ratio * ratio * face / cosine;
-  }
+  constexpr std::size_t kGrain = 8192;  // chosen: some 200 us
+  parallel_for(points.size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
+    const ModelSurface surface =
+        model_surface(std::span(points.directions).subspan(begin, end - begin), model, slopes);
+    for (std::size_t i = begin; i < end; ++i) {
+      const double r = surface.radii[i - begin];
+      const double radial = std::abs(points.radii[i] - r);
+      errors.radial[i] = radial;
+      if (!slopes) continue;
+      const double cosine = 1 / std::sqrt(1 + surface.tangents2[i - begin]);
+      const double face = points.cosines[i] > 0 ? points.cosines[i] : cosine;
+      errors.to_model[i] = radial * cosine;
+      errors.to_shape[i] = radial * face;
+      const double ratio = r / points.radii[i];
+      errors.stretch[i] = ratio * ratio * face / cosine;
+    }
+  });
   return errors;
 }
 

@@ -25,6 +25,7 @@ struct ErrorPoints {
 
   std::size_t size() const { return directions.size(); }
   void reserve(std::size_t n);
+  void resize(std::size_t n);
   void add(const Vec3& direction, double radius, double cosine, std::int64_t owner);
   ErrorPoints subset(const std::vector<std::size_t>& indices) const;
   ErrorPoints first(std::size_t n) const;

@@ -75,13 +75,20 @@ class Sieve {
     PolarSources near;
     function_.read(batch_, n_, false, near);
     const double to_value = 1 / function_.scale(), to_shape = 1 / scan_.sizes.scale;
+    double values[SourceBatch<T>::kSize], errors[SourceBatch<T>::kSize];
     for (std::size_t j = 0; j < n_; ++j) {
-      const Vec3 x = {batch_.x[0][j], batch_.x[1][j], batch_.x[2][j]};
-      const double r = norm(x), value = mean_ + to_value * batch_.value[j];
-      const double error = std::abs(to_shape * r - (gauge_ ? 1 / value : value));
+      const double x = batch_.x[0][j], y = batch_.x[1][j], z = batch_.x[2][j];
+      const double r = to_shape * std::sqrt(x * x + y * y + z * z);
+      values[j] = mean_ + to_value * batch_.value[j];
+      errors[j] = std::abs(r - (gauge_ ? 1 / values[j] : values[j]));
+    }
+    for (std::size_t j = 0; j < n_; ++j) {
+      const double value = values[j], error = errors[j];
       if (error < least_ && value > 0) continue;
+      const Vec3 x = {batch_.x[0][j], batch_.x[1][j], batch_.x[2][j]};
       const std::optional<double> cosine = cosine_at(x, owners_[j]);
       if (!cosine) continue;
+      const double r = norm(x);
       kept_.points.add(x / r, to_shape * r, *cosine, owners_[j]);
       // What has no surface there comes first, to be refused.
       kept_.rough.push_back(value > 0 || !gauge_ ? error : std::numeric_limits<double>::max());
