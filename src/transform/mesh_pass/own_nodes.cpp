@@ -39,15 +39,17 @@ Extent extent(const std::array<Vec3, 3>& p, double distance, int degree) {
   return most;
 }
 
-int longest_edge(const std::array<Vec3, 3>& p) {
-  const std::array<double, 3> e = {norm(p[1] - p[0]), norm(p[2] - p[1]), norm(p[0] - p[2])};
-  return static_cast<int>(std::max_element(e.begin(), e.end()) - e.begin());
+// Squares of the lengths of the edges, edge i from corner i on.
+std::array<double, 3> edge_squares(const std::array<Vec3, 3>& p) {
+  const Vec3 a = p[1] - p[0], b = p[2] - p[1], c = p[0] - p[2];
+  return {dot(a, a), dot(b, b), dot(c, c)};
 }
 
 // Calls visit on both halves of a triangle, cut through its longest edge.
 template <typename Visit>
 void halve(const std::array<Vec3, 3>& p, const Visit& visit) {
-  const int k = longest_edge(p);
+  const std::array<double, 3> e = edge_squares(p);
+  const auto k = static_cast<std::size_t>(std::max_element(e.begin(), e.end()) - e.begin());
   const Vec3 &from = p[k], &to = p[(k + 1) % 3], &opposite = p[(k + 2) % 3];
   const Vec3 middle = 0.5 * (from + to);
   visit(std::array<Vec3, 3>{from, middle, opposite});
@@ -64,21 +66,20 @@ double distance_of(const Vec3& a, const Vec3& b) {
 
 double distance_of(const std::array<Vec3, 3>& p) {
   const double nearest = std::sqrt(std::min({dot(p[0], p[0]), dot(p[1], p[1]), dot(p[2], p[2])}));
-  const Vec3 a = p[1] - p[0], b = p[2] - p[1], c = p[0] - p[2];
   // No point is farther from its nearest corner than 1/sqrt(3) of the longest edge.
-  const double reach = 0.58 * std::sqrt(std::max({dot(a, a), dot(b, b), dot(c, c)}));
+  const double reach = 0.58 * std::sqrt(std::ranges::max(edge_squares(p)));
   return reach < 0.1 * nearest ? nearest - reach : triangle_distance(p);
 }
 
-// Of the triangle and its edges; d2: normal times a corner, twice the area.
-Crowd crowd_of(const std::array<Vec3, 3>& p, double d2, int degree) {
-  const std::array<Vec3, 3> u = {normalized(p[0]), normalized(p[1]), normalized(p[2])};
-  double chord2 = 0;
+// Of the triangle, at this distance, and its edges; d2: normal times a corner, twice the area.
+Crowd crowd_of(const std::array<Vec3, 3>& p, double d2, double distance, int degree) {
+  const std::array<double, 3> r = {norm(p[0]), norm(p[1]), norm(p[2])}, e2 = edge_squares(p);
+  double chord2 = 0;  // between directions: of an edge (e^2 - (r_i - r_j)^2) / (r_i r_j)
   for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3 e = u[(i + 1) % 3] - u[i];
-    chord2 = std::max(chord2, dot(e, e));
+    const std::size_t j = i == 2 ? 0 : i + 1;
+    chord2 = std::max(chord2, (e2[i] - (r[i] - r[j]) * (r[i] - r[j])) / (r[i] * r[j]));
   }
-  const double length = degree * std::sqrt(chord2), distance = distance_of(p);
+  const double length = degree * std::sqrt(chord2);
   // A triangle's height is twice its area over its length.
   const double twice_area =
       static_cast<double>(degree) * degree * std::abs(d2) / (distance * distance * distance);
@@ -86,14 +87,13 @@ Crowd crowd_of(const std::array<Vec3, 3>& p, double d2, int degree) {
           .needle = length > 2 * std::numbers::pi};
 }
 
-bool is_long(const std::array<Vec3, 3>& p, double distance) {
-  const int k = longest_edge(p);
-  return !(norm(p[(k + 1) % 3] - p[k]) <= kLongest * distance);
+bool is_long(double length2, double distance) {
+  return !(length2 <= kLongest * kLongest * distance * distance);
 }
 
 // Pieces leave errors of their own, which add up in squares: of `share` of an element.
 NodeAllowance part_of(NodeAllowance allowance, double share) {
-  allowance.allowed *= std::sqrt(share);
+  if (share < 1) allowance.allowed *= std::sqrt(share);
   return allowance;
 }
 
@@ -108,7 +108,7 @@ double visit_radius(const std::array<Vec3, 3>& p, double factor, const NodeAllow
   if (depth == 0 && distance == 0) throw_on_surface();
   if (factor == 0) return 0;
   FaceRule rule;
-  if (!is_long(p, distance)) {
+  if (!is_long(std::ranges::max(edge_squares(p)), distance)) {
     // 1/|x|^2 counts for two degrees more.
     Extent z = extent(p, distance, allowance.degree);
     z.wave2 = std::pow(std::sqrt(z.wave2) + 2 * std::sqrt(z.bend2), 2);
@@ -153,7 +153,8 @@ void NodeWriter::add_triangle(const std::array<Vec3, 3>& corners,
       p.begin(), p.end(), [](const Vec3& a, const Vec3& b) { return dot(a, a) < dot(b, b); });
   const double d2 = dot(n, nearest);
   const bool grazing = std::abs(d2) < grazing_ * norm(n) * norm(nearest);
-  const Crowd crowd = crowd_of(p, d2, options_.divided.degree);
+  const double distance = distance_of(p);
+  const Crowd crowd = crowd_of(p, d2, distance, options_.divided.degree);
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;
     const double weight = grazing ? 0 : dot(n, cross(p[i], p[j])) / d2;
@@ -164,7 +165,7 @@ void NodeWriter::add_triangle(const std::array<Vec3, 3>& corners,
     error2_ += visit_radius(p, d2 / 2, options_.undivided, 0, 0,
                             [&](const Vec3& x, double weight) { sink_.add_undivided(x, weight); });
   } else {
-    write_face(p, -dot(n, n) / d2, crowd, 0);
+    write_face(p, -dot(n, n) / d2, crowd, distance, 0);
   }
 }
 
@@ -199,15 +200,16 @@ void NodeWriter::write_edge(std::uint32_t low, std::uint32_t high, const HalfEdg
 void NodeWriter::write_piece(const HalfEdge& edge, const Vec3& across, const Vec3& a, const Vec3& b,
                              double share) {
   const double distance = distance_of(a, b);
-  const double length = norm(b - a);
+  const Vec3 e = b - a;
   EdgeRule rule;
-  if (length <= kLongest * distance) {
+  if (!is_long(dot(e, e), distance)) {
     // A gradient is up to L / |x| times the harmonic, and bends more (6 times;
     // adversarial_test judges).
     const double slope = 2 * norm(across) * options_.divided.degree / distance;
     Extent z = extent(a, b, distance, options_.divided.degree);
     z.crowd = edge.crowd;
-    rule = edge_rule(part_of(options_.divided, share), z, share * (std::abs(edge.weight) + slope));
+    rule = edge_rule(part_of(options_.divided, share), z, share * (std::abs(edge.weight) + slope),
+                     likely_edge_rule_);
   }
   if (rule.nodes.empty()) {
     if (!(share > std::exp2(-kMaxDepth))) throw_on_surface();
@@ -218,7 +220,7 @@ void NodeWriter::write_piece(const HalfEdge& edge, const Vec3& across, const Vec
   }
   error2_ += rule.error * rule.error;
   for (std::size_t k = 0; k < rule.nodes.size(); ++k) {
-    const Vec3 x = a + rule.nodes[k] * (b - a);
+    const Vec3 x = a + rule.nodes[k] * e;
     const double weight = share * rule.weights[k];
     if (edge.weight != 0) nodes_.add(x, weight * edge.weight);
     if (edge.gradient != 0) sink_.add_gradient({x, weight * across});
@@ -226,18 +228,19 @@ void NodeWriter::write_piece(const HalfEdge& edge, const Vec3& across, const Vec
 }
 
 void NodeWriter::write_face(const std::array<Vec3, 3>& p, double weight, const Crowd& crowd,
-                            int depth) {
-  const double distance = distance_of(p);
+                            double distance, int depth) {
   FaceRule rule;
-  if (!is_long(p, distance)) {
+  if (!is_long(std::ranges::max(edge_squares(p)), distance)) {
     Extent z = extent(p, distance, options_.divided.degree);
     z.crowd = crowd;
-    rule = face_rule(part_of(options_.divided, std::exp2(-depth)), z, weight);
+    rule =
+        face_rule(part_of(options_.divided, std::ldexp(1, -depth)), z, weight, likely_face_rule_);
   }
   if (rule.nodes.empty()) {
     if (depth == kMaxDepth) throw_on_surface();
-    halve(p,
-          [&](const std::array<Vec3, 3>& half) { write_face(half, weight / 2, crowd, depth + 1); });
+    halve(p, [&](const std::array<Vec3, 3>& half) {
+      write_face(half, weight / 2, crowd, distance_of(half), depth + 1);
+    });
     return;
   }
   error2_ += rule.error * rule.error;

@@ -40,7 +40,8 @@ class NodeWriter {
   // The piece from a to b, `share` of the whole; `across`: the gradient's factor.
   void write_piece(const HalfEdge& edge, const Vec3& across, const Vec3& a, const Vec3& b,
                    double share);
-  void write_face(const std::array<Vec3, 3>& p, double weight, const Crowd& crowd, int depth);
+  void write_face(const std::array<Vec3, 3>& p, double weight, const Crowd& crowd, double distance,
+                  int depth);
 
   NodeOptions options_;
   ScaledVertices vertices_;
@@ -48,6 +49,7 @@ class NodeWriter {
   NodeSink& sink_;
   NodeBuffer nodes_;
   double error2_ = 0;
+  int likely_edge_rule_ = 0, likely_face_rule_ = 0;
   TwinCache<HalfEdge> waiting_;
 };
 

@@ -1,5 +1,7 @@
 #include "transform/mesh_pass/part_worker.h"
 
+#include <hwy/cache_control.h>
+
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -191,6 +193,11 @@ void PartWorker<T>::spread(const WorkedPart<T>& worked, GridSources<T>& grid) co
               [&](std::size_t first, std::size_t n, const VertexLump<Lump>* lumps) {
                 if (first % (256 * kVerticesPerBlock) == 0) ask_cancel();
                 for (std::size_t i = 0; i < n; ++i) names[i] = mesh.name(first + i);
+                // Those of the next block may lie far apart.
+                for (std::size_t i = first + n; i < std::min(first + 2 * n, mesh.names.size());
+                     ++i) {
+                  hwy::Prefetch(mesh_.vertices + mesh.names[i] * mesh_.vertex_stride);
+                }
                 grid.add_vertices(mesh_, names, n, plan_.block, lumps);
               });
   if (options_.release_vertices && mesh.names.empty()) {

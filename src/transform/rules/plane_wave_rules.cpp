@@ -230,28 +230,62 @@ double in_row(const Extent& z, int p) {
 
 }  // namespace
 
-EdgeRule edge_rule(const NodeAllowance& allowance, const Extent& z, double weight) {
+namespace {
+
+// The smallest of n rules that leaves no more than is allowed, what it leaves given by left(k):
+// less with every rule, but for one that may be worse than the one before it. Number n: none does.
+template <typename Left>
+int smallest_rule(int n, double allowed, int likely, double& error, const Left& left) {
+  int k = likely;
+  for (error = left(k); !(error <= allowed); error = left(k)) {
+    if (++k == n) return n;
+  }
+  if (k > likely) return k;
+  int failed = 0;
+  for (int i = k - 1; i >= 0 && failed < 2; --i) {
+    const double less = left(i);
+    if (less <= allowed) {
+      k = i;
+      error = less;
+      failed = 0;
+    } else {
+      ++failed;
+    }
+  }
+  return k;
+}
+
+}  // namespace
+
+EdgeRule edge_rule(const NodeAllowance& allowance, const Extent& z, double weight, int& likely) {
   const auto& rules = segment_rules();
   const std::vector<double>& factors = factors_for(allowance).edge;
   const double error = std::abs(weight) * crowding(allowance, z);
-  for (std::size_t k = 0; k < rules.size(); ++k) {
-    const int p = 2 * static_cast<int>(k + 1);
-    const double left = error * factors[k] * extent_power(z, p) * in_row(z, p);
-    if (left <= allowance.allowed) return {rules[k].nodes, rules[k].weights, left};
-  }
-  return {};
+  EdgeRule rule;
+  const int k = smallest_rule(kMaxEdgeNodes, allowance.allowed, likely, rule.error, [&](int i) {
+    const int p = 2 * (i + 1);
+    return error * factors[i] * extent_power(z, p) * in_row(z, p);
+  });
+  if (k == kMaxEdgeNodes) return {};
+  likely = k;
+  rule.nodes = rules[k].nodes;
+  rule.weights = rules[k].weights;
+  return rule;
 }
 
-FaceRule face_rule(const NodeAllowance& allowance, const Extent& z, double weight) {
+FaceRule face_rule(const NodeAllowance& allowance, const Extent& z, double weight, int& likely) {
   const auto& rules = triangle_rules();
+  const int n = static_cast<int>(rules.size());
   const std::vector<double>& factors = factors_for(allowance).face;
   const double error = std::abs(weight) * crowding(allowance, z);
-  for (std::size_t k = 0; k < rules.size(); ++k) {
-    const double left =
-        error * factors[k] * extent_power(z, rules[k].power) * in_row(z, rules[k].power);
-    if (left <= allowance.allowed) return {rules[k].nodes, left};
-  }
-  return {};
+  FaceRule rule;
+  const int k = smallest_rule(n, allowance.allowed, likely, rule.error, [&](int i) {
+    return error * factors[i] * extent_power(z, rules[i].power) * in_row(z, rules[i].power);
+  });
+  if (k == n) return {};
+  likely = k;
+  rule.nodes = rules[k].nodes;
+  return rule;
 }
 
 }  // namespace rholm

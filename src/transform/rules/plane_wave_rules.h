@@ -53,8 +53,17 @@ struct Extent {
 };
 
 // The smallest rule for an element of extent z and total weight `weight`; without nodes if it is
-// better cut in halves.
-EdgeRule edge_rule(const NodeAllowance& allowance, const Extent& z, double weight);
-FaceRule face_rule(const NodeAllowance& allowance, const Extent& z, double weight);
+// better cut in halves. Looked for from the number `likely` on, which becomes that of the rule:
+// neighbours have the same, or nearly.
+EdgeRule edge_rule(const NodeAllowance& allowance, const Extent& z, double weight, int& likely);
+FaceRule face_rule(const NodeAllowance& allowance, const Extent& z, double weight, int& likely);
+inline EdgeRule edge_rule(const NodeAllowance& allowance, const Extent& z, double weight) {
+  int first = 0;
+  return edge_rule(allowance, z, weight, first);
+}
+inline FaceRule face_rule(const NodeAllowance& allowance, const Extent& z, double weight) {
+  int first = 0;
+  return face_rule(allowance, z, weight, first);
+}
 
 }  // namespace rholm
