@@ -240,7 +240,7 @@ void faces() {
   const auto [fixed, node] = hessians.solved();
   row("second derivatives, per face", hessians_cost(), fixed);
   row("node in common", common_node_cost(), node);
-  row("ten nodes of its own", own_nodes_cost(), 10 * own / with_own);
+  row("node of its own", own_node_cost(), own / with_own);
 }
 
 void error_points() {

@@ -69,9 +69,9 @@ double direct_cost(std::size_t sources, int degree, int derivatives) {
   return static_cast<double>(sources) * l * (l + 1) / 2 * kDirectTerm * sums;
 }
 
-double own_nodes_cost() { return 600; }
-double common_node_cost() { return 50; }
-double hessians_cost() { return 25; }
+double own_node_cost() { return 40; }
+double common_node_cost() { return 35; }
+double hessians_cost() { return 36; }
 
 double error_point_cost() { return 60; }
 double error_grid_cost(int degree) { return 45.0 * degree * degree; }

@@ -29,10 +29,9 @@ double grid_cost(const SphereFourier& fourier, bool single, std::size_t grids);
 // Sums term by term.
 double direct_cost(std::size_t sources, int degree, int derivatives);
 
-// What a face of a surface has more than sources at its corners (transform/mesh_pass): some ten
-// nodes of its own, found and spread; one node in common with others; second derivatives at the
-// corners.
-double own_nodes_cost();
+// What a face of a surface has more than sources at its corners (transform/mesh_pass): a node of
+// its own, found and spread; one in common with others; second derivatives at the corners.
+double own_node_cost();
 double common_node_cost();
 double hessians_cost();
 

@@ -23,7 +23,8 @@ void NodesBetween::add(const MeshView& mesh, std::size_t first, std::size_t n,
     for (int i = 0; i < 3; ++i) {
       p[i] = {block.corner[i][0][t], block.corner[i][1][t], block.corner[i][2][t]};
     }
-    write_face(p, block.center_node[t], block.orbit_node[t]);
+    write_face(p, kHermiteFaces[block.face_rule[t]], block.center_node[t],
+               {block.orbit_node[0][t], block.orbit_node[1][t]});
   }
 }
 
@@ -45,13 +46,19 @@ void NodesBetween::write_edge(std::uint32_t low, std::uint32_t high, const HalfE
   nodes_.add(sum + b, edge.weight);
 }
 
-void NodesBetween::write_face(const std::array<Vec3, 3>& p, double center, double orbit) {
-  const Vec3 sum = p[0] + p[1] + p[2];
-  nodes_.add(sum, center);
-  if (orbit == 0) return;
-  // (5 p_i + 5 p_j + p_k) / 11, 11/5 times as far.
-  constexpr double kLess = (3 * kHermiteOrbit - 1) / kHermiteOrbit;
-  for (const Vec3& corner : p) nodes_.add(sum - kLess * corner, orbit);
+void NodesBetween::write_face(const std::array<Vec3, 3>& p, const HermiteFace& rule, double center,
+                              const std::array<double, 2>& orbits) {
+  if (rule.center != 0) nodes_.add(p[0] + p[1] + p[2], center);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto& [weight, a, b] = rule.orbits[k];
+    if (weight == 0) continue;
+    const double c = 1 - a - b;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 &first = p[i], &second = p[i == 2 ? 0 : i + 1], &third = p[i == 0 ? 2 : i - 1];
+      nodes_.add(a * first + b * second + c * third, orbits[k]);
+      if (a != b) nodes_.add(b * first + a * second + c * third, orbits[k]);
+    }
+  }
 }
 
 void NodesBetween::flush() {

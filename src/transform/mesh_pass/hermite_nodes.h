@@ -8,6 +8,7 @@
 #include "transform/mesh_pass/block/block.h"
 #include "transform/mesh_pass/node_sink.h"
 #include "transform/mesh_pass/twin_cache.h"
+#include "transform/rules/hermite_rules.h"
 
 namespace rholm {
 
@@ -30,7 +31,9 @@ class NodesBetween {
   };
   void add_edge(std::uint32_t i, std::uint32_t j, const HalfEdge& edge);
   void write_edge(std::uint32_t low, std::uint32_t high, const HalfEdge& edge);
-  void write_face(const std::array<Vec3, 3>& p, double center, double orbit);
+  // With the weights of its centre and of the nodes of each orbit.
+  void write_face(const std::array<Vec3, 3>& p, const HermiteFace& rule, double center,
+                  const std::array<double, 2>& orbits);
 
   ScaledVertices vertices_;
   NodeBuffer nodes_;

@@ -9,24 +9,27 @@ namespace rholm {
 namespace {
 
 // Beyond z^2 of this, the derivatives of a rule weigh as much as its values.
-constexpr HermiteReach kFarthest = {30, 120};
+constexpr double kFarthestBare = 30, kFarthest = 120;
 
-template <typename Rules, typename Units>
-HermiteReach reach_of(const Rules& rules, const Units& units, double allowed) {
-  HermiteReach reach;
+template <typename Rule, std::size_t kRules>
+auto reach_of(const std::array<Rule, kRules>& rules, const std::array<double, kRules>& units,
+              double allowed) {
+  std::array<double, kRules - 1> reach;
+  double before = 0;
   for (std::size_t k = 0; k < reach.size(); ++k) {
-    reach[k] = std::min(kFarthest[k], std::pow(allowed / units[k], 2.0 / rules[k].power));
+    const double farthest = k == 0 ? kFarthestBare : kFarthest;
+    before = reach[k] =
+        std::max(before, std::min(farthest, std::pow(allowed / units[k], 2.0 / rules[k].power)));
   }
-  reach[1] = std::max(reach[0], reach[1]);
   return reach;
 }
 
 }  // namespace
 
-HermiteReach hermite_edge_reach(double allowed) {
+HermiteEdgeReach hermite_edge_reach(double allowed) {
   return reach_of(kHermiteEdges, kHermiteEdgeUnits, allowed);
 }
-HermiteReach hermite_face_reach(double allowed) {
+HermiteFaceReach hermite_face_reach(double allowed) {
   return reach_of(kHermiteFaces, kHermiteFaceUnits, allowed);
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
@@ -95,9 +96,12 @@ TEST(hermite_rules, on_faces_leave_no_more_than_their_constants_say) {
           const Complex f = std::polar(1.0, phase(o[0], o[1]));
           mean += f * (rule.value + rule.gradient * (a + b) + rule.square * (a * a + b * b) +
                        rule.product * 2.0 * a * b);
-          std::array<double, 3> at_orbit = {5.0 / 11, 5.0 / 11, 5.0 / 11};
-          at_orbit[i] = 1.0 / 11;
-          mean += rule.orbit * at(at_orbit[0], at_orbit[1], at_orbit[2]);
+          for (const HermiteOrbit& orbit : rule.orbits) {
+            std::array<double, 3> node = {orbit.at, orbit.other, 1 - orbit.at - orbit.other};
+            std::rotate(node.begin(), node.begin() + i, node.end());
+            mean += orbit.weight * at(node[0], node[1], node[2]);
+            if (orbit.nodes() == 6) mean += orbit.weight * at(node[1], node[0], node[2]);
+          }
         }
         square += std::norm(mean - exact) / kWaves;
       }

@@ -38,13 +38,14 @@ struct BlockParameters {
   double grazing2 = 0;     // square of the slope d_T / r below which a triangle is grazing
   double tolerance2 = 0;   // the largest square of a triangle's error (in weight) that is lumped
   double mean_reach2 = 0;  // the largest (edge / radius)^2 for which lumps serve for c_00,
-  double mean_nodes_reach2 = 0;                     // and six nodes
-  double per_weight = 0;                            // quanta per unit of weight,
-  double per_gradient = 0;                          // and of gradient
-  double largest = 0;                               // of a weight, in quanta
-  bool hessians = false;                            // VGH, else VG; if so:
-  double per_hessian = 0;                           // quanta per unit,
-  HermiteReach edge_reach2 = {}, face_reach2 = {};  // and how far the rules reach
+  double mean_nodes_reach2 = 0;       // and six nodes
+  double per_weight = 0;              // quanta per unit of weight,
+  double per_gradient = 0;            // and of gradient
+  double largest = 0;                 // of a weight, in quanta
+  bool hessians = false;              // VGH, else VG; if so:
+  double per_hessian = 0;             // quanta per unit,
+  HermiteEdgeReach edge_reach2 = {};  // and how far the rules reach
+  HermiteFaceReach face_reach2 = {};
   // Half-edges with a name below this are kept: one in 2^32 / sampled_names of all edges, both
   // sides.
   std::uint32_t sampled_names = 0;
@@ -88,11 +89,11 @@ struct TriangleBlock {
   alignas(64) std::uint8_t sampled[3][kSize / 8];  // bits: half-edges of the sample
   alignas(64) VertexLump<T> lump[3][kSize];        // see lump_slot()
   // With Hessians: the further lumps of the corners, and the nodes between them. Of edges the rule
-  // and the weight of each node, of faces the rule and the weights at the centre and of the orbit.
+  // and the weight of each node, of faces the rule and the weights at the centre and of the orbits.
   alignas(64) VertexLump<T> hessian[2][3][kSize];
   alignas(64) double edge_node[3][kSize];
   alignas(64) double center_node[kSize];
-  alignas(64) double orbit_node[kSize];
+  alignas(64) double orbit_node[2][kSize];
   alignas(64) std::uint8_t edge_rule[3][kSize];
   alignas(64) std::uint8_t face_rule[kSize];
   bool has_nodes_between = false;

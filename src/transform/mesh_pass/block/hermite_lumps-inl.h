@@ -172,20 +172,30 @@ HWY_INLINE Weights lump_gradients(D d, size_t at, const BlockParameters& paramet
   return {error(w.e01, z2.e01), error(w.e12, z2.e12), error(w.e20, z2.e20), error(w.face, z)};
 }
 
-// Which of three numbers in each lane.
+// Which of several numbers in each lane.
+template <size_t kChoices>
 struct Choice {
-  M second, third;
-  HWY_INLINE V of(D d, double a, double b, double c) const {
-    return hn::IfThenElse(third, hn::Set(d, c),
-                          hn::IfThenElse(second, hn::Set(d, b), hn::Set(d, a)));
+  M beyond[kChoices - 1];
+  HWY_INLINE V of(const V (&numbers)[kChoices]) const {
+    V chosen = numbers[0];
+    for (size_t k = 1; k < kChoices; ++k) {
+      chosen = hn::IfThenElse(beyond[k - 1], numbers[k], chosen);
+    }
+    return chosen;
   }
-  template <typename Rule>
-  HWY_INLINE V of(D d, const std::array<Rule, kHermiteRules>& rules, double Rule::*number) const {
-    return of(d, rules[0].*number, rules[1].*number, rules[2].*number);
+  // number(k) for the lanes of rule k.
+  template <typename Number>
+  HWY_INLINE V rule(D d, const Number& number) const {
+    V numbers[kChoices];
+    for (size_t k = 0; k < kChoices; ++k) numbers[k] = hn::Set(d, static_cast<double>(number(k)));
+    return of(numbers);
   }
 };
-HWY_INLINE Choice choose(D d, V z2, const HermiteReach& reach2) {
-  return {hn::Gt(z2, hn::Set(d, reach2[0])), hn::Gt(z2, hn::Set(d, reach2[1]))};
+template <size_t kLimits>
+HWY_INLINE Choice<kLimits + 1> choose(D d, V z2, const std::array<double, kLimits>& reach2) {
+  Choice<kLimits + 1> choice;
+  for (size_t k = 0; k < kLimits; ++k) choice.beyond[k] = hn::Gt(z2, hn::Set(d, reach2[k]));
+  return choice;
 }
 HWY_INLINE void store_bytes(D, V v, std::uint8_t* to) {
   const hn::Rebind<int32_t, D> di;
@@ -211,20 +221,19 @@ template <typename T>
 HWY_INLINE HermiteTerms edge_terms(D d, size_t at, const BlockParameters& p, int i, V w, V z2,
                                    TriangleBlock<T>& b, V& nodes) {
   const auto& rules = kHermiteEdges;
-  const Choice rule = choose(d, z2, p.edge_reach2);
+  const auto rule = choose(d, z2, p.edge_reach2);
   const V z6 = hn::Mul(z2, hn::Mul(z2, z2));
-  const auto& units = kHermiteEdgeUnits;
-  const V more =
-      hn::IfThenElse(rule.third, hn::Mul(z2, z2), hn::IfThenElse(rule.second, z2, hn::Set(d, 1.0)));
+  const V more = rule.of({hn::Set(d, 1.0), z2, hn::Mul(z2, z2)});
   HermiteTerms t;
-  t.error = hn::Mul(w, hn::Mul(rule.of(d, units[0], units[1], units[2]), hn::Mul(z6, more)));
-  t.value = hn::Mul(w, rule.of(d, rules, &HermiteEdge::value));
-  t.gradient = hn::Mul(w, rule.of(d, rules, &HermiteEdge::gradient));
-  t.hessian = hn::Mul(w, rule.of(d, rules, &HermiteEdge::hessian));
-  if (hn::AllFalse(d, rule.second)) return t;
-  const V node = hn::Round(
-      hn::Mul(hn::Mul(w, hn::Set(d, p.per_weight)), rule.of(d, rules, &HermiteEdge::node)));
-  const V count = rule.of(d, 0, 1, 2);
+  const V unit = rule.rule(d, [](size_t k) { return kHermiteEdgeUnits[k]; });
+  t.error = hn::Mul(w, hn::Mul(unit, hn::Mul(z6, more)));
+  t.value = hn::Mul(w, rule.rule(d, [&](size_t k) { return rules[k].value; }));
+  t.gradient = hn::Mul(w, rule.rule(d, [&](size_t k) { return rules[k].gradient; }));
+  t.hessian = hn::Mul(w, rule.rule(d, [&](size_t k) { return rules[k].hessian; }));
+  if (hn::AllFalse(d, rule.beyond[0])) return t;
+  const V node = hn::Round(hn::Mul(hn::Mul(w, hn::Set(d, p.per_weight)),
+                                   rule.rule(d, [&](size_t k) { return rules[k].node; })));
+  const V count = rule.rule(d, [&](size_t k) { return rules[k].nodes; });
   nodes = hn::MulAdd(node, count, nodes);
   hn::Store(hn::Mul(node, hn::Set(d, 1 / p.per_weight)), d, b.edge_node[i] + at);
   store_bytes(d, count, b.edge_rule[i] + at);
@@ -243,25 +252,32 @@ HWY_INLINE Weights lump_hessians(D d, size_t at, const BlockParameters& p, const
   const HermiteTerms t20 = edge_terms(d, at, p, 2, w.e20, z2.e20, b, nodes);
   const auto& faces = kHermiteFaces;
   const V z = hn::Max(z2.e01, hn::Max(z2.e12, z2.e20)), root = hn::Sqrt(z);
-  const Choice rule = choose(d, z, p.face_reach2);
-  const auto& units = kHermiteFaceUnits;
-  // z^5, z^6, z^7.
-  const V more = hn::IfThenElse(rule.third, hn::Mul(root, z), hn::IfThenElse(rule.second, z, root));
-  const V face_error = hn::Mul(hn::Mul(w.face, rule.of(d, units[0], units[1], units[2])),
-                               hn::Mul(hn::Mul(z, z), more));
+  const auto rule = choose(d, z, p.face_reach2);
+  // z^5 ... z^9.
+  const V z4 = hn::Mul(z, z), z5 = hn::Mul(z4, root);
+  const V powers = rule.of({z5, hn::Mul(z4, z), hn::Mul(z5, z), hn::Mul(z4, z4), hn::Mul(z5, z4)});
+  const V unit = rule.rule(d, [](size_t k) { return kHermiteFaceUnits[k]; });
+  const V face_error = hn::Mul(hn::Mul(w.face, unit), powers);
   const V scale = hn::Set(d, p.per_weight);
-  if (!hn::AllFalse(d, rule.second)) {
+  if (!hn::AllFalse(d, rule.beyond[0])) {
     const V scaled = hn::Mul(w.face, scale), unscale = hn::Set(d, 1 / p.per_weight);
-    const V center = hn::Round(hn::Mul(scaled, rule.of(d, faces, &HermiteFace::center)));
-    const V orbit = hn::Round(hn::Mul(scaled, rule.of(d, faces, &HermiteFace::orbit)));
-    nodes = hn::Add(nodes, hn::MulAdd(hn::Set(d, 3.0), orbit, center));
-    hn::Store(hn::Mul(center, unscale), d, b.center_node + at);
-    hn::Store(hn::Mul(orbit, unscale), d, b.orbit_node + at);
-    store_bytes(d, rule.of(d, 0, 1, 2), b.face_rule + at);
+    const auto store_nodes = [&](V part, V count, double* to) HWY_ATTR {
+      const V node = hn::Round(hn::Mul(scaled, part));
+      nodes = hn::MulAdd(count, node, nodes);
+      hn::Store(hn::Mul(node, unscale), d, to + at);
+    };
+    store_nodes(rule.rule(d, [&](size_t k) { return faces[k].center; }), hn::Set(d, 1.0),
+                b.center_node);
+    for (size_t i = 0; i < 2; ++i) {
+      store_nodes(rule.rule(d, [&](size_t k) { return faces[k].orbits[i].weight; }),
+                  rule.rule(d, [&](size_t k) { return faces[k].orbits[i].nodes(); }),
+                  b.orbit_node[i]);
+    }
+    store_bytes(d, rule.rule(d, [](size_t k) { return k; }), b.face_rule + at);
     b.has_nodes_between = true;
   }
-  const V value = hn::Mul(w.face, rule.of(d, faces, &HermiteFace::value));
-  const V slope = hn::Mul(w.face, rule.of(d, faces, &HermiteFace::gradient));
+  const V value = hn::Mul(w.face, rule.rule(d, [&](size_t k) { return faces[k].value; }));
+  const V slope = hn::Mul(w.face, rule.rule(d, [&](size_t k) { return faces[k].gradient; }));
   const V per_gradient = hn::Set(d, p.per_gradient);
   const auto gradient = [&](const HermiteTerms& t)
                             HWY_ATTR { return hn::Mul(per_gradient, hn::Add(t.gradient, slope)); };
@@ -275,9 +291,10 @@ HWY_INLINE Weights lump_hessians(D d, size_t at, const BlockParameters& p, const
                     nodes, at, b);
   // a b^T + b a^T = a a^T + b b^T - c c^T for c = a - b, the edge opposite.
   const V per_hessian = hn::Set(d, p.per_hessian);
-  const V product = hn::Mul(hn::Mul(per_hessian, w.face), rule.of(d, faces, &HermiteFace::product));
-  const V both =
-      hn::MulAdd(hn::Mul(per_hessian, w.face), rule.of(d, faces, &HermiteFace::square), product);
+  const V product = hn::Mul(hn::Mul(per_hessian, w.face),
+                            rule.rule(d, [&](size_t k) { return faces[k].product; }));
+  const V both = hn::MulAdd(hn::Mul(per_hessian, w.face),
+                            rule.rule(d, [&](size_t k) { return faces[k].square; }), product);
   const V h01 = hn::MulAdd(per_hessian, t01.hessian, both);
   const V h12 = hn::MulAdd(per_hessian, t12.hessian, both);
   const V h20 = hn::MulAdd(per_hessian, t20.hessian, both);

@@ -99,8 +99,8 @@ struct EdgeHessian {
 // What each rule leaves of a triangle's half-edges, and of its face, whose z^2 is the largest of
 // theirs.
 struct RuleErrors {
-  std::array<std::array<double, kHermiteRules>, 3> edges;
-  std::array<double, kHermiteRules> face;
+  std::array<std::array<double, kHermiteEdgeRules>, 3> edges;
+  std::array<double, kHermiteFaceRules> face;
   double z2;
 };
 std::vector<RuleErrors> rule_errors(const MeshSample& sample) {
@@ -109,11 +109,13 @@ std::vector<RuleErrors> rule_errors(const MeshSample& sample) {
   for (const MeshSample::Triangle& t : sample.triangles) {
     RuleErrors errors = {
         .edges = {}, .face = {}, .z2 = *std::max_element(t.z2.begin(), t.z2.end())};
-    for (std::size_t k = 0; k < kHermiteRules; ++k) {
-      for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t k = 0; k < kHermiteEdgeRules; ++k) {
         errors.edges[i][k] =
             t.weight[i] * kHermiteEdgeUnits[k] * power(t.z2[i], kHermiteEdges[k].power);
       }
+    }
+    for (std::size_t k = 0; k < kHermiteFaceRules; ++k) {
       errors.face[k] = t.face * kHermiteFaceUnits[k] * power(errors.z2, kHermiteFaces[k].power);
     }
     all.push_back(errors);
@@ -151,7 +153,7 @@ Seen with_hessians(const MeshSample& sample, const std::vector<RuleErrors>& rule
       nodes += kHermiteEdges[k].nodes / 2.0;
     }
     const std::size_t k = hermite_rule(lumps.face_reach2, rules[n].z2);
-    nodes += (kHermiteFaces[k].center != 0) + 3 * (kHermiteFaces[k].orbit != 0);
+    nodes += kHermiteFaces[k].nodes();
     const double face2 = rules[n].face[k] * rules[n].face[k];
     errors.push_back(error);
     errors2.push_back(edges2 + face2);
@@ -254,7 +256,25 @@ double own_nodes_of(const MeshSample& sample, const NodeAllowance& element) {
   return 1.5 * edges / std::max(n_edges, 1.0) + faces / std::max(n_faces, 1.0);
 }
 
-std::optional<HermiteLumps> hermite_lumps(const MeshSample& sample, double allowed2) {
+double crowding_of(const MeshSample& sample) {
+  double sum = 0, weights = 0;
+  for (const MeshSample::Triangle& t : sample.triangles) {
+    const auto [a, b, c] = t.z2;
+    const double longest = std::max({a, b, c});
+    const double weight = std::pow(t.face * std::pow(longest, 4), 2);  // as z^8
+    if (!std::isfinite(weight) || weight == 0) continue;
+    // 16 times the square of the area (Heron); the height is twice the area by the length.
+    const double area2 = std::max(0.0, 2 * (a * b + b * c + c * a) - (a * a + b * b + c * c));
+    const double along = neighbours_in_step(longest);
+    const double across = neighbours_in_step(area2 / (4 * longest));
+    sum += weight * along * std::max(along, across);
+    weights += weight;
+  }
+  return weights > 0 ? std::sqrt(sum / weights) : 1;
+}
+
+std::optional<HermiteLumps> hermite_lumps(const MeshSample& sample, double allowed2,
+                                          double own_nodes) {
   const MeanWeights mean = mean_weights(sample);
   if (!(mean.edge > 0) || !(mean.face > 0) || !(allowed2 > 0)) return {};
   // The error of an edge and of a face if all were alike: one and a half edges a triangle.
@@ -272,8 +292,8 @@ std::optional<HermiteLumps> hermite_lumps(const MeshSample& sample, double allow
     lumps.tolerance2 = tolerance_of(seen.sample, allowed2);
     lumps.hessian2 = hessians2(seen, lumps.tolerance2);
     lumps.node_share = noded_share(seen.sample, lumps.tolerance2);
-    lumps.cost =
-        hessians_cost() + common_node_cost() * lumps.between + own_nodes_cost() * lumps.node_share;
+    lumps.cost = hessians_cost() + common_node_cost() * lumps.between +
+                 own_node_cost() * own_nodes * lumps.node_share;
     return lumps;
   };
   HermiteLumps best;

@@ -23,16 +23,23 @@ double noded_share(const MeshSample& sample, double tolerance2);
 // How many nodes of its own a triangle gets in the mean, if edges and faces may leave this.
 double own_nodes_of(const MeshSample& sample, const NodeAllowance& element);
 
+// By how much more errors count for neighbours, as those of the largest count: of narrow triangles
+// as many lie in a wave across them as of short ones (see Crowd in plane_wave_rules.h).
+double crowding_of(const MeshSample& sample);
+
 // Rules with Hessians.
 struct HermiteLumps {
-  HermiteReach edge_reach2, face_reach2;
+  HermiteEdgeReach edge_reach2;
+  HermiteFaceReach face_reach2;
   double tolerance2 = 0;
   double node_share = 0;  // triangles that get nodes all the same
   double between = 0;     // nodes between the vertices of the others, per triangle
   double hessian2 = 0;    // sum of squares of L^2 times the Hessians' factors
   double cost = 0;        // per triangle, nanoseconds
 };
-// The cheapest that keep the sum of squares allowed.
-std::optional<HermiteLumps> hermite_lumps(const MeshSample& sample, double allowed2);
+// The cheapest that keep the sum of squares allowed, where a triangle that gets nodes of its own
+// has so many.
+std::optional<HermiteLumps> hermite_lumps(const MeshSample& sample, double allowed2,
+                                          double own_nodes);
 
 }  // namespace rholm

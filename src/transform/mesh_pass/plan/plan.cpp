@@ -118,10 +118,13 @@ LumpChoice choose_lumps(const MeshSample& sample, const AllowedErrors& allowed, 
   return choice;
 }
 
-std::optional<HermiteLumps> choose_hessians(const MeshSample& sample, const LumpChoice& lumps) {
+std::optional<HermiteLumps> choose_hessians(const MeshSample& sample, const LumpChoice& lumps,
+                                            double own_nodes) {
   if (lumps.node_share == 0) return std::nullopt;
-  std::optional<HermiteLumps> hermite = hermite_lumps(sample, lumps.allowed2);
-  if (hermite && !(hermite->cost < own_nodes_cost() * lumps.node_share)) hermite.reset();
+  const double crowded2 = std::pow(crowding_of(sample) / lumps.neighbours, 2);
+  std::optional<HermiteLumps> hermite =
+      hermite_lumps(sample, lumps.allowed2 / std::max(1.0, crowded2), own_nodes);
+  if (hermite && !(hermite->cost < own_node_cost() * own_nodes * lumps.node_share)) hermite.reset();
   return hermite;
 }
 
@@ -146,11 +149,21 @@ MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& c
   plan.allowed = divide_error(sample, precision, limits.tighten);
   LumpChoice lumps = choose_lumps(sample, plan.allowed, degree);
   if (limits.no_lumps) lumps.tolerance2 = 0, lumps.node_share = 1;
-  const std::optional<HermiteLumps> hermite =
-      limits.no_lumps ? std::nullopt : choose_hessians(sample, lumps);
   plan.neighbours = lumps.neighbours;
   plan.source2 = sample.source2;
-  plan.node_share = hermite ? hermite->node_share : lumps.node_share;
+  plan.node_share = lumps.node_share;
+  const auto own_nodes = [&] {
+    const double element = allowed_of_element(plan, sample, mesh.n_triangles);
+    plan.divided = {.degree = degree, .allowed = element, .divided = true};
+    plan.undivided = {.degree = degree, .allowed = element, .divided = false};
+    return plan.node_share > 0 ? own_nodes_of(sample, plan.divided) : 0;
+  };
+  const std::optional<HermiteLumps> hermite =
+      limits.no_lumps ? std::nullopt : choose_hessians(sample, lumps, own_nodes());
+  if (hermite) {
+    plan.node_share = hermite->node_share;
+    plan.neighbours = std::max(plan.neighbours, crowding_of(sample));
+  }
   if (limits.many_nodes) plan.node_share = 1;
   plan.single =
       !limits.forbid_single && single_suffices(sample, plan.allowed, degree, hermite.has_value());
@@ -168,11 +181,7 @@ MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& c
   }
   plan.aligned = sample.aligned;
   plan.node_modulus = std::min(1.0, plan.node_share + plan.between) * sample.modulus;
-  const double element = allowed_of_element(plan, sample, mesh.n_triangles);
-  plan.divided = {.degree = degree, .allowed = element, .divided = true};
-  plan.undivided = {.degree = degree, .allowed = element, .divided = false};
-  plan.nodes = plan.between;
-  if (plan.node_share > 0) plan.nodes += plan.node_share * own_nodes_of(sample, plan.divided);
+  plan.nodes = plan.between + plan.node_share * own_nodes();
   return plan;
 }
 

@@ -55,8 +55,10 @@ struct LumpChoice {
 };
 LumpChoice choose_lumps(const MeshSample& sample, const AllowedErrors& allowed, int degree);
 
-// The third: whether vertices get Hessians, because nodes for so many triangles would cost more.
-std::optional<HermiteLumps> choose_hessians(const MeshSample& sample, const LumpChoice& lumps);
+// The third: whether vertices get Hessians, because so many nodes for each of so many triangles
+// would cost more.
+std::optional<HermiteLumps> choose_hessians(const MeshSample& sample, const LumpChoice& lumps,
+                                            double own_nodes);
 
 // The fourth: whether sources may be spread in single precision.
 bool single_suffices(const MeshSample& sample, const AllowedErrors& allowed, int degree,

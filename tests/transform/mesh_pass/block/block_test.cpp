@@ -37,14 +37,18 @@ BlockParameters parameters_about(const Vec3& center) {
   return parameters;
 }
 
-// Rules with Hessians, this one for all edges and faces.
+// Rules with Hessians, this one for all faces, and for all edges or the last they have.
 void with_rule(BlockParameters& parameters, std::size_t rule) {
   parameters.hessians = true;
   parameters.per_hessian = parameters.per_weight;
   for (std::size_t k = 0; k < parameters.edge_reach2.size(); ++k) {
-    parameters.edge_reach2[k] = parameters.face_reach2[k] = k < rule ? 0 : kInfinity;
+    parameters.edge_reach2[k] = k < rule ? 0 : kInfinity;
+  }
+  for (std::size_t k = 0; k < parameters.face_reach2.size(); ++k) {
+    parameters.face_reach2[k] = k < rule ? 0 : kInfinity;
   }
 }
+std::size_t edge_rule_of(std::size_t rule) { return std::min(rule, kHermiteEdgeRules - 1); }
 
 template <typename T>
 struct Worked {
@@ -216,7 +220,7 @@ TEST(block, lumps_are_exact_for_quadratic_functions) {
 // Together with the nodes between the corners, which are whole quanta as well.
 TEST(block, lumps_and_nodes_of_a_triangle_add_up_to_nothing) {
   const Mesh mesh = random_triangles(300, 2);
-  for (std::size_t rule = 0; rule < kHermiteRules; ++rule) {
+  for (std::size_t rule = 0; rule < kHermiteFaceRules; ++rule) {
     BlockParameters parameters = parameters_about({});
     parameters.per_weight = parameters.per_gradient = 1 << 20;
     parameters.largest = 1 << 28;
@@ -231,14 +235,18 @@ TEST(block, lumps_and_nodes_of_a_triangle_add_up_to_nothing) {
         for (int k = 0; k < 4; ++k) {
           sums[k] += block.lump[i][lump_slot<std::int32_t>(at)].value[k];
         }
-        EXPECT_EQ(block.edge_rule[i][at], rule);
+        EXPECT_EQ(block.edge_rule[i][at], edge_rule_of(rule));
         if (rule > 0) {
-          sums[0] += static_cast<double>(rule) * block.edge_node[i][at] * parameters.per_weight;
+          sums[0] += kHermiteEdges[edge_rule_of(rule)].nodes * block.edge_node[i][at] *
+                     parameters.per_weight;
         }
       }
       EXPECT_EQ(block.face_rule[at], rule);
       if (rule > 0) {
-        sums[0] += (block.center_node[at] + 3 * block.orbit_node[at]) * parameters.per_weight;
+        const auto& orbits = kHermiteFaces[rule].orbits;
+        sums[0] += (block.center_node[at] + orbits[0].nodes() * block.orbit_node[0][at] +
+                    orbits[1].nodes() * block.orbit_node[1][at]) *
+                   parameters.per_weight;
       }
       for (const double sum : sums) EXPECT_EQ(sum, 0) << t << ", rule " << rule;
     }
@@ -246,7 +254,7 @@ TEST(block, lumps_and_nodes_of_a_triangle_add_up_to_nothing) {
 }
 
 // Means of (k . x)^d by Gauss's rules, far beyond the degrees wanted: edges are exact to degree 5,
-// 7, 9, faces to 4, 5, 6.
+// 7, 9, faces to 4, 5, 6, 7, 8.
 TEST(block, lumps_with_hessians_are_exact_for_polynomials) {
   const Mesh mesh = random_triangles(100, 3);
   const GaussRule gauss = gauss_legendre(8);
@@ -257,9 +265,10 @@ TEST(block, lumps_with_hessians_are_exact_for_polynomials) {
     }
     return sum;
   };
-  for (int rule = 0; rule < kHermiteRules; ++rule) {
+  for (std::size_t rule = 0; rule < kHermiteFaceRules; ++rule) {
     BlockParameters parameters = parameters_about({});
-    with_rule(parameters, static_cast<std::size_t>(rule));
+    with_rule(parameters, rule);
+    const int edge_nodes = kHermiteEdges[edge_rule_of(rule)].nodes;
     const auto worked = work<double>(view_of(mesh), parameters);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       const Exact exact(mesh, t);
@@ -268,7 +277,7 @@ TEST(block, lumps_with_hessians_are_exact_for_polynomials) {
       const std::array<Vec3, 3> p = {mesh.vertices[3 * t], mesh.vertices[3 * t + 1],
                                      mesh.vertices[3 * t + 2]};
       const Vec3 k = test::random_direction(4, t);
-      for (int d = 0; d <= 4 + rule; ++d) {
+      for (int d = 0; d < kHermiteFaces[rule].power; ++d) {
         const auto power = [&](const Vec3& x, int n) { return n < 0 ? 0 : std::pow(dot(k, x), n); };
         double lumped = 0, expected = 0;
         const double face = static_cast<double>(exact.face);
@@ -290,12 +299,17 @@ TEST(block, lumps_with_hessians_are_exact_for_polynomials) {
           const double hessian = h[0] * k.x * k.x + h[3] * k.y * k.y + h2[1] * k.z * k.z +
                                  2 * (h[1] * k.x * k.y + h[2] * k.x * k.z + h2[0] * k.y * k.z);
           lumped += kQuantum * hessian * d * (d - 1) * power(a, d - 2);
-          for (int n = 1; n <= rule; ++n) {
-            lumped += block.edge_node[i][at] * power(a + n / (rule + 1.0) * e, d);
+          for (int n = 1; n <= edge_nodes; ++n) {
+            lumped += block.edge_node[i][at] * power(a + n / (edge_nodes + 1.0) * e, d);
           }
-          if (rule == 2) {
-            const Vec3 x = (5 * (p[0] + p[1] + p[2]) - 4 * a) / 11.0;
-            lumped += block.orbit_node[at] * power(x, d);
+          for (std::size_t o = 0; o < 2 && rule > 0; ++o) {
+            const HermiteOrbit& orbit = kHermiteFaces[rule].orbits[o];
+            if (orbit.nodes() == 0) continue;
+            const Vec3 &q = p[(i + 1) % 3], &r = p[(i + 2) % 3];
+            const double c = 1 - orbit.at - orbit.other;
+            lumped += block.orbit_node[o][at] * power(c * a + orbit.at * q + orbit.other * r, d);
+            if (orbit.nodes() == 3) continue;
+            lumped += block.orbit_node[o][at] * power(c * a + orbit.other * q + orbit.at * r, d);
           }
         }
         if (rule > 0) lumped += block.center_node[at] * power((p[0] + p[1] + p[2]) / 3.0, d);

@@ -22,7 +22,7 @@ namespace {
 constexpr std::size_t kMost = 33;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// With rule 0, 1 or 2 of those with Hessians, or gradients alone.
+// With this rule of those with Hessians, of edges the last they have, or gradients alone.
 BlockParameters parameters_of(int rule, const MeshView& mesh) {
   BlockParameters parameters;
   parameters.center = {0.1, 0.05, -0.1};
@@ -34,10 +34,13 @@ BlockParameters parameters_of(int rule, const MeshView& mesh) {
   if (rule >= 0) {
     parameters.hessians = true;
     parameters.per_hessian = parameters.per_weight;
-    for (std::size_t k = 0; k < parameters.edge_reach2.size(); ++k) {
-      parameters.edge_reach2[k] = parameters.face_reach2[k] =
-          static_cast<int>(k) < rule ? 0 : kInfinity;
-    }
+    const auto limits = [&](auto& reach2) {
+      for (std::size_t k = 0; k < reach2.size(); ++k) {
+        reach2[k] = static_cast<int>(k) < rule ? 0 : kInfinity;
+      }
+    };
+    limits(parameters.edge_reach2);
+    limits(parameters.face_reach2);
   }
   return parameters;
 }
@@ -70,6 +73,7 @@ void expect_same_triangle(const TriangleBlock<T>& all, std::size_t t, const Tria
   ASSERT_EQ(all.face_rule[t], one.face_rule[0]);
   if (one.face_rule[0] == 0) return;
   EXPECT_EQ(all.center_node[t], one.center_node[0]);
+  for (std::size_t k = 0; k < 2; ++k) EXPECT_EQ(all.orbit_node[k][t], one.orbit_node[k][0]);
 }
 
 template <typename T>
@@ -102,7 +106,7 @@ TEST(mesh_kernels, triangles_do_not_depend_on_those_beside_them) {
   const test::PackedMesh floats = test::packed<float>(mesh), doubles = test::packed<double>(mesh);
   test::for_each_target([&](const char* target) {
     for (const MeshView& view : {floats.view, doubles.view}) {
-      for (int rule = -1; rule < 3; ++rule) {
+      for (int rule = -1; rule < static_cast<int>(kHermiteFaceRules); ++rule) {
         SCOPED_TRACE(std::string(target) + " " + std::to_string(rule));
         expect_single_triangles<std::int32_t>(view, rule);
         expect_single_triangles<double>(view, rule);

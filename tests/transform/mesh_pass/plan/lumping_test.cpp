@@ -73,9 +73,9 @@ TEST(noded_share, is_the_part_of_the_triangles_beyond_the_tolerance) {
 }
 
 TEST(hermite_lumps, are_none_where_nothing_is_known_or_nothing_may_be_left) {
-  EXPECT_FALSE(hermite_lumps(MeshSample{}, 1).has_value());
+  EXPECT_FALSE(hermite_lumps(MeshSample{}, 1, 20).has_value());
   const Mesh mesh = bumpy_sphere(4);
-  EXPECT_FALSE(hermite_lumps(sample_mesh(view_of(mesh), {}, 32), 0).has_value());
+  EXPECT_FALSE(hermite_lumps(sample_mesh(view_of(mesh), {}, 32), 0, 20).has_value());
 }
 
 // Of a mesh that is too coarse for values and gradients: the less may be left, the more nodes, and
@@ -85,7 +85,7 @@ TEST(hermite_lumps, cost_more_the_less_they_may_leave) {
   const MeshSample sample = sample_mesh(view_of(mesh), {}, 64);
   double cost = 0;
   for (double allowed2 = 1e4; allowed2 > 1e-12; allowed2 /= 100) {
-    const std::optional<HermiteLumps> lumps = hermite_lumps(sample, allowed2);
+    const std::optional<HermiteLumps> lumps = hermite_lumps(sample, allowed2, 20);
     ASSERT_TRUE(lumps.has_value());
     // The search goes in steps of 1.2.
     EXPECT_GE(lumps->cost, cost / 1.2) << allowed2;

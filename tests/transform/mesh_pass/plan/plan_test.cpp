@@ -84,11 +84,11 @@ TEST(choose_hessians, takes_none_where_all_is_lumped_and_what_is_cheaper_elsewhe
   for (const int degree : {8, 64, 128}) {
     const MeshSample sample = sample_mesh(view_of(mesh), {}, degree);
     const LumpChoice lumps = choose_lumps(sample, divide_error(sample, 1e-5, 1), degree);
-    const auto hermite = choose_hessians(sample, lumps);
+    const auto hermite = choose_hessians(sample, lumps, 20);
     if (lumps.node_share == 0) {
       EXPECT_FALSE(hermite.has_value());
     } else if (hermite) {
-      EXPECT_LT(hermite->cost, own_nodes_cost() * lumps.node_share);
+      EXPECT_LT(hermite->cost, 20 * own_node_cost() * lumps.node_share);
     }
     EXPECT_EQ(hermite.has_value(), degree > 8) << degree;
   }
