@@ -31,35 +31,26 @@ HWY_INLINE void visit_apart(size_t n, const Visit& visit) {
   }
 }
 
-// cells + sum over orders of factor times taps, the products in T.
-template <int kOrders, class DD, class D, typename T = hn::TFromD<D>>
-HWY_INLINE hn::Vec<DD> add_products(DD dd, D d, hn::Vec<DD> cells, const T* const* factor,
-                                    const hn::Vec<D>* taps, size_t step) {
-  if constexpr (sizeof(T) == sizeof(double)) {
-    for (int order = 0; order < kOrders; ++order) {
-      cells = hn::MulAdd(hn::Set(d, *factor[order]), taps[order * step], cells);
-    }
-    return cells;
-  } else {
-    auto sum = hn::Mul(hn::Set(d, *factor[0]), taps[0]);
-    for (int order = 1; order < kOrders; ++order) {
-      sum = hn::MulAdd(hn::Set(d, *factor[order]), taps[order * step], sum);
-    }
-    return hn::Add(cells, hn::PromoteTo(dd, sum));
-  }
+template <class D>
+HWY_INLINE hn::Vec<D> in_double(D, hn::Vec<D> taps) {
+  return taps;
+}
+template <class D>
+HWY_INLINE hn::Vec<D> in_double(D d, hn::Vec<hn::Rebind<float, D>> taps) {
+  return hn::PromoteTo(d, taps);
 }
 
 // kColumns are added to in each row: from the first tap on or, of wide windows, from the group on
-// that it lies in.
+// that it lies in. Products are in double precision: to turn the few taps of a source into doubles
+// takes less time than to turn all products.
 template <int kColumns, int kOrders, typename T>
 void spread_rows(const GridLayout& layout, const Placed<T>& p, const Windows<T>& w, size_t n,
                  double* HWY_RESTRICT grid) {
   constexpr bool kWide = kColumns > kWidestNarrow;
-  using DD = hn::CappedTag<double, kWide ? kGroup : kColumns>;
-  using D = hn::Rebind<T, DD>;
-  const DD dd;
+  using D = hn::CappedTag<double, kWide ? kGroup : kColumns>;
   const D d;
-  constexpr size_t kLanes = hn::MaxLanes(DD());
+  const hn::Rebind<T, D> dt;
+  constexpr size_t kLanes = hn::MaxLanes(D());
   constexpr size_t kVectors = kColumns / kLanes;
   const size_t stride = layout.stride;
   const int width = layout.width;
@@ -68,19 +59,23 @@ void spread_rows(const GridLayout& layout, const Placed<T>& p, const Windows<T>&
     hn::Vec<D> q[kOrders * kVectors];
     for (int order = 0; order < kOrders; ++order) {
       for (size_t v = 0; v < kVectors; ++v) {
-        q[order * kVectors + v] =
-            kWide ? hn::LoadU(d, w.wide[order][j] + kGroup - before + v * kLanes)
-                  : load_taps(d, w.phi[order], j, v * kLanes);
+        const auto taps = kWide ? hn::LoadU(dt, w.wide[order][j] + kGroup - before + v * kLanes)
+                                : load_taps(dt, w.phi[order], j, v * kLanes);
+        q[order * kVectors + v] = in_double(d, taps);
       }
     }
     double* HWY_RESTRICT row = grid + static_cast<size_t>(p.row[j]) * stride + p.column[j] - before;
     for (int i = 0; i < width; ++i, row += stride) {
-      const T* factor[kOrders];
-      for (int order = 0; order < kOrders; ++order) factor[order] = &w.theta[order][i][j];
+      hn::Vec<D> factor[kOrders];
+      for (int order = 0; order < kOrders; ++order) {
+        factor[order] = hn::Set(d, double{w.theta[order][i][j]});
+      }
       for (size_t v = 0; v < kVectors; ++v) {
-        const auto cells = hn::LoadU(dd, row + v * kLanes);
-        hn::StoreU(add_products<kOrders>(dd, d, cells, factor, q + v, kVectors), dd,
-                   row + v * kLanes);
+        auto cells = hn::LoadU(d, row + v * kLanes);
+        for (int order = 0; order < kOrders; ++order) {
+          cells = hn::MulAdd(factor[order], q[order * kVectors + v], cells);
+        }
+        hn::StoreU(cells, d, row + v * kLanes);
       }
     }
   });
