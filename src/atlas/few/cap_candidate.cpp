@@ -269,7 +269,7 @@ bool strays(const SampleLevels& samples, const Cap& cap, std::span<const double>
     const Vec3 at{values[k], values[stride + k], values[2 * stride + k]};
     if (!(dot(at, at) <= f.support * f.support)) continue;  // also behind the centre
     const double* const across = &values[3 * stride + k];
-    Neighbor near;
+    Neighbor near{};
     if (!level.tree.nearest_within(f.seed() + at, wide, near)) return true;
     const Vec3& normal = level.normals[near.index];
     const double agree = dot(normal, Vec3{across[0], across[stride], across[2 * stride]});

@@ -43,27 +43,22 @@ HWY_INLINE V SquareTo(const PointTree::View& tree, std::size_t i, const V (&at)[
   return hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
 }
 
-// Appends the points of a leaf within radius2 of `at`; `out` has room for one more than the leaf
-// has.
+// Appends the points of a leaf within radius2 of `at`; `out` has room for one more vector than the
+// leaf has.
 HWY_INLINE std::size_t ScanLeaf(const PointTree::View& tree, std::uint32_t leaf, const V (&at)[3],
                                 float radius2, Neighbor* out) {
   const D d;
+  const hn::RebindToUnsigned<D> du;
   const std::size_t begin = tree.leaf_begin[leaf], end = tree.leaf_begin[leaf + 1];
-  alignas(64) float distances[16];
   std::size_t n = 0;
   for (std::size_t i = begin; i < end; i += hn::Lanes(d)) {
     const V square = SquareTo(tree, i, at);
     const auto near = hn::And(hn::Le(square, hn::Set(d, radius2)), hn::FirstN(d, end - i));
-    hn::Store(square, d, distances);
-    std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(d, near, bytes);
-    const unsigned bits = bytes[0] | (unsigned{bytes[1]} << 8);
-    if (bits == 0) continue;
-    // What is not near is written over: no branch that cannot be foreseen.
-    for (unsigned lane = 0; lane < hn::Lanes(d); ++lane) {
-      out[n] = {distances[lane], static_cast<std::uint32_t>(i + lane)};
-      n += bits >> lane & 1;
-    }
+    const auto index = hn::BitCast(d, hn::Iota(du, static_cast<std::uint32_t>(i)));
+    // What is not near lies behind and is written over.
+    hn::StoreInterleaved2(hn::Compress(square, near), hn::Compress(index, near), d,
+                          reinterpret_cast<float*>(out + n));
+    n += hn::CountTrue(d, near);
   }
   return n;
 }
@@ -107,8 +102,11 @@ void Gather(const PointTree::View& tree, const float* at, float radius2, std::si
     std::uint32_t node;
     unsigned bits;
   } stack[9];
-  std::size_t n = 0;
-  found.resize(std::max<std::size_t>(found.capacity(), 64));
+  // A vector sets all that it grows by: most of what is found needs none.
+  constexpr std::size_t kFew = 256;
+  Neighbor few[kFew];
+  Neighbor* to = few;
+  std::size_t n = 0, room = kFew;
   int depth = 0;
   stack[0] = {0, NearChildren(tree.boxes, x, radius2)};
   while (depth >= 0) {
@@ -121,11 +119,17 @@ void Gather(const PointTree::View& tree, const float* at, float radius2, std::si
         16 * frame.node + static_cast<std::uint32_t>(std::countr_zero(frame.bits));
     frame.bits &= frame.bits - 1;
     if (depth + 1 == tree.levels) {
-      const std::size_t most = n + 1 + tree.leaf_begin[child + 1] - tree.leaf_begin[child];
-      if (most > found.size()) found.resize(2 * most);
-      n += ScanLeaf(tree, child, x, radius2, found.data() + n);
+      const std::size_t most =
+          n + hn::Lanes(d) + tree.leaf_begin[child + 1] - tree.leaf_begin[child];
+      if (most > room) {
+        room = 2 * most;
+        found.resize(room);
+        if (to == few) std::copy_n(few, n, found.data());
+        to = found.data();
+      }
+      n += ScanLeaf(tree, child, x, radius2, to + n);
       if (n >= many) {
-        radius2 = keep_nearest(found.data(), n, k);
+        radius2 = keep_nearest(to, n, k);
         n = k;
       }
       continue;
@@ -135,36 +139,35 @@ void Gather(const PointTree::View& tree, const float* at, float radius2, std::si
         child,
         NearChildren(tree.boxes + 96 * (std::size_t{tree.level_begin[depth]} + child), x, radius2)};
   }
-  found.resize(n);
+  if (to == few) {
+    found.assign(few, few + n);
+  } else {
+    found.resize(n);
+  }
 }
 
 // Sorts n <= View::kMostRanked neighbours: the place of each is the number of those nearer than it.
+// Numbers above zero are in the order of their bits, so that bits of the square and the index
+// behind them are one number to compare.
 void SortByRank(Neighbor* found, std::size_t n) {
-  const D d;
-  const hn::RebindToSigned<D> di;
-  alignas(64) float squares[PointTree::View::kMostRanked];
-  alignas(64) std::int32_t indices[PointTree::View::kMostRanked],
-      ranks[PointTree::View::kMostRanked];
-  Neighbor unsorted[PointTree::View::kMostRanked];
-  std::copy_n(found, n, unsorted);
+  const hn::CappedTag<std::int64_t, 8> d;
+  alignas(64) std::int64_t keys[PointTree::View::kMostRanked], ranks[PointTree::View::kMostRanked];
   for (std::size_t i = 0; i < n; ++i) {
-    squares[i] = found[i].distance2;
-    indices[i] = static_cast<std::int32_t>(found[i].index);
+    const std::int64_t bits = std::bit_cast<std::int32_t>(found[i].distance2);
+    keys[i] = bits << 32 | found[i].index;
   }
   for (std::size_t i = 0; i < n; i += hn::Lanes(d)) {
-    const V own = hn::Load(d, squares + i);
-    const auto own_index = hn::Load(di, indices + i);
-    auto rank = hn::Zero(di);
+    const auto own = hn::Load(d, keys + i);
+    auto rank = hn::Zero(d);
     for (std::size_t j = 0; j < n; ++j) {
-      const V other = hn::Set(d, squares[j]);
-      const auto before = hn::Lt(hn::Set(di, indices[j]), own_index);
-      const auto nearer =
-          hn::Or(hn::Lt(other, own), hn::And(hn::Eq(other, own), hn::RebindMask(d, before)));
-      rank = hn::Sub(rank, hn::VecFromMask(di, hn::RebindMask(di, nearer)));
+      rank = hn::Sub(rank, hn::VecFromMask(d, hn::Lt(hn::Set(d, keys[j]), own)));
     }
-    hn::Store(rank, di, ranks + i);
+    hn::Store(rank, d, ranks + i);
   }
-  for (std::size_t i = 0; i < n; ++i) found[ranks[i]] = unsorted[i];
+  for (std::size_t i = 0; i < n; ++i) {
+    found[ranks[i]] = {std::bit_cast<float>(static_cast<std::int32_t>(keys[i] >> 32)),
+                       static_cast<std::uint32_t>(keys[i])};
+  }
 }
 
 // The place of the least of 16 numbers, the first of them.
@@ -231,7 +234,7 @@ void Nearest(const PointTree::View& tree, const float* at, Neighbor& best) {
     const std::size_t end = tree.leaf_begin[child + 1];
     for (std::size_t begin = tree.leaf_begin[child]; begin < end; begin += 16) {
       DistancesOf(tree, begin, end, x, squares[9]);
-      Neighbor near;
+      Neighbor near{};
       near.index = static_cast<std::uint32_t>(begin + LeastOf(squares[9], near.distance2));
       if (nearer(near, best)) best = near;
     }

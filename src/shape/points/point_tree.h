@@ -19,8 +19,8 @@
 namespace rholm {
 
 struct Neighbor {
-  float distance2 = 0;      // squared
-  std::uint32_t index = 0;  // in the order of the tree
+  float distance2;      // squared
+  std::uint32_t index;  // in the order of the tree
 };
 
 class PointTree {

@@ -92,6 +92,11 @@ void expect_sound(const PointTree& tree, const std::vector<Vec3>& points, const 
                 norm(points[tree.order()[found[j].index]] - x), tolerance);
     if (j == 0) continue;
     EXPECT_LE(found[j - 1].distance2, found[j].distance2);
+    // Of one place by their indices.
+    const Vec3 before = tree.point(found[j - 1].index), own = tree.point(found[j].index);
+    if (before == own) {
+      EXPECT_LT(found[j - 1].index, found[j].index);
+    }
   }
   std::sort(indices.begin(), indices.end());
   EXPECT_EQ(std::unique(indices.begin(), indices.end()), indices.end());
@@ -172,7 +177,7 @@ TEST(PointTree, the_nearest_within_a_radius_is_the_first_of_the_nearest) {
             0.5 * (lower + upper) + Vec3{part.x * size.x, part.y * size.y, part.z * size.z};
         tree.nearest(x, 1, nearest);
         const double away = std::sqrt(double{nearest[0].distance2});
-        Neighbor found;
+        Neighbor found{};
         ASSERT_TRUE(tree.nearest_within(x, 1.001 * away + 1e-6 * norm(size), found));
         EXPECT_EQ(found.index, nearest[0].index);
         EXPECT_EQ(found.distance2, nearest[0].distance2);
@@ -251,7 +256,7 @@ TEST(PointTree, order_is_a_permutation_and_leaves_cut_it) {
 }
 
 TEST(PointTree, of_nothing_finds_nothing) {
-  Neighbor none;
+  Neighbor none{};
   EXPECT_FALSE(PointTree(std::vector<Vec3>()).nearest_within({0, 0, 0}, 1, none));
   const PointTree tree(std::span<const Vec3>{});
   std::vector<Neighbor> found(3);
