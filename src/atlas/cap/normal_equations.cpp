@@ -24,38 +24,48 @@ constexpr double kSmallest = std::numeric_limits<double>::min();
 // The first column of the vector that holds column k.
 HWY_INLINE std::size_t VectorOf(std::size_t k) { return k / hn::Lanes(D()) * hn::Lanes(D()); }
 
-// Four rows by four others at a time.
-template <bool kWeighted, bool kAdd>
-HWY_INLINE void Products(const NormalRows& given, double* matrix) {
+// kRows rows, from the i-th on, by the four from the j-th on.
+template <bool kWeighted, bool kAdd, std::size_t kRows>
+HWY_INLINE void ProductsOf(const NormalRows& given, std::size_t i, std::size_t j, double* matrix) {
   const D d;
   const std::size_t count = given.count, stride = given.stride;
-  for (std::size_t i = 0; i < count; i += 4) {
+  V sum[kRows][4];
+  for (auto& row : sum) {
+    for (V& v : row) v = hn::Zero(d);
+  }
+  const double* const left_rows = given.rows + i * stride;
+  const double* const right_rows = given.rows + j * stride;
+  for (std::size_t k = 0; k < given.length; k += hn::Lanes(d)) {
+    V left[kRows], right[4];
+    for (std::size_t r = 0; r < kRows; ++r) left[r] = hn::LoadU(d, left_rows + r * stride + k);
+    for (std::size_t r = 0; r < 4; ++r) right[r] = hn::LoadU(d, right_rows + r * stride + k);
+    if (kWeighted) {
+      const V weight = hn::LoadU(d, given.weights + k);
+      for (V& v : left) v = hn::Mul(weight, v);
+    }
+    for (std::size_t r = 0; r < kRows; ++r) {
+      for (std::size_t c = 0; c < 4; ++c) sum[r][c] = hn::MulAdd(left[r], right[c], sum[r][c]);
+    }
+  }
+  // Rows beyond the last may hold anything: their sums are not taken.
+  for (std::size_t c = 0; c < 4 && j + c < count; ++c) {
+    double* const to = matrix + (j + c) * count + i;
+    for (std::size_t r = 0; r < kRows && i + r < count; ++r) {
+      const double product = hn::GetLane(hn::SumOfLanes(d, sum[r][c]));
+      to[r] = kAdd ? to[r] + product : product;
+    }
+  }
+}
+
+// Four rows by four others at a time. Of squares of numbers of harmonics, and one, one row is left.
+template <bool kWeighted, bool kAdd>
+HWY_INLINE void Products(const NormalRows& given, double* matrix) {
+  for (std::size_t i = 0; i < given.count; i += 4) {
     for (std::size_t j = 0; j <= i; j += 4) {
-      V sum[4][4];
-      for (auto& row : sum) {
-        for (V& v : row) v = hn::Zero(d);
-      }
-      const double* const left_rows = given.rows + i * stride;
-      const double* const right_rows = given.rows + j * stride;
-      for (std::size_t k = 0; k < given.length; k += hn::Lanes(d)) {
-        V left[4], right[4];
-        for (std::size_t r = 0; r < 4; ++r) left[r] = hn::LoadU(d, left_rows + r * stride + k);
-        for (std::size_t r = 0; r < 4; ++r) right[r] = hn::LoadU(d, right_rows + r * stride + k);
-        if (kWeighted) {
-          const V weight = hn::LoadU(d, given.weights + k);
-          for (V& v : left) v = hn::Mul(weight, v);
-        }
-        for (std::size_t r = 0; r < 4; ++r) {
-          for (std::size_t c = 0; c < 4; ++c) sum[r][c] = hn::MulAdd(left[r], right[c], sum[r][c]);
-        }
-      }
-      // Rows beyond the last may hold anything: their sums are not taken.
-      for (std::size_t c = 0; c < 4 && j + c < count; ++c) {
-        double* const to = matrix + (j + c) * count + i;
-        for (std::size_t r = 0; r < 4 && i + r < count; ++r) {
-          const double product = hn::GetLane(hn::SumOfLanes(d, sum[r][c]));
-          to[r] = kAdd ? to[r] + product : product;
-        }
+      if (i + 1 == given.count) {
+        ProductsOf<kWeighted, kAdd, 1>(given, i, j, matrix);
+      } else {
+        ProductsOf<kWeighted, kAdd, 4>(given, i, j, matrix);
       }
     }
   }
