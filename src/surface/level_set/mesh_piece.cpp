@@ -10,12 +10,16 @@ NearPlaces::NearPlaces(std::span<const Vec3> centers, double reach) : reach_(rea
   for (const Vec3& center : centers) {
     const Cube cube = cube_of(center, reach);
     if (!seen.insert(key_of(cube)).second) continue;
-    for_each_near(cube, [&](std::uint64_t key) { cubes_.insert(key); });
+    for_each_near(cube, [&](std::uint64_t key) {
+      cubes_.insert(key);
+      filter_.set(filter_of(key));
+    });
   }
 }
 
 bool NearPlaces::has(const Vec3& place) const {
-  return cubes_.contains(key_of(cube_of(place, reach_)));
+  const std::uint64_t key = key_of(cube_of(place, reach_));
+  return filter_[filter_of(key)] && cubes_.contains(key);
 }
 
 MeshPiece piece_around(const Mesh& mesh, const std::vector<std::uint32_t>& centers, double reach,

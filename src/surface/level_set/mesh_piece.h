@@ -1,6 +1,8 @@
 // A part of a mesh as a mesh of its own. Layer: surface.
 #pragma once
 
+#include <bitset>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <unordered_set>
@@ -23,6 +25,12 @@ class NearPlaces {
   bool has(const Vec3& place) const;
 
  private:
+  // Most places are in no cube, and most of these are told by one bit of the key's.
+  static constexpr int kFilterBits = 16;
+  static std::size_t filter_of(std::uint64_t key) {
+    return (key * 0x9E3779B97F4A7C15u) >> (64 - kFilterBits);
+  }
+  std::bitset<std::size_t{1} << kFilterBits> filter_;
   std::unordered_set<std::uint64_t> cubes_;
   double reach_;
 };

@@ -14,6 +14,8 @@ namespace {
 // Chosen: of the cosine, for normals that are not those of the loop itself.
 constexpr double kOneSide = 0.2;
 
+double square_of(const Vec3& x) { return dot(x, x); }
+
 }  // namespace
 
 // Normals turn by 2 pi at least, as the curve itself does (Fenchel 1929) if it is the shortest.
@@ -32,9 +34,14 @@ std::vector<std::uint32_t> sharp_vertices(const Mesh& mesh, const NormalAttribut
     std::vector<std::uint32_t>& sharp = found[begin / kChunk];
     for (std::size_t t = begin; t < end; ++t) {
       const Triangle& corners = mesh.triangles[t];
+      const Vec3 own[3] = {normals[corners[0]], normals[corners[1]], normals[corners[2]]};
+      // Nearly all turn less than the shortest edge may.
+      const double most = std::max(
+          {square_of(own[1] - own[0]), square_of(own[2] - own[1]), square_of(own[0] - own[2])});
+      const double shortest = std::min({square_of(own[0]), square_of(own[1]), square_of(own[2])});
+      if (shortest > 0 && most < slow * slow * (least * least)) continue;
       const Vec3 at[3] = {mesh.vertices[corners[0]], mesh.vertices[corners[1]],
                           mesh.vertices[corners[2]]};
-      const Vec3 own[3] = {normals[corners[0]], normals[corners[1]], normals[corners[2]]};
       for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t next = k == 2 ? 0 : k + 1;
         const std::uint32_t a = corners[k], b = corners[next];
