@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/aligned_array.h"
 #include "base/parallel.h"
 #include "base/shared_sets.h"
 #include "shape/points/members.h"
@@ -93,7 +94,7 @@ class Groups {
 
  private:
   void find_links(const SamplingGaps& gaps) {
-    links_.resize(points_.size());
+    links_ = AlignedArray<std::array<Neighbor, kLinks>>(points_.size());
     parallel_for(points_.size(), 1024, context_, {.name = "outliers"},
                  [&](std::size_t begin, std::size_t end) {
                    std::vector<Neighbor> near;
@@ -212,7 +213,7 @@ class Groups {
   const PointTree& tree_;
   std::span<const Vec3> points_;
   const Context& context_;
-  std::vector<std::array<Neighbor, kLinks>> links_;
+  AlignedArray<std::array<Neighbor, kLinks>> links_;
   std::vector<float> eighth_;  // the way to the eighth neighbour, between rows
 };
 

@@ -261,16 +261,15 @@ HWY_EXPORT(ContributeAt);
 constexpr double kFlat = 1e-4;
 
 struct Lanes {
-  std::vector<CapLane> caps;
-  std::vector<float> coefficients;
+  AlignedArray<CapLane> caps;
+  AlignedArray<float> coefficients;
 };
 
 Lanes make_lanes(const Atlas& atlas, const CapBands& bands, const BlockGrid& grid,
                  const Context& context) {
   const double step = grid.step;
-  Lanes lanes;
-  lanes.coefficients.resize(atlas.coefficients.size());
-  lanes.caps.resize(atlas.caps.size());
+  Lanes lanes{AlignedArray<CapLane>(atlas.caps.size()),
+              AlignedArray<float>(atlas.coefficients.size())};
   const auto make_lane = [&](std::size_t c) {
     const Cap& cap = atlas.caps[c];
     CapLane& lane = lanes.caps[c];
