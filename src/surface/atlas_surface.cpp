@@ -144,20 +144,17 @@ AtlasDipoles dipoles_of(const Atlas& atlas, double step, const Context& context)
 // The values of the caps, and of what lies between them.
 HoleFilling fill(const Atlas& atlas, const CapBands& bands, const CapLists& lists,
                  const AtlasSurfaceOptions& options, BlockGrid& grid, const Context& context) {
-  std::vector<std::uint64_t> doubtful;
   AtlasDipoles dipoles;
   std::optional<WindingTree> winding;
   // The tree is made on one thread, beside the values; these report progress.
   Context silent = context;
   silent.progress = {};
-  parallel_for(2, 1, silent, {}, [&](std::size_t begin, std::size_t) {
-    if (begin == 0) {
-      dipoles = dipoles_of(atlas, options.step, silent);
-      winding.emplace(dipoles.points, dipoles.area_normals);
-    } else {
-      doubtful = fill_grid(atlas, bands, lists, grid, context);
-    }
-  });
+  const auto make_tree = [&] {
+    dipoles = dipoles_of(atlas, options.step, silent);
+    winding.emplace(dipoles.points, dipoles.area_normals);
+  };
+  const std::vector<std::uint64_t> doubtful =
+      fill_grid(atlas, bands, lists, grid, context, make_tree);
   const WindingNumbers numbers = winding->numbers(context);
   clear_refuted(grid, doubtful, numbers);
   HoleFillOptions filled{.max_blocks = blocks_within(options), .support = {}, .seen = options.seen};

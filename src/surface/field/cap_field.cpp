@@ -410,19 +410,21 @@ CapLists list_caps(const BlockGrid& grid, const std::vector<Disc>& discs, const 
 }
 
 std::vector<std::uint64_t> fill_grid(const Atlas& atlas, const CapBands& bands,
-                                     const CapLists& lists, BlockGrid& grid,
-                                     const Context& context) {
+                                     const CapLists& lists, BlockGrid& grid, const Context& context,
+                                     const std::function<void()>& beside) {
   const Lanes lanes = make_lanes(atlas, bands, grid, context);
   std::vector<std::uint64_t> doubtful(8 * grid.n_blocks(), 0);
-  parallel_for(lists.first.size() - 1, 64, context, {.name = "grid"},
-               [&](std::size_t begin, std::size_t end) {
-                 for (std::size_t b = begin; b < end; ++b) {
-                   HWY_DYNAMIC_DISPATCH(FillBlock)
-                   (lanes.caps.data(), lists.caps.data() + lists.first[b],
-                    lists.first[b + 1] - lists.first[b], first_node(grid, b), grid.step,
-                    grid.block_values(b), &doubtful[8 * b]);
-                 }
-               });
+  constexpr std::size_t kGrain = 64;
+  const std::size_t n = lists.first.size() - 1, chunks = (n + kGrain - 1) / kGrain;
+  parallel_for(1 + chunks, 1, context, {.name = "grid"}, [&](std::size_t chunk, std::size_t) {
+    if (chunk == 0) return beside ? beside() : void();
+    const std::size_t end = std::min(n, chunk * kGrain);
+    for (std::size_t b = (chunk - 1) * kGrain; b < end; ++b) {
+      HWY_DYNAMIC_DISPATCH(FillBlock)
+      (lanes.caps.data(), lists.caps.data() + lists.first[b], lists.first[b + 1] - lists.first[b],
+       first_node(grid, b), grid.step, grid.block_values(b), &doubtful[8 * b]);
+    }
+  });
   return doubtful;
 }
 

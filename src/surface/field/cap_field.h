@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -51,10 +52,11 @@ CapLists list_caps(const BlockGrid& grid, const std::vector<Disc>& discs,
 
 // Sets values to G = sum w g / sum w, w = (1 - d^2/R^2)^3 (1 - g^2/T^2)^2, or with the weight of
 // the paper in the place of the first factor: CapBlend. Returns one bit per node, 8 words per
-// block: 1 where the value is doubtful, near the surface but at the very end of all caps.
+// block: 1 where the value is doubtful, near the surface but at the very end of all caps. One of
+// the threads calls `beside` first, if there is one, and the others go ahead.
 std::vector<std::uint64_t> fill_grid(const Atlas& atlas, const CapBands& bands,
-                                     const CapLists& lists, BlockGrid& grid,
-                                     const Context& context);
+                                     const CapLists& lists, BlockGrid& grid, const Context& context,
+                                     const std::function<void()>& beside = {});
 
 // Moves vertices to G = 0 by one Newton step, and sets their normals nx, ny, nz; those beside
 // filled nodes stay, with normals of their triangles.

@@ -4,10 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "atlas/cap/cap_support.h"
+#include "rholm/error.h"
 #include "rholm/topology.h"
 #include "support/targets.h"
 #include "surface/field/sphere_field.h"
@@ -109,6 +113,28 @@ TEST(CapField, is_a_signed_distance_to_first_order) {
       const double d = norm(field.grid.node(b, i)) - 1;
       EXPECT_NEAR(value, d, d * d + 2 * missed);
     }
+  }
+}
+
+TEST(CapField, what_is_done_beside_is_done_once_and_changes_nothing) {
+  const Atlas atlas = test::whole_sphere(4000);
+  const double step = 0.7 * atlas.spacing;
+  Field alone = make_field(atlas, step);
+  const CapBands bands(atlas, step);
+  const std::vector<std::uint64_t> doubtful =
+      fill_grid(atlas, bands, alone.lists, alone.grid, {.threads = 1});
+  for (const int threads : {1, 2, 3}) {
+    Field field = make_field(atlas, step);
+    std::atomic<int> calls = 0;
+    EXPECT_EQ(
+        fill_grid(atlas, bands, field.lists, field.grid, {.threads = threads}, [&] { ++calls; }),
+        doubtful);
+    EXPECT_EQ(calls, 1);
+    const std::size_t n = field.grid.n_blocks() * BlockGrid::kNodes * sizeof(float);
+    EXPECT_EQ(std::memcmp(field.grid.values.data(), alone.grid.values.data(), n), 0);
+    EXPECT_THROW(fill_grid(atlas, bands, field.lists, field.grid, {.threads = threads},
+                           [] { throw Error(ErrorCode::kInvalidInput, ""); }),
+                 Error);
   }
 }
 
