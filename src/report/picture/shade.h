@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "report/picture/color.h"
@@ -32,6 +33,9 @@ struct Place {
   Color color;
 };
 Place place_of(const Subject& subject, const Ray& ray, const RayHit& hit);
+// Asks for what place_of() needs of hits that come soon after hit k: each lies elsewhere in memory,
+// and the processor would wait.
+void look_ahead(const Subject& subject, std::span<const RayHit> hits, std::size_t k);
 
 // Where light comes from, as seen from this side.
 struct Lamps {

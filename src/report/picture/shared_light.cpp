@@ -233,6 +233,7 @@ void Drawing::see(Cells& cells, int y) const {
     const std::size_t cell = cells.at(x, y);
     cells.planes[Cells::kSide][cell] = 0;
     cells.colors[cell] = cells.roots[cell] = kPaper;
+    look_ahead(panel_.subject, hits, k);
     if (!hits[k].hit) continue;
     const Place place = place_of(panel_.subject, sight[k], hits[k]);
     const std::size_t at = place_in_block(scout_before(x) / kScouts, scout_before(y) / kScouts);
@@ -450,6 +451,7 @@ void Drawing::resolve(const Cells& cells, int y) const {
     places.clear();
     bool alike = true;
     for (std::size_t i = k * n; i < (k + 1) * n; ++i) {
+      look_ahead(panel_.subject, hits, i);
       if (!hits[i].hit) continue;
       places.push_back(place_of(panel_.subject, rays[i], hits[i]));
       alike = alike && likeness(middle, spot_of(places.back()), per_depth_) > 0;

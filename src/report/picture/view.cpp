@@ -57,13 +57,6 @@ PlanePoint View::project(const Vec3& p) const {
   return {shrink * dot(p, right), shrink * dot(p, up)};
 }
 
-Ray View::ray(const PlanePoint& p) const {
-  const Vec3 target = p.x * right + p.y * up;
-  const Vec3 eye = -distance * forward;
-  if (perspective) return {eye, normalized(target - eye)};
-  return {target + eye, forward};
-}
-
 PlaneBox projected_box(const View& view, const Mesh& mesh) {
   if (mesh.triangles.empty()) return {};
   std::vector<bool> is_corner(mesh.vertices.size());

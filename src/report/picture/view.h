@@ -30,7 +30,12 @@ struct View {
   bool perspective = false;
 
   PlanePoint project(const Vec3& p) const;
-  Ray ray(const PlanePoint& p) const;
+  Ray ray(const PlanePoint& p) const {
+    const Vec3 target = p.x * right + p.y * up;
+    const Vec3 eye = -distance * forward;
+    if (perspective) return {eye, normalized(target - eye)};
+    return {target + eye, forward};
+  }
 };
 
 // `radius`: of a ball about the origin that holds everything. Throws InvalidInput for a direction
