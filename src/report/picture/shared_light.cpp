@@ -32,9 +32,8 @@ constexpr int kScouts = 2;
 // Cells beyond those of the pixels: pixels that differ, windows of means, scouts, their windows.
 constexpr int kAskMargin = 1 + kReach, kScoutMargin = kAskMargin + kScouts;
 constexpr int kMargin = kScoutMargin + kReach * kScouts;
-constexpr std::size_t kLanes = 8;     // scouts whose windows are looked at together
-constexpr int kStripCells = 1 << 17;  // chosen: some 130 bytes each stay near the processor
-constexpr std::size_t kRows = 4;      // of a chunk: some 5 ms
+constexpr std::size_t kLanes = 8;  // scouts whose windows are looked at together
+constexpr std::size_t kRows = 4;   // of a chunk: some 5 ms
 
 // Measured by scripts/render-figures: half of a step's depth in pixels, and one minus the cosine of
 // a crease. Half of either changes no rms by more than a tenth.
@@ -85,21 +84,34 @@ struct Cells {
   }
 };
 
+template <typename Work>
+void for_each_array(Cells& cells, const Work& work) {
+  for (std::vector<float>& plane : cells.planes) work(plane);
+  work(cells.faces);
+  work(cells.finishes);
+  work(cells.shared);
+  work(cells.own);
+  work(cells.mixed_sky);
+  work(cells.mixed_key);
+  work(cells.colors);
+  work(cells.roots);
+}
+
 Cells make_cells(int left, int right, int rows) {
   Cells cells;
   cells.left = left;
   cells.width = right - left;
-  const std::size_t n = static_cast<std::size_t>(cells.width) * rows;
-  for (std::vector<float>& plane : cells.planes) plane.resize(n + kLanes * kScouts);
-  cells.faces.resize(n);
-  cells.finishes.resize(n);
-  cells.shared.resize(n);
-  cells.own.resize(n);
-  cells.mixed_sky.resize(n);
-  cells.mixed_key.resize(n);
-  cells.colors.resize(n);
-  cells.roots.resize(n);
+  const std::size_t n = static_cast<std::size_t>(cells.width) * rows + kLanes * kScouts;
+  for_each_array(cells, [&](auto& array) { array.resize(n); });
   return cells;
+}
+
+// The first rows are those from row `first` on then.
+void move_up(Cells& cells, int first, int rows) {
+  const std::ptrdiff_t width = cells.width;
+  for_each_array(cells, [&](auto& array) {
+    std::copy_n(array.begin() + first * width, rows * width, array.begin());
+  });
 }
 
 // A place as the numbers of a cell.
@@ -472,7 +484,8 @@ void Drawing::resolve(const Cells& cells, int y) const {
 }  // namespace
 
 void draw_shared(Canvas& canvas, const PanelPicture& p, const RayScene& scene,
-                 const RenderOptions& options, const Context& context, const ParallelStage& stage) {
+                 const RenderOptions& options, const Context& context, const ParallelStage& stage,
+                 int strip_cells) {
   const Drawing drawing(canvas, p, scene, options);
   // Pixels that the thing may touch.
   const double half_width = 0.5 * p.box.width() * p.pixels_per_unit + 1;
@@ -482,21 +495,22 @@ void draw_shared(Canvas& canvas, const PanelPicture& p, const RayScene& scene,
   const int top = std::max(0, static_cast<int>(std::floor(p.center_y - half_height)));
   const int bottom = std::min(p.height, static_cast<int>(std::ceil(p.center_y + half_height)));
   if (left >= right || top >= bottom) return;
-  const int rows = std::max(64, kStripCells / (right - left + 2 * kMargin));
+  const int rows = std::max(64, strip_cells / (right - left + 2 * kMargin));
   Cells cells =
       make_cells(left - kMargin, right + kMargin, std::min(rows, bottom - top) + 2 * kMargin);
   for (int first = top; first < bottom; first += rows) {
+    if (first > top) move_up(cells, rows, 2 * kMargin);
     cells.top = first - kMargin;
     const int last = std::min(first + rows, bottom);
     const double strip = (stage.to - stage.from) * (last - first) / (bottom - top);
     double from = stage.from + (stage.to - stage.from) * (first - top) / (bottom - top);
+    // Each goes on where it ended in the strip above.
     const auto pass = [&](int margin, double part, const auto& work) {
       const double to = std::min(stage.to, from + part * strip);
-      parallel_for(static_cast<std::size_t>(last - first + 2 * margin), kRows, context,
+      const int next = first > top ? first + margin : first - margin;
+      parallel_for(static_cast<std::size_t>(last + margin - next), kRows, context,
                    {stage.name, from, to}, [&](std::size_t begin, std::size_t end) {
-                     for (std::size_t k = begin; k < end; ++k) {
-                       work(first - margin + static_cast<int>(k));
-                     }
+                     for (std::size_t k = begin; k < end; ++k) work(next + static_cast<int>(k));
                    });
       from = to;
     };

@@ -9,8 +9,11 @@
 #include <numbers>
 #include <vector>
 
+#include "report/picture/canvas.h"
 #include "report/picture/color.h"
+#include "report/picture/panel_picture.h"
 #include "report/picture/shade.h"
+#include "report/picture/shared_light.h"
 #include "report/picture/view.h"
 #include "rholm/error.h"
 #include "rholm/points.h"
@@ -136,6 +139,26 @@ TEST(render, of_many_pixels_gives_the_same_bits_for_any_number_of_threads) {
   for (const int threads : {2, 3}) {
     EXPECT_EQ(one.rgb, render_one(mesh, options, {.threads = threads}).rgb);
   }
+}
+
+// What a strip has of the one above is what it would have found itself.
+TEST(draw_shared, gives_the_same_bits_for_any_strips) {
+  const RenderOptions options = front();
+  const Subject subject = {.mesh = bumpy_sphere(3, 0.3), .normals = {}, .radius = 1.3};
+  const View view = make_view(options, subject.radius);
+  const PlaneBox box = projected_box(view, subject.mesh);
+  const ColorScale scale;
+  const PanelPicture panel = {subject, view, Lamps(view), scale, box, 280 / box.height(),
+                              150,     150,  0,           300,   300};
+  const RayScene scene(subject.mesh);
+  const auto drawn = [&](int strip_cells) {
+    Canvas canvas = make_canvas(300, 300, {1, 1, 1});
+    draw_shared(canvas, panel, scene, options, {.threads = 1}, {}, strip_cells);
+    return to_image(canvas).rgb;
+  };
+  const std::vector<std::uint8_t> at_once = drawn(1 << 20);
+  EXPECT_EQ(drawn(1), at_once);  // four of 64 rows and a shorter one
+  EXPECT_EQ(drawn(100 * 300), at_once);
 }
 
 // No part of the sky is hidden from a convex body's surface, nor the key from what faces it.
