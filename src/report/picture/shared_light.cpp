@@ -18,26 +18,18 @@
 #include <utility>
 #include <vector>
 
+#include "report/picture/light_kernels.h"
+
 namespace rholm {
 namespace {
 
 constexpr int kBlock = 4;  // cells of a block along its side
-// Of a window of 5 x 5: the outermost count half, so that each window has every ray once.
-constexpr int kReach = 2;
-constexpr std::array<float, 5> kTent = {0.5f, 1, 1, 1, 0.5f};
-// One of these along rows and columns is a scout; measured on five shapes as scripts/render-figures
-// does, from 36 samples and 432 rays a pixel: with 2 no rms is more than 1.1 % above that with 1,
-// with 4 up to 7 %, and that of the worst block up to 60 %.
-constexpr int kScouts = 2;
 // Cells beyond those of the pixels: pixels that differ, windows of means, scouts, their windows.
 constexpr int kAskMargin = 1 + kReach, kScoutMargin = kAskMargin + kScouts;
 constexpr int kMargin = kScoutMargin + kReach * kScouts;
 constexpr std::size_t kLanes = 8;  // scouts whose windows are looked at together
 constexpr std::size_t kRows = 4;   // of a chunk: some 5 ms
 
-// Measured by scripts/render-figures: half of a step's depth in pixels, and one minus the cosine of
-// a crease. Half of either changes no rms by more than a tenth.
-constexpr float kDepth = 2, kTurn = 0.3f;
 // Pixels whose square roots of brightness differ by more are edges, some 15 of 255 grey levels;
 // measured by scripts/render-figures: at 0.08 Bennu is as far from many rays as fine pictures are.
 constexpr float kStep = 0.06f;
@@ -54,10 +46,8 @@ struct Shared {
 
 // A strip of cells, one number beside the other.
 struct Cells {
-  // The lights are those of scouts.
-  enum Plane { kX, kY, kZ, kNormalX, kNormalY, kNormalZ, kSide, kSky, kKeyAll, kKeyFree, kPlanes };
   int left = 0, top = 0, width = 0;
-  std::array<std::vector<float>, kPlanes> planes;  // kSide: 1 in front, -1 behind, 0 nothing seen
+  std::array<std::vector<float>, kCellNumbers> numbers;
   std::vector<Vec3> faces;
   std::vector<Finish> finishes;
   std::vector<Shared> shared;
@@ -68,14 +58,19 @@ struct Cells {
   };
   std::vector<Own> own;
   std::vector<std::uint8_t> mixed_sky, mixed_key;  // some of the window see it, some do not
-  std::vector<Color> colors, roots;                // and square roots of their parts
+  std::vector<Color> colors;
 
   std::size_t at(int x, int y) const {
     return static_cast<std::size_t>(y - top) * width + (x - left);
   }
-  bool seen(std::size_t cell) const { return planes[kSide][cell] != 0; }
+  bool seen(std::size_t cell) const { return numbers[kSide][cell] != 0; }
+  CellRow row(int x, int y) const {
+    CellRow row{.numbers = {}, .width = width};
+    for (int k = 0; k < kCellNumbers; ++k) row.numbers[k] = &numbers[k][at(x, y)];
+    return row;
+  }
   Place place(std::size_t cell) const {
-    const auto of = [&](Plane plane) { return planes[plane][cell]; };
+    const auto of = [&](CellNumber number) { return numbers[number][cell]; };
     Place place;
     place.point = {of(kX), of(kY), of(kZ)};
     place.face = faces[cell];
@@ -86,7 +81,7 @@ struct Cells {
 
 template <typename Work>
 void for_each_array(Cells& cells, const Work& work) {
-  for (std::vector<float>& plane : cells.planes) work(plane);
+  for (std::vector<float>& numbers : cells.numbers) work(numbers);
   work(cells.faces);
   work(cells.finishes);
   work(cells.shared);
@@ -94,14 +89,13 @@ void for_each_array(Cells& cells, const Work& work) {
   work(cells.mixed_sky);
   work(cells.mixed_key);
   work(cells.colors);
-  work(cells.roots);
 }
 
 Cells make_cells(int left, int right, int rows) {
   Cells cells;
   cells.left = left;
   cells.width = right - left;
-  const std::size_t n = static_cast<std::size_t>(cells.width) * rows + kLanes * kScouts;
+  const std::size_t n = static_cast<std::size_t>(cells.width) * rows + kReadBeyond;
   for_each_array(cells, [&](auto& array) { array.resize(n); });
   return cells;
 }
@@ -114,10 +108,6 @@ void move_up(Cells& cells, int first, int rows) {
   });
 }
 
-// A place as the numbers of a cell.
-struct Spot {
-  float x, y, z, normal_x, normal_y, normal_z, side;
-};
 Spot spot_of(const Place& place) {
   const auto& [p, n] = std::pair(place.point, place.normal);
   return {static_cast<float>(p.x),  static_cast<float>(p.y), static_cast<float>(p.z),
@@ -125,21 +115,8 @@ Spot spot_of(const Place& place) {
           place.back ? -1.0f : 1.0f};
 }
 Spot spot_of(const Cells& cells, std::size_t k) {
-  const auto of = [&](Cells::Plane plane) { return cells.planes[plane][k]; };
-  return {of(Cells::kX),       of(Cells::kY),       of(Cells::kZ),   of(Cells::kNormalX),
-          of(Cells::kNormalY), of(Cells::kNormalZ), of(Cells::kSide)};
-}
-
-// How much two places have of one surface: 0 across a step of `depth`, or a crease. Along an arc
-// the distances from the two tangent planes cancel.
-inline float likeness(const Spot& a, const Spot& b, float per_half_depth) {
-  const float off = (a.normal_x + b.normal_x) * (b.x - a.x) +
-                    (a.normal_y + b.normal_y) * (b.y - a.y) +
-                    (a.normal_z + b.normal_z) * (b.z - a.z);
-  const float cosine = a.normal_x * b.normal_x + a.normal_y * b.normal_y + a.normal_z * b.normal_z;
-  const float near = std::max(0.0f, 1 - std::abs(off) * per_half_depth);
-  const float along = std::max(0.0f, 1 - (1 - cosine) * (1 / kTurn));
-  return std::max(0.0f, a.side * b.side) * near * along;
+  const auto of = [&](CellNumber number) { return cells.numbers[number][k]; };
+  return {of(kX), of(kY), of(kZ), of(kNormalX), of(kNormalY), of(kNormalZ), of(kSide)};
 }
 
 bool is_scout(int k) { return k % kScouts == 0; }
@@ -214,13 +191,10 @@ class Drawing {
   void resolve(const Cells& cells, int y) const;
 
  private:
-  struct Windows;
-  Windows windows(const Cells& cells, std::size_t cell) const;
   const LightSamples::Polar& sky_point(std::size_t at, int ray) const {
     return shared_sky_[at * static_cast<std::size_t>(sky_rays_) + ray];
   }
   void hear_scouts(Cells& cells, int x, int y) const;
-  bool differs(const Cells& cells, int x, int y) const;
 
   Canvas& canvas_;
   const PanelPicture& panel_;
@@ -234,6 +208,13 @@ class Drawing {
   float per_depth_;
 };
 
+void set_roots(Cells& cells, std::size_t cell) {
+  const Color& color = cells.colors[cell];
+  cells.numbers[kRed][cell] = std::sqrt(color.r);
+  cells.numbers[kGreen][cell] = std::sqrt(color.g);
+  cells.numbers[kBlue][cell] = std::sqrt(color.b);
+}
+
 // Rays of sight, and those that are shared.
 void Drawing::see(Cells& cells, int y) const {
   std::vector<Ray> sight, sky, key;
@@ -243,8 +224,9 @@ void Drawing::see(Cells& cells, int y) const {
   for (int x = cells.left; x < cells.left + cells.width; ++x) {
     const auto k = static_cast<std::size_t>(x - cells.left);
     const std::size_t cell = cells.at(x, y);
-    cells.planes[Cells::kSide][cell] = 0;
-    cells.colors[cell] = cells.roots[cell] = kPaper;
+    cells.numbers[kSide][cell] = 0;
+    cells.colors[cell] = kPaper;
+    set_roots(cells, cell);
     look_ahead(panel_.subject, hits, k);
     if (!hits[k].hit) continue;
     const Place place = place_of(panel_.subject, sight[k], hits[k]);
@@ -254,7 +236,7 @@ void Drawing::see(Cells& cells, int y) const {
     const Spot spot = spot_of(place);
     const float numbers[] = {spot.x,        spot.y,    spot.z, spot.normal_x, spot.normal_y,
                              spot.normal_z, spot.side, 1,      cosine,        cosine};
-    for (int p = 0; p < Cells::kPlanes; ++p) cells.planes[p][cell] = numbers[p];
+    for (std::size_t n = 0; n < std::size(numbers); ++n) cells.numbers[n][cell] = numbers[n];
     cells.faces[cell] = place.face;
     cells.finishes[cell] = finish(panel_.subject, panel_.lamps, panel_.scale, place);
     cells.own[cell] = {1, cosine, cosine};
@@ -270,58 +252,26 @@ void Drawing::see(Cells& cells, int y) const {
   }
   const std::vector<bool> no_sky = scene_.occluded(sky), no_key = scene_.occluded(key);
   for (std::size_t k = 0; k < sky.size(); ++k) {
-    if (no_sky[k]) cells.planes[Cells::kSky][of_sky[k]] = 0;
+    if (no_sky[k]) cells.numbers[kSky][of_sky[k]] = 0;
   }
   for (std::size_t k = 0; k < key.size(); ++k) {
-    if (no_key[k]) cells.planes[Cells::kKeyFree][of_key[k]] = 0;
+    if (no_key[k]) cells.numbers[kKeyFree][of_key[k]] = 0;
   }
-}
-
-// Of the lights in the windows of kLanes scouts of a row, the first at `cell`.
-struct Drawing::Windows {
-  std::array<float, kLanes> all = {}, sky = {}, key_all = {}, key_free = {};
-};
-Drawing::Windows Drawing::windows(const Cells& cells, std::size_t cell) const {
-  const auto row = [&](std::size_t first) {
-    std::array<const float*, Cells::kPlanes> numbers;
-    for (int p = 0; p < Cells::kPlanes; ++p) numbers[p] = &cells.planes[p][first];
-    return numbers;
-  };
-  const auto spot = [](const auto& of, std::size_t k) {
-    const std::size_t i = k * kScouts;
-    return Spot{of[0][i], of[1][i], of[2][i], of[3][i], of[4][i], of[5][i], of[6][i]};
-  };
-  Windows w;
-  const auto a = row(cell);
-  for (int dy = -kReach; dy <= kReach; ++dy) {
-    for (int dx = -kReach; dx <= kReach; ++dx) {
-      const float tent = kTent[dx + kReach] * kTent[dy + kReach];
-      const auto b = row(cell + static_cast<std::size_t>(kScouts * (dy * cells.width + dx)));
-      for (std::size_t k = 0; k < kLanes; ++k) {
-        const float weight = tent * likeness(spot(a, k), spot(b, k), per_depth_);
-        w.all[k] += weight;
-        w.sky[k] += weight * b[Cells::kSky][k * kScouts];
-        w.key_all[k] += weight * b[Cells::kKeyAll][k * kScouts];
-        w.key_free[k] += weight * b[Cells::kKeyFree][k * kScouts];
-      }
-    }
-  }
-  return w;
 }
 
 // Whether the windows of scouts see a light, or some of each do and some do not.
 void Drawing::scout(Cells& cells, int y) const {
   if (!is_scout(y)) return;
   const int before = kReach * kScouts, end = cells.left + cells.width - before;
-  for (int x = scout_before(cells.left + before + kScouts - 1); x < end; x += kLanes * kScouts) {
-    const Windows w = windows(cells, cells.at(x, y));
-    for (int k = 0; k < static_cast<int>(kLanes) && x + k * kScouts < end; ++k) {
-      const std::size_t cell = cells.at(x + k * kScouts, y);
-      cells.mixed_sky[cell] = w.sky[k] < w.all[k];
-      cells.mixed_key[cell] = w.key_free[k] > 0 && w.key_free[k] < w.key_all[k];
-      // All, or none.
-      cells.shared[cell] = {1, w.key_free[k] > 0 || !(w.key_all[k] > 0) ? 1.0f : 0.0f};
-    }
+  const int begin = scout_before(cells.left + before + kScouts - 1);
+  const int n = (end - begin + kScouts - 1) / kScouts;
+  const WindowSums w = sum_windows(cells.row(begin, y), static_cast<std::size_t>(n), per_depth_);
+  for (int k = 0; k < n; ++k) {
+    const std::size_t cell = cells.at(begin + k * kScouts, y);
+    cells.mixed_sky[cell] = w.sky[k] < w.all[k];
+    cells.mixed_key[cell] = w.key_free[k] > 0 && w.key_free[k] < w.key_all[k];
+    // All, or none.
+    cells.shared[cell] = {1, w.key_free[k] > 0 || !(w.key_all[k] > 0) ? 1.0f : 0.0f};
   }
 }
 
@@ -415,33 +365,9 @@ void Drawing::share(Cells& cells, int y) const {
     Shared& shared = cells.shared[cell];
     if (mixed_sky) shared.sky = sky / all;
     if (mixed_key && key_all > 0) shared.key = std::max(0.0f, key_free / key_all);
-    const Color color = cells.finishes[cell].lit(shared.sky, shared.key);
-    cells.colors[cell] = color;
-    cells.roots[cell] = {std::sqrt(color.r), std::sqrt(color.g), std::sqrt(color.b)};
+    cells.colors[cell] = cells.finishes[cell].lit(shared.sky, shared.key);
+    set_roots(cells, cell);
   }
-}
-
-// Whether a pixel is an edge: one of those around it sees another thing, or differs in brightness.
-bool Drawing::differs(const Cells& cells, int x, int y) const {
-  const std::size_t cell = cells.at(x, y);
-  const bool seen = cells.seen(cell);
-  const Color& root = cells.roots[cell];
-  for (int dy = -1; dy <= 1; ++dy) {
-    for (int dx = -1; dx <= 1; ++dx) {
-      const std::size_t other = cell + static_cast<std::size_t>(dy * cells.width + dx);
-      const Color& that = cells.roots[other];
-      const float step = std::max(
-          {std::abs(root.r - that.r), std::abs(root.g - that.g), std::abs(root.b - that.b)});
-      if (seen != cells.seen(other) || step > kStep) return true;
-    }
-  }
-  if (!seen) return false;
-  const Spot spot = spot_of(cells, cell);
-  const auto width = static_cast<std::size_t>(cells.width);
-  for (const std::size_t other : {cell - 1, cell + 1, cell - width, cell + width}) {
-    if (!(likeness(spot, spot_of(cells, other), per_depth_) > 0)) return true;  // a crease
-  }
-  return false;
 }
 
 // The mean of what is seen at several places of a pixel. They are lit as its middle if all are
@@ -449,9 +375,12 @@ bool Drawing::differs(const Cells& cells, int x, int y) const {
 void Drawing::resolve(const Cells& cells, int y) const {
   std::vector<int> edges;
   std::vector<Ray> rays;
-  for (int x = cells.left + kMargin; x < cells.left + cells.width - kMargin; ++x) {
+  const int begin = cells.left + kMargin, end = cells.left + cells.width - kMargin;
+  const std::vector<std::uint8_t> is_edge =
+      find_edges(cells.row(begin, y), static_cast<std::size_t>(end - begin), per_depth_, kStep);
+  for (int x = begin; x < end; ++x) {
     canvas_.at(x, y) = cells.colors[cells.at(x, y)];
-    if (side_ == 1 || !differs(cells, x, y)) continue;
+    if (side_ == 1 || !is_edge[x - begin]) continue;
     edges.push_back(x);
     for (const PlanePoint& p : places_) rays.push_back(panel_.ray(x + p.x, y + p.y));
   }
