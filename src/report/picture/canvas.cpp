@@ -33,10 +33,10 @@ Canvas make_canvas(int width, int height, const Color& background) {
 }
 
 Image to_image(const Canvas& canvas) {
-  Image image{canvas.width, canvas.height, {}};
-  image.rgb.reserve(3 * canvas.pixels.size());
+  Image image{canvas.width, canvas.height, std::vector<std::uint8_t>(3 * canvas.pixels.size())};
+  auto byte = image.rgb.begin();
   for (const Color& c : canvas.pixels) {
-    for (const float x : {c.r, c.g, c.b}) image.rgb.push_back(to_srgb_byte(x));
+    for (const float x : {c.r, c.g, c.b}) *byte++ = to_srgb_byte(x);
   }
   return image;
 }

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace rholm {
@@ -68,18 +70,21 @@ float from_srgb(float encoded) {
   return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
 }
 
-// A table in place of powers: the bytes of equal steps, and from where on each byte is.
+// A table in place of powers, by the exponent and kBits of the mantissa: from 2^-kOctaves on, below
+// half of a byte, a step holds at most one place where the byte changes. The curve has at most
+// 255 * 1.055 / 2.4 = 112 bytes per factor of e, a step at most 2^-kBits of that.
 std::uint8_t to_srgb_byte(float linear) {
-  constexpr std::size_t kSteps = 1024;  // chosen: dark ones, the longest, have 3.3 bytes each
+  constexpr int kBits = 8, kOctaves = 13, kShift = std::numeric_limits<float>::digits - 1 - kBits;
+  constexpr std::uint32_t kFirst = std::bit_cast<std::uint32_t>(0x1p-13f) >> kShift;
   struct Table {
     std::array<float, 257> least;
-    std::array<std::uint8_t, kSteps> byte = {};
+    std::array<std::uint8_t, kOctaves << kBits> byte = {};
     Table() {
       for (std::size_t b = 0; b < least.size(); ++b) {
         least[b] = from_srgb((static_cast<float>(b) - 0.5f) / 255);
       }
-      for (std::size_t k = 1; k < kSteps; ++k) {
-        const auto at = static_cast<float>(k) / kSteps;
+      for (std::uint32_t k = 0; k < byte.size(); ++k) {
+        const auto at = std::bit_cast<float>((kFirst + k) << kShift);
         byte[k] = static_cast<std::uint8_t>(std::upper_bound(least.begin(), least.end(), at) -
                                             least.begin() - 1);
       }
@@ -87,10 +92,9 @@ std::uint8_t to_srgb_byte(float linear) {
   };
   static const Table table;
   if (linear >= 1) return 255;  // paper
-  const float x = std::max(linear, 0.0f);
-  std::uint8_t byte = table.byte[static_cast<std::size_t>(x * kSteps)];
-  while (x >= table.least[byte + 1u]) ++byte;
-  return byte;
+  if (!(linear >= 0x1p-13f)) return 0;
+  const std::uint8_t byte = table.byte[(std::bit_cast<std::uint32_t>(linear) >> kShift) - kFirst];
+  return static_cast<std::uint8_t>(byte + (linear >= table.least[byte + 1u]));
 }
 
 Color ColorScale::color(double value) const {

@@ -219,6 +219,7 @@ void set_roots(Cells& cells, std::size_t cell) {
 void Drawing::see(Cells& cells, int y) const {
   std::vector<Ray> sight, sky, key;
   std::vector<std::size_t> of_sky, of_key;
+  sight.reserve(static_cast<std::size_t>(cells.width));
   for (int k = 0; k < cells.width; ++k) sight.push_back(panel_.ray(cells.left + k + 0.5, y + 0.5));
   const std::vector<RayHit> hits = scene_.first_hits(sight);
   for (int x = cells.left; x < cells.left + cells.width; ++x) {
