@@ -6,6 +6,7 @@
 
 int main(int argc, char** argv) {
   rholm::cli::keep_freed_memory();
+  rholm::cli::start_on_huge_pages();
   rholm::cli::install_signal_handlers();
   rholm::cli::install_bus_error_handler();
   return rholm::cli::run_program({argv + 1, argv + argc});
