@@ -22,6 +22,22 @@ Mesh scaled(const Mesh& mesh, double scale) {
   return result;
 }
 
+// Samples that follow each other are on one triangle as a rule.
+class LastNormal {
+ public:
+  explicit LastNormal(const Mesh& mesh) : mesh_(mesh) {}
+  const Vec3& of(std::uint32_t triangle) {
+    if (triangle != triangle_) normal_ = unit_normal(mesh_, triangle);
+    triangle_ = triangle;
+    return normal_;
+  }
+
+ private:
+  const Mesh& mesh_;
+  std::optional<std::uint32_t> triangle_;
+  Vec3 normal_;
+};
+
 }  // namespace
 
 void check(const CompareOptions& options) {
@@ -74,10 +90,11 @@ void CompareSamples::measure(Way way, std::size_t first, std::span<double> dista
   const Side &here = from(way), &there = to(way);
   const AreaSamples samples = here.sampler->range(first, distances.size());
   const std::vector<ClosestPoint> closest = there.tree->closest(samples.points);
+  LastNormal normal_here(here.mesh), normal_there(there.mesh);
   for (std::size_t k = 0; k < distances.size(); ++k) {
     distances[k] = closest[k].distance;
-    angles[k] = angle_between(unit_normal(here.mesh, samples.triangles[k]),
-                              unit_normal(there.mesh, closest[k].triangle));
+    angles[k] = angle_between(normal_here.of(samples.triangles[k]),
+                              normal_there.of(closest[k].triangle));
   }
 }
 
