@@ -14,15 +14,23 @@ Vec3 triangle_normal(const std::array<Vec3, 3>& edges) {
   return l1 >= l2 ? cross(edges[2], edges[0]) : cross(edges[0], edges[1]);
 }
 
+// The point of the segment from a on along an edge that is closest, in p's distance.
+struct Foot {
+  Vec3 point;
+  double distance2;
+};
+inline Foot foot_on_edge(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& edge) {
+  const double along = dot(p - a, edge);
+  const double length2 = squared(edge);
+  Vec3 point = a;
+  if (along > 0) point = along >= length2 ? b : a + (along / length2) * edge;
+  return {point, squared(p - point)};
+}
+
 }  // namespace
 
 Vec3 closest_point_of_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const Vec3 edge = b - a;
-  const double along = dot(p - a, edge);
-  const double length2 = squared(edge);
-  if (!(along > 0)) return a;
-  if (along >= length2) return b;
-  return a + (along / length2) * edge;
+  return foot_on_edge(p, a, b, b - a).point;
 }
 
 // The closest point e of the boundary first; then, if p projects into the inside, e's step onto the
@@ -31,19 +39,19 @@ Vec3 closest_point_of_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
 Vec3 closest_point_of_triangle(const Vec3& p, const std::array<Vec3, 3>& corners) {
   const auto& [a, b, c] = corners;
   const std::array<Vec3, 3> edges = {b - a, c - b, a - c};
-  Vec3 best = closest_point_of_segment(p, a, b);
-  for (const Vec3& candidate :
-       {closest_point_of_segment(p, b, c), closest_point_of_segment(p, c, a)}) {
-    if (squared(p - candidate) < squared(p - best)) best = candidate;
+  Foot best = foot_on_edge(p, a, b, edges[0]);
+  for (int k = 1; k < 3; ++k) {
+    const Foot next = foot_on_edge(p, corners[k], corners[(k + 1) % 3], edges[k]);
+    if (next.distance2 < best.distance2) best = next;
   }
   const Vec3 normal = triangle_normal(edges);
   const double normal2 = squared(normal);
-  if (!(normal2 > 0)) return best;
+  if (!(normal2 > 0)) return best.point;
   for (int k = 0; k < 3; ++k) {
-    if (dot(cross(normal, edges[k]), p - corners[k]) < 0) return best;
+    if (dot(cross(normal, edges[k]), p - corners[k]) < 0) return best.point;
   }
-  const Vec3 foot = p - (dot(normal, p - best) / normal2) * normal;
-  return squared(p - foot) <= squared(p - best) ? foot : best;  // also if foot has overflowed
+  const Vec3 foot = p - (dot(normal, p - best.point) / normal2) * normal;
+  return squared(p - foot) <= best.distance2 ? foot : best.point;  // also if foot has overflowed
 }
 
 }  // namespace rholm

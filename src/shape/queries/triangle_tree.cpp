@@ -245,12 +245,15 @@ double box_distance2(const Vec3& p, const std::array<Vec3, 3>& c) {
 }
 
 void take_if_nearer(std::uint32_t triangle, ClosestSearch& search) {
-  Triangle t = search.mesh.triangles[triangle];
   // In the order of the indices, an edge gives the same bits to both of its triangles: ties are
   // ties.
-  std::sort(t.begin(), t.end());
-  std::array<Vec3, 3> corners;
-  for (int k = 0; k < 3; ++k) corners[k] = search.frame.to_local(search.mesh.vertices[t[k]]);
+  const auto [a, b, c] = search.mesh.triangles[triangle];
+  const std::uint32_t first = std::min({a, b, c}), last = std::max({a, b, c});
+  const auto corner = [&](std::uint32_t vertex) {
+    return search.frame.to_local(search.mesh.vertices[vertex]);
+  };
+  const std::array<Vec3, 3> corners = {corner(first), corner(a ^ b ^ c ^ first ^ last),
+                                       corner(last)};
   const double box2 = box_distance2(search.query, corners);
   if (box2 > search.best2) return;
   const Vec3 candidate = closest_point_of_triangle(search.query, corners);
