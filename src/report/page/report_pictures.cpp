@@ -89,6 +89,15 @@ Picture picture_of(const Image& image) {
   return picture;
 }
 
+std::vector<Picture> pictures_of(const std::vector<Image>& images, const Context& context) {
+  std::vector<Picture> pictures(images.size());
+  parallel_for(images.size(), 1, context, {"render", 1, 1},
+               [&](std::size_t begin, std::size_t end) {
+                 for (std::size_t k = begin; k < end; ++k) pictures[k] = picture_of(images[k]);
+               });
+  return pictures;
+}
+
 RenderOptions picture_options() {
   RenderOptions options;
   options.samples = 2;  // chosen: the pictures are shown at half their size
@@ -121,9 +130,7 @@ std::vector<Picture> draw_row(const std::vector<Panel>& panels, int size, const 
   options.width = static_cast<int>(panels.size()) * size;
   options.height = size;
   const Image image = render(panels, options, context);
-  std::vector<Picture> pictures;
-  for (const Image& part : cut_apart(image, panels.size())) pictures.push_back(picture_of(part));
-  return pictures;
+  return pictures_of(cut_apart(image, panels.size()), context);
 }
 
 std::vector<Picture> draw_sides(const Panel& panel, int size, std::optional<ColorScale> scale,
@@ -135,11 +142,9 @@ std::vector<Picture> draw_sides(const Panel& panel, int size, std::optional<Colo
     options.scale_max = scale->max;
   }
   const std::array<Vec3, 2> directions = {options.view_direction, -options.view_direction};
-  std::vector<Picture> sides;
-  for (const Image& side : render_views({&panel, 1}, options, directions, context)) {
-    sides.push_back(picture_of(cut_apart(side, 1).front()));
-  }
-  return sides;
+  std::vector<Image> sides = render_views({&panel, 1}, options, directions, context);
+  for (Image& side : sides) side = cut_apart(side, 1).front();
+  return pictures_of(sides, context);
 }
 
 ErrorMap draw_errors(const Mesh& surface, const Mesh& shape, int size, const Context& context) {
