@@ -23,6 +23,9 @@ struct CallSite {
 void run_chunks(std::size_t chunks, int threads, const std::function<bool(std::size_t chunk)>& run,
                 const std::function<void()>& wait, CallSite where);
 
+// Calls run() where loops of oneTBB, those of other libraries too, have that many threads at most.
+void run_limited(int threads, const std::function<void()>& run);
+
 // Between two calls of `wait`; chosen, a tenth of what a user who interrupts notices.
 constexpr std::chrono::milliseconds kWaitInterval{10};
 

@@ -58,6 +58,12 @@ class AtWork {
 
 }  // namespace
 
+// Not in arena_of(): loops are cut for as many threads as an arena has places for.
+void run_limited(int threads, const std::function<void()>& run) {
+  if (threads >= tbb::info::default_concurrency()) return run();
+  tbb::task_arena(threads).execute(run);
+}
+
 int default_threads() { return std::max(1, tbb::info::default_concurrency()); }
 
 void run_chunks(std::size_t chunks, int threads, const std::function<bool(std::size_t)>& run,

@@ -34,6 +34,8 @@ void note(CallSite where) {
 
 }  // namespace
 
+void run_limited(int, const std::function<void()>& run) { run(); }
+
 int default_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
 void run_chunks(std::size_t chunks, int threads, const std::function<bool(std::size_t)>& run,

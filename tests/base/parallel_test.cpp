@@ -5,10 +5,12 @@
 #include <atomic>
 #include <chrono>
 #include <fstream>
+#include <new>
 #include <stdexcept>
 #include <thread>
 #include <vector>
 
+#include "base/chunks.h"
 #include "base/compensated_sum.h"
 #include "rholm/error.h"
 
@@ -24,6 +26,19 @@ TEST(parallel_for, visits_every_index_once_for_any_number_of_threads) {
       });
       for (const auto& count : visits) EXPECT_EQ(count, 1);
     }
+  }
+}
+
+TEST(run_limited, calls_on_this_thread_and_passes_on_what_is_thrown) {
+  for (const int threads : {1, 2, 64}) {
+    std::thread::id runner;
+    EXPECT_THROW(run_limited(threads,
+                             [&] {
+                               runner = std::this_thread::get_id();
+                               throw std::bad_alloc();
+                             }),
+                 std::bad_alloc);
+    EXPECT_EQ(runner, std::this_thread::get_id());
   }
 }
 

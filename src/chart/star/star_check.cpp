@@ -121,7 +121,7 @@ Mesh local_copy(const LocalView& view) {
 std::vector<int> shoot_rays(const LocalView& view, const Vec3& center, std::size_t n,
                             const Context& context) {
   const Mesh local = local_copy(view);  // which the scene refers to
-  const RayScene scene(local);
+  const RayScene scene(local, context);
   const Vec3 origin = view.frame.to_local(center);
   std::vector<int> hits(n);
   constexpr std::size_t kGrain = 1024;  // chosen: about a millisecond

@@ -215,7 +215,7 @@ Compressed compress(const Mesh& mesh, const CompressOptions& options, const Cont
   check_span(bounds(mesh.vertices).diagonal());
   const Inspection found = inspect(mesh);
   check_oriented_alike(found);
-  const RayScene scene(mesh);
+  const RayScene scene(mesh, context);
   OuterSurface outer{mesh, scene, found.closed, options.seed};
   const SheetProbe probe = probe_sheets(outer, kThin, context);
   Subject subject;

@@ -274,7 +274,7 @@ void draw_panel(Canvas& canvas, const PanelPicture& p, std::optional<RayScene>& 
   // large thing's distance would overflow in units of the small one.
   constexpr double kVisible = 1e-3;
   if (p.subject.radius * p.pixels_per_unit < kVisible) return;
-  if (!scene) scene.emplace(p.subject.mesh, p.subject.ball_radius, RayTree::kQuick);
+  if (!scene) scene.emplace(p.subject.mesh, context, p.subject.ball_radius, RayTree::kQuick);
   if (!options.fine) return draw_shared(canvas, p, *scene, options, context, stage);
   const LightSamples lights =
       make_light_samples(options.samples * options.samples, options.occlusion_rays);

@@ -12,6 +12,8 @@
 #include <string>
 
 #include "base/cancel.h"
+#include "base/chunks.h"
+#include "base/parallel.h"
 #include "rholm/error.h"
 #include "rholm/topology.h"
 #include "shape/face.h"
@@ -68,16 +70,16 @@ struct RayScene::Impl {
   Device device;
   Scene scene;
 
-  Impl(const Mesh& m, double radius, RayTree tree)
+  Impl(const Mesh& m, const Context& context, double radius, RayTree tree)
       : mesh(m),
         ball_radius(radius),
         quality(tree == RayTree::kQuick ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM),
         frame(unit_frame(grown(bounds(m.vertices), radius))) {
     device.reset(rtcNewDevice(nullptr));
     if (!device) throw_embree_error(rtcGetDeviceError(nullptr), "starting the ray tracer");
-    build();
+    build(thread_count(context));
   }
-  void build();
+  void build(int threads);
   Geometry make_geometry(RTCGeometryType type) const;
   Geometry make_triangles() const;
   Geometry make_balls() const;
@@ -129,7 +131,7 @@ Geometry RayScene::Impl::make_balls() const {
   return geometry;
 }
 
-void RayScene::Impl::build() {
+void RayScene::Impl::build(int threads) {
   scene.reset(rtcNewScene(device.get()));
   const bool balls = ball_radius > 0;
   if (balls ? !mesh.vertices.empty() : !mesh.triangles.empty()) {
@@ -146,7 +148,8 @@ void RayScene::Impl::build() {
     rtcSetSceneProgressMonitorFunction(scene.get(), &keep_building,
                                        const_cast<CancelScope*>(scope));
   }
-  rtcCommitScene(scene.get());
+  // Embree's loops would look for work on every processor.
+  run_limited(threads, [&] { rtcCommitScene(scene.get()); });
   const RTCError error = rtcGetDeviceError(device.get());
   if (error != RTC_ERROR_NONE) throw_embree_error(error, "building the search tree");
 }
@@ -168,8 +171,8 @@ RTCRay RayScene::Impl::ray(const Vec3& origin, const Vec3& direction, double nea
   return r;
 }
 
-RayScene::RayScene(const Mesh& mesh, double ball_radius, RayTree tree)
-    : impl_(std::make_unique<Impl>(mesh, ball_radius, tree)) {}
+RayScene::RayScene(const Mesh& mesh, const Context& context, double ball_radius, RayTree tree)
+    : impl_(std::make_unique<Impl>(mesh, context, ball_radius, tree)) {}
 RayScene::~RayScene() = default;
 
 // --- Rays ----------------------------------------------------------------------------------

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "rholm/context.h"
 #include "rholm/mesh.h"
 
 namespace rholm {
@@ -38,8 +39,9 @@ enum class RayTree { kTight, kQuick };
 class RayScene {
  public:
   // With a radius above 0: of a ball about each vertex, which rays meet in place of triangles;
-  // there are first_hit() and occluded() then.
-  explicit RayScene(const Mesh& mesh, double ball_radius = 0, RayTree tree = RayTree::kTight);
+  // there are first_hit() and occluded() then. The tree is made on the threads of `context`.
+  explicit RayScene(const Mesh& mesh, const Context& context = {}, double ball_radius = 0,
+                    RayTree tree = RayTree::kTight);
   ~RayScene();
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;

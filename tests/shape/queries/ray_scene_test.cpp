@@ -173,7 +173,7 @@ TEST(rays, meet_balls_about_vertices) {
   constexpr double kRadius = 0.1;
   Mesh mesh;
   for (int k = 0; k < 200; ++k) mesh.vertices.push_back(random_point(5, k));
-  const RayScene scene(mesh, kRadius);
+  const RayScene scene(mesh, {}, kRadius);
   for (int k = 0; k < 2000; ++k) {
     const Vec3 origin = 4.0 * normalized(random_point(6, k));
     const Vec3 direction = normalized(random_point(7, k) - origin);
@@ -201,7 +201,7 @@ TEST(rays, meet_balls_about_vertices) {
 TEST(rays, meet_the_same_in_packets) {
   const Mesh mesh = soup(8, 300);
   for (const double radius : {0.0, 0.1}) {
-    const RayScene scene(mesh, radius), quick(mesh, radius, RayTree::kQuick);
+    const RayScene scene(mesh, {}, radius), quick(mesh, {}, radius, RayTree::kQuick);
     std::vector<Ray> rays;
     for (int k = 0; k < 1003; ++k) {
       const Vec3 origin = 4.0 * normalized(random_point(9, k));
@@ -231,7 +231,7 @@ TEST(rays, meet_nothing_in_an_empty_mesh) {
   EXPECT_EQ(scene.count_hits({}, {0, 0, 1}), 0);
   EXPECT_FALSE(scene.first_hit({}, {0, 0, 1}, 0, kInfinity).hit);
   EXPECT_FALSE(scene.occluded({}, {0, 0, 1}, 0, kInfinity));
-  EXPECT_FALSE(RayScene(none, 1).first_hit({0, 0, -4}, {0, 0, 1}, 0, kInfinity).hit);
+  EXPECT_FALSE(RayScene(none, {}, 1).first_hit({0, 0, -4}, {0, 0, 1}, 0, kInfinity).hit);
 }
 
 }  // namespace
