@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/cancel.h"
+#include "base/parallel.h"
 #include "rholm/error.h"
 #include "rholm/topology.h"
 #include "shape/queries/closest_point.h"
@@ -28,6 +29,8 @@ constexpr double kDrawnIn = 0x1p400;
 constexpr double kLargestRadius = 0x1p60;
 
 constexpr std::size_t kManyTriangles = 8192;  // 1 ms: whether to cancel is asked
+// Of halves that all threads work on; chosen: 64 parts of the rest are even.
+constexpr int kCommonLevels = 6;
 
 double largest_component(const Vec3& a) {
   return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
@@ -86,23 +89,28 @@ void select(std::span<Middle> middles, std::size_t n, int axis) {
                    [&](const Middle& a, const Middle& b) { return a.along(axis) < b.along(axis); });
 }
 
+struct Part {
+  std::span<Middle> middles;
+  std::size_t whole = 0;  // a leaf's triangles times a power of two, at least as many as there are
+};
+
 // Halves across the longest side of their box, the first one `whole` triangles or a half of it, a
-// quarter ..., down to those of a leaf.
-void split(std::span<Middle> middles, std::size_t whole) {
-  if (middles.size() <= kTreeWidth) return;
+// quarter ...; what is not more than a leaf is left as it is.
+std::array<Part, 2> halved(const Part& part) {
+  const std::span<Middle> middles = part.middles;
+  if (middles.size() <= kTreeWidth) return {part, Part{}};
   if (middles.size() > kManyTriangles) ask_cancel();
+  std::size_t whole = part.whole;
   while (whole >= middles.size()) whole /= 2;
   select(middles, whole, longest_axis(middles));
-  split(middles.first(whole), whole);
-  split(middles.subspan(whole), whole);
+  return {Part{middles.first(whole), whole}, Part{middles.subspan(whole), whole}};
 }
 
-constexpr float kFloatInfinity = std::numeric_limits<float>::infinity();
-
-struct FloatBox {
-  std::array<float, 3> low = {kFloatInfinity, kFloatInfinity, kFloatInfinity};
-  std::array<float, 3> high = {-kFloatInfinity, -kFloatInfinity, -kFloatInfinity};
-};
+// Down to those of a leaf.
+void split(const Part& part) {
+  if (part.middles.size() <= kTreeWidth) return;
+  for (const Part& half : halved(part)) split(half);
+}
 
 // Appends the nodes above the children with these boxes, the first of which is `first`; boxes are
 // theirs then.
@@ -128,64 +136,83 @@ void add_level(std::vector<FloatBox>& boxes, std::size_t first, std::vector<BoxG
 
 }  // namespace
 
-TriangleTree::TriangleTree(const Mesh& mesh)
-    : TriangleTree(mesh, unit_frame(bounds(mesh.vertices)), {}) {}
+TriangleTree::TriangleTree(const Mesh& mesh, const Context& context)
+    : TriangleTree(mesh, unit_frame(bounds(mesh.vertices)), {}, context) {}
 
 TriangleTree::TriangleTree(const Mesh& portion, const UnitFrame& whole,
-                           const PortionNumbers& numbers)
+                           const PortionNumbers& numbers, const Context& context)
     : mesh_(portion), frame_(whole), numbers_(numbers) {
   if (portion.triangles.empty()) return;
-  sort_triangles();
-  build();
+  sort_triangles(context);
+  build(context);
 }
 
 // So that each node holds triangles that are near each other.
-void TriangleTree::sort_triangles() {
+void TriangleTree::sort_triangles(const Context& context) {
   AlignedArray<Middle> middles(mesh_.triangles.size());
-  CancelPoll poll;
-  for (std::size_t t = 0; t < middles.size(); ++t) {
-    poll();
-    const auto [a, b, c] = scaled_corners(mesh_, mesh_.triangles[t], frame_.scale);
-    const Vec3 x = (a + b + c) / 3.0 - frame_.center;
-    middles[t] = {{fixed_point(x.x), fixed_point(x.y), fixed_point(x.z)},
-                  static_cast<std::uint32_t>(t)};
-  }
+  parallel_for(middles.size(), kManyTriangles, context, {},
+               [&](std::size_t begin, std::size_t end) {
+                 for (std::size_t t = begin; t < end; ++t) {
+                   const auto [a, b, c] = scaled_corners(mesh_, mesh_.triangles[t], frame_.scale);
+                   const Vec3 x = (a + b + c) / 3.0 - frame_.center;
+                   middles[t] = {{fixed_point(x.x), fixed_point(x.y), fixed_point(x.z)},
+                                 static_cast<std::uint32_t>(t)};
+                 }
+               });
   std::size_t whole = kTreeWidth;
   while (whole < middles.size()) whole *= 2;
-  split({middles.data(), middles.size()}, whole);
+  std::vector<Part> parts = {{{middles.data(), middles.size()}, whole}};
+  for (int level = 0; level < kCommonLevels; ++level) {
+    std::vector<std::array<Part, 2>> halves(parts.size());
+    parallel_for(parts.size(), 1, context, {}, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) halves[k] = halved(parts[k]);
+    });
+    parts.clear();
+    for (const auto& half : halves) parts.insert(parts.end(), half.begin(), half.end());
+  }
+  parallel_for(parts.size(), 1, context, {}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) split(parts[k]);
+  });
   order_.reserve(middles.size() + kTreeWidth);
   for (const Middle& middle : middles) order_.push_back(middle.triangle);
 }
 
-void TriangleTree::build() {
+void TriangleTree::build(const Context& context) {
   const std::size_t n_leaves = (order_.size() + kTreeWidth - 1) / kTreeWidth;
   order_.resize(kTreeWidth * n_leaves, order_.back());  // the last one fills its leaf
   nodes_.leaves = AlignedArray<PlaneGroup>(n_leaves);
   std::vector<FloatBox> boxes(n_leaves);
-  CancelPoll poll;
-  for (std::size_t leaf = 0; leaf < n_leaves; ++leaf) {
-    alignas(32) std::array<TreeRows3, 3> corners;
-    for (std::size_t k = 0; k < kTreeWidth; ++k) {
-      poll();
-      const Triangle& t = mesh_.triangles[order_[kTreeWidth * leaf + k]];
-      for (int corner = 0; corner < 3; ++corner) {
-        const Vec3 q = frame_.to_local(mesh_.vertices[t[corner]]);
-        const std::array<double, 3> row = {q.x, q.y, q.z};
-        for (int axis = 0; axis < 3; ++axis) {
-          const auto x = static_cast<float>(row[axis]);
-          corners[corner][axis][k] = x;
-          boxes[leaf].low[axis] = std::min(boxes[leaf].low[axis], x);
-          boxes[leaf].high[axis] = std::max(boxes[leaf].high[axis], x);
-        }
-      }
-    }
-    set_planes(corners, nodes_.leaves[leaf]);
-  }
+  parallel_for(n_leaves, kManyTriangles / kTreeWidth, context, {},
+               [&](std::size_t begin, std::size_t end) {
+                 for (std::size_t leaf = begin; leaf < end; ++leaf) {
+                   boxes[leaf] = make_leaf(leaf, nodes_.leaves[leaf]);
+                 }
+               });
   for (std::size_t first = 0; boxes.size() > 1;) {
     const std::size_t n = boxes.size();
     add_level(boxes, first, nodes_.inner);
     first += n;
   }
+}
+
+FloatBox TriangleTree::make_leaf(std::size_t leaf, PlaneGroup& planes) const {
+  FloatBox box;
+  alignas(32) std::array<TreeRows3, 3> corners;
+  for (std::size_t k = 0; k < kTreeWidth; ++k) {
+    const Triangle& t = mesh_.triangles[order_[kTreeWidth * leaf + k]];
+    for (int corner = 0; corner < 3; ++corner) {
+      const Vec3 q = frame_.to_local(mesh_.vertices[t[corner]]);
+      const std::array<double, 3> row = {q.x, q.y, q.z};
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto x = static_cast<float>(row[axis]);
+        corners[corner][axis][k] = x;
+        box.low[axis] = std::min(box.low[axis], x);
+        box.high[axis] = std::max(box.high[axis], x);
+      }
+    }
+  }
+  set_planes(corners, planes);
+  return box;
 }
 
 namespace {

@@ -4,11 +4,13 @@
 // be nearest; these are then measured in double, on the mesh's own vertices.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
 
+#include "rholm/context.h"
 #include "rholm/mesh.h"
 #include "shape/face.h"
 #include "shape/queries/closest_kernels.h"
@@ -38,13 +40,21 @@ struct PortionNumbers {
 bool may_be_closer(const Bounds& box, const UnitFrame& whole, const Vec3& point,
                    const ClosestSoFar& so_far);
 
+inline constexpr float kFloatInfinity = std::numeric_limits<float>::infinity();
+struct FloatBox {
+  std::array<float, 3> low = {kFloatInfinity, kFloatInfinity, kFloatInfinity};
+  std::array<float, 3> high = {-kFloatInfinity, -kFloatInfinity, -kFloatInfinity};
+};
+
 // Keeps a reference to `mesh`, which must outlive it. Queries may come from several threads at
 // once.
 class TriangleTree {
  public:
-  explicit TriangleTree(const Mesh& mesh);
+  // Made on the threads of `context`; the same for any number of them.
+  explicit TriangleTree(const Mesh& mesh, const Context& context = {.threads = 1});
   // Of a portion of a mesh, with vertices in the order that they have there, and that mesh's frame.
-  TriangleTree(const Mesh& portion, const UnitFrame& whole, const PortionNumbers& numbers);
+  TriangleTree(const Mesh& portion, const UnitFrame& whole, const PortionNumbers& numbers,
+               const Context& context = {.threads = 1});
 
   // Takes the closest point of the portion if it is closer than what was found, or as close and of
   // a triangle with a smaller number, and says so. Whatever the portions and their order, in the
@@ -58,8 +68,9 @@ class TriangleTree {
 
  private:
   ClosestPoint closest_within(const Vec3& point, double at_most) const;
-  void sort_triangles();
-  void build();
+  void sort_triangles(const Context& context);
+  void build(const Context& context);
+  FloatBox make_leaf(std::size_t leaf, PlaneGroup& planes) const;
 
   const Mesh& mesh_;
   UnitFrame frame_;

@@ -20,7 +20,7 @@ namespace {
 // All samples of one way, on the threads of this process.
 SampleDistances measure_way(CompareSamples& samples, Way way, std::size_t n, const Context& context,
                             const ParallelStage& stage) {
-  samples.prepare(way);
+  samples.prepare(way, context);
   SampleDistances all(n);
   parallel_for(n, kQueriesOfChunk, context, stage, [&](std::size_t begin, std::size_t end) {
     samples.measure(way, begin, std::span(all.distances).subspan(begin, end - begin),
@@ -144,7 +144,7 @@ Comparison compare(CompareSamples& samples, const CompareOptions& options, const
 std::vector<double> distances_to_surface(const std::vector<Vec3>& points, const Mesh& surface,
                                          const Context& context) {
   validate(surface);
-  const TriangleTree tree(surface);
+  const TriangleTree tree(surface, context);
   std::vector<double> distances(points.size());
   parallel_for(points.size(), kQueriesOfChunk, context, {"distances"},
                [&](std::size_t begin, std::size_t end) {

@@ -77,10 +77,10 @@ CompareSamples::CompareSamples(const Mesh& a, const Mesh& b, const CompareOption
 
 double CompareSamples::diagonal() const { return bounds(a_.mesh.vertices).diagonal(); }
 
-void CompareSamples::prepare(Way way) {
+void CompareSamples::prepare(Way way, const Context& context) {
   Side& here = way == Way::kForth ? a_ : b_;
   Side& there = way == Way::kForth ? b_ : a_;
-  std::call_once(there.has_tree, [&] { there.tree.emplace(there.mesh); });
+  std::call_once(there.has_tree, [&] { there.tree.emplace(there.mesh, context); });
   std::call_once(here.has_sampler,
                  [&] { here.sampler.emplace(here.mesh, options_.samples, options_.seed); });
 }
@@ -93,8 +93,8 @@ void CompareSamples::measure(Way way, std::size_t first, std::span<double> dista
   LastNormal normal_here(here.mesh), normal_there(there.mesh);
   for (std::size_t k = 0; k < distances.size(); ++k) {
     distances[k] = closest[k].distance;
-    angles[k] = angle_between(normal_here.of(samples.triangles[k]),
-                              normal_there.of(closest[k].triangle));
+    angles[k] =
+        angle_between(normal_here.of(samples.triangles[k]), normal_there.of(closest[k].triangle));
   }
 }
 

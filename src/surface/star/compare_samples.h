@@ -43,9 +43,9 @@ class CompareSamples {
   // Throws InvalidInput for options and meshes as compare().
   CompareSamples(const Mesh& a, const Mesh& b, const CompareOptions& options);
 
-  // What one way needs, made once: in memory for as long as this. Any thread. Throws InvalidInput
-  // for a mesh without area.
-  void prepare(Way way);
+  // What one way needs, made once: in memory for as long as this. Any thread, but not within a loop
+  // if on several. Throws InvalidInput for a mesh without area.
+  void prepare(Way way, const Context& context = {.threads = 1});
   // As many samples from `first` on as there is room for, once the way is prepared. Any thread.
   void measure(Way way, std::size_t first, std::span<double> distances,
                std::span<double> angles) const;

@@ -347,6 +347,22 @@ TEST(closest_point, is_the_same_alone_and_after_others) {
   EXPECT_TRUE(tree.closest(std::span<const Vec3>()).empty());
 }
 
+TEST(TriangleTree, of_several_threads_finds_what_that_of_one_does) {
+  for (const std::uint32_t n : {1U, 9U, 65U, 600U, 30'000U}) {
+    const Mesh mesh = soup(12, n);
+    const TriangleTree one(mesh);
+    for (const int threads : {2, 5}) {
+      const TriangleTree several(mesh, {.threads = threads});
+      for (int k = 0; k < 300; ++k) {
+        const Vec3 p = 1.5 * random_point(8, k);
+        const ClosestPoint found = several.closest(p), wanted = one.closest(p);
+        ASSERT_EQ(found.triangle, wanted.triangle) << n;
+        ASSERT_EQ(found.distance, wanted.distance) << n;
+      }
+    }
+  }
+}
+
 TEST(TriangleTree, ends_where_the_scope_of_the_thread_says_so) {
   const Mesh mesh = soup(4, 40000);
   int asked = 0, go_on = 1 << 30;
