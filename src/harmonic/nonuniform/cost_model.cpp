@@ -7,8 +7,9 @@ namespace {
 
 // Of one core of an AMD EPYC (Zen 4) with AVX-512: smallest of many runs.
 
-// Spreading: base + cell for each cell added to, for values, gradients and Hessians, by windows of up
-// to 8 points and by wider ones, which add whole groups. Interpolation takes as long within a quarter.
+// Spreading: base + cell for each cell added to, for values, gradients and Hessians, by windows of
+// up to 8 points and by wider ones, which add whole groups. Interpolation takes as long within a
+// quarter.
 struct SourceCost {
   double base, cell;
 };
