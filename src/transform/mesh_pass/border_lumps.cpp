@@ -1,8 +1,8 @@
 #include "transform/mesh_pass/border_lumps.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
+#include <vector>
 
 namespace rholm {
 namespace {
@@ -20,16 +20,20 @@ void BorderSums<L>::add(const BorderLumps<L>& part) {
 
 template <typename L>
 void BorderSums<L>::combine() {
-  std::vector<std::size_t> order(sums_.vertices.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return sums_.vertices[a] != sums_.vertices[b] ? sums_.vertices[a] < sums_.vertices[b] : a < b;
-  });
+  // Where each is goes with it: numbers are sorted faster than places of them.
+  const std::size_t n = sums_.vertices.size();
+  std::vector<std::uint64_t> order(n);
+  for (std::size_t i = 0; i < n; ++i) order[i] = std::uint64_t{sums_.vertices[i]} << 32 | i;
+  std::sort(order.begin(), order.end());
   BorderLumps<L> sums{.per_vertex = sums_.per_vertex, .vertices = {}, .lumps = {}};
-  for (const std::size_t i : order) {
-    const VertexLump<L>* lump = sums_.lumps.data() + i * sums_.per_vertex;
-    if (sums.vertices.empty() || sums.vertices.back() != sums_.vertices[i]) {
-      sums.add(sums_.vertices[i], lump);
+  sums.vertices.reserve(n);
+  sums.lumps.reserve(n * sums_.per_vertex);
+  for (const std::uint64_t one : order) {
+    const auto vertex = static_cast<std::uint32_t>(one >> 32);
+    const VertexLump<L>* lump =
+        sums_.lumps.data() + static_cast<std::uint32_t>(one) * sums_.per_vertex;
+    if (sums.vertices.empty() || sums.vertices.back() != vertex) {
+      sums.add(vertex, lump);
     } else {
       add_lumps(lump, sums_.per_vertex,
                 &*(sums.lumps.end() - static_cast<std::ptrdiff_t>(sums_.per_vertex)));
