@@ -48,26 +48,33 @@ std::optional<int> surplus_at(const LocalView& view, const Vec3& center, const V
   return surplus;
 }
 
-// Of direction i: how many turns its longitude is.
+// Of direction i: how many turns its longitude is, and its z.
 double lattice_turns(std::size_t i) {
   const double turns = static_cast<double>(i) * (std::numbers::phi - 1);
   return turns - std::floor(turns);
+}
+double lattice_z(std::size_t i, std::size_t n) {
+  return 1 - (2.0 * static_cast<double>(i) + 1) / static_cast<double>(n);
 }
 
 // Directions of the lattice by cells of equal area, so that those near one are found.
 class LatticeCells {
  public:
-  LatticeCells(std::size_t n, const Context& context)
-      : rows_(std::max<std::size_t>(1, static_cast<std::size_t>(std::sqrt(n / kPerCell / 2)))) {
-    directions_.resize(n);
+  // `faces`: about how many ask for directions near them. Where they are few, those directions are
+  // worked out as they are asked for, not all of them before.
+  LatticeCells(std::size_t n, std::size_t faces, const Context& context)
+      : n_(n),
+        rows_(std::max<std::size_t>(1, static_cast<std::size_t>(std::sqrt(n / kPerCell / 2)))) {
+    if (2 * kPerCell * faces > n) directions_.resize(n);
     order_.resize(n);
     first_.resize(2 * rows_ * rows_ + 1);
     std::vector<std::uint32_t> cell(n);
     constexpr std::size_t kGrain = 2048;  // chosen: some 50 us
     parallel_for(n, kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        const Vec3 u = directions_[i] = lattice_direction(i, n);
-        cell[i] = static_cast<std::uint32_t>(row(u.z) * 2 * rows_ + column(lattice_turns(i)));
+        if (!directions_.empty()) directions_[i] = lattice_direction(i, n);
+        cell[i] =
+            static_cast<std::uint32_t>(row(lattice_z(i, n)) * 2 * rows_ + column(lattice_turns(i)));
       }
     });
     for (std::size_t i = 0; i < n; ++i) ++first_[cell[i] + 1];
@@ -76,7 +83,9 @@ class LatticeCells {
     for (std::size_t i = 0; i < n; ++i) order_[at[cell[i]]++] = static_cast<std::uint32_t>(i);
   }
 
-  const Vec3& direction(std::size_t i) const { return directions_[i]; }
+  Vec3 direction(std::size_t i) const {
+    return directions_.empty() ? lattice_direction(i, n_) : directions_[i];
+  }
   // Calls visit(i) for the directions within an angle of a unit vector, and for some others.
   template <typename Visit>
   void visit_near(const Vec3& middle, double angle, const Visit& visit) const {
@@ -114,7 +123,7 @@ class LatticeCells {
     return std::min(2 * rows_ - 1, static_cast<std::size_t>(at));
   }
 
-  std::size_t rows_;
+  std::size_t n_, rows_;
   std::vector<Vec3> directions_;
   std::vector<std::uint32_t> order_, first_;
 };
@@ -180,7 +189,7 @@ std::optional<std::vector<std::uint32_t>> backs(const LocalView& view, const Vec
 }  // namespace
 
 Vec3 lattice_direction(std::size_t i, std::size_t n) {
-  const double z = 1 - (2.0 * static_cast<double>(i) + 1) / static_cast<double>(n);
+  const double z = lattice_z(i, n);
   const double phi = 2 * kPi * lattice_turns(i);
   const double s = std::sqrt(std::max(0.0, 1 - z * z));
   return {s * std::cos(phi), s * std::sin(phi), z};
@@ -198,7 +207,7 @@ std::optional<std::vector<int>> count_meetings(const LocalView& view, const Vec3
   if (!turned) return std::nullopt;
   std::vector<int> counts(n, *surplus);
   if (turned->empty()) return counts;
-  const LatticeCells cells(n, context);
+  const LatticeCells cells(n, turned->size(), context);
   constexpr std::size_t kGrain = 256;  // chosen: some 50 us
   parallel_for(turned->size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
