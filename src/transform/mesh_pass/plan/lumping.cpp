@@ -15,8 +15,7 @@ namespace {
 double lumped_error2(const MeshSample& sample, double tolerance2, double enough) {
   double faces = 0, edges = 0;
   for (const MeshSample::Entry& entry : sample.entries) {
-    if (entry.error2 > tolerance2) break;
-    faces += entry.face_error2;
+    if (entry.error2 <= tolerance2) faces += entry.face_error2;
   }
   faces *= sample.share;
   if (!(sample.edge_share > 0)) return (1 + sample.unseen_edges) * faces;
@@ -50,7 +49,6 @@ double largest_tolerance(const MeshSample& sample, double allowed2) {
          std::max(cancellation(sample), kMostCancelled);
 }
 
-// Entries in any order.
 bool may_all_be_lumped(const MeshSample& sample, double allowed2) {
   const double most = largest_tolerance(sample, allowed2);
   for (const MeshSample::Entry& entry : sample.entries) {
@@ -67,11 +65,15 @@ double node_share2(bool some_noded) { return some_noded ? 0.5 : 0.1; }
 double tolerance_of(const MeshSample& sample, double allowed2) {
   const double most = largest_tolerance(sample, allowed2);
   if (may_all_be_lumped(sample, allowed2)) return most;
-  const std::size_t n = sample.entries.size();
+  std::vector<double> errors2;
+  errors2.reserve(sample.entries.size());
+  for (const MeshSample::Entry& entry : sample.entries) errors2.push_back(entry.error2);
+  std::sort(errors2.begin(), errors2.end());
+  const std::size_t n = errors2.size();
   // Triangles that are left out: half as many more each time, then a twelfth of all.
   std::vector<double> tolerances;
   for (std::size_t out = 0; out < n; out += std::clamp<std::size_t>(out / 2, 1, n / 12 + 1)) {
-    tolerances.push_back(out == 0 ? most : sample.entries[n - 1 - out].error2);
+    tolerances.push_back(out == 0 ? most : errors2[n - 1 - out]);
   }
   const double lumps2 = (1 - node_share2(true)) * allowed2;
   // The fewer are lumped the less they leave.
@@ -181,11 +183,6 @@ Seen with_hessians(const MeshSample& sample, const std::vector<RuleErrors>& rule
   return result;
 }
 
-void sort_entries(MeshSample& sample) {
-  std::sort(sample.entries.begin(), sample.entries.end(),
-            [](const auto& a, const auto& b) { return a.error2 < b.error2; });
-}
-
 // Sum of squares over edges of lumped triangles, at both ends.
 double hessians2(const Seen& seen, double tolerance2) {
   double sum = 0;
@@ -287,8 +284,7 @@ std::optional<HermiteLumps> hermite_lumps(const MeshSample& sample, double allow
   const auto with_errors = [&](double factor) {
     HermiteLumps lumps{.edge_reach2 = hermite_edge_reach(factor * edge),
                        .face_reach2 = hermite_face_reach(factor * face)};
-    Seen seen = with_hessians(sample, rules, lumps);
-    if (!may_all_be_lumped(seen.sample, allowed2)) sort_entries(seen.sample);
+    const Seen seen = with_hessians(sample, rules, lumps);
     lumps.tolerance2 = tolerance_of(seen.sample, allowed2);
     lumps.hessian2 = hessians2(seen, lumps.tolerance2);
     lumps.node_share = noded_share(seen.sample, lumps.tolerance2);

@@ -196,8 +196,6 @@ MeshSample sample_mesh(const MeshView& mesh, const Vec3& center, int degree) {
     add_triangles(*block, n, degree, moments, edges, sample);
     add_edges(*block, n, sample.triangles.size() - n, sample);
   }
-  std::sort(sample.entries.begin(), sample.entries.end(),
-            [](const auto& a, const auto& b) { return a.error2 < b.error2; });
   set_statistics(moments, edges, mesh.n_triangles, sample);
   return sample;
 }

@@ -24,7 +24,7 @@ struct MeshSample {
     double lower, upper;
     double weight;
   };
-  std::vector<Entry> entries;  // error2 ascending
+  std::vector<Entry> entries;
   std::vector<Edge> edges;
   // What rules with Hessians need to know of a triangle: W and z^2 of the half-edges, see
   // kHermiteBend, and F; and the half-edges 3 t + i that are of one edge.
