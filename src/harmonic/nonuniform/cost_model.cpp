@@ -5,36 +5,32 @@
 namespace rholm {
 namespace {
 
-// Of one core of an AMD EPYC (Zen 4) with AVX-512: smallest of many runs.
+// Of one core at 2.5 GHz with AVX-512: smallest of many runs.
 
-// Spreading: base + cell for each cell added to, for values, gradients and Hessians, by windows of
-// up to 8 points and by wider ones, which add whole groups. Interpolation takes as long within a
-// quarter.
+// Spreading: base + row * width, for values, gradients and Hessians; rows of up to 8 taps and of
+// 16. Interpolation takes as long within a quarter.
 struct SourceCost {
-  double base, cell;
+  double base, row;
 };
-constexpr SourceCost kSingle[2][3] = {{{6.2, 0.125}, {6.9, 0.18}, {9.8, 0.23}},
-                                      {{9.0, 0.09}, {11.4, 0.124}, {12.2, 0.193}}};
-constexpr SourceCost kDouble[2][3] = {{{7.6, 0.145}, {9.3, 0.22}, {13.8, 0.29}},
-                                      {{10.0, 0.098}, {14.4, 0.142}, {19.8, 0.212}}};
+constexpr SourceCost kSingle[2][3] = {{{3.7, 1.25}, {4.7, 1.8}, {5.6, 2.65}},
+                                      {{4.7, 1.7}, {3.5, 2.7}, {4.8, 4.0}}};
+constexpr SourceCost kDouble[2][3] = {{{6.6, 2.15}, {8.9, 3.0}, {13.0, 4.2}},
+                                      {{7.2, 3.3}, {8.0, 4.8}, {12.0, 6.7}}};
 // The cell of one grid, and of each further one.
-constexpr double kCellSingle = 1.0, kCellDouble = 1.8;
-constexpr double kMoreSingle = 0.5, kMoreDouble = 0.8;
+constexpr double kCellSingle = 2.4, kCellDouble = 4.5;
+constexpr double kMoreSingle = 1.6, kMoreDouble = 3.2;
 // n log2(n) times this, more for lengths with a factor 25 above 400.
-constexpr double kRowSingle = 0.085, kRowDouble = 0.145, kSlowLength = 1.1;
+constexpr double kRowSingle = 0.17, kRowDouble = 0.30, kSlowLength = 1.5;
 // One ring pair and one (l, m); one order.
-constexpr double kRingTerm = 0.15, kOrder = 600;
+constexpr double kRingTerm = 0.19, kOrder = 1500;
 // One source and one (l, m), value only.
-constexpr double kDirectTerm = 0.52;
+constexpr double kDirectTerm = 0.35;
 
 }  // namespace
 
 double source_cost(int width, bool single, int derivatives) {
-  const bool wide = width > 8;
-  const SourceCost& cost = (single ? kSingle : kDouble)[wide][derivatives];
-  // A group of four more where the first tap is the last of one.
-  const int columns = wide ? (width + 6) / 4 * 4 : width;
-  return cost.base + cost.cell * width * columns;
+  const SourceCost& cost = (single ? kSingle : kDouble)[width > 8][derivatives];
+  return cost.base + cost.row * width;
 }
 
 double typical_source_cost() { return 15; }
@@ -77,7 +73,7 @@ double own_node_cost() { return 40; }
 double common_node_cost() { return 35; }
 double hessians_cost() { return 36; }
 
-double error_point_cost() { return 30; }
-double error_grid_cost(int degree) { return 24.0 * degree * degree; }
+double error_point_cost() { return 60; }
+double error_grid_cost(int degree) { return 45.0 * degree * degree; }
 
 }  // namespace rholm
