@@ -229,7 +229,7 @@ TEST(every_loop, gives_the_same_bits_for_motions) {
 TEST(every_loop, gives_the_same_bits_for_surfaces_of_expansions_and_their_distance) {
   Expansion expansion{.coefficients = test::random_coefficients(12, 1)};
   expansion.coefficients.c(0, 0) = 100;
-  const Mesh sphere = icosphere(4);
+  const Mesh sphere = icosphere(5);  // more triangles than a task of a tree of them has
   expect_same_bits([&](const Context& context) {
     const Mesh mesh = synthesize(expansion, sphere, context);
     const Comparison found = compare(mesh, sphere, {.samples = 2000}, context);
@@ -527,6 +527,15 @@ TEST(every_loop, gives_the_same_picture) {
     return Bits()
         .add(std::span<const std::uint8_t>(image.rgb))
         .add(std::span<const std::uint8_t>(fine.rgb));
+  });
+}
+
+TEST(every_loop, gives_the_same_page) {
+  const Mesh mesh = bumpy_sphere(2);
+  const Expansion expansion = analyze(chart_of(mesh), {.degree = 4}).expansion;
+  expect_same_bits([&](const Context& context) {
+    std::string page = report_html(expansion, &mesh, {.picture_size = 48}, context);
+    return Bits().add(std::span(page));
   });
 }
 
