@@ -27,8 +27,7 @@ constexpr int kBlock = 4;  // cells of a block along its side
 // Cells beyond those of the pixels: pixels that differ, windows of means, scouts, their windows.
 constexpr int kAskMargin = 1 + kReach, kScoutMargin = kAskMargin + kScouts;
 constexpr int kMargin = kScoutMargin + kReach * kScouts;
-constexpr std::size_t kLanes = 8;  // scouts whose windows are looked at together
-constexpr std::size_t kRows = 4;   // of a chunk: some 5 ms
+constexpr std::size_t kRows = 4;  // of a chunk: some 5 ms
 
 // Pixels whose square roots of brightness differ by more are edges, some 15 of 255 grey levels;
 // measured by scripts/render-figures: at 0.08 Bennu is as far from many rays as fine pictures are.
