@@ -327,8 +327,9 @@ GridLayout grid_layout(int width, std::size_t n_phi, std::size_t n_theta) {
   GridLayout layout{
       .width = width, .n_phi = n_phi, .n_theta = n_theta, .rows = n_theta / 2 + width, .stride = 0};
   constexpr std::size_t kLine = 16;  // a cache line of floats, two of doubles
-  // Sources reach to column n_phi + 16 at most; the transform needs n_phi + 2.
-  layout.stride = (n_phi + 17 + kLine - 1) / kLine * kLine;
+  // Sources reach to column n_phi + 19 at most, by the groups of the widest windows; the transform
+  // needs n_phi + 2.
+  layout.stride = (n_phi + 20 + kLine - 1) / kLine * kLine;
   // Rows a multiple of 4 KiB apart would fall into the same sets of the cache.
   if (layout.stride * sizeof(float) % 2048 == 0) layout.stride += kLine;
   return layout;
