@@ -36,6 +36,7 @@ struct HermiteLumps {
   double between = 0;     // nodes between the vertices of the others, per triangle
   double hessian2 = 0;    // sum of squares of L^2 times the Hessians' factors
   double cost = 0;        // per triangle, nanoseconds
+  double neighbours = 1;  // see LumpChoice, narrow triangles counted
 };
 // The cheapest that keep the sum of squares allowed, where a triangle that gets nodes of its own
 // has so many.

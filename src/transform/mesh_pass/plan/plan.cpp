@@ -121,10 +121,11 @@ LumpChoice choose_lumps(const MeshSample& sample, const AllowedErrors& allowed, 
 std::optional<HermiteLumps> choose_hessians(const MeshSample& sample, const LumpChoice& lumps,
                                             double own_nodes) {
   if (lumps.node_share == 0) return std::nullopt;
-  const double crowded2 = std::pow(crowding_of(sample) / lumps.neighbours, 2);
+  const double neighbours = std::max(lumps.neighbours, crowding_of(sample));
   std::optional<HermiteLumps> hermite =
-      hermite_lumps(sample, lumps.allowed2 / std::max(1.0, crowded2), own_nodes);
-  if (hermite && !(hermite->cost < own_node_cost() * own_nodes * lumps.node_share)) hermite.reset();
+      hermite_lumps(sample, lumps.allowed2 / std::pow(neighbours / lumps.neighbours, 2), own_nodes);
+  if (!hermite || !(hermite->cost < own_node_cost() * own_nodes * lumps.node_share)) return {};
+  hermite->neighbours = neighbours;
   return hermite;
 }
 
@@ -162,7 +163,7 @@ MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& c
       limits.no_lumps ? std::nullopt : choose_hessians(sample, lumps, own_nodes());
   if (hermite) {
     plan.node_share = hermite->node_share;
-    plan.neighbours = std::max(plan.neighbours, crowding_of(sample));
+    plan.neighbours = hermite->neighbours;
   }
   if (limits.many_nodes) plan.node_share = 1;
   plan.single =
