@@ -5,6 +5,11 @@
 #include <numbers>
 
 namespace rholm {
+namespace {
+// Elements so many times as narrow as long may be those of a fan, which count up to so many times
+// (chosen; as in a fan of 160 triangles that are as long as a tenth of a wave).
+constexpr double kNarrow = 2, kFan = 7;
+}  // namespace
 
 double degree_factor(const NodeAllowance& allowance, double p) {
   if (allowance.degree == 0 && !allowance.divided) return 1;  // what is asked for is the integral
@@ -16,6 +21,12 @@ double degree_factor(const NodeAllowance& allowance, double p) {
 double neighbours_in_step(double wave2) {
   if (wave2 >= kInStep * kInStep) return 1;
   return std::min(kMostInStep, kInStep / std::sqrt(wave2));
+}
+
+double crowd_in_step2(double along, double across) {
+  if (across <= along) return along * along;
+  const double fan = std::clamp(across / (kNarrow * along), 1.0, kFan);
+  return std::min(kMostInStep * kMostInStep, along * across * fan);
 }
 
 }  // namespace rholm

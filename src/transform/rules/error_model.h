@@ -30,4 +30,11 @@ inline constexpr double kMostInStep = 50;  // chosen: edges seen end on have no 
 // factor an element counts more, for a (L theta)^2.
 double neighbours_in_step(double wave2);
 
+// The square of that factor for elements of which so many fit into a wave along them and across: of
+// narrow ones as many more as are alike. Around the pole of a lattice, in a fan, all are, and their
+// errors add up in the waves around it: N of them within half a wave leave 2 N / sqrt(pi p) times
+// the energy, p the power of their rule (own_nodes_test; a ball to degree 16 left three times what
+// it was said to).
+double crowd_in_step2(double along, double across);
+
 }  // namespace rholm

@@ -218,7 +218,7 @@ namespace {
 double crowding(const NodeAllowance& allowance, const Extent& z) {
   if (allowance.degree == 0 || z.crowd.needle) return 1;
   const double along = neighbours_in_step(z.wave2), across = kInStep * z.crowd.per_wave;
-  return across > along ? std::min(kMostInStep, std::sqrt(along * across)) : along;
+  return std::sqrt(crowd_in_step2(along, across));
 }
 
 // Those of needles that go as z^p.

@@ -4,6 +4,12 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
+
+#include "harmonic/coefficients/laplacian.h"
+#include "harmonic/legendre/direct_sums.h"
+#include "rholm/mesh_view.h"
+#include "rholm/primitives.h"
 
 namespace rholm {
 namespace {
@@ -45,6 +51,59 @@ TEST(radius_integral, of_triangles_whose_planes_miss_the_centre_by_rounding_is_t
     // Half the size of their distance, at least 1.
     const std::array<Vec3, 3> corners = {u, 1.5 * u, 1.2 * u + 0.5 * v};
     EXPECT_LT(std::abs(radius_integral(corners, 1e-14)), 1e-16) << k;
+  }
+}
+
+class Collected : public NodeSink {
+ public:
+  std::vector<Vec3> directions;
+  std::vector<double> weights;
+
+  void add(std::span<const Node> nodes) override {
+    for (const Node& node : nodes) {
+      directions.push_back(normalized(node.x));
+      weights.push_back(node.weight);
+    }
+  }
+  void add_gradient(const GradientNode&) override { FAIL(); }
+  void add_undivided(const Vec3&, double) override { FAIL(); }
+};
+
+struct Written {
+  Coefficients sum;  // without the constant
+  double said = 0;
+};
+// The cap of a lattice around its pole, by direct sums.
+Written write_cap(const Mesh& mesh, int degree, double allowed) {
+  Collected nodes;
+  const MeshView view = view_of(mesh);
+  NodeWriter writer({.divided = {.degree = degree, .allowed = allowed, .divided = true},
+                     .undivided = {.degree = degree, .allowed = allowed, .divided = false}},
+                    {.mesh = view, .center = {}, .scale = 1}, nodes);
+  for (const Triangle& t : mesh.triangles) {
+    const std::array<Vec3, 3> p = {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
+    if (p[0].z + p[1].z + p[2].z > 3 * 0.93) writer.add_triangle(p, t);
+  }
+  writer.flush();
+  Coefficients sum(degree);
+  direct_add_adjoint({.directions = nodes.directions, .weights = nodes.weights}, sum, {});
+  sum.c(0, 0) = 0;
+  divide_by_eigenvalue(sum);
+  return {sum, std::sqrt(writer.error2())};
+}
+
+// All of its edges and faces are alike, and long against the rows they stand in.
+TEST(node_writer, says_what_its_rules_leave_around_the_pole_of_a_lattice) {
+  const Mesh mesh = latitude_longitude_sphere(80, 160);
+  constexpr int kDegree = 16;
+  const Written exact = write_cap(mesh, kDegree, 1e-17);
+  for (const double allowed : {1e-10, 1e-12, 3e-13, 1.5e-13}) {
+    const Written found = write_cap(mesh, kDegree, allowed);
+    double error2 = 0;
+    for (std::size_t i = 0; i < exact.sum.values().size(); ++i) {
+      error2 += std::pow(found.sum.values()[i] - exact.sum.values()[i], 2);
+    }
+    EXPECT_LT(std::sqrt(error2), 2 * found.said) << allowed;
   }
 }
 

@@ -264,7 +264,7 @@ double crowding_of(const MeshSample& sample) {
     const double area2 = std::max(0.0, 2 * (a * b + b * c + c * a) - (a * a + b * b + c * c));
     const double along = neighbours_in_step(longest);
     const double across = neighbours_in_step(area2 / (4 * longest));
-    sum += weight * along * std::max(along, across);
+    sum += weight * crowd_in_step2(along, across);
     weights += weight;
   }
   return weights > 0 ? std::sqrt(sum / weights) : 1;
