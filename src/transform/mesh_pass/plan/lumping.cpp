@@ -1,7 +1,9 @@
 #include "transform/mesh_pass/plan/lumping.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "harmonic/nonuniform/cost_model.h"
@@ -58,6 +60,20 @@ bool may_all_be_lumped(const MeshSample& sample, double allowed2) {
   return lumped_error2(sample, most, lumps2) <= lumps2;
 }
 
+// Steps of tolerances, eight to a power of two: the exponent of a double and the first three bits
+// behind it.
+struct Steps {
+  static constexpr int kDropped = 52 - 3;
+  static constexpr std::size_t kCount = std::size_t{0x7ff} << 3;
+  static std::size_t of(double error2) {
+    return std::min<std::size_t>(kCount, std::bit_cast<std::uint64_t>(error2) >> kDropped);
+  }
+  // The largest number below step n, all finite ones if n is kCount.
+  static double below(std::size_t n) {
+    return n == 0 ? 0 : std::bit_cast<double>((std::uint64_t{n} << kDropped) - 1);
+  }
+};
+
 }  // namespace
 
 double node_share2(bool some_noded) { return some_noded ? 0.5 : 0.1; }
@@ -65,22 +81,29 @@ double node_share2(bool some_noded) { return some_noded ? 0.5 : 0.1; }
 double tolerance_of(const MeshSample& sample, double allowed2) {
   const double most = largest_tolerance(sample, allowed2);
   if (may_all_be_lumped(sample, allowed2)) return most;
-  std::vector<double> errors2;
-  errors2.reserve(sample.entries.size());
-  for (const MeshSample::Entry& entry : sample.entries) errors2.push_back(entry.error2);
-  std::sort(errors2.begin(), errors2.end());
-  const std::size_t n = errors2.size();
-  // Triangles that are left out: half as many more each time, then a twelfth of all.
-  std::vector<double> tolerances;
-  for (std::size_t out = 0; out < n; out += std::clamp<std::size_t>(out / 2, 1, n / 12 + 1)) {
-    tolerances.push_back(out == 0 ? most : errors2[n - 1 - out]);
+  // What joins the sum of squares in each step of tolerances; behind the last, what never does.
+  std::vector<double> steps(Steps::kCount + 1);
+  double least = std::numeric_limits<double>::infinity();
+  for (const MeshSample::Entry& entry : sample.entries) {
+    steps[Steps::of(entry.error2)] += sample.share * entry.face_error2;
+    least = std::min(least, entry.error2);
+  }
+  const bool edges_known = sample.edge_share > 0;
+  if (!edges_known) {
+    for (double& step : steps) step *= 1 + sample.unseen_edges;
+  }
+  for (const MeshSample::Edge& edge : sample.edges) {
+    if (!edges_known) break;
+    const double alone = edge.lower * edge.lower, both = edge.lower + edge.upper;
+    steps[Steps::of(edge.lower2)] += sample.edge_share * alone;
+    steps[Steps::of(edge.upper2)] += sample.edge_share * (both * both - alone);
   }
   const double lumps2 = (1 - node_share2(true)) * allowed2;
-  // The fewer are lumped the less they leave.
-  const auto first = std::partition_point(tolerances.begin(), tolerances.end(), [&](double t2) {
-    return t2 > most || lumped_error2(sample, t2, lumps2) > lumps2;
-  });
-  return first == tolerances.end() ? 0 : *first;
+  double sum = 0;
+  std::size_t n = 0;
+  while (n < Steps::kCount && !((sum += steps[n]) > lumps2)) ++n;
+  const double tolerance2 = std::min(most, Steps::below(n));
+  return tolerance2 < least ? 0 : tolerance2;
 }
 
 namespace {

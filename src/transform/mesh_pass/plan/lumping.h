@@ -13,8 +13,8 @@ namespace rholm {
 // sample has none, there may be a few all the same.
 double node_share2(bool some_noded);
 
-// The largest tolerance (squared, in units of lumping) of a few dozen that keeps lumps within their
-// part of the sum of squares allowed; 0 if none does.
+// The largest tolerance (squared, in units of lumping), in steps of an eighth of a power of two, up
+// to which lumps keep within their part of the sum of squares allowed; 0 if none does.
 double tolerance_of(const MeshSample& sample, double allowed2);
 
 // The part of the triangles that is beyond it.
