@@ -133,20 +133,25 @@ void ErrorPoints::append(const ErrorPoints& more) {
 }
 
 void visit_long_faces(const MeshView& mesh, const Vec3& center, const FaceScan& scan, int degree,
-                      std::size_t begin, std::size_t end, const PointOnFace& visit) {
+                      std::size_t begin, std::size_t end, const PointsOnFace& visit) {
+  constexpr int kMostPoints = kMostDivisions * (kMostDivisions + 3) / 2 - 2;
+  std::array<Vec3, kMostPoints> points;
   for (std::size_t run = begin; run < end; ++run) {
     if (degree * std::sqrt(scan.sizes.angles2[run]) <= kDense) continue;
     const std::size_t first = run * FaceSizes::kRun;
     for (std::size_t t = first; t < std::min(mesh.n_triangles, first + FaceSizes::kRun); ++t) {
       const std::array<Vec3, 3> p = corners_of(mesh, mesh.triangle(t), center, scan.sizes.scale);
       const int n = divisions(p, degree);
+      if (n == 1) continue;
+      std::size_t found = 0;
       for (int i = 0; i < n; ++i) {
         for (int j = i == 0 ? 1 : 0; i + j <= n; ++j) {
           if (j == n) continue;
           const double a = static_cast<double>(i) / n, b = static_cast<double>(j) / n;
-          visit(a * p[0] + b * p[1] + (1 - a - b) * p[2], t);
+          points[found++] = a * p[0] + b * p[1] + (1 - a - b) * p[2];
         }
       }
+      visit(std::span(points).first(found), t);
     }
   }
 }
@@ -168,10 +173,13 @@ ErrorPoints extreme_points(const MeshView& mesh, const Vec3& center, const FaceS
   }
   for (std::size_t run = 0; run < scan.sizes.angles2.size(); ++run) {
     poll();
-    visit_long_faces(mesh, center, scan, degree, run, run + 1, [&](const Vec3& x, std::size_t t) {
-      const std::optional<double> cosine = face_cosine(mesh, t, center, scan, x);
-      if (cosine) add_point(points, x, *cosine, static_cast<std::int64_t>(t));
-    });
+    visit_long_faces(mesh, center, scan, degree, run, run + 1,
+                     [&](std::span<const Vec3> on_face, std::size_t t) {
+                       for (const Vec3& x : on_face) {
+                         const std::optional<double> cosine = face_cosine(mesh, t, center, scan, x);
+                         if (cosine) add_point(points, x, *cosine, static_cast<std::int64_t>(t));
+                       }
+                     });
   }
   for (double& r : points.radii) r /= scan.sizes.scale;
   return points;

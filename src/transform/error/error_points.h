@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "rholm/coefficients.h"
@@ -33,11 +34,11 @@ struct ErrorPoints {
 };
 
 // Of each face whose edges are long against 1/L up to 7 points, on it and its edges but not at its
-// corners: calls visit(x, t) for faces of the runs [begin, end) of the scan, x from the
+// corners: calls visit(points, t) for faces of the runs [begin, end) of the scan, points from the
 // centre and times scan.sizes.scale. Waves of degree L are 2 pi / L long.
-using PointOnFace = std::function<void(const Vec3& x, std::size_t t)>;
+using PointsOnFace = std::function<void(std::span<const Vec3> points, std::size_t t)>;
 void visit_long_faces(const MeshView& mesh, const Vec3& center, const FaceScan& scan, int degree,
-                      std::size_t begin, std::size_t end, const PointOnFace& visit);
+                      std::size_t begin, std::size_t end, const PointsOnFace& visit);
 // cos gamma at such a point of face t; none of a degenerate face, and at the centre.
 std::optional<double> face_cosine(const MeshView& mesh, std::size_t t, const Vec3& center,
                                   const FaceScan& scan, const Vec3& x);

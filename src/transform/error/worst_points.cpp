@@ -8,6 +8,7 @@
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "base/parallel.h"
@@ -147,9 +148,10 @@ Kept sieve(const MeshView& mesh, const FaceScan& scan, const Expansion& expansio
   });
   parallel_for(n_runs, kRuns, context, {}, [&](std::size_t begin, std::size_t end) {
     fill(first_run + begin / kRuns, [&](Sieve<T>& sieve) {
-      visit_long_faces(
-          mesh, expansion.center, scan, expansion.coefficients.degree(), begin, end,
-          [&](const Vec3& x, std::size_t t) { sieve.add(x, static_cast<std::int64_t>(t)); });
+      visit_long_faces(mesh, expansion.center, scan, expansion.coefficients.degree(), begin, end,
+                       [&](std::span<const Vec3> points, std::size_t t) {
+                         for (const Vec3& x : points) sieve.add(x, static_cast<std::int64_t>(t));
+                       });
     });
   });
   Kept all;
