@@ -40,6 +40,9 @@ IndexRange index_range(const MeshView& mesh, std::size_t first, std::size_t n);
 std::vector<IndexRange> ranges_from(const std::vector<IndexRange>& ranges, std::size_t p);
 bool contains(const std::vector<IndexRange>& in_order, std::uint32_t index);
 
+// Whether the vertices of parts lie among those of others, by what some of their blocks tell.
+bool parts_overlap(const MeshView& mesh, const Division& division);
+
 // What of the range of part p lies in those of others: in order, without overlaps.
 std::vector<IndexRange> shared_ranges(const std::vector<IndexRange>& ranges, std::size_t p);
 

@@ -25,11 +25,12 @@ constexpr std::size_t kBlocksPerStep = 512;
 template <typename T>
 class PartWorker<T>::Triangles {
  public:
-  // `fans`: see link_fans(), if anything is to be linked.
-  Triangles(const PartWorker& worker, WorkedPart<T>& worked, GridSources<T>* grid,
-            std::uint32_t* fans)
+  // To `lumps`, those of the part's vertices. `fans`: see link_fans(), if anything is to be linked.
+  Triangles(const PartWorker& worker, WorkedPart<T>& worked, VertexLump<Lump>* lumps,
+            GridSources<T>* grid, std::uint32_t* fans)
       : worker_(worker),
         worked_(worked),
+        lumps_(lumps),
         mesh_(worker.mesh_),
         parameters_(worker.plan_.block),
         fans_(fans),
@@ -74,8 +75,9 @@ class PartWorker<T>::Triangles {
     const std::size_t n = std::min(kBlockSize, worked_.mesh.n_triangles - at);
     if (worked_.mesh.names.empty()) check_triangles(worker_.options_, first, n);
     next_->largest = largest_index(mesh_, first, n);
+    if (next_->largest >= mesh_.n_vertices) worker_.refuse_mesh();
     next_->places = worked_.mesh.corners(mesh_, first, n, next_->room);
-    ask_for_lumps(next_->places, n, parameters_.hessians, worked_.lumps.data());
+    ask_for_lumps(next_->places, n, parameters_.hessians, lumps_);
   }
 
   void work(std::size_t first, std::size_t n) {
@@ -84,7 +86,7 @@ class PartWorker<T>::Triangles {
     const double mean_reach2 = std::max(parameters_.mean_reach2, parameters_.mean_nodes_reach2);
     const std::size_t before = part.sums.nodes;
     work_block(mesh_, first, n, parameters_, *block_, part.sums);
-    scatter_lumps(here_->places, n, parameters_.hessians, *block_, worked_.lumps.data());
+    scatter_lumps(here_->places, n, parameters_.hessians, *block_, lumps_);
     if (fans_ != nullptr) link_fans(here_->places, n, *block_, fans_);
     if (block_->has_nodes_between) between_.add(mesh_, first, n, *block_);
     sample_half_edges(*block_, n, part.half_edges);
@@ -110,6 +112,7 @@ class PartWorker<T>::Triangles {
 
   const PartWorker& worker_;
   WorkedPart<T>& worked_;
+  VertexLump<Lump>* lumps_;
   const MeshView& mesh_;
   BlockParameters parameters_;
   std::uint32_t* fans_;
@@ -141,13 +144,21 @@ WorkedPart<T> PartWorker<T>::work(std::size_t p, GridSources<T>* grid,
   worked.part.border.per_vertex = lumps_per_vertex(hessians);
   AlignedArray<std::uint32_t> fans;
   if (!shared_ranges(ranges_, p).empty()) fans = AlignedArray<std::uint32_t>::zeros(n_vertices);
-  Triangles(*this, worked, grid, fans.data()).run(progress);
+  Triangles(*this, worked, worked.lumps.data(), grid, fans.data()).run(progress);
   worked.mesh.ranks.reset();
   if (fans.size() > 0) take_border(p, fans.data(), worked);
-  visit_lumps(worked.lumps.data(), n_vertices,
-              [&](std::size_t, std::size_t n, const VertexLump<Lump>* lumps) {
-                worked.part.lumps.add(sum_lumps(lumps, n, hessians));
-              });
+  worked.part.lumps = sums_of(worked.lumps.data(), n_vertices);
+  return worked;
+}
+
+template <typename T>
+WorkedPart<T> PartWorker<T>::work(std::size_t p, CommonLumps<Lump>& common, GridSources<T>* grid,
+                                  SharedProgress& progress) const {
+  WorkedPart<T> worked;
+  worked.mesh.first_triangle = division_.first(p);
+  worked.mesh.n_triangles = division_.n(p);
+  const typename CommonLumps<Lump>::Loan loan(common);
+  Triangles(*this, worked, loan.lumps(), grid, nullptr).run(progress);
   return worked;
 }
 
@@ -200,9 +211,24 @@ void PartWorker<T>::spread(const WorkedPart<T>& worked, GridSources<T>& grid) co
                 }
                 grid.add_vertices(mesh_, names, n, plan_.block, lumps);
               });
-  if (options_.release_vertices && mesh.names.empty()) {
+  if (options_.release_vertices && mesh.names.empty() && mesh.n_vertices > 0) {
     options_.release_vertices(mesh.first_vertex, mesh.n_vertices);
   }
+}
+
+template <typename T>
+void PartWorker<T>::spread(const CommonLumps<Lump>& common, std::size_t begin, std::size_t end,
+                           GridSources<T>& grid) const {
+  if (begin >= end) return;
+  std::uint32_t names[kVerticesPerBlock];
+  visit_lumps(common.lumps(begin), end - begin,
+              [&](std::size_t first, std::size_t n, const VertexLump<Lump>* lumps) {
+                if (first % (256 * kVerticesPerBlock) == 0) ask_cancel();
+                for (std::size_t i = 0; i < n; ++i) {
+                  names[i] = static_cast<std::uint32_t>(begin + first + i);
+                }
+                grid.add_vertices(mesh_, names, n, plan_.block, lumps);
+              });
 }
 
 template <typename T>
@@ -217,12 +243,11 @@ void PartWorker<T>::spread(const BorderLumps<Lump>& border, std::size_t begin, s
 }
 
 template <typename T>
-LumpSums PartWorker<T>::sums_of(const BorderLumps<Lump>& border) const {
+LumpSums PartWorker<T>::sums_of(const VertexLump<Lump>* lumps, std::size_t n) const {
   LumpSums sums;
-  visit_lumps(border.lumps.data(), border.vertices.size(),
-              [&](std::size_t, std::size_t n, const VertexLump<Lump>* lumps) {
-                sums.add(sum_lumps(lumps, n, plan_.block.hessians));
-              });
+  visit_lumps(lumps, n, [&](std::size_t, std::size_t count, const VertexLump<Lump>* block) {
+    sums.add(sum_lumps(block, count, plan_.block.hessians));
+  });
   return sums;
 }
 

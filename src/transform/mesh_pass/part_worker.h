@@ -9,6 +9,7 @@
 #include "base/progress.h"
 #include "rholm/context.h"
 #include "rholm/mesh_view.h"
+#include "transform/mesh_pass/common_lumps.h"
 #include "transform/mesh_pass/division.h"
 #include "transform/mesh_pass/grid_sources.h"
 #include "transform/mesh_pass/mesh_part.h"
@@ -42,17 +43,32 @@ class PartWorker {
   IndexRange range_of(std::size_t p) const;
   void set_ranges(std::vector<IndexRange> ranges) { ranges_ = std::move(ranges); }
   const std::vector<IndexRange>& ranges() const { return ranges_; }
+  // None of whose lumps anything was added to.
+  CommonLumps<Lump> common_lumps() const {
+    return {mesh_.n_vertices, lumps_per_vertex(plan_.block.hessians)};
+  }
 
   // Nodes go to the grid; with none they are kept. Throws as mesh_pass() does.
   WorkedPart<T> work(std::size_t p, GridSources<T>* grid, SharedProgress& progress) const;
+  // The same, lumps to those in common, without ranges of parts: what is left are the nodes kept.
+  WorkedPart<T> work(std::size_t p, CommonLumps<Lump>& common, GridSources<T>* grid,
+                     SharedProgress& progress) const;
   // Nodes that were kept, then the vertices that no other part has.
   void spread(const WorkedPart<T>& worked, GridSources<T>& grid) const;
   // Vertices begin ... end - 1 of those that several parts have.
   void spread(const BorderLumps<Lump>& border, std::size_t begin, std::size_t end,
               GridSources<T>& grid) const;
 
-  // Of all of the border's.
-  LumpSums sums_of(const BorderLumps<Lump>& border) const;
+  // Vertices begin ... end - 1 of the mesh, whose lumps have been added up; begin is a multiple of
+  // kVerticesPerBlock.
+  void spread(const CommonLumps<Lump>& common, std::size_t begin, std::size_t end,
+              GridSources<T>& grid) const;
+
+  // Of n vertices; of all of the border's.
+  LumpSums sums_of(const VertexLump<Lump>* lumps, std::size_t n) const;
+  LumpSums sums_of(const BorderLumps<Lump>& border) const {
+    return sums_of(border.lumps.data(), border.vertices.size());
+  }
   // Says what is wrong with a mesh in which something is.
   [[noreturn]] void refuse_mesh() const;
 

@@ -12,10 +12,14 @@ namespace rholm {
 
 // The weights of each triangle add up to nothing: a sum that does not has left its integers.
 template <typename T>
-void PassSums<T>::add(const MeshPart<T>& part) {
+void PassSums<T>::add(const MeshPart<T>& part, bool lumps_in_common) {
   const double weight =
       part.lumps.weight + part.border_weight + plan_.block.per_weight * part.weight;
-  if (sizeof(T) == 4 && std::abs(weight) > 0x1p31) out_of_range_ = true;
+  if (lumps_in_common) {
+    weight_beside_common_ += weight;
+  } else if (sizeof(T) == 4 && std::abs(weight) > 0x1p31) {
+    out_of_range_ = true;
+  }
   whole_.sums.add(part.sums);
   whole_.mean += part.mean;
   whole_.half_edges.insert(whole_.half_edges.end(), part.half_edges.begin(), part.half_edges.end());
@@ -55,8 +59,12 @@ Outcome PassSums<T>::finish(const PartWorker<T>& worker) {
   if (sizeof(T) == 4 && std::abs(border_lumps_.weight - whole_.border_weight) > 0x1p31) {
     out_of_range_ = true;
   }
+  if (sizeof(T) == 4 && std::abs(common_.weight + weight_beside_common_) > 0x1p31) {
+    out_of_range_ = true;
+  }
   if (out_of_range_) return Outcome::kOutOfRange;
   whole_.lumps.add(border_lumps_);
+  whole_.lumps.add(common_);
   // Gradients as much as they count in a window's error.
   const double weight = 1 / plan_.block.per_weight,
                slope = gradient_as_weight(plan_.divided.degree) / plan_.block.per_gradient;

@@ -13,13 +13,15 @@
 
 namespace rholm {
 
-// Parts are added in their order, then finish() is called, then the rest may be asked for.
+// Parts are added in their order, then lumps that they have in common, if so; then finish() is
+// called, then the rest may be asked for.
 template <typename T>
 class PassSums {
  public:
   explicit PassSums(const MeshPlan& plan) : plan_(plan), border_sums_(plan.block.hessians) {}
 
-  void add(const MeshPart<T>& part);
+  void add(const MeshPart<T>& part, bool lumps_in_common = false);
+  void add_common(const LumpSums& lumps) { common_.add(lumps); }
   // What is complete of the border, none of whose vertices is in the ranges `later`, to be spread.
   BorderLumps<LumpOf<T>> take_border(const std::vector<IndexRange>& later,
                                      const PartWorker<T>& worker);
@@ -45,7 +47,8 @@ class PassSums {
   MeshPart<T> whole_;  // but for its border and what is kept
   BorderSums<LumpOf<T>> border_sums_;
   const BorderLumps<LumpOf<T>>* border_ = nullptr;  // what was not taken
-  LumpSums border_lumps_;
+  LumpSums border_lumps_, common_;
+  double weight_beside_common_ = 0;  // that of nodes, in quanta
   std::size_t n_kept_ = 0;
   double kept2_ = 0, lumps2_ = 0;
   bool out_of_range_ = false;

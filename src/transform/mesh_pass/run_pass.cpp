@@ -23,6 +23,10 @@ namespace {
 
 // Parts, and grids with them, that are there at a time: as many as are held.
 constexpr std::size_t kPartsAtATime = 8;
+// Vertices whose lumps in common are added up at a time (chosen: some 100 us).
+constexpr std::size_t kCommonGrain = 64 * kVerticesPerBlock;
+// Vertices that are spread one after the other, as they lie (chosen: large against its rim).
+constexpr std::size_t kRun = 4 * kVerticesPerBlock;
 // Below so many nodes per triangle these are kept until the sums of squares are known
 // exactly; above, they are spread as they come, to a window chosen from the sample.
 constexpr double kFewNodes = 0.05;
@@ -53,22 +57,26 @@ class Pass {
     }
     division_ = divide_triangles(mesh_.n_triangles, part_count());
     worker_.emplace(mesh_, options_, plan_, division_);
+    if (division_.count > 1 && !streamed_ && parts_overlap(mesh_, division_)) {
+      common_.emplace(mesh_.n_vertices, lumps_per_vertex(plan_.block.hessians));
+    }
     if (options_.share) groups_ = group_count();
     if (groups_ > 1) shared_.emplace(mesh_, options_, plan_, division_);
     {
       const StageTimer timer(result.times, "triangles");
-      find_ranges();
+      if (shared_ || !common_) find_ranges();
       if (shared_) {
         share_parts();
       } else {
         work_parts();
       }
+      if (common_) add_up_common();
     }
     if (const Outcome outcome = sums_.finish(*worker_); outcome != Outcome::kDone) return outcome;
     {
       const StageTimer timer(result.times, "spread");
       if (!upfront_) spread_held();
-      spread_border();
+      common_ ? spread_common() : spread_border();
     }
     {
       const StageTimer timer(result.times, "fourier");
@@ -133,7 +141,7 @@ class Pass {
           {ranges_job(plan_, division_), ranges.size()},
           [&](std::size_t p) { return shared_->range_of(p); },
           [&](std::size_t p, const std::string& bytes) { ByteReader(bytes).value(ranges[p]); });
-      shared_->set_ranges(ranges, groups_);
+      shared_->set_ranges(ranges, groups_, common_.has_value());
       if (upfront_) shared_->set_transform(transform_);
       return worker_->set_ranges(std::move(ranges));
     }
@@ -150,19 +158,17 @@ class Pass {
       const std::size_t n = std::min(kPartsAtATime, division_.count - first);
       std::vector<WorkedPart<T>> worked(n);
       std::vector<std::unique_ptr<GridSources<T>>> grids(upfront_ ? n : 0);
-      parallel_for(n, 1, {.threads = context_.threads}, {}, [&](std::size_t i, std::size_t) {
-        if (!upfront_) {
-          worked[i] = worker_->work(first + i, nullptr, progress);
-          return;
-        }
-        grids[i] = new_grid();
-        worked[i] = worker_->work(first + i, grids[i].get(), progress);
-        worker_->spread(worked[i], *grids[i]);
+      parallel_for(n, 1, {.threads = threads_for_parts()}, {}, [&](std::size_t i, std::size_t) {
+        if (upfront_) grids[i] = new_grid();
+        worked[i] = common_ ? worker_->work(first + i, *common_, grids_of(grids, i), progress)
+                            : worker_->work(first + i, grids_of(grids, i), progress);
+        if (!upfront_) return;
+        if (!common_) worker_->spread(worked[i], *grids[i]);
         grids[i]->flush();
         worked[i].mesh = {};
         worked[i].lumps = {};
       });
-      for (const WorkedPart<T>& one : worked) sums_.add(one.part);
+      for (const WorkedPart<T>& one : worked) sums_.add(one.part, common_.has_value());
       if (!upfront_) {
         held_ = std::move(worked);
       } else if (division_.count <= kPartsAtATime) {
@@ -174,23 +180,91 @@ class Pass {
     }
   }
 
+  static GridSources<T>* grids_of(const std::vector<std::unique_ptr<GridSources<T>>>& grids,
+                                  std::size_t i) {
+    return grids.empty() ? nullptr : grids[i].get();
+  }
+
+  int threads_for_parts() const {
+    if (!common_) return context_.threads;
+    return static_cast<int>(
+        std::min<std::size_t>(thread_count(context_), common_->most_borrowed()));
+  }
+
+  void add_up_common() {
+    const std::size_t n = mesh_.n_vertices;
+    std::vector<LumpSums> sums((n + kCommonGrain - 1) / kCommonGrain);
+    parallel_for(n, kCommonGrain, {.threads = context_.threads}, {},
+                 [&](std::size_t begin, std::size_t end) {
+                   sums[begin / kCommonGrain] =
+                       worker_->sums_of(common_->add_up(begin, end - begin), end - begin);
+                 });
+    for (const LumpSums& one : sums) sums_.add_common(one);
+  }
+
+  // Runs of vertices from pole to pole, as many to each grid: files may have the vertices of all of
+  // the sphere once and again, level by level, and rows of a grid that are left stay behind.
+  void spread_common() {
+    const std::vector<std::size_t> runs = runs_by_height();
+    const std::size_t n = grids_.size();
+    parallel_for(n, 1, {.threads = context_.threads}, {}, [&](std::size_t g, std::size_t) {
+      for (std::size_t k = g * runs.size() / n; k < (g + 1) * runs.size() / n; ++k) {
+        const std::size_t begin = runs[k], end = std::min(mesh_.n_vertices, begin + kRun);
+        worker_->spread(*common_, begin, end, *grids_[g]);
+      }
+      grids_[g]->flush();
+    });
+    common_.reset();
+    if (options_.release_vertices) options_.release_vertices(0, mesh_.n_vertices);
+  }
+
+  // The first vertices of runs, by where the sphere has the one in their middle.
+  std::vector<std::size_t> runs_by_height() const {
+    struct Run {
+      double height;
+      std::size_t first;
+    };
+    std::vector<Run> runs;
+    for (std::size_t first = 0; first < mesh_.n_vertices; first += kRun) {
+      const std::size_t middle = std::min(first + kRun / 2, mesh_.n_vertices - 1);
+      const Vec3 x = plan_.block.scale * (mesh_.vertex(middle) - options_.center);
+      const double r = norm(x);
+      runs.push_back({r > 0 && std::isfinite(r) ? x.z / r : 0, first});
+    }
+    std::sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) {
+      return a.height != b.height ? a.height < b.height : a.first < b.first;
+    });
+    std::vector<std::size_t> firsts;
+    firsts.reserve(runs.size());
+    for (const Run& run : runs) firsts.push_back(run.first);
+    return firsts;
+  }
+
   // The same by several processes: what they leave is added up in the order of the parts.
   void share_parts() {
     SharedProgress progress(context_, "triangles", 0, upfront_ ? 0.9 : 0.5,
                             static_cast<double>(mesh_.n_triangles));
     options_.share(
-        {parts_job(worker_->ranges(), groups_, upfront_ ? &transform_ : nullptr), groups_,
-         !upfront_},
+        {parts_job(worker_->ranges(), groups_, common_.has_value(),
+                   upfront_ ? &transform_ : nullptr),
+         groups_, !upfront_},
         [&](std::size_t group) { return shared_->work(group); },
         [&](std::size_t group, const std::string& bytes) {
           ByteReader reader(bytes);
           const std::size_t first = shared_->first(group, groups_);
           const std::size_t end = shared_->first(group + 1, groups_);
           for (std::size_t p = first; p < end; ++p) {
-            sums_.add(read_part<T>(reader));
-            if (upfront_) take_grid(p, reader);
+            sums_.add(read_part<T>(reader), common_.has_value());
+            if (upfront_) {
+              take_grid(p, reader);
+            } else if (common_) {
+              MeshPart<T>& part = held_.emplace_back().part;
+              reader.array(part.kept);
+              reader.array(part.kept_gradients);
+            }
             progress.add(division_.n(p));
           }
+          if (common_) common_->add_written(reader);
           reader.finish();
         });
   }
@@ -229,7 +303,7 @@ class Pass {
     const std::size_t n = std::min(parts, grid_count(transform_, estimated_sources()));
     for (std::size_t g = 0; g < n; ++g) grids_.push_back(new_grid());
     SharedProgress progress(context_, "spread", 0.5, 0.9, static_cast<double>(parts));
-    if (shared_) {
+    if (shared_ && !common_) {
       shared_->set_transform(transform_);
       return options_.share(
           {grids_job(n, transform_), n, true}, [&](std::size_t g) { return shared_->spread(g, n); },
@@ -281,8 +355,9 @@ class Pass {
   PassSums<T> sums_;
   Division division_;
   std::optional<PartWorker<T>> worker_;
-  std::size_t groups_ = 0;                // of parts, see group_count()
-  std::optional<SharedParts<T>> shared_;  // with other processes, if there are any
+  std::optional<CommonLumps<LumpOf<T>>> common_;  // where the vertices of parts lie scattered
+  std::size_t groups_ = 0;                        // of parts, see group_count()
+  std::optional<SharedParts<T>> shared_;          // with other processes, if there are any
   std::vector<WorkedPart<T>> held_;
   NonuniformPlan transform_;
   GridKernel<T> kernel_;

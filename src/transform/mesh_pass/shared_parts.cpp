@@ -24,9 +24,11 @@ SharedParts<T>::SharedParts(const MeshView& mesh, const MeshPassOptions& options
     : plan_(plan), division_(division), worker_(mesh, options, plan_, division_) {}
 
 template <typename T>
-void SharedParts<T>::set_ranges(std::vector<IndexRange> ranges, std::size_t groups) {
+void SharedParts<T>::set_ranges(std::vector<IndexRange> ranges, std::size_t groups,
+                                bool in_common) {
   worker_.set_ranges(std::move(ranges));
   groups_ = groups;
+  in_common_ = in_common;
 }
 
 template <typename T>
@@ -44,6 +46,7 @@ std::string SharedParts<T>::range_of(std::size_t part) const {
 
 template <typename T>
 std::string SharedParts<T>::work(std::size_t group) {
+  if (in_common_) return work_in_common(group);
   if (transform_) return work_to_grid(group);
   ByteWriter writer;
   SharedProgress progress = no_progress();
@@ -66,6 +69,28 @@ std::string SharedParts<T>::work_to_grid(std::size_t part) const {
   grid.flush();
   write(worked.part, writer);
   grid.write(writer);
+  return writer.take();
+}
+
+template <typename T>
+std::string SharedParts<T>::work_in_common(std::size_t group) const {
+  ByteWriter writer;
+  SharedProgress progress = no_progress();
+  CommonLumps<LumpOf<T>> lumps = worker_.common_lumps();
+  for (std::size_t p = first(group, groups_); p < first(group + 1, groups_); ++p) {
+    std::optional<GridSources<T>> grid;
+    if (transform_) grid.emplace(*transform_, kernel_);
+    const WorkedPart<T> worked = worker_.work(p, lumps, grid ? &*grid : nullptr, progress);
+    write(worked.part, writer);
+    if (grid) {
+      grid->flush();
+      grid->write(writer);
+    } else {
+      writer.array(std::span(worked.part.kept));
+      writer.array(std::span(worked.part.kept_gradients));
+    }
+  }
+  lumps.write(writer);
   return writer.take();
 }
 
@@ -107,12 +132,13 @@ std::string ranges_job(const MeshPlan& plan, const Division& division) {
   return writer.take();
 }
 
-std::string parts_job(const std::vector<IndexRange>& ranges, std::size_t groups,
+std::string parts_job(const std::vector<IndexRange>& ranges, std::size_t groups, bool in_common,
                       const NonuniformPlan* transform) {
   ByteWriter writer;
   writer.value(std::uint32_t{kParts});
   writer.array(std::span(ranges));
   writer.value(std::uint64_t{groups});
+  writer.value(in_common);
   writer.value(transform != nullptr);
   if (transform != nullptr) writer.value(*transform);
   return writer.take();
@@ -160,16 +186,17 @@ DoSharedTask PassHelper::tasks_of(std::unique_ptr<SharedParts<T>>& parts, ByteRe
       return [&all](std::size_t part) { return all.range_of(part); };
     case kParts: {
       std::vector<IndexRange> ranges;
-      bool has_transform = false;
+      bool in_common = false, has_transform = false;
       reader.array(ranges);
       reader.value(n);
+      reader.value(in_common);
       reader.value(has_transform);
       if (has_transform) {
         reader.value(transform);
         all.set_transform(transform);
       }
       reader.finish();
-      all.set_ranges(std::move(ranges), n);
+      all.set_ranges(std::move(ranges), n, in_common);
       return [&all](std::size_t group) { return all.work(group); };
     }
     case kGrids:

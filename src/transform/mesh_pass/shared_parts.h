@@ -4,7 +4,8 @@
 // what they make of parts, as bytes, in the order of the parts. The pass has up to three rounds of
 // tasks: the ranges of vertices of all parts; the parts, with the grids they are spread to where
 // the window is chosen already; and these grids where it is not. Then parts are held by who worked
-// them, and grids are dealt as the parts were; a part that is not there is worked again.
+// them, and grids are dealt as the parts were; a part that is not there is worked again. Lumps that
+// parts have in common are added up and spread by the one who runs the pass.
 #pragma once
 
 #include <cstddef>
@@ -36,8 +37,9 @@ class SharedParts {
   SharedParts(const SharedParts&) = delete;
   SharedParts& operator=(const SharedParts&) = delete;
 
-  // Before parts are worked: `groups` of them are tasks, with a window as many as there are parts.
-  void set_ranges(std::vector<IndexRange> ranges, std::size_t groups);
+  // Before parts are worked: `groups` of them are tasks, with a window as many as there are parts;
+  // whether they have their lumps in common, which then travel, as nodes without a grid do.
+  void set_ranges(std::vector<IndexRange> ranges, std::size_t groups, bool in_common);
   // Before parts are worked, or before they are spread.
   void set_transform(const NonuniformPlan& transform);
 
@@ -51,12 +53,14 @@ class SharedParts {
 
  private:
   std::string work_to_grid(std::size_t part) const;
+  std::string work_in_common(std::size_t group) const;
   WorkedPart<T> take_held(std::size_t part);
 
   const MeshPlan plan_;
   const Division division_;
   PartWorker<T> worker_;
   std::size_t groups_ = 0;
+  bool in_common_ = false;
   std::optional<NonuniformPlan> transform_;
   GridKernel<T> kernel_;
   std::mutex mutex_;
@@ -65,7 +69,7 @@ class SharedParts {
 
 // What the other processes are told.
 std::string ranges_job(const MeshPlan& plan, const Division& division);
-std::string parts_job(const std::vector<IndexRange>& ranges, std::size_t groups,
+std::string parts_job(const std::vector<IndexRange>& ranges, std::size_t groups, bool in_common,
                       const NonuniformPlan* transform);
 std::string grids_job(std::size_t n, const NonuniformPlan& transform);
 

@@ -18,6 +18,7 @@
 #include "support/test_meshes.h"
 #include "support/test_shapes.h"
 #include "transform/mesh_pass/border_lumps.h"
+#include "transform/mesh_pass/common_lumps.h"
 #include "transform/mesh_pass/division.h"
 #include "transform/mesh_pass/mesh_part.h"
 #include "transform/mesh_pass/part_mesh.h"
@@ -97,6 +98,89 @@ TEST(division, ranges_from_a_part_on_hold_its_indices_and_those_behind_it) {
       EXPECT_EQ(contains(later, v), wanted) << p << " " << v;
     }
   }
+}
+
+// Subdivided bodies have the vertices of each level all over the sphere; rows follow each other.
+TEST(division, parts_overlap_where_their_vertices_lie_among_those_of_others) {
+  const auto overlap = [](const Mesh& mesh, std::size_t parts) {
+    const MeshView view = view_of(mesh);
+    return parts_overlap(view, divide_triangles(view.n_triangles, parts));
+  };
+  for (const std::size_t parts : {2u, 3u, 8u}) {
+    EXPECT_TRUE(overlap(icosphere(6), parts)) << parts;
+    EXPECT_FALSE(overlap(latitude_longitude_sphere(200, 200), parts)) << parts;
+  }
+  EXPECT_FALSE(overlap(icosphere(6), 1));
+  Mesh few_used = icosphere(4);
+  few_used.vertices.resize(10 * few_used.vertices.size(), {0, 0, 2});
+  for (std::size_t i = 0; i < few_used.triangles.size(); i += 7) {
+    few_used.triangles[i] = {static_cast<std::uint32_t>(few_used.vertices.size() - 1 - i), 0, 1};
+  }
+  EXPECT_FALSE(overlap(few_used, 8));
+}
+
+TEST(common_lumps, are_the_sum_of_what_was_added_to_any_loan) {
+  constexpr std::size_t kVertices = 1000;
+  for (const std::size_t per_vertex : {lumps_per_vertex(false), lumps_per_vertex(true)}) {
+    CommonLumps<std::int32_t> common(kVertices, per_vertex);
+    EXPECT_GE(common.most_borrowed(), 2u);
+    const auto add = [&](VertexLump<std::int32_t>* lumps, std::int32_t value) {
+      for (std::size_t i = 0; i < per_vertex * kVertices; ++i) {
+        lumps[i].value[i % 4] += value + static_cast<std::int32_t>(i);
+      }
+    };
+    {
+      const CommonLumps<std::int32_t>::Loan one(common), two(common);
+      EXPECT_NE(one.lumps(), two.lumps());
+      add(one.lumps(), 1);
+      add(two.lumps(), 10);
+    }
+    {
+      const CommonLumps<std::int32_t>::Loan again(common);
+      add(again.lumps(), 100);
+    }
+    for (const std::size_t first : {0u, 600u}) {
+      common.add_up(first, std::min<std::size_t>(600, kVertices - first));
+    }
+    for (std::size_t i = 0; i < per_vertex * kVertices; ++i) {
+      const VertexLump<std::int32_t>& lump = common.lumps(i / per_vertex)[i % per_vertex];
+      for (std::size_t k = 0; k < 4; ++k) {
+        ASSERT_EQ(lump.value[k], k == i % 4 ? 111 + 3 * static_cast<std::int32_t>(i) : 0);
+      }
+    }
+  }
+}
+
+TEST(common_lumps, that_were_written_are_added_to_others) {
+  constexpr std::size_t kVertices = 300;
+  const std::size_t per_vertex = lumps_per_vertex(true), n = per_vertex * kVertices;
+  CommonLumps<double> far(kVertices, per_vertex), near(kVertices, per_vertex);
+  const auto value = [](std::size_t i) {
+    return i / 500 % 2 == 0 ? 0.0 : 1.0 + static_cast<double>(i);
+  };
+  {
+    const CommonLumps<double>::Loan there(far), here(near);
+    for (std::size_t i = 0; i < n; ++i) {
+      there.lumps()[i].value[1] = value(i);
+      here.lumps()[i].value[1] = 5;
+    }
+  }
+  ByteWriter writer;
+  far.write(writer);
+  const std::string bytes = writer.take();
+  EXPECT_LT(bytes.size(), n * sizeof(VertexLump<double>));
+  ByteReader reader(bytes);
+  near.add_written(reader);
+  reader.finish();
+  near.add_up(0, kVertices);
+  for (std::size_t i = 0; i < n; ++i) {
+    ASSERT_EQ(near.lumps(i / per_vertex)[i % per_vertex].value[1], value(i) + 5);
+  }
+  ByteReader cut(std::string_view(bytes).substr(0, bytes.size() - 1));
+  EXPECT_THROW(near.add_written(cut), Error);
+  CommonLumps<double> other(kVertices + 1, per_vertex);
+  ByteReader again(bytes);
+  EXPECT_THROW(other.add_written(again), Error);
 }
 
 TEST(border_sums, that_are_complete_can_be_taken) {
@@ -225,6 +309,54 @@ TEST(mesh_parts, give_the_same_bits_for_any_number_of_threads) {
     EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end()));
     EXPECT_EQ(one.report.error, four.report.error);
   }
+}
+
+// Lumps in common: 81 920 triangles are four parts, of which several threads have lumps of their
+// own. In few windows and in many nodes, with and without Hessians, in either precision.
+TEST(mesh_parts, whose_vertices_lie_scattered_are_the_same_on_any_number_of_threads) {
+  const Mesh mesh = test::rotated(bumpy_sphere(6, 0.2));
+  const MeshView view = view_of(mesh);
+  ASSERT_TRUE(parts_overlap(view, divide_triangles(view.n_triangles, 4)));
+  std::set<bool> single;
+  for (const auto& [degree, precision] :
+       {std::pair{20, 1e-3}, {40, 1e-6}, {100, 1e-4}, {100, 1e-7}, {60, 1e-11}}) {
+    const MeshPassOptions options{.degree = degree, .precision = precision};
+    const MeshPassResult one = mesh_pass(view, options, {.threads = 1});
+    single.insert(one.report.single);
+    for (const int threads : {2, 3, 8}) {
+      const MeshPassResult many = mesh_pass(view, options, {.threads = threads});
+      const auto a = one.coefficients.values(), b = many.coefficients.values();
+      EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end())) << degree << " " << threads;
+      EXPECT_EQ(one.report.error, many.report.error);
+    }
+    // In parts with borders.
+    MeshPassOptions streamed = options;
+    streamed.most_held = 100;
+    streamed.streamed_parts = 5;
+    const MeshPassResult parts = mesh_pass(view, streamed, {});
+    EXPECT_LT(relative_error(one.coefficients, parts.coefficients), 1.5 * precision);
+    EXPECT_EQ(one.report.lumped_triangles, parts.report.lumped_triangles);
+  }
+  EXPECT_EQ(single.size(), 2u);
+}
+
+TEST(mesh_parts, whose_vertices_lie_scattered_refuse_an_index_out_of_range) {
+  for (const std::size_t at : {0u, 40000u, 81919u}) {
+    Mesh mesh = bumpy_sphere(6, 0.2);
+    mesh.triangles[at][1] = static_cast<std::uint32_t>(mesh.vertices.size());
+    EXPECT_THROW(mesh_pass(view_of(mesh), {.degree = 20, .precision = 1e-3}, {}), Error) << at;
+  }
+}
+
+TEST(mesh_parts, whose_vertices_lie_scattered_release_all_of_them) {
+  const Mesh mesh = bumpy_sphere(6, 0.2);
+  std::vector<int> released(mesh.vertices.size(), 0);
+  const MeshPassOptions options{.degree = 8,
+                                .release_vertices = [&](std::size_t first, std::size_t n) {
+                                  for (std::size_t v = first; v < first + n; ++v) ++released[v];
+                                }};
+  mesh_pass(view_of(mesh), options, {.threads = 1});
+  EXPECT_EQ(*std::min_element(released.begin(), released.end()), 1);
 }
 
 TEST(mesh_parts, triangles_without_common_vertices_have_no_border_and_are_closed) {

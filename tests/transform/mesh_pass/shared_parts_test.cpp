@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <set>
 #include <string>
@@ -78,13 +79,25 @@ void expect_same_bits(const MeshPassResult& a, const MeshPassResult& b) {
   EXPECT_EQ(a.report.passes, b.report.passes);
 }
 
-// Parts that are held until the window is known (three rounds), and spread at once, with lumps of
-// both precisions and with Hessians; up to eight grids, and one that all are added to; a mesh of
-// one part is not shared.
+// Vertices in rows, those of a part side by side.
+Mesh rows_of_vertices() {
+  Mesh mesh = latitude_longitude_sphere(200, 400);
+  for (Vec3& v : mesh.vertices) {
+    v = (1 + 0.1 * std::sin(3 * v.x + v.y) + 0.05 * v.z * v.z * v.x) * Vec3{v.x, v.z, -v.y};
+  }
+  return mesh;
+}
+
+// Parts that are held until the window is known (three rounds, two where lumps are in common), and
+// spread at once, with lumps of both precisions and with Hessians; up to eight grids, and one that
+// all are added to; a mesh of one part is not shared.
 TEST(shared_parts, give_the_bits_of_one_process) {
-  const Mesh fine = bumpy_sphere(7), rough = rough_sphere(5);
+  const Mesh fine = bumpy_sphere(7), rough = rough_sphere(5), rows = rows_of_vertices(),
+             small = bumpy_sphere(4);
+  ASSERT_TRUE(parts_overlap(view_of(fine), divide_triangles(fine.triangles.size(), 8)));
+  ASSERT_FALSE(parts_overlap(view_of(rows), divide_triangles(rows.triangles.size(), 8)));
   std::set<std::size_t> rounds;
-  for (const Mesh* mesh : {&fine, &rough}) {
+  for (const Mesh* mesh : {&fine, &rough, &rows, &small}) {
     for (const double precision : {1e-2, 1e-6, 1e-10}) {
       for (const std::size_t streamed : {0u, 3u, 21u}) {
         MeshPassOptions options{.degree = 12,
@@ -108,7 +121,7 @@ TEST(shared_parts, give_the_bits_of_one_process) {
 }
 
 TEST(shared_parts, that_are_not_where_they_are_spread_are_worked_again) {
-  const Mesh mesh = bumpy_sphere(7);
+  const Mesh mesh = rows_of_vertices();
   MeshPassOptions options{.degree = 12, .precision = 1e-6};
   const MeshPassResult alone = mesh_pass(view_of(mesh), options, {});
   Processes processes(mesh, 3);

@@ -1,0 +1,86 @@
+#include "transform/mesh_pass/common_lumps.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+
+namespace rholm {
+
+template <typename L>
+std::size_t CommonLumps<L>::most_borrowed() const {
+  constexpr std::size_t kBytes = std::size_t{1} << 29;
+  const std::size_t each = std::max<std::size_t>(1, n_vertices_ * per_vertex_ * sizeof(L) * 4);
+  return std::max<std::size_t>(2, kBytes / each);
+}
+
+// The one that was given back last: it is still in the cache.
+template <typename L>
+VertexLump<L>* CommonLumps<L>::borrow() {
+  const std::lock_guard lock(mutex_);
+  if (free_.empty()) {
+    arrays_.push_back(AlignedArray<VertexLump<L>>::zeros(n_vertices_ * per_vertex_));
+    return arrays_.back().data();
+  }
+  VertexLump<L>* const lumps = free_.back();
+  free_.pop_back();
+  return lumps;
+}
+
+template <typename L>
+void CommonLumps<L>::give_back(VertexLump<L>* lumps) {
+  const std::lock_guard lock(mutex_);
+  free_.push_back(lumps);
+}
+
+template <typename L>
+const VertexLump<L>* CommonLumps<L>::add_up(std::size_t first, std::size_t n) {
+  VertexLump<L>* const sums = arrays_.front().data() + per_vertex_ * first;
+  for (std::size_t k = 1; k < arrays_.size(); ++k) {
+    add_lumps(arrays_[k].data() + per_vertex_ * first, per_vertex_ * n, sums);
+  }
+  return sums;
+}
+
+namespace {
+
+// Vertices that are left out if they have nothing: a part has some runs of them.
+constexpr std::size_t kWritten = 64;
+
+}  // namespace
+
+template <typename L>
+void CommonLumps<L>::write(ByteWriter& writer) const {
+  const std::size_t n = n_vertices_ * per_vertex_, each = kWritten * per_vertex_;
+  writer.value(std::uint64_t{n});
+  for (std::size_t first = 0; first < n; first += each) {
+    const std::span row(arrays_.front().data() + first, std::min(each, n - first));
+    const bool is_empty = std::ranges::all_of(row, [](const VertexLump<L>& lump) {
+      return lump.value[0] == 0 && lump.value[1] == 0 && lump.value[2] == 0 && lump.value[3] == 0;
+    });
+    writer.value(static_cast<std::uint8_t>(is_empty ? 0 : 1));
+    if (!is_empty) writer.row(row);
+  }
+}
+
+template <typename L>
+void CommonLumps<L>::add_written(ByteReader& reader) {
+  const Loan loan(*this);
+  std::uint64_t n = 0;
+  reader.value(n);
+  if (n != n_vertices_ * per_vertex_) ByteReader::refuse();
+  const std::size_t each = kWritten * per_vertex_;
+  std::vector<VertexLump<L>> row(each);
+  for (std::size_t first = 0; first < n; first += each) {
+    std::uint8_t has_lumps = 0;
+    reader.value(has_lumps);
+    if (has_lumps == 0) continue;
+    const std::size_t count = std::min<std::size_t>(each, n - first);
+    reader.row(std::span(row).first(count));
+    add_lumps(row.data(), count, loan.lumps() + first);
+  }
+}
+
+template class CommonLumps<std::int32_t>;
+template class CommonLumps<double>;
+
+}  // namespace rholm
