@@ -132,10 +132,24 @@ void ErrorPoints::append(const ErrorPoints& more) {
   owners.insert(owners.end(), more.owners.begin(), more.owners.end());
 }
 
+namespace {
+
+// Where the points of a face lie whose edges are divided in two or three: the middles of its edges;
+// its middle, and on each edge a third of the way, for the face beyond has the other third.
+using OnFace = std::array<double, 3>;
+constexpr std::array<OnFace, 3> kHalves = {{{0.5, 0.5, 0}, {0, 0.5, 0.5}, {0.5, 0, 0.5}}};
+constexpr double kThird = 1.0 / 3, kTwoThirds = 2.0 / 3;
+constexpr std::array<OnFace, 4> kThirds = {{{kThird, kThird, kThird},
+                                            {kTwoThirds, kThird, 0},
+                                            {0, kTwoThirds, kThird},
+                                            {kThird, 0, kTwoThirds}}};
+static_assert(kMostDivisions == 3);
+
+}  // namespace
+
 void visit_long_faces(const MeshView& mesh, const Vec3& center, const FaceScan& scan, int degree,
                       std::size_t begin, std::size_t end, const PointsOnFace& visit) {
-  constexpr int kMostPoints = kMostDivisions * (kMostDivisions + 3) / 2 - 2;
-  std::array<Vec3, kMostPoints> points;
+  std::array<Vec3, kThirds.size()> points;
   for (std::size_t run = begin; run < end; ++run) {
     if (degree * std::sqrt(scan.sizes.angles2[run]) <= kDense) continue;
     const std::size_t first = run * FaceSizes::kRun;
@@ -143,15 +157,12 @@ void visit_long_faces(const MeshView& mesh, const Vec3& center, const FaceScan& 
       const std::array<Vec3, 3> p = corners_of(mesh, mesh.triangle(t), center, scan.sizes.scale);
       const int n = divisions(p, degree);
       if (n == 1) continue;
-      std::size_t found = 0;
-      for (int i = 0; i < n; ++i) {
-        for (int j = i == 0 ? 1 : 0; i + j <= n; ++j) {
-          if (j == n) continue;
-          const double a = static_cast<double>(i) / n, b = static_cast<double>(j) / n;
-          points[found++] = a * p[0] + b * p[1] + (1 - a - b) * p[2];
-        }
+      const std::span<const OnFace> places = n == 2 ? std::span<const OnFace>(kHalves) : kThirds;
+      for (std::size_t k = 0; k < places.size(); ++k) {
+        const auto& [a, b, c] = places[k];
+        points[k] = a * p[0] + b * p[1] + c * p[2];
       }
-      visit(std::span(points).first(found), t);
+      visit(std::span(points).first(places.size()), t);
     }
   }
 }
@@ -187,14 +198,15 @@ ErrorPoints extreme_points(const MeshView& mesh, const Vec3& center, const FaceS
 
 ErrorPoints area_points(const MeshView& mesh, const Vec3& center, const FaceScan& scan,
                         std::size_t n, const Context& context) {
-  const std::vector<double>& areas = scan.sizes.twice_areas;
+  const FaceSizes& sizes = scan.sizes;
+  const std::size_t n_groups = sizes.twice_areas.size();
   constexpr std::size_t kGrain = 1024;  // groups of faces; chosen: some 100 us
   // What comes before each chunk of them.
   std::vector<double> before;
   double whole = 0;
-  for (std::size_t group = 0; group < areas.size(); ++group) {
+  for (std::size_t group = 0; group < n_groups; ++group) {
     if (group % kGrain == 0) before.push_back(whole);
-    whole += areas[group];
+    whole += sizes.twice_area(group);
   }
   const double part = whole / static_cast<double>(n);
   constexpr std::uint64_t kSeed = 1;
@@ -216,7 +228,7 @@ ErrorPoints area_points(const MeshView& mesh, const Vec3& center, const FaceScan
   ErrorPoints points;
   points.resize(n);
   std::atomic<std::size_t> n_set = 0;
-  parallel_for(areas.size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
+  parallel_for(n_groups, kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
     double sum = before[begin / kGrain];
     auto next = std::min(n, static_cast<std::size_t>(part > 0 ? sum / part : 0));
     while (next > 0 && place(next - 1) >= sum) --next;
@@ -228,7 +240,7 @@ ErrorPoints area_points(const MeshView& mesh, const Vec3& center, const FaceScan
     double at = place(next);
     for (std::size_t group = begin, i = next; group < end; ++group) {
       const double from = sum;
-      sum += areas[group];
+      sum += sizes.twice_area(group);
       if (at >= sum) continue;
       while (at < sum) at = place(++i);
       const std::size_t first = group * FaceSizes::kGroup;

@@ -23,7 +23,7 @@ bool shows_its_edges(const MeshView& mesh, int degree) {
 
 const FaceScan& ErrorSites::scan() {
   if (!scan_) {
-    scan_ = sizes_ ? scan_faces(mesh_, std::move(*sizes_), {.threads = threads_})
+    scan_ = sizes_ ? scan_faces(mesh_, std::move(*sizes_))
                    : scan_faces(mesh_, center_, {.threads = threads_});
   }
   return *scan_;

@@ -1,34 +1,34 @@
 #include "transform/error/face_scan.h"
 
-#include <atomic>
+#include <algorithm>
 #include <utility>
 
 #include "base/cancel.h"
-#include "base/parallel.h"
 
 namespace rholm {
 namespace {
 
 // Whether no face names a vertex twice, which would count as a face and be none.
-bool have_three_corners(const MeshView& mesh, const Context& context) {
-  std::atomic<bool> all = true;
-  constexpr std::size_t kGrain = 1 << 15;  // chosen: some 30 us
-  parallel_for(mesh.n_triangles, kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) {
+bool have_three_corners(const MeshView& mesh, const FaceSizes& sizes) {
+  for (std::size_t run = 0; run < sizes.flat.size(); ++run) {
+    if (sizes.flat[run] == 0) continue;
+    const std::size_t first = run * FaceSizes::kRun;
+    for (std::size_t t = first; t < std::min(mesh.n_triangles, first + FaceSizes::kRun); ++t) {
       const auto [a, b, c] = mesh.triangle(t);
-      if (a == b || b == c || c == a) all.store(false, std::memory_order_relaxed);
+      if (a == b || b == c || c == a) return false;
     }
-  });
-  return all;
+  }
+  return true;
 }
 
 }  // namespace
 
-FaceScan scan_faces(const MeshView& mesh, FaceSizes sizes, const Context& context) {
+FaceScan scan_faces(const MeshView& mesh, FaceSizes sizes) {
   FaceScan scan{.sizes = std::move(sizes), .used = {}};
   // A star-shaped surface is a sphere, whose faces have F/2 + 2 corners or, with copies, more: if
   // there are no more vertices than that, all are used.
-  if (2 * mesh.n_vertices == mesh.n_triangles + 4 && have_three_corners(mesh, context)) return scan;
+  if (2 * mesh.n_vertices == mesh.n_triangles + 4 && have_three_corners(mesh, scan.sizes))
+    return scan;
   scan.used.resize(mesh.n_vertices);
   CancelPoll poll;
   for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
@@ -41,7 +41,7 @@ FaceScan scan_faces(const MeshView& mesh, FaceSizes sizes, const Context& contex
 FaceScan scan_faces(const MeshView& mesh, const Vec3& center, const Context& context) {
   FaceSizes sizes;
   exact_norms(mesh, center, context, &sizes);
-  return scan_faces(mesh, std::move(sizes), context);
+  return scan_faces(mesh, std::move(sizes));
 }
 
 }  // namespace rholm

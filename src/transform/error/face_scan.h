@@ -19,7 +19,7 @@ struct FaceScan {
   bool is_used(std::size_t vertex) const { return used.empty() || used[vertex] != 0; }
 };
 // Of a closed star-shaped mesh.
-FaceScan scan_faces(const MeshView& mesh, FaceSizes sizes, const Context& context);
+FaceScan scan_faces(const MeshView& mesh, FaceSizes sizes);
 FaceScan scan_faces(const MeshView& mesh, const Vec3& center, const Context& context);
 
 }  // namespace rholm

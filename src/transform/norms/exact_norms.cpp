@@ -1,6 +1,7 @@
 #include "transform/norms/exact_norms.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -320,15 +321,18 @@ HWY_INLINE std::size_t SumBlock(const Block& block, std::size_t n, NormSums& res
   return n_left;
 }
 
-// Of groups of faces, n in all.
-void SumAreas(const Block& block, std::size_t n, double* sums) {
+// Of groups of faces, n in all. Returns whether the normal of one is all rounding.
+bool SumAreas(const Block& block, std::size_t n, std::uint32_t* sums) {
+  double longest = 0;
   for (std::size_t at = 0; at < n; at += FaceSizes::kGroup) {
     double sum = 0;
     for (std::size_t i = at; i < HWY_MIN(n, at + FaceSizes::kGroup); ++i) {
       sum += block.twice_area[i];
+      longest = HWY_MAX(longest, block.longest[i]);
     }
-    *sums++ = sum;
+    *sums++ = static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(sum) >> 32);
   }
+  return longest == std::numeric_limits<double>::infinity();
 }
 
 template <class T>
@@ -347,7 +351,8 @@ HWY_INLINE void SumRangeOf(const MeshView& mesh, const Frame& frame, std::size_t
     const double angle2 = PrepareBlock<T>(mesh, frame, first, last - first, whole, block);
     if (sizes != nullptr) {
       sizes->angles2[first / kBlock] = angle2;
-      SumAreas(block, last - first, sizes->twice_areas.data() + first / FaceSizes::kGroup);
+      std::uint32_t* const areas = sizes->twice_areas.data() + first / FaceSizes::kGroup;
+      sizes->flat[first / kBlock] = SumAreas(block, last - first, areas) ? 1 : 0;
     }
     NormSums plain;
     const std::size_t n_left = SumBlock(block, last - first, plain, left);
@@ -402,6 +407,7 @@ void make_room(std::size_t n_triangles, double scale, FaceSizes& sizes) {
   sizes.scale = scale;
   sizes.twice_areas.resize((n_triangles + FaceSizes::kGroup - 1) / FaceSizes::kGroup);
   sizes.angles2.resize((n_triangles + kBlock - 1) / kBlock);
+  sizes.flat.resize(sizes.angles2.size());
 }
 
 ExactNorms norms_of(const std::vector<NormSums>& parts, double scale) {
@@ -427,8 +433,9 @@ std::string work(const MeshView& mesh, const NormsJob& job, std::size_t task) {
   }
   ByteWriter writer;
   writer.array(std::span<const NormSums>(parts));
-  writer.array(std::span<const double>(sizes.twice_areas));
+  writer.array(std::span<const std::uint32_t>(sizes.twice_areas));
   writer.array(std::span<const double>(sizes.angles2));
+  writer.array(std::span<const std::uint8_t>(sizes.flat));
   return writer.take();
 }
 
@@ -440,16 +447,20 @@ void take(std::size_t task, const std::string& bytes, std::vector<NormSums>& par
     std::copy(from.begin(), from.end(), to.begin() + static_cast<std::ptrdiff_t>(at));
   };
   std::vector<NormSums> sums;
-  std::vector<double> areas, angles;
+  std::vector<std::uint32_t> areas;
+  std::vector<double> angles;
+  std::vector<std::uint8_t> flat;
   ByteReader reader(bytes);
   reader.array(sums);
   reader.array(areas);
   reader.array(angles);
+  reader.array(flat);
   reader.finish();
   put(sums, task * (kTask / kGrain), parts);
   if (sizes == nullptr) return;
   put(areas, task * (kTask / FaceSizes::kGroup), sizes->twice_areas);
   put(angles, task * (kTask / kBlock), sizes->angles2);
+  put(flat, task * (kTask / kBlock), sizes->flat);
 }
 
 }  // namespace

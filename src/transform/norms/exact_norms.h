@@ -12,7 +12,9 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <string_view>
 #include <vector>
 
@@ -30,14 +32,20 @@ struct ExactNorms {
 // How large the faces are and look, on request.
 struct FaceSizes {
   static constexpr std::size_t kRun = 128;  // faces t are taken in runs of this many
-  static constexpr std::size_t kGroup = 4;  // and in groups within them
+  static constexpr std::size_t kGroup = 2;  // and in groups within them
 
   double scale = 1;  // a power of two that brings the largest coordinate to 1 ... 2
-  // Of each group: twice the area of its faces together, of lengths times `scale`.
-  std::vector<double> twice_areas;
+  // Of each group: twice the area of its faces together, of lengths times `scale`, to a millionth:
+  // the upper half of a double, for areas may be far below the least float.
+  std::vector<std::uint32_t> twice_areas;
+  double twice_area(std::size_t group) const {
+    return std::bit_cast<double>(std::uint64_t{twice_areas[group]} << 32);
+  }
   // Of each run: the square of the longest edge over that of the nearest corner's distance from
   // the centre, at least the largest of that of each edge and its own ends.
   std::vector<double> angles2;
+  // Of each run: 1 if a face has no area but by rounding, as where it names a corner twice.
+  std::vector<std::uint8_t> flat;
 };
 
 // Signs are those of d_T. Same bits for any number of threads. Throws InvalidInput for an index out

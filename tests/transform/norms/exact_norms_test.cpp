@@ -147,6 +147,34 @@ TEST(exact_norms, have_the_same_bits_for_any_number_of_threads) {
   }
 }
 
+// A corner twice makes an area of rounding only, in whatever direction the face lies.
+TEST(exact_norms, know_runs_with_faces_without_area) {
+  Mesh mesh = test::rotated(bumpy_sphere(4, 0.3));
+  const std::size_t n = mesh.triangles.size();
+  for (std::size_t k = 0; k < 3; ++k) {
+    Triangle twice = mesh.triangles[700 * k];
+    twice[k] = twice[(k + 1) % 3];
+    mesh.triangles.push_back(twice);
+  }
+  test::for_each_target([&](const char* target) {
+    FaceSizes sizes;
+    exact_norms(view_of(mesh), {}, {}, &sizes);
+    ASSERT_EQ(sizes.flat.size(), n / FaceSizes::kRun + 1);
+    for (std::size_t run = 0; run < sizes.flat.size(); ++run) {
+      EXPECT_EQ(sizes.flat[run], run == n / FaceSizes::kRun ? 1 : 0) << target;
+    }
+    double area = 0, known = 0;
+    for (const Triangle& t : mesh.triangles) {
+      const Vec3 &p = mesh.vertices[t[0]], &q = mesh.vertices[t[1]], &r = mesh.vertices[t[2]];
+      area += norm(cross(q - p, r - p)) * sizes.scale * sizes.scale;
+    }
+    for (std::size_t group = 0; group < sizes.twice_areas.size(); ++group) {
+      known += sizes.twice_area(group);
+    }
+    EXPECT_NEAR(known / area, 1, 1e-6) << target;
+  });
+}
+
 // By another process that has the mesh and knows what the job says.
 TEST(exact_norms, have_the_same_bits_where_another_process_sums_ranges) {
   const auto file = test::packed<float>(bumpy_sphere(8), 9);  // more than a million triangles
@@ -174,6 +202,7 @@ TEST(exact_norms, have_the_same_bits_where_another_process_sums_ranges) {
     EXPECT_EQ(shared_sizes.scale, alone_sizes.scale);
     EXPECT_EQ(shared_sizes.twice_areas, alone_sizes.twice_areas);
     EXPECT_EQ(shared_sizes.angles2, alone_sizes.angles2);
+    EXPECT_EQ(shared_sizes.flat, alone_sizes.flat);
     EXPECT_EQ(alone_sizes.angles2.empty(), !with_sizes);
   }
   EXPECT_THROW(norms_tasks(file.view, "nonsense"), Error);
