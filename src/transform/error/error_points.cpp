@@ -199,7 +199,7 @@ ErrorPoints extreme_points(const MeshView& mesh, const Vec3& center, const FaceS
 ErrorPoints area_points(const MeshView& mesh, const Vec3& center, const FaceScan& scan,
                         std::size_t n, const Context& context) {
   const FaceSizes& sizes = scan.sizes;
-  const std::size_t n_groups = sizes.twice_areas.size();
+  const std::size_t n_groups = sizes.area_bits.size();
   constexpr std::size_t kGrain = 1024;  // groups of faces; chosen: some 100 us
   // What comes before each chunk of them.
   std::vector<double> before;

@@ -8,7 +8,7 @@ namespace rholm {
 
 template <typename L>
 std::size_t CommonLumps<L>::most_borrowed() const {
-  constexpr std::size_t kBytes = std::size_t{1} << 29;
+  constexpr std::size_t kBytes = std::size_t{1} << 30;
   const std::size_t each = std::max<std::size_t>(1, n_vertices_ * per_vertex_ * sizeof(L) * 4);
   return std::max<std::size_t>(2, kBytes / each);
 }
@@ -19,6 +19,7 @@ VertexLump<L>* CommonLumps<L>::borrow() {
   const std::lock_guard lock(mutex_);
   if (free_.empty()) {
     arrays_.push_back(AlignedArray<VertexLump<L>>::zeros(n_vertices_ * per_vertex_));
+    free_.reserve(arrays_.size());  // giving back must not fail
     return arrays_.back().data();
   }
   VertexLump<L>* const lumps = free_.back();

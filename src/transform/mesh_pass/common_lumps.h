@@ -21,7 +21,7 @@ class CommonLumps {
   CommonLumps(std::size_t n_vertices, std::size_t per_vertex)
       : n_vertices_(n_vertices), per_vertex_(per_vertex) {}
 
-  // So many may be borrowed at a time: two, or as many as take half a gigabyte.
+  // So many may be borrowed at a time: two, or as many as take a gigabyte.
   std::size_t most_borrowed() const;
 
   class Loan {
@@ -37,15 +37,15 @@ class CommonLumps {
     VertexLump<L>* lumps_;
   };
 
-  // When all have been given back: the sums of n vertices from `first` on, for which it must have
-  // been called once before they are read by lumps().
+  // When all have been given back: the sums of n vertices from `first` on. To be called once for
+  // each vertex, before lumps() and write().
   const VertexLump<L>* add_up(std::size_t first, std::size_t n);
   const VertexLump<L>* lumps(std::size_t first) const {
     return arrays_.front().data() + per_vertex_ * first;
   }
 
-  // Sums that have been added up, and to one more loan what another process wrote; throws Io for
-  // bytes that are no lumps of as many vertices.
+  // The sums as bytes; and to lumps that are borrowed for it what another process wrote. Throws Io
+  // for bytes that are no lumps of as many vertices.
   void write(ByteWriter& writer) const;
   void add_written(ByteReader& reader);
 

@@ -59,6 +59,8 @@ Outcome PassSums<T>::finish(const PartWorker<T>& worker) {
   if (sizeof(T) == 4 && std::abs(border_lumps_.weight - whole_.border_weight) > 0x1p31) {
     out_of_range_ = true;
   }
+  // Of lumps in common as one sum: two vertices that leave the range in opposite ways pass, as they
+  // do within a part.
   if (sizeof(T) == 4 && std::abs(common_.weight + weight_beside_common_) > 0x1p31) {
     out_of_range_ = true;
   }

@@ -57,7 +57,8 @@ class Pass {
     }
     division_ = divide_triangles(mesh_.n_triangles, part_count());
     worker_.emplace(mesh_, options_, plan_, division_);
-    if (division_.count > 1 && !streamed_ && parts_overlap(mesh_, division_)) {
+    if (division_.count > 1 && division_.count <= kPartsAtATime && !streamed_ &&
+        parts_overlap(mesh_, division_)) {
       common_.emplace(mesh_.n_vertices, lumps_per_vertex(plan_.block.hessians));
     }
     if (options_.share) groups_ = group_count();
@@ -152,7 +153,7 @@ class Pass {
 
   // A few parts at a time: what they leave is added up in their order before the next begin.
   void work_parts() {
-    SharedProgress progress(context_, "triangles", 0, upfront_ ? 0.9 : 0.5,
+    SharedProgress progress(context_, "triangles", 0, before_spread(),
                             static_cast<double>(mesh_.n_triangles));
     for (std::size_t first = 0; first < division_.count; first += kPartsAtATime) {
       const std::size_t n = std::min(kPartsAtATime, division_.count - first);
@@ -185,6 +186,13 @@ class Pass {
     return grids.empty() ? nullptr : grids[i].get();
   }
 
+  // What of the whole is done when spreading begins; that of vertices in common is by itself.
+  static constexpr double kBeforeSpread = 0.6;
+  double before_spread() const {
+    if (common_) return upfront_ ? kBeforeSpread : 0.5;
+    return upfront_ ? 0.9 : 0.5;
+  }
+
   int threads_for_parts() const {
     if (!common_) return context_.threads;
     return static_cast<int>(
@@ -207,10 +215,13 @@ class Pass {
   void spread_common() {
     const std::vector<std::size_t> runs = runs_by_height();
     const std::size_t n = grids_.size();
+    SharedProgress progress(context_, "spread", kBeforeSpread, 0.9,
+                            static_cast<double>(mesh_.n_vertices));
     parallel_for(n, 1, {.threads = context_.threads}, {}, [&](std::size_t g, std::size_t) {
       for (std::size_t k = g * runs.size() / n; k < (g + 1) * runs.size() / n; ++k) {
         const std::size_t begin = runs[k], end = std::min(mesh_.n_vertices, begin + kRun);
         worker_->spread(*common_, begin, end, *grids_[g]);
+        progress.add(end - begin);
       }
       grids_[g]->flush();
     });
@@ -242,12 +253,12 @@ class Pass {
 
   // The same by several processes: what they leave is added up in the order of the parts.
   void share_parts() {
-    SharedProgress progress(context_, "triangles", 0, upfront_ ? 0.9 : 0.5,
+    SharedProgress progress(context_, "triangles", 0, before_spread(),
                             static_cast<double>(mesh_.n_triangles));
     options_.share(
         {parts_job(worker_->ranges(), groups_, common_.has_value(),
                    upfront_ ? &transform_ : nullptr),
-         groups_, !upfront_},
+         groups_, !upfront_ && !common_},
         [&](std::size_t group) { return shared_->work(group); },
         [&](std::size_t group, const std::string& bytes) {
           ByteReader reader(bytes);
@@ -302,7 +313,8 @@ class Pass {
     const std::size_t parts = division_.count;
     const std::size_t n = std::min(parts, grid_count(transform_, estimated_sources()));
     for (std::size_t g = 0; g < n; ++g) grids_.push_back(new_grid());
-    SharedProgress progress(context_, "spread", 0.5, 0.9, static_cast<double>(parts));
+    SharedProgress progress(context_, "spread", before_spread(), common_ ? kBeforeSpread : 0.9,
+                            static_cast<double>(parts));
     if (shared_ && !common_) {
       shared_->set_transform(transform_);
       return options_.share(

@@ -90,6 +90,7 @@ std::string SharedParts<T>::work_in_common(std::size_t group) const {
       writer.array(std::span(worked.part.kept_gradients));
     }
   }
+  lumps.add_up(0, worker_.n_vertices());
   lumps.write(writer);
   return writer.take();
 }

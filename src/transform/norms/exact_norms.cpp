@@ -351,7 +351,7 @@ HWY_INLINE void SumRangeOf(const MeshView& mesh, const Frame& frame, std::size_t
     const double angle2 = PrepareBlock<T>(mesh, frame, first, last - first, whole, block);
     if (sizes != nullptr) {
       sizes->angles2[first / kBlock] = angle2;
-      std::uint32_t* const areas = sizes->twice_areas.data() + first / FaceSizes::kGroup;
+      std::uint32_t* const areas = sizes->area_bits.data() + first / FaceSizes::kGroup;
       sizes->flat[first / kBlock] = SumAreas(block, last - first, areas) ? 1 : 0;
     }
     NormSums plain;
@@ -405,7 +405,7 @@ NormSums sums_of(const MeshView& mesh, const Frame& frame, std::size_t begin, st
 
 void make_room(std::size_t n_triangles, double scale, FaceSizes& sizes) {
   sizes.scale = scale;
-  sizes.twice_areas.resize((n_triangles + FaceSizes::kGroup - 1) / FaceSizes::kGroup);
+  sizes.area_bits.resize((n_triangles + FaceSizes::kGroup - 1) / FaceSizes::kGroup);
   sizes.angles2.resize((n_triangles + kBlock - 1) / kBlock);
   sizes.flat.resize(sizes.angles2.size());
 }
@@ -433,7 +433,7 @@ std::string work(const MeshView& mesh, const NormsJob& job, std::size_t task) {
   }
   ByteWriter writer;
   writer.array(std::span<const NormSums>(parts));
-  writer.array(std::span<const std::uint32_t>(sizes.twice_areas));
+  writer.array(std::span<const std::uint32_t>(sizes.area_bits));
   writer.array(std::span<const double>(sizes.angles2));
   writer.array(std::span<const std::uint8_t>(sizes.flat));
   return writer.take();
@@ -458,7 +458,7 @@ void take(std::size_t task, const std::string& bytes, std::vector<NormSums>& par
   reader.finish();
   put(sums, task * (kTask / kGrain), parts);
   if (sizes == nullptr) return;
-  put(areas, task * (kTask / FaceSizes::kGroup), sizes->twice_areas);
+  put(areas, task * (kTask / FaceSizes::kGroup), sizes->area_bits);
   put(angles, task * (kTask / kBlock), sizes->angles2);
   put(flat, task * (kTask / kBlock), sizes->flat);
 }

@@ -37,9 +37,9 @@ struct FaceSizes {
   double scale = 1;  // a power of two that brings the largest coordinate to 1 ... 2
   // Of each group: twice the area of its faces together, of lengths times `scale`, to a millionth:
   // the upper half of a double, for areas may be far below the least float.
-  std::vector<std::uint32_t> twice_areas;
+  std::vector<std::uint32_t> area_bits;
   double twice_area(std::size_t group) const {
-    return std::bit_cast<double>(std::uint64_t{twice_areas[group]} << 32);
+    return std::bit_cast<double>(std::uint64_t{area_bits[group]} << 32);
   }
   // Of each run: the square of the longest edge over that of the nearest corner's distance from
   // the centre, at least the largest of that of each edge and its own ends.

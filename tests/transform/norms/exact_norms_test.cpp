@@ -168,7 +168,7 @@ TEST(exact_norms, know_runs_with_faces_without_area) {
       const Vec3 &p = mesh.vertices[t[0]], &q = mesh.vertices[t[1]], &r = mesh.vertices[t[2]];
       area += norm(cross(q - p, r - p)) * sizes.scale * sizes.scale;
     }
-    for (std::size_t group = 0; group < sizes.twice_areas.size(); ++group) {
+    for (std::size_t group = 0; group < sizes.area_bits.size(); ++group) {
       known += sizes.twice_area(group);
     }
     EXPECT_NEAR(known / area, 1, 1e-6) << target;
@@ -200,7 +200,7 @@ TEST(exact_norms, have_the_same_bits_where_another_process_sums_ranges) {
     EXPECT_EQ(shared.solid_angle, alone.solid_angle);
     EXPECT_EQ(shared.volume, alone.volume);
     EXPECT_EQ(shared_sizes.scale, alone_sizes.scale);
-    EXPECT_EQ(shared_sizes.twice_areas, alone_sizes.twice_areas);
+    EXPECT_EQ(shared_sizes.area_bits, alone_sizes.area_bits);
     EXPECT_EQ(shared_sizes.angles2, alone_sizes.angles2);
     EXPECT_EQ(shared_sizes.flat, alone_sizes.flat);
     EXPECT_EQ(alone_sizes.angles2.empty(), !with_sizes);

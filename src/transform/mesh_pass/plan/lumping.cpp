@@ -88,12 +88,10 @@ double tolerance_of(const MeshSample& sample, double allowed2) {
     steps[Steps::of(entry.error2)] += sample.share * entry.face_error2;
     least = std::min(least, entry.error2);
   }
-  const bool edges_known = sample.edge_share > 0;
-  if (!edges_known) {
+  if (!(sample.edge_share > 0)) {
     for (double& step : steps) step *= 1 + sample.unseen_edges;
   }
   for (const MeshSample::Edge& edge : sample.edges) {
-    if (!edges_known) break;
     const double alone = edge.lower * edge.lower, both = edge.lower + edge.upper;
     steps[Steps::of(edge.lower2)] += sample.edge_share * alone;
     steps[Steps::of(edge.upper2)] += sample.edge_share * (both * both - alone);
