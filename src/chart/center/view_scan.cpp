@@ -165,7 +165,8 @@ void Below(const LocalView& view, std::size_t begin, std::size_t end, const Vec3
   BelowOf<double, false>(view, begin, end, center, limits, visit);
 }
 
-template <class T>
+// kLine: the opposite direction as well.
+template <class T, bool kLine>
 struct ConeTest {
   Lookout from;
   Vector3 along;
@@ -173,31 +174,48 @@ struct ConeTest {
   HWY_INLINE ConeTest(D d, const LocalView& view, const Vec3& center, const Vec3& direction)
       : from(d, view.frame, kScaled<T> ? 1 : view.frame.scale, center), along(Same(d, direction)) {}
   HWY_INLINE void Refresh(D) const {}
-  HWY_INLINE M Inside(D d, const Vector3& a, const Vector3& b) const {
-    const V side = Dot(Cross(a, b), along);
+  struct Side {
+    V height, rounding;
+  };
+  HWY_INLINE Side SideOf(D d, const Vector3& a, const Vector3& b) const {
     // The rounding of the product, 8 2^-53 of the lengths, twice: a^2 + b^2 >= 2 a b.
-    const V rounding = hn::Mul(hn::Add(Dot(a, a), Dot(b, b)), hn::Set(d, 8 * 0x1p-53));
-    return hn::Ge(hn::Add(side, rounding), hn::Zero(d));
+    return {Dot(Cross(a, b), along),
+            hn::Mul(hn::Add(Dot(a, a), Dot(b, b)), hn::Set(d, 8 * 0x1p-53))};
   }
   HWY_INLINE M Choose(D d, const Vector3& raw0, const Vector3& raw1, const Vector3& raw2) const {
     const Vector3 a = from.Ray(from.Scaled<T>(raw0)), b = from.Ray(from.Scaled<T>(raw1));
     const Vector3 c = from.Ray(from.Scaled<T>(raw2));
-    return hn::And(Inside(d, a, b), hn::And(Inside(d, b, c), Inside(d, c, a)));
+    const Side s0 = SideOf(d, a, b), s1 = SideOf(d, b, c), s2 = SideOf(d, c, a);
+    const V zero = hn::Zero(d);
+    const auto inside = [&](const Side& s)
+                            HWY_ATTR { return hn::Ge(hn::Add(s.height, s.rounding), zero); };
+    const M chosen = hn::And(inside(s0), hn::And(inside(s1), inside(s2)));
+    if constexpr (!kLine) return chosen;
+    const auto beyond = [&](const Side& s) HWY_ATTR { return hn::Le(s.height, s.rounding); };
+    return hn::Or(chosen, hn::And(beyond(s0), hn::And(beyond(s1), beyond(s2))));
   }
 };
 
-template <class T>
+template <bool kLine>
 HWY_INLINE void ConesOf(const LocalView& view, std::size_t begin, std::size_t end,
                         const Vec3& center, const Vec3& direction, const VisitTriangle& visit) {
-  VisitIf<T>(view.mesh, begin, end, ConeTest<T>(D(), view, center, direction), visit);
+  const D d;
+  if (view.mesh.coordinate == ScalarType::kFloat32) {
+    const ConeTest<float, kLine> test(d, view, center, direction);
+    return VisitIf<float>(view.mesh, begin, end, test, visit);
+  }
+  VisitIf<double>(view.mesh, begin, end, ConeTest<double, kLine>(d, view, center, direction),
+                  visit);
 }
 
 void Cones(const LocalView& view, std::size_t begin, std::size_t end, const Vec3& center,
            const Vec3& direction, const VisitTriangle& visit) {
-  if (view.mesh.coordinate == ScalarType::kFloat32) {
-    return ConesOf<float>(view, begin, end, center, direction, visit);
-  }
-  ConesOf<double>(view, begin, end, center, direction, visit);
+  ConesOf<false>(view, begin, end, center, direction, visit);
+}
+
+void Lines(const LocalView& view, std::size_t begin, std::size_t end, const Vec3& center,
+           const Vec3& direction, const VisitTriangle& visit) {
+  ConesOf<true>(view, begin, end, center, direction, visit);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -209,6 +227,7 @@ namespace rholm {
 
 HWY_EXPORT(Below);
 HWY_EXPORT(Cones);
+HWY_EXPORT(Lines);
 
 void scan_below(const LocalView& view, std::size_t begin, std::size_t end, const Vec3& center,
                 const ScanLimits& limits, const VisitTriangle& visit) {
@@ -218,6 +237,11 @@ void scan_below(const LocalView& view, std::size_t begin, std::size_t end, const
 void scan_cones(const LocalView& view, std::size_t begin, std::size_t end, const Vec3& center,
                 const Vec3& direction, const VisitTriangle& visit) {
   HWY_DYNAMIC_DISPATCH(Cones)(view, begin, end, center, direction, visit);
+}
+
+void scan_lines(const LocalView& view, std::size_t begin, std::size_t end, const Vec3& center,
+                const Vec3& direction, const VisitTriangle& visit) {
+  HWY_DYNAMIC_DISPATCH(Lines)(view, begin, end, center, direction, visit);
 }
 
 }  // namespace rholm

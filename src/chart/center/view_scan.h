@@ -31,5 +31,8 @@ void scan_below(const LocalView& view, std::size_t begin, std::size_t end, const
 // (a unit vector).
 void scan_cones(const LocalView& view, std::size_t begin, std::size_t end, const Vec3& center,
                 const Vec3& direction, const VisitTriangle& visit);
+// The same, and those whose cone may contain the opposite direction.
+void scan_lines(const LocalView& view, std::size_t begin, std::size_t end, const Vec3& center,
+                const Vec3& direction, const VisitTriangle& visit);
 
 }  // namespace rholm

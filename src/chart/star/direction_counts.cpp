@@ -29,16 +29,15 @@ std::optional<int> surplus_at(const LocalView& view, const Vec3& center, const V
     Part& part = parts[begin / grain];
     // Where the sides of a cone all look towards a direction, a face that turns its front meets it,
     // or one that turns its back meets the opposite one.
-    for (const int side : {1, -1}) {
-      const Vec3 towards = side * direction;
-      scan_cones(view, begin, end, view.frame.to_local(center), towards, [&](std::size_t triangle) {
-        const auto corners = corners_from(view, triangle, center);
-        if (!(side * dot(cross(corners[0], corners[1]), corners[2]) > 0)) return;
-        const int contains = cone_contains(corners, towards);
-        part.unclear = part.unclear || contains < 0;
-        part.surplus += side * contains;
-      });
-    }
+    scan_lines(view, begin, end, view.frame.to_local(center), direction, [&](std::size_t triangle) {
+      const auto corners = corners_from(view, triangle, center);
+      const double height = dot(cross(corners[0], corners[1]), corners[2]);
+      if (height == 0) return;
+      const int side = height > 0 ? 1 : -1;
+      const int contains = cone_contains(corners, side * direction);
+      part.unclear = part.unclear || contains < 0;
+      part.surplus += side * contains;
+    });
   });
   int surplus = 0;
   for (const Part& part : parts) {
@@ -158,25 +157,23 @@ bool may_hold_center(const std::array<Vec3, 3>& p) {
   return nearest <= longest;
 }
 
-// The numbers of those that turn their backs, in order; none if the centre may lie on one.
+// Those of some faces that turn their backs, in order; none if the centre may lie on one.
 std::optional<std::vector<std::uint32_t>> backs(const LocalView& view, const Vec3& center,
+                                                const std::vector<std::uint32_t>& low,
                                                 const Context& context) {
-  const std::size_t n = view.mesh.n_triangles, grain = triangle_grain(n);
+  constexpr std::size_t kGrain = 1024;  // chosen: some 50 us
   struct Part {
     std::vector<std::uint32_t> backs;
     bool unclear = false;
   };
-  std::vector<Part> parts((n + grain - 1) / grain);
-  parallel_for(n, grain, context, {}, [&](std::size_t begin, std::size_t end) {
-    Part& part = parts[begin / grain];
-    scan_below(view, begin, end, view.frame.to_local(center), {.distance = 1e-9},
-               [&](std::size_t triangle) {
-                 const auto corners = corners_from(view, triangle, center);
-                 part.unclear = part.unclear || may_hold_center(corners);
-                 if (dot(cross(corners[0], corners[1]), corners[2]) < 0) {
-                   part.backs.push_back(static_cast<std::uint32_t>(triangle));
-                 }
-               });
+  std::vector<Part> parts((low.size() + kGrain - 1) / kGrain);
+  parallel_for(low.size(), kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
+    Part& part = parts[begin / kGrain];
+    for (std::size_t k = begin; k < end; ++k) {
+      const auto corners = corners_from(view, low[k], center);
+      part.unclear = part.unclear || may_hold_center(corners);
+      if (dot(cross(corners[0], corners[1]), corners[2]) < 0) part.backs.push_back(low[k]);
+    }
   });
   std::vector<std::uint32_t> all;
   for (const Part& part : parts) {
@@ -196,14 +193,15 @@ Vec3 lattice_direction(std::size_t i, std::size_t n) {
 }
 
 std::optional<std::vector<int>> count_meetings(const LocalView& view, const Vec3& center,
-                                               std::size_t n, const Context& context) {
+                                               std::size_t n, const std::vector<std::uint32_t>& low,
+                                               const Context& context) {
   std::optional<int> surplus;
   constexpr std::size_t kStarts = 8;  // in general position (chosen)
   for (std::size_t i = 0; i < kStarts && !surplus; ++i) {
     surplus = surplus_at(view, center, lattice_direction(i, kStarts), context);
   }
   if (!surplus) return std::nullopt;
-  const std::optional<std::vector<std::uint32_t>> turned = backs(view, center, context);
+  const std::optional<std::vector<std::uint32_t>> turned = backs(view, center, low, context);
   if (!turned) return std::nullopt;
   std::vector<int> counts(n, *surplus);
   if (turned->empty()) return counts;

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -17,9 +18,14 @@ namespace rholm {
 // Direction i of n, spread evenly: a Fibonacci lattice.
 Vec3 lattice_direction(std::size_t i, std::size_t n);
 
+// Planes of faces that are as near to the centre, in the unit frame, or turn their backs to it.
+inline constexpr double kNearPlane = 1e-9;
+
 // How often each of n directions meets the surface of a closed mesh; none if the centre
-// may lie on the surface, or all of a few directions from which to begin on edges.
+// may lie on the surface, or all of a few directions from which to begin on edges. `low`: all faces
+// with d_T < kNearPlane, in order; others may be among them.
 std::optional<std::vector<int>> count_meetings(const LocalView& view, const Vec3& center,
-                                               std::size_t n, const Context& context);
+                                               std::size_t n, const std::vector<std::uint32_t>& low,
+                                               const Context& context);
 
 }  // namespace rholm

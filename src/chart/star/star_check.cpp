@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -30,11 +31,13 @@ struct FaceFigures {
   double min_d = std::numeric_limits<double>::infinity();
   double min_cos_gamma = 1;
   std::size_t bad = 0;
+  std::vector<std::uint32_t> low;  // see count_meetings()
 
   void merge(const FaceFigures& other) {
     min_d = std::min(min_d, other.min_d);
     min_cos_gamma = std::min(min_cos_gamma, other.min_cos_gamma);
     bad += other.bad;
+    low.insert(low.end(), other.low.begin(), other.low.end());
   }
 };
 
@@ -60,12 +63,14 @@ FaceFigures check_faces(const LocalView& view, const Vec3& center, const Context
   const std::size_t n = view.mesh.n_triangles, grain = triangle_grain(n);
   const Vec3 local = view.frame.to_local(center);
   // What rounding may make bad, from any corner of the unit frame; twice, for it is a bound.
-  const double unclear = 2 * kDistanceRounding * (norm(local) + 2);
+  const double unclear = std::max(2 * kDistanceRounding * (norm(local) + 2), kNearPlane);
   std::vector<FaceFigures> parts((n + grain - 1) / grain);
   parallel_for(n, grain, context, {}, [&](std::size_t begin, std::size_t end) {
     FaceFigures& figures = parts[begin / grain];
     ScanLimits limits{.distance = figures.min_d, .cosine = figures.min_cos_gamma};
     scan_below(view, begin, end, local, limits, [&](std::size_t triangle) {
+      // Whose plane is above goes in, too, if it is visited before a lower one.
+      figures.low.push_back(static_cast<std::uint32_t>(triangle));
       const Vec3 normal = unit_normal(view.corners(triangle));
       if (normal == Vec3{}) return;
       add_face(corners_from(view, triangle, center), normal, figures);
@@ -133,11 +138,12 @@ std::vector<int> shoot_rays(const LocalView& view, const Vec3& center, std::size
   return hits;
 }
 
-void try_directions(const LocalView& view, const Vec3& center, const Context& context,
+void try_directions(const LocalView& view, const Vec3& center,
+                    const std::vector<std::uint32_t>& low, const Context& context,
                     StarReport& report) {
   const auto n = static_cast<std::size_t>(report.rays);
   std::optional<std::vector<int>> meetings;
-  if (view.closed()) meetings = count_meetings(view, center, n, context);
+  if (view.closed()) meetings = count_meetings(view, center, n, low, context);
   if (!meetings) meetings = shoot_rays(view, center, n, context);
   const auto share = [&](auto is_counted) {
     return static_cast<double>(std::ranges::count_if(*meetings, is_counted)) / report.rays;
@@ -180,7 +186,7 @@ StarReport check_star(const LocalView& view, const Vec3& center, int rays, const
   report.bad_triangles = figures.bad;
   report.star_shaped = figures.bad == 0 && covers_once(view, center, context);
   report.rays = std::max(0, rays);
-  if (report.rays > 0) try_directions(view, center, context, report);
+  if (report.rays > 0) try_directions(view, center, figures.low, context, report);
   return report;
 }
 

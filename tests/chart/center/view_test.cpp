@@ -234,6 +234,15 @@ TEST(scan_cones, finds_the_one_face_in_every_direction) {
         scan_cones(view, 0, mesh.n_triangles, {0.1, 0, 0}, random_direction(1, i),
                    [&](std::size_t) { ++visits; });
         EXPECT_EQ(visits, 1u);
+        std::set<std::size_t> ahead_and_behind, along;
+        for (const int side : {1, -1}) {
+          scan_cones(view, 0, mesh.n_triangles, {0.1, 0, 0}, side * random_direction(1, i),
+                     [&](std::size_t t) { ahead_and_behind.insert(t); });
+        }
+        scan_lines(view, 0, mesh.n_triangles, {0.1, 0, 0}, random_direction(1, i),
+                   [&](std::size_t t) { along.insert(t); });
+        EXPECT_EQ(along, ahead_and_behind);
+        EXPECT_EQ(along.size(), 2u);
       }
     }
   });
