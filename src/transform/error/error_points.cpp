@@ -134,15 +134,18 @@ void ErrorPoints::append(const ErrorPoints& more) {
 
 namespace {
 
-// Where the points of a face lie whose edges are divided in two or three: the middles of its edges;
-// its middle, and on each edge a third of the way, for the face beyond has the other third.
+// Where the points of a face lie whose edges are divided in two or three: from both sides of an
+// edge, for peaks are looked for on the face that has the point.
 using OnFace = std::array<double, 3>;
 constexpr std::array<OnFace, 3> kHalves = {{{0.5, 0.5, 0}, {0, 0.5, 0.5}, {0.5, 0, 0.5}}};
 constexpr double kThird = 1.0 / 3, kTwoThirds = 2.0 / 3;
-constexpr std::array<OnFace, 4> kThirds = {{{kThird, kThird, kThird},
+constexpr std::array<OnFace, 7> kThirds = {{{kThird, kThird, kThird},
                                             {kTwoThirds, kThird, 0},
+                                            {kThird, kTwoThirds, 0},
                                             {0, kTwoThirds, kThird},
-                                            {kThird, 0, kTwoThirds}}};
+                                            {0, kThird, kTwoThirds},
+                                            {kThird, 0, kTwoThirds},
+                                            {kTwoThirds, 0, kThird}}};
 static_assert(kMostDivisions == 3);
 
 }  // namespace

@@ -33,7 +33,7 @@ struct ErrorPoints {
   void append(const ErrorPoints& more);
 };
 
-// Of each face whose edges are long against 1/L three or four points, on it and its edges but not
+// Of each face whose edges are long against 1/L three or seven points, on it and its edges but not
 // at its corners: calls visit(points, t) for faces of the runs [begin, end) of the scan, points
 // from the centre and times scan.sizes.scale. Waves of degree L are 2 pi / L long.
 using PointsOnFace = std::function<void(std::span<const Vec3> points, std::size_t t)>;
