@@ -106,6 +106,16 @@ TEST(every_loop, gives_the_same_bits_for_errors) {
   }
 }
 
+// Four parts that share the vertices between their rows.
+TEST(every_loop, gives_the_same_bits_for_a_mesh_in_rows) {
+  Mesh mesh = latitude_longitude_sphere(150, 300);
+  for (Vec3& v : mesh.vertices) v = (1 + 0.1 * std::sin(3 * v.x + v.y)) * v;
+  expect_same_bits([&](const Context& context) {
+    return Bits().add(
+        mesh_pass(view_of(mesh), {.degree = 16, .precision = 1e-4}, context).coefficients);
+  });
+}
+
 TEST(every_loop, gives_the_same_bits_for_a_large_mesh_in_random_order) {
   const Mesh mesh = large_mesh_in_random_order();
   expect_same_bits([&](const Context& context) {
