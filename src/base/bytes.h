@@ -1,6 +1,8 @@
 // Numbers as bytes between processes of one program, in the machine's own byte order. Layer: base.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <span>
@@ -88,5 +90,34 @@ class ByteReader {
   }
   std::string_view bytes_;
 };
+
+// Numbers of which whole rows may be zero, which then take a byte.
+template <typename T, typename IsZero>
+void write_sparse(ByteWriter& writer, std::span<const T> all, std::size_t row,
+                  const IsZero& is_zero) {
+  writer.value(std::uint64_t{all.size()});
+  for (std::size_t first = 0; first < all.size(); first += row) {
+    const auto part = all.subspan(first, std::min(row, all.size() - first));
+    const bool is_empty = std::all_of(part.begin(), part.end(), is_zero);
+    writer.value(static_cast<std::uint8_t>(is_empty ? 0 : 1));
+    if (!is_empty) writer.row(part);
+  }
+}
+// Calls take(first, part) for the rows that are not; `n` numbers in all, or it is refused.
+template <typename T, typename Take>
+void read_sparse(ByteReader& reader, std::size_t n, std::size_t row, const Take& take) {
+  std::uint64_t written = 0;
+  reader.value(written);
+  if (written != n) ByteReader::refuse();
+  std::vector<T> room(row);
+  for (std::size_t first = 0; first < n; first += row) {
+    std::uint8_t has_any = 0;
+    reader.value(has_any);
+    if (has_any == 0) continue;
+    const auto part = std::span(room).first(std::min(row, n - first));
+    reader.row(part);
+    take(first, std::span<const T>(part));
+  }
+}
 
 }  // namespace rholm

@@ -18,7 +18,7 @@ namespace rholm {
 // Direction i of n, spread evenly: a Fibonacci lattice.
 Vec3 lattice_direction(std::size_t i, std::size_t n);
 
-// Planes of faces that are as near to the centre, in the unit frame, or turn their backs to it.
+// Faces whose planes are this near to the centre, in the unit frame, may hold it.
 inline constexpr double kNearPlane = 1e-9;
 
 // How often each of n directions meets the surface of a closed mesh; none if the centre

@@ -62,7 +62,8 @@ void add_face(const std::array<Vec3, 3>& corners, const Vec3& normal, FaceFigure
 FaceFigures check_faces(const LocalView& view, const Vec3& center, const Context& context) {
   const std::size_t n = view.mesh.n_triangles, grain = triangle_grain(n);
   const Vec3 local = view.frame.to_local(center);
-  // What rounding may make bad, from any corner of the unit frame; twice, for it is a bound.
+  // What rounding may make bad, from any corner of the unit frame; twice, for it is a bound. All
+  // that count_meetings() asks for, too.
   const double unclear = std::max(2 * kDistanceRounding * (norm(local) + 2), kNearPlane);
   std::vector<FaceFigures> parts((n + grain - 1) / grain);
   parallel_for(n, grain, context, {}, [&](std::size_t begin, std::size_t end) {

@@ -51,34 +51,19 @@ constexpr std::size_t kWritten = 64;
 
 template <typename L>
 void CommonLumps<L>::write(ByteWriter& writer) const {
-  const std::size_t n = n_vertices_ * per_vertex_, each = kWritten * per_vertex_;
-  writer.value(std::uint64_t{n});
-  for (std::size_t first = 0; first < n; first += each) {
-    const std::span row(arrays_.front().data() + first, std::min(each, n - first));
-    const bool is_empty = std::ranges::all_of(row, [](const VertexLump<L>& lump) {
-      return lump.value[0] == 0 && lump.value[1] == 0 && lump.value[2] == 0 && lump.value[3] == 0;
-    });
-    writer.value(static_cast<std::uint8_t>(is_empty ? 0 : 1));
-    if (!is_empty) writer.row(row);
-  }
+  const std::span<const VertexLump<L>> all(arrays_.front().data(), n_vertices_ * per_vertex_);
+  write_sparse(writer, all, kWritten * per_vertex_, [](const VertexLump<L>& lump) {
+    return lump.value[0] == 0 && lump.value[1] == 0 && lump.value[2] == 0 && lump.value[3] == 0;
+  });
 }
 
 template <typename L>
 void CommonLumps<L>::add_written(ByteReader& reader) {
   const Loan loan(*this);
-  std::uint64_t n = 0;
-  reader.value(n);
-  if (n != n_vertices_ * per_vertex_) ByteReader::refuse();
-  const std::size_t each = kWritten * per_vertex_;
-  std::vector<VertexLump<L>> row(each);
-  for (std::size_t first = 0; first < n; first += each) {
-    std::uint8_t has_lumps = 0;
-    reader.value(has_lumps);
-    if (has_lumps == 0) continue;
-    const std::size_t count = std::min<std::size_t>(each, n - first);
-    reader.row(std::span(row).first(count));
-    add_lumps(row.data(), count, loan.lumps() + first);
-  }
+  read_sparse<VertexLump<L>>(reader, n_vertices_ * per_vertex_, kWritten * per_vertex_,
+                             [&](std::size_t first, std::span<const VertexLump<L>> row) {
+                               add_lumps(row.data(), row.size(), loan.lumps() + first);
+                             });
 }
 
 template class CommonLumps<std::int32_t>;

@@ -84,36 +84,22 @@ template <typename T>
 void GridSources<T>::write(ByteWriter& writer) {
   writer.value(source2_);
   writer.value(hessian2_);
-  const std::span<const double> all(cells(), spreader_.n_cells());
-  writer.value(std::uint64_t{all.size()});
-  for (std::size_t at = 0; at < all.size(); at += kCellsInRow) {
-    const auto row = all.subspan(at, std::min(kCellsInRow, all.size() - at));
-    const bool is_empty = std::ranges::all_of(row, [](double cell) { return cell == 0; });
-    writer.value(static_cast<std::uint8_t>(is_empty ? 0 : 1));
-    if (!is_empty) writer.row(row);
-  }
+  write_sparse(writer, std::span<const double>(cells(), spreader_.n_cells()), kCellsInRow,
+               [](double cell) { return cell == 0; });
 }
 
 template <typename T>
 void GridSources<T>::add_written(ByteReader& reader) {
   double source2 = 0, hessian2 = 0;
-  std::uint64_t n = 0;
   reader.value(source2);
   reader.value(hessian2);
-  reader.value(n);
-  const std::span<double> all(cells(), spreader_.n_cells());
-  if (n != all.size()) ByteReader::refuse();
   source2_ += source2;
   hessian2_ += hessian2;
-  double row[kCellsInRow];
-  for (std::size_t at = 0; at < n; at += kCellsInRow) {
-    std::uint8_t has_cells = 0;
-    reader.value(has_cells);
-    if (has_cells == 0) continue;
-    const std::size_t count = std::min<std::size_t>(kCellsInRow, n - at);
-    reader.row(std::span(row, count));
-    for (std::size_t i = 0; i < count; ++i) all[at + i] += row[i];
-  }
+  double* const all = cells();
+  read_sparse<double>(reader, spreader_.n_cells(), kCellsInRow,
+                      [&](std::size_t first, std::span<const double> row) {
+                        for (std::size_t i = 0; i < row.size(); ++i) all[first + i] += row[i];
+                      });
 }
 
 template <typename T>

@@ -44,10 +44,6 @@ class PartWorker {
   void set_ranges(std::vector<IndexRange> ranges) { ranges_ = std::move(ranges); }
   const std::vector<IndexRange>& ranges() const { return ranges_; }
   std::size_t n_vertices() const { return mesh_.n_vertices; }
-  // None of whose lumps anything was added to.
-  CommonLumps<Lump> common_lumps() const {
-    return {mesh_.n_vertices, lumps_per_vertex(plan_.block.hessians)};
-  }
 
   // Nodes go to the grid; with none they are kept. Throws as mesh_pass() does.
   WorkedPart<T> work(std::size_t p, GridSources<T>* grid, SharedProgress& progress) const;

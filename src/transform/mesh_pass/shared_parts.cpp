@@ -76,7 +76,7 @@ template <typename T>
 std::string SharedParts<T>::work_in_common(std::size_t group) const {
   ByteWriter writer;
   SharedProgress progress = no_progress();
-  CommonLumps<LumpOf<T>> lumps = worker_.common_lumps();
+  CommonLumps<LumpOf<T>> lumps(worker_.n_vertices(), lumps_per_vertex(plan_.block.hessians));
   for (std::size_t p = first(group, groups_); p < first(group + 1, groups_); ++p) {
     std::optional<GridSources<T>> grid;
     if (transform_) grid.emplace(*transform_, kernel_);
