@@ -1,5 +1,6 @@
 // rholm analyze: from a mesh to its coefficients.
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -111,8 +112,8 @@ void check_reached(const Options& options, const Encoded& encoded) {
 int run(const Options& options, const AnalyzeBy& by, Session& session) {
   by.check_input(options.input);
   if (options.atlas) return analyze_atlas(options, session);
-  if (!options.fit.empty() || !options.extension.empty()) {
-    throw UsageError("--fit and --extension go with --atlas");
+  if (!options.fit.empty() || !options.extension.empty() || options.max_numbers) {
+    throw UsageError("--fit, --extension and --max-numbers go with --atlas");
   }
   if (options.degree && options.tolerance.tolerance) {
     throw UsageError("--degree L or --tolerance E: only one of the two can be kept");
@@ -245,7 +246,14 @@ std::vector<Option> option_list(Options& o) {
         .help = "with --fit integral, what a cap is beyond its points: zero, as the paper has it, "
                 "or the sphere it lies on",
         .target = &o.extension,
-        .choices = {"zero", "sphere"}}});
+        .choices = {"zero", "sphere"}},
+       {.name = "max-numbers",
+        .value = "N",
+        .help = "of an atlas: the numbers that the model may take, coefficients and nine for each "
+                "cap; by default as many as the shape has coordinates",
+        .target = &o.max_numbers,
+        .min = 1,
+        .max = std::numeric_limits<int>::max()}});
   append(list, transform_options(o));
   append(list, monte_carlo_options(o));
   append(list, {rays_option(o.rays), weld_option(o.weld), length_unit_option(o.length_unit),

@@ -29,6 +29,7 @@ void check_options(const AnalyzeCommandOptions& o) {
     }
     if (*o.degree > 24) throw UsageError("--degree of a cap is 0 ... 24");
     refuse(o.tolerance.max_degree.has_value(), "--max-degree and --fit integral");
+    refuse(o.max_numbers.has_value(), "--max-numbers and --fit integral");
   } else {
     if (!o.tolerance.tolerance) throw UsageError("--atlas needs --tolerance E");
     refuse(o.degree.has_value(), "--degree");
@@ -69,6 +70,7 @@ Compressed compress_shape(const AnalyzeCommandOptions& o, ShapeFile file, Sessio
   options.tolerance = *o.tolerance.tolerance;
   options.seed = o.seed;
   if (o.tolerance.max_degree) options.max_degree = *o.tolerance.max_degree;
+  options.max_numbers = static_cast<std::size_t>(o.max_numbers.value_or(0));
   const bool relative = o.tolerance.unit == "diagonal";
   if (const auto* cloud = std::get_if<PointCloud>(&file.shape)) {
     if (relative) options.tolerance *= bounds(cloud->points).diagonal();

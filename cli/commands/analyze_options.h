@@ -19,8 +19,9 @@ struct AnalyzeCommandOptions {
   std::optional<int> degree;
   ToleranceOptions tolerance;
   bool atlas = false;
-  std::string fit;        // of an atlas; empty: least-squares
-  std::string extension;  // of caps that are fitted by integrals; empty: zero
+  std::string fit;                 // of an atlas; empty: least-squares
+  std::string extension;           // of caps that are fitted by integrals; empty: zero
+  std::optional<int> max_numbers;  // of an atlas; none: as many as the shape has coordinates
   std::string method = "edge";
   std::string engine;  // empty: the default
   std::string center = "auto";

@@ -27,13 +27,19 @@ struct Options {
   bool json = false;
 };
 
+// Chosen: what is shown may take more numbers than a small shape has; caps of a rough one do not
+// end.
+constexpr std::size_t kMostShownNumbers = 12000;
+
 // Caps as analyze --atlas makes them, on the shape itself.
 template <typename Shape>
 void show_caps(const Options& options, ShapeFormat format, Shape& shape,
                const std::vector<Vec3>& points, Session& session, Json& json) {
   const double diagonal = bounds(points).diagonal();
-  const Compressed found =
-      compress(shape, {.tolerance = options.tolerance * diagonal}, session.context());
+  const Compressed found = compress(shape,
+                                    {.tolerance = options.tolerance * diagonal,
+                                     .max_numbers = std::max(kMostShownNumbers, 3 * points.size())},
+                                    session.context());
   if (found.report.turned_normals) session.note(kTurned);
   const Atlas& atlas = found.model.atlas;
   const auto caps = dominant_caps(atlas, points, session.context());

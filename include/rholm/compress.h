@@ -21,6 +21,9 @@ struct CompressOptions {
   std::size_t samples = 0;  // that caps are fitted to; 0: by the tolerance
   int max_degree = 14;      // of a cap, 2 ... 24
   std::uint64_t seed = 1;   // of samples and of the search
+  // Numbers that the model may take (size_of()); 0: as many as the shape has coordinates, three per
+  // vertex or point. A shape that would take more is refused.
+  std::size_t max_numbers = 0;
 };
 
 // What a model is measured by. Lengths in the shape's unit.
@@ -82,7 +85,7 @@ struct Compressed {
 // they are turned) and are taken as evenly spread (measured from the points only). Throws
 // InvalidInput for shapes without area, triangles that are not oriented alike, and options out of
 // range; Unsupported for shapes too thin for the grid, and where the caps would take more numbers
-// than the shape. The tolerance may be missed, see `met`, and so may parts and handles, see
+// than `max_numbers`. The tolerance may be missed, see `met`, and so may parts and handles, see
 // `topology_kept`. Same input, same bits for any number of threads.
 Compressed compress(const Mesh& mesh, const CompressOptions& options, const Context& context = {});
 Compressed compress(const PointCloud& cloud, const CompressOptions& options,

@@ -385,6 +385,7 @@ def compress(
     unit: Literal["absolute", "diagonal"] = "absolute",
     samples: int = 0,
     max_degree: int = 14,
+    max_numbers: int = 0,
     seed: int = 1,
     length_unit: str = "",
     threads: int = 0,
@@ -404,6 +405,8 @@ def compress(
         That caps are fitted to; 0: by the tolerance.
     max_degree : int
         Of a cap, 2 ... 24.
+    max_numbers : int
+        Numbers that the model may take (`Atlas.size`); 0: as many as the shape has coordinates.
     seed : int
         Of samples and of the search.
     length_unit : str
@@ -421,14 +424,18 @@ def compress(
     InvalidInputError
         For shapes without area, triangles that are not oriented alike, options out of range.
     UnsupportedError
-        For shapes too thin for the grid, and where caps would take more numbers than the shape.
+        For shapes too thin for the grid, and where caps would take more than `max_numbers`.
     """
     whole, core = _shape_of(shape)
     if unit not in ("diagonal", "absolute"):
         raise InvalidInputError(f"unit is 'absolute' or 'diagonal', not {unit!r}")
     factor = whole.bounds.diagonal if unit == "diagonal" else 1.0
     options = _core.CompressOptions(
-        tolerance=tolerance * factor, samples=samples, max_degree=max_degree, seed=seed
+        tolerance=tolerance * factor,
+        samples=samples,
+        max_degree=max_degree,
+        seed=seed,
+        max_numbers=max_numbers,
     )
     with caller(threads, progress) as how:
         model, report = _core.compress(core, options, how)

@@ -1847,6 +1847,12 @@ class CompressOptions:
     @seed.setter
     def seed(self, arg: int | None, /) -> None: ...
 
+    @property
+    def max_numbers(self) -> int: ...
+
+    @max_numbers.setter
+    def max_numbers(self, arg: int | None, /) -> None: ...
+
 class CompressReport:
     """How a model came about, and what it keeps."""
 

@@ -160,7 +160,8 @@ void bind_compress(nb::module_& m) {
       .field("tolerance", &CompressOptions::tolerance)
       .field("samples", &CompressOptions::samples)
       .field("max_degree", &CompressOptions::max_degree)
-      .field("seed", &CompressOptions::seed);
+      .field("seed", &CompressOptions::seed)
+      .field("max_numbers", &CompressOptions::max_numbers);
   Record<CompressReport>(m, "CompressReport", "How a model came about, and what it keeps.")
       .field("samples", &CompressReport::samples, "That caps were fitted to.")
       .field("turned_normals", &CompressReport::turned_normals,

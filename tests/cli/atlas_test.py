@@ -68,12 +68,24 @@ class Atlas(CliTest):
         self.assertIn("faces disagree about their sides at 3 edges",
                       self.rholm("analyze", "mixed.off", *words, code=3).err)
         self.write("turned.off", off(V, [f[::-1] for f in F]))
-        self.assertIn("inside out", self.rholm("analyze", "turned.off", *words).err)
+        self.assertIn("inside out", self.rholm("analyze", "turned.off", *words, "--max-numbers", "1000").err)
         self.rholm("make", "sample", "turned.off", "--points", "2000", "-o", "p.xyz")
         result = self.rholm("analyze", "p.xyz", *words, "--json")
         self.assertIn("all normals pointed inwards", result.err)
         self.assertEqual(result.json()["input_numbers"], 6000)
         self.assertIn("not measured to the shape", self.rholm("info", "m.h5").out)
+
+    def test_a_model_of_more_numbers_than_the_shape_is_refused(self):
+        """An octahedron has 18 coordinates, and a cap nine numbers of a frame alone."""
+        words = ["--atlas", "--tolerance", "0.05", "-o", "m.h5"]
+        self.write("few.off", off(V, F))
+        result = self.rholm("analyze", "few.off", *words, code=3)
+        self.assertIn("18 coordinates", result.err)
+        self.assertNotIn("m.h5", self.files())
+        report = self.rholm("analyze", "few.off", *words, "--max-numbers", "1000", "--json").json()
+        self.assertGreater(report["numbers"], 18)
+        self.assertIn("go with --atlas", self.rholm(
+            "analyze", "few.off", "--degree", "4", "--max-numbers", "1000", "-o", "m.h5", code=2).err)
 
     def test_the_paper_s_way_is_there_to_compare_with(self):
         found = {}

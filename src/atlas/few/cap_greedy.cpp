@@ -50,10 +50,7 @@ class Greedy {
         if (++dry > 20) break;
       } else {
         dry = 0;
-        if (foreseen() > static_cast<double>(options_.most_numbers)) {
-          cover_.foreseen = static_cast<std::size_t>(foreseen());
-          break;
-        }
+        if (too_many()) break;
       }
       add_candidates(kMoreSeeds);
     }
@@ -66,12 +63,18 @@ class Greedy {
     return static_cast<double>(left_) / static_cast<double>(samples_.size());
   }
 
-  // Numbers of all caps if the rest of the samples cost what the covered ones did: the dearest are
-  // left to the end, so it will be more. 0 where that is not asked for, or too early to tell.
-  double foreseen() const {
-    if (options_.most_numbers == 0 || cover_.chosen.size() < kTelling) return 0;
-    return static_cast<double>(numbers_) * static_cast<double>(open_) /
-           static_cast<double>(open_ - left_);
+  // Whether all caps will take more numbers than allowed, which the cover then says. Foreseen are
+  // those of the caps chosen, and once these are enough to tell, as many for each of the samples
+  // left: the dearest are left to the end, so it will be more.
+  bool too_many() {
+    if (options_.most_numbers == 0) return false;
+    double foreseen = static_cast<double>(numbers_);
+    if (cover_.chosen.size() >= kTelling) {
+      foreseen *= static_cast<double>(open_) / static_cast<double>(open_ - left_);
+    }
+    if (foreseen <= static_cast<double>(options_.most_numbers)) return false;
+    cover_.foreseen = static_cast<std::size_t>(foreseen);
+    return true;
   }
 
   // Supports up from the middle of the ladder while they are good, or down until they are.

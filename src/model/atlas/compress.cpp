@@ -55,8 +55,9 @@ constexpr double kStepOfGap = kBandOfGap / kBandSteps;
 // 1.3 leaves fewer steps still, but splinters at thin parts. Where parts lie close together, as
 // fingers do, that makes handles, and caps reach as far as they were chosen to.
 constexpr Overlap kOverlaps[] = {{1.15, 1, false}, {1, 3, true}};
-// A shape of few vertices may be worth so many numbers; others no more than twice their own.
-constexpr std::size_t kFewNumbers = 12000;
+// A cover takes more numbers than the model made of it, as coefficients are dropped to the
+// tolerance. One of more than this times the numbers allowed is given up before it is fitted.
+constexpr std::size_t kDropped = 2;
 
 void check(const CompressOptions& options) {
   const auto refuse = [](const char* what, double value, const std::string& limit) {
@@ -111,17 +112,26 @@ std::size_t n_samples(const CompressOptions& options, const Lengths& lengths, do
       std::clamp(area / (spacing * spacing), kLeastSamples, kMostSamples));
 }
 
-std::size_t most_numbers(const Subject& subject) {
-  return std::max(2 * subject.input_numbers, kFewNumbers);
+std::size_t most_numbers(const Subject& subject, const CompressOptions& options) {
+  return options.max_numbers > 0 ? options.max_numbers : subject.input_numbers;
+}
+
+[[noreturn]] void refuse_numbers(const Subject& subject, const CompressOptions& options,
+                                 double tolerance, const std::string& numbers) {
+  throw Error(
+      ErrorCode::kUnsupported,
+      fmt::format("an atlas of caps within {:.3g} would take {} numbers; the shape itself "
+                  "has {} coordinates, and {} numbers are allowed: keep the shape as it "
+                  "is, take a larger tolerance, or allow more numbers (max_numbers)",
+                  tolerance, numbers, subject.input_numbers, most_numbers(subject, options)));
 }
 
 // A cover that was given up, or has no caps.
-[[noreturn]] void refuse(const GreedyCover& cover, const Subject& subject, double tolerance) {
+[[noreturn]] void refuse(const GreedyCover& cover, const Subject& subject,
+                         const CompressOptions& options, double tolerance) {
   if (cover.foreseen > 0) {
-    throw Error(ErrorCode::kUnsupported,
-                fmt::format("an atlas of caps within {:.3g} would take {} numbers or more, and at "
-                            "most {} are worth it for this shape: take a larger tolerance",
-                            tolerance, cover.foreseen, most_numbers(subject)));
+    refuse_numbers(subject, options, tolerance,
+                   fmt::format("{} or more", cover.foreseen / kDropped));
   }
   throw Error(ErrorCode::kUnsupported,
               fmt::format("no cap follows the surface within {:.3g}: it is too rough for an "
@@ -134,11 +144,13 @@ GreedyCover cover(const SampleLevels& levels, const Subject& subject, double tol
   GreedyOptions wanted;
   wanted.candidate = {
       .tolerance = tolerance, .stray = kStray * tolerance, .max_degree = options.max_degree};
-  wanted.most_numbers = most_numbers(subject);
+  wanted.most_numbers = kDropped * most_numbers(subject, options);
   wanted.seed = options.seed;
   GreedyCover covered = greedy_cover(levels, subject.diagonal, wanted,
                                      std::vector<std::uint8_t>(levels.size()), context);
-  if (covered.foreseen > 0 || covered.chosen.empty()) refuse(covered, subject, tolerance);
+  if (covered.foreseen > 0 || covered.chosen.empty()) {
+    refuse(covered, subject, options, tolerance);
+  }
   return covered;
 }
 
@@ -185,6 +197,10 @@ Compressed compress_subject(const Subject& subject, const Lengths& lengths,
   for (const Overlap& overlap : kOverlaps) {
     fit_atlas(target, chosen, overlap, result, aim, context);
     if (report.met && report.topology_kept) break;
+  }
+  const std::size_t numbers = size_of(result.model.atlas).numbers();
+  if (numbers > most_numbers(subject, options)) {
+    refuse_numbers(subject, options, lengths.tolerance, fmt::format("{}", numbers));
   }
   return result;
 }

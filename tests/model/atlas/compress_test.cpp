@@ -20,9 +20,13 @@ namespace {
 
 using testing::TemporaryFolder;
 
-ErrorCode code_of(const Mesh& mesh, double part_of_diagonal) {
+// More than any model takes: boxes have fewer coordinates than a cap.
+constexpr std::size_t kAnyNumbers = 1000000;
+
+ErrorCode code_of(const Mesh& mesh, double part_of_diagonal, std::size_t max_numbers = 0) {
   try {
-    compress(mesh, {.tolerance = part_of_diagonal * bounds(mesh.vertices).diagonal()});
+    compress(mesh, {.tolerance = part_of_diagonal * bounds(mesh.vertices).diagonal(),
+                    .max_numbers = max_numbers});
   } catch (const Error& error) {
     return error.code();
   }
@@ -84,7 +88,7 @@ TEST(compress, options_out_of_range_are_refused) {
 TEST(compress, a_slab_keeps_its_tolerance_and_stays_a_ball) {
   const Mesh slab = box({1, 1, 0.1}, 3);
   const double tolerance = 1e-2 * bounds(slab.vertices).diagonal();
-  const Compressed found = compress(slab, {.tolerance = tolerance});
+  const Compressed found = compress(slab, {.tolerance = tolerance, .max_numbers = kAnyNumbers});
   EXPECT_TRUE(found.report.met);
   EXPECT_TRUE(found.report.topology_kept);
   EXPECT_LE(found.model.errors->rms(), tolerance);
@@ -96,7 +100,7 @@ TEST(compress, a_slab_keeps_its_tolerance_and_stays_a_ball) {
 TEST(compress, a_thin_shape_is_fitted_as_closely_as_it_needs) {
   const Mesh plate = box({1, 1, 0.05}, 4);
   const double tolerance = 3e-2 * bounds(plate.vertices).diagonal();
-  const Compressed found = compress(plate, {.tolerance = tolerance});
+  const Compressed found = compress(plate, {.tolerance = tolerance, .max_numbers = kAnyNumbers});
   EXPECT_LE(found.report.aimed, 0.05 / 6 + 1e-6);
   EXPECT_TRUE(found.report.met);
   EXPECT_TRUE(found.report.topology_kept);
@@ -175,6 +179,25 @@ TEST(compress, levels_lose_less_than_the_degrees_they_lack) {
     EXPECT_EQ(seen.components, 1U);
     EXPECT_EQ(seen.genus, 0U);
   }
+}
+
+// A box has 24 coordinates, and a cap nine numbers of a frame alone.
+TEST(compress, a_model_of_more_numbers_than_allowed_is_refused) {
+  const Mesh slab = box({1, 1, 0.5}, 1);
+  const double tolerance = 1e-2 * bounds(slab.vertices).diagonal();
+  EXPECT_EQ(code_of(slab, 1e-2), ErrorCode::kUnsupported);
+  Mesh inner = slab;
+  for (Vec3& v : inner.vertices) v = 0.5 * v;
+  flip(inner);
+  EXPECT_EQ(code_of(with(slab, inner), 1e-2), ErrorCode::kUnsupported);
+  const Compressed found = compress(slab, {.tolerance = tolerance, .max_numbers = kAnyNumbers});
+  const std::size_t numbers = size_of(found.model.atlas).numbers();
+  EXPECT_GT(numbers, 3 * slab.vertices.size());
+  // Exactly as many as allowed are enough, one less is not.
+  EXPECT_EQ(size_of(compress(slab, {.tolerance = tolerance, .max_numbers = numbers}).model.atlas)
+                .numbers(),
+            numbers);
+  EXPECT_EQ(code_of(slab, 1e-2, numbers - 1), ErrorCode::kUnsupported);
 }
 
 }  // namespace
