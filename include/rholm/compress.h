@@ -93,11 +93,13 @@ Compressed compress(const PointCloud& cloud, const CompressOptions& options,
 
 // How a surface is extracted from a model.
 struct AtlasSynthesisOptions {
-  double step = 0;  // edge of the grid's cubes; 0: the model's
+  double step = 0;  // edge of the grid's cubes; 0: the model's, and see `simplify`
   // The caps have no higher degrees, and are fitted to the model's own surface with those they
   // have.
   std::optional<int> degree = {};
-  std::optional<SimplifyOptions> simplify = {};   // fewer triangles for the same surface
+  // Fewer triangles for the same surface. A level, of a degree below the highest, whose step and
+  // `simplify` are not given, is simplified to a tenth of the error that its degree makes.
+  std::optional<SimplifyOptions> simplify = {};
   std::size_t max_memory = std::size_t{8} << 30;  // bytes: refused if more is foreseen
 };
 // The surface of a model, from it alone: closed, oriented outwards, with normals nx, ny, nz. Throws

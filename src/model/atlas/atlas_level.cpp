@@ -68,7 +68,9 @@ LevelMaker::LevelMaker(const Atlas& atlas, const Mesh& surface, const Context& c
 }
 
 AtlasLevel LevelMaker::at(int degree) const {
-  AtlasLevel level{.degree = degree, .atlas = fitted(atlas_, degree, samples_.finest(), context_)};
+  AtlasLevel level{.degree = degree,
+                   .atlas = fitted(atlas_, degree, samples_.finest(), context_),
+                   .lost = lost_at_degree(atlas_, degree)};
   level.ledges = ledges_of(level.atlas, samples_.finest(), context_);
   level.usable = degree >= highest_degree(atlas_) || level.ledges <= most_ledges_;
   return level;

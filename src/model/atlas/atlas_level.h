@@ -14,6 +14,7 @@ namespace rholm {
 struct AtlasLevel {
   int degree = 0;
   Atlas atlas;
+  double lost = 0;      // rms distance that the degrees left out make
   double ledges = 0;    // share of the surface that leans because caps disagree
   bool usable = false;  // whether that is hardly more than of the whole model
 };

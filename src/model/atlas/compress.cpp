@@ -59,6 +59,11 @@ constexpr Overlap kOverlaps[] = {{1.15, 1, false}, {1, 3, true}};
 // tolerance. One of more than this times the numbers allowed is given up before it is fitted.
 constexpr std::size_t kDropped = 2;
 
+// A level has as many faces as its error needs: faces may leave this part of what the degrees left
+// out make. The fit of a level leaves half of that or more (compress_test), so faces add 2 % at
+// most.
+constexpr double kLevelError = 0.1;
+
 void check(const CompressOptions& options) {
   const auto refuse = [](const char* what, double value, const std::string& limit) {
     throw Error(ErrorCode::kInvalidInput,
@@ -286,7 +291,7 @@ Mesh synthesize(const AtlasModel& model, const AtlasSynthesisOptions& options,
     throw Error(ErrorCode::kInvalidInput,
                 fmt::format("the step of the grid is {}: it must be positive", step));
   }
-  const AtlasSurfaceOptions wanted{
+  AtlasSurfaceOptions wanted{
       .step = step, .simplify = options.simplify, .max_memory = options.max_memory};
   const Atlas& atlas = model.atlas;
   Mesh surface;
@@ -296,6 +301,8 @@ Mesh synthesize(const AtlasModel& model, const AtlasSynthesisOptions& options,
     if (!whole.triangles.empty()) {
       const AtlasLevel level =
           LevelMaker(atlas, whole, context).usable_at(std::max(0, *options.degree));
+      const bool as_it_needs = !options.simplify && options.step == 0 && level.lost > 0;
+      if (as_it_needs) wanted.simplify = SimplifyOptions{.max_error = kLevelError * level.lost};
       surface = level_surface(level.atlas, whole, wanted, context);
     }
   } else {

@@ -181,6 +181,21 @@ TEST(compress, levels_lose_less_than_the_degrees_they_lack) {
   }
 }
 
+// What faces leave is a tenth of what the degrees left out make.
+TEST(compress, levels_have_as_many_faces_as_they_need) {
+  const Mesh mesh = bumpy_sphere(4, 0.3, 3);
+  const AtlasModel model = compress(mesh, {.tolerance = 0.03}).model;
+  for (const int degree : {2, 3}) {
+    const double lost = lost_at_degree(model.atlas, degree);
+    const Mesh level = synthesize(model, {.degree = degree});
+    const Mesh every_face = synthesize(model, {.step = model.step, .degree = degree});
+    EXPECT_LT(level.triangles.size(), every_face.triangles.size() / 4) << degree;
+    const Comparison found = compare(every_face, level, {.samples = 20000});
+    EXPECT_LT(found.a_to_b.rms, 0.1 * lost) << degree;
+    EXPECT_LT(found.b_to_a.rms, 0.1 * lost) << degree;
+  }
+}
+
 // A box has 24 coordinates, and a cap nine numbers of a frame alone.
 TEST(compress, a_model_of_more_numbers_than_allowed_is_refused) {
   const Mesh slab = box({1, 1, 0.5}, 1);
