@@ -1,11 +1,6 @@
 #include "cli/files/inputs.h"
 
-#include <errno.h>
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cstring>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -14,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "cli/files/input_descriptor.h"
 #include "cli/files/spooled_input.h"
 #include "cli/terminal/interrupt.h"
 #include "rholm/compress.h"
@@ -30,46 +26,20 @@ constexpr std::size_t kHead = 4096;                   // enough for every signat
 
 enum class Guess { kShape, kCoefficients, kModel, kUnknown };
 
-std::string reason() { return std::strerror(errno); }
-
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() {
-    if (number_ > STDERR_FILENO) ::close(number_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int number() const { return number_; }
-
- private:
-  int number_;
-};
-
 // At most `limit` bytes from the start of a file or stream.
 Bytes read_bytes(const std::string& path, std::size_t limit) {
-  const Descriptor file(path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  stop_if_interrupted();
-  if (file.number() < 0) {
-    throw Error(ErrorCode::kIo, fmt::format("{} cannot be opened: {}", path, reason()));
-  }
+  InputDescriptor file(path);
   Bytes bytes;
   while (bytes.size() < limit) {
     const std::size_t old_size = bytes.size();
     bytes.resize(old_size + std::min(kChunk, limit - old_size));
-    const ssize_t n = ::read(file.number(), bytes.data() + old_size, bytes.size() - old_size);
-    bytes.resize(old_size + static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
-    stop_if_interrupted();
+    const std::size_t n = file.read(std::span(bytes).subspan(old_size));
+    bytes.resize(old_size + n);
     if (n == 0) break;
-    if (n < 0 && errno != EINTR) {
-      throw Error(ErrorCode::kIo,
-                  fmt::format("{} cannot be read: {}", display_name(path), reason()));
-    }
   }
   return bytes;
 }
 
-// A file whose bytes can be had only once: standard input, a pipe.
 bool begins_with(std::span<const char> bytes, std::string_view text) {
   return bytes.size() >= text.size() && std::equal(text.begin(), text.end(), bytes.begin());
 }

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/files/input_descriptor.h"
 #include "cli/files/inputs.h"
 #include "cli/terminal/interrupt.h"
 #include "rholm/error.h"
@@ -21,32 +22,6 @@ namespace {
 constexpr std::size_t kChunk = std::size_t{1} << 20;  // chosen: large against a system call
 
 std::string reason() { return std::strerror(errno); }
-
-// Closed with its object.
-struct InputDescriptor {
-  explicit InputDescriptor(const std::string& path)
-      : number(path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
-  ~InputDescriptor() {
-    if (number > STDERR_FILENO) ::close(number);
-  }
-  InputDescriptor(const InputDescriptor&) = delete;
-  InputDescriptor& operator=(const InputDescriptor&) = delete;
-  int number;
-};
-
-// How many bytes came: 0 at the end.
-std::size_t read_some(int file, std::span<char> room, const std::string& path) {
-  for (;;) {
-    const ssize_t n = ::read(file, room.data(), room.size());
-    const int error = errno;
-    stop_if_interrupted();
-    if (n >= 0) return static_cast<std::size_t>(n);
-    if (error != EINTR) {
-      throw Error(ErrorCode::kIo,
-                  fmt::format("{} cannot be read: {}", display_name(path), std::strerror(error)));
-    }
-  }
-}
 
 int nameless_file(const std::string& folder) {
 #ifdef O_TMPFILE
@@ -64,14 +39,10 @@ int nameless_file(const std::string& folder) {
 SpooledInput::SpooledInput(const std::string& path, std::size_t in_memory,
                            const std::string& folder)
     : path_(path) {
-  const InputDescriptor input(path);
-  stop_if_interrupted();
-  if (input.number < 0) {
-    throw Error(ErrorCode::kIo, fmt::format("{} cannot be opened: {}", path, reason()));
-  }
+  InputDescriptor input(path);
   try {
     std::vector<char> chunk(kChunk);
-    while (const std::size_t n = read_some(input.number, chunk, path)) {
+    while (const std::size_t n = input.read(chunk)) {
       if (!is_in_file() && size_ + n > in_memory) to_file(folder);
       const std::span<const char> got = std::span(chunk).first(n);
       if (is_in_file()) {

@@ -144,7 +144,7 @@ def test_mpi(shapes: list[str], tmp_path: Path) -> None:
         env=environment,
         capture_output=True,
         text=True,
-        timeout=300,
+        timeout=3000,
         check=False,
     )
     assert ran.returncode == 0, ran.stderr

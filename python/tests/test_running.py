@@ -21,6 +21,11 @@ def slow(progress=False, threads=0):
     return rholm.reconstruct(cloud.points, progress=progress, threads=threads)
 
 
+def long():
+    """Work that lasts until it is ended: minutes of a processor for caps of degree 2 and a small error."""
+    return rholm.compress(rholm.torus(2, 0.7, 384, 192), 1e-4, max_degree=2)
+
+
 def test_results_are_the_same_bits_for_any_number_of_threads(bumpy, ring):
     expansions = [rholm.expand(bumpy, 24, threads=n).coeffs for n in (1, 2, 5)]
     assert np.array_equal(expansions[0], expansions[1])
@@ -72,8 +77,7 @@ def test_control_c_raises_keyboard_interrupt():
     timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
     timer.start()
     with pytest.raises(KeyboardInterrupt):
-        for _ in range(100):
-            slow()
+        long()
     timer.join()
     assert rholm.expand(rholm.icosphere(2), 4).degree == 4  # and work goes on
 
@@ -88,13 +92,15 @@ def test_functions_without_progress_look_at_signals():
 
     old = signal.signal(signal.SIGALRM, ring)
     try:
-        signal.setitimer(signal.ITIMER_REAL, 0.005, 0.005)
-        rholm.inspect(mesh)  # some tenths of a second
-        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.setitimer(signal.ITIMER_REAL, 0.001, 0.001)
+        most = 0
+        while most < 10:  # a call without a look has one before it and one afterwards
+            before = rang
+            rholm.inspect(mesh)
+            most = max(most, rang - before)
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0)
         signal.signal(signal.SIGALRM, old)
-    assert rang > 2  # once would be afterwards
 
 
 def test_handlers_of_other_signals_run_meanwhile():
@@ -108,8 +114,7 @@ def test_handlers_of_other_signals_run_meanwhile():
     try:
         signal.setitimer(signal.ITIMER_REAL, 0.2)
         with pytest.raises(AlarmError):
-            for _ in range(100):
-                slow()
+            long()
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0)
         signal.signal(signal.SIGALRM, old)
@@ -127,10 +132,13 @@ def test_other_threads_run_meanwhile():
 
     thread = threading.Thread(target=count)
     thread.start()
-    slow()
+    most = 0
+    while most < 20:  # while one call works; hardly any if it kept the others out
+        before = counted
+        slow()
+        most = max(most, counted - before)
     done.set()
     thread.join()
-    assert counted > 20
 
 
 def test_four_threads_at_once_are_right(bumpy, ring, tmp_path):
@@ -167,5 +175,5 @@ sys.exit(os.waitstatus_to_exitcode(status))
 
 @pytest.mark.parametrize("threads", ["used", "unused"])
 def test_a_child_of_fork_computes_the_same(threads):
-    done = subprocess.run([sys.executable, "-W", "ignore", "-c", FORK, threads], timeout=100, check=False)
+    done = subprocess.run([sys.executable, "-W", "ignore", "-c", FORK, threads], timeout=1000, check=False)
     assert done.returncode == 0

@@ -3,7 +3,8 @@
 namespace rholm {
 
 Watch::Watch(int ranks, double now)
-    : states_(static_cast<std::size_t>(ranks), State{.heard = now, .moved = now, .pulse = {}}) {}
+    : states_(static_cast<std::size_t>(ranks),
+              State{.heard = now, .pulsed = now, .moved = now, .pulse = {}}) {}
 
 void Watch::heard(int rank, double now) { states_[static_cast<std::size_t>(rank)].heard = now; }
 
@@ -13,7 +14,7 @@ void Watch::pulse(int rank, const Pulse& pulse, double now) {
       state.pulse.is_working && pulse.is_working && state.pulse.progress == pulse.progress;
   if (!is_same) state.moved = now;
   state.pulse = pulse;
-  state.heard = now;
+  state.heard = state.pulsed = now;
 }
 
 void Watch::forgive(double now) {
@@ -27,7 +28,8 @@ std::optional<Watch::Finding> Watch::look(double now, double patience, int self,
     const State& state = states_[i];
     if (only && rank != *only) continue;
     if (rank != self && now - state.heard > patience) return Finding{rank, Why::kSilent};
-    if (state.pulse.is_working && now - state.moved > patience) {
+    // By its last pulse: of a rank that is silent nobody knows whether it gets on.
+    if (state.pulse.is_working && state.pulsed - state.moved > patience) {
       return Finding{rank, Why::kNoProgress};
     }
   }

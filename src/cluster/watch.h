@@ -36,7 +36,7 @@ class Watch {
 
  private:
   struct State {
-    double heard, moved;
+    double heard, pulsed, moved;
     Pulse pulse;
   };
   std::vector<State> states_;

@@ -1,5 +1,6 @@
 """rholm batch: what a row says is what the command says of the shape alone, however the batch was run."""
 
+import contextlib
 import csv
 import io
 import math
@@ -7,10 +8,9 @@ import os
 import signal
 import subprocess
 import sys
-import time
 
 sys.path.insert(0, os.path.dirname(__file__))
-from harness import CliTest, OCTAHEDRON, RHOLM, Terminal, TIMEOUT, main, off
+from harness import CliTest, OCTAHEDRON, RHOLM, Terminal, TIMEOUT, main, off, rows_done, until
 
 # Columns that the batch has of its own, and those of a run, which differ from one to the next.
 OWN = {"id", "path", "group", "exit_code", "message", "warnings", "seconds", "cpu_seconds"}
@@ -186,7 +186,7 @@ class Rows(BatchTest):
         self.write("shapes.csv", "\n".join(["id,path", "lost first,lost.ply", *lines]) + "\n")
         words = [RHOLM, "batch", "shapes.csv", "-o", "r.csv", "--threads", "1", "--", "--degree", "32"]
         terminal = Terminal(words, self.folder, {"NO_COLOR": "1"})
-        said = terminal.read(["r.csv: 62 rows, 2 failed"], seconds=TIMEOUT)
+        said = terminal.read(["r.csv: 62 rows, 2 failed"])
         self.assertRegex(said, r"\d+ of 62, 1 failed, \d+ (s|min) left")
         self.assertIn("r.csv: 62 rows, 2 failed", said)
         terminal.close()
@@ -252,51 +252,56 @@ class SameBytes(BatchTest):
 
 
 class Interrupted(BatchTest):
-    def start(self, out, *words):
-        return subprocess.Popen([RHOLM, "batch", "shapes.csv", "-o", out, "--no-times", "--threads", "2", *words,
-                                 "--", "--degree", "4"], cwd=self.folder, stderr=subprocess.PIPE)
+    """Runs that are ended while rows wait for a writer: all rows before these are done then, and the run lasts until
+    it is ended."""
 
-    def wait_for_rows(self, process, journal, size):
-        """Until the journal has so many bytes."""
-        end = time.monotonic() + TIMEOUT
-        path = self.folder / journal
-        while time.monotonic() < end and process.poll() is None:
-            if path.exists() and path.stat().st_size >= size:
-                return
-            time.sleep(0.001)
+    THREADS = 2
+
+    @contextlib.contextmanager
+    def started(self, rows, done, out="k.h5"):
+        """A run of which so many rows are done, and no other can be."""
+        waiting = [self.folder / path for _, path, _ in rows[done:] if (self.folder / path).is_file()]
+        for path in waiting:
+            path.rename(path.with_suffix(".kept"))
+            os.mkfifo(path)
+        try:
+            process = subprocess.Popen([RHOLM, "batch", "shapes.csv", "-o", out, "--no-times", "--threads",
+                                        str(self.THREADS), "--", "--degree", "4"], cwd=self.folder,
+                                       stderr=subprocess.PIPE)
+            until(lambda: rows_done(self.folder / f"{out}.journal") == done, f"{done} rows are done", process)
+            yield process
+        finally:
+            process.kill()
+            process.wait()
+            process.stderr.close()
+            for path in waiting:
+                path.unlink()
+                path.with_suffix(".kept").rename(path)
 
     def test_killed_at_any_moment_it_goes_on_and_gives_the_same_bytes(self):
-        rows = self.make_shapes(60)
+        rows = self.make_shapes(20)
         self.batch("all.h5")
         wanted = (self.folder / "all.h5").read_bytes()
-        before = 0
-        for _ in range(6):
-            process = self.start("k.h5")
-            self.wait_for_rows(process, "k.h5.journal", before + 10000)
-            process.kill()
-            process.communicate()
-            journal = self.folder / "k.h5.journal"
-            if not journal.exists():
-                break
-            before = journal.stat().st_size
-        self.assertGreater(before, 10000, "it was never killed in the middle")
+        for done in (1, 2, 11, 20):
+            with self.started(rows, done) as process:
+                process.kill()
+            self.assertEqual(rows_done(self.folder / "k.h5.journal"), done)
         with open(self.folder / "k.h5.journal", "ab") as file:
             file.write(b"\x40\0\0\0torn")
         result = self.batch("k.h5")
         self.assertIn("are not whole", result.err)
-        self.assertRegex(result.err, r"\d+ rows done already")
+        self.assertIn("20 rows done already", result.err)
         self.assertEqual((self.folder / "k.h5").read_bytes(), wanted)
         self.assertFalse((self.folder / "k.h5.journal").exists())
-        self.assertEqual(len(rows), 66)
+        self.assertEqual(len(rows), 26)
 
     def test_ctrl_c_keeps_the_journal_and_says_how_to_go_on(self):
-        self.make_shapes(60)
-        process = self.start("k.h5")
-        self.wait_for_rows(process, "k.h5.journal", 10000)
-        process.send_signal(signal.SIGINT)
-        err = process.communicate(timeout=TIMEOUT)[1].decode()
-        self.assertEqual(process.returncode, 130, err)
-        self.assertRegex(err, r"interrupted: \d+ of 66 rows are kept in k.h5.journal; the same command goes on")
+        rows = self.make_shapes(20)
+        with self.started(rows, 15) as process:
+            process.send_signal(signal.SIGINT)
+            err = process.communicate(timeout=TIMEOUT)[1].decode()
+            self.assertEqual(process.returncode, 130, err)
+        self.assertIn("interrupted: 15 of 26 rows are kept in k.h5.journal; the same command goes on", err)
         self.assertFalse((self.folder / "k.h5").exists())
         result = self.batch("k.h5", degree=5, code=3)
         self.assertIn("journal of another job", result.err)
@@ -307,11 +312,9 @@ class Interrupted(BatchTest):
         self.assertEqual((self.folder / "k.h5").read_bytes(), (self.folder / "all.h5").read_bytes())
 
     def test_another_manifest_is_another_job(self):
-        self.make_shapes(20)
-        process = self.start("k.csv")
-        self.wait_for_rows(process, "k.csv.journal", 3000)
-        process.kill()
-        process.communicate()
+        rows = self.make_shapes(10)
+        with self.started(rows, 8, "k.csv") as process:
+            process.kill()
         text = (self.folder / "shapes.csv").read_text()
         self.write("shapes.csv", text.replace("bad", "worse", 1))
         self.assertIn("another job", self.batch("k.csv", code=3).err)

@@ -4,10 +4,9 @@ import os
 import signal
 import subprocess
 import sys
-import time
 
 sys.path.insert(0, os.path.dirname(__file__))
-from harness import CliTest, OCTAHEDRON, RHOLM, TIMEOUT, main, off
+from harness import CliTest, OCTAHEDRON, RHOLM, TIMEOUT, main, off, until, until_working
 
 QUICK = ["--degree", "16", "--repeat", "2"]
 
@@ -122,8 +121,8 @@ class Bench(CliTest):
             stdout=subprocess.PIPE, stderr=subprocess.PIPE,
             env={**os.environ, **self.environment},
             preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
-        time.sleep(1.5)
-        self.assertIsNone(process.poll(), "finished before it could be interrupted")
+        until(lambda: any(self.temporary.iterdir()), "it has temporary files", process)
+        until_working(process)
         process.send_signal(signal.SIGINT)
         out, err = process.communicate(timeout=TIMEOUT)
         self.assertEqual(process.returncode, 130, err)

@@ -6,6 +6,7 @@ import pty
 import re
 import select
 import shutil
+import signal
 import struct
 import subprocess
 import sys
@@ -27,9 +28,11 @@ SOURCE = Path(__file__).resolve().parents[2]
 # Whether the program was built with `rholm studio` (RHOLM_BUILD_STUDIO).
 STUDIO = os.environ.get("RHOLM_TEST_STUDIO", "1") == "1"
 
-# Nothing should come near this, under sanitizers either. Builds that are slower still say how much.
+# What hangs is ended after this time. Nothing else depends on it: machines and builds that are slow say how slow
+# they are.
 SLOWNESS = float(os.environ.get("RHOLM_TEST_SLOWNESS", "1"))
 TIMEOUT = 120 * SLOWNESS
+HELD_RENAME = os.environ.get("HELD_RENAME", "held_rename.so")
 
 
 class Result:
@@ -50,6 +53,57 @@ class Result:
 
     def __str__(self):
         return f"{' '.join(self.words)}\n-> {self.code}\n{self.out[-2000:]}\n{self.err[-2000:]}"
+
+
+def until(is_true, what, process=None):
+    """Waits for a state; `process`, if given, may not end before it is reached."""
+    end = time.monotonic() + TIMEOUT
+    while not is_true():
+        if process is not None and process.poll() is not None:
+            raise AssertionError(f"the program ended with {process.returncode} before {what}")
+        if time.monotonic() > end:
+            raise AssertionError(f"not reached: {what}")
+        time.sleep(0.005)
+
+
+def status_of(pid, name):
+    """A line of /proc/pid/status: what stands behind its name."""
+    text = Path(f"/proc/{pid}/status").read_text()
+    return re.search(rf"^{name}:\s*(.*)$", text, re.M)[1]
+
+
+def answers_signals(pid, number=signal.SIGINT):
+    """Whether a program has got so far that it answers this signal itself."""
+    return int(status_of(pid, "SigCgt"), 16) >> (number - 1) & 1 == 1
+
+
+def seconds_worked(pid):
+    """Processor time of a program, which waits for nothing when this grows."""
+    fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def until_working(process, number=signal.SIGINT):
+    """Until a program answers the signal, and computes."""
+    until(lambda: answers_signals(process.pid, number), "it answers signals", process)
+    begin = seconds_worked(process.pid)
+    until(lambda: seconds_worked(process.pid) > begin + 0.1, "it computes", process)
+
+
+def rows_done(path):
+    """Rows in the journal of a batch: a head, and for each its number of bytes, a sum and that many bytes."""
+    data, at, n = path.read_bytes() if path.exists() else b"", 28, 0
+    while at + 16 <= len(data):
+        at += 8 + int.from_bytes(data[at:at + 4], "little")
+        n += at <= len(data)
+    return n
+
+
+def held(mark, letters, after=0):
+    """The environment of a program that waits for ever as soon as a file with these letters in its path is to get
+    its name, in a folder of so many entries; it makes the file `mark` first."""
+    return {"LD_PRELOAD": HELD_RENAME, "ASAN_OPTIONS": "verify_asan_link_order=0", "RHOLM_TEST_HELD": str(mark),
+            "RHOLM_TEST_HOLD": letters, "RHOLM_TEST_AFTER": str(after)}
 
 
 class CliTest(unittest.TestCase):
@@ -112,7 +166,7 @@ class Terminal:
     def send(self, text):
         os.write(self.master, text.encode())
 
-    def read_raw(self, wanted=("\0",), seconds=20):
+    def read_raw(self, wanted=("\0",), seconds=TIMEOUT):
         """Output until it holds all of `wanted`, the program ends, or the time is over."""
         text, end = "", time.monotonic() + seconds
         while time.monotonic() < end and not all(word in plain(text) for word in wanted):
@@ -123,7 +177,7 @@ class Terminal:
                     break
         return text
 
-    def read(self, wanted, seconds=20):
+    def read(self, wanted, seconds=TIMEOUT):
         return plain(self.read_raw(wanted, seconds))
 
     def close(self):

@@ -6,10 +6,9 @@ import os
 import re
 import subprocess
 import sys
-import time
 
 sys.path.insert(0, os.path.dirname(__file__))
-from harness import RHOLM, CliTest, main
+from harness import RHOLM, CliTest, held, main, until
 
 
 def rows(path):
@@ -329,16 +328,16 @@ class Bricks(CliTest):
             def begun():
                 piece = folder / "pieces" / stage
                 return any(piece.glob("[0-9]")) if piece.is_dir() else piece.is_file()
-            for _ in range(10):  # until it has not ended before
-                (self.folder / "r.ply").unlink(missing_ok=True)
-                with subprocess.Popen([RHOLM, "reconstruct", *words, "--brick-points", "3000", "-o", "r.ply",
-                                       "--threads", "1"], cwd=self.folder, stdout=subprocess.DEVNULL,
-                                      stderr=subprocess.DEVNULL) as run:
-                    while run.poll() is None and not begun():
-                        time.sleep(0.002)
-                    run.kill()
-                if not (self.folder / "r.ply").exists():
-                    break
+            # It waits where the second file of the stage, or the result, is to get its name.
+            letters, after = ("/r.ply", 0) if stage == "output" else (f"pieces/{stage}/", 1)
+            mark = self.folder / "mark"
+            with subprocess.Popen([RHOLM, "reconstruct", *words, "--brick-points", "3000", "-o", "r.ply",
+                                   "--threads", "1"], cwd=self.folder, stdout=subprocess.DEVNULL,
+                                  stderr=subprocess.DEVNULL,
+                                  env={**os.environ, **held(mark, letters, after)}) as run:
+                until(mark.exists, f"it is in the stage {stage}", run)
+                run.kill()
+            mark.unlink()
             self.assertFalse((self.folder / "r.ply").exists())
             self.assertTrue(begun())
         self.assertIn("another run", self.bricks(*words, "--noise", "0", output="r.ply", code=3).err)

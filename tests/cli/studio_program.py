@@ -16,6 +16,10 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 TETRAHEDRON = b"OFF\n4 4 0\n1 1 1\n1 -1 -1\n-1 1 -1\n-1 -1 1\n3 0 1 2\n3 0 3 1\n3 0 2 3\n3 1 3 2\n"
 
 
+# Lasts until it is ended: minutes of a processor for caps of degree 2 and a small error.
+LONG_JOB = {"op": "compress", "item": 1, "tolerance": 1e-4, "max_degree": 2}
+
+
 class Studio:
     """A running program, and what it is asked."""
 

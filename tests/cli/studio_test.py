@@ -10,11 +10,10 @@ import socket
 import subprocess
 import sys
 import threading
-import time
 
 sys.path.insert(0, os.path.dirname(__file__))
-from harness import RHOLM, TIMEOUT, CliTest, main
-from studio_program import TETRAHEDRON, Studio
+from harness import RHOLM, TIMEOUT, CliTest, main, until
+from studio_program import LONG_JOB, TETRAHEDRON, Studio
 
 
 class Access(CliTest):
@@ -259,7 +258,7 @@ class Work(CliTest):
                     connection.shutdown(socket.SHUT_WR)
                     while connection.recv(100000):
                         pass
-                except ConnectionError:
+                except OSError:
                     pass
         self.assertEqual(studio.ask("GET", "api/state")[0], 200)
 
@@ -286,7 +285,7 @@ class End(CliTest):
         studio = Studio(self, TMPDIR=str(self.folder))
         studio.begin()
         studio.step(op="make", shape="bumpy")
-        self.assertEqual(studio.post(op="analyze", item=1, degree=2000)[0], 202)
+        self.assertEqual(studio.post(**LONG_JOB)[0], 202)
         self.assertEqual(studio.post(op="undo")[0], 409)
         self.assertEqual(studio.end(), 0)
         self.assertEqual(self.files(), [])
@@ -295,7 +294,7 @@ class End(CliTest):
         studio = Studio(self)
         studio.begin()
         studio.step(op="make", shape="bumpy")
-        self.assertEqual(studio.post(op="analyze", item=1, degree=2000)[0], 202)
+        self.assertEqual(studio.post(**LONG_JOB)[0], 202)
         self.assertEqual(studio.ask("DELETE", "api/session")[0], 200)
         self.assertEqual(studio.ask("GET", "api/state")[0], 404)
         self.assertEqual(studio.begin()["items"], [])
@@ -313,9 +312,7 @@ class End(CliTest):
         self.addCleanup(process.stderr.close)
         self.addCleanup(process.kill)
         address = re.search(r"http://\S+", process.stderr.readline())[0]
-        end = time.monotonic() + TIMEOUT
-        while not seen.exists() and time.monotonic() < end:
-            time.sleep(0.01)
+        until(seen.exists, "the browser has been started", process)
         arguments, page = seen.read_text().split("\n", 1)
         self.assertNotIn(address, arguments)
         self.assertIn(address, page)

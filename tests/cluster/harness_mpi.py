@@ -11,26 +11,19 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "cli"))
+from harness import held, rows_done, seconds_worked  # noqa: F401 (for the tests)
 
 RHOLM = os.environ.get("RHOLM", "rholm")
 RHOLM_MPI = os.environ.get("RHOLM_MPI", "rholm-mpi")
 MPIEXEC = os.environ.get("MPIEXEC", "mpiexec")
-TIMEOUT = 300
+# What hangs is ended after this time, of which nothing else depends.
+TIMEOUT = 900
 RANKS = (1, 2, 3, 4)
 # Of Open MPI; MPICH reads none of these. More ranks than processors, as root, in a container, where
 # ranks that wait must not be in the way of the others.
 ENVIRONMENT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
                "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_hwloc_base_binding_policy": "none",
                "OMPI_MCA_mpi_yield_when_idle": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
-
-
-def is_running(pid):
-    """Not if it has ended, and nobody has asked how."""
-    try:
-        state = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
-    except OSError:
-        return False
-    return state not in "ZX"
 
 
 class RanksRun:
@@ -64,6 +57,37 @@ class RanksRun:
                 found[int(rank)] = int(entry.name)
         return found
 
+    def until(self, is_true, what):
+        """Waits for a state, before which the run may not end."""
+        begin = time.monotonic()
+        while not is_true():
+            if self.process.poll() is not None or time.monotonic() - begin > TIMEOUT:
+                self.kill()
+                self.wait()
+                raise AssertionError(f"not reached: {what}: {self}")
+            time.sleep(0.005)
+
+    def have_mapped(self, name):
+        """Whether all ranks have this file in their memory."""
+        pids = self.pids()
+        try:
+            return len(pids) == self.ranks and all(
+                f"/{name}" in Path(f"/proc/{pid}/maps").read_text() for pid in pids.values())
+        except OSError:
+            return False
+
+    def seconds_worked(self, rank):
+        """Processor time of a rank: 0 if it is not there."""
+        try:
+            return seconds_worked(self.pids()[rank])
+        except (KeyError, OSError):
+            return 0
+
+    def kill(self):
+        for pid in self.pids().values():
+            os.kill(pid, signal.SIGKILL)
+        self.process.kill()
+
     def wait(self, seconds=TIMEOUT):
         """The exit code; the texts are in stdout and stderr. Nothing is left running: mpiexec may end before
         ranks that it has killed, and these still write until they notice."""
@@ -75,13 +99,10 @@ class RanksRun:
                     raise subprocess.TimeoutExpired(self.program, seconds)
                 time.sleep(0.01)
         except subprocess.TimeoutExpired:
-            for pid in self.pids().values():
-                os.kill(pid, signal.SIGKILL)
-            self.process.kill()
+            self.kill()
             self.process.wait()
             raise
         finally:
-            self.seconds = time.monotonic() - begin
             for stream, name in ((self.out, "stdout"), (self.err, "stderr")):
                 stream.seek(0)
                 setattr(self, name, stream.read().decode("utf-8", "replace"))

@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <thread>
@@ -137,6 +138,22 @@ void ordered(Ranks& ranks, bool dealt, std::uint64_t last) {
 
 void nothing(std::uint64_t) {}
 
+// Work that gets on, and ends when the rank is told to.
+void until_stopped() {
+  while (stop_signal == 0) {
+    ++progress;
+    std::this_thread::sleep_for(1ms);
+  }
+}
+
+// Others see it once it is complete.
+void write_whole(const std::string& name, const std::string& text) {
+  const std::string part =
+      fmt::format("{}.{}.part", name, std::hash<std::thread::id>()(std::this_thread::get_id()));
+  std::ofstream(part) << text;
+  std::filesystem::rename(part, name);
+}
+
 void run_case(Ranks& ranks, const std::string& name, int chosen) {
   const auto is_chosen = [&](const Ranks& here) { return here.rank() == chosen; };
   if (name == "collect") {
@@ -166,8 +183,8 @@ void run_case(Ranks& ranks, const std::string& name, int chosen) {
   } else if (name == "throws-at-once") {  // all ranks, each its own error
     throw Error(ErrorCode::kInvalidInput, fmt::format("bad file {}", ranks.rank()));
   } else if (name == "does-not-take") {
-    const Work slow = [](Ranks&, std::uint64_t) {
-      for (int i = 0; i < 100 && stop_signal == 0; ++i) std::this_thread::sleep_for(1ms);
+    const Work slow = [](Ranks&, std::uint64_t task) {
+      if (task > 20) until_stopped();
     };
     tasks(ranks, slow, [](std::uint64_t task) {
       if (task == 20) throw Error(ErrorCode::kIo, "the disk is full");
@@ -179,9 +196,12 @@ void run_case(Ranks& ranks, const std::string& name, int chosen) {
     };
     tasks(ranks, work, nothing);
   } else if (name == "slow") {  // as long as need be
-    const Work work = [](Ranks&, std::uint64_t) { std::this_thread::sleep_for(300ms); };
+    const Work work = [](const Ranks& here, std::uint64_t) {
+      write_whole(fmt::format("works.{}", here.rank()), std::to_string(getpid()));
+      until_stopped();
+    };
     ranks.set_patience(5);
-    tasks(ranks, work, [](std::uint64_t) { std::fputs(".", stdout), std::fflush(stdout); });
+    tasks(ranks, work, nothing);
   } else if (name == "leaves") {  // rank 0 has nothing for the others
     if (ranks.rank() != 0) ranks.receive(Tag::kTest);
   } else {
@@ -209,7 +229,6 @@ int run(const std::string& name, int chosen) {
                .ending_of = ending_of},
               name == "large" ? std::size_t{1} << 30 : kPiece);
   ranks.set_hint([] { return std::string("go on so"); });
-  std::ofstream(fmt::format("pid.{}", ranks.rank())) << getpid();
   const int code = ranks.run(
       [&](Ranks& all) {
         run_case(all, name, chosen);

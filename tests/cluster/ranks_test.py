@@ -3,11 +3,10 @@
 import os
 import signal
 import sys
-import time
 import unittest
 
 sys.path.insert(0, os.path.dirname(__file__))
-from harness_mpi import MpiTest, RANKS, is_running
+from harness_mpi import MpiTest, RANKS
 
 PROGRAM = os.environ.get("RANKS_PROGRAM", "ranks_program")
 
@@ -64,16 +63,14 @@ class Ranks(MpiTest):
 
     def test_results_that_cannot_be_kept_end_the_run(self):
         for ranks in RANKS:
-            run, errors = self.case("does-not-take", ranks=ranks, code=1)
+            _, errors = self.case("does-not-take", ranks=ranks, code=1)
             self.assertRegex(errors[0], r"^error: rank 0 on \S+: the disk is full; go on so$")
-            self.assertLess(run.seconds, 30)
 
     def test_a_task_without_progress_ends_the_run(self):
         for ranks, chosen in ((1, 0), (3, 0), (3, 2)):
-            run, errors = self.case("stuck", chosen, ranks=ranks, code=1, graceful=False)
+            _, errors = self.case("stuck", chosen, ranks=ranks, code=1, graceful=False)
             self.assertRegex(errors[0], rf"^error: rank {chosen} on \S+: has made no progress for 3 s "
                                         r"\(--patience\), and is ended; go on so$")
-            self.assertLess(run.seconds, 30)
 
 
 class Signals(MpiTest):
@@ -81,43 +78,34 @@ class Signals(MpiTest):
         for left in self.folder.iterdir():
             left.unlink()
         run = self.start(PROGRAM, "slow", ranks=ranks)
-        end = time.monotonic() + 30
-        while len(list(self.folder.glob("pid.*"))) < ranks and time.monotonic() < end:
-            time.sleep(0.05)
-        time.sleep(0.5)
-        return run, [int((self.folder / f"pid.{i}").read_text()) for i in range(ranks)]
+        run.until(lambda: len(list(self.folder.glob("works.*"))) == ranks, "all ranks work")
+        return run, [int((self.folder / f"works.{i}").read_text()) for i in range(ranks)]
 
-    def check_ended(self, run, pids):
-        run.wait(60)
+    def check_ended(self, run):
+        """wait() has seen all ranks go."""
+        run.wait()
         self.assertNotEqual(run.code, 0, run)
-        self.check_gone(run, pids)
-
-    def check_gone(self, run, pids):
-        time.sleep(0.5)
-        for pid in pids:
-            self.assertFalse(is_running(pid), f"a rank still runs: {run}")
 
     def test_a_rank_that_is_killed_ends_the_run(self):
         for ranks, killed in ((1, 0), (2, 1), (4, 0), (4, 3)):
             run, pids = self.started(ranks)
             os.kill(pids[killed], signal.SIGKILL)
-            self.check_ended(run, pids)
+            self.check_ended(run)
 
     def test_a_rank_that_is_stopped_ends_the_run(self):
         for ranks, stopped in ((2, 0), (3, 2)):
             run, pids = self.started(ranks)
             os.kill(pids[stopped], signal.SIGSTOP)
-            self.check_ended(run, pids)
+            self.check_ended(run)
             errors = [line for line in run.stderr.splitlines() if line.startswith("error: ")]
             self.assertEqual(len(errors), 1, run)
             self.assertRegex(errors[0], rf"^error: rank {stopped}\b.* has not been heard of")
 
     def test_ctrl_c_ends_the_run(self):
         for ranks in (1, 3):
-            run, pids = self.started(ranks)
+            run, _ = self.started(ranks)
             os.kill(run.process.pid, signal.SIGINT)
-            run.wait(60)  # mpiexec of MPICH ends with 0
-            self.check_gone(run, pids)
+            run.wait()  # mpiexec of MPICH ends with 0
             codes = {p.read_text() for p in self.folder.glob("code.*")}
             self.assertLessEqual(codes, {str(128 + signal.SIGINT), str(128 + signal.SIGTERM)}, run)
 
@@ -125,7 +113,7 @@ class Signals(MpiTest):
         for ranks, told in ((1, 0), (3, 2)):
             run, pids = self.started(ranks)
             os.kill(pids[told], signal.SIGTERM)
-            self.check_ended(run, pids)
+            self.check_ended(run)
             errors = [line for line in run.stderr.splitlines() if line.startswith("error: ")]
             self.assertEqual(errors, ["error: interrupted; go on so"], run)
 

@@ -3,11 +3,10 @@
 import os
 import signal
 import sys
-import time
 import unittest
 
 sys.path.insert(0, os.path.dirname(__file__))
-from harness_mpi import ProgramTest, RANKS, RHOLM_MPI
+from harness_mpi import ProgramTest, RANKS, RHOLM_MPI, held
 
 
 class Reconstruct(ProgramTest):
@@ -26,23 +25,18 @@ class Reconstruct(ProgramTest):
     def errors(self, run):
         return [line for line in run.stderr.splitlines() if line.startswith("rholm") and ": error:" in line]
 
-    def killed(self, ranks, killed, reached):
-        """A run of which a rank was killed once reached() is true. One that has ended by then, on a fast machine,
-        is made again."""
-        for _ in range(10):
-            run = self.start(RHOLM_MPI, *self.words("all.ply", "--resume", "--threads", 1), ranks=ranks)
-            end = time.monotonic() + 60
-            while run.process.poll() is None and time.monotonic() < end and not reached():
-                time.sleep(0.002)
-            try:
-                os.kill(run.pids()[killed], signal.SIGKILL)
-            except (KeyError, ProcessLookupError):
-                pass
-            run.wait(60)
-            if not (self.folder / "all.ply").exists():
-                return run
-            (self.folder / "all.ply").unlink()
-        raise AssertionError("it always ended before it could be stopped")
+    def killed(self, ranks, killed, stage):
+        """A run of which a rank was killed when three pieces of a stage were there: every rank that has finished one
+        more waits with it, so that the stage cannot be done."""
+        mark = self.folder / "mark"
+        run = self.start(RHOLM_MPI, *self.words("all.ply", "--resume", "--threads", 1), ranks=ranks,
+                         environment=held(mark, f"/{stage}/", 3))
+        run.until(mark.exists, f"it is in the stage {stage}")
+        os.kill(run.pids()[killed], signal.SIGKILL)
+        run.wait()
+        mark.unlink()
+        self.assertFalse((self.folder / "all.ply").exists())
+        return run
 
     def bare(self):
         """Without normals, in their file's order."""
@@ -80,9 +74,9 @@ class Reconstruct(ProgramTest):
         self.rholm(*self.words("one.ply"))
         pieces = self.folder / "work" / "all.ply.bricks" / "pieces"
         for stage, ranks, killed in (("caps", 3, 2), ("grid", 2, 0), ("mesh", 4, 1)):
-            run = self.killed(ranks, killed, lambda: len(list((pieces / stage).glob("[0-9]*"))) >= 3)
+            run = self.killed(ranks, killed, stage)
             self.assertNotEqual(run.code, 0, run)
-            self.assertGreater(len(list((pieces / stage).glob("[0-9]*"))), 0)
+            self.assertGreaterEqual(len(list((pieces / stage).glob("[0-9]*"))), 3)
         run = self.finished(RHOLM_MPI, *self.words("all.ply", "--resume"), ranks=2)
         self.assertEqual(run.code, 0, run)
         self.assertEqual(self.bytes("all.ply"), self.bytes("one.ply"))

@@ -31,6 +31,17 @@ TEST(watch, finds_work_without_progress) {
   EXPECT_EQ(found->why, Watch::Why::kNoProgress);
 }
 
+// What came after its last pulse, a result, says that it was there, and not how it gets on.
+TEST(watch, calls_silent_who_was_heard_after_its_last_pulse) {
+  Watch watch(2, 0);
+  watch.pulse(1, {.is_working = true, .progress = 7}, 1);
+  watch.heard(1, 1.5);
+  EXPECT_FALSE(watch.look(11.4, kPatience, 0));
+  const auto found = watch.look(11.6, kPatience, 0);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->why, Watch::Why::kSilent);
+}
+
 TEST(watch, lets_work_take_as_long_as_it_gets_on) {
   Watch watch(2, 0);
   for (int second = 1; second <= 100; ++second) {

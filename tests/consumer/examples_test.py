@@ -27,7 +27,7 @@ class Examples(unittest.TestCase):
 
     def call(self, program, *words):
         return subprocess.run([program, *map(str, words)], cwd=self.folder, capture_output=True,
-                              text=True, timeout=120)
+                              text=True, timeout=1200)
 
     def make(self, *words):
         done = self.call(RHOLM, "make", *words)

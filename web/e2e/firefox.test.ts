@@ -8,7 +8,7 @@ import { join } from "node:path";
 import puppeteer, { type Browser, type Page } from "puppeteer-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import type {} from "../src/idle";
-import { bytesOf, inFolder, pictures, rholm, startProgram, stopProgram, type Program } from "./studio";
+import { bytesOf, inFolder, patience, pictures, rholm, startProgram, stopProgram, type Program } from "./studio";
 
 const firefox = process.env.RHOLM_FIREFOX;
 const complaints: string[] = [];
@@ -122,7 +122,7 @@ describe.skipIf(!firefox)("in Firefox", () => {
     await page.locator("aside select").fill("h5");
     await press("Save rock.h5");
     const file = join(downloads, "rock.h5");
-    await expect.poll(() => existsSync(file) && readFileSync(file).length, { timeout: 30_000 }).toBeTruthy();
+    await expect.poll(() => existsSync(file) && readFileSync(file).length, { timeout: patience }).toBeTruthy();
     expect(readFileSync(file).equals(bytesOf(program, "rock.h5"))).toBe(true);
   });
 

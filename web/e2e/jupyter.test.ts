@@ -7,7 +7,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, describe, expect, it } from "vitest";
-import { launch, picture, programPath } from "./studio";
+import { launch, patience, picture, programPath } from "./studio";
 
 const program = process.env.RHOLM_JUPYTER;
 let folder = "";
@@ -55,11 +55,11 @@ async function startLab(jupyter: string): Promise<void> {
 async function openNotebook(name: string): Promise<void> {
   const context = await browser.newContext({ viewport: { width: 1600, height: 1000 } });
   page = await context.newPage();
-  page.setDefaultTimeout(90_000); // chosen: JupyterLab and a kernel begin on a busy machine
+  page.setDefaultTimeout(patience);
   // A workspace of its own: nothing of another test is opened again.
   await page.goto(address.replace("/lab?", `/lab/workspaces/${name}/tree/${name}.ipynb?`));
   await page.locator(".jp-Notebook .jp-CodeCell").first().waitFor();
-  await page.locator('.jp-Notebook-ExecutionIndicator[data-status="idle"]').waitFor({ timeout: 60_000 });
+  await page.locator('.jp-Notebook-ExecutionIndicator[data-status="idle"]').waitFor({ timeout: patience });
 }
 
 // Until it has run; JupyterLab loses a key that comes while it sets up.
@@ -71,7 +71,7 @@ async function run(cell: number): Promise<void> {
     await page.keyboard.press("Control+Enter");
     await page.waitForTimeout(2000);
   }
-  await expect.poll(() => prompt.textContent(), { timeout: 60_000 }).toMatch(/\d/);
+  await expect.poll(() => prompt.textContent(), { timeout: patience }).toMatch(/\d/);
 }
 
 async function printed(text: string): Promise<void> {

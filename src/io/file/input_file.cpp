@@ -11,10 +11,19 @@
 
 namespace rholm {
 
+namespace {
+
+// Chosen: as often as a person who waits for the end of a program notices.
+constexpr int kMillisecondsBetweenQuestions = 100;
+
+}  // namespace
+
 InputFile::InputFile(const std::filesystem::path& path)
     : name_(path == "-" ? "standard input" : path.string()) {
   while (path != "-") {
-    descriptor_.value = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    // O_NONBLOCK: a named pipe without a writer is waited for in read(), which returns to its
+    // caller.
+    descriptor_.value = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (descriptor_.value >= 0) break;
     if (errno != EINTR) fail(errno);
   }
@@ -25,14 +34,11 @@ InputFile::InputFile(const std::filesystem::path& path)
 }
 
 InputFile::Piece InputFile::read(std::span<char> room) {
+  pollfd wait = {.fd = descriptor_.value, .events = POLLIN, .revents = 0};
+  if (::poll(&wait, 1, kMillisecondsBetweenQuestions) <= 0) return {};
   const ssize_t n = ::read(descriptor_.value, room.data(), room.size());
   if (n >= 0) return {static_cast<std::size_t>(n), n == 0};
-  if (errno == EAGAIN) {
-    pollfd wait = {.fd = descriptor_.value, .events = POLLIN, .revents = 0};
-    (void)::poll(&wait, 1, -1);
-  } else if (errno != EINTR) {
-    fail(errno);
-  }
+  if (errno != EINTR && errno != EAGAIN) fail(errno);
   return {};
 }
 

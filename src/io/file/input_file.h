@@ -18,7 +18,8 @@ class InputFile {
   const std::string& name() const { return name_; }
   // That the file has now; 0 for pipes and devices, whose size is not known.
   std::size_t size() const { return size_; }
-  // Reads at most that much; nothing if a signal came first, or there is nothing yet. Throws Io.
+  // Reads at most that much; nothing if a signal came first, or if no byte came within a tenth of
+  // a second: the caller asks whether to go on, on whatever thread it waits. Throws Io.
   struct Piece {
     std::size_t size = 0;
     bool ended = false;

@@ -22,10 +22,11 @@ namespace {
 
 // The content of a regular file that is not empty, else nothing.
 std::span<std::byte> map_file(const std::filesystem::path& path) {
-  // O_NONBLOCK: a pipe without a writer is not waited for.
+  // Not even opened if it is a pipe: its writer would be told that a reader came, and went.
+  struct stat status = {};
+  if (::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return {};
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (file < 0) return {};
-  struct stat status = {};
   void* map = MAP_FAILED;
   if (::fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_size > 0) {
     map =
