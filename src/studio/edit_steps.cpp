@@ -1,9 +1,6 @@
 // Steps on surfaces: smoothed, given texture, simplified, mended.
 #include <numbers>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include "rholm/repair.h"
 #include "rholm/simplify.h"
 #include "studio/edits.h"
@@ -18,95 +15,50 @@ ItemPtr with_surface(const Json& request, const char* field, const Document& now
   return item;
 }
 
-// The edited mesh in place of the item, its recipe written.
-void finish(Document& document, const Item& before, Mesh mesh, const std::string& suffix,
-            const std::string& shell, const std::string& python, Shared& shared,
-            const Context& context) {
+// The edited mesh in place of the item, the step in the recipe.
+void finish(Document& document, const Item& before, Mesh mesh, const std::string& suffix, Json step,
+            Shared& shared, const Context& context) {
   Item changed = edited(before, std::move(mesh), shared, context);
-  record(document.recipe, changed, suffix, shell, python);
+  record(document.recipe, changed, suffix, std::move(step));
   put(document, std::move(changed));
 }
 
-std::string region_options(const char* name, const std::vector<std::string>& regions) {
-  std::string text;
-  for (const std::string& region : regions) {
-    text += fmt::format(" --{}{}{}", name, region.starts_with('-') ? "=" : " ", shell_word(region));
-  }
-  return text;
+// With the surface that it is done to.
+Json of_surface(Json step, const char* field, const Named& surface) {
+  step[field] = json_of(surface);
+  return step;
 }
 
 Step smooth_item(const Json& request, const Document& now, Shared& shared) {
   const ItemPtr item = with_surface(request, "item", now);
   const SmoothWish wish = smooth_in(request);
+  Json step = recipe_step("smooth", request, {"wavelength", "strength", "fitting", "repair"});
+  step["regions"] = wish.regions;
   return {"Smooth " + item->name, true, [=, &shared](Document& document, const Context& context) {
             Mesh mesh = *item->shown;
             const Patch patch = analyze_patch(mesh, parsed(wish.regions), wish.options, context);
             apply(patch, update(patch, {.strength = wish.strength}), mesh);
             const Named from = surface_of(document.recipe, *item);
-            const bool robust = wish.fitting == "robust", full = wish.strength == 1;
-            const bool repair = wish.options.repair;
-            const std::string shell =
-                fmt::format("rholm smooth {}{} --wavelength {}{}{}{}", shell_word(from.file),
-                            region_options("region", wish.regions), digits(wish.options.wavelength),
-                            full ? "" : fmt::format(" --strength={}", wish.strength),
-                            robust ? "" : " --fit " + wish.fitting, repair ? " --repair" : "");
-            const std::string python =
-                fmt::format("rholm.smooth({}, {}, {}{}{}{})", from.variable,
-                            python_list(wish.regions), digits(wish.options.wavelength),
-                            full ? "" : fmt::format(", strength={}", wish.strength),
-                            robust ? "" : ", fitting=" + python_text(wish.fitting),
-                            repair ? ", repair=True" : "");
-            finish(document, *item, std::move(mesh), "-smooth", shell, python, shared, context);
+            finish(document, *item, std::move(mesh), "-smooth", of_surface(step, "from", from),
+                   shared, context);
           }};
-}
-
-std::string transfer_shell(const TransferWish& wish, const Named& from, const Named& to) {
-  const TransferOptions& o = wish.options;
-  const TransferUpdate& u = wish.update;
-  std::string text = fmt::format("rholm transfer --from {}{} --to {}{}", shell_word(from.file),
-                                 region_options("from-region", wish.from), shell_word(to.file),
-                                 region_options("to-region", wish.to));
-  if (o.from_degree != TransferOptions{}.from_degree) {
-    text += fmt::format(" --from-degree {}", o.from_degree);
-  }
-  if (o.scale != 1) text += " --scale " + digits(o.scale);
-  if (u.height != 1) text += " --height=" + digits(u.height);
-  if (wish.degrees) text += " --rotate=" + digits(*wish.degrees);
-  if (u.repeat) text += " --repeat";
-  if (o.refine) text += " --refine";
-  if (u.remove_own) text += " --remove-own";
-  return text;
-}
-
-std::string transfer_python(const TransferWish& wish, const Named& from, const Named& to) {
-  const TransferOptions& o = wish.options;
-  const TransferUpdate& u = wish.update;
-  std::string text = fmt::format("rholm.transfer({}, {}, {}, {}", from.variable,
-                                 python_list(wish.from), to.variable, python_list(wish.to));
-  if (o.from_degree != TransferOptions{}.from_degree) {
-    text += fmt::format(", from_degree={}", o.from_degree);
-  }
-  if (o.scale != 1) text += ", scale=" + digits(o.scale);
-  if (u.height != 1) text += ", height=" + digits(u.height);
-  if (u.angle) text += ", angle=" + digits(*u.angle);
-  if (u.repeat) text += ", repeat=True";
-  if (o.refine) text += ", refine=True";
-  if (u.remove_own) text += ", remove_own=True";
-  return text + ")";
 }
 
 Step transfer_item(const Json& request, const Document& now, Shared& shared) {
   const ItemPtr source = with_surface(request, "source", now);
   const ItemPtr target = with_surface(request, "target", now);
   const TransferWish wish = transfer_in(request);
+  const Json step = recipe_step(
+      "transfer", request,
+      {"from", "to", "from_degree", "scale", "height", "angle", "repeat", "refine", "remove_own"});
   return {"Transfer to " + target->name, true,
           [=, &shared](Document& document, const Context& context) {
             Mesh mesh = transfer(*source->shown, parsed(wish.from), *target->shown, parsed(wish.to),
                                  wish.options, wish.update, context);
             const Named from = surface_of(document.recipe, *source);
             const Named to = source == target ? from : surface_of(document.recipe, *target);
-            finish(document, *target, std::move(mesh), "-transfer", transfer_shell(wish, from, to),
-                   transfer_python(wish, from, to), shared, context);
+            finish(document, *target, std::move(mesh), "-transfer",
+                   of_surface(of_surface(step, "source", from), "target", to), shared, context);
           }};
 }
 
@@ -117,25 +69,15 @@ Step simplify_item(const Json& request, const Document& now, Shared& shared) {
   if (error ? !(*error > 0) : faces < 1) {
     throw bad_request("simplify needs 'faces' of at least 1, or an 'error' above 0");
   }
+  const Json step = recipe_step("simplify", request, {"error", "faces"});
   return {"Simplify " + item->name, true, [=, &shared](Document& document, const Context& context) {
             SimplifyOptions options;
             if (error) options.max_error = *error;
             if (faces > 0) options.triangles = static_cast<std::size_t>(faces);
             Mesh mesh = simplify(*item->shown, options, context).mesh;
             const Named from = surface_of(document.recipe, *item);
-            std::string shell = "rholm simplify " + shell_word(from.file);
-            std::vector<std::string> python = {from.variable};
-            if (faces > 0) {
-              shell += fmt::format(" --faces {}", faces);
-              python.push_back(fmt::format("triangles={}", faces));
-            }
-            if (error) {
-              shell += " --max-error " + digits(*error);
-              python.push_back("max_error=" + digits(*error));
-            }
-            finish(document, *item, std::move(mesh), "-simple", shell,
-                   fmt::format("rholm.simplify({}).mesh", fmt::join(python, ", ")), shared,
-                   context);
+            finish(document, *item, std::move(mesh), "-simple", of_surface(step, "from", from),
+                   shared, context);
           }};
 }
 
@@ -145,8 +87,7 @@ Step repair_item(const Json& request, const Document& now, Shared& shared) {
             Mesh mesh = repair(*item->shown, {}, context).mesh;
             const Named from = surface_of(document.recipe, *item);
             finish(document, *item, std::move(mesh), "-repaired",
-                   "rholm repair " + shell_word(from.file),
-                   fmt::format("rholm.repair({}).mesh", from.variable), shared, context);
+                   of_surface({{"op", "repair"}}, "from", from), shared, context);
           }};
 }
 

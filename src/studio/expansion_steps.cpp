@@ -20,37 +20,19 @@ ItemPtr with_model(const Json& request, const char* field, const Document& now) 
   return item;
 }
 
-// Wishes of analyze.
-struct Wanted {
+EncodeOptions analysis_in(const Json& request) {
   EncodeOptions options;
-  std::string shell, python;  // the same, as options
-};
-
-Wanted analysis_in(const Json& request) {
-  Wanted wanted;
-  const std::optional<double> tolerance = maybe_number(request, "tolerance");
-  if (tolerance) {
-    wanted.options.tolerance = Tolerance{.error = *tolerance};
-    wanted.shell = " --tolerance " + digits(*tolerance);
-    wanted.python = ", tolerance=" + digits(*tolerance);
+  if (const std::optional<double> tolerance = maybe_number(request, "tolerance")) {
+    options.tolerance = Tolerance{.error = *tolerance};
   } else {
     const int degree = integer_of(request, "degree");
     if (degree < 0 || degree > kMaxDegree) {
       throw bad_request(fmt::format("the degree must be within 0 ... {}", kMaxDegree));
     }
-    wanted.options.analyze.degree = degree;
-    wanted.shell = fmt::format(" --degree {}", degree);
-    wanted.python = fmt::format(", degree={}", degree);
+    options.analyze.degree = degree;
   }
-  const std::string center = string_or(request, "center", "auto");
-  if (center != "auto") {
-    wanted.options.chart.center = parse_center(center);
-    wanted.shell += " --center=" + shell_word(center);
-    wanted.python += wanted.options.chart.center.kind == CenterKind::kGiven
-                         ? ", center=(" + center + ")"
-                         : ", center=" + python_text(center);
-  }
-  return wanted;
+  options.chart.center = parse_center(string_or(request, "center", "auto"));
+  return options;
 }
 
 // A mesh of its own: as it was read, or what is shown of a series or caps.
@@ -66,10 +48,11 @@ Named shape_of(Recipe& recipe, const Item& item) {
 Step analyze_item(const Json& request, const Document& now, Shared& shared) {
   const ItemPtr item = item_in(request, "item", now);
   if (item->points) throw wrong_kind(*item, "it has no faces; reconstruct makes a surface of it");
-  const Wanted wanted = analysis_in(request);
+  const EncodeOptions options = analysis_in(request);
+  const Json wanted = recipe_step("analyze", request, {"tolerance", "degree", "center"});
   return {"Analyze " + item->name, true, [=, &shared](Document& document, const Context& context) {
             const std::shared_ptr<const Mesh> mesh = shape_of(*item);
-            Encoded encoded = encode(*mesh, wanted.options, context);
+            Encoded encoded = encode(*mesh, options, context);
             Item changed = *item;
             const Named shape = shape_of(document.recipe, *item);
             changed.file = shape.file;
@@ -87,13 +70,11 @@ Step analyze_item(const Json& request, const Document& now, Shared& shared) {
             changed.revision = ++shared.revisions;
             changed.model_file = document.recipe.file(stem_of(item->name), ".h5");
             changed.model_variable = document.recipe.variable(stem_of(item->name) + "_model");
-            const std::string unit =
-                item->unit.empty() ? "" : " --length-unit " + shell_word(item->unit);
-            document.recipe.shell.push_back(fmt::format("rholm analyze {}{}{} -o {}",
-                                                        shell_word(shape.file), wanted.shell, unit,
-                                                        shell_word(changed.model_file)));
-            document.recipe.python.push_back(fmt::format(
-                "{} = rholm.expand({}{})", changed.model_variable, shape.variable, wanted.python));
+            Json step = wanted;
+            step["from"] = json_of(shape);
+            step["made"] = json_of(Named{changed.model_file, changed.model_variable});
+            if (!item->unit.empty()) step["unit"] = item->unit;
+            document.recipe.add(step);
             put(document, std::move(changed));
           }};
 }
@@ -169,12 +150,11 @@ std::string told_of(const Alignment& alignment, const Item& onto) {
 void record_aligned(Recipe& recipe, const Item& a, const Item& b, bool mirror, Item& moved) {
   moved.model_file = recipe.file(stem_of(a.name) + "-aligned", ".h5");
   moved.model_variable = recipe.variable(stem_of(a.name) + "_aligned");
-  recipe.shell.push_back(fmt::format("rholm align {} {}{} -o {}", shell_word(a.model_file),
-                                     shell_word(b.model_file), mirror ? " --mirror" : "",
-                                     shell_word(moved.model_file)));
-  recipe.python.push_back(fmt::format("{0} = rholm.placed({1}, rholm.align({1}, {2}{3}))",
-                                      moved.model_variable, a.model_variable, b.model_variable,
-                                      mirror ? ", mirror=True" : ""));
+  recipe.add({{"op", "align"},
+              {"a", json_of(Named{a.model_file, a.model_variable})},
+              {"b", json_of(Named{b.model_file, b.model_variable})},
+              {"mirror", mirror},
+              {"made", json_of(Named{moved.model_file, moved.model_variable})}});
 }
 
 Step align_items(const Json& request, const Document& now, Shared& shared) {
@@ -204,27 +184,6 @@ Step align_items(const Json& request, const Document& now, Shared& shared) {
           }};
 }
 
-// The program has no command for it: the shell calls Python.
-void record_blend(Recipe& recipe, const Named& from, const Named& to, const Model& made, double t,
-                  const std::string& variable) {
-  const int degree = made.expansion.coefficients.degree();
-  const Vec3& center = made.expansion.center;
-  const auto call = [&](const std::string& a, const std::string& b) {
-    return fmt::format(
-        "rholm.Expansion({} * {}.truncate({degree}).coeffs + {} * {}.truncate({degree}).coeffs, "
-        "center=({}, {}, {}), function=\"{}\")",
-        digits(1 - t), a, digits(t), b, center.x, center.y, center.z,
-        to_string(made.expansion.function), fmt::arg("degree", degree));
-  };
-  const auto loaded = [](const std::string& file) {
-    return "rholm.load(" + python_text(file) + ")";
-  };
-  recipe.shell.push_back("python3 -c " +
-                         shell_word("import rholm; " + call(loaded(from.file), loaded(to.file)) +
-                                    ".save(" + python_text(variable + ".h5") + ")"));
-  recipe.python.push_back(variable + " = " + call(from.variable, to.variable));
-}
-
 Step blend_items(const Json& request, const Document& now, Shared& shared) {
   const ItemPtr a = with_model(request, "a", now), b = with_model(request, "b", now);
   const double t = number_of(request, "t");
@@ -237,7 +196,15 @@ Step blend_items(const Json& request, const Document& now, Shared& shared) {
             made.model_variable = recipe.variable(stem_of(a->name) + "_" + stem_of(b->name));
             made.model_file = made.model_variable + ".h5";
             made.name = made.model_file;
-            record_blend(recipe, from, to, *made.model, t, made.model_variable);
+            const Expansion& expansion = made.model->expansion;
+            recipe.add({{"op", "blend"},
+                        {"a", json_of(from)},
+                        {"b", json_of(to)},
+                        {"t", t},
+                        {"degree", expansion.coefficients.degree()},
+                        {"center", {expansion.center.x, expansion.center.y, expansion.center.z}},
+                        {"function", to_string(expansion.function)},
+                        {"made", json_of(Named{made.model_file, made.model_variable})}});
             add(document, std::move(made), shared);
           }};
 }

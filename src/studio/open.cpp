@@ -9,12 +9,12 @@
 #include "rholm/error.h"
 #include "rholm/model.h"
 #include "rholm/shape_io.h"
+#include "studio/names.h"
 
 namespace rholm::studio {
 namespace {
 
-constexpr std::size_t kMaxName = 200;  // bytes; chosen: longer ones are no names
-constexpr std::size_t kHead = 4096;    // bytes; enough for every signature
+constexpr std::size_t kHead = 4096;  // bytes; enough for every signature
 
 std::string ending_of(const std::string& name) {
   std::string ending = std::filesystem::path(name).extension().string();
@@ -96,19 +96,13 @@ Item open_text(std::string_view bytes, const std::string& name, const Context& c
 
 }  // namespace
 
-std::string plain_name(const std::string& name) {
-  std::string plain = name.substr(name.find_last_of("/\\") + 1);
-  std::erase_if(plain, [](unsigned char c) { return c < 32 || c == 127; });
-  if (plain.size() > kMaxName) plain.resize(kMaxName);
-  return plain.empty() || plain == "." || plain == ".." ? "shape" : plain;
-}
-
 Item open_item(const std::string& name, std::string_view bytes, Scratch& scratch,
                const Context& context) {
   const std::string plain = plain_name(name);
   Item item = bytes.starts_with("\x89HDF\r\n\x1a\n") ? open_model(bytes, plain, scratch, context)
                                                      : open_text(bytes, plain, context);
   item.name = plain;
+  item.unit = plain_text(item.unit);
   return item;
 }
 

@@ -1,14 +1,10 @@
 // Steps that need no thread: shapes made, removed, renamed.
-#include <fmt/format.h>
-
 #include "rholm/points.h"
 #include "rholm/primitives.h"
 #include "studio/step.h"
 
 namespace rholm::studio {
 namespace {
-
-constexpr std::size_t kMaxName = 200;  // bytes; chosen: longer ones are no names
 
 // What is made.
 struct Making {
@@ -41,50 +37,27 @@ Mesh shape_of(const Making& making) {
   throw bad_request("the field 'shape' must be bumpy, sphere, ellipsoid, torus, box or points");
 }
 
-// What Python calls for the same.
-std::string python_of(const Making& making) {
-  const std::string& kind = making.kind;
-  if (kind == "sphere") return "rholm.icosphere(5)";
-  if (kind == "ellipsoid") return "rholm.ellipsoid((3, 2, 1), 5)";
-  if (kind == "torus") return "rholm.torus(1, 0.4, 96, 48)";
-  if (kind == "box") return "rholm.box((1, 1, 1), 24)";
-  const Making usual;
-  std::string more;
-  if (making.amplitude != usual.amplitude) more += fmt::format(", amplitude={}", making.amplitude);
-  if (making.seed != usual.seed) more += fmt::format(", seed={}", making.seed);
-  return "rholm.bumpy_sphere(5" + more + ")";
-}
-
-// What a shell is told for the same.
-std::string shell_of(const Making& making) {
-  if (making.kind == "box") return "box --cells 24";
-  if (making.kind != "bumpy" && making.kind != "points") return making.kind;
-  const Making usual;
-  std::string words = "bumpy";
-  if (making.amplitude != usual.amplitude)
-    words += fmt::format(" --amplitude {}", making.amplitude);
-  if (making.seed != usual.seed) words += fmt::format(" --seed {}", making.seed);
-  return words;
-}
-
 constexpr int kPoints = 20000;  // chosen: a surface is made of them in a second
 
 void record_made(Recipe& recipe, Item& item, const Making& making) {
   const bool points = making.kind == "points";
-  const std::string mesh = recipe.file(points ? "bumpy" : making.kind, ".ply");
-  const std::string variable = recipe.variable(stem_of(mesh));
-  recipe.shell.push_back(fmt::format("rholm make {} -o {}", shell_of(making), mesh));
-  recipe.python.push_back(variable + " = " + python_of(making));
-  item.file = mesh;
-  item.variable = variable;
+  Named made;
+  made.file = recipe.file(points ? "bumpy" : making.kind, ".ply");
+  made.variable = recipe.variable(stem_of(made.file));
+  Json step = {{"op", "make"}, {"shape", making.kind}, {"made", json_of(made)}};
+  const Making usual;
+  const bool bumpy = points || making.kind == "bumpy";
+  if (bumpy && making.amplitude != usual.amplitude) step["amplitude"] = making.amplitude;
+  if (bumpy && making.seed != usual.seed) step["seed"] = making.seed;
   if (points) {
-    item.file = recipe.file("points", ".ply");
-    item.variable = recipe.variable(stem_of(item.file));
-    recipe.shell.push_back(
-        fmt::format("rholm make sample {} --points {} -o {}", mesh, kPoints, item.file));
-    recipe.python.push_back(
-        fmt::format("{} = rholm.sample_surface({}, {})", item.variable, variable, kPoints));
+    made.file = recipe.file("points", ".ply");
+    made.variable = recipe.variable(stem_of(made.file));
+    step["points"] = kPoints;
+    step["cloud"] = json_of(made);
   }
+  recipe.add(step);
+  item.file = made.file;
+  item.variable = made.variable;
   item.name = item.file;
 }
 
@@ -110,9 +83,10 @@ Step remove(const Json& request, const Document& now) {
 
 Step rename(const Json& request, const Document& now) {
   const ItemPtr item = item_in(request, "item", now);
-  const std::string name = string_of(request, "name");
-  if (name.empty() || name.size() > kMaxName) {
-    throw bad_request(fmt::format("a name has 1 ... {} bytes", kMaxName));
+  const std::string wanted = string_of(request, "name"), name = plain_name(wanted);
+  if (name != wanted) {
+    throw bad_request(
+        "a name is the name of a file: 1 ... 200 bytes of letters that print, no path");
   }
   return {"Rename " + item->name, false, [item, name](Document& document, const Context&) {
             Item changed = *item;

@@ -1,6 +1,4 @@
 // Steps from points to surfaces, and to and on caps.
-#include <fmt/format.h>
-
 #include "rholm/compress.h"
 #include "rholm/points.h"
 #include "rholm/reconstruct.h"
@@ -23,56 +21,41 @@ Step orient_item(const Json& request, const Document& now, Shared& shared) {
             Item changed = *item;
             changed.points = std::make_shared<const PointCloud>(std::move(cloud));
             changed.revision = ++shared.revisions;
-            record(document.recipe, changed, "-oriented", "rholm orient " + shell_word(item->file),
-                   fmt::format("rholm.orient({}).points", item->variable));
+            record(document.recipe, changed, "-oriented",
+                   {{"op", "orient"}, {"from", json_of(Named{item->file, item->variable})}});
             put(document, std::move(changed));
           }};
 }
 
-struct ReconstructWish {
+ReconstructOptions reconstruct_in(const Json& request) {
   ReconstructOptions options;
-  std::string shell, python;
-};
-
-ReconstructWish reconstruct_in(const Json& request) {
-  ReconstructWish wish;
   const std::string holes = string_or(request, "holes", "close");
   const std::string noise = string_or(request, "noise", "auto");
   if (holes != "close" && holes != "keep") throw bad_request("'holes' must be close or keep");
   if (noise != "auto" && noise != "none") throw bad_request("'noise' must be auto or none");
-  if (holes == "keep") {
-    wish.options.holes = HolePolicy::kKeep;
-    wish.shell += " --holes keep";
-    wish.python += ", holes=\"keep\"";
-  }
-  if (noise == "none") {
-    wish.options.noise = 0;
-    wish.shell += " --noise 0";
-    wish.python += ", noise=0";
-  }
+  if (holes == "keep") options.holes = HolePolicy::kKeep;
+  if (noise == "none") options.noise = 0;
   if (const std::optional<double> share = maybe_number(request, "simplify")) {
     if (!(*share > 0 && *share <= 1))
       throw bad_request("'simplify' is a share, above 0, at most 1");
-    wish.options.simplify = SimplifyOptions{.share = *share};
-    wish.shell += fmt::format(" --simplify {}%", 100 * *share);
-    wish.python += fmt::format(", simplify={{\"share\": {}}}", *share);
+    options.simplify = SimplifyOptions{.share = *share};
   }
-  return wish;
+  return options;
 }
 
 Step reconstruct_item(const Json& request, const Document& now, Shared& shared) {
   const ItemPtr item = with_points(request, now);
-  const ReconstructWish wish = reconstruct_in(request);
+  const ReconstructOptions options = reconstruct_in(request);
+  Json step = recipe_step("reconstruct", request, {"holes", "noise", "simplify"});
+  step["from"] = json_of(Named{item->file, item->variable});
   return {"Reconstruct " + item->name, true,
           [=, &shared](Document& document, const Context& context) {
-            Reconstruction found = reconstruct(*item->points, wish.options, context);
+            Reconstruction found = reconstruct(*item->points, options, context);
             Item made = item_of(std::move(found.mesh), context);
             made.name = item->name;
             made.unit = item->unit;
             made.caps = found.report.caps;
-            record(document.recipe, made, "-surface",
-                   "rholm reconstruct " + shell_word(item->file) + wish.shell,
-                   fmt::format("rholm.reconstruct({}{}).mesh", item->variable, wish.python));
+            record(document.recipe, made, "-surface", step);
             made.name = made.file;
             add(document, std::move(made), shared);
           }};
@@ -103,6 +86,7 @@ Step compress_item(const Json& request, const Document& now, Shared& shared) {
   CompressOptions options;
   options.tolerance = number_of(request, "tolerance");
   options.max_degree = integer_or(request, "max_degree", options.max_degree);
+  const Json wanted = recipe_step("compress", request, {"tolerance", "max_degree"});
   return {"Compress " + item->name, true, [=, &shared](Document& document, const Context& context) {
             Compressed found = item->points ? compress(*item->points, options, context)
                                             : compress(prepared(*item->shown), options, context);
@@ -111,19 +95,13 @@ Step compress_item(const Json& request, const Document& now, Shared& shared) {
             Recipe& recipe = document.recipe;
             const Named from =
                 item->points ? Named{item->file, item->variable} : surface_of(recipe, *item);
-            const bool usual = options.max_degree == CompressOptions{}.max_degree;
             made.model_file = recipe.file(stem_of(item->name) + "-caps", ".h5");
             made.model_variable = recipe.variable(stem_of(item->name) + "_caps");
-            recipe.shell.push_back(
-                fmt::format("rholm analyze {} --atlas --tolerance {}{}{} -o {}",
-                            shell_word(from.file), digits(options.tolerance),
-                            usual ? "" : fmt::format(" --max-degree {}", options.max_degree),
-                            item->unit.empty() ? "" : " --length-unit " + shell_word(item->unit),
-                            shell_word(made.model_file)));
-            recipe.python.push_back(
-                fmt::format("{} = rholm.compress({}, {}{})", made.model_variable, from.variable,
-                            digits(options.tolerance),
-                            usual ? "" : fmt::format(", max_degree={}", options.max_degree)));
+            Json step = wanted;
+            step["from"] = json_of(from);
+            step["made"] = json_of(Named{made.model_file, made.model_variable});
+            if (!item->unit.empty()) step["unit"] = item->unit;
+            recipe.add(step);
             made.file = made.model_file;  // as edits take the surface of a file of caps
             made.variable = made.model_variable + ".mesh()";
             made.name = made.model_file;
@@ -147,9 +125,9 @@ Step look_at_atlas(const Json& request, const Document& now, Shared& shared) {
               changed.variable = item->model_variable + ".mesh()";
             } else {
               record(document.recipe, changed, "-surface",
-                     fmt::format("rholm synthesize {} --degree-limit {}",
-                                 shell_word(item->model_file), limit),
-                     fmt::format("{}.mesh(degree={})", item->model_variable, limit));
+                     {{"op", "atlas_look"},
+                      {"from", json_of(Named{item->model_file, item->model_variable})},
+                      {"limit", limit}});
             }
             put(document, std::move(changed));
           }};

@@ -8,6 +8,7 @@
 #include "rholm/error.h"
 #include "rholm/version.h"
 #include "studio/answers.h"
+#include "studio/names.h"
 #include "studio/open.h"
 #include "studio/session_file.h"
 

@@ -5,17 +5,20 @@
 #include <fmt/format.h>
 
 #include "base/crc32.h"
+#include "rholm/coefficients_io.h"
 #include "rholm/error.h"
 #include "rholm/model.h"
 #include "rholm/shape_io.h"
+#include "studio/names.h"
 #include "studio/open.h"
 
 namespace rholm::studio {
 namespace {
 
 constexpr std::string_view kMagic = "RHOLMSS1";
-constexpr std::size_t kHead = 24;         // bytes
-constexpr std::size_t kMaxItems = 10000;  // the sanity limit
+constexpr std::size_t kHead = 24;          // bytes
+constexpr std::size_t kMaxItems = 10000;   // the sanity limit
+constexpr std::size_t kMaxSteps = 100000;  // the same
 
 [[noreturn]] void refuse(const std::string& what) {
   throw Error(ErrorCode::kInvalidInput, "the session file " + what);
@@ -91,21 +94,52 @@ Item read_item(const Json& json, Parts& parts, Scratch& scratch, const Context& 
     item = with_limit(item, integer_of(json, "limit"), context);
   }
   item.name = plain_name(string_of(json, "name"));
-  item.unit = string_of(json, "unit");
+  item.unit = plain_text(string_of(json, "unit"));
+  if (!item.unit.empty()) check_unit(item.unit);
   if (!item.atlas) item.caps = static_cast<std::size_t>(std::max(0, integer_or(json, "caps", 0)));
-  item.file = string_of(json, "file");
-  item.model_file = string_of(json, "model_file");
-  item.variable = string_of(json, "variable");
-  item.model_variable = string_of(json, "model_variable");
-  if (json.contains("placed")) item.placed = string_of(json, "placed");
+  if (json.contains("placed")) item.placed = plain_text(string_of(json, "placed"));
   return item;
 }
 
-void join(Recipe& recipe, const Json& json) {
-  for (const std::string& line : strings_of(json, "shell")) recipe.shell.push_back(line);
-  for (const std::string& line : strings_of(json, "python")) recipe.python.push_back(line);
-  for (const std::string& name : strings_of(json, "files")) recipe.files.insert(name);
-  for (const std::string& name : strings_of(json, "variables")) recipe.variables.insert(name);
+// Where the recipe has it: what a step has made, or nothing.
+void read_names(Item& item, const Json& json, const Recipe& recipe) {
+  const auto name = [&](const char* field, const auto& is_there) {
+    std::string text = string_of(json, field);
+    if (!text.empty() && !is_there(text)) refuse("has an item that no step has made");
+    return text;
+  };
+  const auto is_file = [&](const std::string& text) { return recipe.files.contains(text); };
+  const auto is_variable = [&](const std::string& text) { return recipe.has_variable(text); };
+  item.file = name("file", is_file);
+  item.model_file = name("model_file", is_file);
+  item.variable = name("variable", is_variable);
+  item.model_variable = name("model_variable", is_variable);
+  const bool has_shape = item.original || item.points || item.atlas;
+  const bool has_model = item.model || item.atlas;
+  if ((has_shape && (item.file.empty() || item.variable.empty())) ||
+      (has_model && (item.model_file.empty() || item.model_variable.empty()))) {
+    refuse("has an item without a name in its steps");
+  }
+}
+
+// The names of an item of a file without steps: as if it had been saved, and read again.
+void name_anew(Item& item, Recipe& recipe) {
+  const std::shared_ptr<const Model> model = item.model;
+  if (item.original) item.model = nullptr;
+  add_reading(recipe, item);
+  if (!item.original || !model) return;
+  item.model = model;
+  item.model_file = recipe.file(stem_of(item.name), ".h5");
+  item.model_variable = recipe.variable(stem_of(item.name) + "_model");
+  recipe.add({{"op", "read"},
+              {"made", json_of(Named{item.model_file, item.model_variable})},
+              {"series", true}});
+}
+
+// Its steps; their lines are made anew.
+void join(Recipe& recipe, const Json& steps) {
+  if (!steps.is_array() || steps.size() > kMaxSteps) refuse("has no list of steps");
+  for (const Json& step : steps) recipe.add(step);
 }
 
 // The JSON and what follows it.
@@ -126,11 +160,7 @@ Json checked_head(std::string_view bytes, Parts& parts) {
 bool is_session_file(std::string_view bytes) { return bytes.starts_with(kMagic); }
 
 std::string session_bytes(const Document& document, Scratch& scratch) {
-  Json json = {{"items", Json::array()},
-               {"shell", document.recipe.shell},
-               {"python", document.recipe.python},
-               {"files", document.recipe.files},
-               {"variables", document.recipe.variables}};
+  Json json = {{"items", Json::array()}, {"steps", document.recipe.steps}};
   std::string files;
   for (const ItemPtr& item : document.items) {
     const std::string shape = shape_file(*item, scratch), model = model_file(*item, scratch);
@@ -157,12 +187,21 @@ void open_session(std::string_view bytes, Scratch& scratch, Document& document, 
     if (items == json.end() || !items->is_array() || items->size() > kMaxItems) {
       refuse("has no list of items");
     }
+    // Files of earlier versions have lines, which nobody can check, and no steps.
+    const auto steps = json.find("steps");
+    const bool has_steps = steps != json.end();
+    if (has_steps) join(document.recipe, *steps);
     for (const Json& one : *items) {
       if (!one.is_object()) refuse("has an item that is none");
-      add(document, read_item(one, parts, scratch, context), shared);
+      Item item = read_item(one, parts, scratch, context);
+      if (has_steps) {
+        read_names(item, one, document.recipe);
+      } else {
+        name_anew(item, document.recipe);
+      }
+      add(document, std::move(item), shared);
     }
     if (!parts.at_end()) refuse("has more bytes than it says");
-    join(document.recipe, json);
   } catch (const Refusal& refusal) {
     refuse(std::string("says what cannot be: ") + refusal.what());
   }

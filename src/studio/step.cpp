@@ -109,7 +109,10 @@ std::vector<std::string> regions_in(const Json& request, const char* field) {
 std::vector<Region> parsed(const std::vector<std::string>& regions) {
   std::vector<Region> all;
   all.reserve(regions.size());
-  for (const std::string& text : regions) all.push_back(parse_region(text));
+  for (const std::string& text : regions) {
+    if (plain_text(text) != text) throw bad_request("a region is text that prints");
+    all.push_back(parse_region(text));
+  }
   return all;
 }
 
@@ -134,12 +137,19 @@ Item edited(const Item& item, Mesh mesh, Shared& shared, const Context& context)
   return changed;
 }
 
-void record(Recipe& recipe, Item& item, const std::string& suffix, const std::string& shell,
-            const std::string& python) {
+void record(Recipe& recipe, Item& item, const std::string& suffix, Json step) {
   item.file = recipe.file(stem_of(item.name) + suffix, ".ply");
   item.variable = recipe.variable(stem_of(item.file));
-  recipe.shell.push_back(shell + " -o " + shell_word(item.file));
-  recipe.python.push_back(item.variable + " = " + python);
+  step["made"] = json_of(Named{item.file, item.variable});
+  recipe.add(step);
+}
+
+Json recipe_step(const char* op, const Json& request, std::initializer_list<const char*> fields) {
+  Json step = {{"op", op}};
+  for (const char* field : fields) {
+    if (request.contains(field)) step[field] = request.at(field);
+  }
+  return step;
 }
 
 }  // namespace rholm::studio

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
@@ -74,9 +75,10 @@ void add(Document& document, Item item, Shared& shared);
 // The item with another mesh and nothing else known of it but its name.
 Item edited(const Item& item, Mesh mesh, Shared& shared, const Context& context);
 
-// The result of an edit: its names in the recipe, with the line of the shell that makes the file
-// and what Python calls.
-void record(Recipe& recipe, Item& item, const std::string& suffix, const std::string& shell,
-            const std::string& python);
+// The result of an edit: its names in the recipe, which has the step with them.
+void record(Recipe& recipe, Item& item, const std::string& suffix, Json step);
+
+// A step of the recipe: an op with those fields of its request that are there.
+Json recipe_step(const char* op, const Json& request, std::initializer_list<const char*> fields);
 
 }  // namespace rholm::studio

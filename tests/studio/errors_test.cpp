@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "studio/client.h"
-#include "studio/open.h"
+#include "studio/names.h"
 
 namespace rholm::studio {
 namespace {

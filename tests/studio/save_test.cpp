@@ -171,7 +171,10 @@ TEST(Recipe, WordsAreReadBackAsTheyAre) {
   EXPECT_EQ(shell_word("-r f"), "'./-r f'");
   EXPECT_EQ(shell_word("$(reboot)"), "'$(reboot)'");
   EXPECT_EQ(shell_word(""), "''");
+  EXPECT_EQ(shell_word("=ls"), "'=ls'");  // zsh
+  EXPECT_EQ(shell_text("-1"), "-1");
   EXPECT_EQ(python_text("a\"b\\c"), "\"a\\\"b\\\\c\"");
+  EXPECT_EQ(python_text("a\nb\xff\xc3\xa9\xe2\x80\xae"), "\"a\\u000ab\\xff\xc3\xa9\\u202e\"");
 }
 
 TEST(Recipe, NamesAreNotTakenTwice) {

