@@ -1,18 +1,26 @@
 #include "cli/studio/server.h"
 
+#include <errno.h>
+#include <poll.h>
 #include <signal.h>
+#include <sys/socket.h>
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
 
 #include <algorithm>
 #include <atomic>
+#include <cctype>
 #include <chrono>
+#include <cstring>
+#include <limits>
+#include <mutex>
 #include <thread>
 
 #include <fmt/format.h>
 #include <httplib.h>
 
+#include "cli/studio/connections.h"
 #include "cli/studio/token.h"
 #include "rholm/error.h"
 
@@ -24,19 +32,130 @@ using HttpResponse = httplib::Response;
 
 constexpr int kThreads = 64;     // chosen: an open page holds one for its events, a request one
 constexpr int kMaxStreams = 40;  // chosen: the rest of them answer
-constexpr std::uint64_t kReserved = std::uint64_t{64} << 20;  // bytes; more only as they come
+// Bytes of a body; chosen. A body without a length may not be longer, and memory for the whole
+// length of another one is taken when so many bytes of it have come.
+constexpr std::uint64_t kUnproved = std::uint64_t{64} << 20;
+// Bytes of JSON; chosen: a number in it takes up to 16 times its text. Those above are read one by
+// one.
+constexpr std::size_t kSmallJson = std::size_t{1} << 20;
+constexpr auto kIdle = std::chrono::seconds(30);  // of a request or an answer that does not move
 constexpr int kKept = 1 << 20;  // bytes of a heap; chosen: what a look allocates, and no more
 constexpr auto kBeat = std::chrono::seconds(10);         // of streams with nothing to say
 constexpr auto kLook = std::chrono::milliseconds(1000);  // how soon a stream notices that all ends
 
-httplib::Headers safe_headers() {
-  return {{"Cache-Control", "no-store"},
-          {"X-Content-Type-Options", "nosniff"},
-          {"Referrer-Policy", "no-referrer"},
-          {"Content-Security-Policy",
-           "default-src 'self'; connect-src 'self'; img-src 'self' data: blob:; "
-           "style-src 'self' 'unsafe-inline'; worker-src 'self' blob:; frame-ancestors 'none'"}};
+const httplib::Headers& safe_headers() {
+  static const httplib::Headers kHeaders = {
+      {"Cache-Control", "no-store"},
+      {"X-Content-Type-Options", "nosniff"},
+      {"Referrer-Policy", "no-referrer"},
+      {"Content-Security-Policy",
+       "default-src 'self'; connect-src 'self'; img-src 'self' data: blob:; "
+       "style-src 'self' 'unsafe-inline'; worker-src 'self' blob:; frame-ancestors 'none'"}};
+  return kHeaders;
 }
+
+// The answer to every request without the token has no body.
+std::string not_found() {
+  std::string text = "HTTP/1.1 404 Not Found\r\nConnection: close\r\nContent-Length: 0\r\n";
+  for (const auto& [name, value] : safe_headers()) text += fmt::format("{}: {}\r\n", name, value);
+  return text + "\r\n";
+}
+
+// A connection as the library reads and writes it. Nothing is waited for longer than kIdle.
+class Connection : public httplib::Stream {
+ public:
+  // Reads `most` bytes at most.
+  Connection(int socket, std::string head, std::uint64_t most)
+      : socket_(socket), buffer_(std::move(head)), most_(most) {}
+
+  bool is_readable() const override { return read_ < buffer_.size() || is_ready(POLLIN, 0); }
+  bool is_writable() const override {
+    if (!is_ready(POLLOUT, 0)) return false;
+    char byte = 0;  // a browser that has gone can be read, to its end
+    return !is_ready(POLLIN, 0) || ::recv(socket_, &byte, 1, MSG_PEEK | MSG_DONTWAIT) > 0;
+  }
+  // The library reads lines byte by byte: they come from a buffer.
+  ssize_t read(char* bytes, std::size_t n) override {
+    if (read_ == buffer_.size()) {
+      if (!is_ready(POLLIN, kIdleMilliseconds)) return -1;
+      buffer_.resize(kBuffer);
+      const ssize_t got = ::recv(socket_, buffer_.data(), kBuffer, 0);
+      buffer_.resize(static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+      read_ = 0;
+      if (got <= 0) return got;
+    }
+    n = std::min(n, buffer_.size() - read_);
+    std::memcpy(bytes, buffer_.data() + read_, n);
+    read_ += n;
+    all_ += n;
+    return all_ > most_ ? -1 : static_cast<ssize_t>(n);
+  }
+  ssize_t write(const char* bytes, std::size_t n) override {
+    return is_ready(POLLOUT, kIdleMilliseconds) ? ::send(socket_, bytes, n, MSG_NOSIGNAL) : -1;
+  }
+  void get_remote_ip_and_port(std::string& ip, int& port) const override { ip.clear(), port = 0; }
+  void get_local_ip_and_port(std::string& ip, int& port) const override { ip.clear(), port = 0; }
+  socket_t socket() const override { return socket_; }
+
+ private:
+  static constexpr std::size_t kBuffer = std::size_t{64}
+                                         << 10;  // bytes; chosen: what a system call is worth
+  static constexpr int kIdleMilliseconds =
+      static_cast<int>(std::chrono::milliseconds(kIdle).count());
+
+  bool is_ready(short event, int milliseconds) const {
+    pollfd one = {.fd = socket_, .events = event, .revents = 0};
+    return ::poll(&one, 1, milliseconds) > 0;
+  }
+
+  const int socket_;
+  std::string buffer_;
+  const std::uint64_t most_;
+  std::size_t read_ = 0;   // of the buffer
+  std::uint64_t all_ = 0;  // bytes that have been read
+};
+
+// Whether a line of the head begins with that name, in small letters.
+bool has_header(std::string_view head, std::string_view name) {
+  const auto is_same_letter = [](char a, char b) {
+    return b == std::tolower(static_cast<unsigned char>(a));
+  };
+  for (std::size_t at = head.find('\n'); at != std::string_view::npos;
+       at = head.find('\n', at + 1)) {
+    const std::string_view line = head.substr(at + 1, name.size());
+    if (std::equal(line.begin(), line.end(), name.begin(), name.end(), is_same_letter)) return true;
+  }
+  return false;
+}
+
+// Hands each connection to `on_connection`; answer() serves one whose head has been read.
+class Server : public httplib::Server {
+ public:
+  Server() {
+    // The thread that accepts only gives them away.
+    struct AtOnce : httplib::TaskQueue {
+      void enqueue(std::function<void()> give_away) override { give_away(); }
+      void shutdown() override {}
+    };
+    new_task_queue = [] { return new AtOnce; };
+  }
+  std::function<void(int socket)> on_connection;
+
+  void answer(int socket, std::string head) {
+    // The library keeps what stands around the pieces of a body, however long that is.
+    const bool in_pieces = has_header(head, "transfer-encoding");
+    Connection connection(socket, std::move(head),
+                          in_pieces ? 2 * kUnproved : std::numeric_limits<std::uint64_t>::max());
+    bool closed = false;
+    process_request(connection, true, closed, {});
+  }
+
+ private:
+  bool process_and_close_socket(socket_t socket) override {
+    on_connection(socket);
+    return true;
+  }
+};
 
 // Otherwise the allocator learns from large arrays to keep as much at the end of every heap, and
 // threads have heaps of their own.
@@ -136,6 +255,7 @@ class StudioServer::Parts {
     }
     stopping_ = true;
     studio_.close();
+    connections_.close();
     // A server that has not begun yet cannot be stopped, and would never end.
     while (!server_.is_running() && !ended)
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -149,11 +269,9 @@ class StudioServer::Parts {
   void set_up() {
     ::signal(SIGPIPE, SIG_IGN);  // of connections whose browser has gone
     keep_little_memory();
-    server_.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
+    server_.on_connection = [this](int socket) { connections_.add(socket); };
     server_.set_default_headers(safe_headers());
     server_.set_payload_max_length(max_upload_);
-    // The rest of a body that is refused would be taken for the next request, and its end sought.
-    server_.set_keep_alive_max_count(1);
     server_.set_tcp_nodelay(true);
     // Without the library's SO_REUSEPORT, by which another program could share the port.
     server_.set_socket_options([this](socket_t socket) {
@@ -185,16 +303,31 @@ class StudioServer::Parts {
     return request.path.substr(token_.size() + 2);
   }
 
-  bool fits(const HttpRequest& request) const {
-    return request.get_header_value<std::uint64_t>("Content-Length") <= max_upload_;
+  // Bytes of a body for a path.
+  std::uint64_t most_of(const HttpRequest& request) const {
+    const bool is_file = request.method == "POST" && below(request) == "api/file";
+    if (is_file) return max_upload_;
+    return request.method == "POST" ? std::min<std::uint64_t>(kMaxStudioJson, max_upload_) : 0;
+  }
+
+  void refuse_large(const HttpRequest& request, HttpResponse& response) const {
+    refuse(response, 413, "too_large",
+           below(request) == "api/file"
+               ? fmt::format("a file may have at most {} bytes; see rholm studio --max-upload",
+                             max_upload_)
+               : fmt::format("the body of a request may have at most {} bytes", most_of(request)));
+  }
+
+  // Whether the target of a request line is below the token.
+  bool has_token(std::string_view target) const {
+    const std::size_t n = token_.size();
+    return target.size() >= n + 2 && target[0] == '/' && target[n + 1] == '/' &&
+           is_same(target.substr(1, n), token_);
   }
 
   // Before a body is read.
   bool may_ask(const HttpRequest& request, HttpResponse& response) const {
-    const std::string_view path = request.path;
-    const std::size_t n = token_.size();
-    if (path.size() < n + 2 || path[0] != '/' || path[n + 1] != '/' ||
-        !is_same(path.substr(1, n), token_)) {
+    if (!has_token(request.path)) {
       response.status = 404;
       return false;
     }
@@ -202,14 +335,14 @@ class StudioServer::Parts {
     const std::string origin = request.get_header_value("Origin");
     const bool known = host == hosts_[0] || host == hosts_[1];
     if (!known || (request.has_header("Origin") && origin != "http://" + host) ||
-        is_foreign(request, path.size() == n + 2)) {
+        is_foreign(request, below(request).empty())) {
       refuse(response, 403, "forbidden", "this is for the page of the studio only");
       return false;
     }
-    if (!fits(request)) {
-      refuse(response, 413, "too_large",
-             fmt::format("a file may have at most {} bytes; see rholm studio --max-upload",
-                         max_upload_));
+    const bool in_pieces = request.has_header("Transfer-Encoding");
+    if (request.get_header_value<std::uint64_t>("Content-Length") > most_of(request) ||
+        (in_pieces && most_of(request) == 0)) {
+      refuse_large(request, response);
       return false;
     }
     return true;
@@ -228,23 +361,46 @@ class StudioServer::Parts {
     set_body(response, file->second.bytes, file->second.type);
   }
 
-  // As many bytes as are allowed, also of a body whose length nobody has told.
+  // Bodies are counted while they come, all that come at once together.
   void answer_post(const HttpRequest& request, HttpResponse& response,
                    const httplib::ContentReader& read) {
     if (request.is_multipart_form_data()) {
       return refuse(response, 400, "bad_request", "a body is the bytes themselves, no form");
     }
+    const std::uint64_t said = request.get_header_value<std::uint64_t>("Content-Length");
+    const std::uint64_t most = most_of(request);
+    const std::uint64_t proved = said > 0 ? most : std::min(most, kUnproved);
     std::string body;
-    body.reserve(std::min(request.get_header_value<std::uint64_t>("Content-Length"), kReserved));
+    bool is_large = false, is_crowded = false;
     const bool whole = read([&](const char* bytes, std::size_t n) {
-      if (body.size() + n > max_upload_) return false;
+      is_large = body.size() + n > proved;
+      is_crowded = arriving_.fetch_add(n) + n > std::max<std::uint64_t>(max_upload_, kUnproved);
+      if (is_large || is_crowded) {
+        arriving_ -= n;
+        return false;
+      }
+      if (body.empty()) body.reserve(std::min(said, kUnproved));
+      if (body.size() + n > body.capacity()) body.reserve(std::max(said, 2 * body.capacity()));
       body.append(bytes, n);
       return true;
     });
-    if (!whole) {
-      return refuse(response, 413, "too_large", "the body is not whole, or has too many bytes");
+    const std::size_t arrived = body.size();
+    if (is_crowded) {
+      refuse(response, 503, "busy", "too much is being sent at once; send it again in a moment");
+    } else if (is_large && proved < most) {
+      refuse(response, 411, "length_required",
+             fmt::format("a body of more than {} bytes must say its length first", proved));
+    } else if (!whole && !is_large) {
+      refuse(response, 400, "bad_request", "the body is not whole");
+    } else if (!whole) {
+      refuse_large(request, response);
+    } else {
+      const bool is_small = arrived <= kSmallJson || below(request) == "api/file";
+      std::unique_lock alone(large_json_, std::defer_lock);
+      if (!is_small) alone.lock();
+      give(studio_.handle(request_of(request, below(request), std::move(body))), response);
     }
-    give(studio_.handle(request_of(request, below(request), std::move(body))), response);
+    arriving_ -= arrived;
   }
 
   void stream(const HttpRequest& request, HttpResponse& response) {
@@ -290,7 +446,14 @@ class StudioServer::Parts {
   socket_t listening_ = INVALID_SOCKET;
   std::atomic<bool> stopping_{false};
   std::atomic<int> streams_{0};
-  httplib::Server server_;
+  std::atomic<std::uint64_t> arriving_{0};  // bytes of bodies, until they are answered
+  std::mutex large_json_;
+  Server server_;
+  Connections connections_{
+      {.workers = kThreads,
+       .may_ask = [this](std::string_view target) { return has_token(target); },
+       .refusal = not_found(),
+       .serve = [this](int socket, std::string head) { server_.answer(socket, std::move(head)); }}};
 };
 
 StudioServer::StudioServer(Studio& studio, Page page, const ServerOptions& options)

@@ -14,6 +14,9 @@
 namespace rholm {
 
 // What a page asks, as of HTTP, without it. docs/studio.md has what may be asked.
+// Bytes of a body of JSON.
+inline constexpr std::size_t kMaxStudioJson = std::size_t{16} << 20;  // chosen: a million points
+
 struct StudioRequest {
   std::string method = "GET";                     // "GET", "POST", "DELETE"
   std::string path = {};                          // below the address of the page: "api/state"

@@ -133,6 +133,10 @@ StudioResponse Studio::State::answer_in(studio::Session& session, const StudioRe
     }
     return session.open(value_of(request, "name"), request.body);
   }
+  if (request.body.size() > kMaxStudioJson) {
+    throw Refusal(413, "too_large",
+                  fmt::format("the body of a request may have at most {} bytes", kMaxStudioJson));
+  }
   if (path == "api/step") return session.step(studio::parse_object(request.body));
   if (path == "api/live") return session.live(studio::parse_object(request.body));
   if (path.starts_with("api/job/") && path.ends_with("/cancel")) {
