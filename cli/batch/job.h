@@ -23,6 +23,7 @@ struct BatchOptions {
   std::string shard;               // "2/8"; empty: all rows
   std::string outputs;             // the folder; empty: files are not kept
   bool merge = false, restart = false, no_times = false, strict = false, coefficients = false;
+  bool raw_cells = false;
   bool json = false;
 };
 

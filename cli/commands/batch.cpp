@@ -95,7 +95,7 @@ int tell(const BatchOptions& options, const BatchTable& table, Session& session)
 int merge(const BatchOptions& options, Session& session) {
   check_writable(options.output);
   const BatchTable table = merge_parts(options);
-  write_batch(table, options.output);
+  write_batch(table, options.output, true, options.raw_cells);
   return tell(options, table, session);
 }
 
@@ -123,7 +123,7 @@ int run(const BatchOptions& options, const RunRows& run_rows_here, Session& sess
     return 128 + interrupting_signal();
   }
   const BatchTable table = table_of(job, journal);
-  write_batch(table, options.output, options.coefficients);
+  write_batch(table, options.output, options.coefficients, options.raw_cells);
   journal.remove();
   return tell(options, table, session);
 }
@@ -169,6 +169,11 @@ std::vector<Option> option_list(BatchOptions& o) {
           {.name = "coefficients",
            .help = "CSV: the coefficients as well, a column each; HDF5 has them in any case",
            .target = &o.coefficients},
+          {.name = "raw-cells",
+           .help = "CSV: texts as they are; by default those that programs for tables take for "
+                   "formulas (they begin with =, +, -, @ and are no numbers) have an apostrophe "
+                   "before them",
+           .target = &o.raw_cells},
           {.name = "strict",
            .help = "exit code 3 if a row failed, once all are done and written",
            .target = &o.strict},

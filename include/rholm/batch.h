@@ -109,9 +109,11 @@ bool column_before(std::string_view a, std::string_view b);
 
 // As HDF5 (.h5) or CSV (.csv, or "-"), whole or not at all. In CSV a list is as many columns,
 // name.0, name.1, ...; `with_coefficients` is whether those named coefficients are among them.
-// Throws Io, InvalidInput for another extension.
+// Texts in CSV that programs for tables take for formulas (they begin with = + - @ and are no
+// numbers) have an apostrophe before them, which read_batch() and parse_manifest() take away,
+// unless `raw_cells`. Throws Io, InvalidInput for another extension.
 void write_batch(const BatchTable& table, const std::filesystem::path& path,
-                 bool with_coefficients = true);
+                 bool with_coefficients = true, bool raw_cells = false);
 // The same of a file. Of CSV, which does not say what they are, all values are texts, and columns
 // in the order of the file. Throws Io, InvalidInput, Unsupported.
 BatchTable read_batch(const std::filesystem::path& path);

@@ -67,8 +67,13 @@ class BatchTable:
         failed = int(self.failed.sum())
         return f"BatchTable({len(self)} rows, {failed} failed, {len(self._columns)} columns)"
 
-    def to_csv(self, path: str | os.PathLike[str], *, coefficients: bool = True) -> None:
+    def to_csv(
+        self, path: str | os.PathLike[str], *, coefficients: bool = True, raw_cells: bool = False
+    ) -> None:
         """Writes comma-separated values; a list of numbers is as many columns.
+
+        Texts that programs for tables take for formulas (they begin with =, +, -, @ and are no numbers)
+        have an apostrophe before them, which `read_batch` takes away.
 
         Parameters
         ----------
@@ -76,8 +81,10 @@ class BatchTable:
             Ends in .csv; replaced when complete.
         coefficients : bool
             False leaves out the column ``coefficients``.
+        raw_cells : bool
+            Writes all texts as they are.
         """
-        self._write(path, ".csv", coefficients)
+        self._write(path, ".csv", coefficients, raw_cells)
 
     def to_hdf5(self, path: str | os.PathLike[str]) -> None:
         """Writes HDF5, a dataset for each column: docs/batch.md has the layout.
@@ -87,7 +94,7 @@ class BatchTable:
         path : path
             Ends in .h5; replaced when complete.
         """
-        self._write(path, ".h5", True)
+        self._write(path, ".h5", True, False)
 
     def to_pandas(self) -> Any:
         """A ``pandas.DataFrame``; a list of numbers is as many columns, name.0, name.1, ..."""
@@ -118,11 +125,13 @@ class BatchTable:
             )
         parquet.write_table(arrow.table(arrays), os.fspath(path))
 
-    def _write(self, path: str | os.PathLike[str], extension: str, coefficients: bool) -> None:
+    def _write(
+        self, path: str | os.PathLike[str], extension: str, coefficients: bool, raw_cells: bool
+    ) -> None:
         name = os.fspath(path)
         if not name.endswith(extension):
             raise ValueError(f"the file is called *{extension}, not {name!r}")
-        self._core.write(name, coefficients)
+        self._core.write(name, coefficients, raw_cells)
 
 
 def read_batch(path: str | os.PathLike[str]) -> BatchTable:

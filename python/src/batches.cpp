@@ -86,9 +86,10 @@ void bind_batches(nb::module_& m) {
       .def_prop_ro("rows", [](const BatchTable& table) { return table.rows; })
       .def_prop_ro("leading", [](const BatchTable& table) { return table.leading; })
       .def_prop_ro("columns", &columns_of)
-      .def("write", [](const BatchTable& table, const std::string& path, bool with_coefficients) {
+      .def("write", [](const BatchTable& table, const std::string& path, bool with_coefficients,
+                       bool raw_cells) {
         const nb::gil_scoped_release release;
-        write_batch(table, path, with_coefficients);
+        write_batch(table, path, with_coefficients, raw_cells);
       });
   nb::class_<BatchJournal>(m, "BatchJournal", "Rows that are done, in a file.")
       .def("__init__",

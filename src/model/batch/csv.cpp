@@ -8,6 +8,19 @@
 namespace rholm {
 namespace {
 
+// Whether a text begins as formulas do, behind as many apostrophes.
+bool begins_like_formula(std::string_view text) {
+  const std::size_t first = text.find_first_not_of('\'');
+  constexpr std::string_view kBeginnings = "=+-@\t\r";
+  return first != std::string_view::npos && kBeginnings.find(text[first]) != std::string_view::npos;
+}
+
+bool is_number(std::string_view text) {
+  TextCursor cursor(text);
+  double value = 0;
+  return take_number(cursor, value) && cursor.at_end();
+}
+
 // One pass over the text. A quote opens a field only at its beginning; within it, two stand for
 // one.
 class CsvReader {
@@ -58,7 +71,8 @@ class CsvReader {
   }
 
   std::string field() {
-    const std::string value = !text_.at_end() && *text_.at == '"' ? quoted() : plain();
+    std::string value = !text_.at_end() && *text_.at == '"' ? quoted() : plain();
+    if (value.starts_with('\'') && begins_like_formula(value)) value.erase(0, 1);
     if (!is_utf8(value) || value.find('\0') != std::string::npos) fail("is not text in UTF-8");
     return value;
   }
@@ -111,7 +125,10 @@ std::vector<CsvRecord> parse_csv(std::span<const char> text, const std::string& 
   return CsvReader(text, name, most_bytes).records();
 }
 
-std::string csv_field(std::string_view text) {
+std::string csv_field(std::string_view text, bool raw) {
+  if (!raw && begins_like_formula(text) && !is_number(text)) {
+    return csv_field("'" + std::string(text), true);
+  }
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
   std::string field = "\"";
   for (const char c : text) {

@@ -9,7 +9,7 @@
 
 namespace rholm {
 
-std::string table_csv(const BatchTable& table, bool with_coefficients);
+std::string table_csv(const BatchTable& table, bool with_coefficients, bool raw_cells = false);
 // All values as texts. Throws InvalidInput; `name` is the file.
 BatchTable parse_table_csv(std::span<const char> text, const std::string& name);
 

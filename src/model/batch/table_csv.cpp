@@ -39,10 +39,10 @@ std::vector<Place> places_of(const BatchTable& table, bool with_coefficients) {
   return places;
 }
 
-std::string text_of(const Place& place, std::size_t row) {
+std::string text_of(const Place& place, std::size_t row, bool raw_cells) {
   const auto& values = place.column->values;
   if (const auto* texts = std::get_if<std::vector<std::string>>(&values)) {
-    return csv_field((*texts)[row]);
+    return csv_field((*texts)[row], raw_cells);
   }
   if (const auto* booleans = std::get_if<std::vector<std::int8_t>>(&values)) {
     return (*booleans)[row] < 0 ? "" : (*booleans)[row] == 1 ? "true" : "false";
@@ -75,16 +75,16 @@ std::string cell_text(const Cell& cell) {
   return text;
 }
 
-std::string table_csv(const BatchTable& table, bool with_coefficients) {
+std::string table_csv(const BatchTable& table, bool with_coefficients, bool raw_cells) {
   const std::vector<Place> places = places_of(table, with_coefficients);
   std::string text;
   const auto line = [&](const auto& field) {
     for (std::size_t i = 0; i < places.size(); ++i) text += (i > 0 ? "," : "") + field(places[i]);
     text += '\n';
   };
-  line([](const Place& place) { return csv_field(place.name); });
+  line([&](const Place& place) { return csv_field(place.name, raw_cells); });
   for (std::size_t r = 0; r < table.rows; ++r) {
-    line([&](const Place& place) { return text_of(place, r); });
+    line([&](const Place& place) { return text_of(place, r, raw_cells); });
   }
   return text;
 }

@@ -9,14 +9,14 @@
 
 namespace rholm {
 
-void write_batch(const BatchTable& table, const std::filesystem::path& path,
-                 bool with_coefficients) {
+void write_batch(const BatchTable& table, const std::filesystem::path& path, bool with_coefficients,
+                 bool raw_cells) {
   if (path.extension() == ".h5") return write_table_hdf5(table, path);
   if (path != "-" && path.extension() != ".csv") {
     throw Error(ErrorCode::kInvalidInput,
                 path.string() + ": a table is written as .h5 (HDF5) or .csv");
   }
-  write_file(path, table_csv(table, with_coefficients));
+  write_file(path, table_csv(table, with_coefficients, raw_cells));
 }
 
 BatchTable read_batch(const std::filesystem::path& path) {

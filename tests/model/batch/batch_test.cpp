@@ -87,6 +87,21 @@ TEST(Manifest, any_field_survives_being_written_and_read) {
   }
 }
 
+TEST(Csv, texts_like_formulas_have_an_apostrophe) {
+  for (const char* text :
+       {"=1+1", "+cmd", "-x.ply", "@sum", "'=1", "''-x", "-", "\t=1", "= \"a\",b"}) {
+    const std::string field = csv_field(text);
+    EXPECT_EQ(field.find_first_not_of('"'), field.find('\'')) << field;
+    EXPECT_EQ(manifest_of("note,path\n" + field + ",a\n").items[0].values[0], text) << field;
+  }
+  // Numbers and all else are as they are, with an apostrophe of their own, too.
+  for (const char* text : {"-1", "+2.5e-3", "1=1", "a@b", "'tis", "'", ""}) {
+    EXPECT_EQ(csv_field(text), text);
+    EXPECT_EQ(manifest_of(std::string("note,path\n") + text + ",a\n").items[0].values[0], text);
+  }
+  EXPECT_EQ(csv_field("=1+1", true), "=1+1");
+}
+
 // Cut and flipped anywhere, a manifest is read or refused.
 TEST(Manifest, damaged_text_is_read_or_refused) {
   const std::string whole = "id,path,note\n1,a.ply,\"one, \"\"two\"\"\"\r\n2,\"b.ply\",\xc3\xa9\n";
