@@ -112,8 +112,9 @@ void check_reached(const Options& options, const Encoded& encoded) {
 int run(const Options& options, const AnalyzeBy& by, Session& session) {
   by.check_input(options.input);
   if (options.atlas) return analyze_atlas(options, session);
-  if (!options.fit.empty() || !options.extension.empty() || options.max_numbers) {
-    throw UsageError("--fit, --extension and --max-numbers go with --atlas");
+  if (!options.fit.empty() || !options.extension.empty() || options.max_numbers ||
+      !options.columns.empty()) {
+    throw UsageError("--fit, --extension, --max-numbers and --columns go with --atlas");
   }
   if (options.degree && options.tolerance.tolerance) {
     throw UsageError("--degree L or --tolerance E: only one of the two can be kept");
@@ -257,6 +258,7 @@ std::vector<Option> option_list(Options& o) {
   append(list, transform_options(o));
   append(list, monte_carlo_options(o));
   append(list, {rays_option(o.rays), weld_option(o.weld), length_unit_option(o.length_unit),
+                columns_option(o.columns),
                 output_option(o.output,
                               "file of coefficients: .h5 (model file), .sh (SHTOOLS text), "
                               ".gfc, .json, .npy; - for standard output"),

@@ -159,7 +159,7 @@ int analyze_atlas(const AnalyzeCommandOptions& options, Session& session) {
   if (output.format) throw UsageError("an atlas goes to a model file: -o NAME.h5");
   check_writable(options.output);
 
-  ShapeFile file = read_shape_input(options.input, session);
+  ShapeFile file = read_shape_input(options.input, session, options.columns);
   if (by_integrals(options)) {
     AtlasModel model = integrate_shape(options, std::move(file), session);
     write_model(options, model);

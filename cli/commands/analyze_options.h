@@ -34,6 +34,7 @@ struct AnalyzeCommandOptions {
   int rays = 100'000;
   double weld = 0;
   std::string length_unit;
+  std::string columns;  // of points; empty: what the file says
   MemoryOptions memory;
   std::string output;
   std::string format;

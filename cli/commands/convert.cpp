@@ -32,6 +32,7 @@ struct Options {
   ConventionOptions to;
   InputConvention from;
   MemoryOptions memory;
+  std::string columns;
   bool ascii = false;
 };
 
@@ -58,12 +59,6 @@ bool is_one_of(const std::string& name, const std::vector<std::string>& formats)
   return std::find(formats.begin(), formats.end(), name) != formats.end();
 }
 
-void warn(const Options& options, const std::vector<std::string>& warnings, Session& session) {
-  for (const std::string& warning : warnings) {
-    session.warn(fmt::format("{}: {}", display_name(options.input), warning));
-  }
-}
-
 void convert_shape(const Options& options, const ShapeFile& file, Session& session) {
   const std::string wanted = named_format(options);
   if (is_one_of(wanted, coefficients_formats()) && extension_of(options.output) != ".txt") {
@@ -73,10 +68,10 @@ void convert_shape(const Options& options, const ShapeFile& file, Session& sessi
                     display_name(options.input), wanted, options.input, options.output));
   }
   const ShapeFormat format = shape_output(options.output, options.format);
-  warn(options, file.warnings, session);
+  say_what_was_read(file, options.input, session);
   std::visit(
       [&](const auto& shape) {
-        write_shape(shape, options.output, {format, options.ascii}, session.context());
+        write_shape_output(shape, options.output, {format, options.ascii}, session);
         note_attributes_left_out(shape.attributes, format, options.output, session);
       },
       file.shape);
@@ -85,12 +80,13 @@ void convert_shape(const Options& options, const ShapeFile& file, Session& sessi
 // A mesh in a binary PLY is written from where it lies, in little memory; false if it is not
 // one, or no shape is wanted.
 bool convert_mapped(const Options& options, const std::string& path, Session& session) {
-  if (!is_one_of(named_format(options), shape_formats())) return false;
+  if (!options.columns.empty() || !is_one_of(named_format(options), shape_formats())) return false;
   const ShapeFormat format = shape_output(options.output, options.format);
   const std::optional<ConvertedMesh> mesh =
       convert_mesh(path, options.output, {format, options.ascii}, session.context());
   if (!mesh) return false;
-  warn(options, mesh->warnings, session);
+  say_what_was_read({}, mesh->warnings, options.input, session);
+  warn_of_output(mesh->written, options.output, session);
   note_attributes_left_out(mesh->attributes, format, options.output, session);
   return true;
 }
@@ -114,9 +110,10 @@ bool are_read_in_pieces(const Options& options, const std::string& path, bool la
   const std::string wanted = named_format(options);
   if (wanted != "ply" && wanted != "xyz") return false;
   const bool spooled = path != options.input;
-  if (!is_shape(path).value_or(spooled || extension_of(path) == ".csv")) return false;
+  if (!is_shape(path).value_or(spooled || !options.columns.empty() || extension_of(path) == ".csv"))
+    return false;
   try {
-    const PointStream stream(path);
+    const PointStream stream(path, {.columns = options.columns});
     return !stream.has_faces() && (large || stream.is_all());
   } catch (const Error& error) {
     if (error.code() == ErrorCode::kCancelled) throw;
@@ -131,9 +128,9 @@ bool convert_in_pieces(const Options& options, const std::string& path, Session&
   const auto limit = static_cast<double>(options.memory.limit());
   if (none || !are_read_in_pieces(options, path, kMemoryPerByte * size > limit)) return false;
   const ShapeFormat format = shape_output(options.output, options.format);
-  const ConvertedPoints converted =
-      convert_points(path, options.output, {format, options.ascii}, session.context());
-  warn(options, converted.warnings, session);
+  const ConvertedPoints converted = convert_points(path, options.output, {format, options.ascii},
+                                                   session.context(), options.columns);
+  say_what_was_read(converted.table, converted.warnings, options.input, session);
   note_attributes_left_out(converted.attributes, format, options.output, session);
   return true;
 }
@@ -148,11 +145,12 @@ bool convert_in_place(const Options& options, const std::string& path, Session& 
 std::optional<Input> rest_of_input(const Options& options, Session& session) {
   if (!is_stream(options.input)) {
     if (convert_in_place(options, options.input, session)) return {};
-    return read_input(options.input, session, options.from);
+    return read_input(options.input, session, options.from, options.columns);
   }
   SpooledInput spooled(options.input, options.memory.limit() / 4, options.memory.folder());
   if (!spooled.is_in_file()) {
-    return read_input_of(spooled.take_bytes(), options.input, session, options.from);
+    return read_input_of(spooled.take_bytes(), options.input, session, options.from,
+                         options.columns);
   }
   const std::string path = spooled.path_of_file();
   try {
@@ -165,7 +163,8 @@ std::optional<Input> rest_of_input(const Options& options, Session& session) {
     throw Error(error.code(), what);
   }
   const std::span<const char> bytes = spooled.bytes();
-  return read_input_of({bytes.begin(), bytes.end()}, options.input, session, options.from);
+  return read_input_of({bytes.begin(), bytes.end()}, options.input, session, options.from,
+                       options.columns);
 }
 
 int run(const Options& options, Session& session) {
@@ -204,7 +203,8 @@ std::vector<Option> option_list(Options& o) {
                          "says otherwise",
                  .target = &o.from.override_file},
                 format_option(o.format, all_formats()),
-                {.name = "ascii", .help = "PLY and STL as text", .target = &o.ascii}});
+                {.name = "ascii", .help = "PLY and STL as text", .target = &o.ascii},
+                columns_option(o.columns)});
   append(list, memory_options(o.memory));
   return list;
 }

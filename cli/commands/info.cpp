@@ -31,6 +31,7 @@ struct Options {
   double weld = 0;
   MemoryOptions memory;
   InputConvention convention;
+  std::string columns;
   bool json = false;
 };
 
@@ -165,6 +166,21 @@ std::string cloud_text(const PointCloud& cloud, std::uint64_t n) {
          line("diagonal", text_of(box.diagonal())) + line("attributes", text_of(cloud.attributes));
 }
 
+// What a text table was taken for, as a line and in JSON.
+void add_table(const TableColumns& table, std::string& text, Json& json) {
+  if (table.note.empty()) return;
+  std::vector<std::string> names, taken_for;
+  for (const TableColumn& column : table.columns) {
+    names.push_back(column.name);
+    taken_for.push_back(column.taken_for);
+  }
+  json["table_columns"] = taken_for;
+  json["table_names"] = names;
+  json["table_unsure"] = table.unsure;
+  json["table_note"] = table.note;
+  text += line(table.unsure ? "unsure" : "table", table.note);
+}
+
 int report_shape(const Options& options, const ShapeFile& file) {
   const auto* mesh = std::get_if<Mesh>(&file.shape);
   Json json;
@@ -189,6 +205,7 @@ int report_shape(const Options& options, const ShapeFile& file) {
     const auto& cloud = std::get<PointCloud>(file.shape);
     text += cloud_text(cloud, cloud.points.size());
   }
+  add_table(file.table, text, json);
   json["warnings"] = file.warnings;
   for (const std::string& warning : file.warnings) text += line("warning", warning);
   options.json ? print_json(json) : print_text(text);
@@ -238,7 +255,7 @@ bool report_large_cloud(const Options& options, Session& session) {
   const bool may_be_points =
       extension == ".ply" || extension == ".xyz" || extension == ".pwn" || extension == ".csv";
   if (!may_be_points) return false;
-  PointStream stream(options.input);
+  PointStream stream(options.input, {.columns = options.columns});
   if (stream.has_faces()) return false;
   constexpr std::size_t kPiece = std::size_t{1} << 18;  // chosen: some 10 MB
   PointCloud piece;
@@ -264,6 +281,7 @@ bool report_large_cloud(const Options& options, Session& session) {
   std::string text = fmt::format("{}: points, {}, {}\n", options.input, to_string(stream.format()),
                                  stream.encoding());
   text += cloud_text(seen, stream.read_so_far());
+  add_table(stream.table(), text, json);
   for (const std::string& warning : stream.warnings()) text += line("warning", warning);
   options.json ? print_json(json) : print_text(text);
   return true;
@@ -361,7 +379,7 @@ int report_coefficients(const Options& options, const CoefficientsFile& file, Se
 int run(const Options& options, Session& session) {
   if (holds_atlas(options.input)) return report_atlas(options.input, options.json);
   if (report_large(options, session)) return 0;
-  const Input input = read_input(options.input, session, options.convention);
+  const Input input = read_input(options.input, session, options.convention, options.columns);
   if (const auto* file = std::get_if<ShapeFile>(&input)) return report_shape(options, *file);
   return report_coefficients(options, std::get<CoefficientsFile>(input), session);
 }
@@ -374,6 +392,7 @@ std::vector<Option> option_list(Options& o) {
        .required = true,
        .offer = Offer::kShapesAndCoefficients},
       weld_option(o.weld),
+      columns_option(o.columns),
       max_memory_option(o.memory)};
   append(list, input_convention_options(o.convention));
   list.push_back(json_option(o.json));

@@ -106,14 +106,14 @@ int run(const Options& options, Session& session) {
     PointCloud cloud = make_sample(options.sample, seed, session);
     for (Vec3& point : cloud.points) point += shift;
     stop_if_interrupted();
-    write_shape(cloud, options.output, writing, session.context());
+    write_shape_output(cloud, options.output, writing, session);
     note_attributes_left_out(cloud.attributes, format, options.output, session);
     return 0;
   }
   Mesh mesh = make_shape(options);
   for (Vec3& vertex : mesh.vertices) vertex += shift;
   stop_if_interrupted();
-  write_shape(mesh, options.output, writing, session.context());
+  write_shape_output(mesh, options.output, writing, session);
   return 0;
 }
 

@@ -22,6 +22,7 @@ struct Options {
   std::optional<int> neighbors;
   std::string center;
   std::string sensor;
+  std::string columns;
   bool keep_directions = false;
   bool keep_outliers = false;
   bool confidence = false;
@@ -47,9 +48,7 @@ OrientOptions library_options(const Options& o) {
 
 // A mesh's vertices are points too; what faces knew of their sides is not asked.
 PointCloud points_of(ShapeFile file, const std::string& path, Session& session) {
-  for (const std::string& warning : file.warnings) {
-    session.warn(fmt::format("{}: {}", display_name(path), warning));
-  }
+  say_what_was_read(file, path, session);
   if (auto* cloud = std::get_if<PointCloud>(&file.shape)) return std::move(*cloud);
   Mesh mesh = std::get<Mesh>(std::move(file.shape));
   session.note(fmt::format("{} is a mesh: its {} vertices are taken as points", display_name(path),
@@ -98,11 +97,12 @@ int run(const Options& options, Session& session) {
   const OrientOptions wanted = library_options(options);
   const ShapeFormat format = points_output(options.output, options.format, options.json);
   check_writable(options.output);
-  PointCloud cloud = points_of(read_shape_input(options.input, session), options.input, session);
+  PointCloud cloud =
+      points_of(read_shape_input(options.input, session, options.columns), options.input, session);
   const bool had_normals = !cloud.normals.empty();
   const OrientReport report = orient(cloud, wanted, session.context());
   stop_if_interrupted();
-  write_shape(cloud, options.output, {format, options.ascii}, session.context());
+  write_shape_output(cloud, options.output, {format, options.ascii}, session);
   if (options.json) {
     Json json;
     json["file"] = options.input;
@@ -152,6 +152,7 @@ std::vector<Option> option_list(Options& o) {
           {.name = "confidence",
            .help = "give each point its confidence, 0 ... 1, as an attribute",
            .target = &o.confidence},
+          columns_option(o.columns),
           output_option(o.output, "points to write: .ply, .xyz, .obj, .off; - for standard output"),
           format_option(o.format, {"ply", "obj", "off", "xyz"}),
           {.name = "ascii", .help = "PLY as text", .target = &o.ascii},

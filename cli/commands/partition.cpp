@@ -20,7 +20,7 @@ namespace rholm::cli {
 namespace {
 
 struct Options {
-  std::string input, output, format;
+  std::string input, output, format, columns;
   std::string show = "caps";
   double tolerance = 1e-3;
   double min_cosine = 0.5;
@@ -48,7 +48,7 @@ void show_caps(const Options& options, ShapeFormat format, Shape& shape,
   } else {
     set_cap_colors(shape.attributes, atlas, caps);
   }
-  write_shape(shape, options.output, {format, false}, session.context());
+  write_shape_output(shape, options.output, {format, false}, session);
   const auto [least, most] =
       std::minmax_element(atlas.caps.begin(), atlas.caps.end(),
                           [](const Cap& a, const Cap& b) { return a.degree < b.degree; });
@@ -68,7 +68,7 @@ void show_patches(const Options& options, ShapeFormat format, const Shape& shape
   wanted.min_cosine = options.min_cosine;
   const PatchPicture picture =
       patch_picture(shape, parse_patch_view(options.show), wanted, session.context());
-  write_shape(picture.mesh, options.output, {format, false}, session.context());
+  write_shape_output(picture.mesh, options.output, {format, false}, session);
   json["patches"] = picture.patches;
   if (!options.json) {
     session.note(counted(picture.patches, "patch", "patches"));
@@ -79,7 +79,7 @@ int run(const Options& options, Session& session) {
   const ShapeFormat format = shape_output(options.output, options.format, options.json);
   if (format != ShapeFormat::kPly) throw UsageError("colours need a .ply file");
   check_writable(options.output);
-  ShapeFile file = read_shape_input(options.input, session);
+  ShapeFile file = read_shape_input(options.input, session, options.columns);
   Json json;
   json["file"] = options.input;
   json["output"] = options.output;
@@ -92,6 +92,7 @@ int run(const Options& options, Session& session) {
     }
   };
   if (auto* cloud = std::get_if<PointCloud>(&file.shape)) {
+    say_what_was_read(file, options.input, session);
     finish(*cloud, cloud->points);
   } else {
     Mesh mesh = weld(mesh_of(std::move(file), options.input, session)).mesh;
@@ -130,6 +131,7 @@ Command partition_command() {
                        .help = "what is drawn; caps by default",
                        .target = &o.show,
                        .choices = {"caps", "degrees", "patches", "triangles", "spheres"}},
+                      columns_option(o.columns),
                       {.name = "tolerance",
                        .value = "E",
                        .help = "rms distance of the caps, of the diagonal; 0.001 by default",

@@ -50,6 +50,7 @@ struct Options {
   bool keep_scans = false;
   bool confidence = false;
   std::string model;
+  std::string columns;
   std::string output;
   std::string format;
   bool ascii = false;
@@ -151,7 +152,7 @@ void run_in_one_piece(PointCloud cloud, ShapeFormat format, const Options& optio
   const ReconstructOptions wanted = library_options(options, box);
   const Reconstruction made = reconstruct(std::move(cloud), wanted, session.context());
   stop_if_interrupted();
-  write_shape(made.mesh, options.output, {format, options.ascii}, session.context());
+  write_shape_output(made.mesh, options.output, {format, options.ascii}, session);
   // Last, as it is not interrupted: who reads that nothing was written finds nothing.
   if (!options.model.empty()) {
     write_atlas({.atlas = made.atlas,
@@ -188,12 +189,14 @@ void run_in_bricks(const PointsInput& input, ShapeFormat format, const Options& 
   const bool relative = options.resolution || options.tolerance || options.noise != "auto";
   Bounds box;
   if (relative) {
-    box = input.cloud ? bounds(input.cloud->points) : bounds_of_points(input.file, session);
+    box = input.cloud ? bounds(input.cloud->points)
+                      : bounds_of_points(input.file, options.columns, session);
   }
   const ReconstructOptions wanted = library_options(options, box);
   BrickOptions bricks{.points_per_brick = points_per_brick(options),
                       .resume = options.resume,
-                      .model = options.model};
+                      .model = options.model,
+                      .columns = options.columns};
   std::optional<BrickFolder> folder;
   const bool shared = by.several();
   if (shared && options.memory.work_dir.empty()) {
@@ -241,7 +244,8 @@ int run(const Options& options, const BrickWorkers& by, Session& session) {
     throw UsageError("--resume needs an output with a name: -o NAME.ply");
   }
   const std::uint64_t most = points_per_brick(options);
-  PointsInput input = read_points_input(options.input, most, options.memory, session);
+  PointsInput input =
+      read_points_input(options.input, most, options.columns, options.memory, session);
   if (input.cloud) validate(*input.cloud);
   if (input.cloud && input.cloud->points.size() <= most) {
     run_in_one_piece(std::move(*input.cloud), format, options, session);
@@ -286,6 +290,7 @@ std::vector<Option> option_list(Options& o) {
        .min = 4,
        .max = 65536},
       simplify_option(o.simplify),
+      columns_option(o.columns),
       {.name = "min-component",
        .value = "SHARE",
        .help = "parts with less of the largest one's area are dropped; 0.01 by default",

@@ -42,6 +42,7 @@ struct Options {
   std::optional<int> subdivisions;
   std::string output;
   std::string format;
+  std::string columns;
   InputConvention convention;
 };
 
@@ -124,9 +125,7 @@ void add_panel(Mesh mesh, const std::string& label, bool smooth, Scene& scene) {
 
 void add_points(ShapeFile file, const std::string& path, const std::string& label, Session& session,
                 Scene& scene) {
-  for (const std::string& warning : file.warnings) {
-    session.warn(fmt::format("{}: {}", display_name(path), warning));
-  }
+  say_what_was_read(file, path, session);
   scene.clouds.push_back(std::get<PointCloud>(std::move(file.shape)));
   scene.panels.push_back({.label = label, .points = &scene.clouds.back()});
 }
@@ -138,7 +137,7 @@ const std::vector<Vec3>& places(const Panel& panel) {
 
 // A shape is one panel, a model one for each degree asked for.
 void add_input(const Options& options, const std::string& path, Session& session, Scene& scene) {
-  Input input = read_surface_input(path, session, options.convention);
+  Input input = read_surface_input(path, session, options.convention, options.columns);
   scene.unit.add(input, path, session);
   const std::string name = path == "-" ? "input" : std::filesystem::path(path).stem().string();
   auto* shape = std::get_if<ShapeFile>(&input);
@@ -304,6 +303,7 @@ std::vector<Option> picture_options(Options& o) {
 std::vector<Option> option_list(Options& o) {
   std::vector<Option> list = picture_options(o);
   append(list, input_convention_options(o.convention));
+  list.push_back(columns_option(o.columns));
   return list;
 }
 

@@ -173,7 +173,7 @@ int run(const Options& options, Session& session) {
                 fmt::format("{} has no face with an area: nothing is left to write",
                             display_name(options.input)));
   }
-  write_shape(result.mesh, options.output, {format, options.ascii}, session.context());
+  write_shape_output(result.mesh, options.output, {format, options.ascii}, session);
   if (options.json) {
     print_json(report_json(result.report, options));
   } else if (options.output != "-") {

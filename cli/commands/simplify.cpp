@@ -77,7 +77,7 @@ int run(const Options& options, Session& session) {
   const SimplifyOptions wanted = library_options(options, faces, mesh);
   const Simplification result = simplify(std::move(mesh), wanted, session.context());
   stop_if_interrupted();
-  write_shape(result.mesh, options.output, {format, options.ascii}, session.context());
+  write_shape_output(result.mesh, options.output, {format, options.ascii}, session);
   const std::size_t n = result.mesh.triangles.size();
   if (options.json) {
     print_json({{"file", options.input},

@@ -98,7 +98,7 @@ int run(const Options& options, Session& session) {
   const std::vector<Vec3> positions = update(patch, {.strength = options.strength});
   apply(patch, positions, mesh);
   stop_if_interrupted();
-  write_shape(mesh, options.output, {format, options.ascii}, session.context());
+  write_shape_output(mesh, options.output, {format, options.ascii}, session);
   if (patch.unreached > 0) {
     session.warn(fmt::format("{} of the region were left: no cap sees them",
                              counted(patch.unreached, "vertex", "vertices")));

@@ -120,7 +120,7 @@ int run(const Options& options, Session& session) {
     const std::string path = output_for(options.output, degrees[i], several);
     warn_of_crossings(surfaces[i], sphere, expansion.center, path, session);
     stop_if_interrupted();
-    write_shape(surfaces[i], path, {format, options.ascii}, session.context());
+    write_shape_output(surfaces[i], path, {format, options.ascii}, session);
     json["outputs"].push_back({{"degree", std::min(degrees[i], highest)}, {"file", path}});
     if (several) session.note(fmt::format("degree {} is in {}", degrees[i], path));
   }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/files/outputs.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/json_text.h"
 #include "rholm/compress.h"
@@ -16,7 +17,7 @@ int synthesize_atlas(const SynthesizeAtlasOptions& options, Session& session) {
   wanted.simplify = options.simplify;
   const Mesh surface = synthesize(model, wanted, session.context());
   stop_if_interrupted();
-  write_shape(surface, options.output, {options.format, options.ascii}, session.context());
+  write_shape_output(surface, options.output, {options.format, options.ascii}, session);
   if (options.json) {
     Json json;
     json["file"] = options.input;

@@ -118,7 +118,7 @@ int run(const Options& options, Session& session) {
   const std::vector<Vec3> positions = update(analysis, wanted);
   apply(analysis.patch, positions, analysis.mesh);
   stop_if_interrupted();
-  write_shape(analysis.mesh, options.output, {format, options.ascii}, session.context());
+  write_shape_output(analysis.mesh, options.output, {format, options.ascii}, session);
   const double coarse = report.target_edge / (report.source_edge * report.scale);
   if (!options.refine && coarse > kCoarse) {
     session.note(fmt::format(

@@ -11,6 +11,7 @@
 
 #include "cli/files/input_descriptor.h"
 #include "cli/files/spooled_input.h"
+#include "cli/grammar/values.h"
 #include "cli/terminal/interrupt.h"
 #include "rholm/compress.h"
 #include "rholm/error.h"
@@ -45,7 +46,7 @@ bool begins_with(std::span<const char> bytes, std::string_view text) {
 }
 
 Guess guess_by_extension(const std::string& extension) {
-  for (const char* shape : {".ply", ".obj", ".off", ".stl", ".xyz", ".pwn"}) {
+  for (const char* shape : {".ply", ".obj", ".off", ".stl", ".xyz", ".pwn", ".pts"}) {
     if (extension == shape) return Guess::kShape;
   }
   if (extension == ".h5") return Guess::kModel;
@@ -74,25 +75,29 @@ struct Source {
   std::string path;
   std::optional<Bytes> stream;
   Guess guess = Guess::kUnknown;
+  ShapeReadOptions reading = {};
 };
 
-Source look_at(const std::string& path) {
-  Source source{.path = path, .stream = {}};
+// A file whose columns are named is a table of points.
+Source look_at(const std::string& path, const std::string& columns = {}) {
+  Source source{.path = path, .stream = {}, .reading = {.columns = columns}};
   Bytes head;
   if (is_stream(path)) {
     source.stream = read_bytes(path, std::numeric_limits<std::size_t>::max());
   } else {
     head = read_bytes(path, kHead);
   }
-  source.guess = guess(source.stream ? *source.stream : head, path);
+  source.guess =
+      columns.empty() ? guess(source.stream ? *source.stream : head, path) : Guess::kShape;
   return source;
 }
 
 ShapeFile read_shape_of(const Source& source, Session& session) {
   if (source.stream) {
-    return parse_shape(*source.stream, display_name(source.path), {}, session.context());
+    return parse_shape(*source.stream, display_name(source.path), source.reading,
+                       session.context());
   }
-  return read_shape(source.path, {}, session.context());
+  return read_shape(source.path, source.reading, session.context());
 }
 
 // What a reader of the numbers has to know, once for each file.
@@ -192,6 +197,19 @@ Option model_operand(std::string& path) {
           .offer = Offer::kCoefficients};
 }
 
+Option columns_option(std::string& columns) {
+  return {.name = "columns",
+          .value = "LIST",
+          .help =
+              "what the columns of a text table are, as in x,y,z,r,g,b,nx,ny,nz,-: also a, or "
+              "lat,lon,radius (degrees north and east) for x,y,z; - passes over one, another word "
+              "names an attribute. By default the header and the values tell, and it is said",
+          .target = &columns,
+          .check = [](const std::string& option, const std::string& text) {
+            check_by(option, text, [&] { check_columns(text.empty() ? "," : text); });
+          }};
+}
+
 Option mesh_operand(std::string& path) {
   return {.name = "MESH",
           .help = "file of a mesh, or - for standard input",
@@ -220,8 +238,8 @@ bool is_stream(const std::string& path) {
          std::filesystem::is_character_file(status) || std::filesystem::is_socket(status);
 }
 
-ShapeFile read_shape_input(const std::string& path, Session& session) {
-  const Source source = look_at(path);
+ShapeFile read_shape_input(const std::string& path, Session& session, const std::string& columns) {
+  const Source source = look_at(path, columns);
   check_shape(source.guess, path);
   return read_shape_of(source, session);
 }
@@ -241,14 +259,15 @@ Expansion read_expansion(const std::string& path, Session& session,
   return std::move(file.expansion);
 }
 
-Input read_input(const std::string& path, Session& session, const InputConvention& convention) {
-  return told(read_either(look_at(path), session, convention), path, session, convention);
+Input read_input(const std::string& path, Session& session, const InputConvention& convention,
+                 const std::string& columns) {
+  return told(read_either(look_at(path, columns), session, convention), path, session, convention);
 }
 
 Input read_input_of(std::vector<char> bytes, const std::string& path, Session& session,
-                    const InputConvention& convention) {
-  Source source{.path = path, .stream = std::move(bytes)};
-  source.guess = guess(*source.stream, path);
+                    const InputConvention& convention, const std::string& columns) {
+  Source source{.path = path, .stream = std::move(bytes), .reading = {.columns = columns}};
+  source.guess = columns.empty() ? guess(*source.stream, path) : Guess::kShape;
   return told(read_either(source, session, convention), path, session, convention);
 }
 
@@ -259,8 +278,8 @@ std::optional<bool> is_shape(const std::string& path) {
 }
 
 Input read_surface_input(const std::string& path, Session& session,
-                         const InputConvention& convention) {
-  Input input = read_either(look_at(path), session, convention);
+                         const InputConvention& convention, const std::string& columns) {
+  Input input = read_either(look_at(path, columns), session, convention);
   if (const auto* file = std::get_if<CoefficientsFile>(&input)) {
     check_surface(*file, path);
     say_what_it_means(*file, path, session, convention);
@@ -278,10 +297,23 @@ bool holds_atlas(const std::string& path) {
   }
 }
 
-Mesh mesh_of(ShapeFile file, const std::string& path, Session& session) {
-  for (const std::string& warning : file.warnings) {
+void say_what_was_read(const TableColumns& table, const std::vector<std::string>& warnings,
+                       const std::string& path, Session& session) {
+  if (!table.note.empty()) {
+    const std::string text = fmt::format("{}: {}", display_name(path), table.note);
+    table.unsure ? session.warn(text) : session.note(text);
+  }
+  for (const std::string& warning : warnings) {
     session.warn(fmt::format("{}: {}", display_name(path), warning));
   }
+}
+
+void say_what_was_read(const ShapeFile& file, const std::string& path, Session& session) {
+  say_what_was_read(file.table, file.warnings, path, session);
+}
+
+Mesh mesh_of(ShapeFile file, const std::string& path, Session& session) {
+  say_what_was_read(file, path, session);
   if (const auto* cloud = std::get_if<PointCloud>(&file.shape)) {
     throw Error(ErrorCode::kInvalidInput,
                 fmt::format("{} holds {} points without faces, and a mesh is needed; 'rholm "
@@ -295,9 +327,10 @@ Mesh read_mesh(const std::string& path, Session& session) {
   return mesh_of(read_shape_input(path, session), path, session);
 }
 
-ShapeFile read_shape_of(std::span<const char> bytes, const std::string& path, Session& session) {
-  check_shape(guess(bytes.first(std::min(kHead, bytes.size())), path), path);
-  return parse_shape(bytes, display_name(path), {}, session.context());
+ShapeFile read_shape_of(std::span<const char> bytes, const std::string& path, Session& session,
+                        const std::string& columns) {
+  if (columns.empty()) check_shape(guess(bytes.first(std::min(kHead, bytes.size())), path), path);
+  return parse_shape(bytes, display_name(path), {.columns = columns}, session.context());
 }
 
 Mesh read_mesh_of(std::span<const char> bytes, const std::string& path, Session& session) {

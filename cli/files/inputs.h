@@ -22,21 +22,26 @@ namespace rholm::cli {
 Option model_operand(std::string& path);
 Option mesh_operand(std::string& path);
 
+// "--columns LIST": what the columns of a text table of points are.
+Option columns_option(std::string& columns);
+
 using Input = std::variant<ShapeFile, CoefficientsFile>;
 
 // Each throws what the readers throw; the wrong kind of file is InvalidInput, and the message
 // names the command that makes the right one. What a file of coefficients does not say, and was
-// assumed, is said, and if it is of no surface.
-ShapeFile read_shape_input(const std::string& path, Session& session);
+// assumed, is said, and if it is of no surface. `columns` is as in ShapeReadOptions.
+ShapeFile read_shape_input(const std::string& path, Session& session,
+                           const std::string& columns = {});
 CoefficientsFile read_coefficients_input(const std::string& path, Session& session,
                                          const InputConvention& convention);
-Input read_input(const std::string& path, Session& session, const InputConvention& convention);
+Input read_input(const std::string& path, Session& session, const InputConvention& convention,
+                 const std::string& columns = {});
 
 // The same where a surface is needed: coefficients of something else are Unsupported.
 Expansion read_expansion(const std::string& path, Session& session,
                          const InputConvention& convention);
 Input read_surface_input(const std::string& path, Session& session,
-                         const InputConvention& convention);
+                         const InputConvention& convention, const std::string& columns = {});
 
 // Standard input, a pipe or the like: what can be read once only.
 bool is_stream(const std::string& path);
@@ -45,7 +50,12 @@ bool is_stream(const std::string& path);
 std::optional<bool> is_shape(const std::string& path);
 // As read_input() of bytes that came from there.
 Input read_input_of(std::vector<char> bytes, const std::string& path, Session& session,
-                    const InputConvention& convention);
+                    const InputConvention& convention, const std::string& columns = {});
+
+// Says what the columns of a table were taken for, and the warnings of its reader.
+void say_what_was_read(const TableColumns& table, const std::vector<std::string>& warnings,
+                       const std::string& path, Session& session);
+void say_what_was_read(const ShapeFile& file, const std::string& path, Session& session);
 
 // Whether a file holds an atlas; streams and what cannot be read do not.
 bool holds_atlas(const std::string& path);

@@ -154,6 +154,22 @@ void check_writable(const std::string& path) {
   }
 }
 
+void warn_of_output(const std::vector<std::string>& warnings, const std::string& path,
+                    Session& session) {
+  const std::string name = path == "-" ? "standard output" : path;
+  for (const std::string& warning : warnings) session.warn(fmt::format("{}: {}", name, warning));
+}
+
+void write_shape_output(const Mesh& mesh, const std::string& path, const ShapeWriteOptions& options,
+                        Session& session) {
+  warn_of_output(write_shape(mesh, path, options, session.context()), path, session);
+}
+
+void write_shape_output(const PointCloud& cloud, const std::string& path,
+                        const ShapeWriteOptions& options, Session& session) {
+  warn_of_output(write_shape(cloud, path, options, session.context()), path, session);
+}
+
 void note_attributes_left_out(std::span<const Attribute> attributes, ShapeFormat format,
                               const std::string& path, Session& session) {
   const std::vector<std::string> lost = attributes_left_out(attributes, format);

@@ -63,6 +63,14 @@ void check_not_shared(const std::string& path, bool json);
 // work, the answer of the writer itself counts.
 void check_writable(const std::string& path);
 
+// write_shape(), and its warnings said.
+void write_shape_output(const Mesh& mesh, const std::string& path, const ShapeWriteOptions& options,
+                        Session& session);
+void write_shape_output(const PointCloud& cloud, const std::string& path,
+                        const ShapeWriteOptions& options, Session& session);
+void warn_of_output(const std::vector<std::string>& warnings, const std::string& path,
+                    Session& session);
+
 // Says which attributes of a shape that was written there the format has no room for.
 void note_attributes_left_out(std::span<const Attribute> attributes, ShapeFormat format,
                               const std::string& path, Session& session);

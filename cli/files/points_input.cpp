@@ -32,9 +32,7 @@ PointCloud points_of(Mesh mesh) {
 }
 
 PointCloud points_of(ShapeFile file, const std::string& path, Session& session) {
-  for (const std::string& warning : file.warnings) {
-    session.warn(fmt::format("{}: {}", display_name(path), warning));
-  }
+  say_what_was_read(file, path, session);
   if (auto* cloud = std::get_if<PointCloud>(&file.shape)) return std::move(*cloud);
   Mesh& mesh = std::get<Mesh>(file.shape);
   session.note(fmt::format("{} is a mesh: its {} vertices are taken as points", display_name(path),
@@ -44,19 +42,20 @@ PointCloud points_of(ShapeFile file, const std::string& path, Session& session) 
 
 // Whether a file has more points than that, and they can be read one after the other; how many, if
 // it says so.
-bool has_more(const std::string& path, std::uint64_t most, std::optional<std::uint64_t>& n,
-              Session& session) {
+bool has_more(const std::string& path, const std::string& columns, std::uint64_t most,
+              std::optional<std::uint64_t>& n, Session& session) {
   if (file_size_of(path).value_or(0) / kShortestLine <= most) return false;
   try {
-    PointStream stream(path);
+    PointStream stream(path, {.columns = columns});
     if (stream.has_faces()) return false;
     n = stream.size();
-    if (n) return *n > most;
     PointCloud some;
-    while (stream.read_so_far() <= most && stream.read(kAtATime, some, session.context())) {
+    while (!n && stream.read_so_far() <= most && stream.read(kAtATime, some, session.context())) {
       stop_if_interrupted();
     }
-    return stream.read_so_far() > most;
+    const bool more = n.value_or(stream.read_so_far()) > most;
+    if (more) say_what_was_read(stream.table(), {}, path, session);
+    return more;
   } catch (const Error& error) {
     if (error.code() == ErrorCode::kCancelled) throw;
     return false;  // the reader of the whole file says what is wrong
@@ -66,34 +65,34 @@ bool has_more(const std::string& path, std::uint64_t most, std::optional<std::ui
 }  // namespace
 
 PointsInput read_points_input(const std::string& path, std::uint64_t most,
-                              const MemoryOptions& memory, Session& session) {
+                              const std::string& columns, const MemoryOptions& memory,
+                              Session& session) {
   PointsInput input;
   if (is_stream(path)) {
     input.spooled = std::make_unique<SpooledInput>(path, memory.limit() / 4, memory.folder());
     if (!input.spooled->is_in_file()) {
-      input.cloud = points_of(read_shape_of(input.spooled->bytes(), path, session), path, session);
+      input.cloud =
+          points_of(read_shape_of(input.spooled->bytes(), path, session, columns), path, session);
       input.n = input.cloud->points.size();
       input.spooled.reset();
       return input;
     }
   }
   input.file = input.spooled ? input.spooled->path_of_file() : path;
-  if (!has_more(input.file, most, input.n, session)) {
-    input.cloud = points_of(read_shape_input(input.file, session), path, session);
+  if (!has_more(input.file, columns, most, input.n, session)) {
+    input.cloud = points_of(read_shape_input(input.file, session, columns), path, session);
   }
   if (input.cloud) input.n = input.cloud->points.size();
   return input;
 }
 
-Bounds bounds_of_points(const std::string& file, Session& session) {
-  PointStream stream(file);
+Bounds bounds_of_points(const std::string& file, const std::string& columns, Session& session) {
+  PointStream stream(file, {.columns = columns});
   PointCloud some;
   Bounds box;
   bool none = true;
   while (stream.read(kAtATime, some, session.context())) {
     stop_if_interrupted();
-    std::erase_if(some.points, [](const Vec3& p) { return !is_finite(p); });
-    if (some.points.empty()) continue;
     if (!none) some.points.insert(some.points.end(), {box.min, box.max});
     box = bounds(some.points);
     none = false;

@@ -24,10 +24,12 @@ struct PointsInput {
 // At most `most` points of files that can be read one after the other, all of others; of a mesh the
 // vertices, with the mean normals of their faces. Warnings of the reader are passed on. Throws what
 // it throws.
+// `columns` is as in ShapeReadOptions.
 PointsInput read_points_input(const std::string& path, std::uint64_t most,
-                              const MemoryOptions& memory, Session& session);
+                              const std::string& columns, const MemoryOptions& memory,
+                              Session& session);
 
 // The box of all points of the file that are finite.
-Bounds bounds_of_points(const std::string& file, Session& session);
+Bounds bounds_of_points(const std::string& file, const std::string& columns, Session& session);
 
 }  // namespace rholm::cli

@@ -47,7 +47,8 @@ class SpooledInput {
 
 // The shape of bytes that came from there, as read_shape_input() (inputs.h) reads it; and the mesh,
 // as read_mesh() does.
-ShapeFile read_shape_of(std::span<const char> bytes, const std::string& path, Session& session);
+ShapeFile read_shape_of(std::span<const char> bytes, const std::string& path, Session& session,
+                        const std::string& columns = {});
 Mesh read_mesh_of(std::span<const char> bytes, const std::string& path, Session& session);
 
 }  // namespace rholm::cli

@@ -9,7 +9,7 @@
 namespace rholm::cli {
 
 std::vector<std::string> offered_extensions(Offer offer) {
-  std::vector<std::string> shapes = {"ply", "obj", "off", "stl", "xyz", "pwn", "txt"};
+  std::vector<std::string> shapes = {"ply", "obj", "off", "stl", "xyz", "pwn", "pts", "csv", "txt"};
   std::vector<std::string> coefficients = {"h5",  "sh",    "shtools", "gfc",
                                            "txt", "icgem", "json",    "npy"};
   switch (offer) {

@@ -33,13 +33,15 @@ MeshInPlace in_place(const MappedMesh& mesh);
 
 // As write_shape() of the mesh read, with the same bytes, and the mesh stays where it lies. Throws
 // also InvalidInput for faces that are no triangles.
-void write_shape(const MappedMesh& mesh, const std::filesystem::path& path,
-                 const ShapeWriteOptions& options = {}, const Context& context = {});
+std::vector<std::string> write_shape(const MappedMesh& mesh, const std::filesystem::path& path,
+                                     const ShapeWriteOptions& options = {},
+                                     const Context& context = {});
 
 // What convert_mesh() has written.
 struct ConvertedMesh {
   std::vector<Attribute> attributes = {};  // of the mesh, without values
   std::vector<std::string> warnings = {};  // those of read_shape()
+  std::vector<std::string> written = {};   // and those of write_shape()
 };
 // Writes the mesh of a binary PLY, of vertices and faces as map_mesh() takes them but with any
 // number of corners, as write_shape() does what read_shape() has read, with the same bytes; and the

@@ -17,9 +17,8 @@ namespace rholm {
 
 // Reads a file from its begin to its end, and never holds more of it than is asked for at a time:
 // PLY (binary and ascii; of a mesh its vertices) and points as lines of numbers (XYZ, PWN, TXT,
-// CSV), with the same values as read_shape(). Where lines have no names of columns, the first
-// 65 536 decide what they are: the first three columns behind the position are normals if all of
-// these lines have unit vectors there, colours if there are three of bytes, else scalars.
+// CSV), with the same values as read_shape(), which decides what columns are in the same way: from
+// the header and the first mebibyte.
 class PointStream {
  public:
   // "-" is standard input. Throws Io if it cannot be read, InvalidInput if it is malformed or has
@@ -36,15 +35,17 @@ class PointStream {
   // value that is none of the type that its column has had so far.
   bool read(std::size_t n, PointCloud& cloud, const Context& context = {});
 
-  std::uint64_t read_so_far() const;          // points
-  std::optional<std::uint64_t> size() const;  // points of the whole file, if it says how many
-  double part_read() const;                   // of the bytes; 0 while their number is not known
-  ShapeFormat format() const;                 // kPly or kXyz
-  const std::string& encoding() const;        // as in ShapeFile
-  bool has_faces() const;                     // a mesh
+  std::uint64_t read_so_far() const;  // points, without those that are not finite
+  // Points of the whole file with those that are not finite, if it says how many.
+  std::optional<std::uint64_t> size() const;
+  double part_read() const;             // of the bytes; 0 while their number is not known
+  ShapeFormat format() const;           // kPly or kXyz
+  const std::string& encoding() const;  // as in ShapeFile
+  bool has_faces() const;               // a mesh
   // Whether the file is a binary PLY of these points, to the byte, and of nothing else.
   bool is_all() const;
-  const std::vector<std::string>& warnings() const;  // what was passed over, with counts
+  const std::vector<std::string>& warnings() const;  // what was passed over so far, with counts
+  const TableColumns& table() const;                 // as in ShapeFile
 
  private:
   class Reader;
@@ -56,14 +57,16 @@ struct ConvertedPoints {
   std::uint64_t points = 0;                // how many
   std::vector<Attribute> attributes = {};  // of the file that was read, without values
   std::vector<std::string> warnings = {};  // of read_shape(), but for those of other elements
+  TableColumns table = {};                 // as in ShapeFile
 };
 // Writes the points of a file as write_shape() does what read_shape() has read, with the same
 // bytes, to PLY or XYZ (options.format, or the extension), and never holds more than some of them:
-// 30 MB. Of lines without names the columns are what PointStream takes them for. The file is read
-// twice where points must be counted (of lines of numbers to PLY) or their normals looked at (to
-// XYZ). Throws as both of them, and Unsupported for other formats and for meshes, whose faces would
+// 30 MB. `columns` is as in ShapeReadOptions. The file is read twice where points must be counted
+// (of lines of numbers to PLY, and where some are not finite) or their normals looked at (to XYZ).
+// Throws as both of them, and Unsupported for other formats and for meshes, whose faces would
 // be lost; nothing is written then.
 ConvertedPoints convert_points(const std::filesystem::path& from, const std::filesystem::path& to,
-                               const ShapeWriteOptions& options = {}, const Context& context = {});
+                               const ShapeWriteOptions& options = {}, const Context& context = {},
+                               const std::string& columns = {});
 
 }  // namespace rholm

@@ -49,6 +49,8 @@ struct BrickOptions {
   bool resume = false;
   // A model file of all caps, as write_atlas() makes it; none if empty. They must fit into memory.
   std::filesystem::path model = {};
+  // Of a file that is a text table, as in ShapeReadOptions.
+  std::string columns = {};
   // Called before the work, once the points have been counted.
   std::function<void(const BrickForecast& forecast)> foreseen = {};
 };

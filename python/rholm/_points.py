@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Literal, NamedTuple
 
 import numpy.typing as npt
@@ -186,6 +187,7 @@ def orient(
     points: PointsLike,
     normals: npt.ArrayLike | None = None,
     *,
+    columns: str | Sequence[str] | None = None,
     neighbors: int = 0,
     keep_directions: bool = False,
     center: npt.ArrayLike | None = None,
@@ -203,6 +205,8 @@ def orient(
         The points.
     normals : array_like, (N, 3), optional
         With `keep_directions`, of which only the signs are chosen.
+    columns : str or sequence of str, optional
+        What the columns of a text table or of an array are, as in `read_shape`.
     neighbors : int
         Points of a fit, 3 ... 1000; 0: chosen from the data.
     keep_directions : bool
@@ -231,5 +235,5 @@ def orient(
         confidence=confidence,
     )
     with caller(threads, progress) as how:
-        cloud, report = _core.orient(as_points(points, normals)._core, options, how)
+        cloud, report = _core.orient(as_points(points, normals, columns=columns)._core, options, how)
     return Oriented(PointCloud._of(cloud), report)

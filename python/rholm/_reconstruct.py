@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
@@ -14,7 +14,7 @@ from ._arrays import triple
 from ._atlas import Atlas
 from ._errors import InvalidInputError, UnsupportedError
 from ._run import Progress, caller
-from ._shapes import Mesh, PointsLike, as_points
+from ._shapes import Mesh, PointsLike, as_points, columns_text
 from ._topology import simplify_options
 
 
@@ -43,6 +43,7 @@ def reconstruct(
     normals: npt.ArrayLike | None = None,
     attributes: Any = None,
     *,
+    columns: str | Sequence[str] | None = None,
     holes: Literal["fill", "keep"] = "fill",
     step: float = 0.0,
     tolerance: float = 0.0,
@@ -68,6 +69,8 @@ def reconstruct(
         They point outwards; of any length. Computed if there are none.
     attributes : mapping of str to array_like, optional
         Of points, (N,) or (N, k) each: carried over to the mesh.
+    columns : str or sequence of str, optional
+        What the columns of a text table or of an array are, as in `read_shape`.
     holes : {"fill", "keep"}
         Whether places without points are closed smoothly, or cut open.
     step : float
@@ -112,7 +115,7 @@ def reconstruct(
     OutOfMemoryError
         If more than allowed would be needed, with the step that would do.
     """
-    cloud = as_points(points, normals, attributes)
+    cloud = as_points(points, normals, attributes, columns)
     options = _options(
         holes=holes,
         step=step,
@@ -138,6 +141,7 @@ def reconstruct_bricks(
     *,
     normals: npt.ArrayLike | None = None,
     attributes: Any = None,
+    columns: str | Sequence[str] | None = None,
     points_per_brick: int = _core.BRICK_POINTS,
     work_dir: str | os.PathLike[str] | None = None,
     resume: bool = False,
@@ -175,6 +179,8 @@ def reconstruct_bricks(
         In the place of the points' own; they point outwards.
     attributes : mapping of str to array_like, optional
         In the place of the points' own, (N,) or (N, k) each: carried over to the vertices.
+    columns : str or sequence of str, optional
+        What the columns of a text table or of an array are, as in `read_shape`.
     points_per_brick : int
         At most, 1000 ... 2**28; fewer take less memory, more less time. By default 2**20: some
         1.8 GB on two threads.
@@ -242,8 +248,9 @@ def reconstruct_bricks(
         work_dir=None if work_dir is None else Path(work_dir),
         resume=resume,
         model=None if model is None else Path(model),
+        columns=columns_text(columns),
     )
-    source = _brick_points(points, normals, attributes)
+    source = _brick_points(points, normals, attributes, columns)
     with caller(threads, progress) as how:
         return _core.reconstruct_bricks(source, Path(mesh_path), options, bricks, foreseen, how)
 
@@ -272,12 +279,12 @@ def foresee_bricks(points: int, points_per_brick: int = _core.BRICK_POINTS) -> _
     return _core.foresee_bricks(points, points_per_brick)
 
 
-def _brick_points(points: PointsLike, normals: Any, attributes: Any) -> _core.PointCloud | Path:
+def _brick_points(points: PointsLike, normals: Any, attributes: Any, columns: Any) -> _core.PointCloud | Path:
     """A file that is read a piece at a time, or points in memory."""
     own = normals is None and attributes is None
     if own and isinstance(points, (str, os.PathLike)) and _core.is_streamed(Path(points)):
         return Path(points)
-    return as_points(points, normals, attributes)._core
+    return as_points(points, normals, attributes, columns)._core
 
 
 def _options(

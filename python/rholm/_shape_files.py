@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,7 +12,7 @@ import numpy.typing as npt
 from . import _core
 from ._arrays import IndexArray
 from ._run import Progress, caller
-from ._shapes import Mesh, MeshLike, PointCloud, as_mesh
+from ._shapes import Mesh, MeshLike, PointCloud, as_mesh, columns_text, warn
 
 
 class ShapeFile(NamedTuple):
@@ -25,16 +26,31 @@ class ShapeFile(NamedTuple):
     """"ascii", "binary little endian" or "binary big endian"."""
     warnings: list[str]
     """What was passed over, with counts."""
+    columns: tuple[str, ...]
+    """What the columns of a text table were taken for, as the argument has it; () for other files."""
+    note: str
+    """The same as a line for people, and how it was decided."""
+    unsure: bool
+    """Whether the columns may mean something else, which `note` says."""
+    dropped: int
+    """Points left out, as a coordinate is not finite."""
 
 
-def _wrapped(shape: Any) -> Mesh | PointCloud:
-    return Mesh._of(shape) if isinstance(shape, _core.Mesh) else PointCloud._of(shape)
+def _shape_file(read: Any) -> ShapeFile:
+    shape, form, encoding, warnings, columns, note, unsure, dropped = read
+    taken = tuple(columns)
+    wrapped = Mesh._of(shape) if isinstance(shape, _core.Mesh) else PointCloud._of(shape, taken)
+    return ShapeFile(wrapped, form, encoding, warnings, taken, note, unsure, dropped)
 
 
 def read_shape(
-    path: str | os.PathLike[str], *, attributes: bool = True, progress: Progress = None
+    path: str | os.PathLike[str],
+    *,
+    attributes: bool = True,
+    columns: str | Sequence[str] | None = None,
+    progress: Progress = None,
 ) -> ShapeFile:
-    """Reads a mesh or points: PLY, OBJ, OFF, STL, XYZ, PWN, TXT.
+    """Reads a mesh or points: PLY, OBJ, OFF, STL, XYZ, PWN, TXT, CSV.
 
     Parameters
     ----------
@@ -43,6 +59,10 @@ def read_shape(
         are cut into triangles.
     attributes : bool
         Whether attributes of vertices or points are read.
+    columns : str or sequence of str, optional
+        What the columns of a text table are, as in ``"x,y,z,r,g,b,nx,ny,nz,-"``: also a (alpha), or
+        lat,lon,radius (degrees north and east) for x,y,z; - passes over a column, any other word is
+        the name of an attribute. By default the header and the values tell.
     progress
         See `rholm.caller`.
 
@@ -56,11 +76,13 @@ def read_shape(
         If its format is not known.
     """
     with caller(0, progress) as how:
-        shape, *rest = _core.read_shape(os.fspath(path), attributes, how)
-    return ShapeFile(_wrapped(shape), *rest)
+        read = _core.read_shape(os.fspath(path), attributes, columns_text(columns), how)
+    return _shape_file(read)
 
 
-def parse_shape(data: bytes, name: str = "", *, attributes: bool = True) -> ShapeFile:
+def parse_shape(
+    data: bytes, name: str = "", *, attributes: bool = True, columns: str | Sequence[str] | None = None
+) -> ShapeFile:
     """The same for the bytes of a file.
 
     Parameters
@@ -71,10 +93,12 @@ def parse_shape(data: bytes, name: str = "", *, attributes: bool = True) -> Shap
         Serves messages, and its extension where the content does not say what it is.
     attributes : bool
         Whether attributes are read.
+    columns : str or sequence of str, optional
+        As in `read_shape`.
     """
     with caller(0, False) as how:
-        shape, *rest = _core.parse_shape(bytes(data), name, attributes, how)
-    return ShapeFile(_wrapped(shape), *rest)
+        read = _core.parse_shape(bytes(data), name, attributes, columns_text(columns), how)
+    return _shape_file(read)
 
 
 def write_shape(
@@ -85,6 +109,8 @@ def write_shape(
     ascii: bool = False,
 ) -> None:
     """Writes a mesh or points to a temporary file that replaces `path` when complete.
+
+    Warns (`UserWarning`) where the format's single precision does more to a shape than to round it.
 
     Parameters
     ----------
@@ -106,7 +132,9 @@ def write_shape(
     """
     core = shape._core if isinstance(shape, PointCloud) else as_mesh(shape)._core
     with caller(0, False) as how:
-        _core.write_shape(core, os.fspath(path), format, ascii, how)
+        said = _core.write_shape(core, os.fspath(path), format, ascii, how)
+    for text in said:
+        warn(f"{os.fspath(path)}: {text}")
 
 
 def attributes_left_out(shape: Mesh | PointCloud, format: str) -> list[str]:

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import os
+import sys
+import warnings
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Union
 
@@ -10,7 +13,15 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import FloatArray, IndexArray, attribute_dict, attribute_tuples, float_rows, triangle_rows
+from ._arrays import (
+    FloatArray,
+    IndexArray,
+    attribute_dict,
+    attribute_tuples,
+    float_rows,
+    numeric,
+    triangle_rows,
+)
 from ._errors import InvalidInputError
 from ._interop import foreign_mesh
 
@@ -180,19 +191,42 @@ class PointCloud:
 
     Parameters
     ----------
-    points : array_like, (N, 3)
-        In any unit. Copied to float64.
+    points : array_like, (N, 3) or (N, k)
+        In any unit. Copied to float64. Columns behind the third are normals, colours or attributes,
+        which their values tell as those of a text table; `columns` of the result says what they were
+        taken for.
     normals : array_like, (N, 3), optional
         Of any length; they point out of the solid.
     attributes : mapping of str to array_like, optional
         Of points, as in `Mesh`.
+    columns : str or sequence of str, optional
+        What the columns of `points` are, as in `read_shape`.
     """
 
-    __slots__ = ("_core",)
+    __slots__ = ("_columns", "_core")
 
     def __init__(
-        self, points: npt.ArrayLike, normals: npt.ArrayLike | None = None, attributes: Any = None
+        self,
+        points: npt.ArrayLike,
+        normals: npt.ArrayLike | None = None,
+        attributes: Any = None,
+        columns: str | Sequence[str] | None = None,
     ) -> None:
+        self._columns: tuple[str, ...] = ()
+        table = numeric(points, "points")
+        if table.ndim == 2 and (table.shape[1] > 3 or columns is not None):
+            cloud, taken, note, unsure = _core.points_of_rows(
+                np.ascontiguousarray(table, dtype=np.float64).ravel(), table.shape[1], columns_text(columns)
+            )
+            self._columns = tuple(taken)
+            if unsure:
+                warn(note)
+            if normals is None and attributes is None:
+                self._core: _core.PointCloud = cloud
+                return
+            points = cloud.points
+            normals = cloud.normals if normals is None else normals
+            attributes = {**attribute_dict(cloud.attributes), **(attributes or {})}
         rows = float_rows(points, "points")
         directions = None if normals is None else float_rows(normals, "normals")
         if directions is not None and len(directions) != len(rows):
@@ -200,9 +234,10 @@ class PointCloud:
         self._core = _core.PointCloud(rows, directions, attribute_tuples(attributes, len(rows)))
 
     @classmethod
-    def _of(cls, cloud: _core.PointCloud) -> PointCloud:
+    def _of(cls, cloud: _core.PointCloud, columns: tuple[str, ...] = ()) -> PointCloud:
         self = cls.__new__(cls)
         self._core = cloud
+        self._columns = columns
         return self
 
     @property
@@ -215,6 +250,11 @@ class PointCloud:
         """Normals as they were given, (N, 3) float64, or None; read-only, not copied."""
         normals = self._core.normals
         return None if normals is None else _read_only(normals)
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """What the columns of the text table or of the array were taken for; () of other points."""
+        return self._columns
 
     @property
     def attributes(self) -> dict[str, npt.NDArray[Any]]:
@@ -285,7 +325,7 @@ def _read_only(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
 #: meshio.
 MeshLike = Union[Mesh, tuple[Any, Any], str, os.PathLike[str], Any]
 
-#: What stands for points: a `PointCloud`, an array (N, 3), (points, normals), a path, or points of
+#: What stands for points: a `PointCloud`, an array (N, 3) or (N, k), (points, normals), a path, or points of
 #: trimesh, PyVista or meshio.
 PointsLike = Union[PointCloud, npt.ArrayLike, tuple[Any, Any], str, os.PathLike[str], Any]
 
@@ -331,19 +371,27 @@ def as_mesh(shape: MeshLike, attributes: bool = True) -> Mesh:
     return Mesh(vertices, triangles, values if attributes else None)
 
 
-def as_points(shape: PointsLike, normals: npt.ArrayLike | None = None, attributes: Any = None) -> PointCloud:
+def as_points(
+    shape: PointsLike,
+    normals: npt.ArrayLike | None = None,
+    attributes: Any = None,
+    columns: str | Sequence[str] | None = None,
+) -> PointCloud:
     """A `PointCloud` of whatever stands for one.
 
     Parameters
     ----------
     shape : PointCloud, array_like (N, 3), (points, normals), path, points of trimesh, PyVista, meshio
+        An array may have more columns, as in `PointCloud`.
         A mesh is its vertices, with their normals.
     normals : array_like, (N, 3), optional
         In the place of the shape's own.
     attributes : mapping of str to array_like, optional
         In the place of the shape's own.
+    columns : str or sequence of str, optional
+        What the columns of a text table or of an array are, as in `read_shape`.
     """
-    cloud = _points_of(shape)
+    cloud = _points_of(shape, columns)
     if normals is None and attributes is None:
         return cloud
     return PointCloud(
@@ -353,13 +401,45 @@ def as_points(shape: PointsLike, normals: npt.ArrayLike | None = None, attribute
     )
 
 
-def _points_of(shape: Any) -> PointCloud:
+def columns_text(columns: str | Sequence[str] | None) -> str:
+    """What columns are, as the library takes it.
+
+    Parameters
+    ----------
+    columns : str or sequence of str, optional
+        With commas between them, or one each.
+    """
+    if columns is None or isinstance(columns, str):
+        return columns or ""
+    return ",".join(columns)
+
+
+def warn(text: str) -> None:
+    """Says something to whoever called the package.
+
+    Parameters
+    ----------
+    text : str
+        One sentence.
+    """
+    frame, depth = sys._getframe(1), 2
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").startswith("rholm"):
+        frame, depth = frame.f_back, depth + 1
+    warnings.warn(text, UserWarning, stacklevel=depth)
+
+
+def _points_of(shape: Any, columns: str | Sequence[str] | None = None) -> PointCloud:
     if isinstance(shape, PointCloud):
         return shape
     if isinstance(shape, (str, os.PathLike)):
         from ._shape_files import read_shape
 
-        shape = read_shape(shape).shape
+        name, file = os.fspath(shape), read_shape(shape, columns=columns)
+        if file.unsure:
+            warn(f"{name}: {file.note}")
+        if file.dropped:
+            warn(f"{name}: {file.dropped} points with a coordinate that is not finite dropped")
+        shape = file.shape
         if isinstance(shape, PointCloud):
             return shape
     if isinstance(shape, Mesh):
@@ -371,7 +451,7 @@ def _points_of(shape: Any) -> PointCloud:
         return PointCloud(*arrays)
     if isinstance(shape, tuple) and len(shape) == 2:
         return PointCloud(*shape)
-    return PointCloud(shape)
+    return PointCloud(shape, columns=columns)
 
 
 def vertex_colors(mesh: MeshLike | PointCloud) -> npt.NDArray[np.float32] | None:

@@ -62,7 +62,8 @@ void bind_bricks(nb::module_& m) {
       .field("points_per_brick", &BrickOptions::points_per_brick)
       .field("work_dir", &BrickOptions::work_dir)
       .field("resume", &BrickOptions::resume)
-      .field("model", &BrickOptions::model);
+      .field("model", &BrickOptions::model)
+      .field("columns", &BrickOptions::columns);
   Record<BrickForecast>(m, "BrickForecast", "What a reconstruction in bricks will take, about.")
       .field("points", &BrickForecast::points, "That are finite, and no far strays.")
       .field("bricks", &BrickForecast::bricks, "That space is cut into.")

@@ -122,22 +122,37 @@ void bind_mesh(nb::module_& m) {
   m.def("validate", [](const PointCloud& cloud) { unlocked([&] { validate(cloud); }); });
 }
 
+// What each column was taken for.
+std::vector<std::string> columns_of(const TableColumns& table) {
+  std::vector<std::string> columns;
+  for (const TableColumn& column : table.columns) columns.push_back(column.taken_for);
+  return columns;
+}
+
 void bind_files(nb::module_& m) {
   const auto shape_file = [](ShapeFile&& file) {
     return nb::make_tuple(std::move(file.shape), to_string(file.format), file.encoding,
-                          file.warnings);
+                          file.warnings, columns_of(file.table), file.table.note, file.table.unsure,
+                          file.dropped);
   };
-  m.def("read_shape", [=](const std::string& path, bool attributes, const Caller& caller) {
+  m.def("read_shape", [=](const std::string& path, bool attributes, const std::string& columns,
+                          const Caller& caller) {
     return shape_file(caller.run([&](const Context& context) {
-      return read_shape(path, {.attributes = attributes}, context);
+      return read_shape(path, {.attributes = attributes, .columns = columns}, context);
     }));
   });
   m.def("parse_shape", [=](const nb::bytes& bytes, const std::string& name, bool attributes,
-                           const Caller& caller) {
+                           const std::string& columns, const Caller& caller) {
     const std::span<const char> all(bytes.c_str(), bytes.size());
     return shape_file(caller.run([&](const Context& context) {
-      return parse_shape(all, name, {.attributes = attributes}, context);
+      return parse_shape(all, name, {.attributes = attributes, .columns = columns}, context);
     }));
+  });
+  m.def("points_of_rows", [](const Doubles& values, std::size_t width, const std::string& columns) {
+    TableColumns table;
+    PointCloud cloud =
+        unlocked([&] { return points_of_rows(span_of(values), width, columns, &table); });
+    return nb::make_tuple(std::move(cloud), columns_of(table), table.note, table.unsure);
   });
   const auto options = [](const std::optional<std::string>& format, bool ascii) {
     ShapeWriteOptions wanted{.ascii = ascii};
@@ -148,9 +163,10 @@ void bind_files(nb::module_& m) {
       "write_shape",
       [=](const std::variant<const Mesh*, const PointCloud*>& shape, const std::string& path,
           const std::optional<std::string>& format, bool ascii, const Caller& caller) {
-        caller.run([&](const Context& context) {
-          std::visit([&](const auto* s) { write_shape(*s, path, options(format, ascii), context); },
-                     shape);
+        return caller.run([&](const Context& context) {
+          return std::visit(
+              [&](const auto* s) { return write_shape(*s, path, options(format, ascii), context); },
+              shape);
         });
       },
       nb::arg(), nb::arg(), nb::arg().none(), nb::arg(), nb::arg());

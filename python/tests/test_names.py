@@ -36,6 +36,8 @@ ELSEWHERE = {
     "attribute_warnings": "map_mesh",
     "described_attributes": "map_mesh",
     "in_place": "map_mesh",
+    "check_columns": "read_shape",  # refuses columns that do not fit
+    "points_of_rows": "PointCloud",  # of an array with more than three columns
     "convert_mesh": "write_shape",  # of what was read; the program converts files larger than memory
     "convert_points": "write_shape",
     "has_attributes": "map_mesh",  # the arrays of a mapped file are NumPy's

@@ -479,3 +479,63 @@ def test_true_normals_of_few_points_do_no_harm(seed):
     with_normals, without = (rholm.compare(x.mesh, body, samples=20000).a_to_b.rms for x in (known, unknown))
     assert with_normals < 1.3 * without
     assert with_normals < 0.3 * known.report.spacing
+
+
+def test_columns_of_arrays_and_of_text_are_taken_for_the_same(tmp_path):
+    cloud = rholm.sample_surface(rholm.icosphere(3), 60)
+    colors = np.arange(180).reshape(60, 3)
+    table = np.hstack([cloud.points, colors, cloud.normals])
+    np.savetxt(tmp_path / "table.txt", table)
+    taken = ("x", "y", "z", "r", "g", "b", "nx", "ny", "nz")
+    file = rholm.read_shape(tmp_path / "table.txt")
+    assert file.columns == file.shape.columns == taken
+    assert "by their values" in file.note
+    assert not file.unsure
+    for read in (file.shape, rholm.PointCloud(table), rholm.as_points(table.tolist())):
+        np.testing.assert_array_equal(read.points, cloud.points)
+        np.testing.assert_array_equal(read.normals, cloud.normals)
+        np.testing.assert_array_equal(read.attributes["green"], colors[:, 1])
+        assert read.columns == taken
+    assert rholm.PointCloud(cloud.points).columns == ()
+    with_normals = table[:, [0, 1, 2, 6, 7, 8]]
+    np.testing.assert_array_equal(rholm.PointCloud(with_normals).normals, cloud.normals)
+
+
+def test_columns_can_be_said(tmp_path):
+    cloud = rholm.sample_surface(rholm.icosphere(3), 60)
+    table = np.hstack([cloud.normals, cloud.points, np.ones((60, 1))])
+    np.savetxt(tmp_path / "table.csv", table, delimiter=";")
+    columns = "nx,ny,nz,x,y,z,weight"
+    for shape in (table, tmp_path / "table.csv"):
+        read = rholm.as_points(shape, columns=columns.split(","))
+        np.testing.assert_array_equal(read.points, cloud.points)
+        np.testing.assert_array_equal(read.normals, cloud.normals)
+        assert list(read.attributes) == ["weight"]
+    oriented = rholm.orient(tmp_path / "table.csv", columns="-,-,-,x,y,z,-").cloud
+    np.testing.assert_array_equal(oriented.points, cloud.points)
+    for wrong in ("x,y", "x,y,z,x,a,b,c", "x,y,z"):
+        with pytest.raises(rholm.InvalidInputError):
+            rholm.PointCloud(table, columns=wrong)
+    with pytest.warns(UserWarning, match=r"0 \.\.\. 1"):
+        rholm.PointCloud(np.hstack([cloud.points, np.abs(cloud.points) ** 2 / 3]))
+
+
+def test_points_without_a_place_are_dropped_and_counted(tmp_path):
+    cloud = rholm.sample_surface(rholm.icosphere(3), 60)
+    points = cloud.points.copy()
+    points[::9] = np.nan
+    np.savetxt(tmp_path / "gaps.xyz", points)
+    file = rholm.read_shape(tmp_path / "gaps.xyz")
+    assert file.dropped == 7
+    assert len(file.shape) == 53
+    with pytest.warns(UserWarning, match="7 points"):
+        rholm.as_points(tmp_path / "gaps.xyz")
+
+
+def test_single_precision_that_spoils_a_shape_warns(tmp_path):
+    ball = rholm.icosphere(3)
+    ball.save(tmp_path / "near.stl")
+    far = rholm.Mesh(ball.vertices + np.array([0, 5155487, 0]), ball.triangles)
+    far.save(tmp_path / "text.stl", ascii=True)
+    with pytest.warns(UserWarning, match=r"steps of 0\.5.*of 1280 faces"):
+        far.save(tmp_path / "far.stl")

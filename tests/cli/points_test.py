@@ -225,11 +225,89 @@ class Orient(CliTest):
                                              code=2).err)
         self.rholm("orient", "p.ply", "-o", "o.stl", code=2)
         for points in ("0 0 0\n", "0 0 0\n1 1 1\n", "0 0 0\n1 1 1\n3 3 3\n", "0 0 0\n" * 9,
-                       "0 0 0\n1 0 0\nnan 0 1\n"):
+                       "0 0 0\n1 0 0\nnan 0 1\n", "nan 0 1\n"):
             self.write("few.xyz", points)
             self.assertIn("rholm: error:", self.rholm("orient", "few.xyz", "-o", "o.ply",
                                                       code=3).err)
         self.assertNotIn("o.ply", self.files())
+
+
+class Tables(CliTest):
+    """What columns of text tables are taken for, in every command that reads points."""
+
+    def setUp(self):
+        super().setUp()
+        self.write("a.off", off(*OCTAHEDRON))
+        self.rholm("make", "sample", "a.off", "--points", "400", "-o", "p.xyz")
+        self.points = rows(self.folder / "p.xyz")
+
+    def table(self, name, order, header="", separator=" ", comma=False):
+        lines = [separator.join(f"{point[k]:.9f}" for k in order) for point in self.points]
+        text = "\n".join(lines) + "\n"
+        self.write(name, header + (text.replace(".", ",") if comma else text))
+
+    def test_what_columns_were_taken_for_is_said(self):
+        self.table("german.csv", range(6), separator=";", comma=True)
+        said = "columns taken for x, y, z, nx, ny, nz by their values; decimal commas"
+        for words in (["info", "german.csv"], ["info", "german.csv", "--json"]):
+            self.assertIn(said, self.rholm(*words).out)
+        for words in (["convert", "german.csv", "o.ply"], ["orient", "german.csv", "-o", "o.ply"],
+                      ["reconstruct", "german.csv", "-o", "o.ply"],
+                      ["partition", "german.csv", "-o", "o.ply"],
+                      ["render", "german.csv", "-o", "o.png", "--size", "64"],
+                      ["analyze", "german.csv", "--atlas", "--tolerance", "0.1", "-o", "o.h5"]):
+            self.assertIn(said, self.rholm(*words).err, words)
+            self.assertNotIn(said, self.rholm(*words, "--quiet").err, words)
+
+    def test_columns_can_be_said(self):
+        self.table("turned.txt", (5, 4, 3, 2, 1, 0))
+        columns = ["--columns", "nz,ny,nx,z,y,x"]
+        self.rholm("convert", "turned.txt", "o.xyz", *columns)
+        for found, wanted in zip(rows(self.folder / "o.xyz"), self.points, strict=True):
+            for a, b in zip(found, wanted, strict=True):
+                self.assertAlmostEqual(a, b, 8)
+        plain = self.rholm("reconstruct", "p.xyz", "-o", "a.ply", "--json").json()
+        self.assertEqual(self.rholm("reconstruct", "turned.txt", "-o", "b.ply", "--json",
+                                    *columns).json()["points"], plain["points"])
+        self.rholm("reconstruct", "turned.txt", "-o", "b.ply", "--brick-points", "1000", *columns)
+        report = self.rholm("info", "turned.txt", "--json", *columns).json()
+        self.assertEqual(report["table_columns"], "nz ny nx z y x".split())
+        piped = self.run_rholm("info", "-", "--json", *columns,
+                               stdin=(self.folder / "turned.txt").read_bytes())
+        self.assertEqual(piped.json()["table_columns"], report["table_columns"])
+        for wrong in ("x,y", "x,y,z,x", "x,,z", "lat,lon"):
+            self.assertIn("--columns", self.rholm("info", "turned.txt", "--columns", wrong, code=2).err)
+        self.rholm("info", "turned.txt", "--columns", "x,y,z", code=3)
+        self.rholm("info", "a.off", "--columns", "x,y,z", code=3)
+
+    def test_points_without_a_place_are_dropped_and_counted(self):
+        self.table("gaps.xyz", range(6))
+        text = (self.folder / "gaps.xyz").read_text()
+        self.write("gaps.xyz", text + "nan nan nan 0 0 1\n" * 3)
+        whole = self.rholm("info", "gaps.xyz", "--json").json()
+        self.assertEqual(whole["counts"], {"points": 400})
+        self.assertEqual(whole["warnings"],
+                         ["3 points with a coordinate that is not a finite number dropped"])
+        self.assertIn("3 points", self.rholm("reconstruct", "gaps.xyz", "-o", "g.ply").err)
+        tiny = ["--max-memory", "1e-6"]
+        pieces = self.rholm("info", "gaps.xyz", "--json", *tiny).json()
+        self.assertEqual(pieces["counts"], whole["counts"])
+        self.assertEqual(pieces["warnings"], whole["warnings"])
+        for name in ("o.ply", "o.xyz"):
+            self.rholm("convert", "gaps.xyz", name)
+            bytes_of_whole = (self.folder / name).read_bytes()
+            self.assertIn("3 points", self.rholm("convert", "gaps.xyz", name, *tiny).err)
+            self.assertEqual((self.folder / name).read_bytes(), bytes_of_whole)
+
+    def test_single_precision_that_spoils_faces_is_said(self):
+        vertices, faces = OCTAHEDRON
+        self.write("far.off", off([(x, y + 5155487, z) for x, y, z in vertices], faces))
+        said = "binary STL has single precision, in steps of 0.5"
+        self.assertIn(said, self.rholm("convert", "far.off", "far.stl").err)
+        self.assertEqual(self.rholm("convert", "far.off", "text.stl", "--ascii").err, "")
+        self.assertEqual(self.rholm("convert", "a.off", "near.stl").err, "")
+        self.rholm("convert", "far.off", "far.ply")
+        self.assertIn(said, self.rholm("convert", "far.ply", "far.stl").err)
 
 
 if __name__ == "__main__":

@@ -71,6 +71,7 @@ BEYOND = {
     "max-hole": ["-1", "501"], "simplify --faces": ["0", "3", "0%", "101%", "none"],
     "max-error": ["-1"], "repeat": ["0", "1001"],
     "thread-counts": ["0", "1,4097"], "shard": ["0/2", "3/2", "1/2/3", "1/0"],
+    "columns": ["x,y", "x,y,z,x", "x,y,z,nx"],
 }
 
 if STUDIO:

@@ -172,8 +172,8 @@ void write_coefficients(const Expansion& expansion, const std::filesystem::path&
   if (!format) {
     throw Error(ErrorCode::kUnsupported,
                 name +
-                    ": its name says no format of coefficients: end it in .sh, .gfc, .json or "
-                    ".npy, or give the format");
+                    ": its name says no format of coefficients: end it in .h5 (a model file), .sh, "
+                    ".gfc, .json or .npy, or give the format");
   }
   check_expansion(expansion, name);
   const Coefficients external = to_convention(expansion.coefficients, options.convention);

@@ -26,9 +26,9 @@ PointRange vertices_of(const MappedMesh& mesh) {
       mesh.view(), [&mesh](std::size_t first, std::size_t n) { release_vertices(mesh, first, n); });
 }
 
-void write_mapped(const MappedMesh& mesh, const TriangleRange& triangles,
-                  const std::filesystem::path& path, const ShapeWriteOptions& options,
-                  const Context& context) {
+std::vector<std::string> write_mapped(const MappedMesh& mesh, const TriangleRange& triangles,
+                                      const std::filesystem::path& path,
+                                      const ShapeWriteOptions& options, const Context& context) {
   const ShapeView shape{.points = vertices_of(mesh),
                         .normals = {},
                         .triangles = triangles,
@@ -37,7 +37,7 @@ void write_mapped(const MappedMesh& mesh, const TriangleRange& triangles,
   shape.points.visit([&](std::size_t, const Vec3& p) {
     if (!is_finite(p)) validate(mesh.view());  // throws, and says which
   });
-  write_view(shape, path, options, context);
+  return write_view(shape, path, options, context);
 }
 
 }  // namespace
@@ -92,8 +92,8 @@ MeshInPlace in_place(const MappedMesh& mesh) {
       .release_triangles = [&mesh](std::size_t first, std::size_t n) { mesh.release(first, n); }};
 }
 
-void write_shape(const MappedMesh& mesh, const std::filesystem::path& path,
-                 const ShapeWriteOptions& options, const Context& context) {
+std::vector<std::string> write_shape(const MappedMesh& mesh, const std::filesystem::path& path,
+                                     const ShapeWriteOptions& options, const Context& context) {
   if (!has_triangles_only(mesh, context)) refuse_face();
   const MeshView& view = mesh.view();
   const TriangleRange triangles(view,
@@ -101,7 +101,7 @@ void write_shape(const MappedMesh& mesh, const std::filesystem::path& path,
   triangles.visit([&](std::size_t, const Triangle& t) {  // as validate(), a piece at a time
     if (std::max({t[0], t[1], t[2]}) >= view.n_vertices) validate(view);
   });
-  write_mapped(mesh, triangles, path, options, context);
+  return write_mapped(mesh, triangles, path, options, context);
 }
 
 std::optional<ConvertedMesh> convert_mesh(const std::filesystem::path& from,
@@ -109,16 +109,17 @@ std::optional<ConvertedMesh> convert_mesh(const std::filesystem::path& from,
                                           const ShapeWriteOptions& options,
                                           const Context& context) {
   if (const auto mesh = map_mesh(from, context); mesh && has_triangles_only(*mesh, context)) {
-    write_shape(*mesh, to, options, context);
-    return ConvertedMesh{described_attributes(*mesh), attribute_warnings(*mesh)};
+    std::vector<std::string> written = write_shape(*mesh, to, options, context);
+    return ConvertedMesh{described_attributes(*mesh), attribute_warnings(*mesh),
+                         std::move(written)};
   }
   const std::optional<MappedPolygons> polygons = map_polygons(from, context);
   if (!polygons) return {};
   const MappedMesh& mesh = polygons->vertices();
   const TriangleRange triangles(polygons->n_triangles(),
                                 [&](const auto& visit) { polygons->visit(visit); });
-  write_mapped(mesh, triangles, to, options, context);
-  ConvertedMesh converted{described_attributes(mesh), attribute_warnings(mesh)};
+  std::vector<std::string> written = write_mapped(mesh, triangles, to, options, context);
+  ConvertedMesh converted{described_attributes(mesh), attribute_warnings(mesh), std::move(written)};
   if (polygons->skipped() > 0) {
     converted.warnings.insert(converted.warnings.begin(), skipped_warning(polygons->skipped()));
   }

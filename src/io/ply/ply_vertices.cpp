@@ -23,6 +23,7 @@ void append(std::vector<Vec3>& all, const std::vector<Vec3>& block, std::size_t 
 
 PlyVertices::PlyVertices(const ShapeSource& source, const PlyElement& element, bool points)
     : source_(source),
+      points_(points),
       block_rows_(rows_per_block(element.properties.size())),
       slots_(element.properties.size()) {
   if (!claim_vector(element, {"x", "y", "z"}, position_block_)) {
@@ -69,9 +70,9 @@ void PlyVertices::append_block(std::size_t rows) {
   const std::size_t before = source_.rows_before + positions.size();
   append(positions, position_block_, rows);
   if (!normal_block_.empty()) append(normals, normal_block_, rows);
-  check_finite(source_, std::span(position_block_).first(rows), before, "vertex", "coordinate");
-  if (!normal_block_.empty()) {
-    check_finite(source_, std::span(normal_block_).first(rows), before, "vertex", "normal");
+  // Points that are not finite are dropped once all are there.
+  if (!points_) {
+    check_finite(source_, std::span(position_block_).first(rows), before, "vertex", "coordinate");
   }
   for (std::size_t k = 0; k < attributes.size(); ++k) {
     const std::vector<double>& block = attribute_blocks_[k];

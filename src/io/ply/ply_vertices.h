@@ -27,7 +27,8 @@ class PlyVertices {
   std::size_t block_rows() const { return block_rows_; }
   const std::vector<Slot>& slots() const { return slots_; }  // one per property of the element
   void reserve(std::size_t rows);
-  void append_block(std::size_t rows);  // throws InvalidInput if a position is not finite
+  // Throws InvalidInput if a position of a mesh is not finite.
+  void append_block(std::size_t rows);
 
   std::vector<Vec3> positions;
   std::vector<Vec3> normals;
@@ -39,6 +40,7 @@ class PlyVertices {
                     std::vector<Vec3>& block);
 
   const ShapeSource& source_;
+  bool points_;
   std::size_t block_rows_;
   std::vector<Slot> slots_;
   std::vector<Vec3> position_block_;

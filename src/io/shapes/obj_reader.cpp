@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 
 #include "io/file/number_text.h"
 #include "io/shapes/face_list.h"
@@ -112,7 +113,7 @@ class ObjReader {
     const std::size_t n = take_numbers(a);
     if (n < 3) fail_line("a vertex needs 3 coordinates, this one has " + std::to_string(n));
     const Vec3 position = {a[0], a[1], a[2]};
-    if (!is_finite(position)) fail_line("a coordinate is not a finite number");
+    if (!is_finite(position) && !not_finite_) not_finite_ = text_;
     if (vertices_.size() == kMaxIndex) fail_line("more than 4294967295 vertices");
     vertices_.push_back(position);
     if (n >= 6 && source_.attributes) colors_.push_back({a[3], a[4], a[5]});
@@ -218,6 +219,9 @@ class ObjReader {
     file.warnings = passed_over();
     std::vector<Attribute> attributes = color_attributes(file.warnings);
     if (n_faces_ > 0) {
+      if (not_finite_) {
+        fail_at_line(source_.name, *not_finite_, "a coordinate is not a finite number");
+      }
       Mesh mesh;
       mesh.triangles = faces_.finish(vertices_, file.warnings);
       mesh.vertices = std::move(vertices_);
@@ -228,7 +232,6 @@ class ObjReader {
       PointCloud cloud{.points = std::move(vertices_), .normals = {}, .attributes = {}};
       cloud.attributes = std::move(attributes);
       if (normals_.size() == cloud.points.size()) {
-        check_finite(source_, normals_, 0, "point", "normal");
         cloud.normals = std::move(normals_);
       } else if (!normals_.empty()) {
         file.warnings.push_back(counted(normals_.size(), "normal", "normals") + " for " +
@@ -285,6 +288,7 @@ class ObjReader {
 
   const ShapeSource& source_;
   TextCursor text_;
+  std::optional<TextCursor> not_finite_;  // the first vertex that is not
   std::vector<Vec3> vertices_;
   std::vector<Vec3> colors_;
   std::vector<Vec3> normals_;

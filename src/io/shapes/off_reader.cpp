@@ -88,8 +88,8 @@ class OffReader {
   }
 
   void read_counts() {
-    n_vertices_ = take_count("the number of vertices");
-    n_faces_ = take_count("the number of faces");
+    n_vertices_ = take_count_of_line("the number of vertices");
+    n_faces_ = take_count_of_line("the number of faces");
     if (!at_line_data_end(text_)) take_count("the number of edges");
     if (n_vertices_ == 0) source_.fail("has no vertices");
     // At least "0 0 0\n" and "1 0\n"; the last line end may be missing.
@@ -108,7 +108,8 @@ class OffReader {
     vertices_.reserve(n_vertices_);
     for (std::uint64_t i = 0; i < n_vertices_; ++i) {
       const Vec3 position = take_vector();
-      if (!is_finite(position)) fail_line("a coordinate is not a finite number");
+      // Points that are not finite are dropped once all are there.
+      if (n_faces_ > 0 && !is_finite(position)) fail_line("a coordinate is not a finite number");
       vertices_.push_back(position);
       if (kind_.normals) normals_.push_back(take_vector());
       if (i == 0) plan_colors();
@@ -182,6 +183,12 @@ class OffReader {
     return count;
   }
 
+  std::uint64_t take_count_of_line(const char* what) {
+    skip_to_word(text_);
+    if (text_.at_end()) source_.fail(std::string("truncated: ") + what + " is missing");
+    return take_count(what);
+  }
+
   double take_number_here() {
     skip_to_word(text_);
     if (text_.at_end()) fail_truncated();
@@ -219,7 +226,6 @@ class OffReader {
       mesh.attributes = std::move(attributes);
       file.shape = std::move(mesh);
     } else {
-      check_finite(source_, normals_, 0, "vertex", "normal");
       file.shape = PointCloud{.points = std::move(vertices_),
                               .normals = std::move(normals_),
                               .attributes = std::move(attributes)};

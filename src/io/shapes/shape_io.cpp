@@ -7,8 +7,10 @@
 
 #include "io/file/atomic_file.h"
 #include "io/file/bytes.h"
+#include "io/shapes/plate_table.h"
 #include "io/shapes/shape_source.h"
 #include "io/shapes/shape_writers.h"
+#include "io/shapes/xyz_columns.h"
 #include "rholm/error.h"
 
 namespace rholm {
@@ -79,11 +81,15 @@ ShapeFormat detect(const ShapeSource& source) {
   }
   if (looks_like_obj(source.bytes)) return ShapeFormat::kObj;
   if (const auto format = format_of_extension(source.name)) return *format;
-  if (looks_like_xyz(source.bytes)) return ShapeFormat::kXyz;
-  throw Error(ErrorCode::kUnsupported,
-              source.name +
-                  " is in no known format: PLY, OBJ, OFF, STL and points as XYZ, PWN, TXT "
-                  "or CSV can be read");
+  if (may_be_stl(source.bytes)) return ShapeFormat::kStl;
+  if (looks_like_plate_table(source.bytes) || looks_like_xyz(source.bytes))
+    return ShapeFormat::kXyz;
+  throw Error(
+      ErrorCode::kUnsupported,
+      source.name +
+          " is in no known format: of shapes PLY, OBJ, OFF, STL and points as XYZ, PWN, PTS, "
+          "TXT or CSV can be read; of coefficients models (.h5), SHTOOLS, ICGEM, JSON and "
+          "NumPy");
 }
 
 void note_values_not_finite(ShapeFile& file) {
@@ -99,20 +105,32 @@ void note_values_not_finite(ShapeFile& file) {
   }
 }
 
+void drop_points(const ShapeSource& source, PointCloud& cloud, ShapeFile& file) {
+  file.dropped = drop_not_finite(cloud);
+  if (file.dropped == 0) return;
+  if (cloud.points.empty()) source.fail("has no point with finite coordinates");
+  file.warnings.push_back(dropped_warning(file.dropped));
+}
+
 ShapeFile parse(std::span<const char> bytes, const std::string& name,
                 const ShapeReadOptions& options, const Context& context, double progress_from) {
   const ShapeSource source(bytes, name, options, context, progress_from);
   if (source.bytes.empty()) source.fail("is empty");
+  check_columns(options.columns);
   ShapeFile file = entry(detect(source)).read(source);
+  if (!options.columns.empty() && file.table.columns.empty()) {
+    source.fail("is no table of points, and its columns cannot be said");
+  }
+  if (auto* cloud = std::get_if<PointCloud>(&file.shape)) drop_points(source, *cloud, file);
   note_values_not_finite(file);
   return file;
 }
 
 template <class Shape>
-void write(const Shape& shape, const std::filesystem::path& path, const ShapeWriteOptions& options,
-           const Context& context) {
+std::vector<std::string> write(const Shape& shape, const std::filesystem::path& path,
+                               const ShapeWriteOptions& options, const Context& context) {
   validate(shape);
-  write_view(shape_view_of(shape), path, options, context);
+  return write_view(shape_view_of(shape), path, options, context);
 }
 
 }  // namespace
@@ -155,24 +173,26 @@ ShapeFormat written_format(const std::filesystem::path& path, const ShapeWriteOp
   return *format;
 }
 
-void write_view(const ShapeView& shape, const std::filesystem::path& path,
-                const ShapeWriteOptions& options, const Context& context) {
+std::vector<std::string> write_view(const ShapeView& shape, const std::filesystem::path& path,
+                                    const ShapeWriteOptions& options, const Context& context) {
   const ShapeFormat format = written_format(path, options);
   AtomicFile file(path, context);
   OutputBuffer out(&file, shape.points.size() + shape.triangles.size(), context);
-  format_shape(shape, format, options.ascii, path.string(), out);
+  std::vector<std::string> warnings =
+      format_shape(shape, format, options.ascii, path.string(), out);
   out.flush();
   file.commit();
+  return warnings;
 }
 
-void write_shape(const Mesh& mesh, const std::filesystem::path& path,
-                 const ShapeWriteOptions& options, const Context& context) {
-  write(mesh, path, options, context);
+std::vector<std::string> write_shape(const Mesh& mesh, const std::filesystem::path& path,
+                                     const ShapeWriteOptions& options, const Context& context) {
+  return write(mesh, path, options, context);
 }
 
-void write_shape(const PointCloud& cloud, const std::filesystem::path& path,
-                 const ShapeWriteOptions& options, const Context& context) {
-  write(cloud, path, options, context);
+std::vector<std::string> write_shape(const PointCloud& cloud, const std::filesystem::path& path,
+                                     const ShapeWriteOptions& options, const Context& context) {
+  return write(cloud, path, options, context);
 }
 
 }  // namespace rholm

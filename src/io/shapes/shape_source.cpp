@@ -47,6 +47,7 @@ ShapeSource::ShapeSource(std::span<const char> file_bytes, std::string file_name
     : bytes(without_byte_order_mark(file_bytes)),
       name(std::move(file_name)),
       attributes(options.attributes),
+      columns(options.columns),
       context_(context),
       progress_from_(progress_from),
       next_report_(bytes.data()) {}

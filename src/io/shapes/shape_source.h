@@ -20,6 +20,7 @@ class ShapeSource {
   std::span<const char> bytes;  // without byte order mark
   std::string name;             // for messages
   bool attributes;              // whether they are wanted
+  std::string columns;          // as in ShapeReadOptions
   // Of a piece of a file: what comes before it.
   std::size_t rows_before = 0, lines_before = 0;
 
@@ -50,6 +51,8 @@ bool looks_like_obj(std::span<const char> bytes);
 bool looks_like_off(std::span<const char> bytes);
 bool looks_like_stl(std::span<const char> bytes);
 bool looks_like_xyz(std::span<const char> bytes);
+// Whether bytes that nothing else is known of are binary STL with something behind the facets.
+bool may_be_stl(std::span<const char> bytes);
 
 // Throws InvalidInput "vertex 7 has a coordinate that is not a finite number" if one of the first n
 // vectors has; `first_number` is the number of the first.

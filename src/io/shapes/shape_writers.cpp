@@ -79,8 +79,8 @@ NormalRange::NormalRange(const ShapeView& shape) : vectors_(shape.normals) {
   if (vectors_.empty()) scalars_ = find_group<3, ScalarRange>(shape.attributes, {"nx", "ny", "nz"});
 }
 
-void format_shape(const ShapeView& shape, ShapeFormat format, bool ascii, const std::string& name,
-                  OutputBuffer& out) {
+std::vector<std::string> format_shape(const ShapeView& shape, ShapeFormat format, bool ascii,
+                                      const std::string& name, OutputBuffer& out) {
   if (format == ShapeFormat::kStl && !shape.is_mesh) {
     throw Error(ErrorCode::kUnsupported,
                 name + ": STL holds facets, not points; write PLY, OBJ, OFF or XYZ");
@@ -91,16 +91,21 @@ void format_shape(const ShapeView& shape, ShapeFormat format, bool ascii, const 
   }
   switch (format) {
     case ShapeFormat::kPly:
-      return format_ply(shape, ascii, out);
+      format_ply(shape, ascii, out);
+      break;
     case ShapeFormat::kObj:
-      return format_obj(shape, out);
+      format_obj(shape, out);
+      break;
     case ShapeFormat::kOff:
-      return format_off(shape, out);
+      format_off(shape, out);
+      break;
     case ShapeFormat::kStl:
       return format_stl(shape, ascii, name, out);
     case ShapeFormat::kXyz:
-      return format_xyz(shape, out);
+      format_xyz(shape, out);
+      break;
   }
+  return {};
 }
 
 }  // namespace rholm

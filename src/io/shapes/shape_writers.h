@@ -117,23 +117,24 @@ struct ShapeView {
 ShapeView shape_view_of(const Mesh& mesh);
 ShapeView shape_view_of(const PointCloud& cloud);
 
-// Writes a valid shape. Throws Unsupported if the format cannot hold it, InvalidInput if a
-// coordinate does not fit; `name` serves messages.
-void format_shape(const ShapeView& shape, ShapeFormat format, bool ascii, const std::string& name,
-                  OutputBuffer& out);
+// Writes a valid shape, and returns warnings as write_shape(). Throws Unsupported if the format
+// cannot hold it, InvalidInput if a coordinate does not fit; `name` serves messages.
+std::vector<std::string> format_shape(const ShapeView& shape, ShapeFormat format, bool ascii,
+                                      const std::string& name, OutputBuffer& out);
 
 // What the options or the extension say. Throws InvalidInput for "-" without a format, Unsupported
 // for an extension that names none.
 ShapeFormat written_format(const std::filesystem::path& path, const ShapeWriteOptions& options);
 
 // write_shape() of a valid shape.
-void write_view(const ShapeView& shape, const std::filesystem::path& path,
-                const ShapeWriteOptions& options, const Context& context);
+std::vector<std::string> write_view(const ShapeView& shape, const std::filesystem::path& path,
+                                    const ShapeWriteOptions& options, const Context& context);
 
 void format_ply(const ShapeView& shape, bool ascii, OutputBuffer& out);
 void format_obj(const ShapeView& shape, OutputBuffer& out);
 void format_off(const ShapeView& shape, OutputBuffer& out);
-void format_stl(const ShapeView& shape, bool ascii, const std::string& name, OutputBuffer& out);
+std::vector<std::string> format_stl(const ShapeView& shape, bool ascii, const std::string& name,
+                                    OutputBuffer& out);
 void format_xyz(const ShapeView& shape, OutputBuffer& out);
 
 // Points that come a piece at a time, all with normals or none, and with the same attributes, whose
@@ -150,7 +151,7 @@ class PlyPoints {
   OutputBuffer& out_;
 };
 // Parts of format_xyz(): what comes before the rows, and rows.
-void put_xyz_header(bool unit_normals, OutputBuffer& out);
+void put_xyz_header(bool names, OutputBuffer& out);
 void put_xyz_rows(const ShapeView& shape, OutputBuffer& out);
 
 // Several attributes that belong together, if all are there.

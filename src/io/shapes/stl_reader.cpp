@@ -20,6 +20,17 @@ std::uint64_t claimed_facets(std::span<const char> bytes) {
   return load<std::uint32_t, kSwap>(bytes.data() + kHeader);
 }
 
+// The facets that a binary file of this size has room for.
+std::uint64_t facets_with_room(std::span<const char> bytes) {
+  return (bytes.size() - kCount) / kFacet;
+}
+
+// Some programs write the facets as they come, and never go back to count them.
+bool is_uncounted(std::span<const char> bytes) {
+  const std::uint64_t n = claimed_facets(bytes);
+  return n == 0 || n == std::numeric_limits<std::uint32_t>::max();
+}
+
 // Some programs write binary files that begin with "solid": the size decides.
 bool is_binary_by_size(std::span<const char> bytes) {
   return bytes.size() >= kCount && bytes.size() == kCount + kFacet * claimed_facets(bytes);
@@ -38,6 +49,23 @@ bool begins_with_solid(std::span<const char> bytes) {
   return equal_ignoring_case(take_word(text), "solid");
 }
 
+// Text has a keyword behind the line with the name, which no count of facets looks like.
+bool is_text(std::span<const char> bytes) {
+  if (!begins_with_solid(bytes)) return false;
+  TextCursor text(bytes);
+  skip_spaces(text);
+  skip_to_line_end(text);
+  skip_spaces(text);
+  const std::string_view word = take_word(text);
+  return equal_ignoring_case(word, "facet") || equal_ignoring_case(word, "endsolid");
+}
+
+// A binary file with whole facets and something behind them.
+bool may_be_binary(std::span<const char> bytes) {
+  if (bytes.size() < kCount + kFacet) return false;
+  return is_uncounted(bytes) || claimed_facets(bytes) <= facets_with_room(bytes);
+}
+
 // Every facet has three vertices of its own: 0 1 2, 3 4 5, ...
 Mesh soup(std::vector<Vec3> vertices) {
   Mesh mesh;
@@ -51,18 +79,43 @@ Mesh soup(std::vector<Vec3> vertices) {
 
 constexpr std::uint64_t kMaxFacets = std::numeric_limits<std::uint32_t>::max() / 3;
 
-Mesh read_binary(const ShapeSource& source) {
+// How many facets are read; says where that is not what the file says.
+std::uint64_t facets_of(const ShapeSource& source, std::vector<std::string>& warnings) {
+  const std::uint64_t n = claimed_facets(source.bytes), room = facets_with_room(source.bytes);
+  if (is_uncounted(source.bytes) && room > 0) {
+    warnings.push_back("the count of facets is " + std::to_string(n) + ", but " +
+                       counted(room, "facet follows", "facets follow") + ": they are read");
+    const std::uint64_t rest = source.bytes.size() - kCount - kFacet * room;
+    if (rest > 0)
+      warnings.push_back(counted(rest, "byte", "bytes") + " behind the last facet passed over");
+    return room;
+  }
+  if (n > room) {
+    source.fail("truncated: its count of facets is " + std::to_string(n) +
+                ", for which a binary STL file has " + std::to_string(kCount + kFacet * n) +
+                " bytes; this one has " + std::to_string(source.bytes.size()) + ", room for " +
+                counted(room, "facet", "facets"));
+  }
+  const std::uint64_t rest = source.bytes.size() - kCount - kFacet * n;
+  if (rest > 0) {
+    warnings.push_back(
+        counted(rest, "byte", "bytes") + " behind the last of " + counted(n, "facet", "facets") +
+        " passed over" +
+        (rest >= kFacet
+             ? ": room for " + counted(rest / kFacet, "more that the count does not name",
+                                       "more, which the count does not name")
+             : ""));
+  }
+  return n;
+}
+
+Mesh read_binary(const ShapeSource& source, std::vector<std::string>& warnings) {
   const std::span<const char> bytes = source.bytes;
   if (bytes.size() < kCount) {
     source.fail("truncated: a binary STL file has at least 84 bytes, this one has " +
                 std::to_string(bytes.size()));
   }
-  const std::uint64_t n = claimed_facets(bytes);
-  if (bytes.size() != kCount + kFacet * n) {
-    source.fail("a binary STL file of " + std::to_string(n) + " facets has " +
-                std::to_string(kCount + kFacet * n) + " bytes, this one has " +
-                std::to_string(bytes.size()) + ": truncated, or not STL");
-  }
+  const std::uint64_t n = facets_of(source, warnings);
   if (n == 0) source.fail("has no facets");
   if (n > kMaxFacets) {
     source.fail("has " + std::to_string(n) + " facets, the limit is " + std::to_string(kMaxFacets));
@@ -96,6 +149,12 @@ class StlTextReader {
     vertices_.reserve(3 * (source_.bytes.size() / 256));
     std::size_t solids = 0;
     for (skip_spaces(text_); !text_.at_end(); skip_spaces(text_)) {
+      if (solids > 0 && is_rest()) {
+        warnings.push_back(
+            counted(static_cast<std::size_t>(text_.end - text_.at), "byte", "bytes") +
+            " behind the last 'endsolid' passed over");
+        break;
+      }
       expect("solid");
       skip_to_line_end(text_);  // its name
       read_facets();
@@ -107,6 +166,15 @@ class StlTextReader {
   }
 
  private:
+  // Whether what follows is neither a solid nor has facets.
+  bool is_rest() const {
+    for (TextCursor rest = text_; !rest.at_end(); skip_spaces(rest)) {
+      const std::string_view word = take_word(rest);
+      if (equal_ignoring_case(word, "solid") || equal_ignoring_case(word, "facet")) return false;
+    }
+    return true;
+  }
+
   void read_facets() {
     for (;;) {
       const TextCursor before = skip_to_next();
@@ -183,25 +251,22 @@ class StlTextReader {
 ShapeFile read_stl(const ShapeSource& source) {
   ShapeFile file;
   file.format = ShapeFormat::kStl;
-  if (!is_binary_by_size(source.bytes) && begins_with_solid(source.bytes)) {
+  const bool binary =
+      is_binary_by_size(source.bytes) || (!is_text(source.bytes) && may_be_binary(source.bytes));
+  if (!binary && begins_with_solid(source.bytes)) {
     file.encoding = "ascii";
     file.shape = StlTextReader(source).read(file.warnings);
   } else {
     file.encoding = "binary little endian";
-    file.shape = read_binary(source);
+    file.shape = read_binary(source, file.warnings);
   }
   return file;
 }
 
 bool looks_like_stl(std::span<const char> bytes) {
-  if (is_binary_by_size(bytes)) return true;
-  if (!begins_with_solid(bytes)) return false;
-  TextCursor text(bytes);
-  skip_spaces(text);
-  skip_to_line_end(text);
-  skip_spaces(text);
-  const std::string_view word = take_word(text);
-  return equal_ignoring_case(word, "facet") || equal_ignoring_case(word, "endsolid");
+  return is_binary_by_size(bytes) || is_text(bytes);
 }
+
+bool may_be_stl(std::span<const char> bytes) { return may_be_binary(bytes); }
 
 }  // namespace rholm

@@ -1,10 +1,12 @@
-// STL: the corners of every triangle as floats, with its normal.
+// STL: the corners of every triangle, with its normal: as floats, or as text with all digits.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "io/file/scalar_bytes.h"
 #include "io/shapes/shape_writers.h"
+#include "io/shapes/single_precision.h"
 #include "rholm/error.h"
 
 namespace rholm {
@@ -23,8 +25,8 @@ void check_range(const ShapeView& shape, const std::string& name) {
   throw Error(ErrorCode::kInvalidInput,
               name + ": the largest coordinate, " +
                   std::string(digits, format_number(digits, largest)) +
-                  ", does not fit the floats of STL (1.2e-38 ... 3.4e38): scale the shape, or "
-                  "write PLY, OBJ or OFF");
+                  ", does not fit the floats of binary STL (1.2e-38 ... 3.4e38): scale the "
+                  "shape, or write STL as text, PLY, OBJ or OFF");
 }
 
 // Of the triangle before its corners are rounded; zero if it has no area.
@@ -39,7 +41,8 @@ void put_floats(const Vec3& v, char* to) {
   store_little_endian(to + 8, static_cast<float>(v.z));
 }
 
-void put_binary(const ShapeView& shape, OutputBuffer& out) {
+std::vector<std::string> put_binary(const ShapeView& shape, OutputBuffer& out) {
+  SinglePrecisionLoss loss;
   // 80 bytes that do not begin with "solid", as some readers take that for text.
   std::string header = "binary STL";
   header.resize(80, ' ');
@@ -51,11 +54,16 @@ void put_binary(const ShapeView& shape, OutputBuffer& out) {
     constexpr std::size_t kFacet = 50;
     char* to = out.room(kFacet);
     put_floats(facet_normal(shape, t), to);
-    for (std::size_t k = 0; k < 3; ++k) put_floats(shape.points[t[k]], to + 12 + 12 * k);
+    const std::array<Vec3, 3> corners = {shape.points[t[0]], shape.points[t[1]],
+                                         shape.points[t[2]]};
+    for (std::size_t k = 0; k < 3; ++k) put_floats(corners[k], to + 12 + 12 * k);
+    loss.add(corners[0], corners[1], corners[2]);
     to[48] = to[49] = 0;
     out.advance(to + kFacet);
     out.rows(1);
   });
+  const auto warning = loss.warning("binary STL", "STL as text, PLY, OBJ and OFF keep all digits");
+  return warning ? std::vector<std::string>{*warning} : std::vector<std::string>{};
 }
 
 void put_float_text(const Vec3& v, OutputBuffer& out) {
@@ -72,7 +80,7 @@ void put_ascii(const ShapeView& shape, OutputBuffer& out) {
     out.text("outer loop\n");
     for (const std::uint32_t corner : t) {
       out.text("vertex ");
-      put_float_text(shape.points[corner], out);
+      put_vector(shape.points[corner], '\n', out);
     }
     out.text("endloop\nendfacet\n");
     out.rows(1);
@@ -82,17 +90,16 @@ void put_ascii(const ShapeView& shape, OutputBuffer& out) {
 
 }  // namespace
 
-void format_stl(const ShapeView& shape, bool ascii, const std::string& name, OutputBuffer& out) {
-  check_range(shape, name);
+std::vector<std::string> format_stl(const ShapeView& shape, bool ascii, const std::string& name,
+                                    OutputBuffer& out) {
+  if (!ascii) check_range(shape, name);
   if (shape.triangles.size() > std::numeric_limits<std::uint32_t>::max()) {
     throw Error(ErrorCode::kUnsupported, name + ": STL holds at most 4294967295 facets, not " +
                                              std::to_string(shape.triangles.size()));
   }
-  if (ascii) {
-    put_ascii(shape, out);
-  } else {
-    put_binary(shape, out);
-  }
+  if (!ascii) return put_binary(shape, out);
+  put_ascii(shape, out);
+  return {};
 }
 
 }  // namespace rholm

@@ -1,32 +1,70 @@
-// What the columns of a text file of points mean. Layer: io.
+// What the columns of a table of points are: decided from its header and its first rows together.
+// Layer: io.
+//
+// Names win where there are any. Without names the values decide: a first column of whole numbers
+// that only grow counts the rows; then come the position, and in any order, where three columns
+// side by side look like it, normals (unit vectors to 1 %, or vectors of length 0.75 ... 1.25 of
+// both signs) and colours (bytes, or parts of 1); the rest are scalars.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "io/shapes/column_names.h"
+#include "io/shapes/text_table.h"
 #include "rholm/mesh.h"
+#include "rholm/shape_io.h"
 
 namespace rholm {
 
-struct ColumnRoles {
-  std::array<std::size_t, 3> position = {0, 1, 2};
-  std::vector<std::size_t> others;  // all columns but those of the position, in order
-  std::vector<std::string> names;   // of all columns; empty if the file does not name them
+// What a name of a file or its first lines say, beside names and values.
+struct TableHints {
+  bool normals_follow = false;   // PWN: normals come behind the position
+  bool intensity_first = false;  // PTS: one number stands before the colours
 };
 
-// Whether there are x, y and z among the names (in either case; ParaView's Points:0 ... too).
-bool has_position(const std::vector<std::string>& names);
+struct TablePlan {
+  std::vector<ColumnRole> roles = {};   // of each column
+  std::vector<std::string> names = {};  // of the attributes that scalars become, else empty
+  bool colatitude = false, west = false, radians = false;  // as in NamedRoles
+  bool byte_colors = false;
+  TableColumns told = {};
+};
 
-// `names` are empty, or `n` with a position among them.
-ColumnRoles column_roles(const std::vector<std::string>& names, std::size_t n);
+// Throws InvalidInput for `wanted` (ShapeReadOptions::columns) that has another number of columns,
+// for names without a position, and where fewer than three columns hold numbers.
+TablePlan plan_table(const TableHeader& header, const TellingRows& telling,
+                     const std::string& wanted, const TableHints& hints);
 
-// Turns columns into normals and attributes; `columns` holds the values of roles.others. Without
-// names the values decide what they are, see xyz_reader.cpp; `first_are_normals` says that they are
-// normals whatever they look like.
-void take_columns(PointCloud& cloud, const ColumnRoles& roles,
-                  std::vector<std::vector<double>>& columns, bool first_are_normals);
+// Points row by row.
+class PointColumns {
+ public:
+  // `attributes`: whether colours and scalars are kept.
+  PointColumns(const TablePlan& plan, bool attributes);
+  void add(std::span<const double> row);  // a value for each column
+  std::size_t size() const { return points_.size(); }
+  PointCloud take();
+
+ private:
+  struct Kept {
+    std::size_t column;
+    Attribute attribute;
+  };
+  const TablePlan& plan_;
+  bool degrees_ = false;
+  std::array<std::size_t, 3> position_ = {}, normal_ = {};
+  bool has_normals_ = false;
+  std::vector<Vec3> points_, normals_;
+  std::vector<Kept> kept_;
+};
+
+// Takes points whose place is not finite out of the cloud, and returns how many there were. Normals
+// that are not finite become zero.
+std::size_t drop_not_finite(PointCloud& cloud);
+std::string dropped_warning(std::size_t n);
 
 // Whether vectors are all of length 1 to 1 % (written with two digits or more), or zero, and some
 // not zero.
@@ -37,6 +75,20 @@ class UnitVectors {
 
  private:
   bool some_ = false, other_ = false;
+};
+
+// Whether points and normals, written as six columns, need names to be taken for these again.
+class XyzNames {
+ public:
+  void add(const Vec3& point, const Vec3& normal);
+  bool are_needed() const { return !units_.all_are() || !negative_ || counts_; }
+
+ private:
+  UnitVectors units_;
+  bool negative_ = false;  // some component of a normal
+  bool counts_ = true;     // first coordinates may be numbers of rows
+  double last_ = 0;
+  std::size_t n_ = 0;
 };
 
 }  // namespace rholm

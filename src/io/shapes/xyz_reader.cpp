@@ -1,230 +1,62 @@
-// Points as lines of numbers (XYZ, PWN, TXT, CSV), with any columns behind the position.
+// Points as lines of numbers (XYZ, PWN, PTS, TXT, CSV), with any columns behind the position.
 //
-// Values are separated by spaces, tabs, commas or semicolons; #, // and % begin comments. The first
-// line may be the number of points (PWN, PTS) or the names of the columns; a comment that names as
-// many columns as the first line has values counts as such. Without names, the columns after x y z
-// are: a normal, if there are three or more and the first three are unit vectors (or zero) to
-// 1 % in every line; else red, green, blue, if there are exactly three and all are integers
-// 0 ... 255; else scalar_1, scalar_2, ... In a PWN file the three are always normals, and may
-// also follow as lines of their own after all positions.
+// text_table.h tells how rows are cut into cells, xyz_columns.h what the columns are. The first
+// line may be the number of points (PWN, PTS). In a PWN file normals follow the position in each
+// row, or as lines of their own after all positions.
+#include "io/shapes/xyz_reader.h"
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
 #include "io/file/number_text.h"
+#include "io/shapes/plate_table.h"
 #include "io/shapes/shape_source.h"
 #include "io/shapes/xyz_columns.h"
-#include "io/shapes/xyz_reader.h"
+#include "rholm/error.h"
 
 namespace rholm {
 namespace {
 
-bool is_separator(char c) { return is_blank(c) || c == ',' || c == ';'; }
-
-void skip_separators(TextCursor& text) {
-  while (!text.at_end() && is_separator(*text.at)) ++text.at;
-}
-
-bool at_comment(const TextCursor& text) {
-  if (text.at_end()) return false;
-  if (*text.at == '#' || *text.at == '%') return true;
-  return *text.at == '/' && text.at + 1 != text.end && text.at[1] == '/';
-}
-
-bool at_row_end(const TextCursor& text) {
-  return text.at_end() || is_line_end(*text.at) || at_comment(text);
-}
-
-bool at_value_end(const TextCursor& text) { return at_row_end(text) || is_separator(*text.at); }
-
-// The number that begins here and ends where a value may.
-bool take_value(TextCursor& text, double& value) {
-  const TextCursor before = text;
-  if (take_number(text, value) && at_value_end(text)) return true;
-  text = before;
-  return false;
-}
-
-// Names separated like values, without quotes; to the end of the line.
-std::vector<std::string> take_names(TextCursor& text) {
-  std::vector<std::string> names;
-  for (;;) {
-    skip_separators(text);
-    if (text.at_end() || is_line_end(*text.at)) return names;
-    std::string name;
-    while (!text.at_end() && !is_line_end(*text.at) && !is_separator(*text.at)) {
-      if (*text.at != '"') name += *text.at;
-      ++text.at;
-    }
-    names.push_back(std::move(name));
-  }
-}
-
-std::size_t values_in_row(TextCursor text) {
-  double value = 0;
-  for (std::size_t n = 0;; ++n) {
-    skip_separators(text);
-    if (at_row_end(text)) return n;
-    if (!take_value(text, value)) return 0;
-  }
-}
-
-// The names in a comment line, if they may be those of columns.
-std::vector<std::string> names_in_comment(TextCursor text) {
-  while (!text.at_end() && (*text.at == '#' || *text.at == '/' || *text.at == '%')) ++text.at;
-  std::vector<std::string> names = take_names(text);
-  return has_position(names) ? names : std::vector<std::string>();
-}
-
-}  // namespace
-
-XyzHeader take_xyz_header(TextCursor& text) {
-  XyzHeader header;
-  bool names_are_comment = false;
-  bool names_were_line = false;
-  for (;; skip_to_line_end(text)) {
-    skip_spaces(text);
-    skip_separators(text);
-    if (text.at_end()) return header;
-    if (is_line_end(*text.at)) continue;
-    if (at_comment(text)) {
-      if (std::vector<std::string> names = names_in_comment(text); !names.empty()) {
-        header.names = std::move(names);
-        names_are_comment = true;
-      }
-      continue;
-    }
-    const std::size_t n = values_in_row(text);
-    if (n == 1 && !header.has_count) {
-      header.has_count = true;
-      take_value(text, header.count);
-    } else if (n == 0 && !names_were_line) {
-      header.names = take_names(text);
-      names_are_comment = false;
-      names_were_line = true;
-    } else {
-      header.columns = n;
-      if (names_are_comment && header.names.size() != n) header.names.clear();
-      return header;
-    }
-  }
-}
-
-namespace {
-
 class XyzReader {
  public:
-  XyzReader(const ShapeSource& source, bool pwn, std::size_t at = 0)
-      : source_(source), text_(source.bytes), pwn_(pwn) {
-    text_.at += at;
+  XyzReader(const ShapeSource& source, const TableLook& look, std::size_t at)
+      : source_(source), look_(look), text_(source.bytes) {
+    text_.at += std::min(at, source.bytes.size());
   }
 
-  ShapeFile read() {
-    const XyzHeader header = take_xyz_header(text_);
-    check_header(header);
-    const ColumnRoles roles = column_roles(header.names, header.columns);
-    read_rows(roles, header.columns);
-    return finish(header, roles);
-  }
-
-  PointCloud read_piece(const std::vector<std::string>& names, std::size_t columns) {
-    const ColumnRoles roles = column_roles(names, columns);
-    read_rows(roles, columns);
-    return cloud_of(roles);
-  }
-
-  void check_header(const XyzHeader& header) const {
-    if (!header.names.empty() && header.columns > 0 && !has_position(header.names)) {
-      fail_line("the header names no columns x, y, z");
-    }
-    if (header.columns == 0 && !text_.at_end()) {
-      fail_line(quoted_word(text_) + " does not begin a row of numbers");
-    }
-    if (header.columns == 0) source_.fail("has no points");
-    if (header.columns < 3) {
-      fail_line("a point needs 3 coordinates, here are " +
-                counted(header.columns, "value", "values"));
-    }
-    if (!header.names.empty() && header.names.size() != header.columns) {
-      fail_line("the header names " + std::to_string(header.names.size()) +
-                " columns, but this line has " + counted(header.columns, "value", "values"));
+  void read_rows(PointColumns& points) {
+    const std::size_t n = look_.header.syntax.columns;
+    std::vector<double> row(n);
+    TableRows rows(text_, look_.header.syntax);
+    for (std::size_t i = 0; rows.next_row(); ++i) {
+      for (std::size_t k = 0; k < n; ++k) {
+        if (!rows.take_plain_number(row[k])) row[k] = take_other(rows, k);
+      }
+      TableCell more;
+      if (rows.take_cell(more)) {
+        fail_line("has more values than the first line, which has " + std::to_string(n));
+      }
+      rows.end_row();
+      points.add(row);
+      if (i % 256 == 0) source_.progress(text_.at);
     }
   }
 
  private:
-  void read_rows(const ColumnRoles& roles, std::size_t columns) {
-    columns_.resize(columns);
-    std::vector<double> row(columns);
-    for (std::size_t n = 0; next_row(); ++n) {
-      read_row(row);
-      const Vec3 p = {row[roles.position[0]], row[roles.position[1]], row[roles.position[2]]};
-      if (!is_finite(p)) fail_line("a coordinate is not a finite number");
-      points_.push_back(p);
-      for (const std::size_t k : roles.others) columns_[k].push_back(row[k]);
-      if (n % 256 == 0) source_.progress(text_.at);
+  // A cell that is no plain number, or none at all.
+  double take_other(TableRows& rows, std::size_t k) {
+    TableCell cell;
+    const TextCursor before = text_;
+    if (!rows.take_cell(cell)) {
+      fail_line("has " + counted(k, "value", "values") + ", the first line has " +
+                std::to_string(look_.header.syntax.columns));
     }
-  }
-
-  // To the first value of the next row; false at the end.
-  bool next_row() {
-    for (;;) {
-      skip_spaces(text_);
-      skip_separators(text_);
-      if (text_.at_end()) return false;
-      if (!at_row_end(text_)) return true;
-      skip_to_line_end(text_);
+    if (cell.kind == CellKind::kText && look_.plan.roles[k] != ColumnRole::kSkipped) {
+      text_ = before;
+      fail_line(in_quotes(cell.text) + " is not a number");
     }
-  }
-
-  void read_row(std::vector<double>& row) {
-    for (std::size_t k = 0; k < row.size(); ++k) {
-      skip_separators(text_);
-      if (at_row_end(text_)) {
-        fail_line("has " + counted(k, "value", "values") + ", the first line has " +
-                  std::to_string(row.size()));
-      }
-      if (!take_value(text_, row[k])) fail_line(quoted_word(text_) + " is not a number");
-    }
-    skip_separators(text_);
-    if (!at_row_end(text_)) {
-      fail_line("has more values than the first line, which has " + std::to_string(row.size()));
-    }
-    skip_to_line_end(text_);
-  }
-
-  ShapeFile finish(const XyzHeader& header, const ColumnRoles& roles) {
-    std::vector<Vec3> normals;
-    const std::size_t rows = points_.size();
-    const bool normals_follow =
-        header.has_count && header.columns == 3 && header.count == static_cast<double>(rows) / 2;
-    if (normals_follow) {
-      const auto middle = points_.begin() + static_cast<std::ptrdiff_t>(rows / 2);
-      normals.assign(middle, points_.end());
-      points_.resize(rows / 2);
-    } else if (header.has_count && header.count != static_cast<double>(rows)) {
-      char digits[kMaxNumberLength];
-      source_.fail("its first line promises " +
-                   std::string(digits, format_number(digits, header.count)) + " points, but " +
-                   std::to_string(rows) + " follow");
-    }
-    PointCloud cloud = cloud_of(roles);
-    if (normals_follow) cloud.normals = std::move(normals);
-    if (normals_follow) check_finite(source_, cloud.normals, 0, "point", "normal");
-    ShapeFile file;
-    file.shape = std::move(cloud);
-    file.format = ShapeFormat::kXyz;
-    file.encoding = "ascii";
-    return file;
-  }
-
-  PointCloud cloud_of(const ColumnRoles& roles) {
-    PointCloud cloud;
-    cloud.points = std::move(points_);
-    take_columns(cloud, roles, columns_, pwn_);
-    check_finite(source_, cloud.normals, source_.rows_before, "point", "normal");
-    if (!source_.attributes) cloud.attributes.clear();
-    return cloud;
+    return cell.kind == CellKind::kNumber ? cell.value : std::numeric_limits<double>::quiet_NaN();
   }
 
   [[noreturn]] void fail_line(const std::string& what) const {
@@ -232,33 +64,112 @@ class XyzReader {
   }
 
   const ShapeSource& source_;
+  const TableLook& look_;
   TextCursor text_;
-  bool pwn_;
-  std::vector<Vec3> points_;
-  std::vector<std::vector<double>> columns_;  // those of position stay empty
 };
+
+// Throws InvalidInput for a header that no points can follow.
+void check_header(const ShapeSource& source, const TableHeader& header, const std::string& wanted) {
+  TextCursor text(source.bytes);
+  text.at += header.rows_at;
+  const auto fail_line = [&](const std::string& what) { fail_at_line(source.name, text, what); };
+  const std::size_t n = header.syntax.columns;
+  if (n == 0 && !text.at_end()) fail_line(quoted_word(text) + " does not begin a row of numbers");
+  if (n == 0) source.fail("has no points");
+  if (n < 3) fail_line("a point needs 3 coordinates, here are " + counted(n, "value", "values"));
+  if (!header.unfit_names.empty() && wanted.empty()) {
+    fail_line("the header " + in_quotes(header.unfit_names) + " names " +
+              counted(header.unfit, "column", "columns") + ", but this line has " +
+              counted(n, "value", "values"));
+  }
+}
+
+// Coordinates that are behind all positions instead of in their rows.
+void take_normals_that_follow(PointCloud& cloud) {
+  const std::size_t n = cloud.points.size() / 2;
+  const auto middle = cloud.points.begin() + static_cast<std::ptrdiff_t>(n);
+  cloud.normals.assign(middle, cloud.points.end());
+  cloud.points.resize(n);
+}
+
+// Gaskell's implicitly connected quadrilaterals: n, and then six faces of (n + 1)^2 points.
+bool is_icq(double count, std::size_t rows) {
+  return static_cast<double>(rows) == 6 * (count + 1) * (count + 1);
+}
+
+void check_count(const ShapeSource& source, const TableHeader& header, std::size_t rows) {
+  if (!header.has_count || header.count == static_cast<double>(rows)) return;
+  char digits[kMaxNumberLength];
+  const std::string count(digits, format_number(digits, header.count));
+  if (is_icq(header.count, rows)) {
+    source.fail("is a shape model of implicitly connected quadrilaterals (ICQ), " + count +
+                " to a side, which is not read: convert it to plates, or delete its first line to "
+                "read its points");
+  }
+  source.fail("its first line promises " + count + " points, but " + std::to_string(rows) +
+              " follow");
+}
+
+bool ends_with(const std::string& name, const std::string& extension) {
+  return lower_case(name).ends_with(extension);
+}
 
 }  // namespace
 
-bool is_pwn(const std::string& name) { return name.ends_with(".pwn") || name.ends_with(".PWN"); }
+TableLook look_at_points(const ShapeSource& source, bool is_all) {
+  TableLook look;
+  look.header = look_at_table(source.bytes, is_all);
+  check_header(source, look.header, source.columns);
+  const TellingRows telling = telling_rows(source.bytes, is_all, look.header);
+  try {
+    look.plan =
+        plan_table(look.header, telling, source.columns,
+                   {.normals_follow = ends_with(source.name, ".pwn"),
+                    .intensity_first = look.header.has_count || ends_with(source.name, ".pts")});
+  } catch (const Error& error) {
+    TextCursor text(source.bytes);
+    text.at += look.header.rows_at;
+    fail_at_line(source.name, text, error.what());
+  }
+  return look;
+}
+
+PointCloud read_xyz_rows(const ShapeSource& source, const TableLook& look, std::size_t at,
+                         std::vector<std::string>& warnings) {
+  PointColumns points(look.plan, source.attributes);
+  XyzReader(source, look, at).read_rows(points);
+  PointCloud cloud = points.take();
+  settle_attribute_types(cloud.attributes, warnings);
+  return cloud;
+}
 
 ShapeFile read_xyz(const ShapeSource& source) {
-  return XyzReader(source, is_pwn(source.name)).read();
-}
-
-void check_xyz_header(const ShapeSource& source, const XyzHeader& header, std::size_t at) {
-  XyzReader(source, false, at).check_header(header);
-}
-
-PointCloud read_xyz_piece(const ShapeSource& source, const std::vector<std::string>& names,
-                          std::size_t columns, bool pwn) {
-  return XyzReader(source, pwn).read_piece(names, columns);
+  if (looks_like_plate_table(source.bytes)) return read_plate_table(source);
+  ShapeFile file;
+  file.format = ShapeFormat::kXyz;
+  file.encoding = "ascii";
+  TableLook look = look_at_points(source, true);
+  PointCloud cloud = read_xyz_rows(source, look, look.header.rows_at, file.warnings);
+  const TableHeader& header = look.header;
+  const std::size_t rows = cloud.points.size();
+  if (header.has_count && header.syntax.columns == 3 &&
+      header.count == static_cast<double>(rows) / 2) {
+    take_normals_that_follow(cloud);
+    look.plan.told.note += "; as many lines of normals follow";
+  } else {
+    check_count(source, header, rows);
+  }
+  file.shape = std::move(cloud);
+  file.table = std::move(look.plan.told);
+  return file;
 }
 
 bool looks_like_xyz(std::span<const char> bytes) {
-  TextCursor text(bytes);
-  const XyzHeader header = take_xyz_header(text);
-  return header.columns >= 3 && (header.names.empty() || has_position(header.names));
+  const TableHeader header = look_at_table(bytes, true);
+  if (!header.names.empty() && !has_position(header.names)) return false;
+  const TellingRows telling = telling_rows(bytes, true, header);
+  return std::count_if(telling.texts.begin(), telling.texts.end(),
+                       [&](std::size_t texts) { return texts < telling.rows; }) >= 3;
 }
 
 }  // namespace rholm

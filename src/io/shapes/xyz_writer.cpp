@@ -4,9 +4,8 @@
 
 namespace rholm {
 
-// Normals of other lengths than 1 need their names to be known again.
-void put_xyz_header(bool unit_normals, OutputBuffer& out) {
-  if (!unit_normals) out.text("# x y z nx ny nz\n");
+void put_xyz_header(bool names, OutputBuffer& out) {
+  if (names) out.text("# x y z nx ny nz\n");
 }
 
 void put_xyz_rows(const ShapeView& shape, OutputBuffer& out) {
@@ -20,9 +19,11 @@ void put_xyz_rows(const ShapeView& shape, OutputBuffer& out) {
 
 void format_xyz(const ShapeView& shape, OutputBuffer& out) {
   const NormalRange normals(shape);
-  UnitVectors units;
-  if (!normals.empty()) shape.points.visit_numbers([&](std::size_t i) { units.add(normals[i]); });
-  put_xyz_header(normals.empty() || units.all_are(), out);
+  XyzNames names;
+  if (!normals.empty()) {
+    shape.points.visit([&](std::size_t i, const Vec3& p) { names.add(p, normals[i]); });
+  }
+  put_xyz_header(!normals.empty() && names.are_needed(), out);
   put_xyz_rows(shape, out);
 }
 

@@ -19,15 +19,18 @@ constexpr std::size_t kPiece = std::size_t{1} << 16;  // points; chosen: 10 MB w
 // What the first rows of a file depend on.
 struct Ahead {
   std::uint64_t points = 0;
-  UnitVectors normals;
+  XyzNames names;
 };
 
-Ahead look_ahead(const std::filesystem::path& from, const Context& context) {
-  PointStream stream(from, {.attributes = false});
+Ahead look_ahead(const std::filesystem::path& from, const std::string& columns,
+                 const Context& context) {
+  PointStream stream(from, {.attributes = false, .columns = columns});
   Ahead ahead;
   PointCloud piece;
   while (stream.read(kPiece, piece, context)) {
-    for (const Vec3& normal : piece.normals) ahead.normals.add(normal);
+    for (std::size_t i = 0; i < piece.normals.size(); ++i) {
+      ahead.names.add(piece.points[i], piece.normals[i]);
+    }
   }
   ahead.points = stream.read_so_far();
   return ahead;
@@ -66,46 +69,54 @@ class AttributeNotes {
 }  // namespace
 
 ConvertedPoints convert_points(const std::filesystem::path& from, const std::filesystem::path& to,
-                               const ShapeWriteOptions& options, const Context& context) {
+                               const ShapeWriteOptions& options, const Context& context,
+                               const std::string& columns) {
   const ShapeFormat format = written_format(to, options);
   if (format != ShapeFormat::kPly && format != ShapeFormat::kXyz) {
     throw Error(ErrorCode::kUnsupported,
                 std::string("points are written a piece at a time as ply and xyz only, not as ") +
                     to_string(format));
   }
-  PointStream stream(from);
-  if (stream.has_faces()) {
-    throw Error(ErrorCode::kUnsupported, from.string() + " is a mesh: its faces would be lost");
-  }
-  PointCloud piece;
-  if (!stream.read(kPiece, piece, context)) {
-    throw Error(ErrorCode::kInvalidInput, from.string() + " has no points");
-  }
-  const bool counted = stream.size().has_value() || format == ShapeFormat::kXyz;
-  const bool look = format == ShapeFormat::kXyz ? !piece.normals.empty() : !counted;
-  const Ahead ahead = look ? look_ahead(from, context) : Ahead{stream.size().value_or(0), {}};
-
-  AtomicFile file(to, context);
-  OutputBuffer out(&file, ahead.points, context);
-  PlyPoints ply(stream.size().value_or(ahead.points), options.ascii, out);
-  if (format == ShapeFormat::kXyz) {
-    put_xyz_header(piece.normals.empty() || ahead.normals.all_are(), out);
-  }
-  AttributeNotes notes;
-  do {
-    notes.add(piece);
-    if (format == ShapeFormat::kPly) {
-      ply.put(piece);
-    } else {
-      put_xyz_rows(shape_view_of(piece), out);
+  std::optional<Ahead> ahead;
+  for (;;) {
+    PointStream stream(from, {.columns = columns});
+    if (stream.has_faces()) {
+      throw Error(ErrorCode::kUnsupported, from.string() + " is a mesh: its faces would be lost");
     }
-  } while (stream.read(kPiece, piece, context));
-  ConvertedPoints converted{.points = stream.read_so_far(), .warnings = stream.warnings()};
-  if (look && converted.points != ahead.points) refuse_changed(from);
-  out.flush();
-  file.commit();
-  notes.take_to(converted);
-  return converted;
+    PointCloud piece;
+    if (!stream.read(kPiece, piece, context)) {
+      throw Error(ErrorCode::kInvalidInput, from.string() + " has no points");
+    }
+    const bool is_xyz = format == ShapeFormat::kXyz;
+    const bool look = is_xyz ? !piece.normals.empty() : !stream.size() || to == "-";
+    if (look && !ahead) ahead = look_ahead(from, columns, context);
+    const std::uint64_t points = ahead ? ahead->points : stream.size().value_or(0);
+
+    AtomicFile file(to, context);
+    OutputBuffer out(&file, points, context);
+    PlyPoints ply(points, options.ascii, out);
+    if (is_xyz) put_xyz_header(!piece.normals.empty() && ahead->names.are_needed(), out);
+    AttributeNotes notes;
+    do {
+      notes.add(piece);
+      if (is_xyz) {
+        put_xyz_rows(shape_view_of(piece), out);
+      } else {
+        ply.put(piece);
+      }
+    } while (stream.read(kPiece, piece, context));
+    if (ahead && stream.read_so_far() != ahead->points) refuse_changed(from);
+    if (!is_xyz && stream.read_so_far() != points) {  // some are not finite
+      ahead = look_ahead(from, columns, context);
+      continue;
+    }
+    ConvertedPoints converted{
+        .points = stream.read_so_far(), .warnings = stream.warnings(), .table = stream.table()};
+    out.flush();
+    file.commit();
+    notes.take_to(converted);
+    return converted;
+  }
 }
 
 }  // namespace rholm

@@ -9,6 +9,7 @@
 #include "io/ply/ply_body.h"
 #include "io/ply/ply_header.h"
 #include "io/ply/ply_vertices.h"
+#include "io/shapes/plate_table.h"
 #include "io/shapes/shape_source.h"
 #include "io/shapes/xyz_columns.h"
 #include "io/shapes/xyz_reader.h"
@@ -18,11 +19,11 @@
 namespace rholm {
 namespace {
 
-constexpr std::size_t kMostHeader = std::size_t{1} << 20;  // bytes; chosen: any that makes sense
+constexpr std::size_t kMostHeader = std::size_t{1}
+                                    << 20;  // bytes of a PLY; chosen: any that makes sense
 constexpr std::size_t kMostPiece = std::size_t{64} << 20;  // bytes that are held; chosen
 constexpr std::size_t kValueText = 16;  // bytes of a value and what is around it; chosen
-constexpr std::size_t kMostLine = std::size_t{1} << 20;     // bytes
-constexpr std::size_t kTellingRows = std::size_t{1} << 16;  // that tell what columns are; chosen
+constexpr std::size_t kMostLine = std::size_t{1} << 20;  // bytes
 
 [[noreturn]] void refuse(const std::string& name, const std::string& what) {
   throw Error(ErrorCode::kUnsupported, name + ": " + what);
@@ -44,15 +45,6 @@ std::size_t lines_in(std::span<const char> text) {
   return line_number(end) - 1;
 }
 
-// Names for columns that have none, as take_columns() would call them.
-std::vector<std::string> names_of(const PointCloud& cloud, std::size_t columns) {
-  std::vector<std::string> names = {"x", "y", "z"};
-  if (!cloud.normals.empty()) names.insert(names.end(), {"nx", "ny", "nz"});
-  for (const Attribute& attribute : cloud.attributes) names.push_back(attribute.name);
-  names.resize(columns);
-  return names;
-}
-
 }  // namespace
 
 class PointStream::Reader {
@@ -70,13 +62,13 @@ class PointStream::Reader {
 
   bool read(std::size_t n, PointCloud& cloud, const Context& context) {
     cloud = {};
-    if (n == 0) return !ended();
-    if (first_) {
-      cloud = cut_first(n);
-    } else {
+    if (n == 0) return !window_.at_least(1, {}).empty();
+    while (cloud.points.empty()) {
       const bool some =
           format == ShapeFormat::kPly ? read_ply(n, cloud, context) : read_xyz(n, cloud, context);
       if (!some) return false;
+      rows_ += cloud.points.size();
+      drop(cloud);
     }
     settle(cloud);
     done += cloud.points.size();
@@ -96,6 +88,7 @@ class PointStream::Reader {
   bool has_faces = false;
   bool has_more = false;
   std::vector<std::string> warnings;
+  TableColumns table;
 
  private:
   static constexpr std::size_t kFirst = std::size_t{1} << 16;  // bytes that tell the format
@@ -103,11 +96,21 @@ class PointStream::Reader {
   // Of a piece; how far the file is read the window tells.
   ShapeSource source(std::span<const char> bytes) const {
     ShapeSource made(bytes, window_.name(), options_, silent_, 0);
-    made.rows_before = done;
+    made.rows_before = rows_;
     made.lines_before = lines_;
     return made;
   }
-  bool ended() { return !first_ && window_.at_least(1, {}).empty(); }
+
+  void drop(PointCloud& cloud) {
+    const std::size_t n = drop_not_finite(cloud);
+    if (n == 0) return;
+    if (dropped_ == 0) {
+      dropped_at_ = warnings.size();
+      warnings.emplace_back();
+    }
+    dropped_ += n;
+    warnings[dropped_at_] = dropped_warning(dropped_);
+  }
 
   void pass(std::size_t n) {
     if (encoding == "ascii") lines_ += lines_in(window_.bytes().first(n));
@@ -220,40 +223,37 @@ class PointStream::Reader {
 
   void open_xyz() {
     format = ShapeFormat::kXyz;
-    window_.at_least(kMostHeader, {});
+    constexpr std::size_t kByteOrderMark = 3;
+    window_.at_least(kTellingBytes + kByteOrderMark, {});
     const ShapeSource whole = source(window_.bytes());
     // Other formats are told from this one as read_shape() does.
-    if (looks_like_stl(whole.bytes) || looks_like_off(whole.bytes) || looks_like_obj(whole.bytes)) {
+    if (looks_like_stl(whole.bytes) || looks_like_off(whole.bytes) || looks_like_obj(whole.bytes) ||
+        looks_like_plate_table(whole.bytes)) {
       refuse(window_.name(),
              "only PLY and points as lines of numbers can be read a piece at a time");
     }
-    TextCursor text(whole.bytes);
-    const XyzHeader header = take_xyz_header(text);
-    const auto at = static_cast<std::size_t>(text.at - text.begin);
-    check_xyz_header(whole, header, at);
-    columns_ = header.columns;
-    names_ = header.names;
-    is_pwn_ = is_pwn(window_.name());
-    if (header.has_count && header.columns == 3) {
+    look_ = look_at_points(whole, window_.ended());
+    const TableHeader& header = look_.header;
+    table = look_.plan.told;
+    const std::size_t columns = header.syntax.columns;
+    if (header.has_count && columns == 3) {
       refuse(window_.name(),
              "after its number of points come their normals or nothing, which "
              "cannot be told a piece at a time");
     }
+    if (header.has_count && columns == 4 && look_.plan.roles[0] == ColumnRole::kSkipped) {
+      refuse(window_.name(),
+             "behind its numbered points may come plates, which cannot be told a piece at a time");
+    }
     if (header.has_count && header.count >= 0 && header.count < 1e18) {
       size = static_cast<std::uint64_t>(header.count);
     }
-    pass(at + (window_.bytes().size() - whole.bytes.size()));
-    if (!names_.empty()) return;
-    // Tells what the columns are, and is read once.
-    PointCloud telling;
-    if (!read_xyz(kTellingRows, telling, {})) whole.fail("has no points");
-    names_ = names_of(telling, columns_);
-    first_ = std::move(telling);
+    pass(header.rows_at + (window_.bytes().size() - whole.bytes.size()));
   }
 
   // The whole lines of at most n rows.
   std::span<const char> lines_of(std::size_t n, const Context& context) {
-    std::size_t asked = std::min<std::size_t>(n * 8 * columns_, kMostPiece) + 1;
+    std::size_t asked = std::min<std::size_t>(n * 8 * look_.header.syntax.columns, kMostPiece) + 1;
     for (;;) {
       const std::span<const char> bytes = window_.at_least(asked, context);
       const char* end = bytes.data();
@@ -286,40 +286,18 @@ class PointStream::Reader {
     while (cloud.points.empty()) {
       const std::span<const char> lines = lines_of(n, context);
       if (lines.empty()) {
-        if (size && *size != done) {
+        if (size && *size != rows_) {
           source(lines).fail("its first line promises " + std::to_string(*size) + " points, but " +
-                             std::to_string(done) + " follow");
+                             std::to_string(rows_) + " follow");
         }
         return false;
       }
-      cloud = read_xyz_piece(source(lines), names_, columns_, is_pwn_);  // comments have none
+      std::vector<std::string> changed;
+      cloud = read_xyz_rows(source(lines), look_, 0, changed);  // comments have none
+      if (done == 0) warnings.insert(warnings.end(), changed.begin(), changed.end());
       pass(lines.size());
     }
     return true;
-  }
-
-  // At most n of the first points, which are there already.
-  PointCloud cut_first(std::size_t n) {
-    PointCloud cloud = std::move(*first_);
-    first_.reset();
-    if (cloud.points.size() <= n) return cloud;
-    const auto cut = [n](auto& all) {
-      using All = std::remove_reference_t<decltype(all)>;
-      All rest;
-      if (all.size() > n) {
-        rest.assign(all.begin() + static_cast<std::ptrdiff_t>(n), all.end());
-        all.resize(n);
-      }
-      return rest;
-    };
-    PointCloud rest;
-    rest.points = cut(cloud.points);
-    rest.normals = cut(cloud.normals);
-    for (Attribute& attribute : cloud.attributes) {
-      rest.attributes.push_back({attribute.name, attribute.type, cut(attribute.values)});
-    }
-    first_ = std::move(rest);
-    return cloud;
   }
 
   // Types of attributes are those of the first piece.
@@ -348,13 +326,12 @@ class PointStream::Reader {
   ShapeReadOptions options_;
   Context silent_;
   PlyHeader header_;
-  std::size_t row_bytes_ = 0;  // of text about
-  std::uint64_t left_ = 0;     // rows of a PLY
-  std::size_t columns_ = 0;
-  bool is_pwn_ = false;
-  std::vector<std::string> names_;
-  std::size_t lines_ = 0;  // before the window
-  std::optional<PointCloud> first_;
+  std::size_t row_bytes_ = 0;                 // of text about
+  std::uint64_t left_ = 0;                    // rows of a PLY
+  TableLook look_;                            // of lines of numbers
+  std::size_t lines_ = 0;                     // before the window
+  std::size_t rows_ = 0;                      // read
+  std::size_t dropped_ = 0, dropped_at_ = 0;  // points, and their warning
   std::vector<ScalarType> types_;
 };
 
@@ -375,5 +352,6 @@ bool PointStream::is_all() const {
   return reader_->format == ShapeFormat::kPly && reader_->encoding != "ascii" && !reader_->has_more;
 }
 const std::vector<std::string>& PointStream::warnings() const { return reader_->warnings; }
+const TableColumns& PointStream::table() const { return reader_->table; }
 
 }  // namespace rholm

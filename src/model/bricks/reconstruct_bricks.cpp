@@ -91,7 +91,8 @@ std::string text_of(const PointCloud& cloud) {
 
 std::string manifest(const std::string& input, const ReconstructOptions& options,
                      const BrickOptions& bricks) {
-  return fmt::format("rholm {}\npoints {}\npoints per brick {}\n{}\n", kVersion, input,
+  const std::string columns = bricks.columns.empty() ? "" : "columns " + bricks.columns + "\n";
+  return fmt::format("rholm {}\npoints {}\n{}points per brick {}\n{}\n", kVersion, input, columns,
                      bricks.points_per_brick, text_of(options));
 }
 
@@ -198,8 +199,9 @@ BrickReconstruction reconstruct_shared(const std::filesystem::path& points,
                                        const BrickOptions& bricks, const SharedRun& run,
                                        const Context& context) {
   return reconstruct_source(
-      text_of(points), [&](PieceStore& store) { return open_points(points, {}, store); }, mesh,
-      options, bricks, run, context);
+      text_of(points),
+      [&](PieceStore& store) { return open_points(points, {.columns = bricks.columns}, store); },
+      mesh, options, bricks, run, context);
 }
 
 BrickReconstruction reconstruct_shared(const PointCloud& points, const std::filesystem::path& mesh,

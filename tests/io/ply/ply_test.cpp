@@ -330,15 +330,23 @@ TEST(ply, attribute_that_is_not_a_number_is_kept_with_a_warning) {
       (std::vector<std::string>{"attribute 'quality' has 2 values that are not finite numbers"}));
 }
 
-TEST(ply, coordinates_that_are_not_finite_are_refused) {
+TEST(ply, points_that_are_not_finite_are_dropped) {
   const std::string head = kAsciiHead + "element vertex 2\n" + kXyz + "end_header\n0 0 0\n";
-  expect_refused(head + "0 nan 0\n", {"vertex 1", "not a finite number"});
-  expect_refused(head + "0 0 -inf\n", {"vertex 1"});
+  for (const char* row : {"0 nan 0\n", "0 0 -inf\n"}) {
+    const ShapeFile file = parse(head + row);
+    EXPECT_EQ(file.dropped, 1u);
+    EXPECT_EQ(std::get<PointCloud>(file.shape).points, (std::vector<Vec3>{{}}));
+  }
   expect_refused(head + "0 0 1e999\n", {"line 9", "'1e999'", "not a number"});
+}
+
+TEST(ply, vertices_of_faces_that_are_not_finite_are_refused) {
+  const std::string faces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
   for (const float bad : {NAN, INFINITY, -INFINITY}) {
     BytesBuilder out;
-    out.text(binary_head(false) + "element vertex 2000\n" + kXyz + "end_header\n");
+    out.text(binary_head(false) + "element vertex 2000\n" + kXyz + faces);
     for (int i = 0; i < 2000; ++i) out.put<float>(1, 2, i == 1500 ? bad : 3);
+    out.put<std::uint8_t>(3).put<std::int32_t>(0, 1, 2);
     expect_refused(out.bytes(), {"vertex 1500"});
   }
 }

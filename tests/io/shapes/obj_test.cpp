@@ -127,7 +127,7 @@ TEST(obj, only_vertices_are_points_with_their_normals) {
   const ShapeFile odd = parse("v 1 2 3\nv 4 5 6\nvn 0 0 1\n");
   EXPECT_TRUE(std::get<PointCloud>(odd.shape).normals.empty());
   EXPECT_EQ(odd.warnings, (std::vector<std::string>{"1 normal for 2 points passed over"}));
-  expect_refused("v 1 2 3\nvn 0 nan 1\n", {"point 0", "normal"});
+  EXPECT_EQ(parse_points("v 1 2 3\nvn 0 nan 1\n").normals, (std::vector<Vec3>{{}}));
 }
 
 TEST(obj, numbers_are_read_in_every_notation) {
@@ -143,7 +143,8 @@ TEST(obj, broken_lines_are_refused_with_their_number) {
   expect_refused("v 0 0\n", {"line 1", "3 coordinates"});
   expect_refused("v 0 0 0\nv 1 one 0\n", {"line 2", "'one'"});
   expect_refused("v 0 0 0\r\nv 1 1.2.3 0\r\n", {"line 2", "'1.2.3'"});
-  expect_refused("v 0 0 0\nv 1 nan 0\n", {"line 2", "finite"});
+  expect_refused("v 0 0 0\nv 1 nan 0\nv 1 1 1\nf 1 2 3\n", {"line 2", "finite"});
+  EXPECT_EQ(parse("v 0 0 0\nv 1 nan 0\n").dropped, 1u);
   expect_refused("v 0 0 0\nv 1 +-1 0\n", {"line 2"});
   expect_refused("v 0 0 0 1 1 1 1 1\n", {"line 1", "too many"});
   expect_refused(kVertices + "vn 1 2\n", {"line 5", "3 numbers"});

@@ -119,7 +119,10 @@ TEST(off, broken_files_are_refused) {
   expect_refused("OFF\n4 4 0\n0 0 inf\n" + kVertices + kFaces, {"line 3", "finite"});
   expect_refused("COFF\n3 1 0\n0 0 0 1 2\n1 0 0 1 2\n0 1 0 1 2\n3 0 1 2\n", {"line 3", "colour"});
   expect_refused("COFF\n3 1 0\n0 0 0 1 2 3\n1 0 0\n0 1 0 1 2 3\n3 0 1 2\n", {"line 4", "colour"});
-  expect_refused("NOFF\n1 0 0\n0 0 0 nan 0 0\n", {"normal"});
+  EXPECT_EQ(parse_points("NOFF\n1 0 0\n0 0 0 nan 0 0\n").normals, (std::vector<Vec3>{{}}));
+  EXPECT_EQ(parse("OFF\n2 0 0\n0 0 inf\n1 2 3\n").dropped, 1u);
+  expect_refused("OFF\n", {"number of vertices", "missing"});
+  expect_refused("OFF\n3\n", {"number of faces", "missing"});
 }
 
 TEST(off, counts_beyond_the_file_are_refused_before_memory_is_taken) {

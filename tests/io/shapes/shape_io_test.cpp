@@ -188,6 +188,10 @@ TEST(shape_io, stl_keeps_the_corners_as_floats) {
         EXPECT_EQ(static_cast<float>(r.z), static_cast<float>(v.z));
       }
     }
+    if (ascii) {  // text keeps all digits
+      EXPECT_EQ(read.vertices[0], mesh.vertices[mesh.triangles[0][0]]);
+      EXPECT_EQ(read.vertices[1], mesh.vertices[mesh.triangles[0][1]]);
+    }
     // What STL can hold, it keeps.
     expect_same_mesh(round_trip(read, "a.stl", {.ascii = ascii}), read);
   }
@@ -319,6 +323,32 @@ TEST(shape_io, names_of_formats_are_read_back) {
     EXPECT_EQ(parse_shape_format(to_string(format)), format);
   }
   expect_error([] { parse_shape_format("doc"); }, ErrorCode::kUnsupported, {"'doc'", "ply"});
+}
+
+// A box of 16 units whose corners have odd quarters far from the origin: between 2^22 and 2^23 a
+// float has steps of 1/2, so that faces of a quarter's width collapse.
+TEST(shape_io, binary_stl_says_what_single_precision_does) {
+  const TemporaryFolder folder;
+  Mesh mesh{.vertices = testing::kTetrahedronVertices,
+            .triangles = testing::kTetrahedronTriangles,
+            .attributes = {}};
+  for (Vec3& v : mesh.vertices) v = 16.0 * v;
+  EXPECT_TRUE(write_shape(mesh, folder / "near.stl").empty());
+  for (Vec3& v : mesh.vertices) v.y += 5155487;
+  EXPECT_TRUE(write_shape(mesh, folder / "far.ply").empty());
+  EXPECT_TRUE(write_shape(mesh, folder / "far.stl", {.ascii = true}).empty());
+  const auto far = write_shape(mesh, folder / "far.stl");
+  ASSERT_EQ(far.size(), 1u);
+  EXPECT_NE(far[0].find("steps of 0.5"), std::string::npos) << far[0];
+  EXPECT_EQ(far[0].find("faces lose"), std::string::npos) << far[0];
+  // A triangle 0.2 high loses its area.
+  const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(),
+                       {{0, 5155487, 0}, {1, 5155487, 0}, {0.5, 5155487.2, 0}});
+  mesh.triangles.push_back({n, n + 1, n + 2});
+  const auto lost = write_shape(mesh, folder / "far.stl");
+  ASSERT_EQ(lost.size(), 1u);
+  EXPECT_NE(lost[0].find("1 of 5 faces"), std::string::npos) << lost[0];
 }
 
 TEST(shape_io, small_coordinates_beside_others_may_round_to_zero) {

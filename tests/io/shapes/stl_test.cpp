@@ -99,12 +99,44 @@ TEST(stl, normals_may_be_anything) {
 
 TEST(stl, files_of_the_wrong_size_are_refused) {
   const std::string bytes = binary_tetrahedron("x");
-  expect_refused(bytes.substr(0, bytes.size() - 1), {"4 facets", "284", "283", "truncated"},
-                 "a.stl");
-  expect_refused(bytes + "x", {"284", "285"}, "a.stl");
+  expect_refused(bytes.substr(0, bytes.size() - 1),
+                 {"truncated", "count of facets is 4", "284", "283", "3 facets"}, "a.stl");
   expect_refused(bytes.substr(0, 83), {"84", "83"}, "a.stl");
   expect_refused(binary_tetrahedron("x", 4000000000u), {"200000000084", "284"}, "a.stl");
   expect_refused(binary_tetrahedron("x", 0).substr(0, 84), {"no facets"}, "a.stl");
+}
+
+TEST(stl, bytes_behind_the_facets_are_passed_over_with_a_note) {
+  const std::string more = std::string(7, '\0') + "end";
+  for (const char* title : {"made by hand", "solid by a program"}) {
+    for (const char* name : {"a.stl", "standard input"}) {
+      const ShapeFile file = parse(binary_tetrahedron(title) + more, name);
+      EXPECT_EQ(file.encoding, "binary little endian");
+      expect_soup_of_tetrahedron(std::get<Mesh>(file.shape));
+      ASSERT_EQ(file.warnings.size(), 1u);
+      EXPECT_NE(file.warnings[0].find("10 bytes behind the last of 4 facets"), std::string::npos);
+    }
+  }
+  // Whole facets behind those that are counted are named.
+  const std::string bytes = binary_tetrahedron("x");
+  const ShapeFile six = parse(bytes + bytes.substr(84, 100), "a.stl");
+  EXPECT_EQ(std::get<Mesh>(six.shape).triangles.size(), 4u);
+  EXPECT_NE(six.warnings.at(0).find("2 more, which the count does not name"), std::string::npos);
+  const ShapeFile text = parse(ascii_tetrahedron() + "\x1a rest");
+  expect_soup_of_tetrahedron(std::get<Mesh>(text.shape));
+  EXPECT_NE(text.warnings.at(0).find("6 bytes behind the last 'endsolid'"), std::string::npos);
+}
+
+TEST(stl, facets_that_nobody_counted_are_read_with_a_note) {
+  for (const std::uint32_t count : {0u, 0xffffffffu}) {
+    for (const char* title : {"made by hand", "solid by a program"}) {
+      const ShapeFile file = parse(binary_tetrahedron(title, count), "a.stl");
+      expect_soup_of_tetrahedron(std::get<Mesh>(file.shape));
+      ASSERT_EQ(file.warnings.size(), 1u);
+      EXPECT_NE(file.warnings[0].find("4 facets follow"), std::string::npos);
+      EXPECT_EQ(parse(binary_tetrahedron(title, count) + "xyz", "a.stl").warnings.size(), 2u);
+    }
+  }
 }
 
 TEST(stl, coordinates_that_are_not_finite_are_refused) {
@@ -130,7 +162,7 @@ TEST(stl, broken_text_is_refused_with_its_line) {
   expect_refused(with("  facet", "  fact"), {"line 2", "'fact'"}, "a.stl");
   expect_refused(with("1.000000", "one"), {"line 5", "'one'"});
   expect_refused(good.substr(0, good.find("endsolid")), {"truncated", "4 facets"});
-  expect_refused(good + "rest", {"'rest'", "'solid'"});
+  expect_refused(good + "facet", {"'facet'", "'solid'"});
   expect_refused("solid nothing\nendsolid nothing\n", {"no facets"});
 }
 
