@@ -66,6 +66,7 @@ class PointStream::Reader {
     while (cloud.points.empty()) {
       const bool some =
           format == ShapeFormat::kPly ? read_ply(n, cloud, context) : read_xyz(n, cloud, context);
+      if (!some && rows_ > 0 && done == 0) source({}).fail("has no point with finite coordinates");
       if (!some) return false;
       rows_ += cloud.points.size();
       drop(cloud);
