@@ -160,6 +160,9 @@ int analyze_atlas(const AnalyzeCommandOptions& options, Session& session) {
   check_writable(options.output);
 
   ShapeFile file = read_shape_input(options.input, session, options.columns);
+  if (std::holds_alternative<PointCloud>(file.shape)) {
+    say_what_was_read(file, options.input, session);
+  }
   if (by_integrals(options)) {
     AtlasModel model = integrate_shape(options, std::move(file), session);
     write_model(options, model);

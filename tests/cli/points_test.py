@@ -254,10 +254,10 @@ class Tables(CliTest):
         for words in (["convert", "german.csv", "o.ply"], ["orient", "german.csv", "-o", "o.ply"],
                       ["reconstruct", "german.csv", "-o", "o.ply"],
                       ["partition", "german.csv", "-o", "o.ply"],
-                      ["render", "german.csv", "-o", "o.png", "--size", "64"],
+                      ["render", "german.csv", "-o", "o.png", "--size", "64x64"],
                       ["analyze", "german.csv", "--atlas", "--tolerance", "0.1", "-o", "o.h5"]):
-            self.assertIn(said, self.rholm(*words).err, words)
-            self.assertNotIn(said, self.rholm(*words, "--quiet").err, words)
+            self.assertIn(said, self.run_rholm(*words).err, words)
+            self.assertNotIn(said, self.run_rholm(*words, "--quiet").err, words)
 
     def test_columns_can_be_said(self):
         self.table("turned.txt", (5, 4, 3, 2, 1, 0))
@@ -266,10 +266,9 @@ class Tables(CliTest):
         for found, wanted in zip(rows(self.folder / "o.xyz"), self.points, strict=True):
             for a, b in zip(found, wanted, strict=True):
                 self.assertAlmostEqual(a, b, 8)
-        plain = self.rholm("reconstruct", "p.xyz", "-o", "a.ply", "--json").json()
-        self.assertEqual(self.rholm("reconstruct", "turned.txt", "-o", "b.ply", "--json",
-                                    *columns).json()["points"], plain["points"])
-        self.rholm("reconstruct", "turned.txt", "-o", "b.ply", "--brick-points", "1000", *columns)
+        plain = self.run_rholm("reconstruct", "p.xyz", "-o", "a.ply", "--json").json()
+        self.assertEqual(self.run_rholm("reconstruct", "turned.txt", "-o", "b.ply", "--json",
+                                        *columns).json()["points"], plain["points"])
         report = self.rholm("info", "turned.txt", "--json", *columns).json()
         self.assertEqual(report["table_columns"], "nz ny nx z y x".split())
         piped = self.run_rholm("info", "-", "--json", *columns,
@@ -288,7 +287,7 @@ class Tables(CliTest):
         self.assertEqual(whole["counts"], {"points": 400})
         self.assertEqual(whole["warnings"],
                          ["3 points with a coordinate that is not a finite number dropped"])
-        self.assertIn("3 points", self.rholm("reconstruct", "gaps.xyz", "-o", "g.ply").err)
+        self.assertIn("3 points", self.run_rholm("reconstruct", "gaps.xyz", "-o", "g.ply").err)
         tiny = ["--max-memory", "1e-6"]
         pieces = self.rholm("info", "gaps.xyz", "--json", *tiny).json()
         self.assertEqual(pieces["counts"], whole["counts"])
