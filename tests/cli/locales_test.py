@@ -1,0 +1,52 @@
+"""The tests of the program where numbers have commas (German) and I is not the capital of i
+(Turkish): the same words, numbers and files."""
+
+import locale
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+LOCALES = ("de_DE", "tr_TR")
+# Those that a run of all tests can wait for.
+FAST = ("meaning", "usage")
+
+
+def made(folder):
+    """Makes the locales in a folder, as the system need not have them."""
+    for name in LOCALES:
+        subprocess.run(["localedef", "-i", name, "-f", "UTF-8", str(folder / f"{name}.UTF-8")],
+                       check=True, capture_output=True)
+    os.environ["LOCPATH"] = str(folder)
+    # So that it is no test of the C locale.
+    locale.setlocale(locale.LC_ALL, "de_DE.UTF-8")
+    if locale.localeconv()["decimal_point"] != ",":
+        raise OSError("the locale de_DE.UTF-8 does not come into force")
+
+
+def main():
+    scripts = sys.argv[1:] or FAST
+    folder = Path(tempfile.mkdtemp(prefix="rholm-locales-"))
+    try:
+        try:
+            made(folder)
+        except (OSError, subprocess.CalledProcessError, locale.Error) as error:
+            print(f"SKIPPED: no German and Turkish locale ({error}); 'scripts/setup test' installs "
+                  "what they are made of")
+            return 77  # which CTest takes for skipped
+        failed = 0
+        for name in LOCALES:
+            for script in scripts:
+                print(f"{name}: {script}", flush=True)
+                failed += subprocess.run([sys.executable, "-B", HERE / f"{script}_test.py"],
+                                         env={**os.environ, "LC_ALL": f"{name}.UTF-8"}).returncode != 0
+        return 1 if failed else 0
+    finally:
+        shutil.rmtree(folder)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
