@@ -13,6 +13,7 @@
 #include "cli/terminal/session.h"
 #include "rholm/batch.h"
 #include "rholm/coefficients.h"
+#include "rholm/context.h"
 
 namespace rholm::cli {
 
@@ -32,7 +33,7 @@ struct BatchCommands {
   // Makes a command, with options of its own; throws UsageError for a name that is none.
   std::function<Command(const std::string& name)> make;
   // What is said of an expansion that was written, beside the report.
-  std::function<Json(const Expansion&)> describe;
+  std::function<Json(const Expansion&, const Context&)> describe;
 };
 
 struct BatchJob {

@@ -67,13 +67,13 @@ bool is_wanted(const BatchJob& job, const std::string& name) {
   return !job.options.no_times || !is_of_the_run(name);
 }
 
-void add_results(const BatchJob& job, const Capture& said, BatchRow& row) {
+void add_results(const BatchJob& job, const Capture& said, int threads, BatchRow& row) {
   BatchRow found;
   const auto wanted = [&](const std::string& name) { return is_wanted(job, name); };
   const Json report = Json::parse(said.report, nullptr, false);
   flatten(report, wanted, found);
   if (said.expansion) {
-    flatten(job.commands.describe(*said.expansion), wanted, found);
+    flatten(job.commands.describe(*said.expansion, {.threads = threads}), wanted, found);
     row.emplace_back("coefficients", listed(said.expansion->coefficients));
   }
   for (auto& [name, cell] : found) row.emplace_back(free_name(job, name), std::move(cell));
@@ -116,7 +116,7 @@ std::optional<BatchRow> run_row(const BatchJob& job, std::size_t row, int thread
     cells.emplace_back("seconds", seconds_of(CLOCK_MONOTONIC) - wall_begin);
     cells.emplace_back("cpu_seconds", seconds_of(cpu) - cpu_begin);
   }
-  add_results(job, said, cells);
+  add_results(job, said, threads, cells);
   return cells;
 }
 

@@ -11,6 +11,7 @@
 #include "cli/batch/workers.h"
 #include "cli/commands/batch.h"
 #include "cli/commands/commands.h"
+#include "cli/commands/measures_report.h"
 #include "cli/commands/spectrum_report.h"
 #include "cli/files/outputs.h"
 #include "cli/grammar/parse.h"
@@ -183,8 +184,10 @@ std::vector<Option> option_list(BatchOptions& o) {
 }  // namespace
 
 BatchCommands commands_for_batches() {
-  return {.make = make_named, .describe = [](const Expansion& expansion) {
-            return spectrum_json(expansion, spectrum_of(expansion));
+  return {.make = make_named, .describe = [](const Expansion& expansion, const Context& context) {
+            Json json = spectrum_json(expansion, spectrum_of(expansion));
+            json.update(measures_json(measures_of(expansion, context).measures));
+            return json;
           }};
 }
 

@@ -9,6 +9,7 @@
 
 #include "cli/commands/atlas_report.h"
 #include "cli/commands/commands.h"
+#include "cli/commands/measures_report.h"
 #include "cli/files/inputs.h"
 #include "cli/files/prepare.h"
 #include "cli/options/memory_options.h"
@@ -38,9 +39,6 @@ struct Options {
 // Reading a mesh, welding it and pairing its edges takes 5.0 times the size of its binary file
 // (measured with `rholm info` on bench/sphere_stream 866), of points three times.
 constexpr double kMemoryPerByte = 6;
-
-// Above this degree volume and area are left out: they cost O(L^3), a second at 512.
-constexpr int kMaxMeasuredDegree = 512;
 
 struct MeshReport {
   const ShapeFile& file;
@@ -296,18 +294,6 @@ bool report_large(const Options& options, Session& session) {
   return report_large_mesh(options, needed, session) || report_large_cloud(options, session);
 }
 
-std::optional<SurfaceMeasures> measures_of(const Expansion& expansion, Session& session) {
-  if (expansion.coefficients.degree() > kMaxMeasuredDegree) return std::nullopt;
-  if (expansion.function == RadialFunction::kOther) return std::nullopt;
-  try {
-    return measure(expansion, session.context());
-  } catch (const Error& error) {
-    if (error.code() == ErrorCode::kCancelled) throw;
-    session.note(fmt::format("no volume and area: {}", error.what()));
-    return std::nullopt;
-  }
-}
-
 std::string errors_text(const TruncationErrors& errors) {
   const auto length = [&](double value) {
     return errors.diagonal > 0 ? fmt::format("{} ({} of the diagonal)", text_of(value),
@@ -334,7 +320,8 @@ int report_coefficients(const Options& options, const CoefficientsFile& file, Se
   const std::string format = model ? "model" : to_string(file.format);
   const std::string convention = fmt::format(
       "{}, csphase {}", to_string(file.convention.normalization), file.convention.csphase);
-  const auto measures = measures_of(expansion, session);
+  const auto [measures, why_not] = measures_of(expansion, session.context());
+  if (!why_not.empty()) session.note(fmt::format("no volume and area: {}", why_not));
   Json json;
   json["file"] = options.input;
   json["kind"] = "coefficients";
@@ -353,9 +340,7 @@ int report_coefficients(const Options& options, const CoefficientsFile& file, Se
   json["tail_strength"] = json_of(expansion.tail_strength);
   json["errors"] = json_of(expansion.errors);
   json["diagonal"] = expansion.errors ? Json(expansion.errors->diagonal) : Json(nullptr);
-  json["volume"] = measures ? Json(measures->volume) : Json(nullptr);
-  json["area"] = measures ? Json(measures->area) : Json(nullptr);
-  json["volume_centroid"] = measures ? json_of(measures->centroid) : Json(nullptr);
+  json.update(measures_json(measures));
   std::string text = fmt::format("{}: coefficients, {}\n", display_name(options.input), format);
   text += line("degree", fmt::format("{}", expansion.coefficients.degree()));
   text += line("function", to_string(expansion.function));
@@ -369,6 +354,7 @@ int report_coefficients(const Options& options, const CoefficientsFile& file, Se
   if (measures) {
     text += line("volume", text_of(measures->volume));
     text += line("area", text_of(measures->area));
+    text += line("sphericity", text_of(measures->sphericity()));
     text += line("volume centroid", text_of(measures->centroid));
   }
   if (expansion.errors) text += errors_text(*expansion.errors);

@@ -31,6 +31,10 @@ struct SurfaceMeasures {
   double volume = 0;  // cubed
   double area = 0;    // squared; of the surface
   Vec3 centroid;      // of the solid, in the coordinates of the shape
+
+  // The area of the ball of the same volume over the area, at most 1 (Wadell 1935); 0 for a solid
+  // without volume.
+  double sphericity() const;
 };
 // By quadrature on a grid: exact for volume and centroid of a radius, converged to about 1e-12 for
 // area (smooth, star-shaped).

@@ -1516,6 +1516,10 @@ class SurfaceMeasures:
     def centroid(self) -> numpy.typing.NDArray[numpy.float64]:
         """Of the solid, (3,)."""
 
+    @property
+    def sphericity(self) -> float:
+        """The area of the ball of the same volume over the area, at most 1."""
+
 def measure(arg0: Expansion, arg1: Caller, /) -> SurfaceMeasures: ...
 
 def inertia(arg0: Expansion, arg1: Caller, /) -> NDArray[numpy.float64]: ...

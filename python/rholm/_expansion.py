@@ -151,6 +151,11 @@ class Expansion:
         """Of the solid, in the coordinates of the shape, (3,)."""
         return self.measure().centroid
 
+    @property
+    def sphericity(self) -> float:
+        """The area of the ball of the same volume over the area (Wadell 1935), at most 1."""
+        return self.measure().sphericity
+
     def measure(self, *, threads: int = 0) -> _core.SurfaceMeasures:
         """Volume, area and centroid in one go.
 

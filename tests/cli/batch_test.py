@@ -102,6 +102,10 @@ class Rows(BatchTest):
                     self.assertNotIn(name, row)
                 else:
                     self.assertTrue(same(row[name], value), f"{name}: {row[name]!r}, not {value!r}")
+            measures = self.rholm("info", "one.h5", "--json").json()
+            for name in ("volume", "area", "sphericity"):
+                self.assertTrue(same(row[name], measures[name]), f"{name}: {row[name]!r}, not {measures[name]!r}")
+            self.assertLessEqual(float(row["sphericity"]), 1)
             # Parseval: the energy of a degree is that of its coefficients.
             for l in range(5):
                 energy = sum(float(row[f"coefficients.{l * l + k}"]) ** 2 for k in range(2 * l + 1))

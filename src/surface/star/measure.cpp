@@ -4,6 +4,7 @@
 // grid integrates exactly.
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "base/compensated_sum.h"
@@ -36,6 +37,12 @@ struct Sums {
 };
 
 }  // namespace
+
+double SurfaceMeasures::sphericity() const {
+  if (!(volume > 0) || !(area > 0)) return 0;
+  const double edge = std::cbrt(volume);
+  return std::cbrt(36 * std::numbers::pi) * edge * (edge / area);
+}
 
 SurfaceMeasures measure(const Expansion& expansion, const Context& context) {
   const UnitExpansion unit = unit_expansion(expansion);

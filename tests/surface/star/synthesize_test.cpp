@@ -163,7 +163,22 @@ TEST(measure, sphere_expanded_off_its_centre_keeps_volume_area_and_centroid) {
     EXPECT_NEAR(m.volume, 4 * kPi / 3, 1e-11);
     EXPECT_NEAR(m.area, 4 * kPi, 1e-11);
     EXPECT_LT(norm(m.centroid), 1e-11);
+    EXPECT_NEAR(m.sphericity(), 1, 1e-11);
   }
+}
+
+// The ratio of Wadell (1935); it has no unit.
+TEST(measure, sphericity_is_that_of_wadell_whatever_the_scale) {
+  Expansion e = bulged_sphere();
+  const SurfaceMeasures m = measure(e);
+  const double expected = std::pow(kPi, 1.0 / 3) * std::pow(6 * m.volume, 2.0 / 3) / m.area;
+  EXPECT_LT(expected, 0.999);
+  for (const double scale : {1.0, 1e-90, 1e90}) {
+    Expansion scaled = e;
+    for (double& value : scaled.coefficients.values()) value *= scale;
+    EXPECT_NEAR(measure(scaled).sphericity(), expected, 1e-13);
+  }
+  EXPECT_EQ(SurfaceMeasures{}.sphericity(), 0);
 }
 
 // Scales far from 1, and a solid without mean.

@@ -1,0 +1,24 @@
+// Volume, area and sphericity of an expansion, as rholm info and batches report them. Layer: cli.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "cli/terminal/json_text.h"
+#include "rholm/coefficients.h"
+#include "rholm/context.h"
+#include "rholm/synthesize.h"
+
+namespace rholm::cli {
+
+struct MeasuresReport {
+  std::optional<SurfaceMeasures> measures;  // none for what is no surface, and above degree 512
+  std::string why_not;                      // the message of what was refused; empty: nothing was
+};
+
+MeasuresReport measures_of(const Expansion& expansion, const Context& context);
+
+// "volume", "area", "sphericity" and "volume_centroid"; null where they are not known.
+Json measures_json(const std::optional<SurfaceMeasures>& measures);
+
+}  // namespace rholm::cli
