@@ -8,6 +8,7 @@
 #include "shape/face.h"
 #include "transform/geometry/star_geometry.h"
 #include "transform/rules/bernstein_rules.h"
+#include "transform/rules/triangle_pieces.h"
 
 namespace rholm {
 namespace {
@@ -43,17 +44,6 @@ Extent extent(const std::array<Vec3, 3>& p, double distance, int degree) {
 std::array<double, 3> edge_squares(const std::array<Vec3, 3>& p) {
   const Vec3 a = p[1] - p[0], b = p[2] - p[1], c = p[0] - p[2];
   return {dot(a, a), dot(b, b), dot(c, c)};
-}
-
-// Calls visit on both halves of a triangle, cut through its longest edge.
-template <typename Visit>
-void halve(const std::array<Vec3, 3>& p, const Visit& visit) {
-  const std::array<double, 3> e = edge_squares(p);
-  const auto k = static_cast<std::size_t>(std::max_element(e.begin(), e.end()) - e.begin());
-  const Vec3 &from = p[k], &to = p[(k + 1) % 3], &opposite = p[(k + 2) % 3];
-  const Vec3 middle = 0.5 * (from + to);
-  visit(std::array<Vec3, 3>{from, middle, opposite});
-  visit(std::array<Vec3, 3>{middle, to, opposite});
 }
 
 // A lower bound of the distance from the centre, close where edges are short.
@@ -121,8 +111,9 @@ double visit_radius(const std::array<Vec3, 3>& p, double factor, const NodeAllow
   if (rule.nodes.empty()) {
     if (depth == kMaxDepth) throw_on_surface();
     double error2 = 0;
-    halve(p, [&](const std::array<Vec3, 3>& half) {
-      error2 += visit_radius(half, factor / 2, part_of(allowance, 0.5), relative, depth + 1, visit);
+    cut_triangle(p, kLongest, [&](const std::array<Vec3, 3>& piece, double share) {
+      error2 += visit_radius(piece, factor * share, part_of(allowance, share), relative, depth + 1,
+                             visit);
     });
     return error2;
   }
@@ -165,7 +156,7 @@ void NodeWriter::add_triangle(const std::array<Vec3, 3>& corners,
     error2_ += visit_radius(p, d2 / 2, options_.undivided, 0, 0,
                             [&](const Vec3& x, double weight) { sink_.add_undivided(x, weight); });
   } else {
-    write_face(p, -dot(n, n) / d2, crowd, distance, 0);
+    write_face(p, -dot(n, n) / d2, crowd, distance, 1, 0);
   }
 }
 
@@ -228,18 +219,17 @@ void NodeWriter::write_piece(const HalfEdge& edge, const Vec3& across, const Vec
 }
 
 void NodeWriter::write_face(const std::array<Vec3, 3>& p, double weight, const Crowd& crowd,
-                            double distance, int depth) {
+                            double distance, double share, int depth) {
   FaceRule rule;
   if (!is_long(std::ranges::max(edge_squares(p)), distance)) {
     Extent z = extent(p, distance, options_.divided.degree);
     z.crowd = crowd;
-    rule =
-        face_rule(part_of(options_.divided, std::ldexp(1, -depth)), z, weight, likely_face_rule_);
+    rule = face_rule(part_of(options_.divided, share), z, weight, likely_face_rule_);
   }
   if (rule.nodes.empty()) {
     if (depth == kMaxDepth) throw_on_surface();
-    halve(p, [&](const std::array<Vec3, 3>& half) {
-      write_face(half, weight / 2, crowd, distance_of(half), depth + 1);
+    cut_triangle(p, kLongest, [&](const std::array<Vec3, 3>& piece, double part) {
+      write_face(piece, weight * part, crowd, distance_of(piece), share * part, depth + 1);
     });
     return;
   }

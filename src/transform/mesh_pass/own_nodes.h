@@ -40,8 +40,9 @@ class NodeWriter {
   // The piece from a to b, `share` of the whole; `across`: the gradient's factor.
   void write_piece(const HalfEdge& edge, const Vec3& across, const Vec3& a, const Vec3& b,
                    double share);
+  // A piece, `share` of the whole.
   void write_face(const std::array<Vec3, 3>& p, double weight, const Crowd& crowd, double distance,
-                  int depth);
+                  double share, int depth);
 
   NodeOptions options_;
   ScaledVertices vertices_;

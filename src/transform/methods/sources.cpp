@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "rholm/error.h"
+#include "transform/rules/triangle_pieces.h"
 
 namespace rholm {
 namespace {
@@ -44,18 +45,15 @@ void visit_piece(const Vec3& a, const Vec3& b, double weight, int depth, const A
 
 void visit_piece(const std::array<Vec3, 3>& p, double weight, int depth, const Allowance& allowance,
                  const std::function<void(const Vec3&, double)>& visit) {
-  const std::array<double, 3> edges = {norm(p[1] - p[0]), norm(p[2] - p[1]), norm(p[0] - p[2])};
-  const int longest =
-      static_cast<int>(std::max_element(edges.begin(), edges.end()) - edges.begin());
-  const double half = edges[longest] / 2;
+  const std::size_t longest = longest_side(p);
+  const double half = norm(p[(longest + 1) % 3] - p[longest]) / 2;
   const double away = triangle_distance(p);
   const int exactness = half <= kLongest * away ? exactness_for(allowance, half, away) : 0;
   if (exactness == 0) {
     if (depth == kMaxDepth) throw_on_surface();
-    const Vec3 &from = p[longest], &to = p[(longest + 1) % 3], &opposite = p[(longest + 2) % 3];
-    const Vec3 middle = 0.5 * (from + to);
-    visit_piece({from, middle, opposite}, weight / 2, depth + 1, allowance, visit);
-    visit_piece({middle, to, opposite}, weight / 2, depth + 1, allowance, visit);
+    cut_triangle(p, 2 * kLongest, [&](const std::array<Vec3, 3>& piece, double share) {
+      visit_piece(piece, weight * share, depth + 1, allowance, visit);
+    });
     return;
   }
   visit_triangle_rule(exactness, [&](double a, double b, double c, double share) {
