@@ -132,7 +132,8 @@ std::string mesh_text(const MeshReport& report) {
   text += line("inside out", i.inside_out ? "yes (analyze turns it right side out)" : "no");
   text += line("components", fmt::format("{}", i.components));
   if (i.closed && i.manifold) text += line("genus", fmt::format("{}", i.genus));
-  text += line("degenerate", counted(i.degenerate_triangles, "face") + " without area");
+  text += line("degenerate", counted(i.degenerate_triangles, "face") +
+                                 " thinner than the rounding of coordinates");
   text += line("duplicate", counted(i.duplicate_triangles, "face"));
   text += line("bounds", fmt::format("{} to {}", text_of(i.bounds.min), text_of(i.bounds.max)));
   text += line("diagonal", measure_text(i.bounds.diagonal(), false));

@@ -86,7 +86,8 @@ std::string state_of(const Inspection& i) {
   text += i.manifold ? ", manifold" : ", not manifold";
   text += i.oriented ? ", oriented" : ", faces disagree at " + counted(i.misoriented_edges, "edge");
   add(text, i.duplicate_triangles, counted(i.duplicate_triangles, "duplicate face"));
-  add(text, i.degenerate_triangles, counted(i.degenerate_triangles, "face") + " without area");
+  add(text, i.degenerate_triangles,
+      counted(i.degenerate_triangles, "face") + " thinner than rounding");
   text += ", " + counted(i.components, "component");
   if (i.closed && i.oriented) text += ", volume " + text_of(i.volume);
   return text;
@@ -95,7 +96,8 @@ std::string state_of(const Inspection& i) {
 std::string dropped_text(const RepairReport& r) {
   std::string list;
   add(list, r.duplicate_triangles, counted(r.duplicate_triangles, "duplicate face"));
-  add(list, r.degenerate_triangles, counted(r.degenerate_triangles, "face") + " without area");
+  add(list, r.degenerate_triangles,
+      counted(r.degenerate_triangles, "face") + " thinner than rounding");
   add(list, r.isolated_vertices,
       counted(r.isolated_vertices, "vertex", "vertices") + " in no face");
   return list_or(list, "nothing");
@@ -146,8 +148,8 @@ void warn_of_rest(const RepairReport& r, const Options& options, Session& sessio
                     counted(r.one_sided_parts, "part")));
   }
   if (r.after.degenerate_triangles > 0) {
-    session.warn(
-        fmt::format("{} without area left", counted(r.after.degenerate_triangles, "face")));
+    session.warn(fmt::format("{} thinner than rounding left",
+                             counted(r.after.degenerate_triangles, "face")));
   }
   if (r.after.non_manifold_edges + r.after.non_manifold_vertices > 0) {
     session.warn(fmt::format("not manifold still: {}, {}",
@@ -207,7 +209,8 @@ Command repair_command() {
       .name = "repair",
       .summary = "A damaged mesh mended: welded, oriented, small holes closed",
       .description =
-          "Joins vertices, drops duplicate faces, faces without area and vertices in no face, "
+          "Joins vertices, drops duplicate faces, faces thinner than the rounding of their "
+          "coordinates and vertices in no face, "
           "separates sheets that touch where three or more faces meet in an edge or several fans "
           "in a vertex (they move apart by a millionth of the diagonal, or the next reader would "
           "join them again), turns the faces of each part alike and closed parts outwards, and "

@@ -25,7 +25,7 @@ struct RepairReport {
   std::size_t collapsed_triangles = 0;   // by welding: two corners became one
   std::size_t isolated_vertices = 0;     // dropped: in no triangle
   std::size_t duplicate_triangles = 0;   // dropped: same three vertices as an earlier one
-  std::size_t degenerate_triangles = 0;  // without area, dropped or turned into others
+  std::size_t degenerate_triangles = 0;  // thinner than rounding, dropped or swapped
   std::size_t flipped_triangles = 0;     // turned, so that their part is oriented alike, outwards
   std::size_t inside_out_parts = 0;      // closed parts turned as a whole, flipped_triangles too
   std::size_t cavities = 0;              // closed parts that lie within another: face inwards

@@ -51,7 +51,7 @@ struct StarReport {
                                   // LP's point and the volume centroid, by once_share
 };
 
-// Finds the centre and checks. `mesh` welded, closed, outward; degenerate triangles (zero area)
+// Finds the centre and checks. `mesh` welded, closed, outward; triangles thinner than rounding
 // are passed over. Throws InvalidInput for a mesh without a triangle of positive area.
 StarReport find_center(const Mesh& mesh, const CenterOptions& options, const Context& context = {});
 // The same for a mesh where it lies; nothing is copied, but for rays if it is not closed.

@@ -58,7 +58,7 @@ struct Inspection {
   std::size_t misoriented_edges = 0;      // in two triangles that run through it in the same sense
   std::size_t non_manifold_vertices = 0;  // whose triangles do not form one fan
   std::size_t isolated_vertices = 0;      // in no triangle
-  std::size_t degenerate_triangles = 0;   // zero area (or not distinguishable from it)
+  std::size_t degenerate_triangles = 0;   // thinner than the rounding of their coordinates
   std::size_t duplicate_triangles = 0;    // same three vertices as an earlier one
   std::size_t components = 0;             // of triangles connected through edges
   long long euler_characteristic = 0;     // used vertices - edges + triangles

@@ -153,7 +153,7 @@ class Inspection:
 
     @property
     def degenerate_triangles(self) -> int:
-        """Triangles without area."""
+        """Triangles thinner than the rounding of their coordinates."""
 
     @property
     def duplicate_triangles(self) -> int:
@@ -237,7 +237,7 @@ class RepairReport:
 
     @property
     def degenerate_triangles(self) -> int:
-        """Triangles without area, dropped or turned into others."""
+        """Triangles thinner than rounding, dropped or swapped."""
 
     @property
     def flipped_triangles(self) -> int:

@@ -38,7 +38,8 @@ void bind_records(nb::module_& m) {
       .field("non_manifold_vertices", &Inspection::non_manifold_vertices,
              "Vertices whose triangles do not form one fan.")
       .field("isolated_vertices", &Inspection::isolated_vertices, "Vertices in no triangle.")
-      .field("degenerate_triangles", &Inspection::degenerate_triangles, "Triangles without area.")
+      .field("degenerate_triangles", &Inspection::degenerate_triangles,
+             "Triangles thinner than the rounding of their coordinates.")
       .field("duplicate_triangles", &Inspection::duplicate_triangles,
              "Triangles with the three vertices of an earlier one.")
       .field("components", &Inspection::components, "Parts connected through edges.")
@@ -66,7 +67,7 @@ void bind_records(nb::module_& m) {
       .field("duplicate_triangles", &RepairReport::duplicate_triangles,
              "Triangles dropped: same vertices as an earlier one.")
       .field("degenerate_triangles", &RepairReport::degenerate_triangles,
-             "Triangles without area, dropped or turned into others.")
+             "Triangles thinner than rounding, dropped or swapped.")
       .field("flipped_triangles", &RepairReport::flipped_triangles, "Triangles that were turned.")
       .field("inside_out_parts", &RepairReport::inside_out_parts,
              "Closed parts that were turned as a whole.")

@@ -10,6 +10,9 @@
 // The optimum need not be one point: between two parallel faces it is a whole plane. Then the
 // faces that hold it are fixed, the smallest d_T of the others is maximised within, and so on until
 // a point is left (the nucleolus, Schmeidler 1969): the centre of a box is its middle.
+//
+// A plane that the rounding of its corners may turn counts as far out as it may lie; one of a face
+// thinner than the rounding does not count.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -35,8 +38,10 @@ constexpr double kGap = 1e-12;
 // Usually 1 to 3 passes; the limit only guards against rounding.
 constexpr int kMaxScans = 200;
 // A face holds the optimum if its weight in the program is above this, and is parallel to a flat if
-// its normal's part in there is below: normals are known to 1e-15, and moving along such a flat
-// changes no d_T by more than 1e-9 of the size.
+// its normal's part in there is below: normals of exact corners are known to 1e-15, and moving
+// along such a flat changes no d_T by more than 1e-9 of the size. Where rounding may turn the
+// planes by more, this takes its place: the sides of a cylinder in single precision are parallel to
+// its axis.
 constexpr double kParallel = 1e-9;
 
 // Measured (scripts/constants) on smooth and rough shapes of 30 000 to 5 million faces, of which a
@@ -54,11 +59,14 @@ constexpr double kSlack = 0.03;
 struct Flat {
   Vec3 origin;
   std::array<Vec3, 3> axes = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
+  double turn = kParallel;  // how far rounding may turn it
 
   Vec3 direction(const Vec3& z) const { return z.x * axes[0] + z.y * axes[1] + z.z * axes[2]; }
   Vec3 project(const Vec3& v) const { return {dot(v, axes[0]), dot(v, axes[1]), dot(v, axes[2])}; }
   bool is_point() const { return axes[0] == Vec3{}; }
-  bool is_parallel(const FacePlane& face) const { return norm(project(face.normal)) <= kParallel; }
+  bool is_parallel(const FacePlane& face) const {
+    return norm(project(face.normal)) <= std::max(turn, face.turn);
+  }
 };
 
 // Faces of a chunk that are not in the pool have d_T >= least, seen from `from`.
@@ -93,6 +101,8 @@ Faces sample(const LocalView& view) {
 // The optimum of the pool within a flat, as far as it is known.
 struct PoolOptimum {
   LinearProgram program{kReach, kMostDistance};
+  std::size_t n_bounds = program.rows().size();  // rows that are no faces, the first ones
+  std::vector<double> turns = {};                // of the faces, as FacePlane::turn
   Vec3 point;
   double top = kMostDistance;  // an upper bound of the smallest d_T, in the pool and so in all
   bool exact = true;           // false: rounding has kept the program from its end
@@ -107,7 +117,7 @@ double add_worst(const std::vector<FacePlane>& pool, const Flat& flat, PoolOptim
     const FacePlane* worst = nullptr;
     double least = optimum.top - kGap;
     for (std::size_t i = first; i < std::min(pool.size(), first + kGroup); ++i) {
-      const double d = pool[i].distance(optimum.point);
+      const double d = pool[i].most_distance(optimum.point);
       if (d < least && !flat.is_parallel(pool[i])) {
         least = d;
         worst = &pool[i];
@@ -115,9 +125,9 @@ double add_worst(const std::vector<FacePlane>& pool, const Flat& flat, PoolOptim
     }
     if (worst == nullptr) continue;
     smallest = std::min(smallest, least);
-    optimum.program.add({.a = flat.project(worst->normal),
-                         .lift = 1,
-                         .bound = worst->offset - dot(worst->normal, flat.origin)});
+    optimum.program.add(
+        {.a = flat.project(worst->normal), .lift = 1, .bound = worst->most_distance(flat.origin)});
+    optimum.turns.push_back(worst->turn);
   }
   return smallest;
 }
@@ -153,7 +163,7 @@ std::vector<FacePlane> nearest_faces(const LocalView& view, std::size_t begin, s
   ScanLimits limits{.distance = optimum.top + kSlack};
   scan_below(view, begin, end, optimum.point, limits, [&](std::size_t triangle) {
     const FacePlane face = view.plane(triangle);
-    const double d = face.distance(optimum.point);
+    const double d = face.most_distance(optimum.point);
     if (!face.exists() || !(d < limits.distance) || flat.is_parallel(face)) return;
     const auto place = std::upper_bound(near.begin(), near.end(), d,
                                         [](double value, const Near& n) { return value < n.d; });
@@ -188,20 +198,32 @@ double grow_pool(const LocalView& view, const Flat& flat, const PoolOptimum& opt
   return static_cast<double>(open.size()) / static_cast<double>(faces.chunks.size());
 }
 
-// Normals of the planes that hold the program's optimum.
-std::vector<Vec3> holding_normals(const LinearProgram& program, const Flat& flat) {
-  std::vector<Vec3> normals;
-  for (std::size_t i = 0; i < 4; ++i) {
-    if (program.weights()[i] <= kParallel) continue;
-    normals.push_back(flat.direction(program.rows()[program.basis()[i]].a));
+// Normals of planes, and how far rounding may turn them.
+struct Normals {
+  std::vector<Vec3> normals = {};
+  double turn = kParallel;
+};
+
+// Of the planes that hold the program's optimum. Where each is turned, weights of others are as
+// large as the turns.
+Normals holding_normals(const PoolOptimum& optimum, const Flat& flat) {
+  Normals holding;
+  const LinearProgram& program = optimum.program;
+  for (const std::size_t row : program.basis()) {
+    if (row < optimum.n_bounds) continue;
+    holding.turn = std::max(holding.turn, optimum.turns[row - optimum.n_bounds]);
   }
-  return normals;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (program.weights()[i] <= holding.turn) continue;
+    holding.normals.push_back(flat.direction(program.rows()[program.basis()[i]].a));
+  }
+  return holding;
 }
 
 // The best point of the flat and the normals of the faces that hold it.
 struct Stage {
   KernelCenter best;
-  std::vector<Vec3> normals;
+  Normals holding;
 };
 
 Stage best_in_flat(const LocalView& view, const Flat& flat, Faces& faces, const Context& context) {
@@ -216,14 +238,14 @@ Stage best_in_flat(const LocalView& view, const Flat& flat, Faces& faces, const 
   }
   double value = optimum.top;
   for (const FacePlane& face : faces.pool) {
-    if (!flat.is_parallel(face)) value = std::min(value, face.distance(optimum.point));
+    if (!flat.is_parallel(face)) value = std::min(value, face.most_distance(optimum.point));
   }
   return {.best = {.point = optimum.point, .value = value, .scans = scans},
-          .normals = holding_normals(optimum.program, flat)};
+          .holding = holding_normals(optimum, flat)};
 }
 
 // The part of the flat that is parallel to all faces with these normals, through another origin.
-Flat parallel_part(const Flat& flat, const Vec3& origin, const std::vector<Vec3>& normals) {
+Flat parallel_part(const Flat& flat, const Vec3& origin, const Normals& holding) {
   std::vector<Vec3> taken;  // orthonormal
   const auto remainder = [&](Vec3 v) {
     for (int pass = 0; pass < 2; ++pass) {  // twice is enough (Parlett, after Kahan)
@@ -231,11 +253,11 @@ Flat parallel_part(const Flat& flat, const Vec3& origin, const std::vector<Vec3>
     }
     return v;
   };
-  for (const Vec3& normal : normals) {
+  for (const Vec3& normal : holding.normals) {
     const Vec3 rest = remainder(normal);
-    if (norm(rest) > kParallel) taken.push_back(normalized(rest));
+    if (norm(rest) > holding.turn) taken.push_back(normalized(rest));
   }
-  Flat part{.origin = origin, .axes = {}};
+  Flat part{.origin = origin, .axes = {}, .turn = std::max(flat.turn, holding.turn)};
   for (Vec3& axis : part.axes) {
     // The squares of the remainders add up to the number of dimensions left: while there is one,
     // the longest of three is at least sqrt(1/3).
@@ -259,8 +281,8 @@ KernelCenter chebyshev_center(const LocalView& view, const Context& context) {
   Stage stage = best_in_flat(view, flat, faces, context);
   KernelCenter best = stage.best;
   // Each round takes at least one of three dimensions.
-  for (int round = 0; round < 3 && best.value > 0 && !stage.normals.empty(); ++round) {
-    flat = parallel_part(flat, stage.best.point, stage.normals);
+  for (int round = 0; round < 3 && best.value > 0 && !stage.holding.normals.empty(); ++round) {
+    flat = parallel_part(flat, stage.best.point, stage.holding);
     if (flat.is_point()) break;
     stage = best_in_flat(view, flat, faces, context);
     best.point = stage.best.point;

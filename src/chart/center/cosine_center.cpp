@@ -25,7 +25,8 @@ constexpr int kMaxScans = 200;          // usually 6 to 20
 struct Corner {
   double cos_gamma = std::numeric_limits<double>::infinity();
   Vec3 normal;
-  Vec3 position;  // in the unit frame
+  Vec3 position;     // in the unit frame
+  double slack = 0;  // of the face, as in FacePlane
 };
 
 // A cut: the corner seen along `direction`, from `distance`, by an earlier candidate.
@@ -34,19 +35,19 @@ struct Cut {
   Vec3 position;
   Vec3 direction;
   double distance;
+  double slack;  // by which rounding may raise the cosine
 };
 
 // The steepest corner of a triangle, if it is steeper than `best`.
 void take_steepest(const LocalView& view, std::size_t triangle, const Vec3& center, Corner& best) {
-  const std::array<Vec3, 3> corners = view.corners(triangle);
-  const Vec3 normal = unit_normal(corners);
-  if (normal == Vec3{}) return;
-  for (const Vec3& corner : corners) {
+  const FacePlane face = view.plane(triangle);
+  if (!face.exists()) return;
+  for (const Vec3& corner : view.corners(triangle)) {
     const Vec3 position = corner - view.frame.center;
     const double distance = norm(position - center);
     if (!(distance > 0)) continue;
-    const double cos_gamma = dot(normal, corners[0] - view.frame.center - center) / distance;
-    if (cos_gamma < best.cos_gamma) best = {cos_gamma, normal, position};
+    const double cos_gamma = face.distance(center) / distance + face.slack();
+    if (cos_gamma < best.cos_gamma) best = {cos_gamma, face.normal, position, face.slack()};
   }
 }
 
@@ -71,7 +72,7 @@ LinearProgram program_for(const std::vector<Cut>& cuts, double s) {
   LinearProgram program(kReach, 1 - s);  // no cosine exceeds 1
   for (const Cut& cut : cuts) {
     const Vec3 a = (cut.normal - s * cut.direction) / cut.distance;
-    program.add({.a = a, .lift = 1, .bound = dot(a, cut.position)});
+    program.add({.a = a, .lift = 1, .bound = dot(a, cut.position) + cut.slack});
   }
   return program;
 }
@@ -89,7 +90,7 @@ KernelCenter cosine_center(const LocalView& view, const Vec3& start, const Conte
       lowest = std::min(lowest, corner.cos_gamma);
       if (!(corner.cos_gamma < bound)) continue;
       const Vec3 ray = corner.position - candidate;
-      cuts.push_back({corner.normal, corner.position, normalized(ray), norm(ray)});
+      cuts.push_back({corner.normal, corner.position, normalized(ray), norm(ray), corner.slack});
     }
     best.scans += 1;
     if (lowest > best.value) {

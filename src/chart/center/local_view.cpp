@@ -25,16 +25,11 @@ void require_surface(const LocalView& view) {
   }
   throw Error(ErrorCode::kInvalidInput,
               "none of the mesh's " + std::to_string(view.mesh.n_triangles) +
-                  " triangles has an area above zero: there is no surface to look at from a "
-                  "centre");
+                  " triangles has an area above zero, or is wider than the rounding of its "
+                  "coordinates: there is no surface to look at from a centre");
 }
 
 }  // namespace
-
-Vec3 unit_normal(const std::array<Vec3, 3>& corners) {
-  const FaceNormal face = face_normal(corners);
-  return face.degenerate ? Vec3{} : normalized(face.twice_area);
-}
 
 std::array<Vec3, 3> LocalView::corners(std::size_t triangle) const {
   const Triangle indices = mesh.triangle(triangle);
@@ -51,12 +46,16 @@ bool LocalView::closed() const {
 
 FacePlane LocalView::plane(std::size_t triangle) const {
   const std::array<Vec3, 3> scaled = corners(triangle);
-  const Vec3 normal = unit_normal(scaled);
-  return {.normal = normal, .offset = dot(normal, scaled[0] - frame.center)};
+  const FaceNormal face = face_normal(scaled);
+  const PlaneDoubt doubt = plane_doubt(scaled, face, error);
+  if (doubt.thin) return {};
+  const Vec3 normal = normalized(face.twice_area);
+  return {.normal = normal, .offset = dot(normal, scaled[0] - frame.center), .turn = doubt.turn};
 }
 
 LocalView local_view(const MeshView& mesh, const Context& context) {
-  LocalView view{.mesh = mesh, .frame = unit_frame(finite_bounds(mesh, context))};
+  LocalView view{.mesh = mesh, .frame = unit_frame(finite_bounds(mesh, context)), .error = {}};
+  view.error = view.frame.scale * coordinate_error(mesh);
   require_surface(view);
   return view;
 }

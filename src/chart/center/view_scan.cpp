@@ -165,13 +165,12 @@ void Below(const LocalView& view, std::size_t begin, std::size_t end, const Vec3
   BelowOf<double, false>(view, begin, end, center, limits, visit);
 }
 
-// kLine: the opposite direction as well.
-template <class T, bool kLine>
-struct ConeTest {
+template <class T>
+struct LineTest {
   Lookout from;
   Vector3 along;
 
-  HWY_INLINE ConeTest(D d, const LocalView& view, const Vec3& center, const Vec3& direction)
+  HWY_INLINE LineTest(D d, const LocalView& view, const Vec3& center, const Vec3& direction)
       : from(d, view.frame, kScaled<T> ? 1 : view.frame.scale, center), along(Same(d, direction)) {}
   HWY_INLINE void Refresh(D) const {}
   struct Side {
@@ -190,32 +189,19 @@ struct ConeTest {
     const auto inside = [&](const Side& s)
                             HWY_ATTR { return hn::Ge(hn::Add(s.height, s.rounding), zero); };
     const M chosen = hn::And(inside(s0), hn::And(inside(s1), inside(s2)));
-    if constexpr (!kLine) return chosen;
     const auto beyond = [&](const Side& s) HWY_ATTR { return hn::Le(s.height, s.rounding); };
     return hn::Or(chosen, hn::And(beyond(s0), hn::And(beyond(s1), beyond(s2))));
   }
 };
 
-template <bool kLine>
-HWY_INLINE void ConesOf(const LocalView& view, std::size_t begin, std::size_t end,
-                        const Vec3& center, const Vec3& direction, const VisitTriangle& visit) {
-  const D d;
-  if (view.mesh.coordinate == ScalarType::kFloat32) {
-    const ConeTest<float, kLine> test(d, view, center, direction);
-    return VisitIf<float>(view.mesh, begin, end, test, visit);
-  }
-  VisitIf<double>(view.mesh, begin, end, ConeTest<double, kLine>(d, view, center, direction),
-                  visit);
-}
-
-void Cones(const LocalView& view, std::size_t begin, std::size_t end, const Vec3& center,
-           const Vec3& direction, const VisitTriangle& visit) {
-  ConesOf<false>(view, begin, end, center, direction, visit);
-}
-
 void Lines(const LocalView& view, std::size_t begin, std::size_t end, const Vec3& center,
            const Vec3& direction, const VisitTriangle& visit) {
-  ConesOf<true>(view, begin, end, center, direction, visit);
+  const D d;
+  if (view.mesh.coordinate == ScalarType::kFloat32) {
+    return VisitIf<float>(view.mesh, begin, end, LineTest<float>(d, view, center, direction),
+                          visit);
+  }
+  VisitIf<double>(view.mesh, begin, end, LineTest<double>(d, view, center, direction), visit);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -226,17 +212,11 @@ HWY_AFTER_NAMESPACE();
 namespace rholm {
 
 HWY_EXPORT(Below);
-HWY_EXPORT(Cones);
 HWY_EXPORT(Lines);
 
 void scan_below(const LocalView& view, std::size_t begin, std::size_t end, const Vec3& center,
                 const ScanLimits& limits, const VisitTriangle& visit) {
   HWY_DYNAMIC_DISPATCH(Below)(view, begin, end, center, limits, visit);
-}
-
-void scan_cones(const LocalView& view, std::size_t begin, std::size_t end, const Vec3& center,
-                const Vec3& direction, const VisitTriangle& visit) {
-  HWY_DYNAMIC_DISPATCH(Cones)(view, begin, end, center, direction, visit);
 }
 
 void scan_lines(const LocalView& view, std::size_t begin, std::size_t end, const Vec3& center,

@@ -28,10 +28,7 @@ void scan_below(const LocalView& view, std::size_t begin, std::size_t end, const
                 const ScanLimits& limits, const VisitTriangle& visit);
 
 // Visits every triangle of [begin, end) whose cone, seen from the centre, may contain the direction
-// (a unit vector).
-void scan_cones(const LocalView& view, std::size_t begin, std::size_t end, const Vec3& center,
-                const Vec3& direction, const VisitTriangle& visit);
-// The same, and those whose cone may contain the opposite direction.
+// (a unit vector) or the opposite one.
 void scan_lines(const LocalView& view, std::size_t begin, std::size_t end, const Vec3& center,
                 const Vec3& direction, const VisitTriangle& visit);
 

@@ -192,14 +192,19 @@ Vec3 lattice_direction(std::size_t i, std::size_t n) {
   return {s * std::cos(phi), s * std::sin(phi), z};
 }
 
-std::optional<std::vector<int>> count_meetings(const LocalView& view, const Vec3& center,
-                                               std::size_t n, const std::vector<std::uint32_t>& low,
-                                               const Context& context) {
-  std::optional<int> surplus;
+std::optional<int> surplus_of(const LocalView& view, const Vec3& center, const Context& context) {
   constexpr std::size_t kStarts = 8;  // in general position (chosen)
+  std::optional<int> surplus;
   for (std::size_t i = 0; i < kStarts && !surplus; ++i) {
     surplus = surplus_at(view, center, lattice_direction(i, kStarts), context);
   }
+  return surplus;
+}
+
+std::optional<std::vector<int>> count_meetings(const LocalView& view, const Vec3& center,
+                                               std::size_t n, const std::vector<std::uint32_t>& low,
+                                               const Context& context) {
+  const std::optional<int> surplus = surplus_of(view, center, context);
   if (!surplus) return std::nullopt;
   const std::optional<std::vector<std::uint32_t>> turned = backs(view, center, low, context);
   if (!turned) return std::nullopt;

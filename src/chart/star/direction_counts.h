@@ -21,6 +21,10 @@ Vec3 lattice_direction(std::size_t i, std::size_t n);
 // Faces whose planes are this near to the centre, in the unit frame, may hold it.
 inline constexpr double kNearPlane = 1e-9;
 
+// Fronts less backs of the faces that a direction meets, the same for all directions of a closed
+// mesh; none if all of a few directions meet edges.
+std::optional<int> surplus_of(const LocalView& view, const Vec3& center, const Context& context);
+
 // How often each of n directions meets the surface of a closed mesh; none if the centre
 // may lie on the surface, or all of a few directions from which to begin on edges. `low`: all faces
 // with d_T < kNearPlane, in order; others may be among them.

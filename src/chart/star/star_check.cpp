@@ -1,8 +1,10 @@
 // The star check from a given centre. Source: method 6.
 //
 // A closed mesh is star-shaped from c when every face turns its front to c (d_T > 0) and the
-// faces cover every direction once. Given d_T > 0, the cover is the same for all directions, so
-// one of them tells it: two nested spheres have all d_T > 0, but cover everything twice.
+// faces cover every direction once. The fronts less the backs that a direction meets are the same
+// for all directions, so one of them tells it: two nested spheres have all d_T > 0, but cover
+// everything twice. Faces thinner than the rounding of their coordinates may turn their backs: the
+// surface they stand for does not.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -41,15 +43,15 @@ struct FaceFigures {
   }
 };
 
-// Corners relative to the centre.
-void add_face(const std::array<Vec3, 3>& corners, const Vec3& normal, FaceFigures& figures) {
+// Corners relative to the centre. d_T is taken as large as the rounding of the corners allows.
+void add_face(const std::array<Vec3, 3>& corners, const FacePlane& face, FaceFigures& figures) {
   double nearest = std::numeric_limits<double>::infinity(), farthest = 0, d = 0;
   for (const Vec3& corner : corners) {
     const double distance = norm(corner);
     farthest = std::max(farthest, distance);
     if (distance < nearest) {
       nearest = distance;
-      d = dot(normal, corner);
+      d = dot(face.normal, corner) + face.slack() * distance;
     }
   }
   figures.min_d = std::min(figures.min_d, d);
@@ -72,41 +74,15 @@ FaceFigures check_faces(const LocalView& view, const Vec3& center, const Context
     scan_below(view, begin, end, local, limits, [&](std::size_t triangle) {
       // Whose plane is above goes in, too, if it is visited before a lower one.
       figures.low.push_back(static_cast<std::uint32_t>(triangle));
-      const Vec3 normal = unit_normal(view.corners(triangle));
-      if (normal == Vec3{}) return;
-      add_face(corners_from(view, triangle, center), normal, figures);
+      const FacePlane face = view.plane(triangle);
+      if (!face.exists()) return;
+      add_face(corners_from(view, triangle, center), face, figures);
       limits = {.distance = std::max(figures.min_d, unclear), .cosine = figures.min_cos_gamma};
     });
   });
   FaceFigures total;
   for (const FaceFigures& part : parts) total.merge(part);
   return total;
-}
-
-// How often the faces, all with d_T > 0, cover the direction; -1 if it meets an edge.
-long long cover_of(const LocalView& view, const Vec3& center, const Vec3& direction,
-                   const Context& context) {
-  const std::size_t n = view.mesh.n_triangles, grain = triangle_grain(n);
-  struct Cover {
-    long long times = 0;
-    bool unclear = false;
-  };
-  std::vector<Cover> parts((n + grain - 1) / grain);
-  parallel_for(n, grain, context, {}, [&](std::size_t begin, std::size_t end) {
-    Cover& cover = parts[begin / grain];
-    scan_cones(view, begin, end, view.frame.to_local(center), direction, [&](std::size_t triangle) {
-      if (unit_normal(view.corners(triangle)) == Vec3{}) return;
-      const int contains = cone_contains(corners_from(view, triangle, center), direction);
-      cover.unclear = cover.unclear || contains < 0;
-      cover.times += contains;
-    });
-  });
-  long long times = 0;
-  for (const Cover& cover : parts) {
-    if (cover.unclear) return -1;
-    times += cover.times;
-  }
-  return times;
 }
 
 // Embree works in single precision: it is given coordinates near 1.
@@ -164,17 +140,6 @@ void require_center_near(const UnitFrame& frame, const Vec3& center) {
                           center.x, center.y, center.z, kFarthest));
 }
 
-// Whether a surface whose faces all turn outwards meets every direction once.
-bool covers_once(const LocalView& view, const Vec3& center, const Context& context) {
-  // Eight directions in general position (chosen): all of them on edges would be a coincidence
-  // that only a mesh finer than rounding brings about.
-  for (std::size_t i = 0; i < 8; ++i) {
-    const long long cover = cover_of(view, center, lattice_direction(i, 8), context);
-    if (cover >= 0) return cover == 1;
-  }
-  return false;
-}
-
 }  // namespace
 
 StarReport check_star(const LocalView& view, const Vec3& center, int rays, const Context& context) {
@@ -185,7 +150,7 @@ StarReport check_star(const LocalView& view, const Vec3& center, int rays, const
   report.min_d = figures.min_d / view.frame.scale;
   report.min_cos_gamma = figures.min_cos_gamma;
   report.bad_triangles = figures.bad;
-  report.star_shaped = figures.bad == 0 && covers_once(view, center, context);
+  report.star_shaped = figures.bad == 0 && surplus_of(view, center, context) == 1;
   report.rays = std::max(0, rays);
   if (report.rays > 0) try_directions(view, center, figures.low, context, report);
   return report;

@@ -8,6 +8,7 @@
 #include "base/stopwatch.h"
 #include "model/encode/encoded_parts.h"
 #include "rholm/error.h"
+#include "shape/repair/thin_faces.h"
 
 namespace rholm {
 namespace {
@@ -26,6 +27,8 @@ Topology topology_of(const Mesh& mesh, double weld_tolerance) {
     flip(topology.welded.mesh);
     topology.flipped = true;
   }
+  // Their planes would say as much as those of others about slopes and errors.
+  swap_thin_faces(topology.welded.mesh);
   topology.edges = pair_edges(topology.welded.mesh);
   return topology;
 }

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <array>
-#include <set>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,11 +14,13 @@
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"
 #include "base/refuse.h"
+#include "shape/coordinate_error.h"
 #include "shape/face.h"
 #include "shape/normal_attributes.h"
 #include "shape/repair/hole_closing.h"
 #include "shape/repair/outwards.h"
 #include "shape/repair/sheets.h"
+#include "shape/repair/thin_faces.h"
 #include "shape/topology/half_edges.h"
 
 namespace rholm {
@@ -30,10 +32,6 @@ constexpr std::size_t kMostHoleEdges = 500;  // chosen: closing one takes some s
 constexpr double kApart = 1e-6;
 // Of the largest coordinate: four steps of single precision, in which most formats keep it.
 constexpr double kApartSingle = 0x1p-21;
-// Of the largest coordinate: shorter edges of triangles without area are points. Twice what
-// face_normal() calls rounding.
-constexpr double kPoint = 16 * 0x1p-53;
-constexpr int kSwapPasses = 16;  // a row of so many slivers is swapped away
 
 double largest_modulus(const Bounds& box) {
   double largest = 0;
@@ -50,6 +48,8 @@ class Repairer {
       : options_(options), context_(context), given_(mesh.vertices), mesh_(std::move(mesh)) {
     const Bounds box = bounds(given_);
     scale_ = unit_frame(box).scale;
+    single_ = is_in_single_precision(view_of(mesh_));
+    error_ = scale_ * coordinate_error(view_of(mesh_));
     for (Vec3& v : mesh_.vertices) v *= scale_;
     ask_cancel();
     local_ = mesh_.vertices;
@@ -60,15 +60,17 @@ class Repairer {
   void run() {
     const auto at = [&](double share) { report_progress(context_, "repair", share); };
     at(0);
-    collapse_needles();
+    while (collapse_needles()) {
+    }
     drop_duplicates();
     at(0.2);
     orient();
     separate();
     at(0.4);
-    swap_slivers();
+    swap_thin();
     at(0.5);
     close();
+    swap_thin();  // holes beside a vertex on an edge are closed by thin faces
     at(0.8);
     turn();
   }
@@ -79,36 +81,46 @@ class Repairer {
     turn_normals();
     for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
       const bool stayed = v < local_.size() && mesh_.vertices[v] == local_[v];
-      mesh_.vertices[v] = stayed ? given_[v] : mesh_.vertices[v] / scale_;
+      mesh_.vertices[v] = stayed ? given_[v] : as_written(mesh_.vertices[v] / scale_);
     }
     return {weld(mesh_).mesh, report_};
   }
 
  private:
-  FaceNormal normal_of(const Triangle& t) const {
-    return face_normal({mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]});
+  // New places are of the precision of the given ones, so that the rounding of all stays known.
+  Vec3 as_written(const Vec3& v) const {
+    if (!single_) return v;
+    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
   }
 
-  // Triangles without area, one of whose edges is a point.
-  void collapse_needles() {
+  // Whether two vertices may be one point within their rounding.
+  bool may_coincide(std::uint32_t a, std::uint32_t b) const {
+    const Vec3 apart = mesh_.vertices[a] - mesh_.vertices[b];
+    return std::abs(apart.x) <= 2 * error_.x && std::abs(apart.y) <= 2 * error_.y &&
+           std::abs(apart.z) <= 2 * error_.z;
+  }
+
+  // Thin triangles, one of whose edges is a point. Whether there were any.
+  bool collapse_needles() {
     DisjointSets same(mesh_.vertices.size());
     bool found = false;
     CancelPoll poll;
     for (const Triangle& t : mesh_.triangles) {
       poll();
-      if (!normal_of(t).degenerate) continue;
+      if (!is_thin(scaled_corners(mesh_, t, 1), error_)) continue;
       for (int k = 0; k < 3; ++k) {
         const std::uint32_t a = t[k], b = t[(k + 1) % 3];
-        if (norm(mesh_.vertices[a] - mesh_.vertices[b]) > kPoint * largest_) continue;
+        if (a == b || !may_coincide(a, b)) continue;
         same.unite(a, b);
         found = true;
       }
     }
-    if (!found) return;
+    if (!found) return false;
     for (Triangle& t : mesh_.triangles) {
       for (std::uint32_t& v : t) v = same.find(v);
     }
     report_.degenerate_triangles += std::erase_if(mesh_.triangles, has_repeated_corner);
+    return true;
   }
 
   void drop_duplicates() {
@@ -196,21 +208,16 @@ class Repairer {
     }
   }
 
-  // A triangle without area has a corner on its longest edge: that edge is swapped for the one
-  // from there to the corner beyond, or the triangle dropped where the edge is a border.
-  void swap_slivers() {
-    for (int pass = 0; pass < kSwapPasses; ++pass) {
-      std::vector<std::uint32_t> slivers;
-      CancelPoll poll;
-      for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-        poll();
-        if (normal_of(mesh_.triangles[t]).degenerate) slivers.push_back(t);
-      }
-      if (slivers.empty() || !swap(slivers)) return;
-      find_all_mates();
-      one_sided_.assign(parts_.n, 0);
-      orient_again();
-    }
+  void swap_thin() {
+    std::vector<char> gone(mesh_.triangles.size(), 0);
+    const std::size_t removed =
+        swap_thin_faces(mesh_.vertices, error_, mesh_.triangles, mates_, &gone);
+    if (removed == 0) return;
+    report_.degenerate_triangles += removed;
+    drop(gone);
+    find_all_mates();
+    one_sided_.assign(parts_.n, 0);
+    orient_again();
   }
 
   // Mates of swapped triangles are in order; parts may have new numbers.
@@ -219,53 +226,6 @@ class Repairer {
     const Orienting again = orient_alike(mesh_.vertices, parts, mesh_.triangles, mates_);
     for (std::size_t t = 0; t < turned_.size(); ++t) turned_[t] ^= again.flipped[t];
     one_sided_ = again.one_sided;
-  }
-
-  bool swap(const std::vector<std::uint32_t>& slivers) {
-    std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
-    CancelPoll poll;
-    for (const Triangle& t : mesh_.triangles) {
-      poll();
-      for (int k = 0; k < 3; ++k) edges.insert(std::minmax(t[k], t[(k + 1) % 3]));
-    }
-    std::vector<char> touched(mesh_.triangles.size(), 0), gone(mesh_.triangles.size(), 0);
-    bool changed = false;
-    for (const std::uint32_t t : slivers) {
-      const std::uint32_t h = longest_edge(t), mate = mates_[h];
-      if (touched[t] || (mate != kNoMate && touched[mate / 3])) continue;
-      if (mate == kNoMate) {
-        gone[t] = touched[t] = 1;
-      } else {
-        const std::uint32_t a = start_of(mesh_.triangles, h), b = end_of(mesh_.triangles, h);
-        const std::uint32_t c = mesh_.triangles[t][(h + 2) % 3];
-        const std::uint32_t d = mesh_.triangles[mate / 3][(mate + 2) % 3];
-        const Triangle first = {c, a, d}, second = {d, b, c};
-        const bool better = normal_of(first).degenerate + normal_of(second).degenerate <
-                            1 + normal_of(mesh_.triangles[mate / 3]).degenerate;
-        const bool opposite = start_of(mesh_.triangles, mate) == b;
-        if (!better || !opposite || c == d || edges.contains(std::minmax(c, d))) continue;
-        edges.erase(std::minmax(a, b));
-        edges.insert(std::minmax(c, d));
-        mesh_.triangles[t] = first;
-        mesh_.triangles[mate / 3] = second;
-        touched[t] = touched[mate / 3] = 1;
-      }
-      ++report_.degenerate_triangles;
-      changed = true;
-    }
-    drop(gone);
-    return changed;
-  }
-
-  std::uint32_t longest_edge(std::uint32_t t) const {
-    std::uint32_t longest = 3 * t;
-    double length = -1;
-    for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
-      const double l = norm(mesh_.vertices[end_of(mesh_.triangles, h)] -
-                            mesh_.vertices[start_of(mesh_.triangles, h)]);
-      if (l > length) longest = h, length = l;
-    }
-    return longest;
   }
 
   void close() {
@@ -300,6 +260,8 @@ class Repairer {
   std::vector<Vec3> given_, local_;  // as they came: what stays comes back to the last bit
   Mesh mesh_;
   double scale_ = 1, diagonal_ = 0, largest_ = 0;
+  Vec3 error_;           // coordinate_error(), scaled
+  bool single_ = false;  // all given coordinates are numbers of single precision
   std::vector<std::uint32_t> mates_;
   Parts parts_;
   std::vector<char> one_sided_;  // per part

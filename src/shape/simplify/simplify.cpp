@@ -1,6 +1,7 @@
 #include "rholm/simplify.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
@@ -13,7 +14,9 @@
 #include "base/parallel.h"
 #include "rholm/error.h"
 #include "rholm/topology.h"
+#include "shape/coordinate_error.h"
 #include "shape/face.h"
+#include "shape/repair/thin_faces.h"
 #include "shape/simplify/plane_quadric.h"
 #include "shape/simplify/simplify_part.h"
 #include "shape/topology/half_edges.h"
@@ -45,9 +48,10 @@ struct Collapse {
 // The mesh as it shrinks: after each pass the vertices that are left, in their order.
 class Simplifier {
  public:
-  // Of a whole mesh: nothing is locked, the unit is its mean edge.
+  // Of a whole mesh: nothing is locked, the unit is its mean edge, and `error` its
+  // coordinate_error().
   Simplifier(SimplifyPart part, const SimplifyOptions& options, const Context& context,
-             bool is_whole)
+             bool is_whole, const Vec3& error = {})
       : options_(options),
         context_(context),
         points_(std::move(part.points)),
@@ -55,6 +59,7 @@ class Simplifier {
         given_(points_.size()),
         kinds_(std::move(part.kinds)),
         quadrics_(std::move(part.quadrics)),
+        coordinate_error_(error),
         per_length_(1 / part.unit) {
     if (!is_whole) {
       origins_.resize(triangles_.size());
@@ -303,9 +308,26 @@ class Simplifier {
       const Vec3 b = offset(v, c[(k + 2) % 3]);
       const Vec3 now = cross(a, b);
       const Vec3 then = cross(a - d, b - d);
-      if (!(dot(then, now) > kLeastCosine * norm(then) * norm(now))) return true;
+      if (becomes_thin(then, a - d, b - d, c, k, to)) return true;
+      if (dot(then, now) > kLeastCosine * norm(then) * norm(now)) continue;
+      // Where a face thinner than rounding points says nothing.
+      if (!is_thin(corners(c), coordinate_error_)) return true;
     }
     return false;
+  }
+
+  std::array<Vec3, 3> corners(const Triangle& t) const {
+    return {points_[t[0]], points_[t[1]], points_[t[2]]};
+  }
+
+  // Whether a triangle would be thinner than the rounding of its corners, once its corner k is
+  // `to`: then it has the edges a and b from there, and `normal` is their product.
+  bool becomes_thin(const Vec3& normal, const Vec3& a, const Vec3& b, Triangle t, std::size_t k,
+                    std::uint32_t to) const {
+    constexpr double kWide = 1e-2;  // chosen: few triangles are looked at more closely
+    if (dot(normal, normal) > kWide * kWide * dot(a, a) * dot(b, b)) return false;
+    t[k] = to;
+    return is_thin(corners(t), coordinate_error_);
   }
 
   // The link condition (Dey, Edelsbrunner, Guha, Nekhayev 1999): no edge of the vertex that goes,
@@ -358,6 +380,7 @@ class Simplifier {
   std::vector<std::uint8_t> locked_;
   Ring ring_, target_;
   std::vector<Collapse> ways_;
+  Vec3 coordinate_error_;  // of a whole mesh
   double per_length_;
   double most_ = 0;     // square of the error allowed, in mean edges
   double largest_ = 0;  // square of the error, in mean edges
@@ -403,10 +426,13 @@ Simplification simplify(Mesh mesh, const SimplifyOptions& options, const Context
   // Where squares of lengths would leave the range of a double, a power of two brings them back.
   const double scale = far_scale(bounds(mesh.vertices));
   for (Vec3& v : mesh.vertices) v *= scale;
+  std::erase_if(mesh.triangles, has_repeated_corner);
+  swap_thin_faces(mesh);
+  const Vec3 error = coordinate_error(view_of(mesh));
   const SimplifyOptions wanted{.triangles = std::max(options.triangles, share),
                                .max_error = options.max_error * scale};
   SimplifyPart whole{.points = std::move(mesh.vertices), .triangles = std::move(mesh.triangles)};
-  Simplifier simplifier(std::move(whole), wanted, context, true);
+  Simplifier simplifier(std::move(whole), wanted, context, true, error);
   simplifier.run();
   Simplification result;
   result.error = simplifier.error() / scale;

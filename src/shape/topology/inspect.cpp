@@ -4,6 +4,7 @@
 #include "base/cancel.h"
 #include "base/disjoint_sets.h"
 #include "rholm/topology.h"
+#include "shape/coordinate_error.h"
 #include "shape/face.h"
 #include "shape/measure.h"
 #include "shape/topology/half_edges.h"
@@ -83,11 +84,11 @@ void inspect_edges(const Mesh& mesh, Inspection& result) {
 }
 
 void count_degenerate(const Mesh& mesh, double scale, Inspection& result) {
+  const Vec3 error = scale * coordinate_error(view_of(mesh));
   CancelPoll poll;
   for (const Triangle& t : mesh.triangles) {
     poll();
-    result.degenerate_triangles +=
-        has_repeated_corner(t) || face_normal(scaled_corners(mesh, t, scale)).degenerate;
+    result.degenerate_triangles += is_thin(scaled_corners(mesh, t, scale), error);
   }
 }
 

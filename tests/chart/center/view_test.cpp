@@ -9,6 +9,7 @@
 #include "chart/center/linear_program.h"
 #include "chart/center/view_center.h"
 #include "chart/center/view_scan.h"
+#include "chart/star/cone.h"
 #include "rholm/error.h"
 #include "rholm/primitives.h"
 #include "support/packed_mesh.h"
@@ -74,7 +75,7 @@ double best_distance(const LocalView& view) {
   LinearProgram program(1.0625, 4);
   for (std::size_t t = 0; t < view.mesh.n_triangles; ++t) {
     const FacePlane face = view.plane(t);
-    if (face.exists()) program.add({.a = face.normal, .lift = 1, .bound = face.offset});
+    if (face.exists()) program.add({.a = face.normal, .lift = 1, .bound = face.most_distance({})});
   }
   EXPECT_TRUE(program.solve());
   return program.top();
@@ -223,25 +224,24 @@ TEST(view_scan, takes_any_number_of_faces) {
   });
 }
 
-TEST(scan_cones, finds_the_one_face_in_every_direction) {
+TEST(scan_lines, finds_the_two_faces_on_every_line) {
   const PackedMesh floats = packed<float>(bumpy_sphere(4, 0.3));
   const PackedMesh doubles = packed<double>(bumpy_sphere(4, 0.3));
   for_each_target([&] {
     for (const MeshView& mesh : {floats.view, doubles.view}) {
       const LocalView view = local(mesh);
       for (std::uint64_t i = 0; i < 50; ++i) {
-        std::size_t visits = 0;
-        scan_cones(view, 0, mesh.n_triangles, {0.1, 0, 0}, random_direction(1, i),
-                   [&](std::size_t) { ++visits; });
-        EXPECT_EQ(visits, 1u);
-        std::set<std::size_t> ahead_and_behind, along;
-        for (const int side : {1, -1}) {
-          scan_cones(view, 0, mesh.n_triangles, {0.1, 0, 0}, side * random_direction(1, i),
-                     [&](std::size_t t) { ahead_and_behind.insert(t); });
+        const Vec3 center{0.1, 0, 0};
+        std::set<std::size_t> crossed, along;
+        for (std::size_t t = 0; t < mesh.n_triangles; ++t) {
+          const auto corners = corners_from(view, t, view.frame.to_shape(center));
+          for (const int side : {1, -1}) {
+            if (cone_contains(corners, side * random_direction(1, i)) != 0) crossed.insert(t);
+          }
         }
         scan_lines(view, 0, mesh.n_triangles, {0.1, 0, 0}, random_direction(1, i),
                    [&](std::size_t t) { along.insert(t); });
-        EXPECT_EQ(along, ahead_and_behind);
+        EXPECT_EQ(along, crossed);
         EXPECT_EQ(along.size(), 2u);
       }
     }

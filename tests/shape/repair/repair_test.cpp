@@ -341,5 +341,27 @@ TEST(triangulate_hole, of_a_polygon_with_a_notch_stays_inside) {
   EXPECT_NEAR(hole->area, 7, 1e-14);
 }
 
+// A cube, an edge of which is split on one side only.
+TEST(repair, closes_a_t_junction_in_one_run) {
+  Mesh mesh = box({2, 2, 2}, 1);
+  const Edge edge = pair_edges(mesh).front();
+  const auto middle = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.push_back(0.5 * (mesh.vertices[edge.a] + mesh.vertices[edge.b]));
+  Triangle& left = mesh.triangles[edge.left];
+  Triangle second = left;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (left[k] == edge.b) left[k] = middle;
+    if (second[k] == edge.a) second[k] = middle;
+  }
+  mesh.triangles.push_back(second);
+  const Repaired result = repair(mesh);
+  EXPECT_TRUE(result.report.after.closed);
+  EXPECT_EQ(result.report.after.degenerate_triangles, 0u);
+  EXPECT_NEAR(result.report.after.volume, 8, 1e-12);
+  const Repaired again = repair(result.mesh);
+  EXPECT_TRUE(again.mesh.vertices == result.mesh.vertices);
+  EXPECT_TRUE(again.mesh.triangles == result.mesh.triangles);
+}
+
 }  // namespace
 }  // namespace rholm
