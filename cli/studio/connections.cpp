@@ -98,7 +98,7 @@ void Connections::watch() {
     }
     lock.lock();
     if (closing_) return;
-    // Those that came meanwhile stand behind those that were polled.
+    // Connections that came meanwhile stand behind those that were polled.
     auto one = waiting_.begin();
     for (std::size_t i = 1; i < polled.size(); ++i) {
       const auto next = std::next(one);

@@ -1,9 +1,9 @@
 // Connections from their beginning to their end: who may come in, and what becomes of them when all
 // ends. Layer: cli.
 //
-// A connection waits until its request line and headers are there; nobody works for it before. One
-// that asks without the token is answered by the thread that waits, and so never takes a worker
-// from those that have it.
+// A connection waits until its request line and headers are there; no worker waits for it. A
+// request without the token is answered by the thread that waits for all connections, so that all
+// workers are there for requests with the token.
 #pragma once
 
 #include <chrono>

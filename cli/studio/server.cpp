@@ -32,8 +32,8 @@ using HttpResponse = httplib::Response;
 
 constexpr int kThreads = 64;     // chosen: an open page holds one for its events, a request one
 constexpr int kMaxStreams = 40;  // chosen: the rest of them answer
-// Bytes of a body; chosen. A body without a length may not be longer, and memory for the whole
-// length of another one is taken when so many bytes of it have come.
+// Bytes of a body; chosen. A body that does not say its length may have this many. For a longer one
+// the memory is taken once this many bytes have come.
 constexpr std::uint64_t kUnproved = std::uint64_t{64} << 20;
 // Bytes of JSON; chosen: a number in it takes up to 16 times its text. Those above are read one by
 // one.
