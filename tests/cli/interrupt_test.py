@@ -69,6 +69,15 @@ class Interrupt(CliTest):
         process = self.interrupted("info", "-", stdin=subprocess.PIPE)
         self.assertEqual(process.returncode, 130)
 
+    def test_waiting_for_the_writer_of_a_named_pipe(self):
+        os.mkfifo(self.folder / "a.ply")
+        self.write("shapes.csv", "path\na.ply\n")
+        for words in (["info", "a.ply"], ["analyze", "a.ply", "--degree", "4", "-o", "a.h5"],
+                      ["reconstruct", "a.ply", "-o", "o.ply"],
+                      ["batch", "shapes.csv", "--command", "info", "-o", "o.csv"]):
+            process = self.interrupted(*words, stdin=subprocess.DEVNULL)
+            self.assertEqual(process.returncode, 130, (words, process.err))
+
     def test_termination_is_answered_likewise(self):
         process = self.interrupted("info", "-", sign=signal.SIGTERM, stdin=subprocess.PIPE)
         self.assertEqual(process.returncode, 128 + signal.SIGTERM)

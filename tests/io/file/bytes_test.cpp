@@ -8,6 +8,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <fstream>
 #include <thread>
 
 #include "io/shapes/test_support.h"
@@ -114,6 +115,21 @@ TEST(read_bytes, signal_during_a_blocking_read_asks_whether_to_cancel) {
   sender.join();
   sigaction(SIGUSR1, &before, nullptr);
   EXPECT_EQ(questions, 3);
+}
+
+TEST(read_bytes, a_named_pipe_is_waited_for_until_it_is_cancelled) {
+  const TemporaryFolder folder;
+  const std::filesystem::path pipe = folder / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  Context context;
+  int questions = 0;
+  context.progress = [&](std::string_view, double) { return ++questions < 3; };
+  expect_error([&] { read_bytes(pipe, context); }, ErrorCode::kCancelled);
+  EXPECT_EQ(questions, 3);
+  std::thread writer([&] { std::ofstream(pipe) << "some bytes"; });
+  const Bytes bytes = read_bytes(pipe);
+  writer.join();
+  EXPECT_EQ(text_of(bytes), "some bytes");
 }
 
 TEST(read_bytes, places_that_cannot_be_read_are_named) {
