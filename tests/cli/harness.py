@@ -100,8 +100,8 @@ def rows_done(path):
 
 
 def held(mark, letters, after=0):
-    """The environment of a program that waits for ever as soon as a file with these letters in its path is to get
-    its name, in a folder of so many entries; it makes the file `mark` first."""
+    """The environment of a program that waits for ever as soon as a file with these letters in its path (at its
+    end, if '$' follows them) is to get its name, in a folder of so many entries; it makes the file `mark` first."""
     return {"LD_PRELOAD": HELD_RENAME, "ASAN_OPTIONS": "verify_asan_link_order=0", "RHOLM_TEST_HELD": str(mark),
             "RHOLM_TEST_HOLD": letters, "RHOLM_TEST_AFTER": str(after)}
 

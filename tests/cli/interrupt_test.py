@@ -98,7 +98,7 @@ class Interrupt(CliTest):
         self.write("s.obj", OLD)
         mark = self.folder / "mark"
         process = subprocess.Popen([RHOLM, "make", "sphere", "--subdivisions", "6", "-o", "s.obj"], cwd=self.folder,
-                                   env={**os.environ, **held(mark, "s.obj")})
+                                   env={**os.environ, **held(mark, "s.obj$")})
         until(mark.exists, "the new file is complete", process)
         self.check_old_file_is_whole("s.obj")
         process.kill()

@@ -329,7 +329,7 @@ class Bricks(CliTest):
                 piece = folder / "pieces" / stage
                 return any(piece.glob("[0-9]")) if piece.is_dir() else piece.is_file()
             # It waits where the second file of the stage, or the result, is to get its name.
-            letters, after = ("/r.ply", 0) if stage == "output" else (f"pieces/{stage}/", 1)
+            letters, after = ("r.ply$", 0) if stage == "output" else (f"pieces/{stage}/", 1)
             mark = self.folder / "mark"
             with subprocess.Popen([RHOLM, "reconstruct", *words, "--brick-points", "3000", "-o", "r.ply",
                                    "--threads", "1"], cwd=self.folder, stdout=subprocess.DEVNULL,

@@ -148,7 +148,7 @@ class Stopped(Analyze):
         waits where its file is to get its name."""
         self.mark.unlink(missing_ok=True)
         run = self.start(RHOLM_MPI, "analyze", "mesh.ply", "--degree", 700, "--precision", 1e-13, "-o", "o.h5",
-                         "--threads", 1, "--patience", 10, ranks=ranks, environment=held(self.mark, "o.h5"))
+                         "--threads", 1, "--patience", 10, ranks=ranks, environment=held(self.mark, "o.h5$"))
         # Ranks open the mesh when rank 0 has told them to: before MPI has begun nobody can say that one is stopped.
         run.until(lambda: run.have_mapped("mesh.ply") or self.mark.exists(), "all ranks have the mesh")
         return run
