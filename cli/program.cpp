@@ -10,6 +10,7 @@
 #include "cli/grammar/help.h"
 #include "cli/grammar/parse.h"
 #include "cli/grammar/run.h"
+#include "cli/grammar/suggest.h"
 #include "cli/terminal/exit_code.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/program_name.h"
@@ -33,8 +34,13 @@ const Command* find_command(std::span<const Command> commands, const std::string
 
 const Command& command_of(std::span<const Command> commands, const std::string& name) {
   if (const Command* command = find_command(commands, name)) return *command;
-  throw UsageError(
-      fmt::format("there is no command '{}'; '{} help' lists them", name, program_name()));
+  std::vector<std::string> names;
+  for (const Command& command : commands) {
+    if (!command.hidden) names.push_back(command.name);
+  }
+  const std::string meant = did_you_mean(name, names);
+  throw UsageError(fmt::format("there is no command '{}'{} '{} help' lists them", name,
+                               meant.empty() ? ";" : meant, program_name()));
 }
 
 bool asks_for_help(std::span<const std::string> words) {

@@ -15,6 +15,7 @@
 #include "cli/commands/spectrum_report.h"
 #include "cli/files/outputs.h"
 #include "cli/grammar/parse.h"
+#include "cli/grammar/suggest.h"
 #include "cli/terminal/exit_code.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/json_text.h"
@@ -44,7 +45,9 @@ Command make_named(const std::string& name) {
   for (const auto& [known, make] : kMakers) {
     if (known == name) return make();
   }
-  throw UsageError(fmt::format("there is no command '{}'; 'rholm help' lists them", name));
+  const std::string meant = did_you_mean(name, names_for_batches());
+  throw UsageError(fmt::format("there is no command '{}'{} 'rholm help' lists them", name,
+                               meant.empty() ? ";" : meant));
 }
 
 BatchTable table_of(const BatchJob& job, const BatchJournal& journal) {

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "cli/grammar/suggest.h"
 #include "cli/grammar/values.h"
 
 namespace rholm::cli {
@@ -55,7 +56,9 @@ void check_text(const Option& option, const std::string& text) {
   }
   if (!option.choices.empty() &&
       std::find(option.choices.begin(), option.choices.end(), text) == option.choices.end()) {
-    refuse(option, text, fmt::format("one of {}", fmt::join(option.choices, ", ")));
+    refuse(option, text,
+           fmt::format("one of {}", fmt::join(option.choices, ", ")) +
+               did_you_mean(text, option.choices));
   }
   if (option.check) option.check(option.typed(), text);
 }
@@ -107,6 +110,48 @@ void take(const Option& option, const std::string& text) {
       option.target);
 }
 
+// How an option may be typed: "--degree", "-o".
+std::vector<std::string> names_of(const std::vector<Option>& options) {
+  std::vector<std::string> names = {"--help"};
+  for (const Option& option : options) {
+    if (option.is_operand()) continue;
+    names.push_back(option.typed());
+    if (option.letter) names.push_back({'-', option.letter});
+  }
+  return names;
+}
+
+const Option* option_of(const std::vector<Option>& options, std::string_view name) {
+  const auto is_named = [&](const Option& option) {
+    return !option.is_operand() &&
+           (name == option.typed() || (option.letter && name == std::string{'-', option.letter}));
+  };
+  const auto found = std::find_if(options.begin(), options.end(), is_named);
+  return found == options.end() ? nullptr : &*found;
+}
+
+// Refuses options that there are not. CLI11 would take the value of one for an operand, and
+// complain about that.
+void check_names(const std::vector<Option>& options, std::span<const std::string> words) {
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string& word = words[i];
+    if (word == "--") return;  // operands follow
+    const bool is_long = word.starts_with("--");
+    const bool is_number =
+        word.size() > 1 && (word[1] == '.' || (word[1] >= '0' && word[1] <= '9'));
+    if (word.size() < 2 || word[0] != '-' || is_number) continue;
+    const std::string name = is_long ? word.substr(0, word.find('=')) : word.substr(0, 2);
+    const Option* option = option_of(options, name);
+    if (option == nullptr) {
+      const std::string typed = is_long ? name : word;
+      throw UsageError(
+          fmt::format("there is no option '{}'{}", typed, did_you_mean(typed, names_of(options))));
+    }
+    if (!option->is_switch() && word.size() == name.size())
+      ++i;  // its value, whatever it looks like
+  }
+}
+
 }  // namespace
 
 void parse(const Command& command, std::span<const std::string> words, CommonOptions& common) {
@@ -114,6 +159,7 @@ void parse(const Command& command, std::span<const std::string> words, CommonOpt
   app.set_help_flag();  // --help is answered before the parser is asked
   std::vector<Option> options = command.options;
   for (Option& option : common_options(common)) options.push_back(std::move(option));
+  check_names(options, words);
   std::deque<Word> known;  // CLI11 keeps references to the texts
   for (const Option& option : options) add(app, known.emplace_back(Word{&option}));
   try {

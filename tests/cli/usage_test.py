@@ -75,6 +75,25 @@ class WrongUsage(CliTest):
         self.refused("info", "a.off", "--jsno", saying="--jsno")
         self.refused("info", "a.off", "b.off", saying="b.off")
 
+    def test_what_may_have_been_meant_is_said(self):
+        for words, meant in ((["analyse", "a.off"], "analyze"), (["help", "recon"], "reconstruct"),
+                             (["batch", "simplfy", "a.csv"], "simplify"),
+                             (["analyze", "a.off", "--degre", "8", "-o", "a.h5"], "--degree"),
+                             (["analyze", "--degre=8", "a.off", "-o", "a.h5"], "--degree"),
+                             (["info", "a.off", "--jsno"], "--json"),
+                             (["analyze", "a.off", "--degree", "4", "-o", "a.h5", "--method",
+                               "egde"], "edge")):
+            with self.subTest(words):
+                self.refused(*words, saying=f"did you mean '{meant}'?")
+        for words in (["xylophone", "a.off"], ["info", "a.off", "--colour-of-sky"],
+                      ["analyze", "a.off", "-o", "a.h5", "--degree", "4", "--method", "magic"]):
+            with self.subTest(words):
+                result = self.rholm(*words, code=2)
+                self.assertNotIn("did you mean", result.err)
+        # What follows an option is its value, and numbers are no options.
+        self.rholm("rotate", "--help")
+        self.refused("analyze", "a.off", "-o", "--degre", "--degree", "-1", saying="0 ... 16384")
+
     def test_missing_words_are_named(self):
         self.refused("info", saying="SHAPE")
         self.refused("analyze", "a.off", "-o", "a.h5", saying="--degree")
