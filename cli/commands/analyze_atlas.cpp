@@ -10,6 +10,7 @@
 #include "cli/files/prepare.h"
 #include "cli/grammar/parse.h"
 #include "rholm/error.h"
+#include "rholm/outward.h"
 #include "rholm/patch_atlas.h"
 #include "rholm/topology.h"
 
@@ -50,19 +51,17 @@ void check_options(const AnalyzeCommandOptions& o) {
 }
 
 Mesh prepared_mesh(const AnalyzeCommandOptions& o, ShapeFile file, Session& session) {
-  Mesh mesh = weld(mesh_of(std::move(file), o.input, session), o.weld).mesh;
+  Outward shape = outward(mesh_of(std::move(file), o.input, session), o.weld);
+  if (shape.flipped) session.note(kFlipped);
+  Mesh& mesh = shape.welded.mesh;
   const Inspection state = inspect(mesh);
-  if (state.inside_out) {
-    flip(mesh);
-    session.note(kFlipped);
-  }
   if (state.misoriented_edges + state.duplicate_triangles > 0) {
     session.warn(
         fmt::format("{}: faces disagree about their sides at {} edges, {} faces are "
                     "duplicates, and caps follow both sides: 'rholm repair' mends it",
                     display_name(o.input), state.misoriented_edges, state.duplicate_triangles));
   }
-  return mesh;
+  return std::move(mesh);
 }
 
 Compressed compress_shape(const AnalyzeCommandOptions& o, ShapeFile file, Session& session) {

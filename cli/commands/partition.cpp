@@ -13,6 +13,7 @@
 #include "cli/terminal/json_text.h"
 #include "cli/terminal/session.h"
 #include "rholm/compress.h"
+#include "rholm/outward.h"
 #include "rholm/patch_atlas.h"
 #include "rholm/topology.h"
 
@@ -95,12 +96,9 @@ int run(const Options& options, Session& session) {
     say_what_was_read(file, options.input, session);
     finish(*cloud, cloud->points);
   } else {
-    Mesh mesh = weld(mesh_of(std::move(file), options.input, session)).mesh;
-    if (inspect(mesh).inside_out) {
-      flip(mesh);
-      session.note(kFlipped);
-    }
-    finish(mesh, mesh.vertices);
+    Outward shape = outward(mesh_of(std::move(file), options.input, session));
+    if (shape.flipped) session.note(kFlipped);
+    finish(shape.welded.mesh, shape.welded.mesh.vertices);
   }
   if (options.json) print_json(json);
   return 0;

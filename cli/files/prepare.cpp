@@ -1,7 +1,10 @@
 #include "cli/files/prepare.h"
 
+#include <utility>
+
 #include "cli/grammar/values.h"
 #include "rholm/coefficients_io.h"
+#include "rholm/outward.h"
 #include "rholm/topology.h"
 
 namespace rholm::cli {
@@ -55,11 +58,10 @@ Option rays_option(int& rays) {
 }
 
 Prepared prepare(const Mesh& mesh, double weld_tolerance) {
-  Prepared result{.mesh = weld(mesh, weld_tolerance).mesh};
+  Outward shape = outward(mesh, weld_tolerance);
+  Prepared result{.mesh = std::move(shape.welded.mesh), .flipped = shape.flipped};
   result.diagonal = bounds(result.mesh.vertices).diagonal();
   pair_edges(result.mesh);  // throws if the mesh is open or its faces disagree
-  result.flipped = enclosed_volume(result.mesh) < 0;
-  if (result.flipped) flip(result.mesh);
   return result;
 }
 

@@ -80,13 +80,13 @@ struct Compressed {
 
 // Covers the shape with few caps, fits them, drops the coefficients its error can do without,
 // extracts the surface and measures it, until it is within the tolerance both ways and hangs
-// together as the shape does. A mesh may be open; of one whose parts run into each other the outer
-// surface is taken; points need normals (if they point into a solid that the points lie all around,
-// they are turned) and are taken as evenly spread (measured from the points only). Throws
-// InvalidInput for shapes without area, triangles that are not oriented alike, and options out of
-// range; Unsupported for shapes too thin for the grid, and where the caps would take more numbers
-// than `max_numbers`. The tolerance may be missed, see `met`, and so may parts and handles, see
-// `topology_kept`. Same input, same bits for any number of threads.
+// together as the shape does. A mesh may be open, and is first made outward(); of one whose parts
+// run into each other the outer surface is taken; points need normals (if they point into a solid
+// that the points lie all around, they are turned) and are taken as evenly spread (measured from
+// the points only). Throws InvalidInput for shapes without area, triangles that are not oriented
+// alike, and options out of range; Unsupported for shapes too thin for the grid, and where the caps
+// would take more numbers than `max_numbers`. The tolerance may be missed, see `met`, and so may
+// parts and handles, see `topology_kept`. Same input, same bits for any number of threads.
 Compressed compress(const Mesh& mesh, const CompressOptions& options, const Context& context = {});
 Compressed compress(const PointCloud& cloud, const CompressOptions& options,
                     const Context& context = {});

@@ -21,6 +21,7 @@
 #include "model/points/oriented_points.h"
 #include "rholm/compare.h"
 #include "rholm/error.h"
+#include "rholm/outward.h"
 #include "rholm/points.h"
 #include "rholm/topology.h"
 #include "surface/atlas_surface.h"
@@ -230,10 +231,12 @@ AtlasSize size_of(const Atlas& atlas) {
   return {atlas.caps.size(), n_kept(atlas), atlas.caps.size() * kFrameNumbers};
 }
 
-Compressed compress(const Mesh& mesh, const CompressOptions& options, const Context& context) {
+Compressed compress(const Mesh& given, const CompressOptions& options, const Context& context) {
   check(options);
-  validate(mesh);
-  check_span(bounds(mesh.vertices).diagonal());
+  validate(given);
+  check_span(bounds(given.vertices).diagonal());
+  const Outward shape = outward(given);
+  const Mesh& mesh = shape.welded.mesh;
   const Inspection found = inspect(mesh);
   check_oriented_alike(found);
   const RayScene scene(mesh, context);
@@ -245,7 +248,7 @@ Compressed compress(const Mesh& mesh, const CompressOptions& options, const Cont
   const Lengths lengths = lengths_for(options.tolerance, subject.diagonal, probe.gap, area);
   outer.closed = probe.hidden > 0;  // nothing else has to be looked for
   subject.samples = outer_samples(outer, n_samples(options, lengths, area), context);
-  subject.input_numbers = 3 * mesh.vertices.size();
+  subject.input_numbers = 3 * mesh.vertices.size();  // of the welded mesh: copies say nothing new
   // What is left of parts that run into each other hangs together in a way of its own.
   if (probe.hidden == 0) subject.topology = topology_of_solid(found);
   const std::vector<Vec3>& visible = subject.samples.points;

@@ -18,6 +18,7 @@
 #include "model/file/atlas_pack.h"
 #include "model/points/oriented_points.h"
 #include "rholm/error.h"
+#include "rholm/outward.h"
 #include "rholm/topology.h"
 #include "shape/face.h"
 #include "shape/points/point_tree.h"
@@ -324,11 +325,12 @@ PatchView parse_patch_view(const std::string& name) {
               "unknown view '" + name + "': patches, triangles or spheres");
 }
 
-PatchPicture patch_picture(const Mesh& mesh, PatchView view, const PatchAtlasOptions& options,
+PatchPicture patch_picture(const Mesh& given, PatchView view, const PatchAtlasOptions& options,
                            const Context& context) {
   check(options);
-  validate(mesh);
-  check_span(bounds(mesh.vertices).diagonal());
+  validate(given);
+  check_span(bounds(given.vertices).diagonal());
+  const Mesh mesh = outward(given).welded.mesh;
   return picture_of(mesh.vertices, area_normals(mesh.vertices, mesh.triangles), view, options,
                     context);
 }
@@ -341,10 +343,12 @@ PatchPicture patch_picture(const PointCloud& cloud, PatchView view,
   return picture_of(cloud.points, cloud.normals, view, options, context);
 }
 
-PatchAtlas patch_atlas(const Mesh& mesh, const PatchAtlasOptions& options, const Context& context) {
+PatchAtlas patch_atlas(const Mesh& given, const PatchAtlasOptions& options,
+                       const Context& context) {
   check(options);
-  validate(mesh);
-  check_span(bounds(mesh.vertices).diagonal());
+  validate(given);
+  check_span(bounds(given.vertices).diagonal());
+  const Mesh mesh = outward(given).welded.mesh;
   PatchAtlas made =
       make_all(mesh.vertices, area_normals(mesh.vertices, mesh.triangles), options, context);
   made.model.errors = measure(mesh, made.surface, 100000, context);

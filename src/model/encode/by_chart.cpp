@@ -8,39 +8,35 @@
 #include "base/stopwatch.h"
 #include "model/encode/encoded_parts.h"
 #include "rholm/error.h"
+#include "rholm/outward.h"
 #include "shape/repair/thin_faces.h"
 
 namespace rholm {
 namespace {
 
 struct Topology {
-  Welded welded;
+  Outward shape;
   std::vector<Edge> edges;
-  bool flipped = false;
 };
 
 Topology topology_of(const Mesh& mesh, double weld_tolerance) {
   Topology topology;
-  topology.welded = weld(mesh, weld_tolerance);
-  topology.welded.mesh.attributes.clear();
-  if (enclosed_volume(topology.welded.mesh) < 0) {
-    flip(topology.welded.mesh);
-    topology.flipped = true;
-  }
+  topology.shape = outward(mesh, weld_tolerance);
+  topology.shape.welded.mesh.attributes.clear();
   // Their planes would say as much as those of others about slopes and errors.
-  swap_thin_faces(topology.welded.mesh);
-  topology.edges = pair_edges(topology.welded.mesh);
+  swap_thin_faces(topology.shape.welded.mesh);
+  topology.edges = pair_edges(topology.shape.welded.mesh);
   return topology;
 }
 
 // Says that the mesh was turned even where it is refused afterwards.
 StarChart chart_of(Topology& topology, const ChartOptions& options, const Context& context) {
   try {
-    return make_star_chart(topology.welded.mesh, std::move(topology.edges), options, context);
+    return make_star_chart(topology.shape.welded.mesh, std::move(topology.edges), options, context);
   } catch (const Error& error) {
     const bool is_of_mesh =
         error.code() == ErrorCode::kInvalidInput || error.code() == ErrorCode::kNotStarShaped;
-    if (!topology.flipped || !is_of_mesh) throw;
+    if (!topology.shape.flipped || !is_of_mesh) throw;
     throw Error(error.code(), std::string("the mesh was inside out and has been turned right side "
                                           "out; then: ") +
                                   error.what());
@@ -71,12 +67,12 @@ Encoded encode_by_chart(const Mesh& mesh, const EncodeOptions& options, const Co
   encoded.vertices = chart.mesh.vertices.size();
   encoded.faces = chart.mesh.triangles.size();
   encoded.edges = chart.edges.size();
-  encoded.merged_vertices = topology.welded.merged_vertices;
-  encoded.collapsed_triangles = topology.welded.collapsed_triangles;
-  encoded.flipped = topology.flipped;
+  encoded.merged_vertices = topology.shape.welded.merged_vertices;
+  encoded.collapsed_triangles = topology.shape.welded.collapsed_triangles;
+  encoded.flipped = topology.shape.flipped;
   timed(encoded.times, "transform", [&] { transform(chart, options, context, encoded); });
   if (chart.report.star_shaped) {
-    ErrorSites sites(view_of(topology.welded.mesh), encoded.analysis.expansion.center,
+    ErrorSites sites(view_of(topology.shape.welded.mesh), encoded.analysis.expansion.center,
                      context.threads);
     add_errors(sites, true, options, context, encoded);
   }

@@ -9,7 +9,7 @@
 #include "base/cancel.h"
 #include "base/disjoint_sets.h"
 #include "rholm/error.h"
-#include "rholm/topology.h"
+#include "rholm/outward.h"
 #include "shape/face.h"
 #include "shape/topology/half_edges.h"
 #include "shape/topology/identical.h"
@@ -207,6 +207,15 @@ Welded weld(const Mesh& mesh, double tolerance) {
     }
   }
   drop_unused(mesh, triangles, result.mesh);
+  return result;
+}
+
+Outward outward(const Mesh& mesh, double tolerance) {
+  Outward result{.welded = weld(mesh, tolerance)};
+  Mesh& welded = result.welded.mesh;
+  // The volume of an open mesh has no meaning; the inspection costs more than the volume.
+  result.flipped = enclosed_volume(welded) < 0 && inspect(welded).inside_out;
+  if (result.flipped) flip(welded);
   return result;
 }
 

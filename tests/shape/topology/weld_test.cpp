@@ -6,6 +6,7 @@
 
 #include "base/disjoint_sets.h"
 #include "rholm/error.h"
+#include "rholm/outward.h"
 #include "rholm/primitives.h"
 #include "rholm/topology.h"
 #include "support/random_data.h"
@@ -32,6 +33,24 @@ TEST(weld, of_a_soup_gives_the_mesh_back) {
       }
     }
   }
+}
+
+TEST(outward, welds_and_turns_what_is_inside_out_and_nothing_else) {
+  const Mesh right = icosphere(2);
+  Mesh turned = right;
+  flip(turned);
+  for (const Mesh& mesh : {right, turned}) {
+    const Outward shape = outward(exploded(mesh));
+    EXPECT_EQ(shape.flipped, enclosed_volume(mesh) < 0);
+    EXPECT_EQ(shape.welded.mesh.vertices.size(), right.vertices.size());
+    EXPECT_GT(enclosed_volume(shape.welded.mesh), 0);
+  }
+  // An open mesh has no inside, whatever sign its volume has.
+  turned.triangles.pop_back();
+  ASSERT_LT(enclosed_volume(turned), 0);
+  const Outward open = outward(turned);
+  EXPECT_FALSE(open.flipped);
+  EXPECT_EQ(open.welded.mesh.triangles, turned.triangles);
 }
 
 TEST(weld, takes_zero_and_minus_zero_as_one_and_keeps_neighbouring_doubles_apart) {
