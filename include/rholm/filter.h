@@ -51,10 +51,17 @@ std::vector<double> sharpened(std::span<const double> gains, double amount);
 // gain that is not finite.
 Coefficients filter(const Coefficients& coefficients, std::span<const double> gains);
 
-// The same of a surface. `name` says what was done and is added to the expansion's method. What
-// was known of the norm and the errors of the unfiltered function is dropped.
+// The same of a surface. `name` says what was done and is added to the expansion's method. Norm
+// and tail of the unfiltered function are dropped. Of errors those of the radius stay that follow:
+// with E_l the energy of degree l, rms^2 grows by sum (1 - g_l)^2 E_l / (4 pi), as the degrees of a
+// radius are orthogonal to each other and to what its expansion leaves out.
 Expansion filter(const Expansion& expansion, std::span<const double> gains,
                  const std::string& name);
+
+// A surface cut off at a degree; unchanged if it has no higher ones. Norm and tail stay, as they
+// are of the whole function. Errors follow as for filter(). Throws InvalidInput for a negative
+// degree.
+Expansion truncated(const Expansion& expansion, int degree);
 
 // How far a filtered step leaves 0 ... 1, in parts of its height. Each 0 where it does not (below
 // 1e-12).

@@ -158,6 +158,39 @@ Coefficients filter(const Coefficients& coefficients, std::span<const double> ga
   return result;
 }
 
+namespace {
+
+// What is known of the errors after a filter with gain(l) for the degrees of `expansion`.
+template <class Gain>
+std::optional<TruncationErrors> filtered_errors(const Expansion& expansion, const Gain& gain) {
+  if (!expansion.errors) return std::nullopt;
+  const TruncationErrors& old = *expansion.errors;
+  TruncationErrors errors;
+  errors.diagonal = old.diagonal;
+  // The radius is no linear function of a gauge, and what is no surface has no radius.
+  if (!old.rms || expansion.function != RadialFunction::kRadius) return errors;
+  const std::vector<double> energy = power_spectrum(expansion.coefficients);
+  double lost = 0;
+  for (std::size_t l = 0; l < energy.size(); ++l) {
+    lost += (1 - gain(l)) * (1 - gain(l)) * energy[l];
+  }
+  errors.rms = std::sqrt(*old.rms * *old.rms + lost / (4 * std::numbers::pi));
+  errors.rms_is_exact = old.rms_is_exact;
+  return errors;
+}
+
+}  // namespace
+
+Expansion truncated(const Expansion& expansion, int degree) {
+  if (degree < 0) refuse("the degree is " + std::to_string(degree) + ": it must be at least 0");
+  if (degree >= expansion.coefficients.degree()) return expansion;
+  Expansion result = expansion;
+  result.coefficients = expansion.coefficients.resized(degree);
+  const auto limit = static_cast<std::size_t>(degree);
+  result.errors = filtered_errors(expansion, [&](std::size_t l) { return l <= limit ? 1.0 : 0.0; });
+  return result;
+}
+
 Expansion filter(const Expansion& expansion, std::span<const double> gains,
                  const std::string& name) {
   Expansion result;
@@ -167,6 +200,8 @@ Expansion filter(const Expansion& expansion, std::span<const double> gains,
   result.unit = expansion.unit;
   const std::string method = expansion.method.empty() ? name : expansion.method + ", " + name;
   result.method = method.size() <= kMaxMethodLength ? method : name.substr(0, kMaxMethodLength);
+  result.errors =
+      filtered_errors(expansion, [&](std::size_t l) { return l < gains.size() ? gains[l] : 0.0; });
   return result;
 }
 

@@ -169,17 +169,16 @@ Vec3 volume_centroid(const Expansion& expansion, const Context& context) {
 
 Expansion recentered(const Expansion& expansion, const Vec3& center, const Context& context) {
   require_surface(expansion);
+  const Vec3 d = center - expansion.center;
+  if (!is_finite(d)) throw Error(ErrorCode::kInvalidInput, "the new centre is not finite");
+  if (d == Vec3{}) return expansion;
   Expansion result;
   result.function = expansion.function;
   result.center = center;
   result.unit = expansion.unit;
   result.method = expansion.method;
-  const Vec3 d = center - expansion.center;
-  if (!is_finite(d)) throw Error(ErrorCode::kInvalidInput, "the new centre is not finite");
-  if (d == Vec3{}) {
-    result.coefficients = expansion.coefficients;
-    return result;
-  }
+  // Radial errors are along other rays now, and the series is cut off anew.
+  if (expansion.errors) result.errors.emplace().diagonal = expansion.errors->diagonal;
   const int degree = expansion.coefficients.degree();
   const Grid grid = grid_for(degree, 2);
   const std::vector<Vec3> directions = directions_of(grid);

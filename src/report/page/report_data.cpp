@@ -10,6 +10,7 @@
 #include "base/parallel.h"
 #include "rholm/analyze.h"
 #include "rholm/error.h"
+#include "rholm/outward.h"
 #include "rholm/truncation.h"
 #include "transform/error/error_sites.h"
 
@@ -44,7 +45,9 @@ Tail tail_of(const Expansion& expansion, double sum,
   constexpr double kDoubt = 2e-8;
   const auto energy_of = [](double rms) { return 4 * std::numbers::pi * rms * rms; };
   if (expansion.function == RadialFunction::kRadius && errors && errors->rms) {
-    return {energy_of(*errors->rms), true, errors->rms_is_exact, 0};
+    // Without its norm it is filtered: its degrees are not those of the shape any more.
+    const bool exact = errors->rms_is_exact && expansion.norm_squared;
+    return {energy_of(*errors->rms), true, exact, 0};
   }
   if (!expansion.norm_squared) return {};
   const double doubt = kDoubt * *expansion.norm_squared;
@@ -118,13 +121,9 @@ ShapeFigures shape_figures(const Mesh& mesh, const Vec3& center, double weld_tol
                            const Context& context) {
   validate(mesh);
   ShapeFigures figures;
-  figures.mesh = weld(mesh, weld_tolerance).mesh;
+  figures.mesh = outward(mesh, weld_tolerance).welded.mesh;
   figures.mesh.attributes.clear();
   figures.inspection = inspect(figures.mesh);
-  if (figures.inspection.inside_out) {
-    flip(figures.mesh);
-    figures.inspection = inspect(figures.mesh);
-  }
   figures.star = check_star(figures.mesh, center, kRays, context);
   return figures;
 }

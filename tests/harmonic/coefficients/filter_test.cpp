@@ -205,9 +205,52 @@ TEST(filter, of_an_expansion_says_so_and_forgets_what_no_longer_holds) {
   EXPECT_EQ(filtered.method, "edge, low-pass 2 lanczos");
   EXPECT_EQ(filtered.unit, "km");
   EXPECT_EQ(filtered.center, e.center);
-  EXPECT_FALSE(filtered.norm_squared || filtered.tail_strength || filtered.errors);
+  EXPECT_FALSE(filtered.norm_squared || filtered.tail_strength);
   e.method = std::string(250, 'x');  // no room for more
   EXPECT_EQ(filter(e, low_pass(2, 4), "low-pass 2 lanczos").method, "low-pass 2 lanczos");
+}
+
+// Of a function of degree 8 that is expanded to degree 6, everything is known in closed form.
+TEST(filter, of_an_expansion_keeps_what_follows_of_the_errors) {
+  const Coefficients whole = random_coefficients(8, 2);
+  const auto rms_to_whole = [&](const Coefficients& c) {
+    const Coefficients all = c.resized(8);
+    double sum = 0;
+    for (std::size_t i = 0; i < all.values().size(); ++i) {
+      sum += std::pow(whole.values()[i] - all.values()[i], 2);
+    }
+    return std::sqrt(sum / (4 * std::numbers::pi));
+  };
+  Expansion e;
+  e.coefficients = whole.resized(6);
+  e.norm_squared = 2;
+  e.errors.emplace();
+  e.errors->rms = rms_to_whole(e.coefficients);
+  e.errors->rms_is_exact = true;
+  e.errors->measured_max = 1;
+  e.errors->diagonal = 3;
+  const auto check = [&](const Expansion& after) {
+    ASSERT_TRUE(after.errors && after.errors->rms);
+    EXPECT_NEAR(*after.errors->rms, rms_to_whole(after.coefficients), 1e-14);
+    EXPECT_TRUE(after.errors->rms_is_exact);
+    EXPECT_FALSE(after.errors->measured_max);
+    EXPECT_EQ(after.errors->diagonal, 3);
+  };
+  check(filter(e, low_pass(4, 6), "a"));
+  check(filter(e, std::vector<double>{1, 2, -1}, "b"));
+  for (const int degree : {0, 3, 5}) {
+    const Expansion cut = truncated(e, degree);
+    check(cut);
+    EXPECT_EQ(cut.coefficients.degree(), degree);
+    EXPECT_EQ(cut.norm_squared, e.norm_squared);
+  }
+  EXPECT_EQ(truncated(e, 6).errors->measured_max, 1);  // nothing is cut off, nothing put on
+  EXPECT_EQ(truncated(e, 500).coefficients.degree(), 6);
+  EXPECT_THROW(truncated(e, -1), Error);
+  e.function = RadialFunction::kGauge;
+  EXPECT_FALSE(truncated(e, 3).errors->rms);
+  e.errors.reset();
+  EXPECT_FALSE(truncated(e, 3).errors);
 }
 
 TEST(filter, what_is_out_of_range_is_refused) {
