@@ -73,9 +73,15 @@ void validate(const MeshView& mesh) {
     poll();
     for (const std::uint32_t index : mesh.triangle(t)) {
       if (index >= mesh.n_vertices) {
-        throw Error(ErrorCode::kInvalidInput, "triangle " + std::to_string(t) + " names vertex " +
-                                                  std::to_string(index) + ", but there are only " +
-                                                  std::to_string(mesh.n_vertices));
+        // Negative numbers arrive here as if they had no sign.
+        const bool negative = index > INT32_MAX;
+        throw Error(
+            ErrorCode::kInvalidInput,
+            "triangle " + std::to_string(t) + " names vertex " +
+                (negative ? std::to_string(static_cast<std::int32_t>(index))
+                          : std::to_string(index)) +
+                (negative ? ", but indices begin at 0 and end at " : ", but the last one is ") +
+                (mesh.n_vertices > 0 ? std::to_string(mesh.n_vertices - 1) : "none"));
       }
     }
   }

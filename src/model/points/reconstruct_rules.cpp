@@ -85,7 +85,7 @@ void check_sides(const SideBalance& balance, std::size_t n) {
   if (!(balance.one_sided > kFlat)) return;
   throw Error(ErrorCode::kInvalidInput,
               fmt::format("these {} points bound no solid: their normals all point to one side, as "
-                          "of a plane; '--holes keep' (HolePolicy::kKeep) makes an open sheet",
+                          "of a plane; holes 'keep' makes an open sheet",
                           n));
 }
 
