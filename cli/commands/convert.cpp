@@ -19,6 +19,7 @@
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/session.h"
 #include "rholm/error.h"
+#include "rholm/gravity_field.h"
 #include "rholm/large_mesh.h"
 #include "rholm/point_stream.h"
 
@@ -33,6 +34,7 @@ struct Options {
   InputConvention from;
   MemoryOptions memory;
   std::string columns;
+  std::optional<double> gravity_constant, reference_radius;
   bool ascii = false;
 };
 
@@ -91,6 +93,23 @@ bool convert_mapped(const Options& options, const std::string& path, Session& se
   return true;
 }
 
+// What a gravity field is relative to: as the options say, else as the file of the input does.
+std::optional<GravityField> gravity_of(const Options& options) {
+  if (options.gravity_constant) {
+    return GravityField{*options.gravity_constant, *options.reference_radius};
+  }
+  return is_stream(options.input) ? std::nullopt : read_gravity_field(options.input);
+}
+
+// Numbers without a word of what they are of are those of a gravity field if the options say so.
+Expansion field_of(const Options& options, const CoefficientsFile& file) {
+  Expansion field = file.expansion;
+  const bool unsaid =
+      std::find(file.assumed.begin(), file.assumed.end(), "function radius") != file.assumed.end();
+  if (options.gravity_constant && unsaid) field.function = RadialFunction::kOther;
+  return field;
+}
+
 void convert_coefficients(const Options& options, const CoefficientsFile& file,
                           const Convention& convention, Session& session) {
   const std::string wanted = named_format(options);
@@ -101,6 +120,14 @@ void convert_coefficients(const Options& options, const CoefficientsFile& file,
                     display_name(options.input), wanted, options.input, options.output));
   }
   const CoefficientsOutput output = coefficients_output(options.output, options.format);
+  if (output.format == CoefficientsFormat::kIcgem) {
+    if (const std::optional<GravityField> gravity = gravity_of(options)) {
+      write_gravity_field(field_of(options, file), *gravity, output.path, convention);
+      session.note(fmt::format("{} has a gravity constant of {} m^3/s^2 and a radius of {} m",
+                               display_name(output.path), gravity->constant, gravity->radius));
+      return;
+    }
+  }
   write_coefficients_output(file.expansion, output, convention, session);
 }
 
@@ -172,6 +199,12 @@ int run(const Options& options, Session& session) {
   if (options.output == "-" && options.format.empty()) {
     throw UsageError("standard output has no extension: say --format");
   }
+  if (options.gravity_constant.has_value() != options.reference_radius.has_value()) {
+    throw UsageError("--gravity-constant and --reference-radius belong together: give both");
+  }
+  if (options.gravity_constant && named_format(options) != "icgem") {
+    throw UsageError("--gravity-constant and --reference-radius are for ICGEM files (.gfc)");
+  }
   check_writable(options.output);
   const std::optional<Input> input = rest_of_input(options, session);
   if (!input) return 0;
@@ -203,6 +236,18 @@ std::vector<Option> option_list(Options& o) {
                          "says otherwise",
                  .target = &o.from.override_file},
                 format_option(o.format, all_formats()),
+                {.name = "gravity-constant",
+                 .value = "GM",
+                 .help = "of the gravity field that the coefficients are of, in m^3/s^2: an ICGEM "
+                         "file (.gfc) says it, and other programs read it; by default that of the "
+                         "input, if it has one",
+                 .target = &o.gravity_constant,
+                 .above = 0},
+                {.name = "reference-radius",
+                 .value = "R",
+                 .help = "of the same field, in m; with --gravity-constant",
+                 .target = &o.reference_radius,
+                 .above = 0},
                 {.name = "ascii", .help = "PLY and STL as text", .target = &o.ascii},
                 columns_option(o.columns)});
   append(list, memory_options(o.memory));

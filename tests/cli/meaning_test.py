@@ -139,6 +139,29 @@ class NoShape(Meaning):
             self.assertIn("no shape", self.rholm("synthesize", name, "-o", "o.ply", code=3).err)
             self.rholm("spectrum", name)
 
+    def test_what_it_is_relative_to_stays_and_may_be_given(self):
+        def header(name):
+            lines = self.read(name).decode().split("end_of_head")[0].splitlines()
+            return dict(line.split(None, 1) for line in lines if " " in line)
+        self.write("g.gfc", GRAVITY)
+        self.rholm("convert", "g.gfc", "o.gfc")
+        self.assertEqual(header("o.gfc")["product_type"], "gravity_field")
+        self.assertEqual(float(header("o.gfc")["earth_gravity_constant"]), 0.3986004415E+15)
+        self.assertEqual(float(header("o.gfc")["radius"]), 6378136.3)
+        self.rholm("convert", "g.gfc", "o.json")
+        self.write("bare.sh", BARE)
+        given = ("--gravity-constant", "4.9e12", "--reference-radius", "1738000")
+        for source in ("o.json", "bare.sh"):  # one says that it is no surface, one says nothing
+            self.rholm("convert", source, "p.gfc", *given)
+            self.assertEqual(header("p.gfc")["product_type"], "gravity_field")
+            self.assertEqual(float(header("p.gfc")["earth_gravity_constant"]), 4.9e12)
+            self.assertEqual(float(header("p.gfc")["radius"]), 1738000)
+        self.rholm("convert", "s.h5", "p.gfc", *given, code=3)  # a surface
+        for words in (["o.json", "p.gfc", *given[:2]], ["o.json", "p.json", *given],
+                      ["o.json", "p.gfc", *given[:2], "--reference-radius", "0"]):
+            with self.subTest(words):
+                self.rholm("convert", *words, code=2)
+
     def test_radii_in_such_a_file_are_a_body_once_it_says_so(self):
         self.write("g.gfc", GRAVITY.replace("gravity_field", "shape"))
         self.rholm("synthesize", "g.gfc", "-o", "o.ply")

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "rholm/coefficients.h"
+#include "rholm/gravity_field.h"
 
 namespace rholm {
 
@@ -37,7 +38,8 @@ ParsedCoefficients parse_npy(std::string_view bytes, const std::string& name);
 std::string format_shtools(const Expansion& expansion, const Coefficients& external,
                            const Convention& convention);
 std::string format_icgem(const Expansion& expansion, const Coefficients& external,
-                         const Convention& convention);
+                         const Convention& convention,
+                         const std::optional<GravityField>& gravity = {});
 std::string format_json(const Expansion& expansion, const Coefficients& external,
                         const Convention& convention);
 std::string format_npy(const Coefficients& external);

@@ -1,14 +1,20 @@
 // ICGEM-like text: a header of lines `key value` up to `end_of_head`, then lines `gfc l m C S`.
-// The format is made for gravity fields; a shape has no gravity constant and no reference radius,
-// so none is written, and those of a file are passed over. What is no shape has the function
-// `other`. Keys that begin with `rholm_` say what the standard ones cannot.
+// The format is made for gravity fields, which have a gravity constant and a reference radius. A
+// shape has neither, and readers of coefficients pass over both: GravityField has them. What is no
+// shape has the function `other`. Keys that begin with `rholm_` say what the standard ones cannot.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "io/coefficients/codec.h"
+#include "io/coefficients/expansion_check.h"
 #include "io/coefficients/text_table.h"
+#include "io/file/bytes.h"
 #include "rholm/error.h"
+#include "rholm/file.h"
+#include "rholm/gravity_field.h"
 
 namespace rholm {
 namespace {
@@ -16,6 +22,7 @@ namespace {
 constexpr std::string_view kOwnPrefix = "rholm_";
 constexpr std::string_view kProduct = "shape";
 constexpr std::string_view kOtherProduct = "other";
+constexpr std::string_view kGravityProduct = "gravity_field";
 
 // ICGEM's word for the 4-pi normalization, and ours for what it has no word for.
 const char* norm_name(Normalization normalization) {
@@ -36,7 +43,7 @@ struct Header {
   std::optional<int> degree;
   std::optional<int> lines;
   std::optional<std::string> product;
-  bool has_gravity_constant = false;
+  std::optional<std::string> gravity_constant, radius;  // as they stand
 };
 
 void pass_over(std::string_view key, std::string_view value, Header& header) {
@@ -69,9 +76,10 @@ void take_key(const TextLine& line, Header& header) {
   } else if (key == "product_type") {
     set_once(header.product, std::string(value), key, line);
   } else if (key == "earth_gravity_constant" || key == "gravity_constant") {
-    header.has_gravity_constant = true;
+    header.gravity_constant = value;
     pass_over(key, value, header);
   } else if (key == "radius") {
+    header.radius = value;
     pass_over(key, value, header);
   } else if (key.starts_with(kOwnPrefix)) {
     take_own_key(key.substr(kOwnPrefix.size()), value, line, header);
@@ -81,12 +89,19 @@ void take_key(const TextLine& line, Header& header) {
 // What a file says to be no shape, or of a gravity constant, are not radii, unless it says so.
 void settle_function(Header& header) {
   const std::string product =
-      header.product.value_or(header.has_gravity_constant ? "gravity_field" : "shape");
-  if (header.parsed.function || product == kProduct) return;
+      header.product.value_or(std::string(header.gravity_constant ? kGravityProduct : kProduct));
+  const RadialFunction said = header.parsed.function.value_or(RadialFunction::kOther);
+  if (said != RadialFunction::kOther || product == kProduct) return;
   header.parsed.function = RadialFunction::kOther;
   if (product == kOtherProduct) return;
   const std::string shown = in_quotes(product);  // bounded, and without control characters
   header.parsed.product = shown.substr(1, shown.size() - 2);
+}
+
+// A finite number above 0, of text that may be anything.
+std::optional<double> positive(const std::optional<std::string>& text) {
+  const std::optional<double> value = text ? number_of(*text) : std::nullopt;
+  return value && std::isfinite(*value) && *value > 0 ? value : std::nullopt;
 }
 
 // Before `begin_of_head`, if a file has it, stands free text.
@@ -114,7 +129,51 @@ Header parse_header(TextCursor& text, const std::string& name) {
               name + ": the header has no line end_of_head: the file is cut off or not ICGEM");
 }
 
+// Throws InvalidInput for a number that is not finite or not above 0.
+void check_positive(const std::string& name, const char* what, double value) {
+  if (std::isfinite(value) && value > 0) return;
+  throw Error(ErrorCode::kInvalidInput,
+              fmt::format("{}: the {} is {}; it must be finite and above 0", name, what, value));
+}
+
 }  // namespace
+
+std::optional<GravityField> gravity_field_of(std::span<const char> bytes) {
+  // Chosen: as much as is looked at to tell the format.
+  constexpr std::size_t kHeaderBytes = 65536;
+  TextCursor text{bytes.first(std::min(bytes.size(), kHeaderBytes))};
+  try {
+    const Header header = parse_header(text, "");
+    const std::optional<double> constant = positive(header.gravity_constant);
+    const std::optional<double> radius = positive(header.radius);
+    if (header.parsed.product != kGravityProduct || !constant || !radius) return std::nullopt;
+    return GravityField{*constant, *radius};
+  } catch (const Error&) {
+    return std::nullopt;  // no header of an ICGEM file
+  }
+}
+
+std::optional<GravityField> read_gravity_field(const std::filesystem::path& path) {
+  const Bytes bytes = read_bytes(path);
+  return gravity_field_of(bytes.view());
+}
+
+void write_gravity_field(const Expansion& expansion, const GravityField& gravity,
+                         const std::filesystem::path& path, const Convention& convention) {
+  const std::string name = path == "-" ? "standard output" : path.string();
+  check_positive(name, "gravity constant", gravity.constant);
+  check_positive(name, "reference radius", gravity.radius);
+  if (expansion.function != RadialFunction::kOther) {
+    throw Error(ErrorCode::kInvalidInput,
+                fmt::format("{}: a gravity constant and a reference radius are of a gravity field, "
+                            "whose function is 'other', not '{}'",
+                            name, to_string(expansion.function)));
+  }
+  check_expansion(expansion, name);
+  const Coefficients external = to_convention(expansion.coefficients, convention);
+  check_coefficients(external, name);
+  write_file(path, format_icgem(expansion, external, convention, gravity));
+}
 
 ParsedCoefficients parse_icgem(std::string_view bytes, const std::string& name) {
   TextCursor text{bytes};
@@ -139,13 +198,19 @@ ParsedCoefficients parse_icgem(std::string_view bytes, const std::string& name) 
 }
 
 std::string format_icgem(const Expansion& expansion, const Coefficients& external,
-                         const Convention& convention) {
+                         const Convention& convention, const std::optional<GravityField>& gravity) {
   const int degree = external.degree();
-  std::string text = fmt::format(
-      "product_type {}\nmodelname rholm\nmax_degree {}\nerrors no\nnorm {}\n"
-      "rholm_format 1\nrholm_lines {}\nrholm_csphase {}\n",
-      expansion.function == RadialFunction::kOther ? kOtherProduct : kProduct, degree,
-      norm_name(convention.normalization), n_pairs(degree), convention.csphase);
+  const std::string_view product = gravity                                        ? kGravityProduct
+                                   : expansion.function == RadialFunction::kOther ? kOtherProduct
+                                                                                  : kProduct;
+  std::string text = fmt::format("product_type {}\nmodelname rholm\n", product);
+  if (gravity) {
+    text +=
+        fmt::format("earth_gravity_constant {}\nradius {}\n", gravity->constant, gravity->radius);
+  }
+  text += fmt::format(
+      "max_degree {}\nerrors no\nnorm {}\nrholm_format 1\nrholm_lines {}\nrholm_csphase {}\n",
+      degree, norm_name(convention.normalization), n_pairs(degree), convention.csphase);
   for (const auto& [key, value] : describe(expansion)) {
     text += fmt::format("{}{} {}\n", kOwnPrefix, key, value);
   }

@@ -73,7 +73,7 @@ void split_fields(std::string_view line, std::vector<std::string_view>& fields) 
   }
 }
 
-double parse_finite(std::string_view text, const char* what, const TextLine& line) {
+std::optional<double> number_of(std::string_view text) {
   std::string with_e;
   if (text.find_first_of("dD") != std::string_view::npos) {
     with_e = text;
@@ -83,14 +83,20 @@ double parse_finite(std::string_view text, const char* what, const TextLine& lin
   }
   TextCursor number{text};
   double value = 0;
-  if (!take_number(number, value) || !number.at_end()) {
+  if (!take_number(number, value) || !number.at_end()) return std::nullopt;
+  return value;
+}
+
+double parse_finite(std::string_view text, const char* what, const TextLine& line) {
+  const std::optional<double> value = number_of(text);
+  if (!value) {
     refuse_line(line, fmt::format("{} is {}: it must be a number in the range of double precision",
                                   what, in_quotes(text)));
   }
-  if (!std::isfinite(value)) {
+  if (!std::isfinite(*value)) {
     refuse_line(line, fmt::format("{} is {}: it must be finite", what, in_quotes(text)));
   }
-  return value;
+  return *value;
 }
 
 int parse_count(std::string_view text, const char* what, int limit, const TextLine& line) {

@@ -43,7 +43,9 @@ bool visit_lines(TextCursor& text, const std::string& name, const Visit& visit) 
   return last_complete;
 }
 
-// A finite number; Fortran's exponent letter D is accepted. `what` names it in the message.
+// A number in the range of double precision, or none; Fortran's exponent letter D is accepted.
+std::optional<double> number_of(std::string_view text);
+// A finite number. `what` names it in the message.
 double parse_finite(std::string_view text, const char* what, const TextLine& line);
 // A whole number from 0 to `limit`.
 int parse_count(std::string_view text, const char* what, int limit, const TextLine& line);

@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "io/coefficients/test_support.h"
 #include "io/shapes/test_support.h"
+#include "rholm/gravity_field.h"
 
 namespace rholm {
 namespace {
@@ -232,6 +234,45 @@ TEST(icgem, gravity_field_is_no_radius) {
   EXPECT_EQ(parse(shape).expansion.function, RadialFunction::kRadius);
   const std::string own = replaced(kPublishedStyle, type, type + "rholm_function gauge\n");
   EXPECT_EQ(parse(own).expansion.function, RadialFunction::kGauge);
+}
+
+TEST(icgem, what_a_gravity_field_is_relative_to_is_written_and_read) {
+  const Expansion field = parse(kPublishedStyle).expansion;
+  const auto path = std::filesystem::path(::testing::TempDir()) / "gravity.gfc";
+  const GravityField gravity = {4.9028e12, 1738000.5};
+  write_gravity_field(field, gravity, path);
+  const CoefficientsFile again = read_coefficients(path);
+  EXPECT_EQ(again.product, "gravity_field");
+  EXPECT_EQ(again.expansion.function, RadialFunction::kOther);
+  expect_same_numbers(again.expansion.coefficients, field.coefficients);
+  const std::optional<GravityField> read = read_gravity_field(path);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->constant, gravity.constant);
+  EXPECT_EQ(read->radius, gravity.radius);
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const GravityField& wrong :
+       {GravityField{0, 1}, GravityField{1, -1}, GravityField{infinity, 1}}) {
+    EXPECT_THROW(write_gravity_field(field, wrong, path), Error);
+  }
+  Expansion shape = field;
+  shape.function = RadialFunction::kRadius;
+  EXPECT_THROW(write_gravity_field(shape, gravity, path), Error);
+}
+
+TEST(icgem, published_gravity_fields_have_their_constant_and_radius) {
+  const auto of = [](const std::string& text) { return gravity_field_of(text); };
+  const std::optional<GravityField> published = of(kPublishedStyle);
+  ASSERT_TRUE(published);
+  EXPECT_EQ(published->constant, 0.3986004415e15);
+  EXPECT_EQ(published->radius, 0.63781363e7);
+  const std::string radius = "radius                    0.6378136300E+07\n";
+  for (const char* wrong : {"", "radius large\n", "radius -1\n", "radius 1e999\n", "radius\n"}) {
+    EXPECT_FALSE(of(replaced(kPublishedStyle, radius, wrong))) << wrong;
+  }
+  const std::string type = "product_type              gravity_field";
+  EXPECT_FALSE(of(replaced(kPublishedStyle, type, "product_type shape")));
+  EXPECT_FALSE(of("0 0 1 0\n"));
+  EXPECT_FALSE(of(""));
 }
 
 TEST(icgem, what_is_no_radius_stays_so_in_every_format) {
