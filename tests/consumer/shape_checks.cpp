@@ -2,7 +2,9 @@
 #include <rholm/error.h>
 #include <rholm/mesh.h>
 #include <rholm/mesh_view.h>
+#include <rholm/outward.h>
 #include <rholm/points.h>
+#include <rholm/polygon.h>
 #include <rholm/primitives.h>
 #include <rholm/repair.h>
 #include <rholm/simplify.h>
@@ -10,6 +12,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "check.h"
 
@@ -28,6 +31,19 @@ void mesh() {
     return;
   }
   expect(false, "vertex 8 of 8 is refused");
+}
+
+void outward() {
+  rholm::Mesh mesh = rholm::box({1, 1, 1});
+  rholm::flip(mesh);
+  expect(rholm::enclosed_volume(rholm::outward(mesh).welded.mesh) > 0, "a box faces outwards");
+}
+
+void polygon() {
+  const std::vector<rholm::Vec3> corners = {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 2, 0}, {0, 1, 0}};
+  std::vector<rholm::Triangle> triangles;
+  rholm::triangulate_polygon(corners, std::vector<std::uint32_t>{0, 1, 2, 3, 4}, triangles);
+  expect(triangles.size() == 3, "a pentagon is three triangles");
 }
 
 // Single precision coordinates of another program, with a colour behind each vertex.
@@ -92,8 +108,7 @@ void topology() {
 }  // namespace
 
 std::vector<HeaderCheck> shape_checks() {
-  return {{"mesh.h", mesh},        {"mesh_view.h", mesh_view},
-          {"points.h", points},    {"primitives.h", primitives},
-          {"repair.h", repair},    {"simplify.h", simplify},
-          {"topology.h", topology}};
+  return {{"mesh.h", mesh},     {"mesh_view.h", mesh_view}, {"outward.h", outward},
+          {"points.h", points}, {"polygon.h", polygon},     {"primitives.h", primitives},
+          {"repair.h", repair}, {"simplify.h", simplify},   {"topology.h", topology}};
 }

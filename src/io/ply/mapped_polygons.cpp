@@ -8,7 +8,7 @@
 
 #include "base/cancel.h"
 #include "io/ply/mapped_rows.h"
-#include "shape/topology/polygon.h"
+#include "rholm/polygon.h"
 
 namespace rholm {
 namespace {

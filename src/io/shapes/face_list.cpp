@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "io/shapes/shape_source.h"
-#include "shape/topology/polygon.h"
+#include "rholm/polygon.h"
 
 namespace rholm {
 

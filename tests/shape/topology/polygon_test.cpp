@@ -1,4 +1,4 @@
-#include "shape/topology/polygon.h"
+#include "rholm/polygon.h"
 
 #include <gtest/gtest.h>
 
