@@ -18,6 +18,7 @@ stops them.
 
 from __future__ import annotations
 
+from . import _arguments
 from ._atlas import (
     NO_CAP,
     Atlas,
@@ -476,3 +477,5 @@ __all__ = [
     "write_png",
     "write_shape",
 ]
+
+_arguments.check_all(__name__, __all__)

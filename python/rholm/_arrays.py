@@ -17,12 +17,59 @@ IndexArray = npt.NDArray[np.uint32]
 ATTRIBUTE_TYPES = ("int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64")
 
 
+def plain_array(values: Any, what: str) -> npt.NDArray[Any]:
+    """An array of whatever stands for one; a number that is masked is not known: NaN.
+
+    Parameters
+    ----------
+    values : array_like
+        Also a masked array, or a list of these.
+    what : str
+        What the values are called in messages.
+    """
+    if isinstance(values, (list, tuple)) and any(isinstance(v, np.ma.MaskedArray) for v in values):
+        values = np.ma.array(values)
+    if np.ma.is_masked(values):
+        if values.dtype.kind not in "fiub":
+            raise TypeError(f"{what}: a masked array of {values.dtype} has no numbers")
+        single = values.dtype == np.float32
+        return np.asarray(values.astype(np.float32 if single else np.float64).filled(np.nan))
+    try:
+        return np.asarray(values)
+    except ValueError as error:  # NumPy's words are about sequences
+        raise InvalidInputError(f"{what}: an array is needed, with rows of one length ({error})") from None
+
+
 def numeric(values: Any, what: str) -> npt.NDArray[Any]:
-    """An array of real numbers."""
-    array = np.asarray(values)
+    """An array of real numbers, NaN where it is masked."""
+    array = plain_array(values, what)
     if array.dtype.kind not in "fiub":
         raise TypeError(f"{what}: numbers are needed, not an array of {array.dtype}")
     return array
+
+
+def read_only(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """The array, which cannot be written to: it is a copy, and nobody else would see that."""
+    array.flags.writeable = False
+    return array
+
+
+def unwritable(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """The array where nobody can write to its memory, else a copy: another thread might do so while
+    the library reads it.
+    """
+    owner: Any = array
+    while isinstance(owner, np.ndarray):
+        if owner.flags.writeable:
+            return np.array(array, order="C")
+        owner = owner.base
+    if owner is None or isinstance(owner, bytes):
+        return array
+    try:
+        frozen = memoryview(owner).readonly
+    except TypeError:  # its owner does not say
+        frozen = False
+    return array if frozen else np.array(array, order="C")
 
 
 def float_rows(values: Any, what: str = "points") -> FloatArray:
@@ -82,7 +129,9 @@ def triangle_rows(values: Any) -> npt.NDArray[np.uint32]:
 
     Copied only if they are not that: indices of 64 bits are made 32.
     """
-    array = np.asarray(values)
+    array = plain_array(values, "triangles")
+    if np.ma.is_masked(values):
+        raise InvalidInputError("triangles: an index is masked; leave its row out")
     if array.size == 0 and array.ndim <= 2 and (array.ndim == 0 or array.shape[-1] in (0, 3)):
         return np.empty((0, 3), np.uint32)
     if array.dtype.kind not in "iu":
@@ -146,7 +195,7 @@ def attribute_tuples(attributes: Any, n: int) -> list[tuple[str, str, FloatArray
     for name, values in attributes.items():
         if not isinstance(name, str):
             raise TypeError(f"attributes have names, not {name!r}")
-        array = np.asarray(values)
+        array = plain_array(values, f"attribute '{name}'")
         kind = attribute_type(array.dtype)
         if array.ndim not in (1, 2) or array.shape[0] != n:
             raise InvalidInputError(
@@ -169,7 +218,7 @@ def attribute_tuples(attributes: Any, n: int) -> list[tuple[str, str, FloatArray
 
 def attribute_dict(tuples: list[tuple[str, str, FloatArray]]) -> dict[str, npt.NDArray[Any]]:
     """Attributes by name, each of the type it has in a file."""
-    return {name: values.astype(kind) for name, kind, values in tuples}
+    return {name: read_only(values.astype(kind)) for name, kind, values in tuples}
 
 
 def directions(values: Any) -> tuple[FloatArray, tuple[int, ...]]:

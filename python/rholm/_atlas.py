@@ -9,13 +9,11 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import FloatArray, IndexArray, float_rows
+from ._arrays import FloatArray, IndexArray, float_rows, plain_array
 from ._core import AtlasErrors, AtlasModel, AtlasSize, Cap, CompressReport
 from ._errors import InvalidInputError
-from ._interop import foreign_mesh
-from ._run import Progress, caller
-from ._shape_files import read_shape
-from ._shapes import Mesh, MeshLike, PointCloud, as_mesh, as_points, name_of
+from ._run import Progress, caller, named
+from ._shapes import Mesh, MeshLike, PointCloud, as_mesh, as_shape, name_of
 from ._topology import simplify_options
 
 NO_CAP = _core.NO_CAP
@@ -103,9 +101,9 @@ class Atlas:
         Parameters
         ----------
         i : int
-            0 ... len(atlas) - 1.
+            0 ... len(atlas) - 1, or from the end as in lists.
         """
-        return self._core.atlas.cap(i)
+        return self._core.atlas.cap(_index(i, len(self)))
 
     def coefficients_of(self, i: int) -> FloatArray:
         """Coefficients of one cap: l = 0, 1, ..., in each m = 0, then C and S of m = 1 ... l, without
@@ -116,7 +114,7 @@ class Atlas:
         i : int
             The cap.
         """
-        return self._core.atlas.coefficients_of(i)
+        return self._core.atlas.coefficients_of(_index(i, len(self)))
 
     def evaluate(self, i: int, points: npt.ArrayLike) -> tuple[FloatArray, FloatArray, npt.NDArray[np.bool_]]:
         """The surface's potential as one cap sees it.
@@ -137,7 +135,9 @@ class Atlas:
         valid : bool, (N,)
             False at the centre, behind it, and where the cap's radius is not above 0.
         """
-        distance, gradient, valid = _core.evaluate_cap(self._core.atlas, i, float_rows(points))
+        distance, gradient, valid = _core.evaluate_cap(
+            self._core.atlas, _index(i, len(self)), float_rows(points)
+        )
         return distance, gradient, valid.astype(bool)
 
     def mesh(
@@ -226,7 +226,7 @@ class Atlas:
             Replaced when complete.
         """
         with caller(0, False) as how:
-            _core.write_atlas(self._core, os.fspath(path), how)
+            _core.write_atlas(self._core, named(path, (".h5", ".hdf5"), "an atlas"), how)
 
     def report_html(self, path: str | os.PathLike[str] | None = None, **options: Any) -> str:
         """All that is known on one page of HTML; see `Expansion.report_html`."""
@@ -270,8 +270,15 @@ def as_atlas(thing: Any) -> Atlas:
     raise TypeError(f"an Atlas is needed, not {type(thing).__name__}; compress() and load() make one")
 
 
+def _index(i: int, n: int) -> int:
+    """A number from 0 to n - 1, or from the end as in lists."""
+    if not -n <= i < n:
+        raise IndexError(f"there is no cap {i}: the atlas has {n}")
+    return i % n
+
+
 def _caps_of(caps: npt.ArrayLike) -> list[int]:
-    array = np.asarray(caps)
+    array = plain_array(caps, "caps")
     if array.ndim != 1 or array.dtype.kind not in "iu":
         raise InvalidInputError(f"caps: whole numbers (N,) are needed, not {array.shape} of {array.dtype}")
     if array.size and (array.min() < 0 or array.max() > NO_CAP):
@@ -360,24 +367,6 @@ def n_coefficients(basis: Literal["full", "even"], degree: int) -> int:
     return _core.n_coefficients(basis, degree)
 
 
-def _shape_of(shape: Any) -> tuple[Any, Any]:
-    """A mesh or points, with what the library takes."""
-    if isinstance(shape, (str, os.PathLike)):
-        shape = read_shape(shape).shape
-    if isinstance(shape, PointCloud):
-        return shape, shape._core
-    if (
-        foreign_mesh(shape) is None
-        and not isinstance(shape, Mesh)
-        and np.ndim(shape) == 2
-        and isinstance(shape, np.ndarray)
-    ):
-        cloud = as_points(shape)
-        return cloud, cloud._core
-    mesh = as_mesh(shape)
-    return mesh, mesh._core
-
-
 def compress(
     shape: MeshLike | PointCloud,
     tolerance: float,
@@ -396,7 +385,8 @@ def compress(
     Parameters
     ----------
     shape : mesh-like, or points with normals
-        May be open; of parts that run into each other the outer surface is taken.
+        May be open; of parts that run into each other the outer surface is taken. A mesh that is
+        inside out or has doubled vertices is mended, as by `expand`.
     tolerance : float
         Root mean square distance between the surfaces, both ways.
     unit : {"absolute", "diagonal"}
@@ -426,7 +416,7 @@ def compress(
     UnsupportedError
         For shapes too thin for the grid, and where caps would take more than `max_numbers`.
     """
-    whole, core = _shape_of(shape)
+    whole = as_shape(shape)
     if unit not in ("diagonal", "absolute"):
         raise InvalidInputError(f"unit is 'absolute' or 'diagonal', not {unit!r}")
     factor = whole.bounds.diagonal if unit == "diagonal" else 1.0
@@ -438,7 +428,7 @@ def compress(
         max_numbers=max_numbers,
     )
     with caller(threads, progress) as how:
-        model, report = _core.compress(core, options, how)
+        model, report = _core.compress(whole._core, options, how)
     atlas = Atlas._of(model, report, whole if isinstance(whole, Mesh) else None, name_of(shape))
     return atlas.with_unit(length_unit) if length_unit else atlas
 
@@ -481,7 +471,7 @@ def patch_atlas(
     threads, progress
         See `rholm.caller`.
     """
-    _, core = _shape_of(shape)
+    core = as_shape(shape)._core
     options = _core.PatchAtlasOptions(
         degree=degree, extension=extension, min_cosine=min_cosine, overlap=overlap
     )
@@ -511,7 +501,7 @@ def patch_picture(
     threads, progress
         See `rholm.caller`.
     """
-    _, core = _shape_of(shape)
+    core = as_shape(shape)._core
     with caller(threads, progress) as how:
         mesh, _ = _core.patch_picture(core, view, _core.PatchAtlasOptions(min_cosine=min_cosine), how)
     return Mesh._of(mesh)

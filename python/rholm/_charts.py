@@ -9,12 +9,12 @@ import numpy.typing as npt
 
 from . import _core
 from ._arrays import FloatArray, triple
-from ._coefficients import array_of
+from ._coefficients import Function, array_of
 from ._encode import Method, Unit, _center_of, as_expansion, tolerance_of
 from ._errors import InvalidInputError
 from ._expansion import Expansion
 from ._run import Progress, caller
-from ._shapes import Mesh, MeshLike, as_mesh
+from ._shapes import Mesh, MeshLike, outward_mesh
 
 
 def _chart_core(chart: Any) -> _core.StarChart:
@@ -56,13 +56,13 @@ def make_star_chart(
     Parameters
     ----------
     mesh : mesh-like
-        Welded and outward.
+        Closed; mended as by `expand`.
     center, rays, signed, threads, progress
         As in `expand`.
     """
     name, point = _center_of(center)
     with caller(threads, progress) as how:
-        return StarChart(_core.make_star_chart(as_mesh(mesh)._core, name, point, rays, signed, how))
+        return StarChart(_core.make_star_chart(outward_mesh(mesh)._core, name, point, rays, signed, how))
 
 
 def find_center(
@@ -73,13 +73,13 @@ def find_center(
     Parameters
     ----------
     mesh : mesh-like
-        Welded, closed, outward.
+        Closed; mended as by `expand`.
     center, rays, threads, progress
         As in `expand`.
     """
     name, point = _center_of(center)
     with caller(threads, progress) as how:
-        return _core.find_center(as_mesh(mesh)._core, name, point, rays, how)
+        return _core.find_center(outward_mesh(mesh)._core, name, point, rays, how)
 
 
 def check_star(
@@ -90,7 +90,7 @@ def check_star(
     Parameters
     ----------
     mesh : mesh-like
-        Welded, closed, outward.
+        Closed; mended as by `expand`.
     center : array_like, (3,)
         The point.
     rays, threads, progress
@@ -98,7 +98,7 @@ def check_star(
     """
     at = triple(center, "center")
     with caller(threads, progress) as how:
-        return _core.check_star(as_mesh(mesh)._core, at, rays, how)
+        return _core.check_star(outward_mesh(mesh)._core, at, rays, how)
 
 
 class Analyzed(NamedTuple):
@@ -171,7 +171,7 @@ def gauge_norm_squared(chart: StarChart) -> float:
     return _core.gauge_norm_squared(_chart_core(chart))
 
 
-def tail_strength(chart: StarChart, function: str = "radius") -> float:
+def tail_strength(chart: StarChart, function: Function = "radius") -> float:
     """S: the energy per degree is about S / (pi l^4) beyond the mesh's own resolution.
 
     Parameters
@@ -184,7 +184,7 @@ def tail_strength(chart: StarChart, function: str = "radius") -> float:
     return _core.tail_strength(_chart_core(chart), function)
 
 
-def vertex_error_strength(chart: StarChart, function: str = "radius") -> float:
+def vertex_error_strength(chart: StarChart, function: Function = "radius") -> float:
     """The largest truncation error at vertices, times 2 pi (L + 1).
 
     Parameters
@@ -207,7 +207,7 @@ def vertex_error_strengths(mesh: MeshLike, center: npt.ArrayLike) -> _core.Error
     center : array_like, (3,)
         Of the expansion.
     """
-    return _core.vertex_error_strengths(as_mesh(mesh)._core, triple(center, "center"))
+    return _core.vertex_error_strengths(outward_mesh(mesh)._core, triple(center, "center"))
 
 
 def truncation_errors(
@@ -224,7 +224,7 @@ def truncation_errors(
     Parameters
     ----------
     mesh : mesh-like
-        Closed and star-shaped about the expansion's centre.
+        Closed and star-shaped about the expansion's centre; mended as by `expand`.
     expansion : Expansion
         Of its radius or gauge.
     precision : float
@@ -236,7 +236,7 @@ def truncation_errors(
     """
     with caller(threads, progress) as how:
         return _core.truncation_errors(
-            as_mesh(mesh)._core, as_expansion(expansion)._core, precision, predict, how
+            outward_mesh(mesh)._core, as_expansion(expansion)._core, precision, predict, how
         )
 
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import FloatArray
+from ._arrays import FloatArray, numeric
 from ._errors import InvalidInputError
 from ._interop import _package, coefficients_of_pyshtools
 
@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 #: What the mean square of each harmonic over the sphere is: 1 for "4pi" (geodesy, pyshtools'
 #: default), 1/(4 pi) for "orthonormal", 1/(2l+1) for "schmidt".
 Normalization = Literal["4pi", "orthonormal", "schmidt"]
+
+#: What is expanded: r, 1/r, or no surface: a gravity field.
+Function = Literal["radius", "gauge", "other"]
 
 #: See `power_spectrum`.
 SpectrumKind = Literal["energy", "power"]
@@ -33,32 +36,33 @@ def core_of(coefficients: CoefficientsLike) -> _core.Coefficients:
     if isinstance(coefficients, Expansion):
         return coefficients._core.coefficients
     if _package(coefficients) == "pyshtools":
-        return from_convention(*coefficients_of_pyshtools(coefficients))
+        convention: Any
+        values, *convention = coefficients_of_pyshtools(coefficients)
+        return from_convention(values, *convention)
     return from_convention(coefficients)
 
 
-def array_of(core: _core.Coefficients, normalization: str = "4pi", csphase: int = 1) -> FloatArray:
+def array_of(core: _core.Coefficients, normalization: Normalization = "4pi", csphase: int = 1) -> FloatArray:
     """Coefficients of the library as an array (2, L+1, L+1) of a convention."""
     return np.array(_core.to_convention(core, normalization, csphase).values)
 
 
 def from_convention(
-    values: npt.ArrayLike, normalization: str = "4pi", csphase: int = 1
+    values: npt.ArrayLike, normalization: Normalization = "4pi", csphase: int = 1
 ) -> _core.Coefficients:
     """Coefficients in the library's own convention: orthonormal, without Condon-Shortley phase.
 
     Parameters
     ----------
     values : array_like, (2, L+1, L+1)
-        Cosine plane, sine plane. What stands above the diagonal is not looked at.
+        Cosine plane, sine plane. Entries that are no coefficients, with m > l and sines of order 0,
+        are 0.
     normalization : {"4pi", "orthonormal", "schmidt"}
         Of the array.
     csphase : {1, -1}
         -1 if its harmonics have the factor (-1)^m.
     """
-    array = np.asarray(values)
-    if array.dtype.kind not in "fiu":
-        raise TypeError(f"coefficients: real numbers are needed, not an array of {array.dtype}")
+    array = numeric(values, "coefficients")
     if array.ndim != 3 or array.shape[0] != 2:
         raise InvalidInputError(f"coefficients: an array (2, L+1, L+1) is needed, not {array.shape}")
     rows = np.ascontiguousarray(array, dtype=np.float64)
@@ -67,7 +71,9 @@ def from_convention(
     return _core.from_convention(rows, normalization, csphase)
 
 
-def to_convention(coefficients: CoefficientsLike, normalization: str = "4pi", csphase: int = 1) -> FloatArray:
+def to_convention(
+    coefficients: CoefficientsLike, normalization: Normalization = "4pi", csphase: int = 1
+) -> FloatArray:
     """Coefficients as an array (2, L+1, L+1) of a convention.
 
     Parameters
@@ -152,7 +158,7 @@ def descriptor_distance(a: CoefficientsLike, b: CoefficientsLike) -> float:
     return _core.descriptor_distance(core_of(a), core_of(b))
 
 
-def principal_axes(coefficients: CoefficientsLike, function: str = "radius") -> _core.PrincipalAxes:
+def principal_axes(coefficients: CoefficientsLike, function: Function = "radius") -> _core.PrincipalAxes:
     """The axes of the quadratic form that the coefficients of degree 2 are, longest first.
 
     They diagonalise Q of ``f_2(u) = u^T Q u``, f_2 the part of degree 2: of a radius those of its

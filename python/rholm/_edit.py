@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import FloatArray, IndexArray, float_rows
+from ._arrays import FloatArray, IndexArray, float_rows, plain_array, read_only
 from ._errors import InvalidInputError
 from ._run import Progress, caller
 from ._shapes import Mesh, MeshLike, as_mesh
@@ -29,7 +29,7 @@ def _with_region(mesh: Mesh, region: RegionLike) -> tuple[Mesh, list[str]]:
     if isinstance(region, (list, tuple)) and region and all(isinstance(r, str) for r in region):
         return mesh, [str(r) for r in region]
     n = len(mesh.vertices)
-    values = np.ones(n, bool) if region is None else np.asarray(region)
+    values = np.ones(n, bool) if region is None else plain_array(region, "region")
     if values.dtype.kind in "iu" and values.ndim == 1 and values.size:
         if values.min() < 0 or values.max() >= n:
             raise InvalidInputError(f"region: a vertex index is not within 0 ... {n - 1}")
@@ -93,12 +93,12 @@ class SmoothEditor:
     @property
     def vertices(self) -> IndexArray:
         """Indices of those that may move, (n,)."""
-        return self._patch.vertices
+        return read_only(self._patch.vertices)
 
     @property
     def weights(self) -> FloatArray:
         """Their weights in the region, (n,)."""
-        return self._patch.weights
+        return read_only(self._patch.weights)
 
     @property
     def unreached(self) -> int:
@@ -141,6 +141,11 @@ class SmoothEditor:
             self._wavelength if wavelength is None else wavelength,
             self._strength if strength is None else strength,
         )
+
+    def __copy__(self) -> SmoothEditor:
+        twin = SmoothEditor(self._patch, _core.copy_mesh(self._mesh))  # which moves by itself
+        twin._strength, twin._wavelength = self._strength, self._wavelength
+        return twin
 
     def _move(self, strength: float, wavelength: float) -> None:
         _core.apply_in_place(self._patch, wavelength, strength, self._mesh)
@@ -317,7 +322,7 @@ class TransferEditor:
     @property
     def vertices(self) -> IndexArray:
         """Indices of those that may move, (n,)."""
-        return self._patch.vertices
+        return read_only(self._patch.vertices)
 
     @property
     def height(self) -> float:
@@ -367,6 +372,18 @@ class TransferEditor:
         with caller(0, False) as how:
             return _core.update_transfer(self._analysis, *_sliders(self._merged(wanted)), how)
 
+    def __copy__(self) -> TransferEditor:
+        twin = TransferEditor(self._analysis)
+        twin._mesh = _core.copy_mesh(self._mesh)
+        twin._wanted = dict(self._wanted)
+        return twin
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> TransferEditor:
+        return self.__copy__()
+
+    def __reduce__(self) -> Any:
+        raise TypeError("a TransferEditor cannot be pickled, as what it knows is too large: pickle its mesh")
+
     def _merged(self, wanted: dict[str, Any]) -> dict[str, Any]:
         unknown = set(wanted) - set(self._wanted)
         if unknown:
@@ -390,6 +407,15 @@ class TransferSource:
 
     def __init__(self, source: _core.TransferSource) -> None:
         self._source = source
+
+    def __copy__(self) -> TransferSource:
+        return TransferSource(self._source)  # nothing in it can be changed
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> TransferSource:
+        return self.__copy__()
+
+    def __reduce__(self) -> Any:
+        raise TypeError("a TransferSource cannot be pickled, as what it knows is too large: pickle the mesh")
 
     @property
     def from_degree(self) -> int:

@@ -8,13 +8,13 @@ from typing import Any, Literal
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import triangle_rows, triple, vertex_rows
-from ._coefficients import core_of, from_convention
+from ._arrays import triangle_rows, triple, unwritable, vertex_rows
+from ._coefficients import Function, Normalization, core_of, from_convention
 from ._errors import InvalidInputError
 from ._expansion import Expansion
 from ._interop import foreign_mesh
 from ._run import Progress, caller
-from ._shapes import Mesh, MeshLike, as_mesh, name_of
+from ._shapes import MeshLike, as_mesh, name_of
 
 Method = Literal["edge", "gauge", "curl", "area"]
 
@@ -91,9 +91,10 @@ def expand(
     Parameters
     ----------
     shape : mesh-like
-        (vertices, triangles), a path, or a mesh of rholm, trimesh, PyVista or meshio. float32 and
-        float64 vertices and 32-bit triangles are not copied; other integers are made 32-bit. A mesh
-        that is inside out or has doubled vertices is mended.
+        (vertices, triangles), a path, or a mesh of rholm, trimesh, PyVista or meshio. Arrays that
+        can be written to are copied first, as other threads may write to them meanwhile. Read-only
+        ones of float32 or float64 and of 32-bit integers are used where they lie, and so is a `Mesh`.
+        A mesh that is inside out or has doubled vertices is mended.
     degree : int, optional
         L, by default 64.
     tolerance : float, optional
@@ -181,15 +182,14 @@ def expand(
 
 
 def _mesh_arrays(shape: Any) -> tuple[Any, Any]:
-    """Vertices and triangles where they lie."""
-    if isinstance(shape, Mesh):
-        return shape._core.vertices, shape._core.triangles
+    """Vertices and triangles where they lie, unless somebody could write to them meanwhile."""
     arrays = foreign_mesh(shape)
     if arrays is None:
-        if not isinstance(shape, (tuple, list)) or len(shape) != 2:
-            as_mesh(shape)  # says what is wrong
+        if type(shape) not in (tuple, list) or len(shape) != 2:
+            core = as_mesh(shape)._core
+            return core.vertices, core.triangles
         arrays = (shape[0], shape[1], {})
-    return vertex_rows(arrays[0]), triangle_rows(arrays[1])
+    return unwritable(vertex_rows(arrays[0])), unwritable(triangle_rows(arrays[1]))
 
 
 def encode(shape: MeshLike, **options: Any) -> _core.Encoded:
@@ -208,10 +208,10 @@ def encode(shape: MeshLike, **options: Any) -> _core.Encoded:
 def from_array(
     values: npt.ArrayLike,
     *,
-    normalization: str = "4pi",
+    normalization: Normalization = "4pi",
     csphase: int = 1,
     center: npt.ArrayLike = (0.0, 0.0, 0.0),
-    function: str = "radius",
+    function: Function = "radius",
     unit: str = "",
 ) -> Expansion:
     """An expansion of an array of coefficients.
@@ -235,7 +235,7 @@ def from_array(
 
 
 def from_pyshtools(
-    clm: Any, *, center: npt.ArrayLike = (0.0, 0.0, 0.0), function: str = "radius"
+    clm: Any, *, center: npt.ArrayLike = (0.0, 0.0, 0.0), function: Function = "radius"
 ) -> Expansion:
     """An expansion of a `pyshtools.SHCoeffs` (SHGrid: of its ``expand()``), of any normalization.
 

@@ -9,13 +9,24 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import FloatArray, float_row, floats, triple
+from ._arguments import whole
+from ._arrays import FloatArray, float_row, floats, plain_array, read_only, triple
 from ._arrays import directions as unit_rows
-from ._coefficients import SpectrumKind, SpectrumUnit, array_of, core_of, from_convention, power_spectrum
+from ._coefficients import (
+    Function,
+    Normalization,
+    SpectrumKind,
+    SpectrumUnit,
+    array_of,
+    core_of,
+    from_convention,
+    power_spectrum,
+)
+from ._errors import InvalidInputError, UnsupportedError
 from ._interop import to_pyshtools, to_xarray
 from ._primitives import directions_for
 from ._rotations import RotationLike, as_rotation
-from ._run import Progress, caller
+from ._run import Progress, caller, named
 from ._shapes import Mesh, MeshLike
 
 if TYPE_CHECKING:
@@ -41,7 +52,7 @@ class Expansion:
         coeffs: CoefficientsLike,
         *,
         center: npt.ArrayLike = (0.0, 0.0, 0.0),
-        function: str = "radius",
+        function: Function = "radius",
         unit: str = "",
         method: str = "",
     ) -> None:
@@ -69,11 +80,12 @@ class Expansion:
     @property
     def coeffs(self) -> FloatArray:
         """Coefficients in pyshtools' layout and default convention (4 pi-normalised, without
-        Condon-Shortley phase), (2, L+1, L+1), in the unit of lengths; a copy.
+        Condon-Shortley phase), (2, L+1, L+1), in the unit of lengths. Read-only: `to_array` gives an
+        array that can be changed, and `rholm.from_array` makes an expansion of it.
         """
-        return self.to_array()
+        return read_only(self.to_array())
 
-    def to_array(self, normalization: str = "4pi", csphase: int = 1) -> FloatArray:
+    def to_array(self, normalization: Normalization = "4pi", csphase: int = 1) -> FloatArray:
         """Coefficients as an array of a convention.
 
         Parameters
@@ -92,7 +104,7 @@ class Expansion:
 
     @property
     def center(self) -> FloatArray:
-        """Of the expansion, in the coordinates of the shape, (3,)."""
+        """Of the expansion, in the coordinates of the shape, (3,); read-only."""
         return self._core.center
 
     @property
@@ -112,7 +124,9 @@ class Expansion:
 
     @property
     def errors(self) -> _core.TruncationErrors | None:
-        """How far the surface is from the shape it was made of; None if not known."""
+        """How far the surface is from the shape it was made of; None if not known. After `truncate`,
+        `filter` and `recenter` what follows without the shape: see there.
+        """
         return self._core.errors
 
     @property
@@ -327,7 +341,9 @@ class Expansion:
         subdivisions, grid, like, threads, progress
             As in `mesh`.
         """
-        wanted = [int(degree) for degree in np.atleast_1d(np.asarray(degrees))]
+        wanted = [
+            whole(degree, "meshes(): a degree") for degree in np.atleast_1d(plain_array(degrees, "degrees"))
+        ]
         self._require_surface()
         highest = min(max(wanted, default=0), self.degree)
         sphere = directions_for(highest, subdivisions, grid, like, self.center)
@@ -338,14 +354,19 @@ class Expansion:
     # Operations
 
     def truncate(self, degree: int) -> Expansion:
-        """The series cut off at a degree, or filled with zeros up to it.
+        """The series cut off at a degree; unchanged from its own degree on.
 
         Parameters
         ----------
         degree : int
-            Of the result.
+            The highest that stays.
+
+        Returns
+        -------
+        expansion : Expansion
+            Of the errors, those of a radius have `rms`: the energy of what is cut off adds to it.
         """
-        return self._with(self._core.coefficients.resized(degree))
+        return Expansion._of(_core.truncated(self._core, degree), shape=self._shape, name=self._name)
 
     def rotate(
         self,
@@ -391,6 +412,11 @@ class Expansion:
             Of the degrees from 0 on, as `low_pass` makes them; degrees beyond have gain 0.
         name : str
             Says what was done; added to `method`.
+
+        Returns
+        -------
+        expansion : Expansion
+            Of the errors, those of a radius have `rms`, to which sum (1 - g_l)^2 E_l adds.
         """
         return Expansion._of(_core.filter(self._core, floats(gains, "gains"), name))
 
@@ -424,6 +450,12 @@ class Expansion:
             By default the centroid of the solid.
         threads, progress
             See `rholm.caller`.
+
+        Returns
+        -------
+        expansion : Expansion
+            Of the errors, only the diagonal of the shape is known: `rholm.truncation_errors` of the
+            shape measures them about the new centre.
         """
         with caller(threads, progress) as how:
             at = _core.volume_centroid(self._core, how) if center is None else float_row(center, "center")
@@ -450,9 +482,7 @@ class Expansion:
         unit : str
             "km", "mm", ...
         """
-        known = (*self._known(unit), self._core.errors)
-        core = _core.Expansion(self._core.coefficients, *known)
-        return Expansion._of(core, self._encoded, self._shape, self._name)
+        return Expansion._of(self._core.with_unit(unit), self._encoded, self._shape, self._name)
 
     def principal_axes(self) -> _core.PrincipalAxes:
         """The axes of the coefficients of degree 2, longest first, about the expansion's centre; see
@@ -460,9 +490,72 @@ class Expansion:
         """
         return _core.principal_axes(self._core.coefficients, self.function)
 
+    def __add__(self, other: Expansion) -> Expansion:
+        combined: Expansion = self._combined(other, 1)
+        return combined
+
+    def __sub__(self, other: Expansion) -> Expansion:
+        combined: Expansion = self._combined(other, -1)
+        return combined
+
+    def __mul__(self, factor: float) -> Expansion:
+        if not _is_number(factor):
+            return NotImplemented
+        self._require_linear("multiplied by a number")
+        function = "radius" if self.function == "radius" and factor > 0 else "other"
+        return self._linear(float(factor) * self._core.coefficients.values, function, f"times {factor:g}")
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, divisor: float) -> Expansion:
+        if not _is_number(divisor):
+            return NotImplemented
+        if divisor == 0:
+            raise ZeroDivisionError("an expansion is divided by 0")
+        return self * (1 / float(divisor))
+
+    def __neg__(self) -> Expansion:
+        return self * -1.0
+
+    __array_ufunc__ = None  # NumPy's numbers leave products to the operators above
+
+    def _combined(self, other: Any, sign: int) -> Any:
+        what = "added" if sign > 0 else "subtracted"
+        if not isinstance(other, Expansion):
+            return NotImplemented
+        for one in (self, other):
+            one._require_linear(what)
+        if not np.array_equal(self.center, other.center):
+            raise InvalidInputError(
+                f"expansions about other centres cannot be {what}, {tuple(map(float, self.center))} and "
+                f"{tuple(map(float, other.center))}: recenter() one of them first"
+            )
+        if self.unit != other.unit:
+            raise InvalidInputError(
+                f"an expansion in {self.unit or 'no unit'} and one in {other.unit or 'no unit'} cannot be "
+                f"{what}: with_unit() or scale() first"
+            )
+        degree = max(self.degree, other.degree)
+        a, b = (one._core.coefficients.resized(degree).values for one in (self, other))
+        # Radii add up to radii; what two of them differ by is a function that may be negative.
+        surfaces = [self.function, other.function].count("radius")
+        function = "radius" if surfaces and not (sign < 0 and other.function == "radius") else "other"
+        return self._linear(a + sign * b, function, "sum" if sign > 0 else "difference")
+
+    def _require_linear(self, what: str) -> None:
+        if self.function == "gauge":
+            raise UnsupportedError(
+                f"a gauge, 1/r, cannot be {what}: its coefficients are not linear in the radius; expand() "
+                "with another method, or scale()"
+            )
+
+    def _linear(self, values: FloatArray, function: str, method: str) -> Expansion:
+        core = from_convention(values, "orthonormal")
+        return Expansion._of(_core.Expansion(core, function, tuple(self.center), self.unit, method))
+
     # To others
 
-    def to_pyshtools(self, normalization: str = "4pi", csphase: int = 1) -> pyshtools.SHCoeffs:
+    def to_pyshtools(self, normalization: Normalization = "4pi", csphase: int = 1) -> pyshtools.SHCoeffs:
         """A `pyshtools.SHCoeffs` with these coefficients.
 
         Parameters
@@ -474,7 +567,7 @@ class Expansion:
         """
         return to_pyshtools(self, normalization, csphase)
 
-    def to_xarray(self, normalization: str = "4pi", csphase: int = 1) -> xarray.DataArray:
+    def to_xarray(self, normalization: Normalization = "4pi", csphase: int = 1) -> xarray.DataArray:
         """A `xarray.DataArray` with dimensions kind ("c", "s"), l and m, and what is known as attributes.
 
         Parameters
@@ -489,8 +582,10 @@ class Expansion:
         path: str | os.PathLike[str],
         *,
         format: str | None = None,
-        normalization: str = "4pi",
+        normalization: Normalization = "4pi",
         csphase: int = 1,
+        gravity_constant: float | None = None,
+        reference_radius: float | None = None,
     ) -> None:
         """Writes a model file (.h5: all that is known), or a file of coefficients.
 
@@ -502,6 +597,10 @@ class Expansion:
             The format, whatever the extension.
         normalization, csphase
             Of the numbers, in formats other than the model file.
+        gravity_constant, reference_radius : float, optional
+            G M in m^3/s^2 and the radius in m that the coefficients of a gravity field are relative
+            to: a .gfc file then says both and is one that other programs read. Only of expansions
+            whose function is "other".
 
         Raises
         ------
@@ -509,9 +608,13 @@ class Expansion:
             If it cannot be written; a file that was there is whole then.
         """
         target = os.fspath(path)
+        kind = format or ("hdf5" if target.lower().endswith((".h5", ".hdf5")) else None)
+        gravity = _gravity(target, kind, gravity_constant, reference_radius)
         with caller(0, False) as how:
-            if format == "hdf5" or (format is None and target.lower().endswith((".h5", ".hdf5"))):
-                _core.write_model(self._core, target, how)
+            if gravity is not None:
+                _core.write_gravity_field(self._core, target, *gravity, normalization, csphase, how)
+            elif kind == "hdf5":
+                _core.write_model(self._core, named(target, (".h5", ".hdf5"), "a model file"), how)
             else:
                 _core.write_coefficients(self._core, target, format, normalization, csphase, how)
 
@@ -563,9 +666,14 @@ class Expansion:
     __hash__ = None  # type: ignore[assignment]
 
     def __reduce__(self) -> Any:
-        e = self._core
-        errors = None if e.errors is None else e.errors.to_dict()
-        return (_expansion_of, (np.array(e.coefficients.values), *self._known(), errors))
+        # Without the shape it is of, which may be large, or of a type that cannot be pickled.
+        return (Expansion._of, (self._core, self._encoded, None, self._name))
+
+    def __copy__(self) -> Expansion:
+        return Expansion._of(self._core, self._encoded, self._shape, self._name)
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Expansion:
+        return self.__copy__()  # nothing in it can be changed
 
     def _repr_png_(self) -> bytes | None:
         from ._pictures import notebook_png
@@ -577,15 +685,6 @@ class Expansion:
 
         return expansion_html(self)
 
-    def _with(self, coefficients: _core.Coefficients) -> Expansion:
-        core = _core.Expansion(coefficients, *self._known())
-        return Expansion._of(core, shape=self._shape, name=self._name)
-
-    def _known(self, unit: str | None = None) -> tuple[Any, ...]:
-        e = self._core
-        named = e.unit if unit is None else unit
-        return (e.function, tuple(e.center), named, e.method, e.norm_squared, e.tail_strength)
-
     def _require_surface(self) -> None:
         _core.require_surface(self._core)
 
@@ -595,9 +694,23 @@ class Expansion:
 CoefficientsLike = Union[Expansion, npt.ArrayLike, Any]
 
 
-def _expansion_of(
-    values: FloatArray, function: str, center: Any, unit: str, method: str, norm: Any, tail: Any, errors: Any
-) -> Expansion:
-    core = from_convention(values, "orthonormal", 1)
-    known = None if errors is None else _core.TruncationErrors(*errors.values())
-    return Expansion._of(_core.Expansion(core, function, center, unit, method, norm, tail, known))
+def _is_number(value: Any) -> bool:
+    """Whether a value is a real number that coefficients can be multiplied by."""
+    return (
+        isinstance(value, (int, float, np.number)) and bool(np.isreal(value)) and not isinstance(value, bool)
+    )
+
+
+def _gravity(
+    target: str, format: str | None, constant: float | None, radius: float | None
+) -> tuple[float, float] | None:
+    """What a gravity field is relative to, if it is given and the format has room for it."""
+    if constant is None and radius is None:
+        return None
+    if constant is None or radius is None:
+        raise InvalidInputError("gravity_constant and reference_radius belong together: give both")
+    if (format or _core.coefficients_format_of(target)) != "icgem":
+        raise UnsupportedError(
+            f"{target}: only ICGEM files (.gfc) have room for a gravity constant and a reference radius"
+        )
+    return constant, radius

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from ._arrays import plain_array
 from ._errors import InvalidInputError
 
 if TYPE_CHECKING:
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     import pyvista
     import trimesh
 
+    from ._coefficients import Normalization
     from ._expansion import Expansion
     from ._shapes import Mesh, PointCloud
 
@@ -40,6 +42,21 @@ def _package(value: Any) -> str:
         if root in ("trimesh", "pyvista", "meshio", "vtkmodules", "pyshtools", "open3d"):
             return root
     return ""
+
+
+def foreign_has_faces(shape: Any) -> bool | None:
+    """Whether another package's object is a mesh; False for points, None for what is of none."""
+    package = _package(shape)
+    if package == "trimesh":
+        return hasattr(shape, "faces") or hasattr(shape, "geometry")
+    if package in ("pyvista", "vtkmodules"):
+        # Points have cells too in PyVista: one for each of them, without edges.
+        return bool(getattr(shape, "n_faces_strict", 1)) or bool(getattr(shape, "n_strips", 0))
+    if package == "meshio":
+        return any(_is_polygons(block.type) for block in shape.cells)
+    if package == "open3d":
+        return hasattr(shape, "triangles")
+    return None
 
 
 def foreign_mesh(shape: Any) -> Arrays | None:
@@ -89,20 +106,54 @@ def _point_data(shape: Any) -> dict[str, npt.NDArray[Any]]:
 
 
 def _meshio_mesh(shape: Any) -> Arrays:
-    blocks = []
-    for block in shape.cells:
-        if block.type == "triangle":
-            blocks.append(np.asarray(block.data))
-        elif block.type == "quad":
-            quads = np.asarray(block.data)
-            blocks += [quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]
-    if not blocks:
-        raise InvalidInputError("the meshio.Mesh has neither triangles nor quadrangles")
+    blocks = _polygons(shape.cells)
+    if not sum(len(block) for block in blocks):
+        kinds = ", ".join(sorted({block.type for block in shape.cells})) or "none"
+        raise InvalidInputError(f"the meshio.Mesh has no polygons; its cells: {kinds}")
     data = {name: np.asarray(values) for name, values in shape.point_data.items()}
-    points = np.asarray(shape.points)
+    points = plain_array(shape.points, "points of the meshio.Mesh")
     if points.shape[1] != 3:
         raise InvalidInputError(f"the meshio.Mesh has points of {points.shape[1]} coordinates")
+    blocks = [_cut(points, block) for block in blocks]
     return points, np.concatenate(blocks), {k: v for k, v in data.items() if v.dtype.kind in "fiub"}
+
+
+#: Cells of meshio that are surfaces, but with nodes within their edges, where they are curved.
+_CURVED = ("triangle", "quad", "VTK_LAGRANGE_TRIANGLE", "VTK_LAGRANGE_QUADRILATERAL")
+
+
+def _is_polygons(cell: str) -> bool:
+    return cell in ("triangle", "quad") or cell.startswith("polygon")
+
+
+def _polygons(cells: list[Any]) -> list[npt.NDArray[Any]]:
+    """The cells of meshio that are polygons, each block a row of corners for every polygon."""
+    blocks = []
+    for block in cells:
+        if _is_polygons(block.type):
+            blocks.append(np.asarray(block.data))
+        elif block.type.startswith(_CURVED):
+            raise InvalidInputError(
+                f"the meshio.Mesh has cells of the type {block.type}, whose edges have nodes between their "
+                "ends: make triangles of them first"
+            )
+    return blocks
+
+
+def _cut(points: npt.NDArray[Any], polygons: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """Polygons cut into triangles, as those of files are."""
+    if polygons.shape[1] == 3:
+        return polygons
+    if polygons.shape[1] < 3:
+        return np.empty((0, 3), np.int64)
+    from . import _core
+
+    rows = np.ascontiguousarray(points, dtype=np.float64)
+    if polygons.size and (polygons.min() < 0 or polygons.max() >= len(rows)):
+        raise InvalidInputError(
+            f"a cell of the meshio.Mesh names a point that is not within 0 ... {len(rows) - 1}"
+        )
+    return _core.cut_polygons(rows, np.ascontiguousarray(polygons, dtype=np.uint32))
 
 
 def foreign_points(shape: Any) -> tuple[Any, Any, Any] | None:
@@ -130,7 +181,7 @@ def foreign_points(shape: Any) -> tuple[Any, Any, Any] | None:
 def mesh_to_trimesh(mesh: Mesh) -> trimesh.Trimesh:
     """See `Mesh.to_trimesh`."""
     trimesh = required("trimesh")
-    attributes = mesh.attributes
+    attributes = {name: values.copy() for name, values in mesh.attributes.items()}
     normals = mesh.normals if "nx" in attributes else None
     for name in ("nx", "ny", "nz"):
         attributes.pop(name, None)
@@ -158,7 +209,7 @@ def _set_point_data(data: Any, attributes: dict[str, npt.NDArray[Any]]) -> None:
         if all(name in attributes for name in names):
             data[together] = np.stack([attributes.pop(name) for name in names], axis=1)
     for name, values in attributes.items():
-        data[name] = values
+        data[name] = values.copy()  # the package may share its memory
 
 
 def mesh_to_pyvista(mesh: Mesh) -> pyvista.PolyData:
@@ -184,11 +235,11 @@ def mesh_to_meshio(mesh: Mesh) -> meshio.Mesh:
     return required("meshio").Mesh(
         np.array(mesh.vertices),
         [("triangle", np.array(mesh.triangles, dtype=np.int64))],
-        point_data=mesh.attributes,
+        point_data={name: values.copy() for name, values in mesh.attributes.items()},
     )
 
 
-def to_pyshtools(expansion: Expansion, normalization: str = "4pi", csphase: int = 1) -> Any:
+def to_pyshtools(expansion: Expansion, normalization: Normalization = "4pi", csphase: int = 1) -> Any:
     """See `Expansion.to_pyshtools`."""
     pyshtools = required("pyshtools")
     names = {"4pi": "4pi", "orthonormal": "ortho", "schmidt": "schmidt"}
@@ -201,7 +252,7 @@ def to_pyshtools(expansion: Expansion, normalization: str = "4pi", csphase: int 
     )
 
 
-def to_xarray(expansion: Expansion, normalization: str = "4pi", csphase: int = 1) -> Any:
+def to_xarray(expansion: Expansion, normalization: Normalization = "4pi", csphase: int = 1) -> Any:
     """See `Expansion.to_xarray`."""
     degrees = np.arange(expansion.degree + 1)
     return required("xarray").DataArray(
@@ -212,7 +263,7 @@ def to_xarray(expansion: Expansion, normalization: str = "4pi", csphase: int = 1
         attrs={
             "normalization": normalization,
             "csphase": csphase,
-            "center": expansion.center,
+            "center": expansion.center.copy(),
             "units": expansion.unit,
             "method": expansion.method,
         },

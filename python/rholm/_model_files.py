@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import os
+from pathlib import Path
 from typing import Any, NamedTuple
 
 from . import _core
 from ._atlas import Atlas, as_atlas
+from ._coefficients import Normalization
 from ._encode import as_expansion
+from ._errors import InvalidInputError, UnsupportedError
 from ._expansion import Expansion
 from ._run import caller
 from ._shapes import name_of
@@ -29,16 +32,47 @@ class CoefficientsFile(NamedTuple):
     product: str
     """What the file says it is of, if that is no shape."""
     passed_over: list[str]
-    """What it says and what is not used."""
+    """What it says and what the expansion does not use."""
+    gravity_constant: float | None = None
+    """G M in m^3/s^2, if the file is an ICGEM file of a gravity field and has it and a radius."""
+    reference_radius: float | None = None
+    """In m, likewise."""
 
 
-def _file_of(read: tuple[Any, ...]) -> CoefficientsFile:
+def _file_of(read: tuple[Any, ...], gravity: tuple[float, float] | None) -> CoefficientsFile:
     expansion, *rest = read
-    return CoefficientsFile(Expansion._of(expansion), *rest)
+    return CoefficientsFile(Expansion._of(expansion), *rest, *(gravity or (None, None)))
+
+
+def _gravity_of(path: str) -> tuple[float, float] | None:
+    gravity: Any = _core.read_gravity_field(path) if os.path.isfile(path) else None
+    return None if gravity is None else (gravity[0], gravity[1])
+
+
+_SHAPE_MARKS = (b"ply", b"OFF", b"solid")  # the first bytes of files of meshes
+
+
+def _not_a_shape(path: str | os.PathLike[str]) -> str:
+    """The path, unless its name or its first bytes are those of a mesh or of points."""
+    name = os.fspath(path)
+    marked = False
+    if os.path.isfile(name):
+        with open(name, "rb") as file:
+            marked = file.read(8).startswith(_SHAPE_MARKS)
+    if marked or name.lower().endswith((".ply", ".obj", ".off", ".stl", ".xyz", ".pwn")):
+        raise InvalidInputError(
+            f"{name} is a file of a shape, not of coefficients: expand() and compress() make them of it, "
+            "read_shape() reads it"
+        )
+    return name
 
 
 def read_coefficients(
-    path: str | os.PathLike[str], *, normalization: str = "4pi", csphase: int = 1, override_file: bool = False
+    path: str | os.PathLike[str],
+    *,
+    normalization: Normalization = "4pi",
+    csphase: int = 1,
+    override_file: bool = False,
 ) -> CoefficientsFile:
     """Reads coefficients of text (SHTOOLS, ICGEM), JSON or NumPy files.
 
@@ -51,12 +85,18 @@ def read_coefficients(
     override_file : bool
         Of all files, whatever they say.
     """
+    source = _not_a_shape(path)
     with caller(0, False) as how:
-        return _file_of(_core.read_coefficients(os.fspath(path), normalization, csphase, override_file, how))
+        read = _core.read_coefficients(source, normalization, csphase, override_file, how)
+    return _file_of(read, _gravity_of(source))
 
 
 def read_any_coefficients(
-    path: str | os.PathLike[str], *, normalization: str = "4pi", csphase: int = 1, override_file: bool = False
+    path: str | os.PathLike[str],
+    *,
+    normalization: Normalization = "4pi",
+    csphase: int = 1,
+    override_file: bool = False,
 ) -> CoefficientsFile:
     """Reads a model file, or what `read_coefficients` reads.
 
@@ -65,14 +105,19 @@ def read_any_coefficients(
     path, normalization, csphase, override_file
         As in `read_coefficients`.
     """
+    source = _not_a_shape(path)
     with caller(0, False) as how:
-        return _file_of(
-            _core.read_any_coefficients(os.fspath(path), normalization, csphase, override_file, how)
-        )
+        read = _core.read_any_coefficients(source, normalization, csphase, override_file, how)
+    return _file_of(read, _gravity_of(source))
 
 
 def parse_coefficients(
-    data: bytes, name: str = "", *, normalization: str = "4pi", csphase: int = 1, override_file: bool = False
+    data: bytes,
+    name: str = "",
+    *,
+    normalization: Normalization = "4pi",
+    csphase: int = 1,
+    override_file: bool = False,
 ) -> CoefficientsFile:
     """The same for the bytes of a file.
 
@@ -86,9 +131,9 @@ def parse_coefficients(
         As in `read_coefficients`.
     """
     with caller(0, False) as how:
-        return _file_of(
-            _core.parse_coefficients(bytes(data), name, normalization, csphase, override_file, how)
-        )
+        read = _core.parse_coefficients(data, name, normalization, csphase, override_file, how)
+    gravity: Any = _core.gravity_field_of(data)
+    return _file_of(read, gravity)
 
 
 def looks_like_coefficients(data: bytes) -> bool:
@@ -113,7 +158,9 @@ def coefficients_format_of(path: str | os.PathLike[str]) -> str | None:
     return _core.coefficients_format_of(os.fspath(path))
 
 
-def load(path: str | os.PathLike[str], *, normalization: str = "4pi", csphase: int = 1) -> Expansion | Atlas:
+def load(
+    path: str | os.PathLike[str], *, normalization: Normalization = "4pi", csphase: int = 1
+) -> Expansion | Atlas:
     """Reads a model file, of one expansion or of an atlas, or any file of coefficients.
 
     Parameters
@@ -123,10 +170,10 @@ def load(path: str | os.PathLike[str], *, normalization: str = "4pi", csphase: i
     normalization, csphase
         Of files that do not say it (bare text, .npy).
     """
-    source = os.fspath(path)
+    source = _not_a_shape(path)
     with caller(0, False) as how:
         if _core.is_atlas_file(source):
-            return Atlas._of(_core.read_atlas(source, how))
+            return Atlas._of(_core.read_atlas(source, how), name=name_of(path))
         expansion, *_ = _core.read_any_coefficients(source, normalization, csphase, False, how)
     return Expansion._of(expansion, name=name_of(path))
 
@@ -166,19 +213,11 @@ def write_coefficients(expansion: Expansion, path: str | os.PathLike[str], **opt
     path : path
         Its extension says the format.
     **options
-        format, normalization, csphase.
+        format, normalization, csphase, gravity_constant, reference_radius.
     """
-    with caller(0, False) as how:
-        _core.write_coefficients(
-            as_expansion(expansion)._core,
-            os.fspath(path),
-            options.pop("format", None),
-            options.pop("normalization", "4pi"),
-            options.pop("csphase", 1),
-            how,
-        )
-    if options:
-        raise TypeError(f"no option is called {', '.join(options)}")
+    if Path(path).suffix.lower() in (".h5", ".hdf5") and options.get("format") is None:
+        raise UnsupportedError(f"{os.fspath(path)}: model files are written by write_model(), or save()")
+    as_expansion(expansion).save(path, **options)
 
 
 def is_model_file(path: str | os.PathLike[str]) -> bool:

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import FloatArray, float_row
+from ._arrays import FloatArray, float_row, numeric
 from ._coefficients import array_of, core_of
 from ._encode import as_expansion
 from ._errors import InvalidInputError
@@ -41,7 +41,7 @@ def rotate(
     if isinstance(thing, Expansion):
         return thing.rotate(rotation, about, threads=threads, progress=progress)
     turn = as_rotation(rotation)
-    array = np.asarray(thing) if not hasattr(thing, "coeffs") else None
+    array = numeric(thing, "thing") if not hasattr(thing, "coeffs") else None
     if array is None or (array.ndim == 3 and array.shape[0] == 2 and array.shape[1] == array.shape[2]):
         with caller(threads, progress) as how:
             return array_of(_core.rotate(core_of(thing), turn, how))

@@ -12,14 +12,13 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import floats, triple
+from ._arrays import float_rows, floats, plain_array, triple
 from ._encode import as_expansion
 from ._errors import Error, InvalidInputError
 from ._expansion import Expansion
 from ._interop import required
-from ._run import Progress, caller
-from ._shape_files import read_shape
-from ._shapes import Mesh, PointCloud, as_mesh
+from ._run import Progress, caller, named
+from ._shapes import Mesh, PointCloud, outward_mesh
 from ._surfaces import surface_of
 
 if TYPE_CHECKING:
@@ -78,7 +77,7 @@ class Panel:
         For scalars and colors, for arrays of another shape.
     """
 
-    __slots__ = ("_core", "shape")
+    __slots__ = ("_arguments", "_core", "shape")
 
     def __init__(
         self,
@@ -90,14 +89,19 @@ class Panel:
         smooth: bool | None = None,
         point_radius: float | None = None,
     ) -> None:
+        self._arguments = {
+            "label": label,
+            "scalars": scalars,
+            "colors": colors,
+            "smooth": smooth,
+            "point_radius": point_radius,
+        }
         self.shape = _drawable(shape)
         if scalars is not None and colors is not None:
             raise InvalidInputError("scalars and colors exclude one another: give one of them")
         if scalars is None and colors is None:
             colors = self.shape.colors
-        rows = None if colors is None else np.ascontiguousarray(colors, dtype=np.float64)
-        if rows is not None and (rows.ndim != 2 or rows.shape[1] != 3):
-            raise InvalidInputError(f"colors: an array (N, 3) is needed, not {rows.shape}")
+        rows = None if colors is None else float_rows(colors, "colors")
         values = None if scalars is None else floats(scalars, "scalars")
         if isinstance(self.shape, PointCloud):
             radius = 0.0 if point_radius is None else _positive(point_radius)
@@ -107,16 +111,18 @@ class Panel:
                 smooth = "nx" in self.shape.attributes
             self._core = _core.Panel(self.shape._core, label, smooth, values, rows)
 
+    def __reduce__(self) -> Any:
+        return (_panel_of, (self.shape, self._arguments))
+
+
+def _panel_of(shape: Mesh | PointCloud, arguments: dict[str, Any]) -> Panel:
+    return Panel(shape, **arguments)
+
 
 def _drawable(shape: Any) -> Mesh | PointCloud:
     """The surface of what has one, or points."""
-    if isinstance(shape, PointCloud):
-        return shape
-    if isinstance(shape, np.ndarray) and shape.ndim == 2:
-        return PointCloud(shape)
-    if isinstance(shape, (str, os.PathLike)) and not _core.is_model_file(os.fspath(shape)):
-        return read_shape(shape).shape
-    return surface_of(shape)
+    drawn: Mesh | PointCloud = surface_of(shape, points=True)
+    return drawn
 
 
 def _positive(radius: float) -> float:
@@ -200,6 +206,8 @@ def render(
         For a shape without triangles or points, more than 20 million points, arrays of another
         length, sizes out of range.
     """
+    if path is not None:
+        named(path, (".png",), "a picture")  # before the work
     several = isinstance(shape, list)
     of_one = scalars is not None or colors is not None or point_radius is not None or label
     if of_one and (several or isinstance(shape, Panel)):
@@ -235,7 +243,7 @@ def render(
 
 
 def _pixels(image: npt.ArrayLike) -> Pixels:
-    array = np.asarray(image)
+    array = plain_array(image, "image")
     if array.dtype != np.uint8 or array.ndim != 3 or array.shape[2] != 3:
         raise InvalidInputError(
             f"image: an array (height, width, 3) of uint8 is needed, not {array.shape} of {array.dtype}"
@@ -264,7 +272,7 @@ def write_png(path: str | os.PathLike[str], image: npt.ArrayLike) -> None:
     image : array_like of uint8, (height, width, 3)
         Rows from the top.
     """
-    _core.write_png(os.fspath(path), _pixels(image))
+    _core.write_png(named(path, (".png",), "a picture"), _pixels(image))
 
 
 def write_file(path: str | os.PathLike[str], data: bytes) -> None:
@@ -300,10 +308,11 @@ def plot_spectrum(expansion: Expansion, ax: Any = None, **options: Any) -> Any:
     if ax is None:
         _, ax = required("matplotlib.pyplot", "matplotlib").subplots()
     degrees = np.arange(1, expansion.degree + 1)
-    ax.loglog(degrees, expansion.spectrum("energy")[1:], **options)
+    ax.loglog(degrees, expansion.spectrum("energy")[1:], **{"label": expansion._name or "energy", **options})
     if expansion.tail_strength is not None and expansion.degree > 0:
         tail = expansion.tail_strength / (np.pi * degrees**4.0)
         ax.loglog(degrees, tail, ":", color="0.5", label="predicted tail")
+    ax.legend()
     ax.set_xlabel("degree l")
     ax.set_ylabel(f"energy per degree [{expansion.unit}²]" if expansion.unit else "energy per degree")
     return ax
@@ -362,10 +371,12 @@ def report_html(
 
     if interactive and isinstance(model, Atlas):
         raise InvalidInputError("interactive pages are of expansions, not of atlases")
+    if path is not None:
+        named(path, (".html", ".htm"), "a page")  # before the work
     if not isinstance(model, Atlas):
         model = as_expansion(model)
     known = model._shape if shape is None else shape
-    mesh = None if known is None else _checked_shape(known)
+    mesh = None if known is None else outward_mesh(known)
     options = _core.ReportOptions(
         title=title or model._name or "model",
         shape_name=shape_name or model._name,
@@ -380,15 +391,6 @@ def report_html(
     if path is not None:
         write_file(path, page.encode())
     return page
-
-
-def _checked_shape(shape: Any) -> Mesh:
-    """The mesh as the page compares it: welded, outwards."""
-    mesh = as_mesh(shape, attributes=False)
-    welded = _core.weld(mesh._core, 0.0)[0]
-    if _core.inspect(welded).inside_out:
-        welded = _core.flip(welded)
-    return Mesh._of(welded)
 
 
 # Notebooks

@@ -64,7 +64,8 @@ def reconstruct(
     Parameters
     ----------
     points : array_like (N, 3), PointCloud, (points, normals), path, points of trimesh, PyVista, meshio
-        At least 16 different ones.
+        At least 16 different ones. Rows that are masked or not finite are dropped, and counted in
+        ``r.report.dropped_points``.
     normals : array_like, (N, 3), optional
         They point outwards; of any length. Computed if there are none.
     attributes : mapping of str to array_like, optional

@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from . import _core
+from ._errors import UnsupportedError
 
 #: A callable f(stage, fraction), True for a bar, False for none, None for a bar where one is seen.
 Progress = Callable[[str, float], Any] | bool | None
@@ -49,9 +50,23 @@ class _Bar:
         self._bar.n = min(max(fraction, 0.0), 1.0)
         self._bar.update(0)
 
-    def close(self) -> None:
-        if self._bar is not None:
-            self._bar.close()
+    def close(self, done: bool) -> None:
+        if self._bar is None:
+            return
+        if done:  # the last step is not told; a bar that is not full is shown as one that failed
+            self._bar.n = self._bar.total
+        self._bar.close()
+
+
+def named(path: str | os.PathLike[str], endings: tuple[str, ...], what: str) -> str:
+    """The path of a file, unless its name says that it is something else."""
+    name = os.fspath(path)
+    ending = os.path.splitext(name)[1].lower()
+    if ending[1:2].isalpha() and ending not in endings:
+        raise UnsupportedError(
+            f"{name}: {what} is written as *{endings[0]}, so its name must not end in {ending}"
+        )
+    return name
 
 
 @contextmanager
@@ -62,11 +77,13 @@ def reporter(progress: Progress) -> Iterator[Any]:
         bar = _Bar()
     elif progress is not None and progress is not False and not callable(progress):
         raise TypeError(f"progress is a callable, a bool or None, not {progress!r}")
+    done = False
     try:
         yield bar if bar is not None else (progress if callable(progress) else None)
+        done = True
     finally:
         if bar is not None:
-            bar.close()
+            bar.close(done)
 
 
 @contextmanager

@@ -12,7 +12,7 @@ import numpy.typing as npt
 from . import _core
 from ._arrays import IndexArray
 from ._run import Progress, caller
-from ._shapes import Mesh, MeshLike, PointCloud, as_mesh, columns_text, warn
+from ._shapes import Mesh, MeshLike, PointCloud, as_shape, columns_text, warn
 
 
 class ShapeFile(NamedTuple):
@@ -130,24 +130,24 @@ def write_shape(
     UnsupportedError
         For a format that cannot hold it.
     """
-    core = shape._core if isinstance(shape, PointCloud) else as_mesh(shape)._core
+    core = as_shape(shape)._core
     with caller(0, False) as how:
         said = _core.write_shape(core, os.fspath(path), format, ascii, how)
     for text in said:
         warn(f"{os.fspath(path)}: {text}")
 
 
-def attributes_left_out(shape: Mesh | PointCloud, format: str) -> list[str]:
+def attributes_left_out(shape: MeshLike | PointCloud, format: str) -> list[str]:
     """Names of the attributes that a format has no room for.
 
     Parameters
     ----------
-    shape : Mesh or PointCloud
+    shape : mesh-like or PointCloud
         What would be written.
     format : {"ply", "obj", "off", "stl", "xyz"}
         In which.
     """
-    return _core.attributes_left_out(list(shape.attributes), format)
+    return _core.attributes_left_out(list(as_shape(shape).attributes), format)
 
 
 def map_mesh(path: str | os.PathLike[str]) -> tuple[npt.NDArray[Any], IndexArray] | None:

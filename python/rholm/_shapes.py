@@ -20,10 +20,12 @@ from ._arrays import (
     attribute_tuples,
     float_rows,
     numeric,
+    plain_array,
+    read_only,
     triangle_rows,
 )
 from ._errors import InvalidInputError
-from ._interop import foreign_mesh
+from ._interop import foreign_has_faces, foreign_mesh
 
 if TYPE_CHECKING:
     import meshio
@@ -47,7 +49,8 @@ class Mesh:
     Raises
     ------
     InvalidInputError
-        For coordinates that are not finite, indices out of range, attributes of other lengths.
+        For coordinates that are masked or not finite, indices out of range, attributes of other
+        lengths.
 
     Notes
     -----
@@ -74,31 +77,31 @@ class Mesh:
     @property
     def vertices(self) -> FloatArray:
         """Coordinates, (N, 3) float64; read-only, not copied."""
-        return _read_only(self._core.vertices)
+        return self._core.vertices
 
     @property
     def triangles(self) -> IndexArray:
         """Vertex indices, (M, 3) uint32; read-only, not copied."""
-        return _read_only(self._core.triangles)
+        return self._core.triangles
 
     @property
     def attributes(self) -> dict[str, npt.NDArray[Any]]:
-        """Attributes of vertices by name, (N,) each; a copy."""
+        """Attributes of vertices by name, (N,) each; read-only copies: `with_attributes` sets them."""
         return attribute_dict(self._core.attributes)
 
     @property
     def normals(self) -> FloatArray:
         """Unit normals of vertices, (N, 3): the attributes nx, ny, nz, or those of the triangles
-        around each, weighted by area. Zero where a vertex has no triangle.
+        around each, weighted by area. Zero where a vertex has no triangle. Read-only.
         """
         attributes = self.attributes
         if all(name in attributes for name in ("nx", "ny", "nz")):
             rows = np.stack([attributes[name] for name in ("nx", "ny", "nz")], axis=1)
-            return rows.astype(np.float64)
+            return read_only(rows.astype(np.float64))
         rows = _core.area_normals(self._core)
         length = np.linalg.norm(rows, axis=1, keepdims=True)
         unit: FloatArray = np.divide(rows, length, out=np.zeros_like(rows), where=length > 0)
-        return unit
+        return read_only(unit)
 
     @property
     def colors(self) -> npt.NDArray[np.float32] | None:
@@ -173,17 +176,15 @@ class Mesh:
         with_ = f", attributes {', '.join(names)}" if names else ""
         return f"<rholm.Mesh: {len(self.vertices)} vertices, {len(self.triangles)} triangles{with_}>"
 
-    def __reduce__(self) -> Any:
-        return (_mesh_of, (np.array(self.vertices), np.array(self.triangles), self._core.attributes))
+    def __eq__(self, other: object) -> bool:
+        return self._core == other._core if isinstance(other, Mesh) else NotImplemented
+
+    __hash__ = None  # type: ignore[assignment]
 
     def _repr_png_(self) -> bytes | None:
         from ._pictures import notebook_png
 
         return notebook_png(self)
-
-
-def _mesh_of(vertices: FloatArray, triangles: IndexArray, attributes: Any) -> Mesh:
-    return Mesh._of(_core.Mesh(vertices, triangles, attributes))
 
 
 class PointCloud:
@@ -243,13 +244,12 @@ class PointCloud:
     @property
     def points(self) -> FloatArray:
         """Coordinates, (N, 3) float64; read-only, not copied."""
-        return _read_only(self._core.points)
+        return self._core.points
 
     @property
     def normals(self) -> FloatArray | None:
         """Normals as they were given, (N, 3) float64, or None; read-only, not copied."""
-        normals = self._core.normals
-        return None if normals is None else _read_only(normals)
+        return self._core.normals
 
     @property
     def columns(self) -> tuple[str, ...]:
@@ -258,7 +258,7 @@ class PointCloud:
 
     @property
     def attributes(self) -> dict[str, npt.NDArray[Any]]:
-        """Attributes of points by name, (N,) each; a copy."""
+        """Attributes of points by name, (N,) each; read-only copies."""
         return attribute_dict(self._core.attributes)
 
     @property
@@ -302,9 +302,10 @@ class PointCloud:
         normals = " with normals" if self.normals is not None else ""
         return f"<rholm.PointCloud: {len(self)} points{normals}>"
 
-    def __reduce__(self) -> Any:
-        normals = None if self.normals is None else np.array(self.normals)
-        return (_cloud_of, (np.array(self.points), normals, self._core.attributes))
+    def __eq__(self, other: object) -> bool:
+        return self._core == other._core if isinstance(other, PointCloud) else NotImplemented
+
+    __hash__ = None  # type: ignore[assignment]
 
     def _repr_png_(self) -> bytes | None:
         from ._pictures import notebook_png
@@ -312,21 +313,13 @@ class PointCloud:
         return notebook_png(self)
 
 
-def _cloud_of(points: FloatArray, normals: FloatArray | None, attributes: Any) -> PointCloud:
-    return PointCloud._of(_core.PointCloud(points, normals, attributes))
-
-
-def _read_only(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    array.flags.writeable = False
-    return array
-
-
-#: What stands for a mesh: a `Mesh`, (vertices, triangles), a path, or a mesh of trimesh, PyVista or
-#: meshio.
+#: What stands for a mesh: a `Mesh` (or a result that has one, as that of `repair`), (vertices,
+#: triangles), a path, or a mesh of trimesh, PyVista or meshio.
 MeshLike = Union[Mesh, tuple[Any, Any], str, os.PathLike[str], Any]
 
-#: What stands for points: a `PointCloud`, an array (N, 3) or (N, k), (points, normals), a path, or points of
-#: trimesh, PyVista or meshio.
+#: What stands for points: a `PointCloud` (or a result that has one, as that of `orient`), an array
+#: (N, 3) or (N, k), (points, normals), a path, or points of trimesh, PyVista or meshio. Of what stands for a
+#: mesh, the vertices with their normals: a second array of whole numbers are triangles.
 PointsLike = Union[PointCloud, npt.ArrayLike, tuple[Any, Any], str, os.PathLike[str], Any]
 
 
@@ -347,6 +340,7 @@ def as_mesh(shape: MeshLike, attributes: bool = True) -> Mesh:
     TypeError
         For what is none of these.
     """
+    shape = _within(shape)
     if isinstance(shape, Mesh):
         return shape
     if isinstance(shape, _core.Mesh):
@@ -363,12 +357,63 @@ def as_mesh(shape: MeshLike, attributes: bool = True) -> Mesh:
     if arrays is None:
         if isinstance(shape, (tuple, list)) and len(shape) == 2:
             return Mesh(*shape)
+        if isinstance(shape, PointCloud):
+            raise TypeError("a mesh is needed, not a PointCloud; reconstruct() makes one of points")
         raise TypeError(
             "a mesh is a rholm.Mesh, (vertices, triangles), a path, or one of trimesh, PyVista or "
             f"meshio, not {type(shape).__name__}"
         )
     vertices, triangles, values = arrays
     return Mesh(vertices, triangles, values if attributes else None)
+
+
+def outward_mesh(shape: MeshLike) -> Mesh:
+    """A mesh without attributes as `expand` takes it: welded, and outwards if it was inside out."""
+    return Mesh._of(_core.outward(as_mesh(shape, attributes=False)._core))
+
+
+def as_shape(shape: Any) -> Mesh | PointCloud:
+    """A `Mesh` of whatever stands for one, a `PointCloud` of what stands for points."""
+    shape = _within(shape)
+    if isinstance(shape, (str, os.PathLike)):
+        from ._shape_files import read_shape
+
+        return read_shape(shape).shape
+    if isinstance(shape, PointCloud):
+        return shape
+    if foreign_has_faces(shape) is False or _are_points(shape):
+        return _points_of(shape)
+    return as_mesh(shape)
+
+
+def _within(shape: Any) -> Any:
+    """The shape in a result that has one, as those of `repair`, `orient` and `read_shape`."""
+    if isinstance(shape, tuple):
+        for name in ("mesh", "cloud", "shape"):
+            inner = getattr(shape, name, None)
+            if isinstance(inner, (Mesh, PointCloud)):
+                return inner
+    return shape
+
+
+def _is_pair(shape: Any) -> bool:
+    """Whether it is a pair of arrays, and no list of two points."""
+    if not isinstance(shape, (tuple, list)) or len(shape) != 2:
+        return False
+    return isinstance(shape, tuple) or np.ndim(shape[1]) == 2
+
+
+def _are_triangles(values: Any) -> bool:
+    """Whether the second of two arrays is of indices, and not of normals."""
+    return plain_array(values, "triangles").dtype.kind in "iu"
+
+
+def _are_points(shape: Any) -> bool:
+    if isinstance(shape, (Mesh, _core.Mesh)) or foreign_has_faces(shape) is not None:
+        return False
+    if _is_pair(shape):
+        return not _are_triangles(shape[1])
+    return hasattr(shape, "__array__") or isinstance(shape, list)
 
 
 def as_points(
@@ -383,7 +428,8 @@ def as_points(
     ----------
     shape : PointCloud, array_like (N, 3), (points, normals), path, points of trimesh, PyVista, meshio
         An array may have more columns, as in `PointCloud`.
-        A mesh is its vertices, with their normals.
+        A mesh is its vertices, with their normals. A number that is masked (`numpy.ma`) is not known:
+        NaN. `clean` and `reconstruct` drop such points, and count them; so they do for files.
     normals : array_like, (N, 3), optional
         In the place of the shape's own.
     attributes : mapping of str to array_like, optional
@@ -429,6 +475,7 @@ def warn(text: str) -> None:
 
 
 def _points_of(shape: Any, columns: str | Sequence[str] | None = None) -> PointCloud:
+    shape = _within(shape)
     if isinstance(shape, PointCloud):
         return shape
     if isinstance(shape, (str, os.PathLike)):
@@ -442,6 +489,8 @@ def _points_of(shape: Any, columns: str | Sequence[str] | None = None) -> PointC
         shape = file.shape
         if isinstance(shape, PointCloud):
             return shape
+    if foreign_has_faces(shape):
+        shape = as_mesh(shape)
     if isinstance(shape, Mesh):
         return PointCloud(shape.vertices, shape.normals, shape.attributes)
     from ._interop import foreign_points
@@ -449,8 +498,8 @@ def _points_of(shape: Any, columns: str | Sequence[str] | None = None) -> PointC
     arrays = foreign_points(shape)
     if arrays is not None:
         return PointCloud(*arrays)
-    if isinstance(shape, tuple) and len(shape) == 2:
-        return PointCloud(*shape)
+    if _is_pair(shape):
+        return _points_of(Mesh(*shape)) if _are_triangles(shape[1]) else PointCloud(*shape)
     return PointCloud(shape, columns=columns)
 
 
@@ -462,8 +511,8 @@ def vertex_colors(mesh: MeshLike | PointCloud) -> npt.NDArray[np.float32] | None
     mesh : mesh-like or PointCloud
         Whole numbers are bytes, others parts of 1.
     """
-    colors = _core.vertex_colors(mesh._core if isinstance(mesh, PointCloud) else as_mesh(mesh)._core)
-    return colors if len(colors) else None
+    colors = _core.vertex_colors(as_shape(mesh)._core)
+    return read_only(colors) if len(colors) else None
 
 
 def validate(shape: MeshLike | PointCloud) -> None:
@@ -474,7 +523,7 @@ def validate(shape: MeshLike | PointCloud) -> None:
     shape : mesh-like or PointCloud
         An empty one is valid.
     """
-    _core.validate(shape._core if isinstance(shape, PointCloud) else as_mesh(shape)._core)
+    _core.validate(as_shape(shape)._core)
 
 
 def name_of(shape: Any) -> str:

@@ -116,6 +116,9 @@ class Studio:
         self._teller.start()
         atexit.register(self.close)
 
+    def __reduce__(self) -> Any:
+        raise TypeError("a Studio cannot be copied or pickled, as it works with a page: take its items")
+
     def _ask(self, method: str, path: str, body: bytes = b"", **query: str) -> bytes:
         if self._core is None:
             raise InvalidInputError("this studio has been closed")

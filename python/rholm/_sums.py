@@ -8,9 +8,9 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import FloatArray, float_rows, floats
+from ._arrays import FloatArray, float_rows, floats, numeric
 from ._arrays import directions as unit_rows
-from ._coefficients import array_of, core_of
+from ._coefficients import Normalization, array_of, core_of
 from ._errors import InvalidInputError
 from ._expansion import CoefficientsLike
 from ._run import Progress, caller
@@ -23,7 +23,7 @@ def evaluate(
     coefficients: CoefficientsLike,
     directions: npt.ArrayLike,
     *,
-    engine: str = "fast",
+    engine: Literal["fast", "direct"] = "fast",
     precision: float = 1e-12,
     threads: int = 0,
     progress: Progress = None,
@@ -56,7 +56,7 @@ def evaluate_with_gradient(
     coefficients: CoefficientsLike,
     directions: npt.ArrayLike,
     *,
-    engine: str = "fast",
+    engine: Literal["fast", "direct"] = "fast",
     precision: float = 1e-12,
     threads: int = 0,
     progress: Progress = None,
@@ -87,9 +87,9 @@ def adjoint(
     degree: int,
     gradients: npt.ArrayLike | None = None,
     hessians: npt.ArrayLike | None = None,
-    normalization: str = "orthonormal",
+    normalization: Normalization = "orthonormal",
     csphase: int = 1,
-    engine: str = "fast",
+    engine: Literal["fast", "direct"] = "fast",
     precision: float = 1e-12,
     threads: int = 0,
     progress: Progress = None,
@@ -120,7 +120,7 @@ def adjoint(
     rows, _ = unit_rows(float_rows(directions, "directions"))
     six = None
     if hessians is not None:
-        six = np.ascontiguousarray(hessians, dtype=np.float64)
+        six = np.ascontiguousarray(numeric(hessians, "hessians"), dtype=np.float64)
         if six.ndim != 2 or six.shape[1] != 6:
             raise InvalidInputError(f"hessians: an array (N, 6) is needed, not {six.shape}")
     with caller(threads, progress) as how:
@@ -225,7 +225,7 @@ def analyze_grid(
     kind: GridKind = "gauss-legendre",
     degree: int | None = None,
     *,
-    normalization: str = "4pi",
+    normalization: Normalization = "4pi",
     csphase: int = 1,
     threads: int = 0,
     progress: Progress = None,
@@ -246,8 +246,8 @@ def analyze_grid(
     threads, progress
         See `rholm.caller`.
     """
-    array = np.asarray(values)
-    if array.ndim != 2 or array.dtype.kind not in "fiu":
+    array = numeric(values, "values")
+    if array.ndim != 2:
         raise InvalidInputError(
             f"values: a real array (n_theta, n_phi) is needed, not {array.shape} of {array.dtype}"
         )

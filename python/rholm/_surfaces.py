@@ -13,9 +13,8 @@ from ._atlas import Atlas
 from ._encode import as_expansion
 from ._expansion import Expansion
 from ._model_files import load
-from ._reconstruct import Reconstruction
 from ._run import Progress, caller
-from ._shapes import Mesh, MeshLike, as_mesh
+from ._shapes import Mesh, MeshLike, as_mesh, as_shape
 
 
 def distances_to_surface(
@@ -89,17 +88,13 @@ def directions_of(mesh: MeshLike, center: npt.ArrayLike) -> Mesh:
     return Mesh._of(_core.directions_of(as_mesh(mesh)._core, triple(center, "center")))
 
 
-def surface_of(shape: Any, threads: int = 0, progress: Progress = None) -> Mesh:
-    """The surface of whatever has one: a mesh-like, an expansion, an atlas, a reconstruction."""
-    if isinstance(shape, Expansion):
-        return shape.mesh(threads=threads, progress=progress)
-    if isinstance(shape, Atlas):
-        return shape.mesh(threads=threads, progress=progress)
-    if isinstance(shape, Reconstruction):
-        return shape.mesh
+def surface_of(shape: Any, threads: int = 0, progress: Progress = None, points: bool = False) -> Any:
+    """The surface of whatever has one: a mesh-like, an expansion, an atlas; points if they may be."""
     if isinstance(shape, (str, os.PathLike)) and _core.is_model_file(os.fspath(shape)):
-        return surface_of(load(shape), threads, progress)
-    return as_mesh(shape)
+        shape = load(shape)
+    if isinstance(shape, (Expansion, Atlas)):
+        return shape.mesh(threads=threads, progress=progress)
+    return as_shape(shape) if points else as_mesh(shape)
 
 
 def compare(

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from ._arguments import whole
 from ._arrays import FloatArray, IndexArray, float_rows
+from ._errors import InvalidInputError
 from ._run import Progress, caller
 from ._shapes import Mesh, MeshLike, as_mesh
 
@@ -180,9 +181,11 @@ def simplify_options(simplify: Any) -> _core.SimplifyOptions | None:
         return _core.SimplifyOptions()
     if isinstance(simplify, dict):
         return _core.SimplifyOptions(**simplify)
-    if isinstance(simplify, (int, np.integer)):
-        return _core.SimplifyOptions(triangles=int(simplify))
-    raise TypeError(f"simplify is None, 'auto', a number of triangles or a dict, not {simplify!r}")
+    if isinstance(simplify, str):
+        raise InvalidInputError(
+            f"simplify is {simplify!r}; it must be 'auto', a number of triangles or a dict"
+        )
+    return _core.SimplifyOptions(triangles=whole(simplify, "simplify"))
 
 
 class Simplification(NamedTuple):

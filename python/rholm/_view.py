@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import functools
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from . import _core
 from ._encode import as_expansion, expand
-from ._errors import UnsupportedError
+from ._errors import InvalidInputError, UnsupportedError
 from ._expansion import Expansion
 from ._interop import required
 from ._run import Progress, caller
-
-if TYPE_CHECKING:
-    import anywidget
+from ._shapes import outward_mesh
 
 _DEGREE = 64  # chosen: fine enough to be known by sight, and there at once
 _VIEWER = Path(__file__).with_name("viewer.js")
@@ -72,20 +70,19 @@ def view_data(
     bytes
         Coefficients to degree 512, errors of degrees, and the shape.
     """
-    from ._pictures import _checked_shape
-
     expansion = _expanded(model)
     known = expansion._shape if shape is None else shape
-    mesh = None if known is None else _checked_shape(known)._core
+    mesh = None if known is None else outward_mesh(known)._core
     with caller(threads, progress) as how:
         data: bytes = _core.view_data(expansion._core, mesh, title or expansion._name, how)
     return data
 
 
 def view(
-    model: Any, *, shape: Any = None, title: str = "", threads: int = 0, progress: Progress = None
-) -> anywidget.AnyWidget:
-    """The surface of an expansion in a notebook, to be turned and cut off at any degree.
+    model: Any, *others: Any, shape: Any = None, title: str = "", threads: int = 0, progress: Progress = None
+) -> Any:
+    """The surface of an expansion in a notebook, to be turned and cut off at any degree; of several
+    side by side.
 
     A slider goes through the degrees; colours show the radius or what is left out; the spectrum
     stands beside it, and the shape that the expansion is of, if it is known. The browser sums the
@@ -95,11 +92,14 @@ def view(
     ----------
     model, shape, title, threads, progress
         See `view_data`.
+    *others : Expansion or mesh-like
+        Shown beside it; `shape` and `title` are for one alone.
 
     Returns
     -------
     anywidget.AnyWidget
-        ``data`` is what it shows: assign that of another model to show it instead.
+        ``data`` is what it shows: assign that of another model to show it instead. Of several an
+        ``ipywidgets.HBox`` of these, in ``children``.
 
     Raises
     ------
@@ -109,4 +109,9 @@ def view(
         If this package was built without the viewer.
     """
     widget = _widget()
-    return widget(data=view_data(model, shape=shape, title=title, threads=threads, progress=progress))
+    if not others:
+        return widget(data=view_data(model, shape=shape, title=title, threads=threads, progress=progress))
+    if shape is not None or title:
+        raise InvalidInputError("shape and title are for one model: view() the others by themselves")
+    views = [widget(data=view_data(one, threads=threads, progress=progress)) for one in (model, *others)]
+    return required("ipywidgets", "notebook").HBox(views)

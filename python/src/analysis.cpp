@@ -2,6 +2,7 @@
 #include "rholm/analyze.h"
 
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
@@ -29,7 +30,8 @@ namespace {
 using AnyVertices = nb::ndarray<nb::ro, nb::shape<-1, 3>, nb::device::cpu>;
 using AnyTriangles = nb::ndarray<nb::ro, std::uint32_t, nb::shape<-1, 3>, nb::device::cpu>;
 
-// The view of arrays whose rows have their numbers side by side; the face in Python sees to that.
+// The view of arrays whose rows have their numbers side by side and that nobody can write to; the
+// face in Python sees to both.
 MeshView view_of_arrays(const AnyVertices& vertices, const AnyTriangles& triangles) {
   const bool single = vertices.dtype() == nb::dtype<float>();
   if (!single && vertices.dtype() != nb::dtype<double>()) {
@@ -86,8 +88,14 @@ void bind_star(nb::module_& m) {
     return caller.run(
         [&](const Context& context) { return check_star(mesh, center, rays, context); });
   });
-  nb::class_<StarChart>(m, "StarChart", "A mesh seen from a centre.")
-      .def_prop_ro("mesh", [](const StarChart& chart) { return chart.mesh; })
+  nb::class_<StarChart> chart_class(m, "StarChart", "A mesh seen from a centre.");
+  bind_state(
+      chart_class, [](const StarChart& chart) { return nb::make_tuple(chart.mesh, chart.report); },
+      [](const nb::object& state) {
+        const auto [mesh, report] = nb::cast<std::pair<Mesh, StarReport>>(state);
+        return StarChart{mesh, pair_edges(mesh), report};
+      });
+  chart_class.def_prop_ro("mesh", [](const StarChart& chart) { return chart.mesh; })
       .def_ro("report", &StarChart::report);
   m.def(
       "make_star_chart",
@@ -154,6 +162,7 @@ void bind_results(nb::module_& m) {
              "Truncation error over solid angle, in the unit of the function, or None.")
       .field("truncation_rms_doubt", &Analysis::truncation_rms_doubt,
              "How far it is at most from that of exact coefficients.")
+      .hidden("expansion", [](Analysis& a) -> Expansion& { return a.expansion; })
       .type()
       .def_prop_ro("expansion", [](const Analysis& a) { return a.expansion; });
   Record<ToleranceReport>(m, "ToleranceReport", "How a tolerance was kept.")
@@ -259,6 +268,8 @@ void bind_monte_carlo(nb::module_& m) {
       .field("truncation_rms", &MonteCarlo::truncation_rms, "As in Analysis.")
       .field("truncation_rms_doubt", &MonteCarlo::truncation_rms_doubt, "By 3 deviations.")
       .field("times", &MonteCarlo::times, "Stages: (wall, cpu) in seconds.")
+      .hidden("expansion", [](MonteCarlo& found) -> Expansion& { return found.expansion; })
+      .hidden("deviation", [](MonteCarlo& found) -> Coefficients& { return found.deviation; })
       .type()
       .def_prop_ro("expansion", [](const MonteCarlo& found) { return found.expansion; })
       .def_prop_ro("deviation", [](const MonteCarlo& found) { return found.deviation; });

@@ -3,11 +3,14 @@
 
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
+#include <array>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -27,15 +30,91 @@ using Shape = std::variant<const Mesh*, const PointCloud*>;
 
 const char* name_of(CapBasis basis) { return basis == CapBasis::kFull ? "full" : "even"; }
 
+// The numbers of a cap in a row: what is pickled of atlases of many thousands of caps.
+constexpr std::size_t kCapNumbers = 27;
+
+std::array<double, kCapNumbers> numbers_of(const Cap& c) {
+  const CapFrame& f = c.frame;
+  return {f.center.x,
+          f.center.y,
+          f.center.z,
+          f.x.x,
+          f.x.y,
+          f.x.z,
+          f.y.x,
+          f.y.y,
+          f.y.z,
+          f.z.x,
+          f.z.y,
+          f.z.z,
+          f.radius,
+          f.dilation,
+          f.support,
+          c.where.px,
+          c.where.py,
+          c.where.xx,
+          c.where.xy,
+          c.where.yy,
+          static_cast<double>(c.basis),
+          static_cast<double>(c.degree),
+          static_cast<double>(c.first),
+          c.error,
+          c.area,
+          c.weight,
+          c.deviation};
+}
+
+Cap cap_of(const double* n) {
+  const auto row = [&](int i) { return Vec3{n[i], n[i + 1], n[i + 2]}; };
+  Cap cap;
+  cap.frame = {row(0), row(3), row(6), row(9), n[12], n[13], n[14]};
+  cap.where = {n[15], n[16], n[17], n[18], n[19]};
+  cap.basis = n[20] == 0 ? CapBasis::kFull : CapBasis::kEven;
+  cap.degree = static_cast<std::uint16_t>(n[21]);
+  cap.first = static_cast<std::size_t>(n[22]);
+  cap.error = n[23], cap.area = n[24], cap.weight = n[25], cap.deviation = n[26];
+  return cap;
+}
+
+nb::object state_of_atlas(const Atlas& atlas) {
+  std::vector<double> caps;
+  caps.reserve(kCapNumbers * atlas.caps.size());
+  for (const Cap& cap : atlas.caps) {
+    const auto numbers = numbers_of(cap);
+    caps.insert(caps.end(), numbers.begin(), numbers.end());
+  }
+  return nb::make_tuple(array_of(std::move(caps)), array_of(atlas.coefficients),
+                        to_string(atlas.blend), atlas.spacing, atlas.noise, atlas.diagonal,
+                        atlas.band);
+}
+
+Atlas atlas_of_state(const nb::object& state) {
+  const auto [caps, coefficients, blend, spacing, noise, diagonal, band] =
+      nb::cast<std::tuple<Doubles, Doubles, std::string, double, double, double, double>>(state);
+  Atlas atlas;
+  for (std::size_t i = 0; i + kCapNumbers <= caps.size(); i += kCapNumbers) {
+    const Cap cap = cap_of(caps.data() + i);
+    const std::size_t n = n_coefficients(cap.basis, cap.degree);
+    if (cap.first > coefficients.size() || n > coefficients.size() - cap.first) {
+      throw Error(ErrorCode::kInvalidInput, "a cap of the pickled atlas has no coefficients");
+    }
+    atlas.caps.push_back(cap);
+  }
+  atlas.coefficients = vector_of(coefficients);
+  atlas.blend = parse_cap_blend(blend);
+  atlas.spacing = spacing, atlas.noise = noise, atlas.diagonal = diagonal, atlas.band = band;
+  return atlas;
+}
+
 void bind_caps(nb::module_& m) {
   Record<Cap>(m, "Cap", "One cap of an atlas.")
       .property(
-          "center", [](const Cap& c) { return c.frame.center; },
+          "center", [](const Cap& c) { return read_only(c.frame.center); },
           "Of its sphere, in the coordinates of the shape, (3,).")
       .property(
           "axes",
           [](const Cap& c) {
-            return array_of(std::vector<Vec3>{c.frame.x, c.frame.y, c.frame.z});
+            return read_only(std::vector<Vec3>{c.frame.x, c.frame.y, c.frame.z});
           },
           "Of its frame, rows x, y, z; z points outwards, (3, 3).")
       .property(
@@ -47,7 +126,7 @@ void bind_caps(nb::module_& m) {
           "support", [](const Cap& c) { return c.frame.support; },
           "Radius of the points around the seed that it was made of.")
       .property(
-          "seed", [](const Cap& c) { return c.frame.seed(); },
+          "seed", [](const Cap& c) { return read_only(c.frame.seed()); },
           "The point of the sphere in the middle of the cap, (3,).")
       .property(
           "ellipse",
@@ -63,9 +142,23 @@ void bind_caps(nb::module_& m) {
       .field("area", &Cap::area, "Of the surface that it was made for.")
       .field("weight", &Cap::weight, "A factor of its blend weight.")
       .field("deviation", &Cap::deviation,
-             "Largest distance of its surface from the tangent plane of the seed.");
-  nb::class_<Atlas>(m, "Atlas", "A surface of any genus as overlapping caps.")
-      .def_prop_ro("n_caps", [](const Atlas& atlas) { return atlas.caps.size(); })
+             "Largest distance of its surface from the tangent plane of the seed.")
+      .hidden("frame_center", [](Cap& c) -> Vec3& { return c.frame.center; })
+      .hidden("frame_x", [](Cap& c) -> Vec3& { return c.frame.x; })
+      .hidden("frame_y", [](Cap& c) -> Vec3& { return c.frame.y; })
+      .hidden("frame_z", [](Cap& c) -> Vec3& { return c.frame.z; })
+      .hidden("radius", [](Cap& c) -> double& { return c.frame.radius; })
+      .hidden("dilation", [](Cap& c) -> double& { return c.frame.dilation; })
+      .hidden("support", [](Cap& c) -> double& { return c.frame.support; })
+      .hidden("px", [](Cap& c) -> double& { return c.where.px; })
+      .hidden("py", [](Cap& c) -> double& { return c.where.py; })
+      .hidden("xx", [](Cap& c) -> double& { return c.where.xx; })
+      .hidden("xy", [](Cap& c) -> double& { return c.where.xy; })
+      .hidden("yy", [](Cap& c) -> double& { return c.where.yy; })
+      .hidden("basis", [](Cap& c) -> CapBasis& { return c.basis; });
+  nb::class_<Atlas> atlas_type(m, "Atlas", "A surface of any genus as overlapping caps.");
+  bind_state(atlas_type, &state_of_atlas, &atlas_of_state);
+  atlas_type.def_prop_ro("n_caps", [](const Atlas& atlas) { return atlas.caps.size(); })
       .def("cap",
            [](const Atlas& atlas, std::size_t i) {
              if (i >= atlas.caps.size()) throw nb::index_error("no such cap");
@@ -125,25 +218,44 @@ void bind_models(nb::module_& m) {
       .field("frame_numbers", &AtlasSize::frame_numbers, "Numbers of the caps' frames.")
       .property(
           "numbers", [](const AtlasSize& s) { return s.numbers(); }, "Of the whole model.");
-  nb::class_<AtlasModel>(m, "AtlasModel", "An atlas and what its file says of it.")
+  nb::class_<AtlasModel> model_type(m, "AtlasModel", "An atlas and what its file says of it.");
+  bind_state(
+      model_type,
+      [](const AtlasModel& self) {
+        return nb::make_tuple(self.atlas, self.step, self.tolerance, self.errors,
+                              self.input_numbers, self.unit, self.method);
+      },
+      [](const nb::object& state) {
+        const auto parts = nb::cast<nb::tuple>(state);
+        AtlasModel made;
+        made.atlas = nb::cast<Atlas>(parts[0]);
+        made.step = nb::cast<double>(parts[1]);
+        made.tolerance = nb::cast<double>(parts[2]);
+        made.errors = nb::cast<std::optional<AtlasErrors>>(parts[3]);
+        made.input_numbers = nb::cast<std::size_t>(parts[4]);
+        made.unit = nb::cast<std::string>(parts[5]);
+        made.method = nb::cast<std::string>(parts[6]);
+        return made;
+      });
+  model_type
       .def("__init__",
            [](AtlasModel* self, const Atlas& atlas, double step, const std::string& unit) {
-             AtlasModel model;
-             model.atlas = atlas;
-             model.step = step;
-             model.unit = unit;
-             new (self) AtlasModel(std::move(model));
+             AtlasModel made;
+             made.atlas = atlas;
+             made.step = step;
+             made.unit = unit;
+             new (self) AtlasModel(std::move(made));
            })
-      .def_prop_ro("atlas", [](const AtlasModel& model) { return model.atlas; })
+      .def_prop_ro("atlas", [](const AtlasModel& self) { return self.atlas; })
       .def_ro("step", &AtlasModel::step)
       .def_ro("tolerance", &AtlasModel::tolerance)
       .def_ro("errors", &AtlasModel::errors)
       .def_ro("input_numbers", &AtlasModel::input_numbers)
       .def_ro("unit", &AtlasModel::unit)
       .def_ro("method", &AtlasModel::method)
-      .def("with_unit", [](AtlasModel model, const std::string& unit) {
-        model.unit = unit;
-        return model;
+      .def("with_unit", [](AtlasModel named, const std::string& unit) {
+        named.unit = unit;
+        return named;
       });
   m.def("size_of", &size_of);
   m.def("write_atlas", [](const AtlasModel& model, const std::string& path, const Caller& caller) {

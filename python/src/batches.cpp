@@ -1,6 +1,7 @@
 // Populations: the journal of what is done, tables and their files.
 #include "rholm/batch.h"
 
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
@@ -14,6 +15,7 @@
 #include "bindings.h"
 #include "caller.h"
 #include "casters.h"
+#include "record.h"
 
 namespace rholm::python {
 namespace {
@@ -71,6 +73,50 @@ nb::object values_of(const BatchColumn& column, std::size_t rows) {
       column.values);
 }
 
+// What is pickled of a column: its values with the number of their type.
+nb::tuple state_of_column(const BatchColumn& column) {
+  nb::object values = std::visit(
+      [](const auto& all) -> nb::object {
+        using T = typename std::decay_t<decltype(all)>::value_type;
+        if constexpr (std::is_same_v<T, std::string>) {
+          return nb::cast(all);
+        } else {
+          return nb::cast(array_of<T>(std::vector<T>(all), {all.size()}));
+        }
+      },
+      column.values);
+  return nb::make_tuple(column.name, column.width, column.values.index(), values);
+}
+
+template <class T>
+std::vector<T> values_of_state(const nb::object& state) {
+  if constexpr (std::is_same_v<T, std::string>) {
+    return nb::cast<std::vector<std::string>>(state);
+  } else {
+    const auto values = nb::cast<nb::ndarray<const T, nb::ndim<1>, nb::c_contig>>(state);
+    return {values.data(), values.data() + values.size()};
+  }
+}
+
+BatchColumn column_of_state(const nb::tuple& state) {
+  BatchColumn column{nb::cast<std::string>(state[0]), nb::cast<std::size_t>(state[1]), {}};
+  const nb::object values = state[3];
+  switch (nb::cast<std::size_t>(state[2])) {
+    case 0:
+      column.values = values_of_state<std::int8_t>(values);
+      break;
+    case 1:
+      column.values = values_of_state<std::int64_t>(values);
+      break;
+    case 2:
+      column.values = values_of_state<double>(values);
+      break;
+    default:
+      column.values = values_of_state<std::string>(values);
+  }
+  return column;
+}
+
 nb::list columns_of(const BatchTable& table) {
   nb::list columns;
   for (const BatchColumn& column : table.columns) {
@@ -82,8 +128,26 @@ nb::list columns_of(const BatchTable& table) {
 }  // namespace
 
 void bind_batches(nb::module_& m) {
-  nb::class_<BatchTable>(m, "BatchTable", "Rows as columns.")
-      .def_prop_ro("rows", [](const BatchTable& table) { return table.rows; })
+  nb::class_<BatchTable> type(m, "BatchTable", "Rows as columns.");
+  bind_state(
+      type,
+      [](const BatchTable& table) {
+        nb::list columns;
+        for (const BatchColumn& column : table.columns) columns.append(state_of_column(column));
+        return nb::make_tuple(table.rows, table.leading, columns, table.about);
+      },
+      [](const nb::object& state) {
+        const auto parts = nb::cast<nb::tuple>(state);
+        BatchTable table;
+        table.rows = nb::cast<std::size_t>(parts[0]);
+        table.leading = nb::cast<std::size_t>(parts[1]);
+        for (const nb::handle column : nb::cast<nb::list>(parts[2])) {
+          table.columns.push_back(column_of_state(nb::cast<nb::tuple>(column)));
+        }
+        table.about = nb::cast<std::vector<std::pair<std::string, std::string>>>(parts[3]);
+        return table;
+      });
+  type.def_prop_ro("rows", [](const BatchTable& table) { return table.rows; })
       .def_prop_ro("leading", [](const BatchTable& table) { return table.leading; })
       .def_prop_ro("columns", &columns_of)
       .def("write", [](const BatchTable& table, const std::string& path, bool with_coefficients,

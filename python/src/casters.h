@@ -11,6 +11,7 @@
 #include <initializer_list>
 #include <memory>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -27,8 +28,11 @@ using Indices = nb::ndarray<const std::uint32_t, nb::shape<-1, 3>, nb::c_contig,
 // As they are handed out.
 using NumpyDoubles = nb::ndarray<nb::numpy, double>;
 using NumpyIndices = nb::ndarray<nb::numpy, std::uint32_t>;
+using ReadOnlyDoubles = nb::ndarray<nb::numpy, const double>;
 
-// The numbers of an array, good as long as the array.
+// The numbers of an array, good as long as the array, and for code that keeps the interpreter's
+// lock: without it another thread might write to them. What runs unlocked takes a copy,
+// vector_of().
 inline std::span<const double> span_of(const Doubles& values) {
   return {values.data(), values.size()};
 }
@@ -49,7 +53,7 @@ template <class Scalar, class T>
 nb::ndarray<nb::numpy, Scalar> array_of(std::vector<T>&& values,
                                         std::initializer_list<std::size_t> shape) {
   auto owned = std::make_unique<std::vector<T>>(std::move(values));
-  auto* data = reinterpret_cast<Scalar*>(owned->data());
+  auto* data = reinterpret_cast<std::remove_const_t<Scalar>*>(owned->data());
   nb::capsule owner(owned.get(), [](void* p) noexcept { delete static_cast<std::vector<T>*>(p); });
   (void)owned.release();  // it is the capsule's now
   return {data, shape, owner};
@@ -68,6 +72,19 @@ inline NumpyIndices array_of(std::vector<std::uint32_t>&& values) {
 }
 inline NumpyDoubles array_of(const std::vector<double>& values) {
   return array_of(std::vector<double>(values));
+}
+// The same of what users may not write to, as it would change nothing.
+inline ReadOnlyDoubles read_only(std::vector<double>&& values) {
+  const std::size_t n = values.size();
+  return array_of<const double>(std::move(values), {n});
+}
+inline ReadOnlyDoubles read_only(std::vector<Vec3>&& rows) {
+  const std::size_t n = rows.size();
+  return array_of<const double>(std::move(rows), {n, 3});
+}
+
+inline ReadOnlyDoubles read_only(const Vec3& row) {
+  return read_only(std::vector<double>{row.x, row.y, row.z});
 }
 
 // An array over memory of `owner`, which lives as long.

@@ -18,6 +18,7 @@
 #include "rholm/coefficients_io.h"
 #include "rholm/error.h"
 #include "rholm/filter.h"
+#include "rholm/gravity_field.h"
 #include "rholm/length_unit.h"
 #include "rholm/model.h"
 
@@ -36,10 +37,49 @@ NumpyDoubles values_of(nb::handle self) {
   return array_within<double>(self, c.values().data(), {2, side, side});
 }
 
+// Throws InvalidInput for numbers where no coefficient has its place.
+void check_places(const Coefficients& c) {
+  const auto refuse = [](int plane, int l, int k, const std::string& why) {
+    throw Error(ErrorCode::kInvalidInput, "coefficients: the entry [" + std::to_string(plane) +
+                                              ", " + std::to_string(l) + ", " + std::to_string(k) +
+                                              "] " + why + ": it must be 0");
+  };
+  for (int l = 0; l <= c.degree(); ++l) {
+    if (c.s(l, 0) != 0) refuse(1, l, 0, "is of sin(0)");
+    for (int k = l + 1; k <= c.degree(); ++k) {
+      if (c.c(l, k) != 0) refuse(0, l, k, "has an order m above its degree l");
+      if (c.s(l, k) != 0) refuse(1, l, k, "has an order m above its degree l");
+    }
+  }
+}
+
 void bind_numbers(nb::module_& m) {
-  nb::class_<Coefficients>(m, "Coefficients",
-                           "C_lm and S_lm in the library's own convention: orthonormal, without "
-                           "Condon-Shortley phase.")
+  nb::class_<Coefficients> type(m, "Coefficients",
+                                "C_lm and S_lm in the library's own convention: orthonormal, "
+                                "without Condon-Shortley phase.");
+  bind_state(
+      type,
+      [](const Coefficients& c) {
+        const auto values = c.values();
+        return array_of(std::vector<double>(values.begin(), values.end())).cast();
+      },
+      [](const nb::object& state) {
+        const auto values = nb::cast<Doubles>(state);
+        int degree = 0;
+        while (2 * (degree + 1.0) * (degree + 1.0) < static_cast<double>(values.size())) ++degree;
+        Coefficients c(degree);
+        if (c.values().size() != values.size()) {
+          throw Error(ErrorCode::kInvalidInput, "the pickled coefficients are cut off");
+        }
+        std::copy_n(values.data(), values.size(), c.values().data());
+        return c;
+      });
+  type.def(
+          "__eq__",
+          [](const Coefficients& a, const Coefficients& b) {
+            return std::ranges::equal(a.values(), b.values());
+          },
+          nb::is_operator(), nb::sig("def __eq__(self, arg: object, /) -> bool"))
       .def(nb::init<int>())
       .def_prop_ro("degree", &Coefficients::degree)
       .def_prop_ro("values", &values_of)
@@ -59,10 +99,7 @@ void bind_numbers(nb::module_& m) {
     }
     Coefficients c(static_cast<int>(values.shape(1)) - 1);
     std::copy_n(values.data(), values.size(), c.values().data());
-    for (int l = 0; l <= c.degree(); ++l) {  // what stands above the diagonal is no coefficient
-      for (int k = l + 1; k <= c.degree(); ++k) c.c(l, k) = c.s(l, k) = 0;
-      c.s(l, 0) = 0;
-    }
+    check_places(c);
     return from_convention(c, convention_of(normalization, csphase));
   });
   m.def("power_spectrum", [](const Coefficients& c) { return array_of(power_spectrum(c)); });
@@ -72,11 +109,6 @@ void bind_expansion(nb::module_& m) {
   Record<TruncationErrors> record(m, "TruncationErrors",
                                   "How far a surface is from the shape it was made of, in the unit "
                                   "of lengths; None where it is not known.");
-  using Maybe = std::optional<double>;
-  record.type().def(
-      nb::init<Maybe, bool, Maybe, Maybe, Maybe, Maybe, Maybe, bool, std::size_t, double>(),
-      nb::arg().none(), nb::arg(), nb::arg().none(), nb::arg().none(), nb::arg().none(),
-      nb::arg().none(), nb::arg().none(), nb::arg(), nb::arg(), nb::arg());
   record.field("rms", &TruncationErrors::rms, "Radial, root mean square over solid angle.")
       .field("rms_is_exact", &TruncationErrors::rms_is_exact,
              "Whether rms is by Parseval's identity, not measured.")
@@ -95,7 +127,32 @@ void bind_expansion(nb::module_& m) {
       .field("points", &TruncationErrors::points, "At which was measured.")
       .field("diagonal", &TruncationErrors::diagonal,
              "Of the shape's bounding box; 0 if not known.");
-  nb::class_<Expansion>(m, "Expansion", "A surface as coefficients.")
+  nb::class_<Expansion> type(m, "Expansion", "A surface as coefficients.");
+  bind_state(
+      type,
+      [](const Expansion& e) {
+        return nb::make_tuple(e.coefficients, static_cast<int>(e.function), state_of(e.center),
+                              e.unit, e.method, e.norm_squared, e.tail_strength, e.errors);
+      },
+      [](const nb::object& state) {
+        const auto parts = nb::cast<nb::tuple>(state);
+        Expansion e;
+        e.coefficients = nb::cast<Coefficients>(parts[0]);
+        e.function = static_cast<RadialFunction>(nb::cast<int>(parts[1]));
+        e.center = nb::cast<Vec3>(parts[2]);
+        e.unit = nb::cast<std::string>(parts[3]);
+        e.method = nb::cast<std::string>(parts[4]);
+        e.norm_squared = nb::cast<std::optional<double>>(parts[5]);
+        e.tail_strength = nb::cast<std::optional<double>>(parts[6]);
+        e.errors = nb::cast<std::optional<TruncationErrors>>(parts[7]);
+        return e;
+      });
+  type.def(
+          "__eq__",
+          [](nb::handle a, nb::handle b) {
+            return a.attr("__getstate__")().equal(b.attr("__getstate__")());
+          },
+          nb::is_operator())
       .def(
           "__init__",
           [](Expansion* self, const Coefficients& coefficients, const std::string& function,
@@ -117,8 +174,16 @@ void bind_expansion(nb::module_& m) {
           nb::arg("tail_strength") = nb::none(), nb::arg("errors") = nb::none())
       .def_prop_ro("coefficients", [](const Expansion& e) { return e.coefficients; })
       .def_prop_ro("function", [](const Expansion& e) { return to_string(e.function); })
-      .def_ro("center", &Expansion::center)
+      .def_prop_ro(
+          "center", [](const Expansion& e) { return read_only(e.center); },
+          nb::rv_policy::automatic)
       .def_ro("unit", &Expansion::unit)
+      .def("with_unit",
+           [](Expansion e, const std::string& unit) {
+             if (!unit.empty()) check_unit(unit);
+             e.unit = unit;
+             return e;
+           })
       .def_ro("method", &Expansion::method)
       .def_ro("norm_squared", &Expansion::norm_squared)
       .def_ro("tail_strength", &Expansion::tail_strength)
@@ -127,6 +192,7 @@ void bind_expansion(nb::module_& m) {
   m.def("check_unit", &check_unit);
   m.def("metres_of", &metres_of);
   m.def("scaled", &scaled);
+  m.def("truncated", &truncated);
 }
 
 WindowOptions window_of(const std::string& window, int order, std::optional<double> time) {
@@ -177,6 +243,12 @@ nb::tuple tuple_of(CoefficientsFile&& file) {
                         file.assumed, file.product, file.passed_over);
 }
 
+// (constant, radius), or None.
+nb::object tuple_of(const std::optional<GravityField>& gravity) {
+  if (!gravity) return nb::none();
+  return nb::make_tuple(gravity->constant, gravity->radius);
+}
+
 void bind_files(nb::module_& m) {
   const auto read_options = [](const std::string& normalization, int csphase, bool override_file) {
     return CoefficientsReadOptions{convention_of(normalization, csphase), override_file};
@@ -218,6 +290,19 @@ void bind_files(nb::module_& m) {
         caller.run([&](const Context&) { write_coefficients(e, path, options); });
       },
       nb::arg(), nb::arg(), nb::arg().none(), nb::arg(), nb::arg(), nb::arg());
+  m.def("write_gravity_field",
+        [](const Expansion& e, const std::string& path, double constant, double radius,
+           const std::string& normalization, int csphase, const Caller& caller) {
+          const Convention convention = convention_of(normalization, csphase);
+          caller.run([&](const Context&) {
+            write_gravity_field(e, {constant, radius}, path, convention);
+          });
+        });
+  m.def("gravity_field_of", [](const nb::bytes& bytes) {
+    return tuple_of(gravity_field_of(std::span<const char>(bytes.c_str(), bytes.size())));
+  });
+  m.def("read_gravity_field",
+        [](const std::string& path) { return tuple_of(read_gravity_field(path)); });
   m.def("write_model", [](const Expansion& e, const std::string& path, const Caller& caller) {
     caller.run([&](const Context&) { write_model(e, path); });
   });

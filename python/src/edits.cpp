@@ -65,8 +65,30 @@ void bind_smooth(nb::module_& m) {
       .field("transition", &PatchOptions::transition)
       .choice("fitting", &PatchOptions::fitting, parse_fitting, name_of)
       .field("repair", &PatchOptions::repair);
-  nb::class_<Patch>(m, "Patch", "The vertices that may move, and where fits want them.")
-      .def_ro("wavelength", &Patch::wavelength)
+  nb::class_<Patch> patch_type(m, "Patch", "The vertices that may move, and where fits want them.");
+  bind_state(
+      patch_type,
+      [](const Patch& p) {
+        return nb::make_tuple(p.wavelength, p.degree, array_of(std::vector(p.vertices)),
+                              array_of(std::vector(p.positions)), array_of(p.weights),
+                              array_of(std::vector(p.moves)), p.caps, p.unreached);
+      },
+      [](const nb::object& state) {
+        const auto parts = nb::cast<nb::tuple>(state);
+        const auto vertices =
+            nb::cast<nb::ndarray<const std::uint32_t, nb::ndim<1>, nb::c_contig>>(parts[2]);
+        Patch p;
+        p.wavelength = nb::cast<double>(parts[0]);
+        p.degree = nb::cast<int>(parts[1]);
+        p.vertices.assign(vertices.data(), vertices.data() + vertices.size());
+        p.positions = vector_of(nb::cast<Rows>(parts[3]));
+        p.weights = vector_of(nb::cast<Doubles>(parts[4]));
+        p.moves = vector_of(nb::cast<Rows>(parts[5]));
+        p.caps = nb::cast<std::size_t>(parts[6]);
+        p.unreached = nb::cast<std::size_t>(parts[7]);
+        return p;
+      });
+  patch_type.def_ro("wavelength", &Patch::wavelength)
       .def_ro("degree", &Patch::degree)
       .def_ro("caps", &Patch::caps)
       .def_ro("unreached", &Patch::unreached)

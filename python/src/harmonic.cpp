@@ -26,17 +26,17 @@ void bind_sums(nb::module_& m) {
   m.def("evaluate", [](const Coefficients& c, const Rows& directions, const std::string& engine,
                        double precision, const Caller& caller) {
     const SumOptions options{parse_engine(engine), precision};
-    return array_of(caller.run([&](const Context& context) {
-      return evaluate(c, span_of(directions), options, context);
-    }));
+    const std::vector<Vec3> at = vector_of(directions);
+    return array_of(
+        caller.run([&](const Context& context) { return evaluate(c, at, options, context); }));
   });
   m.def("evaluate_with_gradient", [](const Coefficients& c, const Rows& directions,
                                      const std::string& engine, double precision,
                                      const Caller& caller) {
     const SumOptions options{parse_engine(engine), precision};
-    ValuesAndGradients sums = caller.run([&](const Context& context) {
-      return evaluate_with_gradient(c, span_of(directions), options, context);
-    });
+    const std::vector<Vec3> at = vector_of(directions);
+    ValuesAndGradients sums = caller.run(
+        [&](const Context& context) { return evaluate_with_gradient(c, at, options, context); });
     return nb::make_tuple(array_of(std::move(sums.values)), array_of(std::move(sums.gradients)));
   });
   m.def(
@@ -45,13 +45,18 @@ void bind_sums(nb::module_& m) {
          const std::optional<Rows>& gradients, const std::optional<Matrices>& hessians,
          const std::string& engine, double precision, const Caller& caller) {
         const SumOptions options{parse_engine(engine), precision};
-        ScatteredSources sources{.directions = span_of(directions)};
-        if (weights) sources.weights = span_of(*weights);
-        if (gradients) sources.gradients = span_of(*gradients);
+        const std::vector<Vec3> at = vector_of(directions);
+        const std::vector<double> w = weights ? vector_of(*weights) : std::vector<double>();
+        const std::vector<Vec3> g = gradients ? vector_of(*gradients) : std::vector<Vec3>();
+        std::vector<std::array<double, 6>> h;
         if (hessians) {
-          sources.hessians = {reinterpret_cast<const std::array<double, 6>*>(hessians->data()),
-                              hessians->shape(0)};
+          const auto* first = reinterpret_cast<const std::array<double, 6>*>(hessians->data());
+          h.assign(first, first + hessians->shape(0));
         }
+        ScatteredSources sources{.directions = at};
+        if (weights) sources.weights = w;
+        if (gradients) sources.gradients = g;
+        if (hessians) sources.hessians = h;
         Coefficients sum(degree);
         caller.run([&](const Context& context) { add_adjoint(sources, sum, options, context); });
         return sum;
@@ -93,15 +98,15 @@ void bind_grids(nb::module_& m) {
   m.def("analyze_grid", [](const Doubles& values, const std::string& kind, int n_theta, int n_phi,
                            int degree, const Caller& caller) {
     const Grid grid{parse_grid_kind(kind), n_theta, n_phi};
-    return caller.run([&](const Context& context) {
-      return analyze_grid(span_of(values), grid, degree, context);
-    });
+    const std::vector<double> own = vector_of(values);
+    return caller.run(
+        [&](const Context& context) { return analyze_grid(own, grid, degree, context); });
   });
   m.def("evaluate_rings",
         [](const Coefficients& c, const Doubles& colatitudes, int n_phi, const Caller& caller) {
-          return array_of(caller.run([&](const Context& context) {
-            return evaluate_rings(c, span_of(colatitudes), n_phi, context);
-          }));
+          const std::vector<double> rings = vector_of(colatitudes);
+          return array_of(caller.run(
+              [&](const Context& context) { return evaluate_rings(c, rings, n_phi, context); }));
         });
 }
 

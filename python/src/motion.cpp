@@ -43,14 +43,23 @@ AlignCenters parse_centers(const std::string& name) {
               "no choice of centres is called '" + name + "'; there are volume and own");
 }
 
+// An argument as a number: in the words of the functions that are written in Python.
+double number_of(const char* name, nb::handle value) {
+  return nb::cast<double>(nb::module_::import_("rholm._arguments")
+                              .attr("number")(value, std::string("Rotation(): ") + name));
+}
+
 void bind_rotations(nb::module_& m) {
   Record<Rotation> rotation(m, "Rotation", "A unit quaternion; the same rotation as its negative.");
   rotation.type().def(
       "__init__",
-      [](Rotation* self, double w, double x, double y, double z) {
-        new (self) Rotation{w, x, y, z};
+      [](Rotation* self, nb::handle w, nb::handle x, nb::handle y, nb::handle z) {
+        new (self)
+            Rotation{number_of("w", w), number_of("x", x), number_of("y", y), number_of("z", z)};
       },
-      nb::arg("w") = 1.0, nb::arg("x") = 0.0, nb::arg("y") = 0.0, nb::arg("z") = 0.0);
+      nb::arg("w") = 1.0, nb::arg("x") = 0.0, nb::arg("y") = 0.0, nb::arg("z") = 0.0,
+      nb::sig("def __init__(self, w: float = 1.0, x: float = 0.0, y: float = 0.0, "
+              "z: float = 0.0) -> None"));
   rotation.field("w", &Rotation::w, "cos(a/2), a the angle.")
       .field("x", &Rotation::x, "sin(a/2) times the axis.")
       .field("y", &Rotation::y, "sin(a/2) times the axis.")
@@ -105,18 +114,20 @@ void bind_alignment(nb::module_& m) {
       .property(
           "axes",
           [](const PrincipalAxes& p) {
-            return array_of(std::vector<Vec3>(p.axes.begin(), p.axes.end()));
+            return read_only(std::vector<Vec3>(p.axes.begin(), p.axes.end()));
           },
           "Rows: right-handed, orthonormal, longest first, (3, 3).")
       .property(
           "values",
           [](const PrincipalAxes& p) {
-            return array_of(std::vector<double>(p.values.begin(), p.values.end()));
+            return read_only(std::vector<double>(p.values.begin(), p.values.end()));
           },
           "Of the form, descending, (3,); their sum is 0.")
       .field("to_axes", &PrincipalAxes::to_axes, "Turns the axes to x, y and z.")
       .field("free_axes", &PrincipalAxes::free_axes,
-             "About these the form turns freely: none, one or three, (n, 3).");
+             "About these the form turns freely: none, one or three, (n, 3).")
+      .hidden("axes", [](PrincipalAxes& p) -> std::array<Vec3, 3>& { return p.axes; })
+      .hidden("values", [](PrincipalAxes& p) -> std::array<double, 3>& { return p.values; });
   m.def("principal_axes", [](const Coefficients& c, const std::string& function) {
     return principal_axes(c, parse_radial_function(function));
   });

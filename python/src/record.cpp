@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "rholm/error.h"
+
 namespace rholm::python {
 namespace {
 
@@ -17,6 +19,22 @@ std::vector<std::string> fields_of(nb::handle type) {
   return names;
 }
 
+// Chosen: what a terminal shows in two lines of 80.
+constexpr std::size_t kLongestText = 160, kLongestValue = 48;
+
+// A value in few letters: six digits of numbers, of records their names, of long values their kind.
+std::string short_text(const nb::object& value) {
+  if (nb::hasattr(value, "to_dict")) {
+    return nb::cast<std::string>(value.type().attr("__name__")) + "(...)";
+  }
+  const std::string text = nb::isinstance<nb::float_>(value)
+                               ? nb::cast<std::string>(value.attr("__format__")(".6g"))
+                               : nb::cast<std::string>(nb::repr(value));
+  if (text.size() <= kLongestValue && text.find('\n') == std::string::npos) return text;
+  return "<" + nb::cast<std::string>(value.type().attr("__name__")) + " of " +
+         std::to_string(nb::len(value)) + ">";
+}
+
 }  // namespace
 
 nb::dict dict_of(const StageTimes& times) {
@@ -27,13 +45,27 @@ nb::dict dict_of(const StageTimes& times) {
   return result;
 }
 
+StageTimes times_of(const nb::dict& times) {
+  StageTimes result;
+  for (const auto [stage, time] : times) {
+    const auto [wall, cpu] = nb::cast<std::pair<double, double>>(time);
+    result[nb::cast<std::string>(stage)] = {wall, cpu};
+  }
+  return result;
+}
+
 nb::str record_text(nb::handle record) {
   std::string text = nb::cast<std::string>(record.type().attr("__name__")) + "(";
   bool first = true;
   for (const std::string& name : fields_of(record.type())) {
-    if (!first) text += ", ";
+    const std::string next =
+        (first ? "" : ", ") + name + "=" + short_text(record.attr(name.c_str()));
+    if (text.size() + next.size() > kLongestText) {
+      text += ", ...";
+      break;
+    }
+    text += next;
     first = false;
-    text += name + "=" + nb::cast<std::string>(nb::repr(record.attr(name.c_str())));
   }
   return nb::str((text + ")").c_str());
 }
@@ -53,7 +85,18 @@ void set_fields(nb::handle record, const nb::kwargs& fields) {
     if (!nb::hasattr(record, name)) {
       throw nb::type_error(("no option '" + nb::cast<std::string>(name) + "'").c_str());
     }
-    if (!value.is_none()) nb::setattr(record, name, value);
+    if (value.is_none()) continue;
+    try {
+      nb::setattr(record, name, value);
+    } catch (const nb::python_error& error) {
+      if (!error.matches(PyExc_TypeError)) throw;  // the library's own words
+      const std::string text =
+          nb::cast<std::string>(name) + " is " + nb::cast<std::string>(nb::repr(value));
+      if (nb::isinstance<nb::int_>(value)) {
+        throw Error(ErrorCode::kInvalidInput, text + ", which is out of range");
+      }
+      throw nb::type_error((text + ", which is of the wrong type").c_str());
+    }
   }
 }
 

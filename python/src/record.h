@@ -1,5 +1,5 @@
-// Structs of the library as classes of Python: results that are read, options that are set.
-// Layer: python.
+// Structs of the library as classes of Python: results that are read, copied, pickled and compared,
+// options that are set. Layer: python.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -7,9 +7,14 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "casters.h"
@@ -19,12 +24,79 @@ namespace rholm::python {
 
 // Times as {"stage": (wall, cpu)}.
 nb::dict dict_of(const StageTimes& times);
-// "Name(field=value, ...)" of all properties of an object.
+StageTimes times_of(const nb::dict& times);
+// "Name(field=value, ...)" of the properties of an object, cut off after a line: records within it
+// and long values are abbreviated.
 nb::str record_text(nb::handle record);
 // {"field": value, ...}, records in records too.
 nb::dict record_dict(nb::handle record);
 // Sets what the keywords say; None leaves the default. TypeError for a name that is no field.
 void set_fields(nb::handle record, const nb::kwargs& fields);
+
+// A member as a plain value of Python, which can be compared and pickled: no arrays.
+template <class V>
+nb::object state_of(const V& value) {
+  if constexpr (std::is_same_v<V, StageTimes>) {
+    return dict_of(value);
+  } else if constexpr (std::is_enum_v<V>) {
+    return nb::int_(static_cast<int>(value));
+  } else if constexpr (std::is_same_v<V, Vec3>) {
+    return nb::make_tuple(value.x, value.y, value.z);
+  } else if constexpr (std::is_same_v<V, std::vector<Vec3>> ||
+                       std::is_same_v<V, std::array<Vec3, 3>>) {
+    nb::list rows;
+    for (const Vec3& row : value) rows.append(state_of(row));
+    return rows;
+  } else {
+    return nb::cast(value);
+  }
+}
+template <class V>
+V value_of(nb::handle state) {
+  if constexpr (std::is_same_v<V, StageTimes>) {
+    return times_of(nb::cast<nb::dict>(state));
+  } else if constexpr (std::is_enum_v<V>) {
+    return static_cast<V>(nb::cast<int>(state));
+  } else {
+    return nb::cast<V>(state);
+  }
+}
+
+// The members of a struct by name, as they are pickled.
+template <class T>
+class Members {
+ public:
+  // `at` gives a reference to the member of a T&.
+  template <class F>
+  void add(const char* name, F at) {
+    using V = std::remove_reference_t<decltype(at(std::declval<T&>()))>;
+    members_.push_back({name, [at](T& t) { return state_of<V>(at(t)); },
+                        [at](T& t, nb::handle state) { at(t) = value_of<V>(state); }});
+  }
+  nb::dict get(T& t) const {
+    nb::dict state;
+    for (const Member& member : members_) state[member.name] = member.get(t);
+    return state;
+  }
+  void set(T& t, const nb::dict& state) const {
+    for (const Member& member : members_) member.set(t, state[member.name]);
+  }
+
+ private:
+  struct Member {
+    const char* name;
+    std::function<nb::object(T&)> get;
+    std::function<void(T&, nb::handle)> set;
+  };
+  std::vector<Member> members_;
+};
+
+// Copies, pickles and equality of a class from get(T&), a value of Python, and make(state), a T.
+template <class T, class Get, class Make>
+void bind_state(nb::class_<T>& type, Get get, Make make) {
+  type.def("__getstate__", [get](T& t) { return get(t); });
+  type.def("__setstate__", [make](T& t, nb::object state) { new (&t) T(make(std::move(state))); });
+}
 
 // A result: its fields can be read.
 template <class T>
@@ -32,6 +104,25 @@ class Record {
  public:
   Record(nb::module_& m, const char* name, const char* doc) : class_(m, name, doc) {
     class_.def("__repr__", [](nb::handle self) { return record_text(self); });
+    const std::shared_ptr<Members<T>> members = members_;
+    bind_state(
+        class_, [members](T& t) { return members->get(t); },
+        [members](const nb::object& state) {
+          T t{};
+          members->set(t, nb::cast<nb::dict>(state));
+          return t;
+        });
+    class_.def(
+        "__eq__",
+        [members](T& self, nb::handle other) -> nb::object {
+          T* as_same = nullptr;
+          if (other.is_none() || !nb::try_cast(other, as_same))
+            return nb::borrow(Py_NotImplemented);
+          return nb::bool_(members->get(self).equal(members->get(*as_same)));
+        },
+        nb::sig("def __eq__(self, arg: object, /) -> bool"));
+    class_.def("__hash__",
+               [](const T&) -> std::size_t { throw nb::type_error("a record has no hash"); });
     class_.def(
         "to_dict", [](nb::handle self) { return record_dict(self); },
         "All fields by name; records within it are dicts, too.");
@@ -39,23 +130,31 @@ class Record {
 
   template <class V>
   Record& field(const char* name, V T::*member, const char* doc) {
+    hidden(name, [member](T& t) -> V& { return t.*member; });
     if constexpr (std::is_same_v<V, StageTimes>) {
       class_.def_prop_ro(
           name, [member](const T& t) { return dict_of(t.*member); }, doc);
     } else if constexpr (std::is_same_v<V, std::vector<double>> ||
                          std::is_same_v<V, std::vector<Vec3>>) {
       class_.def_prop_ro(
-          name, [member](const T& t) { return array_of(V(t.*member)); }, doc,
+          name, [member](const T& t) { return read_only(V(t.*member)); }, doc,
           nb::rv_policy::automatic);  // it owns its memory
     } else if constexpr (std::is_enum_v<V>) {
       class_.def_prop_ro(
           name, [member](const T& t) { return to_string(t.*member); }, doc);
     } else if constexpr (std::is_same_v<V, Vec3>) {
       class_.def_prop_ro(
-          name, [member](const T& t) { return t.*member; }, doc);
+          name, [member](const T& t) { return read_only(t.*member); }, doc,
+          nb::rv_policy::automatic);
     } else {
       class_.def_ro(name, member, doc);
     }
+    return *this;
+  }
+  // A member without a field of its own, which copies and pickles have all the same.
+  template <class F>
+  Record& hidden(const char* name, F at) {
+    members_->add(name, at);
     return *this;
   }
   template <class F>
@@ -67,6 +166,7 @@ class Record {
   nb::class_<T>& type() { return class_; }
 
  private:
+  std::shared_ptr<Members<T>> members_ = std::make_shared<Members<T>>();
   nb::class_<T> class_;
 };
 

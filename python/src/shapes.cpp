@@ -6,6 +6,7 @@
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
 #include <tuple>
 
 #include "bindings.h"
@@ -76,8 +77,36 @@ std::vector<Triangle> triangles_of(const Indices& triangles) {
   return {first, first + triangles.shape(0)};
 }
 
+NumpyIndices indices_of(const std::vector<Triangle>& triangles) {
+  const std::size_t n = triangles.size();
+  return array_of<std::uint32_t>(std::vector(triangles), {n, 3});
+}
+
+bool same(const std::vector<Attribute>& a, const std::vector<Attribute>& b) {
+  return std::equal(
+      a.begin(), a.end(), b.begin(), b.end(), [](const Attribute& x, const Attribute& y) {
+        return x.name == y.name && x.type == y.type &&
+               std::ranges::equal(x.values, y.values,
+                                  [](double u, double v) { return u == v || (u != u && v != v); });
+      });
+}
+
 void bind_mesh(nb::module_& m) {
-  nb::class_<Mesh>(m, "Mesh", "Triangles that share vertices.")
+  nb::class_<Mesh> mesh_class(m, "Mesh", "Triangles that share vertices.");
+  bind_state(
+      mesh_class,
+      [](const Mesh& mesh) {
+        return nb::make_tuple(array_of(std::vector(mesh.vertices)), indices_of(mesh.triangles),
+                              tuples_of(mesh.attributes));
+      },
+      [](const nb::object& state) {
+        const auto [vertices, triangles, attributes] =
+            nb::cast<std::tuple<Rows, Indices, std::vector<AttributeTuple>>>(state);
+        Mesh mesh{vector_of(vertices), triangles_of(triangles), attributes_of(attributes)};
+        validate(mesh);
+        return mesh;
+      });
+  mesh_class
       .def("__init__",
            [](Mesh* self, const Rows& vertices, const Indices& triangles,
               const std::vector<AttributeTuple>& attributes) {
@@ -87,15 +116,41 @@ void bind_mesh(nb::module_& m) {
       .def_prop_ro("vertices",
                    [](nb::handle self) {
                      const auto& v = nb::cast<const Mesh&>(self).vertices;
-                     return array_within<double>(self, v.data(), {v.size(), 3});
+                     return array_within<const double>(self, v.data(), {v.size(), 3});
                    })
       .def_prop_ro("triangles",
                    [](nb::handle self) {
                      const auto& t = nb::cast<const Mesh&>(self).triangles;
-                     return array_within<std::uint32_t>(self, t.data(), {t.size(), 3});
+                     return array_within<const std::uint32_t>(self, t.data(), {t.size(), 3});
                    })
       .def_prop_ro("attributes", [](const Mesh& mesh) { return tuples_of(mesh.attributes); });
-  nb::class_<PointCloud>(m, "PointCloud", "Points without faces.")
+  mesh_class.def(
+      "__eq__",
+      [](const Mesh& a, const Mesh& b) {
+        return a.vertices == b.vertices && a.triangles == b.triangles &&
+               same(a.attributes, b.attributes);
+      },
+      nb::is_operator(), nb::sig("def __eq__(self, arg: object, /) -> bool"));
+  nb::class_<PointCloud> cloud_class(m, "PointCloud", "Points without faces.");
+  bind_state(
+      cloud_class,
+      [](const PointCloud& cloud) {
+        return nb::make_tuple(array_of(std::vector(cloud.points)),
+                              array_of(std::vector(cloud.normals)), tuples_of(cloud.attributes));
+      },
+      [](const nb::object& state) {
+        const auto [points, normals, attributes] =
+            nb::cast<std::tuple<Rows, Rows, std::vector<AttributeTuple>>>(state);
+        return PointCloud{vector_of(points), vector_of(normals), attributes_of(attributes)};
+      });
+  cloud_class
+      .def(
+          "__eq__",
+          [](const PointCloud& a, const PointCloud& b) {
+            return a.points == b.points && a.normals == b.normals &&
+                   same(a.attributes, b.attributes);
+          },
+          nb::is_operator(), nb::sig("def __eq__(self, arg: object, /) -> bool"))
       .def(
           "__init__",
           [](PointCloud* self, const Rows& points, const std::optional<Rows>& normals,
@@ -108,13 +163,13 @@ void bind_mesh(nb::module_& m) {
       .def_prop_ro("points",
                    [](nb::handle self) {
                      const auto& p = nb::cast<const PointCloud&>(self).points;
-                     return array_within<double>(self, p.data(), {p.size(), 3});
+                     return array_within<const double>(self, p.data(), {p.size(), 3});
                    })
       .def_prop_ro("normals",
-                   [](nb::handle self) -> std::optional<NumpyDoubles> {
+                   [](nb::handle self) -> std::optional<ReadOnlyDoubles> {
                      const auto& n = nb::cast<const PointCloud&>(self).normals;
                      if (n.empty()) return std::nullopt;
-                     return array_within<double>(self, n.data(), {n.size(), 3});
+                     return array_within<const double>(self, n.data(), {n.size(), 3});
                    })
       .def_prop_ro("attributes",
                    [](const PointCloud& cloud) { return tuples_of(cloud.attributes); });
@@ -150,8 +205,8 @@ void bind_files(nb::module_& m) {
   });
   m.def("points_of_rows", [](const Doubles& values, std::size_t width, const std::string& columns) {
     TableColumns table;
-    PointCloud cloud =
-        unlocked([&] { return points_of_rows(span_of(values), width, columns, &table); });
+    const std::vector<double> own = vector_of(values);
+    PointCloud cloud = unlocked([&] { return points_of_rows(own, width, columns, &table); });
     return nb::make_tuple(std::move(cloud), columns_of(table), table.note, table.unsure);
   });
   const auto options = [](const std::optional<std::string>& format, bool ascii) {

@@ -10,6 +10,8 @@
 #include "casters.h"
 #include "record.h"
 #include "rholm/mesh_view.h"
+#include "rholm/outward.h"
+#include "rholm/polygon.h"
 #include "rholm/primitives.h"
 #include "rholm/repair.h"
 #include "rholm/simplify.h"
@@ -17,6 +19,9 @@
 
 namespace rholm::python {
 namespace {
+
+// The corners of polygons of one size, a row each; indices are below the number of points.
+using Polygons = nb::ndarray<const std::uint32_t, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 
 void bind_records(nb::module_& m) {
   Record<Bounds>(m, "Bounds", "A box along the axes.")
@@ -98,8 +103,20 @@ void bind_edges(nb::module_& m) {
     const std::size_t n = edges.size();
     return array_of<std::uint32_t>(std::move(edges), {n, 4});
   });
+  m.def("cut_polygons", [](const Rows& points, const Polygons& polygons) {
+    const std::vector<Vec3> vertices = vector_of(points);
+    const std::size_t corners = polygons.shape(1);
+    std::vector<Triangle> triangles;
+    for (std::size_t i = 0; i < polygons.shape(0); ++i) {
+      triangulate_polygon(vertices, {polygons.data() + i * corners, corners}, triangles);
+    }
+    const std::size_t n = triangles.size();
+    return array_of<std::uint32_t>(std::move(triangles), {n, 3});
+  });
   m.def("bounds", [](const Rows& points) { return bounds(vector_of(points)); });
   m.def("inspect", unlocked_function(&inspect));
+  m.def("outward",
+        [](const Mesh& mesh) { return unlocked([&] { return outward(mesh).welded.mesh; }); });
   m.def("closing_tolerance", unlocked_function(&closing_tolerance));
   m.def("largest_component", unlocked_function(&largest_component));
   m.def("flip", [](Mesh mesh) {

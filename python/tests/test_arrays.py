@@ -113,6 +113,47 @@ def test_what_is_no_array_is_refused(shape):
         rholm.expand(shape, 4)
 
 
+def test_what_is_masked_is_not_known(bumpy, ring):
+    points = np.array(rholm.sample_surface(ring, 4000).points)
+    bad = np.arange(len(points)) % 10 == 0
+    beneath = points.copy()
+    beneath[bad] *= 0.7
+    expected = rholm.reconstruct(points[~bad])
+    one = np.zeros(points.shape, bool)
+    one[bad, 1] = True  # a number is enough
+    masks = [np.repeat(bad[:, None], 3, axis=1), one]
+    for mask in masks:
+        masked = np.ma.masked_array(beneath, mask=mask)
+        unknown = np.where(mask, np.nan, beneath)
+        for rows in (masked, unknown, list(masked), np.ma.masked_array(beneath.astype("f4"), mask=mask)):
+            found = rholm.reconstruct(rows)
+            assert found.report.dropped_points == bad.sum()
+            assert len(rholm.clean(rows).cloud) == len(points) - bad.sum()
+        assert rholm.reconstruct(masked).mesh == expected.mesh
+    assert np.array_equal(
+        rholm.as_points(np.ma.masked_array(points, mask=False)).points, points
+    )  # nothing is masked
+    mask = np.zeros(bumpy.vertices.shape, bool)
+    mask[5, 1] = True
+    for shape in (
+        (np.ma.masked_array(bumpy.vertices, mask=mask), bumpy.triangles),
+        (bumpy.vertices, np.ma.masked_array(bumpy.triangles, mask=bumpy.triangles == 7)),
+    ):
+        with pytest.raises(rholm.InvalidInputError, match=r"not a finite number|masked"):
+            rholm.expand(shape, 4)
+        with pytest.raises(rholm.InvalidInputError, match=r"not a finite number|masked"):
+            rholm.Mesh(*shape)
+    coeffs = rholm.expand(bumpy, 4).to_array()
+    with pytest.raises(rholm.InvalidInputError, match="not finite"):
+        rholm.from_array(np.ma.masked_array(coeffs, mask=coeffs == coeffs[0, 2, 1]))
+    with pytest.raises(rholm.InvalidInputError):
+        rholm.expand(bumpy, 4)(np.ma.masked_array([[0, 0, 1.0]], mask=[[0, 0, 1]]))
+    ids = np.ma.masked_array(np.arange(len(bumpy.vertices)), mask=mask[:, 1])
+    q = bumpy.with_attributes(id=ids).attributes["id"]
+    assert np.isnan(q[5])
+    assert q[6] == 6
+
+
 def test_attributes_keep_their_types(tmp_path, bumpy):
     n = len(bumpy.vertices)
     given = {

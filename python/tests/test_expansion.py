@@ -324,13 +324,99 @@ def test_encode_and_reports(bumpy, tmp_path):
     assert repr(s).startswith("<rholm.Expansion: radius to degree 6")
 
 
+def lower(n):
+    """Ones where there are coefficients."""
+    ones = np.stack([np.tri(n), np.tri(n)])
+    ones[1, :, 0] = 0
+    return ones
+
+
+def test_expansions_about_one_centre_can_be_added(bumpy, random):
+    s = rholm.expand(bumpy, 8, center=(0.01, 0, 0), length_unit="km")
+    t = rholm.expand(rholm.ellipsoid((1, 1.1, 1.2), 3), 5, center=(0.01, 0, 0), length_unit="km")
+    u = random.normal(size=(40, 3))
+    for made, expected in (
+        (s + t, s(u) + t(u)),
+        (s - t, s(u) - t(u)),
+        (2 * s, 2 * s(u)),
+        (s * np.float32(0.5), 0.5 * s(u)),
+        (np.float64(2) * s, 2 * s(u)),
+        (s / 4, s(u) / 4),
+        (-s, -s(u)),
+        ((s + t) / 2, (s(u) + t(u)) / 2),
+        (s + 0.25 * (t - s), 0.75 * s(u) + 0.25 * t(u)),
+    ):
+        assert np.allclose(made(u), expected, atol=1e-13)
+        assert made.unit == "km"
+        assert np.array_equal(made.center, s.center)
+        assert made.errors is None
+    assert ((s + t) / 2).function == "radius"
+    assert (s + 0.25 * (t - s)).function == "radius"
+    assert (s + t).degree == 8
+    for no_surface in (s - t, -s, 0 * s):  # their radius may be negative
+        assert no_surface.function == "other"
+        with pytest.raises(rholm.UnsupportedError):
+            no_surface.volume  # noqa: B018
+    gauge = rholm.expand(bumpy, 4, method="gauge")
+    for wrong, said in (
+        (lambda: s + rholm.expand(bumpy, 4, length_unit="km"), "about other centres"),
+        (lambda: s + t.with_unit("m"), "in km and one in m"),
+        (lambda: gauge + gauge, "gauge"),
+        (lambda: 2 * gauge, "not linear in the radius"),
+    ):
+        with pytest.raises((rholm.InvalidInputError, rholm.UnsupportedError), match=said):
+            wrong()
+    for wrong in (lambda: s + 1, lambda: s * t, lambda: s * "2", lambda: s * np.ones(3), lambda: s * 1j):
+        with pytest.raises(TypeError):
+            wrong()
+    with pytest.raises(ZeroDivisionError):
+        s / 0
+
+
+def test_truncation_cuts_off_and_never_pads(bumpy):
+    s = rholm.expand(bumpy, 12)
+    for degree in (0, 5, 11):
+        assert s.truncate(degree).degree == degree
+        assert np.array_equal(s.truncate(degree).coeffs, s.coeffs[:, : degree + 1, : degree + 1])
+    for degree in (12, 13, 500):
+        assert s.truncate(degree) == s
+        assert s.truncate(degree).errors == s.errors
+    with pytest.raises(rholm.InvalidInputError):
+        s.truncate(-1)
+
+
+def test_errors_that_follow_are_those_of_the_shape(bumpy):
+    s = rholm.expand(bumpy, 12, precision=1e-12)
+    for degree in (0, 3, 8):
+        measured = rholm.truncation_errors(bumpy, s.truncate(degree), precision=1e-12)
+        assert s.truncate(degree).errors.rms == pytest.approx(measured.rms, rel=1e-7)
+        assert s.truncate(degree).errors.diagonal == s.errors.diagonal
+    # By rays of the shape itself: what a filter takes away is an error of the radius, too.
+    soft = s.low_pass(8)
+    u = rholm.icosphere(5).vertices
+    fine = rholm.expand(bumpy, 200, errors=False)
+    seen = np.sqrt(np.mean((soft(u) - fine(u)) ** 2))
+    assert soft.errors.rms == pytest.approx(seen, rel=1e-2)
+    assert soft.errors.measured_max is None
+    moved = s.recenter((0.01, 0, 0)).errors
+    assert moved.rms is None
+    assert moved.diagonal == s.errors.diagonal
+    assert s.recenter(s.center).errors == s.errors
+
+
 def test_what_an_expansion_is_not():
-    field = rholm.from_array(np.ones((2, 3, 3)), function="other")
+    field = rholm.from_array(lower(3), function="other")
     with pytest.raises(rholm.UnsupportedError):
         field.mesh()
     with pytest.raises(rholm.UnsupportedError):
         rholm.require_surface(field)
     assert "function" in field._repr_html_()
+    order, sine = lower(3), lower(3)
+    order[0, 1, 2] = 1e-300
+    sine[1, 2, 0] = 1
+    for array, said in ((order, r"\[0, 1, 2\] has an order m above"), (sine, r"\[1, 2, 0\] is of sin\(0\)")):
+        with pytest.raises(rholm.InvalidInputError, match=said):
+            rholm.from_array(array)
     for wrong in (np.ones((2, 3, 4)), np.ones((3, 3)), np.full((2, 2, 2), np.nan), np.zeros((2, 0, 0))):
         with pytest.raises(rholm.InvalidInputError):
             rholm.from_array(wrong)
@@ -339,7 +425,7 @@ def test_what_an_expansion_is_not():
     with pytest.raises(TypeError):
         rholm.as_rotation(np.eye(3, dtype=complex))
     with pytest.raises(rholm.InvalidInputError):
-        rholm.from_array(np.ones((2, 2, 2)), normalization="quantum")
+        rholm.from_array(lower(2), normalization="quantum")
     with pytest.raises(rholm.InvalidInputError):
         field([0, 0, 0])
 

@@ -87,6 +87,98 @@ def test_meshio(bumpy, tmp_path):
         rholm.as_mesh(meshio.Mesh(bumpy.vertices, [("line", [[0, 1]])]))
 
 
+def test_polygons_of_meshio_are_cut_into_triangles():
+    meshio = pytest.importorskip("meshio")
+    for n in (3, 4, 5, 6, 9):
+        angle = 2 * np.pi * np.arange(n) / n
+        ring = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+        points = np.concatenate([np.c_[ring, np.zeros(n)], np.c_[ring, np.ones(n)]])
+        sides = [[i, (i + 1) % n, (i + 1) % n + n, i + n] for i in range(n)]
+        ends = [np.arange(n)[::-1], np.arange(n) + n]
+        for name in {{3: "triangle", 4: "quad"}.get(n, "polygon"), "polygon"}:
+            prism = rholm.as_mesh(meshio.Mesh(points, [(name, ends), ("quad", sides)]))
+            assert rholm.inspect(prism).closed
+            assert prism.volume == pytest.approx(n / 2 * np.sin(2 * np.pi / n), rel=1e-12)
+    # A polygon that is not convex is cut as those of files are: within it.
+    star = [[0, 0, 0], [4, 0, 0], [4, 4, 0], [2, 1, 0], [0, 4, 0]]
+    flat = rholm.as_mesh(meshio.Mesh(star, [("polygon", [[2, 3, 4, 0, 1]])]))
+    assert flat.area == pytest.approx(16 - 6, rel=1e-12)
+    for cells, said in (
+        ([("polygon", [[0, 1, 2, 3, 9]])], "names a point"),
+        ([("triangle6", [[0, 1, 2, 3, 4, 0]])], "triangle6"),
+        ([("triangle", [[0, 1, 2]]), ("quad8", [[0, 1, 2, 3, 4, 0, 1, 2]])], "quad8"),
+        ([("tetra", [[0, 1, 2, 3]])], "no polygons; its cells: tetra"),
+    ):
+        with pytest.raises(rholm.InvalidInputError, match=said):
+            rholm.as_mesh(meshio.Mesh(star, cells))
+
+
+def kinds_of_mesh(mesh, tmp_path):
+    """A mesh as everything that stands for one."""
+    arrays = np.array(mesh.vertices), np.array(mesh.triangles)
+    mesh.save(tmp_path / "m.ply")
+    kinds = [mesh, arrays, list(arrays), (arrays[0].tolist(), arrays[1].tolist()), rholm.weld(mesh)]
+    kinds += [tmp_path / "m.ply", str(tmp_path / "m.ply"), rholm.read_shape(tmp_path / "m.ply")]
+    for package, to in (("trimesh", "to_trimesh"), ("pyvista", "to_pyvista"), ("meshio", "to_meshio")):
+        if importlib.util.find_spec(package):
+            kinds.append(getattr(mesh, to)())
+    return kinds
+
+
+def test_every_function_takes_every_kind_of_mesh_and_mends_it(tmp_path):
+    body = rholm.bumpy_sphere(2, 0.2, seed=5)
+    inside_out = rholm.flip(body)
+    corners = inside_out.triangles.ravel()
+    soup = rholm.Mesh(inside_out.vertices[corners], np.arange(len(corners)).reshape(-1, 3))
+    quick = [
+        lambda m: rholm.expand(m, 6).volume,
+        lambda m: rholm.encode(m, degree=6, errors=False).analysis.expansion.coefficients.degree,
+        lambda m: rholm.find_center(m, rays=100).star_shaped,
+        lambda m: rholm.check_star(m, (0, 0, 0), rays=100).star_shaped,
+        lambda m: rholm.make_star_chart(m, rays=100).report.star_shaped,
+        lambda m: rholm.vertex_error_strengths(m, (0, 0, 0)).radius > 0,
+        lambda m: round(rholm.truncation_errors(m, rholm.from_array([[[1.0]], [[0.0]]])).rms, 12),
+        lambda m: rholm.as_points(m).normals.shape,
+        lambda m: rholm.validate(m),
+        lambda m: rholm.vertex_colors(m),
+        lambda m: rholm.attributes_left_out(m, "stl"),
+        lambda m: rholm.write_shape(m, tmp_path / "w.off"),
+        lambda m: rholm.repair(m).mesh.volume,
+        lambda m: rholm.inspect(m).triangles,
+        lambda m: len(rholm.sample_surface(m, 50)),
+        lambda m: rholm.compare(m, body, samples=50).hausdorff < 1e-6,
+    ]
+    slow = [
+        lambda m: rholm.render(m, (16, 16)).shape,  # a list is several shapes there
+        lambda m: rholm.compress(m, 0.1, samples=1000, max_numbers=10**6).mesh().volume > 0,
+        lambda m: rholm.patch_atlas(m, 2).mesh.volume > 0,
+        lambda m: rholm.patch_picture(m).area > 0,
+        lambda m: rholm.reconstruct(m).mesh.volume > 0,
+        lambda m: rholm.orient(m).report.points,
+        lambda m: len(rholm.view_data(rholm.expand(m, 4), shape=m)) > 0,
+    ]
+    kinds = kinds_of_mesh(soup, tmp_path)
+    for function, some in [*((f, kinds) for f in quick), *((f, kinds[:2]) for f in slow)]:
+        expected = function(kinds[0])
+        assert expected is not False
+        for kind in some[1:]:
+            if isinstance(kind, tuple) and hasattr(kind, "merged_vertices"):
+                function(kind)  # of weld(): it has fewer vertices
+            else:
+                assert repr(function(kind)) == repr(expected), type(kind)
+
+
+def test_pairs_of_arrays_are_meshes_or_points_by_their_numbers(ring):
+    cloud = rholm.sample_surface(ring, 2000)
+    points, normals = np.array(cloud.points), np.array(cloud.normals)
+    for pair in ((points, normals), [points, normals], (points.tolist(), normals.tolist())):
+        assert len(rholm.compress(pair, 0.1)) > 0
+        assert np.array_equal(rholm.as_points(pair).normals, normals)
+    two = [[0.0, 0, 0], [1, 0, 0]]  # a list of points, not a pair
+    assert len(rholm.as_points(two)) == 2
+    assert len(rholm.as_points(np.array(two))) == 2
+
+
 def test_xarray(bumpy):
     pytest.importorskip("xarray")
     s = rholm.expand(bumpy, 6, length_unit="km")
@@ -106,6 +198,7 @@ def test_matplotlib(bumpy):
     assert s.plot_spectrum(ax=ax, label="body") is ax
     assert len(ax.lines) == 2  # with the predicted tail
     assert np.array_equal(ax.lines[0].get_ydata(), s.spectrum("energy")[1:])
+    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["body", "predicted tail"]
     plt.close("all")
 
 

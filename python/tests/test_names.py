@@ -22,6 +22,12 @@ FUNCTION = re.compile(
 )
 #: What stands for functions that have no face of their name, and why.
 ELSEWHERE = {
+    "triangulate_polygon": "as_mesh",  # of polygons of meshio
+    "outward": "expand",  # and every other function that needs it
+    "truncated": "Expansion.truncate",
+    "write_gravity_field": "Expansion.save",
+    "read_gravity_field": "read_coefficients",
+    "gravity_field_of": "parse_coefficients",
     "add_adjoint": "adjoint",  # returns the sums
     "batch_columns": "BatchTable.columns",
     "column_before": "BatchTable.columns",  # are in that order

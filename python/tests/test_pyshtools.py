@@ -91,3 +91,37 @@ def test_arrays_are_taken_in_the_default_convention(body):
     assert np.allclose(rholm.power_spectrum(clm, "power", "per_lm"), clm.spectrum(unit="per_lm"), rtol=1e-12)
     assert np.allclose(rholm.evaluate(clm, [0, 0, 1]), body([0, 0, 1]), rtol=1e-13)
     assert rholm.distance(clm, body) <= LIMIT
+
+
+def test_a_gravity_field_is_read_as_one(tmp_path, random):
+    values = np.stack([np.tri(6), np.tri(6)]) * random.normal(size=(2, 6, 6))
+    values[1, :, 0] = 0
+    values[0, 0, 0] = 1
+    field = rholm.from_array(values, function="other")
+    gm, r0 = 4.9028001781577922e12, 1738000.25
+    path = tmp_path / "moon.gfc"
+    field.save(path, gravity_constant=gm, reference_radius=r0)
+    clm = pysh.SHGravCoeffs.from_file(str(path), format="icgem")
+    assert clm.gm == gm
+    assert clm.r0 == r0
+    assert np.abs(clm.coeffs - values).max() <= LIMIT
+    back = rholm.read_coefficients(path)
+    assert (back.gravity_constant, back.reference_radius, back.product) == (gm, r0, "gravity_field")
+    assert back.expansion.function == "other"
+    assert np.abs(back.expansion.coeffs - values).max() <= LIMIT
+    clm.to_file(str(tmp_path / "theirs.gfc"), format="icgem")
+    theirs = rholm.read_coefficients(tmp_path / "theirs.gfc")
+    assert (theirs.gravity_constant, theirs.reference_radius) == (gm, r0)
+    for wrong in (
+        {"gravity_constant": gm},
+        {"gravity_constant": gm, "reference_radius": 0},
+        {"gravity_constant": np.nan, "reference_radius": r0},
+    ):
+        with pytest.raises(rholm.InvalidInputError):
+            field.save(path, **wrong)
+    both = {"gravity_constant": gm, "reference_radius": r0}
+    for name in ("moon.json", "moon.h5", "moon.npy"):
+        with pytest.raises(rholm.UnsupportedError):
+            field.save(tmp_path / name, **both)
+    with pytest.raises(rholm.InvalidInputError):
+        rholm.from_array(values).save(path, **both)

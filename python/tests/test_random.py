@@ -134,7 +134,11 @@ CLOUD = mostly(
     SEED.map(lambda k: rholm.sample_surface(rholm.torus(2, 0.8, 12, 8), 60 + 20 * k, seed=k + 1).points)
 )
 BODY = mostly(SEED.map(lambda k: rholm.expand(rholm.bumpy_sphere(1, 0.2, seed=k), 1 + k % 7)))
-COEFFICIENTS = mostly(SEED.map(lambda k: np.random.default_rng(k).normal(size=(2, 1 + k % 6, 1 + k % 6))))
+COEFFICIENTS = mostly(
+    SEED.map(lambda k: np.random.default_rng(k).normal(size=(2, 1 + k % 6, 1 + k % 6)))
+    .map(lambda c: np.tril(c))
+    .map(lambda c: np.stack([c[0], np.where(np.arange(len(c[1])) > 0, c[1], 0)]))
+)
 POINT = mostly(hnp.arrays("f8", (3,), elements=st.floats(-0.2, 0.2)))
 DEGREE = count(0, 12)
 THREADS = among(0, 1, 2)

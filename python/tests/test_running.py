@@ -177,3 +177,30 @@ sys.exit(os.waitstatus_to_exitcode(status))
 def test_a_child_of_fork_computes_the_same(threads):
     done = subprocess.run([sys.executable, "-W", "ignore", "-c", FORK, threads], timeout=1000, check=False)
     assert done.returncode == 0
+
+
+def test_the_bar_is_full_when_the_work_is_done(monkeypatch, bumpy):
+    import tqdm.auto
+
+    bars = []
+
+    class Bar:
+        def __init__(self, total, **options):
+            self.total, self.n = total, 0.0
+            bars.append(self)
+
+        def set_description_str(self, *args, **options): ...
+        def update(self, n): ...
+        def close(self):
+            self.closed_at = self.n / self.total
+
+    monkeypatch.setattr(tqdm.auto, "tqdm", Bar)
+    with rholm._run.reporter(True) as tell:
+        tell("compare", 0.4)
+        tell("compare", 0.99)
+    with pytest.raises(rholm.InvalidInputError), rholm._run.reporter(True) as tell:
+        tell("compare", 0.5)
+        raise rholm.InvalidInputError("stopped")
+    assert [bar.closed_at for bar in bars] == [1.0, 0.5]
+    rholm.compare(slow(threads=1).mesh, rholm.torus(2, 0.7, 60, 30), progress=True)
+    assert all(bar.closed_at == 1.0 for bar in bars[2:])

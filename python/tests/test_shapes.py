@@ -59,9 +59,14 @@ def test_files_that_cannot_be_read_or_written(bumpy, tmp_path):
         rholm.read_shape(tmp_path / "none.ply")
     assert isinstance(refusal.value, OSError)
     s = rholm.expand(bumpy, 4)
-    for write in (bumpy.save, s.save, s.report_html, lambda p: rholm.render(bumpy, (64, 64), path=p)):
+    for write, name in (
+        (bumpy.save, "a.ply"),
+        (s.save, "a.h5"),
+        (s.report_html, "a.html"),
+        (lambda p: rholm.render(bumpy, (64, 64), path=p), "a.png"),
+    ):
         with pytest.raises(rholm.IoError):
-            write(tmp_path / "no" / "a.ply" if write == bumpy.save else tmp_path / "no" / "a.h5")
+            write(tmp_path / "no" / name)
     with pytest.raises(rholm.UnsupportedError):
         bumpy.save(tmp_path / "a.docx")
     assert list(tmp_path.iterdir()) == []

@@ -60,6 +60,16 @@ def test_a_widget_shows_the_data(script):
     assert widget._esm == script
 
 
+def test_several_are_shown_side_by_side(script):
+    pytest.importorskip("anywidget")
+    first, second = (rholm.expand(rholm.ellipsoid([3, 2, k], 2), 4) for k in (1, 2))
+    shown = rholm.view(first, second, rholm.icosphere(1))
+    assert [type(one).__name__ for one in shown.children] == ["View"] * 3
+    assert shown.children[1].data == rholm.view_data(second)
+    with pytest.raises(rholm.InvalidInputError):
+        rholm.view(first, second, title="both")
+
+
 def test_an_interactive_page_has_the_viewer_and_needs_nothing(script, tmp_path):
     expansion = rholm.expand(rholm.ellipsoid([3, 2, 1], 2), 4)
     page = expansion.report_html(tmp_path / "page.html", interactive=True, picture_size=16)

@@ -1,0 +1,301 @@
+"""Arguments of the public functions: checked by the types they are annotated with, so that what is
+wrong is said with the name of the argument, what it is and what it must be.
+"""
+
+from __future__ import annotations
+
+import difflib
+import functools
+import inspect
+import operator
+import os
+import sys
+import types
+import typing
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any, Literal, Union
+
+import numpy as np
+
+from ._errors import InvalidInputError
+
+Check = Callable[[Any, str], Any]
+
+_LONGEST = 60  # letters of a value that a message shows; chosen: the message stays on one line
+
+
+def _refusal(value: Any, name: str, wanted: str, kind: type[Exception] = TypeError) -> Exception:
+    shown = repr(value)
+    if len(shown) > _LONGEST or "\n" in shown:
+        shown = f"of the type {type(value).__name__}"
+    elif value is not None and not isinstance(value, (bool, int, float)):
+        shown = f"{shown} ({type(value).__name__})"
+    return kind(f"{name} is {shown}; it must be {wanted}")
+
+
+def _plain(value: Any) -> Any:
+    """The number in an array without dimensions."""
+    return value.item() if isinstance(value, np.ndarray) and value.ndim == 0 else value
+
+
+def whole(value: Any, name: str) -> int:
+    """A whole number; 8.0 is one, True is none."""
+    number = _plain(value)
+    if not isinstance(number, (bool, np.bool_, str, bytes)):
+        try:
+            return operator.index(number)
+        except TypeError:
+            pass
+        try:
+            if int(number) == number:
+                return int(number)
+        except (TypeError, ValueError, OverflowError):
+            pass
+    raise _refusal(value, name, "a whole number")
+
+
+def number(value: Any, name: str) -> float:
+    """A real number; True and texts are none."""
+    plain = _plain(value)
+    if not isinstance(plain, (bool, np.bool_, str, bytes, bytearray)):
+        try:
+            return float(plain)
+        except (TypeError, ValueError):
+            pass
+        except OverflowError:
+            raise _refusal(value, name, "a number below 1.8e308", InvalidInputError) from None
+    raise _refusal(value, name, "a number")
+
+
+def flag(value: Any, name: str) -> bool:
+    """True or False; 0 and 1 stand for them."""
+    plain = _plain(value)
+    if isinstance(plain, (bool, np.bool_)) or (isinstance(plain, (int, np.integer)) and plain in (0, 1)):
+        return bool(plain)
+    raise _refusal(value, name, "True or False")
+
+
+def text(value: Any, name: str) -> str:
+    """A text."""
+    if isinstance(value, str):
+        return value
+    raise _refusal(value, name, "a text")
+
+
+def path(value: Any, name: str) -> Any:
+    """A path, as it is; one of bytes becomes a text."""
+    if isinstance(value, bytes):
+        return os.fsdecode(value)
+    if isinstance(value, (str, os.PathLike)):
+        return value
+    raise _refusal(value, name, "a path")
+
+
+def octets(value: Any, name: str) -> bytes:
+    """Bytes."""
+    if isinstance(value, (bytes, bytearray, memoryview)):
+        return bytes(value)
+    raise _refusal(value, name, "bytes")
+
+
+def _choice(choices: tuple[Any, ...]) -> Check:
+    listed = ", ".join(map(repr, choices[:-1])) + (" or " if len(choices) > 1 else "") + repr(choices[-1])
+
+    def check(value: Any, name: str) -> Any:
+        if any(isinstance(value, type(choice)) and value == choice for choice in choices):
+            return value
+        near = difflib.get_close_matches(value, choices, 1) if isinstance(value, str) else []
+        meant = f"; did you mean {near[0]!r}?" if near else ""
+        kind = InvalidInputError if isinstance(value, str) else TypeError
+        raise _refusal(value, name, listed + meant, kind)
+
+    return check
+
+
+def _optional(check: Check) -> Check:
+    return lambda value, name: None if value is None else check(value, name)
+
+
+def _several(checks: tuple[Check, ...]) -> Check:
+    n = len(checks)
+
+    def check(value: Any, name: str) -> tuple[Any, ...]:
+        if isinstance(value, (str, bytes)) or not hasattr(value, "__len__") or len(value) != n:
+            raise _refusal(value, name, f"{n} values, ({', '.join(['...'] * n)})")
+        return tuple(one(v, f"{name}[{i}]") for i, (one, v) in enumerate(zip(checks, value, strict=True)))
+
+    return check
+
+
+def _list(check: Check) -> Check:
+    def checked(value: Any, name: str) -> list[Any]:
+        if isinstance(value, (str, bytes)) or not hasattr(value, "__iter__"):
+            raise _refusal(value, name, "a list")
+        return [check(v, f"{name}[{i}]") for i, v in enumerate(value)]
+
+    return checked
+
+
+def _instance(kinds: tuple[type, ...]) -> Check:
+    names = " or ".join(f"rholm.{kind.__name__}" for kind in kinds)
+
+    def check(value: Any, name: str) -> Any:
+        if isinstance(value, kinds):
+            return value
+        raise _refusal(value, name, f"a {names}")
+
+    return check
+
+
+_SIMPLE: dict[Any, Check] = {int: whole, float: number, bool: flag, str: text, bytes: octets}
+
+
+def _is_ours(kind: Any) -> bool:
+    # What makes expansions and atlases of other things has messages of its own.
+    converted = ("Expansion", "Atlas", "Mesh", "PointCloud", "StarChart", "Panel")
+    return inspect.isclass(kind) and kind.__module__.startswith("rholm.") and kind.__name__ not in converted
+
+
+def check_of(annotation: Any) -> Check | None:
+    """What checks an argument of this type; None for types that functions look at themselves."""
+    if annotation in (str | os.PathLike, Union[str, os.PathLike], os.PathLike):
+        return path
+    if isinstance(annotation, type) and annotation in _SIMPLE:
+        return _SIMPLE[annotation]
+    origin, parts = typing.get_origin(annotation), typing.get_args(annotation)
+    if origin is Literal:
+        return _choice(parts)
+    if origin in (Union, types.UnionType):
+        return _check_of_union(parts)
+    if origin is tuple and Ellipsis not in parts:
+        checks = tuple(check_of(part) for part in parts)
+        return None if None in checks else _several(typing.cast("tuple[Check, ...]", checks))
+    if origin is Sequence or annotation is Sequence:
+        check = check_of(parts[0])
+        return None if check is None else _list(check)
+    return _instance((annotation,)) if _is_ours(annotation) else None
+
+
+def _check_of_union(parts: tuple[Any, ...]) -> Check | None:
+    kinds = tuple(part for part in parts if part is not type(None))
+    plain = {typing.get_origin(kind) or kind for kind in kinds}
+    if plain == {str, os.PathLike}:
+        check: Check | None = path
+    elif all(_is_ours(kind) for kind in kinds):
+        check = _instance(kinds)
+    else:
+        check = check_of(kinds[0]) if len(kinds) == 1 else None
+    if check is None or len(kinds) == len(parts):
+        return check
+    return _optional(check)
+
+
+@functools.cache
+def _names() -> dict[str, Any]:
+    """What the modules of the package define: some import a type for type checkers only."""
+    modules = [m for name, m in sys.modules.items() if name.startswith(f"{__package__}._")]
+    return {name: value for module in modules for name, value in vars(module).items()}
+
+
+def _checks_of(function: Callable[..., Any]) -> tuple[list[tuple[str, Check | None]], dict[str, Check]]:
+    """For arguments by position and by name, what checks them."""
+    positional: list[tuple[str, Check | None]] = []
+    named: dict[str, Check] = {}
+    for parameter in inspect.signature(function).parameters.values():
+        if parameter.kind in (parameter.VAR_POSITIONAL, parameter.VAR_KEYWORD):
+            continue
+        annotation = parameter.annotation
+        try:
+            if isinstance(annotation, str):
+                annotation = eval(annotation, _names(), getattr(function, "__globals__", {}))
+            check = check_of(annotation)
+        except NameError:  # a type of another package, for type checkers
+            check = None
+        if check is not None and parameter.default is None:
+            check = _optional(check)
+        if parameter.kind is not parameter.KEYWORD_ONLY:
+            positional.append((parameter.name, check))
+        if check is not None:
+            named[parameter.name] = check
+    return positional, named
+
+
+def _out_of_range(values: dict[str, Any]) -> Iterator[str]:
+    for name, value in values.items():
+        if isinstance(value, int) and not 0 <= value < 2**31:
+            yield f"{name} is {value}"
+
+
+def checked(function: Callable[..., Any], setter_of: str = "") -> Callable[..., Any]:
+    """The function, with its arguments checked by their annotations.
+
+    Parameters
+    ----------
+    function : callable
+        Of the package.
+    setter_of : str
+        The name of the property that it sets, if it does.
+    """
+    checks: list[Any] = []
+    title = setter_of or f"{function.__qualname__.removesuffix('.__init__')}()"
+
+    @functools.wraps(function)
+    def call(*args: Any, **kwargs: Any) -> Any:
+        if not checks:  # made at the first call: importing the package stays fast
+            checks.extend(_checks_of(function))
+        positional, named = checks
+        taken = list(args)
+        for i, ((name, check), value) in enumerate(zip(positional, args, strict=False)):
+            if check is not None:
+                taken[i] = check(value, title if setter_of else f"{title}: {name}")
+        for name in kwargs:
+            if name in named:
+                kwargs[name] = named[name](kwargs[name], f"{title}: {name}")
+        try:
+            return function(*taken, **kwargs)
+        except TypeError as error:
+            if "incompatible function arguments" not in str(error):
+                raise
+            # The types are right by now; what the library cannot take are numbers out of its range.
+            values = dict(zip((name for name, _ in positional), taken, strict=False)) | kwargs
+            wrong = ", ".join(_out_of_range(values)) or "an argument is of the wrong type"
+            raise InvalidInputError(f"{title}: {wrong}, which is out of range") from None
+
+    return call
+
+
+def _checked_class(kind: type) -> None:
+    for name, member in list(vars(kind).items()):
+        if isinstance(member, types.FunctionType) and (
+            not name.startswith("_") or name in ("__init__", "__call__")
+        ):
+            setattr(kind, name, checked(member))
+        elif isinstance(member, property) and member.fset is not None and not name.startswith("_"):
+            setter = checked(member.fset, f"{kind.__name__}.{name}")
+            setattr(kind, name, property(member.fget, setter, member.fdel, member.__doc__))
+
+
+def check_all(package: str, names: list[str]) -> None:
+    """Has the arguments of all public functions of a package checked, and of methods of its classes.
+
+    Parameters
+    ----------
+    package : str
+        Its name: functions are exchanged in all of its modules, where they are defined and used.
+    names : list of str
+        Of what is public.
+    """
+    exchanged: dict[int, Any] = {}
+    kept: list[Any] = []  # an id is one object's as long as that is there
+    for name in names:
+        thing = getattr(sys.modules[package], name)
+        if isinstance(thing, types.FunctionType):
+            kept.append(thing)
+            exchanged[id(thing)] = checked(thing)
+        elif inspect.isclass(thing) and thing.__module__ not in (f"{package}._core", "builtins"):
+            _checked_class(thing)
+    for module_name, module in list(sys.modules.items()):
+        if module_name == package or module_name.startswith(f"{package}."):
+            for name, thing in list(vars(module).items()):
+                if id(thing) in exchanged:
+                    setattr(module, name, exchanged[id(thing)])
