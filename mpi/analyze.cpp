@@ -57,7 +57,7 @@ cli::Command analyze_command(Ranks* ranks) {
   command.examples = {
       "mpirun -n 16 rholm-mpi analyze huge.ply --degree 480 -o huge.h5",
       "srun rholm-mpi analyze huge.ply --tolerance 1e-3 --unit diagonal -o huge.h5"};
-  command.if_not_star = "--center auto, --signed";
+  command.if_not_star = "--center auto, or --atlas of 'rholm analyze'";
   return command;
 }
 

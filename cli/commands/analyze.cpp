@@ -145,8 +145,9 @@ int run(const Options& options, const AnalyzeBy& by, Session& session) {
   if (run.encoded.flipped) session.note(kFlipped);
   if (!run.encoded.star.star_shaped) {
     session.warn(
-        "the surface is not star-shaped: the coefficients are those of the alternating "
-        "sum of its radii, of which the exact norm is not one: no errors are given");
+        "the surface is not star-shaped: the coefficients are those of the signed sum of its "
+        "radii. They do not give back the body: its volume, area and errors do not follow from "
+        "them. --atlas makes a model that does");
   }
   const Stopwatch writing;
   write_coefficients_output(run.encoded.analysis.expansion, output, convention, session);
@@ -178,7 +179,8 @@ std::vector<Option> transform_options(Options& o) {
        .choices = {"fast", "direct"}},
       center_option(o.center),
       {.name = "signed",
-       .help = "accept a surface that is not star-shaped: the alternating sum of its radii",
+       .help = "accept a surface that is not star-shaped: the signed sum of its radii, to compare "
+               "such sums or as a descriptor; it does not give back the body, --atlas does",
        .target = &o.allow_signed},
       {.name = "precision",
        .value = "P",
@@ -292,8 +294,12 @@ Command analyze_command_by(const AnalyzeBy& by) {
           "of the edges.\n\nThe error of the surface is measured and predicted, and kept in the "
           "model. With --tolerance the smallest degree is found whose error is small "
           "enough.\n\nIdentical vertices are joined, a mesh that is inside out is "
-          "turned, and said. A mesh that is not star-shaped is refused with exit code 3, "
-          "unless --signed is given; --atlas takes any shape.\n\nThe model file keeps all there is "
+          "turned, and said. A mesh that is not star-shaped is refused with exit code 3: "
+          "--atlas makes a model of any shape. With --signed it is expanded nevertheless: along "
+          "each direction the radii at which the surface faces outwards count as they are, those "
+          "at which it faces inwards negative. The sum is what the integrals over the mesh give, "
+          "and says how alike two such surfaces are; volume, area and errors of the body do not "
+          "follow from it.\n\nThe model file keeps all there is "
           "to know; of the "
           "other formats the header says what it can, and the numbers are 4-pi normalised "
           "without Condon-Shortley phase unless told otherwise.",
@@ -304,7 +310,7 @@ Command analyze_command_by(const AnalyzeBy& by) {
                    "rholm analyze bumpy.ply --degree 8 --format shtools -o -",
                    "rholm analyze bumpy.ply --atlas --tolerance 1e-2 --unit diagonal -o caps.h5"},
       .run = [options, by](Session& session) { return run(*options, by, session); },
-      .if_not_star = "--center auto, --atlas, --signed",
+      .if_not_star = "--atlas, or --center auto",
       .per_shape = PerShape{.extension = "h5"}};
 }
 

@@ -120,7 +120,8 @@ def expand(
     rays : int
         Directions tried by the check for a star shape; 0 leaves them out.
     signed : bool
-        Whether a surface that is not star-shaped is taken: by the alternating sum of its radii.
+        Whether a surface that is not star-shaped is taken: by the signed sum of its radii, a
+        descriptor that does not give back the body. `compress` makes a model that does.
     errors : bool
         Whether truncation errors are measured and predicted.
     weld : float

@@ -221,12 +221,45 @@ class Analyze(CliTest):
     def test_not_star_shaped_is_refused_unless_signed(self):
         self.rholm("make", "torus", "--segments", "24x12", "-o", "t.ply")
         words = ["analyze", "t.ply", "--degree", "4", "-o", "t.h5"]
-        self.assertIn("star", self.rholm(*words, code=3).err)
+        refusal = self.rholm(*words, code=3).err
+        self.assertIn("star", refusal)
+        self.assertIn("--atlas", refusal)
+        self.assertNotIn("--signed", refusal)
         self.assertNotIn("t.h5", self.files())
         # The torus's best centre lies in the hole, off the surface.
         result = self.rholm(*words, "--signed", "--center", "none", "--json")
         self.assertFalse(result.json()["star_shaped"])
-        self.assertIn("alternating", result.err)
+        self.assertIn("signed sum", result.err)
+
+    # Faces of an ellipsoid leave less than what coefficients of the precision 1e-8 tell.
+    def test_truncation_error_below_the_precision_is_not_known(self):
+        self.rholm("make", "ellipsoid", "--axes", "3,2,1", "--subdivisions", "5", "-o", "e.ply")
+        for more, measured in (([], True), (["--no-errors"], False)):
+            report = self.rholm("analyze", "e.ply", "--degree", "40", *more, "-o", "e.h5", "--json")
+            self.assertIsNone(report.json()["truncation_rms"])
+            report = self.rholm("spectrum", "e.h5", "--tolerance", "1e-9", "--json").json()
+            rms = report["rms_beyond"]
+            self.assertIsNone(rms[40])
+            self.assertIsNone(report["tolerance_degree"])
+            self.assertIsNone(self.rholm("info", "e.h5", "--json").json()["truncation_rms"])
+            # Figures end where the bound begins.
+            self.assertTrue(all(x is None or x > 0.8 * report["rms_beyond_bound"] for x in rms))
+            self.assertTrue(all(x is not None for x in rms[:8]))
+            text = self.rholm("spectrum", "e.h5", "--tolerance", "1e-9").out
+            self.assertIn("not known", text.splitlines()[42])
+            self.assertIn("never within 1e-09, as measured" if measured
+                          else "whether any degree is within 1e-09 is not known", text)
+            within = self.rholm("spectrum", "e.h5", "--tolerance", "0.05").out
+            self.assertIn("within 0.05 from degree", within)
+            self.assertEqual("not known" in self.rholm("info", "e.h5").out, not measured)
+            self.rholm("spectrum", "e.h5", "--tolerance", "1e-9", "-o", "e.csv")
+            self.assertTrue((self.folder / "e.csv").read_text().endswith(",\n"))
+            self.rholm("spectrum", "e.h5", "--tolerance", "1e-9", "-o", "e.svg")
+            self.assertIn("known to degree", (self.folder / "e.svg").read_text())
+        self.rholm("convert", "e.h5", "e.npy")
+        text = self.rholm("spectrum", "e.npy", "--tolerance", "0.05").out
+        self.assertIn("not known: the file has no norm", text)
+        self.assertIn("of the file's own degrees", text)
 
     def test_threads_do_not_change_a_bit(self):
         self.rholm("make", "bumpy", "--subdivisions", "4", "-o", "m.ply")

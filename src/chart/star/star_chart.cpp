@@ -46,8 +46,8 @@ void refuse(const Mesh& mesh, const StarReport& report, bool allow_signed) {
   }
   throw Error(ErrorCode::kNotStarShaped,
               why + ": " + describe(report, shape.bounds.diagonal()) +
-                  (report.center_fell_back ? "; take" : "; let the centre be found, or take") +
-                  " an atlas of caps, or the alternating sum of the radii");
+                  (report.center_fell_back ? "; make" : "; let the centre be found, or make") +
+                  " an atlas of caps: compress() takes any shape");
 }
 
 }  // namespace

@@ -185,7 +185,8 @@ TEST(make_star_chart, refuses_what_is_not_a_star_with_the_figures_and_the_way_ou
   options.center.rays = 1000;
   const std::string text = refusal(torus(2, 1, 30, 20), ErrorCode::kNotStarShaped, options);
   expect_words(text, {"not star-shaped", "(0, 0, 0)", "min d", "cos gamma", "triangles",
-                      "of 1000 directions", "atlas of caps", "alternating sum"});
+                      "of 1000 directions", "atlas of caps", "compress()"});
+  EXPECT_EQ(text.find("sum of the radii"), std::string::npos);
 }
 
 TEST(make_star_chart, says_when_there_are_several_components) {
