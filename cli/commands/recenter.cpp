@@ -24,8 +24,8 @@ struct Options {
   CoefficientsOutputOptions to;
 };
 
-// The centre of a solid and that of the file are known; others are looked for on a fine mesh of the
-// surface.
+// The centroid and the origin follow from the expansion; other centres are sought on a fine mesh of
+// its surface.
 Vec3 wanted_center(const Options& o, const CenterOptions& wanted, const Expansion& before,
                    Session& session) {
   switch (wanted.kind) {
@@ -34,7 +34,7 @@ Vec3 wanted_center(const Options& o, const CenterOptions& wanted, const Expansio
     case CenterKind::kNone:
       return {};
     case CenterKind::kVolume:
-      return volume_centroid(before, session.context());
+      return seen_center(before, volume_centroid(before, session.context()), session.context());
     default: {
       CoefficientsFile file;
       file.expansion = before;
@@ -92,8 +92,8 @@ int run(const Options& options, Session& session) {
 std::vector<Option> option_list(Options& o) {
   Option center = center_option(o.center);
   center.help =
-      "volume (the default): the centroid of the solid; auto: in the middle of all points that see "
-      "the whole surface; cosine: where the surface is seen least aslant; centroid: of the "
+      "volume (the default): the centroid of the solid, or as near to it as the whole surface is "
+      "seen; auto, cosine: as for meshes, of a fine mesh of the surface; centroid: of the "
       "surface; none: the origin of the file's coordinates";
   std::vector<Option> list = {model_operand(o.input)};
   list.push_back(center);
@@ -113,7 +113,8 @@ Command recenter_command() {
           "degree; the surface stays where it is. What the change takes to higher degrees is "
           "lost: the report says how far the way there and back differs from the model, root "
           "mean square over all directions. What was known of the model's own errors is "
-          "dropped.\n\nA centre from which the surface turns its back is refused. 'rholm align' "
+          "dropped.\n\nA given centre to which the surface turns its back is refused. 'rholm "
+          "align' "
           "does this by itself.",
       .options = option_list(*options),
       .examples = {"rholm recenter bumpy.h5 -o centred.h5",

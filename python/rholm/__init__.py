@@ -155,6 +155,7 @@ from ._motion import (
     rotate,
     scaled,
     volume_centroid,
+    seen_center,
 )
 from ._pictures import (
     Panel,
@@ -446,6 +447,7 @@ __all__ = [
     "scaled",
     "set_cap_colors",
     "set_degree_colors",
+    "seen_center",
     "sharpened",
     "simplify",
     "size_of",

@@ -447,7 +447,8 @@ class Expansion:
         Parameters
         ----------
         center : array_like, (3,), optional
-            By default the centroid of the solid.
+            By default the centroid of the solid, or as near to it as the whole surface is seen: see
+            `rholm.seen_center`.
         threads, progress
             See `rholm.caller`.
 
@@ -458,7 +459,10 @@ class Expansion:
             shape measures them about the new centre.
         """
         with caller(threads, progress) as how:
-            at = _core.volume_centroid(self._core, how) if center is None else float_row(center, "center")
+            if center is None:
+                at = _core.seen_center(self._core, _core.volume_centroid(self._core, how), how)
+            else:
+                at = float_row(center, "center")
             return Expansion._of(_core.recentered(self._core, tuple(float(x) for x in at), how))
 
     def scale(self, factor: float, unit: str | None = None) -> Expansion:

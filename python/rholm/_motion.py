@@ -103,6 +103,23 @@ def recentered(
     return as_expansion(expansion).recenter(center, threads=threads, progress=progress)
 
 
+def seen_center(expansion: Expansion, wanted: npt.ArrayLike, *, threads: int = 0) -> FloatArray:
+    """The wanted centre if `recentered` accepts it, else a point on the way there, (3,).
+
+    Parameters
+    ----------
+    expansion : Expansion
+        Star-shaped about its own centre, where the way begins.
+    wanted : array_like, (3,)
+        A point near which the new centre should be.
+    threads : int
+        See `rholm.caller`.
+    """
+    at = tuple(float(x) for x in float_row(wanted, "wanted"))
+    with caller(threads, False) as how:
+        return _core.seen_center(as_expansion(expansion)._core, at, how)
+
+
 def volume_centroid(expansion: Expansion, *, threads: int = 0) -> FloatArray:
     """Of the solid within a surface, (3,).
 

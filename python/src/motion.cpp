@@ -181,6 +181,9 @@ void bind_centers(nb::module_& m) {
   m.def("volume_centroid", [](const Expansion& e, const Caller& caller) {
     return caller.run([&](const Context& context) { return volume_centroid(e, context); });
   });
+  m.def("seen_center", [](const Expansion& e, const Vec3& wanted, const Caller& caller) {
+    return caller.run([&](const Context& context) { return seen_center(e, wanted, context); });
+  });
   m.def("recentered", [](const Expansion& e, const Vec3& center, const Caller& caller) {
     return caller.run([&](const Context& context) { return recentered(e, center, context); });
   });

@@ -118,25 +118,100 @@ class Rays {
 };
 
 // The surface turns its front to the new centre where its outward normal, r u - grad r, and the way
-// from there, r u - d, make less than a right angle.
-void check_seen(const Expansion& expansion, const Vec3& d, std::span<const Vec3> directions,
-                const Context& context) {
+// from there, r u - d, make less than a right angle: r^2 - n . d > 0, linear in d.
+struct NewView {
+  double way = 1;            // the part of d from which a quarter of r^2 is left everywhere
+  std::vector<Vec3> behind;  // points, seen from d, where the surface turns its back to it
+};
+
+NewView view_from(const Expansion& expansion, const Vec3& d, std::span<const Vec3> directions,
+                  const Context& context) {
+  // Chosen: nearer to the border steep sides take more degrees.
+  constexpr double kMargin = 0.25;
   ValuesAndGradients f = evaluate_with_gradient(expansion.coefficients, directions, {}, context);
   to_radius(expansion.function, f.values);
   const bool gauge = expansion.function == RadialFunction::kGauge;
+  NewView view;
   for (std::size_t i = 0; i < directions.size(); ++i) {
     const double r = f.values[i];
     const Vec3& u = directions[i];
     const Vec3 slope = gauge ? -r * r * f.gradients[i] : f.gradients[i];
-    if (!(dot(r * u - slope, r * u - d) > 0)) {
-      throw Error(ErrorCode::kNotStarShaped,
-                  "the surface is not star-shaped from the new centre, (" + std::to_string(d.x) +
-                      ", " + std::to_string(d.y) + ", " + std::to_string(d.z) +
-                      ") from the old one: in direction (" + std::to_string(u.x) + ", " +
-                      std::to_string(u.y) + ", " + std::to_string(u.z) +
-                      ") it turns its back to it; choose a centre nearer to the old one");
+    const double lost = dot(r * u - slope, d);
+    if (lost > (1 - kMargin) * r * r) view.way = std::min(view.way, (1 - kMargin) * r * r / lost);
+    if (!(lost < r * r)) view.behind.push_back(r * u - d);
+  }
+  return view;
+}
+
+bool is_inside(const Expansion& expansion, const Vec3& d, const Context& context) {
+  if (d == Vec3{}) return true;
+  const std::vector<Vec3> direction = {normalized(d)};
+  std::vector<double> r = evaluate(expansion.coefficients, direction, {}, context);
+  to_radius(expansion.function, r);
+  return norm(d) < r[0];
+}
+
+// How far ripples fold back: rays to the points that show their back meet the surface elsewhere,
+// too. The largest way between two such places, in parts of the distance.
+double depth_of_folds(const Expansion& expansion, const Vec3& d, const std::vector<Vec3>& behind,
+                      double highest, const Context& context) {
+  std::vector<Vec3> directions;
+  for (const Vec3& p : behind) directions.push_back(normalized(p));
+  double depth = 0;
+  for (const double from : {0.01 * highest, highest}) {
+    const std::vector<double> rho =
+        Rays(expansion, d, directions, std::vector<double>(behind.size(), from), highest)
+            .solve(context);
+    for (std::size_t i = 0; i < rho.size(); ++i) {
+      depth = std::max(depth, std::abs(rho[i] / norm(behind[i]) - 1));
     }
   }
+  return depth;
+}
+
+// A series that ends ripples, and may turn its back to a centre that sees the shape: what folds
+// back by less is seen as one of its sides (chosen: below what series of degree 16 leave of cells).
+constexpr double kShallow = 0.02;
+
+[[noreturn]] void refuse_hidden(const Vec3& d, const NewView& view) {
+  throw Error(ErrorCode::kNotStarShaped,
+              "the surface is not star-shaped from the new centre, (" + std::to_string(d.x) + ", " +
+                  std::to_string(d.y) + ", " + std::to_string(d.z) +
+                  ") from the old one: it turns its back to it in " +
+                  std::to_string(view.behind.size()) +
+                  " directions of a grid; choose a centre nearer to the old one");
+}
+
+// The surface on a grid of twice the degree, and how it is seen from `d`.
+struct Sight {
+  Grid grid;
+  std::vector<Vec3> directions;
+  std::vector<double> radii;  // from the old centre
+  double highest = 0;         // no ray from d is longer within the surface
+  NewView view;
+  bool seen = false;
+};
+
+Sight sight_from(const Expansion& expansion, const Vec3& d, const Context& context) {
+  Sight sight;
+  sight.grid = grid_for(expansion.coefficients.degree(), 2);
+  sight.directions = directions_of(sight.grid);
+  sight.radii = synthesize_grid(expansion.coefficients, sight.grid, context);
+  to_radius(expansion.function, sight.radii);
+  sight.highest = 1.1 * *std::max_element(sight.radii.begin(), sight.radii.end()) + norm(d);
+  sight.view = view_from(expansion, d, sight.directions, context);
+  const std::vector<Vec3>& behind = sight.view.behind;
+  sight.seen =
+      behind.empty() || (is_inside(expansion, d, context) &&
+                         depth_of_folds(expansion, d, behind, sight.highest, context) <= kShallow);
+  return sight;
+}
+
+Vec3 way_to(const Expansion& expansion, const Vec3& center) {
+  require_surface(expansion);
+  const Vec3 d = center - expansion.center;
+  if (!is_finite(d)) throw Error(ErrorCode::kInvalidInput, "the new centre is not finite");
+  return d;
 }
 
 }  // namespace
@@ -167,10 +242,14 @@ Vec3 volume_centroid(const Expansion& expansion, const Context& context) {
   return expansion.center + largest / volume.value() * Vec3{x.value(), y.value(), z.value()};
 }
 
+Vec3 seen_center(const Expansion& expansion, const Vec3& wanted, const Context& context) {
+  const Vec3 d = way_to(expansion, wanted);
+  const Sight sight = sight_from(expansion, d, {.threads = context.threads, .progress = {}});
+  return sight.seen ? wanted : expansion.center + sight.view.way * d;
+}
+
 Expansion recentered(const Expansion& expansion, const Vec3& center, const Context& context) {
-  require_surface(expansion);
-  const Vec3 d = center - expansion.center;
-  if (!is_finite(d)) throw Error(ErrorCode::kInvalidInput, "the new centre is not finite");
+  const Vec3 d = way_to(expansion, center);
   if (d == Vec3{}) return expansion;
   Expansion result;
   result.function = expansion.function;
@@ -179,19 +258,14 @@ Expansion recentered(const Expansion& expansion, const Vec3& center, const Conte
   result.method = expansion.method;
   // Radial errors are along other rays now, and the series is cut off anew.
   if (expansion.errors) result.errors.emplace().diagonal = expansion.errors->diagonal;
-  const int degree = expansion.coefficients.degree();
-  const Grid grid = grid_for(degree, 2);
-  const std::vector<Vec3> directions = directions_of(grid);
-  check_seen(expansion, d, directions, {.threads = context.threads, .progress = {}});
-  std::vector<double> first = synthesize_grid(expansion.coefficients, grid, context);
-  to_radius(expansion.function, first);
-  const double highest = *std::max_element(first.begin(), first.end());
+  Sight sight = sight_from(expansion, d, {.threads = context.threads, .progress = {}});
+  if (!sight.seen) refuse_hidden(d, sight.view);
   std::vector<double> rho =
-      Rays(expansion, d, directions, std::move(first), 1.1 * highest + norm(d)).solve(context);
+      Rays(expansion, d, sight.directions, std::move(sight.radii), sight.highest).solve(context);
   if (expansion.function == RadialFunction::kGauge) {
     for (double& value : rho) value = 1 / value;
   }
-  result.coefficients = analyze_grid(rho, grid, degree, context);
+  result.coefficients = analyze_grid(rho, sight.grid, expansion.coefficients.degree(), context);
   return result;
 }
 

@@ -10,6 +10,7 @@
 #include "harmonic/motion/align_newton.h"
 #include "harmonic/motion/symmetric3.h"
 #include "rholm/error.h"
+#include "rholm/grid.h"
 #include "rholm/harmonic.h"
 #include "rholm/recenter.h"
 #include "support/random_data.h"
@@ -464,6 +465,64 @@ TEST(recenter, centres_from_which_the_surface_is_not_seen_are_refused) {
   EXPECT_EQ(code(e, {0, 0, 0.1}), ErrorCode::kInvalidInput);
   EXPECT_EQ(code(expansion_of(Coefficients(2), {}), {0.1, 0, 0}), ErrorCode::kInvalidInput);
   expect_refused([] { volume_centroid(expansion_of(Coefficients(2), {})); });
+}
+
+// A ball with a wide bulge upwards, which the centroid follows, and a narrow one to the side, whose
+// series ripples.
+Expansion bulged(int degree, double height, double width) {
+  const Grid grid = smallest_grid(GridKind::kGaussLegendre, 96);
+  std::vector<double> values;
+  for (const double theta : grid_colatitudes(grid)) {
+    for (int k = 0; k < grid.n_phi; ++k) {
+      const double x = std::sin(theta) * std::cos(2 * kPi * k / grid.n_phi);
+      values.push_back(1 + 1.5 * std::exp(4 * (std::cos(theta) - 1)) +
+                       height * std::exp((x - 1) / (width * width)));
+    }
+  }
+  return expansion_of(analyze_grid(values, grid, degree), {1, 2, 3});
+}
+
+// Of the surface of `moved`, seen from the centre of `e`: the rms difference to that of `e`.
+double rms_apart(const Expansion& moved, const Expansion& e) {
+  const auto directions = test::random_directions(400, 3);
+  const auto rho = evaluate(moved.coefficients, directions);
+  double sum = 0;
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    const Vec3 p = moved.center + rho[i] * directions[i] - e.center;
+    const std::vector<Vec3> direction = {normalized(p)};
+    const double apart = norm(p) - evaluate(e.coefficients, direction)[0];
+    sum += apart * apart / static_cast<double>(directions.size());
+  }
+  return std::sqrt(sum);
+}
+
+TEST(recenter, near_the_centroid_is_possible_at_every_degree) {
+  int at_centroid = 0, on_the_way = 0;
+  for (const double width : {0.15, 0.25}) {
+    for (const double height : {0.5, 1.0, 2.0}) {
+      for (int degree = 8; degree <= 26; degree += 3) {
+        const Expansion e = bulged(degree, height, width);
+        const Vec3 centroid = volume_centroid(e), found = seen_center(e, centroid);
+        ++(found == centroid ? at_centroid : on_the_way);
+        EXPECT_LT(norm(cross(found - e.center, centroid - e.center)), 1e-12);
+        EXPECT_LE(norm(found - e.center), norm(centroid - e.center));
+        const Expansion moved = recentered(e, found);
+        EXPECT_EQ(moved.center, found);
+        EXPECT_LT(rms_apart(moved, e), 0.1) << degree << ' ' << height << ' ' << width;
+      }
+    }
+  }
+  EXPECT_GT(at_centroid, 5);
+  EXPECT_GT(on_the_way, 5);
+}
+
+TEST(recenter, a_point_outside_is_replaced_by_one_inside) {
+  const Expansion e = bulged(12, 0.5, 0.25);
+  const Vec3 found = seen_center(e, e.center + Vec3{0, 5, 0});
+  EXPECT_GT(norm(found - e.center), 0.1);
+  EXPECT_LT(norm(found - e.center), 1);
+  EXPECT_NO_THROW(recentered(e, found));
+  EXPECT_THROW(recentered(e, e.center + Vec3{0, 5, 0}), Error);
 }
 
 TEST(align, is_the_same_for_any_number_of_threads) {
