@@ -117,6 +117,8 @@ std::string analyze_text(const AnalyzeCommandOptions& options, const AnalyzeRun&
                     errors->rms_is_exact ? "exact" : "measured", text_of(*errors->measured_max));
   } else if (analysis.truncation_rms) {
     text += fmt::format("; the degrees beyond hold {} rms", text_of(*analysis.truncation_rms));
+  } else {
+    text += "; error of the radius not known";
   }
   return text;
 }

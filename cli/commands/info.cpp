@@ -21,6 +21,7 @@
 #include "rholm/model.h"
 #include "rholm/point_stream.h"
 #include "rholm/repair.h"
+#include "rholm/rms_beyond.h"
 #include "rholm/synthesize.h"
 #include "rholm/topology.h"
 
@@ -295,6 +296,20 @@ bool report_large(const Options& options, Session& session) {
   return report_large_mesh(options, needed, session) || report_large_cloud(options, session);
 }
 
+// The truncation error where none was measured: by the norm, or that it is not known.
+std::string unmeasured_text(const Expansion& expansion) {
+  if (expansion.function == RadialFunction::kOther) return "";
+  const char* what = expansion.function == RadialFunction::kGauge ? "error of 1/r" : "radial error";
+  const RmsBeyond beyond = rms_beyond(expansion);
+  if (const std::optional<double>& rms = beyond.rms.back()) {
+    return line(what, text_of(*rms) + " rms over solid angle, by the norm");
+  }
+  const std::optional<double> bound = beyond.bound();
+  return line(what, bound
+                        ? fmt::format("not known, at most {} rms over solid angle", text_of(*bound))
+                        : "not known");
+}
+
 std::string errors_text(const TruncationErrors& errors) {
   const auto length = [&](double value) {
     return errors.diagonal > 0 ? fmt::format("{} ({} of the diagonal)", text_of(value),
@@ -339,6 +354,7 @@ int report_coefficients(const Options& options, const CoefficientsFile& file, Se
   json["passed_over"] = file.passed_over;
   json["norm_squared"] = json_of(expansion.norm_squared);
   json["tail_strength"] = json_of(expansion.tail_strength);
+  json["truncation_rms"] = json_of(rms_beyond(expansion).rms.back());
   json["errors"] = json_of(expansion.errors);
   json["diagonal"] = expansion.errors ? Json(expansion.errors->diagonal) : Json(nullptr);
   json.update(measures_json(measures));
@@ -358,7 +374,7 @@ int report_coefficients(const Options& options, const CoefficientsFile& file, Se
     text += line("sphericity", text_of(measures->sphericity()));
     text += line("volume centroid", text_of(measures->centroid));
   }
-  if (expansion.errors) text += errors_text(*expansion.errors);
+  text += expansion.errors ? errors_text(*expansion.errors) : unmeasured_text(expansion);
   options.json ? print_json(json) : print_text(text);
   return 0;
 }

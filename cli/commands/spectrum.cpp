@@ -27,24 +27,73 @@ struct Options {
   bool json = false;
 };
 
-std::string table(const Spectrum& s, const std::string& format, const std::string& heading) {
-  std::string text = heading;
+constexpr const char* kNotKnown = "not known";
+
+std::string table(const Spectrum& s) {
+  std::string text;
   for (std::size_t l = 0; l < s.energy.size(); ++l) {
-    text += fmt::format(fmt::runtime(format), l, s.energy[l], s.cumulative[l], s.rms_beyond[l]);
+    const std::optional<double>& rms = s.beyond.rms[l];
+    text += fmt::format("{:>6} {:>14.7g} {:>14.7g} {:>14}\n", l, s.energy[l], s.cumulative[l],
+                        rms ? fmt::format("{:.7g}", *rms) : kNotKnown);
   }
   return text;
 }
 
+// A cell is empty where the figure is not known.
 std::string csv(const Spectrum& s) {
-  return table(s, "{},{},{},{}\n", "degree,energy,cumulative,rms_beyond\n");
+  std::string text = "degree,energy,cumulative,rms_beyond\n";
+  for (std::size_t l = 0; l < s.energy.size(); ++l) {
+    const std::optional<double>& rms = s.beyond.rms[l];
+    text += fmt::format("{},{},{},{}\n", l, s.energy[l], s.cumulative[l],
+                        rms ? fmt::format("{}", *rms) : "");
+  }
+  return text;
 }
 
-// The smallest degree beyond which no more than the tolerance is left.
-std::optional<int> degree_within(const Spectrum& s, double tolerance) {
-  for (std::size_t l = 0; l < s.rms_beyond.size(); ++l) {
-    if (s.rms_beyond[l] <= tolerance) return static_cast<int>(l);
+// The truncation error of the file's own degree, by points of the shape.
+std::optional<double> measured_rms(const Expansion& expansion) {
+  const bool radius = expansion.function == RadialFunction::kRadius;
+  return radius && expansion.errors ? expansion.errors->rms : std::nullopt;
+}
+
+// Why some figures are not known, and what is known instead.
+std::string unknown_text(const Spectrum& s, const Expansion& expansion) {
+  if (s.beyond.rms.back()) return "";
+  const int degree = expansion.coefficients.degree();
+  const std::optional<double> bound = s.beyond.bound();
+  if (!bound) {
+    return fmt::format("# not known: the file has no norm, which tells what lies above degree {}\n",
+                       degree);
   }
-  return std::nullopt;
+  std::string text =
+      fmt::format("# not known: at most {}, as exact as the coefficients are", text_of(*bound));
+  if (const std::optional<double> measured = measured_rms(expansion)) {
+    text += fmt::format("; {} at degree {}, measured at points", text_of(*measured), degree);
+  }
+  return text + "\n";
+}
+
+// Without a norm the answer is of the file's own degrees, of which the last leaves none.
+std::optional<int> degree_within(const Spectrum& s, double tolerance) {
+  const std::optional<int> degree = s.beyond.degree_within(tolerance);
+  if (degree || s.includes_tail) return degree;
+  return static_cast<int>(s.energy.size()) - 1;
+}
+
+std::string tolerance_text(const Spectrum& s, const Expansion& expansion, double tolerance) {
+  const std::string wanted = text_of(tolerance);
+  const int last = expansion.coefficients.degree();
+  if (const std::optional<int> degree = degree_within(s, tolerance)) {
+    return fmt::format("# within {}{} from degree {} on\n", wanted,
+                       s.includes_tail ? "" : " of the file's own degrees", *degree);
+  }
+  if (s.beyond.rms.back()) return fmt::format("# never within {}\n", wanted);
+  const std::optional<double> measured = measured_rms(expansion);
+  if (!measured) return fmt::format("# whether any degree is within {} is not known\n", wanted);
+  return *measured > tolerance
+             ? fmt::format("# never within {}, as measured at degree {}\n", wanted, last)
+             : fmt::format("# within {} at degree {}, as measured; for lower degrees not known\n",
+                           wanted, last);
 }
 
 Json report_json(const Options& options, const Expansion& expansion, const Spectrum& s) {
@@ -52,7 +101,9 @@ Json report_json(const Options& options, const Expansion& expansion, const Spect
   json["file"] = options.input;
   json.update(spectrum_json(expansion, s));
   json["tolerance"] = json_of(options.tolerance);
-  if (options.tolerance) json["tolerance_degree"] = json_of(degree_within(s, *options.tolerance));
+  if (options.tolerance) {
+    json["tolerance_degree"] = json_of(degree_within(s, *options.tolerance));
+  }
   json["norm_squared"] = json_of(expansion.norm_squared);
   json["tail_strength"] = json_of(expansion.tail_strength);
   return json;
@@ -92,13 +143,8 @@ int run(const Options& options, Session& session) {
         expansion.function == RadialFunction::kOther ? "function" : to_string(expansion.function),
         spectrum.includes_tail ? "" : ", within the file's own degrees", "degree", "energy",
         "cumulative", "rms beyond");
-    print_text(table(spectrum, "{:>6} {:>14.7g} {:>14.7g} {:>14.7g}\n", heading));
-    if (options.tolerance) {
-      const std::optional<int> degree = degree_within(spectrum, *options.tolerance);
-      print_text(degree ? fmt::format("# within {} from degree {} on\n",
-                                      text_of(*options.tolerance), *degree)
-                        : fmt::format("# never within {}\n", text_of(*options.tolerance)));
-    }
+    print_text(heading + table(spectrum) + unknown_text(spectrum, expansion));
+    if (options.tolerance) print_text(tolerance_text(spectrum, expansion, *options.tolerance));
   }
   return 0;
 }
@@ -133,7 +179,9 @@ Command spectrum_command() {
               "Energy of a degree is the sum of its squared orthonormal coefficients; rms beyond "
               "is the root mean square, over all directions, of what the degrees above hold. "
               "For a model file of a star-shaped mesh this includes what lies above the file's "
-              "last degree, exactly.\n\nWith -o the plot is written and the table is not; --json "
+              "last degree, exactly. Where it is less than what the precision of the coefficients "
+              "tells, it is not known: the table says so, the JSON has null.\n\nWith -o the plot "
+              "is written and the table is not; --json "
               "reports in either case.",
           .options = option_list(*options),
           .examples = {"rholm spectrum bumpy.h5",

@@ -1,25 +1,18 @@
 #include "cli/commands/spectrum_report.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 namespace rholm::cli {
 
-// Summed from the top, so that small remainders are not lost against the large first degrees.
 Spectrum spectrum_of(const Expansion& expansion) {
   Spectrum s;
   s.energy = power_spectrum(expansion.coefficients);
-  const std::size_t n = s.energy.size();
-  s.cumulative.resize(n);
-  s.rms_beyond.resize(n);
+  s.cumulative.resize(s.energy.size());
   double sum = 0;
-  for (std::size_t l = 0; l < n; ++l) s.cumulative[l] = sum += s.energy[l];
-  s.includes_tail = expansion.norm_squared.has_value();
-  double beyond = s.includes_tail ? std::max(0.0, *expansion.norm_squared - sum) : 0.0;
-  for (std::size_t l = n; l-- > 0;) {
-    s.rms_beyond[l] = std::sqrt(beyond / (4 * std::numbers::pi));
-    beyond += s.energy[l];
+  for (std::size_t l = 0; l < s.energy.size(); ++l) s.cumulative[l] = sum += s.energy[l];
+  s.beyond = rms_beyond(expansion);
+  s.includes_tail = s.beyond.doubt.has_value();
+  if (!s.includes_tail) {
+    s.beyond.rms.assign(s.beyond.rms_within.begin(), s.beyond.rms_within.end());
+    s.beyond.rms.back().reset();
   }
   return s;
 }
@@ -30,8 +23,10 @@ Json spectrum_json(const Expansion& expansion, const Spectrum& s) {
   json["function"] = to_string(expansion.function);
   json["energy"] = s.energy;
   json["cumulative"] = s.cumulative;
-  json["rms_beyond"] = s.rms_beyond;
+  json["rms_beyond"] = Json::array();
+  for (const std::optional<double>& rms : s.beyond.rms) json["rms_beyond"].push_back(json_of(rms));
   json["rms_beyond_includes_tail"] = s.includes_tail;
+  json["rms_beyond_bound"] = json_of(s.beyond.bound());
   return json;
 }
 

@@ -5,14 +5,17 @@
 
 #include "cli/terminal/json_text.h"
 #include "rholm/coefficients.h"
+#include "rholm/rms_beyond.h"
 
 namespace rholm::cli {
 
 struct Spectrum {
   std::vector<double> energy;      // per degree
   std::vector<double> cumulative;  // of degrees 0 ... l
-  std::vector<double> rms_beyond;  // over solid angle, of what degrees above l hold
-  bool includes_tail = false;      // what lies above L is known and in rms_beyond
+  // What the degrees above each one hold. Without a norm these are the file's own degrees, and the
+  // figure of the last one is not known.
+  RmsBeyond beyond;
+  bool includes_tail = false;  // what lies above L, too
 };
 
 Spectrum spectrum_of(const Expansion& expansion);

@@ -39,6 +39,7 @@
 #include "rholm/render.h"
 #include "rholm/repair.h"
 #include "rholm/report.h"
+#include "rholm/rms_beyond.h"
 #include "rholm/rotate.h"
 #include "rholm/shape_io.h"
 #include "rholm/simplify.h"

@@ -59,6 +59,7 @@ from ._coefficients import (
     metres_of,
     power_spectrum,
     principal_axes,
+    rms_beyond,
     to_convention,
 )
 from ._core import (
@@ -154,8 +155,8 @@ from ._motion import (
     recentered,
     rotate,
     scaled,
-    volume_centroid,
     seen_center,
+    volume_centroid,
 )
 from ._pictures import (
     Panel,
@@ -440,14 +441,15 @@ __all__ = [
     "repair",
     "report_html",
     "require_surface",
+    "rms_beyond",
     "rotate",
     "rotation_about",
     "rotation_of",
     "sample_surface",
     "scaled",
+    "seen_center",
     "set_cap_colors",
     "set_degree_colors",
-    "seen_center",
     "sharpened",
     "simplify",
     "size_of",

@@ -13,7 +13,7 @@ from ._errors import InvalidInputError
 from ._interop import _package, coefficients_of_pyshtools
 
 if TYPE_CHECKING:
-    from ._expansion import CoefficientsLike
+    from ._expansion import CoefficientsLike, Expansion
 
 #: What the mean square of each harmonic over the sphere is: 1 for "4pi" (geodesy, pyshtools'
 #: default), 1/(4 pi) for "orthonormal", 1/(2l+1) for "schmidt".
@@ -86,6 +86,17 @@ def to_convention(
         -1: harmonics with the Condon-Shortley factor (-1)^m.
     """
     return array_of(core_of(coefficients), normalization, csphase)
+
+
+def rms_beyond(expansion: Expansion) -> FloatArray:
+    """What is left out when a series ends at each of its degrees; see `Expansion.rms_beyond`.
+
+    Parameters
+    ----------
+    expansion : Expansion
+        Of any function.
+    """
+    return expansion.rms_beyond()
 
 
 def power_spectrum(

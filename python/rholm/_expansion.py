@@ -209,6 +209,19 @@ class Expansion:
         """
         return power_spectrum(self._core.coefficients, kind, unit, base)
 
+    def rms_beyond(self) -> FloatArray:
+        """What is left out when the series ends at each degree, l = 0 ... L, (L+1,).
+
+        Returns
+        -------
+        rms : float64, (L+1,)
+            Root mean square over all directions of what lies above degree l, by Parseval's identity,
+            in the function's unit. NaN where it is not known: without `norm_squared`, and where it
+            is below what the precision of the coefficients tells. The last one is the truncation
+            error of the expansion itself.
+        """
+        return _core.rms_beyond(self._core)
+
     # Values
 
     def __call__(

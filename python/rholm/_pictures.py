@@ -440,6 +440,9 @@ def expansion_html(expansion: Expansion) -> str:
     errors = expansion.errors
     if errors is not None and errors.rms is not None:
         rows.append(("rms radial error", f"{errors.rms:.3g}{unit}"))
+    elif expansion.function == "radius":
+        rms = expansion.rms_beyond()[-1]
+        rows.append(("rms radial error", "not known" if np.isnan(rms) else f"{rms:.3g}{unit}"))
     if errors is not None and errors.measured_max is not None:
         rows.append(("largest radial error", f"{errors.measured_max:.3g}{unit}"))
     svg = expansion.spectrum_svg()

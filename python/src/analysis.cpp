@@ -7,6 +7,7 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,6 +21,7 @@
 #include "rholm/error.h"
 #include "rholm/model.h"
 #include "rholm/monte_carlo.h"
+#include "rholm/rms_beyond.h"
 #include "rholm/star.h"
 #include "rholm/truncation.h"
 
@@ -233,6 +235,14 @@ void bind_norms(nb::module_& m) {
       .field("distance", &ErrorStrengths::distance, "Of the distance between the surfaces.");
   m.def("vertex_error_strengths", [](const Mesh& mesh, const Vec3& center) {
     return unlocked([&] { return vertex_error_strengths(view_of(mesh), center); });
+  });
+  m.def("rms_beyond", [](const Expansion& expansion) {
+    const RmsBeyond beyond = rms_beyond(expansion);
+    std::vector<double> rms;
+    for (const std::optional<double>& value : beyond.rms) {
+      rms.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
+    }
+    return array_of(std::move(rms));
   });
   m.def("truncation_errors", [](const Mesh& mesh, const Expansion& expansion, double precision,
                                 bool predict, const Caller& caller) {

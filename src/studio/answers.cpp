@@ -82,7 +82,7 @@ Response measures_answer(const Item& item) {
   return json_response({{"degree", model.expansion.coefficients.degree()},
                         {"unit", item.unit},
                         {"power", model.power},
-                        {"rms", list(model.rms)},
+                        {"rms", rms_json(model)},
                         {"max", list(model.max)}});
 }
 

@@ -138,8 +138,9 @@ Response Session::undo(bool redo) {
 Response Session::degree_for_tolerance(const Json& request) const {
   const ItemPtr item = item_in(request, "item", document());
   if (!item->model) throw wrong_kind(*item, "it has no expansion yet; analyze it first");
-  if (item->model->rms.empty()) throw wrong_kind(*item, "its errors are not known");
-  const std::optional<int> degree = degree_for(*item->model, number_of(request, "tolerance"));
+  if (!item->model->beyond) throw wrong_kind(*item, "its errors are not known");
+  const std::optional<int> degree =
+      item->model->beyond->degree_within(number_of(request, "tolerance"));
   const int highest = item->model->expansion.coefficients.degree();
   return json_response({{"degree", degree.value_or(highest)}, {"met", degree.has_value()}});
 }

@@ -2,6 +2,7 @@
 #include <rholm/analyze.h>
 #include <rholm/monte_carlo.h>
 #include <rholm/primitives.h>
+#include <rholm/rms_beyond.h>
 #include <rholm/star.h>
 #include <rholm/truncation.h>
 
@@ -55,11 +56,19 @@ void truncation() {
   expect(std::sqrt(left / (4 * std::numbers::pi)) > 0.02, "by no degree less");
 }
 
+void rms_beyond() {
+  const rholm::StarChart chart = rholm::make_star_chart(rholm::box({2, 2, 2}));
+  const rholm::Analysis found = rholm::analyze(chart, {.degree = 8});
+  const rholm::RmsBeyond beyond = rholm::rms_beyond(found.expansion);
+  expect_near(beyond.rms[8].value(), found.truncation_rms.value(), 1e-9, "what degree 8 leaves");
+}
+
 }  // namespace
 
 std::vector<HeaderCheck> star_checks() {
   return {{"star.h", star},
           {"analyze.h", analyze},
           {"monte_carlo.h", monte_carlo},
+          {"rms_beyond.h", rms_beyond},
           {"truncation.h", truncation}};
 }

@@ -16,7 +16,7 @@ export interface Star {
 export interface ItemExpansion {
   degree: number;
   function: string;
-  rms_per_degree: number[] | null; // in the unit of lengths, after degrees 0 ... L
+  rms_per_degree: (number | null)[] | null; // in the unit of lengths, after degrees 0 ... L; null: not known
   error: [degree: number, rms: number | null, max: number | null][];
   tail: { strength: number } | null; // S of the predicted energy S / (pi l^4)
   power: number[]; // energy of degrees 0 ... L

@@ -10,6 +10,7 @@
 
 #include "report/picture/utf8.h"
 #include "rholm/render.h"
+#include "rholm/rms_beyond.h"
 
 namespace rholm {
 namespace {
@@ -48,7 +49,8 @@ struct Curve {
   // With a tolerance: log10 of its energy, and of what the degrees beyond l hold, empty if unknown.
   double log_tolerance = -kInfinity;
   std::vector<double> log_beyond;
-  bool empty = true;  // no degree above 0 has energy above the floor
+  bool beyond_ends = false;  // before the last degree
+  bool empty = true;         // no degree above 0 has energy above the floor
 };
 
 Curve make_curve(const Expansion& expansion) {
@@ -72,19 +74,14 @@ Curve make_curve(const Expansion& expansion) {
   return curve;
 }
 
-// Below the rounding of the norm nothing is known.
+// Where what lies beyond is not known, the curve ends.
 void add_tolerance(const Expansion& expansion, double tolerance, Curve& curve) {
   curve.log_tolerance = std::log10(4 * std::numbers::pi) + 2 * std::log10(tolerance);
-  if (!expansion.norm_squared) return;
-  double beyond = *expansion.norm_squared;
-  const double floor = 1e-15 * beyond;
-  const std::vector<double> energy = power_spectrum(expansion.coefficients);
-  for (std::size_t l = 0; l < energy.size(); ++l) {
-    beyond -= energy[l];
-    if (l == 0) continue;
-    if (!(beyond > floor)) return;
-    curve.log_beyond.push_back(std::log10(beyond));
+  const RmsBeyond beyond = rms_beyond(expansion);
+  for (std::size_t l = 1; l < beyond.rms.size() && beyond.rms[l]; ++l) {
+    curve.log_beyond.push_back(std::log10(4 * std::numbers::pi) + 2 * std::log10(*beyond.rms[l]));
   }
+  curve.beyond_ends = !curve.log_beyond.empty() && !beyond.rms.back();
 }
 
 Axes make_axes(const Curve& curve) {
@@ -273,7 +270,10 @@ std::string legend(const Curve& curve, RadialFunction function) {
   if (std::isfinite(curve.log_tolerance)) {
     add(legend_line(y, kToleranceInk, "none"), "wanted tolerance, 4&#960; E&#178;");
     if (!curve.log_beyond.empty()) {
-      add(legend_line(y, kBeyondInk, "none"), "energy of all degrees beyond l");
+      add(legend_line(y, kBeyondInk, "none"),
+          curve.beyond_ends ? fmt::format("energy of all degrees beyond l, known to degree {}",
+                                          curve.log_beyond.size())
+                            : "energy of all degrees beyond l");
     }
   }
   add(legend_line(y, kDataInk, "none"),

@@ -78,4 +78,7 @@ Json facts_json(const Item& item);
 // Of Item::star in the state.
 Json star_json(const Item& item);
 
+// rms_beyond() of a model of the radius: a list, null where a figure is not known; null for others.
+Json rms_json(const Model& model);
+
 }  // namespace rholm::studio

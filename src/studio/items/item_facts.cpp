@@ -62,7 +62,11 @@ void add_model_facts(const Item& item, Json& facts) {
               (expansion.coefficients.degree() + std::size_t{1})));
   const Vec3& c = expansion.center;
   add(facts, "Centre", fmt::format("{:.4g}, {:.4g}, {:.4g}", c.x, c.y, c.z));
-  if (!item.model->rms.empty()) add(facts, "Error, rms", length(item.model->rms.back(), item.unit));
+  std::optional<double> rms = item.model->beyond ? item.model->beyond->rms.back() : std::nullopt;
+  if (!rms && expansion.errors && expansion.function == RadialFunction::kRadius) {
+    rms = expansion.errors->rms;  // measured
+  }
+  add(facts, "Error, rms", rms ? length(*rms, item.unit) : "not known");
 }
 
 void add_atlas_facts(const Item& item, Json& facts) {

@@ -14,9 +14,27 @@ std::vector<int> shown_degrees(int last) {
   return degrees;
 }
 
-Json number(const std::vector<double>& values, int d) {
-  return values.empty() ? Json(nullptr) : Json(values[static_cast<std::size_t>(d)]);
+Json number(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+std::optional<double> rms_of(const Model& model, int degree) {
+  return model.beyond ? model.beyond->rms[static_cast<std::size_t>(degree)] : std::nullopt;
 }
+
+std::optional<double> max_of(const Model& model, int degree) {
+  if (model.max.empty()) return std::nullopt;
+  return model.max[static_cast<std::size_t>(degree)];
+}
+
+}  // namespace
+
+Json rms_json(const Model& model) {
+  if (!model.beyond) return nullptr;
+  Json list = Json::array();
+  for (const std::optional<double>& rms : model.beyond->rms) list.push_back(number(rms));
+  return list;
+}
+
+namespace {
 
 Json expansion_json(const Model& model) {
   const Expansion& expansion = model.expansion;
@@ -24,13 +42,13 @@ Json expansion_json(const Model& model) {
   Json json = {{"degree", degree},
                {"function", to_string(expansion.function)},
                {"center", {expansion.center.x, expansion.center.y, expansion.center.z}},
-               {"rms_per_degree", model.rms.empty() ? Json(nullptr) : Json(model.rms)},
+               {"rms_per_degree", rms_json(model)},
                {"error", Json::array()},
                {"tail", nullptr},
                {"power", model.power}};
-  if (!model.rms.empty() || !model.max.empty()) {
+  if (model.beyond || !model.max.empty()) {
     for (const int d : shown_degrees(degree)) {
-      json["error"].push_back({d, number(model.rms, d), number(model.max, d)});
+      json["error"].push_back({d, number(rms_of(model, d)), number(max_of(model, d))});
     }
   }
   if (expansion.tail_strength) json["tail"] = {{"strength", *expansion.tail_strength}};

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "rholm/filter.h"
 #include "rholm/harmonic.h"
@@ -33,18 +32,6 @@ std::vector<double> values_of_shape(const Mesh& shape, const Vec3& center, bool 
     values.push_back(gauge ? 1 / r : r);
   }
   return values;
-}
-
-// Parseval's: what the degrees above each one have.
-std::vector<double> rms_errors(const Expansion& expansion, const std::vector<double>& power) {
-  if (!expansion.norm_squared || expansion.function != RadialFunction::kRadius) return {};
-  std::vector<double> rms;
-  double left = *expansion.norm_squared;
-  for (const double energy : power) {
-    left -= energy;
-    rms.push_back(std::sqrt(std::max(left, 0.0) / (4 * std::numbers::pi)));
-  }
-  return rms;
 }
 
 std::vector<double> largest_errors(const Model& model) {
@@ -97,7 +84,8 @@ std::shared_ptr<const Model> make_model(Expansion expansion, std::shared_ptr<con
     model->joined = model->directions.triangles;
     model->base = evaluate(coefficients, model->directions.vertices, {}, context);
   }
-  model->rms = rms_errors(model->expansion, model->power);
+  const bool radius = model->expansion.function == RadialFunction::kRadius;
+  if (radius && model->expansion.norm_squared) model->beyond = rms_beyond(model->expansion);
   if (DegreeTable::fits(model->base.size(), coefficients.degree())) {
     model->table.emplace(coefficients, model->directions.vertices, model->base, context);
     if (model->original) model->max = largest_errors(*model);
@@ -147,13 +135,6 @@ QuickSurface quick_surface(const Model& model, const Look& look, const Context& 
   }
   surface.normals = normals_of(surface.positions, model.directions.triangles, model.joined);
   return surface;
-}
-
-std::optional<int> degree_for(const Model& model, double tolerance) {
-  const auto found = std::find_if(model.rms.begin(), model.rms.end(),
-                                  [&](double rms) { return rms <= tolerance; });
-  if (found == model.rms.end()) return std::nullopt;
-  return static_cast<int>(found - model.rms.begin());
 }
 
 }  // namespace rholm::studio

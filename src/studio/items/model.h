@@ -8,6 +8,7 @@
 #include "rholm/coefficients.h"
 #include "rholm/context.h"
 #include "rholm/mesh.h"
+#include "rholm/rms_beyond.h"
 #include "studio/items/degree_table.h"
 
 namespace rholm::studio {
@@ -28,8 +29,9 @@ struct Model {
   std::optional<DegreeTable> table;  // where it fits
   std::vector<double> power;         // energy of each degree
   // Errors of the radius when cut off at each degree, in the unit of lengths: rms over solid angle,
-  // largest at the vertices. Empty where they are not known.
-  std::vector<double> rms, max;
+  // largest at the vertices. Empty where none are known.
+  std::optional<RmsBeyond> beyond;
+  std::vector<double> max;
 };
 
 // Throws what synthesize() throws. Without a shape: directions of an icosphere with two vertices a
@@ -54,9 +56,5 @@ struct QuickSurface {
       error;  // [n], outside of the shape positive, along rays; empty without a shape
 };
 QuickSurface quick_surface(const Model& model, const Look& look, const Context& context = {});
-
-// The smallest degree whose rms error is at most so much, in the unit of lengths; none if no degree
-// of the model keeps it, or errors are not known.
-std::optional<int> degree_for(const Model& model, double tolerance);
 
 }  // namespace rholm::studio

@@ -7,6 +7,7 @@
 
 #include "rholm/analyze.h"
 #include "rholm/primitives.h"
+#include "rholm/rms_beyond.h"
 #include "support/test_meshes.h"
 #include "support/test_shapes.h"
 
@@ -60,6 +61,68 @@ TEST(rms_of, is_none_where_the_doubt_is_above_a_quarter) {
   const ParsevalRest rest{.value = 1, .doubt = 0.25};
   ASSERT_TRUE(rms_of(rest, kBelieved));
   EXPECT_NEAR(rms_doubt(rest), (1 - std::sqrt(0.75)) / std::sqrt(kSphere), 1e-15);
+}
+
+// Degree 1 has 4, degree 2 has 12, and 0.5 lie beyond, which may be off by `doubt`: by an exact
+// error, or one that was measured and differs so much.
+Expansion known_expansion() {
+  Expansion e;
+  e.coefficients = known();
+  e.norm_squared = kNorm;
+  return e;
+}
+
+Expansion measured_expansion(double beyond) {
+  Expansion e = known_expansion();
+  e.errors.emplace().rms = std::sqrt(beyond / kSphere);
+  return e;
+}
+
+TEST(rms_beyond, is_by_parseval_where_the_rest_is_four_times_its_doubt) {
+  const RmsBeyond all = rms_beyond(measured_expansion(0.8 * kBeyond));
+  ASSERT_EQ(all.rms.size(), 3U);
+  EXPECT_NEAR(all.doubt.value(), 0.2 * kBeyond, 1e-14);
+  EXPECT_NEAR(all.rms[0].value(), std::sqrt((16 + kBeyond) / kSphere), 1e-15);
+  EXPECT_NEAR(all.rms[1].value(), std::sqrt((12 + kBeyond) / kSphere), 1e-15);
+  EXPECT_NEAR(all.rms[2].value(), std::sqrt(kBeyond / kSphere), 1e-14);
+  const RmsBeyond some = rms_beyond(measured_expansion(0.7 * kBeyond));
+  EXPECT_TRUE(some.rms[1].has_value());
+  EXPECT_FALSE(some.rms[2].has_value());
+  EXPECT_NEAR(some.bound().value(), std::sqrt(5 * 0.3 * kBeyond / kSphere), 1e-14);
+}
+
+// Without measured errors the doubt is that of the default precision: 2 |c| |dc|.
+TEST(rms_beyond, has_the_doubt_of_the_default_precision_or_of_an_exact_error) {
+  Expansion e = known_expansion();
+  const double varying = std::sqrt(16 + kBeyond);
+  EXPECT_NEAR(rms_beyond(e).doubt.value(), 2e-8 * (9 + 4 * varying), 1e-13);
+  e.norm_squared = 25 + 1e-7;  // 4 doubts are 2e-6
+  EXPECT_FALSE(rms_beyond(e).rms[2].has_value());
+  e.errors.emplace().rms = std::sqrt(1e-7 / kSphere);
+  e.errors->rms_is_exact = true;  // of finer coefficients
+  EXPECT_NEAR(rms_beyond(e).rms[2].value(), std::sqrt(1e-7 / kSphere), 1e-11);
+}
+
+TEST(rms_beyond, is_not_known_without_a_norm_but_within_the_expansion) {
+  Expansion e;
+  e.coefficients = known();
+  const RmsBeyond none = rms_beyond(e);
+  for (const std::optional<double>& rms : none.rms) EXPECT_FALSE(rms.has_value());
+  EXPECT_FALSE(none.bound().has_value());
+  EXPECT_FALSE(none.degree_within(1e6).has_value());
+  EXPECT_NEAR(none.rms_within[0], std::sqrt(16 / kSphere), 1e-15);
+  EXPECT_NEAR(none.rms_within[1], std::sqrt(12 / kSphere), 1e-15);
+  EXPECT_EQ(none.rms_within[2], 0);
+}
+
+// A tolerance is kept by what is known, or by the bound, and by nothing else.
+TEST(rms_beyond, degree_within_a_tolerance_rests_on_what_is_known) {
+  const double of_one = std::sqrt((12 + kBeyond) / kSphere);
+  const RmsBeyond some = rms_beyond(measured_expansion(0.7 * kBeyond));
+  EXPECT_EQ(some.degree_within(1.001 * of_one), 1);
+  EXPECT_EQ(some.degree_within(0.999 * of_one), 2);
+  EXPECT_EQ(some.degree_within(*some.bound()), 2);
+  EXPECT_FALSE(some.degree_within(0.99 * *some.bound()).has_value());
 }
 
 // Of any precision: nothing, or within the doubt of what exact coefficients have.

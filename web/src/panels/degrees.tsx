@@ -152,14 +152,20 @@ function Comparison({ one }: { one: Item }) {
 }
 
 function ErrorRow({ one }: { one: Item }) {
-  const row = one.expansion?.error.findLast(([l]) => l <= tool.degree.value);
-  const rms = one.expansion?.rms_per_degree?.[tool.degree.value] ?? row?.[1];
-  if (rms === null || rms === undefined || tool.mode.value !== "cut") return null;
-  const exact = row?.[0] === tool.degree.value ? row[2] : null;
+  if (!one.expansion || tool.mode.value !== "cut") return null;
+  const rms = one.expansion.rms_per_degree?.[tool.degree.value];
+  const most = one.expansion.error.find(([l]) => l === tool.degree.value)?.[2];
+  const largest = typeof most === "number" ? `, ${withUnit(most, one.unit)} at most` : "";
+  if (typeof rms !== "number") {
+    return (
+      <Hint>
+        How far the surface is off at degree {tool.degree.value} (rms) is not known{largest}.
+      </Hint>
+    );
+  }
   return (
     <Hint>
-      At degree {tool.degree.value} the surface is {withUnit(rms, one.unit)} off (rms)
-      {exact === null ? "" : `, ${withUnit(exact, one.unit)} at most`}.
+      At degree {tool.degree.value} the surface is {withUnit(rms, one.unit)} off (rms){largest}.
     </Hint>
   );
 }
