@@ -47,7 +47,7 @@ void refuse(const Mesh& mesh, const StarReport& report, bool allow_signed) {
   throw Error(ErrorCode::kNotStarShaped,
               why + ": " + describe(report, shape.bounds.diagonal()) +
                   (report.center_fell_back ? "; make" : "; let the centre be found, or make") +
-                  " an atlas of caps: compress() takes any shape");
+                  " an atlas of caps, which takes any shape");
 }
 
 }  // namespace
