@@ -466,7 +466,20 @@ std::array<float, 3> PointTree::local(const Vec3& x) const {
 void PointTree::nearest(const Vec3& x, std::size_t k, std::vector<Neighbor>& found) const {
   found.clear();
   if (size() == 0) return;
-  const std::array<float, 3> at = local(x);
+  // Places beyond kFarthest extents are taken as the one there in the same direction: their squares
+  // leave single precision, which sees all points equally far from them.
+  constexpr double kFarthest = 1e6;
+  const auto largest = [](const Vec3& v) {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  };
+  Vec3 place = x;
+  if (!(scale_ * largest(0.5 * x - 0.5 * middle_) < kFarthest / 2)) {
+    // Scaled down first: differences of huge coordinates are infinite.
+    const double unit = std::max(largest(x), largest(middle_));
+    const Vec3 far = x / unit - middle_ / unit;
+    place = middle_ + kFarthest / scale_ / largest(far) * far;
+  }
+  const std::array<float, 3> at = local(place);
   // The distance to the whole, and a circle of mean density around it.
   double outside2 = 0;
   for (std::size_t a = 0; a < 3; ++a) {

@@ -267,6 +267,18 @@ TEST(PointTree, of_nothing_finds_nothing) {
   EXPECT_EQ(tree.size(), 0U);
 }
 
+TEST(PointTree, finds_the_nearest_points_of_places_however_far) {
+  const std::vector<Vec3> points = {{1, 0, 0}, {-1, 0, 0}, {0, 2, 0}, {0, -2, 0}};
+  const PointTree tree(points);
+  std::vector<Neighbor> found;
+  for (const double far : {1e7, 1e20, 1e150, 1e308}) {
+    tree.nearest({0, -far, 0}, 2, found);
+    ASSERT_EQ(found.size(), 2U) << far;
+    tree.nearest({far, 0, far}, 4, found);
+    EXPECT_EQ(found.size(), 4U) << far;
+  }
+}
+
 TEST(PointTree, is_the_same_for_every_number_of_threads) {
   std::vector<Vec3> points;
   points.reserve(20000);
