@@ -1,4 +1,5 @@
 // rholm info: what a file holds.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -148,10 +149,15 @@ std::string mesh_text(const MeshReport& report) {
   return text + advice_text(report);
 }
 
+bool has_direction(const PointCloud& cloud) {
+  return std::any_of(cloud.normals.begin(), cloud.normals.end(),
+                     [](const Vec3& n) { return !(n == Vec3{}); });
+}
+
 Json cloud_json(const PointCloud& cloud) {
   Json json;
   json["counts"] = {{"points", cloud.points.size()}};
-  json["normals"] = !cloud.normals.empty();
+  json["normals"] = has_direction(cloud);
   json["bounds"] = json_of(bounds(cloud.points));
   json["attributes"] = json_of(cloud.attributes);
   return json;
@@ -160,8 +166,9 @@ Json cloud_json(const PointCloud& cloud) {
 // `n`: how many points there are.
 std::string cloud_text(const PointCloud& cloud, std::uint64_t n) {
   const Bounds box = bounds(cloud.points);
+  const char* given = cloud.normals.empty() ? "no" : "no: all of them are zero";
   return line("points", fmt::format("{}", n)) +
-         line("normals", cloud.normals.empty() ? "no" : "yes") +
+         line("normals", has_direction(cloud) ? "yes" : given) +
          line("bounds", fmt::format("{} to {}", text_of(box.min), text_of(box.max))) +
          line("diagonal", text_of(box.diagonal())) + line("attributes", text_of(cloud.attributes));
 }
@@ -266,7 +273,8 @@ bool report_large_cloud(const Options& options, Session& session) {
     seen.points.push_back(box.max);
     const Bounds all = bounds(seen.points);
     seen.points = {all.min, all.max};
-    if (!piece.normals.empty()) seen.normals = {{}, {}};
+    if (has_direction(piece)) seen.normals = {Vec3{0, 0, 1}};
+    if (!piece.normals.empty() && seen.normals.empty()) seen.normals = {Vec3{}};
     seen.attributes = std::move(piece.attributes);
     for (Attribute& attribute : seen.attributes) attribute.values.clear();
     stop_if_interrupted();
