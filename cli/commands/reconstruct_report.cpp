@@ -1,5 +1,7 @@
 #include "cli/commands/reconstruct_report.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "cli/terminal/json_text.h"
@@ -18,6 +20,38 @@ constexpr double kSaid = 0.02;  // share of unsure signs that is worth a warning
 // Of the area that points stand for: less is worth a warning; noisy points have 0.8.
 constexpr double kSaidArea = 0.7;
 
+// Notes say what was mended in given normals. Throws where the normals still contradict each other.
+void judge_normals(const ReconstructReport& r, Session& session) {
+  if (r.crooked_normals > kMostCrooked) {
+    session.note(fmt::format(
+        "{:.3g} % of the given normals are more than 45 degrees off the surface: all are computed "
+        "instead",
+        100 * r.crooked_normals));
+  }
+  if (r.mended_normals > 0) {
+    session.note(fmt::format(
+        "{} of the given normals pointed to the other side than those around them, and were turned",
+        r.mended_normals));
+  }
+  const auto n = static_cast<double>(r.points);
+  if (static_cast<double>(r.contradicting_normals) > kMostContradicting * std::sqrt(n)) {
+    throw Error(ErrorCode::kNotConverged,
+                fmt::format("the normals of {} points contradict those around them, first at {}: "
+                            "sheets cross there, or the signs of given normals cannot be decided; "
+                            "the surface, which is written, may be wrong ('rholm orient "
+                            "--keep-directions' finds signs anew)",
+                            r.contradicting_normals, text_of(r.contradiction)));
+  }
+  if (r.inward_normals > kMostInward) {
+    throw Error(
+        ErrorCode::kNotConverged,
+        fmt::format("{:.3g} % of the given normals point into the solid that the others "
+                    "bound, and it cannot be decided which are right; the surface, which is "
+                    "written, may be wrong",
+                    100 * r.inward_normals));
+  }
+}
+
 }  // namespace
 
 Json json_of(const Reconstructed& made, bool confidence) {
@@ -28,6 +62,10 @@ Json json_of(const Reconstructed& made, bool confidence) {
                {"computed_normals", r.computed_normals},
                {"unsure", r.unsure},
                {"turned_normals", r.turned_normals},
+               {"mended_normals", r.mended_normals},
+               {"crooked_normals", r.crooked_normals},
+               {"contradicting_normals", r.contradicting_normals},
+               {"inward_normals", r.inward_normals},
                {"spacing", r.spacing},
                {"noise", r.noise},
                {"normal_noise_degrees", r.normal_noise_degrees},
@@ -96,15 +134,18 @@ std::string report_text(const Reconstructed& made, const ReconstructOptions& opt
                                     100 * r.unsure));
   }
   if (r.turned_normals) text += line("normals", "all pointed inwards, turned outwards");
+  if (r.mended_normals > 0) {
+    text += line("normals", fmt::format("{} turned, to agree with those around", r.mended_normals));
+  }
   text += line("spacing", relative(r.spacing));
   text += line("noise", r.noise > 0 ? relative(r.noise) : "within what the caps explain");
   text += line("caps", fmt::format("{} of about {} points", r.caps, r.neighbours));
   text += line("grid", fmt::format("cubes of {}", relative(r.step)));
-  if (r.holes > 0) {
-    text += line("places without data", options.holes == HolePolicy::kKeep
-                                            ? fmt::format("{}", r.holes)
-                                            : fmt::format("{} closed, {} of them wide: smoothly",
-                                                          r.holes, r.smooth_holes));
+  // Smaller ones lie between caps, also where nothing is missing.
+  const bool kept = options.holes == HolePolicy::kKeep;
+  if ((kept ? r.holes : r.smooth_holes) > 0) {
+    text += line("places without data", kept ? fmt::format("{} left open", r.holes)
+                                             : fmt::format("{} closed", r.smooth_holes));
   }
   if (r.cut_handles > 0) text += line("small handles", fmt::format("{} cut", r.cut_handles));
   if (r.dropped_components > 0)
@@ -124,6 +165,7 @@ std::string report_text(const Reconstructed& made, const ReconstructOptions& opt
 }
 
 void judge(const ReconstructReport& report, bool filled, Session& session) {
+  judge_normals(report, session);
   const double unsure = report.unsure;
   const std::string side =
       fmt::format("the side of {:.3g} % of the normals is unsure", 100 * unsure);

@@ -59,10 +59,22 @@ struct ReconstructReport {
   std::size_t outliers = 0;        // removed
   ScanAlignment scans;             // what became of them, if there are any
   double unsure = 0;              // share of the points the sign of whose computed normal is unsure
-  bool computed_normals = false;  // the points had none
-  bool turned_normals = false;    // all of them: they pointed into the solid
-  double spacing = 0;             // median distance between neighbours, as if on a square grid
-  double noise = 0;  // standard deviation along the normal, 0 if within the shape's own
+  bool computed_normals = false;  // the points had none, or given ones that were replaced
+  bool turned_normals = false;    // all given ones: they pointed into the solid
+  // Given normals that pointed to the other side than the points around them, and were turned.
+  std::size_t mended_normals = 0;
+  // Share of given normals more than 45 degrees off the normal of the plane of their neighbours.
+  // Above kMostCrooked all of them are computed instead.
+  double crooked_normals = 0;
+  // Points whose normals contradict those around them, where turning some does not help; and the
+  // first of these points.
+  std::size_t contradicting_normals = 0;
+  Vec3 contradiction = {};
+  // Share of the points at which the winding number of all points says that the given normal,
+  // which is kept, points into the solid.
+  double inward_normals = 0;
+  double spacing = 0;  // median distance between neighbours, as if on a square grid
+  double noise = 0;    // standard deviation along the normal, 0 if within the shape's own
   double normal_noise_degrees = 0;     // of the normals against the surface
   std::size_t neighbours = 0;          // points of a typical cap
   std::size_t caps = 0;                // of the atlas
@@ -85,6 +97,14 @@ struct ReconstructReport {
   StageTimes times;        // "points", "caps", "surface", "attributes"
 };
 
+// Share of given normals that are not perpendicular to the surface, above which none is believed:
+// fewer are those of outliers.
+inline constexpr double kMostCrooked = 0.25;
+// Of n points, contradicting_normals above this times sqrt(n), and inward_normals above the second:
+// a surface made of them should not be trusted. Measured by tests/cli/clouds_test.py.
+inline constexpr double kMostContradicting = 0.5;
+inline constexpr double kMostInward = 0.1;
+
 // Parts of points_area: a surface that has less or more of it, without what closes holes, should
 // not be trusted. Of clean bodies it is 0.6 ... 1.4 with a thousand points and 0.9 ... 1.2 with
 // more, of noisy ones 0.8 and more, of two walls a few spacings apart 0 ... 0.3
@@ -100,13 +120,14 @@ struct Reconstruction {
   ReconstructReport report;  // what happened on the way
 };
 
-// Points with normals that point outwards (any length; computed by orient() if there are none; if
-// they point into a solid that the points lie all around, they are turned) to a surface. Attributes
-// of the points are carried over, averaged over the nearest ones that have a finite value and
-// rounded to their type; not a number where none has. Throws
-// InvalidInput for fewer than 16 different points, options out of range and points that no closed
-// surface goes with, OutOfMemory if more than allowed would be needed (with the step that would
-// do). Same input, same bits for any number of threads.
+// Points with normals that point outwards to a surface. Normals have any length; they are computed
+// by orient() if there are none. If they point into a solid that the points lie all around, all are
+// turned. If some contradict those around them, these are turned. The report says what was done.
+// Attributes of the points are carried over, averaged over the nearest ones that have a finite
+// value and rounded to their type; not a number where none has. Throws InvalidInput for fewer than
+// 16 different points, options out of range and points that no closed surface goes with,
+// OutOfMemory if more than allowed would be needed (with the step that would do). Same input, same
+// bits for any number of threads.
 Reconstruction reconstruct(PointCloud cloud, const ReconstructOptions& options = {},
                            const Context& context = {});
 

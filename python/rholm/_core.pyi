@@ -2366,7 +2366,7 @@ class ReconstructReport:
 
     @property
     def computed_normals(self) -> bool:
-        """Whether the points had none."""
+        """Whether the points had none, or given ones were replaced."""
 
     @property
     def scans(self) -> ScanAlignment:
@@ -2379,6 +2379,32 @@ class ReconstructReport:
     @property
     def turned_normals(self) -> bool:
         """Whether all pointed into the solid, and were turned."""
+
+    @property
+    def mended_normals(self) -> int:
+        """Given normals that were turned, to agree with those around them."""
+
+    @property
+    def crooked_normals(self) -> float:
+        """
+        Share of given normals more than 45 degrees off the surface; above 0.25 all are computed instead.
+        """
+
+    @property
+    def contradicting_normals(self) -> int:
+        """
+        Points whose normals contradict those around them, where turning does not help: above half the square root of the number of points the surface should not be trusted.
+        """
+
+    @property
+    def contradiction(self) -> numpy.typing.NDArray[numpy.float64]:
+        """The first of these points."""
+
+    @property
+    def inward_normals(self) -> float:
+        """
+        Share of the points at which the winding number contradicts the given normal: above 0.1 the surface should not be trusted.
+        """
 
     @property
     def spacing(self) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
@@ -38,6 +39,22 @@ class Reconstruction(NamedTuple):
         return notebook_png(self.mesh)
 
 
+def _warn_of_normals(report: _core.ReconstructReport) -> None:
+    """As the program ends with exit code 4: kMostContradicting and kMostInward of reconstruct.h."""
+    if report.contradicting_normals > 0.5 * report.points**0.5:
+        warnings.warn(
+            f"the normals of {report.contradicting_normals} points contradict those around them, first "
+            f"at {tuple(report.contradiction.tolist())}: the surface may be wrong",
+            stacklevel=3,
+        )
+    elif report.inward_normals > 0.1:
+        warnings.warn(
+            f"{100 * report.inward_normals:.3g} % of the given normals point into the solid: the surface "
+            "may be wrong",
+            stacklevel=3,
+        )
+
+
 def reconstruct(
     points: PointsLike,
     normals: npt.ArrayLike | None = None,
@@ -67,7 +84,8 @@ def reconstruct(
         At least 16 different ones. Rows that are masked or not finite are dropped, and counted in
         ``r.report.dropped_points``.
     normals : array_like, (N, 3), optional
-        They point outwards; of any length. Computed if there are none.
+        They point outwards; of any length. Computed if there are none. Those that contradict their
+        neighbours are turned, as ``r.report.mended_normals`` says.
     attributes : mapping of str to array_like, optional
         Of points, (N,) or (N, k) each: carried over to the mesh.
     columns : str or sequence of str, optional
@@ -112,9 +130,15 @@ def reconstruct(
     Raises
     ------
     InvalidInputError
-        For fewer than 16 different points, and points that no closed surface goes with.
+        For fewer than 16 different points, points that no closed surface goes with, and points that
+        lie on a curve or fill a volume.
     OutOfMemoryError
         If more than allowed would be needed, with the step that would do.
+
+    Warns
+    -----
+    UserWarning
+        Where normals contradict each other, and it cannot be decided which of them are right.
     """
     cloud = as_points(points, normals, attributes, columns)
     options = _options(
@@ -133,6 +157,7 @@ def reconstruct(
     )
     with caller(threads, progress) as how:
         mesh, atlas, report = _core.reconstruct(cloud._core, options, how)
+    _warn_of_normals(report)
     return Reconstruction(Mesh._of(mesh), Atlas._of(_core.AtlasModel(atlas, report.step, "")), report)
 
 

@@ -117,12 +117,25 @@ void bind_reconstruction(nb::module_& m) {
              "Not finite, at the place of another, without a normal.")
       .field("outliers", &ReconstructReport::outliers, "Points removed.")
       .field("computed_normals", &ReconstructReport::computed_normals,
-             "Whether the points had none.")
+             "Whether the points had none, or given ones were replaced.")
       .field("scans", &ReconstructReport::scans, "What became of scans, if there are any.")
       .field("unsure", &ReconstructReport::unsure,
              "Share of the points the sign of whose computed normal is unsure.")
       .field("turned_normals", &ReconstructReport::turned_normals,
              "Whether all pointed into the solid, and were turned.")
+      .field("mended_normals", &ReconstructReport::mended_normals,
+             "Given normals that were turned, to agree with those around them.")
+      .field("crooked_normals", &ReconstructReport::crooked_normals,
+             "Share of given normals more than 45 degrees off the surface; above 0.25 all are "
+             "computed instead.")
+      .field("contradicting_normals", &ReconstructReport::contradicting_normals,
+             "Points whose normals contradict those around them, where turning does not help: "
+             "above half the square root of the number of points the surface should not be "
+             "trusted.")
+      .field("contradiction", &ReconstructReport::contradiction, "The first of these points.")
+      .field("inward_normals", &ReconstructReport::inward_normals,
+             "Share of the points at which the winding number contradicts the given normal: above "
+             "0.1 the surface should not be trusted.")
       .field("spacing", &ReconstructReport::spacing,
              "Median distance between neighbours, as if on a square grid.")
       .field("noise", &ReconstructReport::noise, "Standard deviation along the normal.")

@@ -161,6 +161,18 @@ def test_confidence_of_points_and_of_surfaces(ring):
     assert np.isclose(whole.report.volume, rholm.enclosed_volume(whole.mesh))
 
 
+def test_given_normals_that_contradict_each_other_are_turned_or_told():
+    rng = np.random.default_rng(1)
+    points = rng.normal(size=(2000, 3))
+    points /= np.linalg.norm(points, axis=1)[:, None]
+    turned = rng.random(2000) < 0.3
+    r = rholm.reconstruct(points, np.where(turned[:, None], -points, points))
+    assert r.report.mended_normals == turned.sum()
+    assert r.report.volume == pytest.approx(4 / 3 * np.pi, rel=0.02)
+    with pytest.raises(rholm.InvalidInputError, match="volume"):
+        rholm.reconstruct(points * rng.random((2000, 1)) ** (1 / 3))
+
+
 def test_surfaces_from_points_carry_attributes(ring):
     cloud = rholm.sample_surface(ring, 8000)
     height = cloud.points[:, 2]

@@ -10,6 +10,7 @@
 #include "model/bricks/brick_normals.h"
 #include "model/bricks/brick_points.h"
 #include "shape/points/outliers.h"
+#include "shape/points/sign_check.h"
 
 namespace rholm {
 namespace {
@@ -146,6 +147,12 @@ WholeSample join(const std::vector<SamplePoint>& samples) {
   whole.median = quantile(spacings, 0.5);
   whole.fine = std::min(whole.median, quantile(spacings, 0.1) / kTenthOfEven);
   whole.wrong = n > 0 ? whole.wrong / n : 0;
+  std::vector<PointArea> all;
+  for (std::size_t j = 0; j < samples.size(); ++j) {
+    all.push_back({static_cast<std::uint32_t>(j), samples[j].points * samples[j].area});
+  }
+  const std::vector<std::uint32_t> one(samples.size(), 0);
+  whole.inward = check_sides(points, normals, all, 0, one, {}).inward;
   whole.sides = balance_of(std::move(discs), points, normals);
   return whole;
 }

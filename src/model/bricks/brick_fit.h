@@ -62,7 +62,8 @@ struct WholeSample {
   double median = 0;  // spacing
   double fine = 0;    // only a tenth of the points lie clearly closer
   double area = 0;
-  double wrong = 0;  // share of normals
+  double wrong = 0;   // share of normals
+  double inward = 0;  // share of normals that winding numbers contradict, as SideCheck has it
   SideBalance sides;
 };
 WholeSample join(const std::vector<SamplePoint>& samples);

@@ -33,8 +33,11 @@
 #include "model/points/surface_confidence.h"
 #include "rholm/compress.h"
 #include "rholm/error.h"
+#include "shape/points/local_shape.h"
+#include "shape/points/normals.h"
 #include "shape/points/scan_labels.h"
 #include "shape/points/sensors.h"
+#include "shape/points/sign_check.h"
 #include "surface/atlas_surface.h"
 #include "surface/level_set/cut_handles.h"
 
@@ -49,14 +52,16 @@ constexpr std::size_t kPilots = 5;
 constexpr std::size_t kTried = 128;
 // Winding trees in memory at a time: those around one brick.
 constexpr std::size_t kTrees = 24;
+// Of the spacing: scatter of points about their surface below which winding numbers are asked.
+constexpr double kExact = 0.25;
 
 // What the stages cost, us a point on one thread: measured on 4 million points (bench/bricks), but
 // for confidence and simplify, which are chosen.
 std::vector<StageCost> costs(const ReconstructOptions& options) {
   std::vector<StageCost> all = {
-      {"survey", 0.05}, {"distribute", 0.1}, {"sort", 0.2}, {"sample", 0.3}, {"cap size", 0.3},
-      {"caps", 2.1},    {"bands", 0.1},      {"grid", 2.2}, {"holes", 0.8},  {"surface", 3.0},
-      {"handles", 0.3}, {"parts", 0.4},      {"write", 1.2}};
+      {"survey", 0.05},  {"signs", 0.8},   {"distribute", 0.1}, {"sort", 0.2}, {"sample", 0.3},
+      {"cap size", 0.3}, {"caps", 2.1},    {"bands", 0.1},      {"grid", 2.2}, {"holes", 0.8},
+      {"surface", 3.0},  {"handles", 0.3}, {"parts", 0.4},      {"write", 1.2}};
   if (options.remove_outliers) all.push_back({"strays", 0.9});
   if (options.confidence) all.push_back({"confidence", 2});
   if (options.simplify) all.push_back({"simplify", 5});
@@ -85,6 +90,7 @@ class BrickRun {
     sort();
     if (options_.remove_outliers) remove_strays();
     orient();
+    check_normals();
     count_points();
     sample();
     choose_size("size");
@@ -210,9 +216,46 @@ class BrickRun {
     stages_.each("turn", n_, [&](std::size_t brick) { undetermined.remove(brick); });
   }
 
+  // Of given normals and of computed ones. They are not turned here: that takes all points at once.
+  void check_normals() {
+    struct Found {
+      std::uint64_t contradicting = 0;
+      double scatter = 0;
+      Vec3 first;
+    };
+    const auto name_of = [](std::size_t brick) { return "signs-checked/" + std::to_string(brick); };
+    stages_.each("signs", n_, [&](std::size_t brick) {
+      if (store_.has(name_of(brick))) return;
+      const BrickScene scene = load(brick, 2 * kGraphNeighbors);
+      Found found;
+      if (scene.n_own > 0) {
+        const SignCheck check = check_signs(*scene.tree, scene.points, scene.normals, scene.gaps,
+                                            {}, scene.foreign, context_);
+        found = {check.contradicting, check.scatter, scene.points[check.first]};
+      }
+      put(name_of(brick), std::vector{found});
+    });
+    std::vector<double> scatters;
+    for (std::size_t brick = 0; brick < n_; ++brick) {
+      const Found found = get<Found>(name_of(brick)).at(0);
+      if (found.contradicting > 0 && report_.contradicting_normals == 0) {
+        report_.contradiction = found.first;
+      }
+      report_.contradicting_normals += found.contradicting;
+      scatters.push_back(found.scatter);
+    }
+    std::sort(scatters.begin(), scatters.end());
+    scatter_ = scatters[scatters.size() / 2];
+  }
+
   void sample() {
     sample_ = take_sample("sample");
     turned_ = survey_.layout.normals && sample_.sides.inwards;
+    // Noisy points stand for less than their nearest neighbours tell.
+    const bool exact = scatter_ < kExact * sample_.median;
+    if (survey_.layout.normals && exact && !is_open()) {
+      report_.inward_normals = turned_ ? 0 : sample_.inward;
+    }
     report_.turned_normals = turned_;
     if (!is_open()) check_sides(sample_.sides, points_);
   }
@@ -233,12 +276,24 @@ class BrickRun {
     return join(all);
   }
 
+  // Bricks of a surface are parts of one.
+  void check_brick_shape(const BrickScene& scene) const {
+    const LocalShape shape = look_at_shape(*scene.tree, scene.points, scene.normals, context_);
+    check_shape(shape, scene.points.size());
+    if (!(shape.crooked > kMostCrooked) || scene.computed_normals) return;
+    throw Error(ErrorCode::kInvalidInput,
+                fmt::format("{:.3g} % of the normals in a brick are more than 45 degrees off the "
+                            "surface: give points without normals, they are computed then",
+                            100 * shape.crooked));
+  }
+
   void choose_size(const std::string& round) {
     const std::size_t pilots = std::min(n_, kPilots);
     const auto name_of = [&](std::size_t pilot) { return round + "/" + std::to_string(pilot); };
     stages_.each("cap size", pilots, [&](std::size_t pilot) {
       if (store_.has(name_of(pilot))) return;
       const BrickScene scene = load(pilot * n_ / pilots, kTried);
+      check_brick_shape(scene);
       put(name_of(pilot), std::vector{choose_cap_size(scene.ordered(), kDegree, context_)});
     });
     std::vector<CapSize> sizes;
@@ -535,6 +590,7 @@ class BrickRun {
   std::uint64_t points_ = 0;      // that differ
   std::vector<double> spacings_;  // in each brick
   WholeSample sample_;
+  double scatter_ = 0;   // of the points about their surface
   bool turned_ = false;  // normals
   CapSize size_;
   double median_support_ = 0;       // of caps

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include "rholm/points.h"
 #include "rholm/topology.h"
 #include "shape/on_line.h"
+#include "shape/points/local_shape.h"
 #include "shape/points/outliers.h"
 #include "shape/points/sensors.h"
 #include "shape/points/side_balance.h"
@@ -23,6 +25,8 @@ namespace {
 constexpr std::size_t kSpacingSeeds = 2000;
 // Of even random points the tenth lies at 0.8 of the median; a finer part of uneven ones below.
 constexpr double kTenthOfEven = 0.8;
+// Points that speak for the sides of all components: as turn_outwards() asks of one.
+constexpr std::size_t kSideSeeds = 2000;
 
 // keep(i): whether point i stays.
 template <typename Keep>
@@ -50,6 +54,11 @@ bool lists_fit(const PointCloud& cloud) {
                      [n](const Attribute& attribute) { return attribute.values.size() == n; });
 }
 
+void note_contradictions(std::size_t n, const Vec3& first, ReconstructReport& report) {
+  report.contradicting_normals = n;
+  if (n > 0) report.contradiction = first;
+}
+
 // Points without a direction are of no use here.
 void drop_zero_normals(PointCloud& cloud) {
   keep_points(cloud, [&](std::size_t i) { return norm(cloud.normals[i]) > 0; });
@@ -68,8 +77,8 @@ WorkingPoints::WorkingPoints(PointCloud cloud, const ReconstructOptions& options
   }
   clean(cloud_, context);
   if (options.sensor) put_sensor(*options.sensor);
-  const bool directed = std::any_of(cloud_.normals.begin(), cloud_.normals.end(),
-                                    [](const Vec3& n) { return norm(n) > 0; });
+  bool directed = std::any_of(cloud_.normals.begin(), cloud_.normals.end(),
+                              [](const Vec3& n) { return norm(n) > 0; });
   if (directed) drop_zero_normals(cloud_);
   if (!directed) cloud_.normals.clear();
   if (options.align_scans) report.scans = align_scans(cloud_, context);
@@ -81,29 +90,102 @@ WorkingPoints::WorkingPoints(PointCloud cloud, const ReconstructOptions& options
     const std::vector<double> sure(cloud_.points.size(), 1.0);
     set_attribute(cloud_.attributes, {"confidence", ScalarType::kFloat32, sure});
   }
-  if (!directed) {
-    // Strays are gone, if they shall.
-    const OrientOptions wanted{.keep_strays = true, .confidence = options.confidence};
-    report.unsure = orient(cloud_, wanted, context).unsure;
-    report.computed_normals = computed_ = true;
-    const std::size_t before = size();
-    drop_zero_normals(cloud_);
-    if (cloud_.points.size() < before) {
-      check_points();
-      order_points(context);
-    } else {
-      order_normals(context);  // they know more of gaps
-      gaps_ = find_gaps(*tree_, points_, normals_, context);
-    }
+  if (directed) {
+    const LocalShape shape = look_at_shape(context);
+    report.crooked_normals = shape.crooked;
+    if (shape.crooked > kMostCrooked) directed = false;
   }
+  if (!directed) compute_normals(options, report, context);
   report.dropped_points = report.points - report.outliers - cloud_.points.size();
-  const SideBalance balance = balance_sides(*tree_, points_, normals_, context);
-  if (options.holes == HolePolicy::kFill) check_sides(balance, size());
-  report.turned_normals = directed && balance.inwards;
-  if (report.turned_normals) {
-    for (Vec3& normal : cloud_.normals) normal = -normal;
-    for (Vec3& normal : normals_) normal = -normal;
+  if (directed) {
+    mend_normals(options, report, context);
+  } else {
+    const SignCheck check = check_signs(*tree_, points_, normals_, gaps_, {}, {}, context);
+    note_contradictions(check.contradicting, points_[check.first], report);
   }
+  if (options.holes == HolePolicy::kFill) {
+    check_sides(balance_sides(*tree_, points_, normals_, context), size());
+  }
+}
+
+void WorkingPoints::compute_normals(const ReconstructOptions& options, ReconstructReport& report,
+                                    const Context& context) {
+  cloud_.normals.clear();
+  // Strays are gone, if they shall.
+  const OrientOptions wanted{.keep_strays = true, .confidence = options.confidence};
+  report.unsure = orient(cloud_, wanted, context).unsure;
+  report.computed_normals = computed_ = true;
+  const std::size_t before = size();
+  drop_zero_normals(cloud_);
+  if (cloud_.points.size() < before) {
+    check_points();
+    order_points(context);
+  } else {
+    order_normals(context);  // they know more of gaps
+    gaps_ = find_gaps(*tree_, points_, normals_, context);
+  }
+  look_at_shape(context);
+}
+
+LocalShape WorkingPoints::look_at_shape(const Context& context) {
+  const LocalShape shape = rholm::look_at_shape(*tree_, points_, normals_, context);
+  check_shape(shape, size());
+  if (shape.neighbors > 2 * kCircle) around_ = shape.neighbors;
+  return shape;
+}
+
+// Of noisy points the nearest ones fill a volume: as many are asked as lie in a flat neighbourhood.
+double WorkingPoints::area_at(std::size_t i, std::vector<Neighbor>& near) const {
+  const std::size_t around = std::min(gaps_.scaled(i, around_), size() - 1);
+  tree_->nearest_to(i, around + 1, near);
+  return std::numbers::pi * near.back().distance2 / static_cast<double>(around);
+}
+
+void WorkingPoints::mend_normals(const ReconstructOptions& options, ReconstructReport& report,
+                                 const Context& context) {
+  const std::vector<PointArea> samples = side_samples(context);
+  SignCheck check = check_signs(*tree_, points_, normals_, gaps_, samples, {}, context);
+  note_contradictions(check.left, points_[check.first_left], report);
+  turn(check.turned);
+  report.turned_normals = balance_sides(*tree_, points_, normals_, context).inwards;
+  if (report.turned_normals) turn(std::vector<std::uint8_t>(size(), 1));
+  if (options.holes == HolePolicy::kFill) {
+    const SideCheck sides =
+        check_sides(points_, normals_, samples, check.scatter, check.component, context);
+    std::vector<std::uint8_t> turned(size(), 0);
+    for (std::size_t i = 0; i < size(); ++i) {
+      const auto& all = sides.turned;
+      turned[i] = std::find(all.begin(), all.end(), check.component[i]) != all.end() ? 1 : 0;
+      check.turned[i] ^= turned[i];
+    }
+    turn(turned);
+    report.inward_normals = sides.inward;
+  }
+  report.mended_normals =
+      static_cast<std::size_t>(std::count(check.turned.begin(), check.turned.end(), 1));
+}
+
+void WorkingPoints::turn(const std::vector<std::uint8_t>& turned) {
+  for (std::size_t i = 0; i < turned.size(); ++i) {
+    if (turned[i] == 0) continue;
+    normals_[i] = -normals_[i];
+    Vec3& given = cloud_.normals[tree_->order()[i]];
+    given = -given;
+  }
+}
+
+std::vector<PointArea> WorkingPoints::side_samples(const Context& context) const {
+  const std::size_t n = size(), m = std::min(n, kSideSeeds);
+  std::vector<PointArea> samples(m);
+  parallel_for(m, 256, context, {}, [&](std::size_t begin, std::size_t end) {
+    std::vector<Neighbor> near;
+    for (std::size_t j = begin; j < end; ++j) {
+      const std::size_t i = j * n / m;
+      samples[j] = {static_cast<std::uint32_t>(i),
+                    area_at(i, near) * static_cast<double>(n) / static_cast<double>(m)};
+    }
+  });
+  return samples;
 }
 
 void WorkingPoints::check_points() {
@@ -159,7 +241,7 @@ Spacing WorkingPoints::spacing(const Context& context) const {
       const std::size_t around = gaps_.scaled(i, kCircle);
       tree_->nearest_to(i, around + 1, near);
       all[j] = spacing_of_circle(near.back().distance2);
-      areas[j] = all[j] * all[j] * static_cast<double>(kCircle) / static_cast<double>(around);
+      areas[j] = area_at(i, near);
     }
   });
   std::sort(all.begin(), all.end());

@@ -11,7 +11,10 @@
 #include "atlas/cover/cap_cover.h"
 #include "rholm/mesh.h"
 #include "rholm/reconstruct.h"
+#include "shape/points/local_shape.h"
 #include "shape/points/point_tree.h"
+#include "shape/points/sampling_gaps.h"
+#include "shape/points/sign_check.h"
 #include "surface/holes/seen_space.h"
 
 namespace rholm {
@@ -59,6 +62,17 @@ class WorkingPoints {
   std::size_t remove_strays(const Context& context);
   // Refuses points that no surface goes with.
   void check_points();
+  void compute_normals(const ReconstructOptions& options, ReconstructReport& report,
+                       const Context& context);
+  // Turns given normals that contradict others, or the winding number of all.
+  void mend_normals(const ReconstructOptions& options, ReconstructReport& report,
+                    const Context& context);
+  void turn(const std::vector<std::uint8_t>& turned);
+  std::vector<PointArea> side_samples(const Context& context) const;
+  // Refuses points that look like a curve or a volume.
+  LocalShape look_at_shape(const Context& context);
+  // The area that point i stands for.
+  double area_at(std::size_t i, std::vector<Neighbor>& near) const;
   void put_sensor(const Vec3& sensor);
   void order_points(const Context& context);
   void order_normals(const Context& context);
@@ -68,6 +82,7 @@ class WorkingPoints {
   PointCloud cloud_;
   std::unique_ptr<PointTree> tree_;
   SamplingGaps gaps_;
+  std::size_t around_ = kCircle;        // neighbours that say the area of a point
   bool computed_ = false;               // normals
   bool has_one_sensor_ = false;         // by an option: no attribute of the surface
   std::vector<Vec3> points_, normals_;  // in the order of the tree

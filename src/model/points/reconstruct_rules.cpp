@@ -89,6 +89,23 @@ void check_sides(const SideBalance& balance, std::size_t n) {
                           n));
 }
 
+void check_shape(const LocalShape& shape, std::size_t n) {
+  if (shape.kind == LocalKind::kCurve) {
+    throw Error(
+        ErrorCode::kInvalidInput,
+        fmt::format("these {} points lie on a curve, not on a surface: their neighbourhoods "
+                    "are lines; give points of a surface, or more of them between the lines",
+                    n));
+  }
+  if (shape.kind == LocalKind::kVolume) {
+    throw Error(ErrorCode::kInvalidInput,
+                fmt::format("these {} points fill a volume, and lie on no surface: their flattest "
+                            "neighbourhoods, of {} points, are {:.2f} times as thick as wide; give "
+                            "points of the surface, or remove most of the noise",
+                            n, shape.neighbors, shape.thickness));
+  }
+}
+
 CoverOptions cover_options(const ReconstructOptions& options, const CapSize& size) {
   return {.neighbours = size.neighbours,
           .degree = kDegree,

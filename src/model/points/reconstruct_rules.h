@@ -6,6 +6,7 @@
 #include "atlas/cover/cap_cover.h"
 #include "atlas/cover/cap_size.h"
 #include "rholm/reconstruct.h"
+#include "shape/points/local_shape.h"
 #include "shape/points/side_balance.h"
 
 namespace rholm {
@@ -56,6 +57,8 @@ inline constexpr double kLine = 1e-5;
 void check_spread(std::size_t n, double diagonal);
 [[noreturn]] void refuse_one_line(std::size_t n);
 void check_sides(const SideBalance& balance, std::size_t n);
+// Throws InvalidInput for n points that look like a curve or a volume.
+void check_shape(const LocalShape& shape, std::size_t n);
 
 CoverOptions cover_options(const ReconstructOptions& options, const CapSize& size);
 

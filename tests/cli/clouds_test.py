@@ -1,0 +1,210 @@
+"""Points by formulas: normals that contradict each other, and points that lie on no surface.
+
+Every cloud must give the right surface, or exit code 3 or 4 with a message. As a test it takes a few
+small clouds. With options it takes many:
+  clouds_test.py --normals [N]   N clouds (40) with 0 to 50 % of turned normals
+  clouds_test.py --shapes        points of no surface, of three sizes
+  clouds_test.py --thresholds    what local_shape.cpp measures, of both"""
+
+import os
+import sys
+import tempfile
+import unittest
+import zlib
+from pathlib import Path
+
+sys.path.insert(0, os.path.dirname(__file__))
+from harness import CliTest, main
+try:
+    import numpy as np
+    import clouds
+except ImportError:  # no NumPy
+    np = None
+
+# Of volume: caps on a thousand points are as good as that.
+CLOSE = 0.06
+
+
+def spoiled(body, way, share, n, noise=0.0):
+    """Points, normals, and how many of these are turned."""
+    rng = np.random.default_rng(zlib.crc32(f"{body} {way} {share} {n} {noise}".encode()))
+    points, normals = clouds.BODIES[body][0](rng, n)
+    turned = clouds.SPOILED[way](rng, points, share)
+    points = points + noise * np.linalg.norm(np.ptp(points, axis=0)) * rng.normal(size=points.shape)
+    return points, np.where(turned[:, None], -normals, normals), int(turned.sum())
+
+
+@unittest.skipIf(np is None, "no NumPy")
+class Clouds(CliTest):
+    def reconstruct(self, points, normals=None, *words):
+        """The result of the run, and what info says of the surface."""
+        self.write("p.xyz", clouds.text(points, normals))
+        done = self.run_rholm("reconstruct", "p.xyz", "-o", "s.ply", "--json", "--threads", "1", *words)
+        self.check_decent(done)
+        self.assertIn(done.code, (0, 3, 4), done)
+        shape = None if done.code == 3 else self.rholm("info", "s.ply", "--json").json()
+        return done, shape
+
+    def fault(self, body, done, shape):
+        """What is wrong, unsaid."""
+        volume, genus = clouds.BODIES[body][1:]
+        if done.code != 0:
+            return ""
+        if shape["genus"] != genus:
+            return f"genus {shape['genus']}"
+        if volume and abs(shape["volume"] / volume - 1) > CLOSE:
+            return f"volume {shape['volume'] / volume:.3f} of what is right"
+        return ""
+
+    def test_turned_normals_are_mended_with_a_note(self):
+        for body, way, share in (("sphere", "random", 0.5), ("torus", "patch", 0.1),
+                                 ("box", "half", 0.4), ("two_balls", "random", 0.45),
+                                 ("plate", "caps", 0.1)):
+            points, normals, turned = spoiled(body, way, share, 1200)
+            done, shape = self.reconstruct(points, normals)
+            self.assertEqual((done.code, self.fault(body, done, shape)), (0, ""), done)
+            self.assertIn("were turned", done.err)
+            if share < 0.45:
+                self.assertAlmostEqual(done.json()["mended_normals"], turned, delta=0.01 * turned)
+
+    def test_right_normals_stay(self):
+        for body in ("sphere", "plate", "shell", "two_balls", "bowl"):
+            points, normals, _ = spoiled(body, "random", 0, 1200)
+            done, shape = self.reconstruct(points, normals)
+            self.assertEqual((done.code, self.fault(body, done, shape)), (0, ""), done)
+            found = done.json()
+            self.assertEqual((found["mended_normals"], found["contradicting_normals"],
+                              found["inward_normals"]), (0, 0, 0), body)
+            self.assertNotIn("were turned", done.err)
+
+    def test_directions_at_random_are_computed_anew(self):
+        rng = np.random.default_rng(1)
+        points, _ = clouds.torus(rng, 1500)
+        done, shape = self.reconstruct(points, clouds.directions(rng, 1500))
+        self.assertEqual((done.code, self.fault("torus", done, shape)), (0, ""), done)
+        self.assertIn("off the surface", done.err)
+        self.assertTrue(done.json()["computed_normals"])
+
+    def test_a_body_turned_inside_out_beside_another_is_turned(self):
+        rng = np.random.default_rng(2)
+        big = clouds.sphere(rng, 1000)
+        points, normals = clouds.joined(big, clouds.turned(clouds.sphere(rng, 500, 0.6, (2, 0, 0))))
+        done, shape = self.reconstruct(points, normals)
+        self.assertEqual((done.code, self.fault("two_balls", done, shape)), (0, ""), done)
+        self.assertEqual(done.json()["mended_normals"], 500)
+
+    def test_points_of_no_surface_are_refused(self):
+        for name in ("ball", "lattice", "circle", "line"):
+            make, kind = clouds.NO_SURFACE[name]
+            done, _ = self.reconstruct(make(np.random.default_rng(3), 500))
+            self.assertEqual(done.code, 3, done)
+            self.assertIn(kind, done.err)
+
+    def test_noise_is_no_volume(self):
+        rng = np.random.default_rng(4)
+        points, normals = clouds.sphere(rng, 3000)
+        points = points + 0.0866 * rng.normal(size=points.shape)  # 2.5 % of the diagonal
+        for given in (None, normals):
+            done, shape = self.reconstruct(points, given)
+            self.assertEqual((done.code, self.fault("sphere", done, shape)), (0, ""), done)
+
+    def test_bricks_refuse_what_they_cannot_mend(self):
+        points, normals, _ = spoiled("sphere", "random", 0.3, 4000)
+        done, _ = self.reconstruct(points, normals, "--brick-points", "1000")
+        self.assertEqual(done.code, 4, done)
+        self.assertIn("contradict", done.err)
+
+    def test_normals_that_are_all_zero_are_none(self):
+        points, normals = clouds.sphere(np.random.default_rng(5), 100)
+        self.write("zero.xyz", clouds.text(points, 0 * normals))
+        self.assertFalse(self.rholm("info", "zero.xyz", "--json").json()["normals"])
+        self.assertRegex(self.rholm("info", "zero.xyz").out, "normals +no")
+
+    def test_a_point_however_far_is_an_outlier(self):
+        for far in (1e20, 1e150, 1e308):
+            points = np.concatenate([clouds.sphere(np.random.default_rng(6), 300)[0],
+                                     [[0.1, 0.2, far]]])
+            self.write("far.xyz", clouds.text(points))
+            self.assertEqual(self.rholm("orient", "far.xyz", "-o", "o.ply", "--json").json()["strays"], 1)
+
+
+def many_normals(count):
+    bodies, ways = list(clouds.BODIES), list(clouds.SPOILED)
+    wrong = 0
+    for k in range(count):
+        body, way = bodies[k % len(bodies)], ways[(k // 3) % len(ways)]
+        share, n = 0.5 * k / max(1, count - 1), (800, 2000, 6000)[k % 3]
+        noise = (0, 0, 0.002, 0.005)[k % 4]
+        points, normals, turned = spoiled(body, way, share, n, noise)
+        test = Clouds("reconstruct")
+        with tempfile.TemporaryDirectory() as folder:
+            test.folder = Path(folder)
+            done, shape = test.reconstruct(points, normals)
+        fault = test.fault(body, done, shape)
+        if done.code == 0 and turned > 0 and "turned" not in done.err:
+            fault = fault or "nothing said"
+        wrong += fault != ""
+        mended = done.json()["mended_normals"] if done.out else "-"
+        print(f"{body:10} {way:7} {share:.3f} of {n:5}, noise {noise:5}: {turned:5} turned, {mended:>5} "
+              f"mended, exit {done.code} {fault}", flush=True)
+    print(f"{wrong} of {count} are wrong")
+    return wrong > 0
+
+
+def many_shapes():
+    wrong = 0
+    for n in (400, 1500, 6000):
+        for name, (make, kind) in clouds.NO_SURFACE.items():
+            test = Clouds("reconstruct")
+            with tempfile.TemporaryDirectory() as folder:
+                test.folder = Path(folder)
+                done, _ = test.reconstruct(make(np.random.default_rng(n), n))
+            fault = "" if done.code and (not kind or kind in done.err) else "not told"
+            wrong += fault != "" and kind is not None
+            print(f"{name:16} {n:5}: exit {done.code} {fault}", flush=True)
+    print(f"{wrong} are wrong")
+    return wrong > 0
+
+
+def thresholds():
+    """Median thickness and kurtosis of the flattest neighbourhoods, as local_shape.cpp has them."""
+    def look(points):
+        best = (2.0, 3.0, 0)
+        seeds = points[:: max(1, len(points) // 100)]
+        ways = np.linalg.norm(points[None] - seeds[:, None], axis=2).argsort(axis=1)
+        k = 12
+        while k <= len(points) // 4:
+            found = []
+            for near in ways[:, :k + 1]:
+                around = points[near] - points[near].mean(axis=0)
+                values, vectors = np.linalg.eigh(around.T @ around)
+                heights = around @ vectors[:, 0]
+                found.append((np.sqrt(max(values[0], 0) / values[1]), np.sqrt(values[1] / values[2]),
+                              (heights ** 4).mean() / max((heights ** 2).mean() ** 2, 1e-300)))
+            thick, wide, kurtosis = np.median(found, axis=0)
+            if wide >= 0.4 and thick < best[0]:
+                best = (thick, kurtosis, k)
+            k += k // 2
+        return best
+    for n in (400, 1500, 6000):
+        rng = np.random.default_rng(n)
+        rows = [(name, make(rng, n)) for name, (make, kind) in clouds.NO_SURFACE.items() if kind]
+        for name, (make, _, _) in clouds.BODIES.items():
+            for noise in (0, 0.005, 0.01, 0.025):
+                points = make(rng, n)[0]
+                scatter = noise * np.linalg.norm(np.ptp(points, axis=0))
+                rows.append((f"{name} {noise}", points + scatter * rng.normal(size=points.shape)))
+        for name, points in rows:
+            thick, kurtosis, k = look(points)
+            print(f"{name:16} {n:5}: thickness {thick:.3f}, kurtosis {kurtosis:.2f}, of {k} points", flush=True)
+    return False
+
+
+if __name__ == "__main__":
+    if "--normals" in sys.argv:
+        sys.exit(many_normals(int(sys.argv[2]) if len(sys.argv) > 2 else 40))
+    if "--shapes" in sys.argv:
+        sys.exit(many_shapes())
+    if "--thresholds" in sys.argv:
+        sys.exit(thresholds())
+    main()

@@ -1,0 +1,152 @@
+// Given normals that contradict each other, and what is right and looks like it.
+#include "shape/points/sign_check.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <vector>
+
+#include "support/test_points.h"
+
+namespace rholm {
+namespace {
+
+using test::joined;
+using test::random_in;
+using test::sphere_points;
+
+// Moved and scaled; with a negative size normals point inwards.
+PointCloud ball(std::size_t n, double size, const Vec3& middle, std::uint64_t seed) {
+  PointCloud cloud = sphere_points(n, seed);
+  for (Vec3& p : cloud.points) p = middle + std::abs(size) * p;
+  if (size < 0) {
+    for (Vec3& normal : cloud.normals) normal = -normal;
+  }
+  return cloud;
+}
+
+struct Checked {
+  SignCheck signs;
+  SideCheck sides;
+  std::vector<std::uint8_t> turned;  // by both, in the order of the cloud
+  std::size_t n_turned = 0;
+};
+
+Checked check(const PointCloud& cloud) {
+  const std::size_t n = cloud.points.size();
+  const PointTree tree(cloud.points);
+  std::vector<Vec3> points, normals;
+  for (const std::uint32_t i : tree.order()) {
+    points.push_back(cloud.points[i]), normals.push_back(cloud.normals[i]);
+  }
+  const SamplingGaps gaps = find_gaps(tree, points, normals, {});
+  std::vector<PointArea> samples;
+  std::vector<Neighbor> near;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    tree.nearest_to(i, 9, near);
+    samples.push_back({i, std::numbers::pi * near.back().distance2 / 8});
+  }
+  Checked result{.signs = check_signs(tree, points, normals, gaps, samples, {}, {}),
+                 .sides = {},
+                 .turned = std::vector<std::uint8_t>(n)};
+  std::vector<std::uint8_t> turned = result.signs.turned;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (turned[i] != 0) normals[i] = -normals[i];
+  }
+  result.sides =
+      check_sides(points, normals, samples, result.signs.scatter, result.signs.component, {});
+  for (const std::uint32_t first : result.sides.turned) {
+    for (std::size_t i = 0; i < n; ++i) {
+      if (result.signs.component[i] == first) turned[i] ^= 1;
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    result.turned[tree.order()[i]] = turned[i];
+    result.n_turned += turned[i];
+  }
+  return result;
+}
+
+// Turns the normals of the points that are chosen; the same ones must be found.
+template <class Chosen>
+void expect_found(PointCloud cloud, const Chosen& chosen) {
+  std::vector<std::uint8_t> wanted(cloud.points.size());
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    if (!chosen(i, cloud.points[i])) continue;
+    wanted[i] = 1;
+    cloud.normals[i] = -cloud.normals[i];
+  }
+  const Checked found = check(cloud);
+  EXPECT_EQ(found.turned, wanted);
+  EXPECT_EQ(found.signs.left, 0U);
+  EXPECT_EQ(found.sides.inward, 0);
+}
+
+TEST(signs, that_are_turned_at_random_are_found) {
+  for (const double share : {0.01, 0.1, 0.45}) {
+    expect_found(sphere_points(3000),
+                 [&](std::size_t i, const Vec3&) { return random_in(0, 1, 7, i) < share; });
+  }
+}
+
+TEST(signs, of_patches_and_bands_are_found) {
+  for (const double height : {0.98, 0.9, 0.5, 0.1}) {
+    expect_found(sphere_points(3000), [&](std::size_t, const Vec3& p) { return p.z > height; });
+  }
+  expect_found(sphere_points(3000), [](std::size_t, const Vec3& p) { return std::abs(p.z) < 0.3; });
+}
+
+TEST(signs, of_a_whole_body_beside_another_are_found) {
+  const PointCloud two = joined(ball(2000, 1, {}, 1), ball(800, -0.6, {2, 0, 0}, 2));
+  const Checked found = check(two);
+  EXPECT_EQ(found.n_turned, 800U);
+  EXPECT_EQ(found.turned.back(), 1);
+  EXPECT_EQ(found.sides.inward, 0);
+}
+
+TEST(signs, of_a_hollow_that_faces_as_the_outer_wall_are_found) {
+  const Checked found = check(joined(ball(2000, 1, {}, 1), ball(800, 0.6, {}, 2)));
+  EXPECT_EQ(found.n_turned, 800U);
+  EXPECT_EQ(found.turned.back(), 1);
+}
+
+TEST(signs, that_are_right_stay) {
+  // A hollow, two balls that touch, and two that are apart.
+  EXPECT_EQ(check(joined(ball(2000, 1, {}, 1), ball(800, -0.6, {}, 2))).n_turned, 0U);
+  EXPECT_EQ(check(joined(ball(3000, 1, {}, 1), ball(3000, 1, {2, 0, 0}, 2))).n_turned, 0U);
+  EXPECT_EQ(check(joined(ball(2000, 1, {}, 1), ball(800, 0.6, {2, 0, 0}, 2))).n_turned, 0U);
+}
+
+// Of a plate 2 wide, without its rim: the spacing is 0.05.
+TEST(signs, of_two_near_walls_stay) {
+  for (const double apart : {0.1, 0.03, 0.01, 0.003}) {
+    for (const double facing : {1.0, -1.0}) {
+      PointCloud cloud;
+      for (std::size_t i = 0; i < 3200; ++i) {
+        const double side = i % 2 == 0 ? 1 : -1;
+        cloud.points.push_back({random_in(-1, 1, 1, i), random_in(-1, 1, 2, i), side * apart / 2});
+        cloud.normals.push_back({0, 0, facing * side});
+      }
+      const Checked found = check(cloud);
+      EXPECT_EQ(found.signs.n_turned, 0U) << apart << " " << facing;
+      EXPECT_EQ(found.signs.left, 0U) << apart << " " << facing;
+    }
+  }
+}
+
+// An open sheet has no side, but its points agree on one.
+TEST(signs, of_an_open_sheet_follow_most_points) {
+  PointCloud cloud;
+  for (std::size_t i = 0; i < 2000; ++i) {
+    const double x = random_in(-1, 1, 1, i), y = random_in(-1, 1, 2, i);
+    cloud.points.push_back({x, y, 0});
+    cloud.normals.push_back({0, 0, x > 0.2 ? 1.0 : -1.0});
+  }
+  const Checked found = check(cloud);
+  for (std::size_t i = 0; i < 2000; ++i) EXPECT_EQ(found.turned[i] != 0, cloud.points[i].x > 0.2);
+}
+
+}  // namespace
+}  // namespace rholm
