@@ -66,10 +66,10 @@ struct ReconstructReport {
   // Share of given normals more than 45 degrees off the normal of the plane of their neighbours.
   // Above kMostCrooked all of them are computed instead.
   double crooked_normals = 0;
-  // Points whose normals contradict those around them, where turning some does not help; and the
-  // first of these points.
+  // Points whose normals contradict those around them, where turning some does not help, and the
+  // first one.
   std::size_t contradicting_normals = 0;
-  Vec3 contradiction = {};
+  Vec3 contradiction = {};  // that point
   // Share of the points at which the winding number of all points says that the given normal,
   // which is kept, points into the solid.
   double inward_normals = 0;
@@ -103,7 +103,7 @@ inline constexpr double kMostCrooked = 0.25;
 // Of n points, contradicting_normals above this times sqrt(n), and inward_normals above the second:
 // a surface made of them should not be trusted. Measured by tests/cli/clouds_test.py.
 inline constexpr double kMostContradicting = 0.5;
-inline constexpr double kMostInward = 0.1;
+inline constexpr double kMostInward = 0.1;  // the second
 
 // Parts of points_area: a surface that has less or more of it, without what closes holes, should
 // not be trusted. Of clean bodies it is 0.6 ... 1.4 with a thousand points and 0.9 ... 1.2 with

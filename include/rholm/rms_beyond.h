@@ -27,6 +27,7 @@ struct RmsBeyond {
   // none, or if it is not known.
   std::optional<int> degree_within(double tolerance) const;
 };
+// For every degree l of an expansion.
 RmsBeyond rms_beyond(const Expansion& expansion);
 
 }  // namespace rholm

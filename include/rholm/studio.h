@@ -13,10 +13,10 @@
 
 namespace rholm {
 
-// What a page asks, as of HTTP, without it. docs/studio.md has what may be asked.
-// Bytes of a body of JSON.
-inline constexpr std::size_t kMaxStudioJson = std::size_t{16} << 20;  // chosen: a million points
+// Bytes of a body of JSON. Chosen: a million points.
+inline constexpr std::size_t kMaxStudioJson = std::size_t{16} << 20;
 
+// What a page asks, as of HTTP, without it. docs/studio.md has what may be asked.
 struct StudioRequest {
   std::string method = "GET";                     // "GET", "POST", "DELETE"
   std::string path = {};                          // below the address of the page: "api/state"

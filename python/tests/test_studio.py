@@ -168,7 +168,8 @@ def test_it_ends_with_its_widget(bumpy, tmp_path, monkeypatch):
     assert len(list(tmp_path.glob("rholm-studio-*"))) == 1
     job = {"op": "compress", "item": 1, "tolerance": 1e-6}
     studio._ask("POST", "step", json.dumps(job).encode())
-    studio.widget.comm = None  # as the widget's own close() leaves it: it waits for the job, which is cancelled
+    # As the widget's own close() leaves it: it waits for the job, which is cancelled.
+    studio.widget.comm = None
     assert not studio._teller.is_alive()
     with pytest.raises(rholm.InvalidInputError, match="closed"):
         studio.add(bumpy)
