@@ -231,31 +231,31 @@ AtlasSize size_of(const Atlas& atlas) {
   return {atlas.caps.size(), n_kept(atlas), atlas.caps.size() * kFrameNumbers};
 }
 
-Compressed compress(const Mesh& given, const CompressOptions& options, const Context& context) {
+Compressed compress(const Mesh& mesh, const CompressOptions& options, const Context& context) {
   check(options);
-  validate(given);
-  check_span(bounds(given.vertices).diagonal());
-  const Outward shape = outward(given);
-  const Mesh& mesh = shape.welded.mesh;
-  const Inspection found = inspect(mesh);
+  validate(mesh);
+  check_span(bounds(mesh.vertices).diagonal());
+  const Outward shape = outward(mesh);
+  const Mesh& welded = shape.welded.mesh;
+  const Inspection found = inspect(welded);
   check_oriented_alike(found);
-  const RayScene scene(mesh, context);
-  OuterSurface outer{mesh, scene, found.closed, options.seed};
+  const RayScene scene(welded, context);
+  OuterSurface outer{welded, scene, found.closed, options.seed};
   const SheetProbe probe = probe_sheets(outer, kThin, context);
   Subject subject;
-  subject.diagonal = bounds(mesh.vertices).diagonal();
-  const double area = surface_area(mesh);
+  subject.diagonal = bounds(welded.vertices).diagonal();
+  const double area = surface_area(welded);
   const Lengths lengths = lengths_for(options.tolerance, subject.diagonal, probe.gap, area);
   outer.closed = probe.hidden > 0;  // nothing else has to be looked for
   subject.samples = outer_samples(outer, n_samples(options, lengths, area), context);
-  subject.input_numbers = 3 * mesh.vertices.size();  // of the welded mesh: copies say nothing new
+  subject.input_numbers = 3 * welded.vertices.size();  // copies say nothing new
   // What is left of parts that run into each other hangs together in a way of its own.
   if (probe.hidden == 0) subject.topology = topology_of_solid(found);
   const std::vector<Vec3>& visible = subject.samples.points;
   subject.measure = [&](const Mesh& surface) {
     const std::size_t n = std::max<std::size_t>(visible.size(), 100000);
-    return probe.hidden == 0 ? measure(mesh, surface, n, context)
-                             : measure(visible, mesh, surface, n, context);
+    return probe.hidden == 0 ? measure(welded, surface, n, context)
+                             : measure(visible, welded, surface, n, context);
   };
   Compressed result = compress_subject(subject, lengths, options, context);
   result.report.hidden = probe.hidden;

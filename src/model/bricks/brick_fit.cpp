@@ -148,6 +148,7 @@ WholeSample join(const std::vector<SamplePoint>& samples) {
   whole.fine = std::min(whole.median, quantile(spacings, 0.1) / kTenthOfEven);
   whole.wrong = n > 0 ? whole.wrong / n : 0;
   std::vector<PointArea> all;
+  all.reserve(samples.size());
   for (std::size_t j = 0; j < samples.size(); ++j) {
     all.push_back({static_cast<std::uint32_t>(j), samples[j].points * samples[j].area});
   }
