@@ -29,7 +29,7 @@ void bind_surfaces(nb::module_& m) {
       .field("area", &SurfaceMeasures::area, "Of the surface, in the squared unit.")
       .field("centroid", &SurfaceMeasures::centroid, "Of the solid, (3,).")
       .property(
-          "sphericity", [](const SurfaceMeasures& m) { return m.sphericity(); },
+          "sphericity", [](const SurfaceMeasures& measures) { return measures.sphericity(); },
           "The area of the ball of the same volume over the area, at most 1.");
   m.def("measure", [](const Expansion& expansion, const Caller& caller) {
     return caller.run([&](const Context& context) { return measure(expansion, context); });
