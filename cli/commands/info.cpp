@@ -285,11 +285,11 @@ bool report_large_cloud(const Options& options, Session& session) {
                {"encoding", stream.encoding()}};
   json.update(cloud_json(seen));
   json["counts"] = {{"points", stream.read_so_far()}};
-  json["warnings"] = stream.warnings();
   std::string text = fmt::format("{}: points, {}, {}\n", options.input, to_string(stream.format()),
                                  stream.encoding());
   text += cloud_text(seen, stream.read_so_far());
   add_table(stream.table(), text, json);
+  json["warnings"] = stream.warnings();
   for (const std::string& warning : stream.warnings()) text += line("warning", warning);
   options.json ? print_json(json) : print_text(text);
   return true;

@@ -2397,7 +2397,7 @@ class ReconstructReport:
         """
 
     @property
-    def contradiction(self) -> numpy.typing.NDArray[numpy.float64]:
+    def contradiction(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
         """The first of these points."""
 
     @property

@@ -77,7 +77,7 @@ class WrongUsage(CliTest):
 
     def test_what_may_have_been_meant_is_said(self):
         for words, meant in ((["analyse", "a.off"], "analyze"), (["help", "recon"], "reconstruct"),
-                             (["batch", "simplfy", "a.csv"], "simplify"),
+                             (["batch", "a.csv", "-o", "o.csv", "--command", "simplfy"], "simplify"),
                              (["analyze", "a.off", "--degre", "8", "-o", "a.h5"], "--degree"),
                              (["analyze", "--degre=8", "a.off", "-o", "a.h5"], "--degree"),
                              (["info", "a.off", "--jsno"], "--json"),
