@@ -239,6 +239,7 @@ void bind_norms(nb::module_& m) {
   m.def("rms_beyond", [](const Expansion& expansion) {
     const RmsBeyond beyond = rms_beyond(expansion);
     std::vector<double> rms;
+    rms.reserve(beyond.rms.size());
     for (const std::optional<double>& value : beyond.rms) {
       rms.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
     }

@@ -93,9 +93,9 @@ class Members {
 
 // Copies, pickles and equality of a class from get(T&), a value of Python, and make(state), a T.
 template <class T, class Get, class Make>
-void bind_state(nb::class_<T>& type, Get get, Make make) {
+void bind_state(nb::class_<T>& type, const Get& get, const Make& make) {
   type.def("__getstate__", [get](T& t) { return get(t); });
-  type.def("__setstate__", [make](T& t, nb::object state) { new (&t) T(make(std::move(state))); });
+  type.def("__setstate__", [make](T& t, const nb::object& state) { new (&t) T(make(state)); });
 }
 
 // A result: its fields can be read.

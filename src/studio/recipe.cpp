@@ -62,7 +62,7 @@ std::string stem_of(const std::string& name) {
 }
 
 Named model_of(Recipe& recipe, const Item& item) {
-  const Named model = {item.model_file, item.model_variable};
+  Named model = {item.model_file, item.model_variable};
   if (is_whole(item)) return model;
   const std::string stem = stem_of(item.name);
   const Named made = {recipe.file(stem + "-filtered", ".h5"), recipe.variable(stem + "_filtered")};

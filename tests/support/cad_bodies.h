@@ -198,12 +198,12 @@ inline CadBody cad_body(int i) {
   if (kind == 0) {
     body.name = "cylinder";
     solid = cuboid({1.5, 1.5, half_height});
-    round_sides(1, static_cast<int>(random(5, 40)));
+    round_sides(1.0, static_cast<int>(random(5, 40)));
   } else if (kind == 1) {
     body.name = "cylinder with chamfers";
     solid = cuboid({1.5, 1.5, half_height});
     const int n = static_cast<int>(random(5, 24));
-    round_sides(1, n);
+    round_sides(1.0, n);
     const double width = random(0.01, 0.25);
     for (int k = 0; k < n; ++k) {
       const double angle = 2 * std::numbers::pi * (k + 0.3) / n, slope = std::sqrt(0.5);

@@ -325,13 +325,13 @@ PatchView parse_patch_view(const std::string& name) {
               "unknown view '" + name + "': patches, triangles or spheres");
 }
 
-PatchPicture patch_picture(const Mesh& given, PatchView view, const PatchAtlasOptions& options,
+PatchPicture patch_picture(const Mesh& mesh, PatchView view, const PatchAtlasOptions& options,
                            const Context& context) {
   check(options);
-  validate(given);
-  check_span(bounds(given.vertices).diagonal());
-  const Mesh mesh = outward(given).welded.mesh;
-  return picture_of(mesh.vertices, area_normals(mesh.vertices, mesh.triangles), view, options,
+  validate(mesh);
+  check_span(bounds(mesh.vertices).diagonal());
+  const Mesh welded = outward(mesh).welded.mesh;
+  return picture_of(welded.vertices, area_normals(welded.vertices, welded.triangles), view, options,
                     context);
 }
 
@@ -343,15 +343,14 @@ PatchPicture patch_picture(const PointCloud& cloud, PatchView view,
   return picture_of(cloud.points, cloud.normals, view, options, context);
 }
 
-PatchAtlas patch_atlas(const Mesh& given, const PatchAtlasOptions& options,
-                       const Context& context) {
+PatchAtlas patch_atlas(const Mesh& mesh, const PatchAtlasOptions& options, const Context& context) {
   check(options);
-  validate(given);
-  check_span(bounds(given.vertices).diagonal());
-  const Mesh mesh = outward(given).welded.mesh;
+  validate(mesh);
+  check_span(bounds(mesh.vertices).diagonal());
+  const Mesh welded = outward(mesh).welded.mesh;
   PatchAtlas made =
-      make_all(mesh.vertices, area_normals(mesh.vertices, mesh.triangles), options, context);
-  made.model.errors = measure(mesh, made.surface, 100000, context);
+      make_all(welded.vertices, area_normals(welded.vertices, welded.triangles), options, context);
+  made.model.errors = measure(welded, made.surface, 100000, context);
   return made;
 }
 
