@@ -56,7 +56,7 @@ def from_convention(
     ----------
     values : array_like, (2, L+1, L+1)
         Cosine plane, sine plane. Entries that are no coefficients, with m > l and sines of order 0,
-        are 0.
+        must be 0 but for rounding, 6e-14 of the largest entry.
     normalization : {"4pi", "orthonormal", "schmidt"}
         Of the array.
     csphase : {1, -1}
