@@ -150,7 +150,7 @@ def test_what_cannot_be_done_in_bricks_is_refused(cloud, tmp_path):
     refused(rholm.IoError, "none.xyz", points=tmp_path / "none.xyz")
     refused(rholm.IoError, "nowhere", name="nowhere/s.ply")
     refused(TypeError, "foreseen", foreseen=3)
-    refused(TypeError, "points_per_brick|incompatible", points_per_brick=-1)
+    refused(rholm.InvalidInputError, "points_per_brick", points_per_brick=-1)
     scans = rholm.PointCloud(cloud.points, cloud.normals, {"scan": np.arange(len(cloud)) % 2})
     refused(rholm.UnsupportedError, "scans", points=scans)
     cloud.save(tmp_path / "p.ply")
