@@ -27,9 +27,9 @@ std::string short_text(const nb::object& value) {
   if (nb::hasattr(value, "to_dict")) {
     return nb::cast<std::string>(value.type().attr("__name__")) + "(...)";
   }
-  const std::string text = nb::isinstance<nb::float_>(value)
-                               ? nb::cast<std::string>(value.attr("__format__")(".6g"))
-                               : nb::cast<std::string>(nb::repr(value));
+  std::string text = nb::isinstance<nb::float_>(value)
+                         ? nb::cast<std::string>(value.attr("__format__")(".6g"))
+                         : nb::cast<std::string>(nb::repr(value));
   if (text.size() <= kLongestValue && text.find('\n') == std::string::npos) return text;
   return "<" + nb::cast<std::string>(value.type().attr("__name__")) + " of " +
          std::to_string(nb::len(value)) + ">";

@@ -180,6 +180,7 @@ void bind_mesh(nb::module_& m) {
 // What each column was taken for.
 std::vector<std::string> columns_of(const TableColumns& table) {
   std::vector<std::string> columns;
+  columns.reserve(table.columns.size());
   for (const TableColumn& column : table.columns) columns.push_back(column.taken_for);
   return columns;
 }

@@ -156,6 +156,7 @@ bool is_inside(const Expansion& expansion, const Vec3& d, const Context& context
 double depth_of_folds(const Expansion& expansion, const Vec3& d, const std::vector<Vec3>& behind,
                       double highest, const Context& context) {
   std::vector<Vec3> directions;
+  directions.reserve(behind.size());
   for (const Vec3& p : behind) directions.push_back(normalized(p));
   double depth = 0;
   for (const double from : {0.01 * highest, highest}) {

@@ -231,7 +231,7 @@ class NameReader {
     result_.roles[*radius] = Role::kRadius;
     result_.colatitude = geo_of(plain_[*latitude].words) == Geo::kColatitude;
     result_.west = has_word(*longitude, "west") || has_word(*longitude, "w") ||
-                   plain_[*longitude].unit.ends_with("w") ||
+                   plain_[*longitude].unit.ends_with('w') ||
                    plain_[*longitude].unit.find("west") != std::string::npos;
     result_.radians = plain_[*latitude].unit.starts_with("rad");
     return true;

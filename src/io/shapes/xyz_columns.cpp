@@ -317,11 +317,9 @@ class Planner {
     std::size_t number = 0;
     for (std::size_t i = 0; i < rest.size();) {
       const std::size_t k = rest[i];
-      const bool three = i + 2 < rest.size() && rest[i + 2] == k + 2;
-      if (three && is_free_of_colors() && before_colors(rest, i)) {
-        plan_.names[k] = "scalar_" + std::to_string(++number);
-        ++i;
-      } else if (three && is_free_of_normals() && are_normals(k, position, side_by_side, i == 0)) {
+      const bool three = i + 2 < rest.size() && rest[i + 2] == k + 2 &&
+                         !(is_free_of_colors() && before_colors(rest, i));
+      if (three && is_free_of_normals() && are_normals(k, position, side_by_side, i == 0)) {
         take(k, Role::kNx);
         i += 3;
       } else if (three && is_free_of_colors() && are_colors(k)) {

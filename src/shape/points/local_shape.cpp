@@ -79,6 +79,7 @@ LocalShape look_at_shape(const PointTree& tree, std::span<const Vec3> points,
   if (n < kFewest) return shape;
   std::vector<Seed> seeds(std::min(n, kSeeds));
   std::vector<Vec3> places;
+  places.reserve(seeds.size());
   for (std::size_t s = 0; s < seeds.size(); ++s) places.push_back(points[s * n / seeds.size()]);
   const double local = kLocal * bounds(places).diagonal();
   bool was_long = false;

@@ -434,7 +434,8 @@ TEST(table, colors_of_one_channel_are_no_normals) {
   // The upper side of a plate has the same kind of normals.
   text.clear();
   for (int i = 0; i < kRows; ++i) {
-    text += fmt::format("{} {} 0.5 0 0 1\n", 0.37 * (i % 8), 0.29 * (i / 8));
+    const int row = i / 8;
+    text += fmt::format("{} {} 0.5 0 0 1\n", 0.37 * (i % 8), 0.29 * row);
   }
   EXPECT_EQ(taken_for(parse(text, "t.xyz").table), "x,y,z,nx,ny,nz");
 }

@@ -28,6 +28,7 @@ LocalShape look(const std::vector<Vec3>& points, const std::vector<Vec3>& normal
 template <class Place>
 std::vector<Vec3> make(std::size_t n, const Place& place) {
   std::vector<Vec3> points;
+  points.reserve(n);
   for (std::size_t i = 0; i < n; ++i) points.push_back(place(i));
   return points;
 }
@@ -56,8 +57,10 @@ TEST(local_shape, of_points_of_a_body_is_a_volume) {
     const auto slab = make(n, [](std::size_t i) {
       return Vec3{random_in(0, 1, 1, i), random_in(0, 1, 2, i), random_in(0, 0.3, 3, i)};
     });
-    const auto lattice = make(
-        n, [](std::size_t i) { return Vec3(double(i % 8), double(i / 8 % 8), double(i / 64)); });
+    const auto lattice = make(n, [](std::size_t i) {
+      const std::size_t row = i / 8 % 8, layer = i / 64;
+      return Vec3{static_cast<double>(i % 8), static_cast<double>(row), static_cast<double>(layer)};
+    });
     for (const auto& points : {ball, slab, lattice}) {
       EXPECT_EQ(look(points).kind, LocalKind::kVolume) << n;
     }
