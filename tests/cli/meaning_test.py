@@ -141,7 +141,7 @@ class NoShape(Meaning):
 
     def test_what_it_is_relative_to_stays_and_may_be_given(self):
         def header(name):
-            lines = self.read(name).decode().split("end_of_head")[0].splitlines()
+            lines = (self.folder / name).read_text().split("end_of_head")[0].splitlines()
             return dict(line.split(None, 1) for line in lines if len(line.split()) > 1)
         self.write("g.gfc", GRAVITY)
         self.rholm("convert", "g.gfc", "o.gfc")
