@@ -377,7 +377,7 @@ class Expansion:
         Returns
         -------
         expansion : Expansion
-            Of the errors, those of a radius have `rms`: the energy of what is cut off adds to it.
+            Of the errors, those of a radius have ``rms``: the energy of what is cut off adds to it.
         """
         return Expansion._of(_core.truncated(self._core, degree), shape=self._shape, name=self._name)
 
@@ -429,7 +429,7 @@ class Expansion:
         Returns
         -------
         expansion : Expansion
-            Of the errors, those of a radius have `rms`, to which sum (1 - g_l)^2 E_l adds.
+            Of the errors, those of a radius have ``rms``, to which sum (1 - g_l)^2 E_l adds.
         """
         return Expansion._of(_core.filter(self._core, floats(gains, "gains"), name))
 
