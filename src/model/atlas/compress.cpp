@@ -128,7 +128,8 @@ std::size_t most_numbers(const Subject& subject, const CompressOptions& options)
       ErrorCode::kUnsupported,
       fmt::format("an atlas of caps within {:.3g} would take {} numbers; the shape itself "
                   "has {} coordinates, and {} numbers are allowed: keep the shape as it "
-                  "is, take a larger tolerance, or allow more numbers (max_numbers)",
+                  "is, take a larger tolerance, or allow more numbers (max_numbers, "
+                  "in the program --max-numbers)",
                   tolerance, numbers, subject.input_numbers, most_numbers(subject, options)));
 }
 
