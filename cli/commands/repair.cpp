@@ -56,6 +56,7 @@ Json report_json(const RepairReport& r, const Options& options) {
   json["dropped"] = {{"isolated_vertices", r.isolated_vertices},
                      {"duplicate_faces", r.duplicate_triangles},
                      {"degenerate_faces", r.degenerate_triangles}};
+  json["junctions"] = r.junctions;
   json["split_vertices"] = r.split_vertices;
   json["turned_faces"] = r.flipped_triangles;
   json["turned_parts"] = r.inside_out_parts;
@@ -117,6 +118,9 @@ std::string report_text(const RepairReport& r) {
                fmt::format("{}, {} collapsed", counted(r.merged_vertices, "vertex", "vertices"),
                            counted(r.collapsed_triangles, "face")));
   text += line("dropped", dropped_text(r));
+  if (r.junctions > 0) {
+    text += line("joined", counted(r.junctions, "vertex", "vertices") + " on edges of other faces");
+  }
   if (r.split_vertices > 0) {
     text += line("split", counted(r.split_vertices, "vertex", "vertices") + " between sheets");
   }

@@ -26,6 +26,7 @@ struct RepairReport {
   std::size_t isolated_vertices = 0;     // dropped: in no triangle
   std::size_t duplicate_triangles = 0;   // dropped: same three vertices as an earlier one
   std::size_t degenerate_triangles = 0;  // thinner than rounding, dropped or swapped
+  std::size_t junctions = 0;             // vertices on edges of others' faces (T-junctions), joined
   std::size_t flipped_triangles = 0;     // turned, so that their part is oriented alike, outwards
   std::size_t inside_out_parts = 0;      // closed parts turned as a whole, flipped_triangles too
   std::size_t cavities = 0;              // closed parts that lie within another: face inwards
@@ -46,14 +47,18 @@ struct Repaired {
   RepairReport report;  // what was wrong, and what still is
 };
 
-// In this order: welds; drops vertices in no triangle, duplicate and degenerate triangles;
-// separates sheets where three or more triangles meet in an edge, or several fans in a vertex
-// (copies of a vertex move apart by 1e-6 of the diagonal into their own sheets, or readers would
-// weld them again); orients each part alike, as the larger part of its area was; closes holes with
-// flat triangles between their own vertices, of the least bend and area (or around one new vertex
-// where those would meet others), unless the cover would be larger than 3/4 of the part: that is no
-// hole but the border of an open sheet; orients closed parts outwards, inwards those that lie
-// within an odd number of others.
+// repair() takes these steps, in this order:
+// - It welds vertices, and drops vertices in no triangle, duplicate and degenerate triangles.
+// - It splits a triangle where vertices of others lie on its edge (T-junctions), within the
+//   rounding of the coordinates.
+// - It separates sheets where three or more triangles meet in an edge, or several fans in a vertex.
+//   Copies of a vertex move apart by 1e-6 of the diagonal into their own sheets, or readers would
+//   weld them again.
+// - It orients each part alike, as the larger part of its area was.
+// - It closes holes with flat triangles between their own vertices, of the least bend and area, or
+//   around one new vertex where those would meet others. A hole whose cover would be larger than
+//   3/4 of the part is the border of an open sheet, and stays.
+// - It orients closed parts outwards, and inwards those that lie within an odd number of others.
 //
 // Vertices keep their order and attributes, new ones come last; normals nx, ny, nz of turned
 // triangles turn along. A mesh that needs nothing comes back as weld() makes it. Same bits for any

@@ -276,6 +276,10 @@ class RepairReport:
         """Triangles thinner than rounding, dropped or swapped."""
 
     @property
+    def junctions(self) -> int:
+        """Vertices on edges of others' triangles (T-junctions), joined."""
+
+    @property
     def flipped_triangles(self) -> int:
         """Triangles that were turned."""
 

@@ -73,6 +73,8 @@ void bind_records(nb::module_& m) {
              "Triangles dropped: same vertices as an earlier one.")
       .field("degenerate_triangles", &RepairReport::degenerate_triangles,
              "Triangles thinner than rounding, dropped or swapped.")
+      .field("junctions", &RepairReport::junctions,
+             "Vertices on edges of others' triangles (T-junctions), joined.")
       .field("flipped_triangles", &RepairReport::flipped_triangles, "Triangles that were turned.")
       .field("inside_out_parts", &RepairReport::inside_out_parts,
              "Closed parts that were turned as a whole.")

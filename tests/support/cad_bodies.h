@@ -105,11 +105,18 @@ inline Mesh triangulated(const FacedSolid& solid) {
   return mesh;
 }
 
-// Puts vertices on some edges of a solid, in both faces of the edge, or for T-junctions in one. The
-// fan of a face begins at a vertex whose edges no other face has slivers on, if there is one, and
-// about a new vertex otherwise.
+// What is rare in files, and harder.
+enum class CadRarity {
+  kNone,
+  kSliversMeet,  // the slivers of both faces of an edge
+  kJunctions,    // T-junctions at bodies of every kind
+};
+
+// Puts vertices on some edges of a solid, in both faces of the edge, or for T-junctions in one.
+// Unless slivers may meet, the fan of a face begins at a vertex whose edges no other face has
+// slivers on, if there is one, and about a new vertex otherwise.
 inline FacedSolid with_split_edges(const FacedSolid& given, double share, bool junctions,
-                                   std::uint64_t seed) {
+                                   bool slivers_meet, std::uint64_t seed) {
   std::uint64_t counter = 0;
   const auto random = [&] { return random_uniform(seed, counter++); };
   struct SplitEdge {
@@ -142,7 +149,7 @@ inline FacedSolid with_split_edges(const FacedSolid& given, double share, bool j
     const std::size_t n = loop.size();
     auto first = static_cast<std::size_t>(random() * static_cast<double>(n));
     const auto is_free = [&](const SplitEdge* edge) {
-      return edge->inner.empty() || !edge->has_slivers;
+      return slivers_meet || edge->inner.empty() || !edge->has_slivers;
     };
     std::size_t tries = 0;
     while (tries < n && !(is_free(after[first]) && is_free(after[(first + n - 1) % n]))) {
@@ -179,7 +186,7 @@ struct CadBody {
 };
 
 // Body i of 300.
-inline CadBody cad_body(int i) {
+inline CadBody cad_body(int i, CadRarity rarity = CadRarity::kNone) {
   const auto seed = 1000 + static_cast<std::uint64_t>(i);
   std::uint64_t counter = 0;
   const auto random = [&](double low, double high) {
@@ -265,7 +272,9 @@ inline CadBody cad_body(int i) {
     }
     solid = star_prism(polygon, half_height);
   }
-  const FacedSolid split = with_split_edges(solid, random(0.1, 0.6), body.junctions, seed);
+  body.junctions |= rarity == CadRarity::kJunctions;
+  const FacedSolid split = with_split_edges(solid, random(0.1, 0.6), body.junctions,
+                                            rarity == CadRarity::kSliversMeet, seed);
   body.exact = triangulated(solid);
   body.written = triangulated(split);
   // Turned about a random axis, in millimetres, up to ten sizes away.

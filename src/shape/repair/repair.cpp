@@ -1,6 +1,6 @@
-// Each step leaves what the next one counts on: no duplicates before triangles are paired, alike
-// senses before sheets are told apart, single fans before borders are followed, and closed parts
-// before their insides are looked for.
+// Each step leaves what the next one counts on: no duplicates before triangles are paired,
+// junctions joined before borders have fans, alike senses before sheets are told apart, single fans
+// before borders are followed, and closed parts before their insides are looked for.
 #include "rholm/repair.h"
 
 #include <algorithm>
@@ -18,6 +18,7 @@
 #include "shape/face.h"
 #include "shape/normal_attributes.h"
 #include "shape/repair/hole_closing.h"
+#include "shape/repair/junctions.h"
 #include "shape/repair/outwards.h"
 #include "shape/repair/sheets.h"
 #include "shape/repair/thin_faces.h"
@@ -63,6 +64,7 @@ class Repairer {
     while (collapse_needles()) {
     }
     drop_duplicates();
+    join();
     at(0.2);
     orient();
     separate();
@@ -70,7 +72,7 @@ class Repairer {
     swap_thin();
     at(0.5);
     close();
-    swap_thin();  // holes beside a vertex on an edge are closed by thin faces
+    swap_thin();  // narrow holes are closed by thin faces
     at(0.8);
     turn();
   }
@@ -141,6 +143,12 @@ class Repairer {
       again[sorted[i].second] = sorted[i].first == sorted[i - 1].first;
     }
     report_.duplicate_triangles = drop(again);
+  }
+
+  void join() {
+    const Junctions found = join_junctions(mesh_.vertices, error_, mesh_.triangles);
+    report_.degenerate_triangles += found.thin;
+    report_.junctions = found.joined;
   }
 
   std::size_t drop(const std::vector<char>& gone) {

@@ -341,26 +341,72 @@ TEST(triangulate_hole, of_a_polygon_with_a_notch_stays_inside) {
   EXPECT_NEAR(hole->area, 7, 1e-14);
 }
 
-// A cube, an edge of which is split on one side only.
-TEST(repair, closes_a_t_junction_in_one_run) {
+// Splits a triangle's edge from a to b at new vertices, in shares of the edge.
+void split_edge(std::uint32_t triangle, std::uint32_t a, std::uint32_t b,
+                const std::vector<double>& shares, Mesh& mesh) {
+  const Vec3 begin = mesh.vertices[a], way = mesh.vertices[b] - begin;
+  for (const double share : shares) {
+    const auto at = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.push_back(begin + share * way);
+    Triangle near = mesh.triangles[triangle];
+    std::ranges::replace(near, b, at);
+    std::ranges::replace(mesh.triangles[triangle], a, at);
+    mesh.triangles.push_back(near);
+    a = at;
+  }
+}
+
+// A box, edges of which are split on one side only, or at other places on the other side.
+TEST(repair, joins_vertices_on_edges_of_other_faces) {
+  const std::vector<std::pair<std::vector<double>, std::vector<double>>> cases = {
+      {{0.5}, {}},
+      {{0.2, 0.3, 0.9}, {}},
+      {{0.4}, {0.7}},
+      {{0.1, 0.5, 0.6}, {0.3, 0.55, 0.8}},
+  };
+  for (const auto& [left, right] : cases) {
+    SCOPED_TRACE(left.size() + 10 * right.size());
+    Mesh mesh = box({2, 3, 4}, 1);
+    const std::vector<Edge> edges = pair_edges(mesh);
+    const Edge edge = edges.front();
+    split_edge(edge.left, edge.a, edge.b, left, mesh);
+    split_edge(edge.right, edge.a, edge.b, right, mesh);
+    const Repaired result = repair(mesh);
+    EXPECT_EQ(result.report.junctions, left.size() + right.size());
+    EXPECT_EQ(result.report.closed_holes, 0u);
+    EXPECT_EQ(result.report.split_vertices, 0u);
+    expect_solid(result.report.after, 1);
+    EXPECT_NEAR(result.report.after.volume, 24, 1e-12);
+    const Repaired again = repair(result.mesh);
+    EXPECT_TRUE(again.mesh.vertices == result.mesh.vertices);
+    EXPECT_TRUE(again.mesh.triangles == result.mesh.triangles);
+    EXPECT_EQ(again.report.junctions, 0u);
+  }
+}
+
+// A face without width closes the gap of a junction, beside an edge that three faces have then.
+TEST(repair, drops_a_thin_face_beside_an_edge_of_three) {
   Mesh mesh = box({2, 2, 2}, 1);
   const Edge edge = pair_edges(mesh).front();
   const auto middle = static_cast<std::uint32_t>(mesh.vertices.size());
   mesh.vertices.push_back(0.5 * (mesh.vertices[edge.a] + mesh.vertices[edge.b]));
-  Triangle& left = mesh.triangles[edge.left];
-  Triangle second = left;
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (left[k] == edge.b) left[k] = middle;
-    if (second[k] == edge.a) second[k] = middle;
-  }
-  mesh.triangles.push_back(second);
+  mesh.triangles.push_back({edge.a, middle, edge.b});
   const Repaired result = repair(mesh);
-  EXPECT_TRUE(result.report.after.closed);
-  EXPECT_EQ(result.report.after.degenerate_triangles, 0u);
+  EXPECT_EQ(result.report.degenerate_triangles, 1u);
+  EXPECT_EQ(result.report.split_vertices, 0u);
+  expect_solid(result.report.after, 1);
   EXPECT_NEAR(result.report.after.volume, 8, 1e-12);
-  const Repaired again = repair(result.mesh);
-  EXPECT_TRUE(again.mesh.vertices == result.mesh.vertices);
-  EXPECT_TRUE(again.mesh.triangles == result.mesh.triangles);
+  EXPECT_EQ(result.mesh.triangles.size(), 12u);
+}
+
+// Open edges that leave a vertex in one direction, but are farther apart than the rounding, stay.
+TEST(repair, leaves_slits_that_are_wider_than_rounding) {
+  Mesh mesh;
+  mesh.vertices = {{0, 0, 0}, {2, 0, 0}, {1, 1, 0}, {1, -1e-3, 0}, {0.5, -1, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 4, 3}};
+  const Repaired result = repair(mesh);
+  EXPECT_EQ(result.report.junctions, 0u);
+  EXPECT_EQ(result.mesh.triangles.size(), 2u);
 }
 
 }  // namespace
