@@ -83,7 +83,7 @@ class Studio {
   StudioResponse handle(const StudioRequest& request);
 
   // A session for the next page that asks for a new one, with shapes in it: what is opened in it
-  // before (POST api/file) is what the page begins with.
+  // before (POST api/file) is what that page, and every one after it, begins with.
   std::string offered_session();
 
   // nullptr for a session that is not there.

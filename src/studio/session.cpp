@@ -1,5 +1,7 @@
 #include "studio/session.h"
 
+#include <algorithm>
+#include <iterator>
 #include <new>
 
 #include <fmt/format.h>
@@ -23,15 +25,38 @@ Json recipe_json(const Recipe& recipe) {
           {"python", "import rholm\n" + fmt::format("{}", fmt::join(recipe.python, "\n"))}};
 }
 
+// What a document has beyond another one, put into a third.
+void add_new(const Document& changed, const Document& before, Document& to) {
+  const auto append = [](const auto& all, std::size_t known, auto& list) {
+    list.insert(list.end(), all.begin() + static_cast<std::ptrdiff_t>(known), all.end());
+  };
+  append(changed.items, before.items.size(), to.items);
+  append(changed.recipe.shell, before.recipe.shell.size(), to.recipe.shell);
+  append(changed.recipe.python, before.recipe.python.size(), to.recipe.python);
+  const auto take = [](const auto& all, const auto& known, auto& set) {
+    std::set_difference(all.begin(), all.end(), known.begin(), known.end(),
+                        std::inserter(set, set.end()));
+  };
+  take(changed.recipe.files, before.recipe.files, to.recipe.files);
+  take(changed.recipe.variables, before.recipe.variables, to.recipe.variables);
+}
+
 }  // namespace
 
-Session::Session(std::string id, int threads, std::size_t max_upload, Scratch& scratch)
+Session::Session(std::string id, int threads, std::size_t max_upload, Scratch& scratch,
+                 Document beginning)
     : id_(std::move(id)),
       threads_(threads),
       max_upload_(max_upload),
       scratch_(scratch),
       shared_{.scratch = scratch},
-      live_(threads) {}
+      live_(threads),
+      now_(std::move(beginning)) {
+  for (const ItemPtr& item : now_.items) {
+    shared_.items = std::max(shared_.items.load(), item->id);
+    shared_.revisions = std::max(shared_.revisions.load(), item->revision);
+  }
+}
 
 Session::~Session() {
   close();
@@ -93,19 +118,28 @@ void Session::forget_oldest() {
 }
 
 // With mutex_ held.
-void Session::commit(const std::string& label, Document document) {
-  past_.push_back({label, std::move(now_)});
-  forget_oldest();
+void Session::commit(const Step& step, Document document) {
+  if (!step.first || !past_.empty()) {
+    past_.push_back({step.label, std::move(now_)});
+    forget_oldest();
+  }
   future_.clear();
   now_ = std::move(document);
   ++state_number_;
   changed_.notify_all();
 }
 
+// What is opened is there before and after every step: all documents get it, with names that none
+// of them has. The last one that can be done again has the names of all that came before it.
 Response Session::open(const std::string& name, std::string_view bytes) {
   const std::lock_guard one(steps_);
   refuse_while_busy();
-  Document changed = document();
+  Document last;
+  {
+    const std::lock_guard lock(mutex_);
+    last = future_.empty() ? now_ : future_.front().document;
+  }
+  Document changed = last;
   const Context context = {.threads = threads_};
   if (is_session_file(bytes)) {
     open_session(bytes, scratch_, changed, shared_, context);
@@ -115,7 +149,12 @@ Response Session::open(const std::string& name, std::string_view bytes) {
     add(changed, std::move(item), shared_);
   }
   const std::lock_guard lock(mutex_);
-  commit("Open " + plain_name(name), std::move(changed));
+  add_new(changed, last, now_);
+  for (std::vector<Moment>* moments : {&past_, &future_}) {
+    for (Moment& moment : *moments) add_new(changed, last, moment.document);
+  }
+  ++state_number_;
+  changed_.notify_all();
   return json_response(state_locked());
 }
 
@@ -153,10 +192,11 @@ Response Session::step(const Json& request) {
   if (op == "undo" || op == "redo") return undo(op == "redo");
   Document changed = document();
   Step step = step_of(request, changed, shared_);
+  step.first = flag_of(request, "first");
   if (step.slow) return start(std::move(step));
   step.work(changed, {.threads = threads_});
   const std::lock_guard lock(mutex_);
-  commit(step.label, std::move(changed));
+  commit(step, std::move(changed));
   return json_response(state_locked());
 }
 
@@ -191,7 +231,7 @@ void Session::run(const Step& step, const std::shared_ptr<Job>& job, Document do
   }
   const std::lock_guard lock(mutex_);
   if (job->cancelled()) state = "cancelled";
-  if (state == "done") commit(step.label, std::move(document));
+  if (state == "done") commit(step, std::move(document));
   job->finish(state, message);
   ++job_number_;
   ++state_number_;

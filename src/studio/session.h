@@ -29,8 +29,9 @@ struct EventMark {
 // throws.
 class Session {
  public:
-  // `max_upload`: bytes of a file, for pages to know.
-  Session(std::string id, int threads, std::size_t max_upload, Scratch& scratch);
+  // `max_upload`: bytes of a file, for pages to know. `beginning`: what is there from the start.
+  Session(std::string id, int threads, std::size_t max_upload, Scratch& scratch,
+          Document beginning = {});
   ~Session();  // cancels the job and waits for it
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -39,7 +40,9 @@ class Session {
   // Expires when the session is no more and its memory is free.
   std::weak_ptr<const bool> life() const { return life_; }
   Json state() const;
-  // A file of any kind that the program reads, or of a session, whose items are added.
+  Document document() const;
+  // A file of any kind that the program reads, or of a session, whose items are added. No step:
+  // undoing does not close it.
   Response open(const std::string& name, std::string_view bytes);
   Response step(const Json& request);
   Response live(const Json& request);
@@ -61,10 +64,9 @@ class Session {
     Document document;
   };
 
-  Document document() const;
   Json state_locked() const;
   void refuse_while_busy() const;
-  void commit(const std::string& label, Document document);
+  void commit(const Step& step, Document document);
   void forget_oldest();
   Response undo(bool redo);
   Response degree_for_tolerance(const Json& request) const;

@@ -21,8 +21,8 @@ std::shared_ptr<Session> Sessions::make() {
     throw Refusal(503, "too_many_sessions",
                   fmt::format("{} pages are open; close one first", places_.size()));
   }
-  auto session =
-      std::make_shared<Session>(random_name(), options_.threads, options_.max_upload, scratch_);
+  auto session = std::make_shared<Session>(random_name(), options_.threads, options_.max_upload,
+                                           scratch_, beginning_);
   places_[session->id()] = {.session = session};
   return session;
 }
@@ -31,7 +31,9 @@ std::shared_ptr<Session> Sessions::next() {
   const std::lock_guard lock(mutex_);
   const auto offered = places_.find(offered_);
   offered_.clear();
-  return offered == places_.end() ? make() : offered->second.session;
+  if (offered == places_.end()) return make();
+  beginning_ = offered->second.session->document();
+  return offered->second.session;
 }
 
 std::string Sessions::offer() {

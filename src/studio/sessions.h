@@ -22,7 +22,8 @@ class Sessions {
  public:
   Sessions(const StudioOptions& options, Scratch& scratch) : options_(options), scratch_(scratch) {}
 
-  // The session that has been offered, once; else a new one.
+  // The session that has been offered, once; else a new one, with what was in that one when it was
+  // taken.
   std::shared_ptr<Session> next();
   // Its name; one that was offered before stays a session nobody has asked for.
   std::string offer();
@@ -54,6 +55,7 @@ class Sessions {
   std::map<std::string, Place> places_;
   std::vector<std::weak_ptr<const bool>> ended_;  // sessions; who answers in one may still hold it
   std::string offered_;
+  Document beginning_;
 };
 
 }  // namespace rholm::studio

@@ -41,6 +41,8 @@ struct Step {
   bool slow = false;  // worth a thread of its own
   // Changes its own copy of the document. Throws what the library throws.
   std::function<void(Document&, const Context&)> work;
+  // Where nothing can be undone yet, this cannot either: what it makes is what a page begins with.
+  bool first = false;
 };
 
 // What the request {"op": ...} asks for. Throws Refusal 400 for a request that is wrong as it

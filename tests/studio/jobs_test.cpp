@@ -156,11 +156,25 @@ TEST(Jobs, SessionsDoNotSeeEachOther) {
   EXPECT_EQ(client.state().at("items").size(), 1U);
 }
 
-TEST(Jobs, TheFirstPageGetsWhatWasOpenedForIt) {
+TEST(Jobs, EveryPageBeginsWithWhatWasOpenedForTheFirst) {
   Client client;
   const std::string offered = client.studio.offered_session();
+  client.id = offered;
+  ASSERT_EQ(client.open("tip.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").status, 200);
   EXPECT_EQ(Json::parse(client.ask("POST", "api/session").body).at("session"), offered);
-  EXPECT_NE(Json::parse(client.ask("POST", "api/session").body).at("session"), offered);
+  // What the first page does is its own.
+  client.step({{"op", "rename"}, {"item", 1}, {"name", "other"}});
+  client.step({{"op", "make"}, {"shape", "box"}});
+  client.ask("DELETE", "api/session");
+  client.id = Json::parse(client.ask("POST", "api/session").body).at("session");
+  EXPECT_NE(client.id, offered);
+  Json state = client.state();
+  ASSERT_EQ(state.at("items").size(), 1U);
+  EXPECT_EQ(state.at("items")[0].at("name"), "tip.off");
+  EXPECT_TRUE(state.at("undo").is_null());
+  state = client.step({{"op", "make"}, {"shape", "box"}});  // with a number of its own
+  EXPECT_NE(state.at("items")[0].at("id"), state.at("items")[1].at("id"));
+  EXPECT_NE(state.at("items")[0].at("revision"), state.at("items")[1].at("revision"));
 }
 
 // Bytes in use by this process's allocator; 0 where another one is in its place (sanitizers).

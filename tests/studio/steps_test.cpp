@@ -1,7 +1,9 @@
 // Every step, taken back and done again.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
+#include <numbers>
 #include <set>
 #include <string>
 #include <vector>
@@ -14,8 +16,11 @@ namespace rholm::studio {
 namespace {
 
 using test::Client;
+using test::code_of;
 using test::document_of;
 using test::last_item;
+
+constexpr double kPi = std::numbers::pi;
 
 // The step changes something; undo brings back all that was, redo all that was made.
 Json check_undone(Client& client, const Json& step) {
@@ -159,6 +164,76 @@ TEST(Steps, TheWholeHistoryIsThere) {
   client.step({{"op", "undo"}});
   client.step({{"op", "make"}, {"shape", "sphere"}});
   EXPECT_EQ(client.post({{"op", "redo"}}).status, 422);
+}
+
+// A value of a row that people read.
+std::string fact(const Json& item, const std::string& label) {
+  for (const Json& row : item.at("facts")) {
+    if (row.at("label") == label) return row.at("value");
+  }
+  return "";
+}
+
+TEST(Steps, FiguresAreOfWhatIsShown) {
+  Client client;
+  // An ellipsoid of radii 3, 2, 1: at degree 0 a sphere, whose radius is the mean one.
+  client.step({{"op", "make"}, {"shape", "ellipsoid"}});
+  Json item = client.step({{"op", "analyze"}, {"item", 1}, {"degree", 12}}).at("items")[0];
+  EXPECT_EQ(fact(item, "Degree"), "12");
+  EXPECT_EQ(fact(item, "Coefficients"), "169");
+  const Json rms = item.at("expansion").at("rms_per_degree");
+  const double mean = std::sqrt(item.at("expansion").at("power")[0].get<double>() / (4 * kPi));
+  item = client.step({{"op", "look"}, {"item", 1}, {"degree", 0}}).at("items")[0];
+  EXPECT_EQ(fact(item, "Degree"), "0 of 12");
+  EXPECT_EQ(fact(item, "Coefficients"), "1 of 169");
+  EXPECT_NEAR(std::stod(fact(item, "Error, rms")), rms[0].get<double>(), 1e-4);
+  EXPECT_NEAR(std::stod(fact(item, "Volume")), 4 * kPi / 3 * mean * mean * mean, 0.02);
+  EXPECT_NEAR(std::stod(fact(item, "Diagonal")), std::sqrt(12.0) * mean, 0.01);
+  item =
+      client.step({{"op", "look"}, {"item", 1}, {"degree", 1}, {"gains", {1, 0.5}}}).at("items")[0];
+  EXPECT_EQ(fact(item, "Degree"), "1 of 12, filtered");
+  EXPECT_EQ(fact(item, "Error, rms"), "not known");
+}
+
+TEST(Steps, WhatIsOpenedIsNoStep) {
+  Client client;
+  const std::string box =
+      "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+  ASSERT_EQ(client.open("first.off", box).status, 200);
+  EXPECT_TRUE(client.state().at("undo").is_null());
+  EXPECT_EQ(code_of(client.post({{"op", "undo"}})), "nothing");
+  client.step({{"op", "analyze"}, {"item", 1}, {"degree", 2}});
+  client.step({{"op", "remove"}, {"item", 1}});
+  client.step({{"op", "undo"}});
+  // Between steps that can be taken back and done again: it stays, whatever becomes of them.
+  ASSERT_EQ(client.open("second.off", box).status, 200);
+  Json state = client.step({{"op", "undo"}});
+  ASSERT_EQ(state.at("items").size(), 2U);
+  EXPECT_TRUE(state.at("items")[0].at("expansion").is_null());
+  EXPECT_EQ(state.at("items")[1].at("name"), "second.off");
+  EXPECT_TRUE(state.at("undo").is_null());
+  client.step({{"op", "redo"}});
+  state = client.step({{"op", "redo"}});
+  ASSERT_EQ(state.at("items").size(), 1U);
+  EXPECT_EQ(state.at("items")[0].at("name"), "second.off");
+  EXPECT_EQ(state.at("recipe").at("python").get<std::string>(),
+            "import rholm\nfirst = rholm.read_shape(\"first.off\").shape\n"
+            "first_model = rholm.expand(first, degree=2)\n"
+            "second = rholm.read_shape(\"second.off\").shape");
+}
+
+TEST(Steps, WhatAPageBeginsWithIsNotUndone) {
+  Client client;
+  client.step({{"op", "make"}, {"shape", "bumpy"}, {"first", true}});
+  Json state = client.step({{"op", "analyze"}, {"item", 1}, {"degree", 4}, {"first", true}});
+  EXPECT_TRUE(state.at("undo").is_null());
+  EXPECT_EQ(state.at("items")[0].at("expansion").at("degree"), 4);
+  client.step({{"op", "look"}, {"item", 1}, {"degree", 2}});
+  client.step({{"op", "make"}, {"shape", "box"}, {"first", true}});  // there is something before it
+  client.step({{"op", "undo"}});
+  state = client.step({{"op", "undo"}});
+  EXPECT_TRUE(state.at("undo").is_null());
+  EXPECT_EQ(state.at("items").size(), 1U);
 }
 
 TEST(Steps, WhatDocumentsShareCountsOnce) {

@@ -11,6 +11,7 @@ import type { Latency } from "../src/latency";
 import {
   at,
   inFolder,
+  moveSlider,
   openTab,
   press,
   ready,
@@ -58,10 +59,7 @@ async function open(path: string): Promise<number> {
 async function slide(label: string, values: readonly number[]): Promise<void> {
   const slider = page.getByRole("slider", { name: label, exact: true });
   for (const value of values) {
-    await slider.evaluate((element: HTMLInputElement, to) => {
-      element.value = String(to);
-      element.dispatchEvent(new InputEvent("input", { bubbles: true }));
-    }, value);
+    await moveSlider(slider, value);
     await page.waitForTimeout(pause);
   }
   await slider.dispatchEvent("change");
@@ -103,8 +101,10 @@ it("degrees", async () => {
 });
 
 it("brush", async () => {
+  await openTab(page, "Figures");
+  const diagonal = Number(await page.locator(".facts div", { hasText: "Diagonal" }).locator("dd").innerText());
   await openTab(page, "Smooth");
-  await setNumber(page, "Brush radius (of the diagonal)", 0.22);
+  await setNumber(page, "Brush radius", 0.22 * diagonal);
   page.on("response", (response) => void readMoving(response));
   for (const [x, y] of [[0.5, 0.5], [0.65, 0.6], [0.4, 0.4], [0.6, 0.35]] as const) {
     await page.mouse.click(...(await at(page, x, y)));

@@ -140,7 +140,7 @@ it("a low pass is that of the program", async () => {
 
 it("finds the degree for an error", async () => {
   const { page } = now;
-  await setNumber(page, "Allowed error (rms, of the diagonal)", 0.005);
+  await setNumber(page, "Allowed error, rms", 0.015);
   await press(page, "Find the degree");
   const degree = Number(await page.getByLabel("Degree, exactly", { exact: true }).inputValue());
   expect(degree).toBeGreaterThan(2);
@@ -152,7 +152,7 @@ it("a picture has the size that was asked for", async () => {
   await openTab(page, "Save");
   await setNumber(page, "Width", 3000); // more than one tile
   await setNumber(page, "Height", 2500);
-  const png = await saved(page, "Save what is seen");
+  const png = await saved(page, "Save the picture");
   expect(png.subarray(1, 4).toString()).toBe("PNG");
   expect([png.readUInt32BE(16), png.readUInt32BE(20)]).toEqual([3000, 2500]);
 });
@@ -181,7 +181,7 @@ it("a picture of what is compared has both, and their colours", async () => {
   await page.locator("figure.legend").waitFor();
   await setNumber(page, "Width", 1200);
   await setNumber(page, "Height", 600);
-  const [left, right] = await halvesOf(await saved(page, "Save what is seen"));
+  const [left, right] = await halvesOf(await saved(page, "Save the picture"));
   await picture(page, "comparison-saved");
   if (!left || !right) throw new Error("there is no picture");
   expect(left.drawn).toBeGreaterThan(0.1);

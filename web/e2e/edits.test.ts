@@ -78,7 +78,7 @@ it("the brush paints, sliders smooth live, and what is kept is the recipe's", as
 it("the brush grows and shrinks by keys and wheel", async () => {
   const { page } = now;
   await openTab(page, "Smooth");
-  const field = page.getByLabel("Brush radius (of the diagonal), exactly");
+  const field = page.getByLabel("Brush radius, exactly");
   const size = async () => Number(await field.inputValue());
   const first = await size();
   await page.locator(".canvas canvas").focus();
@@ -138,11 +138,11 @@ it("says that a bridge cannot be that wide, until that is not asked for", async 
       await settled(page);
     }
   }
-  await page.getByLabel("What happens there").selectOption("bridge");
+  await page.getByLabel("Action").selectOption("bridge");
   await settled(page);
   await page.getByRole("alert").waitFor();
   await picture(page, "refused");
-  await page.getByLabel("What happens there").selectOption("smooth");
+  await page.getByLabel("Action").selectOption("smooth");
   await settled(page);
   expect(await page.getByRole("alert").count()).toBe(0);
   now.complaints.length = 0; // the browser logs the refusal
@@ -161,8 +161,8 @@ it("a texture is taken, laid, turned by its handle, and kept", async () => {
   await picture(page, "texture");
   expect(Buffer.compare(laid, await canvas(page))).not.toBe(0);
   await picture(page, "texture");
-  await page.getByLabel("Turned to what is there").uncheck();
-  await drag(page, "Turned by", [30, 60]);
+  await page.getByLabel("Find the best angle").uncheck();
+  await drag(page, "Angle", [30, 60]);
   await picture(page, "texture-turned");
   const ball = await whereIs(page, placed);
   if (!ball) throw new Error("there is no handle");
@@ -171,11 +171,11 @@ it("a texture is taken, laid, turned by its handle, and kept", async () => {
   await page.mouse.move(ball[0] - 60, ball[1] - 60, { steps: 5 });
   await page.mouse.up();
   await settled(page);
-  const turned = Number(await page.getByLabel("Turned by, exactly").inputValue());
+  const turned = Number(await page.getByLabel("Angle, exactly").inputValue());
   expect(Math.abs(turned - 60)).toBeGreaterThan(5);
-  await page.getByLabel("Repeat it side by side").check();
+  await page.getByLabel("Repeat the texture over the target").check();
   await settled(page);
-  await page.getByLabel("Refine the mesh there").check();
+  await page.getByLabel("Refine the target's mesh").check();
   await settled(page);
   await picture(page, "texture-refined");
   await press(page, "Keep");
@@ -190,7 +190,7 @@ it.each([
 ])("to %s is another way of smoothing", async (action, option) => {
   const { page } = now;
   await openTab(page, "Smooth");
-  await page.getByLabel("What happens there").selectOption(action);
+  await page.getByLabel("Action").selectOption(action);
   await page.mouse.click(...(await at(page, 0.5, 0.4)));
   await settled(page);
   await press(page, "Keep");

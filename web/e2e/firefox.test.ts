@@ -119,7 +119,7 @@ describe.skipIf(!firefox)("in Firefox", () => {
 
   it("what it saves has the bytes of the program", async () => {
     await press("Save");
-    await page.locator("aside select").fill("h5");
+    await page.locator(".panel select").fill("h5");
     await press("Save rock.h5");
     const file = join(downloads, "rock.h5");
     await expect.poll(() => existsSync(file) && readFileSync(file).length, { timeout: patience }).toBeTruthy();

@@ -56,7 +56,7 @@ it("points get normals and become a surface, as by the program", async () => {
   await openFile(studio, page, "scan.ply");
   await openTab(page, "Points");
   await picture(page, "points");
-  await press(page, "Find normals");
+  await press(page, "Compute normals");
   await press(page, "Make a surface");
   expect(await chosen()).toContain("surface");
   await picture(page, "reconstructed");
@@ -95,7 +95,7 @@ it("a shape is compressed to caps, shown in colours", async () => {
   }
   const colored = await canvas(page);
   await picture(page, "caps");
-  await page.getByLabel("Caps in colours").uncheck();
+  await page.getByLabel("A colour for each cap").uncheck();
   await settled(page);
   expect(Buffer.compare(colored, await canvas(page))).not.toBe(0);
 });
@@ -119,7 +119,7 @@ it("of two shapes one is turned onto the other, and what lies between is shown",
   await openTab(page, "Degrees");
   await press(page, "Analyse");
   await openTab(page, "Align");
-  await page.getByLabel(/stone\) onto/).selectOption({ label: "egg.ply" });
+  await page.getByLabel("Onto").selectOption({ label: "egg.ply" });
   await settled(page);
   await picture(page, "two-shapes");
   await press(page, "Align");
@@ -134,7 +134,7 @@ it("of two shapes one is turned onto the other, and what lies between is shown",
   expect(Buffer.compare(before, await canvas(page))).not.toBe(0);
   await openTab(page, "Align");
   await settled(page);
-  await drag(page, "Between the two", [0.2, 0.5]);
+  await drag(page, "Blend: 0 this shape, 1 the other", [0.2, 0.5]);
   expect(Buffer.compare(before, await canvas(page))).not.toBe(0);
   // Larger than what was there before, it is in view as both were: at the sides there is no stone.
   const pixels = await pixelsOf(page, await canvas(page));
@@ -142,13 +142,13 @@ it("of two shapes one is turned onto the other, and what lies between is shown",
   expect(Math.max(...sides.map((i) => Math.abs(warmthAt(pixels, i))))).toBeLessThan(15);
   await picture(page, "between");
   await page.getByRole("button", { name: "Animate" }).click();
-  const slider = page.getByRole("slider", { name: "Between the two" });
-  await expect.poll(() => slider.inputValue(), { timeout: patience }).not.toBe("0.5");
+  const slider = page.getByRole("slider", { name: "Blend: 0 this shape, 1 the other" });
+  await expect.poll(() => slider.inputValue(), { timeout: patience }).not.toBe("500");
   await page.getByRole("button", { name: "Stop", exact: true }).click();
   await settled(page);
-  await drag(page, "Between the two", [0.5]);
+  await drag(page, "Blend: 0 this shape, 1 the other", [0.5]);
   const count = await page.locator(".items li").count();
-  await press(page, "Keep as a shape");
+  await press(page, "Keep the blend");
   expect(await page.locator(".items li").count()).toBe(count + 1);
   await choose("rock.ply");
 });

@@ -116,8 +116,15 @@ it("a shape gets another name, which its files have", async () => {
 it("the program ends where the page tells it to, and the page says so", async () => {
   const ended = new Promise((done) => studio.process.once("exit", done));
   await page.keyboard.press("Escape");
-  await page.getByRole("button", { name: "Keys" }).click();
-  await page.getByRole("button", { name: "Stop the program" }).click();
+  await page.getByRole("button", { name: "Quit" }).click();
+  await picture(page, "quit");
+  // What loses nothing has the focus.
+  expect(await page.evaluate(() => document.activeElement?.textContent)).toBe("Keep working");
+  await page.keyboard.press("Enter");
+  await page.getByRole("dialog").waitFor({ state: "hidden" });
+  expect(studio.process.exitCode).toBeNull();
+  await page.getByRole("button", { name: "Quit" }).click();
+  await page.getByRole("button", { name: "Stop without saving" }).click();
   expect(await ended).toBe(0);
   await page.getByText("The program has ended.").waitFor();
 });

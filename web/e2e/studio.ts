@@ -7,9 +7,10 @@ import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
-import { chromium, type Browser, type BrowserContextOptions, type Page } from "playwright-core";
+import { chromium, type Browser, type BrowserContextOptions, type Locator, type Page } from "playwright-core";
 import type {} from "../src/idle";
 import { sessionKey } from "../src/transport";
+import { toPlace, type Scale } from "../src/format";
 import { toSrgb, type Rgb } from "../src/geometry/colors";
 
 // Chosen: a browser that draws in software, on a machine that does other things. Nothing waits for it where
@@ -50,13 +51,14 @@ export function shell(studio: Studio, lines: string): void {
 export const inFolder = (studio: Program, name: string) => join(studio.folder, name);
 export const bytesOf = (studio: Program, name: string) => readFileSync(inFolder(studio, name));
 
-export async function startStudio(): Promise<Studio> {
-  return { ...(await startProgram()), browser: await launch() };
+export async function startStudio(prepare?: (folder: string) => string[]): Promise<Studio> {
+  return { ...(await startProgram(prepare)), browser: await launch() };
 }
 
-export async function startProgram(): Promise<Program> {
+// `prepare` makes files in the folder, and names those that the studio begins with.
+export async function startProgram(prepare: (folder: string) => string[] = () => []): Promise<Program> {
   const folder = mkdtempSync(join(tmpdir(), "rholm-studio-"));
-  const words = ["studio", "--no-open", "--page", dist];
+  const words = ["studio", "--no-open", "--page", dist, ...prepare(folder)];
   const started = spawn(programPath(), words, { cwd: folder, stdio: ["ignore", "ignore", "pipe"] });
   const address = await new Promise<string>((found, fail) => {
     let said = "";
@@ -161,14 +163,22 @@ export async function setNumber(page: Page, label: string, value: number): Promi
   await settled(page);
 }
 
+// Puts the handle where a value is.
+export async function moveSlider(slider: Locator, value: number): Promise<void> {
+  const [scale, min, max] = ((await slider.getAttribute("data-scale")) ?? "").split(" ");
+  const places = Number(await slider.getAttribute("max"));
+  const place = scale ? places * toPlace(scale as Scale, value, Number(min), Number(max)) : value;
+  await slider.evaluate((element: HTMLInputElement, at) => {
+    element.value = String(at);
+    element.dispatchEvent(new InputEvent("input", { bubbles: true }));
+  }, place);
+}
+
 // Moves the slider itself, as a drag does: input after input, then its change.
 export async function drag(page: Page, label: string, values: readonly number[]): Promise<void> {
   const slider = page.getByRole("slider", { name: label, exact: true });
   for (const value of values) {
-    await slider.evaluate((element: HTMLInputElement, at) => {
-      element.value = String(at);
-      element.dispatchEvent(new InputEvent("input", { bubbles: true }));
-    }, value);
+    await moveSlider(slider, value);
     await page.evaluate(() => new Promise(requestAnimationFrame));
   }
   await slider.dispatchEvent("change");
@@ -271,8 +281,8 @@ export async function openForLongJob(studio: Studio, page: Page): Promise<void> 
 }
 export async function startLongJob(page: Page): Promise<void> {
   await openTab(page, "Caps");
-  await setNumber(page, "Allowed error (of the diagonal)", 1e-4);
-  await setNumber(page, "Largest degree of a cap", 2);
+  await setNumber(page, "Allowed error", 1e-4);
+  await setNumber(page, "Highest degree of a cap", 2);
   await page.getByRole("button", { name: "Compress" }).click();
   await page.locator("progress").waitFor();
 }

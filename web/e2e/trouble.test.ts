@@ -13,11 +13,13 @@ import {
   openFile,
   openForLongJob,
   openTab,
+  moveSlider,
   picture,
   press,
   ready,
   resident,
   rholm,
+  setNumber,
   settled,
   startLongJob,
   startStudio,
@@ -100,7 +102,7 @@ it("comes back as it was when it is loaded again during a job, with the job", as
   await startLongJob(page);
   await page.reload();
   await page.locator("progress").waitFor();
-  expect(await page.getByRole("button", { name: "Undo" }).getAttribute("title")).toContain("fine.ply");
+  expect(await names(page)).toContain("fine.ply");
   await press(page, "Cancel");
   expect([await names(page), await recipe(page)]).toEqual(before);
 });
@@ -111,16 +113,13 @@ it("comes back as it was when it is loaded again while a slider is held", async 
   await openTab(page, "Degrees");
   const slider = page.getByRole("slider", { name: "Degree", exact: true });
   for (const degree of [20, 10, 4]) {
-    await slider.evaluate((element: HTMLInputElement, at) => {
-      element.value = String(at);
-      element.dispatchEvent(new InputEvent("input", { bubbles: true }));
-    }, degree);
+    await moveSlider(slider, degree);
   }
   await page.reload();
   await ready(page);
   expect([await names(page), await recipe(page)]).toEqual(before);
   await openTab(page, "Degrees");
-  expect(await slider.inputValue()).toBe("32");
+  expect(await page.getByLabel("Degree, exactly", { exact: true }).inputValue()).toBe("32");
   // And with the button of the mouse down, in the middle of a stroke of the brush.
   await openTab(page, "Smooth");
   const box = await page.locator(".canvas canvas").boundingBox();
@@ -140,6 +139,8 @@ it("gives every page a session of its own, also beside each other in one window"
   await beside.goto(studio.address);
   const elsewhere = await visit(studio);
   await Promise.all([ready(beside), ready(elsewhere.page)]);
+  await openTab(page, "Degrees");
+  await setNumber(page, "Degree", 8);
   await Promise.all([
     openFile(studio, beside, "torus.ply"),
     openFile(studio, elsewhere.page, "rock.ply"),

@@ -26,9 +26,10 @@ export async function start(): Promise<void> {
     listen();
     if (items.value.length === 0) {
       demo.value = true;
-      await step({ op: "make", shape: "bumpy", amplitude: 0.45, seed: 5 }, "Making a shape");
+      // What the page does by itself is nothing to undo.
+      await step({ op: "make", shape: "bumpy", amplitude: 0.45, seed: 5, first: true }, "Making a shape");
       const made = items.value.at(-1);
-      if (made) await step({ op: "analyze", item: made.id, degree: 32, center: "auto" }, "Analysing");
+      if (made) await step({ op: "analyze", item: made.id, degree: 32, center: "auto", first: true }, "Analysing");
     }
   } catch (error) {
     fail(error);
@@ -213,11 +214,14 @@ export function saveAs(path: string, name: string): Promise<boolean> {
   });
 }
 
+export const saveSession = () => saveAs("session-file", "session.rholm");
+
 let saved = ""; // what had been done when something was saved last
 const steps = () => studio.peek()?.recipe.shell ?? "";
 
 // Whether closing the page would lose work: a session of a notebook stays where it is.
-export const unsaved = () => transport.endsProgram && !lost.peek() && !demo.peek() && steps() !== saved;
+export const unsaved = () =>
+  transport.endsProgram && !lost.peek() && Boolean(studio.peek()?.undo) && steps() !== saved;
 
 export function offer(blob: Blob, name: string): void {
   const link = document.createElement("a");

@@ -1,8 +1,10 @@
-// The page: what is open on the left, the shape, one panel for each activity.
-import type { ComponentType } from "preact";
+// The page: what is open on the left, the shape, a rail of activities, the panel of one of them.
+import type { Signal } from "@preact/signals";
+import type { ComponentChildren, ComponentType } from "preact";
 import { useEffect, useRef } from "preact/hooks";
-import { quit, redo, removeItem, transport, undo } from "./actions";
+import { quit, redo, removeItem, saveSession, transport, undo, unsaved } from "./actions";
 import { bytes, count } from "./format";
+import { Icon } from "./icons";
 import { help } from "./keys";
 import { AlignPanel } from "./panels/align";
 import { CapsPanel } from "./panels/caps";
@@ -14,7 +16,22 @@ import { SmoothPanel } from "./panels/smooth";
 import { TexturePanel } from "./panels/texture";
 import type { Item } from "./protocol";
 import { Stage } from "./stage";
-import { helpOpen, items, selected, setTheme, studio, tab, tabs, theme, type Tab } from "./state";
+import {
+  helpOpen,
+  items,
+  lost,
+  nameOf,
+  quitOpen,
+  selected,
+  setTheme,
+  studio,
+  tab,
+  tabs,
+  theme,
+  working,
+  type Tab,
+} from "./state";
+import { shownDegree } from "./tools/degrees";
 
 const panels: Record<Tab, ComponentType> = {
   figures: FiguresPanel,
@@ -31,7 +48,7 @@ function summary(one: Item): string {
   if (one.kind === "points") return `${count(one.vertices)} points`;
   if (one.kind === "atlas") return `${one.caps ?? 0} caps, ${bytes(one.atlas?.bytes ?? 0)}`;
   const faces = `${count(one.faces)} faces`;
-  return one.expansion ? `${faces} · degree ${one.expansion.degree}` : faces;
+  return one.expansion ? `${faces} · ${shownDegree(one)}` : faces;
 }
 
 function Items() {
@@ -44,16 +61,17 @@ function Items() {
             <button
               type="button"
               aria-current={one.id === selected.value}
+              title={one.name}
               onClick={() => (selected.value = one.id)}
             >
-              <span class="name">{one.name}</span>
+              <span class="name">{nameOf(one)}</span>
               <small>{summary(one)}</small>
             </button>
             <button
               type="button"
               class="remove"
-              aria-label={`Remove ${one.name}`}
-              title="Remove"
+              aria-label={`Remove ${nameOf(one)}`}
+              title={`Remove ${one.name}`}
               onClick={() => void removeItem(one)}
             >
               ×
@@ -78,7 +96,8 @@ function Head() {
         title={state?.undo ? `Undo: ${state.undo} (Ctrl Z)` : "Nothing to undo"}
         onClick={() => void undo()}
       >
-        Undo
+        <Icon name="undo" />
+        <span>Undo</span>
       </button>
       <button
         type="button"
@@ -86,22 +105,36 @@ function Head() {
         title={state?.redo ? `Redo: ${state.redo} (Ctrl Shift Z)` : "Nothing to redo"}
         onClick={() => void redo()}
       >
-        Redo
+        <Icon name="redo" />
+        <span>Redo</span>
       </button>
       <button type="button" title="Light, dark, or as the system" onClick={() => setTheme(next[theme.value])}>
-        {{ auto: "Light/dark", light: "Light", dark: "Dark" }[theme.value]}
+        <Icon name="theme" />
+        <span>{{ auto: "Light/dark", light: "Light", dark: "Dark" }[theme.value]}</span>
       </button>
-      <button type="button" aria-label="Keys" title="Keys (?)" onClick={() => (helpOpen.value = true)}>
-        ?
+      <button type="button" aria-label="Help" title="Help: the keys (?)" onClick={() => (helpOpen.value = true)}>
+        <Icon name="help" />
       </button>
+      {transport.endsProgram && (
+        <button
+          type="button"
+          class="apart"
+          title="Stop the program; asks first"
+          onClick={() => (quitOpen.value = true)}
+        >
+          <Icon name="stop" />
+          <span>Quit</span>
+        </button>
+      )}
     </header>
   );
 }
 
 function Tabs() {
   const move = (event: KeyboardEvent) => {
-    const way = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+    const way = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
     if (!way) return;
+    event.preventDefault();
     const at = tabs.findIndex(([key]) => key === tab.value);
     const next = tabs[(at + way + tabs.length) % tabs.length];
     if (!next) return;
@@ -109,34 +142,45 @@ function Tabs() {
     document.getElementById(`tab-${next[0]}`)?.focus();
   };
   return (
-    <div class="tabs" role="tablist" aria-label="Activities" onKeyDown={move}>
-      {tabs.map(([key, label]) => (
+    <div class="tabs" role="tablist" aria-label="Activities" aria-orientation="vertical" onKeyDown={move}>
+      {tabs.map(([key, label], i) => (
         <button
           key={key}
           id={`tab-${key}`}
           type="button"
           role="tab"
+          title={`${label} (${i + 1})`}
           aria-selected={tab.value === key}
           aria-controls="panel"
           tabIndex={tab.value === key ? 0 : -1}
           onClick={() => (tab.value = key)}
         >
-          {label}
+          <Icon name={key} />
+          <span>{label}</span>
         </button>
       ))}
     </div>
   );
 }
 
-function Help() {
+// A dialog that is open while the signal is true.
+function Dialog({ open, label, children }: { open: Signal<boolean>; label: string; children: ComponentChildren }) {
   const dialog = useRef<HTMLDialogElement>(null);
-  const open = helpOpen.value;
+  const wanted = open.value;
   useEffect(() => {
-    if (open) dialog.current?.showModal();
+    if (wanted) dialog.current?.showModal();
     else dialog.current?.close();
-  }, [open]);
+  }, [wanted]);
   return (
-    <dialog ref={dialog} aria-label="Keys" onClose={() => (helpOpen.value = false)}>
+    <dialog ref={dialog} aria-label={label} onClose={() => (open.value = false)}>
+      {wanted && children}
+    </dialog>
+  );
+}
+
+function Help() {
+  return (
+    <Dialog open={helpOpen} label="Keys">
       <h2>Keys</h2>
       <dl class="facts">
         {help.map(([keys, what]) => (
@@ -149,17 +193,49 @@ function Help() {
         ))}
       </dl>
       <p class="hint">Version {studio.value?.version}. Nothing leaves this machine.</p>
-      <div class="row">
-        <button type="button" class="main" onClick={() => (helpOpen.value = false)}>
-          Close
+      <button type="button" class="main" onClick={() => (helpOpen.value = false)}>
+        Close
+      </button>
+    </Dialog>
+  );
+}
+
+async function stop(): Promise<void> {
+  quitOpen.value = false;
+  await quit();
+}
+
+async function saveAndStop(): Promise<void> {
+  if (await saveSession()) await stop();
+  else quitOpen.value = false;
+}
+
+// The first button is the one that loses nothing: it has the focus.
+function QuitQuestion() {
+  const losing = unsaved();
+  return (
+    <>
+      <h2>Stop the program?</h2>
+      <p class="hint">
+        {losing
+          ? "What was done since the last save is lost, in this page and in every other page of this studio."
+          : "The page ends with it, and every other page of this studio."}
+        {working.value && " The work that runs is cancelled."}
+      </p>
+      <div class="row wrap">
+        <button type="button" class="main" autofocus onClick={() => (quitOpen.value = false)}>
+          Keep working
         </button>
-        {transport.endsProgram && (
-          <button type="button" onClick={() => void quit().then(() => (helpOpen.value = false))}>
-            Stop the program
+        {losing && (
+          <button type="button" disabled={working.value || lost.value} onClick={() => void saveAndStop()}>
+            Save the session and stop
           </button>
         )}
+        <button type="button" class="danger" onClick={() => void stop()}>
+          {losing ? "Stop without saving" : "Stop the program"}
+        </button>
       </div>
-    </dialog>
+    </>
   );
 }
 
@@ -170,13 +246,14 @@ export function App() {
       <Head />
       <Items />
       <Stage />
-      <aside>
-        <Tabs />
-        <div id="panel" role="tabpanel" aria-labelledby={`tab-${tab.value}`} class="panel">
-          <Panel key={tab.value} />
-        </div>
-      </aside>
+      <Tabs />
+      <div id="panel" role="tabpanel" aria-labelledby={`tab-${tab.value}`} class="panel">
+        <Panel key={tab.value} />
+      </div>
       <Help />
+      <Dialog open={quitOpen} label="Stop the program">
+        <QuitQuestion />
+      </Dialog>
     </div>
   );
 }

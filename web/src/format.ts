@@ -1,8 +1,15 @@
 // Numbers for people.
 
+// What stands for a figure that nobody has.
+export const notKnown = "not known";
+
+function isKnown(value: number | null | undefined): value is number {
+  return value !== null && value !== undefined && Number.isFinite(value);
+}
+
 // Three significant digits, exponents where that is shorter to read.
 export function number(value: number | null | undefined): string {
-  if (value === null || value === undefined || !Number.isFinite(value)) return "–";
+  if (!isKnown(value)) return notKnown;
   const size = Math.abs(value);
   if (size !== 0 && (size < 1e-3 || size >= 1e6)) return value.toExponential(2).replace("e+", "e");
   return String(Number(value.toPrecision(3)));
@@ -14,7 +21,7 @@ export function count(value: number): string {
 }
 
 export function withUnit(value: number | null | undefined, unit: string): string {
-  return unit ? `${number(value)} ${unit}` : number(value);
+  return unit && isKnown(value) ? `${number(value)} ${unit}` : number(value);
 }
 
 export function bytes(count: number): string {
@@ -24,15 +31,76 @@ export function bytes(count: number): string {
   return `${number(count / 1000 ** power)} ${units[power] ?? ""}`;
 }
 
-// A position 0 ... 1 of a slider for a value of a logarithmic scale, and back.
-export function toLog(value: number, min: number, max: number): number {
-  return Math.log(value / min) / Math.log(max / min);
+// How places of a slider are values: "linear"; "log", equal ways are equal ratios; "root", the value grows with the
+// square of the place, which gives small values more room and has 0.
+export type Scale = "linear" | "log" | "root";
+
+// The place 0 ... 1 of a value, and the value of a place.
+export function toPlace(scale: Scale, value: number, min: number, max: number): number {
+  if (!(max > min)) return 0;
+  if (scale === "log") return Math.log(Math.max(value, min) / min) / Math.log(max / min);
+  const share = Math.min(1, Math.max(0, (value - min) / (max - min)));
+  return scale === "root" ? Math.sqrt(share) : share;
 }
-export function fromLog(at: number, min: number, max: number): number {
-  return min * (max / min) ** at;
+export function fromPlace(scale: Scale, at: number, min: number, max: number): number {
+  if (scale === "log") return min * (max / min) ** at;
+  return min + (max - min) * (scale === "root" ? at * at : at);
 }
 
 // The name without its ending.
 export function stem(name: string): string {
   return name.replace(/\.[^.]*$/, "") || "shape";
+}
+
+// Names that fit in `most` letters and can still be told apart: what is too long loses its middle, or what is around
+// the first letter that makes it different; equal names are numbered.
+export function shortNames(names: readonly string[], most: number): string[] {
+  const seen = new Map<string, number>();
+  const own = names.map((name) => {
+    const times = (seen.get(name) ?? 0) + 1;
+    seen.set(name, times);
+    return times === 1 ? { name, tag: "" } : { name, tag: ` (${times})` };
+  });
+  const cut = own.map(({ name }) => withoutMiddle(name, most));
+  return own.map(({ name, tag }, i) => {
+    const like = names.filter((other, k) => other !== name && cut[k] === cut[i]);
+    const short = like.length > 0 ? around(name, firstDifference(name, like), most) : cut[i];
+    return `${short ?? name}${tag}`;
+  });
+}
+
+function withoutMiddle(name: string, most: number): string {
+  const letters = Array.from(name);
+  if (letters.length <= most) return name;
+  const end = Math.floor((most - 1) / 2);
+  return `${letters.slice(0, most - 1 - end).join("")}…${letters.slice(letters.length - end).join("")}`;
+}
+
+function firstDifference(name: string, others: readonly string[]): number {
+  const ways = others.map((other) => {
+    const same = Array.from(name).findIndex((letter, i) => letter !== Array.from(other)[i]);
+    return same < 0 ? Array.from(name).length : same;
+  });
+  return Math.max(...ways);
+}
+
+function around(name: string, at: number, most: number): string {
+  const letters = Array.from(name);
+  const from = Math.max(0, Math.min(at - Math.floor(most / 4), letters.length - (most - 2)));
+  const to = from + most - 2;
+  return `${from > 0 ? "…" : ""}${letters.slice(from, to).join("")}${to < letters.length ? "…" : ""}`;
+}
+
+// What is said at once of a message, and what of a long one is read only by who wants to. Of several lines each has
+// its first sentence.
+const mostAtOnce = 160; // letters; chosen: two lines or three
+export function shortened(text: string): { first: string; rest: string } {
+  const lines = text.split("\n");
+  const short = lines.map((line) => {
+    const end = line.length > mostAtOnce ? /[.;](?= )/.exec(line) : null;
+    return end ? `${line.slice(0, end.index)}.` : line;
+  });
+  const first = short.join("\n");
+  if (first === text) return { first, rest: "" };
+  return { first, rest: lines.length > 1 ? text : text.slice(first.length).trim() };
 }

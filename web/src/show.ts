@@ -2,10 +2,11 @@
 import { computed, effect, signal, untracked } from "@preact/signals";
 import { fail, transport } from "./actions";
 import { surfaceOf } from "./binary";
-import { dotted, fromSrgb, labelColor, plain, second, shadePoints, type Range } from "./geometry/colors";
+import { dotted, fromSrgb, plain, second, shadePoints, type Range } from "./geometry/colors";
 import type { Item, Surface } from "./protocol";
 import type { Layout, View } from "./scene/view";
-import { item, tab } from "./state";
+import { boxOf, guessUp, ups, type Up } from "./geometry/up";
+import { chooseUp, chosenUp, item, tab } from "./state";
 import { getBinary } from "./transport";
 
 export type Coloring = "plain" | "own" | "caps" | "error";
@@ -14,6 +15,7 @@ export const legend = signal<{ range: Range; label: string; unit: string } | nul
 export const layout = signal<Layout>("one");
 export const shown = signal<{ id: number; revision: number } | null>(null);
 export const markOffending = signal(true);
+export const up = signal<Up>("z"); // of the shape on the screen
 
 let view: View | null = null;
 export const theView = (): View | null => view;
@@ -55,6 +57,7 @@ async function showItem(one: Item | null): Promise<void> {
       coloring.value = naturalColoring(surface);
       if (tab.peek() === "save") hideOther();
       layout.value = "one";
+      turnUp(chosenUp(one.name) ?? guessUp(boxOf(surface.positions)));
       view.fit(false);
     }
     repaint();
@@ -63,6 +66,22 @@ async function showItem(one: Item | null): Promise<void> {
     wanted = "";
     fail(error);
   }
+}
+
+// The camera stays where it is between shapes with the same way up.
+function turnUp(wanted: Up): void {
+  if (wanted === up.peek()) return;
+  up.value = wanted;
+  view?.setUp(wanted);
+}
+
+// By hand; it is remembered for shapes of that name.
+export function setUp(wanted: Up): void {
+  const one = item.peek();
+  if (one) chooseUp(one.name, wanted);
+  turnUp(wanted);
+  view?.fit(false);
+  repaint();
 }
 
 function naturalColoring(surface: Surface): Coloring {
@@ -76,14 +95,14 @@ export function repaint(): void {
   if (!view || !surface) return;
   const { colors, labels } = surface;
   if (coloring.value === "caps" && labels) {
-    view.paintBy("main", (out) => labels.forEach((label, v) => out.set(labelColor(label), 3 * v)));
+    view.paintLabels(labels);
   } else if (coloring.value === "own" && colors) {
     view.paintBy("main", (out) => colors.forEach((byte, i) => (out[i] = fromSrgb(byte / 255))));
   } else if (surface.triangles) {
     view.paint("main", plain);
   } else if (surface.normals) {
     const { normals } = surface;
-    view.paintBy("main", (out) => shadePoints(normals, out));
+    view.paintBy("main", (out) => shadePoints(normals, ups.indexOf(up.peek()), out));
   } else {
     view.paint("main", dotted);
   }

@@ -2,11 +2,15 @@
 import { useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { cancelJob, start, transport } from "./actions";
+import { shortened } from "./format";
+import { ups, views, type Up, type ViewName } from "./geometry/up";
 import { listenToPointer } from "./keys";
+import { FileButton, MakeShape } from "./panels/figures";
 import { ColorScale } from "./plots/legend";
+import { Axes, ScaleBar } from "./plots/sight";
 import { NoWebGlError, View } from "./scene/view";
-import { attach, layout, legend, theView } from "./show";
-import { busy, job, lost, notice, stopped } from "./state";
+import { attach, layout, legend, setUp, shown, theView, up } from "./show";
+import { busy, item, items, job, lost, notice, stopped, studio, working } from "./state";
 
 function Progress() {
   const running = job.value;
@@ -51,9 +55,18 @@ function Notice() {
   }
   const said = notice.value;
   if (!said) return null;
+  const { first, rest } = shortened(said.text);
   return (
     <div class={said.bad ? "notice bad" : "notice"} role="alert">
-      <p>{said.text}</p>
+      <div class="text">
+        <p>{first}</p>
+        {rest && (
+          <details key={said.text}>
+            <summary>More</summary>
+            <p>{rest}</p>
+          </details>
+        )}
+      </div>
       <button type="button" onClick={() => (notice.value = null)}>
         Close
       </button>
@@ -61,12 +74,64 @@ function Notice() {
   );
 }
 
-function ViewButtons() {
+// The camera's buttons, axes and scale: below the shape, and not over it.
+function ViewBar() {
+  const view = theView();
+  const sight = view?.sight.value;
+  if (!shown.value || !view) return null;
   return (
-    <div class="view-buttons">
-      <button type="button" title="All of it in view (F)" onClick={() => theView()?.fit()}>
-        Fit
-      </button>
+    <div class="view-bar">
+      {sight && <Axes axes={sight.axes} />}
+      {sight && <ScaleBar perPixel={sight.perPixel} unit={item.value?.unit ?? ""} />}
+      <span class="grow" />
+      <div class="view-buttons">
+        <select
+          aria-label="View from"
+          title="Look from there"
+          value=""
+          onChange={(event) => {
+            view.lookFrom(event.currentTarget.value as ViewName);
+            event.currentTarget.value = "";
+          }}
+        >
+          <option value="">View …</option>
+          {views.map(([name, label]) => (
+            <option key={name} value={name}>
+              {label}
+            </option>
+          ))}
+        </select>
+        <select
+          aria-label="Axis that points up"
+          title="Axis that points up; remembered for this shape"
+          value={up.value}
+          onChange={(event) => setUp(event.currentTarget.value as Up)}
+        >
+          {ups.map((axis) => (
+            <option key={axis} value={axis}>
+              {axis.toUpperCase()} up
+            </option>
+          ))}
+        </select>
+        <button type="button" title="All of it in view (F)" onClick={() => view.fit()}>
+          Fit
+        </button>
+      </div>
+    </div>
+  );
+}
+
+// Where nothing is open.
+function Empty() {
+  if (!studio.value || items.value.length > 0 || working.value || lost.value) return null;
+  return (
+    <div class="empty">
+      <strong>Drop files here</strong>
+      <p>Meshes, points, models, sessions</p>
+      <div class="row wrap">
+        <FileButton />
+        <MakeShape />
+      </div>
     </div>
   );
 }
@@ -92,22 +157,26 @@ export function Stage() {
   return (
     <main class="stage">
       <div class="canvas" ref={host} />
-      {layout.value === "side" && (
-        <div class="captions" aria-hidden="true">
-          <span>original</span>
-          <span>now</span>
-        </div>
-      )}
-      <ViewButtons />
-      {legend.value && <ColorScale {...legend.value} />}
-      {trouble.value && (
-        <div class="notice" role="alert">
-          <p>{trouble.value}</p>
-        </div>
-      )}
+      <div class="over">
+        {trouble.value && (
+          <div class="notice" role="alert">
+            <p>{trouble.value}</p>
+          </div>
+        )}
+        <Notice />
+        {layout.value === "side" && (
+          <div class="captions" aria-hidden="true">
+            <span>original</span>
+            <span>now</span>
+          </div>
+        )}
+        {legend.value && <ColorScale {...legend.value} />}
+        <span class="grow" />
+        <Progress />
+        <ViewBar />
+      </div>
+      <Empty />
       {dropping.value && <div class="drop">Drop it: meshes, points, models, sessions</div>}
-      <Notice />
-      <Progress />
     </main>
   );
 }

@@ -1,5 +1,7 @@
 // What the page knows: signals that panels read and actions.ts sets.
 import { computed, signal } from "@preact/signals";
+import { shortNames } from "./format";
+import { ups, type Up } from "./geometry/up";
 import type { Item, Job, State } from "./protocol";
 
 export const tabs = [
@@ -23,12 +25,22 @@ export const busy = signal<string | null>(null); // what the page waits for
 export const job = signal<Job | null>(null);
 export const notice = signal<{ text: string; bad: boolean } | null>(null);
 export const helpOpen = signal(false);
+export const quitOpen = signal(false); // whether to end the program is asked
 export const demo = signal(false); // the shape is the page's own, to play with
 
 export const items = computed<Item[]>(() => studio.value?.items ?? []);
 export const item = computed<Item | null>(
   () => items.value.find(({ id }) => id === selected.value) ?? null,
 );
+
+// What items are called where there is little room: no two alike.
+const mostLetters = 60; // chosen: three lines of the list
+export const names = computed<ReadonlyMap<number, string>>(() => {
+  const short = shortNames(items.value.map(({ name }) => name), mostLetters);
+  return new Map(items.value.map(({ id, name }, i) => [id, short[i] ?? name]));
+});
+export const nameOf = (one: Item): string => names.value.get(one.id) ?? one.name;
+
 export const working = computed(() => busy.value !== null || job.value?.state === "running");
 
 // The last item but that one that has faces: the other shape of two.
@@ -43,6 +55,33 @@ export const theme = signal<Theme>(readTheme());
 function readTheme(): Theme {
   const kept = storage()?.getItem(themeKey);
   return kept === "light" || kept === "dark" ? kept : "auto";
+}
+
+// Which way is up in the shape of a name, as it was chosen by hand, the last ones of many.
+const upKey = "rholm-up";
+const mostUps = 200; // chosen
+const chosenUps = signal<[name: string, up: Up][]>(readUps());
+
+function readUps(): [string, Up][] {
+  try {
+    const kept: unknown = JSON.parse(storage()?.getItem(upKey) ?? "[]");
+    if (!Array.isArray(kept)) return [];
+    const isUp = (one: unknown): one is [string, Up] =>
+      Array.isArray(one) && typeof one[0] === "string" && ups.includes(one[1] as Up);
+    return kept.filter(isUp);
+  } catch {
+    return [];
+  }
+}
+
+export function chosenUp(name: string): Up | undefined {
+  return chosenUps.value.find(([one]) => one === name)?.[1];
+}
+
+export function chooseUp(name: string, up: Up): void {
+  const others = chosenUps.peek().filter(([one]) => one !== name);
+  chosenUps.value = [...others, [name, up] as [string, Up]].slice(-mostUps);
+  storage()?.setItem(upKey, JSON.stringify(chosenUps.peek()));
 }
 
 export function setTheme(wanted: Theme): void {

@@ -1,49 +1,87 @@
 // The few controls that all panels are made of.
 import type { ComponentChildren } from "preact";
-import { useId, useState } from "preact/hooks";
-import { fromLog, number, toLog } from "./format";
+import { useId, useReducer, useState } from "preact/hooks";
+import { fromPlace, number, toPlace, type Scale } from "./format";
 
 interface SliderProps {
   label: string;
   value: number;
   min: number;
   max: number;
-  step?: number;
-  log?: boolean; // equal ways of the slider are equal ratios
+  step?: number | undefined; // of what is set by the slider; whole steps hold for typed values as well
+  scale?: Scale;
   unit?: string;
   disabled?: boolean;
   onInput: (value: number, since: number) => void; // while it moves; since: time stamp of the event, ms
   onChange?: (value: number) => void; // where it comes to rest
 }
 
-const logSteps = 1000; // chosen: finer than a pixel
+const places = 1000; // chosen: finer than a pixel
+const pages = 10; // chosen: key steps of the keys PageUp and PageDown
+
+function keySteps(key: string): number {
+  const ways: Record<string, number> = {
+    ArrowRight: 1,
+    ArrowUp: 1,
+    ArrowLeft: -1,
+    ArrowDown: -1,
+    PageUp: pages,
+    PageDown: -pages,
+  };
+  return ways[key] ?? 0;
+}
 
 export function Slider(props: SliderProps) {
-  const { label, value, min, max, step = 1, log = false, unit = "", disabled = false } = props;
+  const { label, value, min, max, scale = "linear", unit = "", disabled = false } = props;
+  const step = props.step ?? (scale === "log" ? undefined : 1);
+  const whole = step !== undefined && Number.isInteger(step);
   const id = useId();
-  const read = (text: string): number => {
-    const at = Number(text);
-    return log ? fromLog(at / logSteps, min, max) : at;
+  const [said, say] = useState("");
+  const [, drawAgain] = useReducer((times: number) => times + 1, 0);
+  const within = (wish: number) => Math.min(max, Math.max(min, whole ? Math.round(wish) : wish));
+  const stepped = (wish: number) => (step ? Number((step * Math.round(wish / step)).toPrecision(12)) : wish);
+  const toRest = (wish: number, since: number) => {
+    props.onInput(wish, since);
+    props.onChange?.(wish);
   };
+  // What cannot be is not left standing in the field: it has the value again, and says why.
   const typed = (text: string, since: number) => {
-    const wish = Number(text);
-    if (text === "" || !Number.isFinite(wish)) return;
-    const within = Math.min(max, Math.max(min, wish));
-    props.onInput(within, since);
-    props.onChange?.(within);
+    const wish = text.trim() === "" ? NaN : Number(text.replace(",", "."));
+    drawAgain(0);
+    if (!Number.isFinite(wish)) {
+      say("This is no number.");
+      return;
+    }
+    const told = (limit: number) => (whole ? String(limit) : number(limit));
+    say(wish > max ? `The most is ${told(max)}.` : wish < min ? `The least is ${told(min)}.` : "");
+    toRest(within(wish), since);
   };
-  const place = log ? Math.round(logSteps * toLog(Math.max(value, min), min, max)) : value;
-  const range = log ? { min: 0, max: logSteps, step: 1 } : { min, max, step };
+  const moved = (place: string, since: number, rest: boolean) => {
+    const wish = within(stepped(fromPlace(scale, Number(place) / places, min, max)));
+    say("");
+    if (rest) props.onChange?.(wish);
+    else props.onInput(wish, since);
+  };
+  // Places of a curved scale are not steps of the value: keys go by the value.
+  const key = (event: KeyboardEvent) => {
+    const steps = keySteps(event.key);
+    if (steps === 0 || !whole) return;
+    event.preventDefault();
+    say("");
+    toRest(within(value + steps * step), event.timeStamp);
+  };
   return (
     <div class="slider">
       <label for={id}>{label}</label>
       <span class="value">
         <input
-          type="number"
+          type="text"
+          inputMode="decimal"
+          autocomplete="off"
           aria-label={`${label}, exactly`}
-          value={Number(number(value).replace("–", "0")) === value ? value : number(value)}
-          step="any"
+          value={Number(number(value)) === value ? String(value) : number(value)}
           disabled={disabled}
+          onInput={() => say("")}
           onChange={(event) => typed(event.currentTarget.value, event.timeStamp)}
         />
         {unit}
@@ -51,19 +89,26 @@ export function Slider(props: SliderProps) {
       <input
         id={id}
         type="range"
-        {...range}
-        value={place}
+        min={0}
+        max={places}
+        step={1}
+        data-scale={`${scale} ${min} ${max}`}
+        value={Math.round(places * toPlace(scale, value, min, max))}
         disabled={disabled}
         aria-valuetext={`${number(value)} ${unit}`.trim()}
-        onInput={(event) => props.onInput(read(event.currentTarget.value), event.timeStamp)}
-        onChange={(event) => props.onChange?.(read(event.currentTarget.value))}
+        onKeyDown={key}
+        onInput={(event) => moved(event.currentTarget.value, event.timeStamp, false)}
+        onChange={(event) => moved(event.currentTarget.value, event.timeStamp, true)}
       />
+      <small class="said" role="status">
+        {said}
+      </small>
     </div>
   );
 }
 
 interface SelectProps<T extends string> {
-  label: string;
+  label: ComponentChildren;
   value: T;
   options: readonly (readonly [T, string])[];
   onChange: (value: T) => void;
@@ -71,7 +116,7 @@ interface SelectProps<T extends string> {
 
 export function Select<T extends string>({ label, value, options, onChange }: SelectProps<T>) {
   return (
-    <label class="field">
+    <label class="field choice">
       <span>{label}</span>
       <select value={value} onChange={(event) => onChange(event.currentTarget.value as T)}>
         {options.map(([key, text]) => (
@@ -108,14 +153,32 @@ export function Check({ label, checked, disabled = false, onChange }: CheckProps
 interface TextProps {
   label: string;
   value: string;
-  onChange: (value: string) => void;
+  placeholder?: string;
+  offers?: readonly string[]; // to choose from; anything else can be typed
+  onChange: (value: string) => Promise<boolean>; // whether it was taken
 }
 
-export function TextField({ label, value, onChange }: TextProps) {
+export function TextField({ label, value, placeholder = "", offers = [], onChange }: TextProps) {
+  const list = useId();
+  const [, drawAgain] = useReducer((times: number) => times + 1, 0);
   return (
     <label class="field">
       <span>{label}</span>
-      <input type="text" value={value} onChange={(event) => onChange(event.currentTarget.value)} />
+      <input
+        type="text"
+        autocomplete="off"
+        value={value}
+        placeholder={placeholder}
+        {...(offers.length > 0 ? { list } : {})}
+        onChange={(event) => void onChange(event.currentTarget.value).then(() => drawAgain(0))}
+      />
+      {offers.length > 0 && (
+        <datalist id={list}>
+          {offers.map((offer) => (
+            <option key={offer} value={offer} />
+          ))}
+        </datalist>
+      )}
     </label>
   );
 }

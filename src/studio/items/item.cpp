@@ -59,6 +59,7 @@ Item with_look(const Item& item, const Look& look, const Context& context) {
   Item changed = item;
   changed.look = look;
   changed.shown = std::make_shared<const Mesh>(surface_of(*item.model, look, context));
+  changed.volume = enclosed_volume(*changed.shown);
   return changed;
 }
 

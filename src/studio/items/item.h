@@ -46,9 +46,10 @@ struct Item {
   std::shared_ptr<const Mesh> shown;         // the surface with its look; nullptr for points
   std::shared_ptr<const MeshFacts> facts;    // of `shown`, or of the original if it was analysed
   Look look;                                 // with a model
-  std::optional<int> limit;                  // of the degree of the caps of an atlas
-  std::size_t caps = 0;                      // of an atlas, or of a reconstruction
-  std::string placed;  // how it was laid on another one, for people; empty if it was not
+  std::optional<double> volume;  // signed, of `shown`, where that is not what `facts` are of
+  std::optional<int> limit;      // of the degree of the caps of an atlas
+  std::size_t caps = 0;          // of an atlas, or of a reconstruction
+  std::string placed;            // how it was laid on another one, for people; empty if it was not
 
   // Where the lines of the recipe have it: the file of the shape and that of its coefficients or
   // caps, the variable of Python of each. Empty if there is none.

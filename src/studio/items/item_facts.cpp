@@ -41,7 +41,7 @@ void add_mesh_facts(const Item& item, Json& facts) {
   const Inspection& found = item.facts->inspection;
   add(facts, "Vertices", grouped(item.shown->vertices.size()));
   add(facts, "Faces", grouped(item.shown->triangles.size()));
-  add(facts, "Diagonal", length(found.bounds.diagonal(), item.unit));
+  add(facts, "Diagonal", length(bounds(item.shown->vertices).diagonal(), item.unit));
   add(facts, "Closed",
       found.closed ? "yes" : fmt::format("no, {} open edges", grouped(found.boundary_edges)));
   if (found.components > 1) add(facts, "Parts", grouped(found.components));
@@ -49,21 +49,33 @@ void add_mesh_facts(const Item& item, Json& facts) {
     add(facts, "Handles", grouped(found.genus));
   }
   if (found.closed && found.oriented) {
-    add(facts, "Volume", fmt::format("{:.5g}", std::abs(found.volume)));
+    const double volume = item.volume.value_or(found.volume);
+    const std::string cubed = item.unit.empty() ? "" : " " + item.unit + "\u00b3";
+    add(facts, "Volume", fmt::format("{:.5g}{}", std::abs(volume), cubed));
   }
   if (item.facts->star) add(facts, "Star-shaped", item.facts->star->star_shaped ? "yes" : "no");
 }
 
+// "8 of 32" where not all is shown.
+std::string part(std::size_t shown, std::size_t all) {
+  return shown == all ? grouped(all) : grouped(shown) + " of " + grouped(all);
+}
+
+// Of what is shown, which may be less than all.
 void add_model_facts(const Item& item, Json& facts) {
   const Expansion& expansion = item.model->expansion;
-  add(facts, "Degree", std::to_string(expansion.coefficients.degree()));
-  add(facts, "Coefficients",
-      grouped((expansion.coefficients.degree() + std::size_t{1}) *
-              (expansion.coefficients.degree() + std::size_t{1})));
+  const auto all = static_cast<std::size_t>(expansion.coefficients.degree());
+  const auto shown = static_cast<std::size_t>(item.look.degree);
+  const bool filtered = !item.look.gains.empty();
+  add(facts, "Degree", part(shown, all) + (filtered ? ", filtered" : ""));
+  add(facts, "Coefficients", part((shown + 1) * (shown + 1), (all + 1) * (all + 1)));
   const Vec3& c = expansion.center;
-  add(facts, "Centre", fmt::format("{:.4g}, {:.4g}, {:.4g}", c.x, c.y, c.z));
-  std::optional<double> rms = item.model->beyond ? item.model->beyond->rms.back() : std::nullopt;
-  if (!rms && expansion.errors && expansion.function == RadialFunction::kRadius) {
+  const std::string unit = item.unit.empty() ? "" : " " + item.unit;
+  add(facts, "Centre", fmt::format("{:.4g}, {:.4g}, {:.4g}{}", c.x, c.y, c.z, unit));
+  std::optional<double> rms;
+  if (item.model->beyond && !filtered) rms = item.model->beyond->rms[shown];
+  if (!rms && item.look == whole(*item.model) && expansion.errors &&
+      expansion.function == RadialFunction::kRadius) {
     rms = expansion.errors->rms;  // measured
   }
   add(facts, "Error, rms", rms ? length(*rms, item.unit) : "not known");
@@ -73,11 +85,14 @@ void add_atlas_facts(const Item& item, Json& facts) {
   const AtlasSize size = size_of(item.atlas->atlas);
   add(facts, "Caps", grouped(size.caps));
   add(facts, "Numbers", grouped(size.numbers()));
-  add(facts, "Highest degree", std::to_string(highest_degree(item.atlas->atlas)));
-  if (const auto& errors = item.atlas->errors) {
-    add(facts, "Error, rms", length(errors->rms(), item.unit));
-    add(facts, "Error, largest", length(errors->max(), item.unit));
-  }
+  const auto highest = static_cast<std::size_t>(highest_degree(item.atlas->atlas));
+  add(facts, "Highest degree",
+      part(static_cast<std::size_t>(item.limit.value_or(highest)), highest));
+  // Measured with all degrees.
+  const auto& errors = item.atlas->errors;
+  const bool known = errors && !item.limit;
+  add(facts, "Error, rms", known ? length(errors->rms(), item.unit) : "not known");
+  add(facts, "Error, largest", known ? length(errors->max(), item.unit) : "not known");
 }
 
 std::string why_not(const Item& item) {

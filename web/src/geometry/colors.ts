@@ -93,10 +93,10 @@ export function labelColor(label: number): Rgb {
   return fromOklch(0.74, 0.11, (label * 137.50776405) % 360); // the golden angle
 }
 
-// Colours of points by their normals: as if lit from above, a little.
-export function shadePoints(normals: Float32Array, out: Float32Array): void {
+// Colours of points by their normals: as if lit from above, a little. `up`: the axis, 0 ... 2.
+export function shadePoints(normals: Float32Array, up: number, out: Float32Array): void {
   for (let i = 0; i < normals.length; i += 3) {
-    const light = 0.75 + 0.25 * (normals[i + 2] ?? 0);
+    const light = 0.75 + 0.25 * (normals[i + up] ?? 0);
     for (let k = 0; k < 3; ++k) out[i + k] = light * (dotted[k] ?? 0);
   }
 }

@@ -2,7 +2,8 @@ import { useEffect } from "preact/hooks";
 import { step } from "../actions";
 import { Button } from "../button";
 import { hideOther, showOther } from "../show";
-import { item, items, selected } from "../state";
+import { cssColor, plain, second, type Rgb } from "../geometry/colors";
+import { item, items, nameOf, selected } from "../state";
 import * as tool from "../tools/blend";
 import { Check, Hint, Select, Slider } from "../widgets";
 
@@ -17,27 +18,39 @@ function useBoth(): void {
   useEffect(() => tool.stop, []);
 }
 
+// The colour that a shape has on the screen.
+function Swatch({ color }: { color: Rgb }) {
+  return <span class="swatch" style={{ background: cssColor(color) }} aria-hidden="true" />;
+}
+
 export function AlignPanel() {
   useBoth();
   const one = item.value;
   const other = tool.partner.value;
-  if (!one || !other) return <Hint>Open a second shape: one of two is turned onto the other.</Hint>;
+  if (!one || !other) return <Hint>Open a second shape: the chosen one is turned and moved onto it.</Hint>;
   const others = items.value.filter(({ id, faces }) => id !== one.id && faces > 0);
   const both = one.expansion !== null && other.expansion !== null;
   return (
     <>
+      <p class="moved">
+        <Swatch color={plain} /> {nameOf(one)} is turned and moved.
+      </p>
       <Select
-        label={`${one.name} (stone) onto`}
+        label={
+          <>
+            <Swatch color={second} /> Onto
+          </>
+        }
         value={String(other.id)}
-        options={others.map(({ id, name }) => [String(id), name] as const)}
+        options={others.map((each) => [String(each.id), nameOf(each)] as const)}
         onChange={(value) => (tool.partnerId.value = Number(value))}
       />
       <Check
-        label="It may be mirrored"
+        label="Try mirror images as well"
         checked={tool.mirror.value}
         onChange={(on) => (tool.mirror.value = on)}
       />
-      {!both && <Hint>Both shapes need degrees: analyse them first.</Hint>}
+      {!both && <Hint>Both shapes need degrees: analyse them first, under Degrees.</Hint>}
       <Button
         main
         disabled={!both}
@@ -47,9 +60,9 @@ export function AlignPanel() {
       >
         Align
       </Button>
-      <Hint>{one.placed ?? "It is turned and moved; its size stays."}</Hint>
+      <Hint>{one.placed ?? "The size stays as it is."}</Hint>
       <Slider
-        label="Between the two"
+        label="Blend: 0 this shape, 1 the other"
         value={tool.between.value}
         min={0}
         max={1}
@@ -66,7 +79,7 @@ export function AlignPanel() {
           {tool.playing.value ? "Stop" : "Animate"}
         </Button>
         <Button disabled={!both} onClick={tool.keep}>
-          Keep as a shape
+          Keep the blend
         </Button>
       </div>
     </>

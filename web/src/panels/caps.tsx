@@ -8,6 +8,8 @@ import { item } from "../state";
 import { Check, Facts, Hint, Slider } from "../widgets";
 
 const tolerance = signal(3e-3); // parts of the diagonal
+const leastError = 1e-4; // parts of the diagonal; chosen: below it caps are no smaller than the mesh
+const mostError = 3e-2;
 const maxDegree = signal(14);
 const mostDegrees = 24; // of a cap, as the library has them
 
@@ -17,17 +19,18 @@ const meshBytes = computed(() => 12 * (item.value?.vertices ?? 0) + 12 * (item.v
 function Compress({ one }: { one: Item }) {
   return (
     <>
-      <Hint>Few numbers for a shape of any kind: caps, each a function on a sphere of its own.</Hint>
+      <Hint>A small model of a shape of any kind: overlapping caps, each with an expansion of its own.</Hint>
       <Slider
-        label="Allowed error (of the diagonal)"
-        value={tolerance.value}
-        min={3e-4}
-        max={3e-2}
-        log
-        onInput={(value) => (tolerance.value = value)}
+        label="Allowed error"
+        value={tolerance.value * one.diagonal}
+        min={leastError * one.diagonal}
+        max={mostError * one.diagonal}
+        scale="log"
+        unit={one.unit}
+        onInput={(value) => (tolerance.value = value / one.diagonal)}
       />
       <Slider
-        label="Largest degree of a cap"
+        label="Highest degree of a cap"
         value={maxDegree.value}
         min={2}
         max={mostDegrees}
@@ -75,14 +78,14 @@ function Atlas({ one, atlas }: { one: Item; atlas: ItemAtlas }) {
           ...errors,
         ]}
       />
-      {error && limit < atlas.degree && <Hint>The errors are those of all degrees.</Hint>}
+      {error && limit < atlas.degree && <Hint>These errors hold for all degrees; those of the surface shown are not known.</Hint>}
       <Check
-        label="Caps in colours"
+        label="A colour for each cap"
         checked={coloring.value === "caps"}
         onChange={(on) => (coloring.value = on ? "caps" : "plain")}
       />
       <Slider
-        label="Degrees shown"
+        label="Degree of the caps"
         value={limit}
         min={1}
         max={atlas.degree}

@@ -7,6 +7,7 @@ import { Spectrum } from "../plots/spectrum";
 import type { Item } from "../protocol";
 import { coloring, hideOther, layout, showOther } from "../show";
 import { item, tab, theme } from "../state";
+import { MarkOffending } from "./figures";
 import * as tool from "../tools/degrees";
 import { Check, Hint, Select, Slider } from "../widgets";
 import { signal } from "@preact/signals";
@@ -14,18 +15,57 @@ import { signal } from "@preact/signals";
 const wanted = signal(32);
 const maxAsked = 1024; // chosen: what a page still moves live
 
-function Analyze({ one }: { one: Item }) {
-  if (one.faces === 0) return <Hint>Degrees are of closed surfaces. Make one of these points first.</Hint>;
+// Why there are no degrees of it, where that is known beforehand, and what can be done.
+function NoDegrees({ one }: { one: Item }) {
+  if (one.faces === 0) {
+    return (
+      <>
+        <Hint>Only closed surfaces have degrees. First make a surface of these points.</Hint>
+        <Button main onClick={() => (tab.value = "points")}>
+          Make a surface
+        </Button>
+      </>
+    );
+  }
+  if (!one.closed) {
+    return (
+      <>
+        <Hint>Only closed surfaces have degrees, and this one is open. Repair closes it; Caps take it as it is.</Hint>
+        <Button main onClick={() => step({ op: "repair", item: one.id }, "Repairing")}>
+          Repair
+        </Button>
+        <Button onClick={() => (tab.value = "caps")}>Go to Caps</Button>
+      </>
+    );
+  }
   return (
     <>
-      <Hint>{one.star && !one.star.star_shaped ? one.star.why : "Split the shape into degrees: coarse form first, then detail."}</Hint>
+      <Hint>
+        No centre sees all of this surface, so it cannot be split into degrees. {one.star?.why}
+      </Hint>
+      {one.star && one.star.offending > 0 && <MarkOffending offending={one.star.offending} />}
+      <Button main onClick={() => (tab.value = "caps")}>
+        Go to Caps
+      </Button>
+    </>
+  );
+}
+
+const canAnalyze = (one: Item) => one.closed && one.star?.star_shaped !== false;
+
+function Analyze({ one }: { one: Item }) {
+  if (!canAnalyze(one)) return <NoDegrees one={one} />;
+  return (
+    <>
+      <Hint>Split the shape into degrees: coarse form first, then detail.</Hint>
       <Slider
         label="Up to degree"
         value={wanted.value}
         min={1}
         max={maxAsked}
-        log
-        onInput={(value) => (wanted.value = Math.round(value))}
+        step={1}
+        scale="log"
+        onInput={(value) => (wanted.value = value)}
       />
       <Button
         main
@@ -93,8 +133,10 @@ function Filter() {
           value={tool.degree.value}
           min={0}
           max={tool.top.value}
+          step={1}
+          scale="root"
           onInput={(value, since) => {
-            tool.degree.value = Math.round(value);
+            tool.degree.value = value;
             live(since);
           }}
           onChange={() => void tool.keepLook()}
@@ -139,8 +181,10 @@ function Comparison({ one }: { one: Item }) {
     },
     [one.id],
   );
+  // Coefficients that came without their shape have nothing to be compared with.
+  if (one.kind !== "mesh") return null;
   return (
-    <div class="row wrap">
+    <div class="checks">
       <Check label="Error in colours" checked={coloring.value === "error"} onChange={tool.setErrorMap} />
       <Check
         label="Beside the original"
@@ -170,6 +214,24 @@ function ErrorRow({ one }: { one: Item }) {
   );
 }
 
+function FindDegree({ one }: { one: Item }) {
+  if (!one.expansion?.rms_per_degree) return null;
+  return (
+    <>
+      <Slider
+        label="Allowed error, rms"
+        value={tool.tolerance.value * one.diagonal}
+        min={1e-6 * one.diagonal}
+        max={1e-1 * one.diagonal}
+        scale="log"
+        unit={one.unit}
+        onInput={(value) => (tool.tolerance.value = value / one.diagonal)}
+      />
+      <Button onClick={() => tool.degreeForTolerance(one)}>Find the degree</Button>
+    </>
+  );
+}
+
 export function DegreesPanel() {
   const one = item.value;
   if (!one) return <Hint>Open a shape first.</Hint>;
@@ -180,15 +242,7 @@ export function DegreesPanel() {
       <ErrorRow one={one} />
       <Comparison one={one} />
       <Spectrum key={theme.value} power={one.expansion.power} tail={one.expansion.tail} degree={tool.degree.value} />
-      <Slider
-        label="Allowed error (rms, of the diagonal)"
-        value={tool.tolerance.value}
-        min={1e-6}
-        max={1e-1}
-        log
-        onInput={(value) => (tool.tolerance.value = value)}
-      />
-      <Button onClick={() => tool.degreeForTolerance(one)}>Find the degree</Button>
+      <FindDegree one={one} />
       {one.kind === "mesh" && (
         <details>
           <summary>Analyse again</summary>

@@ -25,6 +25,27 @@ export function FileButton() {
   );
 }
 
+export function MakeShape() {
+  return (
+    <select
+      aria-label="Make a shape"
+      value=""
+      onChange={(event) => {
+        const shape = event.currentTarget.value;
+        event.currentTarget.value = "";
+        if (shape) void step({ op: "make", shape }, "Making a shape");
+      }}
+    >
+      <option value="">Make a shape …</option>
+      {made.map((shape) => (
+        <option key={shape} value={shape}>
+          {shape}
+        </option>
+      ))}
+    </select>
+  );
+}
+
 function Welcome() {
   return (
     <div class="welcome">
@@ -35,26 +56,32 @@ function Welcome() {
   );
 }
 
+export function MarkOffending({ offending }: { offending: number }) {
+  return (
+    <Check
+      label={`Show the ${count(offending)} faces that the centre does not see`}
+      checked={markOffending.value}
+      onChange={(on) => (markOffending.value = on)}
+    />
+  );
+}
+
 function StarFacts() {
   const star = item.value?.star;
   if (!star || star.star_shaped) return null;
   return (
     <>
       <Hint>{star.why}</Hint>
-      <Check
-        label={`Show the ${count(star.offending)} faces that the centre does not see`}
-        checked={markOffending.value}
-        onChange={(on) => (markOffending.value = on)}
-      />
+      <MarkOffending offending={star.offending} />
     </>
   );
 }
 
 function Colors() {
   const surface = theView()?.surface("main");
-  const options: [Coloring, string][] = [["plain", "Stone"]];
-  if (surface?.colors) options.push(["own", "Its own"]);
-  if (surface?.labels) options.push(["caps", "Caps"]);
+  const options: [Coloring, string][] = [["plain", "One colour"]];
+  if (surface?.colors) options.push(["own", "From the file"]);
+  if (surface?.labels) options.push(["caps", "One for each cap"]);
   if (options.length === 1) return null;
   return (
     <Select
@@ -71,32 +98,12 @@ export function FiguresPanel() {
   return (
     <>
       {demo.value && <Welcome />}
-      <div class="row wrap">
-        <label class="field inline">
-          <span>Make</span>
-          <select
-            aria-label="Make a shape"
-            value=""
-            onChange={(event) => {
-              const shape = event.currentTarget.value;
-              event.currentTarget.value = "";
-              if (shape) void step({ op: "make", shape }, "Making a shape");
-            }}
-          >
-            <option value="">a shape …</option>
-            {made.map((shape) => (
-              <option key={shape} value={shape}>
-                {shape}
-              </option>
-            ))}
-          </select>
-        </label>
-      </div>
+      <MakeShape />
       {one && (
         <TextField
           label="Name"
           value={one.name}
-          onChange={(name) => void step({ op: "rename", item: one.id, name }, "Renaming")}
+          onChange={(name) => step({ op: "rename", item: one.id, name }, "Renaming")}
         />
       )}
       {one && <Facts facts={one.facts} />}

@@ -18,18 +18,18 @@ function Cloud({ one }: { one: Item }) {
     <>
       <Hint>
         {one.normals
-          ? "These points have normals: they can become a surface at once."
-          : "These points have no normals; they are found first."}
+          ? "These points have normals."
+          : "These points have no normals. They are computed first."}
       </Hint>
-      <Button onClick={() => step({ op: "orient", item: one.id }, "Finding normals")}>
-        Find normals
+      <Button onClick={() => step({ op: "orient", item: one.id }, "Computing normals")}>
+        Compute normals
       </Button>
       <Select
         label="Holes"
         value={holes.value}
         options={[
-          ["close", "are closed"],
-          ["keep", "stay open"],
+          ["close", "Close all"],
+          ["keep", "Leave open"],
         ]}
         onChange={(value) => (holes.value = value)}
       />
@@ -37,23 +37,23 @@ function Cloud({ one }: { one: Item }) {
         label="Noise"
         value={noise.value}
         options={[
-          ["auto", "is found"],
-          ["none", "there is none"],
+          ["auto", "Estimate it"],
+          ["none", "Points are exact"],
         ]}
         onChange={(value) => (noise.value = value)}
       />
       <Check
-        label="Fewer faces"
+        label="Simplify the surface"
         checked={simplified.value}
         onChange={(on) => (simplified.value = on)}
       />
       {simplified.value && (
         <Slider
-          label="Faces left (of all)"
+          label="Share of faces kept"
           value={share.value}
           min={0.01}
           max={1}
-          log
+          scale="log"
           onInput={(value) => (share.value = value)}
         />
       )}
@@ -89,8 +89,9 @@ function Simplify({ one }: { one: Item }) {
         value={wanted}
         min={leastFaces}
         max={most}
-        log
-        onInput={(value) => (faces.value = Math.round(value))}
+        step={1}
+        scale="log"
+        onInput={(value) => (faces.value = value)}
       />
       <Button
         main

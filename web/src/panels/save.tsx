@@ -1,5 +1,5 @@
 import { signal, type Signal } from "@preact/signals";
-import { fail, offer, saveAs } from "../actions";
+import { fail, offer, saveAs, saveSession } from "../actions";
 import { Button } from "../button";
 import { stem } from "../format";
 import type { Item, Kind } from "../protocol";
@@ -72,8 +72,9 @@ function Pixels({ label, value }: { label: string; value: Signal<number> }) {
       value={value.value}
       min={200}
       max={mostPixels}
-      log
-      onInput={(pixels) => (value.value = Math.round(pixels))}
+      step={1}
+      scale="log"
+      onInput={(pixels) => (value.value = pixels)}
     />
   );
 }
@@ -85,7 +86,7 @@ function Pictures({ one }: { one: Item }) {
       <Pixels label="Width" value={width} />
       <Pixels label="Height" value={height} />
       <div class="row wrap">
-        <Button onClick={() => savePicture(one)}>Save what is seen</Button>
+        <Button onClick={() => savePicture(one)}>Save the picture</Button>
         {one.expansion && (
           <Button onClick={() => saveAs(`save?item=${one.id}&format=html`, `${stem(one.name)}.html`)}>
             Save a report
@@ -105,11 +106,11 @@ export function SavePanel() {
       {one && <Pictures one={one} />}
       <h3>Session</h3>
       <Hint>All shapes and steps in one file; open it like any other.</Hint>
-      <Button onClick={() => saveAs("session-file", "session.rholm")}>Save the session</Button>
+      <Button onClick={saveSession}>Save the session</Button>
       {recipe && (
         <>
           <h3>Recipe</h3>
-          <Hint>The same steps without this page.</Hint>
+          <Hint>Commands that do the same steps in a shell or in Python.</Hint>
           <Copy label="Shell" text={recipe.shell} />
           <Copy label="Python" text={recipe.python} />
         </>

@@ -5,6 +5,7 @@ import { item } from "../state";
 import * as brush from "../tools/brush";
 import * as tool from "../tools/smooth";
 import { withUnit } from "../format";
+import type { Item } from "../protocol";
 import { Check, Hint, Select, Slider } from "../widgets";
 
 // While this panel is open the pointer paints.
@@ -22,21 +23,22 @@ function usePointer(): void {
   }, []);
 }
 
-export function BrushControls({ after }: { after: (since: number) => void }) {
+function BrushControls({ one, after }: { one: Item; after: (since: number) => void }) {
   return (
     <>
       <Check
-        label="The pointer paints (else it turns the shape)"
+        label="Paint with the pointer"
         checked={brush.painting.value}
         onChange={(on) => (brush.painting.value = on)}
       />
       <Slider
-        label="Brush radius (of the diagonal)"
-        value={brush.radiusShare.value}
-        min={0.005}
-        max={0.5}
-        log
-        onInput={(value, since) => brush.setRadius(value, since)}
+        label="Brush radius"
+        value={brush.radius.value}
+        min={brush.leastRadius * one.diagonal}
+        max={brush.mostRadius * one.diagonal}
+        scale="log"
+        unit={one.unit}
+        onInput={(value, since) => brush.setRadius(value / one.diagonal, since)}
         onChange={() => after(performance.now())}
       />
     </>
@@ -46,14 +48,14 @@ export function BrushControls({ after }: { after: (since: number) => void }) {
 export function SmoothPanel() {
   usePointer();
   const one = item.value;
-  if (!one?.faces) return <Hint>Smoothing is of surfaces: open one.</Hint>;
+  if (!one?.faces) return <Hint>Open a surface first: points cannot be smoothed.</Hint>;
   const none = brush.dabs.value.length === 0;
   return (
     <>
-      <Hint>Paint over what should go. Keys [ and ], or Alt and the wheel, change the brush.</Hint>
-      <BrushControls after={tool.preview} />
+      <Hint>Paint over what is to change. The keys [ and ], or Alt and the wheel, change the size of the brush.</Hint>
+      <BrushControls one={one} after={tool.preview} />
       <Select
-        label="What happens there"
+        label="Action"
         value={tool.action.value}
         options={tool.actions}
         onChange={(action) => {
@@ -62,13 +64,14 @@ export function SmoothPanel() {
         }}
       />
       <Slider
-        label="Wavelength (of the diagonal)"
-        value={tool.wavelengthShare.value}
-        min={0.01}
-        max={0.5}
-        log
+        label="Wavelength"
+        value={tool.wavelength.value}
+        min={0.01 * one.diagonal}
+        max={0.5 * one.diagonal}
+        scale="log"
+        unit={one.unit}
         onInput={(value, since) => {
-          tool.wavelengthShare.value = value;
+          tool.wavelengthShare.value = value / one.diagonal;
           tool.preview(since);
         }}
       />
@@ -84,8 +87,8 @@ export function SmoothPanel() {
         }}
       />
       <Hint>
-        Waves shorter than {withUnit(tool.wavelength.value, one.unit)} go; below 0 the strength makes them
-        higher.
+        Detail shorter than {withUnit(tool.wavelength.value, one.unit)} is removed. A strength below 0 makes it
+        stronger instead.
       </Hint>
       <div class="row">
         <Button main disabled={none} onClick={tool.keep}>

@@ -1,15 +1,17 @@
 import { useLayoutEffect } from "preact/hooks";
 import { theView } from "../show";
 import { Button } from "../button";
-import { item } from "../state";
+import type { Scale } from "../format";
+import type { Item } from "../protocol";
+import { item, items } from "../state";
 import * as tool from "../tools/texture";
 import { Check, Hint, Select, Slider } from "../widgets";
 import type { Signal } from "@preact/signals";
 
 const picks = [
-  ["from", "takes the texture from there"],
-  ["to", "lays it there"],
-  ["none", "turns the shape"],
+  ["from", "Picks the source"],
+  ["to", "Picks the target"],
+  ["none", "Turns the shape"],
 ] as const;
 
 function Live(props: {
@@ -18,15 +20,19 @@ function Live(props: {
   min: number;
   max: number;
   step?: number;
-  log?: boolean;
+  scale?: Scale;
+  per?: number; // what the value is a part of
+  unit?: string;
 }) {
-  const { value, ...rest } = props;
+  const { value, min, max, per = 1, ...rest } = props;
   return (
     <Slider
       {...rest}
-      value={value.value}
+      min={min * per}
+      max={max * per}
+      value={value.value * per}
       onInput={(next, since) => {
-        value.value = next;
+        value.value = next / per;
         tool.preview(since);
       }}
     />
@@ -51,7 +57,7 @@ function Turn() {
   return (
     <>
       <Check
-        label="Turned to what is there"
+        label="Find the best angle"
         checked={angle === null}
         onChange={(on) => {
           tool.angle.value = on ? null : 0;
@@ -59,7 +65,7 @@ function Turn() {
         }}
       />
       <Slider
-        label="Turned by"
+        label="Angle"
         unit="°"
         value={angle ?? 0}
         min={-180}
@@ -74,6 +80,8 @@ function Turn() {
   );
 }
 
+const radius = (of: Item) => ({ min: 0.01, max: 0.5, scale: "log", per: of.diagonal, unit: of.unit }) as const;
+
 export function TexturePanel() {
   useLayoutEffect(() => {
     const view = theView();
@@ -84,24 +92,28 @@ export function TexturePanel() {
       tool.discard();
     };
   }, []);
-  if (!item.value?.faces) return <Hint>Textures are of surfaces: open one.</Hint>;
+  const one = item.value;
+  if (!one?.faces) return <Hint>Open a surface first: points have no texture.</Hint>;
+  const itemOf = (id: number | undefined) => items.value.find((each) => each.id === id) ?? one;
+  const source = itemOf(tool.from.value?.item);
+  const target = itemOf(tool.to.value?.item);
   return (
     <>
-      <Hint>Click where the texture is taken, then where it goes. Drag the ball on the ring to turn and scale it.</Hint>
+      <Hint>Click on the source of the texture, then on its target. Drag the ball on the ring to turn and scale the texture.</Hint>
       <Select
         label="A click"
         value={tool.picking.value}
         options={picks}
         onChange={(value) => (tool.picking.value = value)}
       />
-      <Live label="Radius there (of the diagonal)" value={tool.radiusShare} min={0.01} max={0.5} log />
-      <Live label="Radius of the place" value={tool.targetShare} min={0.01} max={0.5} log />
+      <Live label="Radius of the source" value={tool.radiusShare} {...radius(source)} />
+      <Live label="Radius of the target" value={tool.targetShare} {...radius(target)} />
       <Live label="Height" value={tool.height} min={-2} max={4} step={0.01} />
-      <Live label="Scale" value={tool.scale} min={0.2} max={5} log />
+      <Live label="Scale" value={tool.scale} min={0.2} max={5} scale="log" />
       <Turn />
-      <LiveCheck label="Repeat it side by side" value={tool.repeat} />
-      <LiveCheck label="Take away what is there" value={tool.removeOwn} />
-      <LiveCheck label="Refine the mesh there" value={tool.refine} />
+      <LiveCheck label="Repeat the texture over the target" value={tool.repeat} />
+      <LiveCheck label="Remove the target's own detail first" value={tool.removeOwn} />
+      <LiveCheck label="Refine the target's mesh" value={tool.refine} />
       <div class="row">
         <Button main disabled={!tool.ready.value} onClick={tool.keep}>
           Keep

@@ -1,7 +1,8 @@
 // A plot of positive values over many powers of ten, by uPlot, as a component: made once for a set of
 // curves, then given data.
-import { useEffect, useRef } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 import uPlot from "uplot";
+import { number } from "../format";
 
 export interface Curve {
   label: string;
@@ -15,16 +16,22 @@ interface ChartProps {
   x: number[];
   curves: Curve[];
   xLabel: string;
+  yLabel: string;
   logX?: boolean;
   mark?: number | null; // a line across at this x
 }
 
-const height = 190; // px
+const height = 170; // px
 // The enum has no values when the script runs.
 // eslint-disable-next-line @typescript-eslint/no-unsafe-enum-assignment
 const logarithmic = 3 as uPlot.Scale.Distr;
 
-function options(props: ChartProps, host: HTMLElement, mark: () => number | null): uPlot.Options {
+function options(
+  props: ChartProps,
+  host: HTMLElement,
+  mark: () => number | null,
+  point: (index: number | null) => void,
+): uPlot.Options {
   const style = getComputedStyle(host);
   const ink = style.getPropertyValue("--ink").trim();
   const faint = style.getPropertyValue("--line").trim();
@@ -50,24 +57,27 @@ function options(props: ChartProps, host: HTMLElement, mark: () => number | null
       { ...axis, label: props.xLabel, labelSize: 18, size: 34, labelFont: "12px system-ui" },
       {
         ...axis,
-        size: 58,
+        label: props.yLabel,
+        labelSize: 18,
+        labelFont: "12px system-ui",
+        size: 48,
         splits: (_, __, low, high) => powersBetween(low, high),
         values: (_, powers) => powers.map((power) => `1e${power}`),
       },
     ],
     cursor: { y: false },
+    legend: { show: false }, // the page's own: it has values only where the pointer is
     series: [
-      { label: props.xLabel },
+      {},
       ...props.curves.map((curve) => ({
         label: curve.label,
         stroke: curve.color,
         width: 1.5,
         points: { show: false },
-        value: (_: uPlot, power: number | null) => (power === null ? "–" : (10 ** power).toExponential(2)),
         ...(curve.dash ? { dash: curve.dash } : {}),
       })),
     ],
-    hooks: { draw: [line] },
+    hooks: { draw: [line], setCursor: [(plot) => point(plot.cursor.idx ?? null)] },
   };
 }
 
@@ -97,12 +107,13 @@ export function Chart(props: ChartProps) {
   const host = useRef<HTMLDivElement>(null);
   const plot = useRef<uPlot | null>(null);
   const mark = useRef(props.mark ?? null);
+  const [pointed, point] = useState<number | null>(null);
   const shape = props.curves.map(({ label, color }) => label + color).join();
   useEffect(() => {
     const element = host.current;
     if (!element) return undefined;
     const made = new uPlot(
-      options(props, element, () => mark.current),
+      options(props, element, () => mark.current, point),
       dataOf(props),
       element,
     );
@@ -122,5 +133,29 @@ export function Chart(props: ChartProps) {
     mark.current = props.mark ?? null;
     plot.current?.redraw(false);
   }, [props.mark]);
-  return <div class="chart" role="img" aria-label={props.label} ref={host} />;
+  return (
+    <div class="chart">
+      <div role="img" aria-label={props.label} ref={host} />
+      <ChartLegend {...props} pointed={pointed} />
+    </div>
+  );
+}
+
+function ChartLegend({ x, curves, xLabel, pointed }: ChartProps & { pointed: number | null }) {
+  const at = pointed === null ? undefined : x[pointed];
+  return (
+    <ul class="key">
+      {curves.map(({ label, color, dash, values }) => {
+        const value = pointed === null ? null : values[pointed];
+        return (
+          <li key={label}>
+            <span class={dash ? "line dashed" : "line"} style={{ borderColor: color }} />
+            {label}
+            {value !== null && value !== undefined && ` ${number(value)}`}
+          </li>
+        );
+      })}
+      <li class="at">{at === undefined ? "" : `${xLabel} ${at}`}</li>
+    </ul>
+  );
 }

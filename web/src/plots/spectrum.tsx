@@ -22,12 +22,12 @@ export function spectrumCurves(
   const x = Array.from({ length: last }, (_, k) => k + 1);
   const positive = (value: number | undefined) => (value !== undefined && value > 0 ? value : null);
   const curves: Curve[] = [
-    { label: "energy", color: measuredColor, values: x.map((l) => positive(power[l])) },
+    { label: "measured", color: measuredColor, values: x.map((l) => positive(power[l])) },
   ];
   if (tail) {
     const from = Math.max(1, Math.floor(top / 4)); // chosen: where it can be compared
     const law = (l: number) => (l < from ? null : positive(tail.strength / (Math.PI * l ** 4)));
-    curves.push({ label: "predicted tail", color: predictedColor, dash: [6, 4], values: x.map(law) });
+    curves.push({ label: "expected of the mesh's edges", color: predictedColor, dash: [6, 4], values: x.map(law) });
   }
   return { x, curves };
 }
@@ -36,13 +36,22 @@ export function Spectrum({ power, tail, degree }: SpectrumProps) {
   const { x, curves } = useMemo(() => spectrumCurves(power, tail), [power, tail]);
   if (power.length < 2) return null;
   return (
-    <Chart
-      label={`Energy of degrees 1 to ${power.length - 1}`}
-      x={x}
-      curves={curves}
-      xLabel="degree"
-      logX
-      mark={degree && degree > 0 ? degree : null}
-    />
+    <>
+      <Chart
+        label={`Energy of degrees 1 to ${power.length - 1}`}
+        x={x}
+        curves={curves}
+        xLabel="degree"
+        yLabel="energy"
+        logX
+        mark={degree && degree > 0 ? degree : null}
+      />
+      {tail && (
+        <p class="hint">
+          The dashed line is what the edges between the faces add at high degrees. Where the measured energy follows it,
+          higher degrees show the faces of the mesh, and no more of the shape.
+        </p>
+      )}
+    </>
   );
 }

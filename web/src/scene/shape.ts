@@ -12,8 +12,9 @@ import {
 } from "three";
 import { MeshBVH } from "three-mesh-bvh";
 import type { Rgb } from "../geometry/colors";
-import { dotted, marked, plain } from "../geometry/colors";
+import { dotted, labelColor, marked, plain } from "../geometry/colors";
 import { aroundVertices, ballOf, joinedTriangles, vertexNormals } from "../geometry/normals";
+import { atPieces, seamsOf } from "../geometry/seams";
 import type { Surface } from "../protocol";
 
 export interface Touch {
@@ -35,6 +36,7 @@ export interface Shape {
   joined: Uint32Array | null; // joinedTriangles(), once they are wanted
   moved: Uint32Array | null; // vertices that are not where the surface has them; null: unknown, or none
   marks: Mesh | null;
+  seams: Mesh | null; // pieces of faces that are of several caps
   bvh: MeshBVH | null;
   bvhMoved: boolean;
 }
@@ -47,7 +49,7 @@ export function makeShape(surface: Surface): Shape {
   geometry.setAttribute("color", colors);
   const ball = ballOf(surface.positions);
   const group = new Group();
-  const none = { marks: null, joined: null, moved: null, bvh: null, bvhMoved: false };
+  const none = { marks: null, seams: null, joined: null, moved: null, bvh: null, bvhMoved: false };
   const shape = { group, surface, ball, positions, colors, ...none };
   if (!surface.triangles) {
     // Chosen: on a sphere they would cover half of it, and in a ball's picture are never lost.
@@ -107,6 +109,7 @@ function joinedOf(shape: Shape, triangles: Uint32Array): Uint32Array {
 }
 
 function hasMoved(shape: Shape, normals: Float32Array | null, touched: Uint8Array | undefined): void {
+  dropSeams(shape);
   shape.positions.needsUpdate = true;
   shape.bvhMoved = true;
   const { triangles } = shape.surface;
@@ -126,6 +129,35 @@ export function paintOne(shape: Shape, color: Rgb): Shape {
   for (let i = 0; i < array.length; i += 3) array.set(color, i);
   shape.colors.needsUpdate = true;
   return shape;
+}
+
+// Each cap in a colour, with borders that do not follow the edges of the mesh.
+export function paintLabels(shape: Shape, labels: Uint32Array): void {
+  const { triangles } = shape.surface;
+  const seams = triangles && shape.normals ? seamsOf(triangles, labels) : null;
+  const array = shape.colors.array as Float32Array;
+  (seams?.labels ?? labels).forEach((label, v) => array.set(labelColor(label), 3 * v));
+  shape.colors.needsUpdate = true;
+  if (!seams || !shape.normals) return;
+  const geometry = new BufferGeometry();
+  const add = (name: string, values: Float32Array) => geometry.setAttribute(name, new BufferAttribute(values, 3));
+  const colors = new Float32Array(seams.weights.length);
+  seams.pieceLabels.forEach((label, i) => [0, 3, 6].forEach((at) => colors.set(labelColor(label), 9 * i + at)));
+  add("position", atPieces(seams, shape.positions.array));
+  add("normal", atPieces(seams, shape.normals.array));
+  add("color", colors);
+  const material = new MeshLambertMaterial({ vertexColors: true, side: DoubleSide, polygonOffset: true });
+  material.polygonOffsetUnits = -2; // before the faces that they are of
+  shape.seams = keep(new Mesh(geometry, material));
+  shape.group.add(shape.seams);
+}
+
+export function dropSeams(shape: Shape): void {
+  if (!shape.seams) return;
+  shape.group.remove(shape.seams);
+  shape.seams.geometry.dispose();
+  (shape.seams.material as MeshLambertMaterial).dispose();
+  shape.seams = null;
 }
 
 // Faces of these numbers in a colour of their own; null: none.
@@ -182,6 +214,7 @@ export function touchShape(shape: Shape, ray: Ray): Touch | null {
 
 export function disposeShape(shape: Shape): void {
   markFaces(shape, null);
+  dropSeams(shape);
   (shape.group.children[0] as Mesh).geometry.dispose();
   shape.material.dispose();
 }

@@ -1,4 +1,5 @@
 // The canvas: one shape or two, light, camera, rings. Everything of three.js is below this folder.
+import { signal } from "@preact/signals";
 import CameraControls from "camera-controls";
 import {
   AmbientLight,
@@ -20,22 +21,26 @@ import {
 import type { Rgb } from "../geometry/colors";
 import { mapColors, type Range } from "../geometry/colors";
 import { ballAround } from "../geometry/normals";
+import { views, type Up, type ViewName } from "../geometry/up";
 import type { Surface } from "../protocol";
 import { Markers, ringFrame, type Ring } from "./markers";
 import { takePicture, type Part } from "./picture";
 import { listenToPointer, type PointerTool } from "./pointer";
 import {
   disposeShape,
+  dropSeams,
   makeShape,
   markFaces,
   moveShape,
   moveSome,
+  paintLabels,
   paintOne,
   setOpacity,
   touchShape,
   type Shape,
   type Touch,
 } from "./shape";
+import { axisOf, sightOf, type Sight } from "./sight";
 
 CameraControls.install({
   THREE: {
@@ -55,11 +60,14 @@ export type Which = "main" | "other";
 export type Layout = "one" | "side" | "over"; // "side": other left, main right; "over": both at one place
 
 const fieldOfView = 32; // degrees; chosen: little perspective
+// From a little above the equator, as pictures of the program.
+const firstLook = { azimuth: Math.PI / 6, polar: 0.4 * Math.PI };
 
 export class NoWebGlError extends Error {}
 
 export class View {
   pointer: PointerTool | null = null;
+  readonly sight = signal<Sight | null>(null);
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
   private readonly camera = new PerspectiveCamera(fieldOfView, 1, 0.01, 100);
@@ -98,8 +106,7 @@ export class View {
     });
     this.camera.up.set(0, 0, 1);
     this.controls = new CameraControls(this.camera, canvas);
-    // From a little above the equator, as pictures of the program.
-    void this.controls.rotateTo(Math.PI / 6, 0.4 * Math.PI, false);
+    void this.controls.rotateTo(firstLook.azimuth, firstLook.polar, false);
     this.controls.smoothTime = 0.08;
     this.controls.draggingSmoothTime = 0.02;
     this.controls.dollyToCursor = true;
@@ -140,23 +147,22 @@ export class View {
   }
 
   paint(which: Which, color: Rgb): void {
-    this.change(which, (shape) => paintOne(shape, color));
+    this.recolor(which, (shape) => paintOne(shape, color));
   }
 
   // Colours by numbers of vertices.
   paintValues(range: Range, values: ArrayLike<number>): void {
-    this.change("main", (shape) => {
-      mapColors(range, values, shape.colors.array as Float32Array);
-      shape.colors.needsUpdate = true;
-    });
+    this.recolor("main", (shape) => mapColors(range, values, shape.colors.array as Float32Array));
   }
 
   // Writes colours [n, 3] by `fill`.
   paintBy(which: Which, fill: (colors: Float32Array) => void): void {
-    this.change(which, (shape) => {
-      fill(shape.colors.array as Float32Array);
-      shape.colors.needsUpdate = true;
-    });
+    this.recolor(which, (shape) => fill(shape.colors.array as Float32Array));
+  }
+
+  // A colour for each label of vertices.
+  paintLabels(labels: Uint32Array): void {
+    this.recolor("main", (shape) => paintLabels(shape, labels));
   }
 
   mark(faces: Uint32Array | null): void {
@@ -186,6 +192,22 @@ export class View {
     this.controls.maxDistance = radius * 50;
     void this.controls.fitToSphere(new Sphere(new Vector3(...center), radius * 1.05), smoothly);
     this.dirty = true;
+  }
+
+  // The axis that points up on the screen; the camera is again where it was at first.
+  setUp(up: Up): void {
+    this.camera.up.copy(axisOf(up));
+    this.controls.updateCameraUp();
+    void this.controls.rotateTo(firstLook.azimuth, firstLook.polar, false);
+    this.dirty = true;
+  }
+
+  // From the front, from above and so on.
+  lookFrom(wanted: ViewName): void {
+    const found = views.find(([name]) => name === wanted);
+    if (!found) return;
+    this.controls.normalizeRotations();
+    void this.controls.rotateTo(found[2], found[3], true);
   }
 
   turn(azimuth: number, polar: number): void {
@@ -245,6 +267,14 @@ export class View {
     if (!shape) return;
     work(shape);
     this.dirty = true;
+  }
+
+  private recolor(which: Which, work: (shape: Shape) => void): void {
+    this.change(which, (shape) => {
+      dropSeams(shape);
+      work(shape);
+      shape.colors.needsUpdate = true;
+    });
   }
 
   private caster(event: PointerEvent): Raycaster {
@@ -308,8 +338,15 @@ export class View {
       this.renderer.setScissorTest(true);
       this.renderer.render(this.scene, this.camera);
     }
+    this.tellSight(size.y);
     const done = this.waiting;
     this.waiting = [];
     if (done.length) setTimeout(() => done.forEach((tell) => tell()));
+  }
+
+  private tellSight(height: number): void {
+    const high = 2 * this.controls.distance * Math.tan((fieldOfView * Math.PI) / 360);
+    const sight = sightOf(this.camera, high / height);
+    if (JSON.stringify(this.sight.peek()) !== JSON.stringify(sight)) this.sight.value = sight;
   }
 }

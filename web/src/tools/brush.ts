@@ -16,6 +16,8 @@ export interface Dab {
 export const painting = signal(true); // else the pointer turns the shape
 export const dabs = signal<Dab[]>([]);
 export const radiusShare = signal(0.06); // of the diagonal
+export const leastRadius = 0.005; // of the diagonal; chosen
+export const mostRadius = 0.5;
 export const radius = computed(() => radiusShare.value * (item.value?.diagonal ?? 1));
 export const regions = computed(() =>
   dabs.value.map(({ vertex }) => `vertex:${vertex},${Number(radius.value.toPrecision(6))}`),
@@ -79,7 +81,7 @@ export function clearRegion(): void {
 }
 
 export function setRadius(share: number, since: number): void {
-  radiusShare.value = Math.min(0.5, Math.max(0.005, share));
+  radiusShare.value = Math.min(mostRadius, Math.max(leastRadius, share));
   showCursor();
   showWeights(since);
 }

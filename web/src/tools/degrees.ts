@@ -55,6 +55,14 @@ export const wish = computed<{ degree: number; gains: number[] | null }>(() => {
   }
 });
 
+// What of its degrees is on the screen, for people: "degree 8 of 32".
+export function shownDegree(one: Item): string {
+  const all = one.expansion?.degree ?? 0;
+  const look = one.id === item.value?.id ? wish.value : one.look;
+  if (look?.gains) return `degree ${all}, filtered`;
+  return look && look.degree < all ? `degree ${look.degree} of ${all}` : `degree ${all}`;
+}
+
 const live = liveChannel("degree", (answer: Binary, fields: Fields) => {
   if (fields.item !== shown.value?.id) return;
   const positions = needArray(answer, "positions", Float32Array);

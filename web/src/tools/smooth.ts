@@ -8,9 +8,9 @@ import { item, tab } from "../state";
 import { clearRegion, radius, regions, showWeights, takeBackStroke, transition } from "./brush";
 
 export const actions = [
-  ["smooth", "Smooth: detail goes"],
-  ["repair", "Repair: what stands out goes"],
-  ["bridge", "Bridge: the rim goes on"],
+  ["smooth", "Smooth: remove detail"],
+  ["repair", "Repair: remove bumps and dents"],
+  ["bridge", "Bridge: continue the rim"],
 ] as const;
 export type Action = (typeof actions)[number][0];
 

@@ -10,7 +10,7 @@ import { Check, Select, Slider } from "../widgets";
 import { makeModel, setDegree, valuesFor, type Coloring, type Model } from "./model";
 
 const colorings = [
-  ["plain", "Stone"],
+  ["plain", "One colour"],
   ["radius", "Radius"],
   ["difference", "Difference from all degrees"],
 ] as const;
@@ -78,7 +78,7 @@ export function Viewer({ data }: { data: ViewData }) {
       </div>
       <div class="panel">
         {data.title && <strong>{data.title}</strong>}
-        <Slider label="Degree" value={degree} min={0} max={top} onInput={(l) => setShown(Math.round(l))} />
+        <Slider label="Degree" value={degree} min={0} max={top} step={1} scale="root" onInput={setShown} />
         <Measures data={data} degree={degree} />
         <Select label="Colours" value={coloring} options={colorings} onChange={setColoring} />
         {model.original && (

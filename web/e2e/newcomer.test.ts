@@ -1,0 +1,158 @@
+// What people meet who are new to the page: files of the command line, names, fields, what cannot be done, which way
+// is up.
+import { execFileSync } from "node:child_process";
+import { join } from "node:path";
+import { afterAll, beforeAll, beforeEach, expect, it } from "vitest";
+import {
+  canvas,
+  leave,
+  moveSlider,
+  openFile,
+  openTab,
+  picture,
+  press,
+  programPath,
+  ready,
+  rholm,
+  setNumber,
+  settled,
+  startStudio,
+  stopStudio,
+  visit,
+  type Studio,
+  type Visit,
+} from "./studio";
+
+let studio: Studio;
+let now: Visit;
+const long = "a-scan-with-a-name-that-is-far-too-long-for-any-list-of-shapes-in-a-page";
+
+beforeAll(async () => {
+  studio = await startStudio((folder) => {
+    execFileSync(programPath(), ["make", "torus", "-o", join(folder, "ring.ply")]);
+    return [join(folder, "ring.ply")];
+  });
+  rholm(studio, "make", "bumpy", "--subdivisions", "3", "-o", `${long}-first-of-two.ply`);
+  rholm(studio, "make", "box", "-o", `${long}-other-of-two.ply`);
+});
+afterAll(() => stopStudio(studio));
+beforeEach(async () => {
+  now = await visit(studio);
+  await ready(now.page);
+  return async () => {
+    const said = now.complaints;
+    await leave(studio, now);
+    expect(said).toEqual([]);
+  };
+});
+
+const names = () => now.page.locator(".items .name").allInnerTexts();
+const field = (label: string) => now.page.getByLabel(`${label}, exactly`, { exact: true });
+
+it("begins with the files of the command line, in every tab, and undoing does not close them", async () => {
+  const { page } = now;
+  expect(await names()).toEqual(["ring.ply"]);
+  expect(await page.getByRole("button", { name: "Undo" }).isDisabled()).toBe(true);
+  const other = await visit(studio);
+  await ready(other.page);
+  expect(await other.page.locator(".items .name").allInnerTexts()).toEqual(["ring.ply"]);
+  expect(other.complaints).toEqual([]);
+  await leave(studio, other);
+});
+
+it("says where to drop files when nothing is open", async () => {
+  const { page } = now;
+  await press(page, /^Remove ring/);
+  await page.getByText("Drop files here").waitFor();
+  await picture(page, "empty");
+  await page.locator("main").getByLabel("Make a shape").selectOption("box");
+  await settled(page);
+  expect(await page.getByText("Drop files here").count()).toBe(0);
+  expect(await names()).toEqual(["box.ply"]);
+});
+
+it("does not offer to analyse what no centre sees, and says what can be done", async () => {
+  const { page } = now;
+  await openTab(page, "Degrees");
+  expect(await page.getByRole("button", { name: "Analyse" }).count()).toBe(0);
+  await page.getByText("No centre sees all of this surface").waitFor();
+  await picture(page, "not-star-shaped");
+  await press(page, "Go to Caps");
+  await page.getByRole("button", { name: "Compress" }).waitFor();
+});
+
+it("shows names that can be told apart", async () => {
+  const { page } = now;
+  await openFile(studio, page, `${long}-first-of-two.ply`, `${long}-other-of-two.ply`, `${long}-first-of-two.ply`);
+  const shown = await names();
+  expect(new Set(shown).size).toBe(4);
+  expect(shown[1]).toContain("first");
+  expect(shown[2]).toContain("other");
+  expect(shown[3]).toContain("(2)");
+  await picture(page, "long-names");
+});
+
+it("does not leave a value in a field that cannot be", async () => {
+  const { page } = now;
+  await openFile(studio, page, `${long}-first-of-two.ply`);
+  await openTab(page, "Degrees");
+  await setNumber(page, "Up to degree", 5000);
+  expect(await field("Up to degree").inputValue()).toBe("1024");
+  await page.getByText("The most is 1024.").waitFor();
+  await setNumber(page, "Up to degree", 12);
+  await press(page, "Analyse");
+  for (const [typed, becomes] of [["99", "12"], ["99", "12"], ["-3", "0"], ["x", "0"], ["", "0"], ["7.4", "7"], ["2,6", "3"]] as const) {
+    await field("Degree").fill(typed);
+    await field("Degree").press("Enter");
+    await settled(page);
+    expect(await field("Degree").inputValue(), typed).toBe(becomes);
+  }
+  // Keys of the slider go by degrees.
+  const slider = page.getByRole("slider", { name: "Degree", exact: true });
+  await slider.focus();
+  await page.keyboard.press("ArrowRight");
+  await settled(page);
+  expect(await field("Degree").inputValue()).toBe("4");
+});
+
+it("figures are of the degree that is shown", async () => {
+  const { page } = now;
+  await openFile(studio, page, `${long}-first-of-two.ply`);
+  await openTab(page, "Degrees");
+  await setNumber(page, "Up to degree", 12);
+  await press(page, "Analyse");
+  const value = async (label: string) => {
+    await openTab(page, "Figures");
+    const row = page.locator(".facts div").filter({ has: page.locator(`dt:text-is("${label}")`) });
+    return row.locator("dd").innerText();
+  };
+  const before = [await value("Volume"), await value("Error, rms")];
+  await openTab(page, "Degrees");
+  // Also while the slider is held.
+  await moveSlider(page.getByRole("slider", { name: "Degree", exact: true }), 2);
+  await page.getByText("· degree 2 of 12").waitFor();
+  await setNumber(page, "Degree", 2);
+  expect(await value("Degree")).toBe("2 of 12");
+  expect(await value("Volume")).not.toBe(before[0]);
+  expect(await value("Error, rms")).not.toBe(before[1]);
+});
+
+it("turns the axis up that is chosen, and remembers it", async () => {
+  const { page } = now;
+  const axis = page.getByLabel("Axis that points up");
+  expect(await axis.inputValue()).toBe("z");
+  const before = await canvas(page);
+  await axis.selectOption("y");
+  await settled(page);
+  expect(Buffer.compare(before, await canvas(page))).not.toBe(0);
+  const turned = await canvas(page);
+  await page.getByLabel("View from").selectOption("top");
+  await settled(page);
+  expect(Buffer.compare(turned, await canvas(page))).not.toBe(0);
+  await picture(page, "from-above");
+  await page.reload();
+  await ready(page);
+  expect(await axis.inputValue()).toBe("y");
+  await page.locator(".scale-bar").waitFor();
+  expect(await page.locator(".axes text").allInnerTexts()).toHaveLength(3);
+});
