@@ -1,4 +1,6 @@
-// Steps that need no thread: shapes made, removed, renamed.
+// Steps that need no thread: shapes made, removed, renamed, given a unit.
+#include "rholm/coefficients_io.h"
+#include "rholm/compress.h"
 #include "rholm/points.h"
 #include "rholm/primitives.h"
 #include "studio/step.h"
@@ -95,6 +97,54 @@ Step rename(const Json& request, const Document& now) {
           }};
 }
 
+std::shared_ptr<const Model> with_unit(const Model& model, const std::string& unit) {
+  auto changed = std::make_shared<Model>(model);
+  changed->expansion.unit = unit;
+  return changed;
+}
+
+void set_unit(Item& item, const std::string& unit, Scratch& scratch) {
+  item.unit = unit;
+  if (item.model) item.model = with_unit(*item.model, unit);
+  if (!item.atlas) return;
+  auto atlas = std::make_shared<AtlasModel>(*item.atlas);
+  atlas->unit = unit;
+  item.atlas_file = std::make_shared<const std::string>(scratch.written(
+      ".h5", [&](const std::filesystem::path& path) { write_atlas(*atlas, path); }));
+  item.atlas = atlas;
+}
+
+// Shapes have no unit in their files: only models are made anew.
+void record_unit(Recipe& recipe, Item& item) {
+  if (!item.model && !item.atlas) return;
+  const Named from = {item.model_file, item.model_variable};
+  Named made;
+  made.file = recipe.file(stem_of(from.file), ".h5");
+  made.variable = recipe.variable(stem_of(made.file));
+  recipe.add(
+      {{"op", "unit"}, {"from", json_of(from)}, {"made", json_of(made)}, {"unit", item.unit}});
+  item.model_file = made.file;
+  item.model_variable = made.variable;
+  if (item.atlas && item.file == from.file) {
+    item.file = made.file;
+    item.variable = made.variable + ".mesh()";
+  }
+}
+
+// The unit of lengths: their numbers stay.
+Step set_unit(const Json& request, const Document& now, Shared& shared) {
+  const ItemPtr item = item_in(request, "item", now);
+  const std::string unit = string_of(request, "unit");
+  if (!unit.empty()) check_unit(unit);
+  return {"Set the unit of " + item->name, false,
+          [item, unit, &shared](Document& document, const Context&) {
+            Item changed = *item;
+            set_unit(changed, unit, shared.scratch);
+            record_unit(document.recipe, changed);
+            put(document, std::move(changed));
+          }};
+}
+
 }  // namespace
 
 std::optional<Step> plain_step(const std::string& op, const Json& request, const Document& now,
@@ -102,6 +152,7 @@ std::optional<Step> plain_step(const std::string& op, const Json& request, const
   if (op == "make") return make(request, shared);
   if (op == "remove") return remove(request, now);
   if (op == "rename") return rename(request, now);
+  if (op == "unit") return set_unit(request, now, shared);
   return std::nullopt;
 }
 

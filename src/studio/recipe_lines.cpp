@@ -80,6 +80,11 @@ std::string unit_option(const Json& step) {
          shell_text(plain_text(unit));
 }
 
+std::string python_unit(const Json& step) {
+  const std::string unit = string_or(step, "unit", "");
+  return unit.empty() ? "" : ", length_unit=" + python_text(plain_text(unit));
+}
+
 void read_file(Reading& r) {
   const Named made = r.made();
   const std::string file = python_text(made.file);
@@ -185,7 +190,7 @@ void analyze(Reading& r) {
   }
   r.say(made,
         fmt::format("rholm analyze {}{}{}", shell_word(from.file), shell, unit_option(r.step)),
-        fmt::format("rholm.expand({}{})", from.variable, python));
+        fmt::format("rholm.expand({}{}{})", from.variable, python, python_unit(r.step)));
 }
 
 void align(Reading& r) {
@@ -221,6 +226,17 @@ void blend(Reading& r) {
                           shell_text("import rholm; " + call(loaded(from.file), loaded(to.file)) +
                                      ".save(" + python_text(made.file) + ")"));
   r.lines.python.push_back(made.variable + " = " + call(from.variable, to.variable));
+}
+
+// The program has no command for it: the shell calls Python.
+void set_unit(Reading& r) {
+  const Named from = r.used("from"), made = r.made();
+  const std::string unit = string_or(r.step, "unit", "");
+  const std::string call = ".with_unit(" + python_text(plain_text(unit)) + ")";
+  r.lines.shell.push_back("python3 -c " +
+                          shell_text("import rholm; rholm.load(" + python_text(from.file) + ")" +
+                                     call + ".save(" + python_text(made.file) + ")"));
+  r.lines.python.push_back(made.variable + " = " + from.variable + call);
 }
 
 std::string region_options(const char* name, const std::vector<std::string>& regions) {
@@ -337,8 +353,9 @@ void compress(Reading& r) {
         fmt::format(
             "rholm analyze {} --atlas --tolerance {}{}{}", shell_word(from.file), digits(tolerance),
             degree == usual ? "" : fmt::format(" --max-degree {}", degree), unit_option(r.step)),
-        fmt::format("rholm.compress({}, {}{})", from.variable, digits(tolerance),
-                    degree == usual ? "" : fmt::format(", max_degree={}", degree)));
+        fmt::format("rholm.compress({}, {}{}{})", from.variable, digits(tolerance),
+                    degree == usual ? "" : fmt::format(", max_degree={}", degree),
+                    python_unit(r.step)));
 }
 
 void limit(Reading& r) {
@@ -352,21 +369,14 @@ void limit(Reading& r) {
 
 StepLines step_lines(const Json& step, const Recipe& before) {
   static const std::map<std::string, void (*)(Reading&)> kSteps = {
-      {"read", read_file},
-      {"make", make},
-      {"filter", filter},
-      {"synthesize", synthesize_series},
-      {"analyze", analyze},
-      {"align", align},
-      {"blend", blend},
-      {"smooth", smooth},
-      {"transfer", transfer},
-      {"simplify", simplify},
-      {"repair", repair},
-      {"orient", orient},
-      {"reconstruct", reconstruct},
-      {"compress", compress},
-      {"atlas_look", limit}};
+      {"read", read_file},    {"make", make},
+      {"filter", filter},     {"synthesize", synthesize_series},
+      {"analyze", analyze},   {"align", align},
+      {"blend", blend},       {"unit", set_unit},
+      {"smooth", smooth},     {"transfer", transfer},
+      {"simplify", simplify}, {"repair", repair},
+      {"orient", orient},     {"reconstruct", reconstruct},
+      {"compress", compress}, {"atlas_look", limit}};
   if (!step.is_object()) throw bad_request("a step is no object");
   const auto found = kSteps.find(string_of(step, "op"));
   if (found == kSteps.end()) throw bad_request("a step does what is not known");

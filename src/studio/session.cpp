@@ -31,6 +31,7 @@ void add_new(const Document& changed, const Document& before, Document& to) {
     list.insert(list.end(), all.begin() + static_cast<std::ptrdiff_t>(known), all.end());
   };
   append(changed.items, before.items.size(), to.items);
+  append(changed.recipe.steps, before.recipe.steps.size(), to.recipe.steps);
   append(changed.recipe.shell, before.recipe.shell.size(), to.recipe.shell);
   append(changed.recipe.python, before.recipe.python.size(), to.recipe.python);
   const auto take = [](const auto& all, const auto& known, auto& set) {

@@ -195,6 +195,29 @@ TEST(Steps, FiguresAreOfWhatIsShown) {
   EXPECT_EQ(fact(item, "Error, rms"), "not known");
 }
 
+TEST(Steps, LengthsHaveTheUnitThatIsSet) {
+  Client client;
+  client.step({{"op", "make"}, {"shape", "ellipsoid"}});
+  Json state = check_undone(client, {{"op", "unit"}, {"item", 1}, {"unit", "mm"}});
+  EXPECT_EQ(state.at("items")[0].at("unit"), "mm");
+  EXPECT_TRUE(fact(state.at("items")[0], "Diagonal").ends_with(" mm"));
+  EXPECT_TRUE(fact(state.at("items")[0], "Volume").ends_with(" mm\u00b3"));
+  state = client.step({{"op", "analyze"}, {"item", 1}, {"degree", 2}});
+  EXPECT_NE(state.at("recipe").at("shell").get<std::string>().find("--length-unit mm"),
+            std::string::npos);
+  EXPECT_TRUE(
+      state.at("recipe").at("python").get<std::string>().ends_with(", length_unit=\"mm\")"));
+  // Of a model the file has it: another file, in the recipe, too.
+  state = check_undone(client, {{"op", "unit"}, {"item", 1}, {"unit", "km"}});
+  EXPECT_TRUE(fact(state.at("items")[0], "Error, rms").ends_with(" km"));
+  const std::string python = state.at("recipe").at("python");
+  EXPECT_TRUE(python.ends_with(".with_unit(\"km\")")) << python;
+  EXPECT_NE(client.save(1, "json").body.find("\"km\""), std::string::npos);
+  state = check_undone(client, {{"op", "unit"}, {"item", 1}, {"unit", ""}});
+  EXPECT_EQ(fact(state.at("items")[0], "Error, rms").find("km"), std::string::npos);
+  EXPECT_EQ(client.post({{"op", "unit"}, {"item", 1}, {"unit", "m\n"}}).status, 422);
+}
+
 TEST(Steps, WhatIsOpenedIsNoStep) {
   Client client;
   const std::string box =

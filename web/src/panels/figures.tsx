@@ -4,6 +4,7 @@ import { count } from "../format";
 import { coloring, markOffending, type Coloring } from "../show";
 import { demo, item } from "../state";
 import { theView } from "../show";
+import type { Item } from "../protocol";
 import { Check, Facts, Hint, Select, TextField } from "../widgets";
 
 // Shapes with known answers, to begin with.
@@ -77,6 +78,21 @@ function StarFacts() {
   );
 }
 
+const units = ["µm", "mm", "cm", "m", "km"]; // of many; others are typed
+
+// Files hardly ever say what their numbers are.
+function Unit({ one }: { one: Item }) {
+  return (
+    <TextField
+      label="Length unit"
+      placeholder="not set"
+      value={one.unit}
+      offers={units}
+      onChange={(unit) => step({ op: "unit", item: one.id, unit: unit.trim() }, "Setting the unit")}
+    />
+  );
+}
+
 function Colors() {
   const surface = theView()?.surface("main");
   const options: [Coloring, string][] = [["plain", "One colour"]];
@@ -106,6 +122,7 @@ export function FiguresPanel() {
           onChange={(name) => step({ op: "rename", item: one.id, name }, "Renaming")}
         />
       )}
+      {one && <Unit one={one} />}
       {one && <Facts facts={one.facts} />}
       <StarFacts />
       <Colors />
