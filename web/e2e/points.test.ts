@@ -134,7 +134,7 @@ it("of two shapes one is turned onto the other, and what lies between is shown",
   expect(Buffer.compare(before, await canvas(page))).not.toBe(0);
   await openTab(page, "Align");
   await settled(page);
-  await drag(page, "Blend: 0 this shape, 1 the other", [0.2, 0.5]);
+  await drag(page, "Blend towards the other", [0.2, 0.5]);
   expect(Buffer.compare(before, await canvas(page))).not.toBe(0);
   // Larger than what was there before, it is in view as both were: at the sides there is no stone.
   const pixels = await pixelsOf(page, await canvas(page));
@@ -142,11 +142,11 @@ it("of two shapes one is turned onto the other, and what lies between is shown",
   expect(Math.max(...sides.map((i) => Math.abs(warmthAt(pixels, i))))).toBeLessThan(15);
   await picture(page, "between");
   await page.getByRole("button", { name: "Animate" }).click();
-  const slider = page.getByRole("slider", { name: "Blend: 0 this shape, 1 the other" });
+  const slider = page.getByRole("slider", { name: "Blend towards the other" });
   await expect.poll(() => slider.inputValue(), { timeout: patience }).not.toBe("500");
   await page.getByRole("button", { name: "Stop", exact: true }).click();
   await settled(page);
-  await drag(page, "Blend: 0 this shape, 1 the other", [0.5]);
+  await drag(page, "Blend towards the other", [0.5]);
   const count = await page.locator(".items li").count();
   await press(page, "Keep the blend");
   expect(await page.locator(".items li").count()).toBe(count + 1);

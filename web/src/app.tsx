@@ -52,10 +52,14 @@ function summary(one: Item): string {
 }
 
 function Items() {
+  const list = useRef<HTMLUListElement>(null);
+  useEffect(() => {
+    list.current?.querySelector(".chosen")?.scrollIntoView({ block: "nearest", inline: "nearest" });
+  }, [selected.value]);
   return (
     <nav class="items" aria-label="Shapes">
       <FileButton />
-      <ul>
+      <ul ref={list}>
         {items.value.map((one) => (
           <li key={one.id} class={one.id === selected.value ? "chosen" : ""}>
             <button

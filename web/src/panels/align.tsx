@@ -62,7 +62,7 @@ export function AlignPanel() {
       </Button>
       <Hint>{one.placed ?? "The size stays as it is."}</Hint>
       <Slider
-        label="Blend: 0 this shape, 1 the other"
+        label="Blend towards the other"
         value={tool.between.value}
         min={0}
         max={1}
