@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "rholm/mesh.h"
+#include "rholm/primitives.h"
+#include "rholm/topology.h"
 #include "studio/client.h"
 #include "studio/step.h"
 
@@ -187,7 +189,14 @@ TEST(Steps, FiguresAreOfWhatIsShown) {
   EXPECT_EQ(fact(item, "Degree"), "0 of 12");
   EXPECT_EQ(fact(item, "Coefficients"), "1 of 169");
   EXPECT_NEAR(std::stod(fact(item, "Error, rms")), rms[0].get<double>(), 1e-4);
-  EXPECT_NEAR(std::stod(fact(item, "Volume")), 4 * kPi / 3 * mean * mean * mean, 0.02);
+  // The faces of the shape, their corners on that sphere; five digits are shown.
+  const Json center = item.at("expansion").at("center");
+  Mesh sphere = ellipsoid({3, 2, 1}, 5);
+  for (Vec3& v : sphere.vertices) {
+    v = v - Vec3{center[0].get<double>(), center[1].get<double>(), center[2].get<double>()};
+    v = (mean / norm(v)) * v;
+  }
+  EXPECT_NEAR(std::stod(fact(item, "Volume")), enclosed_volume(sphere), 1e-3);
   EXPECT_NEAR(std::stod(fact(item, "Diagonal")), std::sqrt(12.0) * mean, 0.01);
   item =
       client.step({{"op", "look"}, {"item", 1}, {"degree", 1}, {"gains", {1, 0.5}}}).at("items")[0];

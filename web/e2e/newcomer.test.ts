@@ -5,6 +5,7 @@ import { join } from "node:path";
 import { afterAll, beforeAll, beforeEach, expect, it } from "vitest";
 import {
   canvas,
+  drag,
   leave,
   moveSlider,
   openFile,
@@ -131,7 +132,7 @@ it("figures are of the degree that is shown", async () => {
   // Also while the slider is held.
   await moveSlider(page.getByRole("slider", { name: "Degree", exact: true }), 2);
   await page.getByText("· degree 2 of 12").waitFor();
-  await setNumber(page, "Degree", 2);
+  await drag(page, "Degree", [2]);
   expect(await value("Degree")).toBe("2 of 12");
   expect(await value("Volume")).not.toBe(before[0]);
   expect(await value("Error, rms")).not.toBe(before[1]);

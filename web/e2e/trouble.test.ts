@@ -194,6 +194,8 @@ it("does nothing for another page, even one that knows its address", async () =>
 
 it("says that the program was killed during a job, and hangs nowhere", async () => {
   const { page } = now;
+  await openTab(page, "Degrees");
+  await setNumber(page, "Degree", 8); // something to undo
   await openForLongJob(studio, page);
   await startLongJob(page);
   studio.process.kill("SIGKILL");

@@ -1,6 +1,6 @@
 // The few controls that all panels are made of.
 import type { ComponentChildren } from "preact";
-import { useId, useReducer, useState } from "preact/hooks";
+import { useId, useState } from "preact/hooks";
 import { fromPlace, number, toPlace, type Scale } from "./format";
 
 interface SliderProps {
@@ -37,23 +37,25 @@ export function Slider(props: SliderProps) {
   const whole = step !== undefined && Number.isInteger(step);
   const id = useId();
   const [said, say] = useState("");
-  const [, drawAgain] = useReducer((times: number) => times + 1, 0);
+  const [draft, type] = useState<string | null>(null);
+  const textOf = (one: number) => (whole ? String(one) : number(one));
   const within = (wish: number) => Math.min(max, Math.max(min, whole ? Math.round(wish) : wish));
   const stepped = (wish: number) => (step ? Number((step * Math.round(wish / step)).toPrecision(12)) : wish);
   const toRest = (wish: number, since: number) => {
     props.onInput(wish, since);
     props.onChange?.(wish);
   };
-  // What cannot be is not left standing in the field: it has the value again, and says why.
-  const typed = (text: string, since: number) => {
-    const wish = text.trim() === "" ? NaN : Number(text.replace(",", "."));
-    drawAgain(0);
+  // While it is typed the field has what is typed; then the value again: what cannot be is not left standing.
+  const typed = (since: number) => {
+    if (draft === null) return;
+    const text = draft.trim();
+    const wish = text === "" ? NaN : Number(text.replace(",", "."));
+    type(null);
     if (!Number.isFinite(wish)) {
       say("This is no number.");
       return;
     }
-    const told = (limit: number) => (whole ? String(limit) : number(limit));
-    say(wish > max ? `The most is ${told(max)}.` : wish < min ? `The least is ${told(min)}.` : "");
+    say(wish > max ? `The most is ${textOf(max)}.` : wish < min ? `The least is ${textOf(min)}.` : "");
     toRest(within(wish), since);
   };
   const moved = (place: string, since: number, rest: boolean) => {
@@ -79,10 +81,14 @@ export function Slider(props: SliderProps) {
           inputMode="decimal"
           autocomplete="off"
           aria-label={`${label}, exactly`}
-          value={Number(number(value)) === value ? String(value) : number(value)}
+          value={draft ?? textOf(value)}
           disabled={disabled}
-          onInput={() => say("")}
-          onChange={(event) => typed(event.currentTarget.value, event.timeStamp)}
+          onInput={(event) => {
+            type(event.currentTarget.value);
+            say("");
+          }}
+          onKeyDown={(event) => event.key === "Enter" && typed(event.timeStamp)}
+          onBlur={(event) => typed(event.timeStamp)}
         />
         {unit}
       </span>
@@ -160,7 +166,6 @@ interface TextProps {
 
 export function TextField({ label, value, placeholder = "", offers = [], onChange }: TextProps) {
   const list = useId();
-  const [, drawAgain] = useReducer((times: number) => times + 1, 0);
   return (
     <label class="field">
       <span>{label}</span>
@@ -170,7 +175,12 @@ export function TextField({ label, value, placeholder = "", offers = [], onChang
         value={value}
         placeholder={placeholder}
         {...(offers.length > 0 ? { list } : {})}
-        onChange={(event) => void onChange(event.currentTarget.value).then(() => drawAgain(0))}
+        onChange={(event) => {
+          const field = event.currentTarget;
+          void onChange(field.value).then((taken) => {
+            if (!taken) field.value = value;
+          });
+        }}
       />
       {offers.length > 0 && (
         <datalist id={list}>
