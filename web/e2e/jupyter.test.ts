@@ -7,7 +7,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, describe, expect, it } from "vitest";
-import { launch, patience, picture, programPath } from "./studio";
+import { launch, moveSlider, patience, picture, programPath } from "./studio";
 
 const program = process.env.RHOLM_JUPYTER;
 let folder = "";
@@ -109,10 +109,10 @@ describe.skipIf(!program)("in JupyterLab", () => {
     const viewer = page.locator(".rholm-viewer");
     await viewer.locator("canvas").first().waitFor();
     const slider = viewer.getByRole("slider", { name: "Degree" });
-    expect(await slider.inputValue()).toBe("24");
+    expect(await viewer.getByLabel("Degree, exactly", { exact: true }).inputValue()).toBe("24");
     const canvas = viewer.locator(".canvas");
     const all = await canvas.screenshot();
-    await slider.fill("2");
+    await moveSlider(slider, 2);
     await page.evaluate(() => new Promise(requestAnimationFrame));
     await expect.poll(async () => all.equals(await canvas.screenshot())).toBe(false);
     await picture(page, "notebook-view");

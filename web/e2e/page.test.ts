@@ -268,10 +268,15 @@ it("asks before work is lost, and not where there is none", async () => {
   };
   await openFile(studio, page, "torus.ply");
   await openTab(page, "Figures");
-  await page.getByLabel("Make a shape").selectOption("sphere");
-  await settled(page);
+  for (const shape of ["sphere", "box"]) {
+    await page.getByLabel("Make a shape").selectOption(shape);
+    await settled(page);
+  }
   expect(await close()).toBe("beforeunload");
   await openTab(page, "Save");
+  await saved(page, "Save box.ply"); // the sphere is in no file yet
+  await settled(page);
+  expect(await close()).toBe("beforeunload");
   await saved(page, "Save the session");
   await settled(page);
   expect(await close()).toBeNull();

@@ -219,9 +219,10 @@ export async function saved(page: Page, name: string | RegExp): Promise<Buffer> 
   return readFileSync(await download.path());
 }
 
-// The canvas as pixels, to see that it changes.
+// The canvas as pixels, to see that it changes, or is the same to the last bit. On an even ground: browsers dither
+// a gradient, each tile of it anew when they like, by one of 255.
 export async function canvas(page: Page): Promise<Buffer> {
-  return page.locator(".canvas canvas").screenshot();
+  return page.locator(".canvas canvas").screenshot({ style: ":root { --stage: #dedcd6 !important }" });
 }
 
 export interface Pixels {

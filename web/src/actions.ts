@@ -87,6 +87,7 @@ export function take(state: State): void {
   const added = state.items.findLast(({ id }) => !before.has(id));
   const there = state.items.some(({ id }) => id === selected.value);
   studio.value = state;
+  if (!state.undo) keep(state.items);
   expected = false;
   job.value = state.job?.state === "running" ? state.job : null;
   if (added) selected.value = added.id;
@@ -154,9 +155,11 @@ async function openFile(file: File): Promise<void> {
   if (file.size > most) {
     throw new Error(`it has ${count(file.size)} bytes; the studio takes ${count(most)} (--max-upload).`);
   }
+  const before = new Set(items.peek().map(({ id }) => id));
   const state = await postFile<State>(transport, file.name, file);
   demo.value = false;
   take(state);
+  keep(state.items.filter(({ id }) => !before.has(id)));
 }
 
 // All of them; of those that are refused it says why.
@@ -205,23 +208,29 @@ export async function quit(): Promise<void> {
   lose();
 }
 
-// Fetches the file of a format and gives it to the browser to save.
-export function saveAs(path: string, name: string): Promise<boolean> {
+// Fetches a file and gives it to the browser to save; these items are in it.
+export function saveAs(path: string, name: string, kept: readonly Item[] = []): Promise<boolean> {
   return during(`Writing ${name}`, async () => {
     const { bytes, type } = await transport.request("GET", path);
     offer(new Blob([bytes as BlobPart], { type }), name);
-    saved = steps();
+    keep(kept);
   });
 }
 
-export const saveSession = () => saveAs("session-file", "session.rholm");
+export const saveSession = () => saveAs("session-file", "session.rholm", items.peek());
 
-let saved = ""; // what had been done when something was saved last
-const steps = () => studio.peek()?.recipe.shell ?? "";
+// Items, as they are now, that are in a file, or were there before anything was done.
+const files = new Set<string>();
+const stateOf = ({ id, revision, name, unit, look }: Item) => JSON.stringify([id, revision, name, unit, look]);
+function keep(kept: readonly Item[]): void {
+  for (const one of kept) files.add(stateOf(one));
+}
 
-// Whether closing the page would lose work: a session of a notebook stays where it is.
-export const unsaved = () =>
-  transport.endsProgram && !lost.peek() && Boolean(studio.peek()?.undo) && steps() !== saved;
+// What closing the page would lose: a session of a notebook stays where it is.
+export function unsaved(): readonly Item[] {
+  if (!transport.endsProgram || lost.peek()) return [];
+  return items.peek().filter((one) => !files.has(stateOf(one)));
+}
 
 export function offer(blob: Blob, name: string): void {
   const link = document.createElement("a");

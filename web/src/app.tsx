@@ -217,26 +217,27 @@ async function saveAndStop(): Promise<void> {
 // The first button is the one that loses nothing: it has the focus.
 function QuitQuestion() {
   const losing = unsaved();
+  const [first, ...others] = losing.map(nameOf);
   return (
     <>
       <h2>Stop the program?</h2>
       <p class="hint">
-        {losing
-          ? "What was done since the last save is lost, in this page and in every other page of this studio."
-          : "The page ends with it, and every other page of this studio."}
+        {first &&
+          `${first}${others.length > 0 ? ` and ${count(others.length)} more` : ""} would be lost: not saved as shown. `}
+        {first ? "Every other page of this studio ends, too." : "The page ends with it, and every other page of this studio."}
         {working.value && " The work that runs is cancelled."}
       </p>
       <div class="row wrap">
         <button type="button" class="main" autofocus onClick={() => (quitOpen.value = false)}>
           Keep working
         </button>
-        {losing && (
+        {first && (
           <button type="button" disabled={working.value || lost.value} onClick={() => void saveAndStop()}>
             Save the session and stop
           </button>
         )}
         <button type="button" class="danger" onClick={() => void stop()}>
-          {losing ? "Stop without saving" : "Stop the program"}
+          {first ? "Stop without saving" : "Stop the program"}
         </button>
       </div>
     </>

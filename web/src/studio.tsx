@@ -25,5 +25,5 @@ followWavelength();
 followShape();
 forgetWithItem();
 listenToKeys();
-window.addEventListener("beforeunload", (event) => unsaved() && event.preventDefault());
+window.addEventListener("beforeunload", (event) => unsaved().length > 0 && event.preventDefault());
 void start();

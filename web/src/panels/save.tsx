@@ -47,7 +47,7 @@ function SaveShape({ one }: { one: Item }) {
   return (
     <>
       <Select label="Format" value={chosen} options={formats} onChange={(value) => (format.value = value)} />
-      <Button main onClick={() => saveAs(`save?item=${one.id}&format=${chosen}`, name)}>
+      <Button main onClick={() => saveAs(`save?item=${one.id}&format=${chosen}`, name, [one])}>
         Save {name}
       </Button>
     </>
