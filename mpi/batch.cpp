@@ -55,7 +55,7 @@ Part part_of(const std::string& bytes) {
 }
 
 // Makes rows, on any thread; files that are not kept go to `scratch`.
-DoTask row_maker(const cli::BatchJob& job, const cli::ScratchFolder& scratch) {
+DoTask row_maker(const cli::BatchJob& job, const TemporaryFolder& scratch) {
   return [&job, &scratch](std::uint64_t row, int threads) {
     const CancelScope scope(cli::keep_going);
     const std::optional<BatchRow> cells = cli::run_row(job, row, threads, scratch.path());
@@ -95,7 +95,7 @@ bool run_rows(Ranks& ranks, const cli::BatchJob& job, BatchJournal& journal,
                           .narrow = {to_do.small.begin(), to_do.small.end()}};
   const int threads = session.context().threads;
   call(ranks, kBatchService, bytes_of(job, threads));
-  const cli::ScratchFolder scratch;
+  const TemporaryFolder scratch = cli::scratch_folder();
   lead_tasks(ranks, tasks, threads_here(ranks, threads), row_maker(job, scratch),
              [&](std::uint64_t row, const std::string& bytes) {
                const std::optional<BatchRow> cells = parse_row(bytes);
@@ -124,7 +124,7 @@ cli::Command batch_command(Ranks* ranks) {
 
 void serve_batch(Ranks& ranks, const std::string& bytes) {
   const Part part = part_of(bytes);
-  const cli::ScratchFolder scratch;
+  const TemporaryFolder scratch = cli::scratch_folder();
   serve_tasks(ranks, threads_here(ranks, part.threads), row_maker(part.job, scratch));
 }
 

@@ -1,14 +1,9 @@
 #include "cli/batch/outputs_folder.h"
 
-#include <errno.h>
-#include <stdlib.h>
-
-#include <cstring>
+#include <filesystem>
 #include <unordered_set>
 
 #include <fmt/format.h>
-
-#include "rholm/error.h"
 
 namespace rholm::cli {
 namespace {
@@ -47,18 +42,8 @@ std::vector<std::string> file_names(const Manifest& manifest) {
   return names;
 }
 
-ScratchFolder::ScratchFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "rholm-batch-XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr) {
-    throw Error(ErrorCode::kIo,
-                fmt::format("the folder {} cannot be made: {}", name, std::strerror(errno)));
-  }
-  path_ = name;
-}
-
-ScratchFolder::~ScratchFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
+TemporaryFolder scratch_folder() {
+  return {std::filesystem::temp_directory_path(), "rholm-batch-"};
 }
 
 }  // namespace rholm::cli

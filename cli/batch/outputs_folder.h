@@ -1,10 +1,10 @@
 // Where the files go that a command writes for each shape. Layer: cli.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "io/file/temporary_folder.h"
 #include "rholm/batch.h"
 
 namespace rholm::cli {
@@ -14,17 +14,7 @@ namespace rholm::cli {
 // count), the number of the row is added.
 std::vector<std::string> file_names(const Manifest& manifest);
 
-// A folder for files that are not kept, deleted with all that is in it.
-class ScratchFolder {
- public:
-  ScratchFolder();  // throws Io
-  ~ScratchFolder();
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
+// A folder for files that are not kept, where the system has temporary files.
+TemporaryFolder scratch_folder();
 
 }  // namespace rholm::cli

@@ -120,7 +120,7 @@ class Workers {
   const BatchJob& job_;
   BatchJournal& journal_;
   Session& session_;
-  ScratchFolder scratch_;
+  const TemporaryFolder scratch_ = scratch_folder();
   const RowsToDo to_do_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   std::atomic<std::size_t> next_ = 0;  // of the small ones

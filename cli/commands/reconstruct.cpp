@@ -1,10 +1,8 @@
 // rholm reconstruct: surfaces from points.
 #include <algorithm>
-#include <cerrno>
-#include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -23,6 +21,7 @@
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/json_text.h"
 #include "cli/terminal/session.h"
+#include "io/file/temporary_folder.h"
 #include "rholm/compress.h"
 #include "rholm/error.h"
 #include "rholm/points.h"
@@ -111,25 +110,14 @@ class BrickFolder {
       path_ = base / (std::filesystem::path(options.output).filename().string() + ".bricks");
       return;
     }
-    std::string name = (base / "rholm-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) {
-      throw Error(ErrorCode::kIo, fmt::format("no folder can be made in {}: {}", base.string(),
-                                              std::strerror(errno)));
-    }
-    path_ = name;
-    is_own_ = true;
+    own_.emplace(base, "rholm-bricks-");
+    path_ = own_->path() / "bricks";
   }
-  ~BrickFolder() {
-    std::error_code ignored;  // it is empty by now
-    if (is_own_) std::filesystem::remove(path_, ignored);
-  }
-  BrickFolder(const BrickFolder&) = delete;
-  BrickFolder& operator=(const BrickFolder&) = delete;
   const std::filesystem::path& path() const { return path_; }
 
  private:
+  std::optional<TemporaryFolder> own_;
   std::filesystem::path path_;
-  bool is_own_ = false;
 };
 
 void end(const Reconstructed& made, const ReconstructOptions& wanted, const Options& options,
@@ -234,7 +222,7 @@ int run(const Options& options, const BrickWorkers& by, Session& session) {
   const ShapeFormat format = mesh_output(options.output, options.format, options.json);
   check_writable(options.output);
   if (!options.model.empty()) {
-    if (options.model == "-") throw UsageError("a model file is written in place: --model NAME.h5");
+    check_rewindable(options.model);
     check_writable(options.model);
   }
   if (options.resume && is_stream(options.input)) {

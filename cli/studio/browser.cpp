@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <signal.h>
-#include <stdlib.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -45,25 +44,18 @@ bool start(const char* program, const std::string& argument) {
 }  // namespace
 
 Browser::Browser(const std::string& address, const std::filesystem::path& temporary) {
-  std::string name = (temporary / "rholm-studio-XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr) return;  // for its owner only
-  folder_ = name;
   const std::string text = fmt::format(
       "<!doctype html><meta charset=\"utf-8\"><meta http-equiv=\"refresh\" content=\"0;url={0}\">"
       "<title>rholm studio</title><a href=\"{0}\">rholm studio</a>",
       address);
-  const std::filesystem::path file = folder_ / "studio.html";
   try {
+    folder_.emplace(temporary, "rholm-studio-");
+    const std::filesystem::path file = folder_->path() / "studio.html";
     write_file(file, text);
     opened_ = start("xdg-open", file.string());
   } catch (const Error&) {
     opened_ = false;
   }
-}
-
-Browser::~Browser() {
-  std::error_code ignored;
-  if (!folder_.empty()) std::filesystem::remove_all(folder_, ignored);
 }
 
 }  // namespace rholm::cli

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+
+#include "io/file/temporary_folder.h"
 
 namespace rholm::cli {
 
@@ -13,13 +16,10 @@ class Browser {
  public:
   // Below the folder for temporary files. Opens nothing where that cannot be done; see opened().
   Browser(const std::string& address, const std::filesystem::path& temporary);
-  ~Browser();
-  Browser(const Browser&) = delete;
-  Browser& operator=(const Browser&) = delete;
   bool opened() const { return opened_; }
 
  private:
-  std::filesystem::path folder_;
+  std::optional<TemporaryFolder> folder_;
   bool opened_ = false;
 };
 

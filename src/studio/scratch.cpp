@@ -1,9 +1,5 @@
 #include "studio/scratch.h"
 
-#include <stdlib.h>
-
-#include <cerrno>
-#include <cstring>
 #include <fstream>
 
 #include <fmt/format.h>
@@ -37,22 +33,10 @@ std::string contents(const std::filesystem::path& path) {
 
 }  // namespace
 
-Scratch::~Scratch() {
-  std::error_code ignored;
-  if (!folder_.empty()) std::filesystem::remove_all(folder_, ignored);
-}
-
 std::filesystem::path Scratch::next_file(const std::string& ending) {
   const std::lock_guard lock(mutex_);
-  if (folder_.empty()) {
-    std::string name = (parent_ / "rholm-studio-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) {
-      throw Error(ErrorCode::kIo, fmt::format("no folder can be made in {}: {}", parent_.string(),
-                                              std::strerror(errno)));
-    }
-    folder_ = name;
-  }
-  return folder_ / fmt::format("{}{}", ++files_, ending);
+  if (!folder_) folder_.emplace(parent_, "rholm-studio-");
+  return folder_->path() / fmt::format("{}{}", ++files_, ending);
 }
 
 std::string Scratch::written(const std::string& ending,

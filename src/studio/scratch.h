@@ -5,8 +5,11 @@
 #include <filesystem>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
+
+#include "io/file/temporary_folder.h"
 
 namespace rholm::studio {
 
@@ -15,9 +18,6 @@ namespace rholm::studio {
 class Scratch {
  public:
   explicit Scratch(std::filesystem::path parent) : parent_(std::move(parent)) {}
-  ~Scratch();
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
 
   // The bytes that `write` puts into the file it is given, whose name ends like that.
   std::string written(const std::string& ending,
@@ -31,7 +31,7 @@ class Scratch {
 
   std::filesystem::path parent_;
   std::mutex mutex_;
-  std::filesystem::path folder_;
+  std::optional<TemporaryFolder> folder_;
   int files_ = 0;
 };
 

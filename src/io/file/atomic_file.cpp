@@ -5,11 +5,17 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
+#include <optional>
+#include <utility>
 
+#include "base/cancel.h"
 #include "base/parallel.h"
+#include "io/file/leftovers.h"
 #include "rholm/error.h"
 #include "rholm/file.h"
 
@@ -43,12 +49,25 @@ void leave(std::atomic<char*>* slot) {
   throw Error(ErrorCode::kIo, "cannot write " + name + ": " + std::strerror(error));
 }
 
-// The file a chain of symbolic links ends at, which need not exist.
+// The descriptor of this process that the path names.
+std::optional<int> descriptor_named_by(const std::filesystem::path& path) {
+  const std::string word = path.filename().string();
+  int number = -1;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  if (error != std::errc() || end != word.data() + word.size() || number < 0) return {};
+  std::error_code ignored;
+  const std::filesystem::path folder = std::filesystem::canonical(path.parent_path(), ignored);
+  const bool is_ours =
+      folder == "/dev/fd" || folder == "/proc/" + std::to_string(::getpid()) + "/fd";
+  return is_ours ? std::optional(number) : std::nullopt;
+}
+
+// The file a chain of symbolic links ends at, which need not exist, or a descriptor's name.
 std::filesystem::path follow_links(std::filesystem::path path) {
   constexpr int kMaxLinks = 40;  // as Linux
   for (int i = 0; i < kMaxLinks; ++i) {
     std::error_code error;
-    if (!std::filesystem::is_symlink(path, error)) break;
+    if (!std::filesystem::is_symlink(path, error) || descriptor_named_by(path)) break;
     const std::filesystem::path next = std::filesystem::read_symlink(path, error);
     if (error) break;
     path = next.is_absolute() ? next : path.parent_path() / next;
@@ -56,55 +75,122 @@ std::filesystem::path follow_links(std::filesystem::path path) {
   return path;
 }
 
+// A name for a temporary file, in the folder of `target`: short, so that it fits where a name near
+// the limit of the file system (255 bytes) does.
+std::filesystem::path next_name(const std::filesystem::path& target) {
+  static std::atomic<unsigned> counter = 0;
+  std::string name(kTemporaryBegin);
+  name += std::to_string(::getpid()) + "-" + std::to_string(counter++);
+  return target.parent_path() / name.append(kTemporaryEnd);
+}
+
+std::string name_by_descriptor(int descriptor) {
+  return "/proc/self/fd/" + std::to_string(descriptor);
+}
+
 }  // namespace
 
-AtomicFile::AtomicFile(const std::filesystem::path& path, const Context& context)
+AtomicFile::AtomicFile(const std::filesystem::path& path, const Context& context, Writers writers)
     : name_(path == "-" ? "standard output" : path.string()), context_(context) {
   if (path.empty()) fail("a file without a name", ENOENT);
-  if (path == "-") {
-    descriptor_ = STDOUT_FILENO;
+  const std::filesystem::path target = path == "-" ? "-" : follow_links(path);
+  const std::optional<int> open =
+      path == "-" ? std::optional(STDOUT_FILENO) : descriptor_named_by(target);
+  if (open) {
+    descriptor_ = ::fcntl(*open, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+    if (descriptor_ < 0) fail(name_, errno);
     return;
   }
-  const std::filesystem::path target = follow_links(path);
   struct stat status = {};
   const bool exists = ::stat(target.c_str(), &status) == 0;
   // A name that is too long, a circle of links: noticed now, not when all is written.
   if (!exists && errno != ENOENT) fail(name_, errno);
   if (exists && S_ISDIR(status.st_mode)) fail(name_, EISDIR);
   if (exists && !S_ISREG(status.st_mode)) {
-    descriptor_ = ::open(target.c_str(), O_WRONLY | O_CLOEXEC);
-    if (descriptor_ < 0) fail(name_, errno);
+    open_directly(target);
     return;
   }
   // A file that may not be written is not replaced either, though the folder would allow it.
   if (exists && ::access(target.c_str(), W_OK) != 0) fail(name_, errno);
-  open_temporary(target);
+  target_ = target;
+  if (writers == Writers::kSeveral || !open_nameless()) open_named();
   if (exists) (void)::fchmod(descriptor_, status.st_mode & 07777);
 }
 
-void AtomicFile::open_temporary(const std::filesystem::path& target) {
-  static std::atomic<unsigned> counter = 0;
+// A pipe is opened when somebody reads it: until then it can be interrupted.
+void AtomicFile::open_directly(const std::filesystem::path& path) {
+  while ((descriptor_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC)) < 0) {
+    if (errno != EINTR) fail(name_, errno);
+    report_progress(context_, "write", 0);
+  }
+}
+
+// False where the system or the file system has no files without a name.
+bool AtomicFile::open_nameless() {
+#ifdef O_TMPFILE
+  const std::filesystem::path folder = target_.has_parent_path() ? target_.parent_path() : ".";
+  const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
+  if (descriptor < 0) return false;
+  const std::string name = name_by_descriptor(descriptor);
+  if (::access(name.c_str(), F_OK) == 0) {
+    descriptor_ = descriptor;
+    temporary_ = name;
+    is_nameless_ = true;
+    (void)try_lock(descriptor_);  // for the moment in which it has two names
+    return true;
+  }
+  ::close(descriptor);  // without /proc it could never get a name
+#endif
+  return false;
+}
+
+void AtomicFile::open_named() {
+  remove_left_files(target_.has_parent_path() ? target_.parent_path() : ".");
   for (;;) {
-    // Short, so that a name near the limit of the file system (255 bytes) still fits.
-    const std::string suffix =
-        ".rholm-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".part";
-    temporary_ = target.parent_path() / suffix;
+    temporary_ = next_name(target_);
     // Entered first: a signal between the two lines must find the file.
     slot_ = enter(temporary_.string());
-    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor_ >= 0) break;
+    descriptor_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    const int error = errno;
+    // Another process that looks for leftovers may have come between the two calls.
+    if (descriptor_ >= 0 && try_lock(descriptor_) != Lock::kRefused && !is_unlinked(descriptor_)) {
+      return;
+    }
+    leave(slot_);
+    slot_ = nullptr;
+    if (descriptor_ >= 0) {
+      ::close(descriptor_);
+      descriptor_ = -1;
+    } else if (error != EEXIST && error != EINTR) {
+      target_.clear();
+      fail(name_, error);
+    }
+  }
+}
+
+// Gives the whole file a name, so that it can replace an older one at once.
+void AtomicFile::give_a_name() {
+  const std::string nameless = temporary_.string();
+  for (;;) {
+    temporary_ = next_name(target_);
+    slot_ = enter(temporary_.string());
+    if (::linkat(AT_FDCWD, nameless.c_str(), AT_FDCWD, temporary_.c_str(), AT_SYMLINK_FOLLOW) ==
+        0) {
+      is_nameless_ = false;
+      return;
+    }
     const int error = errno;
     leave(slot_);
     slot_ = nullptr;
-    if (error == EEXIST || error == EINTR) continue;
-    fail(name_, error);
+    if (error != EEXIST && error != EINTR) fail(name_, error);
   }
-  target_ = target;
 }
 
 void AtomicFile::write(std::span<const char> bytes) {
+  constexpr std::size_t kPiece = std::size_t{16} << 20;  // chosen: a hundredth of a second
   while (!bytes.empty()) {
-    const ssize_t n = ::write(descriptor_, bytes.data(), bytes.size());
+    ask_cancel();
+    const ssize_t n = ::write(descriptor_, bytes.data(), std::min(bytes.size(), kPiece));
     if (n >= 0) {
       bytes = bytes.subspan(static_cast<std::size_t>(n));
     } else if (errno == EINTR) {
@@ -119,25 +205,26 @@ void AtomicFile::write(std::span<const char> bytes) {
   }
 }
 
-void AtomicFile::close() {
-  if (descriptor_ < 0) return;
-  const int descriptor = descriptor_;
-  descriptor_ = -1;
-  // Some file systems report a full disk only here.
-  if (descriptor != STDOUT_FILENO && ::close(descriptor) != 0 && errno != EINTR) fail(name_, errno);
+// Some file systems report a full disk only here.
+void AtomicFile::close(int descriptor) {
+  if (::close(descriptor) != 0 && errno != EINTR) fail(name_, errno);
 }
 
 void AtomicFile::commit() {
-  close();
-  if (target_.empty()) return;
-  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(name_, errno);
-  target_.clear();
-  leave(slot_);
+  if (!target_.empty()) {
+    if (is_nameless_) give_a_name();
+    // One more descriptor keeps the lock until the file has its place.
+    if (const int copy = ::fcntl(descriptor_, F_DUPFD_CLOEXEC, 0); copy >= 0) close(copy);
+    if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(name_, errno);
+    target_.clear();
+    leave(slot_);
+  }
+  close(std::exchange(descriptor_, -1));
 }
 
 AtomicFile::~AtomicFile() {
-  if (descriptor_ >= 0 && descriptor_ != STDOUT_FILENO) ::close(descriptor_);
-  if (target_.empty()) return;
+  if (descriptor_ >= 0) ::close(descriptor_);
+  if (target_.empty() || is_nameless_) return;
   ::unlink(temporary_.c_str());
   leave(slot_);
 }

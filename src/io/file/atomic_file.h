@@ -10,16 +10,26 @@
 
 namespace rholm {
 
-// A file being written. The bytes go to a temporary file in the same folder; commit() renames it
-// to `path`, and a destructor without commit() removes it, so that `path` always holds the old or
+// A file being written. The bytes go to a temporary file on the same file system; commit() makes it
+// `path`, and a destructor without commit() removes it, so that `path` always holds the old or
 // the new content whole. A symbolic link is followed, an existing file keeps its permissions.
-// "-" (standard output) and what is not a regular file (a pipe, /dev/null) are written directly.
+// "-" (standard output) and what is not a regular file (a pipe, /dev/null) are written directly,
+// and so is what the path of a descriptor of this process names (/dev/stdout, /dev/fd/3).
+//
+// The temporary file has no name where the file system has such files: nothing of it is left when
+// the process is killed. Elsewhere it is a hidden file in the folder of `path`, and those that
+// killed processes have left there are removed first.
 //
 // There is no fsync: the promise is against interrupted programs, not against power failures.
 class AtomicFile {
  public:
-  // `context` is asked whether to cancel when a signal interrupts a write. Throws Io.
-  explicit AtomicFile(const std::filesystem::path& path, const Context& context = {});
+  enum class Writers {
+    kThisProcess,
+    kSeveral  // other processes open temporary_path() too: it is a name that all of them see
+  };
+  // `context` is asked whether to cancel when a signal interrupts a write. Throws Io, Cancelled.
+  explicit AtomicFile(const std::filesystem::path& path, const Context& context = {},
+                      Writers writers = Writers::kThisProcess);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
@@ -32,14 +42,18 @@ class AtomicFile {
   void commit();                            // throws Io; at most once, the last call
 
  private:
-  void open_temporary(const std::filesystem::path& target);
-  void close();
+  bool open_nameless();
+  void open_named();
+  void open_directly(const std::filesystem::path& path);
+  void give_a_name();
+  void close(int descriptor);
 
   std::string name_;              // for messages
   std::filesystem::path target_;  // the regular file to replace; empty if written directly
   std::filesystem::path temporary_;
   Context context_;
   int descriptor_ = -1;
+  bool is_nameless_ = false;
   std::atomic<char*>* slot_ = nullptr;  // where discard_unfinished_files() finds the name
 };
 

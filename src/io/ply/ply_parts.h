@@ -52,7 +52,8 @@ struct PlyPart {
 // processes, or, where the output is no regular file, one after the other. Throws Io.
 class PlyParts {
  public:
-  PlyParts(const std::filesystem::path& path, const PlyLayout& layout, const Context& context = {});
+  PlyParts(const std::filesystem::path& path, const PlyLayout& layout, const Context& context = {},
+           AtomicFile::Writers writers = AtomicFile::Writers::kThisProcess);
 
   // Where put() writes; empty if parts can only come one after the other.
   const std::filesystem::path& file() const { return file_.temporary_path(); }

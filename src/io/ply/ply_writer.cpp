@@ -322,8 +322,8 @@ std::vector<std::byte> ply_triangles(std::span<const WideTriangle> triangles) {
 }
 
 PlyParts::PlyParts(const std::filesystem::path& path, const PlyLayout& layout,
-                   const Context& context)
-    : file_(path, context) {
+                   const Context& context, AtomicFile::Writers writers)
+    : file_(path, context, writers) {
   file_.write(layout.header());
   if (!file().empty()) SpillFile(file(), SpillFile::Mode::kInPlace).make_room(layout.size());
 }

@@ -23,6 +23,8 @@ class BrickCrew {
   virtual void each(std::size_t n, const Body& body, const Done& done) = 0;
   // Calls the body on one of them.
   virtual void once(const std::function<void()>& body) = 0;
+  // Whether there are others.
+  virtual bool is_shared() const { return true; }
 };
 
 // This process alone: one brick after the other.
@@ -35,6 +37,7 @@ class OneProcess final : public BrickCrew {
     }
   }
   void once(const std::function<void()>& body) override { body(); }
+  bool is_shared() const override { return false; }
 };
 
 }  // namespace rholm

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <optional>
 #include <span>
-#include <system_error>
 
 #include "io/ply/ply_parts.h"
 #include "model/points/carry_attributes.h"
@@ -23,20 +22,14 @@ void put_confidence(BrickScene& scene) {
 
 }  // namespace
 
-// What a run that was killed has left beside the output.
-void BrickOutput::remove_half_written() const {
-  const std::vector<char> name = store_.open("output").values<char>(0);
-  std::error_code ignored;  // it may be gone
-  if (!name.empty()) std::filesystem::remove(std::string(name.begin(), name.end()), ignored);
-}
-
 void BrickOutput::write(const BrickParts& parts, const BrickParts::Whole& whole,
                         const std::filesystem::path& output) const {
   const PlyLayout layout(whole.vertices, whole.triangles, attributes());
   std::optional<PlyParts> file;
   stages_.once("write", [&] {
-    if (store_.has("output")) remove_half_written();
-    file.emplace(output, layout, stages_.context());
+    file.emplace(
+        output, layout, stages_.context(),
+        stages_.is_shared() ? AtomicFile::Writers::kSeveral : AtomicFile::Writers::kThisProcess);
     const std::string name = file->file().string();
     const std::span<const std::byte> sections[] = {std::as_bytes(std::span(name))};
     store_.write("output", sections);

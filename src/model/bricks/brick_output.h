@@ -41,7 +41,6 @@ class BrickOutput {
  private:
   std::vector<Attribute> attributes() const;  // names and types
   bool is_left_out(const std::string& attribute) const;
-  void remove_half_written() const;
   void carry(std::size_t brick, Mesh& vertices) const;
 
   PieceStore& store_;

@@ -66,6 +66,8 @@ class BrickStages {
   // By each process for itself.
   void all(std::string_view stage, const std::function<void()>& body);
 
+  bool is_shared() const { return crew_.is_shared(); }
+
   // For what bodies call: progress of theirs is that of the stage.
   const Context& context() const { return inner_; }
   StageTimes& times() { return times_; }

@@ -1,11 +1,10 @@
 // Runs of the whole way, from a file to coefficients.
 #include "report/timing/bench.h"
 
-#include <unistd.h>
-
 #include <string>
 #include <utility>
 
+#include "io/file/temporary_folder.h"
 #include "report/timing/bench_timing.h"
 #include "report/timing/peak_memory.h"
 #include "rholm/error.h"
@@ -45,29 +44,10 @@ Encoded run(const std::filesystem::path& path, const EncodeOptions& wanted, cons
   return encoded;
 }
 
-// Removes a file however it is left.
-struct FileRemoval {
-  std::filesystem::path path;
-  ~FileRemoval() {
-    std::error_code ignored;
-    std::filesystem::remove(path, ignored);
-  }
-};
-
-void write_once(const Expansion& expansion, const std::filesystem::path& path, Runs& runs) {
-  const FileRemoval removal{path};
+void write_once(const Expansion& expansion, const std::filesystem::path& folder, Runs& runs) {
+  const std::filesystem::path path = folder / "model.h5";
+  std::filesystem::remove(path);  // a file that is replaced would take longer
   runs["write"].push_back(time_once([&] { write_model(expansion, path); }));
-}
-
-std::optional<std::filesystem::path> model_path(const BenchOptions& options) {
-  if (options.folder.empty()) return std::nullopt;
-  // A name of its own for each process and case: what is there is not ours.
-  std::filesystem::path path;
-  for (int i = 0; path.empty() || std::filesystem::exists(path); ++i) {
-    path = options.folder /
-           ("rholm-bench-" + std::to_string(getpid()) + "-" + std::to_string(i) + ".h5");
-  }
-  return path;
 }
 
 double median_speedup(const std::vector<StageTime>& base, const std::vector<StageTime>& runs) {
@@ -121,7 +101,8 @@ FileBench bench_file(const std::filesystem::path& path, const BenchOptions& opti
   const EncodeOptions given =
       about(run(path, search, measured(context, 0, 0), first).star.center, search);
   std::vector<Runs> runs(options.threads.size());
-  const auto model = model_path(options);
+  std::optional<TemporaryFolder> folder;
+  if (!options.folder.empty()) folder.emplace(options.folder, "rholm-bench-");
   for (int i = 0; i < options.repeat; ++i) {
     const double fraction = static_cast<double>(i) / options.repeat;
     for (std::size_t t = 0; t < runs.size(); ++t) {
@@ -130,7 +111,7 @@ FileBench bench_file(const std::filesystem::path& path, const BenchOptions& opti
       bench.encoded = run(path, given, measured(context, options.threads[t], fraction), runs[t]);
       if (watched) bench.memory_peak = peak_memory();
     }
-    if (model) write_once(bench.encoded.analysis.expansion, *model, runs[0]);
+    if (folder) write_once(bench.encoded.analysis.expansion, folder->path(), runs[0]);
     run(path, search, measured(context, options.threads[0], fraction), searched);
   }
   for (std::size_t t = 0; t < runs.size(); ++t) {
