@@ -17,7 +17,11 @@ void check_point(const Vec3& point, std::size_t i, const char* what) {
 }
 
 void check_points(const std::vector<Vec3>& points, const char* what) {
-  for (std::size_t i = 0; i < points.size(); ++i) check_point(points[i], i, what);
+  CancelPoll poll;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    poll();
+    check_point(points[i], i, what);
+  }
 }
 
 void check_attributes(const std::vector<Attribute>& attributes, std::size_t n) {
@@ -58,8 +62,15 @@ Mesh mesh_of(const MeshView& view) {
   Mesh mesh;
   mesh.vertices.reserve(view.n_vertices);
   mesh.triangles.reserve(view.n_triangles);
-  for (std::size_t i = 0; i < view.n_vertices; ++i) mesh.vertices.push_back(view.vertex(i));
-  for (std::size_t t = 0; t < view.n_triangles; ++t) mesh.triangles.push_back(view.triangle(t));
+  CancelPoll poll;
+  for (std::size_t i = 0; i < view.n_vertices; ++i) {
+    poll();
+    mesh.vertices.push_back(view.vertex(i));
+  }
+  for (std::size_t t = 0; t < view.n_triangles; ++t) {
+    poll();
+    mesh.triangles.push_back(view.triangle(t));
+  }
   return mesh;
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "base/cancel.h"
 #include "base/compensated_sum.h"
 #include "base/parallel.h"
 #include "rholm/error.h"
@@ -31,6 +32,7 @@ std::vector<Vec3> directions_of(const Grid& grid) {
   std::vector<Vec3> directions;
   directions.reserve(static_cast<std::size_t>(grid.n_theta) * static_cast<std::size_t>(grid.n_phi));
   for (const double theta : grid_colatitudes(grid)) {
+    ask_cancel();  // a ring has thousands
     for (int k = 0; k < grid.n_phi; ++k) {
       const double phi = 2 * std::numbers::pi * k / grid.n_phi;
       directions.push_back(
@@ -42,7 +44,9 @@ std::vector<Vec3> directions_of(const Grid& grid) {
 
 // Radii instead of the expanded function.
 void to_radius(RadialFunction function, std::span<double> values) {
+  CancelPoll poll;
   for (double& value : values) {
+    poll();
     if (!(value > 0)) {
       throw Error(ErrorCode::kInvalidInput,
                   std::string("the ") + to_string(function) + " is " + std::to_string(value) +
@@ -79,7 +83,9 @@ class Rays {
  private:
   void step(const Context& context) {
     std::vector<Vec3> at(open_.size());
+    CancelPoll poll;
     for (std::size_t k = 0; k < open_.size(); ++k) {
+      poll();
       const Vec3 p = point(open_[k]);
       at[k] = p == Vec3{} ? directions_[open_[k]] : normalized(p);
     }
@@ -88,6 +94,7 @@ class Rays {
     to_radius(expansion_.function, f.values);
     std::vector<std::size_t> left;
     for (std::size_t k = 0; k < open_.size(); ++k) {
+      poll();
       const double r = f.values[k];
       const Vec3 slope = gauge ? -r * r * f.gradients[k] : f.gradients[k];
       if (!newton(open_[k], r, slope)) left.push_back(open_[k]);
@@ -132,7 +139,9 @@ NewView view_from(const Expansion& expansion, const Vec3& d, std::span<const Vec
   to_radius(expansion.function, f.values);
   const bool gauge = expansion.function == RadialFunction::kGauge;
   NewView view;
+  CancelPoll poll;
   for (std::size_t i = 0; i < directions.size(); ++i) {
+    poll();
     const double r = f.values[i];
     const Vec3& u = directions[i];
     const Vec3 slope = gauge ? -r * r * f.gradients[i] : f.gradients[i];
@@ -228,7 +237,9 @@ Vec3 volume_centroid(const Expansion& expansion, const Context& context) {
   const std::vector<Vec3> directions = directions_of(grid);
   const GaussRule rule = gauss_legendre(grid.n_theta);
   CompensatedSum volume, x, y, z;
+  CancelPoll poll;
   for (std::size_t i = 0; i < r.size(); ++i) {
+    poll();
     const double weight = rule.weights[i / static_cast<std::size_t>(grid.n_phi)];
     const double part = r[i] / largest;
     const double cube = weight * part * part * part;

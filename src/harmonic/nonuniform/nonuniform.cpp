@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "base/resize_asking.h"
 #include "harmonic/nonuniform/grid_function.h"
 #include "harmonic/nonuniform/scale_for.h"
 
@@ -154,8 +155,8 @@ ValuesAndGradients read_at(const GridFunction<T>& function, std::span<const Vec3
                            bool with_gradient, const Context& context) {
   const double scale = function.scale();
   ValuesAndGradients result;
-  result.values.resize(directions.size());
-  if (with_gradient) result.gradients.resize(directions.size());
+  resize_asking(result.values, directions.size());
+  if (with_gradient) resize_asking(result.gradients, directions.size());
   constexpr std::size_t kSize = SourceBatch<T>::kSize;
   constexpr std::size_t kBatches = 16;  // chosen: tasks of about 100 us
   const std::size_t grain = kBatches * kSize;

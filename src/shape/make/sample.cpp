@@ -11,6 +11,7 @@
 
 #include "base/cancel.h"
 #include "base/parallel.h"
+#include "base/resize_asking.h"
 #include "rholm/error.h"
 #include "rholm/points.h"
 #include "shape/make/sample_pattern.h"
@@ -225,15 +226,15 @@ PointCloud sample_surface(const Mesh& mesh, const SampleOptions& options, const 
   const Source source(surface, options, context);
   const std::size_t n = source.size();
   PointCloud cloud;
-  cloud.points.resize(n);
-  if (options.normals) cloud.normals.resize(n);
+  resize_asking(cloud.points, n);
+  if (options.normals) resize_asking(cloud.normals, n);
   const std::vector<const Attribute*> given = attributes_to_sample(mesh);
   for (const Attribute* a : given) {
-    cloud.attributes.push_back({a->name, a->type, std::vector<double>(n)});
+    resize_asking(cloud.attributes.emplace_back(Attribute{a->name, a->type, {}}).values, n);
   }
   const std::size_t first_own = cloud.attributes.size();
   for (const auto& [name, type] : own_attributes(options)) {
-    cloud.attributes.push_back({name, type, std::vector<double>(n)});
+    resize_asking(cloud.attributes.emplace_back(Attribute{name, type, {}}).values, n);
   }
   std::vector<char> kept(n, 1);
   parallel_for(n, kGrain, context, {.name = "sample"}, [&](std::size_t begin, std::size_t end) {

@@ -78,6 +78,7 @@ void inspect_edges(const Mesh& mesh, Inspection& result) {
     }
   }
   for (const std::uint32_t n : fans_at) {
+    poll();
     result.isolated_vertices += n == 0;
     result.non_manifold_vertices += n > 1;
   }
@@ -104,6 +105,7 @@ Vec3 mean_of_used(const Mesh& mesh, const UnitFrame& frame) {
   Vec3 sum;
   double n = 0;
   for (std::size_t v = 0; v < used.size(); ++v) {
+    poll();
     if (!used[v]) continue;
     sum += frame.to_local(mesh.vertices[v]);
     ++n;
@@ -120,7 +122,11 @@ Inspection inspect(const Mesh& mesh) {
   result.triangles = mesh.triangles.size();
   inspect_edges(mesh, result);
   std::size_t faces = 0;
-  for (const Triangle& t : mesh.triangles) faces += !has_repeated_corner(t);
+  CancelPoll poll;
+  for (const Triangle& t : mesh.triangles) {
+    poll();
+    faces += !has_repeated_corner(t);
+  }
   result.euler_characteristic = static_cast<long long>(result.vertices - result.isolated_vertices) -
                                 static_cast<long long>(result.edges) +
                                 static_cast<long long>(faces);

@@ -1,0 +1,24 @@
+// Large arrays whose pages are touched for the first time: a second for ten gigabytes.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "base/cancel.h"
+
+namespace rholm {
+
+// As values.resize(n), and asks from time to time whether to cancel.
+template <class T>
+void resize_asking(std::vector<T>& values, std::size_t n) {
+  constexpr std::size_t kStep = std::size_t{1} << 18;  // chosen: a millisecond
+  values.reserve(n);
+  while (values.size() < n) {
+    ask_cancel();
+    values.resize(std::min(n, values.size() + kStep));
+  }
+  values.resize(n);
+}
+
+}  // namespace rholm
