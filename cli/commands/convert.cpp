@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/plain_text.h"
 #include "cli/commands/commands.h"
 #include "cli/files/inputs.h"
 #include "cli/files/outputs.h"
@@ -67,7 +68,8 @@ void convert_shape(const Options& options, const ShapeFile& file, Session& sessi
     throw UsageError(
         fmt::format("{} is a shape and {} a format of coefficients: 'rholm analyze {} "
                     "--degree L -o {}' finds them",
-                    display_name(options.input), wanted, options.input, options.output));
+                    display_name(options.input), wanted, shell_file(options.input),
+                    shell_file(options.output)));
   }
   const ShapeFormat format = shape_output(options.output, options.format);
   say_what_was_read(file, options.input, session);
@@ -117,7 +119,8 @@ void convert_coefficients(const Options& options, const CoefficientsFile& file,
     throw UsageError(
         fmt::format("{} holds coefficients and {} is a format of shapes: 'rholm "
                     "synthesize {} -o {}' makes their surface",
-                    display_name(options.input), wanted, options.input, options.output));
+                    display_name(options.input), wanted, shell_file(options.input),
+                    shell_file(options.output)));
   }
   const CoefficientsOutput output = coefficients_output(options.output, options.format);
   if (output.format == CoefficientsFormat::kIcgem) {
@@ -228,7 +231,8 @@ std::vector<Option> option_list(Options& o) {
        .help = "file to write; - for standard output, with --format",
        .target = &o.output,
        .required = true,
-       .offer = Offer::kAnyFile}};
+       .offer = Offer::kAnyFile,
+       .meaning = output_option(o.output, "").meaning}};
   append(list, convention_options(o.to));
   append(list, input_convention_options(o.from));
   append(list, {{.name = "override",

@@ -250,9 +250,10 @@ bool report_large_mesh(const Options& options, double needed, Session& session) 
   json["area"] = survey.area;
   json["volume"] = survey.closed ? Json(survey.volume) : Json(nullptr);
   json["volume_centroid"] = survey.closed ? json_of(survey.volume_centroid) : Json(nullptr);
-  options.json ? print_json(json)
-               : print_text(fmt::format("{}: mesh, ply, larger than memory\n", options.input) +
-                            survey_text(view, survey, needed));
+  options.json
+      ? print_json(json)
+      : print_text(fmt::format("{}: mesh, ply, larger than memory\n", display_name(options.input)) +
+                   survey_text(view, survey, needed));
   return true;
 }
 
@@ -285,8 +286,8 @@ bool report_large_cloud(const Options& options, Session& session) {
                {"encoding", stream.encoding()}};
   json.update(cloud_json(seen));
   json["counts"] = {{"points", stream.read_so_far()}};
-  std::string text = fmt::format("{}: points, {}, {}\n", options.input, to_string(stream.format()),
-                                 stream.encoding());
+  std::string text = fmt::format("{}: points, {}, {}\n", display_name(options.input),
+                                 to_string(stream.format()), stream.encoding());
   text += cloud_text(seen, stream.read_so_far());
   add_table(stream.table(), text, json);
   json["warnings"] = stream.warnings();

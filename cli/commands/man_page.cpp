@@ -21,7 +21,7 @@ Command man_page_command(const std::string& program, PageOfDate page) {
           .examples = {program + " man-page --date 2000-01-01 | man -l -"},
           .run =
               [date, page = std::move(page)](Session&) {
-                print_text(page(*date));
+                print_exactly(page(*date));
                 return kDone;
               },
           .hidden = true};

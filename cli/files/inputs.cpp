@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/plain_text.h"
 #include "cli/files/input_descriptor.h"
 #include "cli/files/spooled_input.h"
 #include "cli/grammar/values.h"
@@ -150,7 +151,7 @@ void check_shape(Guess guess, const std::string& path) {
   throw Error(ErrorCode::kInvalidInput,
               fmt::format("{} holds coefficients, and a shape is needed; make one with 'rholm "
                           "synthesize {} -o OUT.ply'",
-                          display_name(path), path));
+                          display_name(path), shell_file(path)));
 }
 
 CoefficientsFile read_file(const std::string& path, Session& session,
@@ -160,7 +161,7 @@ CoefficientsFile read_file(const std::string& path, Session& session,
     throw Error(ErrorCode::kInvalidInput,
                 fmt::format("{} is a shape, and coefficients are needed; make them with 'rholm "
                             "analyze {} --degree L -o OUT.h5'",
-                            display_name(path), path));
+                            display_name(path), shell_file(path)));
   }
   return read_coefficients_of(source, session, convention.reading());
 }
@@ -222,7 +223,9 @@ std::vector<char> read_all_bytes(const std::string& path) {
   return read_bytes(path, std::numeric_limits<std::size_t>::max());
 }
 
-std::string display_name(const std::string& path) { return path == "-" ? "standard input" : path; }
+std::string display_name(const std::string& path) {
+  return path == "-" ? "standard input" : escaped_line(path);
+}
 
 std::string extension_of(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/plain_text.h"
 #include "cli/terminal/session.h"
 
 namespace rholm::cli {
@@ -12,6 +13,22 @@ const char* name_of(ScalarType type) {
   constexpr const char* kNames[] = {"int8",  "uint8",  "int16",   "uint16",
                                     "int32", "uint32", "float32", "float64"};
   return kNames[static_cast<int>(type)];
+}
+
+// The same JSON without what a terminal would take for a command. Outside of strings, where an
+// escape is not allowed, nothing of that kind stands but ends of lines.
+std::string shown_json(std::string_view json) {
+  std::string shown;
+  while (!json.empty()) {
+    const Utf8Character character = first_character(json);
+    if (character.code == '\n' || is_shown(character.code)) {
+      shown += character.bytes;
+    } else {
+      shown += fmt::format("\\u{:04x}", static_cast<unsigned>(character.code));
+    }
+    json.remove_prefix(character.bytes.size());
+  }
+  return shown;
 }
 
 std::string percent(double share) { return fmt::format("{:.4g} %", 100 * share); }
@@ -69,11 +86,11 @@ Json json_of(const FastReport& fast) {
 
 void print_json(const Json& json) {
   // Names of files may hold any bytes: those that are not UTF-8 are replaced.
-  print_text(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  print_exactly(shown_json(json.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n");
 }
 
 std::string line(const std::string& name, const std::string& value) {
-  return fmt::format("  {:<18} {}\n", name, value);
+  return fmt::format("  {:<18} {}\n", escaped_line(name), escaped_line(value));
 }
 
 std::string yes_or(bool yes, const std::string& otherwise) {

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "base/plain_text.h"
 #include "cli/terminal/capture.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/program_name.h"
@@ -37,13 +38,19 @@ bool colours() { return stderr_is_terminal() && !environment_has("NO_COLOR"); }
 void print_message(const char* kind, const char* colour, const std::string& text) {
   const std::string label =
       colours() ? fmt::format("\x1b[{}m{}:\x1b[0m", colour, kind) : fmt::format("{}:", kind);
-  const std::string line = fmt::format("{}: {} {}\n", program_name(), label, text);
+  std::string shown = escaped_text(text);
+  for (std::size_t at = 0; (at = shown.find('\n', at)) != std::string::npos; at += 3) {
+    shown.insert(at + 1, 2, ' ');
+  }
+  const std::string line = fmt::format("{}: {} {}\n", program_name(), label, shown);
   std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
 }  // namespace
 
-void print_text(const std::string& text) {
+void print_text(const std::string& text) { print_exactly(escaped_text(text)); }
+
+void print_exactly(const std::string& text) {
   if (Capture* listener = capture()) {
     listener->report += text;
   } else {
@@ -90,7 +97,7 @@ bool Session::on_progress(std::string_view stage, double fraction) {
     bar_due_ = now + kBarInterval;
     const double part = std::clamp(fraction, 0.0, 1.0);
     const auto filled = static_cast<std::size_t>(part * kBarLength);
-    const std::string bar = fmt::format("{:<14} [{:<{}}] {:3.0f} %", stage,
+    const std::string bar = fmt::format("{:<14} [{:<{}}] {:3.0f} %", escaped_line(stage),
                                         std::string(filled, '#'), kBarLength, 100 * part);
     std::fprintf(stderr, "\r%-*s", static_cast<int>(bar_width_), bar.c_str());
     bar_width_ = bar.size();

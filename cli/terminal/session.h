@@ -17,10 +17,16 @@ struct CommonOptions {
   bool quiet = false;
 };
 
+// Text may hold names and words of files. All functions but print_exactly() escape what a terminal
+// would take for a command (escaped_text() in base/plain_text.h).
+
 // Writes a report to standard output, or to the Capture of this thread (capture.h).
 void print_text(const std::string& text);
+// Writes what programs read, as it is.
+void print_exactly(const std::string& text);
 
-// Text on standard error. Colours only on a terminal and without NO_COLOR.
+// Text on standard error. Colours only on a terminal and without NO_COLOR. Lines behind the first
+// are set in, so that no name in a message can look like another message.
 void print_error(const std::string& message);
 void print_note(const std::string& message);
 

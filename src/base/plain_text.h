@@ -1,0 +1,32 @@
+// Text that comes from outside, as it may be shown: names in files, names of files.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace rholm {
+
+// The character of UTF-8 at the begin of `text`: its bytes and its code point; no bytes where there
+// is none.
+struct Utf8Character {
+  std::string_view bytes = {};
+  char32_t code = 0;
+};
+Utf8Character first_character(std::string_view text);
+
+// Whether a character is shown as itself: no control character, no separator of lines or
+// paragraphs, no mark that turns the direction of writing.
+bool is_shown(char32_t code);
+
+// Escapes what is not shown: "\x1b" for a byte, "\u202e" for a character. Tabs and ends of lines
+// stay.
+std::string escaped_text(std::string_view text);
+// Ends of lines are escaped too: "\n".
+std::string escaped_line(std::string_view text);
+
+// A word of a command line as a shell reads it back; a name of a file is never taken for an option,
+// and "-" stays what it is.
+std::string shell_word(const std::string& word);
+std::string shell_file(const std::string& path);
+
+}  // namespace rholm

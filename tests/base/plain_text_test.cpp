@@ -1,0 +1,64 @@
+#include "base/plain_text.h"
+
+#include <gtest/gtest.h>
+
+namespace rholm {
+namespace {
+
+using namespace std::string_literals;
+
+TEST(plain_text, characters_are_read_as_utf8_says) {
+  EXPECT_EQ(first_character("a").code, U'a');
+  EXPECT_EQ(first_character("\xc3\xa4").code, U'\u00e4');
+  EXPECT_EQ(first_character("\xe2\x82\xac rest").code, U'\u20ac');
+  EXPECT_EQ(first_character("\xf0\x9f\x90\x87").code, U'\U0001f407');
+  EXPECT_EQ(first_character("\xf4\x8f\xbf\xbf").bytes.size(), 4u);  // the last one
+  // Alone, cut off, longer than needed, half a pair of UTF-16, beyond the last.
+  for (const std::string& wrong :
+       {"\x80"s, "\xff"s, "\xc3"s, "\xe2\x82"s, "\xc3("s, "\xc0\xaf"s, "\xe0\x80\xaf"s,
+        "\xf0\x80\x80\xaf"s, "\xed\xa0\x80"s, "\xf4\x90\x80\x80"s, "\xf8\x88\x80\x80\x80"s}) {
+    EXPECT_TRUE(first_character(wrong).bytes.empty()) << escaped_line(wrong);
+  }
+}
+
+TEST(plain_text, what_commands_a_terminal_is_escaped) {
+  EXPECT_EQ(escaped_text("a b\n\tc"), "a b\n\tc");
+  EXPECT_EQ(escaped_line("a b\n\tc"), "a b\\n\tc");
+  EXPECT_EQ(escaped_text("\x1b[31m\r\x07\x7f"), "\\x1b[31m\\x0d\\x07\\x7f");
+  EXPECT_EQ(escaped_text("x\0y"s), "x\\x00y");
+  EXPECT_EQ(escaped_text("\xc2\x9b"
+                         "31m"),
+            "\\u009b31m");  // C1
+  EXPECT_EQ(escaped_text("\x9b"
+                         "31m"),
+            "\\x9b31m");  // the same in Latin 1
+  EXPECT_EQ(escaped_text("\xe2\x80\xae"
+                         "fdp"),
+            "\\u202efdp");  // right to left
+  EXPECT_EQ(escaped_text("\xc3\xa4\xe6\xbc\xa2\xf0\x9f\x90\x87"),
+            "\xc3\xa4\xe6\xbc\xa2\xf0\x9f\x90\x87");
+}
+
+TEST(plain_text, words_of_shells) {
+  EXPECT_EQ(shell_word("a-b_c.ply"), "a-b_c.ply");
+  EXPECT_EQ(shell_word(""), "''");
+  EXPECT_EQ(shell_word("a b"), "'a b'");
+  EXPECT_EQ(shell_word("it's"), "'it'\\''s'");
+  EXPECT_EQ(shell_word("~"), "'~'");
+  EXPECT_EQ(shell_word("\xc3\xa4"), "'\xc3\xa4'");
+  EXPECT_EQ(shell_word("a\nb'\\\x1b"
+                       "7"),
+            "$'a\\012b\\'\\\\\\0337'");
+  EXPECT_EQ(shell_word("\xc2\x9b"), "$'\\302\\233'");
+}
+
+TEST(plain_text, names_of_files_are_no_options) {
+  EXPECT_EQ(shell_word("-x"), "-x");
+  EXPECT_EQ(shell_file("-x.ply"), "./-x.ply");
+  EXPECT_EQ(shell_file("-x y"), "'./-x y'");
+  EXPECT_EQ(shell_file("a/-x"), "a/-x");
+  EXPECT_EQ(shell_file("-"), "-");
+}
+
+}  // namespace
+}  // namespace rholm
