@@ -103,8 +103,8 @@ std::string program_help(const ProgramText& program, std::span<const Command> co
       "\n'{0} help COMMAND' tells more, '{0} --version' the version.\n"
       "A file named - is standard input or output.\n"
       "Exit codes: 0 done, 1 failure (a file cannot be read or written, no memory),\n"
-      "2 wrong usage, 3 input refused, 4 precision not reached, 130 interrupted,\n"
-      "141 nobody reads standard output any more.\n"
+      "2 wrong usage, 3 input refused, 4 precision not reached, 128 + N stopped by\n"
+      "signal N: 130 by Ctrl-C, 141 as nobody reads standard output any more.\n"
       "\nExample:\n",
       program.name);
   for (const std::string& example : program.examples) text += "  " + example + "\n";

@@ -43,10 +43,13 @@ void install(int signal, void (*handler)(int)) {
 }  // namespace
 
 void install_signal_handlers() {
-  install(SIGINT, on_stop);
-  install(SIGTERM, on_stop);
-  install(SIGHUP, on_stop);
+  // What users, schedulers and limits of processor time send to end a program.
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU, SIGALRM, SIGUSR1, SIGUSR2}) {
+    install(signal, on_stop);
+  }
   install(SIGPIPE, on_broken_pipe);
+  // A write beyond the limit of file sizes fails like one on a full disk.
+  install(SIGXFSZ, SIG_IGN);
 }
 
 int interrupting_signal() { return caught_signal.load(); }

@@ -1,8 +1,9 @@
 // Ctrl-C and its kin. Layer: cli.
 //
-// The first SIGINT or SIGTERM asks the library to stop at its next look (the progress callback, or
-// the CancelScope of the program);
-// the second removes unfinished files and leaves at once. Blocking calls return with EINTR.
+// The first signal that asks to stop (SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU, SIGALRM, SIGUSR1,
+// SIGUSR2) stops the library at its next look (the progress callback, or the CancelScope of the
+// program); the second removes unfinished files and leaves at once. The exit code is 128 + the
+// signal. Blocking calls return with EINTR.
 #pragma once
 
 #include <cstdint>
