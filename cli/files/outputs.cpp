@@ -39,6 +39,19 @@ std::string unsaid_by_npy(const Expansion& expansion, const Convention& conventi
   return text;
 }
 
+// Standard output has several names.
+std::string output_named(const std::string& path) {
+  const bool is_standard =
+      path == "/dev/stdout" || path == "/dev/fd/1" || path == "/proc/self/fd/1";
+  return is_standard ? "-" : path;
+}
+
+// Whether the path names a pipe, a device or the like.
+bool is_special(const std::string& path) {
+  struct stat status = {};
+  return ::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
+}
+
 }  // namespace
 
 Option output_option(std::string& path, const std::string& help, bool required) {
@@ -48,7 +61,8 @@ Option output_option(std::string& path, const std::string& help, bool required) 
           .help = help,
           .target = &path,
           .required = required,
-          .offer = Offer::kAnyFile};
+          .offer = Offer::kAnyFile,
+          .meaning = output_named};
 }
 
 Option format_option(std::string& format, std::vector<std::string> choices) {
@@ -124,7 +138,7 @@ CoefficientsOutput coefficients_output(const std::string& path, const std::strin
   check_not_shared(path, json);
   const bool by_name = format.empty() && path != "-";
   if (format == kModelFormat || (by_name && extension_of(path) == ".h5")) {
-    if (path == "-") throw UsageError("a model file (HDF5) cannot go to standard output");
+    check_rewindable(path);
     return {path, std::nullopt};
   }
   if (!format.empty()) return {path, parse_coefficients_format(format)};
@@ -133,8 +147,20 @@ CoefficientsOutput coefficients_output(const std::string& path, const std::strin
   return {path, known};
 }
 
+void check_rewindable(const std::string& path) {
+  if (path != "-" && !is_special(path)) return;
+  throw UsageError(fmt::format(
+      "a model file (HDF5) cannot go to {}: give it a file of its own",
+      path == "-" ? "standard output" : fmt::format("'{}', which cannot be rewound", path)));
+}
+
 void check_writable(const std::string& path) {
   if (path == "-" || path.empty()) return;
+  if (is_special(path)) {
+    if (::access(path.c_str(), W_OK) == 0) return;
+    throw Error(ErrorCode::kIo,
+                fmt::format("{} cannot be written: {}", path, std::strerror(errno)));
+  }
   struct stat status = {};
   if (::stat(path.c_str(), &status) != 0) {
     // A file that is not there is what is wanted, a folder that is not is said below. A name that

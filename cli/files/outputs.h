@@ -59,6 +59,9 @@ CoefficientsOutput coefficients_output(const std::string& path, const std::strin
 // Throws UsageError for "-" where a name is needed, or together with --json.
 void check_not_shared(const std::string& path, bool json);
 
+// Throws UsageError for standard output, pipes and devices, where a model file (HDF5) cannot go.
+void check_rewindable(const std::string& path);
+
 // Throws Io if a file cannot be made there: no such folder, no permission. Asked before hours of
 // work, the answer of the writer itself counts.
 void check_writable(const std::string& path);

@@ -36,6 +36,8 @@ struct Option {
   // to be wrong without a file is refused here, before one is opened.
   std::function<void(const std::string& option, const std::string& text)> check = {};
   Offer offer = Offer::kNothing;
+  // What a text stands for; by default itself.
+  std::function<std::string(const std::string& text)> meaning = {};
 
   bool is_operand() const { return name.front() >= 'A' && name.front() <= 'Z'; }
   bool is_switch() const { return std::holds_alternative<bool*>(target); }

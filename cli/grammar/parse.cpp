@@ -104,7 +104,7 @@ void take(const Option& option, const std::string& text) {
                              std::is_same_v<T, std::optional<double>*>) {
           *target = real_number(option, text);
         } else if constexpr (std::is_same_v<T, std::string*>) {
-          *target = text;
+          *target = option.meaning ? option.meaning(text) : text;
         }
       },
       option.target);
