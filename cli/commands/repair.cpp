@@ -183,8 +183,8 @@ int run(const Options& options, Session& session) {
   if (options.json) {
     print_json(report_json(result.report, options));
   } else if (options.output != "-") {
-    print_text(fmt::format("{}: repaired\n", display_name(options.input)) +
-               report_text(result.report));
+    session.report(fmt::format("{}: repaired\n", display_name(options.input)) +
+                   report_text(result.report));
   }
   warn_of_rest(result.report, options, session);
   return 0;

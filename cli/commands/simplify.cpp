@@ -88,7 +88,7 @@ int run(const Options& options, Session& session) {
                 {"error", result.error},
                 {"diagonal", diagonal}});
   } else if (options.output != "-") {
-    print_text(
+    session.report(
         fmt::format("{}: simplified\n", display_name(options.input)) +
         line("faces", fmt::format("{} of {}", n, faces_before)) +
         line("vertices", fmt::format("{} of {}", result.mesh.vertices.size(), vertices_before)) +
