@@ -6,6 +6,7 @@
 
 #include "cli/program.h"
 #include "cli/terminal/bus_error.h"
+#include "cli/terminal/descriptors.h"
 #include "cli/terminal/exit_code.h"
 #include "cli/terminal/freed_memory.h"
 #include "cli/terminal/interrupt.h"
@@ -71,6 +72,7 @@ int run(const std::vector<std::string>& words) {
 
 int main(int argc, char** argv) {
   using namespace rholm;
+  cli::fill_standard_descriptors();
   cli::keep_freed_memory();
   cli::set_program_name("rholm-mpi");
   const std::vector<std::string> words(argv + 1, argv + argc);

@@ -4,10 +4,12 @@
 
 #include "cli/program.h"
 #include "cli/terminal/bus_error.h"
+#include "cli/terminal/descriptors.h"
 #include "cli/terminal/interrupt.h"
 #include "support/targets.h"
 
 int main(int argc, char** argv) {
+  rholm::cli::fill_standard_descriptors();
   const std::string wrong = rholm::test::force_target_of_environment();
   if (!wrong.empty()) {
     std::fprintf(stderr, "%s\n", wrong.c_str());

@@ -1,0 +1,20 @@
+#include "cli/terminal/descriptors.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+namespace rholm::cli {
+
+void fill_standard_descriptors() {
+  for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; ++descriptor) {
+    if (::fcntl(descriptor, F_GETFD) != -1 || errno != EBADF) continue;
+    // The wrong way round: input cannot be read, output cannot be written. The system gives the
+    // lowest number that is free, which is this one.
+    const int direction = descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY;
+    if (::open("/dev/null", direction) != descriptor) _exit(1);  // there is no way to say why
+  }
+}
+
+}  // namespace rholm::cli

@@ -1,0 +1,175 @@
+"""Standard descriptors that are closed, outputs that are pipes, and what --quiet leaves."""
+
+import os
+import re
+import subprocess
+import sys
+import threading
+
+sys.path.insert(0, os.path.dirname(__file__))
+from harness import CliTest, RHOLM, TIMEOUT, Result, main
+
+# One of every command that ends by itself, on the files that prepare() makes. %o is an output.
+COMMANDS = [
+    "info e.ply", "info e.ply --json", "info e.json --json", "center e.ply --json",
+    "analyze e.ply --degree 4 -o %o.h5 --json", "analyze e.ply --degree 4 -o %o.json",
+    "analyze e.ply --atlas --tolerance .2 --unit diagonal -o %o.h5",
+    "synthesize e.json --subdivisions 1 -o %o.ply", "spectrum e.json", "spectrum e.json -o %o.svg",
+    "compare e.ply e.ply --json", "convert e.ply %o.obj", "convert e.ply --format off -",
+    "render e.ply --size 32x32 -o %o.png", "report e.json --size 32 -o %o.html",
+    "filter e.json --low-pass 2 -o %o.json", "rotate e.json --euler 1,2,3 -o %o.json --json",
+    "recenter e.json -o %o.json", "align e.json e.json", "simplify e.ply --faces 100 -o %o.ply",
+    "repair e.ply -o %o.ply", "smooth e.ply --sphere 0,0,1,.3 -o %o.ply --json",
+    "make sample e.ply --points 200 -o %o.xyz", "make box -o %o.stl",
+    "orient p.xyz -o %o.ply", "reconstruct p.xyz -o %o.ply --json",
+    "partition e.ply --tolerance .2 -o %o.ply", "batch rows.csv --command info -o %o.csv --no-times",
+    "completion bash", "man-page", "help", "analyze --help", "--version", "analyze",
+    "info nothing.ply --json"]
+
+
+class Streams(CliTest):
+    def setUp(self):
+        super().setUp()
+        self.rholm("make", "ellipsoid", "--axes", "3,2,1", "--subdivisions", "3", "-o", "e.ply")
+        self.rholm("analyze", "e.ply", "--degree", "4", "-o", "e.json")
+        self.rholm("make", "sample", "e.ply", "--points", "2000", "-o", "p.xyz")
+        self.write("rows.csv", "path\ne.ply\n")
+
+    def shell(self, redirection, words, **options):
+        process = subprocess.run(["sh", "-c", f'exec "$@" {redirection}', "sh", RHOLM, *words],
+                                 cwd=self.folder, capture_output=True, timeout=TIMEOUT,
+                                 stdin=subprocess.DEVNULL, **options)
+        return Result(process, words)
+
+    def outputs(self, begin):
+        """Names and bytes of the files whose names begin so; they are removed."""
+        found = {}
+        for path in sorted(self.folder.glob(begin + "*")):
+            found[path.name[len(begin):]] = path.read_bytes()
+            path.unlink()
+        return found
+
+
+class Closed(Streams):
+    def test_every_command_with_each_descriptor_closed(self):
+        for line in COMMANDS:
+            words = line.split()
+            plain = self.shell("", [w.replace("%o", "out") for w in words])
+            made = self.outputs("out")
+            for closed, redirection in enumerate(("<&-", ">&-", "2>&-")):
+                with self.subTest(line, closed=closed):
+                    result = self.shell(redirection, [w.replace("%o", "out") for w in words])
+                    self.assertEqual(self.outputs("out"), made, str(result))
+                    self.check_decent(result) if closed != 2 else None
+                    if closed == 1 and plain.bytes:
+                        # As with an output that cannot be written; an error before that counts.
+                        self.assertEqual(result.code, plain.code or 1, str(result))
+                        self.assertIn("standard output", result.err)
+                    else:
+                        self.assertEqual(result.code, plain.code, str(result))
+                    if closed != 1:  # but for times
+                        self.assertEqual(re.sub(rb"[0-9.e+-]+", b"", result.bytes),
+                                         re.sub(rb"[0-9.e+-]+", b"", plain.bytes))
+
+    def test_input_from_a_closed_descriptor_cannot_be_read(self):
+        result = self.shell("<&-", ["info", "-"])
+        self.assertEqual(result.code, 1, str(result))
+        self.assertIn("standard input", result.err)
+
+    def test_all_closed_at_once(self):
+        result = self.shell("<&- >&- 2>&-", ["analyze", "e.ply", "--degree", "4", "-o", "all.h5",
+                                             "--json"])
+        self.assertEqual(result.code, 1)
+        self.rholm("analyze", "e.ply", "--degree", "4", "-o", "plain.h5")
+        self.assertEqual((self.folder / "all.h5").read_bytes(),
+                         (self.folder / "plain.h5").read_bytes())
+
+
+# Commands with an output, its format, and what it is called where the extension says it.
+WRITERS = [("make box", "off"), ("convert e.ply", "stl"), ("analyze e.ply --degree 4", "json"),
+           ("synthesize e.json --subdivisions 1", "ply"), ("filter e.json --low-pass 2", "npy"),
+           ("render e.ply --size 32x32", "png"), ("spectrum e.json", "csv"),
+           ("simplify e.ply --faces 100", "obj"), ("make sample e.ply --points 200", "xyz"),
+           ("reconstruct p.xyz", "ply"), ("report e.json --size 32", "html")]
+
+
+def output_words(line, name):
+    return [name] if line.startswith("convert") else ["-o", name]
+
+
+class Pipes(Streams):
+    def plain(self, line, form):
+        self.rholm(*line.split(), *output_words(line, f"plain.{form}"))
+        return (self.folder / f"plain.{form}").read_bytes()
+
+    def through_pipe(self, line, form):
+        read, write = os.pipe()
+        received = []
+        reader = threading.Thread(target=lambda: received.append(os.fdopen(read, "rb").read()))
+        reader.start()
+        process = subprocess.run([RHOLM, *line.split(), "--format", form,
+                                  *output_words(line, f"/dev/fd/{write}")],
+                                 cwd=self.folder, capture_output=True, pass_fds=[write],
+                                 timeout=TIMEOUT)
+        os.close(write)
+        reader.join()
+        self.assertEqual(process.returncode, 0, process.stderr)
+        return received[0]
+
+    def test_descriptors_by_their_path(self):
+        for line, form in WRITERS:
+            with self.subTest(line):
+                self.assertEqual(self.through_pipe(line, form), self.plain(line, form))
+
+    def test_standard_output_by_its_path_is_that_of_the_dash(self):
+        for name in ("/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"):
+            dash = self.rholm("convert", "e.ply", "--format", "off", "-")
+            self.assertEqual(self.rholm("convert", "e.ply", "--format", "off", name).bytes,
+                             dash.bytes)
+            # No report in the data.
+            both = self.rholm("simplify", "e.ply", "--faces", "100", "--format", "off", "-o", name)
+            self.assertTrue(both.bytes.startswith(b"OFF") and b"simplified" not in both.bytes)
+            self.rholm("analyze", "e.ply", "--degree", "2", "--format", "json", "-o", name,
+                       "--json", code=2)
+
+    def test_what_stands_in_a_file_stays_where_a_descriptor_appends(self):
+        self.write("log.off", "# before\n")
+        result = self.shell("3>>log.off", ["make", "box", "--format", "off", "-o", "/dev/fd/3"])
+        self.assertEqual(result.code, 0, str(result))
+        self.assertEqual((self.folder / "log.off").read_bytes(),
+                         b"# before\n" + self.plain("make box", "off"))
+
+    def test_named_pipes(self):
+        os.mkfifo(self.folder / "pipe.off")
+        received = []
+        reader = threading.Thread(
+            target=lambda: received.append((self.folder / "pipe.off").read_bytes()))
+        reader.start()
+        self.rholm("make", "box", "-o", "pipe.off")
+        reader.join()
+        self.assertEqual(received[0], self.plain("make box", "off"))
+
+    def test_a_descriptor_that_is_closed_is_an_output_that_cannot_be_written(self):
+        self.rholm("make", "box", "--format", "off", "-o", "/dev/fd/77", code=1)
+
+    def test_model_files_are_refused_before_the_work(self):
+        os.mkfifo(self.folder / "pipe.h5")
+        # There is no such input: it has not been looked for yet.
+        for words in (["analyze", "none.ply", "--degree", "4"], ["filter", "none.h5", "--low-pass", "2"],
+                      ["analyze", "none.ply", "--atlas", "--tolerance", ".1"]):
+            self.rholm(*words, "-o", "pipe.h5", code=2)
+            self.rholm(*words, "--format", "h5", "-o", "/dev/stdout", code=2)
+
+
+class Quiet(Streams):
+    def test_commands_that_write_a_file_print_nothing(self):
+        for line in COMMANDS:
+            if "%o" not in line or "--json" in line:
+                continue
+            with self.subTest(line):
+                result = self.rholm(*line.replace("%o", "out").split(), "--quiet")
+                self.assertEqual((result.out, result.err), ("", ""))
+
+
+if __name__ == "__main__":
+    main()
