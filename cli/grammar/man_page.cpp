@@ -90,7 +90,7 @@ std::string man_page(const ProgramText& program, std::span<const Command> comman
       ".TP\n2\nThe command line is wrong.\n"
       ".TP\n3\nThe input is malformed, not supported, or not star\\-shaped.\n"
       ".TP\n4\nA precision was not reached.\n"
-      ".TP\n128 + N\nStopped by signal N: 130 by Ctrl\-C; files that were there are whole.\n"
+      ".TP\n128 + N\nStopped by signal N: 130 by Ctrl\\-C; files that were there are whole.\n"
       ".TP\n141\nWho read standard output has gone (SIGPIPE).\n"
       ".SH ENVIRONMENT\n"
       ".TP\n\\fBNO_COLOR\\fR\nIf set and not empty, messages have no colours.\n";
