@@ -68,8 +68,8 @@ void convert_shape(const Options& options, const ShapeFile& file, Session& sessi
     throw UsageError(
         fmt::format("{} is a shape and {} a format of coefficients: 'rholm analyze {} "
                     "--degree L -o {}' finds them",
-                    display_name(options.input), wanted, shell_file(options.input),
-                    shell_file(options.output)));
+                    display_name(options.input), wanted, shell_word(options.input),
+                    shell_word(options.output)));
   }
   const ShapeFormat format = shape_output(options.output, options.format);
   say_what_was_read(file, options.input, session);
@@ -119,8 +119,8 @@ void convert_coefficients(const Options& options, const CoefficientsFile& file,
     throw UsageError(
         fmt::format("{} holds coefficients and {} is a format of shapes: 'rholm "
                     "synthesize {} -o {}' makes their surface",
-                    display_name(options.input), wanted, shell_file(options.input),
-                    shell_file(options.output)));
+                    display_name(options.input), wanted, shell_word(options.input),
+                    shell_word(options.output)));
   }
   const CoefficientsOutput output = coefficients_output(options.output, options.format);
   if (output.format == CoefficientsFormat::kIcgem) {

@@ -151,7 +151,7 @@ void check_shape(Guess guess, const std::string& path) {
   throw Error(ErrorCode::kInvalidInput,
               fmt::format("{} holds coefficients, and a shape is needed; make one with 'rholm "
                           "synthesize {} -o OUT.ply'",
-                          display_name(path), shell_file(path)));
+                          display_name(path), shell_word(path)));
 }
 
 CoefficientsFile read_file(const std::string& path, Session& session,
@@ -161,7 +161,7 @@ CoefficientsFile read_file(const std::string& path, Session& session,
     throw Error(ErrorCode::kInvalidInput,
                 fmt::format("{} is a shape, and coefficients are needed; make them with 'rholm "
                             "analyze {} --degree L -o OUT.h5'",
-                            display_name(path), shell_file(path)));
+                            display_name(path), shell_word(path)));
   }
   return read_coefficients_of(source, session, convention.reading());
 }

@@ -78,12 +78,12 @@ std::string escaped_text(std::string_view text) { return escaped(text, "\t\n"); 
 
 std::string escaped_line(std::string_view text) { return escaped(text, "\t"); }
 
-std::string shell_word(const std::string& word) {
-  if (!word.empty() && std::all_of(word.begin(), word.end(), is_plain_in_shells)) return word;
+std::string shell_text(const std::string& text) {
+  if (!text.empty() && std::all_of(text.begin(), text.end(), is_plain_in_shells)) return text;
   // What is not shown can be typed in the quotes of ANSI C, which bash, zsh and ksh read.
-  const bool is_one_line = escaped_line(word) == word;
+  const bool is_one_line = escaped_line(text) == text;
   std::string quoted = is_one_line ? "'" : "$'";
-  for (std::string_view rest = word; !rest.empty();) {
+  for (std::string_view rest = text; !rest.empty();) {
     const std::size_t size = std::max<std::size_t>(first_character(rest).bytes.size(), 1);
     const std::string_view one = rest.substr(0, size);
     rest.remove_prefix(size);
@@ -101,8 +101,8 @@ std::string shell_word(const std::string& word) {
   return quoted + "'";
 }
 
-std::string shell_file(const std::string& path) {
-  return shell_word(path.starts_with('-') && path != "-" ? "./" + path : path);
+std::string shell_word(const std::string& file) {
+  return shell_text(file.starts_with('-') && file != "-" ? "./" + file : file);
 }
 
 }  // namespace rholm

@@ -24,9 +24,9 @@ std::string escaped_text(std::string_view text);
 // Ends of lines are escaped too: "\n".
 std::string escaped_line(std::string_view text);
 
-// A word of a command line as a shell reads it back; a name of a file is never taken for an option,
-// and "-" stays what it is.
-std::string shell_word(const std::string& word);
-std::string shell_file(const std::string& path);
+// One word of a command line as a shell reads it back.
+std::string shell_text(const std::string& text);
+// The same for the name of a file, which is never taken for an option: "./-x.ply". "-" stays.
+std::string shell_word(const std::string& file);
 
 }  // namespace rholm

@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "base/plain_text.h"
+
 namespace rholm::studio {
 
 // Without bytes that are not UTF-8, and without what does not print: control characters, line and
@@ -22,9 +24,7 @@ bool is_variable(const std::string& text);
 // The same with a '_' behind what Python or rholm needs. Letters, digits and '_' are expected.
 std::string free_variable(const std::string& text);
 
-// As a shell, and Python, reads it back. The name of a file is no option either way.
-std::string shell_word(const std::string& file);
-std::string shell_text(const std::string& text);
+// As Python reads it back. Shells: base/plain_text.h.
 std::string python_text(const std::string& text);
 
 }  // namespace rholm::studio

@@ -40,24 +40,24 @@ TEST(plain_text, what_commands_a_terminal_is_escaped) {
 }
 
 TEST(plain_text, words_of_shells) {
-  EXPECT_EQ(shell_word("a-b_c.ply"), "a-b_c.ply");
-  EXPECT_EQ(shell_word(""), "''");
-  EXPECT_EQ(shell_word("a b"), "'a b'");
-  EXPECT_EQ(shell_word("it's"), "'it'\\''s'");
-  EXPECT_EQ(shell_word("~"), "'~'");
-  EXPECT_EQ(shell_word("\xc3\xa4"), "'\xc3\xa4'");
-  EXPECT_EQ(shell_word("a\nb'\\\x1b"
+  EXPECT_EQ(shell_text("a-b_c.ply"), "a-b_c.ply");
+  EXPECT_EQ(shell_text(""), "''");
+  EXPECT_EQ(shell_text("a b"), "'a b'");
+  EXPECT_EQ(shell_text("it's"), "'it'\\''s'");
+  EXPECT_EQ(shell_text("~"), "'~'");
+  EXPECT_EQ(shell_text("\xc3\xa4"), "'\xc3\xa4'");
+  EXPECT_EQ(shell_text("a\nb'\\\x1b"
                        "7"),
             "$'a\\012b\\'\\\\\\0337'");
-  EXPECT_EQ(shell_word("\xc2\x9b"), "$'\\302\\233'");
+  EXPECT_EQ(shell_text("\xc2\x9b"), "$'\\302\\233'");
 }
 
 TEST(plain_text, names_of_files_are_no_options) {
-  EXPECT_EQ(shell_word("-x"), "-x");
-  EXPECT_EQ(shell_file("-x.ply"), "./-x.ply");
-  EXPECT_EQ(shell_file("-x y"), "'./-x y'");
-  EXPECT_EQ(shell_file("a/-x"), "a/-x");
-  EXPECT_EQ(shell_file("-"), "-");
+  EXPECT_EQ(shell_text("-x"), "-x");
+  EXPECT_EQ(shell_word("-x.ply"), "./-x.ply");
+  EXPECT_EQ(shell_word("-x y"), "'./-x y'");
+  EXPECT_EQ(shell_word("a/-x"), "a/-x");
+  EXPECT_EQ(shell_word("-"), "-");
 }
 
 }  // namespace
