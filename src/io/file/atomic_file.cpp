@@ -10,6 +10,8 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <map>
+#include <mutex>
 #include <optional>
 #include <utility>
 
@@ -84,8 +86,63 @@ std::filesystem::path next_name(const std::filesystem::path& target) {
   return target.parent_path() / name.append(kTemporaryEnd);
 }
 
+std::filesystem::path folder_of(const std::filesystem::path& target) {
+  return target.has_parent_path() ? target.parent_path() : ".";
+}
+
 std::string name_by_descriptor(int descriptor) {
   return "/proc/self/fd/" + std::to_string(descriptor);
+}
+
+int open_without_name(const std::filesystem::path& folder) {
+#ifdef O_TMPFILE
+  return ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
+#else
+  (void)folder;
+  return -1;
+#endif
+}
+
+// A file that has got its first name, which discard_unfinished_files() knows.
+struct FirstName {
+  std::filesystem::path path;
+  std::atomic<char*>* slot = nullptr;
+  int error = 0;  // of the system, where it got none
+};
+
+FirstName name_file(int descriptor, const std::filesystem::path& target) {
+  const std::string nameless = name_by_descriptor(descriptor);
+  for (;;) {
+    FirstName name = {.path = next_name(target)};
+    name.slot = enter(name.path.string());
+    if (::linkat(AT_FDCWD, nameless.c_str(), AT_FDCWD, name.path.c_str(), AT_SYMLINK_FOLLOW) == 0) {
+      return name;
+    }
+    name.error = errno;
+    leave(std::exchange(name.slot, nullptr));
+    if (name.error != EEXIST && name.error != EINTR) return name;
+  }
+}
+
+// Whether files of the folder that have no name can get one: without /proc, by FUSE and by
+// policies (AppArmor) it can be forbidden where such files can be made. That must be known before
+// the work. An empty file tries it, once for each folder in the life of a process.
+bool can_name_files(const std::filesystem::path& target) {
+  static std::mutex mutex;
+  static std::map<std::filesystem::path, bool> known;
+  const std::lock_guard lock(mutex);
+  const std::filesystem::path folder = std::filesystem::absolute(folder_of(target));
+  if (const auto found = known.find(folder); found != known.end()) return found->second;
+  const int descriptor = open_without_name(folder);
+  if (descriptor < 0) return false;
+  (void)try_lock(descriptor);
+  const FirstName name = name_file(descriptor, target);
+  if (name.error == 0) {
+    ::unlink(name.path.c_str());
+    leave(name.slot);
+  }
+  ::close(descriptor);
+  return known[folder] = name.error == 0;
 }
 
 }  // namespace
@@ -113,6 +170,8 @@ AtomicFile::AtomicFile(const std::filesystem::path& path, const Context& context
   // A file that may not be written is not replaced either, though the folder would allow it.
   if (exists && ::access(target.c_str(), W_OK) != 0) fail(name_, errno);
   target_ = target;
+  // A process may have been killed between the two names of a file, or where files need names.
+  remove_left_files(folder_of(target));
   if (writers == Writers::kSeveral || !open_nameless()) open_named();
   if (exists) (void)::fchmod(descriptor_, status.st_mode & 07777);
 }
@@ -125,27 +184,18 @@ void AtomicFile::open_directly(const std::filesystem::path& path) {
   }
 }
 
-// False where the system or the file system has no files without a name.
+// False where the system or the file system has no files without a name, or gives them none later.
 bool AtomicFile::open_nameless() {
-#ifdef O_TMPFILE
-  const std::filesystem::path folder = target_.has_parent_path() ? target_.parent_path() : ".";
-  const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
-  if (descriptor < 0) return false;
-  const std::string name = name_by_descriptor(descriptor);
-  if (::access(name.c_str(), F_OK) == 0) {
-    descriptor_ = descriptor;
-    temporary_ = name;
-    is_nameless_ = true;
-    (void)try_lock(descriptor_);  // for the moment in which it has two names
-    return true;
-  }
-  ::close(descriptor);  // without /proc it could never get a name
-#endif
-  return false;
+  if (!can_name_files(target_)) return false;
+  descriptor_ = open_without_name(folder_of(target_));
+  if (descriptor_ < 0) return false;
+  temporary_ = name_by_descriptor(descriptor_);
+  is_nameless_ = true;
+  (void)try_lock(descriptor_);  // for the moment in which it has two names
+  return true;
 }
 
 void AtomicFile::open_named() {
-  remove_left_files(target_.has_parent_path() ? target_.parent_path() : ".");
   for (;;) {
     temporary_ = next_name(target_);
     // Entered first: a signal between the two lines must find the file.
@@ -170,20 +220,11 @@ void AtomicFile::open_named() {
 
 // Gives the whole file a name, so that it can replace an older one at once.
 void AtomicFile::give_a_name() {
-  const std::string nameless = temporary_.string();
-  for (;;) {
-    temporary_ = next_name(target_);
-    slot_ = enter(temporary_.string());
-    if (::linkat(AT_FDCWD, nameless.c_str(), AT_FDCWD, temporary_.c_str(), AT_SYMLINK_FOLLOW) ==
-        0) {
-      is_nameless_ = false;
-      return;
-    }
-    const int error = errno;
-    leave(slot_);
-    slot_ = nullptr;
-    if (error != EEXIST && error != EINTR) fail(name_, error);
-  }
+  const FirstName name = name_file(descriptor_, target_);
+  if (name.error != 0) fail(name_, name.error);
+  temporary_ = name.path;
+  slot_ = name.slot;
+  is_nameless_ = false;
 }
 
 void AtomicFile::write(std::span<const char> bytes) {

@@ -16,9 +16,9 @@ namespace rholm {
 // "-" (standard output) and what is not a regular file (a pipe, /dev/null) are written directly,
 // and so is what the path of a descriptor of this process names (/dev/stdout, /dev/fd/3).
 //
-// The temporary file has no name where the file system has such files: nothing of it is left when
-// the process is killed. Elsewhere it is a hidden file in the folder of `path`, and those that
-// killed processes have left there are removed first.
+// The temporary file has no name where the file system has such files and lets them have one later:
+// nothing of it is left when the process is killed. Elsewhere it is a hidden file in the folder of
+// `path`. Those that killed processes have left there are removed first.
 //
 // There is no fsync: the promise is against interrupted programs, not against power failures.
 class AtomicFile {

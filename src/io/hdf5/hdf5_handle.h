@@ -43,6 +43,9 @@ class Handle {
 class QuietErrors {
  public:
   QuietErrors() : alone_(mutex) {
+    // At the end of the process HDF5 would close again what could not be closed (a full disk), and
+    // crash. Nothing is left to it: handles close themselves.
+    H5dont_atexit();
     H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   }

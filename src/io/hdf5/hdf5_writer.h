@@ -39,6 +39,8 @@ class Writer {
     checked(H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18), "choose its version");
     // The file is temporary and ours alone; some network file systems have no locks.
     checked(H5Pset_file_locking(access, false, true), "switch off locks");
+    // It may have no name: the driver of all other files wants the path of "/proc/self/fd/3".
+    checked(H5Pset_fapl_stdio(access), "choose how to write");
     const Handle creation = quiet_creation(H5P_FILE_CREATE);  // of the root group, too
     if (members > 0) keep_members(creation, members);
     return Handle(

@@ -2,11 +2,17 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <linux/filter.h>
+#include <linux/seccomp.h>
 #include <signal.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstddef>
 #include <functional>
+#include <iterator>
 #include <string_view>
 
 #include "io/file/atomic_file.h"
@@ -73,6 +79,33 @@ TEST(leftovers, named_files_of_killed_writers_go_with_the_next) {
     file.commit();
   });
   EXPECT_EQ(folder.n_files(), 1u);
+  EXPECT_TRUE(std::filesystem::exists(folder / "b"));
+}
+
+// The system calls of this process fail from now on.
+void forbid(int call) {
+  sock_filter filter[] = {
+      {.code = BPF_LD | BPF_W | BPF_ABS, .jt = 0, .jf = 0, .k = offsetof(seccomp_data, nr)},
+      {.code = BPF_JMP | BPF_JEQ | BPF_K, .jt = 0, .jf = 1, .k = static_cast<unsigned>(call)},
+      {.code = BPF_RET | BPF_K, .jt = 0, .jf = 0, .k = SECCOMP_RET_ERRNO | EPERM},
+      {.code = BPF_RET | BPF_K, .jt = 0, .jf = 0, .k = SECCOMP_RET_ALLOW}};
+  const sock_fprog program = {.len = std::size(filter), .filter = filter};
+  if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0 ||
+      prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) != 0) {
+    _exit(1);
+  }
+}
+
+TEST(leftovers, where_files_may_get_no_name_later_they_have_one_from_the_start) {
+  const TemporaryFolder folder;
+  const Child writer([&] {
+    forbid(__NR_linkat);
+    open_file(folder / "a", AtomicFile::Writers::kThisProcess);
+    AtomicFile file(folder / "b");
+    file.write(std::string_view("whole"));
+    file.commit();
+  });
+  EXPECT_EQ(folder.n_files(), 2u);  // "b", and that of "a"
   EXPECT_TRUE(std::filesystem::exists(folder / "b"));
 }
 
