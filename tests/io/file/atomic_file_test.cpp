@@ -166,8 +166,9 @@ TEST(atomic_file, signal_handler_may_discard_unfinished_files) {
       discard_unfinished_files();  // there is nothing left to do
       _exit(0);
     });
-    AtomicFile one(folder / "a");
-    AtomicFile two(folder / "b");
+    // Those that have names.
+    AtomicFile one(folder / "a", {}, AtomicFile::Writers::kSeveral);
+    AtomicFile two(folder / "b", {}, AtomicFile::Writers::kSeveral);
     two.write(std::string_view("half"));
     if (folder.n_files() == 3) raise(SIGTERM);
     _exit(1);
