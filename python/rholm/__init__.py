@@ -100,16 +100,11 @@ from ._core import (
 from ._edit import (
     RegionLike,
     SmoothEditor,
-    TransferEditor,
-    TransferSource,
     analyze_patch,
-    analyze_source,
-    analyze_transfer,
     apply,
     longest_wavelength,
     region_weights,
     smooth,
-    transfer,
     update,
 )
 from ._encode import as_expansion, encode, expand, from_array, from_pyshtools
@@ -264,6 +259,7 @@ from ._topology import (
     surface_area,
     weld,
 )
+from ._transfer import TransferEditor, TransferSource, analyze_source, analyze_transfer, transfer
 from ._view import view, view_data
 
 __all__ = [

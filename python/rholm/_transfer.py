@@ -1,0 +1,339 @@
+"""Transfer of detail from one surface to another."""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+from . import _core
+from ._arrays import FloatArray, IndexArray, read_only
+from ._edit import RegionLike, _with_region, _without_region
+from ._run import Progress, caller
+from ._shapes import Mesh, MeshLike, as_mesh
+
+
+class TransferEditor:
+    """Detail of one surface on another, whose height and turn are sliders: made by `analyze_transfer`.
+
+    Setting a property moves the vertices of `mesh` at once, where they lie.
+    """
+
+    __slots__ = ("_analysis", "_mesh", "_patch", "_wanted")
+
+    def __init__(self, analysis: _core.TransferAnalysis) -> None:
+        self._analysis = analysis
+        self._patch = analysis.patch
+        self._mesh = _core.copy_mesh(analysis.mesh)
+        self._wanted: dict[str, Any] = {
+            "height": 0.0,
+            "angle": None,
+            "repeat": False,
+            "remove_own": False,
+            "mode": "displacement",
+        }
+
+    @property
+    def mesh(self) -> Mesh:
+        """The target as it is now; its arrays follow the editor."""
+        return Mesh._of(self._mesh)
+
+    @property
+    def report(self) -> _core.TransferReport:
+        """What the analysis found."""
+        return self._analysis.report
+
+    @property
+    def vertices(self) -> IndexArray:
+        """Indices of those that may move, (n,)."""
+        return read_only(self._patch.vertices)
+
+    @property
+    def height(self) -> float:
+        """Of the texture, times what the scale makes of it; 0 until it is set."""
+        height: float = self._wanted["height"]
+        return height
+
+    @height.setter
+    def height(self, value: float) -> None:
+        self.set(height=float(value))
+
+    @property
+    def angle(self) -> float | None:
+        """Turn of the texture, radians; None: where it is most like the target's own detail."""
+        angle: float | None = self._wanted["angle"]
+        return angle
+
+    @angle.setter
+    def angle(self, value: float | None) -> None:
+        self.set(angle=None if value is None else float(value))
+
+    def set(self, **wanted: Any) -> None:
+        """Several sliders at once.
+
+        Parameters
+        ----------
+        **wanted
+            height, angle; repeat: the texture is laid side by side over a larger region;
+            remove_own: the target's own detail goes first; mode: "displacement" or "coefficients".
+        """
+        new = self._merged(wanted)
+        if new["height"] == 0 and not new["remove_own"]:
+            _core.apply_in_place(self._patch, self._patch.wavelength, 0.0, self._mesh)
+        else:
+            with caller(0, False) as how:
+                _core.apply_transfer_in_place(self._analysis, *_sliders(new), self._mesh, how)
+        self._wanted = new
+
+    def positions(self, **wanted: Any) -> FloatArray:
+        """Where `vertices` would be, (n, 3); the mesh stays as it is.
+
+        Parameters
+        ----------
+        **wanted
+            As in `set`; by default as they are.
+        """
+        with caller(0, False) as how:
+            return _core.update_transfer(self._analysis, *_sliders(self._merged(wanted)), how)
+
+    def __copy__(self) -> TransferEditor:
+        twin = TransferEditor(self._analysis)
+        twin._mesh = _core.copy_mesh(self._mesh)
+        twin._wanted = dict(self._wanted)
+        return twin
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> TransferEditor:
+        return self.__copy__()
+
+    def __reduce__(self) -> Any:
+        raise TypeError("a TransferEditor cannot be pickled, as what it knows is too large: pickle its mesh")
+
+    def _merged(self, wanted: dict[str, Any]) -> dict[str, Any]:
+        unknown = set(wanted) - set(self._wanted)
+        if unknown:
+            raise TypeError(
+                f"no slider is called {', '.join(sorted(unknown))}; there are {', '.join(self._wanted)}"
+            )
+        return {**self._wanted, **wanted}
+
+    def _repr_png_(self) -> bytes | None:
+        return self.mesh._repr_png_()
+
+
+def _sliders(wanted: dict[str, Any]) -> tuple[float, float | None, bool, bool, str]:
+    return wanted["height"], wanted["angle"], wanted["repeat"], wanted["remove_own"], wanted["mode"]
+
+
+class TransferSource:
+    """A texture taken from its source, to be laid on any number of targets: made by `analyze_source`."""
+
+    __slots__ = ("_source",)
+
+    def __init__(self, source: _core.TransferSource) -> None:
+        self._source = source
+
+    def __copy__(self) -> TransferSource:
+        return TransferSource(self._source)  # nothing in it can be changed
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> TransferSource:
+        return self.__copy__()
+
+    def __reduce__(self) -> Any:
+        raise TypeError("a TransferSource cannot be pickled, as what it knows is too large: pickle the mesh")
+
+    @property
+    def from_degree(self) -> int:
+        """What harmonics up to this degree leave of the source is the texture."""
+        return self._source.from_degree
+
+    @property
+    def radius(self) -> float:
+        """Of a disc with the area of the region."""
+        return self._source.radius
+
+    @property
+    def wavelength(self) -> float:
+        """Of the source's base."""
+        return self._source.wavelength
+
+    @property
+    def edge(self) -> float:
+        """Median length of an edge there."""
+        return self._source.edge
+
+    @property
+    def rms(self) -> float:
+        """Height of the texture in its region."""
+        return self._source.rms
+
+    def onto(
+        self,
+        target: MeshLike,
+        target_region: RegionLike,
+        *,
+        scale: float = 1.0,
+        refine: bool = False,
+        transition: float | None = None,
+        find_angle: bool = True,
+        threads: int = 0,
+        progress: Progress = None,
+    ) -> TransferEditor:
+        """Looks at where it is to be laid: the target's half of `analyze_transfer`.
+
+        Parameters
+        ----------
+        target, target_region, scale, refine, transition, find_angle
+            As in `analyze_transfer`.
+        threads, progress
+            See `rholm.caller`.
+
+        Returns
+        -------
+        editor : TransferEditor
+            Whose `TransferEditor.height` is 0 and moves the target when it is set.
+        """
+        laid, to = _with_region(as_mesh(target), target_region)
+        options = _core.TransferOptions(
+            from_degree=self.from_degree,
+            scale=scale,
+            refine=refine,
+            transition=transition,
+            find_angle=find_angle,
+        )
+        with caller(threads, progress) as how:
+            return TransferEditor(_core.analyze_transfer(self._source, laid._core, to, options, how))
+
+
+def analyze_source(
+    source: MeshLike,
+    source_region: RegionLike,
+    *,
+    from_degree: int = 8,
+    threads: int = 0,
+    progress: Progress = None,
+) -> TransferSource:
+    """Takes the detail of a region, once for any number of targets: the source's half of `analyze_transfer`.
+
+    Parameters
+    ----------
+    source, source_region, from_degree
+        As in `transfer`.
+    threads, progress
+        See `rholm.caller`.
+
+    Returns
+    -------
+    texture : TransferSource
+        To be laid by `TransferSource.onto`.
+    """
+    taken, from_ = _with_region(as_mesh(source), source_region)
+    with caller(threads, progress) as how:
+        return TransferSource(_core.analyze_source(taken._core, from_, from_degree, how))
+
+
+def analyze_transfer(
+    source: MeshLike,
+    source_region: RegionLike,
+    target: MeshLike,
+    target_region: RegionLike,
+    *,
+    from_degree: int = 8,
+    scale: float = 1.0,
+    refine: bool = False,
+    transition: float | None = None,
+    find_angle: bool = True,
+    threads: int = 0,
+    progress: Progress = None,
+) -> TransferEditor:
+    """Takes the detail of one region and looks at another: the slow part of `transfer`.
+
+    Parameters
+    ----------
+    source, source_region, target, target_region, from_degree, scale, refine, transition
+        As in `transfer`.
+    find_angle : bool
+        Whether the angle at which the detail is most like the target's own is looked for, which is
+        half of the work; without it that angle is 0.
+    threads, progress
+        See `rholm.caller`.
+
+    Returns
+    -------
+    editor : TransferEditor
+        Whose `TransferEditor.height` is 0 and moves the target when it is set.
+    """
+    texture = analyze_source(
+        source, source_region, from_degree=from_degree, threads=threads, progress=progress
+    )
+    return texture.onto(
+        target,
+        target_region,
+        scale=scale,
+        refine=refine,
+        transition=transition,
+        find_angle=find_angle,
+        threads=threads,
+        progress=progress,
+    )
+
+
+def transfer(
+    source: MeshLike,
+    source_region: RegionLike,
+    target: MeshLike,
+    target_region: RegionLike,
+    *,
+    height: float = 1.0,
+    angle: float | None = None,
+    repeat: bool = False,
+    remove_own: bool = False,
+    mode: Literal["displacement", "coefficients"] = "displacement",
+    from_degree: int = 8,
+    scale: float = 1.0,
+    refine: bool = False,
+    transition: float | None = None,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Mesh:
+    """The detail of a region of one surface laid on a region of another.
+
+    Parameters
+    ----------
+    source, target : mesh-like
+        Where the detail is taken, and where it is laid.
+    source_region, target_region : region-like
+        As in `smooth`.
+    height : float
+        Of the texture.
+    angle : float, optional
+        Its turn, radians; by default where it is most like the target's own detail.
+    repeat : bool
+        Lays it side by side over a region that is larger than the texture.
+    remove_own : bool
+        The target's own detail of the same wavelengths goes first.
+    mode : {"displacement", "coefficients"}
+        Along the target's normals, or the raw coefficients, to compare with.
+    from_degree : int
+        What harmonics up to this degree leave of the source is the texture.
+    scale : float
+        Lengths on the target by lengths on the source, in units of the regions' radii.
+    refine : bool
+        Splits the target's edges until they are as short as the source's.
+    transition : float, optional
+        Width in which the texture fades.
+    threads, progress
+        See `rholm.caller`.
+    """
+    editor = analyze_transfer(
+        source,
+        source_region,
+        target,
+        target_region,
+        from_degree=from_degree,
+        scale=scale,
+        refine=refine,
+        transition=transition,
+        find_angle=angle is None,
+        threads=threads,
+        progress=progress,
+    )
+    editor.set(height=height, angle=angle, repeat=repeat, remove_own=remove_own, mode=mode)
+    return _without_region(editor.mesh)
