@@ -61,6 +61,7 @@ Json analyze_json(const AnalyzeCommandOptions& options, const AnalyzeRun& run) {
   json["precision"] = options.precision.value_or(AnalyzeOptions{}.precision);
   add_star_report(encoded.star, json);
   json["signed"] = options.allow_signed;
+  json["signed_sum"] = analysis.expansion.signed_sum;
   json["counts"] = {{"vertices", encoded.vertices},
                     {"faces", encoded.faces},
                     {"edges", encoded.edges},

@@ -273,7 +273,7 @@ std::vector<Option> option_list(Options& o) {
            .help = "measure copies with the triangles in random order, too",
            .target = &o.shuffle},
           {.name = "signed",
-           .help = "accept a surface that is not star-shaped: the alternating sum of its radii",
+           .help = "accept a surface that is not star-shaped: the signed sum of its radii",
            .target = &o.allow_signed},
           json_option(o.json)};
 }

@@ -366,6 +366,7 @@ int report_coefficients(const Options& options, const CoefficientsFile& file, Se
   json["truncation_rms"] = json_of(rms_beyond(expansion).rms.back());
   json["errors"] = json_of(expansion.errors);
   json["diagonal"] = expansion.errors ? Json(expansion.errors->diagonal) : Json(nullptr);
+  json["signed_sum"] = expansion.signed_sum;
   json.update(measures_json(measures));
   std::string text = fmt::format("{}: coefficients, {}\n", display_name(options.input), format);
   text += line("degree", fmt::format("{}", expansion.coefficients.degree()));
@@ -377,11 +378,15 @@ int report_coefficients(const Options& options, const CoefficientsFile& file, Se
   for (const std::string& assumed : file.assumed) text += line("assumed", assumed);
   if (!file.product.empty()) text += line("of", file.product + ", no shape");
   for (const std::string& what : file.passed_over) text += line("not used", what);
-  if (measures) {
-    text += line("volume", text_of(measures->volume));
-    text += line("area", text_of(measures->area));
-    text += line("sphericity", text_of(measures->sphericity()));
-    text += line("volume centroid", text_of(measures->centroid));
+  if (measures && measures->volume && measures->area && measures->centroid) {
+    text += line("volume", text_of(*measures->volume));
+    text += line("area", text_of(*measures->area));
+    text += line("sphericity", text_of(*measures->sphericity()));
+    text += line("volume centroid", text_of(*measures->centroid));
+  }
+  if (expansion.signed_sum) {
+    text += line("signed sum", "of a surface that is not star-shaped");
+    text += line("volume, area", "not known: those of the sum are not the body's");
   }
   text += expansion.errors ? errors_text(*expansion.errors) : unmeasured_text(expansion);
   options.json ? print_json(json) : print_text(text);

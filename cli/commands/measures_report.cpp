@@ -25,10 +25,11 @@ MeasuresReport measures_of(const Expansion& expansion, const Context& context) {
 
 Json measures_json(const std::optional<SurfaceMeasures>& measures) {
   Json json;
-  json["volume"] = measures ? Json(measures->volume) : Json(nullptr);
-  json["area"] = measures ? Json(measures->area) : Json(nullptr);
-  json["sphericity"] = measures ? Json(measures->sphericity()) : Json(nullptr);
-  json["volume_centroid"] = measures ? json_of(measures->centroid) : Json(nullptr);
+  const SurfaceMeasures known = measures.value_or(SurfaceMeasures{});
+  json["volume"] = json_of(known.volume);
+  json["area"] = json_of(known.area);
+  json["sphericity"] = json_of(known.sphericity());
+  json["volume_centroid"] = known.centroid ? json_of(*known.centroid) : Json(nullptr);
   return json;
 }
 

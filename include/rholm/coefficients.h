@@ -91,11 +91,18 @@ struct Expansion {
   std::optional<double> tail_strength = {};
   // Of all its degrees; they do not hold when it is cut off.
   std::optional<TruncationErrors> errors = {};
+  // Made of a surface that is not star-shaped: the function is the signed sum of the radii along
+  // each direction, and the volume and the area of its graph are not those of the body.
+  bool signed_sum = false;
 };
 
 // Throws Unsupported for coefficients that are said not to be of a surface (kOther); looks at no
 // number, so that the radius may still be negative somewhere.
 void require_surface(const Expansion& expansion);
+
+// Throws Unsupported for a signed sum, whose graph is not the surface of the body: `what` names
+// what is asked for ("the volume").
+void require_star_shaped(const Expansion& expansion, const std::string& what);
 
 // How numbers of a file are scaled: what the mean square of each harmonic over the sphere is.
 enum class Normalization {

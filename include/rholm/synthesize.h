@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,15 +27,16 @@ Mesh synthesize(const Expansion& expansion, const Mesh& sphere, const Context& c
 // a vertex lies on the centre.
 Mesh directions_of(const Mesh& mesh, const Vec3& center);
 
-// Of the solid bounded by the surface of an expansion, in its unit.
+// Of the solid bounded by the surface of an expansion, in its unit. All are empty for a signed sum
+// (Expansion::signed_sum), whose graph bounds another solid than the body.
 struct SurfaceMeasures {
-  double volume = 0;  // cubed
-  double area = 0;    // squared; of the surface
-  Vec3 centroid;      // of the solid, in the coordinates of the shape
+  std::optional<double> volume;  // cubed
+  std::optional<double> area;    // squared; of the surface
+  std::optional<Vec3> centroid;  // of the solid, in the coordinates of the shape
 
   // The area of the ball of the same volume over the area, at most 1 (Wadell 1935); 0 for a solid
-  // without volume.
-  double sphericity() const;
+  // without volume, empty where volume or area is.
+  std::optional<double> sphericity() const;
 };
 // By quadrature on a grid: exact for volume and centroid of a radius, converged to about 1e-12 for
 // area (smooth, star-shaped).
@@ -43,7 +45,8 @@ SurfaceMeasures measure(const Expansion& expansion, const Context& context = {})
 // The tensor of inertia of that solid about its centroid, of density 1, in the fifth power of the
 // unit: the rows of int (|x - c|^2 1 - (x - c)(x - c)^T) dV, a symmetric matrix whose eigenvectors
 // are the axes of inertia, that of the smallest value the longest. Exact for a radius. Throws
-// Unsupported for what is no surface, InvalidInput where there is no volume or the power overflows.
+// Unsupported for what is no surface and for a signed sum, InvalidInput where there is no volume or
+// the power overflows.
 std::array<Vec3, 3> inertia(const Expansion& expansion, const Context& context = {});
 
 }  // namespace rholm

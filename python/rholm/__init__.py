@@ -239,6 +239,7 @@ from ._surfaces import (
     distances_to_surface,
     inertia,
     measure,
+    require_star_shaped,
     require_surface,
     synthesize,
 )
@@ -436,6 +437,7 @@ __all__ = [
     "render",
     "repair",
     "report_html",
+    "require_star_shaped",
     "require_surface",
     "rms_beyond",
     "rotate",

@@ -768,7 +768,7 @@ class TruncationErrors:
 class Expansion:
     """A surface as coefficients."""
 
-    def __init__(self, coefficients: Coefficients, function: str = 'radius', center: Sequence[float] | numpy.typing.NDArray[numpy.float64] = (0.0, 0.0, 0.0), unit: str = '', method: str = '', norm_squared: float | None = None, tail_strength: float | None = None, errors: TruncationErrors | None = None) -> None: ...
+    def __init__(self, coefficients: Coefficients, function: str = 'radius', center: Sequence[float] | numpy.typing.NDArray[numpy.float64] = (0.0, 0.0, 0.0), unit: str = '', method: str = '', norm_squared: float | None = None, tail_strength: float | None = None, errors: TruncationErrors | None = None, signed_sum: bool = False) -> None: ...
 
     def __getstate__(self) -> tuple: ...
 
@@ -802,7 +802,12 @@ class Expansion:
     @property
     def errors(self) -> TruncationErrors | None: ...
 
+    @property
+    def signed_sum(self) -> bool: ...
+
 def require_surface(arg: Expansion, /) -> None: ...
+
+def require_star_shaped(arg0: Expansion, arg1: str, /) -> None: ...
 
 def check_unit(arg: str, /) -> None: ...
 
@@ -1721,19 +1726,19 @@ class SurfaceMeasures:
         """All fields by name; records within it are dicts, too."""
 
     @property
-    def volume(self) -> float:
-        """In the cubed unit."""
+    def volume(self) -> float | None:
+        """In the cubed unit. It is None for a signed sum, and so are the others."""
 
     @property
-    def area(self) -> float:
+    def area(self) -> float | None:
         """Of the surface, in the squared unit."""
 
     @property
-    def centroid(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
+    def centroid(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)] | None:
         """Of the solid, (3,)."""
 
     @property
-    def sphericity(self) -> float:
+    def sphericity(self) -> float | None:
         """The area of the ball of the same volume over the area, at most 1."""
 
 def measure(arg0: Expansion, arg1: Caller, /) -> SurfaceMeasures: ...

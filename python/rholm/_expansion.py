@@ -145,29 +145,42 @@ class Expansion:
         return self._encoded
 
     @property
-    def mean_radius(self) -> float:
-        """Mean of r over directions, of a gauge 1 / the mean of 1/r."""
+    def signed_sum(self) -> bool:
+        """Whether it is the signed sum of the radii of a surface that is not star-shaped.
+
+        Such an expansion does not give back the body: `volume`, `area`, `centroid`, `sphericity` and
+        `mean_radius` are None.
+        """
+        return self._core.signed_sum
+
+    @property
+    def mean_radius(self) -> float | None:
+        """Mean of r over directions, of a gauge 1 / the mean of 1/r. None for a signed sum."""
+        if self.signed_sum:
+            return None
         mean = float(self._core.coefficients.values[0, 0, 0]) / float(np.sqrt(4 * np.pi))
         return 1 / mean if self.function == "gauge" else mean
 
     @property
-    def volume(self) -> float:
-        """Of the solid, in the cubed unit; exact for a radius."""
+    def volume(self) -> float | None:
+        """Of the solid, in the cubed unit; exact for a radius. None for a signed sum."""
         return self.measure().volume
 
     @property
-    def area(self) -> float:
-        """Of the surface, in the squared unit; to about 1e-12."""
+    def area(self) -> float | None:
+        """Of the surface, in the squared unit; to about 1e-12. None for a signed sum."""
         return self.measure().area
 
     @property
-    def centroid(self) -> FloatArray:
-        """Of the solid, in the coordinates of the shape, (3,)."""
+    def centroid(self) -> FloatArray | None:
+        """Of the solid, in the coordinates of the shape, (3,). None for a signed sum."""
         return self.measure().centroid
 
     @property
-    def sphericity(self) -> float:
-        """The area of the ball of the same volume over the area (Wadell 1935), at most 1."""
+    def sphericity(self) -> float | None:
+        """The area of the ball of the same volume over the area (Wadell 1935), at most 1; None for a
+        signed sum.
+        """
         return self.measure().sphericity
 
     def measure(self, *, threads: int = 0) -> _core.SurfaceMeasures:
@@ -520,7 +533,8 @@ class Expansion:
             return NotImplemented
         self._require_linear("multiplied by a number")
         function = "radius" if self.function == "radius" and factor > 0 else "other"
-        return self._linear(float(factor) * self._core.coefficients.values, function, f"times {factor:g}")
+        values = float(factor) * self._core.coefficients.values
+        return self._linear(values, function, f"times {factor:g}", self.signed_sum)
 
     __rmul__ = __mul__
 
@@ -557,7 +571,8 @@ class Expansion:
         # Radii add up to radii; what two of them differ by is a function that may be negative.
         surfaces = [self.function, other.function].count("radius")
         function = "radius" if surfaces and not (sign < 0 and other.function == "radius") else "other"
-        return self._linear(a + sign * b, function, "sum" if sign > 0 else "difference")
+        signed = self.signed_sum or other.signed_sum
+        return self._linear(a + sign * b, function, "sum" if sign > 0 else "difference", signed)
 
     def _require_linear(self, what: str) -> None:
         if self.function == "gauge":
@@ -566,9 +581,10 @@ class Expansion:
                 "with another method, or scale()"
             )
 
-    def _linear(self, values: FloatArray, function: str, method: str) -> Expansion:
+    def _linear(self, values: FloatArray, function: str, method: str, signed: bool) -> Expansion:
         core = from_convention(values, "orthonormal")
-        return Expansion._of(_core.Expansion(core, function, tuple(self.center), self.unit, method))
+        known = (function, tuple(self.center), self.unit, method)
+        return Expansion._of(_core.Expansion(core, *known, signed_sum=signed))
 
     # To others
 

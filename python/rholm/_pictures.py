@@ -433,8 +433,9 @@ def expansion_html(expansion: Expansion) -> str:
         figure = _figure(expansion)
         try:
             measures = expansion.measure()
-            rows.append(("volume", f"{measures.volume:.6g}{unit and unit + '³'}"))
-            rows.append(("area", f"{measures.area:.6g}{unit and unit + '²'}"))
+            for name, value, power in (("volume", measures.volume, "³"), ("area", measures.area, "²")):
+                text = "not known" if value is None else f"{value:.6g}{unit and unit + power}"
+                rows.append((name, text))
         except Error:
             pass  # a series that crosses its centre has neither
     errors = expansion.errors

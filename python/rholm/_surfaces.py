@@ -143,6 +143,24 @@ def synthesize(model: Any, **options: Any) -> Mesh:
     return as_expansion(model).mesh(**options)
 
 
+def require_star_shaped(expansion: Expansion, what: str) -> None:
+    """Raises UnsupportedError for a signed sum, whose graph is not the surface of the body.
+
+    Parameters
+    ----------
+    expansion : Expansion
+        What is asked about.
+    what : str
+        What is asked for, as the message calls it: "the volume".
+
+    Raises
+    ------
+    UnsupportedError
+        If `Expansion.signed_sum` is true.
+    """
+    _core.require_star_shaped(as_expansion(expansion)._core, what)
+
+
 def require_surface(expansion: Expansion) -> None:
     """Raises UnsupportedError if the coefficients are said to be of something else than a surface.
 

@@ -142,7 +142,8 @@ void bind_expansion(nb::module_& m) {
       type,
       [](const Expansion& e) {
         return nb::make_tuple(e.coefficients, static_cast<int>(e.function), state_of(e.center),
-                              e.unit, e.method, e.norm_squared, e.tail_strength, e.errors);
+                              e.unit, e.method, e.norm_squared, e.tail_strength, e.errors,
+                              e.signed_sum);
       },
       [](const nb::object& state) {
         const auto parts = nb::cast<nb::tuple>(state);
@@ -155,6 +156,7 @@ void bind_expansion(nb::module_& m) {
         e.norm_squared = nb::cast<std::optional<double>>(parts[5]);
         e.tail_strength = nb::cast<std::optional<double>>(parts[6]);
         e.errors = nb::cast<std::optional<TruncationErrors>>(parts[7]);
+        e.signed_sum = parts.size() > 8 && nb::cast<bool>(parts[8]);
         return e;
       });
   type.def(
@@ -168,7 +170,7 @@ void bind_expansion(nb::module_& m) {
           [](Expansion* self, const Coefficients& coefficients, const std::string& function,
              const Vec3& center, const std::string& unit, const std::string& method,
              std::optional<double> norm_squared, std::optional<double> tail_strength,
-             const std::optional<TruncationErrors>& errors) {
+             const std::optional<TruncationErrors>& errors, bool signed_sum) {
             if (!is_finite(center)) {
               throw Error(ErrorCode::kInvalidInput, "the centre is not finite");
             }
@@ -176,12 +178,14 @@ void bind_expansion(nb::module_& m) {
             new (self) Expansion{coefficients,  parse_radial_function(function),
                                  center,        unit,
                                  method,        norm_squared,
-                                 tail_strength, errors};
+                                 tail_strength, errors,
+                                 signed_sum};
           },
           nb::arg("coefficients"), nb::arg("function") = "radius",
           nb::arg("center") = nb::make_tuple(0.0, 0.0, 0.0), nb::arg("unit") = "",
           nb::arg("method") = "", nb::arg("norm_squared") = nb::none(),
-          nb::arg("tail_strength") = nb::none(), nb::arg("errors") = nb::none())
+          nb::arg("tail_strength") = nb::none(), nb::arg("errors") = nb::none(),
+          nb::arg("signed_sum") = false)
       .def_prop_ro("coefficients", [](const Expansion& e) { return e.coefficients; })
       .def_prop_ro("function", [](const Expansion& e) { return to_string(e.function); })
       .def_prop_ro(
@@ -197,8 +201,10 @@ void bind_expansion(nb::module_& m) {
       .def_ro("method", &Expansion::method)
       .def_ro("norm_squared", &Expansion::norm_squared)
       .def_ro("tail_strength", &Expansion::tail_strength)
-      .def_ro("errors", &Expansion::errors);
+      .def_ro("errors", &Expansion::errors)
+      .def_ro("signed_sum", &Expansion::signed_sum);
   m.def("require_surface", &require_surface);
+  m.def("require_star_shaped", &require_star_shaped);
   m.def("check_unit", &check_unit);
   m.def("metres_of", &metres_of);
   m.def("scaled", &scaled);

@@ -2,6 +2,7 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,12 @@
 
 namespace rholm::python {
 
+// A point that may be missing, as it is pickled and compared.
+template <>
+nb::object state_of(const std::optional<Vec3>& value) {
+  return value ? state_of(*value) : nb::none();
+}
+
 void bind_surfaces(nb::module_& m) {
   m.def("synthesize", [](const Expansion& expansion, const Mesh& sphere,
                          const std::vector<int>& degrees, const Caller& caller) {
@@ -25,9 +32,18 @@ void bind_surfaces(nb::module_& m) {
   });
   m.def("directions_of", unlocked_function(&directions_of));
   Record<SurfaceMeasures>(m, "SurfaceMeasures", "Of the solid bounded by a surface.")
-      .field("volume", &SurfaceMeasures::volume, "In the cubed unit.")
+      .field("volume", &SurfaceMeasures::volume,
+             "In the cubed unit. It is None for a signed sum, and so are the others.")
       .field("area", &SurfaceMeasures::area, "Of the surface, in the squared unit.")
-      .field("centroid", &SurfaceMeasures::centroid, "Of the solid, (3,).")
+      .hidden("centroid",
+              [](SurfaceMeasures& measures) -> std::optional<Vec3>& { return measures.centroid; })
+      .property(
+          "centroid",
+          [](const SurfaceMeasures& measures) -> std::optional<ReadOnlyDoubles> {
+            if (!measures.centroid) return std::nullopt;
+            return read_only(*measures.centroid);
+          },
+          "Of the solid, (3,).")
       .property(
           "sphericity", [](const SurfaceMeasures& measures) { return measures.sphericity(); },
           "The area of the ball of the same volume over the area, at most 1.");

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 import subprocess
 
 import numpy as np
@@ -284,6 +285,34 @@ def test_what_is_not_star_shaped_is_refused_or_signed(ring):
     assert isinstance(refusal.value, ValueError)
     assert isinstance(refusal.value, rholm.InvalidInputError)
     assert rholm.expand(ring, 4, signed=True, center=(2, 0, 0)).degree == 4
+
+
+def test_a_signed_sum_has_no_figures_of_the_body(ring):
+    s = rholm.expand(ring, 4, signed=True, center=(0, 0, 0))
+    assert s.signed_sum
+    for figure in (s.volume, s.area, s.centroid, s.sphericity, s.mean_radius, s.errors, s.norm_squared):
+        assert figure is None
+    measures = s.measure()
+    assert all(value is None for value in measures.to_dict().values())
+    assert measures == pickle.loads(pickle.dumps(measures))
+    for of_the_body in (s.inertia, s.recenter, lambda: rholm.volume_centroid(s)):
+        with pytest.raises(rholm.UnsupportedError, match="signed sum"):
+            of_the_body()
+    with pytest.raises(rholm.UnsupportedError, match="the volume"):
+        rholm.require_star_shaped(s, "the volume")
+    assert "not known" in s._repr_html_()
+    for kept in (
+        s.with_unit("km"),
+        s.rotate(rholm.rotation_about((0, 0, 1), 0.5)),
+        s.low_pass(3),
+        s.truncate(2),
+        s.scale(2),
+        2 * s,
+        s + s,
+        pickle.loads(pickle.dumps(s)),
+    ):
+        assert kept.signed_sum
+    assert not rholm.expand(rholm.icosphere(2), 4, signed=True).signed_sum
 
 
 def test_what_is_left_out_is_known_or_nan(bumpy):

@@ -180,6 +180,7 @@ Analysis analyze_without_norms(const StarChart& chart, const AnalyzeOptions& opt
 Analysis analyze(const StarChart& chart, const AnalyzeOptions& options, const Context& context) {
   check(options);
   Analysis analysis = analyze_without_norms(chart, options, context);
+  analysis.expansion.signed_sum = !chart.report.star_shaped;
   if (chart.report.star_shaped) {
     const StageTimer timer(analysis.times, "norms");
     const bool gauge = options.method == Method::kGauge;

@@ -229,7 +229,34 @@ class Analyze(CliTest):
         # The torus's best centre lies in the hole, off the surface.
         result = self.rholm(*words, "--signed", "--center", "none", "--json")
         self.assertFalse(result.json()["star_shaped"])
+        self.assertTrue(result.json()["signed_sum"])
         self.assertIn("signed sum", result.err)
+
+    def test_a_signed_sum_has_no_figures_of_the_body(self):
+        self.rholm("make", "torus", "--segments", "24x12", "-o", "t.ply")
+        words = ["analyze", "t.ply", "--degree", "4", "--signed", "--center", "none"]
+        for name, more in (("t.h5", []), ("t.sh", []), ("t.gfc", []), ("t.json", []),
+                           ("d.h5", ["--engine", "direct"]), ("g.h5", ["--method", "gauge"]),
+                           ("m.h5", ["--method", "monte-carlo-edge", "--samples", "4"])):
+            self.rholm(*words, *more, "-o", name)
+            info = self.rholm("info", name, "--json").json()
+            self.assertTrue(info["signed_sum"], name)
+            for figure in ("volume", "area", "sphericity", "volume_centroid", "truncation_rms"):
+                self.assertIsNone(info[figure], (name, figure))
+        self.assertIn("not known", self.rholm("info", "t.h5").out)
+        for command in (["rotate", "t.h5", "--euler", "10,20,30", "-o"],
+                        ["filter", "t.h5", "--low-pass", "3", "-o"], ["convert", "t.h5"]):
+            self.rholm(*command, "u.json")
+            self.assertTrue(self.rholm("info", "u.json", "--json").json()["signed_sum"], command)
+        self.assertIn("signed sum", self.rholm("recenter", "t.h5", "-o", "v.h5", code=3).err)
+        self.rholm("report", "t.h5", "-o", "t.html")
+        self.assertIn("not known", (self.folder / "t.html").read_text())
+        # What is star-shaped is none, though one may have been allowed.
+        self.rholm("make", "bumpy", "-o", "b.ply")
+        self.rholm("analyze", "b.ply", "--degree", "4", "--signed", "-o", "b.h5")
+        info = self.rholm("info", "b.h5", "--json").json()
+        self.assertFalse(info["signed_sum"])
+        self.assertGreater(info["volume"], 0)
 
     # Faces of an ellipsoid leave less than what coefficients of the precision 1e-8 tell.
     def test_truncation_error_below_the_precision_is_not_known(self):

@@ -43,8 +43,8 @@ void synthesize() {
   sphere.coefficients.c(0, 0) = 2 * std::sqrt(4 * std::numbers::pi);
   sphere.center = {5, 0, 0};
   const rholm::SurfaceMeasures measures = rholm::measure(sphere);
-  expect_near(measures.volume, 32 * std::numbers::pi / 3, 1e-10, "the volume of a sphere");
-  expect_near(measures.area, 16 * std::numbers::pi, 1e-10, "the area of a sphere");
+  expect_near(measures.volume.value(), 32 * std::numbers::pi / 3, 1e-10, "the volume of a sphere");
+  expect_near(measures.area.value(), 16 * std::numbers::pi, 1e-10, "the area of a sphere");
   const rholm::Mesh surface = rholm::synthesize(sphere, rholm::icosphere(1));
   expect_near(rholm::norm(surface.vertices[7] - sphere.center), 2, 1e-12, "a vertex of a sphere");
 }

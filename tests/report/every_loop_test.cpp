@@ -250,7 +250,7 @@ TEST(every_loop, gives_the_same_bits_for_surfaces_of_expansions_and_their_distan
         .add(in_portions.a_to_b.rms)
         .add(found.a_to_b.rms)
         .add(found.b_to_a.mean)
-        .add(measure(expansion, context).area)
+        .add(measure(expansion, context).area.value())
         .add(distances_to_surface(mesh.vertices, sphere, context));
   });
 }

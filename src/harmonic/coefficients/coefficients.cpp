@@ -70,6 +70,15 @@ void require_surface(const Expansion& expansion) {
               "gravity field is: there is no surface to make, measure or compare");
 }
 
+void require_star_shaped(const Expansion& expansion, const std::string& what) {
+  if (!expansion.signed_sum) return;
+  throw Error(
+      ErrorCode::kUnsupported,
+      "the expansion is the signed sum of the radii of a surface that is not star-shaped: " + what +
+          " would not be of the body; make an atlas of it (compress(), 'rholm analyze "
+          "--atlas')");
+}
+
 const char* to_string(Normalization normalization) {
   switch (normalization) {
     case Normalization::kOrthonormal:

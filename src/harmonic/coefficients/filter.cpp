@@ -198,6 +198,7 @@ Expansion filter(const Expansion& expansion, std::span<const double> gains,
   result.function = expansion.function;
   result.center = expansion.center;
   result.unit = expansion.unit;
+  result.signed_sum = expansion.signed_sum;
   const std::string method = expansion.method.empty() ? name : expansion.method + ", " + name;
   result.method = method.size() <= kMaxMethodLength ? method : name.substr(0, kMaxMethodLength);
   result.errors =

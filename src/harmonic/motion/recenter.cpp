@@ -219,6 +219,7 @@ Sight sight_from(const Expansion& expansion, const Vec3& d, const Context& conte
 
 Vec3 way_to(const Expansion& expansion, const Vec3& center) {
   require_surface(expansion);
+  require_star_shaped(expansion, "what is seen from another centre");
   const Vec3 d = center - expansion.center;
   if (!is_finite(d)) throw Error(ErrorCode::kInvalidInput, "the new centre is not finite");
   return d;
@@ -228,6 +229,7 @@ Vec3 way_to(const Expansion& expansion, const Vec3& center) {
 
 Vec3 volume_centroid(const Expansion& expansion, const Context& context) {
   require_surface(expansion);
+  require_star_shaped(expansion, "the centroid");
   // r^4 u has degree 4 L + 1.
   const Grid grid = grid_for(expansion.coefficients.degree(), 3);
   std::vector<double> r = synthesize_grid(expansion.coefficients, grid, context);

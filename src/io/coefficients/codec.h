@@ -22,6 +22,7 @@ struct ParsedCoefficients {
   std::string method = {};
   std::optional<double> norm_squared = {};
   std::optional<double> tail_strength = {};
+  bool signed_sum = false;
   std::string product = {};                   // what it is of, if that is no shape
   std::vector<std::string> passed_over = {};  // what it says and what is not used
 };

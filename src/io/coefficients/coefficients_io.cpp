@@ -152,6 +152,7 @@ CoefficientsFile parse_coefficients(std::span<const char> bytes, const std::stri
   expansion.method = std::move(parsed.method);
   expansion.norm_squared = parsed.norm_squared;
   expansion.tail_strength = parsed.tail_strength;
+  expansion.signed_sum = parsed.signed_sum;
   file.product = std::move(parsed.product);
   file.passed_over = std::move(parsed.passed_over);
   check_expansion(expansion, name);

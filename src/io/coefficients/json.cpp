@@ -85,8 +85,8 @@ class Handler : public nlohmann::json_sax<nlohmann::json> {
 
 bool Handler::is_known_key() const {
   static const std::set<std::string_view> kKnown = {
-      "format", "version", "degree", "normalization", "csphase",       "function",
-      "center", "unit",    "method", "norm_squared",  "tail_strength", "coefficients"};
+      "format", "version", "degree",       "normalization", "csphase",    "function",    "center",
+      "unit",   "method",  "norm_squared", "tail_strength", "signed_sum", "coefficients"};
   return kKnown.contains(key_);
 }
 
@@ -190,6 +190,9 @@ void Handler::top_number(double value) {
     parsed_.norm_squared = value;
   } else if (key_ == "tail_strength") {
     parsed_.tail_strength = value;
+  } else if (key_ == "signed_sum") {
+    if (value != 0 && value != 1) refuse(fmt::format("signed_sum is {}: it must be 0 or 1", value));
+    parsed_.signed_sum = value == 1;
   } else if (is_known_key()) {
     refuse_kind("a number");
   }
@@ -298,6 +301,7 @@ std::string format_json(const Expansion& expansion, const Coefficients& external
     text += ",\n\"tail_strength\":";
     append_number(text, *expansion.tail_strength);
   }
+  if (expansion.signed_sum) text += ",\n\"signed_sum\":1";
   text += ",\n\"coefficients\":{\"C\":";
   append_rows(text, external, false);
   text += ",\n\"S\":";

@@ -170,6 +170,7 @@ std::vector<std::pair<std::string, std::string>> describe(const Expansion& expan
   if (expansion.tail_strength) {
     pairs.emplace_back("tail_strength", format_shortest(*expansion.tail_strength));
   }
+  if (expansion.signed_sum) pairs.emplace_back("signed_sum", "1");
   return pairs;
 }
 
@@ -195,6 +196,11 @@ bool take_description(std::string_view key, std::string_view value, const TextLi
     set_once(parsed.norm_squared, parse_finite(value, "norm_squared", line), key, line);
   } else if (key == "tail_strength") {
     set_once(parsed.tail_strength, parse_finite(value, "tail_strength", line), key, line);
+  } else if (key == "signed_sum") {
+    if (value != "0" && value != "1") {
+      refuse_line(line, "signed_sum is " + in_quotes(value) + ": it must be 0 or 1");
+    }
+    parsed.signed_sum = value == "1";
   } else {
     return false;
   }

@@ -78,7 +78,8 @@ class CoefficientTable {
 };
 
 // What text files say beside the numbers, as keys and values in the order of writing: function,
-// center, unit, method, norm_squared, tail_strength. What an expansion does not know is left out.
+// center, unit, method, norm_squared, tail_strength, signed_sum. What an expansion does not know is
+// left out.
 std::vector<std::pair<std::string, std::string>> describe(const Expansion& expansion);
 // The inverse, one key at a time, and csphase. False if the key is none of these. Throws
 // InvalidInput for a value that cannot be, or a key given twice.

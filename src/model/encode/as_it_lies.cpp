@@ -156,7 +156,7 @@ class AsItLies {
     add_errors(sites, paired, options_, context_, encoded_);
   }
 
-  // The alternating sum of a surface some of whose faces turn their backs: no norms, no errors, but
+  // The signed sum of a surface some of whose faces turn their backs: no norms, no errors, but
   // how many directions meet it more than once.
   void finish_signed() {
     const int rays = options_.chart.center.rays;
@@ -166,6 +166,7 @@ class AsItLies {
       encoded_.star = timed(encoded_.times, "rays",
                             [&] { return check_star(mesh_, center(), rays, context_); });
     }
+    analysis().expansion.signed_sum = true;
     finish_analysis(options_.analyze, center(), analysis());
   }
 

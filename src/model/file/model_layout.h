@@ -7,7 +7,7 @@ namespace rholm::layout {
 
 inline constexpr const char* kFormatName = "rholm-model";
 inline constexpr int kMajor = 1;
-inline constexpr int kMinor = 2;
+inline constexpr int kMinor = 3;
 
 // Root attributes
 inline constexpr const char* kFormat = "format";
@@ -27,6 +27,7 @@ inline constexpr const char* kUnit = "unit";
 inline constexpr const char* kMethod = "method";
 inline constexpr const char* kNormSquared = "norm_squared";
 inline constexpr const char* kTailStrength = "tail_strength";
+inline constexpr const char* kSignedSum = "signed_sum";
 inline constexpr const char* kErrorRms = "error_rms";
 inline constexpr const char* kErrorRmsIsExact = "error_rms_is_exact";
 inline constexpr const char* kDistancesAreClosest = "error_distances_are_closest";

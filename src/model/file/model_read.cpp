@@ -154,6 +154,8 @@ class ModelReader {
     expansion.method = optional_text(group, layout::kMethod);
     expansion.norm_squared = optional_number(group, layout::kNormSquared);
     expansion.tail_strength = optional_number(group, layout::kTailStrength);
+    expansion.signed_sum = hdf5::find_attribute(file_, group, layout::kSignedSum) &&
+                           integer(group, layout::kSignedSum) == 1;
     expansion.errors = read_errors(group);
     check_crc32(group, array, expansion);
     check_expansion(expansion, file_.name);

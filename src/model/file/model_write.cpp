@@ -66,6 +66,7 @@ void write_expansion(const Writer& writer, hid_t group, const Expansion& expansi
   if (expansion.tail_strength) {
     writer.write_attribute(group, layout::kTailStrength, *expansion.tail_strength);
   }
+  if (expansion.signed_sum) writer.write_attribute(group, layout::kSignedSum, 1);
   if (expansion.errors) write_errors(writer, group, *expansion.errors);
 }
 

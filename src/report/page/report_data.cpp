@@ -185,7 +185,7 @@ Data find_data(const Expansion& expansion, std::optional<ShapeFigures> shape,
   if (degree <= kHighestDrawn) {
     data.model = unless_refused([&] { return measure(expansion, context); });
   }
-  if (expansion.function == RadialFunction::kRadius) {
+  if (expansion.function == RadialFunction::kRadius && !expansion.signed_sum) {
     data.mean_radius = expansion.coefficients.c(0, 0) / std::sqrt(4 * std::numbers::pi);
   }
   return data;

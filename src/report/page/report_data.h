@@ -58,8 +58,8 @@ struct Data {
   std::vector<DegreeRow> rows;             // ascending, the last one the model's own
   std::optional<TruncationErrors> errors;  // of the model's own degree
   std::optional<SurfaceMeasures> model;    // none above kHighestDrawn, or without a surface
-  double mean_radius = 0;                  // of the model, over solid angle; 0 for a gauge
-  double diagonal = 0;                     // of the shape; 0 if unknown
+  double mean_radius = 0;  // of the model, over solid angle; 0 for a gauge and for a signed sum
+  double diagonal = 0;     // of the shape; 0 if unknown
 };
 
 Data find_data(const Expansion& expansion, std::optional<ShapeFigures> shape,

@@ -14,6 +14,7 @@ namespace rholm::report {
 namespace {
 
 constexpr const char* kDash = "&#8211;";
+constexpr const char* kNotKnown = "not known";
 
 std::string length_cell(const std::optional<double>& value, const Data& data) {
   return two_lines(html::length(value, ""), of_diagonal(value, data));
@@ -49,10 +50,11 @@ std::vector<Known> known_errors(const TruncationErrors& e) {
 std::string yes_or_no(bool yes) { return yes ? "yes" : "no"; }
 
 // A value of the model, and how far it is from the shape's.
-std::string beside(double model, const std::optional<double>& shape) {
-  std::string text = html::number(model, 6);
-  if (!shape || !(*shape != 0) || !std::isfinite(model / *shape)) return text;
-  const double difference = 100 * (model / *shape - 1);
+std::string beside(const std::optional<double>& model, const std::optional<double>& shape) {
+  if (!model) return kNotKnown;
+  std::string text = html::number(*model, 6);
+  if (!shape || !(*shape != 0) || !std::isfinite(*model / *shape)) return text;
+  const double difference = 100 * (*model / *shape - 1);
   const char* sign = difference < 0 ? "&#8722;" : "+";
   return two_lines(text, fmt::format("{}{}&nbsp;%", sign, html::number(std::abs(difference), 2)));
 }
@@ -81,7 +83,10 @@ void add_measures(const Data& data, const std::string& unit, std::vector<Row>& r
       model ? beside(data.model->volume, volume) : kDash);
   row(of_unit("area", "&#178;"), shape_area, model ? beside(data.model->area, area) : kDash);
   row(of_unit("centre of the solid (<i>x</i>, <i>y</i>, <i>z</i>)", ""), shape_centre,
-      model ? point_text(data.model->centroid, std::max(data.diagonal, data.mean_radius)) : kDash);
+      !model ? kDash
+      : data.model->centroid
+          ? point_text(*data.model->centroid, std::max(data.diagonal, data.mean_radius))
+          : kNotKnown);
 }
 
 }  // namespace

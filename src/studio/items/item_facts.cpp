@@ -48,10 +48,12 @@ void add_mesh_facts(const Item& item, Json& facts) {
   if (found.closed && found.manifold && found.genus > 0) {
     add(facts, "Handles", grouped(found.genus));
   }
+  // The surface of a model that is a signed sum is not that of the body.
+  const bool of_sum = item.model && !item.model->original && item.model->expansion.signed_sum;
   if (found.closed && found.oriented) {
     const double volume = item.volume.value_or(found.volume);
     const std::string cubed = item.unit.empty() ? "" : " " + item.unit + "\u00b3";
-    add(facts, "Volume", fmt::format("{:.5g}{}", std::abs(volume), cubed));
+    add(facts, "Volume", of_sum ? "not known" : fmt::format("{:.5g}{}", std::abs(volume), cubed));
   }
   if (item.facts->star) add(facts, "Star-shaped", item.facts->star->star_shaped ? "yes" : "no");
 }

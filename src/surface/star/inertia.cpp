@@ -46,6 +46,7 @@ struct Moments {
 }  // namespace
 
 std::array<Vec3, 3> inertia(const Expansion& expansion, const Context& context) {
+  require_star_shaped(expansion, "the tensor of inertia");
   const UnitExpansion unit = unit_expansion(expansion);
   Moments moments;
   for_each_node(

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "base/compensated_sum.h"
@@ -38,14 +39,16 @@ struct Sums {
 
 }  // namespace
 
-double SurfaceMeasures::sphericity() const {
-  if (!(volume > 0) || !(area > 0)) return 0;
-  const double edge = std::cbrt(volume);
-  return std::cbrt(36 * std::numbers::pi) * edge * (edge / area);
+std::optional<double> SurfaceMeasures::sphericity() const {
+  if (!volume || !area) return std::nullopt;
+  if (!(*volume > 0) || !(*area > 0)) return 0;
+  const double edge = std::cbrt(*volume);
+  return std::cbrt(36 * std::numbers::pi) * edge * (edge / *area);
 }
 
 SurfaceMeasures measure(const Expansion& expansion, const Context& context) {
   const UnitExpansion unit = unit_expansion(expansion);
+  if (expansion.signed_sum) return {};
   const std::array<Coefficients, 3> gradient = solid_gradient(unit.coefficients);
   struct Rings {
     std::vector<double> values;

@@ -183,6 +183,7 @@ MonteCarlo monte_carlo(const StarChart& chart, const MonteCarloOptions& options,
   result.expansion.coefficients = scaled(mean_of(moments), unscale);
   result.expansion.center = chart.report.center;
   result.expansion.method = to_string(options.places);
+  result.expansion.signed_sum = !chart.report.star_shaped;
   if (chart.report.star_shaped) set_norms(chart, result);
   return result;
 }

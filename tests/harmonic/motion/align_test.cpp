@@ -465,6 +465,11 @@ TEST(recenter, centres_from_which_the_surface_is_not_seen_are_refused) {
   EXPECT_EQ(code(e, {0, 0, 0.1}), ErrorCode::kInvalidInput);
   EXPECT_EQ(code(expansion_of(Coefficients(2), {}), {0.1, 0, 0}), ErrorCode::kInvalidInput);
   expect_refused([] { volume_centroid(expansion_of(Coefficients(2), {})); });
+  Expansion sum = expansion_of(body(6, 1), {});
+  sum.signed_sum = true;
+  EXPECT_EQ(code(sum, {0.01, 0, 0}), ErrorCode::kUnsupported);
+  EXPECT_THROW(volume_centroid(sum), Error);
+  EXPECT_THROW(seen_center(sum, {0.01, 0, 0}), Error);
 }
 
 // A ball with a wide bulge upwards, which the centroid follows, and a narrow one to the side, whose

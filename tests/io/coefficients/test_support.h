@@ -34,6 +34,7 @@ inline Expansion random_expansion(int degree) {
   expansion.method = "edge";
   expansion.norm_squared = 1 / 7.0;
   expansion.tail_strength = 5e-324;
+  expansion.signed_sum = true;
   return expansion;
 }
 
@@ -54,6 +55,7 @@ inline void expect_same_description(const Expansion& a, const Expansion& b) {
   EXPECT_EQ(a.method, b.method);
   EXPECT_EQ(a.norm_squared, b.norm_squared);
   EXPECT_EQ(a.tail_strength, b.tail_strength);
+  EXPECT_EQ(a.signed_sum, b.signed_sum);
 }
 
 // The code of the error that `call` throws; its message must contain `words`.

@@ -129,7 +129,7 @@ TEST(report_data, largest_error_of_a_sphere_around_an_octahedron_is_at_the_faces
   ASSERT_TRUE(data.rows.back().max.has_value());
   EXPECT_LE(*data.rows.back().max, largest + 1e-9);
   EXPECT_GE(*data.rows.back().max, 0.97 * largest);
-  EXPECT_NEAR(data.model->volume, 4 * std::numbers::pi / 3, 1e-12);
+  EXPECT_NEAR(data.model->volume.value(), 4 * std::numbers::pi / 3, 1e-12);
 }
 
 TEST(report_data, an_open_mesh_has_distances_but_no_radial_errors) {

@@ -125,9 +125,9 @@ TEST(measure, volume_and_centroid_of_a_limacon_are_exact) {
   e.center = {10, 0, -5};
   const SurfaceMeasures m = measure(e);
   const double volume = 4 * kPi / 3 * (1 + b * b);
-  EXPECT_NEAR(m.volume, volume, 1e-13);
+  EXPECT_NEAR(m.volume.value(), volume, 1e-13);
   const double z = 4 * kPi * (b / 3 + b * b * b / 5) / volume;
-  EXPECT_LT(norm(m.centroid - Vec3{10, 0, -5 + z}), 1e-13);
+  EXPECT_LT(norm(m.centroid.value() - Vec3{10, 0, -5 + z}), 1e-13);
   // Area by its integral over z: 2 pi int r sqrt(r^2 + r'^2 (1 - z^2)) dz.
   double area = 0;
   const GaussRule rule = gauss_legendre(200);
@@ -135,7 +135,7 @@ TEST(measure, volume_and_centroid_of_a_limacon_are_exact) {
     const double t = rule.nodes[i], r = 1 + b * t;
     area += rule.weights[i] * 2 * kPi * r * std::sqrt(r * r + b * b * (1 - t * t));
   }
-  EXPECT_NEAR(m.area, area, 1e-12);
+  EXPECT_NEAR(m.area.value(), area, 1e-12);
 }
 
 // A sphere about a point that is not its centre has a radius of infinite degree; its gauge too.
@@ -160,10 +160,10 @@ TEST(measure, sphere_expanded_off_its_centre_keeps_volume_area_and_centroid) {
       }
     }
     const SurfaceMeasures m = measure(e);
-    EXPECT_NEAR(m.volume, 4 * kPi / 3, 1e-11);
-    EXPECT_NEAR(m.area, 4 * kPi, 1e-11);
-    EXPECT_LT(norm(m.centroid), 1e-11);
-    EXPECT_NEAR(m.sphericity(), 1, 1e-11);
+    EXPECT_NEAR(m.volume.value(), 4 * kPi / 3, 1e-11);
+    EXPECT_NEAR(m.area.value(), 4 * kPi, 1e-11);
+    EXPECT_LT(norm(m.centroid.value()), 1e-11);
+    EXPECT_NEAR(m.sphericity().value(), 1, 1e-11);
   }
 }
 
@@ -171,25 +171,38 @@ TEST(measure, sphere_expanded_off_its_centre_keeps_volume_area_and_centroid) {
 TEST(measure, sphericity_is_that_of_wadell_whatever_the_scale) {
   Expansion e = bulged_sphere();
   const SurfaceMeasures m = measure(e);
-  const double expected = std::pow(kPi, 1.0 / 3) * std::pow(6 * m.volume, 2.0 / 3) / m.area;
+  const double expected =
+      std::pow(kPi, 1.0 / 3) * std::pow(6 * m.volume.value(), 2.0 / 3) / m.area.value();
   EXPECT_LT(expected, 0.999);
   for (const double scale : {1.0, 1e-90, 1e90}) {
     Expansion scaled = e;
     for (double& value : scaled.coefficients.values()) value *= scale;
-    EXPECT_NEAR(measure(scaled).sphericity(), expected, 1e-13);
+    EXPECT_NEAR(measure(scaled).sphericity().value(), expected, 1e-13);
   }
-  EXPECT_EQ(SurfaceMeasures{}.sphericity(), 0);
+  EXPECT_EQ((SurfaceMeasures{.volume = 0, .area = 1, .centroid = {}}.sphericity()), 0);
 }
 
 // Scales far from 1, and a solid without mean.
 TEST(measure, scales_and_refuses_an_expansion_without_mean) {
   for (const double scale : {1e-90, 1e90}) {
     Expansion e = bulged_sphere();
-    const double volume = measure(e).volume;
+    const double volume = measure(e).volume.value();
     for (double& value : e.coefficients.values()) value *= scale;
-    EXPECT_NEAR(measure(e).volume / scale / scale / scale / volume, 1, 1e-13);
+    EXPECT_NEAR(measure(e).volume.value() / scale / scale / scale / volume, 1, 1e-13);
   }
   EXPECT_THROW(measure(Expansion{}), Error);
+}
+
+// The graph of a signed sum is a surface, but not that of the body.
+TEST(measure, has_no_figures_of_a_signed_sum) {
+  Expansion e = bulged_sphere();
+  e.signed_sum = true;
+  const SurfaceMeasures m = measure(e);
+  EXPECT_FALSE(m.volume || m.area || m.centroid || m.sphericity());
+  EXPECT_THROW(inertia(e), Error);
+  e.signed_sum = false;
+  EXPECT_TRUE(measure(e).volume && measure(e).area && measure(e).centroid);
+  EXPECT_NO_THROW(inertia(e));
 }
 
 // r = 1 + b z: int r^5/5 z^2 dOmega = 4 pi/5 (1/3 + 10 b^2/5 + 5 b^4/7), and with 1 - z^2 for z^2
