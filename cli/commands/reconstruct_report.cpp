@@ -20,6 +20,11 @@ constexpr double kSaid = 0.02;  // share of unsure signs that is worth a warning
 // Of the area that points stand for: less is worth a warning; noisy points have 0.8.
 constexpr double kSaidArea = 0.7;
 
+std::string mended_text(const ReconstructReport& r) {
+  return fmt::format("{} of {} normals contradicted those around them, and were turned",
+                     r.mended_normals, r.points - r.dropped_points);
+}
+
 // Notes say what was mended in given normals. Throws where the normals still contradict each other.
 void judge_normals(const ReconstructReport& r, Session& session) {
   if (r.crooked_normals > kMostCrooked) {
@@ -29,18 +34,20 @@ void judge_normals(const ReconstructReport& r, Session& session) {
         100 * r.crooked_normals));
   }
   if (r.mended_normals > 0) {
-    session.note(fmt::format(
-        "{} of the given normals pointed to the other side than those around them, and were turned",
-        r.mended_normals));
+    session.note(mended_text(r));
+  }
+  std::string first;
+  for (const Vec3& point : r.contradictions) {
+    first += (first.empty() ? " " : "; ") + text_of(point);
   }
   const auto n = static_cast<double>(r.points);
   if (static_cast<double>(r.contradicting_normals) > kMostContradicting * std::sqrt(n)) {
     throw Error(ErrorCode::kNotConverged,
-                fmt::format("the normals of {} points contradict those around them, first at {}: "
+                fmt::format("the normals of {} points contradict those around them, first at{}: "
                             "sheets cross there, or the signs of given normals cannot be decided; "
                             "the surface, which is written, may be wrong ('rholm orient "
                             "--keep-directions' finds signs anew)",
-                            r.contradicting_normals, text_of(r.contradiction)));
+                            r.contradicting_normals, first));
   }
   if (r.inward_normals > kMostInward) {
     throw Error(
@@ -135,7 +142,7 @@ std::string report_text(const Reconstructed& made, const ReconstructOptions& opt
   }
   if (r.turned_normals) text += line("normals", "all pointed inwards, turned outwards");
   if (r.mended_normals > 0) {
-    text += line("normals", fmt::format("{} turned, to agree with those around", r.mended_normals));
+    text += line("normals", mended_text(r));
   }
   text += line("spacing", relative(r.spacing));
   text += line("noise", r.noise > 0 ? relative(r.noise) : "within what the caps explain");

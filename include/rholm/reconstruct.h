@@ -60,16 +60,17 @@ struct ReconstructReport {
   ScanAlignment scans;             // what became of them, if there are any
   double unsure = 0;              // share of the points the sign of whose computed normal is unsure
   bool computed_normals = false;  // the points had none, or given ones that were replaced
-  bool turned_normals = false;    // all given ones: they pointed into the solid
-  // Given normals that pointed to the other side than the points around them, and were turned.
+  bool turned_normals = false;    // all given ones: they agreed, and pointed into the solid
+  // Given normals that contradicted those around them, or the winding number of all, and were
+  // turned.
   std::size_t mended_normals = 0;
   // Share of given normals more than 45 degrees off the normal of the plane of their neighbours.
   // Above kMostCrooked all of them are computed instead.
   double crooked_normals = 0;
   // Points whose normals contradict those around them, where turning some does not help, and the
-  // first one.
+  // first three of them.
   std::size_t contradicting_normals = 0;
-  Vec3 contradiction = {};  // that point
+  std::vector<Vec3> contradictions = {};
   // Share of the points at which the winding number of all points says that the given normal,
   // which is kept, points into the solid.
   double inward_normals = 0;

@@ -2391,7 +2391,7 @@ class ReconstructReport:
 
     @property
     def mended_normals(self) -> int:
-        """Given normals that were turned, to agree with those around them."""
+        """Given normals that contradicted those around them, and were turned."""
 
     @property
     def crooked_normals(self) -> float:
@@ -2406,8 +2406,8 @@ class ReconstructReport:
         """
 
     @property
-    def contradiction(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """The first of these points."""
+    def contradictions(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
+        """The first three of these points, n x 3."""
 
     @property
     def inward_normals(self) -> float:

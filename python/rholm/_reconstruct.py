@@ -44,7 +44,7 @@ def _warn_of_normals(report: _core.ReconstructReport) -> None:
     if report.contradicting_normals > 0.5 * report.points**0.5:
         warnings.warn(
             f"the normals of {report.contradicting_normals} points contradict those around them, first "
-            f"at {tuple(report.contradiction.tolist())}: the surface may be wrong",
+            f"at {report.contradictions.tolist()}: the surface may be wrong",
             stacklevel=3,
         )
     elif report.inward_normals > 0.1:

@@ -124,7 +124,7 @@ void bind_reconstruction(nb::module_& m) {
       .field("turned_normals", &ReconstructReport::turned_normals,
              "Whether all pointed into the solid, and were turned.")
       .field("mended_normals", &ReconstructReport::mended_normals,
-             "Given normals that were turned, to agree with those around them.")
+             "Given normals that contradicted those around them, and were turned.")
       .field("crooked_normals", &ReconstructReport::crooked_normals,
              "Share of given normals more than 45 degrees off the surface; above 0.25 all are "
              "computed instead.")
@@ -132,7 +132,8 @@ void bind_reconstruction(nb::module_& m) {
              "Points whose normals contradict those around them, where turning does not help: "
              "above half the square root of the number of points the surface should not be "
              "trusted.")
-      .field("contradiction", &ReconstructReport::contradiction, "The first of these points.")
+      .field("contradictions", &ReconstructReport::contradictions,
+             "The first three of these points, n x 3.")
       .field("inward_normals", &ReconstructReport::inward_normals,
              "Share of the points at which the winding number contradicts the given normal: above "
              "0.1 the surface should not be trusted.")

@@ -108,11 +108,37 @@ class Clouds(CliTest):
             done, shape = self.reconstruct(points, given)
             self.assertEqual((done.code, self.fault("sphere", done, shape)), (0, ""), done)
 
-    def test_bricks_refuse_what_they_cannot_mend(self):
-        points, normals, _ = spoiled("sphere", "random", 0.3, 4000)
+    def test_bricks_mend_as_one_piece_does(self):
+        for body, way, share in (("sphere", "random", 0.5), ("torus", "patch", 0.1), ("two_balls", "half", 0.3)):
+            points, normals, turned = spoiled(body, way, share, 4000)
+            done, shape = self.reconstruct(points, normals, "--brick-points", "1000")
+            self.assertEqual((done.code, self.fault(body, done, shape)), (0, ""), done)
+            self.assertIn("were turned", done.err)
+            self.assertGreater(done.json()["bricks"], 3)
+            one = self.reconstruct(points, normals)[0].json()
+            self.assertEqual((done.json()["mended_normals"], done.json()["contradicting_normals"]),
+                             (one["mended_normals"], one["contradicting_normals"]), body)
+
+    def test_bricks_name_what_they_cannot_mend(self):
+        points, normals, _ = spoiled("bowl", "half", 0.45, 4000)
         done, _ = self.reconstruct(points, normals, "--brick-points", "1000")
         self.assertEqual(done.code, 4, done)
-        self.assertIn("contradict", done.err)
+        self.assertRegex(done.err, r"contradict those around them, first at( \(.*\);){2} \(.*\):")
+
+    def test_bricks_compute_directions_at_random_anew(self):
+        rng = np.random.default_rng(1)
+        points, _ = clouds.torus(rng, 4000)
+        done, shape = self.reconstruct(points, clouds.directions(rng, 4000), "--brick-points", "1000")
+        self.assertEqual((done.code, self.fault("torus", done, shape)), (0, ""), done)
+        self.assertIn("off the surface", done.err)
+        self.assertTrue(done.json()["computed_normals"])
+
+    def test_normals_at_random_are_not_called_inward(self):
+        points, normals, _ = spoiled("sphere", "random", 0.6, 1500)
+        self.write("p.xyz", clouds.text(points, normals))
+        done = self.rholm("reconstruct", "p.xyz", "-o", "s.ply")
+        self.assertNotIn("inwards", done.out + done.err)
+        self.assertRegex(done.err, r"\d+ of 1500 normals contradicted those around them, and were turned")
 
     def test_normals_that_are_all_zero_are_none(self):
         points, normals = clouds.sphere(np.random.default_rng(5), 100)

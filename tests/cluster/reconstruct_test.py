@@ -63,6 +63,20 @@ class Reconstruct(ProgramTest):
             self.assertEqual(run.code, 0, run)
             self.assertEqual(self.bytes("all.ply"), self.bytes("one.ply"), points)
 
+    def test_normals_that_contradict_each_other_are_turned_as_by_one_process(self):
+        self.rholm("convert", "p.ply", "p.xyz", "--quiet")
+        rows = [line.split() for line in (self.folder / "p.xyz").read_text().splitlines()
+                if not line.startswith("#")]
+        spoiled = (row[:3] + ([f"{-float(x)}" for x in row[3:6]] if k % 3 == 0 else row[3:6])
+                   for k, row in enumerate(rows))
+        (self.folder / "spoiled.xyz").write_text("".join(" ".join(row) + "\n" for row in spoiled))
+        self.rholm(*self.words("one.ply", points="spoiled.xyz"))
+        for ranks in RANKS:
+            run = self.finished(RHOLM_MPI, *self.words("all.ply", "--threads", 1 + ranks % 2,
+                                                       points="spoiled.xyz"), ranks=ranks)
+            self.assertEqual(run.code, 0, run)
+            self.assertEqual(self.bytes("all.ply"), self.bytes("one.ply"))
+
     def test_few_points_are_left_to_one_rank(self):
         self.rholm("reconstruct", "p.ply", "-o", "one.ply")
         run = self.finished(RHOLM_MPI, "reconstruct", "p.ply", "-o", "all.ply", ranks=2)

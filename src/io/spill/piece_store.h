@@ -155,4 +155,15 @@ std::vector<T> vector_of(std::span<const std::byte> bytes) {
   return values;
 }
 
+// A piece of one section.
+template <class T>
+void write_values(PieceStore& store, const std::string& name, const std::vector<T>& values) {
+  const std::span<const std::byte> sections[] = {bytes_of(values)};
+  store.write(name, sections);
+}
+template <class T>
+std::vector<T> read_values(const PieceStore& store, const std::string& name) {
+  return store.open(name).values<T>(0);
+}
+
 }  // namespace rholm

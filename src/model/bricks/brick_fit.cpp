@@ -7,10 +7,10 @@
 
 #include "base/parallel.h"
 #include "model/bricks/brick_halo.h"
+#include "model/bricks/brick_mending.h"
 #include "model/bricks/brick_normals.h"
 #include "model/bricks/brick_points.h"
 #include "shape/points/outliers.h"
-#include "shape/points/sign_check.h"
 
 namespace rholm {
 namespace {
@@ -56,14 +56,23 @@ std::vector<float> put_normals(const PieceStore& store, std::size_t brick, Brick
   return confidence;
 }
 
+void turn_normals(const PieceStore& store, std::size_t brick, BrickAndHalo& read) {
+  const auto turned = gather<std::uint8_t>(
+      read, brick, [&](std::size_t other) { return read_turned(store, other); });
+  for (std::size_t i = 0; i < turned.size(); ++i) {
+    if (turned[i] != 0) read.cloud.normals.at(i) = -read.cloud.normals[i];
+  }
+}
+
 }  // namespace
 
 BrickScene load_brick(const PieceStore& store, const BrickPlan& plan, std::size_t brick,
-                      double halo, bool turned, const Context& context) {
+                      double halo, const Context& context) {
   BrickScene scene;
   BrickAndHalo read = read_with_halo(store, plan, brick, halo);
   std::vector<float> confidence;
   if (have_normals(store)) confidence = put_normals(store, brick, read);
+  if (have_turned(store)) turn_normals(store, brick, read);
   scene.computed_normals = have_normals(store);
   scene.cloud = std::move(read.cloud);
   scene.n_own = read.n_own;
@@ -80,10 +89,7 @@ BrickScene load_brick(const PieceStore& store, const BrickPlan& plan, std::size_
       const std::size_t given = scene.tree->order()[i];
       scene.points[i] = scene.cloud.points[given];
       scene.foreign[i] = given >= scene.n_own;
-      if (directed) {
-        const Vec3 normal = normalized(scene.cloud.normals[given]);
-        scene.normals[i] = turned ? -normal : normal;
-      }
+      if (directed) scene.normals[i] = normalized(scene.cloud.normals[given]);
       if (scene.computed_normals) scene.confidence[i] = confidence[given];
     }
   });
@@ -91,7 +97,7 @@ BrickScene load_brick(const PieceStore& store, const BrickPlan& plan, std::size_
   return scene;
 }
 
-std::vector<SamplePoint> sample_brick(const BrickScene& scene, std::size_t n,
+std::vector<SamplePoint> sample_brick(const BrickScene& scene, std::size_t n, std::size_t around,
                                       const Context& context) {
   std::vector<std::uint32_t> own;
   for (std::uint32_t i = 0; i < scene.foreign.size(); ++i) {
@@ -103,11 +109,14 @@ std::vector<SamplePoint> sample_brick(const BrickScene& scene, std::size_t n,
     for (std::size_t j = begin; j < end; ++j) {
       SamplePoint& sample = samples[j];
       const std::size_t i = own[j * own.size() / samples.size()];
-      const std::size_t around = scene.gaps.scaled(i, kCircle);
-      scene.tree->nearest_to(i, around + 1, near);
-      sample.spacing = spacing_of_circle(near.back().distance2);
-      sample.area = sample.spacing * sample.spacing * static_cast<double>(kCircle) /
-                    static_cast<double>(around);
+      const auto distance2_of = [&](std::size_t k) {
+        scene.tree->nearest_to(i, k + 1, near);
+        return near.back().distance2;
+      };
+      sample.spacing = spacing_of_circle(distance2_of(scene.gaps.scaled(i, kCircle)));
+      const std::size_t k = std::min(scene.gaps.scaled(i, around), scene.points.size() - 1);
+      sample.area = std::numbers::pi * distance2_of(k) / static_cast<double>(k);
+      sample.place = i;
       sample.points = static_cast<double>(own.size()) / static_cast<double>(samples.size());
       sample.at = scene.points[i];
       scene.tree->nearest_to(i, kCircle + 1, near);
@@ -147,13 +156,6 @@ WholeSample join(const std::vector<SamplePoint>& samples) {
   whole.median = quantile(spacings, 0.5);
   whole.fine = std::min(whole.median, quantile(spacings, 0.1) / kTenthOfEven);
   whole.wrong = n > 0 ? whole.wrong / n : 0;
-  std::vector<PointArea> all;
-  all.reserve(samples.size());
-  for (std::size_t j = 0; j < samples.size(); ++j) {
-    all.push_back({static_cast<std::uint32_t>(j), samples[j].points * samples[j].area});
-  }
-  const std::vector<std::uint32_t> one(samples.size(), 0);
-  whole.inward = check_sides(points, normals, all, 0, one, {}).inward;
   whole.sides = balance_of(std::move(discs), points, normals);
   return whole;
 }

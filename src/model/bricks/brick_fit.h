@@ -36,21 +36,23 @@ struct BrickScene {
   OrderedPoints ordered() const { return {*tree, points, normals, &gaps, computed_normals}; }
 };
 
-// With the points of others in the box around its own that is wider by `halo` on all sides; all
-// normals turned around if `turned`.
+// With the points of others in the box around its own that is wider by `halo` on all sides. Normals
+// are turned as mend_bricks() says.
 BrickScene load_brick(const PieceStore& store, const BrickPlan& plan, std::size_t brick,
-                      double halo, bool turned, const Context& context);
+                      double halo, const Context& context);
 
 // What some own points of a brick, evenly spread, tell of all.
 struct SamplePoint {
-  double spacing = 0;  // to its neighbours: spacing_of_circle()
-  double area = 0;     // that a point stands for, by those around
-  double disc = 0;     // as balance_sides() has it
-  double points = 0;   // for so many it speaks
-  Vec3 at, normal;     // no normal: zero
-  double wrong = 0;    // 1: has_wrong_normal()
+  double spacing = 0;     // to its neighbours: spacing_of_circle()
+  double area = 0;        // that a point stands for, by those around
+  double disc = 0;        // as balance_sides() has it
+  double points = 0;      // for so many it speaks
+  std::size_t place = 0;  // in the order of the tree
+  Vec3 at, normal;        // no normal: zero
+  double wrong = 0;       // 1: has_wrong_normal()
 };
-std::vector<SamplePoint> sample_brick(const BrickScene& scene, std::size_t n,
+// `around`: neighbours that tell the area.
+std::vector<SamplePoint> sample_brick(const BrickScene& scene, std::size_t n, std::size_t around,
                                       const Context& context);
 
 // Around each place, between its nearest points or between their rows: see
@@ -62,8 +64,7 @@ struct WholeSample {
   double median = 0;  // spacing
   double fine = 0;    // only a tenth of the points lie clearly closer
   double area = 0;
-  double wrong = 0;   // share of normals
-  double inward = 0;  // share of normals that winding numbers contradict, as SideCheck has it
+  double wrong = 0;  // share of normals
   SideBalance sides;
 };
 WholeSample join(const std::vector<SamplePoint>& samples);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "model/bricks/brick_halo.h"
+#include "model/bricks/brick_mending.h"
 #include "model/bricks/brick_normals.h"
 #include "model/bricks/brick_points.h"
 #include "rholm/error.h"
@@ -67,6 +68,9 @@ void BrickRemoval::remove(std::size_t brick) {
     const std::vector<std::uint8_t> gone = piece.values<std::uint8_t>(1);
     if (have_normals(store_) && read_normals(store_, brick).size() == gone.size()) {
       remove_normals(store_, brick, gone);
+    }
+    if (have_turned(store_) && read_turned(store_, brick).size() == gone.size()) {
+      remove_turned(store_, brick, gone);
     }
     if (read_index(store_, brick).counts.points == gone.size()) remove_points(store_, brick, gone);
   }

@@ -26,7 +26,7 @@ constexpr std::size_t kSpacingSeeds = 2000;
 // Of even random points the tenth lies at 0.8 of the median; a finer part of uneven ones below.
 constexpr double kTenthOfEven = 0.8;
 // Points that speak for the sides of all components: as turn_outwards() asks of one.
-constexpr std::size_t kSideSeeds = 2000;
+constexpr std::size_t kSignSeeds = 2000;
 
 // keep(i): whether point i stays.
 template <typename Keep>
@@ -52,11 +52,6 @@ bool lists_fit(const PointCloud& cloud) {
   return (cloud.normals.empty() || cloud.normals.size() == n) &&
          std::all_of(cloud.attributes.begin(), cloud.attributes.end(),
                      [n](const Attribute& attribute) { return attribute.values.size() == n; });
-}
-
-void note_contradictions(std::size_t n, const Vec3& first, ReconstructReport& report) {
-  report.contradicting_normals = n;
-  if (n > 0) report.contradiction = first;
 }
 
 // Points without a direction are of no use here.
@@ -100,8 +95,8 @@ WorkingPoints::WorkingPoints(PointCloud cloud, const ReconstructOptions& options
   if (directed) {
     mend_normals(options, report, context);
   } else {
-    const SignCheck check = check_signs(*tree_, points_, normals_, gaps_, {}, {}, context);
-    note_contradictions(check.contradicting, points_[check.first], report);
+    const SignPieces pieces = find_sign_pieces(*tree_, points_, normals_, gaps_, {}, context);
+    note_contradictions(pieces, check_signs(all_of(pieces), {}, context), false, report);
   }
   if (options.holes == HolePolicy::kFill) {
     check_sides(balance_sides(*tree_, points_, normals_, context), size());
@@ -130,59 +125,57 @@ void WorkingPoints::compute_normals(const ReconstructOptions& options, Reconstru
 LocalShape WorkingPoints::look_at_shape(const Context& context) {
   const LocalShape shape = rholm::look_at_shape(*tree_, points_, normals_, context);
   check_shape(shape, size());
-  if (shape.neighbors > 2 * kCircle) around_ = shape.neighbors;
+  around_ = area_neighbors(shape.neighbors);
   return shape;
 }
 
-// Of noisy points the nearest ones fill a volume: as many are asked as lie in a flat neighbourhood.
 double WorkingPoints::area_at(std::size_t i, std::vector<Neighbor>& near) const {
   const std::size_t around = std::min(gaps_.scaled(i, around_), size() - 1);
   tree_->nearest_to(i, around + 1, near);
   return std::numbers::pi * near.back().distance2 / static_cast<double>(around);
 }
 
-void WorkingPoints::mend_normals(const ReconstructOptions& options, ReconstructReport& report,
-                                 const Context& context) {
-  const std::vector<PointArea> samples = side_samples(context);
-  SignCheck check = check_signs(*tree_, points_, normals_, gaps_, samples, {}, context);
-  note_contradictions(check.left, points_[check.first_left], report);
-  turn(check.turned);
-  report.turned_normals = balance_sides(*tree_, points_, normals_, context).inwards;
-  if (report.turned_normals) turn(std::vector<std::uint8_t>(size(), 1));
-  if (options.holes == HolePolicy::kFill) {
-    const SideCheck sides =
-        check_sides(points_, normals_, samples, check.scatter, check.component, context);
-    std::vector<std::uint8_t> turned(size(), 0);
-    for (std::size_t i = 0; i < size(); ++i) {
-      const auto& all = sides.turned;
-      turned[i] = std::find(all.begin(), all.end(), check.component[i]) != all.end() ? 1 : 0;
-      check.turned[i] ^= turned[i];
-    }
-    turn(turned);
-    report.inward_normals = sides.inward;
+void WorkingPoints::note_contradictions(const SignPieces& pieces, const SignCheck& check,
+                                        bool after, ReconstructReport& report) const {
+  const std::vector<std::uint32_t> found = contradicting_points(pieces, 0, check, after);
+  report.contradicting_normals = found.size() + (after ? check.undecided : 0);
+  for (std::size_t k = 0; k < std::min(found.size(), kNamedPoints); ++k) {
+    report.contradictions.push_back(points_[found[k]]);
   }
-  report.mended_normals =
-      static_cast<std::size_t>(std::count(check.turned.begin(), check.turned.end(), 1));
 }
 
-void WorkingPoints::turn(const std::vector<std::uint8_t>& turned) {
-  for (std::size_t i = 0; i < turned.size(); ++i) {
-    if (turned[i] == 0) continue;
+void WorkingPoints::mend_normals(const ReconstructOptions& options, ReconstructReport& report,
+                                 const Context& context) {
+  const SignPieces pieces = find_sign_pieces(*tree_, points_, normals_, gaps_, {}, context);
+  const MendedSigns mended = mend_signs(all_of(pieces), sign_samples(pieces, context),
+                                        options.holes == HolePolicy::kFill, context);
+  note_contradictions(pieces, mended.check, true, report);
+  report.inward_normals = mended.inward;
+  report.turned_normals = mended.all_inward;
+  if (!mended.all_inward) report.mended_normals = mended.n_turned;
+  if (mended.n_turned == 0) return;
+  for (std::size_t i = 0; i < size(); ++i) {
+    if (mended.turned[pieces.piece[i]] == 0) continue;
     normals_[i] = -normals_[i];
     Vec3& given = cloud_.normals[tree_->order()[i]];
     given = -given;
   }
 }
 
-std::vector<PointArea> WorkingPoints::side_samples(const Context& context) const {
-  const std::size_t n = size(), m = std::min(n, kSideSeeds);
-  std::vector<PointArea> samples(m);
+std::vector<SignSample> WorkingPoints::sign_samples(const SignPieces& pieces,
+                                                    const Context& context) const {
+  const std::size_t n = size(), m = std::min(n, kSignSeeds);
+  std::vector<SignSample> samples(m);
   parallel_for(m, 256, context, {}, [&](std::size_t begin, std::size_t end) {
     std::vector<Neighbor> near;
     for (std::size_t j = begin; j < end; ++j) {
       const std::size_t i = j * n / m;
-      samples[j] = {static_cast<std::uint32_t>(i),
-                    area_at(i, near) * static_cast<double>(n) / static_cast<double>(m)};
+      samples[j] = {.at = points_[i],
+                    .normal = normals_[i],
+                    .area = area_at(i, near) * static_cast<double>(n) / static_cast<double>(m),
+                    .piece = pieces.piece[i]};
+      tree_->nearest_to(i, kCircle + 1, near);
+      samples[j].disc = near.back().distance2;
     }
   });
   return samples;

@@ -67,8 +67,10 @@ class WorkingPoints {
   // Turns given normals that contradict others, or the winding number of all.
   void mend_normals(const ReconstructOptions& options, ReconstructReport& report,
                     const Context& context);
-  void turn(const std::vector<std::uint8_t>& turned);
-  std::vector<PointArea> side_samples(const Context& context) const;
+  // Before or after normals are turned.
+  void note_contradictions(const SignPieces& pieces, const SignCheck& check, bool after,
+                           ReconstructReport& report) const;
+  std::vector<SignSample> sign_samples(const SignPieces& pieces, const Context& context) const;
   // Refuses points that look like a curve or a volume.
   LocalShape look_at_shape(const Context& context);
   // The area that point i stands for.

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "rholm/error.h"
+#include "shape/points/sampling_gaps.h"
 
 namespace rholm {
 namespace {
@@ -105,6 +106,8 @@ void check_shape(const LocalShape& shape, std::size_t n) {
                             n, shape.neighbors, shape.thickness));
   }
 }
+
+std::size_t area_neighbors(std::size_t flat) { return flat > 2 * kCircle ? flat : kCircle; }
 
 CoverOptions cover_options(const ReconstructOptions& options, const CapSize& size) {
   return {.neighbours = size.neighbours,

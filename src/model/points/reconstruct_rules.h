@@ -59,6 +59,9 @@ void check_spread(std::size_t n, double diagonal);
 void check_sides(const SideBalance& balance, std::size_t n);
 // Throws InvalidInput for n points that look like a curve or a volume.
 void check_shape(const LocalShape& shape, std::size_t n);
+// Neighbours that tell the area of a point, where so many lie in a flat neighbourhood: the nearest
+// ones of noisy points fill a volume.
+std::size_t area_neighbors(std::size_t flat);
 
 CoverOptions cover_options(const ReconstructOptions& options, const CapSize& size);
 

@@ -4,216 +4,72 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <tuple>
-#include <utility>
 
-#include "base/cancel.h"
 #include "base/disjoint_sets.h"
-#include "base/parallel.h"
 #include "base/signed_sets.h"
-#include "shape/points/normals.h"
-#include "shape/points/orient_graph.h"
 #include "shape/points/orient_sides.h"
+#include "shape/points/side_balance.h"
+#include "shape/points/sign_graph.h"
 #include "shape/queries/winding_tree.h"
 
 namespace rholm {
 namespace {
 
-// Cosine of 45 degrees: what noise of normals and the bend of the surface leave.
-constexpr double kSure = 0.7;
-// Of the length of an edge: one end above the other. Walls 0.4 spacings apart, twice of which is
-// the longest edge, are told edge by edge, nearer ones by means over many.
-constexpr double kLevel = 0.2;
-// Heights within so many times their median are the noise of the points.
-constexpr double kNoise = 3;
-// Two sheets: standard errors of the mean height, and its least share of the mean length of edges
-// (chosen). A point has ten edges and each edge two ends: their heights are not independent.
-constexpr double kWalls = 4, kLeastWall = 0.03, kEdgesOfPoint = 5;
-// Edges that turn a piece: one or two may be chance, at corners. And of a point that contradicts.
+// Two walls: standard errors of the mean height, and its least share of the mean length of edges
+// (chosen).
+constexpr double kWalls = 4, kLeastWall = 0.03;
+// Edges that turn a piece: one or two may be chance, at corners. The same for a point that
+// contradicts its neighbours.
 constexpr std::uint32_t kFewestVotes = 3;
-// Of all edges between two pieces, those that turn one: at tips thinner than the spacing few
-// contradict.
+// Share of the edges between two pieces that turns one: at tips thinner than the spacing few
+// edges contradict.
 constexpr double kLeastShare = 0.34;
-constexpr std::size_t kSeeds = 2000;
+// Edges of a point, twice: what undecided edges are divided by.
+constexpr double kEdgesOfPoint = 10;
 
-// Radii of a patch behind and before points where winding numbers are asked: as turn_outwards().
-constexpr double kInward = 0.75;        // from 1/2, of their mean: a quarter from what is wrong
-constexpr std::size_t kLeastPart = 30;  // points of a component that has a say
+// Winding numbers are asked behind and before a point, and their mean is 1/2 where the sign is
+// right. From here on it is nearer to what is wrong, -1/2 or 3/2.
+constexpr double kInward = 0.75;
+constexpr std::size_t kLeastPart = 30;  // samples of a component that has a say
 constexpr double kClosed = 0.2;         // length of the mean normal, at most: side_balance.cpp
 constexpr double kOpen = 0.25;  // mean error of the winding numbers of what bounds a body by itself
-constexpr double kMost = 0.6;   // share of the points of a component that is turned
+constexpr double kMost = 0.6;   // share of the area of a component that is turned
 constexpr int kRounds = 16;     // components that are turned, at most
 
-// Creases between pieces, where noise hides which way the surface bends: edges between normals at
-// least 37 degrees apart. Their mean agreement, and how many standard errors it is from zero.
-constexpr double kCrease = 0.8, kBend = 0.1, kSureBend = 4;
+// Creases between pieces, where noise hides which way the surface bends: mean agreement of the
+// edges, and how many standard errors it is from zero.
+constexpr double kBend = 0.1, kSureBend = 4;
 // Share of turned points from which creases that stay undecided are told.
 constexpr double kManyTurned = 0.02;
 
-enum class Says : std::int8_t { kNothing = 0, kAgree = 1, kContradict = -1 };
-
-struct Edge {
-  Says says = Says::kNothing;
-  float height = 0;  // of the end above the begin, along their normals, of the length
-};
-
-class SignGraph {
- public:
-  SignGraph(const PointTree& tree, std::span<const Vec3> points, std::span<const Vec3> normals,
-            const SamplingGaps& gaps, const Context& context)
-      : points_(points),
-        normals_(normals),
-        neighbors_(graph_neighbors(tree, gaps, context)),
-        edges_(neighbors_.size()) {
-    scatter_ = find_scatter();
-    const double slack = kNoise * scatter_;
-    parallel_for(points.size(), 1024, context, {}, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t e = begin * kGraphNeighbors; e < end * kGraphNeighbors; ++e) {
-        edges_[e] = look(e, slack);
-      }
-    });
-  }
-
-  std::size_t size() const { return edges_.size(); }
-  std::uint32_t from(std::size_t e) const {
-    return static_cast<std::uint32_t>(e / kGraphNeighbors);
-  }
-  std::uint32_t to(std::size_t e) const { return neighbors_[e]; }
-  const Edge& operator[](std::size_t e) const { return edges_[e]; }
-  // Median height of neighbours above the tangent planes of points.
-  double scatter() const { return scatter_; }
-  bool is_crease(std::size_t e) const {
-    return std::abs(dot(normals_[from(e)], normals_[to(e)])) < kCrease;
-  }
-  double agreement_at(std::size_t e) const {
-    const std::uint32_t i = from(e), j = to(e);
-    return agreement(points_[i], normals_[i], points_[j], normals_[j], 0);
-  }
-  void forget(std::size_t e) { edges_[e].says = Says::kNothing; }
-
- private:
-  double height_over(std::size_t e, const Vec3& normal) const {
-    return dot(points_[to(e)] - points_[from(e)], normal);
-  }
-
-  double find_scatter() const {
-    const std::size_t n = points_.size(), seeds = std::min(n, kSeeds);
-    std::vector<double> heights;
-    heights.reserve(seeds * kGraphNeighbors);
-    for (std::size_t s = 0; s < seeds; ++s) {
-      const std::size_t i = s * n / seeds;
-      for (std::size_t e = i * kGraphNeighbors; e < (i + 1) * kGraphNeighbors; ++e) {
-        if (to(e) != i) heights.push_back(std::abs(height_over(e, normals_[i])));
-      }
-    }
-    if (heights.empty()) return 0;
-    const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
-    std::nth_element(heights.begin(), middle, heights.end());
-    return *middle;
-  }
-
-  Edge look(std::size_t e, double slack) const {
-    const std::uint32_t i = from(e), j = to(e);
-    const double length = norm(points_[j] - points_[i]);
-    if (i == j || !(length > 0)) return {};
-    const double agreed = agreement(points_[i], normals_[i], points_[j], normals_[j], slack);
-    if (std::abs(agreed) < kSure) return {};
-    const Vec3 across = normals_[j] + (agreed < 0 ? -1.0 : 1.0) * normals_[i];
-    const double height = height_over(e, across) / 2;
-    if (std::abs(height) > slack + kLevel * length) return {};
-    return {agreed < 0 ? Says::kContradict : Says::kAgree, static_cast<float>(height / length)};
-  }
-
-  std::span<const Vec3> points_, normals_;
-  std::vector<std::uint32_t> neighbors_;
-  std::vector<Edge> edges_;
-  double scatter_ = 0;
-};
-
-// What edges between two pieces, or within one, say together.
-struct Votes {
-  std::uint32_t a = 0, b = 0;      // first points of the pieces, a <= b
-  std::uint32_t n = 0, edges = 0;  // with a vote, and all
-  double sum = 0, squares = 0;
-
-  bool is_decided() const { return n >= kFewestVotes && n >= kLeastShare * edges; }
-  double mean() const { return sum / n; }
-  // Standard errors that the mean is from zero.
-  double significance() const {
-    const double variance = std::max(0.0, squares / n - mean() * mean());
-    const double error = std::sqrt(variance * kEdgesOfPoint / n);
-    return std::abs(mean()) / std::max(error, 1e-30);
-  }
-  // Of heights.
-  bool is_of_walls() const { return std::abs(mean()) > kLeastWall && significance() > kWalls; }
-};
-
-// By pieces. value(e, x): whether the edge has a vote, and which; others are counted only.
-template <class Find, class Value>
-std::vector<Votes> count_votes(const SignGraph& graph, const Find& find, const Value& value) {
-  std::vector<Votes> all;
-  CancelPoll poll;
-  for (std::size_t e = 0; e < graph.size(); ++e) {
-    poll();
-    Votes one{.edges = 1};
-    std::tie(one.a, one.b) = std::minmax({find(graph.from(e)), find(graph.to(e))});
-    if (value(e, one.sum)) {
-      one.n = 1;
-      one.squares = one.sum * one.sum;
-    } else if (one.a == one.b) {
-      continue;
-    }
-    all.push_back(one);
-  }
-  std::stable_sort(all.begin(), all.end(), [](const Votes& x, const Votes& y) {
-    return std::tie(x.a, x.b) < std::tie(y.a, y.b);
-  });
-  std::size_t n = 0;
-  for (const Votes& one : all) {
-    if (n > 0 && all[n - 1].a == one.a && all[n - 1].b == one.b) {
-      all[n - 1].n += one.n, all[n - 1].edges += one.edges;
-      all[n - 1].sum += one.sum, all[n - 1].squares += one.squares;
-    } else {
-      all[n++] = one;
-    }
-  }
-  all.resize(n);
-  std::erase_if(all, [](const Votes& one) { return one.n == 0; });
-  return all;
+bool is_decided(const Moments& votes, double edges) {
+  return votes.n >= kFewestVotes && votes.n >= kLeastShare * edges;
 }
 
-// Edges between walls say nothing.
-void forget_walls(const std::vector<Votes>& quarrels, DisjointSets& pieces, SignGraph& graph) {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> walls;
-  for (const Votes& one : quarrels) {
-    if (one.is_of_walls()) walls.emplace_back(one.a, one.b);
-  }
-  if (walls.empty()) return;
-  for (std::size_t e = 0; e < graph.size(); ++e) {
-    if (graph[e].says != Says::kContradict) continue;
-    const std::pair<std::uint32_t, std::uint32_t> pair =
-        std::minmax({pieces.find(graph.from(e)), pieces.find(graph.to(e))});
-    if (std::binary_search(walls.begin(), walls.end(), pair)) graph.forget(e);
-  }
+bool are_walls(const Moments& heights) {
+  return heights.n > 0 && std::abs(heights.mean()) > kLeastWall && heights.significance() > kWalls;
 }
 
-// Points that contradict many neighbours, as many as turn a piece. The first of them.
-std::size_t count_contradicting(const SignGraph& graph, std::span<const std::uint8_t> turned,
-                                std::span<const std::uint8_t> foreign, std::uint32_t& first) {
-  std::size_t count = 0;
-  for (std::size_t begin = 0; begin < graph.size(); begin += kGraphNeighbors) {
-    const std::uint32_t i = graph.from(begin);
-    if (!foreign.empty() && foreign[i] != 0) continue;
-    std::uint32_t against = 0;
-    for (std::size_t e = begin; e < begin + kGraphNeighbors; ++e) {
-      const bool opposite = !turned.empty() && turned[i] != turned[graph.to(e)];
-      const Says wanted = opposite ? Says::kAgree : Says::kContradict;
-      if (graph[e].says == wanted) ++against;
-    }
-    if (against < kFewestVotes) continue;
-    if (count++ == 0) first = i;
+std::vector<std::uint32_t> wholes_of(const AllPieces& all) {
+  DisjointSets sets(all.own.size());
+  for (const auto& [a, b] : all.same) sets.unite(a, b);
+  std::vector<std::uint32_t> whole(all.own.size());
+  for (std::uint32_t i = 0; i < whole.size(); ++i) whole[i] = sets.find(i);
+  return whole;
+}
+
+// Of wholes.
+std::vector<PiecePair> pairs_of_wholes(const AllPieces& all,
+                                       const std::vector<std::uint32_t>& whole) {
+  std::vector<PiecePair> pairs = all.pairs;
+  for (PiecePair& pair : pairs) {
+    std::tie(pair.a, pair.b) = std::minmax({whole[pair.a], whole[pair.b]});
+    if (pair.a == pair.b) pair.edges = pair.heights.n, pair.bends = {};
   }
-  return count;
+  merge(pairs);
+  return pairs;
 }
 
 // The winding numbers of some samples behind and before each of them.
@@ -221,17 +77,18 @@ struct BothSides {
   double behind = 0, before = 0;
   double mean() const { return (behind + before) / 2; }
 };
-std::vector<BothSides> ask_both_sides(std::span<const Vec3> points, std::span<const double> areas,
-                                      double scatter, std::span<const Vec3> normals,
+std::vector<BothSides> ask_both_sides(std::span<const SignSample> samples, double scatter,
                                       const Context& context) {
-  const std::size_t n = points.size();
-  std::vector<Vec3> area_normals(n), places(2 * n);
+  const std::size_t n = samples.size();
+  std::vector<Vec3> points(n), area_normals(n), places(2 * n);
   for (std::size_t i = 0; i < n; ++i) {
-    area_normals[i] = areas[i] * normals[i];
-    const double radius = std::sqrt(areas[i] / std::numbers::pi);
-    const Vec3 step = (kClearOfPatches * radius + kNoise * scatter) * normals[i];
-    places[2 * i] = points[i] - step;
-    places[2 * i + 1] = points[i] + step;
+    const SignSample& sample = samples[i];
+    points[i] = sample.at;
+    area_normals[i] = sample.area * sample.normal;
+    const double radius = std::sqrt(sample.area / std::numbers::pi);
+    const Vec3 step = (kClearOfPatches * radius + kNoiseOfScatter * scatter) * sample.normal;
+    places[2 * i] = sample.at - step;
+    places[2 * i + 1] = sample.at + step;
   }
   const WindingTree tree(points, area_normals);
   const std::vector<double> w = tree.winding(places, context);
@@ -242,112 +99,120 @@ std::vector<BothSides> ask_both_sides(std::span<const Vec3> points, std::span<co
 
 // Whether points bound a body by themselves: behind or before them the winding number of these
 // points alone is 0, and it is 1 or -1 on the other side.
-bool bound_a_body(std::span<const Vec3> points, std::span<const double> areas, double scatter,
-                  std::span<const Vec3> normals, const Context& context) {
+bool bound_a_body(std::span<const SignSample> samples, double scatter, const Context& context) {
   double off = 0;
-  for (const BothSides& s : ask_both_sides(points, areas, scatter, normals, context)) {
+  for (const BothSides& s : ask_both_sides(samples, scatter, context)) {
     const double less = std::min(std::abs(s.behind), std::abs(s.before));
     const double more = std::max(std::abs(s.behind), std::abs(s.before));
     off += std::min(1.0, less + std::abs(more - 1));
   }
-  return off < kOpen * static_cast<double>(points.size());
+  return off < kOpen * static_cast<double>(samples.size());
 }
 
-// Per point, for the first points of pieces: whether the piece bounds a body. Bodies that touch
-// contradict each other where they do, and none is to be turned for that.
-std::vector<std::uint8_t> find_closed(const std::vector<Votes>& quarrels, DisjointSets& pieces,
-                                      std::span<const Vec3> points, std::span<const Vec3> normals,
-                                      std::span<const PointArea> samples, double scatter,
+// Per whole that contradicts others: whether it bounds a body. Bodies that touch contradict each
+// other where they do, and none is to be turned for that.
+std::vector<std::uint8_t> find_closed(const std::vector<PiecePair>& pairs,
+                                      const std::vector<std::uint32_t>& whole,
+                                      std::span<const SignSample> samples, double scatter,
                                       const Context& context) {
-  std::vector<std::uint8_t> closed(points.size(), 0);
+  std::vector<std::uint8_t> closed(whole.size(), 0);
   std::vector<std::uint32_t> asked;
-  for (const Votes& one : quarrels) {
-    if (one.a != one.b) asked.insert(asked.end(), {one.a, one.b});
+  for (const PiecePair& pair : pairs) {
+    if (pair.a != pair.b && pair.heights.n > 0) asked.insert(asked.end(), {pair.a, pair.b});
   }
   std::sort(asked.begin(), asked.end());
   asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
-  if (asked.empty()) return closed;
-  std::vector<std::vector<PointArea>> own(asked.size());
-  for (const PointArea& sample : samples) {
-    const std::uint32_t piece = pieces.find(sample.point);
+  std::vector<std::vector<SignSample>> own(asked.size());
+  for (const SignSample& sample : samples) {
+    const std::uint32_t piece = whole[sample.piece];
     const auto found = std::lower_bound(asked.begin(), asked.end(), piece);
     if (found != asked.end() && *found == piece) own[found - asked.begin()].push_back(sample);
   }
   for (std::size_t k = 0; k < asked.size(); ++k) {
     if (own[k].size() < kLeastPart) continue;
-    std::vector<Vec3> at, out;
-    std::vector<double> areas;
-    for (const PointArea& sample : own[k]) {
-      at.push_back(points[sample.point]), out.push_back(normals[sample.point]);
-      areas.push_back(sample.area);
-    }
-    closed[asked[k]] = bound_a_body(at, areas, scatter, out, context) ? 1 : 0;
+    closed[asked[k]] = bound_a_body(own[k], scatter, context) ? 1 : 0;
   }
   return closed;
 }
 
 // Pieces turned to agree, the most decided ones first.
-SignedSets join_pieces(std::vector<Votes> quarrels, const std::vector<std::uint8_t>& closed,
-                       DisjointSets& pieces, std::size_t n) {
-  SignedSets sets(n);
-  for (std::uint32_t i = 0; i < n; ++i) sets.unite(pieces.find(i), i, false);
-  std::stable_sort(quarrels.begin(), quarrels.end(),
-                   [](const Votes& x, const Votes& y) { return x.n > y.n; });
-  for (const Votes& one : quarrels) {
-    const bool touch = closed[one.a] != 0 && closed[one.b] != 0;
-    if (one.a != one.b && one.is_decided() && !touch && !one.is_of_walls()) {
-      sets.unite(one.a, one.b, true);
-    }
+SignedSets join_pieces(std::vector<PiecePair> pairs, const std::vector<std::uint32_t>& whole,
+                       const std::vector<std::uint8_t>& closed) {
+  SignedSets sets(whole.size());
+  for (std::uint32_t i = 0; i < whole.size(); ++i) sets.unite(whole[i], i, false);
+  std::stable_sort(pairs.begin(), pairs.end(), [](const PiecePair& x, const PiecePair& y) {
+    return x.heights.n > y.heights.n;
+  });
+  for (const PiecePair& pair : pairs) {
+    if (pair.a == pair.b || !is_decided(pair.heights, pair.edges)) continue;
+    const bool touch = closed[pair.a] != 0 && closed[pair.b] != 0;
+    if (!touch && !are_walls(pair.heights)) sets.unite(pair.a, pair.b, true);
   }
   return sets;
 }
 
 // What creases join. Returns the number of edges at creases that stay undecided.
-std::size_t join_at_creases(const SignGraph& graph, SignedSets& sets) {
-  const auto find = [&](std::uint32_t i) { return sets.find(i).set; };
-  std::vector<Votes> votes = count_votes(graph, find, [&](std::size_t e, double& agreed) {
-    if (!graph.is_crease(e)) return false;
-    const SignedSets::Member a = sets.find(graph.from(e)), b = sets.find(graph.to(e));
-    if (a.set == b.set) return false;
-    agreed = graph.agreement_at(e) * (a.opposite == b.opposite ? 1 : -1);
-    return true;
-  });
-  std::erase_if(votes, [](const Votes& one) { return !one.is_decided(); });
-  std::stable_sort(votes.begin(), votes.end(), [](const Votes& x, const Votes& y) {
-    return std::abs(x.sum) > std::abs(y.sum);
-  });
-  const auto is_sure = [](const Votes& one) {
-    return std::abs(one.mean()) > kBend && one.significance() > kSureBend;
-  };
-  for (const Votes& one : votes) {
-    if (is_sure(one)) sets.unite(one.a, one.b, one.sum < 0);
+double join_at_creases(const std::vector<PiecePair>& pairs, SignedSets& sets) {
+  std::vector<PiecePair> votes;
+  for (PiecePair pair : pairs) {
+    const SignedSets::Member a = sets.find(pair.a), b = sets.find(pair.b);
+    if (a.set == b.set) continue;
+    if (a.opposite != b.opposite) pair.bends.sum = -pair.bends.sum;
+    std::tie(pair.a, pair.b) = std::minmax({a.set, b.set});
+    votes.push_back(pair);
   }
-  std::size_t undecided = 0;
-  for (const Votes& one : votes) {
-    if (find(one.a) != find(one.b)) undecided += one.n;
+  merge(votes);
+  std::erase_if(votes, [](const PiecePair& pair) { return !is_decided(pair.bends, pair.edges); });
+  std::stable_sort(votes.begin(), votes.end(), [](const PiecePair& x, const PiecePair& y) {
+    return std::abs(x.bends.sum) > std::abs(y.bends.sum);
+  });
+  for (const PiecePair& pair : votes) {
+    const bool sure = std::abs(pair.bends.mean()) > kBend && pair.bends.significance() > kSureBend;
+    if (sure) sets.unite(pair.a, pair.b, pair.bends.sum < 0);
+  }
+  double undecided = 0;
+  for (const PiecePair& pair : votes) {
+    if (sets.find(pair.a).set != sets.find(pair.b).set) undecided += pair.bends.n;
   }
   return undecided;
 }
 
 // In every set the fewer points are turned.
-void turn_fewer(SignedSets& sets, SignCheck& check) {
-  const std::size_t n = check.turned.size();
-  std::vector<std::array<std::uint32_t, 2>> sizes(n);
+void turn_fewer(const AllPieces& all, SignedSets& sets, SignCheck& check) {
+  const std::size_t n = all.own.size();
+  std::vector<std::array<std::uint64_t, 2>> sizes(n);
   for (std::uint32_t i = 0; i < n; ++i) {
     const SignedSets::Member own = sets.find(i);
-    ++sizes[own.set][own.opposite ? 1 : 0];
+    sizes[own.set][own.opposite ? 1 : 0] += all.own[i];
   }
+  check.turned.resize(n), check.component.resize(n);
   for (std::uint32_t i = 0; i < n; ++i) {
     const SignedSets::Member own = sets.find(i);
     const bool opposite_ones = sizes[own.set][1] <= sizes[own.set][0];
     check.turned[i] = own.opposite == opposite_ones ? 1 : 0;
     check.component[i] = own.set;
+    if (check.turned[i] != 0) check.n_turned += all.own[i];
   }
+}
+
+std::uint64_t count_turned(const AllPieces& all, const std::vector<std::uint8_t>& turned) {
+  std::uint64_t n = 0;
+  for (std::size_t i = 0; i < turned.size(); ++i) n += turned[i] != 0 ? all.own[i] : 0;
+  return n;
+}
+
+SideBalance balance_of_samples(std::span<const SignSample> samples) {
+  std::vector<double> discs;
+  std::vector<Vec3> points, normals;
+  for (const SignSample& sample : samples) {
+    discs.push_back(sample.disc), points.push_back(sample.at), normals.push_back(sample.normal);
+  }
+  return balance_of(std::move(discs), points, normals);
 }
 
 bool faces_inward(double mean_winding) { return std::abs(mean_winding - 0.5) > kInward; }
 
-// What the points of a component say together.
+// What the samples of a component say together.
 struct Part {
   double area = 0, inward = 0;
   Vec3 normal;
@@ -360,39 +225,108 @@ struct Part {
 
 }  // namespace
 
-SideCheck check_sides(std::span<const Vec3> points, std::span<const Vec3> normals,
-                      std::span<const PointArea> samples, double scatter,
-                      std::span<const std::uint32_t> component, const Context& context) {
-  SideCheck check;
-  std::vector<Vec3> at, out;
-  std::vector<double> areas;
-  std::vector<std::uint32_t> firsts;
-  for (const PointArea& sample : samples) {
-    at.push_back(points[sample.point]), out.push_back(normals[sample.point]);
-    areas.push_back(sample.area);
-    firsts.push_back(component[sample.point]);
+AllPieces all_of(const SignPieces& part) {
+  return {.own = part.own, .pairs = part.pairs, .scatter = part.scatter};
+}
+
+bool SignCheck::counts(std::uint32_t a, std::uint32_t b, bool after) const {
+  if (after && turned[a] != turned[b]) return false;
+  const auto [least, most] = std::minmax({whole[a], whole[b]});
+  return !std::binary_search(walls.begin(), walls.end(), Walls{least, most});
+}
+
+SignCheck check_signs(const AllPieces& all, std::span<const SignSample> samples,
+                      const Context& context) {
+  SignCheck check;
+  check.whole = wholes_of(all);
+  const std::vector<PiecePair> pairs = pairs_of_wholes(all, check.whole);
+  for (const PiecePair& pair : pairs) {
+    if (are_walls(pair.heights)) check.walls.push_back({pair.a, pair.b});
   }
+  const std::vector<std::uint8_t> closed =
+      find_closed(pairs, check.whole, samples, all.scatter, context);
+  SignedSets sets = join_pieces(pairs, check.whole, closed);
+  const double undecided = join_at_creases(pairs, sets);
+  turn_fewer(all, sets, check);
+  // Between the sides of a crease nothing is known: it may be that one is to be turned, too.
+  const auto n =
+      static_cast<double>(std::accumulate(all.own.begin(), all.own.end(), std::uint64_t{0}));
+  if (static_cast<double>(check.n_turned) > kManyTurned * n) {
+    check.undecided = static_cast<std::uint64_t>(undecided / kEdgesOfPoint);
+  }
+  return check;
+}
+
+std::vector<std::uint32_t> contradicting_points(const SignPieces& part, std::uint32_t first,
+                                                const SignCheck& check, bool after) {
+  std::vector<std::uint32_t> found;
+  const std::vector<SignPieces::Quarrel>& quarrels = part.quarrels;
+  for (std::size_t begin = 0, end = 0; begin < quarrels.size(); begin = end) {
+    const std::uint32_t i = quarrels[begin].point;
+    std::uint32_t against = 0;
+    for (; end < quarrels.size() && quarrels[end].point == i; ++end) {
+      against += check.counts(first + part.piece[i], first + quarrels[end].other, after) ? 1 : 0;
+    }
+    if (against >= kFewestVotes) found.push_back(i);
+  }
+  return found;
+}
+
+MendedSigns mend_signs(const AllPieces& all, std::vector<SignSample> samples, bool closed,
+                       const Context& context) {
+  MendedSigns mended{.check = check_signs(all, samples, context)};
+  const SignCheck& check = mended.check;
+  mended.turned = check.turned;
+  for (SignSample& sample : samples) {
+    if (check.turned[sample.piece] != 0) sample.normal = -sample.normal;
+  }
+  const bool inwards = balance_of_samples(samples).inwards;
+  if (inwards) {
+    for (std::uint8_t& turned : mended.turned) turned ^= 1;
+    for (SignSample& sample : samples) sample.normal = -sample.normal;
+  }
+  if (closed) {
+    std::vector<std::uint32_t> component;
+    for (const SignSample& sample : samples) component.push_back(check.component[sample.piece]);
+    const SideCheck sides = check_sides(std::move(samples), component, all.scatter, context);
+    mended.inward = sides.inward;
+    for (std::size_t i = 0; i < mended.turned.size(); ++i) {
+      const bool turned = std::find(sides.turned.begin(), sides.turned.end(), check.component[i]) !=
+                          sides.turned.end();
+      if (turned) mended.turned[i] ^= 1;
+    }
+  }
+  mended.n_turned = count_turned(all, mended.turned);
+  const auto n = std::accumulate(all.own.begin(), all.own.end(), std::uint64_t{0});
+  mended.all_inward = inwards && mended.n_turned == n;
+  return mended;
+}
+
+SideCheck check_sides(std::vector<SignSample> samples, std::span<const std::uint32_t> component,
+                      double scatter, const Context& context) {
+  SideCheck check;
+  std::vector<std::uint32_t> firsts(component.begin(), component.end());
   std::sort(firsts.begin(), firsts.end());
   firsts.erase(std::unique(firsts.begin(), firsts.end()), firsts.end());
+  const auto part_of = [&](std::size_t s) {
+    return static_cast<std::size_t>(std::lower_bound(firsts.begin(), firsts.end(), component[s]) -
+                                    firsts.begin());
+  };
   for (int round = 0;; ++round) {
-    const std::vector<BothSides> sides = ask_both_sides(at, areas, scatter, out, context);
+    const std::vector<BothSides> sides = ask_both_sides(samples, scatter, context);
     std::vector<Part> parts(firsts.size());
     std::size_t inward = 0;
-    const auto part_of = [&](std::size_t s) {
-      const std::uint32_t first = component[samples[s].point];
-      return static_cast<std::size_t>(std::lower_bound(firsts.begin(), firsts.end(), first) -
-                                      firsts.begin());
-    };
-    for (std::size_t s = 0; s < at.size(); ++s) {
+    for (std::size_t s = 0; s < samples.size(); ++s) {
       Part& own = parts[part_of(s)];
       ++own.n;
-      own.area += areas[s];
-      own.normal += areas[s] * out[s];
+      own.area += samples[s].area;
+      own.normal += samples[s].area * samples[s].normal;
       if (!faces_inward(sides[s].mean())) continue;
-      own.inward += areas[s];
+      own.inward += samples[s].area;
       ++inward;
     }
-    check.inward = at.empty() ? 0 : static_cast<double>(inward) / static_cast<double>(at.size());
+    const auto n = static_cast<double>(samples.size());
+    check.inward = n > 0 ? static_cast<double>(inward) / n : 0;
     if (parts.size() < 2 || round == kRounds) return check;
     // The largest first: what is inside it is asked again.
     std::size_t largest = 0;
@@ -410,51 +344,10 @@ SideCheck check_sides(std::span<const Vec3> points, std::span<const Vec3> normal
     } else {
       check.turned.erase(found);
     }
-    for (std::size_t s = 0; s < at.size(); ++s) {
-      if (part_of(s) == largest) out[s] = -out[s];
+    for (std::size_t s = 0; s < samples.size(); ++s) {
+      if (part_of(s) == largest) samples[s].normal = -samples[s].normal;
     }
   }
-}
-
-SignCheck check_signs(const PointTree& tree, std::span<const Vec3> points,
-                      std::span<const Vec3> normals, const SamplingGaps& gaps,
-                      std::span<const PointArea> samples, std::span<const std::uint8_t> foreign,
-                      const Context& context) {
-  SignCheck check;
-  const std::size_t n = points.size();
-  if (n == 0) return check;
-  SignGraph graph(tree, points, normals, gaps, context);
-  DisjointSets pieces(n);
-  check.scatter = graph.scatter();
-  CancelPoll poll;
-  for (std::size_t e = 0; e < graph.size(); ++e) {
-    poll();
-    if (graph[e].says == Says::kAgree) pieces.unite(graph.from(e), graph.to(e));
-  }
-  const std::vector<Votes> quarrels = count_votes(
-      graph, [&](std::uint32_t i) { return pieces.find(i); },
-      [&](std::size_t e, double& height) {
-        height = graph[e].height;
-        return graph[e].says == Says::kContradict;
-      });
-  forget_walls(quarrels, pieces, graph);
-  check.contradicting = count_contradicting(graph, {}, foreign, check.first);
-  const std::vector<std::uint8_t> closed =
-      find_closed(quarrels, pieces, points, normals, samples, check.scatter, context);
-  SignedSets sets = join_pieces(quarrels, closed, pieces, n);
-  const std::size_t undecided = join_at_creases(graph, sets);
-  check.turned.resize(n);
-  check.component.resize(n);
-  turn_fewer(sets, check);
-  for (std::size_t i = 0; i < n; ++i) {
-    if (foreign.empty() || foreign[i] == 0) check.n_turned += check.turned[i];
-  }
-  check.left = count_contradicting(graph, check.turned, foreign, check.first_left);
-  // Between the sides of a crease nothing is known: it may be that one is to be turned, too.
-  if (static_cast<double>(check.n_turned) > kManyTurned * static_cast<double>(n)) {
-    check.left += undecided / kGraphNeighbors;
-  }
-  return check;
 }
 
 }  // namespace rholm

@@ -283,7 +283,7 @@ TEST(brick_normals, are_the_same_after_an_interruption) {
 TEST(brick_normals, are_those_of_a_brick_that_is_loaded) {
   const PointCloud given = ring_points(5000);
   Oriented made(without_normals(given), 1000);
-  const BrickScene scene = load_brick(made.store, made.bricks.plan, 1, 0.1, false, {});
+  const BrickScene scene = load_brick(made.store, made.bricks.plan, 1, 0.1, {});
   EXPECT_TRUE(scene.computed_normals);
   ASSERT_EQ(scene.normals.size(), scene.points.size());
   ASSERT_EQ(scene.confidence.size(), scene.points.size());
