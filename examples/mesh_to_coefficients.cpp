@@ -29,8 +29,8 @@ void run(const std::string& mesh, int degree, const std::string& model, const st
   std::printf("centre %.6g %.6g %.6g\n", expansion.center.x, expansion.center.y,
               expansion.center.z);
   std::printf("mean radius %.6g\n", mean_radius);
-  std::printf("volume %.6g\n", measures.volume.value());
-  std::printf("area %.6g\n", measures.area.value());
+  if (measures.volume) std::printf("volume %.6g\n", *measures.volume);
+  if (measures.area) std::printf("area %.6g\n", *measures.area);
   if (expansion.errors && expansion.errors->rms) {
     std::printf("left out (rms) %.3g\n", *expansion.errors->rms);
   }
