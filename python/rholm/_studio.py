@@ -22,9 +22,11 @@ from ._expansion import Expansion
 from ._interop import foreign_mesh, required
 from ._model_files import load
 from ._shape_files import parse_shape, write_shape
-from ._shapes import Mesh, MeshLike, PointCloud, PointsLike, as_mesh, as_points, name_of
+from ._shapes import Mesh, MeshLike, PointCloud, PointsLike, as_mesh, as_points, columns_text, name_of
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import anywidget
 
 _SCRIPT = Path(__file__).with_name("studio.js")
@@ -166,7 +168,13 @@ class Studio:
         """Lines of Python that do all that has been done on the page."""
         return str(self._state()["recipe"]["python"])
 
-    def add(self, shape: MeshLike | PointsLike | Expansion | Atlas, name: str = "") -> None:
+    def add(
+        self,
+        shape: MeshLike | PointsLike | Expansion | Atlas,
+        name: str = "",
+        *,
+        columns: str | Sequence[str] | None = None,
+    ) -> None:
         """Opens another shape on the page.
 
         Parameters
@@ -175,6 +183,8 @@ class Studio:
             Of a path the file itself: anything that ``rholm studio`` opens, sessions among them.
         name : str
             What it is called; by default as its file.
+        columns : str or sequence of str, optional
+            Of the path of a text table: what its columns are, as for `read_shape`.
 
         Raises
         ------
@@ -183,7 +193,7 @@ class Studio:
         """
         called, data = _file_of(shape)
         before = len(self)
-        self._ask("POST", "file", data, name=called)
+        self._ask("POST", "file", data, name=called, columns=columns_text(columns))
         if name and len(self) == before + 1:
             item = self._find(-1)["id"]
             self._ask("POST", "step", json.dumps({"op": "rename", "item": item, "name": name}).encode())

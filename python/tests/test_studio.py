@@ -100,6 +100,18 @@ def test_names_are_given(bumpy):
             studio[2]
 
 
+def test_columns_of_tables_are_said(tmp_path):
+    table = tmp_path / "points.txt"
+    table.write_text("1 0 0 2\n2 4 0 2\n3 0 5 2\n4 1 1 3\n")
+    with rholm.studio(threads=1) as studio:
+        studio.add(table)
+        studio.add(table, "turned", columns=["-", "z", "x", "y"])
+        np.testing.assert_array_equal(studio[0].points[1], [4, 0, 2])
+        np.testing.assert_array_equal(studio[1].points[1], [0, 2, 4])
+        with pytest.raises(rholm.InvalidInputError, match="columns"):
+            studio.add(table, columns="x,y,z")
+
+
 def test_what_cannot_be_opened_is_said(tmp_path):
     broken = tmp_path / "broken.ply"
     broken.write_bytes(b"ply\nformat ascii 1.0\n")

@@ -64,10 +64,36 @@ std::optional<bool> is_shape(std::string_view bytes, const std::string& name) {
   return std::nullopt;
 }
 
-Item open_shape(std::string_view bytes, const std::string& name, const Context& context) {
-  ShapeFile file = parse_shape(bytes, name, {}, context);
-  if (auto* mesh = std::get_if<Mesh>(&file.shape)) return item_of(std::move(*mesh), context);
-  return item_of(std::get<PointCloud>(std::move(file.shape)));
+TableColumns printable(TableColumns told) {
+  told.note = plain_text(told.note);
+  for (TableColumn& column : told.columns) {
+    column.name = plain_text(column.name);
+    column.taken_for = plain_text(column.taken_for);
+  }
+  return told;
+}
+
+std::vector<std::string> printable(std::vector<std::string> warnings) {
+  for (std::string& warning : warnings) warning = plain_text(warning);
+  return warnings;
+}
+
+Item open_shape(std::string_view bytes, const std::string& name, const Context& context,
+                const std::string& columns = {}) {
+  ShapeFile file = parse_shape(bytes, name, {.columns = columns}, context);
+  auto* mesh = std::get_if<Mesh>(&file.shape);
+  Item item = mesh != nullptr ? item_of(std::move(*mesh), context)
+                              : item_of(std::get<PointCloud>(std::move(file.shape)));
+  item.warnings = printable(std::move(file.warnings));
+  if (!file.table.columns.empty() && item.points) {
+    item.table =
+        std::make_shared<const Table>(Table{.bytes = std::make_shared<const std::string>(bytes),
+                                            .told = printable(std::move(file.table)),
+                                            .name = name,
+                                            .file = {},
+                                            .variable = {}});
+  }
+  return item;
 }
 
 Item open_coefficients(std::string_view bytes, const std::string& name, const Context& context) {
@@ -97,13 +123,39 @@ Item open_text(std::string_view bytes, const std::string& name, const Context& c
 }  // namespace
 
 Item open_item(const std::string& name, std::string_view bytes, Scratch& scratch,
-               const Context& context) {
+               const Context& context, const std::string& columns) {
   const std::string plain = plain_name(name);
-  Item item = bytes.starts_with("\x89HDF\r\n\x1a\n") ? open_model(bytes, plain, scratch, context)
-                                                     : open_text(bytes, plain, context);
+  Item item;
+  if (!columns.empty()) {
+    item = open_shape(bytes, plain, context, columns);
+  } else if (bytes.starts_with("\x89HDF\r\n\x1a\n")) {
+    item = open_model(bytes, plain, scratch, context);
+  } else {
+    item = open_text(bytes, plain, context);
+  }
   item.name = plain;
   item.unit = plain_text(item.unit);
   return item;
+}
+
+Item open_table(const Table& table, const std::string& columns, const Context& context) {
+  Item item = open_shape(*table.bytes, table.name, context, columns);
+  auto told = std::make_shared<Table>(*item.table);
+  told->bytes = table.bytes;  // once
+  told->file = table.file;
+  told->variable = table.variable;
+  item.table = std::move(told);
+  return item;
+}
+
+void record_columns(Recipe& recipe, Item& item, const std::string& columns) {
+  const Named from = {item.table->file, item.table->variable};
+  const Named made = {recipe.file(stem_of(from.file) + "-columns", ".ply"),
+                      recipe.variable(stem_of(from.file) + "_columns")};
+  recipe.add(
+      {{"op", "columns"}, {"from", json_of(from)}, {"made", json_of(made)}, {"columns", columns}});
+  item.file = made.file;
+  item.variable = made.variable;
 }
 
 }  // namespace rholm::studio

@@ -2,6 +2,7 @@
 #include "rholm/compress.h"
 #include "rholm/points.h"
 #include "rholm/reconstruct.h"
+#include "studio/open.h"
 #include "studio/step.h"
 
 namespace rholm::studio {
@@ -19,10 +20,31 @@ Step orient_item(const Json& request, const Document& now, Shared& shared) {
             PointCloud cloud = *item->points;
             orient(cloud, {}, context);
             Item changed = *item;
+            changed.table = nullptr;  // whose points have other normals, or none
             changed.points = std::make_shared<const PointCloud>(std::move(cloud));
             changed.revision = ++shared.revisions;
             record(document.recipe, changed, "-oriented",
                    {{"op", "orient"}, {"from", json_of(Named{item->file, item->variable})}});
+            put(document, std::move(changed));
+          }};
+}
+
+// The table once more, with what its columns are.
+Step read_columns(const Json& request, const Document& now, Shared& shared) {
+  const ItemPtr item = with_points(request, now);
+  if (!item->table)
+    throw wrong_kind(*item, "points as they were read from a text table are needed");
+  const std::string columns = string_of(request, "columns");
+  if (columns.empty()) throw bad_request("the field 'columns' is empty");
+  check_columns(columns);
+  return {"Say the columns of " + item->name, false,
+          [=, &shared](Document& document, const Context& context) {
+            Item changed = open_table(*item->table, columns, context);
+            changed.id = item->id;
+            changed.name = item->name;
+            changed.unit = item->unit;
+            changed.revision = ++shared.revisions;
+            record_columns(document.recipe, changed, columns);
             put(document, std::move(changed));
           }};
 }
@@ -137,6 +159,7 @@ Step look_at_atlas(const Json& request, const Document& now, Shared& shared) {
 
 std::optional<Step> point_step(const std::string& op, const Json& request, const Document& now,
                                Shared& shared) {
+  if (op == "columns") return read_columns(request, now, shared);
   if (op == "orient") return orient_item(request, now, shared);
   if (op == "reconstruct") return reconstruct_item(request, now, shared);
   if (op == "compress") return compress_item(request, now, shared);

@@ -108,6 +108,11 @@ void add_reading(Recipe& recipe, Item& item) {
     item.variable = made.variable + ".mesh()";
   }
   recipe.add({{"op", "read"}, {"made", json_of(made)}, {"series", series}});
+  if (!item.table) return;
+  auto table = std::make_shared<Table>(*item.table);
+  table->file = made.file;
+  table->variable = made.variable;
+  item.table = std::move(table);
 }
 
 }  // namespace rholm::studio

@@ -7,6 +7,7 @@
 
 #include "rholm/coefficients.h"
 #include "rholm/compress.h"
+#include "rholm/shape_io.h"
 #include "rholm/star.h"
 #include "studio/edits.h"
 #include "studio/recipe.h"
@@ -92,6 +93,19 @@ void read_file(Reading& r) {
                                ? fmt::format("rholm.load({})", file)
                                : fmt::format("rholm.read_shape({}).shape", file);
   r.lines.python.push_back(made.variable + " = " + call);
+}
+
+// A table of points, with what its columns are.
+void read_columns(Reading& r) {
+  const Named from = r.used("from"), made = r.made();
+  const std::string columns = string_of(r.step, "columns");
+  if (columns.empty()) throw bad_request("a step says no columns");
+  check_columns(columns);
+  const std::string plain = plain_text(columns);
+  r.lines.shell.push_back(fmt::format("rholm convert {} {} --columns={}", shell_word(from.file),
+                                      shell_word(made.file), shell_text(plain)));
+  r.lines.python.push_back(fmt::format("{} = rholm.read_shape({}, columns={}).shape", made.variable,
+                                       python_text(from.file), python_text(plain)));
 }
 
 // As `rholm make` makes them by default.
@@ -369,14 +383,23 @@ void limit(Reading& r) {
 
 StepLines step_lines(const Json& step, const Recipe& before) {
   static const std::map<std::string, void (*)(Reading&)> kSteps = {
-      {"read", read_file},    {"make", make},
-      {"filter", filter},     {"synthesize", synthesize_series},
-      {"analyze", analyze},   {"align", align},
-      {"blend", blend},       {"unit", set_unit},
-      {"smooth", smooth},     {"transfer", transfer},
-      {"simplify", simplify}, {"repair", repair},
-      {"orient", orient},     {"reconstruct", reconstruct},
-      {"compress", compress}, {"atlas_look", limit}};
+      {"read", read_file},
+      {"make", make},
+      {"columns", read_columns},
+      {"filter", filter},
+      {"synthesize", synthesize_series},
+      {"analyze", analyze},
+      {"align", align},
+      {"blend", blend},
+      {"unit", set_unit},
+      {"smooth", smooth},
+      {"transfer", transfer},
+      {"simplify", simplify},
+      {"repair", repair},
+      {"orient", orient},
+      {"reconstruct", reconstruct},
+      {"compress", compress},
+      {"atlas_look", limit}};
   if (!step.is_object()) throw bad_request("a step is no object");
   const auto found = kSteps.find(string_of(step, "op"));
   if (found == kSteps.end()) throw bad_request("a step does what is not known");

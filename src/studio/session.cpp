@@ -132,7 +132,8 @@ void Session::commit(const Step& step, Document document) {
 
 // What is opened is there before and after every step: all documents get it, with names that none
 // of them has. The last one that can be done again has the names of all that came before it.
-Response Session::open(const std::string& name, std::string_view bytes) {
+Response Session::open(const std::string& name, std::string_view bytes,
+                       const std::string& columns) {
   const std::lock_guard one(steps_);
   refuse_while_busy();
   Document last;
@@ -142,11 +143,12 @@ Response Session::open(const std::string& name, std::string_view bytes) {
   }
   Document changed = last;
   const Context context = {.threads = threads_};
-  if (is_session_file(bytes)) {
+  if (columns.empty() && is_session_file(bytes)) {
     open_session(bytes, scratch_, changed, shared_, context);
   } else {
-    Item item = open_item(name, bytes, scratch_, context);
+    Item item = open_item(name, bytes, scratch_, context, columns);
     add_reading(changed.recipe, item);
+    if (!columns.empty()) record_columns(changed.recipe, item, columns);
     add(changed, std::move(item), shared_);
   }
   const std::lock_guard lock(mutex_);

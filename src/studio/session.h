@@ -43,7 +43,8 @@ class Session {
   Document document() const;
   // A file of any kind that the program reads, or of a session, whose items are added. No step:
   // undoing does not close it.
-  Response open(const std::string& name, std::string_view bytes);
+  // `columns` are those of a text table, if they are said.
+  Response open(const std::string& name, std::string_view bytes, const std::string& columns = {});
   Response step(const Json& request);
   Response live(const Json& request);
   Response surface(int item, bool original) const;

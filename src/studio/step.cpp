@@ -34,6 +34,8 @@ std::size_t bytes_of(const PointCloud& cloud) {
          attribute_bytes(cloud.attributes);
 }
 
+std::size_t bytes_of(const std::string& bytes) { return bytes.size(); }
+
 }  // namespace
 
 std::size_t bytes_of(std::span<const Document* const> documents) {
@@ -48,6 +50,7 @@ std::size_t bytes_of(std::span<const Document* const> documents) {
       count(item->shown);
       count(item->model);
       count(item->points);
+      if (item->table) count(item->table->bytes);
     }
   }
   return bytes;

@@ -56,8 +56,9 @@ std::optional<Step> expansion_step(const std::string& op, const Json& request, c
                                    Shared& shared);  // analyze, look, align, blend
 std::optional<Step> edit_step(const std::string& op, const Json& request, const Document& now,
                               Shared& shared);  // smooth, transfer, simplify, repair
-std::optional<Step> point_step(const std::string& op, const Json& request, const Document& now,
-                               Shared& shared);  // orient, reconstruct, compress, atlas_look
+std::optional<Step> point_step(
+    const std::string& op, const Json& request, const Document& now,
+    Shared& shared);  // columns, orient, reconstruct, compress, atlas_look
 
 // The item with the number that stands in a field. Throws Refusal 400, 404.
 ItemPtr item_of(const Document& document, int id);

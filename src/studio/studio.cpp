@@ -131,7 +131,7 @@ StudioResponse Studio::State::answer_in(studio::Session& session, const StudioRe
                                 "studio --max-upload",
                                 options.max_upload));
     }
-    return session.open(value_of(request, "name"), request.body);
+    return session.open(value_of(request, "name"), request.body, value_of(request, "columns"));
   }
   if (request.body.size() > kMaxStudioJson) {
     throw Refusal(413, "too_large",

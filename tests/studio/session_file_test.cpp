@@ -282,6 +282,7 @@ Json all_steps() {
            {"from", {{"file", "co.h5"}, {"variable", "co.mesh()"}}},
            {"made", made("sc")},
            {"error", 0.1}},
+          {{"op", "columns"}, {"from", made("d")}, {"made", made("ta")}, {"columns", "x,y,z"}},
           {{"op", "atlas_look"}, {"from", at("co", ".h5")}, {"made", made("al")}, {"limit", 3}}};
 }
 

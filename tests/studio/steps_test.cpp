@@ -138,6 +138,85 @@ TEST(Steps, PointsBecomeSurfacesAndCaps) {
   EXPECT_EQ(state.at("items").back().at("look").at("degree"), highest - 1);
 }
 
+// A table without a header: numbers of rows, places, and one more column.
+constexpr const char* kTable = "1 0 0 2 7\n2 4 0 2 8\n3 0 5 2 9\n4 1 1 3 6\n";
+
+TEST(Steps, ColumnsOfTablesAreToldAndSaid) {
+  Client client;
+  ASSERT_EQ(client.open("points.txt", kTable).status, 200);
+  const Json read = client.state().at("items")[0];
+  std::vector<std::string> taken;
+  for (const Json& column : read.at("table").at("columns")) taken.push_back(column.at("taken_for"));
+  EXPECT_EQ(taken, (std::vector<std::string>{"-", "x", "y", "z", "scalar_1"}));
+  EXPECT_NE(read.at("table").at("note").get<std::string>().find("column 1"), std::string::npos);
+  EXPECT_EQ(read.at("center"), Json({2, 2.5, 2.5}));
+  const Json state =
+      check_undone(client, {{"op", "columns"}, {"item", 1}, {"columns", "-,z,x,y,odd'$(name)"}});
+  const Json item = state.at("items")[0];
+  EXPECT_EQ(item.at("center"), Json({2.5, 2.5, 2}));
+  EXPECT_EQ(item.at("name"), "points.txt");
+  EXPECT_EQ(item.at("table").at("columns")[4].at("taken_for"), "odd'$(name)");
+  EXPECT_EQ(state.at("recipe").at("shell"),
+            "rholm convert points.txt points-columns.ply "
+            "--columns='-,z,x,y,odd'\\''$(name)'");
+  EXPECT_TRUE(state.at("recipe").at("python").get<std::string>().ends_with(
+      "\npoints_columns = rholm.read_shape(\"points.txt\", "
+      "columns=\"-,z,x,y,odd'$(name)\").shape"));
+  // Of the table as it was read first, however often.
+  const Json again = client.step({{"op", "columns"}, {"item", 1}, {"columns", "x,y,z,-,-"}});
+  EXPECT_TRUE(again.at("recipe").at("shell").get<std::string>().ends_with(
+      "\nrholm convert points.txt points-columns-2.ply --columns=x,y,z,-,-"));
+}
+
+TEST(Steps, ColumnsAreSaidWhereATableIsOpened) {
+  Client client;
+  EXPECT_EQ(code_of(client.open("points.csv", "a,b,c\n1,2,3\n2,4,3\n")), "unsupported");
+  const Response opened = client.ask("POST", "api/file", "a,b,c\n1,2,3\n2,4,3\n",
+                                     {{"name", "points.csv"}, {"columns", "x,y,z"}});
+  ASSERT_EQ(opened.status, 200) << opened.body;
+  const Json state = Json::parse(opened.body);
+  EXPECT_EQ(state.at("items")[0].at("center"), Json({1.5, 3, 3}));
+  EXPECT_EQ(state.at("items")[0].at("table").at("columns")[0].at("name"), "a");
+  EXPECT_EQ(state.at("recipe").at("shell"),
+            "rholm convert points.csv points-columns.ply --columns=x,y,z");
+  EXPECT_TRUE(state.at("undo").is_null());
+  // The points in a session file are a table no more.
+  Client other;
+  ASSERT_EQ(other.open("a.rholm", client.ask("GET", "api/session-file").body).status, 200);
+  EXPECT_TRUE(other.state().at("items")[0].at("table").is_null());
+  EXPECT_EQ(other.state().at("recipe"), state.at("recipe"));
+}
+
+TEST(Steps, ColumnsThatCannotBeAreRefused) {
+  Client client;
+  client.open("points.txt", kTable);
+  client.step({{"op", "make"}, {"shape", "box"}});
+  client.step({{"op", "make"}, {"shape", "points"}});
+  const Json before = client.state();
+  const auto said = [&](int item, const std::string& columns) {
+    return client.post({{"op", "columns"}, {"item", item}, {"columns", columns}});
+  };
+  for (const char* columns : {"x,y,z", "x,y,z,-,-,-", "x,y,-,-,-", "x,x,y,z,-", "x,y,z,-,"}) {
+    EXPECT_EQ(code_of(said(1, columns)), "invalid_input") << columns;
+  }
+  EXPECT_EQ(code_of(said(1, "")), "bad_request");
+  EXPECT_EQ(code_of(said(2, "x,y,z")), "wrong_kind");
+  EXPECT_EQ(code_of(said(3, "x,y,z")), "wrong_kind");
+  EXPECT_EQ(client.state(), before);
+  for (const char* bytes : {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "\x89HDF\r\n\x1a\n"}) {
+    EXPECT_EQ(client.ask("POST", "api/file", bytes, {{"name", "a"}, {"columns", "x,y,z"}}).status,
+              422);
+  }
+}
+
+TEST(Steps, WhatAReaderPassesOverIsTold) {
+  Client client;
+  client.open("points.txt", "0 0 0\n1 0 nan\n0 1 0\n0 0 1\n");
+  const Json warnings = client.state().at("items")[0].at("warnings");
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].get<std::string>().find("1 point"), std::string::npos) << warnings;
+}
+
 TEST(Steps, DamagedMeshesAreMended) {
   Client client;
   // An octahedron without one face.
@@ -202,6 +281,28 @@ TEST(Steps, FiguresAreOfWhatIsShown) {
       client.step({{"op", "look"}, {"item", 1}, {"degree", 1}, {"gains", {1, 0.5}}}).at("items")[0];
   EXPECT_EQ(fact(item, "Degree"), "1 of 12, filtered");
   EXPECT_EQ(fact(item, "Error, rms"), "not known");
+}
+
+// What is known of the whole is the same wherever it is told.
+TEST(Steps, TheErrorOfAllDegreesIsOne) {
+  Client client;
+  client.step({{"op", "make"}, {"shape", "bumpy"}});
+  for (const int degree : {4, 40}) {
+    const Json item =
+        client.step({{"op", "analyze"}, {"item", 1}, {"degree", degree}}).at("items")[0];
+    const Json row = item.at("expansion").at("error").back();
+    EXPECT_EQ(row[0], degree);
+    const std::string told = fact(item, "Error, rms");
+    if (row[1].is_null()) {
+      EXPECT_EQ(told, "not known");
+    } else {
+      EXPECT_NEAR(std::stod(told), row[1].get<double>(), 1e-4 * row[1].get<double>());
+    }
+    const Json by_norm = item.at("expansion").at("rms_per_degree").back();
+    if (!by_norm.is_null()) {
+      EXPECT_EQ(by_norm, row[1]);
+    }
+  }
 }
 
 TEST(Steps, LengthsHaveTheUnitThatIsSet) {

@@ -1,11 +1,15 @@
 // What people meet who are new to the page: files of the command line, names, fields, what cannot be done, which way
 // is up.
 import { execFileSync } from "node:child_process";
+import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { afterAll, beforeAll, beforeEach, expect, it } from "vitest";
 import {
+  bytesOf,
   canvas,
   drag,
+  drop,
+  inFolder,
   leave,
   moveSlider,
   openFile,
@@ -15,8 +19,10 @@ import {
   programPath,
   ready,
   rholm,
+  saved,
   setNumber,
   settled,
+  shell,
   startStudio,
   stopStudio,
   visit,
@@ -136,6 +142,55 @@ it("figures are of the degree that is shown", async () => {
   expect(await value("Degree")).toBe("2 of 12");
   expect(await value("Volume")).not.toBe(before[0]);
   expect(await value("Error, rms")).not.toBe(before[1]);
+});
+
+it("says what the columns of a table were taken for, and takes what people say they are", async () => {
+  const { page } = now;
+  const rows = Array.from({ length: 40 }, (_, i) => [i + 1, Math.cos(i), Math.sin(i), i / 40, 7 * i].join(" "));
+  await drop(page, [["spiral.txt", Buffer.from(`${rows.join("\n")}\n`)]]);
+  await page.getByText("spiral.txt: columns taken for").waitFor();
+  await openTab(page, "Figures");
+  const columns = page.getByLabel("Columns", { exact: true });
+  expect(await columns.inputValue()).toBe("-,x,y,z,scalar_1");
+  await picture(page, "table");
+  const before = await canvas(page);
+  await columns.fill("x,y,z,-");
+  await columns.press("Enter");
+  await settled(page);
+  await page.getByText(/are 4, but the rows have 5/).waitFor();
+  expect(await columns.inputValue()).toBe("-,x,y,z,scalar_1");
+  await columns.fill("-,z,x,y,height");
+  await columns.press("Enter");
+  await settled(page);
+  expect(Buffer.compare(before, await canvas(page))).not.toBe(0);
+  expect(await page.getByRole("alert").count()).toBe(0);
+  expect(await columns.inputValue()).toBe("-,z,x,y,height");
+  await openTab(page, "Save");
+  const bytes = await saved(page, "Save spiral.ply");
+  const lines = await page.locator(".copy pre").first().innerText();
+  writeFileSync(inFolder(studio, "spiral.txt"), `${rows.join("\n")}\n`);
+  shell(studio, lines);
+  expect(bytesOf(studio, "spiral-columns.ply").equals(bytes)).toBe(true);
+  await press(page, "Undo");
+  await openTab(page, "Figures");
+  expect(await columns.inputValue()).toBe("-,x,y,z,scalar_1");
+  now.complaints.length = 0; // the browser logs the refusal
+});
+
+it("reads a table that was refused, with what people say its columns are", async () => {
+  const { page } = now;
+  await openTab(page, "Figures");
+  await drop(page, [["odd.csv", Buffer.from("a,b,c\n1,2,3\n2,4,3\n5,4,4\n")]]);
+  await page.getByText("odd.csv was not read").waitFor();
+  await picture(page, "table-refused");
+  const columns = page.getByLabel("Its columns");
+  await columns.fill("x,y,z");
+  await columns.press("Enter");
+  await settled(page);
+  expect(await names()).toEqual(["ring.ply", "odd.csv"]);
+  expect(await columns.count()).toBe(0);
+  expect(await page.getByRole("button", { name: "Undo" }).isDisabled()).toBe(true);
+  now.complaints.length = 0;
 });
 
 it("turns the axis up that is chosen, and remembers it", async () => {

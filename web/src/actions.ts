@@ -2,7 +2,7 @@
 import { count } from "./format";
 import { PortTransport } from "./messages";
 import type { Fields, Item, Job, State } from "./protocol";
-import { busy, demo, items, job, lost, notice, selected, stopped, studio, working } from "./state";
+import { busy, demo, items, job, lost, notice, selected, stopped, studio, unread, working } from "./state";
 import {
   getJson,
   HttpTransport,
@@ -149,17 +149,25 @@ export async function ask<T>(fields: Fields, label: string): Promise<T | null> {
   return answer;
 }
 
-async function openFile(file: File): Promise<void> {
+// What its reader said of an item.
+function toldOf(one: Item): string[] {
+  return [...(one.table ? [one.table.note] : []), ...(one.warnings ?? [])].map((text) => `${one.name}: ${text}`);
+}
+
+// Items that the file brought.
+async function openFile(file: File, columns = ""): Promise<readonly Item[]> {
   const most = studio.value?.max_upload ?? Infinity;
   // Sent all the same, it would be hung up on, without an answer that browsers read.
   if (file.size > most) {
     throw new Error(`it has ${count(file.size)} bytes; the studio takes ${count(most)} (--max-upload).`);
   }
   const before = new Set(items.peek().map(({ id }) => id));
-  const state = await postFile<State>(transport, file.name, file);
+  const state = await postFile<State>(transport, file.name, file, columns);
   demo.value = false;
   take(state);
-  keep(state.items.filter(({ id }) => !before.has(id)));
+  const brought = state.items.filter(({ id }) => !before.has(id));
+  keep(brought);
+  return brought;
 }
 
 // All of them; of those that are refused it says why.
@@ -169,17 +177,41 @@ export async function openFiles(files: Iterable<File>): Promise<void> {
     return;
   }
   const refused: string[] = [];
+  const told: string[] = [];
   let opened = 0;
   for (const file of files) {
-    const done = await during(`Reading ${file.name}`, () => openFile(file));
+    const done = await during(`Reading ${file.name}`, async () => {
+      told.push(...(await openFile(file)).flatMap(toldOf));
+    });
     if (lost.value) return;
     const why = notice.peek()?.text ?? "";
-    if (done) opened += 1;
-    else refused.push(why.includes(file.name) ? why : `${file.name}: ${why}`);
+    if (done) {
+      opened += 1;
+      continue;
+    }
+    refused.push(why.includes(file.name) ? why : `${file.name}: ${why}`);
+    if (tableNames.test(file.name)) unread.value = file;
   }
-  if (refused.length === 0) return;
-  if (opened > 0) refused.push(opened === 1 ? "The other one is open." : `The other ${opened} are open.`);
-  notice.value = { text: refused.join("\n"), bad: true };
+  if (refused.length > 0 && opened > 0) {
+    refused.push(opened === 1 ? "The other one is open." : `The other ${opened} are open.`);
+  }
+  const lines = [...refused, ...told];
+  if (lines.length > 0) notice.value = { text: lines.join("\n"), bad: refused.length > 0 };
+}
+
+// Names of files that may be tables of points.
+const tableNames = /\.(asc|csv|dat|pts|pwn|tab|tsv|txt|xyz)$/i;
+
+// A table that was refused, with what its columns are.
+export async function openTable(file: File, columns: string): Promise<boolean> {
+  let told: string[] = [];
+  const done = await during(`Reading ${file.name}`, async () => {
+    told = (await openFile(file, columns)).flatMap(toldOf);
+  });
+  if (!done) return false;
+  unread.value = null;
+  if (told.length > 0) notice.value = { text: told.join("\n"), bad: false };
+  return true;
 }
 
 export const undo = () => studio.value?.undo && step({ op: "undo" }, "Undoing");

@@ -28,6 +28,13 @@ export interface ItemAtlas {
   error: { rms: number; max: number } | null; // of the whole surface, as measured, in the unit of lengths
 }
 
+// What the columns of a text table were taken for; `note` says so, and how it was decided.
+export interface Table {
+  columns: { name: string; taken_for: string }[];
+  note: string;
+  unsure: boolean; // another reading is possible
+}
+
 export type Vector = [number, number, number];
 export type Kind = "mesh" | "points" | "expansion" | "atlas";
 
@@ -45,6 +52,8 @@ export interface Item {
   closed: boolean;
   star: Star | null;
   expansion: ItemExpansion | null;
+  table?: Table | null; // of points as a text table has them
+  warnings?: string[]; // of the reader of its file
   normals?: boolean;
   caps?: number;
   placed?: string | null; // how it was laid on another one, for people

@@ -24,6 +24,7 @@ export const selected = signal<number | null>(null);
 export const busy = signal<string | null>(null); // what the page waits for
 export const job = signal<Job | null>(null);
 export const notice = signal<{ text: string; bad: boolean } | null>(null);
+export const unread = signal<File | null>(null); // refused, and it may be a table whose columns have to be said
 export const helpOpen = signal(false);
 export const quitOpen = signal(false); // whether to end the program is asked
 export const demo = signal(false); // the shape is the page's own, to play with

@@ -127,8 +127,10 @@ export async function postJson<T>(transport: Transport, path: string, fields: Fi
   return json((await transport.request("POST", path, JSON.stringify(fields))).bytes) as T;
 }
 
-export async function postFile<T>(transport: Transport, name: string, file: Blob): Promise<T> {
-  const path = `file?name=${encodeURIComponent(name)}`;
+// `columns` are those of a text table, if they are said.
+export async function postFile<T>(transport: Transport, name: string, file: Blob, columns = ""): Promise<T> {
+  const said = columns ? `&columns=${encodeURIComponent(columns)}` : "";
+  const path = `file?name=${encodeURIComponent(name)}${said}`;
   return json((await transport.request("POST", path, file)).bytes) as T;
 }
 

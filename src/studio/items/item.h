@@ -13,6 +13,7 @@
 #include "rholm/compress.h"
 #include "rholm/context.h"
 #include "rholm/mesh.h"
+#include "rholm/shape_io.h"
 #include "rholm/star.h"
 #include "rholm/topology.h"
 #include "studio/items/fields.h"
@@ -30,6 +31,14 @@ struct MeshFacts {
   std::vector<std::uint32_t> offending;  // triangles that turn their back to its centre
 };
 
+// The text table that points were read from, so that it can be read in another way.
+struct Table {
+  std::shared_ptr<const std::string> bytes;
+  TableColumns told;  // what its columns were taken for, as text that prints
+  // Its file, and where the lines of the recipe have what was read of it first.
+  std::string name, file, variable;
+};
+
 struct Item {
   int id = 0;
   std::string name;
@@ -43,6 +52,8 @@ struct Item {
   // Its file. What was read and written again may have other last digits: this is given back.
   std::shared_ptr<const std::string> atlas_file;
   std::shared_ptr<const PointCloud> points;  // of points
+  std::shared_ptr<const Table> table;        // of points as a table of text has them
+  std::vector<std::string> warnings;         // of the reader of its file
   std::shared_ptr<const Mesh> shown;         // the surface with its look; nullptr for points
   std::shared_ptr<const MeshFacts> facts;    // of `shown`, or of the original if it was analysed
   Look look;                                 // with a model

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "rholm/atlas.h"
+#include "studio/items/errors.h"
 #include "studio/items/item.h"
 
 namespace rholm::studio {
@@ -74,12 +75,7 @@ void add_model_facts(const Item& item, Json& facts) {
   const Vec3& c = expansion.center;
   const std::string unit = item.unit.empty() ? "" : " " + item.unit;
   add(facts, "Centre", fmt::format("{:.4g}, {:.4g}, {:.4g}{}", c.x, c.y, c.z, unit));
-  std::optional<double> rms;
-  if (item.model->beyond && !filtered) rms = item.model->beyond->rms[shown];
-  if (!rms && item.look == whole(*item.model) && expansion.errors &&
-      expansion.function == RadialFunction::kRadius) {
-    rms = expansion.errors->rms;  // measured
-  }
+  const std::optional<double> rms = filtered ? std::nullopt : rms_at(*item.model, item.look.degree);
   add(facts, "Error, rms", rms ? length(*rms, item.unit) : "not known");
 }
 

@@ -1,6 +1,7 @@
 // An item as the page is told of it.
 #include <algorithm>
 
+#include "studio/items/errors.h"
 #include "studio/items/item.h"
 
 namespace rholm::studio {
@@ -15,10 +16,6 @@ std::vector<int> shown_degrees(int last) {
 }
 
 Json number(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
-
-std::optional<double> rms_of(const Model& model, int degree) {
-  return model.beyond ? model.beyond->rms[static_cast<std::size_t>(degree)] : std::nullopt;
-}
 
 std::optional<double> max_of(const Model& model, int degree) {
   if (model.max.empty()) return std::nullopt;
@@ -46,13 +43,21 @@ Json expansion_json(const Model& model) {
                {"error", Json::array()},
                {"tail", nullptr},
                {"power", model.power}};
-  if (model.beyond || !model.max.empty()) {
+  if (model.beyond || !model.max.empty() || rms_at(model, degree)) {
     for (const int d : shown_degrees(degree)) {
-      json["error"].push_back({d, number(rms_of(model, d)), number(max_of(model, d))});
+      json["error"].push_back({d, number(rms_at(model, d)), number(max_of(model, d))});
     }
   }
   if (expansion.tail_strength) json["tail"] = {{"strength", *expansion.tail_strength}};
   return json;
+}
+
+Json table_json(const TableColumns& told) {
+  Json columns = Json::array();
+  for (const TableColumn& column : told.columns) {
+    columns.push_back({{"name", column.name}, {"taken_for", column.taken_for}});
+  }
+  return {{"columns", std::move(columns)}, {"note", told.note}, {"unsure", told.unsure}};
 }
 
 Json atlas_json(const Item& item) {
@@ -84,6 +89,8 @@ Json json_of(const Item& item) {
                {"closed", item.facts && item.facts->inspection.closed},
                {"star", star_json(item)},
                {"expansion", item.model ? expansion_json(*item.model) : Json(nullptr)},
+               {"table", item.table ? table_json(item.table->told) : Json(nullptr)},
+               {"warnings", item.warnings},
                {"normals", item.points && !item.points->normals.empty()},
                {"caps", item.caps},
                {"placed", item.placed.empty() ? Json(nullptr) : Json(item.placed)},

@@ -197,8 +197,8 @@ function Comparison({ one }: { one: Item }) {
 
 function ErrorRow({ one }: { one: Item }) {
   if (!one.expansion || tool.mode.value !== "cut") return null;
-  const rms = one.expansion.rms_per_degree?.[tool.degree.value];
-  const most = one.expansion.error.find(([l]) => l === tool.degree.value)?.[2];
+  const [, told, most] = one.expansion.error.find(([l]) => l === tool.degree.value) ?? [];
+  const rms = one.expansion.rms_per_degree?.[tool.degree.value] ?? told;
   const largest = typeof most === "number" ? `, ${withUnit(most, one.unit)} at most` : "";
   if (typeof rms !== "number") {
     return (

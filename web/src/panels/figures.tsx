@@ -5,6 +5,7 @@ import { coloring, markOffending, type Coloring } from "../show";
 import { demo, item } from "../state";
 import { theView } from "../show";
 import type { Item } from "../protocol";
+import { TableColumns, UnreadTable } from "./table";
 import { Check, Facts, Hint, Select, TextField } from "../widgets";
 
 // Shapes with known answers, to begin with.
@@ -113,6 +114,7 @@ export function FiguresPanel() {
   const one = item.value;
   return (
     <>
+      <UnreadTable />
       {demo.value && <Welcome />}
       <MakeShape />
       {one && (
@@ -124,6 +126,10 @@ export function FiguresPanel() {
       )}
       {one && <Unit one={one} />}
       {one && <Facts facts={one.facts} />}
+      {one && <TableColumns one={one} />}
+      {(one?.warnings ?? []).map((text) => (
+        <Hint key={text}>When it was read: {text}.</Hint>
+      ))}
       <StarFacts />
       <Colors />
       {one && !one.closed && one.kind === "mesh" && (
