@@ -193,6 +193,17 @@ it("reads a table that was refused, with what people say its columns are", async
   now.complaints.length = 0;
 });
 
+it("begins every panel at its top", async () => {
+  const { page } = now;
+  await page.setViewportSize({ width: 640, height: 400 });
+  const top = () => page.locator("#panel").evaluate((panel) => panel.scrollTop);
+  await openTab(page, "Figures");
+  await page.locator("#panel").evaluate((panel) => panel.scrollTo(0, panel.scrollHeight));
+  expect(await top()).toBeGreaterThan(0);
+  await openTab(page, "Save");
+  expect(await top()).toBe(0);
+});
+
 it("turns the axis up that is chosen, and remembers it", async () => {
   const { page } = now;
   const axis = page.getByLabel("Axis that points up");

@@ -252,8 +252,9 @@ export function App() {
       <Items />
       <Stage />
       <Tabs />
-      <div id="panel" role="tabpanel" aria-labelledby={`tab-${tab.value}`} class="panel">
-        <Panel key={tab.value} />
+      {/* Each from its top, however far the one before was scrolled. */}
+      <div key={tab.value} id="panel" role="tabpanel" aria-labelledby={`tab-${tab.value}`} class="panel">
+        <Panel />
       </div>
       <Help />
       <Dialog open={quitOpen} label="Stop the program">
