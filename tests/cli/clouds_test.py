@@ -133,6 +133,13 @@ class Clouds(CliTest):
         self.assertIn("off the surface", done.err)
         self.assertTrue(done.json()["computed_normals"])
 
+    def test_bricks_cut_handles_beside_what_was_cut_before(self):
+        points, normals = clouds.joined(clouds.sphere(np.random.default_rng(8), 2000),
+                                        clouds.sphere(np.random.default_rng(9), 2000, 1, (0.8, 0, 0)))
+        done, _ = self.reconstruct(points, normals, "--brick-points", "1000")
+        self.assertEqual(done.code, 4, done)  # the normals within the other ball
+        self.assertIn("point into the solid", done.err)
+
     def test_normals_at_random_are_not_called_inward(self):
         points, normals, _ = spoiled("sphere", "random", 0.6, 1500)
         self.write("p.xyz", clouds.text(points, normals))

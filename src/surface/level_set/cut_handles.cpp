@@ -357,10 +357,15 @@ CutHandles cut_handles_at(Mesh& mesh, std::vector<std::uint32_t> places,
   };
   CutHandles result;
   std::vector<std::uint32_t> middles;
+  const std::size_t n_given = mesh.vertices.size();
   while (!places.empty()) {
     const std::size_t n = cut_once(mesh, resolution, places, result.copies, middles, once, context);
     if (n == 0) break;
     result.handles += n;
+  }
+  // A loop may go along copies that an earlier one has made.
+  for (std::uint32_t& v : result.copies) {
+    if (v >= n_given) v = result.copies[v - n_given];
   }
   if (result.handles > 0) {
     smooth_ends(mesh, std::move(middles), kGirth * resolution.typical, context);

@@ -22,7 +22,7 @@ struct Resolution {
 
 struct CutHandles {
   std::size_t handles = 0;
-  std::vector<std::uint32_t> copies;  // of which vertices the mesh's last ones are copies
+  std::vector<std::uint32_t> copies;  // of which given vertices the mesh's last ones are copies
 };
 
 // Of a part of a closed surface: pairs of one of its vertices and a number below `n`, of a
