@@ -159,7 +159,7 @@ class Stopped(Analyze):
             self.assertNotEqual(run.code, 0, run)
         left = [p.name for p in self.folder.iterdir()]
         if killed == 0 or self.mark.exists():  # who is killed with a file that has no name yet leaves it
-            left = [name for name in left if not name.startswith(".rholm-")]
+            left = [name for name in left if not name.startswith(".rholm.")]
         self.assertEqual(left, ["mesh.ply"])
         self.assertEqual(run.pids(), {})
 
