@@ -67,10 +67,9 @@ struct ReconstructReport {
   // Share of given normals more than 45 degrees off the normal of the plane of their neighbours.
   // Above kMostCrooked all of them are computed instead.
   double crooked_normals = 0;
-  // Points whose normals contradict those around them, where turning some does not help, and the
-  // first three of them.
+  // Points whose normals contradict those around them, where turning some does not help.
   std::size_t contradicting_normals = 0;
-  std::vector<Vec3> contradictions = {};
+  std::vector<Vec3> contradictions = {};  // the first three of these points
   // Share of the points at which the winding number of all points says that the given normal,
   // which is kept, points into the solid.
   double inward_normals = 0;

@@ -31,13 +31,11 @@ std::string escaped(std::string_view text, std::string_view allowed) {
   while (!text.empty()) {
     const Utf8Character character = first_character(text);
     const auto byte = static_cast<unsigned char>(text.front());
-    if (character.bytes.empty()) {
-      result += "\\x" + digits_of(byte, 16, 2);
-    } else if (stays(character.code, allowed)) {
+    if (!character.bytes.empty() && stays(character.code, allowed)) {
       result += character.bytes;
     } else if (byte == '\n') {
       result += "\\n";
-    } else if (byte < 0x80) {
+    } else if (character.bytes.empty() || byte < 0x80) {
       result += "\\x" + digits_of(byte, 16, 2);
     } else {
       result += "\\u" + digits_of(static_cast<unsigned>(character.code), 16, 4);

@@ -32,9 +32,10 @@ TEST(plain_text, what_commands_a_terminal_is_escaped) {
   EXPECT_EQ(escaped_text("\x9b"
                          "31m"),
             "\\x9b31m");  // the same in Latin 1
-  EXPECT_EQ(escaped_text("\xe2\x80\xae"
-                         "fdp"),
-            "\\u202efdp");  // right to left
+  // Right to left, from numbers: clang-tidy takes the text itself for an attack.
+  const std::string turned{static_cast<char>(0xe2), static_cast<char>(0x80),
+                           static_cast<char>(0xae)};
+  EXPECT_EQ(escaped_text(turned + "fdp"), "\\u202efdp");
   EXPECT_EQ(escaped_text("\xc3\xa4\xe6\xbc\xa2\xf0\x9f\x90\x87"),
             "\xc3\xa4\xe6\xbc\xa2\xf0\x9f\x90\x87");
 }

@@ -103,9 +103,9 @@ class Work(CliTest):
         self.rholm("make", "bumpy", "-o", "a.ply")
         self.rholm("analyze", "a.ply", "--degree", "4", "-o", "a.h5")
         studio = Studio(self, "a.ply", "a.h5")
-        self.assertEqual([(i["name"], i["kind"]) for i in studio.begin()["items"]],
-                         [("a.ply", "mesh"), ("a.h5", "expansion")])
-        self.assertEqual(studio.begin()["items"], [])
+        for _ in range(2):  # in every page
+            self.assertEqual([(i["name"], i["kind"]) for i in studio.begin()["items"]],
+                             [("a.ply", "mesh"), ("a.h5", "expansion")])
 
     def test_files_that_are_refused_end_it(self):
         self.write("bad.ply", "ply\nnothing\n")
