@@ -41,11 +41,11 @@ BrickCloud::BrickCloud(PointSource& source, PieceStore& store, const Reconstruct
 void BrickCloud::prepare() {
   sort();
   if (options_.remove_outliers) remove_strays();
+  count_points();
   if (given_) look_at_shape();
   if (!given_) orient();
   if (around_ == 0) look_at_shape();
   mend();
-  count_points();
   take_sample("sample");
   if (options_.holes == HolePolicy::kFill) check_sides(sample_.sides, points_);
   choose_size("size");
