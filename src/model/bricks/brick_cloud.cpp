@@ -237,6 +237,7 @@ void BrickCloud::choose_size(const std::string& round) {
                  std::vector{choose_cap_size(scene.ordered(), kDegree, stages_.context())});
   });
   std::vector<CapSize> sizes;
+  sizes.reserve(pilots);
   for (std::size_t pilot = 0; pilot < pilots; ++pilot) {
     sizes.push_back(read_values<CapSize>(store_, name_of(pilot)).at(0));
   }
