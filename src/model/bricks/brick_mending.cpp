@@ -275,6 +275,7 @@ void BrickMending::turn(std::size_t brick) const {
     }
   }
   std::vector<std::uint8_t> flags;
+  flags.reserve(part.piece.size());
   for (const std::uint32_t code : part.piece) flags.push_back(turned_.at(first + code));
   const std::span<const std::byte> sections[] = {bytes_of_one(count), bytes_of(flags)};
   store_.write(turned_name(brick), sections);
