@@ -287,6 +287,7 @@ MendedSigns mend_signs(const AllPieces& all, std::vector<SignSample> samples, bo
   }
   if (closed) {
     std::vector<std::uint32_t> component;
+    component.reserve(samples.size());
     for (const SignSample& sample : samples) component.push_back(check.component[sample.piece]);
     const SideCheck sides = check_sides(std::move(samples), component, all.scatter, context);
     mended.inward = sides.inward;
