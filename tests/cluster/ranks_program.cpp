@@ -146,10 +146,11 @@ void until_stopped() {
   }
 }
 
-// Others see it once it is complete.
+// Others see it once it is complete. Tests look for names by their beginning: the part has another
+// one.
 void write_whole(const std::string& name, const std::string& text) {
   const std::string part =
-      fmt::format("{}.{}.part", name, std::hash<std::thread::id>()(std::this_thread::get_id()));
+      fmt::format("part.{}.{}", std::hash<std::thread::id>()(std::this_thread::get_id()), name);
   std::ofstream(part) << text;
   std::filesystem::rename(part, name);
 }
