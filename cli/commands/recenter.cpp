@@ -93,7 +93,8 @@ std::vector<Option> option_list(Options& o) {
   Option center = center_option(o.center);
   center.help =
       "volume (the default): the centroid of the solid, or as near to it as the whole surface is "
-      "seen; auto, cosine: as for meshes, of a fine mesh of the surface; centroid: of the "
+      "seen; auto, kernel, slope, cosine: as for meshes, of a fine mesh of the surface; centroid: "
+      "of the "
       "surface; none: the origin of the file's coordinates";
   std::vector<Option> list = {model_operand(o.input)};
   list.push_back(center);

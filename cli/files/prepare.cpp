@@ -20,14 +20,17 @@ Option weld_option(double& tolerance) {
 }
 
 Option center_option(std::string& center) {
-  return {.name = "center",
-          .value = "auto|cosine|none|centroid|volume|X,Y,Z",
-          .help =
-              "auto (the default): in the middle of all points that see the whole surface; "
-              "cosine: where the surface is seen least aslant; none: the file's origin; "
-              "centroid: of the surface; volume: of the solid",
-          .target = &center,
-          .check = [](const std::string&, const std::string& text) { parse_center_option(text); }};
+  return {
+      .name = "center",
+      .value = "kernel|slope|cosine|none|centroid|volume|X,Y,Z",
+      .help =
+          "kernel, or auto (the default): in the middle of all points that see the whole surface; "
+          "slope: where the radius has the least slope, between there and the centroid of the "
+          "solid; cosine: where the surface is seen least aslant; none: the file's origin; "
+          "centroid: of the surface; volume: of the solid, or as slope where not all is seen "
+          "from there",
+      .target = &center,
+      .check = [](const std::string&, const std::string& text) { parse_center_option(text); }};
 }
 
 Option length_unit_option(std::string& unit) {

@@ -14,11 +14,13 @@ namespace rholm {
 
 // Where the centre is sought.
 enum class CenterKind {
-  kAuto,      // Chebyshev centre of the kernel: maximises the smallest d_T
+  kAuto,      // as kKernel
+  kKernel,    // Chebyshev centre of the kernel: maximises the smallest d_T
+  kSlope,     // least slope of the radius, well within the kernel (method 6)
   kCosine,    // maximises the smallest cos gamma = n . (v - c) / |v - c| over all corners
   kNone,      // the file's own origin
   kCentroid,  // area-weighted centroid of the surface
-  kVolume,    // centroid of the solid
+  kVolume,    // centroid of the solid; as kSlope where that does not see the whole surface
   kGiven      // CenterOptions::point
 };
 
@@ -29,7 +31,8 @@ struct CenterOptions {
   int rays = 100000;                    // directions tried by check_star; 0 leaves them out
 };
 
-// "auto", "cosine", "none", "centroid", "volume" or "X,Y,Z". Throws InvalidInput.
+// "auto", "kernel", "slope", "cosine", "none", "centroid", "volume" or "X,Y,Z". Throws
+// InvalidInput.
 CenterOptions parse_center(const std::string& text);
 const char* to_string(CenterKind kind);  // these names; "given" for a point
 
@@ -37,8 +40,8 @@ const char* to_string(CenterKind kind);  // these names; "given" for a point
 struct StarReport {
   Vec3 center;  // in the coordinates of the mesh
   // min over triangles of d_T = n_T . (v - c): the distance of the nearest face plane, negative if
-  // some face turns its back to the centre. For kAuto this is the radius of the kernel's
-  // inscribed ball. In the shape's unit.
+  // some face turns its back to the centre. For kAuto and kKernel this is the radius of the
+  // kernel's inscribed ball. In the shape's unit.
   double min_d = 0;
   double min_cos_gamma = 0;       // over all corners of all triangles
   std::size_t bad_triangles = 0;  // with d_T <= 0 (beyond rounding)
@@ -47,8 +50,8 @@ struct StarReport {
   double once_share = 0;          // part of them that meet the surface exactly once
   double multiple_share = 0;      // part that meet it more than once
   double missed_share = 0;        // part that never meet it
-  bool center_fell_back = false;  // the kernel is empty: the centre is the better of the
-                                  // LP's point and the volume centroid, by once_share
+  bool center_fell_back = false;  // of kinds that seek it, the kernel is empty: the centre is the
+                                  // better of the LP's point and the volume centroid, by once_share
 };
 
 // Finds the centre and checks. `mesh` welded, closed, outward; triangles thinner than rounding
@@ -73,7 +76,7 @@ struct StarChart {
 // Which centre, and which surfaces.
 struct ChartOptions {
   CenterOptions center = {};  // sought, or given
-  bool allow_signed = false;  // accept a surface that is not star-shaped: the alternating sum
+  bool allow_signed = false;  // accept a surface that is not star-shaped: the signed sum
 };
 
 // Pairs the edges, finds the centre, checks, and moves the centre to the origin. `mesh` welded and

@@ -223,6 +223,15 @@ def test_grids_come_back(bumpy):
         assert np.abs(rings - grid).max() < 1e-12
 
 
+def test_centres_have_names(bumpy):
+    kernel, slope = (rholm.expand(bumpy, 4, center=kind) for kind in ("kernel", "slope"))
+    assert not np.allclose(kernel.center, slope.center)
+    assert np.all(rholm.expand(bumpy, 4).center == kernel.center)
+    assert kernel.encoded.star.min_d >= slope.encoded.star.min_d > 0
+    with pytest.raises(rholm.InvalidInputError, match="kernel"):
+        rholm.expand(bumpy, 4, center="middle")
+
+
 def test_recentering_keeps_the_surface():
     s = rholm.expand(rholm.ellipsoid((1.2, 1, 0.9), 4), 12, center=(0.05, 0, 0))
     moved = s.recenter()

@@ -125,7 +125,7 @@ class Degenerate(CliTest):
 
     def test_center(self):
         for name, (_, _, codes, _) in SHAPES.items():
-            for kind in variants(name, "auto", "cosine", "none", "centroid", "volume"):
+            for kind in variants(name, "auto", "slope", "cosine", "none", "centroid", "volume"):
                 with self.subTest(f"{name} {kind}"):
                     # "none" may miss the shape.
                     allowed = codes | EITHER if kind == "none" and codes == FINE else codes

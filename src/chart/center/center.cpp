@@ -16,11 +16,11 @@ struct NamedKind {
   std::string_view name;
   CenterKind kind;
 };
-constexpr NamedKind kNamedKinds[] = {{"auto", CenterKind::kAuto},
-                                     {"cosine", CenterKind::kCosine},
-                                     {"none", CenterKind::kNone},
-                                     {"centroid", CenterKind::kCentroid},
-                                     {"volume", CenterKind::kVolume}};
+constexpr NamedKind kNamedKinds[] = {
+    {"auto", CenterKind::kAuto},    {"kernel", CenterKind::kKernel},
+    {"slope", CenterKind::kSlope},  {"cosine", CenterKind::kCosine},
+    {"none", CenterKind::kNone},    {"centroid", CenterKind::kCentroid},
+    {"volume", CenterKind::kVolume}};
 
 // Three finite numbers with commas between them; false if the text is something else.
 bool parse_point(std::string_view text, Vec3& point) {
@@ -53,9 +53,10 @@ CenterOptions parse_center(const std::string& text) {
   }
   options.kind = CenterKind::kGiven;
   if (!parse_point(text, options.point)) {
-    throw Error(ErrorCode::kInvalidInput,
-                "the centre '" + text +
-                    "' is not auto, cosine, none, centroid, volume or three numbers X,Y,Z");
+    throw Error(
+        ErrorCode::kInvalidInput,
+        "the centre '" + text +
+            "' is not auto, kernel, slope, cosine, none, centroid, volume or three numbers X,Y,Z");
   }
   return options;
 }
@@ -66,6 +67,39 @@ const char* to_string(CenterKind kind) {
   }
   return "given";
 }
+
+namespace {
+
+bool seeks_kernel(CenterKind kind) {
+  return kind == CenterKind::kAuto || kind == CenterKind::kKernel || kind == CenterKind::kSlope ||
+         kind == CenterKind::kCosine;
+}
+
+// The point with the least slope of the radius, well within the kernel.
+FoundCenter slope_center(const LocalView& view, const KernelCenter& kernel,
+                         const Context& context) {
+  // Chosen, far above rounding: of a kernel that is smaller (in the unit frame) the middle alone is
+  // sure to be within, and a centroid that is nearer to it tells no way.
+  constexpr double kSmallestKernel = 1e-6, kSame = 1e-12;
+  const Vec3 centroid = view.frame.to_local(volume_centroid(view.mesh, view.frame, context));
+  Vec3 point = kernel.point;
+  if (kernel.value > kSmallestKernel && norm(centroid - point) > kSame) {
+    point = towards(view, kernel, least_slope(view, kernel, centroid), context);
+  }
+  return {.point = view.frame.to_shape(point), .scans = kernel.scans + 2};
+}
+
+// The centroid itself if all faces turn their front to it, or if no point of the kernel would do
+// better.
+FoundCenter volume_center(const LocalView& view, const Context& context) {
+  validate(view.mesh);
+  const FoundCenter centroid = {.point = volume_centroid(view.mesh, view.frame, context)};
+  if (check_star(view, centroid.point, 0, context).bad_triangles == 0) return centroid;
+  const KernelCenter kernel = chebyshev_center(view, context);
+  return kernel.value > 0 ? slope_center(view, kernel, context) : centroid;
+}
+
+}  // namespace
 
 FoundCenter search_center(const LocalView& view, const CenterOptions& options,
                           const Context& context) {
@@ -78,14 +112,16 @@ FoundCenter search_center(const LocalView& view, const CenterOptions& options,
       validate(view.mesh);
       return {.point = measure(view.mesh, view.frame).area_centroid};
     case CenterKind::kVolume:
-      validate(view.mesh);
-      return {.point = volume_centroid(view.mesh, view.frame, context)};
+      return volume_center(view, context);
     case CenterKind::kAuto:
+    case CenterKind::kKernel:
+    case CenterKind::kSlope:
     case CenterKind::kCosine:
       break;
   }
   KernelCenter kernel = chebyshev_center(view, context);
   const bool empty = !(kernel.value > 0);
+  if (options.kind == CenterKind::kSlope && !empty) return slope_center(view, kernel, context);
   if (options.kind == CenterKind::kCosine && !empty) {
     kernel = cosine_center(view, kernel.point, context);
   }
@@ -95,8 +131,8 @@ FoundCenter search_center(const LocalView& view, const CenterOptions& options,
 // Which of the two sees more directions once; without rays, which has fewer triangles turned away.
 StarReport better_center(const LocalView& view, const StarReport& program, int rays,
                          const Context& context) {
-  const FoundCenter found = search_center(view, {.kind = CenterKind::kVolume}, context);
-  const StarReport volume = check_star(view, found.point, rays, context);
+  const StarReport volume =
+      check_star(view, volume_centroid(view.mesh, view.frame, context), rays, context);
   const bool volume_is_better = rays > 0 ? volume.once_share > program.once_share
                                          : volume.bad_triangles < program.bad_triangles;
   StarReport better = volume_is_better ? volume : program;
@@ -108,9 +144,12 @@ StarReport find_center(const MeshView& mesh, const CenterOptions& options, const
   const LocalView view = local_view(mesh, context);
   const FoundCenter found = search_center(view, options, context);
   const StarReport report = check_star(view, found.point, options.rays, context);
-  const bool may_fall_back =
-      options.kind == CenterKind::kAuto || options.kind == CenterKind::kCosine;
-  if (report.star_shaped || !may_fall_back) return report;
+  if (report.star_shaped || !seeks_kernel(options.kind)) return report;
+  if (options.kind == CenterKind::kSlope && !found.kernel_empty) {
+    // Where rounding may turn planes, no point is surer than the middle.
+    return find_center(mesh, {.kind = CenterKind::kKernel, .point = {}, .rays = options.rays},
+                       context);
+  }
   return better_center(view, report, options.rays, context);
 }
 

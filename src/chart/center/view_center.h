@@ -9,9 +9,10 @@
 namespace rholm {
 
 struct FoundCenter {
-  Vec3 point;                 // in the shape's coordinates
-  bool kernel_empty = false;  // auto, cosine: find_center() weighs this point against the volume's
-  double scans = 0;           // passes over all triangles; those over some of them count in part
+  Vec3 point;  // in the shape's coordinates
+  // Of kinds that seek the kernel: find_center() weighs this point against the volume's.
+  bool kernel_empty = false;
+  double scans = 0;  // passes over all triangles; those over some of them count in part
 };
 
 // The centre alone; whether the surface is star-shaped from there is not asked. options.rays is not

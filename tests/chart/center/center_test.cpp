@@ -7,8 +7,10 @@
 #include "rholm/error.h"
 #include "rholm/primitives.h"
 #include "rholm/star.h"
+#include "rholm/topology.h"
 #include "support/random_data.h"
 #include "support/test_meshes.h"
+#include "support/test_shapes.h"
 
 namespace rholm {
 namespace {
@@ -42,10 +44,10 @@ void expect_near(const Vec3& a, const Vec3& b, double tolerance) {
 // The two bounds of the search meet within 1e-12 of the unit frame, two of which are a diagonal.
 constexpr double kGap = 4e-12;
 
-TEST(auto_center, of_a_box_is_its_middle_with_half_the_shortest_edge) {
+TEST(kernel_center, of_a_box_is_its_middle_with_half_the_shortest_edge) {
   for (const Vec3& size : {Vec3{1, 1, 1}, Vec3{4, 2, 1}, Vec3{0.1, 3, 0.1}}) {
     for (const int n : {1, 6}) {
-      const StarReport report = center_of(box(size, n), CenterKind::kAuto);
+      const StarReport report = center_of(box(size, n), CenterKind::kKernel);
       EXPECT_NEAR(report.min_d, 0.5 * std::min({size.x, size.y, size.z}), kGap);
       expect_near(report.center, {0, 0, 0}, 1e-9);
       EXPECT_TRUE(report.star_shaped);
@@ -53,37 +55,36 @@ TEST(auto_center, of_a_box_is_its_middle_with_half_the_shortest_edge) {
   }
 }
 
-TEST(auto_center, of_a_turned_box_is_still_its_middle) {
+TEST(kernel_center, of_a_turned_box_is_still_its_middle) {
   const Mesh mesh = moved(box({4, 2, 1}, 3), rotation({1, 2, 3}, 0.7));
-  expect_near(center_of(mesh, CenterKind::kAuto).center, {0, 0, 0}, 1e-9);
+  expect_near(center_of(mesh, CenterKind::kKernel).center, {0, 0, 0}, 1e-9);
 }
 
 // Inradius 3 volume / area.
-TEST(auto_center, of_a_tetrahedron_is_the_centre_of_its_inscribed_ball) {
+TEST(kernel_center, of_a_tetrahedron_is_the_centre_of_its_inscribed_ball) {
   const double r = 0.5 / (1.5 + std::sqrt(3) / 2);
-  const StarReport report = center_of(tetrahedron(), CenterKind::kAuto);
+  const StarReport report = center_of(tetrahedron(), CenterKind::kKernel);
   EXPECT_NEAR(report.min_d, r, kGap);
   expect_near(report.center, {r, r, r}, 10 * kGap);
 }
 
-TEST(auto_center, of_an_l_is_the_middle_of_its_corner_though_the_centroid_is_outside_the_kernel) {
+TEST(kernel_center, of_an_l_is_the_middle_of_its_corner_though_the_centroid_is_outside_the_kernel) {
   for (const double height : {0.5, 1.0, 6.0}) {
     const Mesh mesh = l_prism(height);
-    const StarReport report = center_of(mesh, CenterKind::kAuto);
+    const StarReport report = center_of(mesh, CenterKind::kKernel);
     EXPECT_NEAR(report.min_d, 0.5 * std::min(height, 1.0), kGap);
     expect_near(report.center, {0.5, 0.5, 0}, 1e-9);
     EXPECT_TRUE(report.star_shaped);
     EXPECT_FALSE(report.center_fell_back);
     // Two arms of 4 and 3 unit squares: the centroid is (4 * 2 + 3 * 0.5) / 7 from either side.
-    const StarReport volume = center_of(mesh, CenterKind::kVolume);
-    expect_near(volume.center, {9.5 / 7, 9.5 / 7, 0}, 1e-14);
-    EXPECT_FALSE(volume.star_shaped);
-    EXPECT_NEAR(volume.min_d, 1 - 9.5 / 7, 1e-14);
+    const Vec3 centroid = inspect(mesh).volume_centroid;
+    expect_near(centroid, {9.5 / 7, 9.5 / 7, 0}, 1e-14);
+    EXPECT_NEAR(min_d(mesh, centroid), 1 - 9.5 / 7, 1e-14);
   }
 }
 
 // The kernel of a five-pointed star is bounded by the lines of its edges.
-TEST(auto_center, of_a_star_prism_has_the_distance_of_the_edges_lines) {
+TEST(kernel_center, of_a_star_prism_has_the_distance_of_the_edges_lines) {
   const double outer = 1, inner = 0.5, step = std::numbers::pi / 5;
   std::vector<test::Point2> polygon;
   for (int i = 0; i < 10; ++i) {
@@ -93,16 +94,16 @@ TEST(auto_center, of_a_star_prism_has_the_distance_of_the_edges_lines) {
   const double distance =
       outer * inner * std::sin(step) /
       std::sqrt(outer * outer + inner * inner - 2 * outer * inner * std::cos(step));
-  const StarReport report = center_of(prism(polygon, {0, 0}, 2), CenterKind::kAuto);
+  const StarReport report = center_of(prism(polygon, {0, 0}, 2), CenterKind::kKernel);
   EXPECT_NEAR(report.min_d, distance, kGap);
   expect_near(report.center, {0, 0, 0}, 1e-9);
 }
 
 // The smallest d_T is a concave function of the centre: no better point nearby, none anywhere.
-TEST(auto_center, cannot_be_improved_by_moving_it) {
+TEST(kernel_center, cannot_be_improved_by_moving_it) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const Mesh mesh = bumpy_sphere(4, 0.3, seed);
-    const StarReport report = center_of(mesh, CenterKind::kAuto);
+    const StarReport report = center_of(mesh, CenterKind::kKernel);
     ASSERT_TRUE(report.star_shaped);
     for (const double step : {1e-6, 1e-3, 0.1}) {
       for (int i = 0; i < 60; ++i) {
@@ -128,7 +129,7 @@ TEST(cosine_center, cannot_be_improved_by_moving_it) {
     const Mesh mesh = bumpy_sphere(4, 0.3, seed);
     const StarReport report = center_of(mesh, CenterKind::kCosine);
     ASSERT_GT(report.min_cos_gamma, 0);
-    EXPECT_GE(report.min_cos_gamma, center_of(mesh, CenterKind::kAuto).min_cos_gamma);
+    EXPECT_GE(report.min_cos_gamma, center_of(mesh, CenterKind::kKernel).min_cos_gamma);
     expect_best_cosine_nearby(mesh, report);
   }
 }
@@ -170,17 +171,123 @@ TEST(cosine_center, is_not_beaten_by_an_exhaustive_search) {
                          bumpy_sphere(1, 0.4, 3)};
   for (const Mesh& mesh : shapes) {
     const StarReport report = center_of(mesh, CenterKind::kCosine);
-    const Vec3 start = center_of(mesh, CenterKind::kAuto).center;
+    const Vec3 start = center_of(mesh, CenterKind::kKernel).center;
     const double grid = best_cosine_by_grid(mesh, start, 1);
     EXPECT_GE(report.min_cos_gamma, grid * (1 - 2e-6));
     expect_best_cosine_nearby(mesh, report);  // the grid may stop on a ridge a little below
   }
 }
 
+// int |grad_S r|^2 dOmega by plain sums over the middles of small pieces of the faces.
+double slope_by_pieces(const Mesh& mesh, const Vec3& center) {
+  constexpr int kPieces = 12;  // to a side
+  double sum = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Triangle& corners = mesh.triangles[t];
+    const Vec3 a = mesh.vertices[corners[0]], b = mesh.vertices[corners[1]];
+    const Vec3 c = mesh.vertices[corners[2]];
+    const Vec3 normal = cross(b - a, c - a);
+    const double area = norm(normal) / 2 / (kPieces * kPieces);
+    for (int i = 0; i < kPieces; ++i) {
+      for (int j = 0; j < kPieces - i; ++j) {
+        for (const double third : {1.0, 2.0}) {  // upright pieces, and those upside down
+          if (third == 2 && i + j + 1 >= kPieces) continue;
+          const double u = (i + third / 3) / kPieces, v = (j + third / 3) / kPieces;
+          const Vec3 m = a + u * (b - a) + v * (c - a) - center;
+          const double cosine = dot(normalized(normal), m) / norm(m);
+          sum += area * (1 / cosine - cosine);
+        }
+      }
+    }
+  }
+  return sum;
+}
+
+TEST(slope_center, keeps_the_symmetries_of_the_body) {
+  for (const Vec3& size : {Vec3{1, 1, 1}, Vec3{4, 2, 1}}) {
+    expect_near(center_of(box(size, 2), CenterKind::kSlope).center, {0, 0, 0}, 1e-9);
+  }
+  const Vec3 of_tetrahedron = center_of(tetrahedron(), CenterKind::kSlope).center;
+  expect_near(of_tetrahedron, Vec3{1, 1, 1} * of_tetrahedron.x, 1e-12);
+  const Vec3 of_l = center_of(l_prism(2), CenterKind::kSlope).center;
+  expect_near(of_l, {of_l.x, of_l.x, 0}, 1e-9);
+}
+
+// On the way from the middle of the kernel through the centroid no other point has less slope.
+TEST(slope_center, has_the_least_slope_on_its_line) {
+  for (const Mesh& mesh : {tetrahedron(), l_prism(2), test::random_octahedron(4)}) {
+    const StarReport kernel = center_of(mesh, CenterKind::kKernel);
+    ASSERT_TRUE(kernel.star_shaped);
+    const StarReport found = center_of(mesh, CenterKind::kSlope);
+    const Vec3 way = inspect(mesh).volume_centroid - kernel.center;
+    EXPECT_LT(norm(cross(found.center - kernel.center, way)), 1e-9);
+    // The sums of few points on few faces are not exact.
+    const double least = slope_by_pieces(mesh, found.center);
+    for (double t = -1; t <= 2; t += 0.1) {
+      const Vec3 other = kernel.center + t * way;
+      if (min_d(mesh, other) < 0.25 * kernel.min_d) continue;
+      EXPECT_LT(least, 1.02 * slope_by_pieces(mesh, other)) << t;
+    }
+  }
+  // Of an L, whose arms the middle of the kernel sees aslant.
+  const Mesh l = l_prism(2);
+  EXPECT_LT(slope_by_pieces(l, center_of(l, CenterKind::kSlope).center),
+            0.99 * slope_by_pieces(l, center_of(l, CenterKind::kKernel).center));
+}
+
+// A drawn out bump moves the centroid to the border of the kernel or beyond.
+TEST(slope_center, stays_a_quarter_of_the_kernel_within_it) {
+  std::vector<Mesh> shapes = {l_prism(0.5), l_prism(6)};
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    shapes.push_back(bumpy_sphere(3, 0.3, seed));
+    for (Vec3& v : shapes.back().vertices) v = (1 + 5 * std::pow(std::max(0.0, v.x), 6)) * v;
+  }
+  int at_margin = 0;
+  for (const Mesh& mesh : shapes) {
+    const StarReport kernel = center_of(mesh, CenterKind::kKernel);
+    ASSERT_TRUE(kernel.star_shaped);
+    for (const CenterKind kind : {CenterKind::kSlope, CenterKind::kVolume}) {
+      const StarReport found = center_of(mesh, kind);
+      EXPECT_TRUE(found.star_shaped);
+      const bool is_centroid = norm(found.center - inspect(mesh).volume_centroid) < 1e-12;
+      if (kind == CenterKind::kVolume && is_centroid) continue;
+      EXPECT_GE(found.min_d, 0.25 * kernel.min_d - kGap);
+      at_margin += found.min_d < 0.2501 * kernel.min_d;
+    }
+  }
+  EXPECT_GT(at_margin, 0);
+}
+
+TEST(volume_center, of_an_l_is_within_the_kernel_as_the_centroid_is_not) {
+  for (const double height : {0.5, 1.0, 6.0}) {
+    const StarReport report = center_of(l_prism(height), CenterKind::kVolume);
+    EXPECT_TRUE(report.star_shaped);
+    EXPECT_FALSE(report.center_fell_back);
+    EXPECT_EQ(report.center, center_of(l_prism(height), CenterKind::kSlope).center);
+  }
+}
+
+TEST(volume_center, is_the_centroid_itself_where_all_faces_show_their_front) {
+  int apart = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const Mesh mesh = bumpy_sphere(3, 0.3, seed);
+    const Vec3 centroid = inspect(mesh).volume_centroid;
+    const StarReport report = center_of(mesh, CenterKind::kVolume);
+    ASSERT_TRUE(report.star_shaped);
+    if (min_d(mesh, centroid) > 0) {
+      expect_near(report.center, centroid, 1e-13);
+    } else {
+      ++apart;
+      EXPECT_EQ(report.center, center_of(mesh, CenterKind::kSlope).center);
+    }
+  }
+  EXPECT_LT(apart, 6);
+}
+
 TEST(centers, move_turn_and_grow_with_the_shape) {
   const Mesh mesh = bumpy_sphere(3, 0.3, 2);
-  for (const CenterKind kind :
-       {CenterKind::kAuto, CenterKind::kCosine, CenterKind::kCentroid, CenterKind::kVolume}) {
+  for (const CenterKind kind : {CenterKind::kSlope, CenterKind::kKernel, CenterKind::kCosine,
+                                CenterKind::kCentroid, CenterKind::kVolume}) {
     const StarReport report = center_of(mesh, kind);
     for (const double scale : {1e-30, 0.3, 1e30}) {
       test::Motion motion = rotation({1, -2, 0.5}, 2.5);
@@ -199,7 +306,7 @@ TEST(centers, move_turn_and_grow_with_the_shape) {
 TEST(centers, are_found_at_the_ends_of_the_range_of_doubles) {
   for (const double scale : {1e-300, 1e300}) {
     const Mesh mesh = moved(tetrahedron(), {.scale = scale, .shift = {}});
-    for (const CenterKind kind : {CenterKind::kAuto, CenterKind::kCosine}) {
+    for (const CenterKind kind : {CenterKind::kSlope, CenterKind::kKernel, CenterKind::kCosine}) {
       const StarReport report = center_of(mesh, kind);
       EXPECT_TRUE(report.star_shaped) << scale;
       const double expected = center_of(tetrahedron(), kind).min_d;
@@ -210,7 +317,7 @@ TEST(centers, are_found_at_the_ends_of_the_range_of_doubles) {
 
 TEST(centers, are_the_same_bits_for_any_number_of_threads) {
   const Mesh mesh = bumpy_sphere(5, 0.3, 4);
-  for (const CenterKind kind : {CenterKind::kAuto, CenterKind::kCosine}) {
+  for (const CenterKind kind : {CenterKind::kSlope, CenterKind::kKernel, CenterKind::kCosine}) {
     const StarReport one = center_of(mesh, kind, 1);
     for (const int threads : {2, 4}) {
       const StarReport other = center_of(mesh, kind, threads);
@@ -234,6 +341,8 @@ TEST(centers, kinds_name_the_point_they_mean) {
 
 TEST(parse_center, reads_names_and_points) {
   EXPECT_EQ(parse_center("auto").kind, CenterKind::kAuto);
+  EXPECT_EQ(parse_center("slope").kind, CenterKind::kSlope);
+  EXPECT_EQ(parse_center("kernel").kind, CenterKind::kKernel);
   EXPECT_EQ(parse_center("cosine").kind, CenterKind::kCosine);
   EXPECT_EQ(parse_center("none").kind, CenterKind::kNone);
   EXPECT_EQ(parse_center("centroid").kind, CenterKind::kCentroid);
@@ -241,7 +350,8 @@ TEST(parse_center, reads_names_and_points) {
   const CenterOptions given = parse_center("1,-2.5e3, +.5");
   EXPECT_EQ(given.kind, CenterKind::kGiven);
   EXPECT_EQ(given.point, (Vec3{1, -2500, 0.5}));
-  for (const CenterKind kind : {CenterKind::kAuto, CenterKind::kCosine, CenterKind::kVolume}) {
+  for (const CenterKind kind :
+       {CenterKind::kSlope, CenterKind::kKernel, CenterKind::kCosine, CenterKind::kVolume}) {
     EXPECT_EQ(parse_center(to_string(kind)).kind, kind);
   }
 }

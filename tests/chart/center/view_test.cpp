@@ -285,8 +285,8 @@ TEST(views, have_the_centre_and_the_report_of_the_mesh_they_show) {
   for (const Mesh& mesh : {bumpy_sphere(5, 0.3), l_prism(2), torus(2, 0.5, 40, 20)}) {
     const PackedMesh bytes = packed<float>(mesh, 2);
     const Mesh same = unpacked(bytes.view);
-    for (const CenterKind kind : {CenterKind::kAuto, CenterKind::kCosine, CenterKind::kNone,
-                                  CenterKind::kCentroid, CenterKind::kVolume}) {
+    for (const CenterKind kind : {CenterKind::kAuto, CenterKind::kSlope, CenterKind::kCosine,
+                                  CenterKind::kNone, CenterKind::kCentroid, CenterKind::kVolume}) {
       const CenterOptions options{.kind = kind, .point = {}, .rays = 500};
       const StarReport a = find_center(same, options), b = find_center(bytes.view, options);
       // The cosine is promised to 1e-6.

@@ -117,7 +117,7 @@ TEST(find_center, refuses_meshes_without_a_surface) {
 TEST(find_center, of_one_triangle_is_finite) {
   const Mesh one{
       .vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .triangles = {{0, 1, 2}}, .attributes = {}};
-  for (const CenterKind kind : {CenterKind::kAuto, CenterKind::kCosine}) {
+  for (const CenterKind kind : {CenterKind::kAuto, CenterKind::kSlope, CenterKind::kCosine}) {
     const StarReport report = find_center(one, {.kind = kind, .point = {}, .rays = 100});
     EXPECT_TRUE(is_finite(report.center));
     EXPECT_FALSE(report.star_shaped);
