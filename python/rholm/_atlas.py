@@ -13,7 +13,7 @@ from ._arrays import FloatArray, IndexArray, float_rows, plain_array
 from ._core import AtlasErrors, AtlasModel, AtlasSize, Cap, CompressReport
 from ._errors import InvalidInputError
 from ._run import Progress, caller, named
-from ._shapes import Mesh, MeshLike, PointCloud, as_mesh, as_shape, name_of
+from ._shapes import Mesh, MeshLike, PointCloud, as_mesh, as_shape, finite_points, name_of
 from ._topology import simplify_options
 
 NO_CAP = _core.NO_CAP
@@ -416,7 +416,7 @@ def compress(
     UnsupportedError
         For shapes too thin for the grid, and where caps would take more than `max_numbers`.
     """
-    whole = as_shape(shape)
+    whole = finite_points(as_shape(shape))[0]
     if unit not in ("diagonal", "absolute"):
         raise InvalidInputError(f"unit is 'absolute' or 'diagonal', not {unit!r}")
     factor = whole.bounds.diagonal if unit == "diagonal" else 1.0
@@ -471,7 +471,7 @@ def patch_atlas(
     threads, progress
         See `rholm.caller`.
     """
-    core = as_shape(shape)._core
+    core = finite_points(as_shape(shape))[0]._core
     options = _core.PatchAtlasOptions(
         degree=degree, extension=extension, min_cosine=min_cosine, overlap=overlap
     )
@@ -501,7 +501,7 @@ def patch_picture(
     threads, progress
         See `rholm.caller`.
     """
-    core = as_shape(shape)._core
+    core = finite_points(as_shape(shape))[0]._core
     with caller(threads, progress) as how:
         mesh, _ = _core.patch_picture(core, view, _core.PatchAtlasOptions(min_cosine=min_cosine), how)
     return Mesh._of(mesh)

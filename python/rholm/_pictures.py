@@ -18,7 +18,7 @@ from ._errors import Error, InvalidInputError
 from ._expansion import Expansion
 from ._interop import required
 from ._run import Progress, caller, named
-from ._shapes import Mesh, PointCloud, outward_mesh
+from ._shapes import Mesh, PointCloud, finite_points, outward_mesh
 from ._surfaces import surface_of
 
 if TYPE_CHECKING:
@@ -103,13 +103,14 @@ class Panel:
             colors = self.shape.colors
         rows = None if colors is None else float_rows(colors, "colors")
         values = None if scalars is None else floats(scalars, "scalars")
-        if isinstance(self.shape, PointCloud):
+        shape, (rows, values) = finite_points(self.shape, rows, values)
+        if isinstance(shape, PointCloud):
             radius = 0.0 if point_radius is None else _positive(point_radius)
-            self._core = _core.Panel(self.shape._core, label, radius, values, rows)
+            self._core = _core.Panel(shape._core, label, radius, values, rows)
         else:
             if smooth is None:
-                smooth = "nx" in self.shape.attributes
-            self._core = _core.Panel(self.shape._core, label, smooth, values, rows)
+                smooth = "nx" in shape.attributes
+            self._core = _core.Panel(shape._core, label, smooth, values, rows)
 
     def __reduce__(self) -> Any:
         return (_panel_of, (self.shape, self._arguments))

@@ -10,7 +10,7 @@ import numpy.typing as npt
 from . import _core
 from ._arrays import triple
 from ._run import Progress, caller
-from ._shapes import MeshLike, PointCloud, PointsLike, as_mesh, as_points
+from ._shapes import MeshLike, PointCloud, PointsLike, as_mesh, as_points, finite_points
 
 
 def sample_surface(
@@ -169,8 +169,9 @@ def align_scans(
     cloud = as_points(points)
     if scan is not None:
         cloud = as_points(cloud, attributes={**cloud.attributes, "scan": scan})
+    known = finite_points(cloud)[0]
     with caller(threads, progress) as how:
-        moved, report = _core.align_scans(cloud._core, how)
+        moved, report = _core.align_scans(known._core, how)
     return AlignedScans(PointCloud._of(moved), report)
 
 
@@ -234,6 +235,7 @@ def orient(
         keep_strays=keep_outliers,
         confidence=confidence,
     )
+    given = finite_points(as_points(points, normals, columns=columns))[0]
     with caller(threads, progress) as how:
-        cloud, report = _core.orient(as_points(points, normals, columns=columns)._core, options, how)
+        cloud, report = _core.orient(given._core, options, how)
     return Oriented(PointCloud._of(cloud), report)

@@ -7,7 +7,7 @@ import sys
 import warnings
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Union
+from typing import TYPE_CHECKING, Any, TypeVar, Union, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -429,7 +429,7 @@ def as_points(
     shape : PointCloud, array_like (N, 3), (points, normals), path, points of trimesh, PyVista, meshio
         An array may have more columns, as in `PointCloud`.
         A mesh is its vertices, with their normals. A number that is masked (`numpy.ma`) is not known:
-        NaN. `clean` and `reconstruct` drop such points, and count them; so they do for files.
+        NaN. `clean` and `reconstruct` drop such points, and count them; others drop them with a warning.
     normals : array_like, (N, 3), optional
         In the place of the shape's own.
     attributes : mapping of str to array_like, optional
@@ -501,6 +501,39 @@ def _points_of(shape: Any, columns: str | Sequence[str] | None = None) -> PointC
     if _is_pair(shape):
         return _points_of(Mesh(*shape)) if _are_triangles(shape[1]) else PointCloud(*shape)
     return PointCloud(shape, columns=columns)
+
+
+AnyShape = TypeVar("AnyShape", bound=Mesh | PointCloud)
+
+
+def finite_points(
+    shape: AnyShape, *values: npt.NDArray[Any] | None
+) -> tuple[AnyShape, list[npt.NDArray[Any] | None]]:
+    """A shape without points that have a coordinate that is not finite: a warning counts them.
+
+    Parameters
+    ----------
+    shape : Mesh or PointCloud
+        A mesh stays as it is.
+    *values : ndarray, (N, ...), or None
+        Of the points: those of the points that stay are the second result.
+    """
+    if isinstance(shape, Mesh):
+        return shape, list(values)
+    known = np.asarray(np.isfinite(shape.points).all(axis=1))
+    dropped = len(known) - np.count_nonzero(known)
+    if not dropped:
+        return shape, list(values)
+    for rows in values:
+        if rows is not None and len(rows) != len(known):
+            raise InvalidInputError(f"{len(rows)} values for {len(known)} points")
+    warn(f"{dropped} points with a coordinate that is not finite dropped")
+    cloud = PointCloud(
+        shape.points[known],
+        None if shape.normals is None else shape.normals[known],
+        {name: rows[known] for name, rows in shape.attributes.items()},
+    )
+    return cast(AnyShape, cloud), [None if rows is None else rows[known] for rows in values]
 
 
 def vertex_colors(mesh: MeshLike | PointCloud) -> npt.NDArray[np.float32] | None:

@@ -154,6 +154,40 @@ def test_what_is_masked_is_not_known(bumpy, ring):
     assert q[6] == 6
 
 
+def test_points_without_a_place_are_dropped_and_counted(ring):
+    cloud = rholm.sample_surface(ring, 3000)
+    n = len(cloud.points)
+    bad = np.arange(n) % 7 == 0
+    points = np.array(cloud.points)
+    points[bad, np.arange(n)[bad] % 3] = np.nan
+    points[0, 0] = np.inf
+    scan = np.arange(n) % 2
+    scalars = np.linspace(0, 1, n)
+    known = (points[~bad], cloud.normals[~bad])
+    calls = {
+        "orient": lambda p, m, s, v: rholm.orient(p, m).cloud,
+        "align_scans": lambda p, m, s, v: rholm.align_scans((p, m), s).cloud,
+        "compress": lambda p, m, s, v: rholm.compress((p, m), tolerance=0.02).mesh(),
+        "patch_atlas": lambda p, m, s, v: rholm.patch_atlas((p, m), 4).atlas.mesh(),
+        "patch_picture": lambda p, m, s, v: rholm.patch_picture((p, m)),
+        "render": lambda p, m, s, v: rholm.render((p, m), size=(64, 64)),
+        "Panel": lambda p, m, s, v: rholm.render(rholm.Panel((p, m), scalars=v), size=(64, 64)),
+    }
+    for name, call in calls.items():
+        with pytest.warns(UserWarning, match=f"^{bad.sum()} points with a coordinate .* dropped"):
+            found = call(points, cloud.normals, scan, scalars)
+        expected = call(*known, scan[~bad], scalars[~bad])
+        if name in ("orient", "align_scans"):
+            assert np.array_equal(found.points, expected.points), name
+            assert np.array_equal(found.normals, expected.normals), name
+        elif name in ("render", "Panel"):
+            assert np.array_equal(np.asarray(found), np.asarray(expected)), name
+        else:
+            assert found == expected, name
+    with pytest.raises(rholm.InvalidInputError, match="2 values"):
+        rholm.Panel(points, scalars=[0.0, 1.0])
+
+
 def test_attributes_keep_their_types(tmp_path, bumpy):
     n = len(bumpy.vertices)
     given = {
