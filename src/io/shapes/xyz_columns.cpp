@@ -195,6 +195,49 @@ bool may_be_degrees(const Range& latitude, const Range& longitude) {
          longitude.min >= -180 && longitude.max <= 360 && longitude.max - longitude.min > 180;
 }
 
+// A grid as programs write it: one column is the same for runs of rows, in which the other one
+// takes the same values, each in steps of one size.
+struct Raster {
+  std::size_t n = 0;          // rows of a run; 0: no raster
+  double fast = 0, slow = 0;  // the steps
+  bool is() const { return n > 0; }
+};
+
+Raster raster_of(const std::vector<double>& slow, const std::vector<double>& fast) {
+  constexpr std::size_t kLeast = 4;  // rows of a run, and runs: chosen
+  constexpr double kStep = 0.01;     // steps are rounded when they are written; chosen
+  const auto change =
+      std::find_if(slow.begin(), slow.end(), [&](double v) { return v != slow[0]; });
+  const auto n = static_cast<std::size_t>(change - slow.begin());
+  if (n < kLeast || slow.size() < kLeast * n) return {};
+  const Raster raster{.n = n, .fast = fast[1] - fast[0], .slow = slow[n] - slow[0]};
+  const auto is_step = [](double a, double b, double step) {
+    return std::abs(b - a - step) <= kStep * std::abs(step);
+  };
+  for (std::size_t i = 1; i < slow.size(); ++i) {
+    const bool starts = i % n == 0;
+    if (starts ? !is_step(slow[i - 1], slow[i], raster.slow) : slow[i] != slow[i - 1]) return {};
+    if (i >= n ? fast[i] != fast[i % n] : !is_step(fast[i - 1], fast[i], raster.fast)) return {};
+  }
+  return raster;
+}
+
+// Whether rows lie on a grid of latitudes and longitudes, whose faster one goes all the way round,
+// or from pole to pole. A large table may have been read in part.
+bool are_degree_grid(const std::vector<double>& latitudes, const std::vector<double>& longitudes) {
+  const Range latitude = range_of({latitudes}, {0}), longitude = range_of({longitudes}, {0});
+  if (latitude.min < -90 || latitude.max > 90 || longitude.min < -180 || longitude.max > 360)
+    return false;
+  constexpr double kRounded = 1.01;  // of a step, as it is written; chosen
+  if (const Raster rows = raster_of(latitudes, longitudes); rows.is()) {
+    return longitude.max - longitude.min + kRounded * std::abs(rows.fast) >= 360 &&
+           std::abs(latitudes[0]) + kRounded * std::abs(rows.slow) >= 90;
+  }
+  const Raster columns = raster_of(longitudes, latitudes);
+  return columns.is() &&
+         std::max(90 - latitude.max, latitude.min + 90) <= kRounded * std::abs(columns.fast);
+}
+
 // ---- The plan ----
 
 class Planner {
@@ -305,12 +348,25 @@ class Planner {
     const Range radius = range_of(columns_, {c});
     if (telling_.rows < 6 || !(radius.min > 0) || radius.max > 20 * radius.min) return;
     for (const auto& [latitude, longitude] : {std::pair(a, b), std::pair(b, a)}) {
+      if (are_degree_grid(columns_[latitude], columns_[longitude])) {
+        const std::string names = latitude == a ? "lat,lon,radius" : "lon,lat,radius";
+        refuse(
+            "the rows look like a grid of " +
+            std::string(latitude == a ? "latitudes and longitudes" : "longitudes and latitudes") +
+            " in degrees: say --columns " + names + " (columns= in Python), or x,y,z if they are" +
+            " coordinates" + others());
+      }
       if (may_be_degrees(range_of(columns_, {latitude}), range_of(columns_, {longitude}))) {
         suspect(std::string("they may be ") +
                 (latitude == a ? "lat, lon, radius" : "lon, lat, radius") + " in degrees");
         return;
       }
     }
+  }
+
+  // How columns behind the first three are said.
+  std::string others() const {
+    return columns_.size() > 3 ? ", with a name, or -, for each other column" : "";
   }
 
   void take_rest(const std::vector<std::size_t>& rest, std::size_t position, bool side_by_side) {

@@ -450,6 +450,56 @@ TEST(table, angles_without_names_are_suspected) {
   }
 }
 
+TEST(table, grids_of_angles_without_names_are_refused_until_it_is_said_what_they_are) {
+  struct Grid {
+    double lat, lat_step, lon, lon_step;
+    int n_lat, n_lon;
+    bool lat_first, lon_fast;
+  };
+  const Grid grids[] = {{-90, 5, 0, 5, 37, 72, true, true},
+                        {90, -5, 0, 5, 37, 73, true, true},
+                        {-87.5, 5, -180, 10, 36, 36, false, true},
+                        {-90, 15, 0, 15, 13, 24, true, false},
+                        {-85, 10, -172.5, 15, 18, 24, false, false},
+                        {89.5, -1, 0.5, 1, 180, 360, true, true},         // more than is looked at
+                        {-90, 180. / 7, 0, 360. / 7, 8, 7, true, true}};  // rounded steps
+  const auto text_of = [](const Grid& g, const char* behind) {
+    std::string text;
+    for (int k = 0; k < g.n_lat * g.n_lon; ++k) {
+      const int fast = k % (g.lon_fast ? g.n_lon : g.n_lat);
+      const int slow = k / (g.lon_fast ? g.n_lon : g.n_lat);
+      const double lat = g.lat + g.lat_step * (g.lon_fast ? slow : fast);
+      const double lon = g.lon + g.lon_step * (g.lon_fast ? fast : slow);
+      text += fmt::format("{:.3f} {:.3f} {:.4f}{}\n", g.lat_first ? lat : lon,
+                          g.lat_first ? lon : lat, 1.5 + 0.4 * std::sin(lat * lon), behind);
+    }
+    return text;
+  };
+  for (const Grid& g : grids) {
+    const std::string names = g.lat_first ? "lat,lon,radius" : "lon,lat,radius";
+    for (const std::string more : {"", " 7.5"}) {
+      const std::string text = text_of(g, more.c_str());
+      try {
+        parse(text, "grid.tab");
+        ADD_FAILURE() << "a grid from " << g.lat << " by " << g.lat_step << " was read";
+      } catch (const Error& e) {
+        EXPECT_EQ(e.code(), ErrorCode::kInvalidInput);
+        EXPECT_NE(std::string(e.what()).find("--columns " + names), std::string::npos) << e.what();
+      }
+      const std::string other = more.empty() ? "" : ",-";
+      EXPECT_EQ(taken_for(parse(text, "grid.tab", {.columns = names + other}).table),
+                names + other);
+      EXPECT_EQ(taken_for(parse(text, "grid.tab", {.columns = "x,y,z" + other}).table),
+                "x,y,z" + other);
+    }
+  }
+  // Heights over a plane, half of the globe, and heights that are no radii.
+  const Grid plane = {-40, 5, 0, 5, 17, 72, true, true}, half = {-90, 5, 0, 5, 37, 36, true, true};
+  for (const Grid& g : {plane, half}) {
+    EXPECT_EQ(taken_for(parse(text_of(g, ""), "grid.tab").table), "x,y,z");
+  }
+}
+
 TEST(table, points_with_normals_are_read_as_they_are_written) {
   const testing::TemporaryFolder folder;
   // One octant of a sphere, first coordinates that count, normals of one direction.
