@@ -20,8 +20,8 @@ namespace {
 // Two walls: standard errors of the mean height, and its least share of the mean length of edges
 // (chosen).
 constexpr double kWalls = 4, kLeastWall = 0.03;
-// Edges that turn a piece: one or two may be chance, at corners. The same for a point that
-// contradicts its neighbours.
+// Edges that turn a piece, or tell two walls: one or two may be chance, at corners, and the
+// standard error of one height is 0. The same for a point that contradicts its neighbours.
 constexpr std::uint32_t kFewestVotes = 3;
 // Share of the edges between two pieces that turns one: at tips thinner than the spacing few
 // edges contradict.
@@ -49,7 +49,8 @@ bool is_decided(const Moments& votes, double edges) {
 }
 
 bool are_walls(const Moments& heights) {
-  return heights.n > 0 && std::abs(heights.mean()) > kLeastWall && heights.significance() > kWalls;
+  return heights.n >= kFewestVotes && std::abs(heights.mean()) > kLeastWall &&
+         heights.significance() > kWalls;
 }
 
 std::vector<std::uint32_t> wholes_of(const AllPieces& all) {

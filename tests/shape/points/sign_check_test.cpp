@@ -143,6 +143,20 @@ TEST(signs, of_two_near_walls_stay) {
   }
 }
 
+// Heights of one or two edges have no standard error to speak of.
+TEST(signs, of_two_walls_are_told_by_three_edges_at_least) {
+  for (const int edges : {1, 2, 3, 10}) {
+    AllPieces all{.own = {100, 100}};
+    PiecePair pair;
+    pair.b = 1, pair.edges = edges;
+    for (int e = 0; e < edges; ++e) pair.heights.add(0.1);
+    all.pairs = {pair};
+    const SignCheck found = check_signs(all, {}, {});
+    EXPECT_EQ(found.walls.size(), edges < 3 ? 0U : 1U) << edges;
+    EXPECT_EQ(found.counts(0, 1, false), edges < 3) << edges;
+  }
+}
+
 // An open sheet has no side, but its points agree on one.
 TEST(signs, of_an_open_sheet_follow_most_points) {
   PointCloud cloud;
