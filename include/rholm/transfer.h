@@ -4,6 +4,7 @@
 // detail on it, a height along the base's normal. Heights are carried from chart to chart (angle
 // from the patch's axis and azimuth, as seen from the centre of its sphere), turned by the azimuth
 // at which they are most like the target's own detail, scaled, faded in the target's transition.
+// Heights of closed meshes are outwards, also of those that are inside out, which stay as they are.
 // As with smoothing the analysis is separate from the update of the vertices.
 #pragma once
 

@@ -12,6 +12,7 @@
 #include "edit/texture/refine.h"
 #include "edit/texture/repeated_map.h"
 #include "edit/texture/textured_patch.h"
+#include "rholm/outward.h"
 #include "rholm/topology.h"
 
 namespace rholm {
@@ -141,6 +142,14 @@ void check_degree(const Mesh& source, std::span<const double> weights, double ra
                             : std::string("a larger region, or a finer mesh")));
 }
 
+// A closed mesh that is inside out, turned: heights are along normals that point outwards.
+std::optional<Mesh> turned_outwards(const Mesh& mesh) {
+  if (!(enclosed_volume(mesh) < 0) || !outward(mesh).flipped) return std::nullopt;
+  Mesh turned = mesh;
+  flip(turned);
+  return turned;
+}
+
 }  // namespace
 
 struct TransferSourceState {
@@ -161,6 +170,9 @@ TransferSource analyze_source(const Mesh& source, std::span<const Region> from, 
   check_from_degree(from_degree);
   validate(source);
   if (from.empty()) refuse("a source region is needed");
+  if (const auto turned = turned_outwards(source)) {
+    return analyze_source(*turned, from, from_degree, context);
+  }
   TransferSource analysis;
   analysis.from_degree = from_degree;
   analysis.radius = region_radius(source, from);
@@ -187,6 +199,11 @@ TransferAnalysis analyze_transfer(const TransferSource& source, const Mesh& targ
                        options.from_degree));
   }
   if (to.empty()) refuse("a target region is needed");
+  if (const auto turned = turned_outwards(target)) {
+    TransferAnalysis analysis = analyze_transfer(source, *turned, to, options, context);
+    flip(analysis.mesh);
+    return analysis;
+  }
   const TexturedPatch& patch = source.state->patch;
   TransferAnalysis analysis;
   analysis.mesh = target;

@@ -183,6 +183,28 @@ TEST(Transfer, a_source_serves_several_targets_alike) {
   }
 }
 
+TEST(Transfer, meshes_that_are_inside_out_have_their_heights_outwards) {
+  const Mesh source = patterned_sphere(5, 1, 0.02), target = icosphere(5);
+  const Regions at = {BallRegion{{0, 0, 1}, 0.5}};
+  const auto flipped = [](Mesh mesh) {
+    flip(mesh);
+    return mesh;
+  };
+  for (const bool refined : {false, true}) {
+    const TransferOptions options = {.from_degree = 4, .refine = refined};
+    const Mesh expected = transfer(source, at, target, at, options);
+    EXPECT_NE(expected.vertices, target.vertices);
+    for (const bool from : {false, true}) {
+      for (const bool to : {false, true}) {
+        const Mesh found = transfer(from ? flipped(source) : source, at,
+                                    to ? flipped(target) : target, at, options);
+        EXPECT_EQ(found.vertices, expected.vertices) << from << to;
+        EXPECT_EQ(found.triangles, (to ? flipped(expected) : expected).triangles) << from << to;
+      }
+    }
+  }
+}
+
 TEST(Transfer, a_source_of_another_detail_is_refused) {
   const Mesh ball = icosphere(4);
   const Regions disc{BallRegion{{0, 0, 1}, 0.5}};
