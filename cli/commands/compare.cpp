@@ -10,6 +10,7 @@
 
 #include "cli/commands/commands.h"
 #include "cli/files/length_units.h"
+#include "cli/files/memory_needed.h"
 #include "cli/files/surfaces.h"
 #include "cli/options/memory_options.h"
 #include "cli/terminal/json_text.h"
@@ -32,6 +33,13 @@ struct Options {
 // Reading two meshes, sampling them and making their trees takes 8.5 times the size of their binary
 // files (measured with `rholm compare` on bench/sphere_stream 866).
 constexpr double kMemoryPerByte = 9;
+// Bytes for each vertex and face of a mesh that was read: together 162 for a face of a sphere, 342
+// where each face has corners of its own.
+constexpr MemoryOfMesh kCompared = {.vertex = 83, .face = 145};
+
+double memory_of(const Mesh& mesh) {
+  return kCompared.of(mesh.vertices.size(), mesh.triangles.size());
+}
 
 Json json_of(const Distances& distances, double unit) {
   return {{"rms", distances.rms / unit},
@@ -131,6 +139,7 @@ std::optional<Comparison> compare_large(const Options& options, const CompareBy&
   CommonUnit unit;
   const auto read = [&](const std::string& path, Place& place) {
     if (place.mapped) return;
+    require_to_read(path, options.memory);
     Input input = read_surface_input(path, session, options.convention);
     unit.add(input, path, session);
     place.mesh = surface_of(input, path, {}, options.subdivisions, session);
@@ -144,6 +153,10 @@ std::optional<Comparison> compare_large(const Options& options, const CompareBy&
 
 std::optional<Comparison> compare_read(const Options& options, const CompareBy& by,
                                        Session& session) {
+  // Both are read before anything else is done.
+  options.memory.require(
+      memory_to_read(options.a) + memory_to_read(options.b),
+      fmt::format("reading {} and {}", display_name(options.a), display_name(options.b)));
   Input first = read_surface_input(options.a, session, options.convention);
   Input second = read_surface_input(options.b, session, options.convention);
   CommonUnit unit;
@@ -151,11 +164,15 @@ std::optional<Comparison> compare_read(const Options& options, const CompareBy& 
   unit.add(second, options.b, session);
   const Mesh a = surface_of(first, options.a, {}, options.subdivisions, session);
   const Mesh b = surface_of(second, options.b, {}, options.subdivisions, session);
+  options.memory.require(
+      memory_of(a) + memory_of(b),
+      fmt::format("comparing {} and {}", display_name(options.a), display_name(options.b)));
   return by.compare(a, b, options.compare, session.context());
 }
 
 int run(const Options& options, const CompareBy& by, Session& session) {
   by.begin(options.a, options.b);
+  options.memory.keep(session);
   std::optional<Comparison> comparison = compare_large(options, by, session);
   if (!comparison) comparison = compare_read(options, by, session);
   if (!comparison) return 0;

@@ -12,6 +12,7 @@
 #include "base/plain_text.h"
 #include "cli/commands/commands.h"
 #include "cli/files/inputs.h"
+#include "cli/files/memory_needed.h"
 #include "cli/files/outputs.h"
 #include "cli/files/spooled_input.h"
 #include "cli/grammar/parse.h"
@@ -175,6 +176,7 @@ bool convert_in_place(const Options& options, const std::string& path, Session& 
 std::optional<Input> rest_of_input(const Options& options, Session& session) {
   if (!is_stream(options.input)) {
     if (convert_in_place(options, options.input, session)) return {};
+    require_to_read(options.input, options.memory);
     return read_input(options.input, session, options.from, options.columns);
   }
   SpooledInput spooled(options.input, options.memory.limit() / 4, options.memory.folder());
@@ -209,6 +211,7 @@ int run(const Options& options, Session& session) {
     throw UsageError("--gravity-constant and --reference-radius are for ICGEM files (.gfc)");
   }
   check_writable(options.output);
+  options.memory.keep(session);
   const std::optional<Input> input = rest_of_input(options, session);
   if (!input) return 0;
   stop_if_interrupted();

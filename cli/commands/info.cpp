@@ -12,6 +12,7 @@
 #include "cli/commands/commands.h"
 #include "cli/commands/measures_report.h"
 #include "cli/files/inputs.h"
+#include "cli/files/memory_needed.h"
 #include "cli/files/prepare.h"
 #include "cli/options/memory_options.h"
 #include "cli/terminal/interrupt.h"
@@ -41,6 +42,9 @@ struct Options {
 // Reading a mesh, welding it and pairing its edges takes 5.0 times the size of its binary file
 // (measured with `rholm info` on bench/sphere_stream 866), of points three times.
 constexpr double kMemoryPerByte = 6;
+// Bytes for each vertex and face of a mesh that was read: together 101 for a face of a sphere, 157
+// where each face has corners of its own.
+constexpr MemoryOfMesh kLookedAt = {.vertex = 30, .face = 108};
 
 struct MeshReport {
   const ShapeFile& file;
@@ -395,9 +399,17 @@ int report_coefficients(const Options& options, const CoefficientsFile& file, Se
 
 int run(const Options& options, Session& session) {
   if (holds_atlas(options.input)) return report_atlas(options.input, options.json);
+  options.memory.keep(session);
   if (report_large(options, session)) return 0;
+  require_to_read(options.input, options.memory);
   const Input input = read_input(options.input, session, options.convention, options.columns);
-  if (const auto* file = std::get_if<ShapeFile>(&input)) return report_shape(options, *file);
+  if (const auto* file = std::get_if<ShapeFile>(&input)) {
+    if (const auto* mesh = std::get_if<Mesh>(&file->shape)) {
+      options.memory.require(kLookedAt.of(mesh->vertices.size(), mesh->triangles.size()),
+                             "looking at " + display_name(options.input));
+    }
+    return report_shape(options, *file);
+  }
   return report_coefficients(options, std::get<CoefficientsFile>(input), session);
 }
 

@@ -81,15 +81,20 @@ ReconstructOptions library_options(const Options& o, const Bounds& box) {
   return options;
 }
 
+// Runs have taken up to 1.21 times the memory that was foreseen (373 MiB of 307).
+constexpr double kForecastError = 1.25;
+
 // A brick that fits into the memory, if none is asked for: the surface of smaller bricks is another
 // one, as good.
 std::uint64_t points_per_brick(const Options& options) {
   if (options.brick_points) return static_cast<std::uint64_t>(*options.brick_points);
   constexpr std::uint64_t kSmall = 1 << 14;  // chosen: smaller ones are little but halo
   std::uint64_t points = kBrickPoints;
-  while (points > kSmall && foresee_bricks(points, points).memory > options.memory.limit()) {
-    points /= 2;
-  }
+  const auto limit = static_cast<double>(options.memory.limit());
+  const auto needed = [](std::uint64_t n) {
+    return kForecastError * static_cast<double>(foresee_bricks(n, n).memory);
+  };
+  while (points > kSmall && needed(points) > limit) points /= 2;
   return points;
 }
 
@@ -231,6 +236,7 @@ int run(const Options& options, const BrickWorkers& by, Session& session) {
   if (options.resume && options.output == "-") {
     throw UsageError("--resume needs an output with a name: -o NAME.ply");
   }
+  options.memory.keep(session);
   const std::uint64_t most = points_per_brick(options);
   PointsInput input =
       read_points_input(options.input, most, options.columns, options.memory, session);

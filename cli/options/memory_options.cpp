@@ -3,8 +3,16 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+
+#include <fmt/format.h>
+
+#include "base/parallel.h"
+#include "cli/terminal/capture.h"
+#include "cli/terminal/freed_memory.h"
+#include "rholm/error.h"
 
 namespace rholm::cli {
 
@@ -27,10 +35,27 @@ std::string MemoryOptions::folder() const {
   return error ? "/tmp" : folder.string();
 }
 
+void MemoryOptions::keep(const Session& session) const {
+  if (!gib || capture() != nullptr) return;
+  limit_memory(limit(), thread_count(session.context()));
+}
+
+void MemoryOptions::require(double needed, const std::string& what) const {
+  // Less than what libraries have beside it is no matter.
+  constexpr double kNoMatter = 16 << 20;
+  if (!gib || needed <= static_cast<double>(limit()) + kNoMatter) return;
+  // Rounded up, to be typed.
+  const double unit = std::pow(10, std::floor(std::log10(needed / 0x1p30)) - 1);
+  throw Error(ErrorCode::kOutOfMemory,
+              fmt::format("{} needs more memory than the {:.3g} GiB of --max-memory: {:.3g} would "
+                          "do",
+                          what, *gib, std::ceil(needed / 0x1p30 / unit) * unit));
+}
+
 Option max_memory_option(MemoryOptions& options) {
   return {.name = "max-memory",
           .value = "GIB",
-          .help = "memory that may be used; by default what the machine has",
+          .help = "memory that may be used, at most; by default what the machine has",
           .target = &options.gib,
           .min = 1e-6,
           .max = 1 << 20};

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/grammar/command.h"
+#include "cli/terminal/session.h"
 
 namespace rholm::cli {
 
@@ -18,6 +19,12 @@ struct MemoryOptions {
   std::size_t limit() const;
   // What was said, or where the system has temporary files.
   std::string folder() const;
+  // Keeps to what was said from here on: what goes beyond is refused while it works. In a batch,
+  // whose rows share the process, only by require().
+  void keep(const Session& session) const;
+  // Throws OutOfMemory, with a limit that would do, if a limit was said and `what` ("reading a.obj")
+  // needs more bytes than that. `needed` may be an estimate, and is best a little high.
+  void require(double needed, const std::string& what) const;
 };
 Option max_memory_option(MemoryOptions& options);
 // Both.

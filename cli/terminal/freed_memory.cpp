@@ -1,6 +1,12 @@
 #include "cli/terminal/freed_memory.h"
 
+#include <algorithm>
+#include <atomic>
 #include <cstdlib>
+#include <fstream>
+#include <string>
+
+#include <sys/resource.h>
 #ifdef __GLIBC__
 #include <malloc.h>
 #include <sys/mman.h>
@@ -11,6 +17,21 @@
 #endif
 
 namespace rholm::cli {
+namespace {
+
+std::atomic<std::size_t> limit_in_force = 0;  // 0: none
+
+// A line of /proc/self/status, in bytes; 0 where there is none.
+std::size_t own_memory(const std::string& name) {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    std::size_t kibibytes = 0;
+    if (word == name + ":" && status >> kibibytes) return kibibytes << 10;
+  }
+  return 0;
+}
+
+}  // namespace
 
 void keep_freed_memory() {
 #ifdef __GLIBC__
@@ -38,10 +59,40 @@ void start_on_huge_pages() {
 }
 
 void keep_large_freed_memory() {
+  if (memory_limit()) return;
 #ifdef __GLIBC__
   mallopt(M_MMAP_MAX, 0);
   mallopt(M_TRIM_THRESHOLD, 1 << 30);
 #endif
+}
+
+void limit_memory(std::size_t bytes, int threads) {
+  limit_in_force = bytes;
+#ifdef __GLIBC__
+  constexpr int kReturned = 1 << 20;  // chosen: arrays from there on are mapped, and unmapped
+  mallopt(M_MMAP_THRESHOLD, kReturned);
+  mallopt(M_TRIM_THRESHOLD, kReturned);
+  malloc_trim(0);
+#endif
+#ifdef RLIMIT_DATA
+  // The system counts what may be written, touched or not: room for the stacks of threads, which
+  // stay all but empty, is added. Chosen: 26 MiB for what libraries have beside the arrays.
+  constexpr std::size_t kStack = std::size_t{4} << 20;  // of the threads of oneTBB
+  constexpr std::size_t kBeside = std::size_t{26} << 20;
+  const std::size_t untouched =
+      own_memory("VmData") - std::min(own_memory("VmData"), own_memory("RssAnon"));
+  const std::size_t others = static_cast<std::size_t>(std::max(threads, 1) - 1);
+  rlimit limit = {};
+  if (getrlimit(RLIMIT_DATA, &limit) != 0) return;
+  const rlim_t wanted = bytes + kBeside + untouched + others * kStack;
+  limit.rlim_cur = std::min(wanted, limit.rlim_max);
+  setrlimit(RLIMIT_DATA, &limit);
+#endif
+}
+
+std::optional<std::size_t> memory_limit() {
+  const std::size_t bytes = limit_in_force;
+  return bytes > 0 ? std::optional(bytes) : std::nullopt;
 }
 
 }  // namespace rholm::cli

@@ -1,6 +1,9 @@
 // Where arrays lie, and what becomes of memory that is freed. Layer: cli.
 #pragma once
 
+#include <cstddef>
+#include <optional>
+
 namespace rholm::cli {
 
 // Pages that are given back to the system are found and cleared again for the next array: 5 to 7 %
@@ -18,5 +21,12 @@ void start_on_huge_pages();
 // again, and little else. Of 4 million points on one thread 8.8 s in the kernel instead of 19.7,
 // with 8 % more memory.
 void keep_large_freed_memory();
+
+// From here on the process is refused memory (std::bad_alloc) beyond `bytes` and the little that it
+// has at its start, on so many threads. Memory that is freed goes back to the system at once, since
+// it would count. The pages of mapped files do not.
+void limit_memory(std::size_t bytes, int threads);
+// What limit_memory() was told last, if anything.
+std::optional<std::size_t> memory_limit();
 
 }  // namespace rholm::cli

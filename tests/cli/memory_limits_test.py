@@ -1,0 +1,124 @@
+"""--max-memory is kept, or refused with a limit that is: over all commands that have it, formats
+and sizes. With `--large` meshes of millions of faces."""
+
+import os
+import re
+import subprocess
+import sys
+import unittest
+
+sys.path.insert(0, os.path.dirname(__file__))
+from harness import CliTest, RHOLM, TIMEOUT, main
+
+MIB = 1 << 20
+GIB = 1 << 30
+BESIDE = 32 * MIB  # what the program and its libraries may have beside the limit
+LARGE = "--large" in sys.argv
+if LARGE:
+    sys.argv.remove("--large")
+
+
+def anonymous(pid):
+    """Memory of a process that is no page of a file, bytes."""
+    try:
+        with open(f"/proc/{pid}/status", encoding="ascii") as status:
+            return 1024 * int(re.search(r"RssAnon:\s+(\d+)", status.read())[1])
+    except (OSError, TypeError):
+        return 0  # it has ended
+
+
+# Commands that have --max-memory: what they take of a mesh and of points.
+OF_MESHES = ("info {}", "convert {} out.ply", "convert {} out.obj", "compare {} {} --samples 1000",
+             "analyze {} --degree 8 -o out.h5", "analyze {} --degree 8 --weld 1e-9 -o out.h5")
+OF_POINTS = ("info {}", "convert {} out.xyz", "convert {} out.off", "reconstruct {} -o out.ply")
+
+
+@unittest.skipIf(os.environ.get("RHOLM_TEST_SANITIZED") == "1",
+                 "sanitizers have memory of their own")
+class Limits(CliTest):
+    def peak(self, words, limit):
+        """Exit code, message and the most memory of a run with that limit (GiB)."""
+        with open(self.folder / "err", "wb") as err:
+            process = subprocess.Popen([RHOLM, *words, "--threads", "2", "--max-memory", str(limit)],
+                                       cwd=self.folder, stdout=subprocess.DEVNULL, stderr=err)
+            most = 0
+            while process.poll() is None:
+                most = max(most, anonymous(process.pid))
+                try:
+                    process.wait(0.002)
+                except subprocess.TimeoutExpired:
+                    pass
+        return process.returncode, (self.folder / "err").read_text(), most
+
+    def check(self, line, limit):
+        """Returns whether it was done within the limit."""
+        with self.subTest(line, limit=limit):
+            code, said, most = self.peak(line.split(), limit)
+            self.assertLessEqual(most, limit * GIB + BESIDE, (line, limit, said))
+            self.assertIn(code, (0, 1), said)
+            if code == 0:
+                return True
+            # What is foreseen is refused with the limit that would do; and it does.
+            wanted = re.search(r"max-memory: ([\d.e+-]+) would do", said)
+            if wanted:
+                enough = float(wanted[1])
+                self.assertGreater(enough, limit)
+                code, said, most = self.peak(line.split(), enough)
+                again = re.search(r"max-memory: ([\d.e+-]+) would do", said)
+                if again:  # reading has its limit, and what follows another
+                    enough = float(again[1])
+                    code, said, most = self.peak(line.split(), enough)
+                self.assertEqual(code, 0, (line, enough, said))
+                self.assertLessEqual(most, enough * GIB + BESIDE)
+            else:
+                self.assertRegex(said, "GiB|brick-points|step")
+        return False
+
+    def sweep(self, meshes, points, limits):
+        done = {True: 0, False: 0}
+        for lines, names in ((OF_MESHES, meshes), (OF_POINTS, points)):
+            for line in lines:
+                for name in names:
+                    for limit in limits:
+                        done[self.check(line.format(name, name), limit)] += 1
+        # Otherwise the limits say nothing.
+        self.assertGreater(done[True], 0)
+        self.assertGreater(done[False], 0)
+
+    def files_of(self, subdivisions, points):
+        self.rholm("make", "sphere", "--subdivisions", subdivisions, "-o", "mesh.ply")
+        for name, options in (("mesh.obj", []), ("mesh.off", []), ("mesh.stl", []),
+                              ("text.ply", ["--ascii"])):
+            self.rholm("convert", "mesh.ply", name, *options)
+        self.rholm("make", "sample", "mesh.ply", "--points", points, "-o", "points.ply")
+        self.rholm("convert", "points.ply", "points.xyz")
+        return ("mesh.ply", "mesh.obj", "mesh.off", "mesh.stl", "text.ply"), ("points.ply",
+                                                                              "points.xyz")
+
+    @unittest.skipIf(LARGE, "the large ones")
+    def test_what_would_go_far_beyond_is_refused(self):
+        self.rholm("make", "sphere", "--subdivisions", "7", "-o", "mesh.ply")
+        self.rholm("convert", "mesh.ply", "mesh.stl")
+        # 110, 55 and 70 MiB.
+        self.assertFalse(self.check("compare mesh.stl mesh.stl --samples 1000", 0.02))
+        self.assertFalse(self.check("info mesh.stl", 0.003))
+        self.assertFalse(self.check("analyze mesh.stl --degree 8 -o out.h5", 0.01))
+        self.assertTrue(self.check("info mesh.ply", 0.003))  # where it lies
+        self.assertTrue(self.check("info mesh.stl", 0.1))
+
+    @unittest.skipIf(LARGE, "the large ones")
+    def test_nothing_is_refused_where_no_limit_was_said(self):
+        self.rholm("make", "sphere", "--subdivisions", "4", "-o", "mesh.ply")
+        for line in OF_MESHES:
+            self.rholm(*line.format("mesh.ply", "mesh.ply").split())
+
+    @unittest.skipUnless(LARGE, "--large")
+    def test_small_middle_and_large_shapes(self):
+        for subdivisions, points, limits in ((5, 20000, (0.001, 0.02)),
+                                             (8, 300000, (0.03, 0.1, 0.3)),
+                                             (9, 3000000, (0.1, 0.4))):
+            self.sweep(*self.files_of(subdivisions, points), limits)
+
+
+if __name__ == "__main__":
+    main()
