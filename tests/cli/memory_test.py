@@ -10,7 +10,6 @@ from harness import RHOLM, CliTest, main
 MIB = 1 << 20
 PLACE = ["--size", "2,1.6,1.2", "--translate", "0.1,-0.05,0.08"]
 TINY = ["--max-memory", "0.001"]
-SMALL = ["--max-memory", "0.02"]  # blocks of points have one size, whatever the limit
 
 
 class Memory(CliTest):
@@ -70,7 +69,7 @@ class Memory(CliTest):
     def both_ways(self, source, target, *options):
         """Bytes and messages of a conversion from where it lies, and of standard input, read."""
         out = []
-        for words, content in (([source, *SMALL], None), (["-"], (self.folder / source).read_bytes())):
+        for words, content in (([source, *TINY], None), (["-"], (self.folder / source).read_bytes())):
             done = self.rholm("convert", words[0], target, *words[1:], *options, stdin=content)
             out.append(((self.folder / target).read_bytes(),
                         done.err.replace("standard input", source)))

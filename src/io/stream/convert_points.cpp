@@ -14,7 +14,7 @@
 namespace rholm {
 namespace {
 
-constexpr std::size_t kPiece = std::size_t{1} << 16;  // points; chosen: 10 MB with ten attributes
+constexpr std::size_t kPiece = std::size_t{1} << 14;  // points; chosen: 3 MB with ten attributes
 
 // What the first rows of a file depend on.
 struct Ahead {
