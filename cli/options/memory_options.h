@@ -22,8 +22,8 @@ struct MemoryOptions {
   // Keeps to what was said from here on: what goes beyond is refused while it works. In a batch,
   // whose rows share the process, only by require().
   void keep(const Session& session) const;
-  // Throws OutOfMemory, with a limit that would do, if a limit was said and `what` ("reading a.obj")
-  // needs more bytes than that. `needed` may be an estimate, and is best a little high.
+  // Throws OutOfMemory, with a limit that would do, if a limit was said and `what` ("reading
+  // a.obj") needs more bytes than that. `needed` may be an estimate, and is best a little high.
   void require(double needed, const std::string& what) const;
 };
 Option max_memory_option(MemoryOptions& options);
