@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "base/parallel.h"
 #include "cli/commands/analyze.h"
 #include "cli/commands/analyze_options.h"
 #include "cli/commands/analyze_report.h"
@@ -66,7 +65,7 @@ Context within_memory(const MappedMesh& mesh, const Options& options, const Sess
     return kSmallMesh + memory_of_grid(options) + kOrderOfTriangle * n +
            kPassOfTriangle * threads * std::min(n, kMostOfPass);
   };
-  context.threads = thread_count(context);
+  context.threads = threads_of(context);
   while (context.threads > 1 &&
          needed(context.threads) > static_cast<double>(options.memory.limit())) {
     --context.threads;

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 #include <fmt/format.h>
 
-#include "base/parallel.h"
 #include "cli/terminal/capture.h"
 #include "cli/terminal/freed_memory.h"
 #include "rholm/error.h"
@@ -35,9 +35,14 @@ std::string MemoryOptions::folder() const {
   return error ? "/tmp" : folder.string();
 }
 
+int threads_of(const Context& context) {
+  if (context.threads > 0) return context.threads;
+  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
 void MemoryOptions::keep(const Session& session) const {
   if (!gib || capture() != nullptr) return;
-  limit_memory(limit(), thread_count(session.context()));
+  limit_memory(limit(), threads_of(session.context()));
 }
 
 void MemoryOptions::require(double needed, const std::string& what) const {

@@ -11,6 +11,9 @@
 
 namespace rholm::cli {
 
+// As many threads as work may have.
+int threads_of(const Context& context);
+
 struct MemoryOptions {
   std::optional<double> gib;
   std::string work_dir;
