@@ -18,6 +18,7 @@
 #include "cli/files/prepare.h"
 #include "cli/files/spooled_input.h"
 #include "cli/grammar/parse.h"
+#include "cli/terminal/freed_memory.h"
 #include "cli/terminal/json_text.h"
 #include "rholm/error.h"
 
@@ -47,54 +48,115 @@ EncodeOptions encode_options(const Options& options) {
 // in random order take 12 bytes each.
 constexpr double kPassOfTriangle = 50, kOrderOfTriangle = 12;
 constexpr double kMostOfPass = 1 << 23;
-// A mesh that is read, welded and paired takes 215 bytes for each face of a sphere.
-constexpr MemoryOfMesh kReadMesh = {.vertex = 40, .face = 230};
+// A mesh that is read, welded and paired takes 215 bytes for each face of a sphere, and 371 where
+// each face has corners of its own.
+constexpr MemoryOfMesh kPairedMesh = {.vertex = 75, .face = 215};
+// With --weld corners are one before faces are paired: 196 and 250 bytes.
+constexpr MemoryOfMesh kWeldedMesh = {.vertex = 45, .face = 190};
 constexpr double kSmallMesh = 8 << 20;
+// Distances to the surface, for the errors of coarse models, take up to 105 MiB beside (measured on
+// a box, degree 512).
+constexpr double kDistances = 110 << 20;
+
+const MemoryOfMesh& paired_mesh(const Options& options) {
+  return options.weld > 0 ? kWeldedMesh : kPairedMesh;
+}
 
 double memory_of_grid(const Options& options) {
   const double n = options.degree.value_or(0) + 1.0;
-  return 150 * n * n;
+  return kSmallMesh + 150 * n * n;
 }
 
-// With as many threads as fit in --max-memory; throws OutOfMemory where one does not.
-Context within_memory(const MappedMesh& mesh, const Options& options, const Session& session) {
+double most_of_work(const Options& options) {
+  return memory_of_grid(options) + (options.no_errors ? 0 : kDistances);
+}
+
+// Bytes that the pass over that number of triangles takes.
+double memory_of_pass(double triangles, int threads, const Options& options) {
+  return memory_of_grid(options) + kOrderOfTriangle * triangles +
+         kPassOfTriangle * threads * std::min(triangles, kMostOfPass);
+}
+
+// With as many threads as fit in --max-memory beside `kept` bytes, one at least.
+Context within_memory(double triangles, double kept, const Options& options,
+                      const Session& session) {
   Context context = session.context();
   if (!options.memory.gib) return context;
-  const auto n = static_cast<double>(mesh.view().n_triangles);
-  const auto needed = [&](int threads) {
-    return kSmallMesh + memory_of_grid(options) + kOrderOfTriangle * n +
-           kPassOfTriangle * threads * std::min(n, kMostOfPass);
-  };
+  const auto limit = static_cast<double>(options.memory.limit());
   context.threads = threads_of(context);
   while (context.threads > 1 &&
-         needed(context.threads) > static_cast<double>(options.memory.limit())) {
+         kept + memory_of_pass(triangles, context.threads, options) > limit) {
     --context.threads;
   }
-  options.memory.require(needed(context.threads), "analyzing " + display_name(options.input));
   return context;
 }
 
-// Throws OutOfMemory if a mesh that was read takes more than --max-memory from here on.
+// Throws OutOfMemory where one thread does not fit.
+void require_pass(double triangles, double kept, const Options& options) {
+  const double needed = kept + memory_of_pass(triangles, 1, options);
+  options.memory.require(needed, "analyzing " + display_name(options.input),
+                         needed + most_of_work(options));
+}
+
+Context within_memory(const MappedMesh& mesh, const Options& options, const Session& session) {
+  const auto n = static_cast<double>(mesh.view().n_triangles);
+  require_pass(n, 0, options);
+  return within_memory(n, 0, options, session);
+}
+
+// Whether the pass that a mapped mesh goes through may do for a mesh: it must be closed as it is.
+bool may_stay(const Options& options) {
+  return options.weld == 0 && parse_method(options.method) == Method::kEdge;
+}
+bool may_stay(double vertices, double faces, const Options& options) {
+  return may_stay(options) && vertices < faces;
+}
+
+// Bytes at most while the mesh of a file is read and analyzed, on one thread.
+double memory_to_read_and_analyze(const std::string& path, const Options& options) {
+  const ShapeMemory shape = memory_to_read(path);
+  const double work = may_stay(shape.vertices, shape.faces, options)
+                          ? shape.kept() + memory_of_pass(shape.faces, 1, options)
+                          : paired_mesh(options).of(shape) + memory_of_grid(options);
+  return std::max(shape.reading, work);
+}
+
+// Throws OutOfMemory if a mesh that was read takes more than --max-memory from here on. Where it
+// cannot stay as it is, which is known later, it takes more.
 void check_read_mesh(const Mesh& mesh, const Options& options) {
-  options.memory.require(kSmallMesh + memory_of_grid(options) +
-                             kReadMesh.of(mesh.vertices.size(), mesh.triangles.size()),
-                         "analyzing " + display_name(options.input));
+  if (!options.memory.gib) return;
+  const auto vertices = static_cast<double>(mesh.vertices.size());
+  const auto faces = static_cast<double>(mesh.triangles.size());
+  const double paired = paired_mesh(options).of(mesh.vertices.size(), mesh.triangles.size());
+  note_enough_memory(paired + most_of_work(options));
+  if (may_stay(vertices, faces, options)) {
+    require_pass(faces, sizeof(Vec3) * vertices + sizeof(Triangle) * faces, options);
+  } else {
+    options.memory.require(paired + memory_of_grid(options),
+                           "analyzing " + display_name(options.input));
+  }
 }
 
 // Throws OutOfMemory if a mesh of a file of that size surely needs more than there is once it is
 // read: twice the file, as numbers and edges.
 void check_room_to_read(std::uintmax_t bytes, const std::string& path, const Options& options) {
-  const double needed = 2.0 * static_cast<double>(bytes);
-  const auto limit = static_cast<double>(options.memory.limit());
-  if (needed <= limit) return;
-  throw Error(
-      ErrorCode::kOutOfMemory,
-      fmt::format(
-          "{} cannot be worked through where it lies, and needs {:.3g} GiB or more to be "
-          "read, of {:.3g} GiB; only a binary PLY file of triangles that are closed, turned "
-          "outwards and star-shaped can be larger than memory, with the method edge and "
-          "without --weld",
-          display_name(path), needed / 0x1p30, limit / 0x1p30));
+  std::optional<std::string> refused;
+  if (options.memory.gib && !is_stream(path)) {
+    refused = options.memory.refusal(memory_to_read_and_analyze(path, options));
+  } else {
+    const double needed = 2.0 * static_cast<double>(bytes);
+    const auto limit = static_cast<double>(options.memory.limit());
+    if (needed > limit) {
+      refused = fmt::format("{:.3g} GiB or more to be read, of {:.3g} GiB", needed / 0x1p30,
+                            limit / 0x1p30);
+    }
+  }
+  if (!refused) return;
+  throw Error(ErrorCode::kOutOfMemory,
+              fmt::format("{} cannot be worked through where it lies, and needs {}; only a binary "
+                          "PLY file of triangles that are closed, turned outwards and star-shaped "
+                          "can be larger than memory, with the method edge and without --weld",
+                          display_name(path), *refused));
 }
 
 // From a stream: what does not fit in memory is worked through in a file.
@@ -116,7 +178,10 @@ Encoded encode_stream(const Options& options, const EncodeOptions& wanted, Sessi
   const Mesh mesh = read_mesh_of(input.bytes(), options.input, session);
   read_in = reading.elapsed();
   check_read_mesh(mesh, options);
-  return with_time(encode(mesh, wanted, session.context()));
+  const double kept = static_cast<double>(sizeof(Vec3) * mesh.vertices.size() +
+                                          sizeof(Triangle) * mesh.triangles.size());
+  const auto faces = static_cast<double>(mesh.triangles.size());
+  return with_time(encode(mesh, wanted, within_memory(faces, kept, options, session)));
 }
 
 // A mesh that can stay where it lies in its file is not read.
@@ -126,13 +191,17 @@ Encoded encode_input(const Options& options, const EncodeOptions& wanted, const 
   Context context = session.context();
   if (options.memory.gib && !is_stream(options.input)) {
     const std::optional<MappedMesh> mapped = map_mesh(options.input, context);
-    if (mapped) context = within_memory(*mapped, options, session);
+    if (mapped && may_stay(options)) {
+      context = within_memory(*mapped, options, session);
+    } else {
+      const ShapeMemory shape = memory_to_read(options.input);
+      context = within_memory(shape.faces, shape.kept(), options, session);
+    }
   }
   return by.encode_file(options.input, wanted, context, [&] {
     std::error_code none;
     const std::uintmax_t size = std::filesystem::file_size(options.input, none);
     if (!none) check_room_to_read(size, options.input, options);
-    require_to_read(options.input, options.memory);
     Mesh mesh = read_mesh(options.input, session);
     check_read_mesh(mesh, options);
     return mesh;

@@ -153,10 +153,12 @@ std::optional<Comparison> compare_large(const Options& options, const CompareBy&
 
 std::optional<Comparison> compare_read(const Options& options, const CompareBy& by,
                                        Session& session) {
-  // Both are read before anything else is done.
-  options.memory.require(
-      memory_to_read(options.a) + memory_to_read(options.b),
-      fmt::format("reading {} and {}", display_name(options.a), display_name(options.b)));
+  if (options.memory.gib) {
+    const ShapeMemory a = memory_to_read(options.a), b = memory_to_read(options.b);
+    options.memory.require(
+        std::max({a.reading, a.kept() + b.reading, kCompared.of(a) + kCompared.of(b)}),
+        fmt::format("reading {} and {}", display_name(options.a), display_name(options.b)));
+  }
   Input first = read_surface_input(options.a, session, options.convention);
   Input second = read_surface_input(options.b, session, options.convention);
   CommonUnit unit;

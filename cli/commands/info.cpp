@@ -401,7 +401,7 @@ int run(const Options& options, Session& session) {
   if (holds_atlas(options.input)) return report_atlas(options.input, options.json);
   options.memory.keep(session);
   if (report_large(options, session)) return 0;
-  require_to_read(options.input, options.memory);
+  require_to_read(options.input, options.memory, kLookedAt);
   const Input input = read_input(options.input, session, options.convention, options.columns);
   if (const auto* file = std::get_if<ShapeFile>(&input)) {
     if (const auto* mesh = std::get_if<Mesh>(&file->shape)) {

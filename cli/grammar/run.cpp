@@ -45,10 +45,7 @@ Outcome outcome_of(const std::function<int()>& work) {
     return {exit_code_of(error.code()),
             stopped ? "interrupted; nothing was written" : error.what()};
   } catch (const std::bad_alloc&) {
-    if (const std::optional<std::size_t> limit = memory_limit()) {
-      return {kFailure, fmt::format("this needs more than the {:.3g} GiB of --max-memory",
-                                    static_cast<double>(*limit) / 0x1p30)};
-    }
+    if (memory_limit()) return {kFailure, beyond_memory_limit()};
     return {kFailure,
             "there is not enough memory for this; ask for a lower degree or fewer vertices"};
   } catch (const std::filesystem::filesystem_error& error) {

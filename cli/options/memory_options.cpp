@@ -45,16 +45,20 @@ void MemoryOptions::keep(const Session& session) const {
   limit_memory(limit(), threads_of(session.context()));
 }
 
-void MemoryOptions::require(double needed, const std::string& what) const {
+std::optional<std::string> MemoryOptions::refusal(double needed) const {
   // Less than what libraries have beside it is no matter.
   constexpr double kNoMatter = 16 << 20;
-  if (!gib || needed <= static_cast<double>(limit()) + kNoMatter) return;
-  // Rounded up, to be typed.
-  const double unit = std::pow(10, std::floor(std::log10(needed / 0x1p30)) - 1);
-  throw Error(ErrorCode::kOutOfMemory,
-              fmt::format("{} needs more memory than the {:.3g} GiB of --max-memory: {:.3g} would "
-                          "do",
-                          what, *gib, std::ceil(needed / 0x1p30 / unit) * unit));
+  if (!gib || needed <= static_cast<double>(limit()) + kNoMatter) return {};
+  return fmt::format("more memory than the {:.3g} GiB of --max-memory: {} would do", *gib,
+                     limit_to_type(needed));
+}
+
+void MemoryOptions::require(double needed, const std::string& what, double most) const {
+  if (const std::optional<std::string> refused = refusal(needed)) {
+    throw Error(ErrorCode::kOutOfMemory, fmt::format("{} needs {}", what, *refused));
+  }
+  constexpr double kMore = 1.25;  // chosen
+  if (gib) note_enough_memory(std::max(kMore * needed, most));
 }
 
 Option max_memory_option(MemoryOptions& options) {

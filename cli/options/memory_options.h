@@ -25,9 +25,12 @@ struct MemoryOptions {
   // Keeps to what was said from here on: what goes beyond is refused while it works. In a batch,
   // whose rows share the process, only by require().
   void keep(const Session& session) const;
-  // Throws OutOfMemory, with a limit that would do, if a limit was said and `what` ("reading
-  // a.obj") needs more bytes than that. `needed` may be an estimate, and is best a little high.
-  void require(double needed, const std::string& what) const;
+  // "more memory than the 0.1 GiB of --max-memory: 0.2 would do" if a limit was said and `needed`
+  // bytes are more. `needed` may be an estimate, and is best a little high.
+  std::optional<std::string> refusal(double needed) const;
+  // Throws OutOfMemory "`what` needs more memory than ..." then. Work that is let pass and comes to
+  // the limit all the same is told that `most` bytes would do, by default a quarter more.
+  void require(double needed, const std::string& what, double most = 0) const;
 };
 Option max_memory_option(MemoryOptions& options);
 // Both.

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <string>
+
+#include <fmt/format.h>
 
 #include <sys/resource.h>
 #ifdef __GLIBC__
@@ -20,6 +23,7 @@ namespace rholm::cli {
 namespace {
 
 std::atomic<std::size_t> limit_in_force = 0;  // 0: none
+std::atomic<double> enough_memory = 0;
 
 // A line of /proc/self/status, in bytes; 0 where there is none.
 std::size_t own_memory(const std::string& name) {
@@ -93,6 +97,25 @@ void limit_memory(std::size_t bytes, int threads) {
 std::optional<std::size_t> memory_limit() {
   const std::size_t bytes = limit_in_force;
   return bytes > 0 ? std::optional(bytes) : std::nullopt;
+}
+
+void note_enough_memory(double bytes) {
+  double before = enough_memory;
+  while (before < bytes && !enough_memory.compare_exchange_weak(before, bytes)) {
+  }
+}
+
+std::string limit_to_type(double bytes) {
+  const double unit = std::pow(10, std::floor(std::log10(bytes / 0x1p30)) - 1);
+  return fmt::format("{:.3g}", std::ceil(bytes / 0x1p30 / unit) * unit);
+}
+
+std::string beyond_memory_limit() {
+  const auto limit = static_cast<double>(limit_in_force);
+  std::string text =
+      fmt::format("this needs more than the {:.3g} GiB of --max-memory", limit / 0x1p30);
+  if (enough_memory > limit) text += fmt::format(": {} would do", limit_to_type(enough_memory));
+  return text;
 }
 
 }  // namespace rholm::cli

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 
 namespace rholm::cli {
 
@@ -28,5 +29,11 @@ void keep_large_freed_memory();
 void limit_memory(std::size_t bytes, int threads);
 // What limit_memory() was told last, if anything.
 std::optional<std::size_t> memory_limit();
+// Bytes that are surely enough for the work, about; the largest that was noted counts.
+void note_enough_memory(double bytes);
+// "this needs more than the 0.1 GiB of --max-memory", with a limit that would do where it is known.
+std::string beyond_memory_limit();
+// `bytes` as a value of --max-memory: GiB with two digits, rounded up.
+std::string limit_to_type(double bytes);
 
 }  // namespace rholm::cli

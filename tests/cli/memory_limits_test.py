@@ -30,7 +30,8 @@ def anonymous(pid):
 # Commands that have --max-memory: what they take of a mesh and of points.
 OF_MESHES = ("info {}", "convert {} out.ply", "convert {} out.obj", "compare {} {} --samples 1000",
              "analyze {} --degree 8 -o out.h5", "analyze {} --degree 8 --weld 1e-9 -o out.h5")
-OF_POINTS = ("info {}", "convert {} out.xyz", "convert {} out.off", "reconstruct {} -o out.ply")
+OF_POINTS = ("info {}", "convert {} out.xyz", "convert {} out.off", "reconstruct {} -o out.ply",
+             "reconstruct {} -o out.ply --brick-points 10000")
 
 
 @unittest.skipIf(os.environ.get("RHOLM_TEST_SANITIZED") == "1",
@@ -70,8 +71,10 @@ class Limits(CliTest):
                     code, said, most = self.peak(line.split(), enough)
                 self.assertEqual(code, 0, (line, enough, said))
                 self.assertLessEqual(most, enough * GIB + BESIDE)
+            elif wanted := re.search(r"need some ([\d.e+-]+) GiB", said):  # of bricks
+                self.assertEqual(self.peak(line.split(), float(wanted[1]))[0], 0, (line, said))
             else:
-                self.assertRegex(said, "GiB|brick-points|step")
+                self.assertRegex(said, "GiB|step")
         return False
 
     def sweep(self, meshes, points, limits):
@@ -105,6 +108,30 @@ class Limits(CliTest):
         self.assertFalse(self.check("analyze mesh.stl --degree 8 -o out.h5", 0.01))
         self.assertTrue(self.check("info mesh.ply", 0.003))  # where it lies
         self.assertTrue(self.check("info mesh.stl", 0.1))
+
+    @unittest.skipIf(LARGE, "the large ones")
+    def test_a_limit_little_above_what_text_takes_is_enough(self):
+        self.rholm("make", "sphere", "--subdivisions", "7", "-o", "mesh.ply")
+        n = 163842
+        rows = self.rholm("convert", "mesh.ply", "-", "--format", "obj").out.splitlines()
+        vertices, faces = rows[:n], rows[n:]
+        self.assertTrue(vertices[-1].startswith("v ") and faces[0].startswith("f "))
+        texts = {"plain.obj": vertices + faces,
+                 # All faces before all vertices, and one by one.
+                 "faces.obj": faces + vertices,
+                 "mixed.obj": [line for i in range(len(faces)) for line in
+                               vertices[i:i + 1] + faces[i:i + 1]],
+                 "normals.obj": [line for v in vertices for line in (v, "vn" + v[1:])] + faces,
+                 "squares.obj": vertices + [f"{f} {1 + (int(f.split()[1]) + 99) % n}" for f in faces]}
+        for name, lines in texts.items():
+            (self.folder / name).write_text("\n".join(lines) + "\n")
+        for name in ("mesh.off", "text.ply", "text.stl"):
+            self.rholm("convert", "mesh.ply", name, *["--ascii"] * (name != "mesh.off"))
+        for name in (*texts, "mesh.off", "text.ply", "text.stl"):
+            line = f"convert {name} out.ply"
+            _, _, most = self.peak(line.split(), 4)
+            with self.subTest(name, peak=most):
+                self.assertTrue(self.check(line, 1.3 * most / GIB))
 
     @unittest.skipIf(LARGE, "the large ones")
     def test_nothing_is_refused_where_no_limit_was_said(self):

@@ -36,16 +36,17 @@ class Memory(CliTest):
         self.assertIn("--work-dir", result.err)
         # A shorter one needs no room (the work on it takes some 60 MiB).
         self.rholm("make", "box", *PLACE, "-o", "small.ply")
-        self.rholm("analyze", "-", "--degree", "4", "--max-memory", "0.1", "--work-dir", "nowhere", "-o", "x.sh",
-                   stdin=(self.folder / "small.ply").read_bytes())
+        self.rholm("analyze", "-", "--degree", "4", "--max-memory", "0.1", "--work-dir", "nowhere",
+                   "-o", "x.sh", stdin=(self.folder / "small.ply").read_bytes())
 
     def test_a_mesh_that_must_be_read_and_does_not_fit_is_refused(self):
-        content = self.box()
+        content = self.box(160)
         for words in (["-"], ["box.ply"]):
             result = self.rholm("analyze", *words, "--degree", "4", "--weld", "1e-9",
-                                "--max-memory", "0.0005",
+                                "--max-memory", "0.005",
                                 "--work-dir", ".", "-o", "x.sh", code=1, stdin=content)
             self.assertIn("GiB", result.err)
+        self.assertRegex(result.err, r"0\.\d+ would do; only a binary PLY")
         self.assertEqual(self.files(), ["box.ply"])
 
     def test_a_truncated_or_empty_stream_is_bad_input(self):

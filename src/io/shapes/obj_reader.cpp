@@ -3,9 +3,11 @@
 // weights that later writers add.
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <limits>
 #include <optional>
 
+#include "base/cancel.h"
 #include "io/file/number_text.h"
 #include "io/shapes/face_list.h"
 #include "io/shapes/obj_corner_data.h"
@@ -53,6 +55,7 @@ class ObjReader {
   explicit ObjReader(const ShapeSource& source) : source_(source), text_(source.bytes) {}
 
   ShapeFile read() {
+    reserve();
     for (std::size_t line = 0; !text_.at_end(); ++line) {
       read_line();
       skip_spaces(text_);
@@ -67,6 +70,27 @@ class ObjReader {
 
  private:
   using Texture = std::array<double, 2>;
+
+  // Counts the lines of each kind, so that no array is there twice while it grows.
+  void reserve() {
+    std::size_t vertices = 0, normals = 0, textures = 0;
+    CancelPoll poll;
+    for (const char* line = text_.at; text_.end - line > 2;) {
+      vertices += line[0] == 'v' && is_blank(line[1]);
+      normals += line[0] == 'v' && line[1] == 'n';
+      textures += line[0] == 'v' && line[1] == 't';
+      face_lines_ += line[0] == 'f' && is_blank(line[1]);
+      const void* end = std::memchr(line, '\n', static_cast<std::size_t>(text_.end - line));
+      line = end == nullptr ? text_.end : static_cast<const char*>(end) + 1;
+      poll();
+    }
+    // "v 0 0 0" with its line end has 8 bytes, and so has "f 1 1 1"; "vt 0" has 5.
+    const std::size_t most = source_.bytes.size() / 8 + 1;
+    vertices_.reserve(std::min(vertices, most));
+    normals_.reserve(std::min(normals, most));
+    textures_.reserve(std::min(textures, source_.bytes.size() / 5 + 1));
+    face_lines_ = std::min(face_lines_, most);
+  }
 
   void read_line() {
     skip_gap(text_);
@@ -116,7 +140,9 @@ class ObjReader {
     if (!is_finite(position) && !not_finite_) not_finite_ = text_;
     if (vertices_.size() == kMaxIndex) fail_line("more than 4294967295 vertices");
     vertices_.push_back(position);
-    if (n >= 6 && source_.attributes) colors_.push_back({a[3], a[4], a[5]});
+    if (n < 6 || !source_.attributes) return;
+    if (colors_.empty()) colors_.reserve(vertices_.capacity());
+    colors_.push_back({a[3], a[4], a[5]});
   }
 
   void read_normal() {
@@ -138,6 +164,8 @@ class ObjReader {
       if (at_statement_end(text_)) break;
       read_corner();
     }
+    // Polygons are kept elsewhere.
+    if (n_faces_ == 0 && corners_.size() == 3) faces_.reserve(face_lines_);
     faces_.add(corners_);
     ++n_faces_;
   }
@@ -295,6 +323,7 @@ class ObjReader {
   std::vector<Texture> textures_;
   FaceList faces_;
   std::size_t n_faces_ = 0;
+  std::size_t face_lines_ = 0;          // at most, about
   std::vector<std::uint32_t> corners_;  // of the face being read
   CornerData normal_of_;
   CornerData texture_of_;

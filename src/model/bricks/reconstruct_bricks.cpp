@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <span>
@@ -120,16 +121,23 @@ void check(std::uint64_t points_per_brick) {
 
 constexpr double kGibibyte = 0x1p30;
 
+// To two digits, so that a limit of so much is enough.
+double rounded_up(double value) {
+  const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
+  return unit * std::ceil(value / unit);
+}
+
 // What the points themselves decide is not known before.
 void check_memory(std::uint64_t points, const ReconstructOptions& options,
                   const BrickOptions& bricks) {
   const std::uint64_t needed = kMemoryOfPoint * std::min(points, bricks.points_per_brick);
   if (needed <= options.max_memory) return;
-  throw Error(ErrorCode::kOutOfMemory,
-              fmt::format("bricks of {} points need some {:.2g} GiB, and {:.2g} are allowed: take "
-                          "smaller bricks (--brick-points)",
-                          bricks.points_per_brick, static_cast<double>(needed) / kGibibyte,
-                          static_cast<double>(options.max_memory) / kGibibyte));
+  throw Error(
+      ErrorCode::kOutOfMemory,
+      fmt::format("bricks of {} points need some {:.2g} GiB, and {:.2g} are allowed: take "
+                  "smaller bricks (--brick-points)",
+                  bricks.points_per_brick, rounded_up(static_cast<double>(needed) / kGibibyte),
+                  static_cast<double>(options.max_memory) / kGibibyte));
 }
 
 BrickRunOptions run_options(const ReconstructOptions& options, const BrickOptions& bricks) {
