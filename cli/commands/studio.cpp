@@ -23,6 +23,7 @@ namespace {
 
 struct Options {
   std::vector<std::string> files;
+  std::string columns;
   std::optional<int> port;
   bool no_open = false;
   std::uint64_t max_upload = StudioOptions{}.max_upload;
@@ -48,11 +49,12 @@ void open_files(const Options& options, Studio& studio) {
   const std::string session = studio.offered_session();
   for (const std::string& path : options.files) {
     const std::vector<char> bytes = read_all_bytes(path);
-    const StudioResponse answer = studio.handle({.method = "POST",
-                                                 .path = "api/file",
-                                                 .query = {{"name", path == "-" ? "input" : path}},
-                                                 .body = {bytes.begin(), bytes.end()},
-                                                 .session = session});
+    const StudioResponse answer = studio.handle(
+        {.method = "POST",
+         .path = "api/file",
+         .query = {{"name", path == "-" ? "input" : path}, {"columns", options.columns}},
+         .body = {bytes.begin(), bytes.end()},
+         .session = session});
     stop_if_interrupted();
     if (answer.status != 200) throw_refused(path, answer);
   }
@@ -83,6 +85,7 @@ std::vector<Option> option_list(Options& o) {
            .help = "shapes, models and sessions to begin with",
            .target = &o.files,
            .offer = Offer::kShapesAndCoefficients},
+          columns_option(o.columns),
           {.name = "port",
            .value = "N",
            .help = "port of this machine to listen on; by default one that is free",

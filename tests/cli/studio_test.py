@@ -107,6 +107,13 @@ class Work(CliTest):
             self.assertEqual([(i["name"], i["kind"]) for i in studio.begin()["items"]],
                              [("a.ply", "mesh"), ("a.h5", "expansion")])
 
+    def test_columns_of_the_command_line_are_those_of_its_tables(self):
+        self.write("a.txt", "".join(f"{k} {k * k} {k % 3} {k + .5}\n" for k in range(2, 40)))
+        item = Studio(self, "a.txt", "--columns", "-,x,y,z").begin()["items"][0]
+        self.assertEqual([c["taken_for"] for c in item["table"]["columns"]], ["-", "x", "y", "z"])
+        self.rholm("studio", "--no-open", "a.txt", "--columns", "x,y", code=2)
+        self.rholm("studio", "--no-open", "a.txt", "--columns", "x,y,z", code=3)
+
     def test_files_that_are_refused_end_it(self):
         self.write("bad.ply", "ply\nnothing\n")
         self.rholm("studio", "--no-open", "bad.ply", code=3)
