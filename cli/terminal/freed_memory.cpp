@@ -78,7 +78,7 @@ void limit_memory(std::size_t bytes, int threads) {
   mallopt(M_TRIM_THRESHOLD, kReturned);
   malloc_trim(0);
 #endif
-#ifdef RLIMIT_DATA
+#if defined(RLIMIT_DATA) && !defined(RHOLM_SANITIZED)
   // The system counts what may be written, touched or not: room for the stacks of threads, which
   // stay all but empty, is added. Chosen: 26 MiB for what libraries have beside the arrays.
   constexpr std::size_t kStack = std::size_t{4} << 20;  // of the threads of oneTBB
