@@ -25,7 +25,14 @@ std::string mended_text(const ReconstructReport& r) {
                      r.mended_normals, r.points - r.dropped_points);
 }
 
-// Notes say what was mended in given normals. Throws where the normals still contradict each other.
+std::string list_of(const std::vector<Vec3>& points) {
+  std::string list;
+  for (const Vec3& point : points) list += (list.empty() ? " " : "; ") + text_of(point);
+  return list;
+}
+
+// Notes say what was mended in given normals. Throws where sheets cross, or normals still
+// contradict each other.
 void judge_normals(const ReconstructReport& r, Session& session) {
   if (r.crooked_normals > kMostCrooked) {
     session.note(fmt::format(
@@ -36,9 +43,12 @@ void judge_normals(const ReconstructReport& r, Session& session) {
   if (r.mended_normals > 0) {
     session.note(mended_text(r));
   }
-  std::string first;
-  for (const Vec3& point : r.contradictions) {
-    first += (first.empty() ? " " : "; ") + text_of(point);
+  if (r.crossing_length > kMostCrossing) {
+    throw Error(ErrorCode::kNotConverged,
+                fmt::format("sheets of the points cross each other, near{}: they bound no body; "
+                            "the surface, which is written, is wrong there (cut the points into "
+                            "bodies that do not cross, and reconstruct each)",
+                            list_of(r.crossings)));
   }
   const auto n = static_cast<double>(r.points);
   if (static_cast<double>(r.contradicting_normals) > kMostContradicting * std::sqrt(n)) {
@@ -47,7 +57,7 @@ void judge_normals(const ReconstructReport& r, Session& session) {
                             "sheets cross there, or the signs of given normals cannot be decided; "
                             "the surface, which is written, may be wrong ('rholm orient "
                             "--keep-directions' finds signs anew)",
-                            r.contradicting_normals, first));
+                            r.contradicting_normals, list_of(r.contradictions)));
   }
   if (r.inward_normals > kMostInward) {
     throw Error(
@@ -73,6 +83,7 @@ Json json_of(const Reconstructed& made, bool confidence) {
                {"crooked_normals", r.crooked_normals},
                {"contradicting_normals", r.contradicting_normals},
                {"inward_normals", r.inward_normals},
+               {"crossing_length", r.crossing_length},
                {"spacing", r.spacing},
                {"noise", r.noise},
                {"normal_noise_degrees", r.normal_noise_degrees},

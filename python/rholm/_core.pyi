@@ -2410,6 +2410,16 @@ class ReconstructReport:
         """The first three of these points, n x 3."""
 
     @property
+    def crossing_length(self) -> float:
+        """
+        Length of the lines along which sheets of the points cross, in diagonals of the points: above 0.08 the surface should not be trusted.
+        """
+
+    @property
+    def crossings(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
+        """The first three points near these lines, n x 3."""
+
+    @property
     def inward_normals(self) -> float:
         """
         Share of the points at which the winding number contradicts the given normal: above 0.1 the surface should not be trusted.

@@ -40,8 +40,14 @@ class Reconstruction(NamedTuple):
 
 
 def _warn_of_normals(report: _core.ReconstructReport) -> None:
-    """As the program ends with exit code 4: kMostContradicting and kMostInward of reconstruct.h."""
-    if report.contradicting_normals > 0.5 * report.points**0.5:
+    """As the program ends with exit code 4: see kMostCrossing and the limits beside it in reconstruct.h."""
+    if report.crossing_length > 0.08:
+        warnings.warn(
+            f"sheets of the points cross each other, near {report.crossings.tolist()}: the surface is wrong "
+            "there",
+            stacklevel=3,
+        )
+    elif report.contradicting_normals > 0.5 * report.points**0.5:
         warnings.warn(
             f"the normals of {report.contradicting_normals} points contradict those around them, first "
             f"at {report.contradictions.tolist()}: the surface may be wrong",

@@ -81,6 +81,24 @@ def bumps(rng, n, height=0.15, degree=4):
     return r[:, None] * d, unit(d - (by_theta / r)[:, None] * theta_hat - (by_phi / r)[:, None] * phi_hat)
 
 
+def touching(rng, n):
+    """Two balls that touch in a point."""
+    return np.concatenate([sphere(rng, n // 2)[0], sphere(rng, n - n // 2, 1, (2, 0, 0))[0]])
+
+
+def tee(rng, n):
+    """A square, and half of one that ends at it."""
+    p, up = 2 * rng.random((n, 3)) - 1, rng.random(n) < 0.5
+    p[up, 0], p[up, 2] = 0, np.abs(p[up, 2])
+    p[~up, 2] = 0
+    return p
+
+
+def thin(rng, n):
+    """A plate whose walls are about as near to each other as the points."""
+    return box(rng, n, (2.0, 2.0, 0.05))[0]
+
+
 def joined(*parts):
     return np.concatenate([p for p, _ in parts]), np.concatenate([m for _, m in parts])
 

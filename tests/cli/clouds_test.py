@@ -4,7 +4,8 @@ Every cloud must give the right surface, or exit code 3 or 4 with a message. As 
 small clouds. With options it takes many:
   clouds_test.py --normals [N]   N clouds (40) with 0 to 50 % of turned normals
   clouds_test.py --shapes        points of no surface, of three sizes
-  clouds_test.py --thresholds    what local_shape.cpp measures, of both"""
+  clouds_test.py --thresholds    what local_shape.cpp measures, of both
+  clouds_test.py --crossings     crossing_length of bodies and of sheets that cross"""
 
 import os
 import sys
@@ -32,6 +33,12 @@ def spoiled(body, way, share, n, noise=0.0):
     turned = clouds.SPOILED[way](rng, points, share)
     points = points + noise * np.linalg.norm(np.ptp(points, axis=0)) * rng.normal(size=points.shape)
     return points, np.where(turned[:, None], -normals, normals), int(turned.sum())
+
+
+def with_noise(rng, make, n, noise):
+    """Noise in diagonals."""
+    points = make(rng, n)
+    return points + noise * np.linalg.norm(np.ptp(points, axis=0)) * rng.normal(size=points.shape)
 
 
 @unittest.skipIf(np is None, "no NumPy")
@@ -100,6 +107,22 @@ class Clouds(CliTest):
             self.assertEqual(done.code, 3, done)
             self.assertIn(kind, done.err)
 
+    def test_sheets_that_cross_are_refused_with_places(self):
+        for name, n, noise in (("crossing_planes", 1500, 0.005), ("crossing_spheres", 2000, 0)):
+            points = with_noise(np.random.default_rng(11), clouds.NO_SURFACE[name][0], n, noise)
+            done, _ = self.reconstruct(points)
+            self.assertEqual(done.code, 4, done)
+            self.assertRegex(done.err, r"sheets of the points cross each other, near( \(.*\);){2} \(.*\):")
+        bricks, _ = self.reconstruct(points, None, "--brick-points", "1000")
+        self.assertEqual((bricks.code, bricks.err.splitlines()[-1]), (4, done.err.splitlines()[-1]))
+
+    def test_sheets_that_bend_end_or_touch_do_not_cross(self):
+        for make in (clouds.tee, clouds.touching, lambda rng, n: clouds.box(rng, n)[0]):
+            done, _ = self.reconstruct(with_noise(np.random.default_rng(12), make, 1500, 0.005))
+            self.assertNotIn("cross", done.err)
+            if done.out:
+                self.assertLess(done.json()["crossing_length"], 0.05)
+
     def test_noise_is_no_volume(self):
         rng = np.random.default_rng(4)
         points, normals = clouds.sphere(rng, 3000)
@@ -137,8 +160,8 @@ class Clouds(CliTest):
         points, normals = clouds.joined(clouds.sphere(np.random.default_rng(8), 2000),
                                         clouds.sphere(np.random.default_rng(9), 2000, 1, (0.8, 0, 0)))
         done, _ = self.reconstruct(points, normals, "--brick-points", "1000")
-        self.assertEqual(done.code, 4, done)  # the normals within the other ball
-        self.assertIn("point into the solid", done.err)
+        self.assertEqual(done.code, 4, done)
+        self.assertIn("sheets of the points cross each other", done.err)
 
     def test_normals_at_random_are_not_called_inward(self):
         points, normals, _ = spoiled("sphere", "random", 0.6, 1500)
@@ -199,6 +222,30 @@ def many_shapes():
     return wrong > 0
 
 
+def crossings():
+    """crossing_length as `rholm reconstruct` has it: kMostCrossing is between bodies and sheets that cross."""
+    bodies = {name: lambda rng, n, make=make: make(rng, n)[0] for name, (make, _, _) in clouds.BODIES.items()}
+    bodies |= {"thin": clouds.thin, "tee": clouds.tee, "touching": clouds.touching}
+    crossing = {name: make for name, (make, _) in clouds.NO_SURFACE.items() if "crossing" in name}
+    wrong = 0
+    for kind, makes in (("body", bodies), ("crossing", crossing)):
+        for name, make in makes.items():
+            for n in (800, 4000, 12000):
+                found = []
+                for noise in (0, 0.002, 0.005, 0.01):
+                    points = with_noise(np.random.default_rng(n), make, n, noise)
+                    test = Clouds("reconstruct")
+                    with tempfile.TemporaryDirectory() as folder:
+                        test.folder = Path(folder)
+                        done, _ = test.reconstruct(points)
+                    length = done.json()["crossing_length"] if done.out else 0
+                    wrong += (length > 0.08) != (kind == "crossing")
+                    found.append(f"{length:.3f}")
+                print(f"{kind:8} {name:16} {n:5}: {' '.join(found)}", flush=True)
+    print(f"{wrong} are on the other side of kMostCrossing")
+    return False
+
+
 def thresholds():
     """Median thickness and kurtosis of the flattest neighbourhoods, as local_shape.cpp has them."""
     def look(points):
@@ -238,6 +285,8 @@ if __name__ == "__main__":
         sys.exit(many_normals(int(sys.argv[2]) if len(sys.argv) > 2 else 40))
     if "--shapes" in sys.argv:
         sys.exit(many_shapes())
+    if "--crossings" in sys.argv:
+        sys.exit(crossings())
     if "--thresholds" in sys.argv:
         sys.exit(thresholds())
     main()

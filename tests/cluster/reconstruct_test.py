@@ -77,6 +77,21 @@ class Reconstruct(ProgramTest):
             self.assertEqual(run.code, 0, run)
             self.assertEqual(self.bytes("all.ply"), self.bytes("one.ply"))
 
+    def test_sheets_that_cross_are_refused_as_by_one_process(self):
+        self.bare()
+        rows = [[float(x) for x in line.split()] for line in (self.folder / "bare.xyz").read_text().splitlines()]
+        least, most = min(x for x, _, _ in rows), max(x for x, _, _ in rows)
+        rows = rows[::2]
+        both = rows + [[x + 0.3 * (most - least), y, z] for x, y, z in rows]
+        (self.folder / "both.xyz").write_text("".join(f"{x:.9g} {y:.9g} {z:.9g}\n" for x, y, z in both))
+        one = self.rholm(*self.words("one.ply", points="both.xyz"), code=4)
+        self.assertIn("sheets of the points cross each other, near (", one.stderr)
+        run = self.finished(RHOLM_MPI, *self.words("all.ply", "--threads", 2, points="both.xyz"), ranks=3)
+        self.assertEqual(run.code, 4, run)
+        said = "sheets of" + one.stderr.split("error: sheets of")[1].rstrip("\n")
+        self.assertTrue(self.errors(run)[0].endswith(said), run)
+        self.assertEqual(self.bytes("all.ply"), self.bytes("one.ply"))
+
     def test_few_points_are_left_to_one_rank(self):
         self.rholm("reconstruct", "p.ply", "-o", "one.ply")
         run = self.finished(RHOLM_MPI, "reconstruct", "p.ply", "-o", "all.ply", ranks=2)

@@ -62,9 +62,9 @@ bool BrickCloud::has_column(const char* name) const {
                      [&](const ColumnLayout& column) { return column.name == name; });
 }
 
-BrickScene BrickCloud::load(std::size_t brick, std::size_t neighbours) const {
-  return load_brick(store_, plan_, brick, spacings_[brick] * reach_of(neighbours),
-                    stages_.context());
+BrickScene BrickCloud::load(std::size_t brick, std::size_t neighbours, double least) const {
+  const double halo = std::max(least, spacings_[brick] * reach_of(neighbours));
+  return load_brick(store_, plan_, brick, halo, stages_.context());
 }
 
 void BrickCloud::find_survey(std::uint64_t points_per_brick) {
@@ -108,7 +108,8 @@ void BrickCloud::count_points() {
   points_ = counted.values<std::uint64_t>(0).at(0);
   report_.dropped_points = report_.points - report_.outliers - points_;
   const std::vector<double> box = counted.values<double>(1);
-  check_spread(points_, box.at(0));
+  diagonal_ = box.at(0);
+  check_spread(points_, diagonal_);
   if (box.at(1) != 0) refuse_one_line(points_);
 }
 

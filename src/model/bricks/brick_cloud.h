@@ -42,8 +42,10 @@ class BrickCloud {
   const WholeSample& sample() const { return sample_; }
   const CapSize& size() const { return size_; }
   bool has_column(const char* name) const;
-  // A brick with the halo that caps of so many neighbours need.
-  BrickScene load(std::size_t brick, std::size_t neighbours) const;
+  // Diagonal of the points, before outliers near the surface are removed.
+  double diagonal() const { return diagonal_; }
+  // A brick with the halo that caps of so many neighbours need, and no less than `least`.
+  BrickScene load(std::size_t brick, std::size_t neighbours, double least = 0) const;
 
  private:
   void find_survey(std::uint64_t points_per_brick);
@@ -66,6 +68,7 @@ class BrickCloud {
   BrickPlan plan_;
   std::size_t n_ = 0;  // bricks
   std::uint64_t points_ = 0;
+  double diagonal_ = 0;
   bool given_ = false;
   std::size_t around_ = 0;        // neighbours that tell the area of a point
   std::vector<double> spacings_;  // in each brick

@@ -31,6 +31,7 @@
 #include "model/points/surface_confidence.h"
 #include "rholm/compress.h"
 #include "rholm/error.h"
+#include "shape/points/crossings.h"
 #include "shape/points/sensors.h"
 #include "surface/atlas_surface.h"
 #include "surface/level_set/cut_handles.h"
@@ -123,9 +124,17 @@ class BrickRun {
 
   BrickCaps fit_round(const std::string& round) {
     BrickCaps caps(store_, n_, round);
+    const CrossingSearch search{.n = report_.points - report_.dropped_points - report_.outliers,
+                                .diagonal = cloud_.diagonal(),
+                                .noise = cloud_.size().noise};
     stages_.each("caps", n_, [&](std::size_t brick) {
-      if (caps.has(brick)) return;
-      const BrickScene scene = cloud_.load(brick, cloud_.size().neighbours);
+      const std::string crossings = "crossings" + round + "/" + std::to_string(brick);
+      if (caps.has(brick) && store_.has(crossings)) return;
+      const BrickScene scene = cloud_.load(
+          brick, std::max(cloud_.size().neighbours, kCrossingNeighbors), search.reach());
+      const Crossings crossed =
+          find_crossings(*scene.tree, scene.points, scene.gaps, scene.foreign, search, context_);
+      write_values(store_, crossings, std::vector{crossed});
       CoverOptions wanted = cover_options(options_, cloud_.size());
       wanted.foreign = scene.foreign;
       const Cover found = cover(scene.ordered(), wanted, context_);
@@ -138,6 +147,12 @@ class BrickRun {
       caps.write(brick, found, context_);
     });
     caps.read_extents();
+    Crossings all;
+    for (std::size_t brick = 0; brick < n_; ++brick) {
+      all.add(
+          read_values<Crossings>(store_, "crossings" + round + "/" + std::to_string(brick)).at(0));
+    }
+    note_crossings(all, cloud_.diagonal(), report_);
     return caps;
   }
 

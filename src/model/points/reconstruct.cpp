@@ -113,6 +113,8 @@ Reconstruction reconstruct(PointCloud cloud, const ReconstructOptions& options,
                             "their normals right (rholm orient)?",
                             points.size()));
   }
+  timed(times, "caps",
+        [&] { note_crossings(points.crossings(size.noise, context), points.diagonal(), report); });
   Atlas& atlas = result.atlas;
   atlas.caps = std::move(caps.caps);
   atlas.coefficients = std::move(caps.coefficients);

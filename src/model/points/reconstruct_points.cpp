@@ -265,6 +265,11 @@ double WorkingPoints::wrong_normals(const Context& context) const {
   return computed_ ? 0 : share_of_wrong_normals(*tree_, normals_, context);
 }
 
+Crossings WorkingPoints::crossings(double noise, const Context& context) const {
+  const CrossingSearch search{.n = size(), .diagonal = diagonal_, .noise = noise};
+  return find_crossings(*tree_, points_, gaps_, {}, search, context);
+}
+
 std::size_t WorkingPoints::remove_outliers(double noise, std::size_t most,
                                            std::span<const std::uint32_t> suspects,
                                            const Context& context) {

@@ -11,6 +11,7 @@
 #include "atlas/cover/cap_cover.h"
 #include "rholm/mesh.h"
 #include "rholm/reconstruct.h"
+#include "shape/points/crossings.h"
 #include "shape/points/local_shape.h"
 #include "shape/points/point_tree.h"
 #include "shape/points/sampling_gaps.h"
@@ -43,6 +44,9 @@ class WorkingPoints {
 
   // The share of the points whose given normals contradict those around; 0 for computed ones.
   double wrong_normals(const Context& context) const;
+
+  // Where sheets of the points cross.
+  Crossings crossings(double noise, const Context& context) const;
 
   // Of points near the surface, by their normals; returns how many were removed. Where more than
   // `most` look like outliers they are features that the points hardly show: then only those that

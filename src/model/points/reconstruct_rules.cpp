@@ -107,6 +107,12 @@ void check_shape(const LocalShape& shape, std::size_t n) {
   }
 }
 
+void note_crossings(const Crossings& crossings, double diagonal, ReconstructReport& report) {
+  report.crossing_length = crossings.length / diagonal;
+  report.crossings.assign(crossings.at.begin(),
+                          crossings.at.begin() + static_cast<std::ptrdiff_t>(crossings.named()));
+}
+
 std::size_t area_neighbors(std::size_t flat) { return flat > 2 * kCircle ? flat : kCircle; }
 
 CoverOptions cover_options(const ReconstructOptions& options, const CapSize& size) {

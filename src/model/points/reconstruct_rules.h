@@ -6,6 +6,7 @@
 #include "atlas/cover/cap_cover.h"
 #include "atlas/cover/cap_size.h"
 #include "rholm/reconstruct.h"
+#include "shape/points/crossings.h"
 #include "shape/points/local_shape.h"
 #include "shape/points/side_balance.h"
 
@@ -59,6 +60,8 @@ void check_spread(std::size_t n, double diagonal);
 void check_sides(const SideBalance& balance, std::size_t n);
 // Throws InvalidInput for n points that look like a curve or a volume.
 void check_shape(const LocalShape& shape, std::size_t n);
+// Into the report; the points span the diagonal.
+void note_crossings(const Crossings& crossings, double diagonal, ReconstructReport& report);
 // Neighbours that tell the area of a point, where so many lie in a flat neighbourhood: the nearest
 // ones of noisy points fill a volume.
 std::size_t area_neighbors(std::size_t flat);

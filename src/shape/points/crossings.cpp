@@ -1,0 +1,276 @@
+#include "shape/points/crossings.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "base/parallel.h"
+#include "base/random.h"
+#include "shape/points/normals.h"
+#include "shape/points/plane_fit.h"
+#include "shape/points/symmetric6.h"
+
+namespace rholm {
+namespace {
+
+// All lengths are in radii of the neighbourhood, unless said otherwise.
+
+// Points that are looked at, in square roots of the number of points (chosen: 4 of them near the
+// shortest crossing that is refused).
+constexpr double kSeeds = 10;
+// Balls are local up to this part of the diagonal, as in local_shape.cpp.
+constexpr double kLocal = 0.2;
+// Standard deviations of the noise: those between a sheet and 98 % of its points, to either side,
+// and the radius of a ball. Sheets that cross at 37 degrees and more are then apart (kApart).
+constexpr double kNoise = 2.25, kReach = 14;
+// How far points lie from their sheet, at most, and from the planes that it is looked for with
+// (chosen).
+constexpr double kTolerance = 0.1, kFirstTolerance = 0.15;
+// Triples of points that are tried for a plane: of points of two sheets one in four triples or more
+// is of the larger one, so that 48 have one but for 1 in a million.
+constexpr std::size_t kTriples = 48;
+constexpr int kRounds = 4;                // of fits of both sheets (chosen)
+constexpr std::size_t kFewest = 8;        // points of a sheet, which has six coefficients
+constexpr double kFlatter = 1e-3;         // of the weight of a point: for curvatures near zero
+constexpr std::size_t kMostTaken = 96;    // points of a ball that are compared
+constexpr double kExplained = 0.95;       // share of points on a sheet (chosen)
+constexpr double kHalf = 0.1;             // share of points of one sheet to one side of the other
+constexpr double kLeastAngle = 0.258819;  // sine of half of 30 degrees (chosen)
+// The middles of sheets are 2 r sin(angle / 2) apart at a distance of r from their line. At half of
+// the radius, and from there on, the points of the two are to be apart, on average.
+constexpr double kApart = 2;
+// The height of a sheet at the rim above its plane: with more than that the two walls of a thin
+// plate and its rim are one sheet, and what noise leaves between them is the other
+// (tests/cli/clouds_test.py --crossings).
+constexpr double kBend = 0.4;
+// Standard deviations along the third principal axis over the second, of two halves that meet at 30
+// degrees: 0.27; half of it.
+constexpr double kFlat = 0.15;
+// Where two planes cross at a right angle, a ball around a point of one of them that is farther
+// from the line than this has less than kHalf of its points in the smaller half sheet: the share
+// (acos(t) - t sqrt(1 - t^2)) / (2 pi - pi t^2) is 0.1 at t = 0.54; less, of what lies within
+// kTolerance of the other.
+constexpr double kBand = 0.47;
+
+struct Sheet {
+  Vec3 u, v, normal;
+  Vector6 c{};  // of 1, x, y, x^2, x y, y^2
+
+  static Sheet across(const Vec3& normal, double offset) {
+    Sheet sheet{.u = perpendicular(normal), .v = {}, .normal = normal};
+    sheet.v = cross(normal, sheet.u);
+    sheet.c[0] = offset;
+    return sheet;
+  }
+  double height(const Vec3& p) const {
+    const double x = dot(p, u), y = dot(p, v);
+    const double z =
+        dot(p, normal) - (c[0] + c[1] * x + c[2] * y + c[3] * x * x + c[4] * x * y + c[5] * y * y);
+    return z / std::sqrt(1 + c[1] * c[1] + c[2] * c[2]);
+  }
+  Vec3 direction() const { return normalized(normal - c[1] * u - c[2] * v); }
+  double bend() const {
+    return std::abs(c[3] + c[5]) / 2 + std::hypot((c[3] - c[5]) / 2, c[4] / 2);
+  }
+};
+
+// The plane through three of the points that most points are near to; false if none has enough.
+bool find_plane(std::span<const Vec3> points, double tolerance, std::uint64_t seed, Sheet& sheet) {
+  std::size_t most = kFewest - 1;
+  Vec3 best;
+  double offset = 0;
+  for (std::size_t t = 0; t < kTriples; ++t) {
+    const auto pick = [&](std::size_t j) {
+      return points[random_bits(seed, 3 * t + j) % points.size()];
+    };
+    const Vec3 a = pick(0), b = pick(1), c = pick(2);
+    const Vec3 normal = normalized(cross(b - a, c - a));
+    const double at = dot(normal, a);
+    std::size_t n = 0;
+    for (const Vec3& p : points) n += std::abs(dot(normal, p) - at) < tolerance ? 1 : 0;
+    if (n > most && normal != Vec3{}) most = n, best = normal, offset = at;
+  }
+  if (most < kFewest) return false;
+  sheet = Sheet::across(best, offset);
+  return true;
+}
+
+// The paraboloid of the points that are `whose`; false if they do not determine one.
+bool fit(std::span<const Vec3> points, std::span<const std::uint8_t> of, std::uint8_t whose,
+         Sheet& sheet) {
+  sheet = Sheet::across(sheet.direction(), 0);
+  Matrix6 a{};
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (of[i] != whose) continue;
+    const double x = dot(points[i], sheet.u), y = dot(points[i], sheet.v);
+    const double z = dot(points[i], sheet.normal);
+    const double terms[kSix] = {1, x, y, x * x, x * y, y * y};
+    for (int j = 0; j < kSix; ++j) {
+      for (int k = 0; k <= j; ++k) a[j][k] += terms[j] * terms[k];
+      sheet.c[j] += terms[j] * z;
+    }
+    ++n;
+  }
+  for (int j = 3; j < kSix; ++j) a[j][j] += kFlatter * static_cast<double>(n);
+  if (n < kFewest || !factorize(a)) return false;
+  solve(a, sheet.c);
+  return true;
+}
+
+// Two sheets for the points around a point; false if there are none.
+bool find_sheets(std::span<const Vec3> points, double tolerance, std::array<Sheet, 2>& sheets) {
+  const double first = std::max(kFirstTolerance, tolerance);
+  if (!find_plane(points, first, 0, sheets[0])) return false;
+  std::vector<Vec3> others(points.begin(), points.end());
+  std::erase_if(others, [&](const Vec3& p) { return std::abs(sheets[0].height(p)) < first; });
+  if (others.size() < kFewest || !find_plane(others, first, 1, sheets[1])) return false;
+  std::vector<std::uint8_t> of(points.size());
+  for (int round = 0; round < kRounds; ++round) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double a = std::abs(sheets[0].height(points[i]));
+      const double b = std::abs(sheets[1].height(points[i]));
+      const bool unclear = std::min(a, b) > 2 * first || std::max(a, b) < tolerance;
+      of[i] = unclear ? 2 : a < b ? 0 : 1;
+    }
+    if (!fit(points, of, 0, sheets[0]) || !fit(points, of, 1, sheets[1])) return false;
+  }
+  return true;
+}
+
+bool have_crossing(std::span<const Vec3> points, double tolerance) {
+  std::array<Sheet, 2> sheets;
+  if (!find_sheets(points, tolerance, sheets)) return false;
+  if (std::max(sheets[0].bend(), sheets[1].bend()) > kBend) return false;
+  const double cosine = std::abs(dot(sheets[0].direction(), sheets[1].direction()));
+  const double half_sine = std::sqrt(std::max(0.0, (1 - cosine) / 2));
+  if (half_sine < std::max(kLeastAngle, kApart * tolerance)) return false;
+  std::size_t explained = 0;
+  std::array<std::size_t, 4> halves{};
+  for (const Vec3& p : points) {
+    const double a = sheets[0].height(p), b = sheets[1].height(p);
+    const bool on_a = std::abs(a) < tolerance, on_b = std::abs(b) < tolerance;
+    explained += on_a || on_b ? 1 : 0;
+    if (on_a && !on_b) ++halves[b > 0 ? 0 : 1];
+    if (on_b && !on_a) ++halves[a > 0 ? 2 : 3];
+  }
+  const auto n = static_cast<double>(points.size());
+  const auto least = static_cast<double>(*std::min_element(halves.begin(), halves.end()));
+  return static_cast<double>(explained) >= kExplained * n && least >= kHalf * n;
+}
+
+// What lies around a point, relative to it.
+struct Surroundings {
+  Neighborhood near;
+  std::vector<Neighbor> within;
+  std::vector<double> weights;
+  double n = 0;  // points, of which some are taken
+
+  void gather(const PointTree& tree, std::span<const Vec3> points, std::uint32_t i,
+              std::size_t stride, double reach) {
+    near.gather(tree, points, i, kCrossingNeighbors, stride);
+    n = static_cast<double>(near.points.size() * stride);
+    if (near.radius < reach) gather_ball(tree, points, i, reach);
+    weights.assign(near.points.size(), 1.0);
+  }
+  bool are_flat() const {
+    const PlaneFit plane = fit_plane(near.points, weights);
+    if (!(plane.length > 0)) return true;
+    const double second = (plane.width - plane.height) / (1 + plane.height / plane.length);
+    return !(plane.height >= kFlat * kFlat * second) || !(second > 0);
+  }
+
+ private:
+  // Some of the points of a ball, evenly spread over their distances.
+  void gather_ball(const PointTree& tree, std::span<const Vec3> points, std::uint32_t i,
+                   double reach) {
+    tree.within(points[i], reach, within);
+    std::sort(within.begin(), within.end(), [](const Neighbor& a, const Neighbor& b) {
+      return a.distance2 != b.distance2 ? a.distance2 < b.distance2 : a.index < b.index;
+    });
+    const std::size_t all = within.size(), taken = std::min(all, kMostTaken);
+    near.points.resize(taken);
+    for (std::size_t j = 0; j < taken; ++j) {
+      near.points[j] = (points[within[j * all / taken].index] - points[i]) / reach;
+    }
+    near.radius = reach;
+    n = static_cast<double>(all);
+  }
+};
+
+std::uint64_t rank_of(const Vec3& p) {
+  std::uint64_t bits = 0;
+  for (const double x : {p.x, p.y, p.z}) bits = random_bits(bits, std::bit_cast<std::uint64_t>(x));
+  return bits;
+}
+
+struct Seed {
+  std::uint32_t point = 0;
+  std::uint64_t rank = 0;
+  double length = 0;  // that it stands for
+};
+
+}  // namespace
+
+double CrossingSearch::reach() const { return is_local() ? kReach * noise : 0; }
+
+bool CrossingSearch::is_local() const { return kReach * noise <= kLocal * diagonal; }
+
+std::size_t Crossings::named() const { return std::min<std::size_t>(found, kNamedCrossings); }
+
+void Crossings::add(const Crossings& other) {
+  std::vector<std::pair<std::uint64_t, Vec3>> both;
+  both.reserve(2 * kNamedCrossings);
+  for (std::size_t k = 0; k < named(); ++k) both.emplace_back(rank[k], at[k]);
+  for (std::size_t k = 0; k < other.named(); ++k) both.emplace_back(other.rank[k], other.at[k]);
+  std::stable_sort(both.begin(), both.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (std::size_t k = 0; k < std::min(both.size(), kNamedCrossings); ++k) {
+    std::tie(rank[k], at[k]) = both[k];
+  }
+  length += other.length, found += other.found;
+}
+
+Crossings find_crossings(const PointTree& tree, std::span<const Vec3> points,
+                         const SamplingGaps& gaps, std::span<const std::uint8_t> foreign,
+                         const CrossingSearch& search, const Context& context) {
+  Crossings result;
+  if (!search.is_local() || search.n < 2 * kCrossingNeighbors) return result;
+  const double share = std::min(1.0, kSeeds / std::sqrt(static_cast<double>(search.n)));
+  std::vector<Seed> seeds;
+  seeds.reserve(static_cast<std::size_t>(2 * share * static_cast<double>(points.size())));
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    if (!foreign.empty() && foreign[i] != 0) continue;
+    const std::uint64_t rank = rank_of(points[i]);
+    if (static_cast<double>(rank >> 11) * 0x1p-53 < share) seeds.push_back({i, rank});
+  }
+  parallel_for(seeds.size(), 64, context, {}, [&](std::size_t begin, std::size_t end) {
+    Surroundings around;
+    for (std::size_t s = begin; s < end; ++s) {
+      const std::uint32_t i = seeds[s].point;
+      around.gather(tree, points, i, gaps.stride(i), search.reach());
+      const double radius = around.near.radius;
+      if (!(radius > 0) || radius > kLocal * search.diagonal || around.are_flat()) continue;
+      const double tolerance = std::max(kTolerance, kNoise * search.noise / radius);
+      if (!have_crossing(around.near.points, tolerance)) continue;
+      // The ball has two discs of pi radius^2 and n points; two sheets have points such as this one
+      // within kBand radii of the line, to both sides.
+      seeds[s].length = 2 * std::numbers::pi * radius / (4 * kBand * around.n * share);
+    }
+  });
+  std::erase_if(seeds, [](const Seed& seed) { return seed.length == 0; });
+  std::sort(seeds.begin(), seeds.end(),
+            [](const Seed& a, const Seed& b) { return a.rank < b.rank; });
+  result.found = seeds.size();
+  for (const Seed& seed : seeds) result.length += seed.length;
+  for (std::size_t k = 0; k < result.named(); ++k) {
+    result.at[k] = points[seeds[k].point], result.rank[k] = seeds[k].rank;
+  }
+  return result;
+}
+
+}  // namespace rholm
