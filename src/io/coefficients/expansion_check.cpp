@@ -6,6 +6,7 @@
 #include <optional>
 #include <string_view>
 
+#include "base/cancel.h"
 #include "io/file/number_text.h"
 #include "rholm/coefficients_io.h"
 #include "rholm/error.h"
@@ -70,8 +71,10 @@ void check_unit(const std::string& unit) {
 
 void check_coefficients(const Coefficients& coefficients, const std::string& name) {
   const int degree = coefficients.degree();
+  CancelPoll poll;
   for (int l = 0; l <= degree; ++l) {
     for (int m = 0; m <= degree; ++m) {
+      poll();
       const double c = coefficients.c(l, m), s = coefficients.s(l, m);
       if (!std::isfinite(c) || !std::isfinite(s)) {
         refuse(name, fmt::format("coefficient l = {}, m = {} is not finite ({}, {})", l, m, c, s));

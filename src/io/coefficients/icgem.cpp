@@ -8,6 +8,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/cancel.h"
 #include "io/coefficients/codec.h"
 #include "io/coefficients/expansion_check.h"
 #include "io/coefficients/text_table.h"
@@ -215,8 +216,10 @@ std::string format_icgem(const Expansion& expansion, const Coefficients& externa
     text += fmt::format("{}{} {}\n", kOwnPrefix, key, value);
   }
   text += "key l m C S\nend_of_head\n";
+  CancelPoll poll;
   for (int l = 0; l <= degree; ++l) {
     for (int m = 0; m <= l; ++m) {
+      poll();
       text += "gfc ";
       append_pair(text, l, m, external);
     }

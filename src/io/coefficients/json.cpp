@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "base/cancel.h"
 #include "io/coefficients/codec.h"
 #include "io/coefficients/text_table.h"
 #include "rholm/error.h"
@@ -70,6 +71,7 @@ class Handler : public nlohmann::json_sax<nlohmann::json> {
   bool simple_value(const char* kind);
 
   const std::string& name_;
+  CancelPoll poll_;
   ParsedCoefficients parsed_;
   std::vector<Place> places_;
   std::set<std::string> keys_;  // seen at the top
@@ -158,6 +160,7 @@ bool Handler::key(string_t& value) {
 }
 
 bool Handler::number(double value) {
+  poll_();
   if (is_at(Place::kRow)) {
     rows_->values.push_back(value);
   } else if (is_at(Place::kCenter)) {
@@ -243,6 +246,7 @@ ParsedCoefficients Handler::finish() {
   std::size_t pair = 0;
   for (int l = 0; l <= degree; ++l) {
     for (int m = 0; m <= l; ++m, ++pair) {
+      poll_();
       parsed_.external.c(l, m) = c_.values[pair];
       parsed_.external.s(l, m) = s_.values[pair];
     }
@@ -259,9 +263,11 @@ void append_number(std::string& text, double value) {
 }
 
 void append_rows(std::string& text, const Coefficients& external, bool sine) {
+  CancelPoll poll;
   for (int l = 0; l <= external.degree(); ++l) {
     text += l == 0 ? "[\n[" : ",\n[";
     for (int m = 0; m <= l; ++m) {
+      poll();
       if (m > 0) text += ',';
       append_number(text, sine ? external.s(l, m) : external.c(l, m));
     }

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <optional>
 
+#include "base/cancel.h"
 #include "io/coefficients/codec.h"
 #include "io/file/number_text.h"
 #include "rholm/error.h"
@@ -210,9 +211,11 @@ ParsedCoefficients parse_npy(std::string_view bytes, const std::string& name) {
   parsed.external = Coefficients(degree);
   const std::span<double> values = parsed.external.values();
   std::size_t to = 0;
+  CancelPoll poll;
   for (std::size_t plane = 0; plane < 2; ++plane) {
     for (std::size_t l = 0; l < side; ++l) {
       for (std::size_t m = 0; m < side; ++m) {
+        poll();
         const std::size_t from = *header.fortran_order ? plane + 2 * (l + side * m) : to;
         values[to++] = layout.load_number(bytes.data() + from * layout.size);
       }
@@ -234,7 +237,9 @@ std::string format_npy(const Coefficients& external) {
             static_cast<char>(header.size() >> 8)};
   bytes += header;
   bytes.reserve(bytes.size() + 8 * external.values().size());
+  CancelPoll poll;
   for (const double value : external.values()) {
+    poll();
     const auto bits = std::bit_cast<std::uint64_t>(value);
     for (int shift = 0; shift < 64; shift += 8) bytes += static_cast<char>(bits >> shift);
   }

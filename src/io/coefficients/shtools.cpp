@@ -5,6 +5,7 @@
 
 #include <optional>
 
+#include "base/cancel.h"
 #include "io/coefficients/codec.h"
 #include "io/coefficients/text_table.h"
 #include "rholm/error.h"
@@ -78,8 +79,12 @@ std::string format_shtools(const Expansion& expansion, const Coefficients& exter
       kFormat, degree, n_pairs(degree), to_string(convention.normalization), convention.csphase);
   for (const auto& [key, value] : describe(expansion))
     text += fmt::format("# {}: {}\n", key, value);
+  CancelPoll poll;
   for (int l = 0; l <= degree; ++l) {
-    for (int m = 0; m <= l; ++m) append_pair(text, l, m, external);
+    for (int m = 0; m <= l; ++m) {
+      poll();
+      append_pair(text, l, m, external);
+    }
   }
   return text;
 }

@@ -146,7 +146,9 @@ Coefficients CoefficientTable::assemble(std::optional<int> stated_degree,
   }
   Coefficients result(degree);
   std::vector<bool> seen(n_pairs(degree));
+  CancelPoll poll;
   for (const Entry& entry : entries_) {
+    poll();
     const std::size_t pair = n_pairs(entry.l - 1) + entry.m;
     if (seen[pair]) refuse(fmt::format("l = {}, m = {} is given twice", entry.l, entry.m));
     seen[pair] = true;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/cancel.h"
 #include "io/coefficients/codec.h"
 #include "io/file/number_text.h"
 
@@ -34,7 +35,9 @@ template <typename Visit>
 bool visit_lines(TextCursor& text, const std::string& name, const Visit& visit) {
   std::vector<std::string_view> fields;
   bool last_complete = false;
+  CancelPoll poll;
   while (!text.at_end()) {
+    poll();
     const TextLine line = take_line(text, name);
     last_complete = line.complete;
     split_fields(line.content, fields);
