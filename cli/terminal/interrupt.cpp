@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <limits>
 
 #include "rholm/error.h"
 #include "rholm/file.h"
@@ -13,6 +14,7 @@ namespace {
 
 std::atomic<int> caught_signal = 0;
 std::atomic<std::uint64_t> questions = 0;
+std::atomic<std::uint64_t> last_question = std::numeric_limits<std::uint64_t>::max();
 static_assert(std::atomic<int>::is_always_lock_free, "used in a signal handler");
 
 // Exit codes of shells: 128 + signal, 130 for SIGINT.
@@ -60,11 +62,13 @@ void interrupt(int signal) {
 }
 
 bool keep_going() {
-  questions.fetch_add(1, std::memory_order_relaxed);
+  if (questions.fetch_add(1, std::memory_order_relaxed) + 1 >= last_question) interrupt(SIGINT);
   return interrupting_signal() == 0;
 }
 
 std::uint64_t questions_asked() { return questions.load(std::memory_order_relaxed); }
+
+void interrupt_at(std::uint64_t question) { last_question = question; }
 
 void stop_if_interrupted() {
   if (interrupting_signal() != 0) throw Error(ErrorCode::kCancelled, "interrupted");

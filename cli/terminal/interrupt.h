@@ -18,10 +18,12 @@ int interrupting_signal();
 // As if that signal had come: for a program that is told to stop in another way. The first counts.
 void interrupt(int signal);
 
-// What a CancelScope of the program asks: whether no signal came. Counts the questions, which come
-// as long as something is computed.
+// What a CancelScope and the progress of the program ask: whether no signal came. Counts the
+// questions, which come as long as something is computed.
 bool keep_going();
 std::uint64_t questions_asked();
+// For tests: SIGINT comes as if just before question number `question`, from 1.
+void interrupt_at(std::uint64_t question);
 
 // Throws Error{kCancelled} if one did: asked between the steps of a command, so that an output
 // is not begun any more.

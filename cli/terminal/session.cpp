@@ -102,7 +102,7 @@ bool Session::on_progress(std::string_view stage, double fraction) {
     std::fprintf(stderr, "\r%-*s", static_cast<int>(bar_width_), bar.c_str());
     bar_width_ = bar.size();
   }
-  return interrupting_signal() == 0;
+  return keep_going();
 }
 
 void Session::erase_bar() {

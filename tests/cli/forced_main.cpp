@@ -1,6 +1,9 @@
 // The program rholm with the instruction set that RHOLM_TEST_TARGET names, and with scratch memory
-// full of NaN: for the tests alone.
+// full of NaN: for the tests alone. It is interrupted at question RHOLM_TEST_INTERRUPT_AT whether
+// to go on, and writes the number of questions to the file RHOLM_TEST_QUESTIONS.
 #include <cstdio>
+#include <cstdlib>
+#include <fstream>
 
 #include "cli/program.h"
 #include "cli/terminal/bus_error.h"
@@ -17,5 +20,12 @@ int main(int argc, char** argv) {
   }
   rholm::cli::install_signal_handlers();
   rholm::cli::install_bus_error_handler();
-  return rholm::cli::run_program({argv + 1, argv + argc});
+  if (const char* question = std::getenv("RHOLM_TEST_INTERRUPT_AT")) {
+    rholm::cli::interrupt_at(std::strtoull(question, nullptr, 10));
+  }
+  const int code = rholm::cli::run_program({argv + 1, argv + argc});
+  if (const char* file = std::getenv("RHOLM_TEST_QUESTIONS")) {
+    std::ofstream(file) << rholm::cli::questions_asked();
+  }
+  return code;
 }

@@ -1,6 +1,7 @@
 """Ctrl-C in the middle of every long command: exit code 130, the old file whole, no litter."""
 
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -122,6 +123,111 @@ class Interrupt(CliTest):
                                  shell=True, capture_output=True, timeout=TIMEOUT)
         self.assertNotIn(b"terminate", process.stderr)
         self.assertNotIn(b"error", process.stderr)
+
+
+# What commands do in the test of questions: words, in which {} is "small" or "large" and {n} a number, and the output
+# (none: a report). The large one is 16 times the work of the small one, or more.
+LONG = (
+    ("info {}.ply", None),
+    ("repair {}.ply -o out.ply", "out.ply"),
+    ("simplify {}.ply --faces 10% -o out.ply", "out.ply"),
+    ("center {}.ply", None),
+    ("analyze {}.ply --degree 16 -o out.h5", "out.h5"),
+    ("analyze {}.off --degree 16 --method area -o out.sh", "out.sh"),
+    ("synthesize {}.h5 --subdivisions 6 -o out.ply", "out.ply"),
+    ("spectrum {}.sh", None),
+    ("compare {}.ply {}.off --samples {n}", None),
+    ("convert {}.ply out.obj", "out.obj"),
+    ("convert {}.sh out.gfc", "out.gfc"),
+    ("convert {}.sh out.json", "out.json"),
+    ("convert {}.sh out.npy", "out.npy"),
+    ("render {}.ply --size {side}x{side} -o out.png", "out.png"),
+    ("report {}.h5 --size 64 -o out.html", "out.html"),
+    ("make sample {}.ply --points {n} -o out.ply", "out.ply"),
+    ("filter {}.sh --low-pass 8 -o out.sh", "out.sh"),
+    ("recenter {}.h5 --center 0.02,0,0 -o out.h5", "out.h5"),
+    ("rotate {}.h5 --axis 1,2,3 --angle 20 -o out.h5", "out.h5"),
+    ("align {}.h5 {}.h5 -o out.h5", "out.h5"),
+    ("smooth {}.ply --region ball:1,0,0,0.6 --wavelength 0.3 -o out.ply", "out.ply"),
+    ("transfer --from {}.ply --from-region ball:1,0,0,0.4 --to {}.ply --to-region ball:0,1,0,0.4 -o out.ply",
+     "out.ply"),
+    ("orient {}.xyz -o out.ply", "out.ply"),
+    ("partition {}.ply --tolerance 5e-3 -o out.ply", "out.ply"),
+    ("reconstruct {}.xyz -o out.ply", "out.ply"),
+    ("batch {}.csv --command info -o out.csv", "out.csv"),
+    ("bench {}.ply --degree 16 --repeat 1", None),
+)
+SIZES = {"small": {"subdivisions": 4, "degree": 32, "points": 2000, "n": 20000, "side": 128, "lines": 32},
+         "large": {"subdivisions": 6, "degree": 256, "points": 40000, "n": 640000, "side": 1024, "lines": 700}}
+# What is left on purpose: the rows of a batch that were done, from which it goes on.
+LEFT = {"out.csv.journal"}
+# These compute nothing, or ask for each request (tests of the studio).
+NO_WORK = {"completion", "studio"}
+
+
+class Questions(CliTest):
+    """Every command asks again and again whether to stop, the more often the more it does."""
+
+    def questions(self, words, at=None):
+        """A run on one thread, interrupted at that question if one is named: the result, and how many it asked."""
+        environment = {"RHOLM_TEST_QUESTIONS": str(self.folder / "questions")}
+        if at is not None:
+            environment["RHOLM_TEST_INTERRUPT_AT"] = str(at)
+        run = subprocess.run([os.environ["RHOLM_FORCED"], *words, "--threads", "1"], cwd=self.folder,
+                             capture_output=True, env={**os.environ, **environment}, timeout=TIMEOUT)
+        count = int((self.folder / "questions").read_text())
+        (self.folder / "questions").unlink()
+        return run, count
+
+    def make_inputs(self):
+        for size, of in SIZES.items():
+            self.rholm("make", "bumpy", "--subdivisions", of["subdivisions"], "-o", f"{size}.ply")
+            self.rholm("convert", f"{size}.ply", f"{size}.off")
+            self.rholm("make", "sample", f"{size}.ply", "--points", of["points"], "--no-normals", "-o", f"{size}.xyz")
+            self.rholm("analyze", f"{size}.ply", "--degree", of["degree"], "--no-errors", "-o", f"{size}.h5")
+            self.write(f"{size}.sh", "0 0 1 0\n" + "".join(f"{l} {m} 1e-7 0\n" for l in range(1, of["lines"] + 1)
+                                                         for m in range(l + 1)))
+            rows = "".join(f"{i},{size}.ply\n" for i in range(2 if size == "small" else 8))
+            self.write(f"{size}.csv", "id,path\n" + rows)
+
+    def test_all_commands_are_here(self):
+        text = self.rholm("--help").out
+        commands = re.findall(r"^  (\w+) {2,}", text.partition("Commands:")[2].partition("Exit codes")[0], re.M)
+        self.assertEqual(set(commands) - NO_WORK, {words.split()[0] for words, _ in LONG})
+
+    def test_all_commands_ask_while_they_work(self):
+        self.make_inputs()
+        for words, output in LONG:
+            with self.subTest(words):
+                self.check_questions(words, output)
+
+    def check_questions(self, words, output):
+        counts = []
+        for size, of in SIZES.items():
+            full = words.replace("{}", size).format(**of).split()
+            run, n = self.questions(full)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            counts.append(n)
+        # A command that asks between its steps only asks as often of a large input.
+        self.assertGreaterEqual(counts[1], 1.25 * counts[0], "questions of little and of much work")
+        if output:
+            self.write(output, OLD)
+        before = self.files()
+        for at in sorted({1, counts[1] // 4, counts[1] // 2, 3 * counts[1] // 4}):
+            run, n = self.questions(full, at)
+            self.assertEqual(run.returncode, 130, (at, counts, run.stderr))
+            self.assertIn(b"interrupted", run.stderr)
+            self.assertEqual(run.stdout, b"")
+            # Others that were on their way may still have asked.
+            self.assertLessEqual(n, at + 2, (at, counts))
+            for name in LEFT & set(self.files()):
+                (self.folder / name).unlink()
+            self.assertEqual(self.files(), before, "litter was left")
+            if output:
+                self.check_old_file_is_whole(output)
+
+    def check_old_file_is_whole(self, name):
+        self.assertEqual((self.folder / name).read_bytes(), OLD)
 
 
 if __name__ == "__main__":
