@@ -95,6 +95,8 @@ std::uint64_t points_per_brick(const Options& options) {
     return kForecastError * static_cast<double>(foresee_bricks(n, n).memory);
   };
   while (points > kSmall && needed(points) > limit) points /= 2;
+  // Chosen: as much again as the smallest bricks take, for tables of many bricks.
+  note_enough_memory(2 * needed(points));
   return points;
 }
 
