@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "chart/center/kernel.h"
+#include "chart/center/slope_scan.h"
 #include "chart/center/view_scan.h"
 #include "rholm/primitives.h"
+#include "shape/measure.h"
 
 namespace rholm {
 namespace {
@@ -105,11 +107,47 @@ void center(benchmark::State& state) {
   state.counters["scans"] = found.scans;
 }
 
+// From the kernel on.
+void slope(benchmark::State& state) {
+  const LocalView view = local_view(bumpy(state.range(0)).view, kOneThread);
+  const KernelCenter kernel = chebyshev_center(view, kOneThread);
+  for (auto _ : state) {
+    const Vec3 centroid = volume_centroid(view.mesh, view.frame, kOneThread);
+    benchmark::DoNotOptimize(least_slope(view, kernel, view.frame.to_local(centroid), kOneThread));
+  }
+  report_per_triangle(state, view.mesh.n_triangles);
+}
+
+// One pass for the derivative at one or four places.
+template <std::size_t kPlaces>
+void slope_pass(benchmark::State& state) {
+  const LocalView view = local_view(bumpy(state.range(0)).view, kOneThread);
+  const SlopeLine line = {.middle = {}, .way = {0.1, 0, 0}, .least = 0.1};
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(sum_rises(view, 0, view.mesh.n_triangles, line, {0, 0.3, 0.6, 1},
+                                       kPlaces, [](std::size_t) {}));
+  }
+  report_per_triangle(state, view.mesh.n_triangles);
+}
+
+// The centroid of the solid.
+void centroid(benchmark::State& state) {
+  const LocalView view = local_view(bumpy(state.range(0)).view, kOneThread);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(volume_centroid(view.mesh, view.frame, kOneThread));
+  }
+  report_per_triangle(state, view.mesh.n_triangles);
+}
+
 #define RHOLM_SIZES ->Arg(5)->Arg(6)->Arg(8)->Arg(9)->Unit(benchmark::kMillisecond)
 BENCHMARK(copy) RHOLM_SIZES;
 BENCHMARK(frame) RHOLM_SIZES;
 BENCHMARK(pass) RHOLM_SIZES;
 BENCHMARK(center) RHOLM_SIZES;
+BENCHMARK(slope) RHOLM_SIZES->Arg(7);
+BENCHMARK(slope_pass<1>) RHOLM_SIZES->Arg(7);
+BENCHMARK(slope_pass<kMostPlaces>) RHOLM_SIZES->Arg(7);
+BENCHMARK(centroid) RHOLM_SIZES->Arg(7);
 
 }  // namespace
 }  // namespace rholm

@@ -22,11 +22,13 @@ Option weld_option(double& tolerance) {
 Option center_option(std::string& center) {
   return {
       .name = "center",
-      .value = "kernel|slope|cosine|none|centroid|volume|X,Y,Z",
+      .value = "slope|kernel|cosine|none|centroid|volume|X,Y,Z",
       .help =
-          "kernel, or auto (the default): in the middle of all points that see the whole surface; "
-          "slope: where the radius has the least slope, between there and the centroid of the "
-          "solid; cosine: where the surface is seen least aslant; none: the file's origin; "
+          "slope, or auto (the default): where the radius has the least slope, on the line through "
+          "kernel and the centroid of the solid, well within the points that see the whole "
+          "surface; "
+          "kernel: in the middle of these points; cosine: where the surface is seen least aslant; "
+          "none: the file's origin; "
           "centroid: of the surface; volume: of the solid, or as slope where not all is seen "
           "from there",
       .target = &center,

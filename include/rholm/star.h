@@ -14,7 +14,7 @@ namespace rholm {
 
 // Where the centre is sought.
 enum class CenterKind {
-  kAuto,      // as kKernel
+  kAuto,      // as kSlope
   kKernel,    // Chebyshev centre of the kernel: maximises the smallest d_T
   kSlope,     // least slope of the radius, well within the kernel (method 6)
   kCosine,    // maximises the smallest cos gamma = n . (v - c) / |v - c| over all corners
@@ -40,8 +40,8 @@ const char* to_string(CenterKind kind);  // these names; "given" for a point
 struct StarReport {
   Vec3 center;  // in the coordinates of the mesh
   // min over triangles of d_T = n_T . (v - c): the distance of the nearest face plane, negative if
-  // some face turns its back to the centre. For kAuto and kKernel this is the radius of the
-  // kernel's inscribed ball. In the shape's unit.
+  // some face turns its back to the centre. For kKernel this is the radius of the kernel's
+  // inscribed ball. In the shape's unit.
   double min_d = 0;
   double min_cos_gamma = 0;       // over all corners of all triangles
   std::size_t bad_triangles = 0;  // with d_T <= 0 (beyond rounding)

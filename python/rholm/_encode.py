@@ -116,10 +116,11 @@ def expand(
         Wanted error of the coefficients, 1e-14 ... 1e-1: l2 relative to the norm of the function
         without its mean.
     center : {"auto", "kernel", "slope", "cosine", "none", "centroid", "volume"} or array_like, (3,)
-        Where the centre is. "auto", "kernel": in the middle of the points that see the whole
-        surface; "slope": where the radius has the least slope, between there and the centroid of
-        the solid; "cosine": where the surface is seen least aslant; "none": the origin; "centroid":
-        of the surface; "volume": of the solid, or as "slope" where not all is seen from there.
+        Where the centre is. "auto", "slope": where the radius has the least slope, on the line
+        through "kernel" and the centroid of the solid, well within the points that see the whole
+        surface; "kernel": in the middle of these points; "cosine": where the surface is seen least
+        aslant; "none": the origin; "centroid": of the surface; "volume": of the solid, or as
+        "slope" where not all is seen from there.
     rays : int
         Directions tried by the check for a star shape; 0 leaves them out.
     signed : bool

@@ -23,11 +23,6 @@ class VectorSum {
   CompensatedSum x_, y_, z_;
 };
 
-// Each volume has a relative rounding of a few 2^-53; 16 of them (chosen) leave no digit.
-bool has_volume(double six_volumes, double moduli) {
-  return std::abs(six_volumes) > 0x1p-49 * moduli;
-}
-
 constexpr std::size_t kGrain = 8192;  // chosen: some 100 us
 
 }  // namespace
@@ -54,34 +49,6 @@ Sizes measure_sizes(const MeshView& mesh, const UnitFrame& frame, const Context&
   }
   return {.area = std::ldexp(0.5 * twice_area.value(), -2 * frame.exponent),
           .volume = std::ldexp(six_volumes.value() / 6, -3 * frame.exponent)};
-}
-
-Vec3 volume_centroid(const MeshView& mesh, const UnitFrame& frame, const Context& context) {
-  struct Sums {
-    double volumes = 0, moduli = 0;  // six times each
-    Vec3 moment;
-  };
-  std::vector<Sums> parts((mesh.n_triangles + kGrain - 1) / kGrain);
-  parallel_for(mesh.n_triangles, kGrain, context, {}, [&](std::size_t begin, std::size_t end) {
-    Sums part;
-    for (std::size_t t = begin; t < end; ++t) {
-      auto [a, b, c] = scaled_corners(mesh, mesh.triangle(t), frame.scale);
-      a -= frame.center, b -= frame.center, c -= frame.center;
-      const double volume = dot(cross(b - a, c - a), a);
-      part.volumes += volume;
-      part.moduli += std::abs(volume);
-      part.moment += volume * (a + b + c);
-    }
-    parts[begin / kGrain] = part;
-  });
-  Sums whole;
-  for (const Sums& part : parts) {
-    whole.volumes += part.volumes, whole.moduli += part.moduli;
-    whole.moment += part.moment;
-  }
-  // Of a tetrahedron a quarter of the sum of its corners.
-  if (!has_volume(whole.volumes, whole.moduli)) return frame.to_shape({});
-  return frame.to_shape(whole.moment / (4 * whole.volumes));
 }
 
 Measures measure(const MeshView& mesh, const UnitFrame& frame) {

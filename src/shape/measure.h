@@ -1,6 +1,8 @@
 // Sums over the triangles of a mesh: area, volume, centroids.
 #pragma once
 
+#include <cmath>
+
 #include "rholm/context.h"
 #include "rholm/mesh_view.h"
 #include "shape/face.h"
@@ -13,6 +15,12 @@ struct Sizes {
   double area = 0, volume = 0;
 };
 Sizes measure_sizes(const MeshView& mesh, const UnitFrame& frame, const Context& context);
+
+// Whether a sum of volumes is more than rounding. Each of them has a relative rounding of a few
+// 2^-53; 16 of them (chosen) leave no digit.
+inline bool has_volume(double six_volumes, double moduli) {
+  return std::abs(six_volumes) > 0x1p-49 * moduli;
+}
 
 // The centroid of the solid, by plain sums: the middle of the frame where the volume is rounding.
 Vec3 volume_centroid(const MeshView& mesh, const UnitFrame& frame, const Context& context);

@@ -139,7 +139,8 @@ TEST(every_loop, gives_the_same_bits_for_centres_and_star_checks) {
   const Mesh mesh = bumpy_sphere(5, 0.3);
   expect_same_bits([&](const Context& context) {
     Bits bits;
-    for (const CenterKind kind : {CenterKind::kAuto, CenterKind::kCosine, CenterKind::kVolume}) {
+    for (const CenterKind kind :
+         {CenterKind::kAuto, CenterKind::kKernel, CenterKind::kCosine, CenterKind::kVolume}) {
       const StarReport found = find_center(mesh, {.kind = kind, .rays = 3000}, context);
       bits.add(found.min_d).add(found.min_cos_gamma).add(found.once_share);
     }

@@ -70,9 +70,12 @@ const char* to_string(CenterKind kind) {
 
 namespace {
 
+bool seeks_slope(CenterKind kind) {
+  return kind == CenterKind::kAuto || kind == CenterKind::kSlope;
+}
+
 bool seeks_kernel(CenterKind kind) {
-  return kind == CenterKind::kAuto || kind == CenterKind::kKernel || kind == CenterKind::kSlope ||
-         kind == CenterKind::kCosine;
+  return seeks_slope(kind) || kind == CenterKind::kKernel || kind == CenterKind::kCosine;
 }
 
 // The point with the least slope of the radius, well within the kernel.
@@ -84,7 +87,7 @@ FoundCenter slope_center(const LocalView& view, const KernelCenter& kernel,
   const Vec3 centroid = view.frame.to_local(volume_centroid(view.mesh, view.frame, context));
   Vec3 point = kernel.point;
   if (kernel.value > kSmallestKernel && norm(centroid - point) > kSame) {
-    point = towards(view, kernel, least_slope(view, kernel, centroid), context);
+    point = least_slope(view, kernel, centroid, context);
   }
   return {.point = view.frame.to_shape(point), .scans = kernel.scans + 2};
 }
@@ -121,7 +124,7 @@ FoundCenter search_center(const LocalView& view, const CenterOptions& options,
   }
   KernelCenter kernel = chebyshev_center(view, context);
   const bool empty = !(kernel.value > 0);
-  if (options.kind == CenterKind::kSlope && !empty) return slope_center(view, kernel, context);
+  if (seeks_slope(options.kind) && !empty) return slope_center(view, kernel, context);
   if (options.kind == CenterKind::kCosine && !empty) {
     kernel = cosine_center(view, kernel.point, context);
   }
@@ -145,7 +148,7 @@ StarReport find_center(const MeshView& mesh, const CenterOptions& options, const
   const FoundCenter found = search_center(view, options, context);
   const StarReport report = check_star(view, found.point, options.rays, context);
   if (report.star_shaped || !seeks_kernel(options.kind)) return report;
-  if (options.kind == CenterKind::kSlope && !found.kernel_empty) {
+  if (seeks_slope(options.kind) && !found.kernel_empty) {
     // Where rounding may turn planes, no point is surer than the middle.
     return find_center(mesh, {.kind = CenterKind::kKernel, .point = {}, .rays = options.rays},
                        context);

@@ -10,37 +10,18 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "shape/queries/corner_rows-inl.h"
+#include "chart/center/visit_chosen-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace rholm {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using M = hn::Mask<D>;
-
-// Triangles whose indices are checked, and corners asked for, ahead of use; measured
-// (scripts/constants): 32 to 256 are alike.
-constexpr std::size_t kBlock = 128;
 // Below, the squares of a normal in the unit frame lose their digits.
 constexpr double kSmallestSquare = 1e-280;
 // sin^2 of an angle below which the plain product of double edges has lost 7 bits: left to the
 // visitor's exact one. Edges between floats are exact in double, and so are their products.
 constexpr double kIllConditioned = 0x1p-14;
-
-HWY_INLINE Vector3 Same(D d, const Vec3& v) {
-  return {hn::Set(d, v.x), hn::Set(d, v.y), hn::Set(d, v.z)};
-}
-
-// Visits the triangles t ... t + n - 1 of a vector that are chosen.
-HWY_NOINLINE void VisitChosen(D d, M chosen, std::size_t t, std::size_t n,
-                              const VisitTriangle& visit) {
-  alignas(64) double flags[hn::MaxLanes(d)];
-  hn::Store(hn::IfThenElseZero(chosen, hn::Set(d, 1.0)), d, flags);
-  for (std::size_t i = 0; i < n; ++i) {
-    if (flags[i] > 0) visit(t + i);
-  }
-}
 
 // Visits the triangles for which test.Choose(corners) is true; corners are as they stand in the
 // view. After visits comes test.Refresh().
@@ -55,29 +36,7 @@ HWY_INLINE void VisitIf(const MeshView& mesh, std::size_t begin, std::size_t end
     VisitChosen(d, chosen, t, n, visit);
     test.Refresh(d);
   };
-  const std::size_t lanes = hn::Lanes(d);
-  std::size_t t = begin, block_end = std::min(end, begin + kBlock);
-  std::uint32_t next_largest = LookAhead(mesh, t, block_end);
-  while (t < end) {
-    const std::uint32_t largest = next_largest;
-    if (largest >= mesh.n_vertices) validate(mesh);  // throws, and says which
-    next_largest = LookAhead(mesh, block_end, std::min(end, block_end + kBlock));
-    const std::byte* at = mesh.triangles + t * mesh.triangle_stride;
-    // Rows of floats are read with 4 bytes more: not the last one.
-    if (kWholeVectors && (sizeof(T) == 8 || largest + 1 < mesh.n_vertices)) {
-      for (; t + lanes <= block_end; t += lanes, at += lanes * mesh.triangle_stride) {
-        look(LoadWhole(d, mesh, at, T()), LoadWhole(d, mesh, at + 4, T()),
-             LoadWhole(d, mesh, at + 8, T()), t, lanes);
-      }
-    }
-    for (; t < block_end; t += lanes, at += lanes * mesh.triangle_stride) {
-      const std::size_t n = std::min(lanes, block_end - t);
-      look(LoadFew<T>(d, mesh, at, n), LoadFew<T>(d, mesh, at + 4, n),
-           LoadFew<T>(d, mesh, at + 8, n), t, n);
-    }
-    t = block_end;
-    block_end = std::min(end, block_end + kBlock);
-  }
+  ForVectors<T>(mesh, begin, end, look);
 }
 
 // Doubles are scaled to the unit frame, so that nothing over- or underflows; of floats no product

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/random.h"
 #include "rholm/error.h"
 #include "rholm/primitives.h"
 #include "rholm/star.h"
@@ -233,6 +234,32 @@ TEST(slope_center, has_the_least_slope_on_its_line) {
   const Mesh l = l_prism(2);
   EXPECT_LT(slope_by_pieces(l, center_of(l, CenterKind::kSlope).center),
             0.99 * slope_by_pieces(l, center_of(l, CenterKind::kKernel).center));
+}
+
+// A sample of the faces starts the search, and which faces it has depends on their order.
+TEST(slope_center, does_not_depend_on_the_order_of_faces_and_corners) {
+  Mesh drawn_out = bumpy_sphere(5, 0.3, 3);  // its centre is at the end of the permitted way
+  for (Vec3& v : drawn_out.vertices) v = (1 + 5 * std::pow(std::max(0.0, v.x), 6)) * v;
+  Mesh lopsided = bumpy_sphere(5, 0.3, 3);  // centroid and middle of the kernel are far apart
+  for (Vec3& v : lopsided.vertices) v = (1 + std::pow(std::max(0.0, v.x), 3)) * v;
+  for (const Mesh& mesh : {bumpy_sphere(6, 0.3), lopsided, drawn_out}) {
+    const StarReport in_order = center_of(mesh, CenterKind::kSlope);
+    EXPECT_GT(norm(in_order.center - center_of(mesh, CenterKind::kKernel).center), 1e-3);
+    for (const std::uint64_t seed : {1, 2, 3}) {
+      Mesh other = mesh;
+      for (std::size_t i = other.triangles.size() - 1; i > 0; --i) {
+        std::swap(other.triangles[i], other.triangles[random_bits(seed, i) % (i + 1)]);
+      }
+      for (std::size_t i = 0; i < other.triangles.size(); i += 2) {
+        Triangle& t = other.triangles[i];
+        t = {t[1], t[2], t[0]};
+      }
+      expect_near(center_of(other, CenterKind::kSlope).center, in_order.center, 1e-8);
+      const test::Motion turn = rotation({1, -2, 0.5}, 0.3 + static_cast<double>(seed));
+      expect_near(center_of(moved(other, turn), CenterKind::kSlope).center, turn(in_order.center),
+                  1e-8);
+    }
+  }
 }
 
 // A drawn out bump moves the centroid to the border of the kernel or beyond.

@@ -7,11 +7,13 @@
 
 #include "chart/center/kernel.h"
 #include "chart/center/linear_program.h"
+#include "chart/center/slope_scan.h"
 #include "chart/center/view_center.h"
 #include "chart/center/view_scan.h"
 #include "chart/star/cone.h"
 #include "rholm/error.h"
 #include "rholm/primitives.h"
+#include "shape/measure.h"
 #include "support/packed_mesh.h"
 #include "support/random_data.h"
 #include "support/targets.h"
@@ -222,6 +224,100 @@ TEST(view_scan, takes_any_number_of_faces) {
     expect_any_range<float>(mesh);
     expect_any_range<double>(mesh);
   });
+}
+
+// area (rho / d - d / rho) of one face by one point in its middle, as seen from `from`.
+double slope_of_face(const LocalView& view, std::size_t t, const Vec3& from) {
+  const auto corners = view.corners(t);
+  const Vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+  const Vec3 m = (corners[0] + corners[1] + corners[2]) / 3 - view.frame.center - from;
+  const double rho = norm(m), d = dot(normal, m) / norm(normal);
+  return norm(normal) / 2 * (rho / d - d / rho);
+}
+
+// Differences of sixth order; `h` as small as rounding of the sums allows.
+double rise_by_differences(const LocalView& view, std::size_t begin, std::size_t end,
+                           const SlopeLine& line, double t) {
+  constexpr double h = 0.01;
+  constexpr double kWeights[] = {3.0 / 4, -3.0 / 20, 1.0 / 60};
+  double rise = 0;
+  for (std::size_t face = begin; face < end; ++face) {
+    for (int k = 1; k <= 3; ++k) {
+      const Vec3 above = line.middle + (t + k * h) * line.way;
+      const Vec3 below = line.middle + (t - k * h) * line.way;
+      rise += kWeights[k - 1] / h *
+              (slope_of_face(view, face, above) - slope_of_face(view, face, below));
+    }
+  }
+  return rise;
+}
+
+// 1 ... 33 faces that begin anywhere.
+template <class T>
+void expect_rises(const Mesh& mesh) {
+  const PackedMesh bytes = packed<T>(mesh);
+  const LocalView view = local(bytes.view);
+  const SlopeLine line = {.middle = {0.05, -0.02, 0.01}, .way = {0.1, 0.05, -0.1}, .least = 0.05};
+  const Places places = {-0.3, 0.1, 0.4, 1};
+  const auto none = [](std::size_t t) { ADD_FAILURE() << t; };
+  for (std::size_t n = 1; n <= 33; ++n) {
+    const std::size_t begin = 5 * n, end = begin + n;
+    const Rises four = sum_rises(view, begin, end, line, places, kMostPlaces, none);
+    EXPECT_FALSE(four.too_near);
+    for (std::size_t k = 0; k < kMostPlaces; ++k) {
+      const double expected = rise_by_differences(view, begin, end, line, places[k]);
+      EXPECT_NEAR(four.sums[k], expected, 1e-10) << n << " " << k;
+      const Rises one = sum_rises(view, begin, end, line, {places[k]}, 1, none);
+      EXPECT_EQ(one.sums[0], four.sums[k]);
+      EXPECT_EQ(one.sums[1], 0);
+    }
+  }
+}
+
+TEST(sum_rises, is_the_derivative_of_the_slope_of_any_number_of_faces) {
+  const Mesh mesh = rough_sphere(4, 0.02);
+  for_each_target([&] {
+    expect_rises<float>(mesh);
+    expect_rises<double>(mesh);
+  });
+}
+
+TEST(sum_rises, tells_planes_that_are_too_near_and_visits_large_faces) {
+  const PackedMesh bytes = packed<float>(cut_sphere(5));  // face 7 looks along x from -0.4
+  const LocalView view = local(bytes.view);
+  for_each_target([&] {
+    std::vector<std::size_t> visited;
+    const auto visit = [&](std::size_t t) { visited.push_back(t); };
+    const double scale = view.frame.scale;
+    SlopeLine line = {.middle = {-0.7 * scale, 0, 0}, .way = {scale, 0, 0}, .least = 0.1 * scale};
+    const auto near = [&](const Places& places) {
+      return sum_rises(view, 0, view.mesh.n_triangles, line, places, kMostPlaces, visit).too_near;
+    };
+    EXPECT_FALSE(near({0, 0.05, 0.1, 0.19}));
+    EXPECT_TRUE(near({0, 0.05, 0.1, 0.21}));
+    EXPECT_TRUE(near({0.21, 0.1, 0.05, 0}));
+    visited.clear();
+    line.middle.x = -0.405 * scale;  // so near that the face is large
+    sum_rises(view, 0, view.mesh.n_triangles, line, {0}, 1, visit);
+    EXPECT_EQ(visited, (std::vector<std::size_t>{7}));
+  });
+}
+
+TEST(volume_centroid, is_that_of_sums_one_after_the_other) {
+  const Mesh mesh = rough_sphere(3, 0.05);
+  for (std::uint64_t gap = 1; gap <= 33;
+       ++gap) {  // any number of faces; open, as the sum is defined
+    Mesh some = mesh;
+    some.triangles.resize(mesh.triangles.size() - gap);
+    const PackedMesh floats = packed<float>(some), doubles = packed<double>(some, 5);
+    for_each_target([&] {
+      for (const MeshView& view : {floats.view, doubles.view}) {
+        const UnitFrame frame = local(view).frame;
+        const Vec3 expected = measure(view, frame).volume_centroid;
+        EXPECT_LE(norm(volume_centroid(view, frame, kOneThread) - expected), 1e-14) << gap;
+      }
+    });
+  }
 }
 
 TEST(scan_lines, finds_the_two_faces_on_every_line) {

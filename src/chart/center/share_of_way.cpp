@@ -9,13 +9,8 @@
 
 namespace rholm {
 
-// Chosen by scripts/center-figures: with 0.1, 0.3 and 0.6 errors of asteroids whose centroid is
-// near the border of the kernel differ by 2 %; nearer to it faces are seen all but edge on and take
-// more quadrature nodes.
-constexpr double kMargin = 0.25;
-
-Vec3 towards(const LocalView& view, const KernelCenter& middle, const Vec3& wanted,
-             const Context& context) {
+double share_of_way(const LocalView& view, const KernelCenter& middle, const Vec3& wanted,
+                    const Context& context) {
   const double least = kMargin * middle.value;
   const std::size_t n = view.mesh.n_triangles, grain = triangle_grain(n);
   std::vector<double> parts((n + grain - 1) / grain, 1.0);
@@ -33,9 +28,7 @@ Vec3 towards(const LocalView& view, const KernelCenter& middle, const Vec3& want
       part = std::min(part, std::max(0.0, (here - least) / (here - there)));
     });
   });
-  const double way = *std::min_element(parts.begin(), parts.end());
-  if (way == 1) return wanted;
-  return middle.point + way * (wanted - middle.point);
+  return *std::min_element(parts.begin(), parts.end());
 }
 
 }  // namespace rholm
