@@ -2412,7 +2412,7 @@ class ReconstructReport:
     @property
     def crossing_length(self) -> float:
         """
-        Length of the lines along which sheets of the points cross, in diagonals of the points: above 0.08 the surface should not be trusted.
+        Length of the lines along which sheets of the points cross, in diagonals of the points: above 0.12 the surface should not be trusted.
         """
 
     @property

@@ -41,7 +41,7 @@ class Reconstruction(NamedTuple):
 
 def _warn_of_normals(report: _core.ReconstructReport) -> None:
     """As the program ends with exit code 4: see kMostCrossing and the limits beside it in reconstruct.h."""
-    if report.crossing_length > 0.08:
+    if report.crossing_length > 0.12:
         warnings.warn(
             f"sheets of the points cross each other, near {report.crossings.tolist()}: the surface is wrong "
             "there",

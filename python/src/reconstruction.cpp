@@ -136,7 +136,7 @@ void bind_reconstruction(nb::module_& m) {
              "The first three of these points, n x 3.")
       .field("crossing_length", &ReconstructReport::crossing_length,
              "Length of the lines along which sheets of the points cross, in diagonals of the "
-             "points: above 0.08 the surface should not be trusted.")
+             "points: above 0.12 the surface should not be trusted.")
       .field("crossings", &ReconstructReport::crossings,
              "The first three points near these lines, n x 3.")
       .field("inward_normals", &ReconstructReport::inward_normals,

@@ -239,7 +239,7 @@ def crossings():
                         test.folder = Path(folder)
                         done, _ = test.reconstruct(points)
                     length = done.json()["crossing_length"] if done.out else 0
-                    wrong += (length > 0.08) != (kind == "crossing")
+                    wrong += (length > 0.12) != (kind == "crossing")
                     found.append(f"{length:.3f}")
                 print(f"{kind:8} {name:16} {n:5}: {' '.join(found)}", flush=True)
     print(f"{wrong} are on the other side of kMostCrossing")
