@@ -25,6 +25,7 @@ namespace {
 std::atomic<std::size_t> limit_in_force = 0;  // 0: none
 std::atomic<double> enough_memory = 0;
 
+#if defined(RLIMIT_DATA) && !defined(RHOLM_SANITIZED)
 // A line of /proc/self/status, in bytes; 0 where there is none.
 std::size_t own_memory(const std::string& name) {
   std::ifstream status("/proc/self/status");
@@ -34,6 +35,24 @@ std::size_t own_memory(const std::string& name) {
   }
   return 0;
 }
+
+void limit_data(std::size_t bytes, int threads) {
+  // The system counts what may be written, touched or not: room for the stacks of threads, which
+  // stay all but empty, is added. Chosen: 26 MiB for what libraries have beside the arrays.
+  constexpr std::size_t kStack = std::size_t{4} << 20;  // of the threads of oneTBB
+  constexpr std::size_t kBeside = std::size_t{26} << 20;
+  const std::size_t untouched =
+      own_memory("VmData") - std::min(own_memory("VmData"), own_memory("RssAnon"));
+  const std::size_t others = static_cast<std::size_t>(std::max(threads, 1) - 1);
+  rlimit limit = {};
+  if (getrlimit(RLIMIT_DATA, &limit) != 0) return;
+  const rlim_t wanted = bytes + kBeside + untouched + others * kStack;
+  limit.rlim_cur = std::min(wanted, limit.rlim_max);
+  setrlimit(RLIMIT_DATA, &limit);
+}
+#else
+void limit_data(std::size_t, int) {}
+#endif
 
 }  // namespace
 
@@ -78,20 +97,7 @@ void limit_memory(std::size_t bytes, int threads) {
   mallopt(M_TRIM_THRESHOLD, kReturned);
   malloc_trim(0);
 #endif
-#if defined(RLIMIT_DATA) && !defined(RHOLM_SANITIZED)
-  // The system counts what may be written, touched or not: room for the stacks of threads, which
-  // stay all but empty, is added. Chosen: 26 MiB for what libraries have beside the arrays.
-  constexpr std::size_t kStack = std::size_t{4} << 20;  // of the threads of oneTBB
-  constexpr std::size_t kBeside = std::size_t{26} << 20;
-  const std::size_t untouched =
-      own_memory("VmData") - std::min(own_memory("VmData"), own_memory("RssAnon"));
-  const std::size_t others = static_cast<std::size_t>(std::max(threads, 1) - 1);
-  rlimit limit = {};
-  if (getrlimit(RLIMIT_DATA, &limit) != 0) return;
-  const rlim_t wanted = bytes + kBeside + untouched + others * kStack;
-  limit.rlim_cur = std::min(wanted, limit.rlim_max);
-  setrlimit(RLIMIT_DATA, &limit);
-#endif
+  limit_data(bytes, threads);
 }
 
 std::optional<std::size_t> memory_limit() {
