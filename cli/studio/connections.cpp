@@ -18,8 +18,9 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t kMostHead = std::size_t{32} << 10;  // bytes; chosen: browsers send one or two
 constexpr auto kHeadTime = 10s;  // for all of it, chosen: browsers send it at once
-// Chosen: where there are too many, one that is older goes for one that is new.
-constexpr auto kLeastTime = 50ms;
+// Chosen: where too many wait, one that is older goes for one that is new. Pages have sent all of
+// it by then on a busy machine, too.
+constexpr auto kLeastTime = 1s;
 
 // Where a line without letters ends the head; npos if none does yet.
 std::size_t end_of_head(std::string_view bytes) {
@@ -90,9 +91,9 @@ void Connections::watch() {
     for (const Waiting& one : waiting_) {
       polled.push_back({.fd = one.socket, .events = POLLIN, .revents = 0});
     }
-    const auto pause = is_full() ? kLeastTime : std::chrono::milliseconds(1s);
     lock.unlock();
-    (void)::poll(polled.data(), polled.size(), static_cast<int>(pause.count()));
+    constexpr int kPause = std::chrono::milliseconds(kLeastTime).count() / 4;
+    (void)::poll(polled.data(), polled.size(), kPause);
     char woken[64];
     while (::read(wake_[0], woken, sizeof woken) > 0) {
     }
@@ -139,7 +140,7 @@ bool Connections::look_at(Waiting& one) {
 void Connections::drop_late(Clock::time_point now) {
   while (!waiting_.empty()) {
     const auto age = now - waiting_.front().since;
-    if (age < kHeadTime && !(is_full() && age >= kLeastTime)) return;
+    if (age < kHeadTime && !(is_crowded() && age >= kLeastTime)) return;
     hang_up(waiting_.front().socket);
     waiting_.pop_front();
   }

@@ -58,6 +58,9 @@ class Connections {
   void drop_late(Clock::time_point now);
   bool is_full() const { return waiting_.size() + ready_.size() >= kMostWaiting; }
 
+  // Requests that are ready make room by themselves.
+  bool is_crowded() const { return waiting_.size() >= kMostWaiting / 2; }
+
   static constexpr std::size_t kMostWaiting = 256;  // chosen: what a limit of 1024 files allows
 
   const Options options_;
