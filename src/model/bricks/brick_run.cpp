@@ -45,9 +45,9 @@ constexpr std::size_t kTrees = 24;
 // for confidence and simplify, which are chosen.
 std::vector<StageCost> costs(const ReconstructOptions& options) {
   std::vector<StageCost> all = {
-      {"survey", 0.05},  {"signs", 0.8},   {"distribute", 0.1}, {"sort", 0.2}, {"sample", 0.3},
-      {"cap size", 0.3}, {"caps", 2.1},    {"bands", 0.1},      {"grid", 2.2}, {"holes", 0.8},
-      {"surface", 3.0},  {"handles", 0.3}, {"parts", 0.4},      {"write", 1.2}};
+      {"survey", 0.05},   {"signs", 0.8},   {"distribute", 0.1}, {"sort", 0.2},  {"sample", 0.3},
+      {"cap size", 0.3},  {"caps", 2.1},    {"bands", 0.1},      {"grid", 2.2},  {"holes", 0.8},
+      {"crossings", 0.3}, {"surface", 3.0}, {"handles", 0.3},    {"parts", 0.4}, {"write", 1.2}};
   if (options.remove_outliers) all.push_back({"strays", 0.9});
   if (options.confidence) all.push_back({"confidence", 2});
   if (options.simplify) all.push_back({"simplify", 5});
@@ -127,14 +127,20 @@ class BrickRun {
     const CrossingSearch search{.n = report_.points - report_.dropped_points - report_.outliers,
                                 .diagonal = cloud_.diagonal(),
                                 .noise = cloud_.size().noise};
-    stages_.each("caps", n_, [&](std::size_t brick) {
-      const std::string crossings = "crossings" + round + "/" + std::to_string(brick);
-      if (caps.has(brick) && store_.has(crossings)) return;
-      const BrickScene scene = cloud_.load(
-          brick, std::max(cloud_.size().neighbours, kCrossingNeighbors), search.reach());
-      const Crossings crossed =
+    const auto crossings_in = [&](std::size_t brick) {
+      return "crossings" + round + "/" + std::to_string(brick);
+    };
+    // With a halo of its own: caps depend on what they see.
+    stages_.each("crossings", n_, [&](std::size_t brick) {
+      if (store_.has(crossings_in(brick))) return;
+      const BrickScene scene = cloud_.load(brick, kCrossingNeighbors, search.reach());
+      const Crossings found =
           find_crossings(*scene.tree, scene.points, scene.gaps, scene.foreign, search, context_);
-      write_values(store_, crossings, std::vector{crossed});
+      write_values(store_, crossings_in(brick), std::vector{found});
+    });
+    stages_.each("caps", n_, [&](std::size_t brick) {
+      if (caps.has(brick)) return;
+      const BrickScene scene = cloud_.load(brick, cloud_.size().neighbours);
       CoverOptions wanted = cover_options(options_, cloud_.size());
       wanted.foreign = scene.foreign;
       const Cover found = cover(scene.ordered(), wanted, context_);
@@ -149,8 +155,7 @@ class BrickRun {
     caps.read_extents();
     Crossings all;
     for (std::size_t brick = 0; brick < n_; ++brick) {
-      all.add(
-          read_values<Crossings>(store_, "crossings" + round + "/" + std::to_string(brick)).at(0));
+      all.add(read_values<Crossings>(store_, crossings_in(brick)).at(0));
     }
     note_crossings(all, cloud_.diagonal(), report_);
     return caps;
@@ -268,8 +273,8 @@ class BrickRun {
         };
         for (const char* what : {"grid", "rim", "open", "closed"}) forget(what);
         if (!model_.empty()) continue;
-        for (const char* what :
-             {"caps", "caps-again", "patches", "patches-again", "bands", "bands-again"}) {
+        for (const char* what : {"crossings", "crossings-again", "caps", "caps-again", "patches",
+                                 "patches-again", "bands", "bands-again"}) {
           forget(what);
         }
       }
