@@ -71,10 +71,10 @@ struct ReconstructReport {
   std::size_t contradicting_normals = 0;
   std::vector<Vec3> contradictions = {};  // the first three of these points
   // Length of the lines along which sheets of the points cross each other, in diagonals of the
-  // points: an estimate, 0 where points are noisier than 1.4 % of the diagonal. The first three
-  // points near these lines.
+  // points: an estimate. Not looked for, and 0, where points are noisier than 1.4 % of the
+  // diagonal.
   double crossing_length = 0;
-  std::vector<Vec3> crossings = {};
+  std::vector<Vec3> crossings = {};  // up to three points near these lines
   // Share of the points at which the winding number of all points says that the given normal,
   // which is kept, points into the solid.
   double inward_normals = 0;
