@@ -1,5 +1,5 @@
-// Loops over vectors of triangles of a view, in double precision; for inner loops, included once
-// for every kind of processor (Highway).
+// Visits those triangles of a vector that a mask chooses; for inner loops, included once for every
+// kind of processor (Highway).
 #if defined(RHOLM_CHART_VISIT_CHOSEN_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef RHOLM_CHART_VISIT_CHOSEN_INL_H_
 #undef RHOLM_CHART_VISIT_CHOSEN_INL_H_
