@@ -98,6 +98,9 @@ Faces sample(const LocalView& view) {
   return faces;
 }
 
+// How far out a plane may lie, anywhere in the unit frame.
+double rounding_of(const FacePlane& face) { return FacePlane::kFrameDiagonal * face.turn; }
+
 // The optimum of the pool within a flat, as far as it is known.
 struct PoolOptimum {
   LinearProgram program{kReach, kMostDistance};
@@ -105,7 +108,15 @@ struct PoolOptimum {
   std::vector<double> turns = {};                // of the faces, as FacePlane::turn
   Vec3 point;
   double top = kMostDistance;  // an upper bound of the smallest d_T, in the pool and so in all
-  bool exact = true;           // false: rounding has kept the program from its end
+  // Planes that rounding has turned against each other, as those of a flat side in single
+  // precision, meet anywhere, and may keep the program from its end. Then each counts as far out as
+  // it may lie.
+  bool roughly = false;
+  bool ended = true;  // false: rounding has kept the program from its end even so
+
+  double distance(const FacePlane& face) const {
+    return face.most_distance(point) + (roughly ? rounding_of(face) : 0);
+  }
 };
 
 // The pool's faces below `top`, one of every 64 (chosen: some hundred rows for the program).
@@ -117,7 +128,7 @@ double add_worst(const std::vector<FacePlane>& pool, const Flat& flat, PoolOptim
     const FacePlane* worst = nullptr;
     double least = optimum.top - kGap;
     for (std::size_t i = first; i < std::min(pool.size(), first + kGroup); ++i) {
-      const double d = pool[i].most_distance(optimum.point);
+      const double d = optimum.distance(pool[i]);
       if (d < least && !flat.is_parallel(pool[i])) {
         least = d;
         worst = &pool[i];
@@ -125,8 +136,10 @@ double add_worst(const std::vector<FacePlane>& pool, const Flat& flat, PoolOptim
     }
     if (worst == nullptr) continue;
     smallest = std::min(smallest, least);
-    optimum.program.add(
-        {.a = flat.project(worst->normal), .lift = 1, .bound = worst->most_distance(flat.origin)});
+    optimum.program.add({.a = flat.project(worst->normal),
+                         .lift = 1,
+                         .bound = worst->most_distance(flat.origin),
+                         .rounding = rounding_of(*worst)});
     optimum.turns.push_back(worst->turn);
   }
   return smallest;
@@ -143,8 +156,12 @@ void improve(const std::vector<FacePlane>& pool, const Flat& flat, PoolOptimum& 
       best = optimum.point;
     }
     if (optimum.top - most <= kGap) break;
-    optimum.exact = optimum.program.solve();
-    if (!optimum.exact) break;
+    if (!optimum.roughly && !optimum.program.solve()) {
+      optimum.roughly = true;
+      most = -kInfinity;
+    }
+    if (optimum.roughly) optimum.ended = optimum.program.solve(true);
+    if (!optimum.ended) break;
     optimum.point = flat.origin + flat.direction(optimum.program.center());
     optimum.top = optimum.program.top();
   }
@@ -163,7 +180,7 @@ std::vector<FacePlane> nearest_faces(const LocalView& view, std::size_t begin, s
   ScanLimits limits{.distance = optimum.top + kSlack};
   scan_below(view, begin, end, optimum.point, limits, [&](std::size_t triangle) {
     const FacePlane face = view.plane(triangle);
-    const double d = face.most_distance(optimum.point);
+    const double d = optimum.distance(face);
     if (!face.exists() || !(d < limits.distance) || flat.is_parallel(face)) return;
     const auto place = std::upper_bound(near.begin(), near.end(), d,
                                         [](double value, const Near& n) { return value < n.d; });
@@ -234,7 +251,7 @@ Stage best_in_flat(const LocalView& view, const Flat& flat, Faces& faces, const 
     improve(faces.pool, flat, optimum);
     const double part = grow_pool(view, flat, optimum, faces, context);
     scans += part;
-    if (part == 0 || !optimum.exact) break;
+    if (part == 0 || !optimum.ended) break;
   }
   double value = optimum.top;
   for (const FacePlane& face : faces.pool) {

@@ -107,7 +107,7 @@ void LinearProgram::evaluate(const Matrix& inverse) {
   top_ = x[3];
 }
 
-bool LinearProgram::solve() {
+bool LinearProgram::solve(bool roughly) {
   Matrix inverse;
   if (!invert_basis(inverse)) return false;
   evaluate(inverse);
@@ -115,7 +115,8 @@ bool LinearProgram::solve() {
     double worst = kViolation;
     std::size_t entering = rows_.size();
     for (std::size_t i = 0; i < rows_.size(); ++i) {
-      const double excess = dot(rows_[i].a, center_) + rows_[i].lift * top_ - rows_[i].bound;
+      double excess = dot(rows_[i].a, center_) + rows_[i].lift * top_ - rows_[i].bound;
+      if (roughly) excess -= rows_[i].rounding;
       if (excess > worst) {
         worst = excess;
         entering = i;

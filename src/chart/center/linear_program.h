@@ -18,6 +18,7 @@ struct Row {
   Vec3 a;
   double lift = 1;
   double bound = 0;
+  double rounding = 0;  // how far off it may be, if that matters
 };
 
 // Maximises t over (c, t) with |c_k| <= reach, t <= most and the rows added; among equal optima the
@@ -29,8 +30,9 @@ class LinearProgram {
   void add(const Row& row) { rows_.push_back(row); }
   // From the last basis on. Returns false if the limit of steps was met, or only rows that are
   // violated within rounding are left out of a basis that is all but singular; `center` and `top`
-  // are then those of the last good basis, and `top` still is an upper bound.
-  bool solve();
+  // are then those of the last good basis, and `top` still is an upper bound. With `roughly` rows
+  // that are violated by no more than their rounding are satisfied.
+  bool solve(bool roughly = false);
 
   const Vec3& center() const { return center_; }
   double top() const { return top_; }  // the largest t

@@ -140,6 +140,23 @@ TEST(linear_program, takes_rows_in_rounds_as_well_as_at_once) {
   expect_certified(once);
 }
 
+// Two sides 1 apart, each of many faces that rounding has turned.
+TEST(linear_program, ends_where_rounding_turns_planes_against_each_other) {
+  constexpr double kTurn = 1e-7;
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    LinearProgram program(1, 3);
+    const Vec3 up = random_direction(seed, 0);
+    for (int i = 1; i < 60; ++i) {
+      const Vec3 normal = (i % 2 == 0 ? 1 : -1) * up + kTurn * random_direction(seed, i);
+      program.add({.a = normalized(normal), .lift = 1, .bound = 0.5, .rounding = 4 * kTurn});
+    }
+    ASSERT_TRUE(program.solve(true)) << seed;
+    EXPECT_NEAR(program.top(), 0.5, 4 * kTurn) << seed;
+    EXPECT_NEAR(dot(program.center(), up), 0, 4 * kTurn) << seed;
+    EXPECT_LE(worst_violation(program), 4 * kTurn + 1e-13) << seed;
+  }
+}
+
 TEST(linear_program, without_rows_is_at_its_own_limits) {
   LinearProgram program(1.5, 3);
   ASSERT_TRUE(program.solve());

@@ -20,28 +20,39 @@ using test::CadRarity;
 
 constexpr int kBodies = 300;
 
-// Closed bodies. Where a centre is free along an edge or a face of the kernel up to rounding, the
-// rounding may choose another end: one in twenty may be farther from the exact body's than 1 %.
-TEST(CadBodies, are_seen_as_star_shaped_from_the_centre_of_the_exact_body) {
-  int bodies = 0, far = 0;
-  std::size_t thin = 0;
-  for (int i = 0; i < kBodies; i += RHOLM_CAD_STEP) {
-    const CadBody body = cad_body(i);
-    if (body.junctions) continue;
-    SCOPED_TRACE(body.name + " " + std::to_string(i));
-    const CenterOptions options{.kind = CenterKind::kAuto, .point = {}, .rays = 0};
+// Closed bodies.
+void expect_is_seen_from_the_centre_of_the_exact_body(int i) {
+  const CadBody body = cad_body(i);
+  if (body.junctions) return;
+  // Of the radius of a ball of the same volume.
+  const double allowed = 0.01 * std::cbrt(0.239 * enclosed_volume(body.exact));
+  for (const CenterKind kind : {CenterKind::kAuto, CenterKind::kKernel, CenterKind::kVolume}) {
+    SCOPED_TRACE(body.name + " " + std::to_string(i) + ", centre " +
+                 std::to_string(static_cast<int>(kind)));
+    const CenterOptions options{.kind = kind, .point = {}, .rays = 0};
     const StarReport exact = find_center(body.exact, options);
     const StarReport seen = find_center(body.written, options);
     ASSERT_TRUE(exact.star_shaped);
     EXPECT_TRUE(seen.star_shaped);
-    // Of the radius of a ball of the same volume.
-    const double allowed = 0.01 * std::cbrt(0.239 * enclosed_volume(body.exact));
-    far += norm(seen.center - exact.center) > allowed;
-    thin += inspect(body.written).degenerate_triangles;
-    ++bodies;
+    EXPECT_LT(norm(seen.center - exact.center), allowed);
   }
-  EXPECT_LE(20 * far, bodies);
+}
+
+TEST(CadBodies, are_seen_as_star_shaped_from_the_centre_of_the_exact_body) {
+  std::size_t thin = 0;
+  for (int i = 0; i < kBodies; i += RHOLM_CAD_STEP) {
+    expect_is_seen_from_the_centre_of_the_exact_body(i);
+    thin += inspect(cad_body(i).written).degenerate_triangles;
+  }
   EXPECT_GT(thin, 0u);
+}
+
+// Rounding turns faces of one side against each other so that the program of the kernel's middle
+// does not end by the rules of exact planes.
+TEST(CadBodies, are_seen_where_faces_of_one_side_are_turned_against_each_other) {
+  for (const int i : {78, 148, 187, 229, 254, 257}) {
+    expect_is_seen_from_the_centre_of_the_exact_body(i);
+  }
 }
 
 void expect_is_repaired(int i, CadRarity rarity) {
