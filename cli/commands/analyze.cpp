@@ -43,19 +43,19 @@ EncodeOptions encode_options(const Options& options) {
   return wanted;
 }
 
-// The pass over a mesh where it lies takes 46 bytes for each thread and triangle, measured on
-// spheres of 5 million triangles (`rholm make sphere`), of at most 2^23 triangles at a time. Faces
-// in random order take 12 bytes each.
-constexpr double kPassOfTriangle = 50, kOrderOfTriangle = 12;
+// Bytes of these constants are measured on spheres, and all of them anew by scripts/memory-figures.
+// The pass over a mesh where it lies takes 48 bytes for each thread and triangle, of at most 2^23
+// triangles at a time. Faces in random order take 15 bytes each.
+constexpr double kPassOfTriangle = 50, kOrderOfTriangle = 16;
 constexpr double kMostOfPass = 1 << 23;
-// A mesh that is read, welded and paired takes 215 bytes for each face of a sphere, and 371 where
+// A mesh that is read, welded and paired takes 214 bytes for each face of a sphere, and 284 where
 // each face has corners of its own.
 constexpr MemoryOfMesh kPairedMesh = {.vertex = 75, .face = 215};
-// With --weld corners are one before faces are paired: 196 and 250 bytes.
+// With --weld corners are one before faces are paired: 190 and 245 bytes.
 constexpr MemoryOfMesh kWeldedMesh = {.vertex = 45, .face = 190};
-constexpr double kSmallMesh = 8 << 20;
-// Distances to the surface, for the errors of coarse models, take up to 105 MiB beside (measured on
-// a box, degree 512).
+constexpr double kSmallMesh = 8 << 20, kMemoryOfCoefficient = 150;
+// Distances to the surface, for the errors of coarse models, take 102 MiB beside, for a box and
+// degree 512 (scripts/memory-figures).
 constexpr double kDistances = 110 << 20;
 
 const MemoryOfMesh& paired_mesh(const Options& options) {
@@ -64,7 +64,7 @@ const MemoryOfMesh& paired_mesh(const Options& options) {
 
 double memory_of_grid(const Options& options) {
   const double n = options.degree.value_or(0) + 1.0;
-  return kSmallMesh + 150 * n * n;
+  return kSmallMesh + kMemoryOfCoefficient * n * n;
 }
 
 double most_of_work(const Options& options) {

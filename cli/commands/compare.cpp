@@ -30,11 +30,11 @@ struct Options {
   bool json = false;
 };
 
-// Reading two meshes, sampling them and making their trees takes 8.5 times the size of their binary
-// files (measured with `rholm compare` on bench/sphere_stream 866).
+// Reading two meshes, sampling them and making their trees takes 6.3 times the size of their binary
+// files of doubles (scripts/memory-figures), and more of floats.
 constexpr double kMemoryPerByte = 9;
-// Bytes for each vertex and face of a mesh that was read: together 162 for a face of a sphere, 342
-// where each face has corners of its own.
+// Bytes for each vertex and face of a mesh that was read: together 153 for a face of a sphere, 339
+// where each face has corners of its own (scripts/memory-figures).
 constexpr MemoryOfMesh kCompared = {.vertex = 83, .face = 145};
 
 double memory_of(const Mesh& mesh) {

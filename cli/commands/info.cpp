@@ -39,11 +39,12 @@ struct Options {
   bool json = false;
 };
 
-// Reading a mesh, welding it and pairing its edges takes 5.0 times the size of its binary file
-// (measured with `rholm info` on bench/sphere_stream 866), of points three times.
+// Reading a mesh, welding it and pairing its edges takes 3.8 times the size of its binary file
+// (scripts/memory-figures), and more where faces have corners of their own; points take three
+// times.
 constexpr double kMemoryPerByte = 6;
-// Bytes for each vertex and face of a mesh that was read: together 101 for a face of a sphere, 157
-// where each face has corners of its own.
+// Bytes for each vertex and face of a mesh that was read: together 92 for a face of a sphere, 152
+// where each face has corners of its own (scripts/memory-figures).
 constexpr MemoryOfMesh kLookedAt = {.vertex = 30, .face = 108};
 
 struct MeshReport {

@@ -21,13 +21,14 @@ namespace rholm {
 namespace {
 
 constexpr std::uint64_t kFewestOfBrick = 1000, kMostOfBrick = std::uint64_t{1} << 28;
-// Of a point of a brick, with its halo, on two threads, measured on 4 million points in four bricks
-// (bench/bricks); and of a point of all bricks, where handles are cut: measured on 100 million
-// points of a rough body. Smooth ones take a few bytes.
+// Bytes for each point of a brick with its halo, on two threads: 1019 of a sphere in four bricks of
+// 250 000 points (scripts/memory-figures), more of rough bodies and of larger bricks
+// (bench/bricks). And for each point of all bricks, where handles are cut: measured on 100 million
+// points of a rough body (bench/bricks). Smooth ones take a few bytes.
 constexpr std::uint64_t kMemoryOfPoint = 1750, kMemoryOfAny = 22;
-// Of a point with its normal, likewise: what is stored of it and of its part of the surface, most
-// at a time, and that part in the output.
-constexpr std::uint64_t kStoredOfPoint = 480, kWrittenOfPoint = 260;
+// For each point with its normal: what is stored of it and of its part of the surface, most at a
+// time, and that part in the output (scripts/memory-figures).
+constexpr std::uint64_t kStoredOfPoint = 520, kWrittenOfPoint = 290;
 
 // All that changes the result.
 std::string text_of(const ReconstructOptions& o) {
