@@ -89,7 +89,8 @@ class Triangulator {
     const FaceNormal face = face_normal({rim_[i], rim_[m], rim_[j]});
     const Vec3 normal = normalized(face.twice_area);
     weight.area += norm(face.twice_area) / 2;
-    if (face.degenerate) weight.bend = kWithoutArea;
+    // Not less than that of its parts: one that cannot be closed stays so.
+    if (face.degenerate) weight.bend = std::max(weight.bend, kWithoutArea);
     weight.bend = std::max(
         {weight.bend, bend_between(normal, left.normal), bend_between(normal, right.normal)});
     // The whole polygon is closed by an edge of the rim.

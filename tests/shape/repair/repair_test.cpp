@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
+#include <utility>
 
+#include "base/random.h"
 #include "rholm/error.h"
 #include "rholm/primitives.h"
 #include "shape/repair/hole_triangles.h"
@@ -339,6 +342,50 @@ TEST(triangulate_hole, of_a_polygon_with_a_notch_stays_inside) {
       triangulate_hole(rim, beyond, [](std::uint32_t, std::uint32_t) { return false; });
   ASSERT_TRUE(hole);
   EXPECT_NEAR(hole->area, 7, 1e-14);
+}
+
+// Whether diagonals that are free triangulate the polygon from i to j.
+bool can_close(std::uint32_t i, std::uint32_t j, std::uint32_t n,
+               const std::set<std::pair<std::uint32_t, std::uint32_t>>& taken) {
+  if (j == i + 1) return true;
+  if (j - i + 1 < n && taken.contains({i, j})) return false;
+  for (std::uint32_t m = i + 1; m < j; ++m) {
+    if (can_close(i, m, n, taken) && can_close(m, j, n, taken)) return true;
+  }
+  return false;
+}
+
+// Polygons of which most triangles have no area, and some diagonals are taken.
+TEST(triangulate_hole, of_straight_sides_keeps_off_taken_diagonals) {
+  int closed = 0, open = 0;
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    const auto n = static_cast<std::uint32_t>(4 + seed % 5);
+    std::vector<Vec3> rim;
+    std::set<std::pair<std::uint32_t, std::uint32_t>> taken;
+    for (std::uint32_t i = 0; i < n; ++i) {
+      rim.push_back(
+          {1.0 * static_cast<double>(random_bits(seed, i) % 3), seed % 2 == 0 ? 0.0 : i, 0});
+      for (std::uint32_t j = i + 2; j < n; ++j) {
+        if (random_bits(seed + 1000, n * i + j) % 2 == 0) taken.insert({i, j});
+      }
+    }
+    const std::vector<Vec3> beyond(n, Vec3{});
+    const auto hole = triangulate_hole(rim, beyond, [&](std::uint32_t i, std::uint32_t j) {
+      return taken.contains({i, j});
+    });
+    ASSERT_EQ(hole.has_value(), can_close(0, n - 1, n, taken)) << seed;
+    ++(hole ? closed : open);
+    if (!hole) continue;
+    EXPECT_EQ(hole->triangles.size(), n - 2);
+    for (const auto& [i, m, j] : hole->triangles) {
+      EXPECT_TRUE(i < m && m < j) << seed;
+      for (const auto& diagonal : {std::pair{i, m}, std::pair{m, j}}) {
+        EXPECT_FALSE(taken.contains(diagonal)) << seed;
+      }
+    }
+  }
+  EXPECT_GT(closed, 100);
+  EXPECT_GT(open, 100);
 }
 
 // Splits a triangle's edge from a to b at new vertices, in shares of the edge.
