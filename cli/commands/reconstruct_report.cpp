@@ -27,13 +27,24 @@ std::string mended_text(const ReconstructReport& r) {
 
 std::string list_of(const std::vector<Vec3>& points) {
   std::string list;
-  for (const Vec3& point : points) list += (list.empty() ? " " : "; ") + text_of(point);
+  for (const Vec3& point : points) list += (list.empty() ? "" : "; ") + text_of(point);
   return list;
 }
 
-// Notes say what was mended in given normals. Throws where sheets cross, or normals still
-// contradict each other.
-void judge_normals(const ReconstructReport& r, Session& session) {
+// Throws where points lie on no surface.
+void judge_places(const ReconstructReport& r) {
+  if (!(r.points_off_surface > kMostOffSurface)) return;
+  throw Error(ErrorCode::kNotConverged,
+              fmt::format("{:.3g} % of the points lie off the surface, through all of what is "
+                          "between its walls or around it, first at {}: they fill a volume, which "
+                          "has no surface, or their noise hides how thick the body is; the "
+                          "surface, which is written, is wrong there (give points of the surface, "
+                          "or remove most of the noise)",
+                          100 * r.points_off_surface, list_of(r.places_off_surface)));
+}
+
+// What was mended in given normals.
+void note_normals(const ReconstructReport& r, Session& session) {
   if (r.crooked_normals > kMostCrooked) {
     session.note(fmt::format(
         "{:.3g} % of the given normals are more than 45 degrees off the surface: all are computed "
@@ -43,21 +54,28 @@ void judge_normals(const ReconstructReport& r, Session& session) {
   if (r.mended_normals > 0) {
     session.note(mended_text(r));
   }
+}
+
+// Throws where sheets cross, or normals still contradict each other.
+void judge_normals(const ReconstructReport& r) {
   if (r.crossing_length > kMostCrossing) {
     throw Error(ErrorCode::kNotConverged,
-                fmt::format("sheets of the points cross each other, near{}: they bound no body; "
+                fmt::format("sheets of the points cross each other, near {}: they bound no body; "
                             "the surface, which is written, is wrong there (cut the points into "
                             "bodies that do not cross, and reconstruct each)",
                             list_of(r.crossings)));
   }
   const auto n = static_cast<double>(r.points);
   if (static_cast<double>(r.contradicting_normals) > kMostContradicting * std::sqrt(n)) {
+    // Of undecided pieces no point is known to be wrong.
+    const std::string first =
+        r.contradictions.empty() ? "" : ", first at " + list_of(r.contradictions);
     throw Error(ErrorCode::kNotConverged,
-                fmt::format("the normals of {} points contradict those around them, first at{}: "
+                fmt::format("the normals of {} points contradict those around them{}: "
                             "sheets cross there, or the signs of given normals cannot be decided; "
                             "the surface, which is written, may be wrong ('rholm orient "
                             "--keep-directions' finds signs anew)",
-                            r.contradicting_normals, list_of(r.contradictions)));
+                            r.contradicting_normals, first));
   }
   if (r.inward_normals > kMostInward) {
     throw Error(
@@ -84,6 +102,7 @@ Json json_of(const Reconstructed& made, bool confidence) {
                {"contradicting_normals", r.contradicting_normals},
                {"inward_normals", r.inward_normals},
                {"crossing_length", r.crossing_length},
+               {"points_off_surface", r.points_off_surface},
                {"spacing", r.spacing},
                {"noise", r.noise},
                {"normal_noise_degrees", r.normal_noise_degrees},
@@ -183,7 +202,9 @@ std::string report_text(const Reconstructed& made, const ReconstructOptions& opt
 }
 
 void judge(const ReconstructReport& report, bool filled, Session& session) {
-  judge_normals(report, session);
+  note_normals(report, session);
+  judge_places(report);
+  judge_normals(report);
   const double unsure = report.unsure;
   const std::string side =
       fmt::format("the side of {:.3g} % of the normals is unsure", 100 * unsure);
@@ -193,7 +214,7 @@ void judge(const ReconstructReport& report, bool filled, Session& session) {
         side +
             ": the surface, which is written, may be wrong all over; give normals, or where "
             "points were measured from (--sensor, attributes sensor_x, "
-            "sensor_y, sensor_z)");
+            "sensor_y, sensor_z); points that fill a volume have no sides");
   }
   if (unsure > kSaid) {
     session.warn(side + ": thin or sparse parts may be wrong; --confidence shows where");

@@ -75,6 +75,12 @@ struct ReconstructReport {
   // diagonal.
   double crossing_length = 0;
   std::vector<Vec3> crossings = {};  // up to three points near these lines
+  // Share of the points that lie off the surface: the rms distance of the 32 points around from it
+  // is more than 1/5.5 of the distance to the opposite wall, so that points fill the body, or their
+  // noise hides how thick it is; or more than half a spacing, and all points are spread evenly
+  // across the surface, as noise is not. About 200 points are asked, before it is simplified.
+  double points_off_surface = 0;
+  std::vector<Vec3> places_off_surface = {};  // up to three of these points
   // Share of the points at which the winding number of all points says that the given normal,
   // which is kept, points into the solid.
   double inward_normals = 0;
@@ -112,6 +118,9 @@ inline constexpr double kMostInward = 0.1;  // the second
 // The same of crossing_length (chosen). Bodies have at most 0.03, and sheets that cross 0.2 and
 // more but for 3 of 24 clouds, which are noisy (tests/cli/clouds_test.py --crossings).
 inline constexpr double kMostCrossing = 0.12;
+// The same of points_off_surface. Real shapes with noise of 1 % of the diagonal have up to 0.46,
+// points that fill slabs and rods 0.52 and more (tests/cli/clouds_test.py --walls).
+inline constexpr double kMostOffSurface = 0.5;
 
 // Parts of points_area: a surface that has less or more of it, without what closes holes, should
 // not be trusted. Of clean bodies it is 0.6 ... 1.4 with a thousand points and 0.9 ... 1.2 with

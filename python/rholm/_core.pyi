@@ -2420,6 +2420,16 @@ class ReconstructReport:
         """The first three points near these lines, n x 3."""
 
     @property
+    def points_off_surface(self) -> float:
+        """
+        Share of the points that fill what lies between the walls of the surface, or around it: above 0.5 the surface should not be trusted.
+        """
+
+    @property
+    def places_off_surface(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
+        """Up to three of these points, n x 3."""
+
+    @property
     def inward_normals(self) -> float:
         """
         Share of the points at which the winding number contradicts the given normal: above 0.1 the surface should not be trusted.

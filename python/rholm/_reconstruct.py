@@ -41,7 +41,14 @@ class Reconstruction(NamedTuple):
 
 def _warn_of_normals(report: _core.ReconstructReport) -> None:
     """As the program ends with exit code 4: see kMostCrossing and the limits beside it in reconstruct.h."""
-    if report.crossing_length > 0.12:
+    if report.points_off_surface > 0.5:
+        warnings.warn(
+            f"{100 * report.points_off_surface:.3g} % of the points lie off the surface, first at "
+            f"{report.places_off_surface.tolist()}: they fill a volume, or their noise hides how thick the "
+            "body is",
+            stacklevel=3,
+        )
+    elif report.crossing_length > 0.12:
         warnings.warn(
             f"sheets of the points cross each other, near {report.crossings.tolist()}: the surface is wrong "
             "there",

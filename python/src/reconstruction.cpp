@@ -139,6 +139,11 @@ void bind_reconstruction(nb::module_& m) {
              "points: above 0.12 the surface should not be trusted.")
       .field("crossings", &ReconstructReport::crossings,
              "The first three points near these lines, n x 3.")
+      .field("points_off_surface", &ReconstructReport::points_off_surface,
+             "Share of the points that fill what lies between the walls of the surface, or around "
+             "it: above 0.5 the surface should not be trusted.")
+      .field("places_off_surface", &ReconstructReport::places_off_surface,
+             "Up to three of these points, n x 3.")
       .field("inward_normals", &ReconstructReport::inward_normals,
              "Share of the points at which the winding number contradicts the given normal: above "
              "0.1 the surface should not be trusted.")

@@ -298,6 +298,7 @@ AtlasSurface extract_atlas(const Atlas& atlas, const AtlasSurfaceOptions& option
       drop_small_components(result.mesh, options.min_component, context).dropped;
   complete_normals(result.mesh, context);
   result.faces = result.mesh.triangles.size();
+  if (options.judge) options.judge(result.mesh);
   if (options.simplify) {
     grid = {};
     Simplification simple =

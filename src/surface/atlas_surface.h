@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 
 #include "rholm/atlas.h"
@@ -27,7 +28,8 @@ struct AtlasSurfaceOptions {
   double min_component = 0.01;
   std::optional<SimplifyOptions> simplify = {};  // with nothing in it: 1/50 of the step
   const Resolution* resolution = nullptr;        // what is smaller than that is cut
-  const SeenSpace* seen = nullptr;  // what scanners have seen to be empty is not closed
+  const SeenSpace* seen = nullptr;        // what scanners have seen to be empty is not closed
+  std::function<void(Mesh&)> judge = {};  // is given the surface before it is simplified
   std::size_t max_memory = std::size_t{8} << 30;
   std::size_t memory_in_use = 0;  // bytes of max_memory that the caller holds
 };

@@ -235,6 +235,42 @@ def rod(rng, n, thickness=0.1):
     return rng.random((n, 3)) * [thickness, thickness, 1]
 
 
+def tetrahedron(rng, n):
+    weights = rng.exponential(size=(n, 4))
+    corners = np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]])
+    return weights / weights.sum(axis=1)[:, None] @ corners
+
+
+def thin_slab(rng, n):
+    return slab(rng, n, 0.15)
+
+
+def layers(rng, n):
+    """A lattice of three layers."""
+    k = round((n / 3) ** 0.5)
+    return np.stack(np.meshgrid(range(k), range(k), range(3)), -1).reshape(-1, 3).astype(float)
+
+
+def jittered_layers(rng, n):
+    p = layers(rng, n)
+    return p + rng.uniform(-0.2, 0.2, p.shape)
+
+
+def bar(rng, n):
+    """Voxels of a bar of 3 x 3."""
+    return np.stack(np.meshgrid(range(max(4, n // 9)), range(3), range(3)), -1).reshape(-1, 3).astype(float)
+
+
+def round_rod(rng, n, radius=0.05):
+    angle, r = rng.random(n) * 2 * np.pi, radius * np.sqrt(rng.random(n))
+    return np.stack([r * np.cos(angle), r * np.sin(angle), rng.random(n)], 1)
+
+
+def wall_of_shell(rng, n):
+    """Fills a shell of 0.85 ... 1 with several layers from 2000 points on."""
+    return thick_shell(rng, n, 0.85)
+
+
 def line(rng, n, noise=0.001):
     return np.stack([rng.random(n), 0 * np.arange(n), 0 * np.arange(n)], 1) + noise * rng.normal(size=(n, 3))
 
@@ -277,7 +313,9 @@ NO_SURFACE = {
     "ball": (ball, "volume"), "cube": (cube, "volume"), "lattice": (lattice, "volume"),
     "voxel_ball": (voxel_ball, "volume"), "blob": (blob, "volume"), "slab": (slab, "volume"),
     "slab_lattice": (slab_lattice, "volume"), "thick_shell": (thick_shell, "volume"),
-    "rod": (rod, "volume"), "line": (line, "curve"), "circle": (circle, "curve"),
+    "rod": (rod, "volume"), "thin_slab": (thin_slab, "volume"), "tetrahedron": (tetrahedron, "volume"),
+    "layers": (layers, "volume"), "jittered_layers": (jittered_layers, "volume"), "bar": (bar, "volume"),
+    "round_rod": (round_rod, "volume"), "line": (line, "curve"), "circle": (circle, "curve"),
     "helix": (helix, "curve"), "knot": (knot, "curve"), "wires": (wires, "curve"),
     "crossing_planes": (crossing_planes, None), "crossing_spheres": (crossing_spheres, None),
 }

@@ -5,7 +5,9 @@ small clouds. With options it takes many:
   clouds_test.py --normals [N]   N clouds (40) with 0 to 50 % of turned normals
   clouds_test.py --shapes        points of no surface, of three sizes
   clouds_test.py --thresholds    what local_shape.cpp measures, of both
-  clouds_test.py --crossings     crossing_length of bodies and of sheets that cross"""
+  clouds_test.py --crossings     crossing_length of bodies and of sheets that cross
+  clouds_test.py --walls [SEED]  points_off_surface of noisy bodies and plates, of points of no surface, and of
+                                 the real shapes in RHOLM_SHAPES (with trimesh)"""
 
 import os
 import sys
@@ -106,6 +108,33 @@ class Clouds(CliTest):
             done, _ = self.reconstruct(make(np.random.default_rng(3), 500))
             self.assertEqual(done.code, 3, done)
             self.assertIn(kind, done.err)
+
+    def test_points_that_fill_thin_bodies_are_refused_with_places(self):
+        for name, n in (("thin_slab", 1500), ("layers", 768), ("tetrahedron", 1000),
+                        ("wall_of_shell", 4000)):
+            make = getattr(clouds, name)
+            done, _ = self.reconstruct(make(np.random.default_rng(13), n))
+            self.assertEqual(done.code, 4, done)
+            self.assertRegex(done.err, r"lie off the surface.* first at( \(.*\);){2} \(.*\): they fill a volume")
+
+    def test_bricks_refuse_points_that_fill_thin_bodies(self):
+        for name in ("thin_slab", "wall_of_shell"):
+            points = getattr(clouds, name)(np.random.default_rng(14), 4000)
+            done, _ = self.reconstruct(points, None, "--brick-points", "1000")
+            self.assertEqual(done.code, 4, done)
+            self.assertIn("they fill a volume", done.err)
+
+    def test_walls_nearer_than_noise_allows_are_refused(self):
+        rng = np.random.default_rng(15)
+        for noise, code in ((0.02, 0), (0.06, 4)):  # the plate is 0.2 thick
+            points, normals = clouds.plate(rng, 3000)
+            points = points + noise * rng.normal(size=points.shape)
+            turned = clouds.in_patch(rng, points, 0.1)
+            for given in (None, normals, np.where(turned[:, None], -normals, normals) if code else normals):
+                done, shape = self.reconstruct(points, given)
+                self.assertEqual((done.code, self.fault("plate", done, shape)), (code, ""), done)
+                if code == 4:
+                    self.assertIn("noise hides how thick the body is", done.err)
 
     def test_sheets_that_cross_are_refused_with_places(self):
         for name, n, noise in (("crossing_planes", 1500, 0.005), ("crossing_spheres", 2000, 0)):
@@ -246,6 +275,66 @@ def crossings():
     return False
 
 
+def real_shapes():
+    """Meshes of RHOLM_SHAPES, by name."""
+    folder = os.environ.get("RHOLM_SHAPES")
+    try:
+        import trimesh
+    except ImportError:
+        folder = None
+    if not folder:
+        print("no real shapes: RHOLM_SHAPES is not set, or there is no trimesh")
+        return {}
+    names = ("armadillo-43k.obj", "bunny-closed-cgal.off", "elephant-with-holes.off", "fandisk.obj", "igea.ply",
+             "rocker-arm.obj", "stanford-dragon.ply", "asteroid-toutatis.ply", "max-planck-10k.obj")
+    return {name: trimesh.load(Path(folder) / name) for name in names if (Path(folder) / name).exists()}
+
+
+def walls(seed):
+    """points_off_surface as `rholm reconstruct` has it: kMostOffSurface is between bodies and points of no surface."""
+    plates = {thin: lambda rng, n, thin=thin: clouds.box(rng, n, (2, 2, thin)) for thin in (0.6, 0.3)}
+    bodies = {name: make for name, (make, _, _) in clouds.BODIES.items() if name != "plate"} | plates
+    for name, mesh in real_shapes().items():
+        def sampled(rng, n, mesh=mesh):
+            triangles = np.asarray(mesh.triangles)
+            twice = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+            area = np.linalg.norm(twice, axis=1)
+            chosen = rng.choice(len(area), n, p=area / area.sum())
+            weights = rng.exponential(size=(n, 3))
+            at = np.einsum("nk,nkx->nx", weights / weights.sum(axis=1)[:, None], triangles[chosen])
+            return at, twice[chosen] / area[chosen, None]
+        bodies[name] = sampled
+    filled = {name: make for name, (make, kind) in clouds.NO_SURFACE.items() if kind == "volume"}
+    filled |= {f"slab {thin}": lambda rng, n, thin=thin: clouds.slab(rng, n, thin) for thin in (0.1, 0.2, 0.25)}
+    filled |= {f"plate {noise}": lambda rng, n, noise=noise: clouds.plate(rng, n)[0] + noise * rng.normal(size=(n, 3))
+               for noise in (0.05, 0.06, 0.07)}
+    wrong = 0
+
+    def look(name, points, normals=None):
+        test = Clouds("reconstruct")
+        with tempfile.TemporaryDirectory() as folder:
+            test.folder = Path(folder)
+            done, _ = test.reconstruct(points, normals)
+        return done.json()["points_off_surface"] if done.out else np.nan, done.code
+    for n in (500, 1000, 4000, 16000):
+        for name, make in bodies.items():
+            found = []
+            for noise in (0, 0.003, 0.01):
+                rng = np.random.default_rng([seed, n])
+                points, normals = make(rng, n)
+                scatter = noise * np.linalg.norm(np.ptp(points, axis=0))
+                points = points + scatter * rng.normal(size=points.shape)
+                found += [look(name, points), look(name, points, normals)]
+            wrong += sum(off > 0.5 for off, _ in found)
+            print(f"surface {name!s:24} {n:5}:", *(f"{off:.3f} (exit {code})" for off, code in found), flush=True)
+        for name, make in filled.items():
+            off, code = look(name, make(np.random.default_rng([seed, n]), n))
+            wrong += code == 0
+            print(f"volume  {name:24} {n:5}: {off:.3f} (exit {code})", flush=True)
+    print(f"{wrong} are on the other side of kMostOffSurface")
+    return False
+
+
 def thresholds():
     """Median thickness and kurtosis of the flattest neighbourhoods, as local_shape.cpp has them."""
     def look(points):
@@ -287,6 +376,8 @@ if __name__ == "__main__":
         sys.exit(many_shapes())
     if "--crossings" in sys.argv:
         sys.exit(crossings())
+    if "--walls" in sys.argv:
+        sys.exit(walls(int(sys.argv[2]) if len(sys.argv) > 2 else 1))
     if "--thresholds" in sys.argv:
         sys.exit(thresholds())
     main()

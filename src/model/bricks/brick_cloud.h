@@ -41,6 +41,8 @@ class BrickCloud {
   bool normals_given() const { return given_; }
   const WholeSample& sample() const { return sample_; }
   const CapSize& size() const { return size_; }
+  // Neighbours of a flat neighbourhood, or fewer.
+  std::size_t around() const { return around_; }
   bool has_column(const char* name) const;
   // Diagonal of the points, before outliers near the surface are removed.
   double diagonal() const { return diagonal_; }

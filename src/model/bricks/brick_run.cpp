@@ -33,6 +33,7 @@
 #include "rholm/error.h"
 #include "shape/points/crossings.h"
 #include "shape/points/sensors.h"
+#include "shape/points/wall_check.h"
 #include "surface/atlas_surface.h"
 #include "surface/level_set/cut_handles.h"
 
@@ -45,9 +46,10 @@ constexpr std::size_t kTrees = 24;
 // for confidence and simplify, which are chosen.
 std::vector<StageCost> costs(const ReconstructOptions& options) {
   std::vector<StageCost> all = {
-      {"survey", 0.05},   {"signs", 0.8},   {"distribute", 0.1}, {"sort", 0.2},  {"sample", 0.3},
-      {"cap size", 0.3},  {"caps", 2.1},    {"bands", 0.1},      {"grid", 2.2},  {"holes", 0.8},
-      {"crossings", 0.3}, {"surface", 3.0}, {"handles", 0.3},    {"parts", 0.4}, {"write", 1.2}};
+      {"survey", 0.05}, {"signs", 0.8},    {"distribute", 0.1}, {"sort", 0.2},
+      {"sample", 0.3},  {"cap size", 0.3}, {"caps", 2.1},       {"bands", 0.1},
+      {"grid", 2.2},    {"holes", 0.8},    {"crossings", 0.3},  {"surface", 3.0},
+      {"handles", 0.3}, {"parts", 0.4},    {"walls", 0.2},      {"write", 1.2}};
   if (options.remove_outliers) all.push_back({"strays", 0.9});
   if (options.confidence) all.push_back({"confidence", 2});
   if (options.simplify) all.push_back({"simplify", 5});
@@ -122,18 +124,27 @@ class BrickRun {
     return fit_round(at_once ? "" : "-again");
   }
 
+  static std::string piece_of(const std::string& what, std::size_t brick) {
+    return what + "/" + std::to_string(brick);
+  }
+
   BrickCaps fit_round(const std::string& round) {
     BrickCaps caps(store_, n_, round);
     const CrossingSearch search{.n = report_.points - report_.dropped_points - report_.outliers,
                                 .diagonal = cloud_.diagonal(),
                                 .noise = cloud_.size().noise};
     const auto crossings_in = [&](std::size_t brick) {
-      return "crossings" + round + "/" + std::to_string(brick);
+      return piece_of("crossings" + round, brick);
     };
     // With a halo of its own: caps depend on what they see.
+    const std::size_t halo = std::max({kCrossingNeighbors, kPatch, cloud_.around()});
     stages_.each("crossings", n_, [&](std::size_t brick) {
       if (store_.has(crossings_in(brick))) return;
-      const BrickScene scene = cloud_.load(brick, kCrossingNeighbors, search.reach());
+      const BrickScene scene = cloud_.load(brick, halo, search.reach());
+      const WallPatches patches = choose_patches(*scene.tree, scene.points, scene.foreign, search.n,
+                                                 cloud_.around(), context_);
+      write_values(store_, piece_of("patch-points" + round, brick), patches.points);
+      write_values(store_, piece_of("patch-areas" + round, brick), patches.areas);
       const Crossings found =
           find_crossings(*scene.tree, scene.points, scene.gaps, scene.foreign, search, context_);
       write_values(store_, crossings_in(brick), std::vector{found});
@@ -158,6 +169,14 @@ class BrickRun {
       all.add(read_values<Crossings>(store_, crossings_in(brick)).at(0));
     }
     note_crossings(all, cloud_.diagonal(), report_);
+    patches_ = {};
+    for (std::size_t brick = 0; brick < n_; ++brick) {
+      const auto append = [&](auto& to, const auto& from) {
+        to.insert(to.end(), from.begin(), from.end());
+      };
+      append(patches_.points, read_values<Vec3>(store_, piece_of("patch-points" + round, brick)));
+      append(patches_.areas, read_values<double>(store_, piece_of("patch-areas" + round, brick)));
+    }
     return caps;
   }
 
@@ -307,6 +326,7 @@ class BrickRun {
     report_.dropped_components = whole.dropped;
     report_.faces = whole.triangles;
     set_sizes(whole, whole);
+    check_points(parts);
     if (!options_.simplify) {
       write(parts, output);
       return;
@@ -315,6 +335,23 @@ class BrickRun {
     BrickParts simple(store_, surface, n_, "-simple");
     set_sizes(join_parts(simple, 0), whole);
     write(simple, output);
+  }
+
+  // Whether the points lie on the surface, from the vertices near some of them.
+  void check_points(const BrickParts& parts) {
+    stages_.each("walls", n_, [&](std::size_t brick) {
+      if (store_.has(piece_of("walls", brick))) return;
+      BrickMesh part = parts.kept_mesh(brick);
+      write_values(store_, piece_of("walls", brick),
+                   vertices_near(patches_, report_.step, part.mesh, part.n_own));
+    });
+    std::vector<WallVertex> near;
+    for (std::size_t brick = 0; brick < n_; ++brick) {
+      const auto own = read_values<WallVertex>(store_, piece_of("walls", brick));
+      near.insert(near.end(), own.begin(), own.end());
+    }
+    stages_.all("walls",
+                [&] { note_walls(check_walls(patches_, near, report_.step, context_), report_); });
   }
 
   void write(const BrickParts& parts, const std::filesystem::path& output) {
@@ -387,6 +424,7 @@ class BrickRun {
   std::size_t n_ = 0;               // bricks
   double median_support_ = 0;       // of caps
   Vec3 origin_;                     // of the grid
+  WallPatches patches_;             // of all bricks
   std::uint64_t coefficients_ = 0;  // of all caps
   BrickParts::Whole whole_;
   std::filesystem::path model_;

@@ -137,16 +137,23 @@ Reconstruction reconstruct(PointCloud cloud, const ReconstructOptions& options,
     seen = points.seen_space(kCubesOfSpacing * spacing.median,
                              kEndOfSight * std::max(spacing.median, size.noise), context);
   }
+  const WallPatches patches = points.patches(context);
   if (!options.confidence) points.keep_tree();
   const Resolution resolution{
       .typical = std::max(spacing.median, report.step),
       .at = [&](const Vec3& place) { return std::max(points.spacing_at(place), report.step); }};
+  const auto judge = [&](Mesh& mesh) {
+    const std::vector<WallVertex> near =
+        vertices_near(patches, report.step, mesh, mesh.vertices.size());
+    note_walls(check_walls(patches, near, report.step, context), report);
+  };
   const AtlasSurfaceOptions wanted{.step = report.step,
                                    .keep_holes = options.holes == HolePolicy::kKeep,
                                    .min_component = options.min_component,
                                    .simplify = options.simplify,
                                    .resolution = &resolution,
                                    .seen = seen ? &*seen : nullptr,
+                                   .judge = judge,
                                    .max_memory = options.max_memory,
                                    .memory_in_use = kMemoryOfPoint * points.size()};
   AtlasSurface surface =

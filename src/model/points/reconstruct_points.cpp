@@ -270,6 +270,10 @@ Crossings WorkingPoints::crossings(double noise, const Context& context) const {
   return find_crossings(*tree_, points_, gaps_, {}, search, context);
 }
 
+WallPatches WorkingPoints::patches(const Context& context) const {
+  return choose_patches(*tree_, points_, {}, size(), around_, context);
+}
+
 std::size_t WorkingPoints::remove_outliers(double noise, std::size_t most,
                                            std::span<const std::uint32_t> suspects,
                                            const Context& context) {

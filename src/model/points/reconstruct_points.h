@@ -16,6 +16,7 @@
 #include "shape/points/point_tree.h"
 #include "shape/points/sampling_gaps.h"
 #include "shape/points/sign_check.h"
+#include "shape/points/wall_check.h"
 #include "surface/holes/seen_space.h"
 
 namespace rholm {
@@ -47,6 +48,8 @@ class WorkingPoints {
 
   // Where sheets of the points cross.
   Crossings crossings(double noise, const Context& context) const;
+  // Of some of the points, for check_walls().
+  WallPatches patches(const Context& context) const;
 
   // Of points near the surface, by their normals; returns how many were removed. Where more than
   // `most` look like outliers they are features that the points hardly show: then only those that

@@ -113,6 +113,13 @@ void note_crossings(const Crossings& crossings, double diagonal, ReconstructRepo
                           crossings.at.begin() + static_cast<std::ptrdiff_t>(crossings.named()));
 }
 
+void note_walls(const WallCheck& walls, ReconstructReport& report) {
+  report.points_off_surface = walls.share();
+  const std::size_t named = std::min(walls.off, kNamedWalls);
+  report.places_off_surface.assign(walls.at.begin(),
+                                   walls.at.begin() + static_cast<std::ptrdiff_t>(named));
+}
+
 std::size_t area_neighbors(std::size_t flat) { return flat > 2 * kCircle ? flat : kCircle; }
 
 CoverOptions cover_options(const ReconstructOptions& options, const CapSize& size) {

@@ -9,6 +9,7 @@
 #include "shape/points/crossings.h"
 #include "shape/points/local_shape.h"
 #include "shape/points/side_balance.h"
+#include "shape/points/wall_check.h"
 
 namespace rholm {
 
@@ -62,6 +63,7 @@ void check_sides(const SideBalance& balance, std::size_t n);
 void check_shape(const LocalShape& shape, std::size_t n);
 // Into the report; the points span the diagonal.
 void note_crossings(const Crossings& crossings, double diagonal, ReconstructReport& report);
+void note_walls(const WallCheck& walls, ReconstructReport& report);
 // Neighbours that tell the area of a point, where so many lie in a flat neighbourhood: the nearest
 // ones of noisy points fill a volume.
 std::size_t area_neighbors(std::size_t flat);

@@ -1,7 +1,6 @@
 #include "shape/points/crossings.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numbers>
 #include <tuple>
@@ -12,6 +11,7 @@
 #include "base/random.h"
 #include "shape/points/normals.h"
 #include "shape/points/plane_fit.h"
+#include "shape/points/point_rank.h"
 #include "shape/points/symmetric6.h"
 
 namespace rholm {
@@ -204,12 +204,6 @@ struct Surroundings {
   }
 };
 
-std::uint64_t rank_of(const Vec3& p) {
-  std::uint64_t bits = 0;
-  for (const double x : {p.x, p.y, p.z}) bits = random_bits(bits, std::bit_cast<std::uint64_t>(x));
-  return bits;
-}
-
 struct Seed {
   std::uint32_t point = 0;
   std::uint64_t rank = 0;
@@ -248,7 +242,7 @@ Crossings find_crossings(const PointTree& tree, std::span<const Vec3> points,
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     if (!foreign.empty() && foreign[i] != 0) continue;
     const std::uint64_t rank = rank_of(points[i]);
-    if (static_cast<double>(rank >> 11) * 0x1p-53 < share) seeds.push_back({i, rank});
+    if (is_chosen(rank, share)) seeds.push_back({i, rank});
   }
   parallel_for(seeds.size(), 64, context, {}, [&](std::size_t begin, std::size_t end) {
     Surroundings around;
