@@ -224,7 +224,7 @@ def reconstruct_bricks(
         At most, 1000 ... 2**28; fewer take less memory, more less time. By default 2**20: some
         1.8 GB on two threads.
     work_dir : path, optional
-        A folder for what is known between the steps, some 480 bytes a point: one that is not there, or
+        A folder for what is known between the steps, some 500 bytes a point: one that is not there, or
         is empty, or is that of an earlier run. It is gone at the end. None: in memory.
     resume : bool
         Leave the folder where it is if the run ends early, and take up what is there. The input and
