@@ -145,6 +145,28 @@ it("finds the degree for an error", async () => {
   const degree = Number(await page.getByLabel("Degree, exactly", { exact: true }).inputValue());
   expect(degree).toBeGreaterThan(2);
   expect(degree).toBeLessThan(40);
+  // What was allowed does not follow the size of what is shown.
+  const allowed = page.getByLabel("Allowed error, rms, exactly", { exact: true });
+  expect(await allowed.inputValue()).toBe("0.015");
+  await setNumber(page, "Degree", 1);
+  expect(await allowed.inputValue()).toBe("0.015");
+});
+
+it("an allowed error in percent is a share of the mean radius", async () => {
+  const { page } = now;
+  const allowed = page.getByLabel("Allowed error, rms, exactly", { exact: true });
+  await allowed.fill("2 %");
+  await allowed.press("Enter");
+  await page.getByText(/This is 2\s% of the mean radius/).waitFor();
+  // In this file, whose functions have a mean square of 1, the coefficient of degree 0 is the mean radius.
+  const npy = await save("npy");
+  const mean = npy.readDoubleLE(npy.indexOf("\n") + 1);
+  await openTab(page, "Degrees");
+  expect(Number(await allowed.inputValue()) / (0.02 * mean)).toBeCloseTo(1, 2);
+  await press(page, "Find the degree");
+  await page.getByText(/The rms is [\d.]+\s% of the mean radius/).waitFor();
+  const text = await page.getByText(/The rms is/).innerText();
+  expect(Number(/The rms is ([\d.]+)\s%/.exec(text)?.[1])).toBeLessThanOrEqual(2);
 });
 
 it("a picture has the size that was asked for", async () => {

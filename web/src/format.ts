@@ -15,6 +15,21 @@ export function number(value: number | null | undefined): string {
   return String(Number(value.toPrecision(3)));
 }
 
+// A share of a whole.
+export function percent(share: number): string {
+  return `${number(100 * share)}\u00a0%`;
+}
+
+// The number that was typed: with a decimal comma, or as percents of `whole`, where there is one. NaN: it is none.
+export function typedNumber(typed: string, whole?: number): number {
+  const text = typed.trim();
+  const share = whole !== undefined && text.endsWith("%");
+  const digits = (share ? text.slice(0, -1) : text).trim();
+  if (digits === "") return NaN;
+  const value = Number(digits.replace(",", "."));
+  return share ? (value / 100) * whole : value;
+}
+
 // All digits, in groups of three.
 export function count(value: number): string {
   return value.toLocaleString("en").replaceAll(",", "\u202f");

@@ -1,7 +1,7 @@
 // The few controls that all panels are made of.
 import type { ComponentChildren } from "preact";
 import { useId, useState } from "preact/hooks";
-import { fromPlace, number, toPlace, type Scale } from "./format";
+import { fromPlace, number, toPlace, typedNumber, type Scale } from "./format";
 
 interface SliderProps {
   label: string;
@@ -11,6 +11,7 @@ interface SliderProps {
   step?: number | undefined; // of what is set by the slider; whole steps hold for typed values as well
   scale?: Scale;
   unit?: string;
+  whole?: number; // what typed percentages are of; without it they are no numbers
   disabled?: boolean;
   onInput: (value: number, since: number) => void; // while it moves; since: time stamp of the event, ms
   onChange?: (value: number) => void; // where it comes to rest
@@ -34,12 +35,12 @@ function keySteps(key: string): number {
 export function Slider(props: SliderProps) {
   const { label, value, min, max, scale = "linear", unit = "", disabled = false } = props;
   const step = props.step ?? (scale === "log" ? undefined : 1);
-  const whole = step !== undefined && Number.isInteger(step);
+  const integer = step !== undefined && Number.isInteger(step);
   const id = useId();
   const [said, say] = useState("");
   const [draft, type] = useState<string | null>(null);
-  const textOf = (one: number) => (whole ? String(one) : number(one));
-  const within = (wish: number) => Math.min(max, Math.max(min, whole ? Math.round(wish) : wish));
+  const textOf = (one: number) => (integer ? String(one) : number(one));
+  const within = (wish: number) => Math.min(max, Math.max(min, integer ? Math.round(wish) : wish));
   const stepped = (wish: number) => (step ? Number((step * Math.round(wish / step)).toPrecision(12)) : wish);
   const toRest = (wish: number, since: number) => {
     props.onInput(wish, since);
@@ -48,8 +49,7 @@ export function Slider(props: SliderProps) {
   // While it is typed the field has what is typed; then the value again: what cannot be is not left standing.
   const typed = (since: number) => {
     if (draft === null) return;
-    const text = draft.trim();
-    const wish = text === "" ? NaN : Number(text.replace(",", "."));
+    const wish = typedNumber(draft, props.whole);
     type(null);
     if (!Number.isFinite(wish)) {
       say("This is no number.");
@@ -67,7 +67,7 @@ export function Slider(props: SliderProps) {
   // Places of a curved scale are not steps of the value: keys go by the value.
   const key = (event: KeyboardEvent) => {
     const steps = keySteps(event.key);
-    if (steps === 0 || !whole) return;
+    if (steps === 0 || !integer) return;
     event.preventDefault();
     say("");
     toRest(within(value + steps * step), event.timeStamp);

@@ -1,5 +1,17 @@
 import { expect, it } from "vitest";
-import { bytes, count, fromPlace, number, shortened, shortNames, stem, toPlace, withUnit } from "../src/format";
+import {
+  bytes,
+  count,
+  fromPlace,
+  number,
+  percent,
+  shortened,
+  shortNames,
+  stem,
+  toPlace,
+  typedNumber,
+  withUnit,
+} from "../src/format";
 import { percentile } from "../src/latency";
 import { spectrumCurves } from "../src/plots/spectrum";
 
@@ -15,6 +27,17 @@ it("numbers have three digits", () => {
   expect(count(1234567)).toBe("1\u202f234\u202f567");
   expect(withUnit(2, "km")).toBe("2 km");
   expect(withUnit(2, "")).toBe("2");
+});
+
+it("numbers are typed with either decimal mark, and as percents of a whole", () => {
+  expect(typedNumber(" 2.5 ")).toBe(2.5);
+  expect(typedNumber("2,5")).toBe(2.5);
+  expect(typedNumber("25 %", 8)).toBe(2);
+  expect(typedNumber("12,5%", 8)).toBe(1);
+  for (const text of ["", " ", "%", "x", "1 2", "5 %"]) expect(typedNumber(text), text).toBeNaN();
+  expect(typedNumber("%", 8)).toBeNaN();
+  expect(percent(0.01)).toBe("1\u00a0%");
+  expect(percent(0.12345)).toBe("12.3\u00a0%");
 });
 
 it("bytes have the largest unit below them", () => {

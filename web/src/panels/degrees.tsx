@@ -1,7 +1,7 @@
 import { useEffect } from "preact/hooks";
 import { step } from "../actions";
 import { Button } from "../button";
-import { number, withUnit } from "../format";
+import { percent, withUnit } from "../format";
 import { bandMeans, windows } from "../harmonics/windows";
 import { Spectrum } from "../plots/spectrum";
 import type { Item } from "../protocol";
@@ -35,6 +35,16 @@ function NoDegrees({ one }: { one: Item }) {
           Repair
         </Button>
         <Button onClick={() => (tab.value = "caps")}>Go to Caps</Button>
+      </>
+    );
+  }
+  if (one.atlas) {
+    return (
+      <>
+        <Hint>Each of these caps has degrees of its own. Degrees of the whole shape need its mesh.</Hint>
+        <Button main onClick={() => (tab.value = "caps")}>
+          Go to Caps
+        </Button>
       </>
     );
   }
@@ -99,7 +109,7 @@ function Equalizer() {
             onInput={(event) => set(k, Number(event.currentTarget.value), event.timeStamp)}
             onChange={() => void tool.keepLook()}
           />
-          <span>{number(tool.bandValues.value[k] ?? 1)}</span>
+          <span>{Number((tool.bandValues.value[k] ?? 1).toFixed(2))}</span>
           <small>{from === to ? from : `${from}–${to}`}</small>
         </label>
       ))}
@@ -209,24 +219,28 @@ function ErrorRow({ one }: { one: Item }) {
   }
   return (
     <Hint>
-      At degree {tool.degree.value} the surface is {withUnit(rms, one.unit)} off (rms){largest}.
+      At degree {tool.degree.value} the surface is {withUnit(rms, one.unit)} off (rms){largest}. The rms is{" "}
+      {percent(rms / tool.meanRadius(one))} of the mean radius.
     </Hint>
   );
 }
 
 function FindDegree({ one }: { one: Item }) {
-  if (!one.expansion?.rms_per_degree) return null;
+  const radius = tool.meanRadius(one);
+  if (!one.expansion?.rms_per_degree || !(radius > 0)) return null;
   return (
     <>
       <Slider
         label="Allowed error, rms"
-        value={tool.tolerance.value * one.diagonal}
-        min={1e-6 * one.diagonal}
-        max={1e-1 * one.diagonal}
+        value={tool.tolerance.value * radius}
+        min={1e-6 * radius}
+        max={0.3 * radius}
         scale="log"
         unit={one.unit}
-        onInput={(value) => (tool.tolerance.value = value / one.diagonal)}
+        whole={radius}
+        onInput={(value) => (tool.tolerance.value = value / radius)}
       />
+      <Hint>This is {percent(tool.tolerance.value)} of the mean radius.</Hint>
       <Button onClick={() => tool.degreeForTolerance(one)}>Find the degree</Button>
     </>
   );
@@ -241,7 +255,12 @@ export function DegreesPanel() {
       <Filter />
       <ErrorRow one={one} />
       <Comparison one={one} />
-      <Spectrum key={theme.value} power={one.expansion.power} tail={one.expansion.tail} degree={tool.degree.value} />
+      <Spectrum
+        key={theme.value}
+        power={one.expansion.power}
+        tail={one.expansion.tail}
+        degree={tool.mode.value === "bands" ? null : tool.degree.value}
+      />
       <FindDegree one={one} />
       {one.kind === "mesh" && (
         <details>

@@ -48,8 +48,8 @@ export function Spectrum({ power, tail, degree }: SpectrumProps) {
       />
       {tail && (
         <p class="hint">
-          The dashed line is what the edges between the faces add at high degrees. Where the measured energy follows it,
-          higher degrees show the faces of the mesh, and no more of the shape.
+          Where the measured energy follows the dashed line, higher degrees show the edges between the faces of the
+          mesh, and no more of the shape.
         </p>
       )}
     </>

@@ -32,7 +32,12 @@ export const degree = signal(0);
 export const window = signal<Window>("lanczos");
 export const amount = signal(1);
 export const bandValues = signal<number[]>([]);
-export const tolerance = signal(1e-2); // parts of the diagonal
+export const tolerance = signal(1e-2); // parts of the mean radius
+
+// The mean radius over the sphere, which is the coefficient of degree 0: it is the same whatever degrees are shown.
+export function meanRadius(one: Item): number {
+  return Math.sqrt((one.expansion?.power[0] ?? 0) / (4 * Math.PI));
+}
 
 export const top = computed(() => item.value?.expansion?.degree ?? 0);
 export const bands = computed(() => octaves(top.value));
@@ -76,7 +81,8 @@ const live = liveChannel("degree", (answer: Binary, fields: Fields) => {
 function paintError(error: Float32Array): void {
   const range = rangeOf(error);
   const size = Math.max(-range.min, range.max);
-  paintValues(error, "Error", isDiverging(range) ? { min: -size, max: size } : range);
+  if (isDiverging(range)) paintValues(error, "Error: red is outside the original", { min: -size, max: size });
+  else paintValues(error, "Error", range);
 }
 
 export function showLook(since: number): void {
@@ -111,7 +117,7 @@ export function setErrorMap(on: boolean): void {
 
 // Moves the slider to the degree that keeps the tolerance.
 export async function degreeForTolerance(one: Item): Promise<void> {
-  const fields = { op: "degree_for", item: one.id, tolerance: tolerance.value * one.diagonal };
+  const fields = { op: "degree_for", item: one.id, tolerance: tolerance.value * meanRadius(one) };
   const answer = await ask<{ degree: number; met: boolean }>(fields, "Looking for the degree");
   if (!answer) return;
   mode.value = "cut";
