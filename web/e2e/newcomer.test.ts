@@ -204,6 +204,61 @@ it("begins every panel at its top", async () => {
   expect(await top()).toBe(0);
 });
 
+// The boxes of what is cut off at its right or left within the page, or has text that its field does not show.
+const cutOff = () =>
+  now.page.evaluate(() => {
+    const inside = document.querySelectorAll<HTMLElement>(".panel *, .items li.chosen, .items li.chosen *, header *");
+    return Array.from(inside, (one) => ({ one, box: one.getBoundingClientRect() }))
+      .filter(({ one, box }) => {
+        if (box.width === 0 || one.closest("svg, pre, .chart, header span")) return false;
+        const frame = one.closest("#panel, .items ul, header")?.getBoundingClientRect();
+        const out = frame !== undefined && (box.left < frame.left - 1 || box.right > frame.right + 1);
+        return out || (one instanceof HTMLInputElement && one.scrollWidth > one.clientWidth + 1);
+      })
+      .map(({ one }) => `${one.tagName} ${one.textContent}`);
+  });
+
+it.each([
+  [1280, 800],
+  [800, 600],
+  [640, 400],
+])("cuts nothing off in a page of %i by %i pixels", async (width, height) => {
+  const { page } = now;
+  await page.setViewportSize({ width, height });
+  rholm(studio, "make", "bumpy", "--subdivisions", "3", "-o", "asteroid-of-the-belt.ply");
+  await openFile(studio, page, "asteroid-of-the-belt.ply");
+  await openTab(page, "Degrees");
+  await setNumber(page, "Up to degree", 32);
+  await press(page, "Analyse");
+  await page.getByLabel("Degrees kept").selectOption("high");
+  await page.getByLabel("Degrees kept").selectOption("bands");
+  await settled(page);
+  for (const name of ["Degrees", "Figures", "Smooth", "Texture", "Points", "Caps", "Align", "Save"]) {
+    await openTab(page, name);
+    await settled(page);
+    expect(await cutOff(), name).toEqual([]);
+  }
+  // Gains stand on one line.
+  await openTab(page, "Degrees");
+  const heights = await page.locator(".bands span").evaluateAll((all) => all.map((one) => one.getClientRects().length));
+  expect(new Set(heights)).toEqual(new Set([1]));
+});
+
+it("keeps the buttons of a brush and of a texture in view", async () => {
+  const { page } = now;
+  await page.setViewportSize({ width: 640, height: 400 });
+  for (const name of ["Smooth", "Texture"]) {
+    await openTab(page, name);
+    const panel = page.locator("#panel");
+    expect(await panel.evaluate((one) => one.scrollHeight > one.clientHeight), name).toBe(true);
+    for (const end of [false, true]) {
+      await panel.evaluate((one, down) => one.scrollTo(0, down ? one.scrollHeight : 0), end);
+      const box = await page.getByRole("button", { name: "Keep" }).boundingBox();
+      expect((box?.y ?? 400) + (box?.height ?? 0), name).toBeLessThanOrEqual(400);
+    }
+  }
+});
+
 it("turns the axis up that is chosen, and remembers it", async () => {
   const { page } = now;
   const axis = page.getByLabel("Axis that points up");

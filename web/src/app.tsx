@@ -55,7 +55,7 @@ function Items() {
   const list = useRef<HTMLUListElement>(null);
   useEffect(() => {
     list.current?.querySelector(".chosen")?.scrollIntoView({ block: "nearest", inline: "nearest" });
-  }, [selected.value]);
+  }, [selected.value, items.value]);
   return (
     <nav class="items" aria-label="Shapes">
       <FileButton />
@@ -222,8 +222,7 @@ function QuitQuestion() {
     <>
       <h2>Stop the program?</h2>
       <p class="hint">
-        {first &&
-          `${first}${others.length > 0 ? ` and ${count(others.length)} more` : ""} would be lost: not saved as shown. `}
+        {first && `Not saved as shown: ${first}${others.length > 0 ? ` and ${count(others.length)} more` : ""}. `}
         {first ? "Every other page of this studio ends, too." : "The page ends with it, and every other page of this studio."}
         {working.value && " The work that runs is cancelled."}
       </p>

@@ -90,7 +90,7 @@ export function SmoothPanel() {
         Detail shorter than {withUnit(tool.wavelength.value, one.unit)} is removed. A strength below 0 makes it
         stronger instead.
       </Hint>
-      <div class="row">
+      <div class="row sticky">
         <Button main disabled={none} onClick={tool.keep}>
           Keep
         </Button>

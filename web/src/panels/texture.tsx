@@ -80,6 +80,13 @@ function Turn() {
   );
 }
 
+// Whether the target's faces are too large for the detail that is laid on it: their edges, as far as the mean tells,
+// are much longer. Chosen: twice.
+function isCoarse(source: Item, target: Item): boolean {
+  const edge = ({ diagonal, faces }: Item) => diagonal / Math.sqrt(faces);
+  return tool.ready.value && !tool.refine.value && edge(target) > 2 * tool.scale.value * edge(source);
+}
+
 const radius = (of: Item) => ({ min: 0.01, max: 0.5, scale: "log", per: of.diagonal, unit: of.unit }) as const;
 
 export function TexturePanel() {
@@ -114,7 +121,10 @@ export function TexturePanel() {
       <LiveCheck label="Repeat the texture over the target" value={tool.repeat} />
       <LiveCheck label="Remove the target's own detail first" value={tool.removeOwn} />
       <LiveCheck label="Refine the target's mesh" value={tool.refine} />
-      <div class="row">
+      {isCoarse(source, target) && (
+        <Hint>The faces of the target are larger than those of the source: without refining, detail is lost.</Hint>
+      )}
+      <div class="row sticky">
         <Button main disabled={!tool.ready.value} onClick={tool.keep}>
           Keep
         </Button>
