@@ -115,8 +115,7 @@ Item open_text(std::string_view bytes, const std::string& name, const Context& c
   try {
     return open_coefficients(bytes, name, context);
   } catch (const Error&) {
-    throw Error(ErrorCode::kUnsupported,
-                name + " is neither a shape nor coefficients that are known: " + reason);
+    throw Error(ErrorCode::kUnsupported, reason);
   }
 }
 

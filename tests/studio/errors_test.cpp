@@ -163,6 +163,20 @@ TEST(Errors, ItemsThatAreNotThereOrOfAnotherKind) {
   EXPECT_EQ(client.ask("GET", "api/item/1/measures").status, 422);
 }
 
+TEST(Errors, CapsAreAdvisedForWhatIsNotStarShapedUnlessItIsCaps) {
+  Client client;
+  client.step({{"op", "make"}, {"shape", "torus"}});
+  client.step({{"op", "compress"}, {"item", 1}, {"tolerance", 0.05}});
+  const Json items = client.state().at("items");
+  const auto advised = [](const Json& item) {
+    const Json& star = item.at("star");
+    EXPECT_FALSE(star.at("star_shaped").get<bool>());
+    return star.at("why").get<std::string>().find("Caps take") != std::string::npos;
+  };
+  EXPECT_TRUE(advised(items.at(0)));
+  EXPECT_FALSE(advised(items.at(1)));
+}
+
 TEST(Errors, WhatTheLibraryRefusesIsSaidInItsWords) {
   Client client;
   client.step({{"op", "make"}, {"shape", "torus"}});

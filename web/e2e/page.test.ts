@@ -57,6 +57,8 @@ it("shows a shape, analysed, and three sentences", async () => {
   await page.getByText("· degree 32").waitFor();
   expect(await page.locator(".welcome p").count()).toBe(3);
   await picture(page, "first-look");
+  await press(page, /^Remove bumpy/);
+  expect(await page.locator(".welcome").count()).toBe(0);
 });
 
 it("has one script and one style sheet and asks nobody else", async () => {

@@ -95,6 +95,9 @@ it("a shape is compressed to caps, shown in colours", async () => {
   }
   const colored = await canvas(page);
   await picture(page, "caps");
+  await openTab(page, "Degrees");
+  await page.getByText("Each of these caps has degrees of its own").waitFor();
+  await press(page, "Go to Caps");
   await page.getByLabel("A colour for each cap").uncheck();
   await settled(page);
   expect(Buffer.compare(colored, await canvas(page))).not.toBe(0);

@@ -282,7 +282,7 @@ export async function openForLongJob(studio: Studio, page: Page): Promise<void> 
 }
 export async function startLongJob(page: Page): Promise<void> {
   await openTab(page, "Caps");
-  await setNumber(page, "Allowed error", 1e-4);
+  await setNumber(page, "Allowed error, rms", 1e-4);
   await setNumber(page, "Highest degree of a cap", 2);
   await page.getByRole("button", { name: "Compress" }).click();
   await page.locator("progress").waitFor();

@@ -1,6 +1,8 @@
 // What is found out about a mesh when it comes in, and how people are told.
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "rholm/atlas.h"
 #include "studio/items/errors.h"
 #include "studio/items/item.h"
@@ -98,14 +100,17 @@ std::string why_not(const Item& item) {
   if (star.star_shaped) return "Every point of the surface is seen once from the centre.";
   std::string text;
   if (const std::size_t n = item.facts->offending.size(); n > 0) {
-    text = fmt::format("{} {} their back to the centre. ", grouped(n),
-                       n == 1 ? "face shows" : "faces show");
+    text = fmt::format("{} not seen from the best centre. ",
+                       n == 1 ? "1 face is" : grouped(n) + " faces are");
   }
-  if (star.rays > 0) {
-    text +=
-        fmt::format("{:.1f} % of the directions meet the surface once. ", 100 * star.once_share);
+  if (star.rays > 0 && star.once_share < 1) {
+    // Rounded down: nearly all is not all.
+    text += fmt::format(
+        "{:.1f} % of the directions from it meet the surface exactly once; all of them "
+        "should. ",
+        std::floor(1000 * star.once_share) / 10);
   }
-  return text + "Caps, by Compress, take any shape.";
+  return item.atlas ? text : text + "Caps take shapes of any kind.";
 }
 
 }  // namespace

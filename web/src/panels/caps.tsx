@@ -21,7 +21,7 @@ function Compress({ one }: { one: Item }) {
     <>
       <Hint>A small model of a shape of any kind: overlapping caps, each with an expansion of its own.</Hint>
       <Slider
-        label="Allowed error"
+        label="Allowed error, rms"
         value={tolerance.value * one.diagonal}
         min={leastError * one.diagonal}
         max={mostError * one.diagonal}

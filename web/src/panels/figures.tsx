@@ -115,7 +115,7 @@ export function FiguresPanel() {
   return (
     <>
       <UnreadTable />
-      {demo.value && <Welcome />}
+      {demo.value && one && <Welcome />}
       <MakeShape />
       {one && (
         <TextField

@@ -83,7 +83,8 @@ function Simplify({ one }: { one: Item }) {
   const wanted = Math.min(Math.max(faces.value, leastFaces), most);
   return (
     <>
-      <Hint>Fewer faces for the same surface.</Hint>
+      <h3>Simplify the mesh</h3>
+      <Hint>Keeps the surface, with fewer faces.</Hint>
       <Slider
         label="Faces"
         value={wanted}

@@ -9,10 +9,10 @@ import { Copy, Hint, Select, Slider } from "../widgets";
 
 type Format = readonly [format: string, label: string];
 const meshes: readonly Format[] = [
-  ["ply", "PLY"],
-  ["obj", "OBJ"],
-  ["off", "OFF"],
-  ["stl", "STL"],
+  ["ply", "Mesh, PLY"],
+  ["obj", "Mesh, OBJ"],
+  ["off", "Mesh, OFF"],
+  ["stl", "Mesh, STL"],
 ];
 const coefficients: readonly Format[] = [
   ["h5", "Model (HDF5)"],
@@ -27,8 +27,8 @@ const endings: Record<string, string> = { shtools: "sh", icgem: "gfc" };
 export function formatsOf(kind: Kind, expanded: boolean): readonly Format[] {
   if (kind === "points") {
     return [
-      ["ply", "PLY"],
-      ["xyz", "XYZ"],
+      ["ply", "Points, PLY"],
+      ["xyz", "Points, XYZ"],
     ];
   }
   const model: readonly Format[] = [["h5", "Model (HDF5)"]];
