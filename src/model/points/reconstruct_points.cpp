@@ -106,6 +106,7 @@ WorkingPoints::WorkingPoints(PointCloud cloud, const ReconstructOptions& options
 void WorkingPoints::compute_normals(const ReconstructOptions& options, ReconstructReport& report,
                                     const Context& context) {
   cloud_.normals.clear();
+  neighbors_ = {};  // of gaps by places alone
   // Strays are gone, if they shall.
   const OrientOptions wanted{.keep_strays = true, .confidence = options.confidence};
   report.unsure = orient(cloud_, wanted, context).unsure;
@@ -146,7 +147,8 @@ void WorkingPoints::note_contradictions(const SignPieces& pieces, const SignChec
 
 void WorkingPoints::mend_normals(const ReconstructOptions& options, ReconstructReport& report,
                                  const Context& context) {
-  const SignPieces pieces = find_sign_pieces(*tree_, points_, normals_, gaps_, {}, context);
+  const SignPieces pieces =
+      find_sign_pieces(*tree_, points_, normals_, gaps_, {}, context, std::move(neighbors_));
   const MendedSigns mended = mend_signs(all_of(pieces), sign_samples(pieces, context),
                                         options.holes == HolePolicy::kFill, context);
   note_contradictions(pieces, mended.check, true, report);
@@ -205,6 +207,7 @@ void WorkingPoints::order_points(const Context& context) {
   normals_.clear();
   if (!cloud_.normals.empty()) order_normals(context);
   gaps_ = find_gaps(*tree_, points_, normals_, context);
+  neighbors_.clear();
 }
 
 void WorkingPoints::order_normals(const Context& context) {
@@ -219,7 +222,13 @@ void WorkingPoints::order_normals(const Context& context) {
 std::size_t WorkingPoints::remove_strays(const Context& context) {
   const std::size_t before = size();
   for (int pass = 0; pass < kStrayPasses; ++pass) {
-    if (!remove(find_strays(*tree_, points_, gaps_, context), context)) break;
+    // Only signs of given normals are looked at with these gaps.
+    std::vector<std::uint32_t> neighbors;
+    auto* const wanted = normals_.empty() ? nullptr : &neighbors;
+    if (!remove(find_strays(*tree_, points_, gaps_, context, wanted), context)) {
+      neighbors_ = std::move(neighbors);
+      break;
+    }
   }
   return before - size();
 }

@@ -91,10 +91,11 @@ class WorkingPoints {
   PointCloud cloud_;
   std::unique_ptr<PointTree> tree_;
   SamplingGaps gaps_;
-  std::size_t around_ = kCircle;        // neighbours that say the area of a point
-  bool computed_ = false;               // normals
-  bool has_one_sensor_ = false;         // by an option: no attribute of the surface
-  std::vector<Vec3> points_, normals_;  // in the order of the tree
+  std::vector<std::uint32_t> neighbors_;  // graph_neighbors() of these, if they are known
+  std::size_t around_ = kCircle;          // neighbours that say the area of a point
+  bool computed_ = false;                 // normals
+  bool has_one_sensor_ = false;           // by an option: no attribute of the surface
+  std::vector<Vec3> points_, normals_;    // in the order of the tree
   double diagonal_ = 0;
 };
 

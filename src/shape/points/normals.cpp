@@ -66,15 +66,7 @@ void keep_neighbors(const PointTree& tree, std::size_t i, std::size_t stride,
                     std::vector<Neighbor>& found, std::span<std::uint32_t> rows) {
   const std::size_t reach = stride * kGraphNeighbors + 1;
   if (found.size() < reach) tree.nearest_to(i, reach, found);
-  const std::size_t last = std::min(reach, found.size());
-  const std::size_t nearest = stride > 1 ? kGraphNeighbors / 2 : kGraphNeighbors;
-  std::uint32_t* row = &rows[i * kGraphNeighbors];
-  std::size_t n = 0;
-  for (std::size_t j = 0; j < last && n < kGraphNeighbors; ++j) {
-    const bool taken = n < nearest || (j + stride / 2) % stride == 0;
-    if (found[j].index != i && taken) row[n++] = found[j].index;
-  }
-  std::fill(row + n, row + kGraphNeighbors, static_cast<std::uint32_t>(i));
+  keep_graph_neighbors(i, stride, found, rows);
 }
 
 // Normals of the fits at one seed: of all k neighbours' odd and even halves.
@@ -190,6 +182,19 @@ int choose_neighbors(const PointTree& tree, std::span<const Vec3> points, const 
 }
 
 bool are_noisy(int n_neighbors) { return n_neighbors > kLadder[0]; }
+
+void keep_graph_neighbors(std::size_t i, std::size_t stride, std::span<const Neighbor> found,
+                          std::span<std::uint32_t> rows) {
+  const std::size_t last = std::min(stride * kGraphNeighbors + 1, found.size());
+  const std::size_t nearest = stride > 1 ? kGraphNeighbors / 2 : kGraphNeighbors;
+  std::uint32_t* row = &rows[i * kGraphNeighbors];
+  std::size_t n = 0;
+  for (std::size_t j = 0; j < last && n < kGraphNeighbors; ++j) {
+    const bool taken = n < nearest || (j + stride / 2) % stride == 0;
+    if (found[j].index != i && taken) row[n++] = found[j].index;
+  }
+  std::fill(row + n, row + kGraphNeighbors, static_cast<std::uint32_t>(i));
+}
 
 std::vector<std::uint32_t> graph_neighbors(const PointTree& tree, const SamplingGaps& gaps,
                                            const Context& context) {

@@ -46,6 +46,9 @@ bool are_noisy(int n_neighbors);
 // reaches other rows.
 std::vector<std::uint32_t> graph_neighbors(const PointTree& tree, const SamplingGaps& gaps,
                                            const Context& context);
+// The row of one point: `found` has itself and its stride * kGraphNeighbors nearest points, or all.
+void keep_graph_neighbors(std::size_t i, std::size_t stride, std::span<const Neighbor> found,
+                          std::span<std::uint32_t> rows);
 
 // Fits once more, to the neighbours on the same side of `sheet` only: unit vectors that point out
 // of what the points bound, which tell two close sheets apart. Where a fit has nothing to do with

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/parallel.h"
 #include "shape/points/orient_graph.h"
@@ -21,12 +22,12 @@ constexpr double kCrease = 0.8;
 
 }  // namespace
 
-SignGraph::SignGraph(const PointTree& tree, std::span<const Vec3> points,
-                     std::span<const Vec3> normals, const SamplingGaps& gaps,
-                     std::span<const std::uint8_t> foreign, const Context& context)
+SignGraph::SignGraph(std::vector<std::uint32_t> neighbors, std::span<const Vec3> points,
+                     std::span<const Vec3> normals, std::span<const std::uint8_t> foreign,
+                     const Context& context)
     : points_(points),
       normals_(normals),
-      neighbors_(graph_neighbors(tree, gaps, context)),
+      neighbors_(std::move(neighbors)),
       edges_(neighbors_.size()),
       scatter_(find_scatter()) {
   const double slack = kNoiseOfScatter * scatter_;
@@ -71,10 +72,11 @@ double SignGraph::find_scatter() const {
 
 SignEdge SignGraph::look(std::size_t e, double slack) const {
   const std::uint32_t i = from(e), j = to(e);
-  const double length = norm(points_[j] - points_[i]);
-  if (i == j || !(length > 0)) return {};
+  if (i == j) return {};
   const double agreed = agreement(points_[i], normals_[i], points_[j], normals_[j], slack);
   if (std::abs(agreed) < kSure) return {};
+  const double length = norm(points_[j] - points_[i]);
+  if (!(length > 0)) return {};
   const Vec3 across = normals_[j] + (agreed < 0 ? -1.0 : 1.0) * normals_[i];
   const double height = height_over(e, across) / 2;
   if (std::abs(height) > slack + kLevel * length) return {};

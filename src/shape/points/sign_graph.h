@@ -29,9 +29,9 @@ struct SignEdge {
 class SignGraph {
  public:
   // Points and unit normals (zero: of no say) in the order of the tree. Edges that begin at points
-  // which are `foreign`, if there are any, say nothing.
-  SignGraph(const PointTree& tree, std::span<const Vec3> points, std::span<const Vec3> normals,
-            const SamplingGaps& gaps, std::span<const std::uint8_t> foreign,
+  // which are `foreign`, if there are any, say nothing. `neighbors` are graph_neighbors().
+  SignGraph(std::vector<std::uint32_t> neighbors, std::span<const Vec3> points,
+            std::span<const Vec3> normals, std::span<const std::uint8_t> foreign,
             const Context& context);
 
   std::size_t n_points() const { return points_.size(); }

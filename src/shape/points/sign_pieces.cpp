@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "base/cancel.h"
 #include "base/disjoint_sets.h"
@@ -63,10 +64,12 @@ void merge(std::vector<PiecePair>& pairs) {
 
 SignPieces find_sign_pieces(const PointTree& tree, std::span<const Vec3> points,
                             std::span<const Vec3> normals, const SamplingGaps& gaps,
-                            std::span<const std::uint8_t> foreign, const Context& context) {
+                            std::span<const std::uint8_t> foreign, const Context& context,
+                            std::vector<std::uint32_t> neighbors) {
   SignPieces pieces;
   if (points.empty()) return pieces;
-  const SignGraph graph(tree, points, normals, gaps, foreign, context);
+  if (neighbors.empty()) neighbors = graph_neighbors(tree, gaps, context);
+  const SignGraph graph(std::move(neighbors), points, normals, foreign, context);
   pieces.scatter = graph.scatter();
   DisjointSets sets(points.size());
   CancelPoll poll;
@@ -77,6 +80,7 @@ SignPieces find_sign_pieces(const PointTree& tree, std::span<const Vec3> points,
   number_pieces(graph, foreign, sets, pieces);
   for (std::size_t e = 0; e < graph.size(); ++e) {
     poll();
+    if (graph[e].says == Says::kAgree) continue;  // within a piece
     const std::uint32_t i = graph.from(e), j = graph.to(e);
     if (!foreign.empty() && foreign[i] != 0) continue;
     const bool contradicts = graph[e].says == Says::kContradict;

@@ -55,9 +55,10 @@ struct SignPieces {
 inline constexpr std::uint32_t kNoPiece = ~std::uint32_t{0};
 
 // Points and unit normals (zero: of no say) in the order of the tree; points that are `foreign`, if
-// there are any, are own points of another part.
+// there are any, are own points of another part. `neighbors` are graph_neighbors(), or empty.
 SignPieces find_sign_pieces(const PointTree& tree, std::span<const Vec3> points,
                             std::span<const Vec3> normals, const SamplingGaps& gaps,
-                            std::span<const std::uint8_t> foreign, const Context& context);
+                            std::span<const std::uint8_t> foreign, const Context& context,
+                            std::vector<std::uint32_t> neighbors = {});
 
 }  // namespace rholm

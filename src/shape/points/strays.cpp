@@ -11,6 +11,7 @@
 #include "base/parallel.h"
 #include "base/shared_sets.h"
 #include "shape/points/members.h"
+#include "shape/points/normals.h"
 #include "shape/points/plane_fit.h"
 
 namespace rholm {
@@ -18,6 +19,7 @@ namespace {
 
 constexpr std::size_t kEighth = 8;
 constexpr std::size_t kLinks = 8;  // half of them of the point's own row
+static_assert(kLinks <= kGraphNeighbors, "neighbours of the graph are enough for links");
 // Two points are of one group when they are no farther apart than so many times the way to the
 // eighth neighbour of either: 2.4 times the spacing. Of even random points one in 10^8 is alone.
 constexpr double kReach = 1.5;
@@ -55,9 +57,10 @@ float median(std::vector<float> values) {
 class Groups {
  public:
   Groups(const PointTree& tree, std::span<const Vec3> points, const SamplingGaps& gaps,
-         const Context& context)
+         const Context& context, std::vector<std::uint32_t>* neighbors)
       : tree_(tree), points_(points), context_(context), eighth_(points.size()) {
-    find_links(gaps);
+    if (neighbors != nullptr) neighbors->resize(points.size() * kGraphNeighbors);
+    find_links(gaps, neighbors);
   }
 
   std::vector<std::uint8_t> strays() const {
@@ -93,20 +96,24 @@ class Groups {
   }
 
  private:
-  void find_links(const SamplingGaps& gaps) {
+  void find_links(const SamplingGaps& gaps, std::vector<std::uint32_t>* neighbors) {
+    const std::size_t wanted = neighbors != nullptr ? kGraphNeighbors : kLinks;
     links_ = AlignedArray<std::array<Neighbor, kLinks>>(points_.size());
     parallel_for(points_.size(), 1024, context_, {.name = "outliers"},
                  [&](std::size_t begin, std::size_t end) {
                    std::vector<Neighbor> near;
                    for (std::size_t i = begin; i < end; ++i) {
                      const std::size_t stride = gaps.stride(i);
-                     tree_.nearest_to(i, stride * kLinks + 1, near);
+                     tree_.nearest_to(i, stride * wanted + 1, near);
                      const std::size_t last = std::min(stride * kEighth, near.size() - 1);
                      eighth_[i] = std::sqrt(near[last].distance2);
                      links_[i].fill({0, static_cast<std::uint32_t>(i)});
                      for (std::size_t j = 0; j < kLinks; ++j) {
                        const std::size_t place = j < kLinks / 2 ? j + 1 : (j + 1) * stride;
                        if (place < near.size()) links_[i][j] = near[place];
+                     }
+                     if (neighbors != nullptr) {
+                       keep_graph_neighbors(i, stride, near, *neighbors);
                      }
                    }
                  });
@@ -277,9 +284,13 @@ std::vector<std::uint8_t> find_far_strays(std::span<const Vec3> points) {
 }
 
 std::vector<std::uint8_t> find_strays(const PointTree& tree, std::span<const Vec3> points,
-                                      const SamplingGaps& gaps, const Context& context) {
-  if (points.size() < kLeastGroup) return std::vector<std::uint8_t>(points.size(), 0);
-  return Groups(tree, points, gaps, context).strays();
+                                      const SamplingGaps& gaps, const Context& context,
+                                      std::vector<std::uint32_t>* neighbors) {
+  if (points.size() < kLeastGroup) {
+    if (neighbors != nullptr) *neighbors = graph_neighbors(tree, gaps, context);
+    return std::vector<std::uint8_t>(points.size(), 0);
+  }
+  return Groups(tree, points, gaps, context, neighbors).strays();
 }
 
 }  // namespace rholm

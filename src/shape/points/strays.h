@@ -32,8 +32,9 @@ inline constexpr int kStrayPasses = 3;
 // One flag per point, in the order of the tree: 1 for a point that is farther from the others than
 // both have neighbours, alone or in a group of a few, and for those of a group that fills a volume
 // more thinly than the largest group its surface: outliers, at any distance. Normals are not
-// needed.
+// needed. `neighbors`, if it is given, gets graph_neighbors(), which are found on the way.
 std::vector<std::uint8_t> find_strays(const PointTree& tree, std::span<const Vec3> points,
-                                      const SamplingGaps& gaps, const Context& context);
+                                      const SamplingGaps& gaps, const Context& context,
+                                      std::vector<std::uint32_t>* neighbors = nullptr);
 
 }  // namespace rholm

@@ -9,6 +9,7 @@
 
 #include "rholm/points.h"
 #include "rholm/primitives.h"
+#include "shape/points/normals.h"
 #include "support/test_points.h"
 
 namespace rholm {
@@ -102,6 +103,23 @@ TEST(strays, noise_makes_none) {
     points[i] *= 1 + 0.02 * test::random_normal(4, i);  // half of the spacing
   }
   EXPECT_LE(count(strays_of(points), 0, points.size()), 10U);
+}
+
+// Scattered, in rows that lie closer along than across, and fewer than a group has.
+TEST(strays, give_the_neighbours_that_are_found_alone) {
+  std::vector<Vec3> rows;
+  for (int row = 0; row < 30; ++row) {
+    for (int i = 0; i < 300; ++i) rows.push_back({0.1 * row, 0.01 * i, 1e-3 * std::sin(7.0 * i)});
+  }
+  for (const std::vector<Vec3>& points :
+       {test::sphere_points(5000).points, rows, test::sphere_points(12).points}) {
+    const test::OrderedCloud ordered(points);
+    const SamplingGaps gaps = find_gaps(ordered.tree, ordered.points, {}, {});
+    std::vector<std::uint32_t> found;
+    const auto flags = find_strays(ordered.tree, ordered.points, gaps, {}, &found);
+    EXPECT_EQ(found, graph_neighbors(ordered.tree, gaps, {}));
+    EXPECT_EQ(flags, find_strays(ordered.tree, ordered.points, gaps, {}));
+  }
 }
 
 TEST(strays, few_points_are_survived_and_threads_change_nothing) {
