@@ -78,7 +78,8 @@ struct ReconstructReport {
   // Share of the points that lie off the surface: the rms distance of the 32 points around from it
   // is more than 1/5.5 of the distance to the opposite wall, so that points fill the body, or their
   // noise hides how thick it is; or more than half a spacing, and all points are spread evenly
-  // across the surface, as noise is not. About 200 points are asked, before it is simplified.
+  // across the surface, as noise is not. About 200 points are asked, or 67 if few of
+  // these are off, before it is simplified.
   double points_off_surface = 0;
   std::vector<Vec3> places_off_surface = {};  // up to three of these points
   // Share of the points at which the winding number of all points says that the given normal,

@@ -314,7 +314,7 @@ NO_SURFACE = {
     "voxel_ball": (voxel_ball, "volume"), "blob": (blob, "volume"), "slab": (slab, "volume"),
     "slab_lattice": (slab_lattice, "volume"), "thick_shell": (thick_shell, "volume"),
     "rod": (rod, "volume"), "thin_slab": (thin_slab, "volume"), "tetrahedron": (tetrahedron, "volume"),
-    "layers": (layers, "volume"), "jittered_layers": (jittered_layers, "volume"), "bar": (bar, "volume"),
+    "layers": (layers, "volume"), "jittered_layers": (jittered_layers, "volume"), "bar": (bar, "volume|curve"),
     "round_rod": (round_rod, "volume"), "line": (line, "curve"), "circle": (circle, "curve"),
     "helix": (helix, "curve"), "knot": (knot, "curve"), "wires": (wires, "curve"),
     "crossing_planes": (crossing_planes, None), "crossing_spheres": (crossing_spheres, None),

@@ -143,9 +143,7 @@ Reconstruction reconstruct(PointCloud cloud, const ReconstructOptions& options,
       .typical = std::max(spacing.median, report.step),
       .at = [&](const Vec3& place) { return std::max(points.spacing_at(place), report.step); }};
   const auto judge = [&](Mesh& mesh) {
-    const std::vector<WallVertex> near =
-        vertices_near(patches, report.step, mesh, mesh.vertices.size());
-    note_walls(check_walls(patches, near, report.step, context), report);
+    note_walls(check_walls(patches, mesh, report.step, context), report);
   };
   const AtlasSurfaceOptions wanted{.step = report.step,
                                    .keep_holes = options.holes == HolePolicy::kKeep,

@@ -31,6 +31,8 @@ struct WallPatches {
   std::span<const Vec3> operator[](std::size_t p) const {
     return std::span(points).subspan(p * kPatch, kPatch);
   }
+  // Every k-th patch.
+  WallPatches every(std::size_t k) const;
 };
 
 // Patches of some of n points in all. Points are in the order of the tree; those that are
@@ -63,5 +65,7 @@ struct WallCheck {
 };
 WallCheck check_walls(const WallPatches& patches, std::span<const WallVertex> vertices, double step,
                       const Context& context);
+// Of a whole mesh: of every third patch, and of all only where more than a few of these are off.
+WallCheck check_walls(const WallPatches& patches, Mesh& mesh, double step, const Context& context);
 
 }  // namespace rholm

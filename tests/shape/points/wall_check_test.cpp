@@ -153,8 +153,19 @@ TEST(wall_check, needs_only_the_vertices_near_patches) {
   EXPECT_EQ(vertices_near(patches, kStep, mesh, 10).size(), 10U);
   const WallCheck some = check_walls(patches, kept, kStep, {});
   EXPECT_GT(some.off, 0U);
+  const WallCheck whole = check_walls(patches, mesh, kStep, {});
+  EXPECT_EQ(whole.patches, patches.size());
+  EXPECT_EQ(whole.at, all.at);
   EXPECT_EQ(some.off, all.off);
   EXPECT_EQ(some.at, all.at);
+}
+
+TEST(wall_check, looks_at_a_third_where_few_are_off) {
+  const WallPatches patches = patches_of(noisy_plate(0.3, 0.02));
+  Mesh mesh = plate(0.3).mesh();
+  const WallCheck check = check_walls(patches, mesh, kStep, {});
+  EXPECT_EQ(check.patches, (patches.size() + 2) / 3);
+  EXPECT_LT(check.share(), 0.1);
 }
 
 TEST(wall_check, is_the_same_in_parts_and_by_any_number_of_threads) {
