@@ -21,7 +21,6 @@
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/session.h"
 #include "rholm/error.h"
-#include "rholm/gravity_field.h"
 #include "rholm/large_mesh.h"
 #include "rholm/point_stream.h"
 
@@ -96,21 +95,16 @@ bool convert_mapped(const Options& options, const std::string& path, Session& se
   return true;
 }
 
-// What a gravity field is relative to: as the options say, else as the file of the input does.
-std::optional<GravityField> gravity_of(const Options& options) {
-  if (options.gravity_constant) {
-    return GravityField{*options.gravity_constant, *options.reference_radius};
-  }
-  return is_stream(options.input) ? std::nullopt : read_gravity_field(options.input);
-}
-
-// Numbers without a word of what they are of are those of a gravity field if the options say so.
-Expansion field_of(const Options& options, const CoefficientsFile& file) {
-  Expansion field = file.expansion;
+// With the gravity field that the options say. Numbers without a word of what they are of are its
+// coefficients.
+Expansion expansion_of(const Options& options, const CoefficientsFile& file) {
+  Expansion expansion = file.expansion;
+  if (!options.gravity_constant) return expansion;
   const bool unsaid =
       std::find(file.assumed.begin(), file.assumed.end(), "function radius") != file.assumed.end();
-  if (options.gravity_constant && unsaid) field.function = RadialFunction::kOther;
-  return field;
+  if (unsaid) expansion.function = RadialFunction::kOther;
+  expansion.gravity = {*options.gravity_constant, *options.reference_radius};
+  return expansion;
 }
 
 void convert_coefficients(const Options& options, const CoefficientsFile& file,
@@ -124,15 +118,7 @@ void convert_coefficients(const Options& options, const CoefficientsFile& file,
                     shell_word(options.output)));
   }
   const CoefficientsOutput output = coefficients_output(options.output, options.format);
-  if (output.format == CoefficientsFormat::kIcgem) {
-    if (const std::optional<GravityField> gravity = gravity_of(options)) {
-      write_gravity_field(field_of(options, file), *gravity, output.path, convention);
-      session.note(fmt::format("{} has a gravity constant of {} m^3/s^2 and a radius of {} m",
-                               display_name(output.path), gravity->constant, gravity->radius));
-      return;
-    }
-  }
-  write_coefficients_output(file.expansion, output, convention, session);
+  write_coefficients_output(expansion_of(options, file), output, convention, session);
 }
 
 // Whether it is points that are written as they are read: always those that take no more time then
@@ -207,8 +193,12 @@ int run(const Options& options, Session& session) {
   if (options.gravity_constant.has_value() != options.reference_radius.has_value()) {
     throw UsageError("--gravity-constant and --reference-radius belong together: give both");
   }
-  if (options.gravity_constant && named_format(options) != "icgem") {
-    throw UsageError("--gravity-constant and --reference-radius are for ICGEM files (.gfc)");
+  const std::string wanted = named_format(options);
+  if (options.gravity_constant && (wanted == "npy" || is_one_of(wanted, shape_formats()))) {
+    throw UsageError(
+        fmt::format("--gravity-constant and --reference-radius are of coefficients, and "
+                    "'{}' has no room for them: write .gfc, .h5, .json or .sh",
+                    wanted));
   }
   check_writable(options.output);
   options.memory.keep(session);
@@ -245,9 +235,9 @@ std::vector<Option> option_list(Options& o) {
                 format_option(o.format, all_formats()),
                 {.name = "gravity-constant",
                  .value = "GM",
-                 .help = "of the gravity field that the coefficients are of, in m^3/s^2: an ICGEM "
-                         "file (.gfc) says it, and other programs read it; by default that of the "
-                         "input, if it has one",
+                 .help = "of the gravity field that the coefficients are of, in m^3/s^2: all "
+                         "formats but .npy keep it, and other programs read it in .gfc; by default "
+                         "that of the input, if it has one",
                  .target = &o.gravity_constant,
                  .above = 0},
                 {.name = "reference-radius",

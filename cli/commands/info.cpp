@@ -372,6 +372,9 @@ int report_coefficients(const Options& options, const CoefficientsFile& file, Se
   json["errors"] = json_of(expansion.errors);
   json["diagonal"] = expansion.errors ? Json(expansion.errors->diagonal) : Json(nullptr);
   json["signed_sum"] = expansion.signed_sum;
+  const std::optional<GravityField>& gravity = expansion.gravity;
+  json["gravity_constant"] = gravity ? Json(gravity->gravity_constant) : Json(nullptr);
+  json["reference_radius"] = gravity ? Json(gravity->reference_radius) : Json(nullptr);
   json.update(measures_json(measures));
   std::string text = fmt::format("{}: coefficients, {}\n", display_name(options.input), format);
   text += line("degree", fmt::format("{}", expansion.coefficients.degree()));
@@ -382,6 +385,7 @@ int report_coefficients(const Options& options, const CoefficientsFile& file, Se
   text += line("numbers in", convention);
   for (const std::string& assumed : file.assumed) text += line("assumed", assumed);
   if (!file.product.empty()) text += line("of", file.product + ", no shape");
+  if (gravity) text += line("relative to", text_of(*gravity));
   for (const std::string& what : file.passed_over) text += line("not used", what);
   if (measures && measures->volume && measures->area && measures->centroid) {
     text += line("volume", text_of(*measures->volume));

@@ -67,8 +67,9 @@ Guess guess(std::span<const char> head, const std::string& path) {
 
 // "a gravity_field, no shape".
 std::string not_a_shape(const CoefficientsFile& file) {
-  return file.product.empty() ? "no shape (its function is 'other')"
-                              : fmt::format("a {}, no shape", file.product);
+  const std::string product = file.expansion.gravity ? "gravity_field" : file.product;
+  return product.empty() ? "no shape (its function is 'other')"
+                         : fmt::format("a {}, no shape", product);
 }
 
 // A file that may be looked at several times: its bytes if it is a stream, else its beginning.
@@ -110,8 +111,10 @@ void say_what_it_means(const CoefficientsFile& file, const std::string& path, Se
         fmt::format("{} does not say it, assumed: {}", display_name(path), fmt::join(open, ", ")));
   }
   if (file.expansion.function == RadialFunction::kOther) {
-    session.note(fmt::format("{} is {}: its coefficients are taken as they are{}{}",
-                             display_name(path), not_a_shape(file),
+    const std::string relative =
+        file.expansion.gravity ? ", " + text_of(*file.expansion.gravity) : "";
+    session.note(fmt::format("{} is {}: its coefficients are taken as they are{}{}{}",
+                             display_name(path), not_a_shape(file), relative,
                              file.passed_over.empty() ? "" : ", without ",
                              fmt::join(file.passed_over, ", ")));
   }

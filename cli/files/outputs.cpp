@@ -35,6 +35,7 @@ std::string unsaid_by_npy(const Expansion& expansion, const Convention& conventi
                                  to_string(expansion.function), c.x, c.y, c.z);
   if (!expansion.unit.empty()) text += "; unit " + expansion.unit;
   if (!expansion.method.empty()) text += "; method " + expansion.method;
+  if (expansion.gravity) text += "; " + text_of(*expansion.gravity);
   if (expansion.norm_squared || expansion.errors) text += "; their norm and errors are lost too";
   return text;
 }

@@ -103,6 +103,11 @@ std::string text_of(const Vec3& v) {
   return fmt::format("({}, {}, {})", text_of(v.x), text_of(v.y), text_of(v.z));
 }
 
+std::string text_of(const GravityField& gravity) {
+  return fmt::format("gravity constant {} m^3/s^2, reference radius {} m", gravity.gravity_constant,
+                     gravity.reference_radius);
+}
+
 std::string text_of(const std::vector<Attribute>& attributes) {
   std::vector<std::string> names;
   names.reserve(attributes.size());

@@ -43,7 +43,8 @@ std::string yes_or(bool yes, const std::string& otherwise);
 
 // Seven significant digits.
 std::string text_of(double value);
-std::string text_of(const Vec3& v);                             // "(x, y, z)"
+std::string text_of(const Vec3& v);                // "(x, y, z)"
+std::string text_of(const GravityField& gravity);  // "gravity constant 4e14 m^3/s^2, ..."
 std::string text_of(const std::vector<Attribute>& attributes);  // "red (uint8), ..."
 
 // "1 vertex", "2 vertices"; `many` by default with an s.

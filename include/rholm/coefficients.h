@@ -76,6 +76,13 @@ struct TruncationErrors {
   double diagonal = 0;                 // of the shape's bounding box; 0 if unknown
 };
 
+// What the coefficients of a gravity field are relative to.
+struct GravityField {
+  double gravity_constant = 0;  // G M in m^3/s^2; finite and above 0
+  double reference_radius = 0;  // of the sphere about the centre, in m; finite and above 0
+  friend bool operator==(const GravityField&, const GravityField&) = default;
+};
+
 // A surface as coefficients: what a model file holds.
 struct Expansion {
   Coefficients coefficients = {};  // in the unit of lengths; of a gauge in 1/unit
@@ -94,6 +101,11 @@ struct Expansion {
   // Made of a surface that is not star-shaped: the function is the signed sum of the radii along
   // each direction, and the volume and the area of its graph are not those of the body.
   bool signed_sum = false;
+  // Of a gravity field (kOther); empty if unknown, and for all others.
+  std::optional<GravityField> gravity = {};
+  // Relative error that the coefficients were computed with, as AnalyzeOptions::precision; empty if
+  // unknown.
+  std::optional<double> precision = {};
 };
 
 // Throws Unsupported for coefficients that are said not to be of a surface (kOther); looks at no
@@ -103,6 +115,10 @@ void require_surface(const Expansion& expansion);
 // Throws Unsupported for a signed sum, whose graph is not the surface of the body: `what` names
 // what is asked for ("the volume").
 void require_star_shaped(const Expansion& expansion, const std::string& what);
+
+// Throws InvalidInput for a gravity field whose numbers are not finite and above 0, or whose
+// function is not kOther; `name` begins the message. An expansion without one is let pass.
+void check_gravity(const Expansion& expansion, const std::string& name);
 
 // How numbers of a file are scaled: what the mean square of each harmonic over the sphere is.
 enum class Normalization {

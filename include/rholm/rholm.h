@@ -15,7 +15,6 @@
 #include "rholm/error.h"
 #include "rholm/file.h"
 #include "rholm/filter.h"
-#include "rholm/gravity_field.h"
 #include "rholm/grid.h"
 #include "rholm/harmonic.h"
 #include "rholm/image.h"

@@ -118,6 +118,13 @@ class Expansion:
         return self._core.unit
 
     @property
+    def gravity(self) -> _core.GravityField | None:
+        """What the coefficients of a gravity field are relative to: its `gravity_constant`, G M in
+        m^3/s^2, and its `reference_radius` in m; None if not known. Set by `with_gravity`.
+        """
+        return self._core.gravity
+
+    @property
     def method(self) -> str:
         """How the coefficients were found; empty if not known."""
         return self._core.method
@@ -514,6 +521,26 @@ class Expansion:
         """
         return Expansion._of(self._core.with_unit(unit), self._encoded, self._shape, self._name)
 
+    def with_gravity(self, gravity_constant: float, reference_radius: float) -> Expansion:
+        """The same numbers as those of a gravity field relative to these two.
+
+        `rotate`, `filter`, `truncate` and arithmetic keep them, and all formats of files but .npy.
+
+        Parameters
+        ----------
+        gravity_constant : float
+            G M in m^3/s^2.
+        reference_radius : float
+            Of the sphere about the centre, in m.
+
+        Raises
+        ------
+        InvalidInputError
+            For numbers that are not above 0, and an expansion whose function is not "other".
+        """
+        core = self._core.with_gravity(gravity_constant, reference_radius)
+        return Expansion._of(core, self._encoded, self._shape, self._name)
+
     def principal_axes(self) -> _core.PrincipalAxes:
         """The axes of the coefficients of degree 2, longest first, about the expansion's centre; see
         `rholm.principal_axes`. Those of inertia are of `inertia`.
@@ -534,7 +561,7 @@ class Expansion:
         self._require_linear("multiplied by a number")
         function = "radius" if self.function == "radius" and factor > 0 else "other"
         values = float(factor) * self._core.coefficients.values
-        return self._linear(values, function, f"times {factor:g}", self.signed_sum)
+        return self._linear(values, function, f"times {factor:g}", self.signed_sum, self.gravity)
 
     __rmul__ = __mul__
 
@@ -566,13 +593,20 @@ class Expansion:
                 f"an expansion in {self.unit or 'no unit'} and one in {other.unit or 'no unit'} cannot be "
                 f"{what}: with_unit() or scale() first"
             )
+        if self.gravity and other.gravity and self.gravity != other.gravity:
+            raise InvalidInputError(
+                f"gravity fields relative to {self.gravity} and {other.gravity} cannot be {what}: their "
+                "coefficients are of different units"
+            )
         degree = max(self.degree, other.degree)
         a, b = (one._core.coefficients.resized(degree).values for one in (self, other))
         # Radii add up to radii; what two of them differ by is a function that may be negative.
         surfaces = [self.function, other.function].count("radius")
         function = "radius" if surfaces and not (sign < 0 and other.function == "radius") else "other"
         signed = self.signed_sum or other.signed_sum
-        return self._linear(a + sign * b, function, "sum" if sign > 0 else "difference", signed)
+        method = "sum" if sign > 0 else "difference"
+        gravity = self.gravity if self.gravity == other.gravity else None
+        return self._linear(a + sign * b, function, method, signed, gravity)
 
     def _require_linear(self, what: str) -> None:
         if self.function == "gauge":
@@ -581,10 +615,15 @@ class Expansion:
                 "with another method, or scale()"
             )
 
-    def _linear(self, values: FloatArray, function: str, method: str, signed: bool) -> Expansion:
-        core = from_convention(values, "orthonormal")
+    def _linear(
+        self, values: FloatArray, function: str, method: str, signed: bool, gravity: _core.GravityField | None
+    ) -> Expansion:
+        coefficients = from_convention(values, "orthonormal")
         known = (function, tuple(self.center), self.unit, method)
-        return Expansion._of(_core.Expansion(core, *known, signed_sum=signed))
+        core = _core.Expansion(coefficients, *known, signed_sum=signed)
+        if gravity is not None:
+            core = core.with_gravity(gravity.gravity_constant, gravity.reference_radius)
+        return Expansion._of(core)
 
     # To others
 
@@ -631,9 +670,8 @@ class Expansion:
         normalization, csphase
             Of the numbers, in formats other than the model file.
         gravity_constant, reference_radius : float, optional
-            G M in m^3/s^2 and the radius in m that the coefficients of a gravity field are relative
-            to: a .gfc file then says both and is one that other programs read. Only of expansions
-            whose function is "other".
+            As in `with_gravity`, which the file is then written of. All formats but .npy keep both, and
+            other programs read them in .gfc.
 
         Raises
         ------
@@ -642,14 +680,12 @@ class Expansion:
         """
         target = os.fspath(path)
         kind = format or ("hdf5" if target.lower().endswith((".h5", ".hdf5")) else None)
-        gravity = _gravity(target, kind, gravity_constant, reference_radius)
+        core = self._with_gravity(target, kind, gravity_constant, reference_radius)
         with caller(0, False) as how:
-            if gravity is not None:
-                _core.write_gravity_field(self._core, target, *gravity, normalization, csphase, how)
-            elif kind == "hdf5":
-                _core.write_model(self._core, named(target, (".h5", ".hdf5"), "a model file"), how)
+            if kind == "hdf5":
+                _core.write_model(core, named(target, (".h5", ".hdf5"), "a model file"), how)
             else:
-                _core.write_coefficients(self._core, target, format, normalization, csphase, how)
+                _core.write_coefficients(core, target, format, normalization, csphase, how)
 
     def report_html(self, path: str | os.PathLike[str] | None = None, **options: Any) -> str:
         """All that is known on one page of HTML that needs no other file; see `rholm.report_html`."""
@@ -685,7 +721,10 @@ class Expansion:
     def __repr__(self) -> str:
         unit = f" {self.unit}" if self.unit else ""
         at = ", ".join(f"{x:.6g}" for x in self.center)
-        return f"<rholm.Expansion: {self.function} to degree {self.degree}, center ({at}){unit}>"
+        field = ""
+        if self.gravity is not None:
+            field = f", GM {self.gravity.gravity_constant:.6g}, R {self.gravity.reference_radius:.6g}"
+        return f"<rholm.Expansion: {self.function} to degree {self.degree}, center ({at}){unit}{field}>"
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Expansion):
@@ -693,6 +732,7 @@ class Expansion:
         return (
             self.function == other.function
             and bool(np.array_equal(self.center, other.center))
+            and self.gravity == other.gravity
             and bool(np.array_equal(self._core.coefficients.values, other._core.coefficients.values))
         )
 
@@ -718,6 +758,20 @@ class Expansion:
 
         return expansion_html(self)
 
+    def _with_gravity(
+        self, target: str, format: str | None, constant: float | None, radius: float | None
+    ) -> _core.Expansion:
+        """With what `save` was given, if it was and the format has room for it."""
+        if constant is None and radius is None:
+            return self._core
+        if constant is None or radius is None:
+            raise InvalidInputError("gravity_constant and reference_radius belong together: give both")
+        if (format or _core.coefficients_format_of(target)) == "npy":
+            raise UnsupportedError(
+                f"{target}: NumPy files have no room for a gravity constant and a reference radius"
+            )
+        return self.with_gravity(constant, radius)._core
+
     def _require_surface(self) -> None:
         _core.require_surface(self._core)
 
@@ -732,18 +786,3 @@ def _is_number(value: Any) -> bool:
     return (
         isinstance(value, (int, float, np.number)) and bool(np.isreal(value)) and not isinstance(value, bool)
     )
-
-
-def _gravity(
-    target: str, format: str | None, constant: float | None, radius: float | None
-) -> tuple[float, float] | None:
-    """What a gravity field is relative to, if it is given and the format has room for it."""
-    if constant is None and radius is None:
-        return None
-    if constant is None or radius is None:
-        raise InvalidInputError("gravity_constant and reference_radius belong together: give both")
-    if (format or _core.coefficients_format_of(target)) != "icgem":
-        raise UnsupportedError(
-            f"{target}: only ICGEM files (.gfc) have room for a gravity constant and a reference radius"
-        )
-    return constant, radius

@@ -266,8 +266,16 @@ def to_xarray(expansion: Expansion, normalization: Normalization = "4pi", csphas
             "center": expansion.center.copy(),
             "units": expansion.unit,
             "method": expansion.method,
+            **_gravity_of(expansion),
         },
     )
+
+
+def _gravity_of(expansion: Expansion) -> dict[str, float]:
+    gravity = expansion.gravity
+    if gravity is None:
+        return {}
+    return {"gravity_constant": gravity.gravity_constant, "reference_radius": gravity.reference_radius}
 
 
 def coefficients_of_pyshtools(clm: Any) -> tuple[npt.NDArray[np.float64], str, int]:

@@ -33,20 +33,11 @@ class CoefficientsFile(NamedTuple):
     """What the file says it is of, if that is no shape."""
     passed_over: list[str]
     """What it says and what the expansion does not use."""
-    gravity_constant: float | None = None
-    """G M in m^3/s^2, if the file is an ICGEM file of a gravity field and has it and a radius."""
-    reference_radius: float | None = None
-    """In m, likewise."""
 
 
-def _file_of(read: tuple[Any, ...], gravity: tuple[float, float] | None) -> CoefficientsFile:
+def _file_of(read: tuple[Any, ...]) -> CoefficientsFile:
     expansion, *rest = read
-    return CoefficientsFile(Expansion._of(expansion), *rest, *(gravity or (None, None)))
-
-
-def _gravity_of(path: str) -> tuple[float, float] | None:
-    gravity: Any = _core.read_gravity_field(path) if os.path.isfile(path) else None
-    return None if gravity is None else (gravity[0], gravity[1])
+    return CoefficientsFile(Expansion._of(expansion), *rest)
 
 
 _SHAPE_MARKS = (b"ply", b"OFF", b"solid")  # the first bytes of files of meshes
@@ -88,7 +79,7 @@ def read_coefficients(
     source = _not_a_shape(path)
     with caller(0, False) as how:
         read = _core.read_coefficients(source, normalization, csphase, override_file, how)
-    return _file_of(read, _gravity_of(source))
+    return _file_of(read)
 
 
 def read_any_coefficients(
@@ -108,7 +99,7 @@ def read_any_coefficients(
     source = _not_a_shape(path)
     with caller(0, False) as how:
         read = _core.read_any_coefficients(source, normalization, csphase, override_file, how)
-    return _file_of(read, _gravity_of(source))
+    return _file_of(read)
 
 
 def parse_coefficients(
@@ -132,8 +123,7 @@ def parse_coefficients(
     """
     with caller(0, False) as how:
         read = _core.parse_coefficients(data, name, normalization, csphase, override_file, how)
-    gravity: Any = _core.gravity_field_of(data)
-    return _file_of(read, gravity)
+    return _file_of(read)
 
 
 def looks_like_coefficients(data: bytes) -> bool:

@@ -20,7 +20,6 @@
 #include "rholm/coefficients_io.h"
 #include "rholm/error.h"
 #include "rholm/filter.h"
-#include "rholm/gravity_field.h"
 #include "rholm/length_unit.h"
 #include "rholm/model.h"
 
@@ -137,13 +136,18 @@ void bind_expansion(nb::module_& m) {
       .field("points", &TruncationErrors::points, "At which was measured.")
       .field("diagonal", &TruncationErrors::diagonal,
              "Of the shape's bounding box; 0 if not known.");
+  Record<GravityField>(m, "GravityField",
+                       "What the coefficients of a gravity field are relative to.")
+      .field("gravity_constant", &GravityField::gravity_constant, "G M in m^3/s^2.")
+      .field("reference_radius", &GravityField::reference_radius,
+             "Of the sphere about the centre, in m.");
   nb::class_<Expansion> type(m, "Expansion", "A surface as coefficients.");
   bind_state(
       type,
       [](const Expansion& e) {
         return nb::make_tuple(e.coefficients, static_cast<int>(e.function), state_of(e.center),
                               e.unit, e.method, e.norm_squared, e.tail_strength, e.errors,
-                              e.signed_sum);
+                              e.signed_sum, e.gravity);
       },
       [](const nb::object& state) {
         const auto parts = nb::cast<nb::tuple>(state);
@@ -157,6 +161,7 @@ void bind_expansion(nb::module_& m) {
         e.tail_strength = nb::cast<std::optional<double>>(parts[6]);
         e.errors = nb::cast<std::optional<TruncationErrors>>(parts[7]);
         e.signed_sum = parts.size() > 8 && nb::cast<bool>(parts[8]);
+        if (parts.size() > 9) e.gravity = nb::cast<std::optional<GravityField>>(parts[9]);
         return e;
       });
   type.def(
@@ -198,6 +203,13 @@ void bind_expansion(nb::module_& m) {
              e.unit = unit;
              return e;
            })
+      .def("with_gravity",
+           [](Expansion e, double gravity_constant, double reference_radius) {
+             e.gravity = {gravity_constant, reference_radius};
+             check_gravity(e, "with_gravity");
+             return e;
+           })
+      .def_ro("gravity", &Expansion::gravity)
       .def_ro("method", &Expansion::method)
       .def_ro("norm_squared", &Expansion::norm_squared)
       .def_ro("tail_strength", &Expansion::tail_strength)
@@ -259,12 +271,6 @@ nb::tuple tuple_of(CoefficientsFile&& file) {
                         file.assumed, file.product, file.passed_over);
 }
 
-// (constant, radius), or None.
-nb::object tuple_of(const std::optional<GravityField>& gravity) {
-  if (!gravity) return nb::none();
-  return nb::make_tuple(gravity->constant, gravity->radius);
-}
-
 void bind_files(nb::module_& m) {
   const auto read_options = [](const std::string& normalization, int csphase, bool override_file) {
     return CoefficientsReadOptions{convention_of(normalization, csphase), override_file};
@@ -306,19 +312,6 @@ void bind_files(nb::module_& m) {
         caller.run([&](const Context&) { write_coefficients(e, path, options); });
       },
       nb::arg(), nb::arg(), nb::arg().none(), nb::arg(), nb::arg(), nb::arg());
-  m.def("write_gravity_field",
-        [](const Expansion& e, const std::string& path, double constant, double radius,
-           const std::string& normalization, int csphase, const Caller& caller) {
-          const Convention convention = convention_of(normalization, csphase);
-          caller.run([&](const Context&) {
-            write_gravity_field(e, {constant, radius}, path, convention);
-          });
-        });
-  m.def("gravity_field_of", [](const nb::bytes& bytes) {
-    return tuple_of(gravity_field_of(std::span<const char>(bytes.c_str(), bytes.size())));
-  });
-  m.def("read_gravity_field",
-        [](const std::string& path) { return tuple_of(read_gravity_field(path)); });
   m.def("write_model", [](const Expansion& e, const std::string& path, const Caller& caller) {
     caller.run([&](const Context&) { write_model(e, path); });
   });

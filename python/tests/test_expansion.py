@@ -506,3 +506,36 @@ def test_inertia_is_that_of_the_solid_about_its_centroid(bumpy):
     assert trimesh
     with pytest.raises(rholm.UnsupportedError):
         rholm.from_array(s.coeffs, function="other").inertia()
+
+
+def test_what_a_gravity_field_is_relative_to_stays(tmp_path, random):
+    values = np.stack([np.tri(5), np.tri(5)]) * random.normal(size=(2, 5, 5))
+    values[1, :, 0] = 0
+    plain = rholm.from_array(values, function="other")
+    field = plain.with_gravity(4.9e12, 1738e3)
+    assert plain.gravity is None
+    assert field != plain
+    assert "GM 4.9e+12, R 1.738e+06" in repr(field)
+    kept = [
+        field.truncate(3),
+        field.low_pass(2),
+        field.rotate(np.eye(3)),
+        field.mirror("x"),
+        field.with_unit("m"),
+        field + field,
+        field - 0.5 * field,
+        copy.deepcopy(field),
+        pickle.loads(pickle.dumps(field)),
+    ]
+    for name in ("f.h5", "f.json", "f.sh", "f.gfc"):
+        field.truncate(3).save(tmp_path / name)
+        kept.append(rholm.load(tmp_path / name))
+    assert all(one.gravity == field.gravity for one in kept)
+    assert (field + plain).gravity is None
+    with pytest.raises(rholm.InvalidInputError, match="different units"):
+        field + plain.with_gravity(5e12, 1738e3)
+    for wrong in ((0, 1), (1, -1), (np.inf, 1), (1, np.nan)):
+        with pytest.raises(rholm.InvalidInputError):
+            plain.with_gravity(*wrong)
+    with pytest.raises(rholm.InvalidInputError, match="'radius'"):
+        rholm.from_array(values).with_gravity(1, 1)

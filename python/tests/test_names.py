@@ -25,9 +25,7 @@ ELSEWHERE = {
     "triangulate_polygon": "as_mesh",  # of polygons of meshio
     "outward": "expand",  # and every other function that needs it
     "truncated": "Expansion.truncate",
-    "write_gravity_field": "Expansion.save",
-    "read_gravity_field": "read_coefficients",
-    "gravity_field_of": "parse_coefficients",
+    "check_gravity": "Expansion.with_gravity",
     "add_adjoint": "adjoint",  # returns the sums
     "batch_columns": "BatchTable.columns",
     "column_before": "BatchTable.columns",  # are in that order

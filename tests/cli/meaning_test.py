@@ -125,10 +125,13 @@ class NoShape(Meaning):
             with self.subTest(name):
                 said = self.rholm(*commands_that_read("g.gfc")[name]).err
                 self.assertIn("g.gfc is a gravity_field, no shape", said)
-                self.assertIn("without earth_gravity_constant", said)
+                self.assertIn("gravity constant 398600441500000 m^3/s^2, reference radius 6378136.3 m",
+                              said)
         report = self.rholm("info", "g.gfc", "--json").json()
         self.assertEqual(report["function"], "other")
         self.assertEqual(report["product"], "gravity_field")
+        self.assertEqual(report["gravity_constant"], 0.3986004415E+15)
+        self.assertEqual(report["reference_radius"], 6378136.3)
         self.assertIsNone(report["volume"])
 
     def test_no_format_makes_a_body_of_it(self):
@@ -144,21 +147,30 @@ class NoShape(Meaning):
             lines = (self.folder / name).read_text().split("end_of_head")[0].splitlines()
             return dict(line.split(None, 1) for line in lines if len(line.split()) > 1)
         self.write("g.gfc", GRAVITY)
-        self.rholm("convert", "g.gfc", "o.gfc")
+        # Through every command that keeps what the numbers mean, and every format with room for it.
+        for step, source in enumerate(("g.gfc", "0.h5", "1.json", "2.sh")):
+            ending = ("h5", "json", "sh", "gfc")[step]
+            words = (["convert"], ["filter", "--low-pass", "2"],
+                     ["rotate", "--axis", "0,0,1", "--angle", "30"], ["rotate", "--mirror", "x"])[step]
+            output = ["o.gfc"] if ending == "gfc" else [f"{step}.{ending}"]
+            if words[0] != "convert":
+                output.insert(0, "-o")
+            self.rholm(words[0], source, *words[1:], *output)
         self.assertEqual(header("o.gfc")["product_type"], "gravity_field")
         self.assertEqual(float(header("o.gfc")["earth_gravity_constant"]), 0.3986004415E+15)
         self.assertEqual(float(header("o.gfc")["radius"]), 6378136.3)
-        self.rholm("convert", "g.gfc", "o.json")
+        self.write("plain.json", (self.folder / "1.json").read_text()
+                   .replace("gravity_constant", "a").replace("reference_radius", "b"))
         self.write("bare.sh", BARE)
         given = ("--gravity-constant", "4.9e12", "--reference-radius", "1738000")
-        for source in ("o.json", "bare.sh"):  # one says that it is no surface, one says nothing
+        for source in ("1.json", "plain.json", "bare.sh"):  # one says that it is no surface, one says nothing
             self.rholm("convert", source, "p.gfc", *given)
             self.assertEqual(header("p.gfc")["product_type"], "gravity_field")
             self.assertEqual(float(header("p.gfc")["earth_gravity_constant"]), 4.9e12)
             self.assertEqual(float(header("p.gfc")["radius"]), 1738000)
         self.rholm("convert", "s.h5", "p.gfc", *given, code=3)  # a surface
-        for words in (["o.json", "p.gfc", *given[:2]], ["o.json", "p.json", *given],
-                      ["o.json", "p.gfc", *given[:2], "--reference-radius", "0"]):
+        for words in (["1.json", "p.gfc", *given[:2]], ["1.json", "p.npy", *given],
+                      ["1.json", "p.gfc", *given[:2], "--reference-radius", "0"]):
             with self.subTest(words):
                 self.rholm("convert", *words, code=2)
 

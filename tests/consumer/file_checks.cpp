@@ -2,7 +2,6 @@
 #include <rholm/coefficients_io.h>
 #include <rholm/compare.h>
 #include <rholm/file.h>
-#include <rholm/gravity_field.h>
 #include <rholm/large_mesh.h>
 #include <rholm/mapped_mesh.h>
 #include <rholm/point_stream.h>
@@ -59,13 +58,6 @@ void coefficients_io() {
          "the content says the format");
 }
 
-void gravity_field() {
-  rholm::Expansion field;
-  field.function = rholm::RadialFunction::kOther;
-  rholm::write_gravity_field(field, {4.9e12, 1738000}, "field.gfc");
-  expect(rholm::read_gravity_field("field.gfc")->radius == 1738000, "the radius of a field");
-}
-
 void mapped_mesh() {
   const rholm::Mesh sphere = rholm::icosphere(3);
   rholm::write_shape(sphere, "sphere.ply");
@@ -94,7 +86,6 @@ std::vector<HeaderCheck> file_checks() {
           {"shape_io.h", shape_io},
           {"point_stream.h", point_stream},
           {"coefficients_io.h", coefficients_io},
-          {"gravity_field.h", gravity_field},
           {"mapped_mesh.h", mapped_mesh},
           {"large_mesh.h", large_mesh}};
 }

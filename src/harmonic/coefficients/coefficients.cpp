@@ -1,6 +1,9 @@
 #include "rholm/coefficients.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "rholm/error.h"
@@ -77,6 +80,24 @@ void require_star_shaped(const Expansion& expansion, const std::string& what) {
       "the expansion is the signed sum of the radii of a surface that is not star-shaped: " + what +
           " would not be of the body; make an atlas of it (compress(), 'rholm analyze "
           "--atlas')");
+}
+
+void check_gravity(const Expansion& expansion, const std::string& name) {
+  if (!expansion.gravity) return;
+  const auto refuse = [&](const std::string& what) {
+    throw Error(ErrorCode::kInvalidInput, name + ": " + what);
+  };
+  const auto check = [&](double value, const char* what) {
+    if (std::isfinite(value) && value > 0) return;
+    refuse(fmt::format("the {} is {}: it must be finite and above 0", what, value));
+  };
+  check(expansion.gravity->gravity_constant, "gravity constant");
+  check(expansion.gravity->reference_radius, "reference radius");
+  if (expansion.function == RadialFunction::kOther) return;
+  refuse(
+      fmt::format("a gravity constant and a reference radius are of a gravity field, whose "
+                  "function is 'other', not '{}'",
+                  to_string(expansion.function)));
 }
 
 const char* to_string(Normalization normalization) {

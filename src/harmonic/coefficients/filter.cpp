@@ -199,6 +199,7 @@ Expansion filter(const Expansion& expansion, std::span<const double> gains,
   result.center = expansion.center;
   result.unit = expansion.unit;
   result.signed_sum = expansion.signed_sum;
+  result.gravity = expansion.gravity;
   const std::string method = expansion.method.empty() ? name : expansion.method + ", " + name;
   result.method = method.size() <= kMaxMethodLength ? method : name.substr(0, kMaxMethodLength);
   result.errors =

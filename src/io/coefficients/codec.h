@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "io/coefficients/known_numbers.h"
 #include "rholm/coefficients.h"
-#include "rholm/gravity_field.h"
 
 namespace rholm {
 
@@ -20,8 +20,7 @@ struct ParsedCoefficients {
   std::optional<Vec3> center = {};
   std::string unit = {};
   std::string method = {};
-  std::optional<double> norm_squared = {};
-  std::optional<double> tail_strength = {};
+  KnownNumbers numbers = {};
   bool signed_sum = false;
   std::string product = {};                   // what it is of, if that is no shape
   std::vector<std::string> passed_over = {};  // what it says and what is not used
@@ -39,8 +38,7 @@ ParsedCoefficients parse_npy(std::string_view bytes, const std::string& name);
 std::string format_shtools(const Expansion& expansion, const Coefficients& external,
                            const Convention& convention);
 std::string format_icgem(const Expansion& expansion, const Coefficients& external,
-                         const Convention& convention,
-                         const std::optional<GravityField>& gravity = {});
+                         const Convention& convention);
 std::string format_json(const Expansion& expansion, const Coefficients& external,
                         const Convention& convention);
 std::string format_npy(const Coefficients& external);

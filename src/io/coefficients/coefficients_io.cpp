@@ -150,8 +150,7 @@ CoefficientsFile parse_coefficients(std::span<const char> bytes, const std::stri
   expansion.center = parsed.center.value_or(Vec3{});
   expansion.unit = std::move(parsed.unit);
   expansion.method = std::move(parsed.method);
-  expansion.norm_squared = parsed.norm_squared;
-  expansion.tail_strength = parsed.tail_strength;
+  set_known_numbers(parsed.numbers, name, expansion);
   expansion.signed_sum = parsed.signed_sum;
   file.product = std::move(parsed.product);
   file.passed_over = std::move(parsed.passed_over);

@@ -98,6 +98,7 @@ void check_expansion(const Expansion& expansion, const std::string& name) {
   check_text(expansion.method, "method", name);
   check_norm(expansion.norm_squared, "norm_squared", name);
   check_norm(expansion.tail_strength, "tail_strength", name);
+  check_gravity(expansion, name);
 }
 
 }  // namespace rholm

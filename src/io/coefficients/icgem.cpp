@@ -1,7 +1,7 @@
 // ICGEM-like text: a header of lines `key value` up to `end_of_head`, then lines `gfc l m C S`.
-// The format is made for gravity fields, which have a gravity constant and a reference radius. A
-// shape has neither, and readers of coefficients pass over both: GravityField has them. What is no
-// shape has the function `other`. Keys that begin with `rholm_` say what the standard ones cannot.
+// The format is made for gravity fields, which have a gravity constant and a reference radius
+// (Expansion::gravity). A shape has neither, and they are passed over. What is no shape has the
+// function `other`. Keys that begin with `rholm_` say what the standard ones cannot.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +15,6 @@
 #include "io/file/bytes.h"
 #include "rholm/error.h"
 #include "rholm/file.h"
-#include "rholm/gravity_field.h"
 
 namespace rholm {
 namespace {
@@ -39,17 +38,18 @@ Normalization parse_norm(std::string_view value, const TextLine& line) {
                           *line.name, in_quotes(value)));
 }
 
+// A line of a header as it stands.
+struct KeyAndValue {
+  std::string_view key, value;
+};
+
 struct Header {
   ParsedCoefficients parsed;
   std::optional<int> degree;
   std::optional<int> lines;
   std::optional<std::string> product;
-  std::optional<std::string> gravity_constant, radius;  // as they stand
+  std::optional<KeyAndValue> gravity_constant, radius;
 };
-
-void pass_over(std::string_view key, std::string_view value, Header& header) {
-  header.parsed.passed_over.push_back(fmt::format("{} {}", key, in_quotes(value)));
-}
 
 void take_own_key(std::string_view key, std::string_view value, const TextLine& line,
                   Header& header) {
@@ -77,11 +77,9 @@ void take_key(const TextLine& line, Header& header) {
   } else if (key == "product_type") {
     set_once(header.product, std::string(value), key, line);
   } else if (key == "earth_gravity_constant" || key == "gravity_constant") {
-    header.gravity_constant = value;
-    pass_over(key, value, header);
+    header.gravity_constant = {key, value};
   } else if (key == "radius") {
-    header.radius = value;
-    pass_over(key, value, header);
+    header.radius = {key, value};
   } else if (key.starts_with(kOwnPrefix)) {
     take_own_key(key.substr(kOwnPrefix.size()), value, line, header);
   }
@@ -100,9 +98,24 @@ void settle_function(Header& header) {
 }
 
 // A finite number above 0, of text that may be anything.
-std::optional<double> positive(const std::optional<std::string>& text) {
-  const std::optional<double> value = text ? number_of(*text) : std::nullopt;
+std::optional<double> positive(const std::optional<KeyAndValue>& said) {
+  const std::optional<double> value = said ? number_of(said->value) : std::nullopt;
   return value && std::isfinite(*value) && *value > 0 ? value : std::nullopt;
+}
+
+// Those of a gravity field are kept if there are both; others are passed over.
+void settle_gravity(Header& header) {
+  const std::optional<double> constant = positive(header.gravity_constant);
+  const std::optional<double> radius = positive(header.radius);
+  if (header.parsed.product == kGravityProduct && constant && radius) {
+    header.parsed.numbers.gravity_constant = constant;
+    header.parsed.numbers.reference_radius = radius;
+    return;
+  }
+  for (const auto& said : {header.gravity_constant, header.radius}) {
+    if (!said) continue;
+    header.parsed.passed_over.push_back(fmt::format("{} {}", said->key, in_quotes(said->value)));
+  }
 }
 
 // Before `begin_of_head`, if a file has it, stands free text.
@@ -122,6 +135,7 @@ Header parse_header(TextCursor& text, const std::string& name) {
     const TextLine line = take_line(text, name);
     if (trimmed(line.content).starts_with("end_of_head")) {
       settle_function(header);
+      settle_gravity(header);
       return header;
     }
     take_key(line, header);
@@ -130,51 +144,7 @@ Header parse_header(TextCursor& text, const std::string& name) {
               name + ": the header has no line end_of_head: the file is cut off or not ICGEM");
 }
 
-// Throws InvalidInput for a number that is not finite or not above 0.
-void check_positive(const std::string& name, const char* what, double value) {
-  if (std::isfinite(value) && value > 0) return;
-  throw Error(ErrorCode::kInvalidInput,
-              fmt::format("{}: the {} is {}; it must be finite and above 0", name, what, value));
-}
-
 }  // namespace
-
-std::optional<GravityField> gravity_field_of(std::span<const char> bytes) {
-  // Chosen: as much as is looked at to tell the format.
-  constexpr std::size_t kHeaderBytes = 65536;
-  TextCursor text{bytes.first(std::min(bytes.size(), kHeaderBytes))};
-  try {
-    const Header header = parse_header(text, "");
-    const std::optional<double> constant = positive(header.gravity_constant);
-    const std::optional<double> radius = positive(header.radius);
-    if (header.parsed.product != kGravityProduct || !constant || !radius) return std::nullopt;
-    return GravityField{*constant, *radius};
-  } catch (const Error&) {
-    return std::nullopt;  // no header of an ICGEM file
-  }
-}
-
-std::optional<GravityField> read_gravity_field(const std::filesystem::path& path) {
-  const Bytes bytes = read_bytes(path);
-  return gravity_field_of(bytes.view());
-}
-
-void write_gravity_field(const Expansion& expansion, const GravityField& gravity,
-                         const std::filesystem::path& path, const Convention& convention) {
-  const std::string name = path == "-" ? "standard output" : path.string();
-  check_positive(name, "gravity constant", gravity.constant);
-  check_positive(name, "reference radius", gravity.radius);
-  if (expansion.function != RadialFunction::kOther) {
-    throw Error(ErrorCode::kInvalidInput,
-                fmt::format("{}: a gravity constant and a reference radius are of a gravity field, "
-                            "whose function is 'other', not '{}'",
-                            name, to_string(expansion.function)));
-  }
-  check_expansion(expansion, name);
-  const Coefficients external = to_convention(expansion.coefficients, convention);
-  check_coefficients(external, name);
-  write_file(path, format_icgem(expansion, external, convention, gravity));
-}
 
 ParsedCoefficients parse_icgem(std::string_view bytes, const std::string& name) {
   TextCursor text{bytes};
@@ -199,21 +169,23 @@ ParsedCoefficients parse_icgem(std::string_view bytes, const std::string& name) 
 }
 
 std::string format_icgem(const Expansion& expansion, const Coefficients& external,
-                         const Convention& convention, const std::optional<GravityField>& gravity) {
+                         const Convention& convention) {
   const int degree = external.degree();
+  const std::optional<GravityField>& gravity = expansion.gravity;
   const std::string_view product = gravity                                        ? kGravityProduct
                                    : expansion.function == RadialFunction::kOther ? kOtherProduct
                                                                                   : kProduct;
   std::string text = fmt::format("product_type {}\nmodelname rholm\n", product);
   if (gravity) {
-    text +=
-        fmt::format("earth_gravity_constant {}\nradius {}\n", gravity->constant, gravity->radius);
+    text += fmt::format("earth_gravity_constant {}\nradius {}\n", gravity->gravity_constant,
+                        gravity->reference_radius);
   }
   text += fmt::format(
       "max_degree {}\nerrors no\nnorm {}\nrholm_format 1\nrholm_lines {}\nrholm_csphase {}\n",
       degree, norm_name(convention.normalization), n_pairs(degree), convention.csphase);
   for (const auto& [key, value] : describe(expansion)) {
-    text += fmt::format("{}{} {}\n", kOwnPrefix, key, value);
+    const bool stands_above = key == "gravity_constant" || key == "reference_radius";
+    if (!stands_above) text += fmt::format("{}{} {}\n", kOwnPrefix, key, value);
   }
   text += "key l m C S\nend_of_head\n";
   CancelPoll poll;

@@ -63,7 +63,9 @@ class Handler : public nlohmann::json_sax<nlohmann::json> {
     refuse(kind + " is not what belongs at the key " + in_quotes(key_));
   }
   bool is_at(Place place) const { return !places_.empty() && places_.back() == place; }
-  bool is_known_key() const;
+  // Where a number of that key is kept; null if none is.
+  std::optional<double>* known_number();
+  bool is_known_key();
   bool enter(Place place);
   bool leave();
   bool number(double value);
@@ -85,11 +87,18 @@ class Handler : public nlohmann::json_sax<nlohmann::json> {
   std::size_t row_start_ = 0;
 };
 
-bool Handler::is_known_key() const {
+std::optional<double>* Handler::known_number() {
+  for (const KnownNumber& number : kKnownNumbers) {
+    if (key_ == number.name) return &(parsed_.numbers.*number.value);
+  }
+  return nullptr;
+}
+
+bool Handler::is_known_key() {
   static const std::set<std::string_view> kKnown = {
-      "format", "version", "degree",       "normalization", "csphase",    "function",    "center",
-      "unit",   "method",  "norm_squared", "tail_strength", "signed_sum", "coefficients"};
-  return kKnown.contains(key_);
+      "format", "version", "degree", "normalization", "csphase",     "function",
+      "center", "unit",    "method", "signed_sum",    "coefficients"};
+  return kKnown.contains(key_) || known_number() != nullptr;
 }
 
 bool Handler::enter(Place place) {
@@ -189,10 +198,8 @@ void Handler::top_number(double value) {
   } else if (key_ == "csphase") {
     if (value != 1 && value != -1) refuse(fmt::format("csphase is {}: it must be 1 or -1", value));
     parsed_.csphase = static_cast<int>(value);
-  } else if (key_ == "norm_squared") {
-    parsed_.norm_squared = value;
-  } else if (key_ == "tail_strength") {
-    parsed_.tail_strength = value;
+  } else if (std::optional<double>* number = known_number()) {
+    *number = value;
   } else if (key_ == "signed_sum") {
     if (value != 0 && value != 1) refuse(fmt::format("signed_sum is {}: it must be 0 or 1", value));
     parsed_.signed_sum = value == 1;
@@ -299,13 +306,12 @@ std::string format_json(const Expansion& expansion, const Coefficients& external
   append_number(text, center.z);
   text += "],\n\"unit\":" + nlohmann::json(expansion.unit).dump();
   text += ",\"method\":" + nlohmann::json(expansion.method).dump();
-  if (expansion.norm_squared) {
-    text += ",\n\"norm_squared\":";
-    append_number(text, *expansion.norm_squared);
-  }
-  if (expansion.tail_strength) {
-    text += ",\n\"tail_strength\":";
-    append_number(text, *expansion.tail_strength);
+  const KnownNumbers numbers = known_numbers(expansion);
+  for (const KnownNumber& number : kKnownNumbers) {
+    const std::optional<double>& value = numbers.*number.value;
+    if (!value) continue;
+    text += fmt::format(",\n\"{}\":", number.name);
+    append_number(text, *value);
   }
   if (expansion.signed_sum) text += ",\n\"signed_sum\":1";
   text += ",\n\"coefficients\":{\"C\":";

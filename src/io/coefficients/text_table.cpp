@@ -39,6 +39,17 @@ void set_text_once(std::string& slot, std::string_view value, std::string_view k
   slot = value;
 }
 
+// False if the key is of no known number.
+bool take_known_number(std::string_view key, std::string_view value, const TextLine& line,
+                       ParsedCoefficients& parsed) {
+  for (const KnownNumber& number : kKnownNumbers) {
+    if (key != number.name) continue;
+    set_once(parsed.numbers.*number.value, parse_finite(value, number.name, line), key, line);
+    return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 TextLine take_line(TextCursor& text, const std::string& name) {
@@ -166,11 +177,10 @@ std::vector<std::pair<std::string, std::string>> describe(const Expansion& expan
                      format_shortest(center.z)}};
   if (!expansion.unit.empty()) pairs.emplace_back("unit", expansion.unit);
   if (!expansion.method.empty()) pairs.emplace_back("method", expansion.method);
-  if (expansion.norm_squared) {
-    pairs.emplace_back("norm_squared", format_shortest(*expansion.norm_squared));
-  }
-  if (expansion.tail_strength) {
-    pairs.emplace_back("tail_strength", format_shortest(*expansion.tail_strength));
+  const KnownNumbers numbers = known_numbers(expansion);
+  for (const KnownNumber& number : kKnownNumbers) {
+    const std::optional<double>& value = numbers.*number.value;
+    if (value) pairs.emplace_back(number.name, format_shortest(*value));
   }
   if (expansion.signed_sum) pairs.emplace_back("signed_sum", "1");
   return pairs;
@@ -194,17 +204,13 @@ bool take_description(std::string_view key, std::string_view value, const TextLi
     set_text_once(parsed.unit, value, key, line);
   } else if (key == "method") {
     set_text_once(parsed.method, value, key, line);
-  } else if (key == "norm_squared") {
-    set_once(parsed.norm_squared, parse_finite(value, "norm_squared", line), key, line);
-  } else if (key == "tail_strength") {
-    set_once(parsed.tail_strength, parse_finite(value, "tail_strength", line), key, line);
   } else if (key == "signed_sum") {
     if (value != "0" && value != "1") {
       refuse_line(line, "signed_sum is " + in_quotes(value) + ": it must be 0 or 1");
     }
     parsed.signed_sum = value == "1";
   } else {
-    return false;
+    return take_known_number(key, value, line, parsed);
   }
   return true;
 }

@@ -81,7 +81,7 @@ class CoefficientTable {
 };
 
 // What text files say beside the numbers, as keys and values in the order of writing: function,
-// center, unit, method, norm_squared, tail_strength, signed_sum. What an expansion does not know is
+// center, unit, method, numbers of kKnownNumbers, signed_sum. What an expansion does not know is
 // left out.
 std::vector<std::pair<std::string, std::string>> describe(const Expansion& expansion);
 // The inverse, one key at a time, and csphase. False if the key is none of these. Throws

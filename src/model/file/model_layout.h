@@ -7,7 +7,7 @@ namespace rholm::layout {
 
 inline constexpr const char* kFormatName = "rholm-model";
 inline constexpr int kMajor = 1;
-inline constexpr int kMinor = 3;
+inline constexpr int kMinor = 4;
 
 // Root attributes
 inline constexpr const char* kFormat = "format";
@@ -25,8 +25,6 @@ inline constexpr const char* kFunction = "function";
 inline constexpr const char* kCenter = "center";
 inline constexpr const char* kUnit = "unit";
 inline constexpr const char* kMethod = "method";
-inline constexpr const char* kNormSquared = "norm_squared";
-inline constexpr const char* kTailStrength = "tail_strength";
 inline constexpr const char* kSignedSum = "signed_sum";
 inline constexpr const char* kErrorRms = "error_rms";
 inline constexpr const char* kErrorRmsIsExact = "error_rms_is_exact";

@@ -13,6 +13,7 @@
 
 #include "base/crc32.h"
 #include "io/coefficients/expansion_check.h"
+#include "io/coefficients/known_numbers.h"
 #include "io/coefficients/text_table.h"
 #include "io/file/bytes.h"
 #include "io/hdf5/hdf5_values.h"
@@ -152,8 +153,11 @@ class ModelReader {
     expansion.center = {center[0], center[1], center[2]};
     expansion.unit = optional_text(group, layout::kUnit);
     expansion.method = optional_text(group, layout::kMethod);
-    expansion.norm_squared = optional_number(group, layout::kNormSquared);
-    expansion.tail_strength = optional_number(group, layout::kTailStrength);
+    KnownNumbers known;
+    for (const KnownNumber& number : kKnownNumbers) {
+      known.*number.value = optional_number(group, number.name);
+    }
+    set_known_numbers(known, file_.name, expansion);
     expansion.signed_sum = hdf5::find_attribute(file_, group, layout::kSignedSum) &&
                            integer(group, layout::kSignedSum) == 1;
     expansion.errors = read_errors(group);

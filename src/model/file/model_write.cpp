@@ -10,6 +10,7 @@
 
 #include "base/crc32.h"
 #include "io/coefficients/expansion_check.h"
+#include "io/coefficients/known_numbers.h"
 #include "io/file/atomic_file.h"
 #include "io/hdf5/hdf5_writer.h"
 #include "model/file/model_layout.h"
@@ -60,11 +61,10 @@ void write_expansion(const Writer& writer, hid_t group, const Expansion& expansi
   writer.write_attribute(group, layout::kUnit, expansion.unit);
   writer.write_attribute(group, layout::kMethod, expansion.method);
   writer.write_attribute(group, layout::kCrc32, model_crc32(expansion));
-  if (expansion.norm_squared) {
-    writer.write_attribute(group, layout::kNormSquared, *expansion.norm_squared);
-  }
-  if (expansion.tail_strength) {
-    writer.write_attribute(group, layout::kTailStrength, *expansion.tail_strength);
+  const KnownNumbers numbers = known_numbers(expansion);
+  for (const KnownNumber& number : kKnownNumbers) {
+    const std::optional<double>& value = numbers.*number.value;
+    if (value) writer.write_attribute(group, number.name, *value);
   }
   if (expansion.signed_sum) writer.write_attribute(group, layout::kSignedSum, 1);
   if (expansion.errors) write_errors(writer, group, *expansion.errors);

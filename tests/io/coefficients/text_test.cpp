@@ -7,7 +7,6 @@
 
 #include "io/coefficients/test_support.h"
 #include "io/shapes/test_support.h"
-#include "rholm/gravity_field.h"
 
 namespace rholm {
 namespace {
@@ -209,8 +208,8 @@ TEST(icgem, published_files_are_read_and_what_they_are_is_said) {
   EXPECT_EQ(file.format, CoefficientsFormat::kIcgem);
   EXPECT_EQ(file.convention, (Convention{Normalization::kFourPi, 1}));
   EXPECT_EQ(file.assumed, (std::vector<std::string>{"csphase 1", "center 0 0 0"}));
-  EXPECT_EQ(file.passed_over, (std::vector<std::string>{"earth_gravity_constant '0.3986004415E+15'",
-                                                        "radius '0.6378136300E+07'"}));
+  EXPECT_EQ(file.expansion.gravity, (GravityField{0.3986004415e15, 0.63781363e7}));
+  EXPECT_TRUE(file.passed_over.empty());
   const double factor = std::sqrt(4 * std::numbers::pi);
   EXPECT_DOUBLE_EQ(file.expansion.coefficients.c(2, 0), -4.8e-4 * factor);
   EXPECT_DOUBLE_EQ(file.expansion.coefficients.s(2, 2), -1.4e-6 * factor);
@@ -236,43 +235,54 @@ TEST(icgem, gravity_field_is_no_radius) {
   EXPECT_EQ(parse(own).expansion.function, RadialFunction::kGauge);
 }
 
-TEST(icgem, what_a_gravity_field_is_relative_to_is_written_and_read) {
-  const Expansion field = parse(kPublishedStyle).expansion;
-  const auto path = std::filesystem::path(::testing::TempDir()) / "gravity.gfc";
-  const GravityField gravity = {4.9028e12, 1738000.5};
-  write_gravity_field(field, gravity, path);
-  const CoefficientsFile again = read_coefficients(path);
-  EXPECT_EQ(again.product, "gravity_field");
-  EXPECT_EQ(again.expansion.function, RadialFunction::kOther);
-  expect_same_numbers(again.expansion.coefficients, field.coefficients);
-  const std::optional<GravityField> read = read_gravity_field(path);
-  ASSERT_TRUE(read);
-  EXPECT_EQ(read->constant, gravity.constant);
-  EXPECT_EQ(read->radius, gravity.radius);
-  const double infinity = std::numeric_limits<double>::infinity();
-  for (const GravityField& wrong :
-       {GravityField{0, 1}, GravityField{1, -1}, GravityField{infinity, 1}}) {
-    EXPECT_THROW(write_gravity_field(field, wrong, path), Error);
+constexpr CoefficientsFormat kTexts[] = {CoefficientsFormat::kShtools, CoefficientsFormat::kIcgem,
+                                         CoefficientsFormat::kJson};
+
+TEST(gravity_field, what_it_is_relative_to_is_written_and_read) {
+  Expansion field = parse(kPublishedStyle).expansion;
+  field.gravity = {4.9028e12, 1738000.5};
+  for (const auto format : kTexts) {
+    const CoefficientsFile again = parse(written(field, format));
+    EXPECT_EQ(again.expansion.gravity, field.gravity) << to_string(format);
+    EXPECT_EQ(again.expansion.function, RadialFunction::kOther);
+    EXPECT_TRUE(again.passed_over.empty());
+    EXPECT_EQ(again.product, format == CoefficientsFormat::kIcgem ? "gravity_field" : "");
+    expect_same_numbers(again.expansion.coefficients, field.coefficients);
   }
-  Expansion shape = field;
-  shape.function = RadialFunction::kRadius;
-  EXPECT_THROW(write_gravity_field(shape, gravity, path), Error);
+}
+
+TEST(gravity_field, is_refused_where_it_cannot_be) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  Expansion field = parse(kPublishedStyle).expansion;
+  for (const auto format : kTexts) {
+    for (const GravityField& wrong :
+         {GravityField{0, 1}, GravityField{1, -1}, GravityField{infinity, 1}}) {
+      field.gravity = wrong;
+      EXPECT_THROW(written(field, format), Error);
+    }
+    Expansion shape = field;
+    shape.gravity = {1, 1};
+    shape.function = RadialFunction::kRadius;
+    EXPECT_THROW(written(shape, format), Error);
+  }
+  const std::string head = "# function: other\n# gravity_constant: 1\n", line = "0 0 1 0\n";
+  expect_refused(head + line, "reference_radius");
+  expect_refused(head + "# reference_radius: 0\n" + line, "reference radius");
+  expect_refused("# gravity_constant: 1\n# reference_radius: 1\n" + line, "'other'");
 }
 
 TEST(icgem, published_gravity_fields_have_their_constant_and_radius) {
-  const auto of = [](const std::string& text) { return gravity_field_of(text); };
-  const std::optional<GravityField> published = of(kPublishedStyle);
-  ASSERT_TRUE(published);
-  EXPECT_EQ(published->constant, 0.3986004415e15);
-  EXPECT_EQ(published->radius, 0.63781363e7);
   const std::string radius = "radius                    0.6378136300E+07\n";
   for (const char* wrong : {"", "radius large\n", "radius -1\n", "radius 1e999\n", "radius\n"}) {
-    EXPECT_FALSE(of(replaced(kPublishedStyle, radius, wrong))) << wrong;
+    const CoefficientsFile file = parse(replaced(kPublishedStyle, radius, wrong));
+    EXPECT_FALSE(file.expansion.gravity) << wrong;
+    ASSERT_FALSE(file.passed_over.empty());
+    EXPECT_EQ(file.passed_over[0], "earth_gravity_constant '0.3986004415E+15'");
   }
   const std::string type = "product_type              gravity_field";
-  EXPECT_FALSE(of(replaced(kPublishedStyle, type, "product_type shape")));
-  EXPECT_FALSE(of("0 0 1 0\n"));
-  EXPECT_FALSE(of(""));
+  const CoefficientsFile shape = parse(replaced(kPublishedStyle, type, "product_type shape"));
+  EXPECT_FALSE(shape.expansion.gravity);
+  EXPECT_EQ(shape.passed_over.size(), 2u);
 }
 
 TEST(icgem, what_is_no_radius_stays_so_in_every_format) {
