@@ -32,7 +32,7 @@ constexpr const char* kNotKnown = "not known";
 std::string table(const Spectrum& s) {
   std::string text;
   for (std::size_t l = 0; l < s.energy.size(); ++l) {
-    const std::optional<double>& rms = s.beyond.rms[l];
+    const std::optional<double>& rms = s.rms[l];
     text += fmt::format("{:>6} {:>14.7g} {:>14.7g} {:>14}\n", l, s.energy[l], s.cumulative[l],
                         rms ? fmt::format("{:.7g}", *rms) : kNotKnown);
   }
@@ -43,7 +43,7 @@ std::string table(const Spectrum& s) {
 std::string csv(const Spectrum& s) {
   std::string text = "degree,energy,cumulative,rms_beyond\n";
   for (std::size_t l = 0; l < s.energy.size(); ++l) {
-    const std::optional<double>& rms = s.beyond.rms[l];
+    const std::optional<double>& rms = s.rms[l];
     text += fmt::format("{},{},{},{}\n", l, s.energy[l], s.cumulative[l],
                         rms ? fmt::format("{}", *rms) : "");
   }
@@ -58,7 +58,7 @@ std::optional<double> measured_rms(const Expansion& expansion) {
 
 // Why some figures are not known, and what is known instead.
 std::string unknown_text(const Spectrum& s, const Expansion& expansion) {
-  if (s.beyond.rms.back()) return "";
+  if (s.rms.back()) return "";
   const int degree = expansion.coefficients.degree();
   const std::optional<double> bound = s.beyond.bound();
   if (!bound) {
@@ -76,7 +76,7 @@ std::string unknown_text(const Spectrum& s, const Expansion& expansion) {
 // Without a norm the answer is of the file's own degrees, of which the last leaves none.
 std::optional<int> degree_within(const Spectrum& s, double tolerance) {
   const std::optional<int> degree = s.beyond.degree_within(tolerance);
-  if (degree || s.includes_tail) return degree;
+  if (degree || s.beyond.includes_tail()) return degree;
   return static_cast<int>(s.energy.size()) - 1;
 }
 
@@ -85,9 +85,9 @@ std::string tolerance_text(const Spectrum& s, const Expansion& expansion, double
   const int last = expansion.coefficients.degree();
   if (const std::optional<int> degree = degree_within(s, tolerance)) {
     return fmt::format("# within {}{} from degree {} on\n", wanted,
-                       s.includes_tail ? "" : " of the file's own degrees", *degree);
+                       s.beyond.includes_tail() ? "" : " of the file's own degrees", *degree);
   }
-  if (s.beyond.rms.back()) return fmt::format("# never within {}\n", wanted);
+  if (s.rms.back()) return fmt::format("# never within {}\n", wanted);
   const std::optional<double> measured = measured_rms(expansion);
   if (!measured) return fmt::format("# whether any degree is within {} is not known\n", wanted);
   return *measured > tolerance

@@ -9,11 +9,7 @@ Spectrum spectrum_of(const Expansion& expansion) {
   double sum = 0;
   for (std::size_t l = 0; l < s.energy.size(); ++l) s.cumulative[l] = sum += s.energy[l];
   s.beyond = rms_beyond(expansion);
-  s.includes_tail = s.beyond.doubt.has_value();
-  if (!s.includes_tail) {
-    s.beyond.rms.assign(s.beyond.rms_within.begin(), s.beyond.rms_within.end());
-    s.beyond.rms.back().reset();
-  }
+  s.rms = s.beyond.figures();
   return s;
 }
 
@@ -24,8 +20,8 @@ Json spectrum_json(const Expansion& expansion, const Spectrum& s) {
   json["energy"] = s.energy;
   json["cumulative"] = s.cumulative;
   json["rms_beyond"] = Json::array();
-  for (const std::optional<double>& rms : s.beyond.rms) json["rms_beyond"].push_back(json_of(rms));
-  json["rms_beyond_includes_tail"] = s.includes_tail;
+  for (const std::optional<double>& rms : s.rms) json["rms_beyond"].push_back(json_of(rms));
+  json["rms_beyond_includes_tail"] = s.beyond.includes_tail();
   json["rms_beyond_bound"] = json_of(s.beyond.bound());
   return json;
 }

@@ -12,10 +12,8 @@ namespace rholm::cli {
 struct Spectrum {
   std::vector<double> energy;      // per degree
   std::vector<double> cumulative;  // of degrees 0 ... l
-  // What the degrees above each one hold. Without a norm these are the file's own degrees, and the
-  // figure of the last one is not known.
   RmsBeyond beyond;
-  bool includes_tail = false;  // what lies above L, too
+  std::vector<std::optional<double>> rms;  // RmsBeyond::figures()
 };
 
 Spectrum spectrum_of(const Expansion& expansion);

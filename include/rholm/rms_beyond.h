@@ -21,6 +21,14 @@ struct RmsBeyond {
   // the default precision, 1e-8. Where errors say otherwise they decide: an exact error bounds it,
   // and a measured one that differs from the norm's tells what the coefficients lack.
   std::optional<double> doubt;
+  // Whether it counts what lies above the expansion's own degree, which norm_squared tells.
+  bool includes_tail() const { return doubt.has_value(); }
+  // What there is to show of each degree: rms, or without norm_squared rms_within, but for the last
+  // degree, of which it says nothing.
+  std::vector<std::optional<double>> figures() const;
+  // Whether rms of degree l is known, and its square is 50 times what it may be off by, or more:
+  // right to a hundredth.
+  bool is_exact(int l) const;
   // Where rms is empty, it is at most this; empty without norm_squared.
   std::optional<double> bound() const;
   // The smallest degree whose rms, or else its bound, is at most the tolerance; none if there is

@@ -31,48 +31,6 @@ auto unless_refused(const Function& function) -> std::optional<decltype(function
   }
 }
 
-// What lies above the model's own degree. Parseval's difference of two large numbers means
-// something while the error of the coefficients, 1e-8 by default and twice that in squares, leaves
-// 1/50 of it; else the points decide.
-struct Tail {
-  double energy = 0;
-  bool known = false;
-  bool exact = false;
-  double floor = 0;  // it may be up to this; 0 where it is known better
-};
-Tail tail_of(const Expansion& expansion, double sum,
-             const std::optional<TruncationErrors>& errors) {
-  constexpr double kDoubt = 2e-8;
-  const auto energy_of = [](double rms) { return 4 * std::numbers::pi * rms * rms; };
-  if (expansion.function == RadialFunction::kRadius && errors && errors->rms) {
-    // Without its norm it is filtered: its degrees are not those of the shape any more.
-    const bool exact = errors->rms_is_exact && expansion.norm_squared;
-    return {energy_of(*errors->rms), true, exact, 0};
-  }
-  if (!expansion.norm_squared) return {};
-  const double doubt = kDoubt * *expansion.norm_squared;
-  const double rest = std::max(0.0, *expansion.norm_squared - sum);
-  return {rest, true, rest > 50 * doubt, rest > doubt ? 0 : doubt};
-}
-
-// Summed from the top, so that small remainders are not lost against the large first degrees.
-void find_spectrum(const Expansion& expansion, Data& data) {
-  double sum = 0;
-  for (const double energy : data.energy) sum += energy;
-  const Tail tail = tail_of(expansion, sum, data.errors);
-  data.includes_tail = tail.known;
-  data.rms_floor = std::sqrt(tail.floor / (4 * std::numbers::pi));
-  data.rms_beyond.resize(data.energy.size());
-  data.is_exact.resize(data.energy.size());
-  double beyond = tail.energy;
-  for (std::size_t l = data.energy.size(); l-- > 0;) {
-    data.rms_beyond[l] = std::sqrt(beyond / (4 * std::numbers::pi));
-    // A tail of a thousandth of the whole that is known to a per cent is a few 1e-6 of the rms.
-    data.is_exact[l] = tail.known && (tail.exact || tail.energy + tail.floor < 1e-3 * beyond);
-    beyond += data.energy[l];
-  }
-}
-
 // By points of the shape, and Parseval where it applies.
 std::optional<TruncationErrors> measured_errors(ErrorSites& sites, const Expansion& expansion,
                                                 int degree, bool predict, const Context& context) {
@@ -92,10 +50,15 @@ DegreeRow row_of(int degree, const Expansion& expansion, const Data& data,
     row.max = errors->measured_max;
     row.max_distance = errors->measured_max_distance;
   }
-  if (data.includes_tail && expansion.function == RadialFunction::kRadius) {
-    row.rms = data.rms_beyond[static_cast<std::size_t>(degree)];
-    row.rms_is_exact = data.is_exact[static_cast<std::size_t>(degree)];
+  if (expansion.function != RadialFunction::kRadius) return row;
+  // What points tell stands but against what is exact.
+  const RmsBeyond& beyond = data.beyond;
+  const std::optional<double>& rms = beyond.rms[static_cast<std::size_t>(degree)];
+  if (rms && (!row.rms || beyond.is_exact(degree))) {
+    row.rms = rms;
+    row.rms_is_exact = beyond.is_exact(degree);
   }
+  if (!row.rms) row.rms_at_most = beyond.bound();
   return row;
 }
 
@@ -176,7 +139,10 @@ Data find_data(const Expansion& expansion, std::optional<ShapeFigures> shape,
     data.errors = measured_errors(*sites, expansion, degree, true, context);
   }
   data.energy = power_spectrum(expansion.coefficients);
-  find_spectrum(expansion, data);
+  Expansion known = expansion;
+  known.errors = data.errors;
+  data.beyond = rms_beyond(known);
+  data.rms = data.beyond.figures();
   for (const int l : degree_ladder(degree)) {
     std::optional<TruncationErrors> errors = l == degree ? data.errors : std::nullopt;
     if (l < degree && sites) errors = measured_errors(*sites, expansion, l, false, context);

@@ -9,6 +9,7 @@
 #include "rholm/context.h"
 #include "rholm/mesh.h"
 #include "rholm/report.h"
+#include "rholm/rms_beyond.h"
 #include "rholm/star.h"
 #include "rholm/synthesize.h"
 #include "rholm/topology.h"
@@ -42,19 +43,16 @@ struct DegreeRow {
   // Radial, over solid angle, in the unit of lengths; none if it is not known.
   std::optional<double> rms;
   bool rms_is_exact = false;
+  std::optional<double> rms_at_most;   // where it is not known, and bounded
   std::optional<double> max;           // radial
   std::optional<double> max_distance;  // between the surfaces
 };
 
 struct Data {
   std::optional<ShapeFigures> shape;
-  std::vector<double> energy;  // per degree
-  // Per degree l: root mean square, over solid angle, of what the function holds above l; with what
-  // lies above the model's own degree if that is known.
-  std::vector<double> rms_beyond;
-  std::vector<bool> is_exact;  // that figure, but for what the coefficients' precision does
-  bool includes_tail = false;
-  double rms_floor = 0;                    // of the model's own degree: it may be up to this
+  std::vector<double> energy;              // per degree
+  RmsBeyond beyond;                        // with the errors below
+  std::vector<std::optional<double>> rms;  // RmsBeyond::figures()
   std::vector<DegreeRow> rows;             // ascending, the last one the model's own
   std::optional<TruncationErrors> errors;  // of the model's own degree
   std::optional<SurfaceMeasures> model;    // none above kHighestDrawn, or without a surface

@@ -21,10 +21,10 @@ std::string rms_caption(int degree, const Expansion& expansion, const Data& data
     for (const DegreeRow& row : data.rows) {
       if (row.degree == degree && row.rms) return row.rms;
     }
-    if (!data.includes_tail || expansion.function == RadialFunction::kGauge) return std::nullopt;
-    return data.rms_beyond[static_cast<std::size_t>(degree)];
+    if (expansion.function == RadialFunction::kGauge) return std::nullopt;
+    return data.beyond.rms[static_cast<std::size_t>(degree)];
   }();
-  if (!rms || *rms <= data.rms_floor) return "";
+  if (!rms) return "";
   const std::string part = of_diagonal(rms, data);
   return fmt::format("<br><small>rms {}</small>",
                      part.empty() ? html::length(rms, expansion.unit, 3) : part);
@@ -136,17 +136,17 @@ Plot energy_plot(const Expansion& expansion, const Data& data, const ReportOptio
 
 Series rms_series(const Data& data, const Expansion& expansion) {
   const bool gauge = expansion.function == RadialFunction::kGauge;
+  const int own_degree = expansion.coefficients.degree();
   Series series{
       .label = fmt::format("rms of {}{}, over solid angle", gauge ? "1/<i>r</i>" : "<i>r</i>",
-                           !data.includes_tail    ? " within the model"
-                           : data.is_exact.back() ? ", exact"
-                                                  : ""),
+                           !data.beyond.includes_tail()       ? " within the model"
+                           : data.beyond.is_exact(own_degree) ? ", exact"
+                                                              : ""),
       .ink = Ink::kMeasured,
       .points = {}};
-  for (std::size_t l = 1; l < data.rms_beyond.size(); ++l) {
-    if (data.rms_beyond[l] > data.rms_floor) {
-      series.points.push_back({static_cast<double>(l), data.rms_beyond[l]});
-    }
+  for (std::size_t l = 1; l < data.rms.size(); ++l) {
+    const std::optional<double>& rms = data.rms[l];
+    if (rms && *rms > 0) series.points.push_back({static_cast<double>(l), *rms});
   }
   return series;
 }
@@ -176,7 +176,7 @@ Plot error_plot(const Expansion& expansion, const Data& data, const ReportOption
     plot.series.push_back(largest_series(data, "largest distance of the surfaces", Ink::kDistance,
                                          &DegreeRow::max_distance));
   }
-  if (expansion.tail_strength.value_or(0) > 0 && data.includes_tail) {
+  if (expansion.tail_strength.value_or(0) > 0 && data.beyond.includes_tail()) {
     // The energy beyond l is about S / (3 pi (l + 1/2)^3), method 5.
     const double strength = *expansion.tail_strength;
     plot.series.push_back(law("predicted rms", Ink::kTail, x_max, [&](double l) {

@@ -14,6 +14,7 @@ namespace rholm::report {
 namespace {
 
 constexpr const char* kDash = "&#8211;";
+const std::string kAtMost = "&lt;&nbsp;";
 constexpr const char* kNotKnown = "not known";
 
 std::string length_cell(const std::optional<double>& value, const Data& data) {
@@ -23,8 +24,8 @@ std::string length_cell(const std::optional<double>& value, const Data& data) {
 Row degree_row(const DegreeRow& row, const Data& data, bool own) {
   const std::size_t n = (row.degree + std::size_t{1}) * (row.degree + std::size_t{1});
   return {{std::to_string(row.degree), html::count(n), html::count(8 * n),
-           two_lines(rms_text(row, data, ""), of_diagonal(row.rms, data)),
-           length_cell(row.max, data), length_cell(row.max_distance, data)},
+           two_lines(rms_text(row, ""), of_diagonal(row.rms, data)), length_cell(row.max, data),
+           length_cell(row.max_distance, data)},
           own};
 }
 
@@ -107,11 +108,9 @@ std::string point_text(const Vec3& p, double size) {
   return fmt::format("{}<br>{}<br>{}", coordinate(p.x), coordinate(p.y), coordinate(p.z));
 }
 
-std::string rms_text(const DegreeRow& row, const Data& data, const std::string& unit, int digits) {
+std::string rms_text(const DegreeRow& row, const std::string& unit, int digits) {
+  if (!row.rms && row.rms_at_most) return kAtMost + html::length(row.rms_at_most, unit, 1);
   if (!row.rms) return kDash;
-  if (data.rms_floor > 0 && *row.rms <= data.rms_floor) {
-    return "&lt;&nbsp;" + html::length(data.rms_floor, unit, 1);
-  }
   return (row.rms_is_exact ? "" : "&#8776;&nbsp;") + html::length(row.rms, unit, digits);
 }
 
@@ -142,16 +141,17 @@ std::string error_table(const Expansion& expansion, const Data& data) {
       if (!known.value) continue;
       table.rows.push_back({{known.what, length_cell(known.value, data), known.how}});
     }
-  } else if (data.includes_tail) {
+  } else if (data.beyond.includes_tail()) {
     const bool gauge = expansion.function == RadialFunction::kGauge;
+    const std::optional<double>& known = data.beyond.rms.back();
     table.columns[1].heading = gauge ? "value" : table.columns[1].heading;
     table.rows.push_back(
         {{gauge ? "rms of 1/<i>r</i>, over solid angle" : "rms of the radius, over solid angle",
-          (data.rms_floor > 0 ? "&lt;&nbsp;" + html::number(data.rms_floor, 1)
-                              : html::number(data.rms_beyond.back())),
-          data.is_exact.back() ? "exact, by Parseval&#8217;s identity"
-                               : "by Parseval&#8217;s identity, as far as the precision of the "
-                                 "coefficients allows"}});
+          known ? html::number(*known) : kAtMost + html::number(*data.beyond.bound(), 1),
+          data.beyond.is_exact(expansion.coefficients.degree())
+              ? "exact, by Parseval&#8217;s identity"
+              : "by Parseval&#8217;s identity, as far as the precision of the coefficients "
+                "allows"}});
   }
   return table.rows.empty() ? "" : markup_of(table);
 }

@@ -15,10 +15,9 @@ std::string error_table(const Expansion& expansion, const Data& data);
 // Vertices, volume, centre, ... of the shape and of the model beside it.
 std::string figure_table(const Expansion& expansion, const Data& data);
 
-// The rms error of a row: "&lt; ..." below the floor of rounding, with a sign for "about" where it
+// The rms error of a row: "&lt; ..." where only a bound is known, with a sign for "about" where it
 // was measured.
-std::string rms_text(const DegreeRow& row, const Data& data, const std::string& unit,
-                     int digits = 4);
+std::string rms_text(const DegreeRow& row, const std::string& unit, int digits = 4);
 // A length as a part of the diagonal: "2.31 x 10^-4 d"; empty if either is unknown.
 std::string of_diagonal(const std::optional<double>& length, const Data& data);
 // Three lines with as many decimals as a body of that size needs.

@@ -77,8 +77,8 @@ std::string facts(const Expansion& expansion, const Data& data) {
   const DegreeRow& own = data.rows.back();
   std::string html = "<dl class=\"facts\">\n" + fact("degree", std::to_string(degree), "");
   html += fact("coefficients", html::count(static_cast<std::size_t>(n)), "");
-  if (own.rms) {
-    html += fact("rms error", rms_text(own, data, expansion.unit, 3), of_diagonal(own.rms, data));
+  if (own.rms || own.rms_at_most) {
+    html += fact("rms error", rms_text(own, expansion.unit, 3), of_diagonal(own.rms, data));
   }
   html += largest_fact(expansion, data);
   std::string small;

@@ -52,6 +52,18 @@ RmsBeyond rms_beyond(const Expansion& expansion) {
   return result;
 }
 
+std::vector<std::optional<double>> RmsBeyond::figures() const {
+  if (includes_tail()) return rms;
+  std::vector<std::optional<double>> within(rms_within.begin(), rms_within.end());
+  within.back().reset();
+  return within;
+}
+
+bool RmsBeyond::is_exact(int l) const {
+  const std::optional<double>& value = rms[static_cast<std::size_t>(l)];
+  return value && 4 * std::numbers::pi * *value * *value >= kExact * *doubt;
+}
+
 // A rest that is not believed is less than kBelieved doubts, and one more below the true one.
 std::optional<double> RmsBeyond::bound() const {
   if (!doubt) return std::nullopt;

@@ -105,13 +105,39 @@ TEST(report_data, a_difference_within_the_precision_of_coefficients_is_not_calle
   expansion.coefficients.c(0, 0) = 1;
   expansion.norm_squared = 1 + 1e-10;
   report::Data data = report::find_data(expansion, {}, {});
-  EXPECT_FALSE(data.rows.back().rms_is_exact);
-  EXPECT_GE(data.rms_floor, *data.rows.back().rms);
+  EXPECT_FALSE(data.rows.back().rms);
+  EXPECT_GE(*data.rows.back().rms_at_most, std::sqrt(1e-10 / (4 * std::numbers::pi)));
   expansion.errors = TruncationErrors{};
   expansion.errors->rms = 1e-5;
   data = report::find_data(expansion, {}, {});
-  EXPECT_EQ(data.rms_floor, 0);
-  EXPECT_NEAR(*data.rows.back().rms, 1e-5, 1e-15);
+  EXPECT_FALSE(data.rows.back().rms_is_exact);
+  EXPECT_EQ(*data.rows.back().rms, 1e-5);
+}
+
+// Rests from a part of their doubt to a hundred times it: the page knows what rms_beyond() knows.
+TEST(report_data, knows_of_every_degree_what_rms_beyond_knows) {
+  Expansion expansion;
+  expansion.coefficients = Coefficients(2);
+  expansion.coefficients.c(0, 0) = 1;
+  expansion.coefficients.c(2, 0) = 1e-3;
+  int known = 0, exact = 0;
+  for (const double rest : {1e-9, 1e-8, 3e-8, 1e-7, 3e-7, 3e-6}) {
+    expansion.norm_squared = 1 + 1e-6 + rest;
+    const RmsBeyond beyond = rms_beyond(expansion);
+    const report::Data data = report::find_data(expansion, {}, {});
+    EXPECT_EQ(data.rms, beyond.rms);
+    for (const report::DegreeRow& row : data.rows) {
+      const std::optional<double>& wanted = beyond.rms[static_cast<std::size_t>(row.degree)];
+      EXPECT_EQ(row.rms, wanted);
+      EXPECT_EQ(row.rms_at_most, wanted ? std::nullopt : beyond.bound());
+    }
+    if (data.rows.back().rms) ++known;
+    if (data.rows.back().rms_is_exact) ++exact;
+    EXPECT_EQ(count(report_html(expansion, nullptr), "by Parseval&#8217;s identity, as far as") > 0,
+              !data.rows.back().rms_is_exact);
+  }
+  EXPECT_EQ(known, 3);
+  EXPECT_EQ(exact, 1);
 }
 
 // The unit sphere against the regular octahedron in it: the largest error is that of the middle of
