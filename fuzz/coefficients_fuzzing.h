@@ -30,7 +30,7 @@ inline bool same(const Coefficients& a, const Coefficients& b) {
 inline bool same(const Expansion& a, const Expansion& b) {
   return same(a.coefficients, b.coefficients) && a.function == b.function && a.center == b.center &&
          a.unit == b.unit && a.method == b.method && a.norm_squared == b.norm_squared &&
-         a.tail_strength == b.tail_strength && a.gravity == b.gravity;
+         a.tail_strength == b.tail_strength && a.gravity == b.gravity && a.precision == b.precision;
 }
 
 // A sound expansion survives every format.

@@ -319,9 +319,13 @@ std::string unmeasured_text(const Expansion& expansion) {
     return line(what, text_of(*rms) + " rms over solid angle, by the norm");
   }
   const std::optional<double> bound = beyond.bound();
-  return line(what, bound
-                        ? fmt::format("not known, at most {} rms over solid angle", text_of(*bound))
-                        : "not known");
+  return line(
+      what,
+      bound ? fmt::format("not known, at most {} rms over solid angle{}", text_of(*bound),
+                          beyond.precision_is_assumed
+                              ? fmt::format(", if the precision is {}", text_of(beyond.precision))
+                              : "")
+            : "not known");
 }
 
 std::string errors_text(const TruncationErrors& errors) {
@@ -371,6 +375,7 @@ int report_coefficients(const Options& options, const CoefficientsFile& file, Se
   json["truncation_rms"] = json_of(rms_beyond(expansion).rms.back());
   json["errors"] = json_of(expansion.errors);
   json["diagonal"] = expansion.errors ? Json(expansion.errors->diagonal) : Json(nullptr);
+  json["precision"] = json_of(expansion.precision);
   json["signed_sum"] = expansion.signed_sum;
   const std::optional<GravityField>& gravity = expansion.gravity;
   json["gravity_constant"] = gravity ? Json(gravity->gravity_constant) : Json(nullptr);
@@ -382,6 +387,7 @@ int report_coefficients(const Options& options, const CoefficientsFile& file, Se
   text += line("centre", text_of(expansion.center));
   text += line("unit", expansion.unit.empty() ? "not said" : expansion.unit);
   text += line("method", expansion.method.empty() ? "not said" : expansion.method);
+  text += line("precision", expansion.precision ? text_of(*expansion.precision) : "not said");
   text += line("numbers in", convention);
   for (const std::string& assumed : file.assumed) text += line("assumed", assumed);
   if (!file.product.empty()) text += line("of", file.product + ", no shape");

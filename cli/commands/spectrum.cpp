@@ -66,7 +66,9 @@ std::string unknown_text(const Spectrum& s, const Expansion& expansion) {
                        degree);
   }
   std::string text =
-      fmt::format("# not known: at most {}, as exact as the coefficients are", text_of(*bound));
+      fmt::format("# not known: at most {}, as the coefficients have a precision of {}{}",
+                  text_of(*bound), text_of(s.beyond.precision),
+                  s.beyond.precision_is_assumed ? ", which the file does not say" : "");
   if (const std::optional<double> measured = measured_rms(expansion)) {
     text += fmt::format("; {} at degree {}, measured at points", text_of(*measured), degree);
   }
@@ -141,7 +143,7 @@ int run(const Options& options, Session& session) {
         "{:>6} {:>14} {:>14} {:>14}\n",
         display_name(options.input),
         expansion.function == RadialFunction::kOther ? "function" : to_string(expansion.function),
-        spectrum.includes_tail ? "" : ", within the file's own degrees", "degree", "energy",
+        spectrum.beyond.includes_tail() ? "" : ", within the file's own degrees", "degree", "energy",
         "cumulative", "rms beyond");
     print_text(heading + table(spectrum) + unknown_text(spectrum, expansion));
     if (options.tolerance) print_text(tolerance_text(spectrum, expansion, *options.tolerance));

@@ -23,6 +23,7 @@ Json spectrum_json(const Expansion& expansion, const Spectrum& s) {
   for (const std::optional<double>& rms : s.rms) json["rms_beyond"].push_back(json_of(rms));
   json["rms_beyond_includes_tail"] = s.beyond.includes_tail();
   json["rms_beyond_bound"] = json_of(s.beyond.bound());
+  json["precision"] = json_of(expansion.precision);
   return json;
 }
 

@@ -14,6 +14,7 @@
 #include "cli/files/spooled_input.h"
 #include "cli/grammar/values.h"
 #include "cli/terminal/interrupt.h"
+#include "cli/terminal/json_text.h"
 #include "rholm/compress.h"
 #include "rholm/error.h"
 #include "rholm/model.h"

@@ -14,6 +14,7 @@
 #include "cli/grammar/parse.h"
 #include "cli/terminal/capture.h"
 #include "cli/terminal/interrupt.h"
+#include "cli/terminal/json_text.h"
 #include "rholm/error.h"
 #include "rholm/model.h"
 

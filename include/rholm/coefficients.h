@@ -103,8 +103,9 @@ struct Expansion {
   bool signed_sum = false;
   // Of a gravity field (kOther); empty if unknown, and for all others.
   std::optional<GravityField> gravity = {};
-  // Relative error that the coefficients were computed with, as AnalyzeOptions::precision; empty if
-  // unknown.
+  // Relative error that the coefficients were computed with: of c_00, and in l2 of all others
+  // together. The wanted one, or if it was not reached the estimated one; of random points three
+  // deviations. Empty if unknown.
   std::optional<double> precision = {};
 };
 

@@ -17,10 +17,13 @@ struct RmsBeyond {
   std::vector<std::optional<double>> rms;
   // The same of f_L - f_l: what the expansion's own degrees above l hold.
   std::vector<double> rms_within;
-  // What 4 pi rms^2 may be off by; empty without norm_squared. The coefficients are taken to have
-  // the default precision, 1e-8. Where errors say otherwise they decide: an exact error bounds it,
-  // and a measured one that differs from the norm's tells what the coefficients lack.
+  // What 4 pi rms^2 may be off by, as exact as the coefficients are; empty without norm_squared.
+  // Where errors say otherwise they decide: an exact error bounds it, and a measured one that
+  // differs from the norm's tells what the coefficients lack.
   std::optional<double> doubt;
+  // The expansion's; where that is not known, the default of AnalyzeOptions is assumed.
+  double precision = 0;
+  bool precision_is_assumed = false;
   // Whether it counts what lies above the expansion's own degree, which norm_squared tells.
   bool includes_tail() const { return doubt.has_value(); }
   // What there is to show of each degree: rms, or without norm_squared rms_within, but for the last

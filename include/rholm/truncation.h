@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,9 @@ namespace rholm {
 // How exact the coefficients are, and what is wanted.
 struct TruncationOptions {
   // Relative error of the coefficients, l2 without the mean: decides whether Parseval's difference
-  // of two large numbers still means something.
-  double precision = 1e-8;
+  // of two large numbers still means something. By default that of the expansion, or if that is not
+  // known 1e-8.
+  std::optional<double> precision = {};
   bool predict = true;  // the largest errors in closed form; about 300 ns per triangle
 };
 

@@ -214,7 +214,7 @@ def truncation_errors(
     mesh: MeshLike,
     expansion: Expansion,
     *,
-    precision: float = 1e-8,
+    precision: float | None = None,
     predict: bool = True,
     threads: int = 0,
     progress: Progress = None,
@@ -227,8 +227,8 @@ def truncation_errors(
         Closed and star-shaped about the expansion's centre; mended as by `expand`.
     expansion : Expansion
         Of its radius or gauge.
-    precision : float
-        How exact its coefficients are.
+    precision : float, optional
+        How exact its coefficients are; by default `Expansion.precision`, or 1e-8 if that is not known.
     predict : bool
         Whether the largest errors are predicted in closed form, too.
     threads, progress

@@ -137,6 +137,13 @@ class Expansion:
         return self._core.errors
 
     @property
+    def precision(self) -> float | None:
+        """Relative error that the coefficients were computed with, of the mean and in l2 of all others
+        together; of random points three deviations. None if not known: `rms_beyond` then assumes 1e-8.
+        """
+        return self._core.precision
+
+    @property
     def norm_squared(self) -> float | None:
         """Integral of f^2 over the sphere of the expanded function itself; None if not known."""
         return self._core.norm_squared
@@ -237,7 +244,7 @@ class Expansion:
         rms : float64, (L+1,)
             Root mean square over all directions of what lies above degree l, by Parseval's identity,
             in the function's unit. NaN where it is not known: without `norm_squared`, and where it
-            is below what the precision of the coefficients tells. The last one is the truncation
+            is below what the `precision` of the coefficients tells (1e-8 if that is not known). The last one is the truncation
             error of the expansion itself.
         """
         return _core.rms_beyond(self._core)

@@ -245,12 +245,15 @@ void bind_norms(nb::module_& m) {
     }
     return array_of(std::move(rms));
   });
-  m.def("truncation_errors", [](const Mesh& mesh, const Expansion& expansion, double precision,
-                                bool predict, const Caller& caller) {
-    return caller.run([&](const Context& context) {
-      return truncation_errors(view_of(mesh), expansion, {precision, predict}, context);
-    });
-  });
+  m.def(
+      "truncation_errors",
+      [](const Mesh& mesh, const Expansion& expansion, std::optional<double> precision,
+         bool predict, const Caller& caller) {
+        return caller.run([&](const Context& context) {
+          return truncation_errors(view_of(mesh), expansion, {precision, predict}, context);
+        });
+      },
+      nb::arg(), nb::arg(), nb::arg().none(), nb::arg(), nb::arg());
 }
 
 SamplePlaces places_of(const std::string& name) {

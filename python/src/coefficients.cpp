@@ -147,7 +147,7 @@ void bind_expansion(nb::module_& m) {
       [](const Expansion& e) {
         return nb::make_tuple(e.coefficients, static_cast<int>(e.function), state_of(e.center),
                               e.unit, e.method, e.norm_squared, e.tail_strength, e.errors,
-                              e.signed_sum, e.gravity);
+                              e.signed_sum, e.gravity, e.precision);
       },
       [](const nb::object& state) {
         const auto parts = nb::cast<nb::tuple>(state);
@@ -162,6 +162,7 @@ void bind_expansion(nb::module_& m) {
         e.errors = nb::cast<std::optional<TruncationErrors>>(parts[7]);
         e.signed_sum = parts.size() > 8 && nb::cast<bool>(parts[8]);
         if (parts.size() > 9) e.gravity = nb::cast<std::optional<GravityField>>(parts[9]);
+        if (parts.size() > 10) e.precision = nb::cast<std::optional<double>>(parts[10]);
         return e;
       });
   type.def(
@@ -211,6 +212,7 @@ void bind_expansion(nb::module_& m) {
            })
       .def_ro("gravity", &Expansion::gravity)
       .def_ro("method", &Expansion::method)
+      .def_ro("precision", &Expansion::precision)
       .def_ro("norm_squared", &Expansion::norm_squared)
       .def_ro("tail_strength", &Expansion::tail_strength)
       .def_ro("errors", &Expansion::errors)

@@ -159,6 +159,9 @@ void finish_analysis(const AnalyzeOptions& options, const Vec3& center, Analysis
   expansion.function = function_of(options.method);
   expansion.center = center;
   expansion.method = to_string(options.method);
+  const bool reached = !analysis.fast || analysis.fast->reached;
+  expansion.precision =
+      reached ? analysis.precision : std::max(analysis.precision, known_error(analysis));
   if (expansion.norm_squared) {
     set_truncation_rms(*expansion.norm_squared, analysis);
   }

@@ -179,6 +179,48 @@ class NoShape(Meaning):
         self.rholm("synthesize", "g.gfc", "-o", "o.ply")
 
 
+class Precision(Meaning):
+    def test_a_model_is_judged_by_the_precision_it_was_made_with(self):
+        self.rholm("make", "ellipsoid", "--axes", "1.3,1.1,1", "--subdivisions", "2", "-o", "e.ply")
+        for name, precision in (("coarse.h5", "1e-3"), ("fine.h5", "1e-8")):
+            self.rholm("analyze", "e.ply", "--degree", "6", "--no-errors", "--precision", precision,
+                       "-o", name)
+        fine = self.rholm("info", "fine.h5", "--json").json()
+        self.assertEqual(fine["precision"], 1e-8)
+        self.assertGreater(fine["truncation_rms"], 0)
+        tolerance = 2 * fine["truncation_rms"]
+        within = ("spectrum", "fine.h5", "--tolerance", tolerance)
+        self.assertRegex(self.rholm(*within).out, r"# within \S+ from degree \d")
+        for name in ("coarse.h5", "c.sh", "c.gfc", "c.json"):
+            if name != "coarse.h5":
+                self.rholm("convert", "coarse.h5", name)
+            with self.subTest(name):
+                report = self.rholm("info", name, "--json").json()
+                self.assertEqual((report["precision"], report["truncation_rms"]), (1e-3, None))
+                said = self.rholm("spectrum", name, "--tolerance", tolerance).out
+                self.assertIn("not known: at most", said)
+                self.assertIn("a precision of 0.001", said)
+                self.assertNotIn("does not say", said)
+                self.assertRegex(said, r"# whether any degree is within \S+ is not known")
+                self.rholm("report", name, "-o", "r.html", "--size", "16")
+                self.assertRegex((self.folder / "r.html").read_text(), r"rms error.*?&lt;&nbsp;")
+
+    def test_where_it_is_not_known_that_is_said(self):
+        self.rholm("make", "sphere", "--subdivisions", "4", "-o", "s.ply")
+        self.rholm("analyze", "s.ply", "--degree", "200", "--no-errors", "-o", "s.json")
+        text = (self.folder / "s.json").read_text()
+        self.write("old.json", text.replace('"precision"', '"another"'))
+        report = self.rholm("info", "old.json", "--json").json()
+        self.assertIsNone(report["precision"])
+        self.assertRegex(self.rholm("info", "old.json").out, r"(?m)^  precision +not said")
+        # What exceeds the coefficients is made less than they tell.
+        norm = sum(self.rholm("spectrum", "old.json", "--json").json()["energy"])
+        self.write("old.json", re.sub(r'"norm_squared":[^,]+', f'"norm_squared":{norm * (1 + 1e-9)!r}',
+                                      (self.folder / "old.json").read_text()))
+        self.assertIn("which the file does not say", self.rholm("spectrum", "old.json").out)
+        self.assertIn("if the precision is 1e-08", self.rholm("info", "old.json").out)
+
+
 class Units(Meaning):
     def test_models_in_km_and_m_of_one_body_lie_on_each_other(self):
         self.model("m.h5", "m")

@@ -99,6 +99,7 @@ void check_expansion(const Expansion& expansion, const std::string& name) {
   check_norm(expansion.norm_squared, "norm_squared", name);
   check_norm(expansion.tail_strength, "tail_strength", name);
   check_gravity(expansion, name);
+  check_norm(expansion.precision, "precision", name);
 }
 
 }  // namespace rholm

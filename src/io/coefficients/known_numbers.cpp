@@ -6,7 +6,8 @@ namespace rholm {
 
 KnownNumbers known_numbers(const Expansion& expansion) {
   KnownNumbers numbers{.norm_squared = expansion.norm_squared,
-                       .tail_strength = expansion.tail_strength};
+                       .tail_strength = expansion.tail_strength,
+                       .precision = expansion.precision};
   if (expansion.gravity) {
     numbers.gravity_constant = expansion.gravity->gravity_constant;
     numbers.reference_radius = expansion.gravity->reference_radius;
@@ -21,6 +22,7 @@ void set_known_numbers(const KnownNumbers& numbers, const std::string& name, Exp
   }
   expansion.norm_squared = numbers.norm_squared;
   expansion.tail_strength = numbers.tail_strength;
+  expansion.precision = numbers.precision;
   if (numbers.gravity_constant) {
     expansion.gravity = {*numbers.gravity_constant, *numbers.reference_radius};
   }

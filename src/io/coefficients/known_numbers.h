@@ -13,6 +13,7 @@ namespace rholm {
 struct KnownNumbers {
   std::optional<double> norm_squared = {}, tail_strength = {};
   std::optional<double> gravity_constant = {}, reference_radius = {};
+  std::optional<double> precision = {};
 };
 
 struct KnownNumber {
@@ -24,6 +25,7 @@ inline constexpr KnownNumber kKnownNumbers[] = {
     {"tail_strength", &KnownNumbers::tail_strength},
     {"gravity_constant", &KnownNumbers::gravity_constant},
     {"reference_radius", &KnownNumbers::reference_radius},
+    {"precision", &KnownNumbers::precision},
 };
 
 KnownNumbers known_numbers(const Expansion& expansion);

@@ -149,9 +149,12 @@ std::string error_table(const Expansion& expansion, const Data& data) {
         {{gauge ? "rms of 1/<i>r</i>, over solid angle" : "rms of the radius, over solid angle",
           known ? html::number(*known) : kAtMost + html::number(*data.beyond.bound(), 1),
           data.beyond.is_exact(expansion.coefficients.degree())
-              ? "exact, by Parseval&#8217;s identity"
-              : "by Parseval&#8217;s identity, as far as the precision of the coefficients "
-                "allows"}});
+              ? std::string("exact, by Parseval&#8217;s identity")
+              : "by Parseval&#8217;s identity, as far as the precision of the coefficients " +
+                    std::string(data.beyond.precision_is_assumed
+                                    ? "allows; it is not known, and taken to be "
+                                    : "allows, ") +
+                    html::number(data.beyond.precision, 1)}});
   }
   return table.rows.empty() ? "" : markup_of(table);
 }

@@ -38,8 +38,8 @@ void predict(const Expansion& expansion, ErrorSites& sites, TruncationErrors& er
 // Of values and slopes at points, as in SumOptions: a hundred thousandth of the error, where that
 // is known.
 double measuring_precision(const Expansion& expansion, const std::optional<double>& exact_rms,
-                           const TruncationOptions& options) {
-  if (!exact_rms) return std::clamp(options.precision, 1e-12, 1e-6);
+                           double precision) {
+  if (!exact_rms) return std::clamp(precision, 1e-12, 1e-6);
   const double size = std::sqrt(*expansion.norm_squared / (4 * std::numbers::pi));
   return std::clamp(1e-5 * *exact_rms / size, 1e-12, 1e-6);
 }
@@ -137,11 +137,12 @@ TruncationErrors truncation_errors(const Expansion& expansion, const TruncationO
   const int degree = expansion.coefficients.degree();
   const Context silent{.threads = context.threads};
   report_progress(context, "errors", 0);
+  const double known = options.precision.value_or(precision_of(expansion));
   std::optional<double> exact_rms;
   if (expansion.function == RadialFunction::kRadius) {
-    exact_rms = parseval_rms(expansion, options.precision);
+    exact_rms = parseval_rms(expansion, known);
   }
-  const double precision = measuring_precision(expansion, exact_rms, options);
+  const double precision = measuring_precision(expansion, exact_rms, known);
   const ErrorPoints& over_area = sites.over_area();
   const RadialModel model(expansion, degree, over_area.size(), true, precision, silent);
   const PointErrors of_area = point_errors(over_area, model, true, silent);

@@ -139,9 +139,10 @@ void set_norms(const StarChart& chart, MonteCarlo& result) {
   expansion.tail_strength = tail_strength(chart, RadialFunction::kRadius);
   // As far as three deviations.
   const Coefficients& deviation = result.deviation;
-  const ParsevalRest rest = parseval_rest(
-      *expansion.norm_squared, expansion.coefficients,
-      {.mean = 3 * deviation.c(0, 0), .varying = 3 * std::sqrt(sum_of_squares(deviation, 1))});
+  const CoefficientErrors errors{.mean = 3 * deviation.c(0, 0),
+                                 .varying = 3 * std::sqrt(sum_of_squares(deviation, 1))};
+  expansion.precision = precision_of(*expansion.norm_squared, expansion.coefficients, errors);
+  const ParsevalRest rest = parseval_rest(*expansion.norm_squared, expansion.coefficients, errors);
   result.truncation_rms = rms_of(rest, kBelieved);
   if (result.truncation_rms) result.truncation_rms_doubt = rms_doubt(rest);
 }

@@ -6,6 +6,7 @@
 
 #include "base/compensated_sum.h"
 #include "base/rounding.h"
+#include "rholm/analyze.h"
 
 namespace rholm {
 namespace {
@@ -22,6 +23,17 @@ double varying_norm(double norm_squared, const Coefficients& coefficients) {
 double rms(double energy) { return std::sqrt(std::max(0.0, energy) / (4 * std::numbers::pi)); }
 
 }  // namespace
+
+double precision_of(const Expansion& expansion) {
+  return expansion.precision.value_or(AnalyzeOptions{}.precision);
+}
+
+double precision_of(double norm_squared, const Coefficients& coefficients,
+                    const CoefficientErrors& errors) {
+  const double mean = std::abs(coefficients.c(0, 0));
+  const double varying = varying_norm(norm_squared, coefficients);
+  return std::max(mean > 0 ? errors.mean / mean : 0, varying > 0 ? errors.varying / varying : 0);
+}
 
 CoefficientErrors coefficient_errors(double norm_squared, const Coefficients& coefficients,
                                      double mean, double varying) {

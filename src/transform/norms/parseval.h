@@ -12,6 +12,11 @@ namespace rholm {
 struct CoefficientErrors {
   double mean = 0, varying = 0;
 };
+// That of the coefficients, or what it is assumed to be: the default of AnalyzeOptions.
+double precision_of(const Expansion& expansion);
+// The larger of both errors, relative: the inverse of what follows.
+double precision_of(double norm_squared, const Coefficients& coefficients,
+                    const CoefficientErrors& errors);
 // From relative ones: of c_00, and of the function without its mean.
 CoefficientErrors coefficient_errors(double norm_squared, const Coefficients& coefficients,
                                      double mean, double varying);

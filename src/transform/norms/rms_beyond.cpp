@@ -27,9 +27,10 @@ double doubt_of(const Expansion& expansion, const ParsevalRest& rest) {
 }  // namespace
 
 RmsBeyond rms_beyond(const Expansion& expansion) {
-  constexpr double kPrecision = 1e-8;  // the default of AnalyzeOptions
   const std::vector<double> energy = power_spectrum(expansion.coefficients);
   RmsBeyond result;
+  result.precision = precision_of(expansion);
+  result.precision_is_assumed = !expansion.precision;
   result.rms.resize(energy.size());
   result.rms_within.resize(energy.size());
   // From the top, so that small remainders are not lost against the large first degrees.
@@ -42,7 +43,7 @@ RmsBeyond rms_beyond(const Expansion& expansion) {
   const double norm_squared = *expansion.norm_squared;
   ParsevalRest rest = parseval_rest(
       norm_squared, expansion.coefficients,
-      coefficient_errors(norm_squared, expansion.coefficients, kPrecision, kPrecision));
+      coefficient_errors(norm_squared, expansion.coefficients, result.precision, result.precision));
   rest.doubt = doubt_of(expansion, rest);
   result.doubt = rest.doubt;
   for (std::size_t l = energy.size(); l-- > 0;) {

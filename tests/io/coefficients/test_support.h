@@ -35,6 +35,7 @@ inline Expansion random_expansion(int degree) {
   expansion.norm_squared = 1 / 7.0;
   expansion.tail_strength = 5e-324;
   expansion.signed_sum = true;
+  expansion.precision = 1e-5 / 3;
   return expansion;
 }
 
@@ -56,6 +57,8 @@ inline void expect_same_description(const Expansion& a, const Expansion& b) {
   EXPECT_EQ(a.norm_squared, b.norm_squared);
   EXPECT_EQ(a.tail_strength, b.tail_strength);
   EXPECT_EQ(a.signed_sum, b.signed_sum);
+  EXPECT_EQ(a.gravity, b.gravity);
+  EXPECT_EQ(a.precision, b.precision);
 }
 
 // The code of the error that `call` throws; its message must contain `words`.

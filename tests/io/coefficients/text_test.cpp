@@ -251,6 +251,17 @@ TEST(gravity_field, what_it_is_relative_to_is_written_and_read) {
   }
 }
 
+TEST(precision, is_written_and_read_and_unknown_where_nothing_is_said) {
+  Expansion expansion;
+  EXPECT_FALSE(parse(written(expansion, CoefficientsFormat::kJson)).expansion.precision);
+  for (const auto format : kTexts) {
+    expansion.precision = 1e-3;
+    EXPECT_EQ(parse(written(expansion, format)).expansion.precision, 1e-3) << to_string(format);
+    expansion.precision = -1;
+    EXPECT_THROW(written(expansion, format), Error);
+  }
+}
+
 TEST(gravity_field, is_refused_where_it_cannot_be) {
   const double infinity = std::numeric_limits<double>::infinity();
   Expansion field = parse(kPublishedStyle).expansion;

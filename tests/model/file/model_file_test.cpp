@@ -54,6 +54,10 @@ TEST(model_file, round_trip_keeps_every_bit) {
     EXPECT_TRUE(same_bits(back.coefficients, expansion.coefficients));
     expect_same_description(back, expansion);
   }
+  Expansion field = random_expansion(3);
+  field.function = RadialFunction::kOther;
+  field.gravity = {3.986004415e14, 6378136.3};
+  expect_same_description(parse_model(model_bytes(field), "test"), field);
   Expansion plain;
   const Expansion back = parse_model(model_bytes(plain), "test");
   expect_same_description(back, plain);

@@ -133,8 +133,9 @@ TEST(report_data, knows_of_every_degree_what_rms_beyond_knows) {
     }
     if (data.rows.back().rms) ++known;
     if (data.rows.back().rms_is_exact) ++exact;
-    EXPECT_EQ(count(report_html(expansion, nullptr), "by Parseval&#8217;s identity, as far as") > 0,
-              !data.rows.back().rms_is_exact);
+    EXPECT_EQ(
+        count(report_html(expansion, nullptr, {}), "by Parseval&#8217;s identity, as far as") > 0,
+        !data.rows.back().rms_is_exact);
   }
   EXPECT_EQ(known, 3);
   EXPECT_EQ(exact, 1);

@@ -103,6 +103,23 @@ TEST(rms_beyond, has_the_doubt_of_the_default_precision_or_of_an_exact_error) {
   EXPECT_NEAR(rms_beyond(e).rms[2].value(), std::sqrt(1e-7 / kSphere), 1e-11);
 }
 
+TEST(rms_beyond, judges_by_the_precision_that_the_expansion_has) {
+  Expansion e = known_expansion();
+  EXPECT_TRUE(rms_beyond(e).precision_is_assumed);
+  const double varying = std::sqrt(16 + kBeyond);
+  for (const double precision : {1e-12, 1e-8, 1e-4, 1e-2}) {
+    e.precision = precision;
+    const RmsBeyond beyond = rms_beyond(e);
+    EXPECT_EQ(beyond.precision, precision);
+    EXPECT_FALSE(beyond.precision_is_assumed);
+    EXPECT_NEAR(beyond.doubt.value(), 2 * precision * (9 + 4 * varying),
+                26 * precision * precision + 1e-12);
+    EXPECT_EQ(beyond.rms[2].has_value(), kBeyond >= 4 * beyond.doubt.value());
+    EXPECT_EQ(beyond.is_exact(2), kBeyond >= 50 * beyond.doubt.value());
+  }
+  EXPECT_FALSE(rms_beyond(e).rms[2].has_value());
+}
+
 TEST(rms_beyond, is_not_known_without_a_norm_but_within_the_expansion) {
   Expansion e;
   e.coefficients = known();
