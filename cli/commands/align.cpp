@@ -25,7 +25,7 @@ struct Options {
   int bandwidth = AlignOptions{}.bandwidth;
   double margin = AlignOptions{}.margin;
   bool mirror = false;
-  std::string center = "volume";
+  std::string center = "auto";
   CoefficientsOutputOptions to;
 };
 
@@ -44,17 +44,13 @@ Json json_of_aligned(const AlignedRotation& r) {
   return json;
 }
 
-// From the centroids if both surfaces can be seen from there.
 Placement placement_of(const Options& o, const Expansion& a, const Expansion& b, Session& session) {
-  if (o.center == "volume") {
-    try {
-      return align(a, b, AlignCenters::kVolume, library_options(o), session.context());
-    } catch (const Error& error) {
-      if (error.code() == ErrorCode::kCancelled) throw;
-      session.warn(fmt::format("the models' own centres are taken: {}", error.what()));
-    }
+  Placement placement =
+      align(a, b, parse_align_centers(o.center), library_options(o), session.context());
+  if (!placement.why_own.empty()) {
+    session.warn(fmt::format("the models' own centres are taken: {}", placement.why_own));
   }
-  return align(a, b, AlignCenters::kOwn, library_options(o), session.context());
+  return placement;
 }
 
 Json report_json(const Options& o, const Placement& placement, const Expansion& a,
@@ -68,6 +64,7 @@ Json report_json(const Options& o, const Placement& placement, const Expansion& 
   json["descriptor_distance"] = descriptor_distance(a.coefficients, b.coefficients);
   json["from"] = json_of(placement.from);
   json["to"] = json_of(placement.to);
+  json["centers"] = to_string(placement.centers);
   // The reflection that comes first: p becomes p - 2 ((p - point) . normal) normal.
   json["reflection"] = found.best.mirrored
                            ? Json{{"point", json_of(placement.from)}, {"normal", {1, 0, 0}}}
@@ -167,10 +164,11 @@ std::vector<Option> search_options(Options& o) {
            .min = 0,
            .max = 2},
           {.name = "center",
-           .help = "points laid on each other: volume (the default), the centroids of the "
-                   "solids; own, the centres of the expansions",
+           .help = "points laid on each other: volume, the centroids of the solids; own, the "
+                   "centres of the expansions; auto (the default), the centroids if both surfaces "
+                   "are seen whole from there, else their own centres, with a warning",
            .target = &o.center,
-           .choices = {"volume", "own"}},
+           .choices = {"auto", "volume", "own"}},
           {.name = "mirror",
            .help = "try the mirror image of A too: reflected in the plane through its centre, "
                    "across the x axis, before it is turned",

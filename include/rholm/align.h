@@ -80,15 +80,20 @@ Alignment align(const Coefficients& a, const Coefficients& b, const AlignOptions
 
 // Which points of two surfaces are laid on each other before they are turned.
 enum class AlignCenters {
+  kAuto,    // kVolume if both surfaces are seen whole from their centroids, else kOwn
   kVolume,  // centroids of the solids: they move with the shape and hardly feel noise
   kOwn      // the centres of the expansions
 };
+const char* to_string(AlignCenters centers);                // "auto", "volume", "own"
+AlignCenters parse_align_centers(const std::string& name);  // throws InvalidInput
 
 // The point p becomes R (p - from) + to; mirrored, R M (p - from) + to, with M = diag(-1, 1, 1):
 // the reflection in the plane through `from` across the x axis.
 struct Placement {
-  Alignment alignment;  // R and whether it is mirrored
-  Vec3 from, to;        // the points laid on each other, of a and of b
+  Alignment alignment;                           // R and whether it is mirrored
+  Vec3 from, to;                                 // the points laid on each other, of a and of b
+  AlignCenters centers = AlignCenters::kVolume;  // which points these are: kVolume or kOwn
+  std::string why_own = {};  // of kAuto that took kOwn: what is wrong with the centroids
 };
 
 // The same for surfaces; with kVolume as they are seen from there, up to degree 256 (recentered(),

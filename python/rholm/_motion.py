@@ -15,6 +15,7 @@ from ._errors import InvalidInputError
 from ._expansion import CoefficientsLike, Expansion
 from ._rotations import RotationLike, as_rotation
 from ._run import Progress, caller
+from ._shapes import warn
 
 
 def rotate(
@@ -138,7 +139,7 @@ def align(
     a: Expansion | CoefficientsLike,
     b: Expansion | CoefficientsLike,
     *,
-    centers: Literal["volume", "own"] = "volume",
+    centers: Literal["auto", "volume", "own"] = "auto",
     start: Literal["correlation", "principal-axes"] = "correlation",
     bandwidth: int = 20,
     refine_degree: int = 64,
@@ -154,9 +155,10 @@ def align(
     ----------
     a, b : Expansion or coefficients-like
         Two surfaces, or two functions on the sphere.
-    centers : {"volume", "own"}
+    centers : {"auto", "volume", "own"}
         Which points of surfaces are laid on each other first: centroids of the solids, or the
-        centres of the expansions.
+        centres of the expansions. "auto": the centroids if both surfaces are seen whole from there,
+        else the expansions' own centres, with a warning.
     start : {"correlation", "principal-axes"}
         Where the search begins: all rotations, or the four ways to lay axes on axes.
     bandwidth : int
@@ -188,7 +190,10 @@ def align(
     )
     with caller(threads, progress) as how:
         if isinstance(a, Expansion) and isinstance(b, Expansion):
-            return _core.align(a._core, b._core, centers, options, how)
+            placement = _core.align(a._core, b._core, centers, options, how)
+            if placement.why_own:
+                warn(f"the expansions' own centres are taken: {placement.why_own}")
+            return placement
         return _core.align(core_of(a), core_of(b), options, how)
 
 

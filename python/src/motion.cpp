@@ -36,13 +36,6 @@ const char* name_of(AlignStart start) {
   return start == AlignStart::kCorrelation ? "correlation" : "principal-axes";
 }
 
-AlignCenters parse_centers(const std::string& name) {
-  if (name == "volume") return AlignCenters::kVolume;
-  if (name == "own") return AlignCenters::kOwn;
-  throw Error(ErrorCode::kInvalidInput,
-              "no choice of centres is called '" + name + "'; there are volume and own");
-}
-
 // An argument as a number: in the words of the functions that are written in Python.
 double number_of(const char* name, nb::handle value) {
   return nb::cast<double>(nb::module_::import_("rholm._arguments")
@@ -160,14 +153,19 @@ void bind_alignment(nb::module_& m) {
                     "mirrored.")
       .field("alignment", &Placement::alignment, "R and whether it is mirrored.")
       .field("from_point", &Placement::from, "The point of a that is laid on b's, (3,).")
-      .field("to_point", &Placement::to, "The point of b, (3,).");
+      .field("to_point", &Placement::to, "The point of b, (3,).")
+      .field("centers", &Placement::centers,
+             "Which points these are: \"volume\", the centroids, or \"own\", the centres of the "
+             "expansions.")
+      .field("why_own", &Placement::why_own,
+             "Why the centroids could not be taken; empty if they were, or not asked for.");
   m.def("align", [](const Coefficients& a, const Coefficients& b, const AlignOptions& options,
                     const Caller& caller) {
     return caller.run([&](const Context& context) { return align(a, b, options, context); });
   });
   m.def("align", [](const Expansion& a, const Expansion& b, const std::string& centers,
                     const AlignOptions& options, const Caller& caller) {
-    const AlignCenters which = parse_centers(centers);
+    const AlignCenters which = parse_align_centers(centers);
     return caller.run([&](const Context& context) { return align(a, b, which, options, context); });
   });
   m.def("placed", [](const Expansion& a, const Placement& placement, const Caller& caller) {

@@ -117,19 +117,6 @@ Mesh placed_mesh(Mesh mesh, const Placement& placement) {
   return mesh;
 }
 
-// As `rholm align`: by the centroids of the solids, or the models' own centres where one does not
-// see its surface from there.
-Placement placement_of(const Expansion& a, const Expansion& b, bool mirror,
-                       const Context& context) {
-  const AlignOptions options = {.allow_mirror = mirror};
-  try {
-    return align(a, b, AlignCenters::kVolume, options, context);
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::kNotStarShaped) throw;
-  }
-  return align(a, b, AlignCenters::kOwn, options, context);
-}
-
 // "Turned by 41.2 degrees onto egg.ply: radii differ by 0.0123 (rms), before by 0.21."
 std::string told_of(const Alignment& alignment, const Item& onto) {
   const AlignedRotation& best = alignment.best;
@@ -163,7 +150,8 @@ Step align_items(const Json& request, const Document& now, Shared& shared) {
   if (a == b) throw bad_request("an item is not aligned with itself: 'a' and 'b' must differ");
   return {"Align " + a->name, true, [=, &shared](Document& document, const Context& context) {
             const Expansion& before = a->model->expansion;
-            const Placement placement = placement_of(before, b->model->expansion, mirror, context);
+            const Placement placement = align(before, b->model->expansion, AlignCenters::kAuto,
+                                              {.allow_mirror = mirror}, context);
             Expansion moved = placed(before, placement, context);
             std::shared_ptr<const Mesh> mesh;
             if (a->original) {
@@ -172,6 +160,11 @@ Step align_items(const Json& request, const Document& now, Shared& shared) {
             Item changed = *a;
             changed.original = mesh;
             changed.placed = told_of(placement.alignment, *b);
+            if (!placement.why_own.empty()) {
+              changed.placed +=
+                  " The centres of both models lie on each other: from its centroid "
+                  "a surface is not seen whole.";
+            }
             changed.model = make_model(std::move(moved), mesh, context);
             const Model& model = *changed.model;
             changed.facts = std::make_shared<const MeshFacts>(

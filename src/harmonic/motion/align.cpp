@@ -289,11 +289,43 @@ Placement align(const Expansion& a, const Expansion& b, AlignCenters centers,
   AlignOptions wanted = options;
   wanted.unknown_a = std::max(options.unknown_a, left_out(a));
   wanted.unknown_b = std::max(options.unknown_b, left_out(b));
-  if (centers == AlignCenters::kOwn) {
-    return {align(a.coefficients, b.coefficients, wanted, context), a.center, b.center};
+  std::string why_own;
+  if (centers != AlignCenters::kOwn) {
+    try {
+      const Expansion x = about_centroid(a, context), y = about_centroid(b, context);
+      return {.alignment = align(x.coefficients, y.coefficients, wanted, context),
+              .from = x.center,
+              .to = y.center};
+    } catch (const Error& error) {
+      if (centers == AlignCenters::kVolume || error.code() != ErrorCode::kNotStarShaped) throw;
+      why_own = error.what();
+    }
   }
-  const Expansion x = about_centroid(a, context), y = about_centroid(b, context);
-  return {align(x.coefficients, y.coefficients, wanted, context), x.center, y.center};
+  return {.alignment = align(a.coefficients, b.coefficients, wanted, context),
+          .from = a.center,
+          .to = b.center,
+          .centers = AlignCenters::kOwn,
+          .why_own = why_own};
+}
+
+const char* to_string(AlignCenters centers) {
+  switch (centers) {
+    case AlignCenters::kAuto:
+      return "auto";
+    case AlignCenters::kVolume:
+      return "volume";
+    case AlignCenters::kOwn:
+      return "own";
+  }
+  return "unknown";
+}
+
+AlignCenters parse_align_centers(const std::string& name) {
+  for (const auto centers : {AlignCenters::kAuto, AlignCenters::kVolume, AlignCenters::kOwn}) {
+    if (name == to_string(centers)) return centers;
+  }
+  throw Error(ErrorCode::kInvalidInput,
+              "no choice of centres is called '" + name + "'; there are auto, volume and own");
 }
 
 Expansion placed(const Expansion& a, const Placement& placement, const Context& context) {

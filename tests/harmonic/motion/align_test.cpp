@@ -418,6 +418,35 @@ TEST(align, by_centroids_the_centres_of_the_expansions_do_not_matter) {
   EXPECT_LT(norm(laid.center - (rotate(Vec3{4, -1, -1}, truth) + Vec3{1, 1, 1})), 1e-5);
 }
 
+// A small ball with a long horn, in which the centroid is: the sides of the ball are not seen from
+// there.
+Coefficients horned() {
+  const Grid grid = smallest_grid(GridKind::kGaussLegendre, 40);
+  std::vector<double> values;
+  for (const double theta : grid_colatitudes(grid)) {
+    for (int k = 0; k < grid.n_phi; ++k) {
+      const double x = std::sin(theta) * std::cos(2 * kPi * k / grid.n_phi);
+      values.push_back(0.4 + 0.1 * x + 3 * std::exp(8 * (std::cos(theta) - 1)));
+    }
+  }
+  return analyze_grid(values, grid, 40);
+}
+
+TEST(align, takes_own_centres_where_a_centroid_does_not_see_the_surface_and_says_so) {
+  const Rotation truth = random_rotation(5);
+  Expansion a = expansion_of(body(12, 1), {5, 0, 0});
+  EXPECT_EQ(align(a, a, AlignCenters::kAuto).centers, AlignCenters::kVolume);
+  EXPECT_TRUE(align(a, a, AlignCenters::kAuto).why_own.empty());
+  a.coefficients = horned();
+  const Expansion b = rotate(a, truth, {1, 1, 1});
+  EXPECT_THROW(align(a, b, AlignCenters::kVolume), Error);
+  const Placement found = align(a, b, AlignCenters::kAuto);
+  EXPECT_EQ(found.centers, AlignCenters::kOwn);
+  EXPECT_FALSE(found.why_own.empty());
+  EXPECT_LT(norm(placed(a, found).center - b.center), 1e-12);
+  EXPECT_LT(angle_between(found.alignment.best.rotation, truth), 1e-4);
+}
+
 // From a point off its centre by d a unit sphere is at rho = -d.u + sqrt(1 - |d|^2 + (d.u)^2).
 TEST(recenter, a_sphere_from_another_point_has_its_closed_form) {
   Expansion sphere = expansion_of(Coefficients(40), {1, 2, 3});
