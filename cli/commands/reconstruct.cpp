@@ -81,22 +81,18 @@ ReconstructOptions library_options(const Options& o, const Bounds& box) {
   return options;
 }
 
-// Runs have taken up to 1.21 times the memory that was foreseen (373 MiB of 307).
-constexpr double kForecastError = 1.25;
-
 // A brick that fits into the memory, if none is asked for: the surface of smaller bricks is another
-// one, as good.
+// one, as good. What is enough for several of them is noted.
 std::uint64_t points_per_brick(const Options& options) {
-  if (options.brick_points) return static_cast<std::uint64_t>(*options.brick_points);
   constexpr std::uint64_t kSmall = 1 << 14;  // chosen: smaller ones are little but halo
   std::uint64_t points = kBrickPoints;
-  const auto limit = static_cast<double>(options.memory.limit());
-  const auto needed = [](std::uint64_t n) {
-    return kForecastError * static_cast<double>(foresee_bricks(n, n).memory);
-  };
-  while (points > kSmall && needed(points) > limit) points /= 2;
-  // Chosen: as much again as the smallest bricks take, for tables of many bricks.
-  note_enough_memory(2 * needed(points));
+  if (options.brick_points) {
+    points = static_cast<std::uint64_t>(*options.brick_points);
+  } else {
+    const std::size_t limit = options.memory.limit();
+    while (points > kSmall && enough_for_bricks(points, points) > limit) points /= 2;
+  }
+  note_enough_memory(static_cast<double>(enough_for_bricks(points + 1, points)));
   return points;
 }
 
@@ -141,11 +137,12 @@ void end(const Reconstructed& made, const ReconstructOptions& wanted, const Opti
   judge(made.report, wanted.holes == HolePolicy::kFill, session);
 }
 
-void run_in_one_piece(PointCloud cloud, ShapeFormat format, const Options& options,
+void run_in_one_piece(PointsInput input, ShapeFormat format, const Options& options,
                       Session& session) {
-  const Bounds box = bounds(cloud.points);
+  const Bounds box = bounds(input.cloud->points);
   const ReconstructOptions wanted = library_options(options, box);
-  const Reconstruction made = reconstruct(std::move(cloud), wanted, session.context());
+  Reconstruction made = reconstruct(std::move(*input.cloud), wanted, session.context());
+  add_dropped(input.dropped, made.report);
   stop_if_interrupted();
   write_shape_output(made.mesh, options.output, {format, options.ascii}, session);
   // Last, as it is not interrupted: who reads that nothing was written finds nothing.
@@ -210,7 +207,8 @@ void run_in_bricks(const PointsInput& input, ShapeFormat format, const Options& 
         static_cast<double>(forecast.written) / kGigabyte));
   };
   keep_large_freed_memory();
-  const BrickReconstruction made = by.run(input, options.output, wanted, bricks, session);
+  BrickReconstruction made = by.run(input, options.output, wanted, bricks, session);
+  add_dropped(input.dropped, made.report);
   for (const std::string& warning : made.warnings) {
     session.warn(fmt::format("{}: {}", display_name(options.input), warning));
   }
@@ -244,7 +242,7 @@ int run(const Options& options, const BrickWorkers& by, Session& session) {
       read_points_input(options.input, most, options.columns, options.memory, session);
   if (input.cloud) validate(*input.cloud);
   if (input.cloud && input.cloud->points.size() <= most) {
-    run_in_one_piece(std::move(*input.cloud), format, options, session);
+    run_in_one_piece(std::move(input), format, options, session);
   } else {
     run_in_bricks(input, format, options, by, session);
   }

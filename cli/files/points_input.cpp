@@ -68,11 +68,14 @@ PointsInput read_points_input(const std::string& path, std::uint64_t most,
                               const std::string& columns, const MemoryOptions& memory,
                               Session& session) {
   PointsInput input;
+  const auto take = [&](ShapeFile file) {
+    input.dropped = file.dropped;
+    input.cloud = points_of(std::move(file), path, session);
+  };
   if (is_stream(path)) {
     input.spooled = std::make_unique<SpooledInput>(path, memory.limit() / 4, memory.folder());
     if (!input.spooled->is_in_file()) {
-      input.cloud =
-          points_of(read_shape_of(input.spooled->bytes(), path, session, columns), path, session);
+      take(read_shape_of(input.spooled->bytes(), path, session, columns));
       input.n = input.cloud->points.size();
       input.spooled.reset();
       return input;
@@ -80,7 +83,7 @@ PointsInput read_points_input(const std::string& path, std::uint64_t most,
   }
   input.file = input.spooled ? input.spooled->path_of_file() : path;
   if (!has_more(input.file, columns, most, input.n, session)) {
-    input.cloud = points_of(read_shape_input(input.file, session, columns), path, session);
+    take(read_shape_input(input.file, session, columns));
   }
   if (input.cloud) input.n = input.cloud->points.size();
   return input;

@@ -36,6 +36,7 @@ class PointStream {
   bool read(std::size_t n, PointCloud& cloud, const Context& context = {});
 
   std::uint64_t read_so_far() const;  // points, without those that are not finite
+  std::uint64_t dropped() const;      // those that are not finite, so far
   // Points of the whole file with those that are not finite, if it says how many.
   std::optional<std::uint64_t> size() const;
   double part_read() const;             // of the bytes; 0 while their number is not known

@@ -54,7 +54,7 @@ struct ReconstructOptions {
 
 // What was found in the points, and what became of them. Lengths are in their unit.
 struct ReconstructReport {
-  std::size_t points = 0;          // given
+  std::size_t points = 0;          // given, with those that add_dropped() adds
   std::size_t dropped_points = 0;  // not finite, at the place of another, without a normal
   std::size_t outliers = 0;        // removed
   ScanAlignment scans;             // what became of them, if there are any
@@ -108,6 +108,9 @@ struct ReconstructReport {
   std::size_t memory = 0;  // foreseen for points, grid and surface, bytes
   StageTimes times;        // "points", "caps", "surface", "attributes"
 };
+
+// Adds n points to a report that the reader of their file dropped before (ShapeFile::dropped).
+void add_dropped(std::size_t n, ReconstructReport& report);
 
 // Share of given normals that are not perpendicular to the surface, above which none is believed:
 // fewer are those of outliers.

@@ -765,6 +765,30 @@ class TruncationErrors:
     def diagonal(self) -> float:
         """Of the shape's bounding box; 0 if not known."""
 
+class GravityField:
+    """What the coefficients of a gravity field are relative to."""
+
+    def __repr__(self) -> str: ...
+
+    def __getstate__(self) -> dict: ...
+
+    def __setstate__(self, arg: object, /) -> None: ...
+
+    def __eq__(self, arg: object, /) -> bool: ...
+
+    def __hash__(self) -> int: ...
+
+    def to_dict(self) -> dict:
+        """All fields by name; records within it are dicts, too."""
+
+    @property
+    def gravity_constant(self) -> float:
+        """G M in m^3/s^2."""
+
+    @property
+    def reference_radius(self) -> float:
+        """Of the sphere about the centre, in m."""
+
 class Expansion:
     """A surface as coefficients."""
 
@@ -790,8 +814,16 @@ class Expansion:
 
     def with_unit(self, arg: str, /) -> Expansion: ...
 
+    def with_gravity(self, arg0: float, arg1: float, /) -> Expansion: ...
+
+    @property
+    def gravity(self) -> GravityField | None: ...
+
     @property
     def method(self) -> str: ...
+
+    @property
+    def precision(self) -> float | None: ...
 
     @property
     def norm_squared(self) -> float | None: ...
@@ -872,12 +904,6 @@ def coefficients_format_of(arg: str, /) -> str | None: ...
 def looks_like_coefficients(arg: bytes, /) -> bool: ...
 
 def write_coefficients(arg0: Expansion, arg1: str, arg2: str | None, arg3: str, arg4: int, arg5: Caller, /) -> None: ...
-
-def write_gravity_field(arg0: Expansion, arg1: str, arg2: float, arg3: float, arg4: str, arg5: int, arg6: Caller, /) -> None: ...
-
-def gravity_field_of(arg: bytes, /) -> object: ...
-
-def read_gravity_field(arg: str, /) -> object: ...
 
 def write_model(arg0: Expansion, arg1: str, arg2: Caller, /) -> None: ...
 
@@ -1150,6 +1176,18 @@ class Placement:
     @property
     def to_point(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
         """The point of b, (3,)."""
+
+    @property
+    def centers(self) -> str:
+        """
+        Which points these are: "volume", the centroids, or "own", the centres of the expansions.
+        """
+
+    @property
+    def why_own(self) -> str:
+        """
+        Why the centroids could not be taken; empty if they were, or not asked for.
+        """
 
 @overload
 def align(arg0: Coefficients, arg1: Coefficients, arg2: AlignOptions, arg3: Caller, /) -> Alignment: ...
@@ -1598,7 +1636,7 @@ def vertex_error_strengths(arg0: Mesh, arg1: Sequence[float] | numpy.typing.NDAr
 
 def rms_beyond(arg: Expansion, /) -> NDArray[numpy.float64]: ...
 
-def truncation_errors(arg0: Mesh, arg1: Expansion, arg2: float, arg3: bool, arg4: Caller, /) -> TruncationErrors: ...
+def truncation_errors(arg0: Mesh, arg1: Expansion, arg2: float | None, arg3: bool, arg4: Caller, /) -> TruncationErrors: ...
 
 class MonteCarloOptions:
     """How much is wanted, and when to stop."""
@@ -2527,7 +2565,7 @@ class ReconstructReport:
     def times(self) -> dict:
         """Stages: (wall, cpu) in seconds."""
 
-def reconstruct(arg0: PointCloud, arg1: ReconstructOptions, arg2: Caller, /) -> tuple: ...
+def reconstruct(arg0: PointCloud, arg1: int, arg2: ReconstructOptions, arg3: Caller, /) -> tuple: ...
 
 BRICK_POINTS: int = 1048576
 
@@ -2662,7 +2700,7 @@ def is_streamed(arg: str | os.PathLike, /) -> bool: ...
 
 def foresee_bricks(arg0: int, arg1: int, /) -> BrickForecast: ...
 
-def reconstruct_bricks(points: PointCloud | str | os.PathLike, mesh: str | os.PathLike, options: ReconstructOptions, bricks: BrickOptions, foreseen: object | None, caller: Caller) -> BrickReconstruction: ...
+def reconstruct_bricks(points: PointCloud | str | os.PathLike, dropped: int, mesh: str | os.PathLike, options: ReconstructOptions, bricks: BrickOptions, foreseen: object | None, caller: Caller) -> BrickReconstruction: ...
 
 def region_weights(arg0: Mesh, arg1: Sequence[str], arg2: float, /) -> NDArray[numpy.float64]: ...
 

@@ -244,8 +244,8 @@ class Expansion:
         rms : float64, (L+1,)
             Root mean square over all directions of what lies above degree l, by Parseval's identity,
             in the function's unit. NaN where it is not known: without `norm_squared`, and where it
-            is below what the `precision` of the coefficients tells (1e-8 if that is not known). The last one is the truncation
-            error of the expansion itself.
+            is below what the `precision` of the coefficients tells (1e-8 if that is not known). The last
+            one is the truncation error of the expansion itself.
         """
         return _core.rms_beyond(self._core)
 

@@ -15,7 +15,7 @@ from ._arrays import triple
 from ._atlas import Atlas
 from ._errors import InvalidInputError, UnsupportedError
 from ._run import Progress, caller
-from ._shapes import Mesh, PointsLike, as_points, columns_text
+from ._shapes import Mesh, PointsLike, as_points, columns_text, shape_of_path
 from ._topology import simplify_options
 
 
@@ -153,7 +153,8 @@ def reconstruct(
     UserWarning
         Where normals contradict each other, and it cannot be decided which of them are right.
     """
-    cloud = as_points(points, normals, attributes, columns)
+    shape, dropped = shape_of_path(points, columns)
+    cloud = as_points(shape, normals, attributes, columns)
     options = _options(
         holes=holes,
         step=step,
@@ -169,7 +170,7 @@ def reconstruct(
         max_memory=max_memory,
     )
     with caller(threads, progress) as how:
-        mesh, atlas, report = _core.reconstruct(cloud._core, options, how)
+        mesh, atlas, report = _core.reconstruct(cloud._core, dropped, options, how)
     _warn_of_normals(report)
     return Reconstruction(Mesh._of(mesh), Atlas._of(_core.AtlasModel(atlas, report.step, "")), report)
 
@@ -289,9 +290,9 @@ def reconstruct_bricks(
         model=None if model is None else Path(model),
         columns=columns_text(columns),
     )
-    source = _brick_points(points, normals, attributes, columns)
+    source, dropped = _brick_points(points, normals, attributes, columns)
     with caller(threads, progress) as how:
-        return _core.reconstruct_bricks(source, Path(mesh_path), options, bricks, foreseen, how)
+        return _core.reconstruct_bricks(source, dropped, Path(mesh_path), options, bricks, foreseen, how)
 
 
 def foresee_bricks(points: int, points_per_brick: int = _core.BRICK_POINTS) -> _core.BrickForecast:
@@ -318,12 +319,15 @@ def foresee_bricks(points: int, points_per_brick: int = _core.BRICK_POINTS) -> _
     return _core.foresee_bricks(points, points_per_brick)
 
 
-def _brick_points(points: PointsLike, normals: Any, attributes: Any, columns: Any) -> _core.PointCloud | Path:
-    """A file that is read a piece at a time, or points in memory."""
+def _brick_points(
+    points: PointsLike, normals: Any, attributes: Any, columns: Any
+) -> tuple[_core.PointCloud | Path, int]:
+    """A file that is read a piece at a time, or points in memory, and how many their reader dropped."""
     own = normals is None and attributes is None
     if own and isinstance(points, (str, os.PathLike)) and _core.is_streamed(Path(points)):
-        return Path(points)
-    return as_points(points, normals, attributes, columns)._core
+        return Path(points), 0
+    shape, dropped = shape_of_path(points, columns)
+    return as_points(shape, normals, attributes, columns)._core, dropped
 
 
 def _options(

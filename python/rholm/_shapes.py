@@ -474,21 +474,37 @@ def warn(text: str) -> None:
     warnings.warn(text, UserWarning, stacklevel=depth)
 
 
+def shape_of_path(shape: Any, columns: str | Sequence[str] | None = None) -> tuple[Any, int]:
+    """What a path names is read; anything else stays as it is.
+
+    Parameters
+    ----------
+    shape : path, or anything else
+        What its reader is not sure of, and what it dropped, is said by a warning.
+    columns : str or sequence of str, optional
+        What the columns of a text table are, as in `read_shape`.
+
+    Returns
+    -------
+    shape, dropped
+        How many points of the file were dropped, as they are not finite.
+    """
+    if not isinstance(shape, (str, os.PathLike)):
+        return shape, 0
+    from ._shape_files import read_shape
+
+    name, file = os.fspath(shape), read_shape(shape, columns=columns)
+    if file.unsure:
+        warn(f"{name}: {file.note}")
+    if file.dropped:
+        warn(f"{name}: {file.dropped} points with a coordinate that is not finite dropped")
+    return file.shape, file.dropped
+
+
 def _points_of(shape: Any, columns: str | Sequence[str] | None = None) -> PointCloud:
-    shape = _within(shape)
+    shape, _ = shape_of_path(_within(shape), columns)
     if isinstance(shape, PointCloud):
         return shape
-    if isinstance(shape, (str, os.PathLike)):
-        from ._shape_files import read_shape
-
-        name, file = os.fspath(shape), read_shape(shape, columns=columns)
-        if file.unsure:
-            warn(f"{name}: {file.note}")
-        if file.dropped:
-            warn(f"{name}: {file.dropped} points with a coordinate that is not finite dropped")
-        shape = file.shape
-        if isinstance(shape, PointCloud):
-            return shape
     if foreign_has_faces(shape):
         shape = as_mesh(shape)
     if isinstance(shape, Mesh):

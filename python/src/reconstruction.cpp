@@ -39,7 +39,9 @@ bool is_streamed(const std::filesystem::path& path) {
   }
 }
 
-BrickReconstruction reconstruct_in_bricks(const Points& points, const std::filesystem::path& mesh,
+// `dropped` points were by the reader of points in memory.
+BrickReconstruction reconstruct_in_bricks(const Points& points, std::size_t dropped,
+                                          const std::filesystem::path& mesh,
                                           const ReconstructOptions& options, BrickOptions bricks,
                                           const nb::object& foreseen, const Caller& caller) {
   if (!foreseen.is_none()) {
@@ -52,7 +54,10 @@ BrickReconstruction reconstruct_in_bricks(const Points& points, const std::files
     if (const auto* path = std::get_if<std::filesystem::path>(&points)) {
       return reconstruct_bricks(*path, mesh, options, bricks, context);
     }
-    return reconstruct_bricks(*std::get<const PointCloud*>(points), mesh, options, bricks, context);
+    BrickReconstruction made =
+        reconstruct_bricks(*std::get<const PointCloud*>(points), mesh, options, bricks, context);
+    add_dropped(dropped, made.report);
+    return made;
   });
 }
 
@@ -89,8 +94,9 @@ void bind_bricks(nb::module_& m) {
     return unlocked([&] { return is_streamed(path); });
   });
   m.def("foresee_bricks", &foresee_bricks);
-  m.def("reconstruct_bricks", &reconstruct_in_bricks, nb::arg("points"), nb::arg("mesh"),
-        nb::arg("options"), nb::arg("bricks"), nb::arg("foreseen").none(), nb::arg("caller"));
+  m.def("reconstruct_bricks", &reconstruct_in_bricks, nb::arg("points"), nb::arg("dropped"),
+        nb::arg("mesh"), nb::arg("options"), nb::arg("bricks"), nb::arg("foreseen").none(),
+        nb::arg("caller"));
 }
 
 }  // namespace
@@ -182,14 +188,14 @@ void bind_reconstruction(nb::module_& m) {
              "below 1/2.")
       .field("memory", &ReconstructReport::memory, "Foreseen, bytes.")
       .field("times", &ReconstructReport::times, "Stages: (wall, cpu) in seconds.");
-  m.def("reconstruct",
-        [](PointCloud cloud, const ReconstructOptions& options, const Caller& caller) {
-          Reconstruction result = caller.run([&](const Context& context) {
-            return reconstruct(std::move(cloud), options, context);
-          });
-          return nb::make_tuple(std::move(result.mesh), std::move(result.atlas),
-                                std::move(result.report));
-        });
+  m.def("reconstruct", [](PointCloud cloud, std::size_t dropped, const ReconstructOptions& options,
+                          const Caller& caller) {
+    Reconstruction result = caller.run(
+        [&](const Context& context) { return reconstruct(std::move(cloud), options, context); });
+    add_dropped(dropped, result.report);
+    return nb::make_tuple(std::move(result.mesh), std::move(result.atlas),
+                          std::move(result.report));
+  });
   bind_bricks(m);
 }
 

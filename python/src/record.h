@@ -120,7 +120,7 @@ class Record {
             return nb::borrow(Py_NotImplemented);
           return nb::bool_(members->get(self).equal(members->get(*as_same)));
         },
-        nb::sig("def __eq__(self, arg: object, /) -> bool"));
+        nb::arg().none(), nb::sig("def __eq__(self, arg: object, /) -> bool"));
     class_.def("__hash__",
                [](const T&) -> std::size_t { throw nb::type_error("a record has no hash"); });
     class_.def(

@@ -113,7 +113,7 @@ def test_what_is_no_array_is_refused(shape):
         rholm.expand(shape, 4)
 
 
-def test_what_is_masked_is_not_known(bumpy, ring):
+def test_what_is_masked_is_not_known(bumpy, ring, tmp_path):
     points = np.array(rholm.sample_surface(ring, 4000).points)
     bad = np.arange(len(points)) % 10 == 0
     beneath = points.copy()
@@ -130,6 +130,10 @@ def test_what_is_masked_is_not_known(bumpy, ring):
             assert found.report.dropped_points == bad.sum()
             assert len(rholm.clean(rows).cloud) == len(points) - bad.sum()
         assert rholm.reconstruct(masked).mesh == expected.mesh
+    np.savetxt(tmp_path / "p.xyz", np.where(masks[0], np.nan, beneath))
+    with pytest.warns(UserWarning, match="not finite"):
+        report = rholm.reconstruct(tmp_path / "p.xyz").report
+    assert (report.points, report.dropped_points) == (len(points), bad.sum())
     assert np.array_equal(
         rholm.as_points(np.ma.masked_array(points, mask=False)).points, points
     )  # nothing is masked

@@ -26,6 +26,8 @@ ELSEWHERE = {
     "outward": "expand",  # and every other function that needs it
     "truncated": "Expansion.truncate",
     "check_gravity": "Expansion.with_gravity",
+    "add_dropped": "reconstruct",
+    "enough_for_bricks": "reconstruct_bricks",  # a refusal names it
     "add_adjoint": "adjoint",  # returns the sums
     "batch_columns": "BatchTable.columns",
     "column_before": "BatchTable.columns",  # are in that order

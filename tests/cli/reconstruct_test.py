@@ -46,6 +46,18 @@ class Reconstruct(CliTest):
         for name in ("points", "spacing", "caps", "grid", "surface"):
             self.assertRegex(text, rf"(?m)^  {name} +\S")
 
+    def test_points_that_are_not_finite_are_counted(self):
+        lines = (self.folder / "p.xyz").read_text().splitlines()
+        for row, word in ((5, "nan"), (700, "inf"), (2000, "-inf")):
+            lines.insert(row, " ".join([word] + lines[row].split()[1:]))
+        self.write("odd.xyz", "\n".join(lines) + "\n")
+        for words in (["odd.xyz"], ["odd.xyz", "--brick-points", "3000"]):
+            report = self.reconstruct(*words)
+            with self.subTest(words):
+                self.assertEqual((report["points"], report["dropped_points"]), (4003, 3))
+        text = self.rholm("reconstruct", "odd.xyz", "-o", "s.ply").out
+        self.assertRegex(text, r"dropped +3 \(not finite")
+
     def test_points_without_normals_get_some(self):
         points = [row[:3] for row in rows(self.folder / "p.xyz")]
         self.write("bare.xyz", "".join(" ".join(row) + "\n" for row in points))

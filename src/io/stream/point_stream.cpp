@@ -76,6 +76,7 @@ class PointStream::Reader {
     return true;
   }
 
+  std::uint64_t dropped() const { return dropped_; }
   double part() const {
     if (window_.size() == 0) return 0;
     return std::min(1.0,
@@ -344,6 +345,7 @@ bool PointStream::read(std::size_t n, PointCloud& cloud, const Context& context)
   return reader_->read(n, cloud, context);
 }
 std::uint64_t PointStream::read_so_far() const { return reader_->done; }
+std::uint64_t PointStream::dropped() const { return reader_->dropped(); }
 std::optional<std::uint64_t> PointStream::size() const { return reader_->size; }
 double PointStream::part_read() const { return reader_->part(); }
 ShapeFormat PointStream::format() const { return reader_->format; }

@@ -87,7 +87,7 @@ void BrickCloud::sort() {
       write_values(store_, "scans", std::vector<std::uint8_t>{1});
     });
   }
-  report_.points = survey_.points + survey_.not_finite + survey_.far_strays;
+  report_.points = survey_.points + survey_.not_finite + survey_.dropped + survey_.far_strays;
   report_.outliers = survey_.far_strays;
   spacings_ = spacings_of_sample(survey_, plan_, survey_.n_different);
 }

@@ -26,6 +26,7 @@ class FileSource final : public PointSource {
   bool next(PointCloud& piece, const Context&) override { return stream_->read(kAtATime, piece); }
   std::optional<std::uint64_t> size() const override { return stream_->size(); }
   double part_read() const override { return stream_->part_read(); }
+  std::uint64_t dropped() const override { return stream_->dropped(); }
   std::vector<std::string> warnings() const override { return stream_->warnings(); }
 
  private:
@@ -67,6 +68,7 @@ class KeptSource final : public PointSource {
     if (!reader_ || section_ >= reader_->n_sections()) return section_ > 0 ? 1 : 0;
     return static_cast<double>(section_) / static_cast<double>(reader_->n_sections());
   }
+  std::uint64_t dropped() const override { return source_ ? source_->dropped() : 0; }
   std::vector<std::string> warnings() const override {
     return source_ ? source_->warnings() : std::vector<std::string>{};
   }

@@ -26,6 +26,8 @@ class PointSource {
   virtual bool next(PointCloud& piece, const Context& context) = 0;
   virtual std::optional<std::uint64_t> size() const = 0;  // points, where that is known
   virtual double part_read() const = 0;                   // since the last rewind(), 0 ... 1
+  // Points since the last rewind() that are not finite and in no piece.
+  virtual std::uint64_t dropped() const { return 0; }
   virtual std::vector<std::string> warnings() const { return {}; }  // of the file
 };
 

@@ -69,7 +69,7 @@ bool reaches_beyond(const FarBall& ball, const Bounds& box) {
 
 // What does not depend on the number of points, in a piece.
 struct SurveyHead {
-  std::uint64_t points, not_finite, far_strays;
+  std::uint64_t points, not_finite, far_strays, dropped;
   FarBall ball;
   Bounds bounds;
   double n_different;
@@ -119,6 +119,7 @@ Survey survey(PointSource& source, const SurveyOptions& options, const Context& 
   }
   result.points = tally.points;
   result.not_finite = tally.not_finite;
+  result.dropped = source.dropped();
   result.far_strays = tally.far;
   result.layout.normals = tally.normals;
   return result;
@@ -128,6 +129,7 @@ void write_survey(const Survey& survey, PieceStore& store) {
   const SurveyHead head{.points = survey.points,
                         .not_finite = survey.not_finite,
                         .far_strays = survey.far_strays,
+                        .dropped = survey.dropped,
                         .ball = survey.ball,
                         .bounds = survey.bounds,
                         .n_different = survey.n_different};
@@ -147,6 +149,7 @@ std::optional<Survey> read_survey(const PieceStore& store) {
   return Survey{.points = head.points,
                 .not_finite = head.not_finite,
                 .far_strays = head.far_strays,
+                .dropped = head.dropped,
                 .ball = head.ball,
                 .bounds = head.bounds,
                 .layout = parse_layout(piece.read(1)),

@@ -27,6 +27,7 @@ struct Survey {
   std::uint64_t points = 0;       // that are kept: finite, and no far strays
   std::uint64_t not_finite = 0;   // a coordinate is NaN or infinite
   std::uint64_t far_strays = 0;   // see shape/points/strays.h; by the box of the sample
+  std::uint64_t dropped = 0;      // by the reader of the file, as they are not finite
   FarBall ball = {};              // beyond which these are
   Bounds bounds = {};             // of the points that are kept
   PointLayout layout = {};        // of all; normals: one of a kept point is finite and not zero

@@ -87,6 +87,11 @@ double error_of_sparse(const Atlas& atlas) {
 
 }  // namespace
 
+void add_dropped(std::size_t n, ReconstructReport& report) {
+  report.points += n;
+  report.dropped_points += n;
+}
+
 const char* to_string(HolePolicy policy) { return policy == HolePolicy::kFill ? "fill" : "keep"; }
 
 HolePolicy parse_hole_policy(const std::string& name) {
