@@ -143,8 +143,8 @@ int run(const Options& options, Session& session) {
         "{:>6} {:>14} {:>14} {:>14}\n",
         display_name(options.input),
         expansion.function == RadialFunction::kOther ? "function" : to_string(expansion.function),
-        spectrum.beyond.includes_tail() ? "" : ", within the file's own degrees", "degree", "energy",
-        "cumulative", "rms beyond");
+        spectrum.beyond.includes_tail() ? "" : ", within the file's own degrees", "degree",
+        "energy", "cumulative", "rms beyond");
     print_text(heading + table(spectrum) + unknown_text(spectrum, expansion));
     if (options.tolerance) print_text(tolerance_text(spectrum, expansion, *options.tolerance));
   }

@@ -38,6 +38,11 @@ struct BrickForecast {
 // BrickOptions cannot have.
 BrickForecast foresee_bricks(std::uint64_t points, std::uint64_t points_per_brick = kBrickPoints);
 
+// Bytes of ReconstructOptions::max_memory that are enough, beside what is stored in memory: with
+// what runs have taken beyond their forecast. A refusal names them. Throws as foresee_bricks()
+// does.
+std::uint64_t enough_for_bricks(std::uint64_t points, std::uint64_t points_per_brick);
+
 // How the points are cut, and where what is not in memory goes.
 struct BrickOptions {
   // At most, 1000 ... 2^28; fewer take less memory, more less time.

@@ -426,7 +426,7 @@ Coefficients horned() {
   for (const double theta : grid_colatitudes(grid)) {
     for (int k = 0; k < grid.n_phi; ++k) {
       const double x = std::sin(theta) * std::cos(2 * kPi * k / grid.n_phi);
-      values.push_back(0.4 + 0.1 * x + 3 * std::exp(8 * (std::cos(theta) - 1)));
+      values.push_back(0.4 + 0.1 * x + 3 * std::exp(40 * (std::cos(theta) - 1)));
     }
   }
   return analyze_grid(values, grid, 40);
