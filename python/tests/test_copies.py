@@ -37,6 +37,7 @@ def all_of(bumpy, ring):
         rholm.compare(bumpy, ring, samples=100), rholm.compare(bumpy, ring, samples=100).a_to_b,
         rholm.repair(ring), rholm.weld(ring), rholm.simplify(ring, share=0.5),
         rholm.overshoot("lanczos", 8), rholm.foresee_bricks(10**6), table,
+        rholm.from_array(np.zeros((2, 3, 3)), function="other").with_gravity(1, 1).gravity,
         rholm.analyze_patch(bumpy, "ball:0,0,1,0.9", 1.0),
         texture.onto(bumpy, "ball:0,0,-1,0.9").report, rholm.render(bumpy, (16, 16)),
         rholm.read_shape, rholm.expand,
