@@ -21,9 +21,8 @@ struct RmsBeyond {
   // Where errors say otherwise they decide: an exact error bounds it, and a measured one that
   // differs from the norm's tells what the coefficients lack.
   std::optional<double> doubt;
-  // The expansion's; where that is not known, the default of AnalyzeOptions is assumed.
-  double precision = 0;
-  bool precision_is_assumed = false;
+  double precision = 0;               // the expansion's, or the default of AnalyzeOptions
+  bool precision_is_assumed = false;  // whether the expansion's is not known
   // Whether it counts what lies above the expansion's own degree, which norm_squared tells.
   bool includes_tail() const { return doubt.has_value(); }
   // What there is to show of each degree: rms, or without norm_squared rms_within, but for the last
