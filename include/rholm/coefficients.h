@@ -80,7 +80,7 @@ struct TruncationErrors {
 struct GravityField {
   double gravity_constant = 0;  // G M in m^3/s^2; finite and above 0
   double reference_radius = 0;  // of the sphere about the centre, in m; finite and above 0
-  friend bool operator==(const GravityField&, const GravityField&) = default;
+  friend bool operator==(const GravityField&, const GravityField&) = default;  // equal numbers
 };
 
 // A surface as coefficients: what a model file holds.
