@@ -1,6 +1,8 @@
 // rholm spectrum: energy per degree.
+#include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -75,11 +77,13 @@ std::string unknown_text(const Spectrum& s, const Expansion& expansion) {
   return text + "\n";
 }
 
-// Without a norm the answer is of the file's own degrees, of which the last leaves none.
+// Without a norm the answer is of the file's own degrees, of which the last leaves nothing out.
 std::optional<int> degree_within(const Spectrum& s, double tolerance) {
-  const std::optional<int> degree = s.beyond.degree_within(tolerance);
-  if (degree || s.beyond.includes_tail()) return degree;
-  return static_cast<int>(s.energy.size()) - 1;
+  if (s.beyond.includes_tail()) return s.beyond.degree_within(tolerance);
+  const std::vector<double>& within = s.beyond.rms_within;
+  const auto first =
+      std::find_if(within.begin(), within.end(), [&](double rms) { return rms <= tolerance; });
+  return static_cast<int>(first - within.begin());
 }
 
 std::string tolerance_text(const Spectrum& s, const Expansion& expansion, double tolerance) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 
 #include "base/parallel.h"
@@ -289,23 +290,26 @@ Placement align(const Expansion& a, const Expansion& b, AlignCenters centers,
   AlignOptions wanted = options;
   wanted.unknown_a = std::max(options.unknown_a, left_out(a));
   wanted.unknown_b = std::max(options.unknown_b, left_out(b));
-  std::string why_own;
-  if (centers != AlignCenters::kOwn) {
-    try {
-      const Expansion x = about_centroid(a, context), y = about_centroid(b, context);
-      return {.alignment = align(x.coefficients, y.coefficients, wanted, context),
-              .from = x.center,
-              .to = y.center};
-    } catch (const Error& error) {
-      if (centers == AlignCenters::kVolume || error.code() != ErrorCode::kNotStarShaped) throw;
-      why_own = error.what();
-    }
+  Placement placement;
+  const auto turn = [&](const Expansion& from, const Expansion& to) {
+    placement.alignment = align(from.coefficients, to.coefficients, wanted, context);
+    placement.from = from.center;
+    placement.to = to.center;
+    return placement;
+  };
+  placement.centers = AlignCenters::kOwn;
+  if (centers == AlignCenters::kOwn) return turn(a, b);
+  std::optional<Expansion> x, y;
+  try {
+    x = about_centroid(a, context);
+    y = about_centroid(b, context);
+  } catch (const Error& error) {
+    if (centers == AlignCenters::kVolume || error.code() == ErrorCode::kCancelled) throw;
+    placement.why_own = error.what();
+    return turn(a, b);
   }
-  return {.alignment = align(a.coefficients, b.coefficients, wanted, context),
-          .from = a.center,
-          .to = b.center,
-          .centers = AlignCenters::kOwn,
-          .why_own = why_own};
+  placement.centers = AlignCenters::kVolume;
+  return turn(*x, *y);
 }
 
 const char* to_string(AlignCenters centers) {
