@@ -119,8 +119,8 @@ class Expansion:
 
     @property
     def gravity(self) -> _core.GravityField | None:
-        """What the coefficients of a gravity field are relative to: its `gravity_constant`, G M in
-        m^3/s^2, and its `reference_radius` in m; None if not known. Set by `with_gravity`.
+        """What the coefficients of a gravity field are relative to: its ``gravity_constant``, G M in
+        m^3/s^2, and its ``reference_radius`` in m; None if not known. Set by `with_gravity`.
         """
         return self._core.gravity
 
