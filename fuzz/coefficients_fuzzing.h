@@ -39,10 +39,9 @@ inline void check_expansion_survives(const Expansion& expansion) {
   constexpr int kEnough = 64;  // larger ones only cost time
   if (expansion.coefficients.degree() > kEnough) return;
   const Convention orthonormal{Normalization::kOrthonormal, 1};
-  for (const std::string& bytes :
-       {format_shtools(expansion, expansion.coefficients, orthonormal),
-        format_icgem(expansion, expansion.coefficients, orthonormal, std::nullopt),
-        format_json(expansion, expansion.coefficients, orthonormal)}) {
+  for (const std::string& bytes : {format_shtools(expansion, expansion.coefficients, orthonormal),
+                                   format_icgem(expansion, expansion.coefficients, orthonormal),
+                                   format_json(expansion, expansion.coefficients, orthonormal)}) {
     require(same(parse_coefficients(bytes, "again").expansion, expansion));
   }
   const CoefficientsFile npy =
