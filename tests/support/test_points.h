@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -13,6 +14,16 @@
 #include "support/random_data.h"
 
 namespace rholm::test {
+
+// So many points, one for each number.
+inline std::vector<Vec3> points_of(std::size_t n, const std::function<Vec3(std::size_t)>& point) {
+  std::vector<Vec3> points;
+  points.reserve(n);
+  for (std::size_t i = 0; i < n; ++i) points.push_back(point(i));
+  return points;
+}
+
+inline double uniform(std::uint64_t seed, std::size_t i) { return random_in(-1, 1, seed, i); }
 
 // Random points of the unit sphere with their normals.
 inline PointCloud sphere_points(std::size_t n, std::uint64_t seed = 1) {

@@ -15,22 +15,14 @@ namespace rholm {
 namespace {
 
 using test::OrderedCloud;
+using test::points_of;
 using test::random_direction;
-using test::random_in;
 using test::random_normal;
-
-std::vector<Vec3> make(std::size_t n, const std::function<Vec3(std::size_t)>& point) {
-  std::vector<Vec3> points;
-  points.reserve(n);
-  for (std::size_t i = 0; i < n; ++i) points.push_back(point(i));
-  return points;
-}
-
-double uniform(std::uint64_t seed, std::size_t i) { return random_in(-1, 1, seed, i); }
+using test::uniform;
 
 // Two squares of edge 2 that halve each other at an angle.
 std::vector<Vec3> crossing_squares(std::size_t n, double angle) {
-  return make(n, [&](std::size_t i) {
+  return points_of(n, [&](std::size_t i) {
     const double along = uniform(1, i), across = uniform(2, i);
     if (i % 2 == 0) return Vec3{along, across, 0};
     return Vec3{along, across * std::cos(angle), across * std::sin(angle)};
@@ -38,7 +30,7 @@ std::vector<Vec3> crossing_squares(std::size_t n, double angle) {
 }
 
 std::vector<Vec3> two_spheres(std::size_t n, double apart) {
-  return make(n, [&](std::size_t i) {
+  return points_of(n, [&](std::size_t i) {
     return random_direction(3, i) + Vec3{i % 2 == 0 ? 0 : apart, 0, 0};
   });
 }
@@ -103,8 +95,9 @@ TEST(crossings, are_not_found_where_sheets_bend_end_or_touch) {
   };
   const auto sheet = [](std::size_t i) { return Vec3{uniform(1, i), uniform(2, i), 0}; };
   for (const std::size_t n : {800, 4000}) {
-    const std::vector<std::vector<Vec3>> clouds = {make(n, box), make(n, tee), make(n, sheet),
-                                                   two_spheres(n, 2), two_spheres(n, 0)};
+    const std::vector<std::vector<Vec3>> clouds = {points_of(n, box), points_of(n, tee),
+                                                   points_of(n, sheet), two_spheres(n, 2),
+                                                   two_spheres(n, 0)};
     for (std::size_t k = 0; k < clouds.size(); ++k) {
       for (const double noise : {0.0, 0.005, 0.01}) {
         const std::vector<Vec3> points = noisy(clouds[k], noise);

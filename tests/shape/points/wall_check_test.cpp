@@ -14,21 +14,14 @@ namespace rholm {
 namespace {
 
 using test::OrderedCloud;
+using test::points_of;
 using test::random_direction;
 using test::random_in;
 using test::random_normal;
+using test::uniform;
 
 constexpr std::size_t kPoints = 4000;
 constexpr double kStep = 0.03;
-
-std::vector<Vec3> make(const std::function<Vec3(std::size_t)>& point) {
-  std::vector<Vec3> points;
-  points.reserve(kPoints);
-  for (std::size_t i = 0; i < kPoints; ++i) points.push_back(point(i));
-  return points;
-}
-
-double uniform(std::uint64_t seed, std::size_t i) { return random_in(-1, 1, seed, i); }
 
 struct Surface {
   std::vector<WallVertex> vertices = {};
@@ -70,7 +63,7 @@ Surface sphere() {
 }
 
 std::vector<Vec3> noisy_plate(double thickness, double noise) {
-  return make([&](std::size_t i) {
+  return points_of(kPoints, [&](std::size_t i) {
     const double side = i % 2 == 0 ? 0.5 : -0.5;
     return Vec3{uniform(1, i), uniform(2, i), side * thickness + noise * random_normal(3, i)};
   });
@@ -99,7 +92,7 @@ TEST(wall_check, finds_walls_nearer_than_a_few_deviations_of_the_noise) {
 // Whatever the distance of the walls is, they are at most 4 scatters apart.
 TEST(wall_check, finds_points_that_fill_a_plate) {
   const double thickness = 0.3;
-  const std::vector<Vec3> points = make([&](std::size_t i) {
+  const std::vector<Vec3> points = points_of(kPoints, [&](std::size_t i) {
     return Vec3{uniform(1, i), uniform(2, i), thickness / 2 * uniform(3, i)};
   });
   for (const double apart : {0.5, 0.7, 1.0}) {
@@ -110,27 +103,29 @@ TEST(wall_check, finds_points_that_fill_a_plate) {
 // 4000 points of the unit sphere are 0.056 apart.
 TEST(wall_check, tells_points_that_fill_a_shell_from_noise_of_the_same_scatter) {
   const double half = 0.08;
-  const std::vector<Vec3> evenly =
-      make([&](std::size_t i) { return (1 + half * uniform(1, i)) * random_direction(2, i); });
-  const std::vector<Vec3> noise = make([&](std::size_t i) {
+  const std::vector<Vec3> evenly = points_of(
+      kPoints, [&](std::size_t i) { return (1 + half * uniform(1, i)) * random_direction(2, i); });
+  const std::vector<Vec3> noise = points_of(kPoints, [&](std::size_t i) {
     return (1 + half / std::sqrt(3.0) * random_normal(1, i)) * random_direction(2, i);
   });
-  const std::vector<Vec3> one_layer =
-      make([&](std::size_t i) { return (1 + half / 8 * uniform(1, i)) * random_direction(2, i); });
+  const std::vector<Vec3> one_layer = points_of(kPoints, [&](std::size_t i) {
+    return (1 + half / 8 * uniform(1, i)) * random_direction(2, i);
+  });
   EXPECT_GT(off(evenly, sphere()), 0.8);
   EXPECT_EQ(off(noise, sphere()), 0);
   EXPECT_EQ(off(one_layer, sphere()), 0);
 }
 
 TEST(wall_check, finds_points_far_from_any_surface) {
-  const std::vector<Vec3> ball =
-      make([](std::size_t i) { return std::cbrt(random_in(0, 1, 1, i)) * random_direction(2, i); });
+  const std::vector<Vec3> ball = points_of(kPoints, [](std::size_t i) {
+    return std::cbrt(random_in(0, 1, 1, i)) * random_direction(2, i);
+  });
   EXPECT_GT(off(ball, sphere()), 0.5);
   EXPECT_EQ(off(ball, {}), 1);
 }
 
 TEST(wall_check, names_points_that_are_off) {
-  const std::vector<Vec3> points = make([](std::size_t i) {
+  const std::vector<Vec3> points = points_of(kPoints, [](std::size_t i) {
     const double height = uniform(1, i) < 0 ? 0.05 : 0.4 * random_in(0, 1, 3, i);
     return Vec3{uniform(1, i), uniform(2, i), height * (i % 2 == 0 ? 1 : -1)};
   });
