@@ -104,8 +104,6 @@ double rounding_of(const FacePlane& face) { return FacePlane::kFrameDiagonal * f
 // The optimum of the pool within a flat, as far as it is known.
 struct PoolOptimum {
   LinearProgram program{kReach, kMostDistance};
-  std::size_t n_bounds = program.rows().size();  // rows that are no faces, the first ones
-  std::vector<double> turns = {};                // of the faces, as FacePlane::turn
   Vec3 point;
   double top = kMostDistance;  // an upper bound of the smallest d_T, in the pool and so in all
   // Planes that rounding has turned against each other, as those of a flat side in single
@@ -140,7 +138,6 @@ double add_worst(const std::vector<FacePlane>& pool, const Flat& flat, PoolOptim
                          .lift = 1,
                          .bound = worst->most_distance(flat.origin),
                          .rounding = rounding_of(*worst)});
-    optimum.turns.push_back(worst->turn);
   }
   return smallest;
 }
@@ -227,8 +224,8 @@ Normals holding_normals(const PoolOptimum& optimum, const Flat& flat) {
   Normals holding;
   const LinearProgram& program = optimum.program;
   for (const std::size_t row : program.basis()) {
-    if (row < optimum.n_bounds) continue;
-    holding.turn = std::max(holding.turn, optimum.turns[row - optimum.n_bounds]);
+    const double turn = program.rows()[row].rounding / FacePlane::kFrameDiagonal;
+    holding.turn = std::max(holding.turn, turn);
   }
   for (std::size_t i = 0; i < 4; ++i) {
     if (program.weights()[i] <= holding.turn) continue;
