@@ -80,7 +80,7 @@ Alignment align(const Coefficients& a, const Coefficients& b, const AlignOptions
 
 // Which points of two surfaces are laid on each other before they are turned.
 enum class AlignCenters {
-  kAuto,    // kVolume if both surfaces are seen whole from their centroids, else kOwn
+  kAuto,    // kVolume if both surfaces can be seen from their centroids, else kOwn
   kVolume,  // centroids of the solids: they move with the shape and hardly feel noise
   kOwn      // the centres of the expansions
 };
@@ -93,7 +93,7 @@ struct Placement {
   Alignment alignment;                           // R and whether it is mirrored
   Vec3 from, to;                                 // the points laid on each other, of a and of b
   AlignCenters centers = AlignCenters::kVolume;  // which points these are: kVolume or kOwn
-  std::string why_own = {};  // of kAuto that took kOwn: what is wrong with the centroids
+  std::string why_own = {};  // of kAuto that took kOwn: why a surface cannot be seen so
 };
 
 // The same for surfaces; with kVolume as they are seen from there, up to degree 256 (recentered(),

@@ -162,8 +162,8 @@ Step align_items(const Json& request, const Document& now, Shared& shared) {
             changed.placed = told_of(placement.alignment, *b);
             if (!placement.why_own.empty()) {
               changed.placed +=
-                  " The centres of both models lie on each other: from its centroid "
-                  "a surface is not seen whole.";
+                  " The centres of both models lie on each other, not the centroids: " +
+                  placement.why_own + ".";
             }
             changed.model = make_model(std::move(moved), mesh, context);
             const Model& model = *changed.model;
