@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <tuple>
 
 #include "base/parallel.h"
 #include "shape/face.h"
@@ -12,52 +13,32 @@
 namespace rholm {
 namespace {
 
-// Worst points that are this far apart, in waves' 1/L, are peaks of their own.
-constexpr std::size_t kCandidates = 2048;
+// Worst points that are this far apart, in waves' 1/L, are peaks of their own. So many of them, or
+// more for many sites, are looked at.
+constexpr std::size_t kCandidates = 2048, kCandidatesOfSite = 128;
 constexpr double kApart = 2;
 // On each face around them steps of this many 1/L at first (points lie within 1.5 of them), halved
 // each time: four leave 1/10 of 1/L at most, 6e-4 of a peak of that curvature. After the first the
 // best faces go on.
 constexpr double kFirstStep = 0.75;
 constexpr int kRounds = 4;
+// To the top steps are halved where they lead no higher: eight times leave 3e-3 of 1/L, some 1e-5
+// of a peak.
+constexpr int kMostHalvings = 8, kMostRounds = 40;
 
 struct Climber {
+  std::size_t face = 0;
   std::array<Vec3, 3> corners;  // from the centre, scaled
   FaceNormal normal;
   double a = 0, b = 0;  // weights of the first two corners
   double step = 0;      // of the weights
+  int halvings = 0;     // of the step
   double value = 0;
 
   Vec3 at(double wa, double wb) const {
     return wa * corners[0] + wb * corners[1] + (1 - wa - wb) * corners[2];
   }
 };
-
-// The worst points, none near a worse one.
-std::vector<std::size_t> sites(const ErrorPoints& points, const std::vector<double>& values,
-                               int degree, std::size_t n) {
-  const std::vector<std::size_t> order = indices_of_largest(values, kCandidates);
-  const double apart = kApart / std::max(degree, 1);
-  std::vector<std::size_t> found;
-  std::size_t different = 0;
-  for (std::size_t k = 0; k < order.size() && different < n; ++k) {
-    double nearest = 4;
-    bool known = false;  // the same point once more
-    for (const std::size_t i : found) {
-      const Vec3 chord = points.directions[order[k]] - points.directions[i];
-      const double chord2 = dot(chord, chord);
-      known = known || (chord2 == 0 && points.owners[order[k]] == points.owners[i]);
-      nearest = std::min(nearest, chord2);
-    }
-    if (known) continue;
-    // Copies of a point, each with faces of its own, are one site together.
-    constexpr double kSame = 1e-24;
-    if (nearest > kSame && nearest <= apart * apart) continue;
-    if (nearest > kSame) ++different;
-    found.push_back(order[k]);
-  }
-  return found;
-}
 
 // The weights of the first two corners at the direction u, in the face or on its border.
 void place(const Vec3& u, Climber& climber) {
@@ -73,6 +54,7 @@ std::optional<Climber> climber_on(const MeshView& mesh, std::size_t t, const Vec
                                   double scale, const Vec3& direction, double value, int degree) {
   const Triangle triangle = mesh.triangle(t);
   Climber climber;
+  climber.face = t;
   for (int k = 0; k < 3; ++k) {
     climber.corners[k] = scale * (mesh.vertex(triangle[k]) - center);
   }
@@ -130,7 +112,8 @@ class FewVertices {
 std::vector<std::vector<Climber>> climbers(const MeshView& mesh, const Vec3& center, double scale,
                                            const ErrorPoints& points,
                                            const std::vector<PeakSearch>& searches, int degree,
-                                           std::size_t n_sites, const Context& context) {
+                                           std::size_t n_sites, bool around,
+                                           const Context& context) {
   struct Start {
     std::size_t search, point;
   };
@@ -143,10 +126,16 @@ std::vector<std::vector<Climber>> climbers(const MeshView& mesh, const Vec3& cen
   FewVertices vertices;
   std::vector<Start> at_vertices;
   for (std::size_t search = 0; search < searches.size(); ++search) {
-    for (const std::size_t i : sites(points, searches[search].values, degree, n_sites)) {
+    for (const std::size_t i : worst_apart(points, searches[search].values, degree, n_sites)) {
       const std::int64_t owner = points.owners[i];
       if (owner >= 0) {
-        begin({search, i}, static_cast<std::size_t>(owner));
+        const auto t = static_cast<std::size_t>(owner);
+        begin({search, i}, t);
+        if (!around) continue;
+        for (const std::uint32_t corner : mesh.triangle(t)) {
+          vertices.add(corner);
+          at_vertices.push_back({search, i});
+        }
       } else {
         vertices.add(static_cast<std::uint32_t>(-1 - owner));
         at_vertices.push_back({search, i});
@@ -158,60 +147,160 @@ std::vector<std::vector<Climber>> climbers(const MeshView& mesh, const Vec3& cen
   return found;
 }
 
-// All climbers to the best of their six neighbours, if it is better.
-void climb(std::vector<Climber>& climbers, double scale, const ErrorAt& error) {
+// The point of a face with these weights of its first two corners, brought onto it.
+struct Place {
+  double a, b;
+};
+Place on_face(double a, double b) {
+  a = std::clamp(a, 0.0, 1.0);
+  b = std::clamp(b, 0.0, 1.0);
+  const double over = std::max(1.0, a + b);
+  return {a / over, b / over};
+}
+void add_point(const Climber& c, const Place& at, double scale, ErrorPoints& points) {
+  const Vec3 x = c.at(at.a, at.b);
+  const double r = std::max(norm(x), 1e-300);
+  points.add(x / r, r / scale,
+             std::abs(dot(c.normal.twice_area, x)) / (norm(c.normal.twice_area) * r),
+             static_cast<std::int64_t>(c.face));
+}
+
+// All climbers to the best of their six neighbours, if it is better. The steps are halved: all, or
+// those that lead no higher.
+void climb(std::vector<Climber>& climbers, double scale, const ErrorAt& error, bool halve_all) {
   constexpr std::array<std::array<double, 2>, 6> kWays = {
       {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, -1}, {-1, 1}}};
   ErrorPoints points;
-  std::vector<std::array<double, 2>> weights;
+  std::vector<Place> places;
+  points.reserve(kWays.size() * climbers.size());
+  places.reserve(kWays.size() * climbers.size());
   for (const Climber& c : climbers) {
-    const double size = norm(c.normal.twice_area);
     for (const auto& way : kWays) {
-      double a = std::clamp(c.a + c.step * way[0], 0.0, 1.0);
-      double b = std::clamp(c.b + c.step * way[1], 0.0, 1.0);
-      const double over = std::max(1.0, a + b);
-      a /= over;
-      b /= over;
-      const Vec3 x = c.at(a, b);
-      const double r = std::max(norm(x), 1e-300);
-      weights.push_back({a, b});
-      points.directions.push_back(x / r);
-      points.radii.push_back(r / scale);
-      points.cosines.push_back(std::abs(dot(c.normal.twice_area, x)) / (size * r));
+      places.push_back(on_face(c.a + c.step * way[0], c.b + c.step * way[1]));
+      add_point(c, places.back(), scale, points);
     }
   }
   const std::vector<double> values = error(points);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    Climber& c = climbers[i / kWays.size()];
-    if (!(values[i] > c.value)) continue;
-    c.value = values[i];
-    c.a = weights[i][0];
-    c.b = weights[i][1];
+  for (std::size_t k = 0; k < climbers.size(); ++k) {
+    Climber& c = climbers[k];
+    bool higher = false;
+    for (std::size_t i = kWays.size() * k; i < kWays.size() * (k + 1); ++i) {
+      if (!(values[i] > c.value)) continue;
+      higher = true;
+      c.value = values[i];
+      c.a = places[i].a;
+      c.b = places[i].b;
+    }
+    if (higher && !halve_all) continue;
+    c.step /= 2;
+    ++c.halvings;
   }
-  for (Climber& c : climbers) c.step /= 2;
+}
+
+void sort_highest_first(std::vector<Climber>& climbers) {
+  std::stable_sort(climbers.begin(), climbers.end(),
+                   [](const Climber& a, const Climber& b) { return a.value > b.value; });
+}
+
+// Faces that have several corners in common with that of a site are found several times.
+void drop_copies(std::vector<Climber>& climbers) {
+  const auto key = [](const Climber& c) { return std::tuple(c.face, c.a, c.b); };
+  std::ranges::sort(climbers, {}, key);
+  const auto copies = std::ranges::unique(climbers, {}, key);
+  climbers.erase(copies.begin(), copies.end());
+}
+
+// Climbers begin at the place in their face that is nearest to a site, which may be lower than it.
+void measure(std::vector<Climber>& climbers, double scale, const ErrorAt& error) {
+  ErrorPoints points;
+  points.reserve(climbers.size());
+  for (const Climber& c : climbers) add_point(c, {c.a, c.b}, scale, points);
+  const std::vector<double> values = error(points);
+  for (std::size_t k = 0; k < climbers.size(); ++k) climbers[k].value = values[k];
+}
+
+double scale_of(const ErrorPoints& points) {
+  return std::exp2(-std::ilogb(std::max(largest(points.radii), 1e-300)));
 }
 
 }  // namespace
+
+std::vector<std::size_t> worst_apart(const ErrorPoints& points, const std::vector<double>& values,
+                                     int degree, std::size_t n) {
+  const std::vector<std::size_t> order =
+      indices_of_largest(values, std::max(kCandidates, n * kCandidatesOfSite));
+  const double apart = kApart / std::max(degree, 1);
+  std::vector<std::size_t> found;
+  std::size_t different = 0;
+  for (std::size_t k = 0; k < order.size() && different < n; ++k) {
+    double nearest = 4;
+    bool known = false;  // the same point once more
+    for (const std::size_t i : found) {
+      const Vec3 chord = points.directions[order[k]] - points.directions[i];
+      const double chord2 = dot(chord, chord);
+      known = known || (chord2 == 0 && points.owners[order[k]] == points.owners[i]);
+      nearest = std::min(nearest, chord2);
+    }
+    if (known) continue;
+    // Copies of a point, each with faces of its own, are one site together.
+    constexpr double kSame = 1e-24;
+    if (nearest > kSame && nearest <= apart * apart) continue;
+    if (nearest > kSame) ++different;
+    found.push_back(order[k]);
+  }
+  return found;
+}
 
 std::vector<double> highest_peaks(const MeshView& mesh, const Vec3& center,
                                   const ErrorPoints& points,
                                   const std::vector<PeakSearch>& searches, int degree,
                                   std::size_t n_sites, const Context& context) {
-  const double scale = std::exp2(-std::ilogb(std::max(largest(points.radii), 1e-300)));
+  const double scale = scale_of(points);
   std::vector<std::vector<Climber>> all =
-      climbers(mesh, center, scale, points, searches, degree, n_sites, context);
+      climbers(mesh, center, scale, points, searches, degree, n_sites, false, context);
   std::vector<double> highest;
   for (std::size_t k = 0; k < searches.size(); ++k) {
     highest.push_back(largest(searches[k].values));
     for (int round = 0; round < kRounds && !all[k].empty(); ++round) {
-      climb(all[k], scale, searches[k].error);
-      std::stable_sort(all[k].begin(), all[k].end(),
-                       [](const Climber& a, const Climber& b) { return a.value > b.value; });
+      climb(all[k], scale, searches[k].error, true);
+      sort_highest_first(all[k]);
       if (all[k].size() > n_sites + 1) all[k].resize(n_sites + 1);
       highest[k] = std::max(highest[k], all[k][0].value);
     }
   }
   return highest;
+}
+
+Peaks local_maxima(const MeshView& mesh, const Vec3& center, const ErrorPoints& points,
+                   const PeakSearch& search, int degree, std::size_t n_sites,
+                   const Context& context) {
+  Peaks peaks;
+  const double scale = scale_of(points);
+  std::vector<Climber> climbing =
+      climbers(mesh, center, scale, points, {search}, degree, n_sites, true, context)[0];
+  drop_copies(climbing);
+  measure(climbing, scale, search.error);
+  for (int round = 0; round < kMostRounds && !climbing.empty(); ++round) {
+    climb(climbing, scale, search.error, false);
+    sort_highest_first(climbing);
+    // At the top, or too low: a step of s/L from the top of a wave of degree L is s^2/2 of it
+    // below; twice that for two directions, and again for faces at a shallow angle.
+    const auto ends = [&, highest = climbing[0].value](const Climber& c) {
+      const double step = kFirstStep * std::exp2(-c.halvings);
+      return c.halvings >= kMostHalvings || c.value < (1 - 2 * step * step) * highest;
+    };
+    for (const Climber& c : climbing) {
+      if (!ends(c)) continue;
+      add_point(c, {c.a, c.b}, scale, peaks.points);
+      peaks.values.push_back(c.value);
+    }
+    std::erase_if(climbing, ends);
+  }
+  for (const Climber& c : climbing) {
+    add_point(c, {c.a, c.b}, scale, peaks.points);
+    peaks.values.push_back(c.value);
+  }
+  return peaks;
 }
 
 }  // namespace rholm

@@ -14,6 +14,11 @@ namespace rholm {
 // Of points of the mesh: the error whose largest value is looked for.
 using ErrorAt = std::function<std::vector<double>(const ErrorPoints&)>;
 
+// The indices of the worst of n places that are at least 2/L apart, the worst first: of a place
+// with several points all.
+std::vector<std::size_t> worst_apart(const ErrorPoints& points, const std::vector<double>& values,
+                                     int degree, std::size_t n);
+
 struct PeakSearch {
   std::vector<double> values;  // the error at the points
   ErrorAt error;
@@ -25,5 +30,16 @@ std::vector<double> highest_peaks(const MeshView& mesh, const Vec3& center,
                                   const ErrorPoints& points,
                                   const std::vector<PeakSearch>& searches, int degree,
                                   std::size_t n_sites, const Context& context);
+
+// Points of faces, and the errors there.
+struct Peaks {
+  ErrorPoints points;
+  std::vector<double> values;
+};
+// Climbs from the worst points to the top, on their faces and on those around, along edges as well:
+// where climbs ended, among them the local maxima that are highest, to 1e-4 of their heights.
+Peaks local_maxima(const MeshView& mesh, const Vec3& center, const ErrorPoints& points,
+                   const PeakSearch& search, int degree, std::size_t n_sites,
+                   const Context& context);
 
 }  // namespace rholm

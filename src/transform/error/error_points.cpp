@@ -16,28 +16,16 @@
 #include "rholm/error.h"
 #include "rholm/harmonic.h"
 #include "shape/face.h"
+#include "transform/error/long_faces.h"
 
 namespace rholm {
 namespace {
-
-// Points are added inside faces whose edges are longer than this many 1/L: waves of degree L are
-// 2 pi / L long (chosen).
-constexpr double kDense = 1.5;
-constexpr int kMostDivisions = 3;
 
 struct Face {
   std::array<Vec3, 3> corners;  // from the centre
   FaceNormal normal;
   double twice_area = 0;
 };
-
-// From the centre, times `scale`.
-std::array<Vec3, 3> corners_of(const MeshView& mesh, const Triangle& triangle, const Vec3& center,
-                               double scale) {
-  std::array<Vec3, 3> corners;
-  for (int i = 0; i < 3; ++i) corners[i] = scale * (mesh.vertex(triangle[i]) - center);
-  return corners;
-}
 
 Face face_of(const std::array<Vec3, 3>& corners) {
   Face face;
@@ -67,19 +55,6 @@ std::optional<double> cosine_at(const Face& face, const Vec3& x) {
   const double size = norm(x) * face.twice_area;
   if (!(size > 0)) return std::nullopt;
   return std::abs(dot(face.normal.twice_area, x)) / size;
-}
-
-// Into how many parts the edges of a face are divided.
-int divisions(const std::array<Vec3, 3>& corners, int degree) {
-  double angle2 = 0;
-  for (int i = 0; i < 3; ++i) {
-    const Vec3 &a = corners[i], &b = corners[(i + 1) % 3];
-    const Vec3 e = b - a;
-    const double distance2 = std::min(dot(a, a), dot(b, b));
-    angle2 = std::max(angle2, distance2 > 0 ? dot(e, e) / distance2 : 0.0);
-  }
-  const double parts = std::ceil(std::min(1e3, degree * std::sqrt(angle2) / kDense));
-  return std::clamp(static_cast<int>(parts), 1, kMostDivisions);
 }
 
 }  // namespace
@@ -130,44 +105,6 @@ void ErrorPoints::append(const ErrorPoints& more) {
   radii.insert(radii.end(), more.radii.begin(), more.radii.end());
   cosines.insert(cosines.end(), more.cosines.begin(), more.cosines.end());
   owners.insert(owners.end(), more.owners.begin(), more.owners.end());
-}
-
-namespace {
-
-// Where the points of a face lie whose edges are divided in two or three: from both sides of an
-// edge, for peaks are looked for on the face that has the point.
-using OnFace = std::array<double, 3>;
-constexpr std::array<OnFace, 3> kHalves = {{{0.5, 0.5, 0}, {0, 0.5, 0.5}, {0.5, 0, 0.5}}};
-constexpr double kThird = 1.0 / 3, kTwoThirds = 2.0 / 3;
-constexpr std::array<OnFace, 7> kThirds = {{{kThird, kThird, kThird},
-                                            {kTwoThirds, kThird, 0},
-                                            {kThird, kTwoThirds, 0},
-                                            {0, kTwoThirds, kThird},
-                                            {0, kThird, kTwoThirds},
-                                            {kThird, 0, kTwoThirds},
-                                            {kTwoThirds, 0, kThird}}};
-static_assert(kMostDivisions == 3);
-
-}  // namespace
-
-void visit_long_faces(const MeshView& mesh, const Vec3& center, const FaceScan& scan, int degree,
-                      std::size_t begin, std::size_t end, const PointsOnFace& visit) {
-  std::array<Vec3, kThirds.size()> points;
-  for (std::size_t run = begin; run < end; ++run) {
-    if (degree * std::sqrt(scan.sizes.angles2[run]) <= kDense) continue;
-    const std::size_t first = run * FaceSizes::kRun;
-    for (std::size_t t = first; t < std::min(mesh.n_triangles, first + FaceSizes::kRun); ++t) {
-      const std::array<Vec3, 3> p = corners_of(mesh, mesh.triangle(t), center, scan.sizes.scale);
-      const int n = divisions(p, degree);
-      if (n == 1) continue;
-      const std::span<const OnFace> places = n == 2 ? std::span<const OnFace>(kHalves) : kThirds;
-      for (std::size_t k = 0; k < places.size(); ++k) {
-        const auto& [a, b, c] = places[k];
-        points[k] = a * p[0] + b * p[1] + c * p[2];
-      }
-      visit(std::span(points).first(places.size()), t);
-    }
-  }
 }
 
 std::optional<double> face_cosine(const MeshView& mesh, std::size_t t, const Vec3& center,

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -33,13 +32,8 @@ struct ErrorPoints {
   void append(const ErrorPoints& more);
 };
 
-// Of each face whose edges are long against 1/L three or seven points, on it and its edges but not
-// at its corners: calls visit(points, t) for faces of the runs [begin, end) of the scan, points
-// from the centre and times scan.sizes.scale. Waves of degree L are 2 pi / L long.
-using PointsOnFace = std::function<void(std::span<const Vec3> points, std::size_t t)>;
-void visit_long_faces(const MeshView& mesh, const Vec3& center, const FaceScan& scan, int degree,
-                      std::size_t begin, std::size_t end, const PointsOnFace& visit);
-// cos gamma at such a point of face t; none of a degenerate face, and at the centre.
+// cos gamma at the point x of face t, which is from the centre and times scan.sizes.scale; none of
+// a degenerate face, and at the centre.
 std::optional<double> face_cosine(const MeshView& mesh, std::size_t t, const Vec3& center,
                                   const FaceScan& scan, const Vec3& x);
 // Where the largest errors of degree L are: all vertices, and points on long faces.

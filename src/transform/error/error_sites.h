@@ -58,8 +58,10 @@ class ErrorSites {
   std::optional<ErrorStrengths> strengths_;
 };
 
-// As the public function, of the mesh and about the centre of the sites.
+// As the public function, of the mesh and about the centre of the sites. On request the points of
+// the largest radial errors are added to `worst`.
 TruncationErrors truncation_errors(const Expansion& expansion, const TruncationOptions& options,
-                                   ErrorSites& sites, const Context& context);
+                                   ErrorSites& sites, const Context& context,
+                                   ErrorPoints* worst = nullptr);
 
 }  // namespace rholm

@@ -12,6 +12,7 @@
 #include "transform/error/error_peaks.h"
 #include "transform/error/error_points.h"
 #include "transform/error/error_sites.h"
+#include "transform/error/largest_radial.h"
 #include "transform/error/worst_points.h"
 #include "transform/norms/parseval.h"
 
@@ -44,8 +45,8 @@ double measuring_precision(const Expansion& expansion, const std::optional<doubl
   return std::clamp(1e-5 * *exact_rms / size, 1e-12, 1e-6);
 }
 
-// Enough for smooth meshes, whose points are dense (chosen).
-constexpr std::size_t kPeaks = 3;
+// Of the largest distances (chosen).
+constexpr std::size_t kPeaks = 16;
 
 // What is looked at closely: the worst of extreme points, `extreme` of them, and of those over the
 // area; from `sample` on some of the latter, evenly.
@@ -55,20 +56,19 @@ struct Looked {
   std::size_t extreme = 0, sample = 0;
 };
 
-// The largest errors between points. Of distances those from the shape to the model: to the shape
-// they are to the planes of faces, which are not the faces.
+// The largest distance to the model between points. Those to the shape are to the planes of faces,
+// which are not the faces.
 void climb(const Looked& looked, const RadialModel& model, ErrorSites& sites,
            TruncationErrors& errors) {
   const Context context{.threads = 1};  // waking others takes longer than a hundred points
-  const std::vector<double> highest = highest_peaks(
-      sites.mesh(), sites.center(), looked.points,
-      {{looked.errors.radial,
-        [&](const ErrorPoints& at) { return point_errors(at, model, false, context).radial; }},
-       {looked.errors.to_model,
-        [&](const ErrorPoints& at) { return point_errors(at, model, true, context).to_model; }}},
-      model.degree, kPeaks, {.threads = sites.threads()});
-  errors.measured_max = std::max(*errors.measured_max, highest[0]);
-  errors.measured_max_distance = std::max(*errors.measured_max_distance, highest[1]);
+  const PeakSearch search{looked.errors.to_model, [&](const ErrorPoints& at) {
+                            return point_errors(at, model, true, context).to_model;
+                          }};
+  errors.measured_max_distance =
+      std::max(*errors.measured_max_distance,
+               largest(local_maxima(sites.mesh(), sites.center(), looked.points, search,
+                                    model.degree, kPeaks, {.threads = sites.threads()})
+                           .values));
 }
 
 // Distances by closest points where those to first order may mislead.
@@ -121,6 +121,26 @@ Looked look_closely(WorstPoints extreme, const ErrorPoints& over_area, const Poi
   return looked;
 }
 
+// The places of the largest radial errors become some of the worst points, for distances there.
+LargestRadial largest_error(const Expansion& expansion, const RadialModel& model,
+                            WorstPoints& worst, const ErrorPoints& over_area,
+                            const PointErrors& of_area, double rms, ErrorSites& sites,
+                            const Context& context) {
+  ErrorPoints known = worst.points;
+  std::vector<double> values = worst.errors.radial;
+  for (const std::size_t i : indices_of_largest(of_area.radial, kMostWorstPoints)) {
+    values.push_back(of_area.radial[i]);
+  }
+  known.append(over_area.subset(indices_of_largest(of_area.radial, kMostWorstPoints)));
+  LargestRadial found = largest_radial(expansion, model, known, values, rms, sites, context);
+  // Without the slope of a face: many are at vertices, where the plane of a face says nothing.
+  ErrorPoints peaks = found.peaks.points;
+  std::ranges::fill(peaks.cosines, 0.0);
+  worst.points.append(peaks);
+  worst.errors.append(point_errors(peaks, model, true, context));
+  return found;
+}
+
 }  // namespace
 
 TruncationErrors truncation_errors(const MeshView& mesh, const Expansion& expansion,
@@ -131,7 +151,8 @@ TruncationErrors truncation_errors(const MeshView& mesh, const Expansion& expans
 }
 
 TruncationErrors truncation_errors(const Expansion& expansion, const TruncationOptions& options,
-                                   ErrorSites& sites, const Context& context) {
+                                   ErrorSites& sites, const Context& context,
+                                   ErrorPoints* worst_radial) {
   TruncationErrors errors;
   errors.diagonal = diagonal_of(sites.mesh(), {.threads = context.threads});
   const int degree = expansion.coefficients.degree();
@@ -158,8 +179,12 @@ TruncationErrors truncation_errors(const Expansion& expansion, const TruncationO
                     .distance = std::max(largest(of_area.to_model), largest(of_area.to_shape))},
                    silent);
   errors.points = worst.seen + over_area.size();
+  const LargestRadial radial =
+      largest_error(expansion, model, worst, over_area, of_area, *errors.rms, sites, silent);
+  errors.points += radial.seen;
+  if (worst_radial != nullptr) worst_radial->append(radial.worst(degree));
   const Looked looked = look_closely(std::move(worst), over_area, of_area);
-  errors.measured_max = largest(looked.errors.radial);
+  errors.measured_max = radial.value;
   errors.measured_max_distance =
       std::max(largest(looked.errors.to_model), largest(looked.errors.to_shape));
   climb(looked, model, sites, errors);

@@ -13,6 +13,7 @@
 
 #include "base/parallel.h"
 #include "harmonic/nonuniform/grid_function.h"
+#include "transform/error/long_faces.h"
 #include "transform/mesh_pass/plan/error_budget.h"
 
 namespace rholm {
@@ -28,6 +29,12 @@ constexpr double kDeviations = 6;
 // at.
 constexpr std::size_t kBatch = 10'000;
 
+// Waves of degree L fall to cos(0.87) = 0.65 between points of a lattice of 1.5/L, and to
+// cos(0.75) = 0.73 along an edge; a little less is kept.
+constexpr double kNearPeak = 0.6;
+// The largest number of dense points that get exact values (chosen: some milliseconds).
+constexpr std::size_t kMostDense = 16'384;
+
 // Points whose first values are not far below the largest error.
 struct Kept {
   ErrorPoints points;
@@ -41,20 +48,37 @@ struct Kept {
   }
 };
 
+// The degrees from 1 on, and apart from them the mean, which single precision would round.
+template <typename T>
+struct RoughFunction {
+  RoughFunction(const NonuniformPlan& plan, const Expansion& expansion, const Context& context)
+      : mean(expansion.coefficients.c(0, 0) / std::sqrt(4 * std::numbers::pi)),
+        gauge(expansion.function == RadialFunction::kGauge),
+        varying(plan, without_mean(expansion.coefficients), context) {}
+
+  static Coefficients without_mean(Coefficients coefficients) {
+    coefficients.c(0, 0) = 0;
+    return coefficients;
+  }
+
+  double mean;
+  bool gauge;
+  GridFunction<T> varying;
+};
+
 // Takes points one by one, and keeps those that matter.
 template <typename T>
 class Sieve {
  public:
-  // `function`: without its mean, which single precision would round.
-  Sieve(const GridFunction<T>& function, double mean, bool gauge, const MeshView& mesh,
-        const Vec3& center, const FaceScan& scan, double least)
+  // Points whose error is below `part` of the largest one seen so far are dropped, too.
+  Sieve(const RoughFunction<T>& function, const MeshView& mesh, const Vec3& center,
+        const FaceScan& scan, double least, double part)
       : function_(function),
-        mean_(mean),
-        gauge_(gauge),
         mesh_(mesh),
         center_(center),
         scan_(scan),
-        least_(least) {}
+        least_(least),
+        part_(part) {}
 
   // x from the centre, times the scale; owner: see ErrorPoints.
   void add(const Vec3& x, std::int64_t owner) {
@@ -74,14 +98,15 @@ class Sieve {
  private:
   void flush() {
     PolarSources near;
-    function_.read(batch_, n_, false, near);
-    const double to_value = 1 / function_.scale(), to_shape = 1 / scan_.sizes.scale;
+    function_.varying.read(batch_, n_, false, near);
+    const double to_value = 1 / function_.varying.scale(), to_shape = 1 / scan_.sizes.scale;
     double values[SourceBatch<T>::kSize], errors[SourceBatch<T>::kSize];
     for (std::size_t j = 0; j < n_; ++j) {
       const double x = batch_.x[0][j], y = batch_.x[1][j], z = batch_.x[2][j];
       const double r = to_shape * std::sqrt(x * x + y * y + z * z);
-      values[j] = mean_ + to_value * batch_.value[j];
-      errors[j] = std::abs(r - (gauge_ ? 1 / values[j] : values[j]));
+      values[j] = function_.mean + to_value * batch_.value[j];
+      errors[j] = std::abs(r - (function_.gauge ? 1 / values[j] : values[j]));
+      least_ = std::max(least_, part_ * errors[j]);
     }
     for (std::size_t j = 0; j < n_; ++j) {
       const double value = values[j], error = errors[j];
@@ -92,7 +117,8 @@ class Sieve {
       const double r = norm(x);
       kept_.points.add(x / r, to_shape * r, *cosine, owners_[j]);
       // What has no surface there comes first, to be refused.
-      kept_.rough.push_back(value > 0 || !gauge_ ? error : std::numeric_limits<double>::max());
+      kept_.rough.push_back(value > 0 || !function_.gauge ? error
+                                                          : std::numeric_limits<double>::max());
     }
     kept_.seen += n_;
     n_ = 0;
@@ -104,36 +130,36 @@ class Sieve {
     return face_cosine(mesh_, static_cast<std::size_t>(owner), center_, scan_, x);
   }
 
-  const GridFunction<T>& function_;
-  double mean_;
-  bool gauge_;
+  const RoughFunction<T>& function_;
   const MeshView& mesh_;
   const Vec3& center_;
   const FaceScan& scan_;
-  double least_;
+  double least_, part_;
   SourceBatch<T> batch_;
   std::int64_t owners_[SourceBatch<T>::kSize];
   std::size_t n_ = 0;
   Kept kept_;
 };
 
+std::size_t parts(std::size_t n, std::size_t grain) { return (n + grain - 1) / grain; }
+
+Kept joined(const std::vector<Kept>& kept) {
+  Kept all;
+  for (const Kept& part : kept) all.append(part);
+  return all;
+}
+
 // What is kept of all extreme points, those of vertices first.
 template <typename T>
 Kept sieve(const MeshView& mesh, const FaceScan& scan, const Expansion& expansion,
            const NonuniformPlan& plan, double least, const Context& context) {
-  Coefficients varying = expansion.coefficients;
-  const double mean = varying.c(0, 0) / std::sqrt(4 * std::numbers::pi);
-  varying.c(0, 0) = 0;
-  const bool gauge = expansion.function == RadialFunction::kGauge;
-  const GridFunction<T> function(plan, varying, context);
+  const RoughFunction<T> function(plan, expansion, context);
   constexpr std::size_t kVertices = 4096, kRuns = 8;  // of a task: some 100 us
-  const auto parts = [](std::size_t n, std::size_t grain) { return (n + grain - 1) / grain; };
   const std::size_t n_runs = scan.sizes.angles2.size(),
                     first_run = parts(mesh.n_vertices, kVertices);
   std::vector<Kept> kept(first_run + parts(n_runs, kRuns));
   const auto fill = [&](std::size_t part, const auto& add_points) {
-    const auto sieve =
-        std::make_unique<Sieve<T>>(function, mean, gauge, mesh, expansion.center, scan, least);
+    const auto sieve = std::make_unique<Sieve<T>>(function, mesh, expansion.center, scan, least, 0);
     add_points(*sieve);
     kept[part] = sieve->finish();
   };
@@ -154,9 +180,31 @@ Kept sieve(const MeshView& mesh, const FaceScan& scan, const Expansion& expansio
                        });
     });
   });
-  Kept all;
-  for (const Kept& part : kept) all.append(part);
-  return all;
+  return joined(kept);
+}
+
+// The dense points of some faces that are kept.
+template <typename T>
+Kept sieve_dense(const MeshView& mesh, const FaceScan& scan, const Expansion& expansion,
+                 const std::vector<std::size_t>& faces, const NonuniformPlan& plan, double least,
+                 const Context& context) {
+  const RoughFunction<T> function(plan, expansion, context);
+  // At most this many parts: a face alone has at least ten points.
+  constexpr std::size_t kMostParts = 4096;
+  const std::size_t grain = faces.size() / kMostParts + 1;
+  std::vector<Kept> kept(parts(faces.size(), grain));
+  parallel_for(faces.size(), grain, context, {}, [&](std::size_t begin, std::size_t end) {
+    const auto sieve =
+        std::make_unique<Sieve<T>>(function, mesh, expansion.center, scan, least, kNearPeak);
+    for (std::size_t k = begin; k < end; ++k) {
+      visit_dense_points(mesh, expansion.center, scan, expansion.coefficients.degree(), faces[k],
+                         [&](std::span<const Vec3> points, std::size_t t) {
+                           for (const Vec3& x : points) sieve->add(x, static_cast<std::int64_t>(t));
+                         });
+    }
+    kept[begin / grain] = sieve->finish();
+  });
+  return joined(kept);
 }
 
 // Evenly through the file: they tell how large errors are at vertices.
@@ -192,21 +240,17 @@ double least_kept(std::vector<double> sample, std::size_t n_vertices, double low
   return std::clamp(*at, kFar * low, kNear * low);
 }
 
-Kept sieved(const MeshView& mesh, const FaceScan& scan, const Expansion& expansion,
-            double radial_rms, double farthest, double least, const Context& context) {
+// For values that are off by a small part of `rms`, the root mean square of the radial errors.
+NonuniformPlan rough_plan(const Expansion& expansion, std::size_t n, double rms, double farthest) {
   // Errors of r are r^2 times those of 1/r, most where the surface is farthest.
   const bool gauge = expansion.function == RadialFunction::kGauge;
-  const double rms = gauge ? radial_rms / (farthest * farthest) : radial_rms;
+  if (gauge) rms /= farthest * farthest;
   const int degree = expansion.coefficients.degree();
   const double size =
       norm_of_degrees(expansion.coefficients, 1, degree) / std::sqrt(4 * std::numbers::pi);
-  const NonuniformNeeds needs{
-      .degree = degree,
-      .allowed = size > 0 ? std::clamp(kRough * rms / size, 1e-12, 1e-2) : 1e-2,
-      .sources = mesh.n_vertices};
-  const NonuniformPlan plan = plan_nonuniform(needs);
-  return plan.single ? sieve<float>(mesh, scan, expansion, plan, least, context)
-                     : sieve<double>(mesh, scan, expansion, plan, least, context);
+  return plan_nonuniform({.degree = degree,
+                          .allowed = size > 0 ? std::clamp(kRough * rms / size, 1e-12, 1e-2) : 1e-2,
+                          .sources = n});
 }
 
 }  // namespace
@@ -230,7 +274,9 @@ WorstPoints worst_points(const MeshView& mesh, const FaceScan& scan, const Expan
   double distance = std::max(options.distance, largest(of_sample.to_model));
   const double least = least_kept(of_sample.radial, mesh.n_vertices, std::min(radial, distance));
   const double rms = std::max(options.rms, root_mean_square(of_sample.radial));
-  const Kept kept = sieved(mesh, scan, expansion, rms, largest(sample.radii), least, context);
+  const NonuniformPlan plan = rough_plan(expansion, mesh.n_vertices, rms, largest(sample.radii));
+  const Kept kept = plan.single ? sieve<float>(mesh, scan, expansion, plan, least, context)
+                                : sieve<double>(mesh, scan, expansion, plan, least, context);
   worst.seen = kept.seen;
   std::vector<std::size_t> order(kept.rough.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -259,6 +305,30 @@ WorstPoints worst_points(const MeshView& mesh, const FaceScan& scan, const Expan
     begin = end;
   }
   return worst;
+}
+
+DensePoints dense_points(const MeshView& mesh, const FaceScan& scan, const Expansion& expansion,
+                         double rms, double largest_known, const Context& context) {
+  DensePoints dense;
+  const int degree = expansion.coefficients.degree();
+  const std::vector<std::size_t> faces = longest_faces(mesh, expansion.center, scan, degree);
+  if (faces.empty()) return dense;
+  double farthest = 0;
+  for (std::size_t i = 0; i < mesh.n_vertices; ++i) {
+    if (scan.is_used(i)) farthest = std::max(farthest, norm(mesh.vertex(i) - expansion.center));
+  }
+  // On a sphere there are about 20 L^2 (one in each 1/L^2, and half of them on two pieces).
+  const double expected = 20.0 * degree * degree;
+  const NonuniformPlan plan =
+      rough_plan(expansion, static_cast<std::size_t>(expected), rms, farthest);
+  const double least = kNearPeak * largest_known;
+  const Kept kept = plan.single
+                        ? sieve_dense<float>(mesh, scan, expansion, faces, plan, least, context)
+                        : sieve_dense<double>(mesh, scan, expansion, faces, plan, least, context);
+  dense.seen = kept.seen;
+  std::vector<std::size_t> most = indices_of_largest(kept.rough, kMostDense);
+  dense.points = kept.points.subset(most);
+  return dense;
 }
 
 }  // namespace rholm

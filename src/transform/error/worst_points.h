@@ -32,4 +32,14 @@ WorstPoints worst_points(const MeshView& mesh, const FaceScan& scan, const Expan
                          const RadialModel& exact, const WorstOptions& options,
                          const Context& context);
 
+// Points on faces that are long against 1/L: the points of worst_points() lie far apart there.
+struct DensePoints {
+  ErrorPoints points;    // some, the largest radial errors first, but for the order of near ones
+  std::size_t seen = 0;  // of how many, at most 1.5/L apart
+};
+// Has the points from which climbs may reach the largest radial error. `rms`: the root mean square
+// of the radial errors, about; `largest_known`: the largest is at least this.
+DensePoints dense_points(const MeshView& mesh, const FaceScan& scan, const Expansion& expansion,
+                         double rms, double largest_known, const Context& context);
+
 }  // namespace rholm

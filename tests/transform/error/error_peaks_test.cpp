@@ -10,10 +10,30 @@
 #include "rholm/primitives.h"
 #include "rholm/star.h"
 #include "rholm/truncation.h"
+#include "support/dense_error.h"
 #include "support/test_shapes.h"
 
 namespace rholm {
 namespace {
+
+// 320 faces, some of which are seen at a shallow angle.
+Mesh rougher_sphere() {
+  Mesh mesh = icosphere(2);
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    mesh.vertices[i] *= test::random_in(0.6, 1.6, 3, i);
+  }
+  return mesh;
+}
+
+// A box whose top has a pyramid pressed into it.
+Mesh box_with_a_pit() {
+  Mesh mesh;
+  mesh.vertices = {{-.3, -.9, -.5}, {.3, -.9, -.5}, {.3, .9, -.5}, {-.3, .9, -.5},  {-.3, -.9, .5},
+                   {.3, -.9, .5},   {.3, .9, .5},   {-.3, .9, .5}, {0.05, 0.1, 0.3}};
+  mesh.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 5}, {0, 5, 4}, {1, 2, 6}, {1, 6, 5}, {2, 3, 7},
+                    {2, 7, 6}, {3, 0, 4}, {3, 4, 7}, {4, 5, 8}, {5, 6, 8}, {6, 7, 8}, {7, 4, 8}};
+  return mesh;
+}
 
 // A single wave's peak about a direction inside one face, from points that do not have it.
 TEST(highest_peaks, are_found_between_points) {
@@ -38,38 +58,49 @@ TEST(highest_peaks, are_found_between_points) {
   }
 }
 
-// Against 400 points on each face.
+StarChart chart_about_origin(const Mesh& mesh) {
+  return make_star_chart(mesh, {.center = {.kind = CenterKind::kNone, .point = {}, .rays = 0}});
+}
+
+// Against 400 points on each face and climbs from the worst: on faces that are short and long
+// against 1/L, and on faces seen at a shallow angle.
 TEST(truncation_errors, measured_max_is_that_of_dense_points) {
-  for (const Mesh& mesh : {test::rotated(bumpy_sphere(2, 0.3)), test::random_octahedron(4),
-                           test::rotated(box({2, 1.6, 1.2}))}) {
-    const StarChart chart =
-        make_star_chart(mesh, {.center = {.kind = CenterKind::kNone, .point = {}, .rays = 0}});
-    for (const int degree : {5, 11, 23}) {
-      const Analysis analysis = analyze(chart, {.degree = degree});
-      std::vector<Vec3> directions;
-      std::vector<double> radii;
-      constexpr int n = 28;
-      for (const Triangle& t : mesh.triangles) {
-        for (int i = 0; i <= n; ++i) {
-          for (int j = 0; i + j <= n; ++j) {
-            const double a = static_cast<double>(i) / n, b = static_cast<double>(j) / n;
-            const Vec3 x = a * mesh.vertices[t[0]] + b * mesh.vertices[t[1]] +
-                           (1 - a - b) * mesh.vertices[t[2]];
-            radii.push_back(norm(x));
-            directions.push_back(x / norm(x));
-          }
-        }
-      }
-      const std::vector<double> model = evaluate(analysis.expansion.coefficients, directions);
-      double dense = 0;
-      for (std::size_t i = 0; i < radii.size(); ++i) {
-        dense = std::max(dense, std::abs(radii[i] - model[i]));
-      }
+  for (const Mesh& mesh :
+       {test::rotated(bumpy_sphere(2, 0.3)), test::random_octahedron(4),
+        test::rotated(box({2, 1.6, 1.2})), test::rotated(box({2, 1.6, 0.1})), rougher_sphere()}) {
+    const StarChart chart = chart_about_origin(mesh);
+    for (const int degree : {5, 11, 23, 90}) {
+      const Analysis analysis = analyze(chart, {.degree = degree, .precision = 1e-9});
+      const double dense =
+          test::largest_error_of_dense_points(mesh, analysis.expansion.coefficients, 28);
       const TruncationErrors errors = truncation_errors(view_of(mesh), analysis.expansion);
-      EXPECT_GT(*errors.measured_max, 0.999 * dense) << mesh.triangles.size() << ' ' << degree;
-      EXPECT_LT(*errors.measured_max, 1.02 * dense) << mesh.triangles.size() << ' ' << degree;
+      EXPECT_GT(*errors.measured_max, 0.9995 * dense) << mesh.triangles.size() << ' ' << degree;
+      EXPECT_LT(*errors.measured_max, 1.001 * dense) << mesh.triangles.size() << ' ' << degree;
     }
   }
+}
+
+// Faces of 200/L: seven points on each and the climbs from there find too little.
+TEST(truncation_errors, measured_max_is_that_of_dense_points_on_long_faces) {
+  const Mesh mesh = test::rotated(box_with_a_pit());
+  const StarChart chart = chart_about_origin(mesh);
+  for (const int degree : {60, 180}) {
+    const Expansion expansion = analyze(chart, {.degree = degree, .precision = 1e-9}).expansion;
+    const double dense = test::largest_error_of_dense_points(mesh, expansion.coefficients, 120);
+    const TruncationErrors errors = truncation_errors(view_of(mesh), expansion);
+    EXPECT_NEAR(*errors.measured_max, dense, 5e-4 * dense) << degree;
+    EXPECT_GT(errors.points, static_cast<std::size_t>(10 * degree * degree));
+  }
+}
+
+TEST(truncation_errors, are_the_same_bits_for_any_number_of_threads) {
+  const Mesh mesh = rougher_sphere();
+  const Expansion expansion = analyze(chart_about_origin(mesh), {.degree = 60}).expansion;
+  const TruncationErrors one = truncation_errors(view_of(mesh), expansion, {}, {.threads = 1});
+  const TruncationErrors three = truncation_errors(view_of(mesh), expansion, {}, {.threads = 3});
+  EXPECT_EQ(*one.measured_max, *three.measured_max);
+  EXPECT_EQ(*one.measured_max_distance, *three.measured_max_distance);
+  EXPECT_EQ(one.points, three.points);
 }
 
 }  // namespace
