@@ -80,10 +80,10 @@ struct ToleranceAnalysis {
   std::vector<int> degrees;  // that were computed on the way, the last one in full precision
 };
 
-// The smallest degree whose error is within the tolerance, to a few hundredths, exactly so for the
-// rms radius: found with coarse coefficients, then computed as analyze() computes it.
-// Largest errors need not fall with every degree: then one at which they fall through the
-// tolerance. options.degree is not used; the precision is as fine as the tolerance asks for, and
+// The smallest degree whose error is within the tolerance: of the radius exactly so, and the same
+// for every max_degree; of distances to a few hundredths, and where the largest do not fall with
+// every degree, one at which they fall through the tolerance. Coefficients of more degrees may be
+// cut off. options.degree is not used; the precision is as fine as the tolerance asks for, and
 // options.precision at most. Throws InvalidInput for a tolerance out of range, the method gauge,
 // and a surface that is not star-shaped.
 ToleranceAnalysis analyze(const StarChart& chart, const Tolerance& tolerance,

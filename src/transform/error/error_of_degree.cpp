@@ -8,6 +8,8 @@
 #include "harmonic/nonuniform/cost_model.h"
 #include "shape/vertex_range.h"
 #include "transform/error/distance_check.h"
+#include "transform/error/error_peaks.h"
+#include "transform/error/largest_radial.h"
 
 namespace rholm {
 namespace {
@@ -29,6 +31,18 @@ constexpr double kDenseUpTo = 1.2;
 // Points whose error was this part of the largest stand for all where they cost less, unless they
 // say that it is within the limit, but not well within.
 constexpr double kWorst = 0.3, kWellWithin = 0.9;
+
+// Of a degree that errs too much; and where climbs to the largest distances begin (chosen).
+constexpr std::size_t kWitnesses = 16, kDistancePeaks = 16;
+
+double root_mean_square(const std::vector<double>& values) {
+  double squares = 0;
+  for (const double value : values) squares += value * value;
+  return std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, values.size())));
+}
+
+// Points may miss a fifth of the largest error where faces are long against 1/L.
+constexpr double kFarWithin = 0.7;
 
 // Whether the points cost more than twice the grid that they are interpolated on.
 bool points_dominate(std::size_t n, int degree) {
@@ -131,15 +145,51 @@ double ErrorOfDegree::largest_of(const Expansion& expansion, int degree, double 
     const double value = largest(sizes(measured(some_points(), expansion, degree, limit)));
     if (value > kDoubt * limit) return value;
   }
+  if (witnesses_.size() > 0) {
+    const double value = largest(sizes(measured(witnesses_, expansion, degree, limit)));
+    if (value > limit) return value;
+  }
   const ErrorPoints& all = all_points(degree);
   if (worst_.size() > 0 && points_dominate(all.size(), degree)) {
-    const double value = largest(sizes(measured(worst_, expansion, degree, limit)));
+    const std::vector<double> errors = sizes(measured(worst_, expansion, degree, limit));
+    const double value = largest(errors);
+    if (value > limit) witness(worst_, errors, degree);
     if (value > limit || value < kWellWithin * limit) return value;
   }
   const std::vector<double> errors = sizes(measured(all, expansion, degree, limit));
   const double value = largest(errors);
   keep_worst(all, errors, kWorst * value);
-  return value;
+  if (value > limit) witness(all, errors, degree);
+  if (value > limit || value < kFarWithin * limit) return value;
+  return between_points(expansion, degree, limit, all, errors);
+}
+
+// The largest error on the whole surface, from points that say it may be within the limit.
+double ErrorOfDegree::between_points(const Expansion& expansion, int degree, double limit,
+                                     const ErrorPoints& points, const std::vector<double>& errors) {
+  Expansion first = expansion;
+  first.coefficients = expansion.coefficients.resized(degree);
+  const RadialModel model(first, degree, points.size(), is_distance(), precision(limit), silent_);
+  if (!is_distance()) {
+    const double rms = root_mean_square(errors);
+    const LargestRadial found = largest_radial(first, model, points, errors, rms, sites_, silent_);
+    witnesses_.append(found.worst(degree));
+    return found.value;
+  }
+  // As truncation_errors() climbs: from the shape to the model.
+  const Context alone{.threads = 1};
+  const PeakSearch search{
+      point_errors(points, model, true, silent_).to_model,
+      [&](const ErrorPoints& at) { return point_errors(at, model, true, alone).to_model; }};
+  return std::max(largest(errors), largest(local_maxima(sites_.mesh(), sites_.center(), points,
+                                                        search, degree, kDistancePeaks, silent_)
+                                               .values));
+}
+
+void ErrorOfDegree::witness(const ErrorPoints& points, const std::vector<double>& errors,
+                            int degree) {
+  if (is_distance()) return;
+  witnesses_.append(points.subset(worst_apart(points, errors, degree, kWitnesses)));
 }
 
 void ErrorOfDegree::keep_worst(const ErrorPoints& points, const std::vector<double>& errors,

@@ -34,6 +34,10 @@ class ErrorOfDegree {
   // coarse meshes, and from where second order is not enough.
   double of(const Expansion& expansion, int degree, double limit);
 
+  // Points at which the largest radial error of some degree was found, or almost so: of each degree
+  // that of() was asked for.
+  const ErrorPoints& witnesses() const { return witnesses_; }
+
  private:
   bool is_distance() const { return tolerance_.measure == ErrorMeasure::kDistance; }
   bool is_largest() const { return tolerance_.norm == ErrorNorm::kMax; }
@@ -42,6 +46,9 @@ class ErrorOfDegree {
   double closest_of(const Expansion& expansion, int degree, double limit);
   double rms_of(const Expansion& expansion, int degree, double limit);
   double largest_of(const Expansion& expansion, int degree, double limit);
+  double between_points(const Expansion& expansion, int degree, double limit,
+                        const ErrorPoints& points, const std::vector<double>& errors);
+  void witness(const ErrorPoints& points, const std::vector<double>& errors, int degree);
   void keep_worst(const ErrorPoints& points, const std::vector<double>& errors, double least);
   const ErrorPoints& all_points(int degree);
   const ErrorPoints& some_points();
@@ -56,7 +63,7 @@ class ErrorOfDegree {
   double size_;
   const Context& context_;
   Context silent_;
-  ErrorPoints few_, some_, worst_;
+  ErrorPoints few_, some_, worst_, witnesses_;
   int degree_of_all_ = -1;
   int first_ = -1;
   bool closest_rule_ = false;  // for this mesh, once it is known

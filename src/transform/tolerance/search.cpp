@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "base/compensated_sum.h"
@@ -9,6 +10,7 @@
 #include "transform/analyze.h"
 #include "transform/error/error_of_degree.h"
 #include "transform/error/error_sites.h"
+#include "transform/error/partial_errors.h"
 #include "transform/tolerance/degree_bracket.h"
 
 namespace rholm {
@@ -26,6 +28,12 @@ constexpr double kEnough = 0.95, kMargin = 0.997, kAim = (kEnough + kMargin) / 2
 // 5), and less where faster. What was too much is cut off.
 constexpr double kFinalByEnergies = 1.014;
 
+// Final coefficients have 3 % more degrees than coarse ones ask for: coarse ones may be a little
+// too good (chosen).
+constexpr double kFinalByWitnesses = 1.03;
+// The largest error that coefficients make at points, in root mean squares (chosen).
+constexpr double kDoubt = 10;
+
 class Search {
  public:
   Search(const ToleranceProblem& problem, const Tolerance& tolerance, const Context& context)
@@ -39,8 +47,9 @@ class Search {
 
   ToleranceAnalysis run(const Analysis& first) {
     take(first);
-    double degree =
-        by_energies() ? kFinalByEnergies * degree_by_energies() + 1 : degree_by_points();
+    double degree = by_energies()    ? kFinalByEnergies * degree_by_energies() + 1
+                    : by_witnesses() ? kFinalByWitnesses * degree_by_points() + 1
+                                     : degree_by_points();
     for (;;) {
       finish(degree);
       result_.met = result_.reached <= result_.allowed;
@@ -54,6 +63,7 @@ class Search {
   bool is_largest() const { return tolerance_.norm == ErrorNorm::kMax; }
   bool is_distance() const { return tolerance_.measure == ErrorMeasure::kDistance; }
   bool by_energies() const { return !is_largest() && !is_distance(); }
+  bool by_witnesses() const { return is_largest() && !is_distance(); }
   Expansion& expansion() { return result_.analysis.expansion; }
   // Degree of the coefficients there are.
   int highest() { return expansion().coefficients.degree(); }
@@ -116,11 +126,66 @@ class Search {
       cut_by_parseval(expansion().coefficients);
       return;
     }
+    if (by_witnesses()) {
+      cut_by_witnesses();
+    } else {
+      measure(nullptr);
+    }
+  }
+
+  void measure(ErrorPoints* worst) {
     const bool predict = problem_.mesh.n_triangles <= kMostPredicted;
     const double precision = known_error(result_.analysis);
     expansion().errors = truncation_errors(
-        expansion(), {.precision = precision, .predict = predict}, sites_, context_);
+        expansion(), {.precision = precision, .predict = predict}, sites_, context_, worst);
     result_.reached = error_in(*expansion().errors, tolerance_);
+  }
+
+  // To the smallest degree within the tolerance, if there is one: each lower one errs more at one
+  // of the points at which some degree erred most.
+  void cut_by_witnesses() {
+    const Analysis all = result_.analysis;
+    const Coefficients& coefficients = all.expansion.coefficients;
+    std::vector<double> least = largest_partial_errors(error_.witnesses(), coefficients, context_);
+    const auto may_be_good = [&](double error) { return error <= result_.allowed + doubt(); };
+    int tried = -1;
+    for (;;) {
+      const auto good = std::ranges::find_if(least, may_be_good);
+      if (good == least.end()) break;
+      tried = static_cast<int>(good - least.begin());
+      ErrorPoints worst;
+      measure_first(tried, all, worst);
+      if (result_.reached <= result_.allowed) return;
+      const std::vector<double> more = largest_partial_errors(worst, coefficients, context_);
+      for (std::size_t l = 0; l < least.size(); ++l) least[l] = std::max(least[l], more[l]);
+      *good = std::numeric_limits<double>::infinity();
+    }
+    if (tried != coefficients.degree()) {
+      result_.analysis = all;
+      measure(nullptr);
+    }
+  }
+
+  // The error of the coefficients may add this to errors at points.
+  double doubt() const {
+    return kDoubt * precisions_.final * std::sqrt(problem_.norm_squared / (4 * std::numbers::pi));
+  }
+
+  // Takes the first degrees of final coefficients. Where their error is so near the tolerance that
+  // the precision decides, coefficients of just this degree are computed: then the answer does not
+  // depend on how many more degrees there were.
+  void measure_first(int degree, const Analysis& all, ErrorPoints& worst) {
+    result_.analysis = all;
+    if (degree < highest()) {
+      expansion().coefficients = expansion().coefficients.resized(degree);
+    }
+    measure(&worst);
+    if (degree == all.expansion.coefficients.degree() ||
+        std::abs(result_.reached - result_.allowed) > doubt()) {
+      return;
+    }
+    take(problem_.transform({degree, precisions_.final}));
+    measure(&worst);
   }
 
   void cut_by_parseval(Coefficients& coefficients) {

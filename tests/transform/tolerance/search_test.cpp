@@ -8,6 +8,7 @@
 #include "rholm/analyze.h"
 #include "rholm/primitives.h"
 #include "rholm/star.h"
+#include "support/dense_error.h"
 #include "support/test_shapes.h"
 #include "transform/tolerance/tolerance.h"
 
@@ -75,6 +76,37 @@ TEST(search_tolerance, finds_the_smallest_degree_exactly_for_the_rms_radius) {
       EXPECT_LE(tail(degree), 1.001 * error);
       if (degree > 0) {
         EXPECT_GT(tail(degree - 1), 0.999 * error);
+      }
+    }
+  }
+}
+
+// Largest errors need not fall with every degree: each lower one is looked at, in dense points and,
+// where these are within the tolerance, uphill of them.
+TEST(search_tolerance, finds_the_smallest_degree_for_the_largest_radial_error) {
+  for (const Mesh& mesh : {test::rotated(box({2, 1.6, 0.3})), test::random_octahedron(4),
+                           test::rough_sphere(1), test::rotated(bumpy_sphere(2, 0.3))}) {
+    const StarChart chart = chart_of(mesh);
+    const Analysis exact = analyze(chart, {.degree = 100, .precision = 1e-10});
+    const int n = mesh.triangles.size() > 100 ? 8 : 24;
+    for (const double error : {0.2, 0.08}) {
+      Tolerance tolerance{.error = error, .norm = ErrorNorm::kMax, .max_degree = 100};
+      const ToleranceAnalysis found = analyze(chart, tolerance);
+      ASSERT_TRUE(found.met) << mesh.triangles.size() << ' ' << found.reached;
+      const int degree = found.analysis.expansion.coefficients.degree();
+      const auto largest = [&](int l, int rounds) {
+        return test::largest_error_of_dense_points(mesh, exact.expansion.coefficients.resized(l), n,
+                                                   rounds);
+      };
+      EXPECT_NEAR(found.reached, largest(degree, 150), 1e-3 * error);
+      for (int l = 0; l < degree; ++l) {
+        const double points = largest(l, 0);
+        EXPECT_GT(points > error ? points : largest(l, 150), 0.9995 * error)
+            << l << " of " << degree;
+      }
+      for (const int most : {degree, degree + 1, degree + 9}) {
+        tolerance.max_degree = most;
+        EXPECT_EQ(analyze(chart, tolerance).analysis.expansion.coefficients.degree(), degree);
       }
     }
   }

@@ -1,0 +1,44 @@
+#include "transform/error/partial_errors.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "rholm/harmonic.h"
+#include "support/random_data.h"
+
+namespace rholm {
+namespace {
+
+// Against the sums of the first degrees one by one, at the poles as well.
+TEST(largest_partial_errors, are_those_of_the_first_degrees) {
+  constexpr int kDegree = 40;
+  Coefficients c(kDegree);
+  for (int l = 0; l <= kDegree; ++l) {
+    for (int m = 0; m <= l; ++m) {
+      c.c(l, m) = test::random_in(-1, 1, 1, static_cast<std::uint64_t>(100 * l + m));
+      if (m > 0) c.s(l, m) = test::random_in(-1, 1, 2, static_cast<std::uint64_t>(100 * l + m));
+    }
+  }
+  ErrorPoints points;
+  for (const Vec3& x :
+       {Vec3{0, 0, 1}, Vec3{0, 0, -1}, Vec3{1e-9, 0, 1}, Vec3{-1, 2, 0.3}, Vec3{0.1, -0.2, -3}}) {
+    points.add(x / norm(x), 0.5 + static_cast<double>(points.size()), 0, 0);
+  }
+  const std::vector<double> found = largest_partial_errors(points, c, {.threads = 3});
+  ASSERT_EQ(found.size(), static_cast<std::size_t>(kDegree + 1));
+  EXPECT_EQ(found, largest_partial_errors(points, c, {.threads = 1}));
+  for (int l = 0; l <= kDegree; ++l) {
+    const std::vector<double> values =
+        evaluate(c.resized(l), points.directions, {.engine = Engine::kDirect});
+    double most = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      most = std::max(most, std::abs(points.radii[i] - values[i]));
+    }
+    EXPECT_NEAR(found[static_cast<std::size_t>(l)], most, 1e-11) << l;
+  }
+}
+
+}  // namespace
+}  // namespace rholm
