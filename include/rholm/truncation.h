@@ -81,8 +81,8 @@ struct ToleranceAnalysis {
 };
 
 // The smallest degree whose error is within the tolerance: of the radius exactly so, and the same
-// for every max_degree; of distances to a few hundredths, and where the largest do not fall with
-// every degree, one at which they fall through the tolerance. Coefficients of more degrees may be
+// for every max_degree; of distances no degree just below keeps it, but where they do not fall with
+// every degree, one further below may. Coefficients of more degrees may be
 // cut off. options.degree is not used; the precision is as fine as the tolerance asks for, and
 // options.precision at most. Throws InvalidInput for a tolerance out of range, the method gauge,
 // and a surface that is not star-shaped.

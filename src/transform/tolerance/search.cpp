@@ -34,6 +34,11 @@ constexpr double kFinalByWitnesses = 1.03;
 // The largest error that coefficients make at points, in root mean squares (chosen).
 constexpr double kDoubt = 10;
 
+// Distances are measured degree by degree below the one that the bracket finds: the largest until
+// two degrees in a row err too much, and at so many degrees at most (chosen: a degree costs some
+// hundredths of a command).
+constexpr int kMissesOfLargest = 2, kMostTries = 24;
+
 class Search {
  public:
   Search(const ToleranceProblem& problem, const Tolerance& tolerance, const Context& context)
@@ -49,7 +54,7 @@ class Search {
     take(first);
     double degree = by_energies()    ? kFinalByEnergies * degree_by_energies() + 1
                     : by_witnesses() ? kFinalByWitnesses * degree_by_points() + 1
-                                     : degree_by_points();
+                                     : lowest_near(degree_by_points());
     for (;;) {
       finish(degree);
       result_.met = result_.reached <= result_.allowed;
@@ -110,6 +115,17 @@ class Search {
       try_degree(bracket.guess(kAim * result_.allowed), bracket);
     }
     return bracket.good;
+  }
+
+  // Downwards from a degree that is good, if it is, past a few that are not.
+  int lowest_near(int degree) {
+    const double limit = kMargin * result_.allowed;
+    const int misses = is_largest() ? kMissesOfLargest : 1;
+    int lowest = degree;
+    for (int l = degree - 1, n = 0; l >= 0 && lowest - l <= misses && n < kMostTries; --l, ++n) {
+      if (error_.of(expansion(), l, limit) <= limit) lowest = l;
+    }
+    return lowest;
   }
 
   double try_degree(int degree, DegreeBracket& bracket) {

@@ -10,6 +10,7 @@
 #include "rholm/star.h"
 #include "support/dense_error.h"
 #include "support/test_shapes.h"
+#include "transform/error/error_of_degree.h"
 #include "transform/tolerance/tolerance.h"
 
 namespace rholm {
@@ -108,6 +109,27 @@ TEST(search_tolerance, finds_the_smallest_degree_for_the_largest_radial_error) {
         tolerance.max_degree = most;
         EXPECT_EQ(analyze(chart, tolerance).analysis.expansion.coefficients.degree(), degree);
       }
+    }
+  }
+}
+
+// Distances of a thin box do not fall with every degree.
+TEST(search_tolerance, goes_down_to_the_lowest_degree_nearby_for_distances) {
+  const Mesh mesh = test::rotated(box({2, 1.6, 0.2}));
+  const StarChart chart = chart_of(mesh);
+  for (const ErrorNorm norm : {ErrorNorm::kMax, ErrorNorm::kRms}) {
+    const Tolerance tolerance{.error = norm == ErrorNorm::kMax ? 0.05 : 0.02,
+                              .norm = norm,
+                              .measure = ErrorMeasure::kDistance,
+                              .max_degree = 100};
+    const ToleranceAnalysis found = analyze(chart, tolerance);
+    ASSERT_TRUE(found.met);
+    const int degree = found.analysis.expansion.coefficients.degree();
+    for (int l = degree - 1; l >= std::max(0, degree - (norm == ErrorNorm::kMax ? 2 : 1)); --l) {
+      const Analysis lower = analyze(chart, {.degree = l});
+      const double error = error_in(truncation_errors(view_of(mesh), lower.expansion), tolerance);
+      // A search stays 0.3 % below the tolerance, and goes by coarse coefficients and fewer points.
+      EXPECT_GT(error, 0.98 * tolerance.error) << to_string(norm) << ' ' << l << " of " << degree;
     }
   }
 }
