@@ -361,4 +361,24 @@ std::vector<ClosestPoint> TriangleTree::closest(std::span<const Vec3> points) co
   return found;
 }
 
+void visit_closest(const TriangleTree& tree, std::span<const Vec3> points,
+                   const ParallelStage& stage, const Context& context,
+                   const std::function<void(std::size_t, const ClosestPoint&)>& visit) {
+  constexpr std::size_t kGrain = 256;  // some 50 ms where the shapes are far apart
+  parallel_for(points.size(), kGrain, context, stage, [&](std::size_t begin, std::size_t end) {
+    std::size_t i = begin;
+    for (const ClosestPoint& found : tree.closest(points.subspan(begin, end - begin))) {
+      visit(i++, found);
+    }
+  });
+}
+
+std::vector<double> distances_to(const TriangleTree& tree, std::span<const Vec3> points,
+                                 const ParallelStage& stage, const Context& context) {
+  std::vector<double> distances(points.size());
+  visit_closest(tree, points, stage, context,
+                [&](std::size_t i, const ClosestPoint& found) { distances[i] = found.distance; });
+  return distances;
+}
+
 }  // namespace rholm

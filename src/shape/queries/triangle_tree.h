@@ -5,11 +5,14 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
 #include <vector>
 
+#include "base/parallel.h"
 #include "rholm/context.h"
 #include "rholm/mesh.h"
 #include "shape/face.h"
@@ -78,5 +81,14 @@ class TriangleTree {
   std::vector<std::uint32_t> order_;  // of the triangles in the leaves
   TriangleTreeNodes nodes_;
 };
+
+// Calls visit(i, closest point of points[i]) for each point, on the threads of `context`, each of
+// which asks for points that follow each other.
+void visit_closest(const TriangleTree& tree, std::span<const Vec3> points,
+                   const ParallelStage& stage, const Context& context,
+                   const std::function<void(std::size_t, const ClosestPoint&)>& visit);
+// How far each point is from the mesh.
+std::vector<double> distances_to(const TriangleTree& tree, std::span<const Vec3> points,
+                                 const ParallelStage& stage, const Context& context);
 
 }  // namespace rholm

@@ -144,17 +144,7 @@ Comparison compare(CompareSamples& samples, const CompareOptions& options, const
 std::vector<double> distances_to_surface(const std::vector<Vec3>& points, const Mesh& surface,
                                          const Context& context) {
   validate(surface);
-  const TriangleTree tree(surface, context);
-  std::vector<double> distances(points.size());
-  parallel_for(points.size(), kQueriesOfChunk, context, {"distances"},
-               [&](std::size_t begin, std::size_t end) {
-                 std::size_t k = begin;
-                 for (const ClosestPoint& closest :
-                      tree.closest(std::span(points).subspan(begin, end - begin))) {
-                   distances[k++] = closest.distance;
-                 }
-               });
-  return distances;
+  return distances_to(TriangleTree(surface, context), points, {"distances"}, context);
 }
 
 }  // namespace rholm

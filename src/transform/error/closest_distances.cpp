@@ -3,17 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <span>
 
 #include "base/cancel.h"
-#include "base/parallel.h"
 #include "rholm/primitives.h"
 #include "transform/error/error_peaks.h"
 
 namespace rholm {
 namespace {
 
-constexpr std::size_t kQueriesPerTask = 256;
 // Steps from the closest point of the model's triangles, which is off by their flatness: each step
 // leaves the distance times the curvature of what there is (0.001 of the distance after three on
 // random polyhedra to degree 64 against pattern search; scripts/constants).
@@ -27,20 +24,6 @@ constexpr std::size_t kDense = 12;
 constexpr std::size_t kPeaks = 16;
 // Extreme points are taken so many at a time.
 constexpr std::size_t kBatch = 500, kMostExtreme = 10'000;
-
-std::vector<double> closest(const TriangleTree& tree, const std::vector<Vec3>& points,
-                            const Context& context) {
-  std::vector<double> distances(points.size());
-  parallel_for(points.size(), kQueriesPerTask, context, {},
-               [&](std::size_t begin, std::size_t end) {
-                 std::size_t i = begin;
-                 for (const ClosestPoint& found :
-                      tree.closest(std::span(points).subspan(begin, end - begin))) {
-                   distances[i++] = found.distance;
-                 }
-               });
-  return distances;
-}
 
 double squared_norm(const Vec3& v) { return dot(v, v); }
 
@@ -154,12 +137,8 @@ struct ClosestDistances::Model {
   std::vector<double> distances(const std::vector<Vec3>& x,
                                 const std::vector<Vec3>& opposite) const {
     std::vector<Vec3> from(x.size());
-    parallel_for(x.size(), kQueriesPerTask, context, {}, [&](std::size_t begin, std::size_t end) {
-      std::size_t i = begin;
-      for (const ClosestPoint& found : tree->closest(std::span(x).subspan(begin, end - begin))) {
-        from[i] = normalized(squared_norm(found.point) > 0 ? found.point : x[i]);
-        ++i;
-      }
+    visit_closest(*tree, x, {}, context, [&](std::size_t i, const ClosestPoint& found) {
+      from[i] = normalized(squared_norm(found.point) > 0 ? found.point : x[i]);
     });
     std::vector<double> found = surface.distances(x, std::move(from), kSteps);
     for (std::size_t i = 0; i < x.size(); ++i) {
@@ -242,7 +221,7 @@ ClosestDistances::Seen ClosestDistances::see_pieces(const Model& model,
   seen.points.radii = pieces_.radii;
   seen.points.owners = pieces_.faces;
   seen.to_model = model.distances(x, opposite.points);
-  seen.to_shape = closest(*tree_, opposite.points, context);
+  seen.to_shape = distances_to(*tree_, opposite.points, {}, context);
   return seen;
 }
 
@@ -268,7 +247,7 @@ void ClosestDistances::see_extreme(const Model& model, const ErrorPoints& extrem
       seen.points.owners.push_back(extreme.owners[i]);
     }
     const std::vector<double> there = model.distances(points, across);
-    const std::vector<double> back = closest(*tree_, across, context);
+    const std::vector<double> back = distances_to(*tree_, across, {}, context);
     seen.to_model.insert(seen.to_model.end(), there.begin(), there.end());
     seen.to_shape.insert(seen.to_shape.end(), back.begin(), back.end());
     most = std::max({most, largest(there), largest(back)});
@@ -284,7 +263,7 @@ double ClosestDistances::highest(const Model& model, const RadialSurface& surfac
     return model.distances(points, surface.points(at.directions));
   };
   const auto back_at = [&](const ErrorPoints& at) {
-    return closest(*tree_, surface.points(at.directions), alone);
+    return distances_to(*tree_, surface.points(at.directions), {}, alone);
   };
   const MeshView view = view_of(shape_);
   return std::max(seen.most(),
