@@ -2,8 +2,7 @@
 // tolerance. Layer: transform.
 //
 // Radial errors are |r - r_L| along directions from the centre. Distances between the surfaces are
-// to first order the radial error times the cosine of the slope of the surface one goes to (method
-// 5): the model's from the shape, the face's from the model.
+// those of closest points, both ways (method 5).
 #pragma once
 
 #include <cstddef>

@@ -191,6 +191,16 @@ TEST(every_loop, gives_the_same_bits_for_closest_distances_to_a_model) {
   });
 }
 
+TEST(every_loop, gives_the_same_bits_for_distances_between_surfaces) {
+  const StarChart chart = chart_of(bumpy_sphere(5, 0.5));
+  const Expansion expansion = analyze(chart, {.degree = 8}).expansion;
+  expect_same_bits([&](const Context& context) {
+    const TruncationErrors found = truncation_errors(view_of(chart.mesh), expansion, {}, context);
+    EXPECT_TRUE(found.distances_are_closest);
+    return Bits().add(*found.distance_rms).add(*found.measured_max_distance);
+  });
+}
+
 // ---- Functions on the sphere ----
 
 TEST(every_loop, gives_the_same_bits_for_sums_over_directions) {

@@ -120,8 +120,11 @@ std::string errors_section(const Expansion& expansion, const Data& data) {
   if (data.errors && data.errors->points > 0) {
     text +=
         " Points are the vertices of the shape, more of them on faces that are long against "
-        "1/<i>L</i>, and others spread over the area. Distances are to first order by the slope of "
-        "the surface: too large where the error is not small against the shape.";
+        "1/<i>L</i>, and others spread over the area. ";
+    text += data.errors->distances_are_closest
+                ? "Distances are those of closest points."
+                : "Distances are to first order by the slope of the surface: too large where the "
+                  "error is not small against the shape.";
   }
   if (data.errors && (data.errors->predicted_max || data.errors->predicted_max_distance)) {
     text +=

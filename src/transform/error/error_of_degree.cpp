@@ -10,6 +10,7 @@
 #include "transform/error/distance_check.h"
 #include "transform/error/error_peaks.h"
 #include "transform/error/largest_radial.h"
+#include "transform/error/sampled_distances.h"
 
 namespace rholm {
 namespace {
@@ -97,7 +98,7 @@ double ErrorOfDegree::of(const Expansion& expansion, int degree, double limit) {
   const double value =
       is_largest() ? largest_of(expansion, degree, limit) : rms_of(expansion, degree, limit);
   if (!is_distance() || value > kNear * limit || limit > kNear * value) return value;
-  const double ratio = second_order_ratio(expansion, degree, limit);
+  const double ratio = closest_ratio(expansion, degree, limit);
   return closest_rule_ ? closest_of(expansion, degree, limit) : ratio * value;
 }
 
@@ -109,16 +110,19 @@ bool ErrorOfDegree::may_be_refined(const Expansion& expansion, int degree, doubl
 
 // What the error to first order is to be multiplied by, unless closest points rule from now on:
 // what is steep at one degree is steep at the next.
-double ErrorOfDegree::second_order_ratio(const Expansion& expansion, int degree, double limit) {
+double ErrorOfDegree::closest_ratio(const Expansion& expansion, int degree, double limit) {
   if (!may_be_refined(expansion, degree, limit)) return 1;
-  const ErrorPoints& points = is_largest() ? some_points() : few_points();
-  const std::size_t first = is_largest() ? sites_.vertices().size() : 0;
-  const RadialModel model(expansion, degree, points.size(), true, precision(limit), silent_);
-  const PointErrors errors = point_errors(points, model, true, silent_);
-  const SecondOrder second = second_order(points, errors, first, model);
-  if (second.first_order_holds()) return 1;
-  closest_rule_ = !second.suffices(sites_.mesh());
-  return is_largest() ? second.max_ratio : second.rms_ratio;
+  const ErrorPoints over_area = part_of(sites_.over_area(), kPart);
+  const ErrorPoints none, &worst = is_largest() ? some_points() : none;
+  const RadialModel model(expansion, degree, over_area.size() + worst.size(), true,
+                          precision(limit), silent_);
+  const PointErrors of_area = point_errors(over_area, model, true, silent_);
+  const PointErrors of_worst = point_errors(worst, model, true, silent_);
+  const SampledDistances sampled = sampled_distances(
+      sites_.mesh(), sites_.center(), model, {over_area, of_area}, {worst, of_worst}, silent_);
+  closest_rule_ = !sampled.suffice(sites_.mesh());
+  const double first = is_largest() ? largest(sizes(of_worst)) : rms_distance(of_area, 0);
+  return first > 0 ? (is_largest() ? sampled.max : sampled.rms) / first : 1;
 }
 
 // At few points unless they say that it is close to the limit.

@@ -30,8 +30,8 @@ class ErrorOfDegree {
   // Of the first `degree` degrees, at all points; at a part of them where these say on which side
   // of the limit it is: root mean squares that are not close to it, largest errors above it or well
   // within it at what were the worst points, or far above it at the first degree that is asked for.
-  // Distances near the limit are to second order where that differs; those of closest points for
-  // coarse meshes, and from where second order is not enough.
+  // Distances near the limit are those of closest points: of a sample, or of trees for coarse
+  // meshes and from where a sample is not enough.
   double of(const Expansion& expansion, int degree, double limit);
 
   // Points at which the largest radial error of some degree was found, or almost so: of each degree
@@ -42,7 +42,7 @@ class ErrorOfDegree {
   bool is_distance() const { return tolerance_.measure == ErrorMeasure::kDistance; }
   bool is_largest() const { return tolerance_.norm == ErrorNorm::kMax; }
   bool may_be_refined(const Expansion& expansion, int degree, double limit);
-  double second_order_ratio(const Expansion& expansion, int degree, double limit);
+  double closest_ratio(const Expansion& expansion, int degree, double limit);
   double closest_of(const Expansion& expansion, int degree, double limit);
   double rms_of(const Expansion& expansion, int degree, double limit);
   double largest_of(const Expansion& expansion, int degree, double limit);

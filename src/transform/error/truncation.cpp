@@ -13,6 +13,7 @@
 #include "transform/error/error_points.h"
 #include "transform/error/error_sites.h"
 #include "transform/error/largest_radial.h"
+#include "transform/error/sampled_distances.h"
 #include "transform/error/worst_points.h"
 #include "transform/norms/parseval.h"
 
@@ -45,59 +46,73 @@ double measuring_precision(const Expansion& expansion, const std::optional<doubl
   return std::clamp(1e-5 * *exact_rms / size, 1e-12, 1e-6);
 }
 
-// Of the largest distances (chosen).
-constexpr std::size_t kPeaks = 16;
+// Where climbs to the largest distances begin (chosen).
+constexpr std::size_t kPeaks = 16, kClosestPeaks = 4;
+// Points over the area that may have the largest errors (chosen).
+constexpr std::size_t kMostWorst = 2048;
 
 // What is looked at closely: the worst of extreme points, `extreme` of them, and of those over the
-// area; from `sample` on some of the latter, evenly.
+// area.
 struct Looked {
   ErrorPoints points;
   PointErrors errors;
-  std::size_t extreme = 0, sample = 0;
+  std::size_t extreme = 0;
 };
 
-// The largest distance to the model between points. Those to the shape are to the planes of faces,
-// which are not the faces.
-void climb(const Looked& looked, const RadialModel& model, ErrorSites& sites,
-           TruncationErrors& errors) {
-  const Context context{.threads = 1};  // waking others takes longer than a hundred points
-  const PeakSearch search{looked.errors.to_model, [&](const ErrorPoints& at) {
-                            return point_errors(at, model, true, context).to_model;
-                          }};
+// The largest distance to the model between points, from the distances at some of them. Distances
+// to the shape are to first order to the planes of faces, which are not the faces.
+void climb(const Looked& looked, const RadialModel& model, const PeakSearch& distances,
+           std::size_t n_sites, ErrorSites& sites, TruncationErrors& errors) {
   errors.measured_max_distance =
       std::max(*errors.measured_max_distance,
-               largest(local_maxima(sites.mesh(), sites.center(), looked.points, search,
-                                    model.degree, kPeaks, {.threads = sites.threads()})
+               largest(local_maxima(sites.mesh(), sites.center(), looked.points, distances,
+                                    model.degree, n_sites, {.threads = sites.threads()})
                            .values));
 }
 
-// Distances by closest points where those to first order may mislead.
-void refine_distances(const Looked& looked, const Expansion& expansion, const RadialModel& model,
-                      double precision, const Context& context, ErrorSites& sites,
-                      TruncationErrors& errors) {
-  if (!may_be_refined(sites.mesh(), expansion, *errors.measured_max, errors.diagonal)) return;
+void climb_to_first_order(const Looked& looked, const RadialModel& model, ErrorSites& sites,
+                          TruncationErrors& errors) {
+  const Context context{.threads = 1};  // waking others takes longer than a hundred points
+  climb(looked, model,
+        {looked.errors.to_model,
+         [&](const ErrorPoints& at) { return point_errors(at, model, true, context).to_model; }},
+        kPeaks, sites, errors);
+}
+
+// Distances by closest points: of a sample where that is enough, else of trees of both surfaces.
+void measure_closest(const Looked& looked, const MeasuredPoints& over_area,
+                     const RadialModel& model, const Expansion& expansion, double precision,
+                     const Context& context, ErrorSites& sites, TruncationErrors& errors) {
+  if (!may_be_refined(sites.mesh(), expansion, *errors.measured_max, errors.diagonal)) {
+    climb_to_first_order(looked, model, sites, errors);
+    return;
+  }
+  errors.distances_are_closest = true;
   if (!is_coarse(sites.mesh())) {
-    const SecondOrder second = second_order(looked.points, looked.errors, looked.sample, model);
-    if (second.first_order_holds()) return;
-    if (second.suffices(sites.mesh())) {
-      *errors.distance_rms *= second.rms_ratio;
-      *errors.measured_max_distance *= second.max_ratio;
-      errors.distances_are_closest = true;
+    const SampledDistances sampled = sampled_distances(
+        sites.mesh(), sites.center(), model, over_area, {looked.points, looked.errors}, context);
+    if (sampled.suffice(sites.mesh())) {
+      errors.distance_rms = sampled.rms;
+      errors.measured_max_distance = sampled.max;
+      climb(
+          looked, model,
+          {sampled.to_model, [&](const ErrorPoints& at) { return distances_to_model(model, at); }},
+          kClosestPeaks, sites, errors);
       return;
     }
   }
+  climb_to_first_order(looked, model, sites, errors);
   const SurfaceDistances distances = sites.closest(true).measure(
       expansion, model.degree, looked.points.first(looked.extreme), precision, context);
   errors.distance_rms = distances.rms;
   errors.measured_max_distance = distances.max;
-  errors.distances_are_closest = true;
 }
 
 // The worst of the points over the area, each once: copies would stand for peaks of their own.
 std::vector<std::size_t> worst_of(const PointErrors& errors) {
   std::vector<std::size_t> worst;
   for (const auto* values : {&errors.radial, &errors.to_model, &errors.to_shape}) {
-    const std::vector<std::size_t> indices = indices_of_largest(*values, kMostWorstPoints);
+    const std::vector<std::size_t> indices = indices_of_largest(*values, kMostWorst);
     worst.insert(worst.end(), indices.begin(), indices.end());
   }
   std::sort(worst.begin(), worst.end());
@@ -113,11 +128,6 @@ Looked look_closely(WorstPoints extreme, const ErrorPoints& over_area, const Poi
     looked.errors.append(of_area.subset(indices));
   };
   take(worst_of(of_area));
-  looked.sample = looked.points.size();
-  std::vector<std::size_t> sample;
-  const std::size_t step = std::max<std::size_t>(1, over_area.size() / kDistanceSample);
-  for (std::size_t i = 0; i < over_area.size(); i += step) sample.push_back(i);
-  take(sample);
   return looked;
 }
 
@@ -128,10 +138,10 @@ LargestRadial largest_error(const Expansion& expansion, const RadialModel& model
                             const Context& context) {
   ErrorPoints known = worst.points;
   std::vector<double> values = worst.errors.radial;
-  for (const std::size_t i : indices_of_largest(of_area.radial, kMostWorstPoints)) {
+  for (const std::size_t i : indices_of_largest(of_area.radial, kMostWorst)) {
     values.push_back(of_area.radial[i]);
   }
-  known.append(over_area.subset(indices_of_largest(of_area.radial, kMostWorstPoints)));
+  known.append(over_area.subset(indices_of_largest(of_area.radial, kMostWorst)));
   LargestRadial found = largest_radial(expansion, model, known, values, rms, sites, context);
   // Without the slope of a face: many are at vertices, where the plane of a face says nothing.
   ErrorPoints peaks = found.peaks.points;
@@ -172,12 +182,11 @@ TruncationErrors truncation_errors(const Expansion& expansion, const TruncationO
   errors.rms_is_exact = exact_rms.has_value();
   // Those over the area for the largest errors too: at a degree too low for any face to be long the
   // middle of one may err more than its corners.
-  WorstPoints worst =
-      worst_points(sites.mesh(), sites.scan(), expansion, model,
-                   {.rms = *errors.rms,
-                    .radial = largest(of_area.radial),
-                    .distance = std::max(largest(of_area.to_model), largest(of_area.to_shape))},
-                   silent);
+  WorstPoints worst = worst_points(sites.mesh(), sites.scan(), expansion, model,
+                                   {.rms = *errors.rms,
+                                    .radial = largest(of_area.radial),
+                                    .distance = largest(of_area.to_model)},
+                                   silent);
   errors.points = worst.seen + over_area.size();
   const LargestRadial radial =
       largest_error(expansion, model, worst, over_area, of_area, *errors.rms, sites, silent);
@@ -187,8 +196,7 @@ TruncationErrors truncation_errors(const Expansion& expansion, const TruncationO
   errors.measured_max = radial.value;
   errors.measured_max_distance =
       std::max(largest(looked.errors.to_model), largest(looked.errors.to_shape));
-  climb(looked, model, sites, errors);
-  refine_distances(looked, expansion, model, precision, silent, sites, errors);
+  measure_closest(looked, {over_area, of_area}, model, expansion, precision, silent, sites, errors);
   report_progress(context, "errors", 0.9);
   if (options.predict) predict(expansion, sites, errors);
   return errors;
