@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 
 #include "base/cancel.h"
 #include "rholm/primitives.h"
 #include "transform/error/error_peaks.h"
+#include "transform/error/proportional_sample.h"
 
 namespace rholm {
 namespace {
@@ -20,6 +22,7 @@ constexpr double kEdge = 1.3;
 constexpr int kCoarsest = 4, kFinest = 7;
 // So many times more points to first order, which cost a hundredth.
 constexpr std::size_t kDense = 12;
+constexpr std::uint64_t kSeed = 4;
 // Coarse meshes have a peak at each vertex and others along their edges.
 constexpr std::size_t kPeaks = 16;
 // Extreme points are taken so many at a time.
@@ -83,15 +86,12 @@ std::vector<double> RadialSurface::distances(const std::vector<Vec3>& x, std::ve
 
 namespace {
 
-// Means of squares over the shape and over the model.
-struct Squares {
-  double there = 0, back = 0;
-};
-
 // What pieces of the mesh are of the model: area, and distances to first order.
 struct PieceModel {
   const SurfacePieces& pieces;
   std::vector<double> model_areas, to_model, to_shape;
+  double area = 0, model_area = 0;
+  CorrectedSum there, back;
 
   PieceModel(const SurfacePieces& p, const RadialPoints& opposite)
       : pieces(p), model_areas(p.size()), to_model(p.size()), to_shape(p.size()) {
@@ -103,18 +103,41 @@ struct PieceModel {
       model_areas[i] = angle * squared_norm(opposite.points[i]) / cosine;
       to_model[i] = radial * cosine;
       to_shape[i] = radial * p.cosines[i];
+      area += p.areas[i];
+      model_area += model_areas[i];
+      there.first += p.areas[i] * to_model[i] * to_model[i];
+      back.first += model_areas[i] * to_shape[i] * to_shape[i];
     }
   }
-  Squares squares(const std::vector<double>& there, const std::vector<double>& back) const {
-    Squares sum;
-    double area = 0, model_area = 0;
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-      sum.there += pieces.areas[i] * there[i] * there[i];
-      sum.back += model_areas[i] * back[i] * back[i];
-      area += pieces.areas[i];
-      model_area += model_areas[i];
+  // One half for the areas, so that no place is missed; the other for the squares to first order,
+  // as a few places may have most of the sum.
+  ProportionalSample sample(std::size_t n) const {
+    const double mean_there = area > 0 ? there.first / area : 0;
+    const double mean_back = model_area > 0 ? back.first / model_area : 0;
+    std::vector<double> weights(pieces.size());
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      const double of_shape = mean_there > 0 ? to_model[i] * to_model[i] / mean_there : 0;
+      const double of_model = mean_back > 0 ? to_shape[i] * to_shape[i] / mean_back : 0;
+      weights[i] =
+          pieces.areas[i] / area * (1 + of_shape) + model_areas[i] / model_area * (1 + of_model);
     }
-    return {area > 0 ? sum.there / area : 0, model_area > 0 ? sum.back / model_area : 0};
+    return proportional_sample(weights, n, kSeed);
+  }
+  void correct(const ProportionalSample& sample, const std::vector<double>& closest_there,
+               const std::vector<double>& closest_back) {
+    for (std::size_t k = 0; k < sample.indices.size(); ++k) {
+      const std::size_t i = sample.indices[k];
+      const auto change = [](double closest, double first) {
+        return closest * closest - first * first;
+      };
+      there.add(sample.stand_for[k] * pieces.areas[i] * change(closest_there[k], to_model[i]));
+      back.add(sample.stand_for[k] * model_areas[i] * change(closest_back[k], to_shape[i]));
+    }
+  }
+  // Over area, the larger of both ways.
+  double rms() const {
+    return std::sqrt(std::max(area > 0 ? there.value() / area : 0,
+                              model_area > 0 ? back.value() / model_area : 0));
   }
 };
 
@@ -149,8 +172,7 @@ struct ClosestDistances::Model {
 };
 
 ClosestDistances::ClosestDistances(const MeshView& mesh, const Vec3& center, std::size_t n_points)
-    : pieces_(surface_pieces(mesh, center, n_points)),
-      dense_(surface_pieces(mesh, center, kDense * n_points)) {
+    : n_points_(n_points), pieces_(surface_pieces(mesh, center, kDense * n_points)) {
   shape_.vertices.resize(mesh.n_vertices);
   shape_.triangles.resize(mesh.n_triangles);
   CancelPoll poll;
@@ -179,19 +201,6 @@ struct ClosestDistances::Seen {
   ErrorPoints points;  // lengths scaled
   std::vector<double> to_model, to_shape;
   double most() const { return std::max(largest(to_model), largest(to_shape)); }
-
-  // The larger of both ways. First order at many points tells what few leave out: it is much the
-  // same for closest points.
-  double rms(const PieceModel& few, const PieceModel& many) const {
-    const Squares first_few = few.squares(few.to_model, few.to_shape);
-    const Squares first_many = many.squares(many.to_model, many.to_shape);
-    const Squares found = few.squares(to_model, to_shape);
-    const auto scaled = [](double square, double of_few, double of_many) {
-      return of_few > 0 ? square * of_many / of_few : square;
-    };
-    return std::sqrt(std::max(scaled(found.there, first_few.there, first_many.there),
-                              scaled(found.back, first_few.back, first_many.back)));
-  }
 };
 
 namespace {
@@ -213,15 +222,19 @@ std::vector<std::size_t> largest_first(const std::vector<double>& values, std::s
 
 ClosestDistances::Seen ClosestDistances::see_pieces(const Model& model,
                                                     const RadialPoints& opposite,
+                                                    const std::vector<std::size_t>& indices,
                                                     const Context& context) const {
-  std::vector<Vec3> x(pieces_.size());
-  for (std::size_t i = 0; i < x.size(); ++i) x[i] = pieces_.radii[i] * pieces_.directions[i];
   Seen seen;
-  seen.points.directions = pieces_.directions;
-  seen.points.radii = pieces_.radii;
-  seen.points.owners = pieces_.faces;
-  seen.to_model = model.distances(x, opposite.points);
-  seen.to_shape = distances_to(*tree_, opposite.points, {}, context);
+  std::vector<Vec3> x, across;
+  for (const std::size_t i : indices) {
+    x.push_back(pieces_.radii[i] * pieces_.directions[i]);
+    across.push_back(opposite.points[i]);
+    seen.points.directions.push_back(pieces_.directions[i]);
+    seen.points.radii.push_back(pieces_.radii[i]);
+    seen.points.owners.push_back(pieces_.faces[i]);
+  }
+  seen.to_model = model.distances(x, across);
+  seen.to_shape = distances_to(*tree_, across, {}, context);
   return seen;
 }
 
@@ -276,15 +289,16 @@ SurfaceDistances ClosestDistances::measure(const Expansion& expansion, int degre
                                            const ErrorPoints& extreme, double precision,
                                            const Context& context) {
   const Context silent{.threads = context.threads}, alone{.threads = 1};
-  const RadialModel radial(expansion, degree, dense_.size(), true, precision, silent);
+  const RadialModel radial(expansion, degree, pieces_.size(), true, precision, silent);
   const RadialSurface surface(radial, pieces_.scale, silent);
   const Model model(surface, sphere(degree), silent);
   const RadialPoints opposite = surface.at(pieces_.directions);
-  Seen seen = see_pieces(model, opposite, silent);
+  PieceModel of_pieces(pieces_, opposite);
+  const ProportionalSample sample = of_pieces.sample(n_points_);
+  Seen seen = see_pieces(model, opposite, sample.indices, silent);
+  of_pieces.correct(sample, seen.to_model, seen.to_shape);
   SurfaceDistances result;
-  result.rms =
-      seen.rms(PieceModel(pieces_, opposite), PieceModel(dense_, surface.at(dense_.directions))) /
-      pieces_.scale;
+  result.rms = of_pieces.rms() / pieces_.scale;
   see_extreme(model, extreme, silent, seen);
   const RadialSurface near(radial, pieces_.scale, alone);
   result.max = highest(model, near, degree, seen) / pieces_.scale;

@@ -51,7 +51,7 @@ struct SurfaceDistances {
 // 40 MB for the model's tree at most.
 class ClosestDistances {
  public:
-  // `n_points`: about so many on each surface, see surface_pieces().
+  // `n_points`: so many on each surface, and to first order more; see surface_pieces().
   ClosestDistances(const MeshView& mesh, const Vec3& center, std::size_t n_points);
 
   // In the mesh's unit. Model and mesh must have sizes that compare. The largest is one over the
@@ -63,15 +63,17 @@ class ClosestDistances {
   struct Model;
   struct Seen;
   const Mesh& sphere(int degree);
-  // At the pieces; then at extreme points, those that may be farther than what has been seen; then
+  // At some pieces; then at extreme points, those that may be farther than what has been seen; then
   // the largest distance uphill from there.
-  Seen see_pieces(const Model& model, const RadialPoints& opposite, const Context& context) const;
+  Seen see_pieces(const Model& model, const RadialPoints& opposite,
+                  const std::vector<std::size_t>& indices, const Context& context) const;
   void see_extreme(const Model& model, const ErrorPoints& extreme, const Context& context,
                    Seen& seen) const;
   double highest(const Model& model, const RadialSurface& surface, int degree,
                  const Seen& seen) const;
 
-  SurfacePieces pieces_, dense_;
+  std::size_t n_points_;
+  SurfacePieces pieces_;
   Mesh shape_;  // about the centre, scaled
   std::unique_ptr<TriangleTree> tree_;
   int level_ = -1;

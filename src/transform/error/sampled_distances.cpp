@@ -4,10 +4,10 @@
 #include <cmath>
 #include <cstddef>
 
-#include "base/random.h"
 #include "shape/queries/near_faces.h"
 #include "shape/queries/triangle_tree.h"
 #include "transform/error/closest_distances.h"
+#include "transform/error/proportional_sample.h"
 
 namespace rholm {
 namespace {
@@ -65,72 +65,31 @@ std::vector<double> distances_to_mesh(const MeshView& mesh, const Vec3& center,
   return distances;
 }
 
-// Points by chance, each in proportion to its weight and as often as that says.
-std::vector<std::size_t> chosen_by(const std::vector<double>& weights, double whole,
-                                   std::size_t n) {
-  std::vector<std::size_t> indices;
-  indices.reserve(n);
-  const double part = whole / static_cast<double>(n);
-  double sum = 0;
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    sum += weights[i];
-    while (indices.size() < n) {
-      const std::size_t k = indices.size();
-      if ((static_cast<double>(k) + random_uniform(kSeed, k)) * part >= sum) break;
-      indices.push_back(i);
-    }
-  }
-  return indices;
-}
-
-// A sum over all points to first order, and what a sample says is to be added.
-struct CorrectedSum {
-  double first = 0, added = 0, squares = 0;
-
-  void add(double difference) {
-    added += difference;
-    squares += difference * difference;
-  }
-  double value() const { return std::max(first + added, 0.0); }
-  // Relative standard error of the root, of n terms.
-  double error(std::size_t n) const {
-    const double variance = std::max(squares - added * added / static_cast<double>(n), 0.0);
-    return value() > 0 ? std::sqrt(variance) / (2 * value()) : 0;
-  }
-};
-
 // First order is measured at all points, and closest points correct it: sum d^2 = sum d_1^2 +
 // sum (d^2 - d_1^2), the last sum by a sample. No distance is larger than the radial error: with
 // chances in proportion to the square of that no point says more than its part.
-struct Sample {
-  std::vector<std::size_t> indices;
-  std::vector<double> stand_for;  // so many points each
+struct Sums {
+  ProportionalSample sample;
   CorrectedSum there, back;
   double model_area = 0;  // per area of the shape and point
 
-  explicit Sample(const PointErrors& errors) {
+  explicit Sums(const PointErrors& errors) {
     std::vector<double> weights(errors.radial.size());
-    double whole = 0;
     for (std::size_t i = 0; i < weights.size(); ++i) {
       there.first += square(errors.to_model[i]);
       back.first += errors.stretch[i] * square(errors.to_shape[i]);
       model_area += errors.stretch[i];
       weights[i] = (1 + errors.stretch[i]) * square(errors.radial[i]);
-      whole += weights[i];
     }
-    if (!(whole > 0) || !std::isfinite(whole)) return;
-    indices = chosen_by(weights, whole, kSample);
-    for (const std::size_t i : indices) {
-      stand_for.push_back(whole / (static_cast<double>(kSample) * weights[i]));
-    }
+    sample = proportional_sample(weights, kSample, kSeed);
   }
 
   void correct(const PointErrors& errors, const std::vector<double>& to_model,
                const std::vector<double>& to_mesh) {
-    for (std::size_t k = 0; k < indices.size(); ++k) {
-      const std::size_t i = indices[k];
-      there.add(stand_for[k] * (square(to_model[k]) - square(errors.to_model[i])));
-      back.add(stand_for[k] * errors.stretch[i] *
+    for (std::size_t k = 0; k < sample.indices.size(); ++k) {
+      const std::size_t i = sample.indices[k];
+      there.add(sample.stand_for[k] * (square(to_model[k]) - square(errors.to_model[i])));
+      back.add(sample.stand_for[k] * errors.stretch[i] *
                (square(to_mesh[k]) - square(errors.to_shape[i])));
     }
   }
@@ -176,24 +135,25 @@ bool SampledDistances::suffice(const MeshView& mesh) const {
 SampledDistances sampled_distances(const MeshView& mesh, const Vec3& center,
                                    const RadialModel& model, const MeasuredPoints& over_area,
                                    const MeasuredPoints& worst, const Context& context) {
-  Sample sample(over_area.errors);
+  Sums sums(over_area.errors);
+  const std::vector<std::size_t>& indices = sums.sample.indices;
   SampledDistances result{.to_model = largest_to_model(model, worst)};
   result.max = largest(result.to_model);
   // All the way back at once: looking for the faces takes longest.
-  ErrorPoints points = over_area.points.subset(sample.indices);
+  ErrorPoints points = over_area.points.subset(indices);
   const std::vector<double> to_model = steps_to_model(model, points, kSteps);
   points.append(worst.points.subset(farther_back(worst.errors, result.max)));
   if (points.size() == 0) return result;
   const std::vector<double> to_mesh = distances_to_mesh(mesh, center, model, points, context);
-  for (std::size_t k = sample.indices.size(); k < to_mesh.size(); ++k) {
+  for (std::size_t k = indices.size(); k < to_mesh.size(); ++k) {
     result.max = std::max(result.max, to_mesh[k]);
   }
-  sample.correct(over_area.errors, to_model, to_mesh);
-  const CorrectedSum &there = sample.there, &back = sample.back;
+  sums.correct(over_area.errors, to_model, to_mesh);
+  const CorrectedSum &there = sums.there, &back = sums.back;
   const double mean_there = there.value() / static_cast<double>(over_area.points.size());
-  const double mean_back = sample.model_area > 0 ? back.value() / sample.model_area : 0;
+  const double mean_back = sums.model_area > 0 ? back.value() / sums.model_area : 0;
   result.rms = std::sqrt(std::max(mean_there, mean_back));
-  result.rms_error = (mean_there >= mean_back ? there : back).error(sample.indices.size());
+  result.rms_error = (mean_there >= mean_back ? there : back).error(indices.size());
   if (there.first > 0) result.ratio = std::sqrt(there.value() / there.first);
   return result;
 }
