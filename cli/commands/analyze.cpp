@@ -222,7 +222,7 @@ void check_reached(const Options& options, const Encoded& encoded) {
   if (!fast || fast->reached) return;
   throw Error(ErrorCode::kNotConverged,
               fmt::format("the wanted precision of {} was not reached in what was written: the "
-                          "estimated error is {}; --engine direct is slower and exact",
+                          "error is {}; --engine direct is slower and exact",
                           text_of(options.precision.value_or(AnalyzeOptions{}.precision)),
                           text_of(fast->error)));
 }

@@ -18,7 +18,7 @@ namespace {
 Json times_json(const AnalyzeRun& run, double StageTime::*clock) {
   Json json;
   for (const char* stage : {"read", "topology", "center", "transform", "order", "triangles",
-                            "spread", "fourier", "norms", "rays", "errors", "write"}) {
+                            "spread", "fourier", "verify", "norms", "rays", "errors", "write"}) {
     const auto found = run.times.find(stage);
     json[stage] = found == run.times.end() ? 0.0 : found->second.*clock;
   }

@@ -35,6 +35,7 @@ std::vector<Row> stage_rows(const Timings& stages) {
       {"triangles", "- triangles"},
       {"spread", "- spread"},
       {"fourier", "- Fourier and Legendre"},
+      {"verify", "- second reading"},
       {"norms", "norms"},
       {"write", "write a model file"}};
   std::vector<Row> rows;
@@ -145,12 +146,13 @@ std::string table_head(const std::string& title, const std::string& source) {
 
 std::string error_text(const BenchCase& run) {
   const auto& fast = run.file.encoded.analysis.fast;
+  const char* kind = fast && fast->measured ? "measured" : "estimated";
   std::string text =
       line("error", fmt::format("{:.2g} of the wanted {:.2g}{}; of the degrees above {}: {:.2g}{}",
                                 run.error.error, run.precision,
-                                fast ? fmt::format(" (estimated {:.2g})", fast->error) : "",
+                                fast ? fmt::format(" ({} {:.2g})", kind, fast->error) : "",
                                 3 * run.degree / 4, run.error.top_error,
-                                fast ? fmt::format(" (estimated {:.2g})", fast->band_error) : ""));
+                                fast ? fmt::format(" ({} {:.2g})", kind, fast->band_error) : ""));
   return text + line("", "measured against " + run.reference);
 }
 

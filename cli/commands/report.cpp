@@ -137,7 +137,7 @@ void not_kept(const std::string& what, Subject& subject) {
 void add_verdicts(const Encoded& encoded, const EncodeOptions& wanted, Subject& subject) {
   const std::optional<FastReport>& fast = encoded.analysis.fast;
   if (fast && !fast->reached) {
-    not_kept(fmt::format("the estimated error of the coefficients is {}, above the wanted {}; "
+    not_kept(fmt::format("the error of the coefficients is {}, above the wanted {}; "
                          "'rholm analyze --engine direct' makes a model that is exact",
                          text_of(fast->error), text_of(wanted.analyze.precision)),
              subject);

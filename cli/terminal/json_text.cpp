@@ -70,6 +70,7 @@ Json json_of(const TruncationErrors& errors) {
 }
 
 Json json_of(const FastReport& fast) {
+  const char* kind = fast.measured ? "measured" : "estimate";
   return {
       {"precision", fast.single ? "single" : "double"},
       {"window_width", fast.width},
@@ -79,9 +80,10 @@ Json json_of(const FastReport& fast) {
       {"nodes", fast.nodes},
       {"passes", fast.passes},
       {"precision_reached", fast.reached},
-      {"estimated_error", fast.error},
-      {"estimated_error_of_top_quarter", fast.band_error},
-      {"kinds", {{"estimated_error", "estimate"}, {"estimated_error_of_top_quarter", "estimate"}}}};
+      {"error", fast.error},
+      {"error_of_top_quarter", fast.band_error},
+      {"error_doubt", fast.measured ? Json(fast.error_doubt) : Json(nullptr)},
+      {"kinds", {{"error", kind}, {"error_of_top_quarter", kind}, {"error_doubt", "estimate"}}}};
 }
 
 void print_json(const Json& json) {

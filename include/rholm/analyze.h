@@ -34,12 +34,16 @@ struct FastReport {
   std::size_t lumped_triangles = 0;  // whose sources are those of their vertices
   std::size_t nodes = 0;             // sources of their own
   std::size_t vertices = 0;          // sources at vertices
-  // Estimate of the error: l2 over 1 <= l <= L, relative to the norm of the function without its
-  // mean.
+  // l2 over 1 <= l <= L, relative to the norm of the function without its mean.
   double error = 0;
   double band_error = 0;  // of the degrees above 3L/4 relative to that band's own norm
-  int passes = 0;  // over the triangles: more than one if the estimate from a sample was too low
-  // Whether the estimate is within the wanted precision, or within what rounding leaves at best.
+  // Whether these are differences from a second, finer reading of the mesh from another side: of
+  // meshes of up to 100 000 triangles. Otherwise they are estimates.
+  bool measured = false;
+  double error_doubt = 0;  // of a measured error: what the second reading may itself be off
+  int passes = 0;          // over the triangles until the coefficients were found
+  // Whether the error, with its doubt, is within the wanted precision, or within what rounding
+  // leaves at best.
   bool reached = true;
 };
 
@@ -69,7 +73,7 @@ struct Analysis {
   // That the coefficients were wanted with: a search for a degree may have asked for more than
   // AnalyzeOptions::precision.
   double precision = 0;
-  StageTimes times;  // "triangles", "spread", "fourier", "norms": where known
+  StageTimes times;  // "triangles", "spread", "fourier", "verify", "norms"
   // Truncation error over solid angle, sqrt(||f - f_L||^2 / 4 pi), in the unit of f, as the
   // difference of the exact norm and that of the coefficients, and how far it is at most from that
   // of exact coefficients: they are as exact as the precision. None if that is not below an eighth

@@ -1426,7 +1426,7 @@ class FastReport:
     @property
     def error(self) -> float:
         """
-        Estimate of the error, l2 over degrees from 1 on, relative to the norm without mean.
+        Of the coefficients, l2 over degrees from 1 on, relative to the norm without mean.
         """
 
     @property
@@ -1434,12 +1434,22 @@ class FastReport:
         """Of the degrees above 3L/4 relative to their own norm."""
 
     @property
+    def measured(self) -> bool:
+        """
+        Whether errors are differences from a second, finer reading; else estimates.
+        """
+
+    @property
+    def error_doubt(self) -> float:
+        """What the second reading may itself be off."""
+
+    @property
     def passes(self) -> int:
-        """Over the triangles."""
+        """Over the triangles until the coefficients were found."""
 
     @property
     def reached(self) -> bool:
-        """Whether the estimate is within the precision."""
+        """Whether the error is within the precision."""
 
 class Analysis:
     """How coefficients were found."""

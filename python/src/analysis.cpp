@@ -147,11 +147,14 @@ void bind_results(nb::module_& m) {
       .field("nodes", &FastReport::nodes, "Sources of their own.")
       .field("vertices", &FastReport::vertices, "Sources at vertices.")
       .field("error", &FastReport::error,
-             "Estimate of the error, l2 over degrees from 1 on, relative to the norm without mean.")
+             "Of the coefficients, l2 over degrees from 1 on, relative to the norm without mean.")
       .field("band_error", &FastReport::band_error,
              "Of the degrees above 3L/4 relative to their own norm.")
-      .field("passes", &FastReport::passes, "Over the triangles.")
-      .field("reached", &FastReport::reached, "Whether the estimate is within the precision.");
+      .field("measured", &FastReport::measured,
+             "Whether errors are differences from a second, finer reading; else estimates.")
+      .field("error_doubt", &FastReport::error_doubt, "What the second reading may itself be off.")
+      .field("passes", &FastReport::passes, "Over the triangles until the coefficients were found.")
+      .field("reached", &FastReport::reached, "Whether the error is within the precision.");
   Record<Analysis>(m, "Analysis", "How coefficients were found.")
       .field("edge_nodes", &Analysis::edge_nodes, "Quadrature nodes on edges.")
       .field("face_nodes", &Analysis::face_nodes, "Quadrature nodes on faces.")

@@ -9,6 +9,7 @@
 #include "base/stopwatch.h"
 #include "rholm/error.h"
 #include "transform/geometry/star_geometry.h"
+#include "transform/mesh_pass/verify.h"
 #include "transform/methods/methods.h"
 #include "transform/norms/parseval.h"
 
@@ -112,8 +113,10 @@ void by_method(const StarChart& chart, const AnalyzeOptions& options, const Cont
 
 void by_mesh_pass(const StarChart& chart, const AnalyzeOptions& options, const Context& context,
                   Analysis& analysis) {
-  MeshPassResult pass = mesh_pass(
-      view_of(chart.mesh), {.degree = options.degree, .precision = options.precision}, context);
+  const MeshView mesh = view_of(chart.mesh);
+  const MeshPassOptions wanted{.degree = options.degree, .precision = options.precision};
+  MeshPassResult pass = mesh_pass(mesh, wanted, context);
+  verify_pass(mesh, wanted, context, pass);
   set_pass(pass, analysis);
 }
 
@@ -139,6 +142,13 @@ void set_pass(MeshPassResult& pass, Analysis& analysis) {
   analysis.fast = pass.report;
   analysis.times.insert(pass.times.begin(), pass.times.end());
   analysis.expansion.coefficients = std::move(pass.coefficients);
+}
+
+Analysis analysis_of(MeshPassResult pass, double precision) {
+  Analysis analysis;
+  set_pass(pass, analysis);
+  analysis.precision = precision;
+  return analysis;
 }
 
 double known_error(const Analysis& analysis) {

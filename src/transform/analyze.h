@@ -14,6 +14,8 @@ Analysis analyze_without_norms(const StarChart& chart, const AnalyzeOptions& opt
 void check(const AnalyzeOptions& options);
 bool uses_mesh_pass(const AnalyzeOptions& options);
 void set_pass(MeshPassResult& pass, Analysis& analysis);
+// Of a pass with that precision alone.
+Analysis analysis_of(MeshPassResult pass, double precision);
 // All else that is known of the expansion but its norms.
 void finish_analysis(const AnalyzeOptions& options, const Vec3& center, Analysis& analysis);
 // The relative error of the coefficients, l2 without the mean.

@@ -100,7 +100,7 @@ class Analyze(CliTest):
     def test_report_has_the_promised_keys(self):
         report = self.rholm("analyze", "a.off", "--degree", "4", "-o", "a.h5", "--json").json()
         stages = {"read", "topology", "center", "transform", "order", "triangles", "spread",
-                  "fourier", "norms", "rays", "errors", "write"}
+                  "fourier", "verify", "norms", "rays", "errors", "write"}
         self.assertEqual(set(report["seconds"]), stages)
         self.assertEqual(set(report["cpu_seconds"]), stages)
         self.assertEqual(report["degree"], 4)
@@ -111,9 +111,9 @@ class Analyze(CliTest):
         self.assertGreater(report["peak_memory_bytes"], 1e6)
         self.assertEqual(report["engine"], "fast")
         self.assertIsNone(report["closure_residual"])
-        self.assertLess(report["fast"]["estimated_error"], 1e-8)
+        self.assertLess(report["fast"]["error"], 1e-8)
         # What each figure of an error is worth.
-        self.assertEqual(report["fast"]["kinds"]["estimated_error"], "estimate")
+        self.assertEqual(report["fast"]["kinds"]["error"], "measured")
         self.assertEqual(report["errors"]["kinds"]["rms"], "exact")
         self.assertEqual(report["errors"]["kinds"]["measured_max"], "measured")
         for part in (report, report["fast"], report["errors"]):

@@ -10,6 +10,7 @@
 #include "rholm/error.h"
 #include "shape/vertex_range.h"
 #include "transform/analyze.h"
+#include "transform/mesh_pass/verify.h"
 #include "transform/norms/exact_norms.h"
 #include "transform/tolerance/search.h"
 #include "transform/tolerance/tolerance.h"
@@ -65,6 +66,10 @@ class AsItLies {
     // few.
     const bool star_shaped = pass.bad_triangles == 0;
     if (star_shaped && !covers_once(norms())) return NotAsItLies::kCoveredTwice;
+    if (!problem) {
+      timed(encoded_.times, "transform",
+            [&] { verify_pass(mesh_, pass_options_, context_, pass); });
+    }
     encoded_.star = star_report(pass, center());
     encoded_.star.center_fell_back = folded_.has_value();
     set_pass(pass, analysis());
@@ -125,14 +130,14 @@ class AsItLies {
     if (!options_.tolerance) return std::nullopt;
     ToleranceProblem problem =
         rholm::tolerance_problem(mesh_, center(), norms(), options_.analyze.precision, context_);
+    problem.pilot = [this](const TransformTarget& target) {
+      return analysis_of(pass_to(target), target.precision);
+    };
     problem.transform = [this](const TransformTarget& target) {
       MeshPassResult pass = pass_to(target);
-      Analysis result;
-      set_pass(pass, result);
-      result.precision = target.precision;
-      return result;
+      verify_pass(mesh_, pass_options_, context_, pass);
+      return analysis_of(std::move(pass), target.precision);
     };
-    problem.pilot = problem.transform;
     return problem;
   }
 

@@ -45,7 +45,7 @@ struct BenchRuns {
   // "coefficients" is all of it but the norms; "norms"; parts of the first that are known: "read"
   // (looking at the file and mapping it, or reading), "topology", "center" (of meshes that
   // cannot stay where they lie), "order" (of triangles in random order), "triangles", "spread",
-  // "fourier"; "write" of a model file.
+  // "fourier", "verify"; "write" of a model file.
   Timings stages;
   // Wall time of the first number of threads over that of this one: median over pairs of runs.
   double speedup = 1;

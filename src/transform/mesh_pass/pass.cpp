@@ -97,8 +97,8 @@ MeshPassResult mesh_pass(const MeshView& mesh, const MeshPassOptions& options,
     if (outcome == Outcome::kDone) {
       // The sample may have missed what matters, or taken the norm for larger than it is.
       const double norm = norm_of_degrees(result.coefficients, 1, options.degree);
-      const double precision =
-          std::max(options.precision, norm > 0 ? plan.allowed.rounding / norm : 1.0);
+      result.least_error = norm > 0 ? plan.allowed.rounding / norm : 1.0;
+      const double precision = std::max(options.precision, result.least_error);
       result.report.reached = !(result.report.error > precision);
       if (result.report.reached || tries++ == kMostTries) return result;
       limits.tighten *= tightened(result, plan, precision, norm);

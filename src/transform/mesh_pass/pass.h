@@ -38,7 +38,8 @@ struct MeshPassResult {
   double min_cos_gamma = 0;
   std::size_t bad_triangles = 0;
   FastReport report;
-  StageTimes times;  // "triangles", "spread", "fourier"; "order" if triangles were sorted
+  double least_error = 0;  // what rounding leaves at best, relative as FastReport::error
+  StageTimes times;        // "triangles", "spread", "fourier"; "order" if triangles were sorted
 };
 
 // Throws InvalidInput for coordinates that are not finite, indices out of range, `check` that

@@ -136,7 +136,10 @@ ToleranceAnalysis analyze(const StarChart& chart, const Tolerance& tolerance,
     return analyze_without_norms(chart, wanted, context);
   };
   // Pilots by the fast sums whatever the method: the coefficients are the same.
-  problem.pilot = [&](const TransformTarget& target) { return analyzed({}, target); };
+  problem.pilot = [&](const TransformTarget& target) {
+    const MeshPassOptions wanted{.degree = target.degree, .precision = target.precision};
+    return analysis_of(mesh_pass(mesh, wanted, context), target.precision);
+  };
   problem.transform = [&](const TransformTarget& target) { return analyzed(options, target); };
   const Analysis pilot = problem.pilot(first_pilot(problem, tolerance));
   ToleranceAnalysis result = search_tolerance(problem, tolerance, pilot, context);

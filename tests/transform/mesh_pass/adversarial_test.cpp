@@ -10,8 +10,8 @@
 #include "rholm/analyze.h"
 #include "rholm/topology.h"
 #include "support/adversarial_meshes.h"
-#include "transform/mesh_pass/pass.h"
 #include "transform/mesh_pass/plan/error_budget.h"
+#include "transform/mesh_pass/verify.h"
 
 namespace rholm {
 namespace {
@@ -26,8 +26,9 @@ Coefficients by_direct_sums(const test::AdversarialMesh& made) {
 }
 
 void judge(const test::AdversarialMesh& made) {
-  const MeshPassResult found = mesh_pass(
-      view_of(made.mesh), {.degree = made.degree, .precision = made.precision}, Context{});
+  const MeshPassOptions options{.degree = made.degree, .precision = made.precision};
+  MeshPassResult found = mesh_pass(view_of(made.mesh), options, {});
+  verify_pass(view_of(made.mesh), options, {}, found);
   const Coefficients expected = by_direct_sums(made);
   Coefficients difference = found.coefficients;
   for (std::size_t i = 0; i < difference.values().size(); ++i) {
