@@ -59,8 +59,8 @@ RadialFunction parse_radial_function(const std::string& name);  // throws Invali
 
 // How far the surface of an expansion is from the shape it was made of, in the unit of lengths;
 // empty where it is not known. Radial errors are |r - r_L| along directions from the centre,
-// distances those between the surfaces: to first order (radial error times cos gamma) where that
-// agrees with closest points within 2 % (rms) and 4 % (largest), else by closest points (method 5).
+// distances those of closest points, within 1 % (rms) and 3 % (largest); to first order, radial
+// error times cos gamma, for meshes of more than two million faces (method 5).
 struct TruncationErrors {
   std::optional<double> rms;  // radial, over solid angle
   bool rms_is_exact = false;  // by Parseval (M7), not measured
@@ -71,7 +71,7 @@ struct TruncationErrors {
   // are long against 1/L.
   std::optional<double> measured_max, measured_max_distance;
   std::optional<double> distance_rms;  // over area, the larger of both ways
-  bool distances_are_closest = false;  // by closest points
+  bool distances_are_closest = false;  // by closest points, not to first order
   std::size_t points = 0;              // at which was measured
   double diagonal = 0;                 // of the shape's bounding box; 0 if unknown
 };
