@@ -12,6 +12,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         if (!std::isfinite(c)) __builtin_trap();
       }
     }
+    if (model.rules) {
+      const rholm::SurfaceRules& rules = *model.rules;
+      if (rules.spacings.size() != rules.spacing_places.size()) __builtin_trap();
+      if (rules.seen) {
+        const auto& size = rules.seen->size;
+        if (8 * rules.seen->bits.size() < size[0] * size[1] * size[2]) __builtin_trap();
+      }
+    }
   } catch (const rholm::Error& refused) {
     if (refused.what()[0] == '\0') __builtin_trap();  // it says why
   }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/plain_text.h"
 #include "cli/files/inputs.h"
 #include "cli/files/outputs.h"
 
@@ -20,6 +21,37 @@ std::string length_text(double value, double diagonal) {
   return diagonal > 0
              ? fmt::format("{} ({} of the diagonal)", text_of(value), text_of(value / diagonal))
              : text_of(value);
+}
+
+}  // namespace
+
+std::string left_out_text(const SurfaceRules& rules) {
+  std::string names;
+  for (const std::string& name : rules.left_out) {
+    names += (names.empty() ? "" : ", ") + escaped_line(name);
+  }
+  return (rules.left_out.size() == 1 ? "the attribute " : "the attributes ") + names;
+}
+
+namespace {
+
+Json rules_json(const SurfaceRules& rules) {
+  return {{"holes", to_string(rules.holes)},
+          {"min_component", rules.min_component},
+          {"simplified", rules.simplify.has_value()},
+          {"spacings", rules.spacings.size()},
+          {"seen_space", rules.seen.has_value()},
+          {"bricks", rules.bricks},
+          {"left_out", rules.left_out}};
+}
+
+std::string rules_text(const SurfaceRules& rules) {
+  std::string made = rules.holes == HolePolicy::kFill ? "holes closed" : "holes open";
+  if (rules.simplify) made += ", simplified";
+  if (rules.bricks) made += ", in bricks: what closes holes may differ by some steps of the grid";
+  std::string text = line("surface", made);
+  if (!rules.left_out.empty()) text += line("not held", left_out_text(rules));
+  return text;
 }
 
 }  // namespace
@@ -49,6 +81,7 @@ Json atlas_json(const AtlasModel& model) {
                       {"rms_to_shape", measured(e.rms_to)},
                       {"max_to_shape", measured(e.max_to)}};
   }
+  json["reconstruction"] = model.rules ? rules_json(*model.rules) : Json(nullptr);
   return json;
 }
 
@@ -74,6 +107,7 @@ std::string atlas_text(const AtlasModel& model) {
   }
   text += line("diagonal", text_of(diagonal));
   text += line("resolution", text_of(model.step));
+  if (model.rules) text += rules_text(*model.rules);
   if (!model.unit.empty()) text += line("unit", model.unit);
   return text;
 }

@@ -13,6 +13,8 @@ namespace rholm::cli {
 // Caps, numbers, errors: what a model says of itself.
 Json atlas_json(const AtlasModel& model);
 std::string atlas_text(const AtlasModel& model);
+// "attributes red, green, blue": what a model does not hold of its surface.
+std::string left_out_text(const SurfaceRules& rules);
 
 // The whole command with --atlas; returns the exit code.
 int analyze_atlas(const AnalyzeCommandOptions& options, Session& session);

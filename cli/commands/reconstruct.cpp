@@ -147,17 +147,11 @@ void run_in_one_piece(PointsInput input, ShapeFormat format, const Options& opti
   write_shape_output(made.mesh, options.output, {format, options.ascii}, session);
   // Last, as it is not interrupted: who reads that nothing was written finds nothing.
   if (!options.model.empty()) {
-    write_atlas({.atlas = made.atlas,
-                 .step = made.report.step,
-                 .tolerance = wanted.tolerance,
-                 .errors = {},
-                 .input_numbers = 3 * made.report.points,
-                 .unit = {},
-                 .method = "reconstruct"},
-                options.model);
+    made.model.input_numbers = 3 * made.report.points;  // with those that the reader dropped
+    write_atlas(made.model, options.model);
   }
   end({.report = made.report,
-       .coefficients = made.atlas.coefficients.size(),
+       .coefficients = made.model.atlas.coefficients.size(),
        .vertices = made.mesh.vertices.size(),
        .triangles = made.mesh.triangles.size(),
        .diagonal = box.diagonal()},

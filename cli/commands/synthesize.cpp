@@ -29,7 +29,7 @@ struct Options {
   std::string like;
   std::optional<double> resolution;  // of an atlas
   std::optional<int> degree_limit;
-  std::string simplify = kNotSimplified;
+  std::string simplify;  // empty: as the model says
   std::string output;
   std::string format;
   InputConvention convention;
@@ -64,7 +64,11 @@ int run_atlas(const Options& o, ShapeFormat format, Session& session) {
         "--degree, --subdivisions, --grid and --like do not go with an atlas of caps: see "
         "--resolution and --degree-limit");
   }
-  const std::optional<SimplifyOptions> simplify = parse_simplify("--simplify", o.simplify);
+  std::optional<SimplifyOptions> simplify;
+  if (!o.simplify.empty()) {
+    // Whole, whatever the model says: all of its triangles may stay.
+    simplify = parse_simplify("--simplify", o.simplify).value_or(SimplifyOptions{.share = 1});
+  }
   check_writable(o.output);
   return synthesize_atlas(
       {o.input, o.output, format, o.ascii, o.json, o.resolution, o.degree_limit, simplify},
@@ -90,7 +94,7 @@ Mesh sphere_of(const Options& options, int degree, const Expansion& expansion, S
 int run(const Options& options, Session& session) {
   const ShapeFormat format = mesh_output(options.output, options.format, options.json);
   if (holds_atlas(options.input)) return run_atlas(options, format, session);
-  if (options.resolution || options.degree_limit || options.simplify != kNotSimplified) {
+  if (options.resolution || options.degree_limit || !options.simplify.empty()) {
     throw UsageError("--resolution, --degree-limit and --simplify go with an atlas of caps");
   }
   std::vector<int> degrees;
@@ -170,7 +174,9 @@ std::vector<Option> synthesis_options(Options& o) {
            .target = &o.degree_limit,
            .min = 0,
            .max = 24},
-          simplify_option(o.simplify)};
+          simplify_option(o.simplify,
+                          "none leaves it whole; by default as reconstruct was told, for "
+                          "a model of it, else none")};
 }
 
 std::vector<Option> option_list(Options& o) {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "cli/commands/atlas_report.h"
+#include "cli/files/inputs.h"
 #include "cli/files/outputs.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/json_text.h"
@@ -17,7 +19,17 @@ int synthesize_atlas(const SynthesizeAtlasOptions& options, Session& session) {
   wanted.simplify = options.simplify;
   const Mesh surface = synthesize(model, wanted, session.context());
   stop_if_interrupted();
+  if (model.rules && !model.rules->left_out.empty()) {
+    session.warn(fmt::format("{}: the surface had {}, which the model does not hold",
+                             display_name(options.input), left_out_text(*model.rules)));
+  }
   write_shape_output(surface, options.output, {options.format, options.ascii}, session);
+  if (model.rules && model.rules->bricks) {
+    session.note(
+        fmt::format("{}: the surface was made in bricks: its vertices have another order "
+                    "there, and what closes holes may differ by some steps of the grid",
+                    display_name(options.input)));
+  }
   if (options.json) {
     Json json;
     json["file"] = options.input;

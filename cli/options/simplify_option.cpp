@@ -9,14 +9,15 @@
 
 namespace rholm::cli {
 
-Option simplify_option(std::string& text) {
-  return {.name = "simplify",
-          .value = "auto|N|P%|none",
-          .help =
-              "fewer faces for the same surface: N of them, P per cent, or as few as hardly "
-              "change it (auto); none, the default, leaves it whole",
-          .target = &text,
-          .check = parse_simplify};
+Option simplify_option(std::string& text, const char* by_default) {
+  return {
+      .name = "simplify",
+      .value = "auto|N|P%|none",
+      .help = fmt::format("fewer faces for the same surface: N of them, P per cent, or as few as "
+                          "hardly change it (auto); {}",
+                          by_default),
+      .target = &text,
+      .check = parse_simplify};
 }
 
 std::optional<SimplifyOptions> parse_simplify(const std::string& option, const std::string& text) {

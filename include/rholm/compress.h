@@ -12,6 +12,7 @@
 #include "rholm/context.h"
 #include "rholm/mesh.h"
 #include "rholm/simplify.h"
+#include "rholm/surface_rules.h"
 
 namespace rholm {
 
@@ -45,6 +46,9 @@ struct AtlasModel {
   std::optional<AtlasErrors> errors = {};  // as measured on the extracted surface
   std::size_t input_numbers = 0;           // coordinates of the shape: 3 per vertex; 0: not known
   std::string unit, method;                // may be empty
+  // Of a reconstruction: how its surface is made of the caps, which the file then holds to the bit.
+  // None: holes are closed, and parts below 1/100 of the largest one's area are dropped.
+  std::optional<SurfaceRules> rules = {};
 };
 
 // How large a model is: coefficients that are not zero, and the numbers of the caps' frames.
@@ -97,15 +101,18 @@ struct AtlasSynthesisOptions {
   // The caps have no higher degrees, and are fitted to the model's own surface with those they
   // have.
   std::optional<int> degree = {};
-  // Fewer triangles for the same surface. A level, of a degree below the highest, whose step and
-  // `simplify` are not given, is simplified to a tenth of the error that its degree makes.
+  // Fewer triangles for the same surface; none: as the model's rules say. A level, of a degree
+  // below the highest, whose step and `simplify` are not given, is simplified to a tenth of the
+  // error that its degree makes.
   std::optional<SimplifyOptions> simplify = {};
   std::size_t max_memory = std::size_t{8} << 30;  // bytes: refused if more is foreseen
 };
-// The surface of a model, from it alone: closed, oriented outwards, with normals nx, ny, nz. Throws
-// InvalidInput for a step so large that no surface is left, OutOfMemory for one too small, and
-// Unsupported for a degree so low that caps stand beside each other as plates, with the least that
-// will do.
+// The surface of a model, from it alone: closed, oriented outwards, with normals nx, ny, nz. Of a
+// reconstruction it is the surface that reconstruct() made, to the bit where `step` and `degree`
+// are not given: open where that is open, and simplified as that is, unless `simplify` is given.
+// Throws InvalidInput for a step so large that no surface is left, OutOfMemory for one too small,
+// and Unsupported for a degree so low that caps stand beside each other as plates, with the least
+// that will do.
 Mesh synthesize(const AtlasModel& model, const AtlasSynthesisOptions& options = {},
                 const Context& context = {});
 

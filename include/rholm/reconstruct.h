@@ -7,20 +7,14 @@
 #include <vector>
 
 #include "rholm/atlas.h"
+#include "rholm/compress.h"
 #include "rholm/context.h"
 #include "rholm/mesh.h"
 #include "rholm/points.h"
 #include "rholm/simplify.h"
+#include "rholm/surface_rules.h"
 
 namespace rholm {
-
-// What becomes of places without points.
-enum class HolePolicy {
-  kFill,  // they are closed smoothly
-  kKeep   // they are cut open
-};
-const char* to_string(HolePolicy policy);               // "fill", "keep"
-HolePolicy parse_hole_policy(const std::string& name);  // throws InvalidInput
 
 // What is wanted of the surface; by default the data decide.
 struct ReconstructOptions {
@@ -137,7 +131,9 @@ inline constexpr double kMostArea = 1.6;
 // A surface, its caps, and how they were found.
 struct Reconstruction {
   Mesh mesh;  // closed and oriented outwards (open with HolePolicy::kKeep), with normals nx, ny, nz
-  Atlas atlas;               // that the mesh was extracted from
+  // The caps that the mesh was extracted from. synthesize() makes the same mesh of it, without the
+  // attributes of the points (SurfaceRules::left_out).
+  AtlasModel model;
   ReconstructReport report;  // what happened on the way
 };
 

@@ -45,6 +45,7 @@
 #include "rholm/smooth.h"
 #include "rholm/star.h"
 #include "rholm/studio.h"
+#include "rholm/surface_rules.h"
 #include "rholm/synthesize.h"
 #include "rholm/topology.h"
 #include "rholm/transfer.h"

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._arrays import FloatArray, IndexArray, float_rows, plain_array
-from ._core import AtlasErrors, AtlasModel, AtlasSize, Cap, CompressReport
+from ._core import AtlasErrors, AtlasModel, AtlasSize, Cap, CompressReport, SurfaceRules
 from ._errors import InvalidInputError
 from ._run import Progress, caller, named
 from ._shapes import Mesh, MeshLike, PointCloud, as_mesh, as_shape, finite_points, name_of
@@ -95,6 +95,11 @@ class Atlas:
         """How it was made; empty if not known."""
         return self._core.method
 
+    @property
+    def rules(self) -> SurfaceRules | None:
+        """How `reconstruct` made the surface, and what of it the atlas does not hold; None for others."""
+        return self._core.rules
+
     def cap(self, i: int) -> Cap:
         """One of the caps: its sphere, support and degree.
 
@@ -152,6 +157,9 @@ class Atlas:
     ) -> Mesh:
         """The surface: closed, oriented outwards, with normals.
 
+        Of a reconstruction it is the mesh of `reconstruct`, to the bit at its own step: open where
+        that is, and as simplified.
+
         Parameters
         ----------
         step : float
@@ -160,7 +168,8 @@ class Atlas:
             Caps have no higher degrees.
         simplify : "auto", int or dict, optional
             Fewer triangles for the same surface: to 1/50 of a step, to so many triangles, or
-            options of `rholm.simplify`.
+            options of `rholm.simplify`. By default as a reconstruction was simplified;
+            ``{"share": 1}`` leaves all of its triangles.
         max_memory : int
             Bytes: refused if more is foreseen.
         threads, progress

@@ -2023,6 +2023,48 @@ def n_coefficients(arg0: str, arg1: int, /) -> int: ...
 
 def evaluate_cap(arg0: Atlas, arg1: int, arg2: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], /) -> tuple: ...
 
+class SurfaceRules:
+    """
+    How `reconstruct` made the surface of its caps; an atlas with them makes the same again.
+    """
+
+    def __getstate__(self) -> tuple: ...
+
+    def __setstate__(self, arg: object, /) -> None: ...
+
+    def __repr__(self) -> str: ...
+
+    def __eq__(self, arg: object, /) -> bool: ...
+
+    def __hash__(self) -> int: ...
+
+    def to_dict(self) -> dict:
+        """All fields by name; records within it are dicts, too."""
+
+    @property
+    def holes(self) -> str:
+        """'fill': places without points are closed; 'keep': cut open."""
+
+    @property
+    def min_component(self) -> float:
+        """Parts with less than this share of the largest one's area are dropped."""
+
+    @property
+    def simplified(self) -> bool:
+        """Whether the surface has fewer triangles than its grid gave."""
+
+    @property
+    def bricks(self) -> bool:
+        """
+        Whether it was made in bricks: `Atlas.mesh` has another order of vertices and faces, and what closes holes may differ by some steps of the grid.
+        """
+
+    @property
+    def left_out(self) -> list[str]:
+        """
+        Attributes of the surface from the points, which the atlas does not hold.
+        """
+
 class AtlasErrors:
     """What a model is measured by, in the shape's unit."""
 
@@ -2102,8 +2144,6 @@ class AtlasSize:
 class AtlasModel:
     """An atlas and what its file says of it."""
 
-    def __init__(self, arg0: Atlas, arg1: float, arg2: str, /) -> None: ...
-
     def __getstate__(self) -> tuple: ...
 
     def __setstate__(self, arg: object, /) -> None: ...
@@ -2128,6 +2168,9 @@ class AtlasModel:
 
     @property
     def method(self) -> str: ...
+
+    @property
+    def rules(self) -> SurfaceRules | None: ...
 
     def with_unit(self, arg: str, /) -> AtlasModel: ...
 

@@ -25,7 +25,7 @@ class Reconstruction(NamedTuple):
     mesh: Mesh
     """Closed and oriented outwards (open with holes="keep"), with normals and the points' attributes."""
     atlas: Atlas
-    """The caps that the mesh was extracted from."""
+    """The caps; ``atlas.mesh()`` is the same mesh again, without the points' attributes."""
     report: _core.ReconstructReport
     """What was found in the points, and what became of them."""
 
@@ -170,9 +170,9 @@ def reconstruct(
         max_memory=max_memory,
     )
     with caller(threads, progress) as how:
-        mesh, atlas, report = _core.reconstruct(cloud._core, dropped, options, how)
+        mesh, model, report = _core.reconstruct(cloud._core, dropped, options, how)
     _warn_of_normals(report)
-    return Reconstruction(Mesh._of(mesh), Atlas._of(_core.AtlasModel(atlas, report.step, "")), report)
+    return Reconstruction(Mesh._of(mesh), Atlas._of(model), report)
 
 
 def reconstruct_bricks(

@@ -8,6 +8,8 @@
 #include <nanobind/stl/vector.h>
 
 #include <array>
+#include <cstdint>
+#include <cstring>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -199,7 +201,104 @@ void bind_caps(nb::module_& m) {
   });
 }
 
+template <class T>
+nb::bytes bytes_of(const std::vector<T>& values) {
+  return nb::bytes(values.data(), values.size() * sizeof(T));
+}
+template <class T>
+std::vector<T> values_of_bytes(nb::handle state) {
+  const auto bytes = nb::cast<nb::bytes>(state);
+  std::vector<T> values(bytes.size() / sizeof(T));
+  std::memcpy(values.data(), bytes.c_str(), values.size() * sizeof(T));
+  return values;
+}
+
+nb::tuple state_of_rules(const SurfaceRules& rules) {
+  nb::object simplify = nb::none(), seen = nb::none();
+  if (rules.simplify) {
+    const SimplifyOptions& s = *rules.simplify;
+    simplify = nb::make_tuple(s.triangles, s.share, s.max_error);
+  }
+  if (rules.seen) {
+    const SeenCubes& s = *rules.seen;
+    seen = nb::make_tuple(s.origin.x, s.origin.y, s.origin.z, s.edge, s.size[0], s.size[1],
+                          s.size[2], bytes_of(s.bits));
+  }
+  return nb::make_tuple(to_string(rules.holes), rules.min_component, simplify,
+                        bytes_of(rules.spacing_places), bytes_of(rules.spacings), seen,
+                        rules.bricks, rules.left_out);
+}
+
+SurfaceRules rules_of_state(const nb::object& state) {
+  const auto parts = nb::cast<nb::tuple>(state);
+  SurfaceRules rules;
+  rules.holes = parse_hole_policy(nb::cast<std::string>(parts[0]));
+  rules.min_component = nb::cast<double>(parts[1]);
+  if (!parts[2].is_none()) {
+    const auto s = nb::cast<nb::tuple>(parts[2]);
+    rules.simplify = SimplifyOptions{nb::cast<std::size_t>(s[0]), nb::cast<double>(s[1]),
+                                     nb::cast<double>(s[2])};
+  }
+  rules.spacing_places = values_of_bytes<Vec3>(parts[3]);
+  rules.spacings = values_of_bytes<double>(parts[4]);
+  if (!parts[5].is_none()) {
+    const auto s = nb::cast<nb::tuple>(parts[5]);
+    const auto size = [&](std::size_t k) { return nb::cast<std::size_t>(s[4 + k]); };
+    rules.seen = SeenCubes{{nb::cast<double>(s[0]), nb::cast<double>(s[1]), nb::cast<double>(s[2])},
+                           nb::cast<double>(s[3]),
+                           {size(0), size(1), size(2)},
+                           values_of_bytes<std::uint8_t>(s[7])};
+    if (8 * rules.seen->bits.size() < size(0) * size(1) * size(2)) {
+      throw Error(ErrorCode::kInvalidInput, "the pickled seen space has too few cubes");
+    }
+  }
+  if (rules.spacings.size() != rules.spacing_places.size()) {
+    throw Error(ErrorCode::kInvalidInput, "pickled spacings have no places");
+  }
+  rules.bricks = nb::cast<bool>(parts[6]);
+  rules.left_out = nb::cast<std::vector<std::string>>(parts[7]);
+  return rules;
+}
+
+void bind_rules(nb::module_& m) {
+  nb::class_<SurfaceRules> rules(
+      m, "SurfaceRules",
+      "How `reconstruct` made the surface of its caps; an atlas with them makes the same again.");
+  bind_state(rules, &state_of_rules, &rules_of_state);
+  rules.def("__repr__", [](nb::handle self) { return record_text(self); })
+      .def(
+          "__eq__",
+          [](const SurfaceRules& self, nb::handle other) -> nb::object {
+            SurfaceRules* same = nullptr;
+            if (other.is_none() || !nb::try_cast(other, same)) {
+              return nb::borrow(Py_NotImplemented);
+            }
+            return nb::bool_(state_of_rules(self).equal(state_of_rules(*same)));
+          },
+          nb::arg().none(), nb::sig("def __eq__(self, arg: object, /) -> bool"))
+      .def("__hash__",
+           [](const SurfaceRules&) -> std::size_t { throw nb::type_error("a record has no hash"); })
+      .def(
+          "to_dict", [](nb::handle self) { return record_dict(self); },
+          "All fields by name; records within it are dicts, too.")
+      .def_prop_ro(
+          "holes", [](const SurfaceRules& r) { return to_string(r.holes); },
+          "'fill': places without points are closed; 'keep': cut open.")
+      .def_ro("min_component", &SurfaceRules::min_component,
+              "Parts with less than this share of the largest one's area are dropped.")
+      .def_prop_ro(
+          "simplified", [](const SurfaceRules& r) { return r.simplify.has_value(); },
+          "Whether the surface has fewer triangles than its grid gave.")
+      .def_ro(
+          "bricks", &SurfaceRules::bricks,
+          "Whether it was made in bricks: `Atlas.mesh` has another order of vertices and faces, "
+          "and what closes holes may differ by some steps of the grid.")
+      .def_ro("left_out", &SurfaceRules::left_out,
+              "Attributes of the surface from the points, which the atlas does not hold.");
+}
+
 void bind_models(nb::module_& m) {
+  bind_rules(m);
   Record<AtlasErrors>(m, "AtlasErrors", "What a model is measured by, in the shape's unit.")
       .field("rms_from", &AtlasErrors::rms_from, "From the shape to the model's surface.")
       .field("max_from", &AtlasErrors::max_from, "The largest of these distances.")
@@ -223,7 +322,7 @@ void bind_models(nb::module_& m) {
       model_type,
       [](const AtlasModel& self) {
         return nb::make_tuple(self.atlas, self.step, self.tolerance, self.errors,
-                              self.input_numbers, self.unit, self.method);
+                              self.input_numbers, self.unit, self.method, self.rules);
       },
       [](const nb::object& state) {
         const auto parts = nb::cast<nb::tuple>(state);
@@ -235,24 +334,17 @@ void bind_models(nb::module_& m) {
         made.input_numbers = nb::cast<std::size_t>(parts[4]);
         made.unit = nb::cast<std::string>(parts[5]);
         made.method = nb::cast<std::string>(parts[6]);
+        made.rules = nb::cast<std::optional<SurfaceRules>>(parts[7]);
         return made;
       });
-  model_type
-      .def("__init__",
-           [](AtlasModel* self, const Atlas& atlas, double step, const std::string& unit) {
-             AtlasModel made;
-             made.atlas = atlas;
-             made.step = step;
-             made.unit = unit;
-             new (self) AtlasModel(std::move(made));
-           })
-      .def_prop_ro("atlas", [](const AtlasModel& self) { return self.atlas; })
+  model_type.def_prop_ro("atlas", [](const AtlasModel& self) { return self.atlas; })
       .def_ro("step", &AtlasModel::step)
       .def_ro("tolerance", &AtlasModel::tolerance)
       .def_ro("errors", &AtlasModel::errors)
       .def_ro("input_numbers", &AtlasModel::input_numbers)
       .def_ro("unit", &AtlasModel::unit)
       .def_ro("method", &AtlasModel::method)
+      .def_ro("rules", &AtlasModel::rules)
       .def("with_unit", [](AtlasModel named, const std::string& unit) {
         named.unit = unit;
         return named;

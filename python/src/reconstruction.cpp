@@ -193,7 +193,8 @@ void bind_reconstruction(nb::module_& m) {
     Reconstruction result = caller.run(
         [&](const Context& context) { return reconstruct(std::move(cloud), options, context); });
     add_dropped(dropped, result.report);
-    return nb::make_tuple(std::move(result.mesh), std::move(result.atlas),
+    result.model.input_numbers = 3 * result.report.points;  // with those that the reader dropped
+    return nb::make_tuple(std::move(result.mesh), std::move(result.model),
                           std::move(result.report));
   });
   bind_bricks(m);

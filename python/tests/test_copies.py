@@ -40,7 +40,7 @@ def all_of(bumpy, ring):
         rholm.from_array(np.zeros((2, 3, 3)), function="other").with_gravity(1, 1).gravity,
         rholm.analyze_patch(bumpy, "ball:0,0,1,0.9", 1.0),
         texture.onto(bumpy, "ball:0,0,-1,0.9").report, rholm.render(bumpy, (16, 16)),
-        rholm.read_shape, rholm.expand,
+        rholm.read_shape, rholm.expand, made.atlas.rules,
     ]  # fmt: skip
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pickle
+
 import numpy as np
 import pytest
 import rholm
@@ -186,7 +188,8 @@ def test_surfaces_from_points_carry_attributes(ring):
     assert np.abs(r.mesh.attributes["height"] - r.mesh.vertices[:, 2]).max() < 2 * r.report.spacing
     assert r.mesh.colors.shape == (len(r.mesh.vertices), 3)
     assert len(r.atlas) == r.report.caps
-    assert rholm.compare(r.atlas.mesh(), r.mesh).a_to_b.rms < 1e-2
+    assert r.atlas.rules.left_out == ["red", "green", "blue", "height"]
+    assert r.atlas.rules.holes == "fill"
     assert len(rholm.reconstruct(cloud, simplify="auto").mesh.triangles) < len(r.mesh.triangles)
     with pytest.raises(rholm.InvalidInputError, match="16"):
         rholm.reconstruct(cloud.points[:5])
@@ -195,6 +198,26 @@ def test_surfaces_from_points_carry_attributes(ring):
     assert isinstance(refusal.value, MemoryError)
     with pytest.raises(rholm.InvalidInputError):
         rholm.reconstruct(cloud, holes="dig")
+
+
+@pytest.mark.parametrize("holes", ["fill", "keep"])
+@pytest.mark.parametrize("simplify", [None, 500])
+def test_the_atlas_of_open_points_gives_their_surface_again(tmp_path, holes, simplify):
+    i = np.arange(3000) + 0.5
+    z, phi = 1 - 2 * i / 3000, i * np.pi * (3 - np.sqrt(5))
+    ball = np.stack([np.sqrt(1 - z * z) * np.cos(phi), np.sqrt(1 - z * z) * np.sin(phi), z], 1)
+    half = ball[z < 0.2]
+    for normals in (half, None):
+        r = rholm.reconstruct(half, normals, holes=holes, simplify=simplify)
+        r.atlas.save(tmp_path / "half.h5")
+        for atlas in (r.atlas, rholm.load(tmp_path / "half.h5"), pickle.loads(pickle.dumps(r.atlas))):
+            again = atlas.mesh()
+            assert np.array_equal(again.vertices, r.mesh.vertices)
+            assert np.array_equal(again.triangles, r.mesh.triangles)
+            assert atlas.rules == r.atlas.rules
+        assert len(r.atlas.mesh(simplify={"share": 1}).triangles) >= len(r.mesh.triangles)
+    rholm.reconstruct_bricks(half, tmp_path / "b.ply", model=tmp_path / "b.h5", points_per_brick=1000)
+    assert rholm.load(tmp_path / "b.h5").rules.bricks
 
 
 def test_compression_keeps_its_tolerance(ring, tmp_path):

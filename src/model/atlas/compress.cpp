@@ -18,6 +18,7 @@
 #include "model/atlas/atlas_fit.h"
 #include "model/atlas/atlas_level.h"
 #include "model/atlas/outer_samples.h"
+#include "model/points/known_spacings.h"
 #include "model/points/oriented_points.h"
 #include "rholm/compare.h"
 #include "rholm/error.h"
@@ -226,6 +227,40 @@ void check_oriented_alike(const Inspection& found) {
                           found.misoriented_edges));
 }
 
+// What is told to extract_atlas(), for a grid of this step.
+class RuledExtraction {
+ public:
+  RuledExtraction(const AtlasModel& model, double step, const Context& context) : step_(step) {
+    if (!model.rules) return;
+    const SurfaceRules& rules = *model.rules;
+    keep_holes_ = rules.holes == HolePolicy::kKeep;
+    min_component_ = rules.min_component;
+    spacings_.emplace(rules, model.atlas.spacing, context);
+    resolution_ = {.typical = std::max(model.atlas.spacing, step),
+                   .at = [this](const Vec3& x) { return std::max(spacings_->at(x), step_); }};
+    if (rules.seen) seen_.emplace(*rules.seen, context);
+  }
+  RuledExtraction(const RuledExtraction&) = delete;
+  RuledExtraction& operator=(const RuledExtraction&) = delete;
+
+  // Good as long as this is.
+  AtlasSurfaceOptions options(std::size_t max_memory) const {
+    AtlasSurfaceOptions options{.step = step_, .max_memory = max_memory};
+    options.keep_holes = keep_holes_, options.min_component = min_component_;
+    if (spacings_) options.resolution = &resolution_;
+    if (seen_) options.seen = &*seen_;
+    return options;
+  }
+
+ private:
+  double step_;
+  bool keep_holes_ = false;
+  double min_component_ = AtlasSurfaceOptions{}.min_component;
+  std::optional<KnownSpacings> spacings_;
+  Resolution resolution_;
+  std::optional<SeenSpace> seen_;
+};
+
 }  // namespace
 
 AtlasSize size_of(const Atlas& atlas) {
@@ -295,12 +330,14 @@ Mesh synthesize(const AtlasModel& model, const AtlasSynthesisOptions& options,
     throw Error(ErrorCode::kInvalidInput,
                 fmt::format("the step of the grid is {}: it must be positive", step));
   }
-  AtlasSurfaceOptions wanted{
-      .step = step, .simplify = options.simplify, .max_memory = options.max_memory};
+  const RuledExtraction rules(model, step, context);
+  const AtlasSurfaceOptions own = rules.options(options.max_memory);
+  AtlasSurfaceOptions wanted = own;
+  wanted.simplify = options.simplify;
+  if (!wanted.simplify && model.rules) wanted.simplify = model.rules->simplify;
   const Atlas& atlas = model.atlas;
   Mesh surface;
   if (options.degree && *options.degree < highest_degree(atlas)) {
-    const AtlasSurfaceOptions own{.step = step, .max_memory = options.max_memory};
     const Mesh whole = extract_atlas(atlas, own, context).mesh;
     if (!whole.triangles.empty()) {
       const AtlasLevel level =

@@ -24,6 +24,15 @@ constexpr std::uint32_t kNone = GatheredPart::kNone;
 
 std::string name_of(std::size_t brick) { return "tight/" + std::to_string(brick); }
 
+constexpr const char* kAll = "all";  // of the bricks
+std::string spacings_name(const std::string& of) { return "spacings/" + of; }
+
+void write_spacings(PieceStore& store, const std::string& of,
+                    const std::vector<PlaceAndSpacing>& spacings) {
+  const std::span<const std::byte> sections[] = {bytes_of(spacings)};
+  store.write(spacings_name(of), sections);
+}
+
 struct Place {
   std::uint32_t vertex = 0;
   Vec3 at;
@@ -46,11 +55,11 @@ struct PlaceHash {
 // The resolutions of bricks' points, where they were foreseen.
 class KnownResolutions {
  public:
-  KnownResolutions(const GridFrame& frame, double typical, const ResolutionsAt& of_brick)
+  KnownResolutions(const GridFrame& frame, double typical, const SpacingsAt& of_brick)
       : resolution_{.typical = typical,
                     .at =
-                        [this](const Vec3& p) {
-                          return known_.at({p.x, p.y, p.z});
+                        [this, &frame](const Vec3& p) {
+                          return std::max(known_.at({p.x, p.y, p.z}), frame.step);
                         },
                     .foresee = [this, &frame, &of_brick](
                                    const std::vector<Vec3>& p) { add(p, frame, of_brick); }} {}
@@ -58,9 +67,15 @@ class KnownResolutions {
   KnownResolutions& operator=(const KnownResolutions&) = delete;
 
   const Resolution& resolution() const { return resolution_; }
+  std::vector<PlaceAndSpacing> spacings() const {
+    std::vector<PlaceAndSpacing> all;
+    all.reserve(known_.size());
+    for (const auto& [p, spacing] : known_) all.push_back({{p[0], p[1], p[2]}, spacing});
+    return all;
+  }
 
  private:
-  void add(const std::vector<Vec3>& places, const GridFrame& frame, const ResolutionsAt& of_brick) {
+  void add(const std::vector<Vec3>& places, const GridFrame& frame, const SpacingsAt& of_brick) {
     std::map<std::size_t, std::vector<Vec3>> of_bricks;
     for (const Vec3& p : places) {
       if (!known_.contains({p.x, p.y, p.z})) of_bricks[frame.brick_of(p)].push_back(p);
@@ -263,11 +278,12 @@ void BrickHandles::find(std::size_t brick, BrickMesh part, const Context& contex
   for (const std::uint32_t i : turning_around(sharp, length)) {
     if (all[i] < part.n_own && is_within(inner, sharp[i].at)) places.push_back(all[i]);
   }
-  const KnownResolutions known(surface_.frame(), typical_, resolutions_);
+  const KnownResolutions known(surface_.frame(), typical_, spacings_);
   std::vector<Place> kept;
   for (const std::uint32_t v : places_to_cut(part.mesh, places, known.resolution(), context)) {
     kept.push_back({v, part.mesh.vertices[v]});
   }
+  write_spacings(store_, std::to_string(brick), known.spacings());
   // With what turning_around() looks at of places that are not decided.
   const Bounds unseen = grown(inner, -length);
   std::vector<SharpAt<std::uint32_t>> own;
@@ -347,15 +363,28 @@ std::size_t BrickHandles::cut(const Context& context) {
   CutHandles cut;
   if (!places.names.empty()) {
     TightPart part(surface_, n_bricks_, places, reach_of_cuts(typical_), context);
-    const KnownResolutions known(surface_.frame(), typical_, resolutions_);
+    const KnownResolutions known(surface_.frame(), typical_, spacings_);
     Mesh mesh = part.mesh();
     cut = cut_handles_at(
         mesh, part.vertices_of(places.names), known.resolution(), [&] { return part.outside(); },
         context);
     if (cut.handles > 0) part.replace(std::move(mesh), cut.copies);
+    write_spacings(store_, kAll, known.spacings());
   }
   surface_.end_round(cut.handles);
   return cut.handles;
+}
+
+std::vector<PlaceAndSpacing> BrickHandles::spacings() const {
+  std::vector<PlaceAndSpacing> all;
+  const auto append = [&](const std::string& of) {
+    if (!store_.has(spacings_name(of))) return;
+    const auto some = store_.open(spacings_name(of)).values<PlaceAndSpacing>(0);
+    all.insert(all.end(), some.begin(), some.end());
+  };
+  for (std::size_t brick = 0; brick < n_bricks_; ++brick) append(std::to_string(brick));
+  append(kAll);
+  return all;
 }
 
 }  // namespace rholm

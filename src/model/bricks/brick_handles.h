@@ -9,13 +9,14 @@
 
 #include "io/spill/piece_store.h"
 #include "model/bricks/brick_surface.h"
+#include "model/points/known_spacings.h"
 #include "rholm/context.h"
 #include "rholm/vec3.h"
 
 namespace rholm {
 
-// The resolution of a brick's points at each of some places near it.
-using ResolutionsAt =
+// The spacing of a brick's points at each of some places near it.
+using SpacingsAt =
     std::function<std::vector<double>(std::size_t brick, const std::vector<Vec3>& places)>;
 
 // See BrickSurface::begin_round().
@@ -24,12 +25,12 @@ inline constexpr const char* kCutRound = "cut";
 class BrickHandles {
  public:
   BrickHandles(PieceStore& store, BrickSurface& surface, std::size_t n_bricks, double typical,
-               ResolutionsAt resolutions)
+               SpacingsAt spacings)
       : store_(store),
         surface_(surface),
         n_bricks_(n_bricks),
         typical_(typical),
-        resolutions_(std::move(resolutions)) {}
+        spacings_(std::move(spacings)) {}
 
   // Where the surface turns around and something may be cut, of a brick's mesh as it was extracted:
   // "tight/BRICK". What is near its border is left for all together.
@@ -41,6 +42,9 @@ class BrickHandles {
   // many.
   std::size_t cut(const Context& context);
 
+  // The spacings that both have asked for: "spacings/BRICK", and "spacings/all" of cut().
+  std::vector<PlaceAndSpacing> spacings() const;
+
  private:
   Bounds decided(std::size_t brick) const;
 
@@ -48,7 +52,7 @@ class BrickHandles {
   BrickSurface& surface_;
   std::size_t n_bricks_;
   double typical_;
-  ResolutionsAt resolutions_;
+  SpacingsAt spacings_;
 };
 
 }  // namespace rholm

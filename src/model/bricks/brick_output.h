@@ -37,9 +37,9 @@ class BrickOutput {
   // In place, by all of the crew; one part after the other where the output is no regular file.
   void write(const BrickParts& parts, const BrickParts::Whole& whole,
              const std::filesystem::path& output) const;
+  std::vector<Attribute> attributes() const;  // names and types of those of the surface
 
  private:
-  std::vector<Attribute> attributes() const;  // names and types
   bool is_left_out(const std::string& attribute) const;
   void carry(std::size_t brick, Mesh& vertices) const;
 

@@ -27,6 +27,7 @@
 #include "model/bricks/brick_simplify.h"
 #include "model/bricks/brick_surface.h"
 #include "model/bricks/brick_winding.h"
+#include "model/points/known_spacings.h"
 #include "model/points/reconstruct_rules.h"
 #include "model/points/surface_confidence.h"
 #include "rholm/compress.h"
@@ -69,6 +70,8 @@ class BrickRun {
         n_(cloud_.n_bricks()) {
     if (options.foreseen) options.foreseen(cloud_.survey(), n_);
     model_ = options.model, open_blocks_ = options.open_blocks;
+    rules_ = kept_rules(options_);
+    rules_.bricks = true;
   }
 
   BrickReconstruction run(const std::filesystem::path& output) {
@@ -228,7 +231,7 @@ class BrickRun {
     stages_.each("grid", n_, [&](std::size_t brick) {
       if (!surface.has_values(brick)) surface.find_values(brick, context_);
     });
-    const std::optional<BrickSeen> sight = look();
+    std::optional<BrickSeen> sight = look();
     BrickHoles filled(store_, surface, winding, n_, open_blocks_);
     std::optional<SeenSpace> seen;
     do {
@@ -248,12 +251,10 @@ class BrickRun {
     const std::vector<std::uint64_t> holes = read_values<std::uint64_t>(store_, "holes");
     report_.holes = holes.at(0), report_.smooth_holes = holes.at(1);
     const double typical = std::max(cloud_.sample().median, report_.step);
-    BrickHandles handles(
-        store_, surface, n_, typical, [&](std::size_t brick, const std::vector<Vec3>& places) {
-          std::vector<double> found = spacings_at(cloud_.load(brick, kTried), places);
-          for (double& spacing : found) spacing = std::max(spacing, report_.step);
-          return found;
-        });
+    BrickHandles handles(store_, surface, n_, typical,
+                         [&](std::size_t brick, const std::vector<Vec3>& places) {
+                           return spacings_at(cloud_.load(brick, kTried), places);
+                         });
     stages_.each("surface", n_, [&](std::size_t brick) {
       if (handles.has(brick)) return;
       handles.find(brick, surface.extract(brick, is_open(), context_), context_);
@@ -261,6 +262,13 @@ class BrickRun {
     forget_caps(filled);
     stages_.once("handles", [&] { handles.cut(context_); });
     report_.cut_handles = surface.take_round(kCutRound);
+    if (!model_.empty()) {
+      stages_.all("handles", [&] {
+        keep_spacings(handles.spacings(), rules_);
+        const std::optional<SeenSpace> whole = sight ? sight->join(context_) : std::nullopt;
+        if (whole) rules_.seen = whole->kept();
+      });
+    }
     if (is_open()) cut_open(surface);
   }
 
@@ -358,6 +366,7 @@ class BrickRun {
     const BrickOutput out(store_, stages_, options_, cloud_.survey().layout, n_,
                           [&](std::size_t brick) { return cloud_.load(brick, kTried); });
     if (options_.confidence) put_areas(out.measure_confidence(parts), report_);
+    rules_.left_out = carried_names(out.attributes());
     out.write(parts, whole_, output);
   }
 
@@ -398,7 +407,8 @@ class BrickRun {
   }
 
   void write_model_of(const BrickCaps& caps) const {
-    const std::uint64_t bytes = 2 * (report_.caps * sizeof(Cap) + coefficients_ * sizeof(double));
+    // As an atlas, and twice as the file has them.
+    const std::uint64_t bytes = 3 * (report_.caps * sizeof(Cap) + coefficients_ * sizeof(double));
     if (bytes > options_.max_memory) {
       throw Error(ErrorCode::kOutOfMemory,
                   fmt::format("a model of {} caps needs {:.2g} GiB", report_.caps,
@@ -410,7 +420,8 @@ class BrickRun {
                  .errors = {},
                  .input_numbers = 3 * report_.points,
                  .unit = {},
-                 .method = "reconstruct"},
+                 .method = "reconstruct",
+                 .rules = rules_},
                 model_);
   }
 
@@ -424,6 +435,7 @@ class BrickRun {
   std::size_t n_ = 0;               // bricks
   double median_support_ = 0;       // of caps
   Vec3 origin_;                     // of the grid
+  SurfaceRules rules_;              // of the surface, for the model
   WallPatches patches_;             // of all bricks
   std::uint64_t coefficients_ = 0;  // of all caps
   BrickParts::Whole whole_;

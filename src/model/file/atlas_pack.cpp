@@ -220,7 +220,7 @@ PackedAtlas pack(const Atlas& atlas) {
   return packed;
 }
 
-Atlas unpack(const PackedAtlas& packed, const std::string& name) {
+Atlas unpack(const PackedAtlas& packed, const std::string& name, bool deviations) {
   check_sizes(packed, name);
   check_numbers(packed, name);
   Atlas atlas;
@@ -237,7 +237,7 @@ Atlas unpack(const PackedAtlas& packed, const std::string& name) {
       atlas.coefficients.push_back(
           kept ? double{packed.caps[kPackedCap * c + 9]} * packed.values[value++] : 0);
     }
-    cap.deviation = deviation_of(cap, atlas.coefficients_of(cap));
+    if (deviations) cap.deviation = deviation_of(cap, atlas.coefficients_of(cap));
     atlas.caps.push_back(cap);
   }
   set_weights(atlas.caps, packed.weight_power);

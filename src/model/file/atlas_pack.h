@@ -34,7 +34,8 @@ PackedAtlas pack(const Atlas& atlas);
 
 // Throws InvalidInput (`name` is the file) for what no atlas can be: sizes that disagree, numbers
 // that are not finite, degrees too high.
-Atlas unpack(const PackedAtlas& packed, const std::string& name);
+// Without `deviations` those of the caps are 0: they take most of the time.
+Atlas unpack(const PackedAtlas& packed, const std::string& name, bool deviations = true);
 
 // Least distance that holds a cap's surface within its support from the seed's tangent plane.
 double deviation_of(const Cap& cap, std::span<const double> coefficients);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -13,6 +14,7 @@
 #include "io/hdf5/hdf5_values.h"
 #include "model/file/atlas_crc32.h"
 #include "model/file/atlas_pack.h"
+#include "model/file/atlas_rules.h"
 #include "model/file/model_layout.h"
 #include "model/file/model_read.h"
 #include "rholm/error.h"
@@ -32,7 +34,8 @@ class AtlasReader {
     const hdf5::Object group = hdf5::open_member(file_, root, layout::kAtlas);
     const PackedAtlas packed = read_packed(group);
     AtlasModel model;
-    model.atlas = unpack(packed, file_.name);
+    const bool reconstructed = hdf5::has_member(file_, root, layout::kReconstruction);
+    model.atlas = unpack(packed, file_.name, !reconstructed);
     const std::vector<double> scales = numbers(group, layout::kScales, layout::kScaleNumbers);
     model.step = scales[3], model.tolerance = scales[4];
     model.unit = text(group, layout::kUnit);
@@ -43,7 +46,10 @@ class AtlasReader {
       const auto e = numbers(group, layout::kAtlasErrors, layout::kErrorNumbers);
       model.errors = AtlasErrors{e[0], e[1], e[2], e[3]};
     }
-    check_crc32(group, packed);
+    check_crc32(group, atlas_crc32(packed));
+    if (reconstructed) {
+      read_rules(hdf5::open_member(file_, root, layout::kReconstruction), model);
+    }
     return model;
   }
 
@@ -140,11 +146,72 @@ class AtlasReader {
     return p;
   }
 
+  template <class T>
+  std::vector<T> optional_table(const hdf5::Object& group, const char* name,
+                                std::size_t columns) const {
+    if (!hdf5::has_member(file_, group, name)) return {};
+    return table<T>(group, name, columns);
+  }
+
+  void read_rules(const hdf5::Object& group, AtlasModel& model) const {
+    PackedRules packed;
+    packed.caps = table<double>(group, layout::kCaps, kExactCap);
+    packed.coefficients = optional_table<double>(group, layout::kCoefficients, 1);
+    packed.spacings = optional_table<double>(group, layout::kSpacings, kSpacingNumbers);
+    packed.seen = optional_table<std::uint8_t>(group, layout::kSeen, 1);
+    SurfaceRules& rules = model.rules.emplace();
+    if (hdf5::has_member(file_, group, layout::kLeftOut)) {
+      rules.left_out = hdf5::to_texts(
+          file_, hdf5::read_dataset(file_, hdf5::open_member(file_, group, layout::kLeftOut)));
+    }
+    check_crc32(group, rules_crc32(packed, rules.left_out));
+    const std::string holes = text(group, layout::kHoles);
+    if (holes != to_string(HolePolicy::kFill) && holes != to_string(HolePolicy::kKeep)) {
+      refuse("its holes are '" + holes + "': fill or keep are known", ErrorCode::kUnsupported);
+    }
+    rules.holes = parse_hole_policy(holes);
+    rules.min_component = numbers(group, layout::kMinComponent, 1)[0];
+    if (rules.min_component > 1) {
+      refuse(fmt::format("its least component is {}: the file is damaged", rules.min_component));
+    }
+    rules.simplify = read_simplify(group);
+    const auto bricks = hdf5::find_attribute(file_, group, layout::kBricks);
+    rules.bricks = bricks && hdf5::to_integer(file_, *bricks) != 0;
+    if (hdf5::find_attribute(file_, group, layout::kSeenFrame)) rules.seen = read_seen(group);
+    unpack_caps(packed, file_.name, model.atlas);
+    unpack_rules(std::move(packed), file_.name, rules);
+  }
+
+  std::optional<SimplifyOptions> read_simplify(const hdf5::Object& group) const {
+    if (!hdf5::find_attribute(file_, group, layout::kSimplify)) return std::nullopt;
+    const auto stops = numbers(group, layout::kSimplify, layout::kSimplifyNumbers, -1);
+    if (stops[0] < 0 || stops[1] < 0 || stops[1] > 1) {
+      refuse(fmt::format("it is simplified to {} triangles and a share of {}: the file is damaged",
+                         stops[0], stops[1]));
+    }
+    SimplifyOptions simplify{.triangles = static_cast<std::size_t>(std::min(stops[0], 1e18)),
+                             .share = stops[1]};
+    if (stops[2] >= 0) simplify.max_error = stops[2];
+    return simplify;
+  }
+
+  // Its frame: unpack_rules() has the bits.
+  SeenCubes read_seen(const hdf5::Object& group) const {
+    const auto frame = numbers(group, layout::kSeenFrame, layout::kSeenNumbers,
+                               -std::numeric_limits<double>::max());
+    SeenCubes seen{
+        .origin = {frame[0], frame[1], frame[2]}, .edge = frame[3], .size = {}, .bits = {}};
+    for (std::size_t k = 0; k < 3; ++k) {
+      seen.size[k] = static_cast<std::size_t>(std::clamp(frame[4 + k], 0.0, 1e6));
+    }
+    return seen;
+  }
+
   // Files of other programs need not have it.
-  void check_crc32(const hdf5::Object& group, const PackedAtlas& packed) const {
+  void check_crc32(const hdf5::Object& group, std::uint32_t found) const {
     const auto stored = hdf5::find_attribute(file_, group, layout::kCrc32);
     if (!stored || kAnyChecksum) return;
-    if (hdf5::to_integer(file_, *stored) == atlas_crc32(packed)) return;
+    if (hdf5::to_integer(file_, *stored) == found) return;
     refuse("its checksum is wrong: the file is damaged, or edited (then delete the attribute " +
            group.path + "@" + layout::kCrc32 + ")");
   }

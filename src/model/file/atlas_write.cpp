@@ -1,6 +1,7 @@
 // The model file of an atlas, written. Layout: docs/model-file.md.
 #include <array>
 #include <bit>
+#include <cmath>
 #include <string>
 #include <string_view>
 
@@ -8,6 +9,7 @@
 #include "io/hdf5/hdf5_writer.h"
 #include "model/file/atlas_crc32.h"
 #include "model/file/atlas_pack.h"
+#include "model/file/atlas_rules.h"
 #include "model/file/model_layout.h"
 #include "rholm/compress.h"
 #include "rholm/version.h"
@@ -64,6 +66,41 @@ void write_group(const Writer& writer, hid_t group, const AtlasModel& model) {
   writer.write_attribute(group, layout::kCrc32, atlas_crc32(packed));
 }
 
+void write_rules(const Writer& writer, hid_t group, const Atlas& atlas, const SurfaceRules& rules) {
+  const PackedRules packed = pack_rules(atlas, rules);
+  const auto doubles = [&](const char* name, const std::vector<double>& values,
+                           std::size_t columns) {
+    if (values.empty()) return;
+    write_table(writer, group, name, values, columns, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE);
+  };
+  doubles(layout::kCaps, packed.caps, kExactCap);
+  doubles(layout::kCoefficients, packed.coefficients, 1);
+  doubles(layout::kSpacings, packed.spacings, kSpacingNumbers);
+  if (rules.seen) {
+    const SeenCubes& s = *rules.seen;
+    write_table(writer, group, layout::kSeen, packed.seen, 1, H5T_STD_U8LE, H5T_NATIVE_UINT8);
+    const std::array<double, layout::kSeenNumbers> frame = {s.origin.x,
+                                                            s.origin.y,
+                                                            s.origin.z,
+                                                            s.edge,
+                                                            static_cast<double>(s.size[0]),
+                                                            static_cast<double>(s.size[1]),
+                                                            static_cast<double>(s.size[2])};
+    writer.write_attribute(group, layout::kSeenFrame, frame);
+  }
+  if (!rules.left_out.empty()) writer.write_texts(group, layout::kLeftOut, rules.left_out);
+  writer.write_fixed_text(group, layout::kHoles, to_string(rules.holes));
+  writer.write_attribute(group, layout::kMinComponent, rules.min_component);
+  if (rules.simplify) {
+    const SimplifyOptions& s = *rules.simplify;
+    const std::array<double, layout::kSimplifyNumbers> stops = {
+        static_cast<double>(s.triangles), s.share, std::isinf(s.max_error) ? -1 : s.max_error};
+    writer.write_attribute(group, layout::kSimplify, stops);
+  }
+  writer.write_attribute(group, layout::kBricks, rules.bricks ? 1 : 0);
+  writer.write_attribute(group, layout::kCrc32, rules_crc32(packed, rules.left_out));
+}
+
 }  // namespace
 
 void write_atlas(const AtlasModel& model, const std::filesystem::path& path) {
@@ -86,6 +123,10 @@ void write_atlas(const AtlasModel& model, const std::filesystem::path& path) {
     writer.write_attribute(root, layout::kVersionMinor, layout::kMinor);
     writer.write_fixed_text(root, layout::kProgram, std::string("rholm ") + kVersion);
     write_group(writer, writer.create_group(file, layout::kAtlas), model);
+    if (model.rules) {
+      write_rules(writer, writer.create_group(file, layout::kReconstruction), model.atlas,
+                  *model.rules);
+    }
   }
   if (!file.close()) writer.checked(-1, "close the file");
   output.commit();

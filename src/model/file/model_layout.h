@@ -7,7 +7,7 @@ namespace rholm::layout {
 
 inline constexpr const char* kFormatName = "rholm-model";
 inline constexpr int kMajor = 1;
-inline constexpr int kMinor = 4;
+inline constexpr int kMinor = 5;
 
 // Root attributes
 inline constexpr const char* kFormat = "format";
@@ -56,5 +56,18 @@ inline constexpr const char* kWeightPower = "weight_power";
 inline constexpr const char* kAtlasErrors = "errors";  // rms and max from the shape, to the shape
 inline constexpr std::size_t kErrorNumbers = 4;
 inline constexpr const char* kInputNumbers = "input_numbers";
+
+// The group of a reconstruction, its datasets and attributes; caps, coefficients and crc32 as above
+inline constexpr const char* kReconstruction = "reconstruction";
+inline constexpr const char* kSpacings = "spacings";
+inline constexpr const char* kSeen = "seen";
+inline constexpr const char* kLeftOut = "left_out";
+inline constexpr const char* kHoles = "holes";
+inline constexpr const char* kMinComponent = "min_component";
+inline constexpr const char* kSimplify = "simplify";  // triangles, share, largest error; -1: any
+inline constexpr std::size_t kSimplifyNumbers = 3;
+inline constexpr const char* kBricks = "bricks";
+inline constexpr const char* kSeenFrame = "seen_frame";  // origin, edge, cubes along each axis
+inline constexpr std::size_t kSeenNumbers = 7;
 
 }  // namespace rholm::layout

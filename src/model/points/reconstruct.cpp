@@ -10,6 +10,7 @@
 #include "atlas/cover/cap_cover.h"
 #include "atlas/cover/cap_size.h"
 #include "base/stopwatch.h"
+#include "model/points/known_spacings.h"
 #include "model/points/reconstruct_points.h"
 #include "model/points/reconstruct_rules.h"
 #include "model/points/surface_confidence.h"
@@ -92,15 +93,6 @@ void add_dropped(std::size_t n, ReconstructReport& report) {
   report.dropped_points += n;
 }
 
-const char* to_string(HolePolicy policy) { return policy == HolePolicy::kFill ? "fill" : "keep"; }
-
-HolePolicy parse_hole_policy(const std::string& name) {
-  for (const HolePolicy policy : {HolePolicy::kFill, HolePolicy::kKeep}) {
-    if (name == to_string(policy)) return policy;
-  }
-  throw Error(ErrorCode::kInvalidInput, "unknown way with holes '" + name + "': fill or keep");
-}
-
 Reconstruction reconstruct(PointCloud cloud, const ReconstructOptions& options,
                            const Context& context) {
   check(options);
@@ -120,7 +112,7 @@ Reconstruction reconstruct(PointCloud cloud, const ReconstructOptions& options,
   }
   timed(times, "caps",
         [&] { note_crossings(points.crossings(size.noise, context), points.diagonal(), report); });
-  Atlas& atlas = result.atlas;
+  Atlas& atlas = result.model.atlas;
   atlas.caps = std::move(caps.caps);
   atlas.coefficients = std::move(caps.coefficients);
   const Spacing spacing = points.spacing(context);
@@ -144,9 +136,13 @@ Reconstruction reconstruct(PointCloud cloud, const ReconstructOptions& options,
   }
   const WallPatches patches = points.patches(context);
   if (!options.confidence) points.keep_tree();
-  const Resolution resolution{
-      .typical = std::max(spacing.median, report.step),
-      .at = [&](const Vec3& place) { return std::max(points.spacing_at(place), report.step); }};
+  NotedSpacings noted;
+  const Resolution resolution{.typical = std::max(spacing.median, report.step),
+                              .at = [&](const Vec3& place) {
+                                const double found = points.spacing_at(place);
+                                noted.note(place, found);
+                                return std::max(found, report.step);
+                              }};
   const auto judge = [&](Mesh& mesh) {
     note_walls(check_walls(patches, mesh, report.step, context), report);
   };
@@ -177,12 +173,20 @@ Reconstruction reconstruct(PointCloud cloud, const ReconstructOptions& options,
       measure_sizes(view_of(result.mesh), unit_frame(bounds(result.mesh.vertices)), context);
   report.volume = sums.volume, report.area = sums.area, report.points_area = spacing.area;
   if (options.holes == HolePolicy::kFill) report.closed_area = surface.guessed * report.area;
+  SurfaceRules rules = kept_rules(options);
+  keep_spacings(noted.take(), rules);
+  if (seen) rules.seen = seen->kept();
   timed(times, "attributes", [&] {
     points.carry_attributes(result.mesh, context);
     if (options.confidence) {
       put_areas(add_confidence(points.ordered(), result.mesh, context), report);
     }
   });
+  rules.left_out = carried_names(result.mesh.attributes);
+  result.model.rules = std::move(rules);
+  result.model.step = report.step, result.model.tolerance = options.tolerance;
+  result.model.input_numbers = 3 * report.points;
+  result.model.method = "reconstruct";
   return result;
 }
 

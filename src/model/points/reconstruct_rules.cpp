@@ -122,6 +122,24 @@ void note_walls(const WallCheck& walls, ReconstructReport& report) {
 
 std::size_t area_neighbors(std::size_t flat) { return flat > 2 * kCircle ? flat : kCircle; }
 
+SurfaceRules kept_rules(const ReconstructOptions& options) {
+  SurfaceRules rules;
+  rules.holes = options.holes;
+  rules.min_component = options.min_component;
+  rules.simplify = options.simplify;
+  return rules;
+}
+
+std::vector<std::string> carried_names(const std::vector<Attribute>& attributes) {
+  std::vector<std::string> names;
+  names.reserve(attributes.size());
+  for (const Attribute& attribute : attributes) {
+    const std::string& name = attribute.name;
+    if (name != "nx" && name != "ny" && name != "nz") names.push_back(name);
+  }
+  return names;
+}
+
 CoverOptions cover_options(const ReconstructOptions& options, const CapSize& size) {
   return {.neighbours = size.neighbours,
           .degree = kDegree,

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
+#include <vector>
 
 #include "atlas/cover/cap_cover.h"
 #include "atlas/cover/cap_size.h"
@@ -67,6 +69,11 @@ void note_walls(const WallCheck& walls, ReconstructReport& report);
 // Neighbours that tell the area of a point, where so many lie in a flat neighbourhood: the nearest
 // ones of noisy points fill a volume.
 std::size_t area_neighbors(std::size_t flat);
+
+// What the options say of the surface, for its model.
+SurfaceRules kept_rules(const ReconstructOptions& options);
+// The attributes that are no normals.
+std::vector<std::string> carried_names(const std::vector<Attribute>& attributes);
 
 CoverOptions cover_options(const ReconstructOptions& options, const CapSize& size);
 

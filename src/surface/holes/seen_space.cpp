@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/parallel.h"
+#include "rholm/error.h"
 
 namespace rholm {
 namespace {
@@ -41,6 +42,19 @@ SeenSpace::SeenSpace(std::span<const Vec3> points, std::span<const Vec3> sensors
                      double margin, const Context& context)
     : SeenSpace(bounds({points.begin(), points.end()}), edge) {
   add_lines(points, sensors, margin, context);
+  smooth(context);
+}
+
+SeenSpace::SeenSpace(const SeenCubes& kept, const Context& context)
+    : origin_(kept.origin), edge_(kept.edge), size_(kept.size) {
+  const bool fits = std::all_of(size_.begin(), size_.end(), [](std::size_t n) {
+    return n >= 3 && n <= static_cast<std::size_t>(kMostCubes);
+  });
+  if (!fits || !(edge_ > 0) || 8 * kept.bits.size() < size_[0] * size_[1] * size_[2]) {
+    throw Error(ErrorCode::kInvalidInput, "the seen space of a surface's rules has too few cubes");
+  }
+  seen_.assign(size_[0] * size_[1] * size_[2], 0);
+  for (std::size_t c = 0; c < seen_.size(); ++c) seen_[c] = (kept.bits[c / 8] >> c % 8) & 1;
   smooth(context);
 }
 
@@ -109,6 +123,10 @@ void SeenSpace::go_through(Vec3 from, Vec3 to) {
 }
 
 void SeenSpace::smooth(const Context& context) {
+  bits_.assign((seen_.size() + 7) / 8, 0);
+  for (std::size_t c = 0; c < seen_.size(); ++c) {
+    if (seen_[c] != 0) bits_[c / 8] |= static_cast<std::uint8_t>(1U << c % 8);
+  }
   const std::size_t strides[3] = {1, size_[0], size_[0] * size_[1]};
   std::vector<std::uint8_t> before;
   for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -60,7 +60,7 @@ TEST(Reconstruct, a_sphere_is_exact_to_the_terms_that_caps_leave_out) {
   EXPECT_FALSE(found.inside_out);
   // Over a cap of radius R the sphere is d^2/2 + d^4/8 + ... high; degree 3 has all but the second
   // term. Its slope is d^3/2.
-  const double support = largest_support(made.atlas), r4 = std::pow(support, 4) / 8;
+  const double support = largest_support(made.model.atlas), r4 = std::pow(support, 4) / 8;
   for (std::size_t i = 0; i < made.mesh.vertices.size(); ++i) {
     const Vec3& v = made.mesh.vertices[i];
     EXPECT_NEAR(norm(v), 1, r4);
@@ -69,7 +69,7 @@ TEST(Reconstruct, a_sphere_is_exact_to_the_terms_that_caps_leave_out) {
   EXPECT_EQ(made.report.points, 10000U);
   EXPECT_EQ(made.report.outliers + made.report.dropped_points + made.report.holes, 0U);
   EXPECT_EQ(made.report.noise, 0);
-  EXPECT_EQ(made.report.caps, made.atlas.caps.size());
+  EXPECT_EQ(made.report.caps, made.model.atlas.caps.size());
   EXPECT_FALSE(made.report.computed_normals);
   // 10000 points of 4 pi.
   EXPECT_NEAR(made.report.spacing, std::sqrt(4 * std::numbers::pi / 1e4),
@@ -116,7 +116,7 @@ TEST(Reconstruct, a_torus_has_a_hole_through_it) {
   EXPECT_EQ(found.genus, 1U);
   // Vertices of facets are dents of 1 - cos(pi / 80) of the tube in the mesh that was sampled.
   const double dent =
-      0.3 * (1 - std::cos(std::numbers::pi / 80)) + std::pow(largest_support(made.atlas), 4);
+      0.3 * (1 - std::cos(std::numbers::pi / 80)) + std::pow(largest_support(made.model.atlas), 4);
   EXPECT_LT(rms(distances_to_surface(made.mesh.vertices, truth)), dent);
 }
 
@@ -147,12 +147,12 @@ TEST(Reconstruct, edges_of_a_box_stay_within_their_neighbours) {
   // Flat faces, which no edge is near to: a plane is r = R_0 / cos(theta) on a cap of support
   // R_0 tan(15 degrees), and degree 3 leaves no more of it than its term 5 theta^4 / 24.
   std::size_t n_flat = 0;
-  const double margin = 2 * largest_support(made.atlas);
+  const double margin = 2 * largest_support(made.model.atlas);
   for (std::size_t i = 0; i < off.size(); ++i) {
     const Vec3& v = made.mesh.vertices[i];
     if (v.z < 0.4 || std::abs(v.x) > 1 - margin || std::abs(v.y) > 0.75 - margin) continue;
     ++n_flat;
-    EXPECT_LT(off[i], 0.0037 * largest_support(made.atlas));
+    EXPECT_LT(off[i], 0.0037 * largest_support(made.model.atlas));
   }
   EXPECT_GT(n_flat, 100U);
 }
@@ -321,7 +321,7 @@ TEST(Reconstruct, uneven_density_does_not_tear_the_surface) {
   cloud.normals = cloud.points;
   const Reconstruction made = reconstruct(std::move(cloud));
   EXPECT_EQ(expect_closed_manifold(made.mesh).euler_characteristic, 2);
-  const double bound = std::pow(largest_support(made.atlas), 4) / 8;
+  const double bound = std::pow(largest_support(made.model.atlas), 4) / 8;
   for (const Vec3& v : made.mesh.vertices) EXPECT_NEAR(norm(v), 1, bound);
 }
 
@@ -418,7 +418,7 @@ TEST(Reconstruct, results_are_the_same_bits_for_every_number_of_threads) {
   const Reconstruction two = reconstruct(cloud, {}, {.threads = 2});
   EXPECT_EQ(one.mesh.vertices, two.mesh.vertices);
   EXPECT_EQ(one.mesh.triangles, two.mesh.triangles);
-  EXPECT_EQ(one.atlas.coefficients, two.atlas.coefficients);
+  EXPECT_EQ(one.model.atlas.coefficients, two.model.atlas.coefficients);
   ASSERT_EQ(one.mesh.attributes.size(), two.mesh.attributes.size());
   for (std::size_t a = 0; a < one.mesh.attributes.size(); ++a) {
     EXPECT_EQ(one.mesh.attributes[a].values, two.mesh.attributes[a].values);
