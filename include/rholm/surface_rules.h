@@ -34,13 +34,13 @@ struct SeenCubes {
 // How reconstruct() made the surface of its caps. With these rules synthesize() makes the same
 // surface again: to the bit at the grid's own step, if it was not made in bricks.
 struct SurfaceRules {
-  HolePolicy holes = HolePolicy::kFill;
-  double min_component = 0.01;  // as ReconstructOptions::min_component
-  std::optional<SimplifyOptions> simplify = {};
-  // Distances between neighbouring points where handles were looked for, one per place: smaller
+  HolePolicy holes = HolePolicy::kFill;          // as ReconstructOptions::holes
+  double min_component = 0.01;                   // as ReconstructOptions::min_component
+  std::optional<SimplifyOptions> simplify = {};  // as ReconstructOptions::simplify
+  // Where handles were looked for, and the distances between neighbouring points there: smaller
   // handles are cut (method 7.9).
   std::vector<Vec3> spacing_places = {};
-  std::vector<double> spacings = {};
+  std::vector<double> spacings = {};   // one per place
   std::optional<SeenCubes> seen = {};  // holes are not closed across them (method 7.13)
   // The surface was made in bricks. synthesize() gives its vertices and faces in another order, and
   // what closes holes may differ by some steps of the grid.
