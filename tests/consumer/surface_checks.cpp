@@ -3,6 +3,7 @@
 #include <rholm/cap_frame.h>
 #include <rholm/compare.h>
 #include <rholm/primitives.h>
+#include <rholm/surface_rules.h>
 #include <rholm/synthesize.h>
 
 #include <cmath>
@@ -38,6 +39,13 @@ void compare() {
               "the distance of a point to a box");
 }
 
+void surface_rules() {
+  const rholm::SurfaceRules rules;
+  expect(rules.holes == rholm::HolePolicy::kFill,
+         "holes are filled unless somebody says otherwise");
+  expect(rholm::parse_hole_policy("keep") == rholm::HolePolicy::kKeep, "the name of a policy");
+}
+
 void synthesize() {
   rholm::Expansion sphere;
   sphere.coefficients.c(0, 0) = 2 * std::sqrt(4 * std::numbers::pi);
@@ -55,5 +63,6 @@ std::vector<HeaderCheck> surface_checks() {
   return {{"atlas.h", atlas},
           {"cap_frame.h", cap_frame},
           {"compare.h", compare},
+          {"surface_rules.h", surface_rules},
           {"synthesize.h", synthesize}};
 }
