@@ -187,19 +187,15 @@ class Search {
     return kDoubt * precisions_.final * std::sqrt(problem_.norm_squared / (4 * std::numbers::pi));
   }
 
-  // Takes the first degrees of final coefficients. Where their error is so near the tolerance that
-  // the precision decides, coefficients of just this degree are computed: then the answer does not
-  // depend on how many more degrees there were.
+  // Takes the first degrees of final coefficients, and if these may be good enough coefficients of
+  // just that degree, the same as without a tolerance: then the answer does not depend on how many
+  // more degrees there were.
   void measure_first(int degree, const Analysis& all, ErrorPoints& worst) {
     result_.analysis = all;
-    if (degree < highest()) {
-      expansion().coefficients = expansion().coefficients.resized(degree);
-    }
+    const bool cut = degree < highest();
+    if (cut) expansion().coefficients = expansion().coefficients.resized(degree);
     measure(&worst);
-    if (degree == all.expansion.coefficients.degree() ||
-        std::abs(result_.reached - result_.allowed) > doubt()) {
-      return;
-    }
+    if (!cut || result_.reached > result_.allowed + doubt()) return;
     take(problem_.transform({degree, precisions_.final}));
     measure(&worst);
   }
