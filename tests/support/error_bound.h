@@ -49,6 +49,7 @@ inline ErrorBound largest_error_bound(const Mesh& mesh, const Coefficients& c, d
                                       std::size_t most_cells) {
   const double model_bend = second_derivative_bound(c);
   std::vector<BoundCell> cells;
+  cells.reserve(mesh.triangles.size());
   for (const Triangle& t : mesh.triangles) {
     BoundCell cell{{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]}, {}};
     const auto& p = cell.corners;
@@ -58,6 +59,7 @@ inline ErrorBound largest_error_bound(const Mesh& mesh, const Coefficients& c, d
   ErrorBound result{.bound = enough, .cells = 0};
   while (!cells.empty()) {
     std::vector<Vec3> directions;
+    directions.reserve(cells.size());
     for (const BoundCell& cell : cells) {
       directions.push_back(normalized(cell.corners[0] + cell.corners[1] + cell.corners[2]));
     }
