@@ -180,9 +180,13 @@ TEST(every_loop, gives_the_same_bits_for_the_degree_of_a_tolerance) {
   const StarChart chart = chart_of(bumpy_sphere(3, 0.3));
   expect_same_bits([&](const Context& context) {
     Bits bits;
-    for (const ErrorNorm norm : {ErrorNorm::kRms, ErrorNorm::kMax}) {
-      const Tolerance tolerance{
-          .error = 0.01, .norm = norm, .measure = ErrorMeasure::kDistance, .max_degree = 32};
+    for (const Tolerance& tolerance :
+         {Tolerance{.error = 0.01, .measure = ErrorMeasure::kDistance, .max_degree = 32},
+          Tolerance{.error = 0.01,
+          .norm = ErrorNorm::kMax,
+          .measure = ErrorMeasure::kDistance,
+          .max_degree = 32},
+          Tolerance{.error = 0.05, .norm = ErrorNorm::kMax, .max_degree = 16}}) {
       const ToleranceAnalysis found = analyze(chart, tolerance, {}, context);
       bits.add(found.reached).add(found.analysis.expansion.coefficients);
     }
