@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
-#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "base/crc32.h"
+#include "model/file/atlas_crc32.h"
 #include "rholm/error.h"
 
 namespace rholm {
@@ -138,15 +137,7 @@ void unpack_rules(PackedRules packed, const std::string& name, SurfaceRules& rul
 }
 
 std::uint32_t rules_crc32(const PackedRules& packed, const std::vector<std::string>& left_out) {
-  static_assert(std::endian::native == std::endian::little, "the file is little endian");
-  std::uint32_t sum = 0;
-  const auto add = [&](const auto& values) {
-    if (values.empty()) return;
-    sum = crc32(
-        {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(values.front())},
-        sum);
-  };
-  add(packed.caps), add(packed.coefficients), add(packed.spacings), add(packed.seen);
+  std::uint32_t sum = crc32_of(packed.caps, packed.coefficients, packed.spacings, packed.seen);
   for (const std::string& name : left_out) sum = crc32(name, sum);
   return sum;
 }
