@@ -29,9 +29,9 @@ namespace {
 constexpr std::size_t kVertexGrain = 4096;
 // Of the precision of the reading before. Elements that both read by the same rule are not seen in
 // the difference: by the model these leave less than the second may, and it is to be wrong by more
-// than the inverse before an error is missed. Small meshes take a step as far as 10 ms reach.
+// than the inverse before an error is missed. Small meshes can afford a larger step (chosen).
 constexpr double kFiner = 0.1, kFinerOfSmall = 0.03;
-constexpr std::size_t kSmall = 10'000;  // triangles
+constexpr std::size_t kSmall = 10'000;  // triangles (chosen)
 constexpr double kLeastPrecision = 1e-14;
 // Two readings may have a part of their errors in common: so many times what is measured is to be
 // within the wish (chosen; bench/counterexamples looks for bodies on which that is too little).
