@@ -11,6 +11,9 @@ namespace {
 // Points lie at most this many 1/L apart (chosen).
 constexpr double kDense = 1.5;
 constexpr int kMostDivisions = 3;
+// Parts of faces have lattices of at most so many divisions (chosen: fewer parts have fewer points
+// in common, larger ones are denser than they need be where they are far).
+constexpr int kMostOfPart = 12;
 // Halves of halves, where a face nearly touches the centre: 2^-20 of its longest edge.
 constexpr int kMostHalvings = 40;
 
@@ -58,9 +61,8 @@ class DensePoints {
   // Halved at the longest edge until a lattice suffices; the middle of the edge is visited, too.
   void add(const std::array<Vec3, 3>& p, int halvings) {
     const int n = divisions(p, degree_);
-    if (n <= kMostDivisions || halvings == kMostHalvings) {
-      const std::size_t found = lattice(p, std::min(n, kMostDivisions), points_);
-      if (found > 0) visit_(std::span(points_).first(found), t_);
+    if (n <= kMostOfPart || halvings == kMostHalvings) {
+      visit_lattice(p, std::min(n, kMostOfPart));
       return;
     }
     int longest = 0;
@@ -75,6 +77,19 @@ class DensePoints {
   }
 
  private:
+  // All points of a lattice but the corners.
+  void visit_lattice(const std::array<Vec3, 3>& p, int n) {
+    if (n == 1) return;
+    const Vec3 along = (p[1] - p[0]) / n, across = (p[2] - p[0]) / n;
+    std::size_t found = 0;
+    for (int i = 0; i <= n; ++i) {
+      for (int j = 0; i + j <= n; ++j) {
+        if (i == n || j == n || i + j == 0) continue;
+        points_[found++] = p[0] + i * along + j * across;
+      }
+    }
+    visit_(std::span(points_).first(found), t_);
+  }
   static double edge2(const std::array<Vec3, 3>& p, int i) {
     const Vec3 e = p[(i + 1) % 3] - p[i];
     return dot(e, e);
@@ -83,7 +98,7 @@ class DensePoints {
   int degree_;
   std::size_t t_;
   const PointsOnFace& visit_;
-  std::array<Vec3, 7> points_;
+  std::array<Vec3, (kMostOfPart + 1) * (kMostOfPart + 2) / 2> points_;
 };
 
 // Calls visit(corners, t) for the faces of runs [begin, end), but for runs whose edges are all
