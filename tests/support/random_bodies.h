@@ -98,10 +98,9 @@ inline Mesh prism(const BodyGenes& g) {
   return of_rings(rings, 1, -1);
 }
 
-inline Mesh gear(const BodyGenes& g) {
-  const int teeth = whole(4, 64, g.u[1]), layers = whole(1, 40, g.u[2]);
-  const double height = log_between(0.02, 3, g.u[3]), depth = between(0.05, 0.5, g.u[4]);
-  const double wall = log_between(1e-5, 0.2, g.u[5]);  // of a tooth, seen from the axis
+// `depth`: of the gaps, for a radius of 1; `wall`: how wide walls are, seen from the axis, in
+// teeth.
+inline Mesh gear(int teeth, int layers, double height, double depth, double wall) {
   std::vector<Vec3> outline;
   for (int i = 0; i < teeth; ++i) {
     const double tooth = 2 * std::numbers::pi / teeth;
@@ -118,6 +117,11 @@ inline Mesh gear(const BodyGenes& g) {
     for (Vec3& x : rings.back()) x.z = height * (0.5 - 1.0 * k / layers);
   }
   return of_rings(rings, height / 2, -height / 2);
+}
+
+inline Mesh gear(const BodyGenes& g) {
+  return gear(whole(4, 64, g.u[1]), whole(1, 40, g.u[2]), log_between(0.02, 3, g.u[3]),
+              between(0.05, 0.5, g.u[4]), log_between(1e-5, 0.2, g.u[5]));
 }
 
 inline Mesh cone(const BodyGenes& g) {

@@ -157,10 +157,11 @@ void PartSink<T>::sum_undivided() {
   if (undivided_.empty()) return;
   const int degree = plan_.divided.degree;
   if (part_.undivided.degree() != degree) part_.undivided = Coefficients(degree);
-  double square = 0;
-  for (const double w : undivided_weights_) square += w * w;
-  // Generic sums of these have the l2 norm L sqrt(sum w^2 / 4 pi).
-  const double relative = plan_.allowed.window / ((degree + 1.0) * std::sqrt(square / (4 * kPi)));
+  // The precision is relative to sums with random signs, (L + 1) sqrt(sum w^2 / 4 pi). Walls stand
+  // in step with the grid, those of a gear all of them: errors may all add up.
+  double modulus = 0;
+  for (const double w : undivided_weights_) modulus += std::abs(w);
+  const double relative = plan_.allowed.window / ((degree + 1.0) * modulus / std::sqrt(4 * kPi));
   add_adjoint({.directions = undivided_, .weights = undivided_weights_}, part_.undivided,
               {.precision = std::clamp(0.5 * relative, 1e-14, 0.1)}, {.threads = 1});
   undivided_.clear();
