@@ -3,17 +3,25 @@
 // (below 1 wherever the constants of src/transform/mesh_pass/plan/plan.cpp are right), of the
 // window's error of the norm (kLatticeShare, kAlignedTimes) and of the moduli of nodes in rows
 // (kRowsInStep), and, in single precision, of the moduli of all sources (kSingleInStep).
+//
+// With the operand `turned`: what turning the mesh by a generic rotation and the coefficients back
+// would take and leave instead, on aligned bodies.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <functional>
 #include <numbers>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "harmonic/nonuniform/window_error.h"
 #include "rholm/primitives.h"
+#include "rholm/rotate.h"
 #include "support/adversarial_meshes.h"
+#include "support/random_bodies.h"
 #include "transform/mesh_pass/pass.h"
 #include "transform/mesh_pass/plan/error_budget.h"
 #include "transform/mesh_pass/plan/plan.h"
@@ -81,10 +89,95 @@ std::vector<Case> cases() {
   return all;
 }
 
+// Processor time in milliseconds of one thread, and what was found.
+struct Timed {
+  double time = 0;
+  Coefficients found;
+};
+
+Timed timed_pass(const Mesh& mesh, int degree, double precision, const Rotation& rotation) {
+  const Context one{.threads = 1};
+  const std::clock_t start = std::clock();
+  const bool still = rotation.w == 1;
+  Mesh copy;
+  if (!still) copy = mesh;
+  for (Vec3& x : copy.vertices) x = rotate(x, rotation);
+  const MeshPassOptions options{.degree = degree, .precision = precision};
+  Timed result{.found = mesh_pass(view_of(still ? mesh : copy), options, one).coefficients};
+  if (!still) result.found = rotate(result.found, inverse(rotation), one);
+  result.time = 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  return result;
+}
+
+void compare_turned(const Case& given, int degree, double precision) {
+  const Rotation turn = rotation_of(EulerAngles{0.7, 1.1, 2.3});
+  const Rotation other = rotation_of(EulerAngles{1.9, 0.8, 0.4});
+  Timed plain, turned;
+  for (int k = 0; k < 3; ++k) {
+    Timed a = timed_pass(given.mesh, degree, precision, {});
+    Timed b = timed_pass(given.mesh, degree, precision, turn);
+    if (k == 0 || a.time < plain.time) plain = std::move(a);
+    if (k == 0 || b.time < turned.time) turned = std::move(b);
+  }
+  const Coefficients exact = timed_pass(given.mesh, degree, 0.01 * precision, other).found;
+  const double wish = precision * norm_of_degrees(exact, 1, degree);
+  std::printf("| %s | %zu | %d | %.0e | %.2f | %.2f | %.2f | %.3f | %.3f |\n", given.name.c_str(),
+              given.mesh.triangles.size(), degree, precision, plain.time, turned.time,
+              turned.time / plain.time, distance(plain.found, exact) / wish,
+              distance(turned.found, exact) / wish);
+  std::fflush(stdout);
+}
+
+// Of about as many faces.
+std::vector<Case> aligned_bodies(double faces) {
+  using namespace test::adversarial;
+  using namespace test::random_bodies;
+  const int s = static_cast<int>(std::lround(std::sqrt(faces / 12)));
+  const int n = static_cast<int>(std::lround(std::sqrt(faces / 4)));
+  const auto turned_body = [&](int around, int layers, const auto& radius) {
+    std::vector<std::vector<Vec3>> rings;
+    for (int k = 0; k <= layers; ++k) {
+      const double z = 1 - 2.0 * k / layers;
+      rings.push_back(ring(around, radius(z), 1.5 * z));
+    }
+    return of_rings(rings, 1.5, -1.5);
+  };
+  const int teeth = std::clamp(n / 8, 4, 64);
+  return {{"box", box({3, 2, 1}, s), {}},
+          {"box, long", box({1, 1, 6}, s), {}},
+          {"cube-sphere", cube_sphere(s), {}},
+          {"ball", latitude_longitude_sphere(n, 2 * n), {}},
+          {"planet", planet(n, 2 * n), {}},
+          {"lattice", lattice(n, 2 * n), {}},
+          {"cylinder", turned_body(4 * n, n / 2, [](double) { return 1.0; }), {}},
+          {"vase", turned_body(2 * n, n, [](double z) { return 0.6 + 0.3 * std::cos(3 * z); }), {}},
+          {"gear", gear(teeth, std::max(1, n * n / (2 * teeth)), 0.2, 0.3, 0.02), {}}};
+}
+
+void compare_all_turned() {
+  std::printf(
+      "| mesh | faces | L | wish | ms | turned | ratio | left, in wishes | turned |\n"
+      "|---|---|---|---|---|---|---|---|---|\n");
+  for (const double faces : {1e3, 1e4, 1e5, 1e6}) {
+    for (const Case& given : aligned_bodies(faces)) {
+      for (const int degree : {16, 32, 64, 128, 256, 480}) {
+        if (degree > 0.6 * std::sqrt(faces) + 64) continue;
+        for (const double precision : {1e-3, 1e-5, 1e-7, 1e-9}) {
+          compare_turned(given, degree, precision);
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace rholm
 
-int main() {
+int main(int argc, char** argv) {
+  if (argc == 2 && std::string_view(argv[1]) == "turned") {
+    rholm::compare_all_turned();
+    return 0;
+  }
   std::printf(
       "| mesh | faces | L | wish | left | / share | aligned | width | / norm | / rows | / moduli "
       "|\n"
