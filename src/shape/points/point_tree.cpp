@@ -261,12 +261,18 @@ float radius2_for(double k, double density) {
   return static_cast<float>(k / (density * std::numbers::pi));
 }
 
-bool nearer(const Neighbor& a, const Neighbor& b) {
-  return a.distance2 != b.distance2 ? a.distance2 < b.distance2 : a.index < b.index;
-}
+// nearer(); a type, as sorting calls it inline. Bits of numbers above zero are in their order.
+struct Nearer {
+  static std::uint64_t key(const Neighbor& near) {
+    return std::uint64_t{std::bit_cast<std::uint32_t>(near.distance2)} << 32 | near.index;
+  }
+  bool operator()(const Neighbor& a, const Neighbor& b) const { return key(a) < key(b); }
+};
+
+bool nearer(const Neighbor& a, const Neighbor& b) { return Nearer()(a, b); }
 
 float keep_nearest(Neighbor* found, std::size_t n, std::size_t k) {
-  if (n > k) std::nth_element(found, found + (k - 1), found + n, nearer);
+  if (n > k) std::nth_element(found, found + (k - 1), found + n, Nearer());
   return found[k - 1].distance2;
 }
 
@@ -444,7 +450,7 @@ void PointTree::search(const std::array<float, 3>& at, float radius2, std::size_
     HWY_DYNAMIC_DISPATCH(SortByRank)(found.data(), found.size());
   } else {
     keep_nearest(found.data(), found.size(), k);
-    std::sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(k), nearer);
+    std::sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(k), Nearer());
   }
   found.resize(k);
   const float unit2 = static_cast<float>(1 / (scale_ * scale_));
