@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +12,26 @@ import pytest
 import rholm
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests" / "support"))
+import times  # noqa: E402
+
+
+@pytest.hookimpl(hookwrapper=True)
+def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
+    """Notes the processor time of each test, with its fixtures."""
+    before = times.spent()
+    yield
+    seconds = times.spent() - before
+    session = item.session
+    session.noted = getattr(session, "noted", 0.0) + seconds  # type: ignore[attr-defined]
+    times.note(seconds, f"python/{item.path.stem}", item.name)
+
+
+def pytest_sessionfinish(session: pytest.Session) -> None:
+    """Notes what the process took besides: to start Python and to read the tests."""
+    if session.items:
+        seconds = times.spent() - getattr(session, "noted", 0.0)
+        times.note(seconds, f"python/{session.items[0].path.stem}", "(start)")
 
 
 @pytest.fixture(scope="session")

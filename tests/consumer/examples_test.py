@@ -9,9 +9,13 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+import times
 
 SOURCE = Path(__file__).resolve().parents[2] / "examples"
 PROGRAMS = Path(os.environ["EXAMPLES"])
@@ -194,4 +198,4 @@ def spheroid_spectrum(a, c, degree):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    times.main()
