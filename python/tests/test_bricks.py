@@ -54,6 +54,7 @@ def test_options_and_meshes_are_those_of_the_program(program, tmp_path):
     assert (tmp_path / "own.ply").read_bytes() == (tmp_path / "s.ply").read_bytes()
 
 
+@pytest.mark.nightly
 def test_threads_folders_order_and_files_change_no_byte(cloud, known, random, tmp_path):
     cloud.save(tmp_path / "p.ply")
     order = random.permutation(len(cloud))

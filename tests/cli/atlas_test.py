@@ -7,7 +7,7 @@ import sys
 import tempfile
 
 sys.path.insert(0, os.path.dirname(__file__))
-from harness import CliTest, OCTAHEDRON, main, off
+from harness import CliTest, OCTAHEDRON, main, nightly, off
 
 V, F = OCTAHEDRON
 
@@ -75,6 +75,7 @@ class Atlas(CliTest):
         self.assertEqual(result.json()["input_numbers"], 6000)
         self.assertIn("not measured to the shape", self.rholm("info", "m.h5").out)
 
+    @nightly
     def test_a_model_of_more_numbers_than_the_shape_is_refused(self):
         """An octahedron has 18 coordinates, and a cap nine numbers of a frame alone."""
         words = ["--atlas", "--tolerance", "0.05", "-o", "m.h5"]
@@ -105,6 +106,7 @@ class Atlas(CliTest):
             self.rholm("analyze", "t.ply", "--atlas", *words, "-o", "x.h5", code=2)
         self.rholm("analyze", "t.ply", "--fit", "integral", "--degree", "4", "-o", "x.h5", code=2)
 
+    @nightly
     def test_resolution_and_degree_limit(self):
         step = self.make_model()["step"]
         counts = {}

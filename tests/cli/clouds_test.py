@@ -17,7 +17,7 @@ import zlib
 from pathlib import Path
 
 sys.path.insert(0, os.path.dirname(__file__))
-from harness import CliTest, main
+from harness import CliTest, main, nightly
 try:
     import numpy as np
     import clouds
@@ -117,6 +117,7 @@ class Clouds(CliTest):
             self.assertEqual(done.code, 4, done)
             self.assertRegex(done.err, r"lie off the surface.* first at( \(.*\);){2} \(.*\): they fill a volume")
 
+    @nightly
     def test_bricks_refuse_points_that_fill_thin_bodies(self):
         for name in ("thin_slab", "wall_of_shell"):
             points = getattr(clouds, name)(np.random.default_rng(14), 4000)
@@ -124,6 +125,7 @@ class Clouds(CliTest):
             self.assertEqual(done.code, 4, done)
             self.assertIn("they fill a volume", done.err)
 
+    @nightly
     def test_walls_nearer_than_noise_allows_are_refused(self):
         rng = np.random.default_rng(15)
         for noise, code in ((0.02, 0), (0.06, 4)):  # the plate is 0.2 thick
@@ -160,6 +162,7 @@ class Clouds(CliTest):
             done, shape = self.reconstruct(points, given)
             self.assertEqual((done.code, self.fault("sphere", done, shape)), (0, ""), done)
 
+    @nightly
     def test_bricks_mend_as_one_piece_does(self):
         for body, way, share in (("sphere", "random", 0.5), ("torus", "patch", 0.1), ("two_balls", "half", 0.3)):
             points, normals, turned = spoiled(body, way, share, 4000)
@@ -177,6 +180,7 @@ class Clouds(CliTest):
         self.assertEqual(done.code, 4, done)
         self.assertRegex(done.err, r"contradict those around them, first at( \(.*\);){2} \(.*\):")
 
+    @nightly
     def test_bricks_compute_directions_at_random_anew(self):
         rng = np.random.default_rng(1)
         points, _ = clouds.torus(rng, 4000)
@@ -185,6 +189,7 @@ class Clouds(CliTest):
         self.assertIn("off the surface", done.err)
         self.assertTrue(done.json()["computed_normals"])
 
+    @nightly
     def test_bricks_cut_handles_beside_what_was_cut_before(self):
         points, normals = clouds.joined(clouds.sphere(np.random.default_rng(8), 2000),
                                         clouds.sphere(np.random.default_rng(9), 2000, 1, (0.8, 0, 0)))

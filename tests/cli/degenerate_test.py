@@ -8,7 +8,7 @@ import struct
 import sys
 
 sys.path.insert(0, os.path.dirname(__file__))
-from harness import CliTest, OCTAHEDRON, binary_stl, main, off, scaled
+from harness import CliTest, OCTAHEDRON, binary_stl, main, nightly, off, scaled
 
 FINE, REFUSED = {0}, {3}
 EITHER = {0, 3}
@@ -81,15 +81,21 @@ SHAPES = {
 }
 
 
-def variants(name, *ways):
-    """All of them for what can be read, one for what cannot."""
-    return ways[:1] if SHAPES[name][1] == REFUSED else ways
-
-
 NOT_A_NUMBER = re.compile(rb"\b(nan|inf|infinity)\b", re.I)
 
 
 class Degenerate(CliTest):
+    every_way = False
+
+    def variants(self, name, *ways):
+        """The first for what cannot be read; one of them for what can, another for the next shape, or all."""
+        if SHAPES[name][1] == REFUSED:
+            return ways[:1]
+        if self.every_way:
+            return ways
+        turn = list(SHAPES).index(name) % len(ways)
+        return ways[turn:turn + 1]
+
     def setUp(self):
         super().setUp()
         for name, (content, *_) in SHAPES.items():
@@ -125,7 +131,7 @@ class Degenerate(CliTest):
 
     def test_center(self):
         for name, (_, _, codes, _) in SHAPES.items():
-            for kind in variants(name, "auto", "slope", "cosine", "none", "centroid", "volume"):
+            for kind in self.variants(name, "auto", "slope", "cosine", "none", "centroid", "volume"):
                 with self.subTest(f"{name} {kind}"):
                     # "none" may miss the shape.
                     allowed = codes | EITHER if kind == "none" and codes == FINE else codes
@@ -134,7 +140,7 @@ class Degenerate(CliTest):
     def test_analyze(self):
         for name, (_, _, codes, _) in SHAPES.items():
             # Of the same function errors are the same.
-            for method in variants(name, ["edge"], ["gauge"], ["curl", "--no-errors"],
+            for method in self.variants(name, ["edge"], ["gauge"], ["curl", "--no-errors"],
                                    ["area", "--no-errors"]):
                 with self.subTest(f"{name} {method[0]}"):
                     self.check(codes, "analyze", name, "--degree", "3", "--method", *method,
@@ -166,7 +172,7 @@ class Degenerate(CliTest):
 
     def test_convert(self):
         for name, (_, codes, _, _) in SHAPES.items():
-            for output in variants(name, "out.off", "out.obj", "out.ply", "out.stl"):
+            for output in self.variants(name, "out.off", "out.obj", "out.ply", "out.stl"):
                 with self.subTest(f"{name} to {output}"):
                     # STL is float and has no room for large numbers, nor for points.
                     before = self.files()
@@ -184,15 +190,15 @@ class Degenerate(CliTest):
 
     def test_smooth(self):
         for name in SHAPES:
-            for region in variants(name, "ball:0,0,0,3", "vertex:0,1"):
-                for fit in variants(name, "robust", "mean", "around"):
+            for region in self.variants(name, "ball:0,0,0,3", "vertex:0,1"):
+                for fit in self.variants(name, "robust", "mean", "around"):
                     with self.subTest(f"{name} {region} {fit}"):
                         self.check(EITHER, "smooth", name, "--region", region, "--wavelength", "2",
                                    "--fit", fit, output="out.ply")
 
     def test_transfer(self):
         for name in SHAPES:
-            for region in variants(name, "ball:0,0,0,3", "vertex:0,1"):
+            for region in self.variants(name, "ball:0,0,0,3", "vertex:0,1"):
                 with self.subTest(f"{name} {region}"):
                     for source, target in ((name, "good.off"), ("good.off", name)):
                         self.check(EITHER, "transfer", "--from", source, "--from-region", region,
@@ -237,6 +243,14 @@ class Degenerate(CliTest):
         for name in ("z.sh", "z.gfc", "z.json", "z.npy"):
             self.rholm("convert", "zero.h5", name)
             self.check(FINE, "info", name)
+
+
+@nightly
+class EveryWay(Degenerate):
+    """Each shape by every way of a command."""
+
+    every_way = True
+
 
 
 class DegenerateCoefficients(CliTest):

@@ -15,6 +15,9 @@ import time
 import unittest
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+import times
+
 # RHOLM_TEST_TARGET names a set of instructions, which the program itself would not look at: a
 # program of the tests does.
 if "RHOLM_TEST_TARGET" in os.environ:
@@ -217,7 +220,33 @@ def binary_stl(mesh):
     return text
 
 
+def nightly(case):
+    """Marks a case, or a class of them, that is for nightly runs alone: CMake makes a test cli.NAME_nightly of those
+    of a script (docs/testing.md)."""
+    case.nightly = True
+    return case
+
+
+class Loader(unittest.TestLoader):
+    """Cases that are (not) nightly, or all (None); whoever names a case gets it in any way."""
+
+    def __init__(self, wanted):
+        super().__init__()
+        self.wanted = wanted
+
+    def getTestCaseNames(self, case_class):
+        def is_nightly(name):
+            return getattr(case_class, "nightly", False) or getattr(getattr(case_class, name), "nightly", False)
+        return [name for name in super().getTestCaseNames(case_class) if self.wanted in (None, is_nightly(name))]
+
+
 def main():
+    """Runs the cases of a script: with --nightly those that are marked so, with --every all, else the others."""
+    wanted = False
+    for option, cases in (("--nightly", True), ("--every", None)):
+        if option in sys.argv:
+            sys.argv.remove(option)
+            wanted = cases
     if "RHOLM_TEST_TARGET" in os.environ:
         print("instruction set:", os.environ["RHOLM_TEST_TARGET"], "(forced)", file=sys.stderr)
-    unittest.main(verbosity=2)
+    times.main(verbosity=2, testLoader=Loader(wanted))

@@ -183,9 +183,10 @@ class RandomMeshes(CliTest):
             odd = [edge for edge, count in edges.items() if count % 2 and len(edge) == 2]
             self.assertEqual(odd, [], shape.name)
 
-    def test_a_mesh_of_each_kind_through_what_is_cheap(self):
+    def test_meshes_of_some_kinds_through_what_is_cheap(self):
         options = argparse.Namespace(seed=1, keep=None)
-        for number in range(len(KINDS)):
+        # One kind in three: nightly runs have 500 meshes of all.
+        for number in range(0, len(KINDS), 3):
             trial = try_shape(number, options, commands.cheap)
             with self.subTest(trial.name):
                 self.assertEqual(trial.faults, [])

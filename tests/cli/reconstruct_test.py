@@ -8,7 +8,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(__file__))
-from harness import RHOLM, CliTest, held, main, until
+from harness import RHOLM, CliTest, held, main, nightly, until
 
 
 def rows(path):
@@ -341,6 +341,7 @@ class Bricks(CliTest):
         self.bricks("p.ply", n=12000, output="same.ply")
         self.assertEqual(self.bytes("same.ply"), self.bytes("one.ply"))
 
+    @nightly
     def test_neither_memory_nor_threads_nor_the_way_of_reading_changes_a_byte(self):
         self.bricks("p.ply")
         content = self.bytes("p.ply")

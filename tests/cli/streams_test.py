@@ -7,7 +7,7 @@ import sys
 import threading
 
 sys.path.insert(0, os.path.dirname(__file__))
-from harness import CliTest, RHOLM, TIMEOUT, Result, main
+from harness import CliTest, RHOLM, TIMEOUT, Result, main, nightly
 
 # One of every command that ends by itself, on the files that prepare() makes. %o is an output.
 COMMANDS = [
@@ -52,26 +52,35 @@ class Streams(CliTest):
 
 
 class Closed(Streams):
+    def test_every_command_with_a_descriptor_closed(self):
+        for k, line in enumerate(COMMANDS):
+            self.check_closed(line, [k % 3])
+
+    @nightly
     def test_every_command_with_each_descriptor_closed(self):
         for line in COMMANDS:
-            words = line.split()
-            plain = self.shell("", [w.replace("%o", "out") for w in words])
-            made = self.outputs("out")
-            self.assertEqual(plain.code, REFUSED.get(line, 0), str(plain))
-            for closed, redirection in enumerate(("<&-", ">&-", "2>&-")):
-                with self.subTest(line, closed=closed):
-                    result = self.shell(redirection, [w.replace("%o", "out") for w in words])
-                    self.assertEqual(self.outputs("out"), made, str(result))
-                    self.check_decent(result) if closed != 2 else None
-                    if closed == 1 and plain.bytes:
-                        # As with an output that cannot be written; an error before that counts.
-                        self.assertEqual(result.code, plain.code or 1, str(result))
-                        self.assertIn("standard output", result.err)
-                    else:
-                        self.assertEqual(result.code, plain.code, str(result))
-                    if closed != 1:  # but for times
-                        self.assertEqual(re.sub(rb"[0-9.e+-]+", b"", result.bytes),
-                                         re.sub(rb"[0-9.e+-]+", b"", plain.bytes))
+            self.check_closed(line, range(3))
+
+    def check_closed(self, line, descriptors):
+        words = line.split()
+        plain = self.shell("", [w.replace("%o", "out") for w in words])
+        made = self.outputs("out")
+        self.assertEqual(plain.code, REFUSED.get(line, 0), str(plain))
+        for closed in descriptors:
+            redirection = ("<&-", ">&-", "2>&-")[closed]
+            with self.subTest(line, closed=closed):
+                result = self.shell(redirection, [w.replace("%o", "out") for w in words])
+                self.assertEqual(self.outputs("out"), made, str(result))
+                self.check_decent(result) if closed != 2 else None
+                if closed == 1 and plain.bytes:
+                    # As with an output that cannot be written; an error before that counts.
+                    self.assertEqual(result.code, plain.code or 1, str(result))
+                    self.assertIn("standard output", result.err)
+                else:
+                    self.assertEqual(result.code, plain.code, str(result))
+                if closed != 1:  # but for times
+                    self.assertEqual(re.sub(rb"[0-9.e+-]+", b"", result.bytes),
+                                     re.sub(rb"[0-9.e+-]+", b"", plain.bytes))
 
     def test_input_from_a_closed_descriptor_cannot_be_read(self):
         result = self.shell("<&-", ["info", "-"])

@@ -6,18 +6,19 @@ import signal
 import struct
 import subprocess
 import sys
-import unittest
 
 sys.path.insert(0, os.path.dirname(__file__))
-from harness_mpi import ProgramTest, RANKS, RHOLM, RHOLM_MPI, held
+from harness_mpi import ProgramTest, RANKS, RHOLM, RHOLM_MPI, held, main, nightly
 
 
 class Analyze(ProgramTest):
+    every_way = False
+
     def check_same(self, *words, ranks=RANKS, threads=(1, 2), code=0):
         """The file, and the report but for its times."""
         one = self.rholm("analyze", *words, "--json", "-o", "one.h5", code=code)
         for n in ranks:
-            for t in threads:
+            for t in threads if self.every_way else threads[n % len(threads):][:1]:
                 run = self.finished(RHOLM_MPI, "analyze", *words, "--json", "-o", "all.h5", "--threads", t, ranks=n)
                 self.assertEqual(run.code, code, run)
                 self.assertEqual(self.bytes("all.h5"), self.bytes("one.h5"), f"{words} on {n} ranks")
@@ -68,6 +69,13 @@ class SameBytes(Analyze):
     def test_a_tolerance_that_is_not_kept_is_told_with_exit_code_4(self):
         self.make("mesh.ply", "bumpy", "--subdivisions", 6)
         self.check_same("mesh.ply", "--tolerance", 1e-9, "--max-degree", 8, ranks=(1, 2), threads=(1,), code=4)
+
+
+@nightly
+class SameBytesInEveryWay(SameBytes):
+    """Any number of threads with any number of ranks."""
+
+    every_way = True
 
 
 class Refused(Analyze):
@@ -185,4 +193,4 @@ class Stopped(Analyze):
 
 
 if __name__ == "__main__":
-    unittest.main(verbosity=2)
+    main()

@@ -11,7 +11,7 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "cli"))
-from harness import held, rows_done, seconds_worked  # noqa: F401 (for the tests)
+from harness import held, main, nightly, rows_done, seconds_worked  # noqa: F401 (for the tests)
 
 RHOLM = os.environ.get("RHOLM", "rholm")
 RHOLM_MPI = os.environ.get("RHOLM_MPI", "rholm-mpi")

@@ -2,10 +2,9 @@
 
 import os
 import sys
-import unittest
 
 sys.path.insert(0, os.path.dirname(__file__))
-from harness_mpi import MpiTest
+from harness_mpi import MpiTest, main
 
 
 class Large(MpiTest):
@@ -15,4 +14,4 @@ class Large(MpiTest):
 
 
 if __name__ == "__main__":
-    unittest.main(verbosity=2)
+    main()

@@ -3,10 +3,9 @@
 import os
 import signal
 import sys
-import unittest
 
 sys.path.insert(0, os.path.dirname(__file__))
-from harness_mpi import MpiTest, RANKS
+from harness_mpi import MpiTest, RANKS, main
 
 PROGRAM = os.environ.get("RANKS_PROGRAM", "ranks_program")
 
@@ -119,4 +118,4 @@ class Signals(MpiTest):
 
 
 if __name__ == "__main__":
-    unittest.main(verbosity=2)
+    main()

@@ -3,10 +3,9 @@
 import os
 import signal
 import sys
-import unittest
 
 sys.path.insert(0, os.path.dirname(__file__))
-from harness_mpi import ProgramTest, RANKS, RHOLM_MPI, held
+from harness_mpi import ProgramTest, RANKS, RHOLM_MPI, held, main, nightly
 
 
 class Reconstruct(ProgramTest):
@@ -63,6 +62,7 @@ class Reconstruct(ProgramTest):
             self.assertEqual(run.code, 0, run)
             self.assertEqual(self.bytes("all.ply"), self.bytes("one.ply"), points)
 
+    @nightly
     def test_normals_that_contradict_each_other_are_turned_as_by_one_process(self):
         self.rholm("convert", "p.ply", "p.xyz", "--quiet")
         rows = [line.split() for line in (self.folder / "p.xyz").read_text().splitlines()
@@ -128,4 +128,4 @@ class Reconstruct(ProgramTest):
 
 
 if __name__ == "__main__":
-    unittest.main(verbosity=2)
+    main()

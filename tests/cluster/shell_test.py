@@ -8,7 +8,7 @@ import os
 import unittest
 
 sys.path.insert(0, os.path.dirname(__file__))
-from harness_mpi import MpiTest, RHOLM_MPI
+from harness_mpi import MpiTest, RHOLM_MPI, main
 
 CASES = (("rholm-mpi ana", "analyze"), ("rholm-mpi analyze --deg", "--degree"), ("rholm-mpi compare --pa", "--patience"))
 
@@ -81,4 +81,4 @@ class ShellFiles(MpiTest):
 
 
 if __name__ == "__main__":
-    unittest.main(verbosity=2)
+    main()

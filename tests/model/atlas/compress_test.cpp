@@ -85,7 +85,7 @@ TEST(compress, options_out_of_range_are_refused) {
 }
 
 // Ten times as wide as thick: caps of both sides are near each other, and end at edges.
-TEST(compress, a_slab_keeps_its_tolerance_and_stays_a_ball) {
+TEST(compress, a_slab_keeps_its_tolerance_and_stays_a_ball_nightly) {
   const Mesh slab = box({1, 1, 0.1}, 3);
   const double tolerance = 1e-2 * bounds(slab.vertices).diagonal();
   const Compressed found = compress(slab, {.tolerance = tolerance, .max_numbers = kAnyNumbers});
@@ -165,7 +165,7 @@ TEST(compress, an_atlas_without_caps_has_no_surface) {
 // Cutting degrees off loses, rms, what their coefficients say: orthogonal on the hemisphere (see
 // at_degree). Degrees that are fitted to the same surface make up for a part of it,
 // measured: 0.59 and 0.52 of that are left, 0.70 where they are not fitted and caps are averaged.
-TEST(compress, levels_lose_less_than_the_degrees_they_lack) {
+TEST(compress, levels_lose_less_than_the_degrees_they_lack_nightly) {
   const Mesh mesh = bumpy_sphere(4, 0.3, 3);
   const AtlasModel model = compress(mesh, {.tolerance = 0.03}).model;
   const Mesh whole = synthesize(model);
@@ -182,7 +182,7 @@ TEST(compress, levels_lose_less_than_the_degrees_they_lack) {
 }
 
 // What faces leave is a tenth of what the degrees left out make.
-TEST(compress, levels_have_as_many_faces_as_they_need) {
+TEST(compress, levels_have_as_many_faces_as_they_need_nightly) {
   const Mesh mesh = bumpy_sphere(4, 0.3, 3);
   const AtlasModel model = compress(mesh, {.tolerance = 0.03}).model;
   for (const int degree : {2, 3}) {
@@ -197,7 +197,11 @@ TEST(compress, levels_have_as_many_faces_as_they_need) {
 }
 
 // A box has 24 coordinates, and a cap nine numbers of a frame alone.
-TEST(compress, a_model_of_more_numbers_than_allowed_is_refused) {
+TEST(compress, a_model_of_more_numbers_than_a_box_has_is_refused) {
+  EXPECT_EQ(code_of(box({1, 1, 0.5}, 1), 2e-2), ErrorCode::kUnsupported);
+}
+
+TEST(compress, a_model_of_more_numbers_than_allowed_is_refused_nightly) {
   const Mesh slab = box({1, 1, 0.5}, 1);
   const double tolerance = 1e-2 * bounds(slab.vertices).diagonal();
   EXPECT_EQ(code_of(slab, 1e-2), ErrorCode::kUnsupported);

@@ -99,7 +99,7 @@ TEST(brick_normals, of_one_brick_are_those_of_all_points) {
   EXPECT_LT(mean / static_cast<double>(given.points.size()), 1e-6);  // floats, and other frames
 }
 
-TEST(brick_normals, of_many_bricks_point_out) {
+TEST(brick_normals, of_many_bricks_point_out_nightly) {
   const PointCloud given = ring_points(12000);
   for (const std::uint64_t points_per_brick : {4000, 1000, 400}) {
     const Oriented made(without_normals(given), points_per_brick);
@@ -147,7 +147,7 @@ PointCloud crossing_balls() {
   return cloud;
 }
 
-TEST(brick_normals, are_those_of_a_field_where_the_graph_is_in_doubt) {
+TEST(brick_normals, are_those_of_a_field_where_the_graph_is_in_doubt_nightly) {
   const PointCloud rows =
       sample_surface(torus(1, 0.4, 96, 48),
                      {.points = 5000, .pattern = SamplePattern::kSlices, .pattern_ratio = 6});
@@ -170,7 +170,7 @@ TEST(brick_normals, are_those_of_a_field_where_the_graph_is_in_doubt) {
 }
 
 // Samples that are farther apart than a plate is thick do not see it, and would ask the field.
-TEST(brick_normals, of_a_plate_that_samples_do_not_show_are_sure) {
+TEST(brick_normals, of_a_plate_that_samples_do_not_show_are_sure_nightly) {
   const PointCloud given = sample_surface(box({1, 1, 0.05}), {.points = 15000});
   const Oriented made(without_normals(given), 2500, {.samples = 300});
   PointCloud whole = without_normals(given);
@@ -183,7 +183,7 @@ TEST(brick_normals, of_a_plate_that_samples_do_not_show_are_sure) {
   EXPECT_FALSE(made.times.contains("field"));
 }
 
-TEST(brick_normals, of_noisy_points_are_right_where_they_are_sure) {
+TEST(brick_normals, of_noisy_points_are_right_where_they_are_sure_nightly) {
   const PointCloud given = sample_surface(box({1, 2, 3}), {.points = 15000, .noise = 0.004});
   const Oriented made(without_normals(given), 2500);
   EXPECT_GT(made.report.neighbors, 10u);

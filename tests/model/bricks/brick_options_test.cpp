@@ -25,7 +25,7 @@ using namespace testing;
 class BrickReconstructOptions : public BrickFiles {};
 
 // Two holes, one of them through several bricks.
-TEST_F(BrickReconstructOptions, keeps_holes_open_through_bricks) {
+TEST_F(BrickReconstructOptions, keeps_holes_open_through_bricks_nightly) {
   const PointCloud cloud =
       with_hole(with_hole(torus_points(20000), {1.3, 0.1, 0.2}, 0.25), {-1, 0.2, -0.4}, 0.15);
   const ReconstructOptions keep{.holes = HolePolicy::kKeep};
@@ -73,7 +73,7 @@ TEST_F(BrickReconstructOptions, keeps_a_sheet_open) {
 }
 
 // As many triangles as wanted; what vertices know stays.
-TEST_F(BrickReconstructOptions, simplifies_through_bricks) {
+TEST_F(BrickReconstructOptions, simplifies_through_bricks_nightly) {
   PointCloud cloud = torus_points(15000);
   cloud.attributes = {{"height", ScalarType::kFloat32, {}}};
   for (const Vec3& p : cloud.points) {
@@ -108,7 +108,7 @@ TEST_F(BrickReconstructOptions, simplifies_through_bricks) {
 }
 
 // By the error that a step of the grid allows, and with borders.
-TEST_F(BrickReconstructOptions, simplifies_what_is_open) {
+TEST_F(BrickReconstructOptions, simplifies_what_is_open_nightly) {
   const PointCloud cloud = with_hole(torus_points(15000), {1.3, 0.1, 0.2}, 0.3);
   const ReconstructOptions wanted{.holes = HolePolicy::kKeep, .simplify = SimplifyOptions{}};
   const ReconstructReport report = run(cloud, 3000, "simple.ply", wanted);
@@ -124,7 +124,7 @@ TEST_F(BrickReconstructOptions, simplifies_what_is_open) {
 }
 
 // A torus with a hole, and a thin plate.
-TEST_F(BrickReconstructOptions, knows_how_sure_it_is_as_one_piece_does) {
+TEST_F(BrickReconstructOptions, knows_how_sure_it_is_as_one_piece_does_nightly) {
   PointCloud cloud = with_hole(torus_points(20000), {1.3, 0.1, 0.2}, 0.3);
   const auto random = [](std::size_t i) { return 1.2 * random_uniform(21, i) - 0.6; };
   for (std::size_t i = 0; i < 6000; ++i) {
@@ -161,7 +161,7 @@ TEST_F(BrickReconstructOptions, knows_how_sure_it_is_as_one_piece_does) {
   }
 }
 
-TEST_F(BrickReconstructOptions, does_not_close_what_has_been_seen_to_be_empty) {
+TEST_F(BrickReconstructOptions, does_not_close_what_has_been_seen_to_be_empty_nightly) {
   const PointCloud cloud = test::bored_box(true);
   const ReconstructReport report = run(cloud, 5000, "seen.ply");
   EXPECT_EQ(test::expect_closed_manifold(mesh("seen.ply")).euler_characteristic, 2);
@@ -172,7 +172,7 @@ TEST_F(BrickReconstructOptions, does_not_close_what_has_been_seen_to_be_empty) {
 }
 
 // As if seen from within: what closes the hole ends where lines of sight went out.
-TEST_F(BrickReconstructOptions, takes_one_sensor_for_all) {
+TEST_F(BrickReconstructOptions, takes_one_sensor_for_all_nightly) {
   PointCloud cloud;
   for (const Vec3& p : sample_surface(icosphere(4), {.points = 12000, .seed = 5}).points) {
     if (p.z < 0.7) cloud.points.push_back(normalized(p));
@@ -194,7 +194,7 @@ TEST_F(BrickReconstructOptions, takes_one_sensor_for_all) {
   EXPECT_LT(report.volume, 0);
 }
 
-TEST_F(BrickReconstructOptions, refuses_scans_unless_they_may_stay) {
+TEST_F(BrickReconstructOptions, refuses_scans_unless_they_may_stay_nightly) {
   PointCloud cloud = torus_points(5000);
   cloud.attributes = {{"scan", ScalarType::kInt32, std::vector<double>(5000, 3)}};
   run(cloud, 2000, "one.ply");  // of one scan
@@ -237,7 +237,7 @@ TEST_F(BrickReconstructOptions, refuses_what_no_surface_goes_with) {
   EXPECT_NE(message(tiny).find("take another unit"), std::string::npos);
 }
 
-TEST_F(BrickReconstructOptions, drops_small_parts_through_all_bricks) {
+TEST_F(BrickReconstructOptions, drops_small_parts_through_all_bricks_nightly) {
   PointCloud cloud = torus_points(20000);
   const PointCloud crumb =
       sample_surface(icosphere(3), {.points = 300, .seed = 3});  // a small ball far from the torus

@@ -65,7 +65,7 @@ double distance_to_faces(const Bounds& cell, const Vec3& x) {
 
 // Errors within three cubes of a face between bricks are those of elsewhere: of all, and of the
 // worst thousandth.
-TEST_F(BrickReconstruct, has_no_seam_at_faces_of_bricks) {
+TEST_F(BrickReconstruct, has_no_seam_at_faces_of_bricks_nightly) {
   constexpr std::uint64_t kPerBrick = 4000;
   const PointCloud cloud = torus_points(100000);
   const ReconstructReport report = run(cloud, kPerBrick, "bricks.ply");
@@ -93,7 +93,7 @@ TEST_F(BrickReconstruct, has_no_seam_at_faces_of_bricks) {
   EXPECT_LT(worst(near), 1.05 * worst(away));
 }
 
-TEST_F(BrickReconstruct, finds_normals_as_one_piece_does) {
+TEST_F(BrickReconstruct, finds_normals_as_one_piece_does_nightly) {
   PointCloud cloud = torus_points(30000);
   cloud.normals.clear();
   const ReconstructReport report = run(cloud, 5000, "bricks.ply", {}, 1);
@@ -114,7 +114,7 @@ TEST_F(BrickReconstruct, finds_normals_as_one_piece_does) {
   EXPECT_TRUE(bytes("bricks.ply") == bytes("other.ply"));
 }
 
-TEST_F(BrickReconstruct, removes_outliers_near_the_surface) {
+TEST_F(BrickReconstruct, removes_outliers_near_the_surface_nightly) {
   const PointCloud cloud = with_outliers(torus_points(30000), 1500);
   const ReconstructReport report = run(cloud, 5000, "bricks.ply");
   const Mesh bricks = mesh("bricks.ply");
@@ -131,7 +131,7 @@ TEST_F(BrickReconstruct, removes_outliers_near_the_surface) {
 }
 
 // At random and in a patch that several bricks have.
-TEST_F(BrickReconstruct, mends_normals_as_one_piece_does) {
+TEST_F(BrickReconstruct, mends_normals_as_one_piece_does_nightly) {
   PointCloud cloud = torus_points(30000);
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     const Vec3& p = cloud.points[i];
@@ -153,7 +153,7 @@ TEST_F(BrickReconstruct, mends_normals_as_one_piece_does) {
 }
 
 // None is far from the surface: their normals alone tell.
-TEST_F(BrickReconstruct, removes_points_with_wrong_normals) {
+TEST_F(BrickReconstruct, removes_points_with_wrong_normals_nightly) {
   PointCloud cloud = torus_points(30000);
   for (std::size_t i = 0; i < cloud.points.size(); i += 25) {
     const auto random = [&](std::size_t k) { return 2 * random_uniform(13, 3 * i + k) - 1; };
@@ -172,7 +172,7 @@ TEST_F(BrickReconstruct, removes_points_with_wrong_normals) {
 
 // A patch of fewer points than are kept beside the surface, in two bricks at least: x = 0 is
 // between bricks.
-TEST_F(BrickReconstruct, removes_groups_through_bricks) {
+TEST_F(BrickReconstruct, removes_groups_through_bricks_nightly) {
   PointCloud cloud = with_outliers(torus_points(30000), 300);
   std::size_t n = 0;
   for (double x = -0.03; x < 0.031; x += 0.01) {
@@ -200,7 +200,7 @@ TEST_F(BrickReconstruct, drops_points_without_normals_where_others_have_some) {
 }
 
 // What is missing lies in several bricks.
-TEST_F(BrickReconstruct, closes_holes_through_bricks_smoothly) {
+TEST_F(BrickReconstruct, closes_holes_through_bricks_smoothly_nightly) {
   constexpr double kHole = 0.25;
   const PointCloud cloud = with_hole(torus_points(40000), {1.3, 0.1, 0.2}, kHole);
   const ReconstructReport report = run(cloud, 3000, "closed.ply");
@@ -220,7 +220,7 @@ TEST_F(BrickReconstruct, closes_holes_through_bricks_smoothly) {
 
 // A sphere with a gap around an island: its rims are too far from each other to be one portion, and
 // what closes one closes the other.
-TEST_F(BrickReconstruct, closes_gaps_around_islands_whatever_the_portions) {
+TEST_F(BrickReconstruct, closes_gaps_around_islands_whatever_the_portions_nightly) {
   const PointCloud whole = sample_surface(icosphere(6), {.points = 30000, .seed = 2});
   const PointCloud cloud = those_of(whole, [](const Vec3& p) {
     const double angle = std::acos(p.z / norm(p));
@@ -251,7 +251,7 @@ TEST_F(BrickReconstruct, closes_gaps_around_islands_whatever_the_portions) {
 
 // A ring with a neck that is thinner than points can tell, between bricks, within one, or in the
 // only one: as in one piece it is cut, and a ball is left, also where the surface may be open.
-TEST_F(BrickReconstruct, cuts_handles_as_one_piece_does) {
+TEST_F(BrickReconstruct, cuts_handles_as_one_piece_does_nightly) {
   const PointCloud cloud = sample_surface(test::ring_with_neck(0.15), {.points = 4000, .seed = 5});
   const Reconstruction one = reconstruct(cloud);
   ASSERT_EQ(one.report.cut_handles, 1U);
@@ -279,7 +279,7 @@ TEST_F(BrickReconstruct, turns_normals_that_point_inwards) {
 }
 
 // Also in the middle of a hole, where no cap reaches.
-TEST_F(BrickReconstruct, has_unit_normals_everywhere) {
+TEST_F(BrickReconstruct, has_unit_normals_everywhere_nightly) {
   const PointCloud cloud = with_hole(torus_points(20000), {-1.2, 0.3, 0.25}, 0.35);
   run(cloud, 1500, "normals.ply");
   const Mesh closed = mesh("normals.ply");

@@ -21,7 +21,7 @@ using namespace testing;
 
 class BrickReconstructWork : public BrickFiles {};
 
-TEST_F(BrickReconstructWork, neither_threads_nor_a_folder_nor_the_order_change_a_bit) {
+TEST_F(BrickReconstructWork, neither_threads_nor_a_folder_nor_the_order_change_a_bit_nightly) {
   PointCloud cloud = torus_points(20000);
   run(cloud, 3000, "a.ply", {}, 1);
   run(cloud, 3000, "b.ply", {}, 3, "work");
@@ -35,7 +35,7 @@ TEST_F(BrickReconstructWork, neither_threads_nor_a_folder_nor_the_order_change_a
 
 // Cancelled after each of its stages, and taken up.
 // Also what is rare: outliers, borders, strips of triangles between bricks.
-TEST_F(BrickReconstructWork, is_taken_up_where_it_ended) {
+TEST_F(BrickReconstructWork, is_taken_up_where_it_ended_nightly) {
   PointCloud cloud = with_outliers(torus_points(12000), 200);
   for (std::size_t i = 0; i < 12000; ++i) {
     if (norm(cloud.points[i] - Vec3{1.3, 0.1, 0.2}) < 0.3) cloud.points[i] = {0, 0, 2.5};

@@ -22,7 +22,7 @@ namespace {
 using test::expect_closed_manifold;
 using test::sphere_points;
 
-TEST(Reconstruct, scans_that_are_off_make_one_sheet) {
+TEST(Reconstruct, scans_that_are_off_make_one_sheet_nightly) {
   // Three spacings, rms: without a motion thousands of caps of two sheets each.
   const Mesh body = bumpy_sphere(5);
   const PointCloud scans =

@@ -89,7 +89,7 @@ TEST(scan_motions, what_no_pair_knows_of_stays) {
   }
 }
 
-TEST(align_scans, brings_eight_together) {
+TEST(align_scans, brings_eight_together_nightly) {
   const Mesh mesh = bumpy_sphere(5);
   const PointCloud truth = sample_surface(mesh, eight_scans(0));
   for (const bool sensors : {false, true}) {

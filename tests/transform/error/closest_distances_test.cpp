@@ -140,7 +140,7 @@ TEST(truncation_errors, of_sizes_that_do_not_compare_come_at_once) {
   }
 }
 
-TEST(analyze_to_a_tolerance, of_the_distance_is_kept_on_steep_polyhedra) {
+TEST(analyze_to_a_tolerance, of_the_distance_is_kept_on_steep_polyhedra_nightly) {
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
     const Mesh mesh = test::star_polyhedron(2 * (seed - 1), 0, 0.9, seed);
     const StarChart chart =

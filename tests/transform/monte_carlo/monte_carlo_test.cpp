@@ -167,7 +167,7 @@ double over_seeds(const StarChart& chart, MonteCarloOptions options, int seeds,
   return std::sqrt(sum / seeds);
 }
 
-TEST(monte_carlo, the_error_falls_with_the_root_of_the_samples) {
+TEST(monte_carlo, the_error_falls_with_the_root_of_the_samples_nightly) {
   const int degree = 6;
   const StarChart chart = octahedron();
   const Coefficients expected = exact(chart, degree);
@@ -225,7 +225,7 @@ TEST(monte_carlo, three_deviations_hold_the_error_as_often_as_they_should) {
   }
 }
 
-TEST(monte_carlo, the_relative_deviation_is_the_size_of_the_error) {
+TEST(monte_carlo, the_relative_deviation_is_the_size_of_the_error_nightly) {
   const int degree = 4;
   const StarChart chart = octahedron();
   const Coefficients expected = exact(chart, degree);
@@ -251,7 +251,7 @@ double error_of_degree(const Coefficients& found, const Coefficients& expected, 
   return std::sqrt(sum);
 }
 
-TEST(monte_carlo, the_deviation_of_a_degree_is_that_of_all_its_coefficients) {
+TEST(monte_carlo, the_deviation_of_a_degree_is_that_of_all_its_coefficients_nightly) {
   const int degree = 5;
   const StarChart chart = octahedron();
   const Coefficients expected = exact(chart, degree);
