@@ -341,6 +341,7 @@ std::string errors_text(const TruncationErrors& errors) {
   add("radial error", errors.rms,
       errors.rms_is_exact ? " rms over solid angle, exact" : " rms over solid angle, measured");
   add("", errors.measured_max, " at most, measured");
+  add("", errors.max_bound, " at most anywhere, a bound");
   add("", errors.predicted_max, " at most at vertices, predicted");
   add("distance", errors.distance_rms, " rms over area, measured");
   add("", errors.measured_max_distance, " at most, measured");

@@ -56,6 +56,7 @@ Json json_of(const TruncationErrors& errors) {
           {"predicted_max", json_of(errors.predicted_max)},
           {"predicted_max_distance", json_of(errors.predicted_max_distance)},
           {"measured_max", json_of(errors.measured_max)},
+          {"max_bound", json_of(errors.max_bound)},
           {"measured_max_distance", json_of(errors.measured_max_distance)},
           {"distance_rms", json_of(errors.distance_rms)},
           {"distances_are_closest", errors.distances_are_closest},
@@ -65,6 +66,7 @@ Json json_of(const TruncationErrors& errors) {
             {"predicted_max", "estimate"},
             {"predicted_max_distance", "estimate"},
             {"measured_max", "measured"},
+            {"max_bound", "bound"},
             {"measured_max_distance", "measured"},
             {"distance_rms", "measured"}}}};
 }

@@ -746,6 +746,10 @@ class TruncationErrors:
         """Largest radial error at `points` points of the shape."""
 
     @property
+    def max_bound(self) -> float | None:
+        """No radial error is larger, by branch and bound; None for a gauge."""
+
+    @property
     def measured_max_distance(self) -> float | None:
         """The same as a distance."""
 

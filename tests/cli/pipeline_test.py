@@ -116,6 +116,8 @@ class Analyze(CliTest):
         self.assertEqual(report["fast"]["kinds"]["error"], "measured")
         self.assertEqual(report["errors"]["kinds"]["rms"], "exact")
         self.assertEqual(report["errors"]["kinds"]["measured_max"], "measured")
+        self.assertEqual(report["errors"]["kinds"]["max_bound"], "bound")
+        self.assertGreaterEqual(report["errors"]["max_bound"], report["errors"]["measured_max"])
         for part in (report, report["fast"], report["errors"]):
             for figure, kind in part["kinds"].items():
                 self.assertIn(figure, part)

@@ -109,6 +109,7 @@ TEST(every_loop, gives_the_same_bits_for_errors) {
       Bits bits;
       return bits.add(*errors.rms)
           .add(*errors.measured_max)
+          .add(errors.max_bound.value_or(0))
           .add(*errors.distance_rms)
           .add(*errors.measured_max_distance);
     });

@@ -96,7 +96,7 @@ Expansion scaled(const Expansion& expansion, double factor) {
   TruncationErrors& errors = *result.errors;
   for (std::optional<double>* length :
        {&errors.rms, &errors.predicted_max, &errors.predicted_max_distance, &errors.measured_max,
-        &errors.measured_max_distance, &errors.distance_rms}) {
+        &errors.measured_max_distance, &errors.max_bound, &errors.distance_rms}) {
     scale(*length, factor);
   }
   errors.diagonal *= factor;

@@ -32,6 +32,7 @@ inline constexpr const char* kDistancesAreClosest = "error_distances_are_closest
 inline constexpr const char* kPredictedMax = "error_predicted_max";
 inline constexpr const char* kPredictedMaxDistance = "error_predicted_max_distance";
 inline constexpr const char* kMeasuredMax = "error_measured_max";
+inline constexpr const char* kMaxBound = "error_max_bound";
 inline constexpr const char* kMeasuredMaxDistance = "error_measured_max_distance";
 inline constexpr const char* kDistanceRms = "error_distance_rms";
 inline constexpr const char* kErrorPoints = "error_points";

@@ -124,6 +124,7 @@ class ModelReader {
     errors.predicted_max = optional_length(group, layout::kPredictedMax);
     errors.predicted_max_distance = optional_length(group, layout::kPredictedMaxDistance);
     errors.measured_max = optional_length(group, layout::kMeasuredMax);
+    errors.max_bound = optional_length(group, layout::kMaxBound);
     errors.measured_max_distance = optional_length(group, layout::kMeasuredMaxDistance);
     errors.distance_rms = optional_length(group, layout::kDistanceRms);
     errors.points = static_cast<std::size_t>(std::min(*points, 1e18));

@@ -42,6 +42,7 @@ void write_errors(const Writer& writer, hid_t group, const TruncationErrors& err
   write(layout::kPredictedMax, errors.predicted_max);
   write(layout::kPredictedMaxDistance, errors.predicted_max_distance);
   write(layout::kMeasuredMax, errors.measured_max);
+  write(layout::kMaxBound, errors.max_bound);
   write(layout::kMeasuredMaxDistance, errors.measured_max_distance);
   write(layout::kDistanceRms, errors.distance_rms);
   writer.write_attribute(group, layout::kErrorPoints, static_cast<double>(errors.points));

@@ -43,6 +43,7 @@ std::vector<Known> known_errors(const TruncationErrors& e) {
   return {{"rms of the radius, over solid angle", e.rms, e.rms_is_exact ? parseval : measured},
           {"rms distance of the surfaces, over area", e.distance_rms, measured},
           {"largest error of the radius", e.measured_max, measured},
+          {"largest error of the radius", e.max_bound, "an upper bound, by branch and bound"},
           {"largest error of the radius", e.predicted_max, predicted},
           {"largest distance of the surfaces", e.measured_max_distance, measured},
           {"largest distance of the surfaces", e.predicted_max_distance, predicted}};

@@ -13,8 +13,10 @@
 #include "transform/error/error_points.h"
 #include "transform/error/error_sites.h"
 #include "transform/error/largest_radial.h"
+#include "transform/error/radial_bound.h"
 #include "transform/error/sampled_distances.h"
 #include "transform/error/worst_points.h"
+#include "transform/mesh_pass/plan/error_budget.h"
 #include "transform/norms/parseval.h"
 
 namespace rholm {
@@ -50,6 +52,10 @@ double measuring_precision(const Expansion& expansion, const std::optional<doubl
 constexpr std::size_t kPeaks = 16, kClosestPeaks = 4;
 // Points over the area that may have the largest errors (chosen).
 constexpr std::size_t kMostWorst = 2048;
+
+// A bound is looked for within this part of the largest error (chosen). Values may be off by so
+// many times the precision that they are computed with (chosen).
+constexpr double kEnoughAbove = 1.01, kValueDoubt = 10;
 
 // What is looked at closely: the worst of extreme points, `extreme` of them, and of those over the
 // area.
@@ -151,6 +157,26 @@ LargestRadial largest_error(const Expansion& expansion, const RadialModel& model
   return found;
 }
 
+// No radial error is larger: to a hundredth of the largest that was found, where that takes few
+// cells.
+std::optional<double> bound_of_largest(const Expansion& expansion, const RadialModel& model,
+                                       double largest_found, double precision, ErrorSites& sites,
+                                       const Context& context) {
+  if (expansion.function != RadialFunction::kRadius) return std::nullopt;
+  const double size =
+      norm_of_degrees(expansion.coefficients, 0, model.degree) / std::sqrt(4 * std::numbers::pi);
+  const double waves = 16.0 * model.degree * model.degree;
+  const double bound =
+      radial_bound(sites.mesh(), sites.scan(), expansion, model,
+                   {.seen = largest_found,
+                    .enough = kEnoughAbove * largest_found,
+                    .doubt = kValueDoubt * precision * size,
+                    .most_cells = static_cast<std::size_t>(std::clamp(waves, 1e4, 1e5))},
+                   context)
+          .value;
+  return std::isfinite(bound) ? std::optional(bound) : std::nullopt;
+}
+
 }  // namespace
 
 TruncationErrors truncation_errors(const MeshView& mesh, const Expansion& expansion,
@@ -194,6 +220,7 @@ TruncationErrors truncation_errors(const Expansion& expansion, const TruncationO
   if (worst_radial != nullptr) worst_radial->append(radial.worst(degree));
   const Looked looked = look_closely(std::move(worst), over_area, of_area);
   errors.measured_max = radial.value;
+  errors.max_bound = bound_of_largest(expansion, model, radial.value, precision, sites, silent);
   errors.measured_max_distance =
       std::max(largest(looked.errors.to_model), largest(looked.errors.to_shape));
   measure_closest(looked, {over_area, of_area}, model, expansion, precision, silent, sites, errors);

@@ -48,6 +48,7 @@ Expansion some_expansion(RadialFunction function) {
   TruncationErrors& errors = e.errors.emplace();
   errors.rms = 0.1;
   errors.measured_max = 0.5;
+  errors.max_bound = 0.625;
   errors.points = 7;
   errors.diagonal = 20;
   return e;
@@ -70,6 +71,7 @@ TEST(LengthUnit, a_scaled_surface_has_scaled_points) {
     EXPECT_DOUBLE_EQ(*after.tail_strength, 2 * k * k);
     EXPECT_DOUBLE_EQ(*after.errors->rms, 100);  // a length either way
     EXPECT_DOUBLE_EQ(*after.errors->measured_max, 500);
+    EXPECT_DOUBLE_EQ(*after.errors->max_bound, 625);
     EXPECT_EQ(after.errors->predicted_max, std::nullopt);
     EXPECT_EQ(after.errors->points, 7u);
     EXPECT_DOUBLE_EQ(after.errors->diagonal, 20000);

@@ -99,6 +99,7 @@ TEST(model_file, errors_return_and_those_that_are_unknown_stay_unknown) {
   expansion.errors->rms = 0.25;
   expansion.errors->rms_is_exact = true;
   expansion.errors->measured_max = 1.5;
+  expansion.errors->max_bound = 1.75;
   expansion.errors->distance_rms = 0.125;
   expansion.errors->distances_are_closest = true;
   expansion.errors->points = 1234567;
@@ -110,6 +111,7 @@ TEST(model_file, errors_return_and_those_that_are_unknown_stay_unknown) {
   EXPECT_EQ(again.errors->rms, 0.25);
   EXPECT_TRUE(again.errors->rms_is_exact);
   EXPECT_EQ(again.errors->measured_max, 1.5);
+  EXPECT_EQ(again.errors->max_bound, 1.75);
   EXPECT_EQ(again.errors->distance_rms, 0.125);
   EXPECT_TRUE(again.errors->distances_are_closest);
   EXPECT_EQ(again.errors->points, 1234567u);
