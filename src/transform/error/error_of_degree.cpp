@@ -35,6 +35,11 @@ constexpr double kWorst = 0.3, kWellWithin = 0.9;
 
 // Of a degree that errs too much; and where climbs to the largest distances begin (chosen).
 constexpr std::size_t kWitnesses = 16, kDistancePeaks = 16;
+// Of distances no more are kept (chosen: some milliseconds a degree).
+constexpr std::size_t kMostWitnesses = 128;
+// Where closest points rule, steps from the ray may miss the closest one: so much farther a point
+// is too far all the same (chosen).
+constexpr double kOnOtherSides = 1.2;
 
 double root_mean_square(const std::vector<double>& values) {
   double squares = 0;
@@ -94,6 +99,10 @@ double ErrorOfDegree::of(const Expansion& expansion, int degree, double limit) {
   if (is_distance() && is_coarse(sites_.mesh()) && may_be_refined(expansion, degree, limit)) {
     closest_rule_ = true;
   }
+  if (is_distance() && witnesses_.size() > 0) {
+    const double value = witnessed_distance(expansion, degree, limit);
+    if (value > (closest_rule_ ? kOnOtherSides : 1) * limit) return value;
+  }
   if (closest_rule_) return closest_of(expansion, degree, limit);
   const double value =
       is_largest() ? largest_of(expansion, degree, limit) : rms_of(expansion, degree, limit);
@@ -125,6 +134,12 @@ double ErrorOfDegree::closest_ratio(const Expansion& expansion, int degree, doub
   return first > 0 ? (is_largest() ? sampled.max : sampled.rms) / first : 1;
 }
 
+double ErrorOfDegree::witnessed_distance(const Expansion& expansion, int degree,
+                                         double limit) const {
+  const RadialModel model(expansion, degree, witnesses_.size(), true, precision(limit), silent_);
+  return largest(distances_to_model(model, witnesses_));
+}
+
 // At few points unless they say that it is close to the limit.
 double ErrorOfDegree::closest_of(const Expansion& expansion, int degree, double limit) {
   const ErrorPoints extreme = extreme_points(sites_.mesh(), sites_.center(), sites_.scan(), degree);
@@ -134,6 +149,9 @@ double ErrorOfDegree::closest_of(const Expansion& expansion, int degree, double 
     return is_largest() ? found.max : found.rms;
   };
   const double value = at(false);
+  if (is_largest() && value > limit) {
+    witness(extreme, measured(extreme, expansion, degree, limit).to_model, degree);
+  }
   return value > kCloseFew * limit || kCloseFew * value < limit ? value : at(true);
 }
 
@@ -149,7 +167,7 @@ double ErrorOfDegree::largest_of(const Expansion& expansion, int degree, double 
     const double value = largest(sizes(measured(some_points(), expansion, degree, limit)));
     if (value > kDoubt * limit) return value;
   }
-  if (witnesses_.size() > 0) {
+  if (!is_distance() && witnesses_.size() > 0) {
     const double value = largest(sizes(measured(witnesses_, expansion, degree, limit)));
     if (value > limit) return value;
   }
@@ -192,7 +210,7 @@ double ErrorOfDegree::between_points(const Expansion& expansion, int degree, dou
 
 void ErrorOfDegree::witness(const ErrorPoints& points, const std::vector<double>& errors,
                             int degree) {
-  if (is_distance()) return;
+  if (is_distance() && witnesses_.size() >= kMostWitnesses) return;
   witnesses_.append(points.subset(worst_apart(points, errors, degree, kWitnesses)));
 }
 

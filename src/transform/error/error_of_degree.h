@@ -34,8 +34,8 @@ class ErrorOfDegree {
   // meshes and from where a sample is not enough.
   double of(const Expansion& expansion, int degree, double limit);
 
-  // Points at which the largest radial error of some degree was found, or almost so: of each degree
-  // that of() was asked for.
+  // Points at which the largest error of some degree was found, or almost so: of each degree that
+  // of() was asked for.
   const ErrorPoints& witnesses() const { return witnesses_; }
 
  private:
@@ -44,6 +44,7 @@ class ErrorOfDegree {
   bool may_be_refined(const Expansion& expansion, int degree, double limit);
   double closest_ratio(const Expansion& expansion, int degree, double limit);
   double closest_of(const Expansion& expansion, int degree, double limit);
+  double witnessed_distance(const Expansion& expansion, int degree, double limit) const;
   double rms_of(const Expansion& expansion, int degree, double limit);
   double largest_of(const Expansion& expansion, int degree, double limit);
   double between_points(const Expansion& expansion, int degree, double limit,

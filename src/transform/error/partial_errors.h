@@ -1,4 +1,4 @@
-// The radial errors of all first degrees of coefficients at once, at few points.
+// The errors of all first degrees of coefficients at once, at few points.
 #pragma once
 
 #include <vector>
@@ -13,5 +13,10 @@ namespace rholm {
 // points. Term by term, (L + 1)^2 for each point.
 std::vector<double> largest_partial_errors(const ErrorPoints& points, const Coefficients& c,
                                            const Context& context);
+
+// The largest distance of the points to the surface of the first l degrees, to first order: to its
+// tangent plane on the same ray. Points within 1e-6 of a pole are left out.
+std::vector<double> largest_partial_distances(const ErrorPoints& points, const Coefficients& c,
+                                              const Context& context);
 
 }  // namespace rholm

@@ -34,10 +34,14 @@ constexpr double kFinalByWitnesses = 1.03;
 // The largest error that coefficients make at points, in root mean squares (chosen).
 constexpr double kDoubt = 10;
 
-// Distances are measured degree by degree below the one that the bracket finds: the largest until
-// two degrees in a row err too much, and at so many degrees at most (chosen: a degree costs some
-// hundredths of a command).
-constexpr int kMissesOfLargest = 2, kMostTries = 24;
+// Distances to first order that are so many times too large are too large indeed (chosen).
+constexpr double kTooFar = 2;
+// Root mean squares of distances are in proportion to those of the radius within this part (chosen;
+// they are within 3 % on the shapes of scripts/measure-distances).
+constexpr double kProportional = 1.1;
+// A degree whose distances are this many times too large at few points is not measured at all of
+// them (chosen: twice what they differ by).
+constexpr double kScreened = 1.01;
 
 class Search {
  public:
@@ -52,9 +56,8 @@ class Search {
 
   ToleranceAnalysis run(const Analysis& first) {
     take(first);
-    double degree = by_energies()    ? kFinalByEnergies * degree_by_energies() + 1
-                    : by_witnesses() ? kFinalByWitnesses * degree_by_points() + 1
-                                     : lowest_near(degree_by_points());
+    double degree = by_energies() ? kFinalByEnergies * degree_by_energies() + 1
+                                  : kFinalByWitnesses * degree_by_points() + 1;
     for (;;) {
       finish(degree);
       result_.met = result_.reached <= result_.allowed;
@@ -68,7 +71,6 @@ class Search {
   bool is_largest() const { return tolerance_.norm == ErrorNorm::kMax; }
   bool is_distance() const { return tolerance_.measure == ErrorMeasure::kDistance; }
   bool by_energies() const { return !is_largest() && !is_distance(); }
-  bool by_witnesses() const { return is_largest() && !is_distance(); }
   Expansion& expansion() { return result_.analysis.expansion; }
   // Degree of the coefficients there are.
   int highest() { return expansion().coefficients.degree(); }
@@ -101,10 +103,10 @@ class Search {
       double_degree();
       beyond = rms_beyond();
     }
-    const double energy = 4 * std::numbers::pi * beyond * beyond;
-    return smallest_degree(rms_tails(expansion().coefficients, energy), result_.allowed);
+    return smallest_degree(rms_tails(expansion().coefficients, energy_of(beyond)), result_.allowed);
   }
   double rms_beyond() { return sampled_rms(expansion(), sites_, precisions_.pilot, context_); }
+  static double energy_of(double rms) { return 4 * std::numbers::pi * rms * rms; }
 
   // Errors at points: of all degrees there are until that is good, then between.
   int degree_by_points() {
@@ -115,17 +117,6 @@ class Search {
       try_degree(bracket.guess(kAim * result_.allowed), bracket);
     }
     return bracket.good;
-  }
-
-  // Downwards from a degree that is good, if it is, past a few that are not.
-  int lowest_near(int degree) {
-    const double limit = kMargin * result_.allowed;
-    const int misses = is_largest() ? kMissesOfLargest : 1;
-    int lowest = degree;
-    for (int l = degree - 1, n = 0; l >= 0 && lowest - l <= misses && n < kMostTries; --l, ++n) {
-      if (error_.of(expansion(), l, limit) <= limit) lowest = l;
-    }
-    return lowest;
   }
 
   double try_degree(int degree, DegreeBracket& bracket) {
@@ -142,11 +133,7 @@ class Search {
       cut_by_parseval(expansion().coefficients);
       return;
     }
-    if (by_witnesses()) {
-      cut_by_witnesses();
-    } else {
-      measure(nullptr);
-    }
+    cut_to_smallest();
   }
 
   void measure(ErrorPoints* worst) {
@@ -157,29 +144,56 @@ class Search {
     result_.reached = error_in(*expansion().errors, tolerance_);
   }
 
-  // To the smallest degree within the tolerance, if there is one: each lower one errs more at one
-  // of the points at which some degree erred most.
-  void cut_by_witnesses() {
+  // To the smallest degree within the tolerance, if there is one: each lower one errs more, at
+  // points at which some degree erred most or where it was measured.
+  void cut_to_smallest() {
     const Analysis all = result_.analysis;
     const Coefficients& coefficients = all.expansion.coefficients;
-    std::vector<double> least = largest_partial_errors(error_.witnesses(), coefficients, context_);
+    std::vector<double> least = least_errors(coefficients);
     const auto may_be_good = [&](double error) { return error <= result_.allowed + doubt(); };
     int tried = -1;
     for (;;) {
       const auto good = std::ranges::find_if(least, may_be_good);
       if (good == least.end()) break;
-      tried = static_cast<int>(good - least.begin());
+      const int degree = static_cast<int>(good - least.begin());
+      *good = std::numeric_limits<double>::infinity();
+      if (is_distance() && degree < coefficients.degree() && is_too_far(all.expansion, degree)) {
+        continue;
+      }
+      tried = degree;
       ErrorPoints worst;
       measure_first(tried, all, worst);
       if (result_.reached <= result_.allowed) return;
+      if (is_distance()) continue;
       const std::vector<double> more = largest_partial_errors(worst, coefficients, context_);
       for (std::size_t l = 0; l < least.size(); ++l) least[l] = std::max(least[l], more[l]);
-      *good = std::numeric_limits<double>::infinity();
     }
     if (tried != coefficients.degree()) {
       result_.analysis = all;
       measure(nullptr);
     }
+  }
+
+  // What the error of each degree is at least, as far as a look at all of them says.
+  std::vector<double> least_errors(const Coefficients& coefficients) {
+    if (!is_distance()) return largest_partial_errors(error_.witnesses(), coefficients, context_);
+    std::vector<double> least;
+    double part = 1 / kTooFar;
+    if (is_largest()) {
+      least = largest_partial_distances(error_.witnesses(), coefficients, context_);
+    } else {
+      const int degree = coefficients.degree();
+      least = rms_tails(coefficients, energy_of(rms_beyond()));
+      const double tail = least.back();
+      const double distance = error_.of(expansion(), degree, result_.allowed);
+      part = tail > 0 ? distance / (tail * kProportional) : 0;
+    }
+    for (double& error : least) error *= part;
+    return least;
+  }
+
+  bool is_too_far(const Expansion& all, int degree) {
+    return error_.of(all, degree, result_.allowed) > kScreened * result_.allowed;
   }
 
   // The error of the coefficients may add this to errors at points.
