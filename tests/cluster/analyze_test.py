@@ -172,7 +172,14 @@ class Stopped(Analyze):
         self.assertEqual(run.pids(), {})
 
     def test_a_rank_that_is_killed_ends_the_run(self):
-        for ranks, killed, worked in ((2, 1, 0), (3, 0, 0.2), (4, 2, 0.5)):
+        self.check_killed((3, 0, 0.2))
+
+    @nightly
+    def test_any_rank_that_is_killed_ends_the_run(self):
+        self.check_killed((2, 1, 0), (3, 0, 0.2), (4, 2, 0.5))
+
+    def check_killed(self, *cases):
+        for ranks, killed, worked in cases:
             run = self.start_working(ranks)
             begin = run.seconds_worked(killed)
             run.until(lambda: run.seconds_worked(killed) >= begin + worked, f"rank {killed} has worked")

@@ -44,9 +44,16 @@ class Reconstruct(ProgramTest):
                 if not line.startswith("#")]
         (self.folder / "bare.xyz").write_text("".join(" ".join(row) + "\n" for row in rows))
 
+    def test_several_ranks_give_the_same_bytes(self):
+        self.check_same((3,))
+
+    @nightly
     def test_any_number_of_ranks_gives_the_same_bytes(self):
+        self.check_same(RANKS)
+
+    def check_same(self, all_ranks):
         self.rholm(*self.words("one.ply", "--model", "one.h5"))
-        for ranks in RANKS:
+        for ranks in all_ranks:
             run = self.finished(RHOLM_MPI, *self.words("all.ply", "--threads", 1 + ranks % 2, "--model", "all.h5"),
                                 ranks=ranks)
             self.assertEqual(run.code, 0, run)
