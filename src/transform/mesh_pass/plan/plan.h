@@ -82,9 +82,10 @@ struct MeshPlan {
   double nodes = 0;     // these and those of the others' own, per triangle, likewise
   double source2 = 0;   // sum of squares of the nodes' weights, as the sample has it
   double hessian2 = 0;  // and of L^2 times Hessians
-  double node_modulus = 0;  // sum of the moduli of the nodes' weights
-  double aligned = 0;       // part of the edges along meridians or parallels
-  bool single = false;      // single precision will do
+  double node_modulus = 0;   // sum of the moduli of the nodes' weights
+  double aligned = 0;        // part of the edges along meridians or parallels
+  double round_modulus = 0;  // of all sources, as far as the body is nearly a ball
+  bool single = false;       // single precision will do
 };
 // All of them.
 MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& center, int degree,
@@ -92,7 +93,7 @@ MeshPlan plan_mesh(const MeshView& mesh, const MeshSample& sample, const Vec3& c
 
 // What windows leave, relative to their own error, of nodes in rows along meridians and parallels,
 // whose moduli have that sum: edges and faces have rows of their own, and what cancels between
-// them in the sum, as on a ball, does not cancel there.
+// them in the sum, as on a ball, does not cancel there. Or of all sources of what is nearly a ball.
 double rows_in_step(const MeshPlan& plan, double node_modulus);
 
 // The window error that keeps the plan's share for sources whose squared weights have that sum.
