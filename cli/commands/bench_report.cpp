@@ -35,7 +35,7 @@ std::vector<Row> stage_rows(const Timings& stages) {
       {"triangles", "- triangles"},
       {"spread", "- spread"},
       {"fourier", "- Fourier and Legendre"},
-      {"verify", "- second reading"},
+      {"verify", "- measured error"},
       {"norms", "norms"},
       {"write", "write a model file"}};
   std::vector<Row> rows;
@@ -146,7 +146,7 @@ std::string table_head(const std::string& title, const std::string& source) {
 
 std::string error_text(const BenchCase& run) {
   const auto& fast = run.file.encoded.analysis.fast;
-  const char* kind = fast && fast->measured ? "measured" : "estimated";
+  const char* kind = fast && fast->measured_share > 0 ? "measured" : "estimated";
   std::string text =
       line("error", fmt::format("{:.2g} of the wanted {:.2g}{}; of the degrees above {}: {:.2g}{}",
                                 run.error.error, run.precision,

@@ -72,7 +72,8 @@ Json json_of(const TruncationErrors& errors) {
 }
 
 Json json_of(const FastReport& fast) {
-  const char* kind = fast.measured ? "measured" : "estimate";
+  const bool measured = fast.measured_share > 0;
+  const char* kind = measured ? "measured" : "estimate";
   return {
       {"precision", fast.single ? "single" : "double"},
       {"window_width", fast.width},
@@ -84,7 +85,8 @@ Json json_of(const FastReport& fast) {
       {"precision_reached", fast.reached},
       {"error", fast.error},
       {"error_of_top_quarter", fast.band_error},
-      {"error_doubt", fast.measured ? Json(fast.error_doubt) : Json(nullptr)},
+      {"measured_share", fast.measured_share},
+      {"error_doubt", measured ? Json(fast.error_doubt) : Json(nullptr)},
       {"kinds", {{"error", kind}, {"error_of_top_quarter", kind}, {"error_doubt", "estimate"}}}};
 }
 

@@ -37,10 +37,11 @@ struct FastReport {
   // l2 over 1 <= l <= L, relative to the norm of the function without its mean.
   double error = 0;
   double band_error = 0;  // of the degrees above 3L/4 relative to that band's own norm
-  // Whether these are differences from a second, finer reading of the mesh from another side: of
-  // meshes of up to 100 000 triangles. Otherwise they are estimates.
-  bool measured = false;
-  double error_doubt = 0;  // of a measured error: what the second reading may itself be off
+  // The part of the triangles that these were measured on. 1: all, up to 100 000, by a second,
+  // finer reading of the mesh from another side. Below: what rules leave, on a sample of larger
+  // meshes. 0: nothing was measured, they are estimates of the model.
+  double measured_share = 0;
+  double error_doubt = 0;  // of a measured error: by how much more it may be above it
   int passes = 0;          // over the triangles until the coefficients were found
   // Whether the error, with its doubt, is within the wanted precision, or within what rounding
   // leaves at best.

@@ -1438,14 +1438,14 @@ class FastReport:
         """Of the degrees above 3L/4 relative to their own norm."""
 
     @property
-    def measured(self) -> bool:
+    def measured_share(self) -> float:
         """
-        Whether errors are differences from a second, finer reading; else estimates.
+        Part of the triangles that errors were measured on: 1 by a second, finer reading, less on a sample; 0 where they are estimates.
         """
 
     @property
     def error_doubt(self) -> float:
-        """What the second reading may itself be off."""
+        """By how much more a measured error may be off."""
 
     @property
     def passes(self) -> int:

@@ -150,9 +150,11 @@ void bind_results(nb::module_& m) {
              "Of the coefficients, l2 over degrees from 1 on, relative to the norm without mean.")
       .field("band_error", &FastReport::band_error,
              "Of the degrees above 3L/4 relative to their own norm.")
-      .field("measured", &FastReport::measured,
-             "Whether errors are differences from a second, finer reading; else estimates.")
-      .field("error_doubt", &FastReport::error_doubt, "What the second reading may itself be off.")
+      .field("measured_share", &FastReport::measured_share,
+             "Part of the triangles that errors were measured on: 1 by a second, finer reading, "
+             "less on a sample; 0 where they are estimates.")
+      .field("error_doubt", &FastReport::error_doubt,
+             "By how much more a measured error may be off.")
       .field("passes", &FastReport::passes, "Over the triangles until the coefficients were found.")
       .field("reached", &FastReport::reached, "Whether the error is within the precision.");
   Record<Analysis>(m, "Analysis", "How coefficients were found.")

@@ -114,6 +114,7 @@ class Analyze(CliTest):
         self.assertLess(report["fast"]["error"], 1e-8)
         # What each figure of an error is worth.
         self.assertEqual(report["fast"]["kinds"]["error"], "measured")
+        self.assertEqual(report["fast"]["measured_share"], 1)
         self.assertEqual(report["errors"]["kinds"]["rms"], "exact")
         self.assertEqual(report["errors"]["kinds"]["measured_max"], "measured")
         self.assertEqual(report["errors"]["kinds"]["max_bound"], "bound")

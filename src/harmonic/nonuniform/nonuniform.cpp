@@ -52,24 +52,34 @@ void load_sources(const ScatteredSources& sources, std::size_t first, std::size_
   }
 }
 
+// Sources, and how much of them is used.
+struct SourceKind {
+  const ScatteredSources& sources;
+  int derivatives;
+};
+
 template <typename T>
-void add_sources(const NonuniformPlan& plan, const ScatteredSources& sources, int derivatives,
-                 double scale, Coefficients& sum, const Context& context) {
+void add_sources(const NonuniformPlan& plan, std::span<const SourceKind> kinds, double scale,
+                 Coefficients& sum, const Context& context) {
   const GridKernel<T> kernel = grid_kernel<T>(plan.fourier);
-  const std::size_t n = sources.directions.size();
-  const std::size_t parts = grid_count(plan, n), size = (n + parts - 1) / parts;
+  std::size_t all = 0;
+  for (const SourceKind& kind : kinds) all += kind.sources.directions.size();
+  const std::size_t parts = grid_count(plan, all);
   std::vector<GridSpreader<T>> spreaders;
   spreaders.reserve(parts);
   for (std::size_t part = 0; part < parts; ++part) spreaders.emplace_back(plan, kernel);
-  parallel_for(n, size, context, {"spread", 0, 0.6}, [&](std::size_t begin, std::size_t end) {
-    auto batch = std::make_unique<SourceBatch<T>>();
-    constexpr std::size_t kSize = SourceBatch<T>::kSize;
-    for (std::size_t first = begin; first < end; first += kSize) {
-      const std::size_t count = std::min(kSize, end - first);
-      load_sources(sources, first, count, derivatives, scale, *batch);
-      spreaders[begin / size].add(*batch, count, derivatives);
-    }
-  });
+  for (const auto& [sources, derivatives] : kinds) {
+    const std::size_t n = sources.directions.size(), size = (n + parts - 1) / parts;
+    parallel_for(n, size, context, {"spread", 0, 0.6}, [&](std::size_t begin, std::size_t end) {
+      auto batch = std::make_unique<SourceBatch<T>>();
+      constexpr std::size_t kSize = SourceBatch<T>::kSize;
+      for (std::size_t first = begin; first < end; first += kSize) {
+        const std::size_t count = std::min(kSize, end - first);
+        load_sources(sources, first, count, derivatives, scale, *batch);
+        spreaders[begin / size].add(*batch, count, derivatives);
+      }
+    });
+  }
   finish_adjoint<T>(plan, spreaders, sum, context, {"transform", 0.6, 1});
 }
 
@@ -138,16 +148,24 @@ template void finish_adjoint(const NonuniformPlan&, std::span<GridSpreader<doubl
 
 void nonuniform_add_adjoint(const NonuniformPlan& plan, const ScatteredSources& sources,
                             int derivatives, Coefficients& sum, const Context& context) {
+  const SourceKind kinds[] = {{sources, derivatives}};
   if (plan.single) {
     const double scale = scale_for(largest_of(sources));
     Coefficients scaled(sum.degree());
-    add_sources<float>(plan, sources, derivatives, scale, scaled, context);
+    add_sources<float>(plan, kinds, scale, scaled, context);
     for (std::size_t i = 0; i < sum.values().size(); ++i) {
       sum.values()[i] += scaled.values()[i] / scale;
     }
   } else {
-    add_sources<double>(plan, sources, derivatives, 1, sum, context);
+    add_sources<double>(plan, kinds, 1, sum, context);
   }
+}
+
+void nonuniform_add_adjoint(const NonuniformPlan& plan, const ScatteredSources& values,
+                            const ScatteredSources& hessians, Coefficients& sum,
+                            const Context& context) {
+  const SourceKind kinds[] = {{values, 0}, {hessians, 2}};
+  add_sources<double>(plan, kinds, 1, sum, context);
 }
 
 template <typename T>

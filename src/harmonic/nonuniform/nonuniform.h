@@ -39,6 +39,10 @@ void finish_adjoint(const NonuniformPlan& plan, std::span<GridSpreader<T>> sprea
 
 void nonuniform_add_adjoint(const NonuniformPlan& plan, const ScatteredSources& sources,
                             int derivatives, Coefficients& sum, const Context& context);
+// Of two kinds in one grid: those without derivatives cost less. In double precision.
+void nonuniform_add_adjoint(const NonuniformPlan& plan, const ScatteredSources& values,
+                            const ScatteredSources& hessians, Coefficients& sum,
+                            const Context& context);
 // The function at directions; gradients on request.
 template <typename T>
 ValuesAndGradients read_at(const GridFunction<T>& function, std::span<const Vec3> directions,

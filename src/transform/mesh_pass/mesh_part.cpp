@@ -29,6 +29,7 @@ template <typename T>
 void write(const MeshPart<T>& part, ByteWriter& writer) {
   visit_numbers(part, writer);
   writer.array(std::span(part.half_edges));
+  writer.array(std::span(part.block_errors));
   writer.array(std::span(part.border.vertices));
   writer.array(std::span(part.border.lumps));
   writer.value(part.undivided.degree());
@@ -40,6 +41,7 @@ MeshPart<T> read_part(ByteReader& reader) {
   MeshPart<T> part;
   visit_numbers(part, reader);
   reader.array(part.half_edges);
+  reader.array(part.block_errors);
   reader.array(part.border.vertices);
   reader.array(part.border.lumps);
   if (part.border.lumps.size() != part.border.per_vertex * part.border.vertices.size()) {

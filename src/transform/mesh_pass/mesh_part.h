@@ -32,14 +32,15 @@ struct MeshPart {
   std::vector<GradientNode> kept_gradients;
   std::size_t n_kept = 0;  // of both
   bool too_many = false;
-  double source2 = 0;        // of those kept
-  double weight = 0;         // sum of weights, of all that are divided by l(l+1)
-  double modulus = 0;        // and of their moduli
-  std::size_t nodes = 0;     // of all
-  double node_error2 = 0;    // see NodeWriter::error2()
-  Coefficients undivided;    // of nodes that are not divided by l(l+1), if there are any
-  LumpSums lumps;            // of the vertices that no other part has
-  double border_weight = 0;  // of those below, in quanta: their sum
+  double source2 = 0;               // of those kept
+  double weight = 0;                // sum of weights, of all that are divided by l(l+1)
+  double modulus = 0;               // and of their moduli
+  std::size_t nodes = 0;            // of all
+  double node_error2 = 0;           // see NodeWriter::error2()
+  std::vector<float> block_errors;  // of each block, what the model says it leaves, l2
+  Coefficients undivided;           // of nodes that are not divided by l(l+1), if there are any
+  LumpSums lumps;                   // of the vertices that no other part has
+  double border_weight = 0;         // of those below, in quanta: their sum
   BorderLumps<LumpOf<T>> border;
 };
 

@@ -134,7 +134,8 @@ NodeWriter::NodeWriter(const NodeOptions& options, const ScaledVertices& vertice
       nodes_(sink) {}
 
 void NodeWriter::add_triangle(const std::array<Vec3, 3>& corners,
-                              const std::array<std::uint32_t, 3>& vertices) {
+                              const std::array<std::uint32_t, 3>& vertices,
+                              const std::array<bool, 3>& edges, bool face) {
   const std::array<Vec3, 3>& p = corners;
   const FaceNormal normal = face_normal(p);
   if (normal.degenerate) return;
@@ -148,10 +149,12 @@ void NodeWriter::add_triangle(const std::array<Vec3, 3>& corners,
   const Crowd crowd = crowd_of(p, d2, distance, options_.divided.degree);
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;
+    if (!edges[i]) continue;
     const double weight = grazing ? 0 : dot(n, cross(p[i], p[j])) / d2;
     add_edge(vertices[i], vertices[j],
              {.weight = weight, .gradient = grazing ? 1.0F : 0.0F, .crowd = crowd});
   }
+  if (!face) return;
   if (grazing) {
     error2_ += visit_radius(p, d2 / 2, options_.undivided, 0, 0,
                             [&](const Vec3& x, double weight) { sink_.add_undivided(x, weight); });

@@ -20,8 +20,10 @@ struct NodeOptions {
 class NodeWriter {
  public:
   NodeWriter(const NodeOptions& options, const ScaledVertices& vertices, NodeSink& sink);
+  // Of its edges those that are asked for.
   void add_triangle(const std::array<Vec3, 3>& corners,
-                    const std::array<std::uint32_t, 3>& vertices);
+                    const std::array<std::uint32_t, 3>& vertices,
+                    const std::array<bool, 3>& edges = {true, true, true}, bool face = true);
   // Half-edges and nodes that are left.
   void flush();
   // Sum of the squares of what the rules leave of the elements written so far: the square of the

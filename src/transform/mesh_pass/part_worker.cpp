@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "base/cancel.h"
@@ -11,6 +12,7 @@
 #include "transform/mesh_pass/hermite_nodes.h"
 #include "transform/mesh_pass/run_pass.h"
 #include "transform/mesh_pass/scatter.h"
+#include "transform/rules/hermite_rules.h"
 
 namespace rholm {
 namespace {
@@ -39,11 +41,13 @@ class PartWorker<T>::Triangles {
                   .center = parameters_.scale * parameters_.center,
                   .scale = parameters_.scale},
         writer_({worker.plan_.divided, worker.plan_.undivided}, vertices_, sink_),
-        between_(vertices_, sink_) {}
+        between_(vertices_, sink_),
+        lumping2_(std::pow(lumping_error(worker.plan_.divided.degree), 2)) {}
 
   void run(SharedProgress& progress) {
     const std::size_t first = worked_.mesh.first_triangle, n = worked_.mesh.n_triangles;
     const auto& release = worker_.options_.release;
+    worked_.part.block_errors.reserve((n + kBlockSize - 1) / kBlockSize);
     look_at(0);
     for (std::size_t at = 0; at < n; at += kBlockSize) {
       ask_cancel();
@@ -90,7 +94,19 @@ class PartWorker<T>::Triangles {
     if (fans_ != nullptr) link_fans(here_->places, n, *block_, fans_);
     if (block_->has_nodes_between) between_.add(mesh_, first, n, *block_);
     sample_half_edges(*block_, n, part.half_edges);
+    const double written = writer_.error2();
     if (part.sums.nodes != before || part.sums.max_edge2 > mean_reach2) write_nodes(first, n);
+    const double error2 = lumping2_ * lumped_error2(n) + writer_.error2() - written;
+    part.block_errors.push_back(static_cast<float>(std::sqrt(error2)));
+  }
+
+  // In units of lumping_error(L), of the block's first n triangles.
+  double lumped_error2(std::size_t n) const {
+    double sum = 0;
+    for (std::size_t t = 0; t < n; ++t) {
+      sum += (block_->flag[t] & kNodes) == 0 ? block_->error2[t] : 0;
+    }
+    return sum;
   }
 
   void write_nodes(std::size_t first, std::size_t n) {
@@ -122,6 +138,7 @@ class PartWorker<T>::Triangles {
   ScaledVertices vertices_;
   NodeWriter writer_;
   NodesBetween between_;
+  double lumping2_;
 };
 
 template <typename T>

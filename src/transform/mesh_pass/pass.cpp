@@ -10,12 +10,16 @@
 #include "transform/mesh_pass/plan/error_budget.h"
 #include "transform/mesh_pass/plan/plan.h"
 #include "transform/mesh_pass/run_pass.h"
+#include "transform/mesh_pass/sampled_rules.h"
 
 namespace rholm {
 namespace {
 
 // Tries to keep the precision: a second is rare, a third needs no sample.
 constexpr int kMostTries = 3;
+
+// So many times what a sample says of rules, and its doubt, are to be within the wish (chosen).
+constexpr double kSampleMargin = 2;
 
 // A mesh with a sample of it; the triangles sorted if they were in random order, where every corner
 // misses the cache and neighbours, which nobody knows, cannot be seen to cancel.
@@ -57,12 +61,36 @@ PassInput pass_input(const MeshView& mesh, const MeshPassOptions& options, const
 // By how much less the next pass may leave than one that fell short of the wish. What the plan
 // allowed may be far above what came of it, and has to come below that; half as much again, as not
 // all errors follow.
-double tightened(const MeshPassResult& result, const MeshPlan& plan, double precision,
+double tightened(double error, double modelled, const MeshPlan& plan, double precision,
                  double norm) {
   const double planned =
       std::hypot(plan.allowed.rules, plan.allowed.window, plan.quanta_error) / plan.block.scale;
-  const double slack = std::max(1.0, planned / (result.report.error * norm));
-  return 1.5 * slack * result.report.error / precision;
+  const double slack = std::max(1.0, planned / (modelled * norm));
+  return 1.5 * slack * error / precision;
+}
+
+// Takes what rules leave from a sample of a large mesh. Returns what is to be within the wish,
+// relative as FastReport::error.
+double measure(const PassInput& input, const MeshPlan& plan, const Context& context, double norm,
+               MeshPassResult& result) {
+  FastReport& report = result.report;
+  const bool sampled = input.mesh.n_triangles > kMostVerified && result.closed;
+  if (!sampled || plan.divided.degree == 0 || !(norm > 0)) {
+    return report.error;
+  }
+  const auto sample = timed(result.times, "verify", [&] {
+    return sample_rules(input.mesh, input.options, plan, result.block_errors, context);
+  });
+  const double unscale = 1 / plan.block.scale;
+  const int degree = plan.divided.degree;
+  const double band = norm_of_degrees(result.coefficients, 3 * degree / 4 + 1, degree);
+  const double rules = unscale * sample.error, doubt = unscale * sample.doubt;
+  report.measured_share = sample.share;
+  report.error = std::hypot(rules, result.error_beside) / norm;
+  report.error_doubt = std::hypot(rules + doubt, result.error_beside) / norm - report.error;
+  report.band_error =
+      band > 0 ? std::hypot(unscale * sample.band, result.band_error_beside) / band : 0;
+  return std::hypot(std::max(kSampleMargin * rules, rules + doubt), result.error_beside) / norm;
 }
 
 }  // namespace
@@ -99,9 +127,11 @@ MeshPassResult mesh_pass(const MeshView& mesh, const MeshPassOptions& options,
       const double norm = norm_of_degrees(result.coefficients, 1, options.degree);
       result.least_error = norm > 0 ? plan.allowed.rounding / norm : 1.0;
       const double precision = std::max(options.precision, result.least_error);
-      result.report.reached = !(result.report.error > precision);
+      const double modelled = result.report.error;
+      const double error = measure(input, plan, context, norm, result);
+      result.report.reached = !(error > precision);
       if (result.report.reached || tries++ == kMostTries) return result;
-      limits.tighten *= tightened(result, plan, precision, norm);
+      limits.tighten *= tightened(error, modelled, plan, precision, norm);
       limits.no_lumps = tries == kMostTries;  // and no longer what the sample says of them
     }
     times = std::move(result.times);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "base/shared_tasks.h"
 #include "rholm/analyze.h"
@@ -30,6 +31,10 @@ struct MeshPassOptions {
   ShareTasks share = {};
 };
 
+// Chosen: the error of closed meshes of up to so many triangles is measured by a second reading
+// (verify.h), that of larger ones by mesh_pass() itself, on a sample (sampled_rules.h).
+inline constexpr std::size_t kMostVerified = 100'000;
+
 struct MeshPassResult {
   Coefficients coefficients;  // of the radius; of the alternating sum where it is not star-shaped
   double volume = 0;          // enclosed; negative if inside out
@@ -38,8 +43,11 @@ struct MeshPassResult {
   double min_cos_gamma = 0;
   std::size_t bad_triangles = 0;
   FastReport report;
-  double least_error = 0;  // what rounding leaves at best, relative as FastReport::error
-  StageTimes times;        // "triangles", "spread", "fourier"; "order" if triangles were sorted
+  // But for what rules leave, l2 over 1 <= l <= L and over the degrees above 3L/4.
+  double error_beside = 0, band_error_beside = 0;
+  std::vector<float> block_errors;  // of kTrianglesPerBlock triangles, see MeshPart
+  double least_error = 0;           // what rounding leaves at best, relative as FastReport::error
+  StageTimes times;  // "triangles", "spread", "fourier"; "order" if triangles were sorted
 };
 
 // Throws InvalidInput for coordinates that are not finite, indices out of range, `check` that

@@ -23,6 +23,8 @@ void PassSums<T>::add(const MeshPart<T>& part, bool lumps_in_common) {
   whole_.sums.add(part.sums);
   whole_.mean += part.mean;
   whole_.half_edges.insert(whole_.half_edges.end(), part.half_edges.begin(), part.half_edges.end());
+  whole_.block_errors.insert(whole_.block_errors.end(), part.block_errors.begin(),
+                             part.block_errors.end());
   whole_.too_many = whole_.too_many || part.too_many;
   whole_.modulus += part.modulus;
   whole_.nodes += part.nodes;
@@ -92,6 +94,7 @@ void PassSums<T>::set_result(const MeshView& mesh, Coefficients sum, double sour
   }
   const BlockSums& sums = whole_.sums;
   result.coefficients = std::move(sum);
+  result.block_errors = std::move(whole_.block_errors);
   Coefficients& c = result.coefficients;
   c.c(0, 0) = (sums.mean + whole_.mean) / std::sqrt(4 * std::numbers::pi);
   const double unscale = 1 / plan_.block.scale;
@@ -131,6 +134,8 @@ void PassSums<T>::set_error(const MeshView& mesh, double source2, double hessian
     const double norm = norm_of_degrees(result.coefficients, first, degree);
     return norm > 0 ? absolute / norm : 0.0;
   };
+  result.error_beside = error.whole_beside;
+  result.band_error_beside = error.band_beside;
   result.report.error = relative(error.whole, 1);
   result.report.band_error = relative(error.band, 3 * degree / 4 + 1);
 }

@@ -99,7 +99,7 @@ double measure(const MeshPassResult& finer, double precision, MeshPassResult& re
   };
   FastReport& report = result.report;
   const double modelled = std::max(report.error, result.least_error);
-  report.measured = true;
+  report.measured_share = 1;
   report.error = relative(1);
   report.band_error = relative(3 * degree / 4 + 1);
   // The model of the finer reading may be wrong by as much as that of the coarser one was.

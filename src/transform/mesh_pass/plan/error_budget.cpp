@@ -58,10 +58,13 @@ PassError error_of_pass(const MeshPlan& plan, PassFacts& facts, const Coefficien
       whole * std::hypot(0.5, std::sqrt(amplified / std::max(facts.source2, 1e-300)));
   const double rows = rows_in_step(plan, facts.node_modulus) * relative_window;
   PassError error;
-  error.whole = std::hypot(rules, window, std::hypot(lattice, rows, plan.quanta_error)) / scale;
+  const double beside = std::hypot(window, std::hypot(lattice, rows, plan.quanta_error));
+  error.whole = std::hypot(rules, beside) / scale;
+  error.whole_beside = beside / scale;
   // Of l^6, as the error of lumping grows, 0.82 lies above 3L/4; of (2l+1)/(l(l+1))^2, as that of
   // windows falls, 0.78 / L^2.
-  error.band = std::hypot(0.9 * rules, 0.88 / std::max(degree, 1) * window) / scale;
+  error.band_beside = 0.88 / std::max(degree, 1) * window / scale;
+  error.band = std::hypot(0.9 * rules / scale, error.band_beside);
   return error;
 }
 

@@ -27,6 +27,8 @@ struct PassFacts {
 struct PassError {
   double whole = 0;  // l2 over 1 <= l <= L
   double band = 0;   // over the degrees above 3L/4
+  // But for what rules leave.
+  double whole_beside = 0, band_beside = 0;
 };
 PassError error_of_pass(const MeshPlan& plan, PassFacts& facts, const Coefficients& coefficients);
 
