@@ -36,8 +36,8 @@ constexpr double kDoubt = 10;
 
 // Distances to first order that are so many times too large are too large indeed (chosen).
 constexpr double kTooFar = 2;
-// Root mean squares of distances are in proportion to those of the radius within this part (chosen;
-// they are within 3 % on the shapes of scripts/measure-distances).
+// Root mean squares of distances are in proportion to those of the radius within this part
+// (chosen).
 constexpr double kProportional = 1.1;
 // A degree whose distances are this many times too large at few points is not measured at all of
 // them (chosen: twice what they differ by).
