@@ -6,12 +6,14 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include "base/parallel.h"
 #include "harmonic/fft/fft.h"
 #include "rholm/grid.h"
 #include "shape/face.h"
+#include "transform/error/corner_bounds.h"
 #include "transform/error/long_faces.h"
 
 namespace rholm {
@@ -24,9 +26,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kDivided = 0.5;
 // An edge shorter than this part of the longest is not halved (chosen).
 constexpr double kSliver = 0.5;
-// Edges of at most this angle: the corners of a face see all of it within 0.6 of its longest edge
-// (0.58 for three equal ones).
-constexpr double kMostAngle = 0.5, kNearestCorner = 0.6;
+// Faces that are left together, and runs of them that a thread looks at at a time (chosen: some 100
+// us).
+constexpr std::size_t kRun = 128, kGrain = 64;
 
 // Degrees up to this one are bounded on a grid (chosen: 16 MB).
 constexpr int kMostOnGrid = 512;
@@ -53,23 +55,6 @@ Plane plane_of(const std::array<Vec3, 3>& p) {
   if (normal.degenerate) return {};
   const Vec3 n = normalized(normal.twice_area);
   return {n, dot(n, p[0])};
-}
-
-// Where the error is largest within a face, its slope is zero, and along the way to the nearest
-// corner it falls by at most s^2/2 times the second derivative. The same along an edge.
-double above_corners(const std::array<Vec3, 3>& p, double model_bend) {
-  const Plane plane = plane_of(p);
-  double farthest = 0, nearest = kInfinity, edge = 0;
-  for (int i = 0; i < 3; ++i) {
-    farthest = std::max(farthest, norm(p[i]));
-    nearest = std::min(nearest, norm(p[i]));
-    edge = std::max(edge, norm(p[(i + 1) % 3] - p[i]));
-  }
-  // Seen from the centre an edge e is at most 2 asin(e / 2 nearest) < 1.02 e / nearest long.
-  const double angle = 1.02 * edge / nearest;
-  if (!(plane.distance > 0) || !(angle <= kMostAngle)) return kInfinity;
-  const double s = kNearestCorner * angle;
-  return s * s / 2 * (plane_bend(plane.distance, plane.distance / farthest) + model_bend);
 }
 
 // In halves of the longest edge, or in quarters.
@@ -150,35 +135,48 @@ class Search {
 
  private:
   // The faces that may have errors beyond those at their corners. Where they are more than half of
-  // the cells, the lower bounds of them remain, and the others need not be lower than these.
+  // the cells, the runs of the lower bounds remain, and the others need not be lower than these.
   void open_faces() {
-    constexpr std::size_t kGrain = 1 << 13;  // chosen: some 100 us
-    struct Start {
-      std::size_t face;
-      double bound;
+    struct Run {
+      double highest = 0;
+      std::size_t number = 0, open = 0;
     };
-    std::vector<std::vector<Start>> parts((mesh_.n_triangles + kGrain - 1) / kGrain);
-    parallel_for(mesh_.n_triangles, kGrain, context_, {}, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t t = begin; t < end; ++t) {
-        const double bound = seen_ + above_corners(corners(t), bend_);
-        if (bound > enough_) parts[begin / kGrain].push_back({t, bound});
+    std::vector<Run> runs((mesh_.n_triangles + kRun - 1) / kRun);
+    const auto bounds_of = [&](std::size_t run, std::array<double, kRun>& bounds) {
+      const std::size_t begin = run * kRun, end = std::min(mesh_.n_triangles, begin + kRun);
+      corner_bounds(mesh_, begin, end, center_, scale_, bend_, bounds.data());
+      for (std::size_t i = 0; i < end - begin; ++i) bounds[i] += seen_;
+      return std::span(bounds).first(end - begin);
+    };
+    parallel_for(runs.size(), kGrain, context_, {}, [&](std::size_t begin, std::size_t end) {
+      std::array<double, kRun> room;
+      for (std::size_t r = begin; r < end; ++r) {
+        runs[r].number = r;
+        for (const double bound : bounds_of(r, room)) {
+          runs[r].highest = std::max(runs[r].highest, bound);
+          runs[r].open += bound > enough_;
+        }
       }
     });
-    std::vector<Start> starts;
-    for (const std::vector<Start>& part : parts)
-      starts.insert(starts.end(), part.begin(), part.end());
-    const std::size_t most = most_cells_ / 2;
-    if (starts.size() > most) {
-      const auto rest = starts.begin() + static_cast<std::ptrdiff_t>(most);
-      std::nth_element(starts.begin(), rest, starts.end(), [](const Start& x, const Start& y) {
-        return x.bound != y.bound ? x.bound > y.bound : x.face < y.face;
-      });
-      enough_ = rest->bound;
-      starts.erase(rest, starts.end());
+    std::erase_if(runs, [](const Run& run) { return run.open == 0; });
+    std::sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) {
+      return a.highest != b.highest ? a.highest > b.highest : a.number < b.number;
+    });
+    std::size_t faces = 0, opened = 0;
+    while (opened < runs.size() && faces + runs[opened].open <= most_cells_ / 2) {
+      faces += runs[opened++].open;
     }
-    open_.reserve(starts.size());
-    for (const Start& start : starts)
-      open_.push_back({corners(start.face), start.face, start.bound});
+    if (opened < runs.size()) enough_ = runs[opened].highest;
+    open_.reserve(faces);
+    std::array<double, kRun> room;
+    for (std::size_t k = 0; k < opened; ++k) {
+      const std::span<const double> bounds = bounds_of(runs[k].number, room);
+      for (std::size_t i = 0; i < bounds.size(); ++i) {
+        if (!(bounds[i] > enough_)) continue;
+        const std::size_t face = runs[k].number * kRun + i;
+        open_.push_back({corners(face), face, bounds[i]});
+      }
+    }
   }
 
   // What those of the open cells consist of whose bounds are highest, which are open no longer.

@@ -37,7 +37,7 @@
 namespace rholm {
 namespace {
 
-constexpr double kFewestRuns = 24, kMostRuns = 256;
+constexpr double kFewestRuns = 24, kMostRuns = 128;
 constexpr std::size_t kScanGrain = std::size_t{1} << 15;  // triangles, some 50 us (chosen)
 // Of what the plan's rules may leave, and of rounding, the finer ones leave that much (chosen).
 constexpr double kFinerRules = 0.02, kFinerRounding = 0.1;

@@ -18,8 +18,8 @@ struct SampledRules {
   double share = 0;  // of the faces
 };
 
-// Chosen: of 300 000 to 3 million triangles; at least 3072, at most 32 768.
-inline constexpr double kSampleShare = 0.01;
+// Chosen: of 600 000 to 3 million triangles; at least 3072, at most 16 384.
+inline constexpr double kSampleShare = 0.005;
 
 // Of runs of triangles from all over the mesh, about `share` of it, with their edges: their sources
 // as the plan has them minus those of much finer rules, transformed. The mesh is that of a pass

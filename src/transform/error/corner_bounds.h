@@ -1,0 +1,23 @@
+// By how much the radial error of a face may be above that at its corners: an inner loop.
+#pragma once
+
+#include <cstddef>
+
+#include "rholm/mesh_view.h"
+#include "rholm/vec3.h"
+
+namespace rholm {
+
+// Edges of at most this angle: the corners of a face see all of it within 0.6 of its longest edge
+// (0.58 for three equal ones).
+inline constexpr double kMostAngle = 0.5, kNearestCorner = 0.6;
+
+// Where the error is largest within a face, its slope is zero, and along the way to the nearest
+// corner it falls by at most s^2/2 times the second derivative. The same along an edge. For the
+// triangles begin ... end - 1, lengths times `scale`; `model_bend` bounds the second derivatives of
+// the model. Infinite for faces that are long, seen edge-on or without area. Throws InvalidInput
+// for an index out of range.
+void corner_bounds(const MeshView& mesh, std::size_t begin, std::size_t end, const Vec3& center,
+                   double scale, double model_bend, double* bounds);
+
+}  // namespace rholm
