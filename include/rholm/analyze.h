@@ -37,9 +37,9 @@ struct FastReport {
   // l2 over 1 <= l <= L, relative to the norm of the function without its mean.
   double error = 0;
   double band_error = 0;  // of the degrees above 3L/4 relative to that band's own norm
-  // The part of the triangles that these were measured on. 1: all, up to 100 000, by a second,
-  // finer reading of the mesh from another side. Below: what rules leave, on a sample of larger
-  // meshes. 0: nothing was measured, they are estimates of the model.
+  // The part of the triangles that both errors come from. 1: all were read a second time, finer and
+  // from another side, as small meshes are. Less: what rules leave comes from a sample of a larger
+  // mesh (docs/performance.md says from where on). 0: they are estimates of the model.
   double measured_share = 0;
   double error_doubt = 0;  // of a measured error: by how much more it may be above it
   int passes = 0;          // over the triangles until the coefficients were found
