@@ -17,6 +17,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using M = hn::Mask<D>;
 
+// Edges of at most this angle: the corners of a face see all of it within 0.6 of its longest edge
+// (0.58 for three equal ones).
+constexpr double kMostAngle = 0.5, kNearestCorner = 0.6;
+
 template <class T>
 void BoundsOf(const MeshView& mesh, std::size_t begin, std::size_t end, const Vec3& center,
               double scale, double model_bend, double* bounds) {

@@ -8,10 +8,6 @@
 
 namespace rholm {
 
-// Edges of at most this angle: the corners of a face see all of it within 0.6 of its longest edge
-// (0.58 for three equal ones).
-inline constexpr double kMostAngle = 0.5, kNearestCorner = 0.6;
-
 // Where the error is largest within a face, its slope is zero, and along the way to the nearest
 // corner it falls by at most s^2/2 times the second derivative. The same along an edge. For the
 // triangles begin ... end - 1, lengths times `scale`; `model_bend` bounds the second derivatives of

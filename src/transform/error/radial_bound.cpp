@@ -145,7 +145,7 @@ class Search {
     const auto bounds_of = [&](std::size_t run, std::array<double, kRun>& bounds) {
       const std::size_t begin = run * kRun, end = std::min(mesh_.n_triangles, begin + kRun);
       corner_bounds(mesh_, begin, end, center_, scale_, bend_, bounds.data());
-      for (std::size_t i = 0; i < end - begin; ++i) bounds[i] += seen_;
+      for (std::size_t i = 0; i < end - begin; ++i) bounds[i] += seen_ + doubt_;
       return std::span(bounds).first(end - begin);
     };
     parallel_for(runs.size(), kGrain, context_, {}, [&](std::size_t begin, std::size_t end) {
