@@ -71,7 +71,7 @@ struct TruncationErrors {
   // are long against 1/L.
   std::optional<double> measured_max, measured_max_distance;
   // No radial error is larger, by branch and bound (method 5); within 1 % of measured_max where
-  // that takes few evaluations. Empty for a gauge.
+  // that takes few evaluations. Empty for a gauge, or beyond the diagonal.
   std::optional<double> max_bound;
   std::optional<double> distance_rms;  // over area, the larger of both ways
   bool distances_are_closest = false;  // by closest points, not to first order

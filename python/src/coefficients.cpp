@@ -128,7 +128,8 @@ void bind_expansion(nb::module_& m) {
       .field("measured_max", &TruncationErrors::measured_max,
              "Largest radial error at `points` points of the shape.")
       .field("max_bound", &TruncationErrors::max_bound,
-             "No radial error is larger, by branch and bound; None for a gauge.")
+             "No radial error is larger, by branch and bound; None for a gauge, or beyond the "
+             "diagonal.")
       .field("measured_max_distance", &TruncationErrors::measured_max_distance,
              "The same as a distance.")
       .field("distance_rms", &TruncationErrors::distance_rms,

@@ -158,10 +158,10 @@ LargestRadial largest_error(const Expansion& expansion, const RadialModel& model
 }
 
 // No radial error is larger: to a hundredth of the largest that was found, where that takes few
-// cells.
+// cells. None that is larger than the shape.
 std::optional<double> bound_of_largest(const Expansion& expansion, const RadialModel& model,
-                                       double largest_found, double precision, ErrorSites& sites,
-                                       const Context& context) {
+                                       double largest_found, double precision, double diagonal,
+                                       ErrorSites& sites, const Context& context) {
   if (expansion.function != RadialFunction::kRadius) return std::nullopt;
   const double size =
       norm_of_degrees(expansion.coefficients, 0, model.degree) / std::sqrt(4 * std::numbers::pi);
@@ -174,7 +174,7 @@ std::optional<double> bound_of_largest(const Expansion& expansion, const RadialM
                     .most_cells = static_cast<std::size_t>(std::clamp(waves, 1e4, 1e5))},
                    context)
           .value;
-  return std::isfinite(bound) ? std::optional(bound) : std::nullopt;
+  return bound <= diagonal ? std::optional(bound) : std::nullopt;
 }
 
 }  // namespace
@@ -220,7 +220,8 @@ TruncationErrors truncation_errors(const Expansion& expansion, const TruncationO
   if (worst_radial != nullptr) worst_radial->append(radial.worst(degree));
   const Looked looked = look_closely(std::move(worst), over_area, of_area);
   errors.measured_max = radial.value;
-  errors.max_bound = bound_of_largest(expansion, model, radial.value, precision, sites, silent);
+  errors.max_bound =
+      bound_of_largest(expansion, model, radial.value, precision, errors.diagonal, sites, silent);
   errors.measured_max_distance =
       std::max(largest(looked.errors.to_model), largest(looked.errors.to_shape));
   measure_closest(looked, {over_area, of_area}, model, expansion, precision, silent, sites, errors);
