@@ -172,9 +172,11 @@ void run_case(Ranks& ranks, const std::string& name, int chosen) {
   } else if (name == "large") {
     large(ranks);
   } else if (name == "tasks") {
-    for (int round = 0; round < 3; ++round)
+    for (int round = 0; round < 3; ++round) {
       tasks(
           ranks, [](Ranks&, std::uint64_t) {}, nothing);
+      barrier(ranks);  // nobody asks for the next tasks before these have ended
+    }
   } else if (name == "ordered") {
     for (const bool dealt : {false, true}) {
       for (const std::uint64_t last : {kTasks, kTasks / 3, std::uint64_t{0}}) {
