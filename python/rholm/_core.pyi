@@ -747,7 +747,9 @@ class TruncationErrors:
 
     @property
     def max_bound(self) -> float | None:
-        """No radial error is larger, by branch and bound; None for a gauge, or beyond the diagonal."""
+        """
+        No radial error is larger, by branch and bound; None for a gauge, or beyond the diagonal.
+        """
 
     @property
     def measured_max_distance(self) -> float | None:
