@@ -1,6 +1,5 @@
 #include "model/bricks/brick_points.h"
 
-#include "model/bricks/brick_pieces.h"
 #include "rholm/error.h"
 
 // A sorted brick whose first byte says where the index ends; the rest are rows of one chunk.

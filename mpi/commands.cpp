@@ -13,7 +13,6 @@ namespace rholm::mpi {
 namespace {
 
 using cli::Command;
-using cli::Option;
 
 Command over_ranks(Command command, Ranks* ranks, const std::shared_ptr<RankOptions>& options) {
   append(command.options, rank_options(*options));
@@ -34,20 +33,6 @@ Command man_page_command() {
 }
 
 }  // namespace
-
-std::vector<Option> rank_options(RankOptions& options) {
-  return {{.name = "patience",
-           .value = "SECONDS",
-           .help = "a rank that is silent for so long, or at work without progress, ends the run; "
-                   "300 by default",
-           .target = &options.patience,
-           .min = 5,
-           .max = 1e7},
-          {.name = "timings",
-           .help = "at the end, on standard error: processor time of all ranks, and the bytes that "
-                   "they have exchanged",
-           .target = &options.timings}};
-}
 
 std::vector<Command> commands(Ranks* ranks, const std::shared_ptr<RankOptions>& options) {
   return {over_ranks(analyze_command(ranks), ranks, options),

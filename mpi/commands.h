@@ -9,17 +9,9 @@
 #include "cli/grammar/help.h"
 #include "cluster/collect.h"
 #include "cluster/ranks.h"
+#include "mpi/rank_options.h"
 
 namespace rholm::mpi {
-
-// What every command can be told besides --threads and --quiet.
-struct RankOptions {
-  double patience = 300;
-  bool timings = false;
-  std::vector<std::string> words = {};  // the command line itself
-};
-// --threads is of each rank.
-std::vector<cli::Option> rank_options(RankOptions& options);
 
 // On rank 0: each runs there and calls the others. `ranks` may be null where commands are only
 // described.

@@ -6,7 +6,7 @@
 
 #include "cli/grammar/command.h"
 #include "cluster/ranks.h"
-#include "mpi/commands.h"
+#include "mpi/rank_options.h"
 
 namespace rholm::mpi {
 

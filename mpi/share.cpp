@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cli/files/inputs.h"
+#include "cli/files/paths.h"
 #include "cli/grammar/parse.h"
 #include "cli/terminal/interrupt.h"
 #include "cluster/collect.h"

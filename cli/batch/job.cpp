@@ -8,6 +8,7 @@
 #include "cli/batch/outputs_folder.h"
 #include "cli/files/inputs.h"
 #include "cli/files/outputs.h"
+#include "cli/files/paths.h"
 #include "cli/grammar/parse.h"
 #include "cli/grammar/run.h"
 #include "cli/grammar/values.h"

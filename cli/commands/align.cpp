@@ -11,6 +11,7 @@
 #include "cli/files/inputs.h"
 #include "cli/files/length_units.h"
 #include "cli/files/outputs.h"
+#include "cli/files/paths.h"
 #include "cli/grammar/parse.h"
 #include "cli/terminal/json_text.h"
 #include "cli/terminal/session.h"

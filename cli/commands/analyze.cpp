@@ -15,6 +15,7 @@
 #include "cli/files/inputs.h"
 #include "cli/files/memory_needed.h"
 #include "cli/files/outputs.h"
+#include "cli/files/paths.h"
 #include "cli/files/prepare.h"
 #include "cli/files/spooled_input.h"
 #include "cli/grammar/parse.h"

@@ -7,6 +7,7 @@
 #include "cli/commands/atlas_report.h"
 #include "cli/files/inputs.h"
 #include "cli/files/outputs.h"
+#include "cli/files/paths.h"
 #include "cli/files/prepare.h"
 #include "cli/grammar/parse.h"
 #include "rholm/error.h"

@@ -8,6 +8,7 @@
 #include "base/plain_text.h"
 #include "cli/files/inputs.h"
 #include "cli/files/outputs.h"
+#include "cli/files/paths.h"
 
 namespace rholm::cli {
 namespace {

@@ -11,6 +11,7 @@
 #include "cli/commands/commands.h"
 #include "cli/files/length_units.h"
 #include "cli/files/memory_needed.h"
+#include "cli/files/paths.h"
 #include "cli/files/surfaces.h"
 #include "cli/options/memory_options.h"
 #include "cli/terminal/json_text.h"

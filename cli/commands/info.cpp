@@ -13,6 +13,7 @@
 #include "cli/commands/measures_report.h"
 #include "cli/files/inputs.h"
 #include "cli/files/memory_needed.h"
+#include "cli/files/paths.h"
 #include "cli/files/prepare.h"
 #include "cli/options/memory_options.h"
 #include "cli/terminal/interrupt.h"

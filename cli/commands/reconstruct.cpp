@@ -12,6 +12,7 @@
 #include "cli/commands/reconstruct_report.h"
 #include "cli/files/inputs.h"
 #include "cli/files/outputs.h"
+#include "cli/files/paths.h"
 #include "cli/files/points_input.h"
 #include "cli/grammar/parse.h"
 #include "cli/grammar/values.h"

@@ -13,6 +13,7 @@
 #include "cli/files/inputs.h"
 #include "cli/files/length_units.h"
 #include "cli/files/outputs.h"
+#include "cli/files/paths.h"
 #include "cli/files/surfaces.h"
 #include "cli/grammar/parse.h"
 #include "cli/grammar/values.h"

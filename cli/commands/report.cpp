@@ -10,6 +10,7 @@
 #include "cli/files/inputs.h"
 #include "cli/files/outputs.h"
 #include "cli/files/page_folder.h"
+#include "cli/files/paths.h"
 #include "cli/files/prepare.h"
 #include "cli/grammar/parse.h"
 #include "cli/options/tolerance_options.h"

@@ -8,6 +8,7 @@
 #include "cli/commands/rotation_report.h"
 #include "cli/files/inputs.h"
 #include "cli/files/outputs.h"
+#include "cli/files/paths.h"
 #include "cli/grammar/parse.h"
 #include "cli/grammar/values.h"
 #include "cli/terminal/json_text.h"

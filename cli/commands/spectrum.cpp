@@ -10,6 +10,7 @@
 #include "cli/commands/spectrum_report.h"
 #include "cli/files/inputs.h"
 #include "cli/files/outputs.h"
+#include "cli/files/paths.h"
 #include "cli/grammar/parse.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/json_text.h"

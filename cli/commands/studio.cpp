@@ -7,6 +7,7 @@
 
 #include "cli/commands/commands.h"
 #include "cli/files/inputs.h"
+#include "cli/files/paths.h"
 #include "cli/options/memory_options.h"
 #include "cli/studio/browser.h"
 #include "cli/studio/page.h"

@@ -8,6 +8,7 @@
 #include "cli/commands/synthesize_atlas.h"
 #include "cli/files/inputs.h"
 #include "cli/files/outputs.h"
+#include "cli/files/paths.h"
 #include "cli/files/surfaces.h"
 #include "cli/grammar/parse.h"
 #include "cli/grammar/values.h"

@@ -9,6 +9,7 @@
 #include "cli/commands/commands.h"
 #include "cli/files/inputs.h"
 #include "cli/files/outputs.h"
+#include "cli/files/paths.h"
 #include "cli/files/surfaces.h"
 #include "cli/grammar/parse.h"
 #include "cli/grammar/values.h"

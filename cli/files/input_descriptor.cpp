@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/files/inputs.h"
+#include "cli/files/paths.h"
 #include "cli/terminal/interrupt.h"
 #include "rholm/error.h"
 

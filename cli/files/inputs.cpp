@@ -11,6 +11,7 @@
 
 #include "base/plain_text.h"
 #include "cli/files/input_descriptor.h"
+#include "cli/files/paths.h"
 #include "cli/files/spooled_input.h"
 #include "cli/grammar/values.h"
 #include "cli/terminal/interrupt.h"
@@ -225,24 +226,6 @@ Option mesh_operand(std::string& path) {
 
 std::vector<char> read_all_bytes(const std::string& path) {
   return read_bytes(path, std::numeric_limits<std::size_t>::max());
-}
-
-std::string display_name(const std::string& path) {
-  return path == "-" ? "standard input" : escaped_line(path);
-}
-
-std::string extension_of(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
-
-bool is_stream(const std::string& path) {
-  std::error_code ignored;
-  const auto status = std::filesystem::status(path, ignored);
-  return path == "-" || std::filesystem::is_fifo(status) ||
-         std::filesystem::is_character_file(status) || std::filesystem::is_socket(status);
 }
 
 ShapeFile read_shape_input(const std::string& path, Session& session, const std::string& columns) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -43,9 +44,6 @@ Expansion read_expansion(const std::string& path, Session& session,
 Input read_surface_input(const std::string& path, Session& session,
                          const InputConvention& convention, const std::string& columns = {});
 
-// Standard input, a pipe or the like: what can be read once only.
-bool is_stream(const std::string& path);
-
 // Whether the beginning of a file, or its name, says that it is a shape; none: neither says.
 std::optional<bool> is_shape(const std::string& path);
 // As read_input() of bytes that came from there.
@@ -64,13 +62,12 @@ bool holds_atlas(const std::string& path);
 Mesh mesh_of(ShapeFile file, const std::string& path, Session& session);
 Mesh read_mesh(const std::string& path, Session& session);
 
+// As read_shape_input() and read_mesh() of bytes that came from there.
+ShapeFile read_shape_of(std::span<const char> bytes, const std::string& path, Session& session,
+                        const std::string& columns = {});
+Mesh read_mesh_of(std::span<const char> bytes, const std::string& path, Session& session);
+
 // All bytes of a file or of standard input. Throws Io, Cancelled.
 std::vector<char> read_all_bytes(const std::string& path);
-
-// What a person calls it: "standard input" for "-".
-std::string display_name(const std::string& path);
-
-// Lower case, with the dot: ".ply"; empty without one.
-std::string extension_of(const std::string& path);
 
 }  // namespace rholm::cli

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "cli/files/inputs.h"
+#include "cli/files/paths.h"
 #include "rholm/error.h"
 #include "rholm/length_unit.h"
 

@@ -12,6 +12,7 @@
 
 #include "cli/files/inputs.h"
 #include "cli/files/outputs.h"
+#include "cli/files/paths.h"
 #include "cli/grammar/values.h"
 
 namespace rholm::cli {

@@ -11,6 +11,7 @@
 #include <fmt/ranges.h>
 
 #include "cli/files/inputs.h"
+#include "cli/files/paths.h"
 #include "cli/grammar/parse.h"
 #include "cli/terminal/capture.h"
 #include "cli/terminal/interrupt.h"

@@ -7,6 +7,7 @@
 
 #include "cli/files/inputs.h"
 #include "cli/files/outputs.h"
+#include "cli/files/paths.h"
 #include "cli/terminal/interrupt.h"
 #include "rholm/error.h"
 #include "rholm/point_stream.h"

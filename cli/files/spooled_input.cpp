@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "cli/files/input_descriptor.h"
-#include "cli/files/inputs.h"
+#include "cli/files/paths.h"
 #include "cli/terminal/interrupt.h"
 #include "rholm/error.h"
 

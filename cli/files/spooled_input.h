@@ -8,10 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "cli/terminal/session.h"
 #include "rholm/context.h"
 #include "rholm/mapped_mesh.h"
-#include "rholm/shape_io.h"
 
 namespace rholm::cli {
 
@@ -44,11 +42,5 @@ class SpooledInput {
   std::size_t size_ = 0;
   void* map_ = nullptr;
 };
-
-// The shape of bytes that came from there, as read_shape_input() (inputs.h) reads it; and the mesh,
-// as read_mesh() does.
-ShapeFile read_shape_of(std::span<const char> bytes, const std::string& path, Session& session,
-                        const std::string& columns = {});
-Mesh read_mesh_of(std::span<const char> bytes, const std::string& path, Session& session);
 
 }  // namespace rholm::cli

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/files/paths.h"
 #include "rholm/compress.h"
 #include "rholm/primitives.h"
 #include "rholm/synthesize.h"

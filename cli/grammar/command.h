@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <variant>
 #include <vector>
@@ -12,6 +13,12 @@
 namespace rholm::cli {
 
 class Session;
+
+// The command line does not mean anything: exit code 2.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 // Where the value of an option goes. A bool is a switch.
 using Target =

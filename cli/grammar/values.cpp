@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/grammar/parse.h"
+#include "cli/grammar/command.h"
 #include "rholm/coefficients.h"
 #include "rholm/error.h"
 #include "rholm/primitives.h"

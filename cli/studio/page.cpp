@@ -6,6 +6,7 @@
 
 #include "cli/files/inputs.h"
 #include "cli/files/page_folder.h"
+#include "cli/files/paths.h"
 #include "rholm/error.h"
 
 namespace rholm::cli {

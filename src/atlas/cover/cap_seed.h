@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "atlas/cap/cap_fit.h"
-#include "atlas/cover/cap_cover.h"
+#include "atlas/cover/ordered_points.h"
 #include "shape/points/point_tree.h"
 
 namespace rholm {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "atlas/cover/cap_cover.h"
+#include "atlas/cover/ordered_points.h"
 #include "rholm/context.h"
 
 namespace rholm {

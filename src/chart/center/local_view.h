@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 
 #include "rholm/context.h"
@@ -49,6 +50,9 @@ struct LocalView {
 // Reads the vertices once, for the frame. Throws InvalidInput if a coordinate is not finite, or for
 // a mesh without a triangle of positive area; indices are checked when triangles are read.
 LocalView local_view(const MeshView& mesh, const Context& context);
+
+// Called for triangles that a pass has chosen.
+using VisitTriangle = std::function<void(std::size_t triangle)>;
 
 // Chunks of loops over triangles: a few hundred of 5 to 20 us (chosen), more for large meshes.
 inline std::size_t triangle_grain(std::size_t n_triangles) {

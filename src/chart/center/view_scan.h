@@ -6,7 +6,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <limits>
 
 #include "chart/center/local_view.h"
@@ -18,8 +17,6 @@ struct ScanLimits {
   double distance = -std::numeric_limits<double>::infinity();  // d_T
   double cosine = -std::numeric_limits<double>::infinity();    // smallest cos gamma of a corner
 };
-
-using VisitTriangle = std::function<void(std::size_t triangle)>;
 
 // Visits every triangle of [begin, end) below one of the limits, and some others: those all but
 // without area, and those a rounding above (1e-12 of the size, and of a cosine). The visitor may

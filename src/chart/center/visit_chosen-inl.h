@@ -11,7 +11,7 @@
 
 #include <cstddef>
 
-#include "chart/center/view_scan.h"
+#include "chart/center/local_view.h"
 #include "shape/queries/triangle_vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();

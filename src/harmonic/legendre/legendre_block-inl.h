@@ -1,8 +1,8 @@
-// The recurrence of legendre_kernels.h for a few vectors of sources at once: what all sums with
+// The recurrence of legendre_order.h for a few vectors of sources at once: what all sums with
 // associated Legendre functions share, compiled for each target.
 #include <cstddef>
 
-#include "harmonic/legendre/legendre_kernels.h"
+#include "harmonic/legendre/legendre_order.h"
 
 #if defined(RHOLM_HARMONIC_LEGENDRE_BLOCK_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef RHOLM_HARMONIC_LEGENDRE_BLOCK_INL_H_

@@ -1,39 +1,16 @@
-// The inner loops: sums with associated Legendre functions for one order m.
-//
-// Pt_lm(x) = N_m Pbar_lm(x) is normalised so that Pt_lm(cos theta) cos(m phi) is the real
-// orthonormal harmonic without Condon-Shortley phase. With Q_l = Pt_lm / nu_l scaled to a common
-// value at x = 1 the three-term recurrence reads
-//   (l+m+1) (Q_{l+1} - Q_l) = (l-m) (Q_l - Q_{l-1}) + (2l+1) (x-1) Q_l,
-// a form in differences (Reinsch's, for m = 0) that keeps full accuracy next to the poles, where
-// the usual one loses l^2 rounding units: there its characteristic roots fall together. In terms of
-// Pt and d_l = nu_l (Q_l - Q_{l-1}), with rho_l = nu_{l+1} / nu_l:
-//   d_{l+1}  = rho_l [(l-m) d_l + (2l+1) (x-1) Pt_l] / (l+m+1),   d_m = 0
-//   Pt_{l+1} = rho_l Pt_l + d_{l+1},                              Pt_mm = mu_m s^m
-// It is run with |x|, x - 1 = -s^2/(1+|x|), and Pt_lm(-x) = (-1)^{l-m} Pt_lm(x). s^m underflows
-// near the poles, so each value is carried as p 2^(960 k) with k <= 0 (Fukushima 2012): nothing is
-// lost at any colatitude.
+// The inner loops: sums with associated Legendre functions for one order m, by the recurrence of
+// legendre_order.h.
 #pragma once
 
 #include <cstddef>
 #include <vector>
 
+#include "harmonic/legendre/legendre_order.h"
+
 namespace rholm {
 
 // Arrays over sources are padded to a multiple of this with x = 0, s = 1 and zero weights.
 inline constexpr std::size_t kLegendreLanes = 32;
-
-// The recurrence of one order up to degree L.
-struct LegendreOrder {
-  int m = 0;
-  int degree = 0;  // L >= m
-  double mu = 0;   // Pt_mm / s^m
-  // Index l - m, m <= l < L: factors of Pt_l and, in d_{l+1}, of d_l and (x-1) Pt_l.
-  std::vector<double> rho, of_difference, of_value;
-};
-LegendreOrder legendre_order(int m, int degree, double mu);
-
-// mu_m for m = 0 ... L: sqrt((2 - [m = 0]) (2m+1)!! / ((2m)!! 4 pi)).
-std::vector<double> legendre_mu(int degree);
 
 // c[l-m] += sum_j Pt_lm(x_j) re_j and s[l-m] += sum_j Pt_lm(x_j) im_j.
 void legendre_adjoint(const LegendreOrder& order, const double* x, const double* s, std::size_t n,

@@ -5,7 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "harmonic/rings/ring_sums.h"
+#include "harmonic/rings/half_rings.h"
+#include "harmonic/rings/ring_order.h"
 
 namespace rholm {
 

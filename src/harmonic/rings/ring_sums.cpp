@@ -14,11 +14,6 @@ static_assert(kRingBlock == kLegendreLanes);
 
 namespace {
 
-// log2(sin theta) of a pole: low enough that no order or degree brings it back, l^m < 2^(15 m).
-constexpr double kLog2OfPole = -1e5;
-// Bits of log2_sin: its product with an order below 2^15 has 53.
-constexpr double kSplit = 0x1p15 + 1;
-
 // Rings of a block are far apart if there are both sin theta and cos theta below this: formed from
 // the larger of x^2 and s^2, the step's factor loses at most a bit to those that are not.
 constexpr double kWide = 0.5;
@@ -137,39 +132,6 @@ void set_direct_forward(const RingOrder& order, const HalfRings& rings, const do
 }
 
 }  // namespace
-
-HalfRings::HalfRings(std::span<const double> north_colatitudes)
-    : size(north_colatitudes.size()),
-      padded((size + kRingBlock - 1) / kRingBlock * kRingBlock),
-      cos_theta(padded),
-      sin_theta(padded),
-      cos2(padded),
-      sin2(padded),
-      log2_sin(padded),
-      log2_sin_rest(padded),
-      largest_sin(padded / kRingGroup),
-      least_sin(padded / kRingBlock),
-      least_cos(padded / kRingBlock) {
-  for (std::size_t i = 0; i < padded; ++i) {
-    const long double theta = north_colatitudes[std::min(i, size - 1)];
-    const long double x = std::max(std::cos(theta), 0.0L), s = std::sin(theta);
-    cos_theta[i] = static_cast<double>(x);
-    sin_theta[i] = static_cast<double>(s);
-    cos2[i] = static_cast<double>(x * x);
-    sin2[i] = static_cast<double>(s * s);
-    const long double logarithm = s > 0 ? std::log2(s) : kLog2OfPole;
-    const double rounded = static_cast<double>(logarithm);
-    log2_sin[i] = rounded * kSplit - (rounded * kSplit - rounded);  // Veltkamp's splitting
-    log2_sin_rest[i] = static_cast<double>(logarithm - log2_sin[i]);
-  }
-  for (std::size_t i = 0; i < padded; i += kRingGroup) {
-    largest_sin[i / kRingGroup] = *std::max_element(&sin_theta[i], &sin_theta[i] + kRingGroup);
-  }
-  for (std::size_t i = 0; i < padded; i += kRingBlock) {
-    least_sin[i / kRingBlock] = *std::min_element(&sin_theta[i], &sin_theta[i] + kRingBlock);
-    least_cos[i / kRingBlock] = *std::min_element(&cos_theta[i], &cos_theta[i] + kRingBlock);
-  }
-}
 
 StepKind step_kind(const RingOrder& order, const HalfRings& rings, std::size_t block) {
   const double s = rings.least_sin[block], x = rings.least_cos[block];

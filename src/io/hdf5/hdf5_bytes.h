@@ -5,9 +5,13 @@
 #include <string>
 #include <string_view>
 
-#include "io/hdf5/hdf5_objects.h"
-
 namespace rholm::hdf5 {
+
+struct File {
+  std::string_view bytes;
+  std::string name;  // for messages
+  std::uint64_t root = 0;
+};
 
 constexpr std::uint64_t kUndefined = ~std::uint64_t{0};  // the address of what does not exist
 

@@ -18,13 +18,9 @@
 #include <string_view>
 #include <vector>
 
-namespace rholm::hdf5 {
+#include "io/hdf5/hdf5_bytes.h"
 
-struct File {
-  std::string_view bytes;
-  std::string name;  // for messages
-  std::uint64_t root = 0;
-};
+namespace rholm::hdf5 {
 
 // Checks the superblock and that the file is as long as it says. Throws InvalidInput, Unsupported.
 File open(std::string_view bytes, const std::string& name);

@@ -10,6 +10,7 @@
 #include "model/bricks/brick_normals.h"
 #include "model/bricks/brick_points.h"
 #include "model/bricks/brick_removal.h"
+#include "model/bricks/load_brick.h"
 #include "model/points/reconstruct_rules.h"
 #include "rholm/error.h"
 #include "shape/points/local_shape.h"

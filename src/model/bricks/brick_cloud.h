@@ -10,6 +10,7 @@
 #include "io/spill/piece_store.h"
 #include "model/bricks/brick_fit.h"
 #include "model/bricks/brick_plan.h"
+#include "model/bricks/brick_scene.h"
 #include "model/bricks/brick_stages.h"
 #include "model/bricks/point_source.h"
 #include "model/bricks/point_survey.h"

@@ -2,44 +2,17 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <memory>
 #include <vector>
 
-#include "atlas/cover/cap_cover.h"
 #include "atlas/cover/cap_size.h"
-#include "io/spill/piece_store.h"
-#include "model/bricks/brick_halo.h"
 #include "model/bricks/brick_plan.h"
+#include "model/bricks/brick_scene.h"
 #include "model/bricks/point_survey.h"
 #include "rholm/context.h"
-#include "rholm/mesh.h"
-#include "shape/points/point_tree.h"
-#include "shape/points/sampling_gaps.h"
+#include "rholm/vec3.h"
 #include "shape/points/side_balance.h"
 
 namespace rholm {
-
-// The points of a brick and those of others near it, its halo, in the order of a tree.
-struct BrickScene {
-  PointCloud cloud;  // the brick's own first
-  std::size_t n_own = 0;
-  std::vector<BrickAndHalo::Part> halo =
-      {};  // where the others are from, unless some were left out
-  std::unique_ptr<PointTree> tree;
-  std::vector<Vec3> points, normals;  // in the order of the tree; unit normals, or none
-  std::vector<std::uint8_t> foreign;  // likewise: 1 of the halo
-  std::vector<float> confidence;      // likewise, of computed normals: see OrientReport
-  SamplingGaps gaps;
-  bool computed_normals = false;
-
-  OrderedPoints ordered() const { return {*tree, points, normals, &gaps, computed_normals}; }
-};
-
-// With the points of others in the box around its own that is wider by `halo` on all sides. Normals
-// are turned as mend_bricks() says.
-BrickScene load_brick(const PieceStore& store, const BrickPlan& plan, std::size_t brick,
-                      double halo, const Context& context);
 
 // What some own points of a brick, evenly spread, tell of all.
 struct SamplePoint {

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "base/refuse.h"
+#include "model/bricks/brick_fit.h"
 #include "rholm/error.h"
 
 namespace rholm {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "io/spill/piece_store.h"
-#include "model/bricks/brick_fit.h"
 #include "model/bricks/brick_plan.h"
+#include "model/bricks/brick_scene.h"
 #include "model/bricks/brick_stages.h"
 #include "rholm/context.h"
 

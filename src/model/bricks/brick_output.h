@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "io/spill/piece_store.h"
-#include "model/bricks/brick_fit.h"
 #include "model/bricks/brick_parts.h"
+#include "model/bricks/brick_scene.h"
 #include "model/bricks/brick_stages.h"
 #include "model/bricks/point_rows.h"
 #include "model/points/surface_confidence.h"

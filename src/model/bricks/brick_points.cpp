@@ -9,7 +9,6 @@
 #include "base/parallel.h"
 #include "base/refuse.h"
 #include "model/bricks/brick_caps.h"
-#include "model/bricks/brick_pieces.h"
 #include "shape/on_line.h"
 
 namespace rholm {

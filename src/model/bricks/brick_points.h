@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "io/spill/piece_store.h"
@@ -19,6 +20,7 @@
 #include "rholm/context.h"
 #include "rholm/mesh.h"
 #include "rholm/topology.h"
+#include "shape/points/place_lattice.h"
 
 namespace rholm {
 
@@ -77,5 +79,22 @@ BrickPoints read_points_within(const PieceStore& store, std::size_t brick, const
 Bounds bounds_of_bricks(const PieceStore& store, const BrickPlan& plan);
 // Whether all points of all bricks lie on one line, within this part of the diagonal.
 bool lie_on_line(const PieceStore& store, const BrickPlan& plan, double of_diagonal);
+
+// Names and formats of the pieces.
+inline constexpr const char* kDistributed = "distributed";
+inline constexpr const char* kRaw = "raw";
+inline std::string raw_name(std::size_t brick) { return kRaw + ("/" + std::to_string(brick)); }
+inline std::string sorted_name(std::size_t brick) { return "points/" + std::to_string(brick); }
+
+// How rows of the raw pieces are laid out, and what one place is. Throws as PieceStore::open().
+struct Distributed {
+  PointLayout layout;
+  PlaceLattice lattice;
+};
+Distributed read_distributed(const PieceStore& store);
+
+std::vector<std::byte> index_bytes(const BrickIndex& index);
+// Of an open piece. Throws InvalidInput if its sections do not fit it.
+BrickIndex parse_index(const PieceReader& piece);
 
 }  // namespace rholm

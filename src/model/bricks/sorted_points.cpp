@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/cancel.h"
-#include "model/bricks/brick_pieces.h"
 #include "model/bricks/brick_points.h"
 #include "rholm/error.h"
 #include "shape/points/place_lattice.h"

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "report/picture/font.h"
-
 namespace rholm {
 namespace {
 

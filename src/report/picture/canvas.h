@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "report/picture/color.h"
+#include "report/picture/font.h"
 #include "rholm/image.h"
 
 namespace rholm {
@@ -19,11 +20,8 @@ struct Canvas {
 Canvas make_canvas(int width, int height, const Color& background);
 Image to_image(const Canvas& canvas);
 
-// A line with round ends. Pixel (i, j) covers [i, i+1) x [j, j+1); y points down.
-struct Stroke {
-  double x0, y0, x1, y1;
-};
-// Antialiased; strokes of one call do not darken each other where they overlap.
+// Pixel (i, j) covers [i, i+1) x [j, j+1); y points down. Antialiased; strokes of one call do not
+// darken each other where they overlap.
 void draw_strokes(Canvas& canvas, const std::vector<Stroke>& strokes, double thickness,
                   const Color& color);
 

@@ -4,9 +4,12 @@
 #include <string_view>
 #include <vector>
 
-#include "report/picture/canvas.h"
-
 namespace rholm {
+
+// A line with round ends.
+struct Stroke {
+  double x0, y0, x1, y1;
+};
 
 // Lengths in heights of a capital; y points up from the baseline.
 inline constexpr double kGlyphThickness = 0.14;

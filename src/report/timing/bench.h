@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "report/timing/bench_timing.h"
 #include "rholm/analyze.h"
 #include "rholm/context.h"
 #include "rholm/mesh.h"
@@ -20,11 +21,6 @@
 
 namespace rholm {
 
-// Of repeated runs, clock by clock.
-struct Timing {
-  StageTime median;
-  StageTime minimum;
-};
 using Timings = std::map<std::string, Timing>;
 
 struct BenchOptions {
@@ -38,6 +34,9 @@ struct BenchOptions {
   // An existing folder, where a model file is written and removed; empty: nothing is written.
   std::filesystem::path folder = {};
 };
+
+// Throws InvalidInput for options out of range.
+void check(const BenchOptions& options);
 
 // From the bytes of a file to coefficients, the centre given.
 struct BenchRuns {

@@ -6,9 +6,15 @@
 
 #include "base/parallel.h"
 #include "base/stopwatch.h"
-#include "report/timing/bench.h"
+#include "rholm/context.h"
 
 namespace rholm {
+
+// Of repeated runs, clock by clock.
+struct Timing {
+  StageTime median;
+  StageTime minimum;
+};
 
 inline double median(std::vector<double> values) {
   if (values.empty()) return 0;
@@ -57,7 +63,5 @@ inline Context measured(const Context& context, int threads, double fraction) {
   }
   return inner;
 }
-
-void check(const BenchOptions& options);
 
 }  // namespace rholm

@@ -10,7 +10,6 @@
 #include "base/cancel.h"
 #include "rholm/error.h"
 #include "transform/mesh_pass/hermite_nodes.h"
-#include "transform/mesh_pass/run_pass.h"
 #include "transform/mesh_pass/scatter.h"
 #include "transform/rules/hermite_rules.h"
 

@@ -15,7 +15,7 @@
 #include "transform/mesh_pass/mesh_part.h"
 #include "transform/mesh_pass/own_nodes.h"
 #include "transform/mesh_pass/part_mesh.h"
-#include "transform/mesh_pass/pass.h"
+#include "transform/mesh_pass/pass_options.h"
 #include "transform/mesh_pass/plan/plan.h"
 
 namespace rholm {

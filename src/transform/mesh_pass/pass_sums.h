@@ -6,10 +6,9 @@
 
 #include "transform/mesh_pass/mesh_part.h"
 #include "transform/mesh_pass/part_worker.h"
-#include "transform/mesh_pass/pass.h"
+#include "transform/mesh_pass/pass_result.h"
 #include "transform/mesh_pass/plan/error_budget.h"
 #include "transform/mesh_pass/plan/plan.h"
-#include "transform/mesh_pass/run_pass.h"
 
 namespace rholm {
 

@@ -385,10 +385,4 @@ Outcome run_pass(const MeshView& mesh, const MeshPassOptions& options, const Mes
   return Pass<double>(mesh, options, plan, context).run(result);
 }
 
-void check_triangles(const MeshPassOptions& options, std::size_t first, std::size_t n) {
-  if (options.check && !options.check(first, n)) {
-    throw Error(ErrorCode::kInvalidInput, "a face is not a triangle");
-  }
-}
-
 }  // namespace rholm

@@ -31,7 +31,6 @@
 #include "transform/mesh_pass/block/block.h"
 #include "transform/mesh_pass/own_nodes.h"
 #include "transform/mesh_pass/plan/error_budget.h"
-#include "transform/mesh_pass/run_pass.h"
 #include "transform/rules/hermite_rules.h"
 
 namespace rholm {

@@ -5,7 +5,7 @@
 
 #include "rholm/context.h"
 #include "rholm/mesh_view.h"
-#include "transform/mesh_pass/pass.h"
+#include "transform/mesh_pass/pass_options.h"
 #include "transform/mesh_pass/plan/plan.h"
 
 namespace rholm {

@@ -23,7 +23,7 @@
 #include "rholm/mesh_view.h"
 #include "transform/mesh_pass/division.h"
 #include "transform/mesh_pass/part_worker.h"
-#include "transform/mesh_pass/pass.h"
+#include "transform/mesh_pass/pass_options.h"
 #include "transform/mesh_pass/plan/plan.h"
 
 namespace rholm {

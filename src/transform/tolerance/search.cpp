@@ -240,4 +240,37 @@ ToleranceAnalysis search_tolerance(const ToleranceProblem& problem, const Tolera
   return Search(problem, tolerance, context).run(pilot);
 }
 
+ToleranceAnalysis analyze(const StarChart& chart, const Tolerance& tolerance,
+                          const AnalyzeOptions& options, const Context& context) {
+  check(tolerance);
+  check(options);
+  if (function_of(options.method) != RadialFunction::kRadius) {
+    throw Error(ErrorCode::kInvalidInput,
+                "a tolerance is one of the radius: the method gauge expands its inverse");
+  }
+  if (!chart.report.star_shaped) {
+    throw Error(ErrorCode::kInvalidInput,
+                "a tolerance needs a surface that every direction meets once: give a degree");
+  }
+  const MeshView mesh = view_of(chart.mesh);
+  ToleranceProblem problem =
+      tolerance_problem(mesh, {}, exact_norms(mesh, {}, context), options.precision, context);
+  const auto analyzed = [&](AnalyzeOptions wanted, const TransformTarget& target) {
+    wanted.degree = target.degree;
+    wanted.precision = target.precision;
+    return analyze_without_norms(chart, wanted, context);
+  };
+  // Pilots by the fast sums whatever the method: the coefficients are the same.
+  problem.pilot = [&](const TransformTarget& target) {
+    const MeshPassOptions wanted{.degree = target.degree, .precision = target.precision};
+    return analysis_of(mesh_pass(mesh, wanted, context), target.precision);
+  };
+  problem.transform = [&](const TransformTarget& target) { return analyzed(options, target); };
+  const Analysis pilot = problem.pilot(first_pilot(problem, tolerance));
+  ToleranceAnalysis result = search_tolerance(problem, tolerance, pilot, context);
+  result.analysis.expansion.tail_strength = tail_strength(chart, RadialFunction::kRadius);
+  finish_analysis(options, chart.report.center, result.analysis);
+  return result;
+}
+
 }  // namespace rholm

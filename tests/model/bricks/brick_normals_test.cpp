@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "model/bricks/brick_fit.h"
+#include "model/bricks/load_brick.h"
 #include "model/bricks/test_support.h"
 #include "rholm/error.h"
 #include "rholm/points.h"

@@ -14,7 +14,6 @@
 
 #include "base/random.h"
 #include "io/shapes/test_support.h"
-#include "model/bricks/brick_pieces.h"
 #include "model/bricks/brick_plan.h"
 #include "model/bricks/brick_points.h"
 #include "model/bricks/point_source.h"

@@ -1,0 +1,27 @@
+// The points that caps are fitted to. Layer: atlas.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "rholm/vec3.h"
+#include "shape/points/point_tree.h"
+#include "shape/points/sampling_gaps.h"
+
+namespace rholm {
+
+// Points and unit normals in the order of a tree.
+struct OrderedPoints {
+  const PointTree& tree;
+  std::span<const Vec3> points;
+  std::span<const Vec3> normals;
+  const SamplingGaps* gaps = nullptr;  // none: the points are even
+  bool computed_normals = false;       // from the points alone
+
+  // So many neighbours of point i reach as far, against the gaps, as k of even points.
+  std::size_t scaled(std::size_t i, std::size_t k) const {
+    return gaps != nullptr ? gaps->scaled(i, k) : k;
+  }
+};
+
+}  // namespace rholm
