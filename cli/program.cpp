@@ -48,6 +48,12 @@ bool asks_for_help(std::span<const std::string> words) {
                      [](const std::string& word) { return word == "--help" || word == "-h"; });
 }
 
+int dispatch(const Command& command, std::span<const std::string> words) {
+  if (asks_for_help(words)) return print(command_help(command));
+  const CancelScope scope(keep_going);
+  return run_command(command, words);
+}
+
 int dispatch(const ProgramText& program, std::span<const Command> commands,
              std::span<const std::string> words) {
   if (words.empty()) return print(program_help(program, commands), stderr);
@@ -65,10 +71,7 @@ int dispatch(const ProgramText& program, std::span<const Command> commands,
         "commands",
         program.name, first));
   }
-  const Command& command = command_of(commands, first);
-  if (asks_for_help(rest)) return print(command_help(command));
-  const CancelScope scope(keep_going);
-  return run_command(command, rest);
+  return dispatch(command_of(commands, first), rest);
 }
 
 // What was printed may still wait in a buffer, and the disk may be full.
@@ -82,6 +85,10 @@ int flushed(int code) {
 Outcome run_program(const ProgramText& program, const std::vector<Command>& commands,
                     const std::vector<std::string>& words) {
   return outcome_of([&] { return flushed(dispatch(program, commands, words)); });
+}
+
+Outcome run_program(const Command& command, const std::vector<std::string>& words) {
+  return outcome_of([&] { return flushed(dispatch(command, words)); });
 }
 
 int run_program(const std::vector<std::string>& words) {

@@ -8,7 +8,7 @@ constexpr Command (*kMakers[])() = {
     synthesize_command,  spectrum_command, compare_command,  convert_command,  render_command,
     report_command,      make_command,     filter_command,   recenter_command, rotate_command,
     align_command,       smooth_command,   transfer_command, orient_command,   partition_command,
-    reconstruct_command, batch_command,    bench_command,
+    reconstruct_command, batch_command,
 #ifdef RHOLM_STUDIO
     studio_command,
 #endif

@@ -36,7 +36,6 @@ Command batch_command();
 #ifdef RHOLM_STUDIO
 Command studio_command();
 #endif
-Command bench_command();
 Command completion_command();
 Command man_page_command();
 // The same for another program, by its commands; and whose page is made with the date it bears.

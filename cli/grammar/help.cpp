@@ -79,8 +79,12 @@ std::string option_heading(const Option& option) {
   return option.is_switch() ? heading : heading + " " + value_name(option);
 }
 
+std::string typed_name(const Command& command) {
+  return command.name.empty() ? program_name() : program_name() + " " + command.name;
+}
+
 std::string usage_line(const Command& command, std::size_t width) {
-  std::string result, line = program_name() + " " + command.name;
+  std::string result, line = typed_name(command);
   const std::size_t indent = line.size() + 1;
   for (const Option& option : command.options) {
     const std::string word = usage_word(option);
@@ -113,8 +117,7 @@ std::string program_help(const ProgramText& program, std::span<const Command> co
 
 std::string command_help(const Command& command) {
   CommonOptions common;
-  std::string text =
-      fmt::format("{} {}: {}\n\nUsage: ", program_name(), command.name, command.summary);
+  std::string text = fmt::format("{}: {}\n\nUsage: ", typed_name(command), command.summary);
   // The first line of the usage stands after "Usage: ".
   std::string usage = usage_line(command, kWidth - 7);
   for (std::size_t at = 0; (at = usage.find('\n', at)) != std::string::npos; at += 8) {

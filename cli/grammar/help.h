@@ -21,6 +21,9 @@ std::string version_text(const ProgramText& program);
 std::string program_help(const ProgramText& program, std::span<const Command> commands);
 std::string command_help(const Command& command);
 
+// As it is typed: "rholm analyze", or the program alone where it is one command without a name.
+std::string typed_name(const Command& command);
+
 // "rholm analyze SHAPE --degree L [--method edge|gauge] -o OUT", broken into lines of at most
 // `width` letters, the second and later ones indented.
 std::string usage_line(const Command& command, std::size_t width);

@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
+#include "cli/grammar/help.h"
 #include "cli/grammar/parse.h"
 #include "cli/terminal/exit_code.h"
 #include "cli/terminal/freed_memory.h"
 #include "cli/terminal/interrupt.h"
-#include "cli/terminal/program_name.h"
 #include "cli/terminal/session.h"
 #include "rholm/error.h"
 
@@ -62,8 +62,7 @@ int run_command(const Command& command, std::span<const std::string> words) {
     Session session(common);
     return command.run(session);
   } catch (const UsageError& error) {
-    throw UsageError(
-        fmt::format("{}\nTry '{} {} --help'.", error.what(), program_name(), command.name));
+    throw UsageError(fmt::format("{}\nTry '{} --help'.", error.what(), typed_name(command)));
   } catch (const Error& error) {
     // The library speaks of ideas; what they are called here, the command knows.
     if (error.code() != ErrorCode::kNotStarShaped || command.if_not_star.empty()) throw;

@@ -41,8 +41,8 @@ HELD_RENAME = os.environ.get("HELD_RENAME", "held_rename.so")
 class Result:
     """Exit code, standard output and standard error (text) of a finished run."""
 
-    def __init__(self, process, words):
-        self.words = ["rholm", *words]
+    def __init__(self, process, words, name="rholm"):
+        self.words = [name, *words]
         self.code = process.returncode
         self.bytes = process.stdout
         self.out = process.stdout.decode("utf-8", "replace")
@@ -138,7 +138,7 @@ class CliTest(unittest.TestCase):
         said = out + (result.err if result.code == 0 else "")
         self.assertNotRegex(said, re.compile(r"\bnan\b", re.I), str(result))
         self.assertGreaterEqual(result.code, 0, f"died of a signal: {result}")
-        errors = [line for line in result.err.splitlines() if line.startswith("rholm: error:")]
+        errors = [line for line in result.err.splitlines() if line.startswith(f"{result.words[0]}: error:")]
         if result.code in (1, 2, 4):
             self.assertEqual(len(errors), 1, str(result))
         self.assertLessEqual(len(errors), 1, str(result))

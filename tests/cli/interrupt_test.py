@@ -155,7 +155,6 @@ LONG = (
     ("partition {}.ply --tolerance 5e-3 -o out.ply", "out.ply"),
     ("reconstruct {}.xyz -o out.ply", "out.ply"),
     ("batch {}.csv --command info -o out.csv", "out.csv"),
-    ("bench {}.ply --degree 16 --repeat 1", None),
 )
 SIZES = {"small": {"subdivisions": 4, "degree": 32, "points": 2000, "n": 20000, "side": 128, "lines": 32},
          "large": {"subdivisions": 6, "degree": 256, "points": 40000, "n": 640000, "side": 1024, "lines": 700}}

@@ -390,7 +390,7 @@ class Names(Meaning):
         before = self.files()
         for name, words in ((long, "too long"), ("a.ply", "symbolic links")):
             for command in (["info", name], ["analyze", name, "--degree", "2", "-o", "o.h5"],
-                            ["compare", "s.ply", name], ["bench", name],
+                            ["compare", "s.ply", name],
                             ["synthesize", "s.h5", "--like", name, "-o", "o.ply"],
                             ["filter", "s.h5", "--gain", name, "-o", "o.h5"],
                             ["make", "sphere", "--format", "ply", "-o", name],

@@ -54,8 +54,6 @@ def looked_at(trial):
              out="error.png", codes=DONE)
     trial.do("report", m, "--degree", "6", "--size", "32", out="mesh.html",
              codes=ANY)
-    trial.do("bench", m, "--degree", "4", "--repeat", "1", "--signed", "--json",
-             codes=ANY)
 
 
 def converted(trial):

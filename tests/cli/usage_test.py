@@ -11,7 +11,7 @@ sys.path.insert(0, os.path.dirname(__file__))
 from harness import CliTest, OCTAHEDRON, RHOLM, SOURCE, STUDIO, Terminal, main, off
 
 COMMANDS = ["info", "center", "analyze", "synthesize", "spectrum", "compare", "convert", "render",
-            "report", "make", "filter", "rotate", "align", "smooth", "transfer", "orient", "reconstruct", "bench",
+            "report", "make", "filter", "rotate", "align", "smooth", "transfer", "orient", "reconstruct",
             "completion", *(["studio"] if STUDIO else [])]
 
 

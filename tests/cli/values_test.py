@@ -24,7 +24,7 @@ NEEDS = {
     "transfer": ["--from", "none.ply", "--from-region", "ball:0,0,0,1", "--to", "none.ply",
                  "--to-region", "ball:0,0,0,1", "-o", "out.ply"],
     "orient": ["none.xyz", "-o", "out.ply"], "partition": ["none.ply", "-o", "out.ply"],
-    "reconstruct": ["none.xyz", "-o", "out.ply"], "bench": ["none.ply"],
+    "reconstruct": ["none.xyz", "-o", "out.ply"],
     "repair": ["none.ply", "-o", "out.ply"], "simplify": ["none.ply", "-o", "out.ply"],
     "batch": ["none.csv", "--command", "info", "-o", "out.csv"],
     "recenter": ["none.h5", "-o", "out.h5"], "completion": ["bash"],
@@ -67,10 +67,9 @@ BEYOND = {
     "from-degree": ["1", "65"], "scale": ["0", "1e7"], "k": ["2", "1001"],
     "sensor": ["1,2"], "min-cosine": ["-0.1", "1.1"], "reconstruct --noise": ["1", "-0.1"],
     "reconstruct --resolution": ["3", "65537"], "min-component": ["-0.1", "1.1"],
-    "max-memory": ["0"], "bench --faces": ["11", "82000,0"],
+    "max-memory": ["0"],
     "max-hole": ["-1", "501"], "simplify --faces": ["0", "3", "0%", "101%", "none"],
-    "max-error": ["-1"], "repeat": ["0", "1001"],
-    "thread-counts": ["0", "1,4097"], "shard": ["0/2", "3/2", "1/2/3", "1/0"],
+    "max-error": ["-1"], "shard": ["0/2", "3/2", "1/2/3", "1/0"],
     "columns": ["x,y", "x,y,z,x", "x,y,z,nx"],
 }
 
@@ -147,7 +146,7 @@ class Values(CliTest):
             self.assertIn(key.split("--")[-1], tried, "an option that is not there any more")
 
     def test_operands_that_are_empty(self):
-        for command in ("info", "center", "spectrum", "bench"):
+        for command in ("info", "center", "spectrum"):
             result = self.rholm(command, "", code=2)
             self.assertIn("is empty", result.err)
 

@@ -1,4 +1,4 @@
-#include "report/timing/peak_memory.h"
+#include "rholm_bench/peak_memory.h"
 
 #include <malloc.h>
 

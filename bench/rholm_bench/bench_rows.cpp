@@ -1,7 +1,7 @@
-#include "report/timing/bench_rows.h"
+#include "rholm_bench/bench_rows.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "report/timing/bench_rows.cpp"
+#define HWY_TARGET_INCLUDE "rholm_bench/bench_rows.cpp"
 #include <hwy/foreach_target.h>
 
 #include <hwy/highway.h>

@@ -10,10 +10,10 @@
 #include "base/aligned_array.h"
 #include "harmonic/nonuniform/sphere_fourier.h"
 #include "harmonic/rings/ring_sums.h"
-#include "report/timing/bench.h"
-#include "report/timing/bench_rows.h"
-#include "report/timing/bench_timing.h"
 #include "rholm/error.h"
+#include "rholm_bench/bench.h"
+#include "rholm_bench/bench_rows.h"
+#include "rholm_bench/bench_timing.h"
 
 namespace rholm {
 namespace {

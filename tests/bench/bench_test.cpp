@@ -1,4 +1,4 @@
-#include "report/timing/bench.h"
+#include "rholm_bench/bench.h"
 
 #include <gtest/gtest.h>
 #include <sys/mman.h>
@@ -9,12 +9,12 @@
 
 #include "base/aligned_array.h"
 #include "io/shapes/test_support.h"
-#include "report/timing/bench_rows.h"
-#include "report/timing/bench_timing.h"
-#include "report/timing/peak_memory.h"
 #include "rholm/error.h"
 #include "rholm/primitives.h"
 #include "rholm/shape_io.h"
+#include "rholm_bench/bench_rows.h"
+#include "rholm_bench/bench_timing.h"
+#include "rholm_bench/peak_memory.h"
 #include "support/random_data.h"
 #include "support/targets.h"
 

@@ -1,4 +1,4 @@
-#include "cli/commands/bench_report.h"
+#include "rholm_bench/bench_report.h"
 
 #include <fstream>
 #include <thread>

@@ -1,14 +1,14 @@
 // Runs of the whole way, from a file to coefficients.
-#include "report/timing/bench.h"
+#include "rholm_bench/bench.h"
 
 #include <string>
 #include <utility>
 
 #include "io/file/temporary_folder.h"
-#include "report/timing/bench_timing.h"
-#include "report/timing/peak_memory.h"
 #include "rholm/error.h"
 #include "rholm/model.h"
+#include "rholm_bench/bench_timing.h"
+#include "rholm_bench/peak_memory.h"
 
 namespace rholm {
 namespace {

@@ -1,21 +1,29 @@
-// rholm bench: how fast is it here?
+// rholm_bench: how fast is rholm on this machine? The instruction set is the best one, or the one
+// that RHOLM_TEST_TARGET names.
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
 
 #include <fmt/format.h>
 
-#include "cli/commands/bench_mesh.h"
-#include "cli/commands/bench_report.h"
-#include "cli/commands/commands.h"
 #include "cli/files/inputs.h"
 #include "cli/grammar/parse.h"
 #include "cli/grammar/values.h"
+#include "cli/program.h"
+#include "cli/terminal/bus_error.h"
+#include "cli/terminal/descriptors.h"
+#include "cli/terminal/exit_code.h"
+#include "cli/terminal/freed_memory.h"
 #include "cli/terminal/interrupt.h"
+#include "cli/terminal/program_name.h"
 #include "cli/terminal/session.h"
 #include "rholm/error.h"
 #include "rholm/version.h"
+#include "rholm_bench/bench_mesh.h"
+#include "rholm_bench/bench_report.h"
+#include "support/targets.h"
 
 namespace rholm::cli {
 namespace {
@@ -278,11 +286,9 @@ std::vector<Option> option_list(Options& o) {
           json_option(o.json)};
 }
 
-}  // namespace
-
 Command bench_command() {
   auto options = std::make_shared<Options>();
-  return {.name = "bench",
+  return {.name = "",
           .summary = "How fast it is on this machine, stage by stage",
           .description =
               "Measures the way from the bytes of a mesh to its coefficients: processor and wall "
@@ -294,10 +300,28 @@ Command bench_command() {
               "measured. Meshes that the program makes are files without a name in the folder for "
               "temporary files (TMPDIR).",
           .options = option_list(*options),
-          .examples = {"rholm bench --faces 5000 --degree 32 --repeat 3",
-                       "rholm bench bumpy.ply --degree 32 --precision 1e-4,1e-6 --json"},
+          .examples = {"rholm_bench --faces 5000 --degree 32 --repeat 3",
+                       "rholm_bench bumpy.ply --degree 32 --precision 1e-4,1e-6 --json"},
           .run = [options](Session& session) { return run(*options, session); },
           .if_not_star = "--signed"};
 }
 
+}  // namespace
 }  // namespace rholm::cli
+
+int main(int argc, char** argv) {
+  using namespace rholm::cli;
+  fill_standard_descriptors();
+  set_program_name("rholm_bench");
+  if (const std::string wrong = rholm::test::force_target_of_environment(); !wrong.empty()) {
+    print_error(wrong);
+    return kUsage;
+  }
+  keep_freed_memory();
+  start_on_huge_pages();
+  install_signal_handlers();
+  install_bus_error_handler();
+  const Outcome outcome = run_program(bench_command(), {argv + 1, argv + argc});
+  if (!outcome.message.empty()) print_error(outcome.message);
+  return outcome.code;
+}

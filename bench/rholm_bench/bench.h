@@ -1,5 +1,5 @@
 // How long the way from a mesh to its coefficients takes on this machine, and what bounds it: what
-// `rholm bench` is made of. Layer: report, private.
+// bench/rholm_bench is made of.
 //
 // Everything is measured, nothing printed. Each kind of run is repeated; kinds that are compared
 // take turns, so that what else the machine does meets all of them.
@@ -13,11 +13,11 @@
 #include <string>
 #include <vector>
 
-#include "report/timing/bench_timing.h"
 #include "rholm/analyze.h"
 #include "rholm/context.h"
 #include "rholm/mesh.h"
 #include "rholm/model.h"
+#include "rholm_bench/bench_timing.h"
 
 namespace rholm {
 

@@ -1,11 +1,11 @@
-// What the benchmark found, as JSON and as text. Layer: cli.
+// What the benchmark found, as JSON and as text.
 #pragma once
 
 #include <optional>
 #include <string>
 
 #include "cli/terminal/json_text.h"
-#include "report/timing/bench.h"
+#include "rholm_bench/bench.h"
 
 namespace rholm::cli {
 

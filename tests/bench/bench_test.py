@@ -1,26 +1,33 @@
-"""rholm bench: its figures, its temporary files, its refusals."""
+"""bench/rholm_bench: its figures, its temporary files, its refusals."""
 
 import os
 import signal
 import subprocess
 import sys
 
-sys.path.insert(0, os.path.dirname(__file__))
-from harness import CliTest, OCTAHEDRON, RHOLM, TIMEOUT, main, off, until, until_working
+sys.path.insert(0, os.path.join(os.path.dirname(__file__), "..", "cli"))
+from harness import CliTest, OCTAHEDRON, Result, TIMEOUT, main, off, until, until_working
+
+BENCH = os.environ["RHOLM_BENCH"]
 
 QUICK = ["--degree", "16", "--repeat", "2"]
 
 
 class Bench(CliTest):
+    NAME = "rholm_bench"
+
     def setUp(self):
         super().setUp()
         self.temporary = self.folder / "temporary"
         self.temporary.mkdir()
         self.environment = {"TMPDIR": str(self.temporary)}
 
-    def bench(self, *words, **options):
-        options.setdefault("environment", self.environment)
-        result = self.rholm("bench", *words, **options)
+    def bench(self, *words, code=0, environment=None):
+        process = subprocess.run([BENCH, *words], capture_output=True, cwd=self.folder, timeout=TIMEOUT,
+                                 env={**os.environ, **(environment or self.environment)})
+        result = Result(process, words, self.NAME)
+        self.assertEqual(result.code, code, result)
+        self.check_decent(result)
         self.assertEqual(list(self.temporary.iterdir()), [], "litter was left")
         return result
 
@@ -104,10 +111,20 @@ class Bench(CliTest):
         self.assertLessEqual(case["accuracy"]["error"], case["precision"])
 
     def test_wrong_words_are_refused(self):
-        for words in (["--faces", "11"], ["--faces", "1e9"], ["--faces", "many"],
+        for words in (["--faces", "11"], ["--faces", "1e9"], ["--faces", "many"], ["--faces", "82000,0"],
                       ["--degree", "-1"], ["--precision", "1"], ["--precision", "1e-6,0"],
-                      ["--repeat", "0"], ["--thread-counts", "0"], ["-"]):
-            self.bench(*words, code=2)
+                      ["--repeat", "0"], ["--repeat", "1001"], ["--thread-counts", "0"],
+                      ["--thread-counts", "1,4097"], ["--no-such-option"], ["-"], [""]):
+            self.assertIn("Try 'rholm_bench --help'.", self.bench(*words, code=2).err)
+
+    def test_the_examples_of_its_help_work(self):
+        self.rholm("make", "bumpy", "--subdivisions", "3", "-o", "bumpy.ply")
+        text = self.bench("--help").out
+        self.assertIn("Usage: rholm_bench [SHAPE...] [--faces N,...]", text)
+        for line in text.split("\nExamples:\n")[1].splitlines():
+            name, *words = line.split()
+            self.assertEqual(name, self.NAME)
+            self.assertIn("direct sums", self.bench(*words).out)
 
     def test_without_a_folder_for_temporary_files_it_fails(self):
         for folder in ("/proc", str(self.folder / "missing")):
@@ -117,7 +134,7 @@ class Bench(CliTest):
 
     def test_interrupted_it_leaves_nothing(self):
         process = subprocess.Popen(
-            [RHOLM, "bench", "--faces", "300000", "--degree", "200", "--repeat", "1000"],
+            [BENCH, "--faces", "300000", "--degree", "200", "--repeat", "1000"],
             stdout=subprocess.PIPE, stderr=subprocess.PIPE,
             env={**os.environ, **self.environment},
             preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))

@@ -4,9 +4,9 @@
 
 #include "base/random.h"
 #include "harmonic/nonuniform/cost_model.h"
-#include "report/timing/bench.h"
-#include "report/timing/bench_timing.h"
 #include "rholm/synthesize.h"
+#include "rholm_bench/bench.h"
+#include "rholm_bench/bench_timing.h"
 
 namespace rholm {
 namespace {

@@ -1,4 +1,4 @@
-// The meshes that the benchmark brings with it. Layer: cli.
+// The meshes that the benchmark brings with it.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-#include "cli/commands/bench_mesh.h"
+#include "rholm_bench/bench_mesh.h"
 
 #include <fcntl.h>
 #include <stdlib.h>

@@ -3,10 +3,10 @@
 #include <cmath>
 
 #include "harmonic/nonuniform/cost_model.h"
-#include "report/timing/bench.h"
-#include "report/timing/bench_timing.h"
 #include "rholm/error.h"
 #include "rholm/primitives.h"
+#include "rholm_bench/bench.h"
+#include "rholm_bench/bench_timing.h"
 
 namespace rholm {
 namespace {
