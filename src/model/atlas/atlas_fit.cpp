@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "atlas/cap/cap_support.h"
-#include "atlas/few/cap_blend.h"
-#include "atlas/few/cap_prune.h"
+#include "atlas/compress/cap_blend.h"
+#include "atlas/compress/cap_prune.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "model/atlas/atlas_aims.h"

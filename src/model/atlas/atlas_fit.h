@@ -5,7 +5,7 @@
 #include <functional>
 #include <optional>
 
-#include "atlas/few/cap_samples.h"
+#include "atlas/compress/cap_samples.h"
 #include "rholm/compress.h"
 #include "rholm/topology.h"
 

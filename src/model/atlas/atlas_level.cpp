@@ -12,9 +12,9 @@
 
 #include <fmt/format.h>
 
-#include "atlas/few/cap_level.h"
-#include "atlas/few/cap_samples.h"
-#include "atlas/few/cap_shares.h"
+#include "atlas/compress/cap_level.h"
+#include "atlas/compress/cap_samples.h"
+#include "atlas/compress/cap_shares.h"
 #include "model/atlas/atlas_fit.h"
 #include "rholm/error.h"
 #include "surface/star/area_samples.h"

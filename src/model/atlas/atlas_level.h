@@ -1,7 +1,7 @@
 // Levels of detail of a model of caps (method 7.8). Layer: model, private.
 #pragma once
 
-#include "atlas/few/cap_samples.h"
+#include "atlas/compress/cap_samples.h"
 #include "rholm/atlas.h"
 #include "rholm/context.h"
 #include "rholm/mesh.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "atlas/cap/cap_support.h"
-#include "atlas/few/cap_blend.h"
+#include "atlas/compress/cap_blend.h"
 #include "rholm/compress.h"
 #include "shape/points/point_tree.h"
 

@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "atlas/few/cap_greedy.h"
-#include "atlas/few/cap_prune.h"
+#include "atlas/compress/cap_greedy.h"
+#include "atlas/compress/cap_prune.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "harmonic/legendre/low_harmonics.h"

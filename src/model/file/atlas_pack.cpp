@@ -9,7 +9,7 @@
 
 #include "atlas/cap/cap_eval.h"
 #include "atlas/cap/cap_support.h"
-#include "atlas/few/cap_blend.h"
+#include "atlas/compress/cap_blend.h"
 #include "harmonic/legendre/low_harmonics.h"
 #include "rholm/error.h"
 

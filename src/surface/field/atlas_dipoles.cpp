@@ -6,7 +6,7 @@
 
 #include "atlas/cap/cap_eval.h"
 #include "atlas/cap/cap_support.h"
-#include "atlas/few/cap_blend.h"
+#include "atlas/compress/cap_blend.h"
 #include "base/parallel.h"
 #include "shape/points/point_tree.h"
 

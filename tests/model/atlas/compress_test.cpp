@@ -8,7 +8,7 @@
 #include <numbers>
 #include <string>
 
-#include "atlas/few/cap_level.h"
+#include "atlas/compress/cap_level.h"
 #include "io/shapes/test_support.h"
 #include "rholm/error.h"
 #include "rholm/primitives.h"

@@ -1,4 +1,4 @@
-#include "atlas/few/cap_shares.h"
+#include "atlas/compress/cap_shares.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "atlas/cap/cap_eval.h"
 #include "atlas/cap/cap_support.h"
-#include "atlas/few/cap_candidate.h"
+#include "atlas/compress/cap_candidate.h"
 #include "base/parallel.h"
 
 namespace rholm {

@@ -1,4 +1,4 @@
-#include "atlas/few/cap_samples.h"
+#include "atlas/compress/cap_samples.h"
 
 #include <algorithm>
 #include <cmath>

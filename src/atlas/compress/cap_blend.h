@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "atlas/cap/cap_limits.h"
-#include "atlas/few/cap_samples.h"
+#include "atlas/compress/cap_samples.h"
 #include "rholm/atlas.h"
 #include "rholm/context.h"
 

@@ -1,4 +1,4 @@
-#include "atlas/few/cap_candidate.h"
+#include "atlas/compress/cap_candidate.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // Expected values: derivatives of shares by differences, and the disagreement of two caps before
 // and after, measured from their potentials.
-#include "atlas/few/cap_shares.h"
+#include "atlas/compress/cap_shares.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "atlas/few/cap_blend.h"
+#include "atlas/compress/cap_blend.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "atlas/few/cap_level.h"
+#include "atlas/compress/cap_level.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // Expected values: surfaces with a closed form of the distance (sphere, torus), and fits of each
 // degree by itself.
-#include "atlas/few/cap_greedy.h"
+#include "atlas/compress/cap_greedy.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 
 #include "atlas/cap/cap_eval.h"
 #include "atlas/cap/cap_support.h"
-#include "atlas/few/cap_blend.h"
-#include "atlas/few/cap_prune.h"
+#include "atlas/compress/cap_blend.h"
+#include "atlas/compress/cap_prune.h"
 #include "chart/cap/cap_frame.h"
 #include "support/random_data.h"
 

@@ -1,4 +1,4 @@
-#include "atlas/few/cap_prune.h"
+#include "atlas/compress/cap_prune.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,9 @@
 
 #include "atlas/cap/cap_fit.h"
 #include "atlas/cap/cap_support.h"
-#include "atlas/few/cap_blend.h"
-#include "atlas/few/cap_candidate.h"
-#include "atlas/few/cap_shares.h"
+#include "atlas/compress/cap_blend.h"
+#include "atlas/compress/cap_candidate.h"
+#include "atlas/compress/cap_shares.h"
 #include "base/parallel.h"
 
 namespace rholm {

@@ -8,7 +8,7 @@
 
 #include "atlas/cap/cap_fit.h"
 #include "atlas/cap/normal_equations.h"
-#include "atlas/few/cap_samples.h"
+#include "atlas/compress/cap_samples.h"
 #include "rholm/atlas.h"
 
 namespace rholm {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "atlas/cap/cap_fit.h"
-#include "atlas/few/cap_blend.h"
-#include "atlas/few/cap_samples.h"
+#include "atlas/compress/cap_blend.h"
+#include "atlas/compress/cap_samples.h"
 #include "rholm/atlas.h"
 #include "rholm/context.h"
 

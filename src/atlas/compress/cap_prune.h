@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "atlas/few/cap_samples.h"
+#include "atlas/compress/cap_samples.h"
 #include "rholm/atlas.h"
 #include "rholm/context.h"
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "atlas/few/cap_candidate.h"
-#include "atlas/few/cap_samples.h"
+#include "atlas/compress/cap_candidate.h"
+#include "atlas/compress/cap_samples.h"
 #include "rholm/atlas.h"
 #include "rholm/context.h"
 

@@ -1,4 +1,4 @@
-#include "atlas/few/cap_greedy.h"
+#include "atlas/compress/cap_greedy.h"
 
 #include <algorithm>
 #include <cmath>

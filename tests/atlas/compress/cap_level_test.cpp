@@ -1,5 +1,5 @@
 // Expected values: distances to the surface of all degrees, measured.
-#include "atlas/few/cap_level.h"
+#include "atlas/compress/cap_level.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include "atlas/cap/cap_eval.h"
 #include "atlas/cap/cap_fit.h"
 #include "atlas/cap/cap_support.h"
-#include "atlas/few/cap_blend.h"
+#include "atlas/compress/cap_blend.h"
 #include "chart/cap/cap_frame.h"
 
 namespace rholm {
