@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "base/random.h"
+#include "paper/monte_carlo/spherical_triangle.h"
 #include "transform/geometry/star_geometry.h"
-#include "transform/monte_carlo/spherical_triangle.h"
 
 namespace rholm::paper {
 namespace {

@@ -4,11 +4,11 @@
 
 #include "experiments.h"
 #include "fixed_nodes.h"
+#include "paper/monte_carlo/edge_terms.h"
 #include "rholm/analyze.h"
 #include "rholm/monte_carlo.h"
 #include "rholm/primitives.h"
 #include "transform/geometry/star_geometry.h"
-#include "transform/monte_carlo/edge_terms.h"
 #include "transform/rules/bernstein_rules.h"
 
 namespace rholm::paper {

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "harmonic/legendre/order_sums.h"
+#include "paper/monte_carlo/edge_terms.h"
 #include "transform/methods/sources.h"
-#include "transform/monte_carlo/edge_terms.h"
 #include "transform/rules/bernstein_rules.h"
 
 namespace rholm::paper {

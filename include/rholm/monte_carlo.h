@@ -1,5 +1,5 @@
 // Coefficients of the radius by Monte Carlo, as the paper has it, with a deviation that is honest.
-// Layer: transform.
+// Layer: paper.
 //
 // kEdges: points on the edges, uniform along the flat edge as in (P40) (on the arc only their
 // density would differ), and the corrected field of (M1)-(M3) on both of its faces. kTriangles:

@@ -36,22 +36,6 @@ MethodOptions method_options(const StarGeometry& geometry, const AnalyzeOptions&
           .mean_allowed = std::max(options.precision, kRounding) * c00};
 }
 
-MethodResult run_method(const StarGeometry& geometry, const AnalyzeOptions& options,
-                        const Context& context) {
-  const MethodOptions wanted = method_options(geometry, options);
-  switch (options.method) {
-    case Method::kEdge:
-      return edge_method(geometry, wanted, context);
-    case Method::kGauge:
-      return gauge_method(geometry, wanted, context);
-    case Method::kCurl:
-      return curl_method(geometry, wanted, context);
-    case Method::kArea:
-      return area_method(geometry, wanted, context);
-  }
-  throw Error(ErrorCode::kInvalidInput, "unknown method");
-}
-
 void check_finite(const Coefficients& c) {
   for (const double value : c.values()) {
     if (!std::isfinite(value)) {
@@ -98,10 +82,10 @@ Method parse_method(const std::string& name) {
 namespace {
 
 // Coefficients by a method of its own (direct sums, or the gauge's fast ones).
-void by_method(const StarChart& chart, const AnalyzeOptions& options, const Context& context,
-               Analysis& analysis) {
+void by_method(MethodFunction method, const StarChart& chart, const AnalyzeOptions& options,
+               const Context& context, Analysis& analysis) {
   const StarGeometry geometry = star_geometry(chart);
-  MethodResult sums = run_method(geometry, options, context);
+  MethodResult sums = method(geometry, method_options(geometry, options), context);
   const bool gauge = options.method == Method::kGauge;
   const double unscale = gauge ? geometry.scale : 1 / geometry.scale;
   for (double& value : sums.coefficients.values()) value *= unscale;
@@ -177,22 +161,23 @@ void finish_analysis(const AnalyzeOptions& options, const Vec3& center, Analysis
   }
 }
 
-Analysis analyze_without_norms(const StarChart& chart, const AnalyzeOptions& options,
-                               const Context& context) {
+Analysis analyze_without_norms(MethodFunction method, const StarChart& chart,
+                               const AnalyzeOptions& options, const Context& context) {
   report_progress(context, "transform", 0);
   Analysis analysis;
   analysis.precision = options.precision;
   if (uses_mesh_pass(options)) {
     by_mesh_pass(chart, options, context, analysis);
   } else {
-    by_method(chart, options, context, analysis);
+    by_method(method, chart, options, context, analysis);
   }
   return analysis;
 }
 
-Analysis analyze(const StarChart& chart, const AnalyzeOptions& options, const Context& context) {
+Analysis analyze_by(MethodFunction method, const StarChart& chart, const AnalyzeOptions& options,
+                    const Context& context) {
   check(options);
-  Analysis analysis = analyze_without_norms(chart, options, context);
+  Analysis analysis = analyze_without_norms(method, chart, options, context);
   analysis.expansion.signed_sum = !chart.report.star_shaped;
   if (chart.report.star_shaped) {
     const StageTimer timer(analysis.times, "norms");

@@ -9,14 +9,14 @@
 #include <fmt/format.h>
 
 #include "atlas/cap/cap_support.h"
-#include "atlas/paper/cap_integral.h"
 #include "base/parallel.h"
-#include "chart/patches/kd_partition.h"
-#include "chart/patches/sphere_delaunay.h"
 #include "harmonic/legendre/low_harmonics.h"
 #include "model/atlas/atlas_errors.h"
 #include "model/file/atlas_pack.h"
 #include "model/points/oriented_points.h"
+#include "paper/patches/cap_integral.h"
+#include "paper/patches/kd_partition.h"
+#include "paper/patches/sphere_delaunay.h"
 #include "rholm/error.h"
 #include "rholm/outward.h"
 #include "rholm/topology.h"

@@ -1,4 +1,5 @@
-// The four routes from a star chart to its coefficients. Each returns those of the scaled geometry.
+// Direct routes from a star chart to its coefficients. Each returns those of the scaled geometry.
+// Two more are in paper/methods/paper_methods.h.
 #pragma once
 
 #include <cstddef>
@@ -24,14 +25,13 @@ struct MethodResult {
   std::size_t face_nodes = 0;
 };
 
+using MethodFunction = MethodResult (*)(const StarGeometry& geometry, const MethodOptions& options,
+                                        const Context& context);
+
 MethodResult edge_method(const StarGeometry& geometry, const MethodOptions& options,
                          const Context& context);
 MethodResult gauge_method(const StarGeometry& geometry, const MethodOptions& options,
                           const Context& context);
-MethodResult curl_method(const StarGeometry& geometry, const MethodOptions& options,
-                         const Context& context);
-MethodResult area_method(const StarGeometry& geometry, const MethodOptions& options,
-                         const Context& context);
 
 // c_00 of r: (1/sqrt(4 pi)) sum_T d_T int_T dS / |x|^2, within `allowed`.
 double radius_mean_coefficient(const StarGeometry& geometry, double allowed);

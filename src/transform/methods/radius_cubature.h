@@ -16,6 +16,13 @@ inline double radius_weight(const StarGeometry& geometry, std::size_t t) {
   return std::abs(geometry.faces[t].solid_angle) * radius;
 }
 
+// Of all faces.
+inline double radius_weight(const StarGeometry& geometry) {
+  double total = 0;
+  for (std::size_t t = 0; t < geometry.faces.size(); ++t) total += radius_weight(geometry, t);
+  return total;
+}
+
 // Calls visit(x, weight of r dOmega) for the nodes of a face.
 template <typename Visit>
 void visit_radius(const StarGeometry& geometry, std::size_t t, const Allowance& allowance,

@@ -240,8 +240,9 @@ ToleranceAnalysis search_tolerance(const ToleranceProblem& problem, const Tolera
   return Search(problem, tolerance, context).run(pilot);
 }
 
-ToleranceAnalysis analyze(const StarChart& chart, const Tolerance& tolerance,
-                          const AnalyzeOptions& options, const Context& context) {
+ToleranceAnalysis analyze_by(MethodFunction method, const StarChart& chart,
+                             const Tolerance& tolerance, const AnalyzeOptions& options,
+                             const Context& context) {
   check(tolerance);
   check(options);
   if (function_of(options.method) != RadialFunction::kRadius) {
@@ -258,7 +259,7 @@ ToleranceAnalysis analyze(const StarChart& chart, const Tolerance& tolerance,
   const auto analyzed = [&](AnalyzeOptions wanted, const TransformTarget& target) {
     wanted.degree = target.degree;
     wanted.precision = target.precision;
-    return analyze_without_norms(chart, wanted, context);
+    return analyze_without_norms(method, chart, wanted, context);
   };
   // Pilots by the fast sums whatever the method: the coefficients are the same.
   problem.pilot = [&](const TransformTarget& target) {

@@ -5,7 +5,9 @@
 #pragma once
 
 #include "rholm/context.h"
+#include "rholm/star.h"
 #include "rholm/truncation.h"
+#include "transform/methods/methods.h"
 #include "transform/tolerance/tolerance.h"
 
 namespace rholm {
@@ -16,5 +18,10 @@ namespace rholm {
 // one of Parseval's.
 ToleranceAnalysis search_tolerance(const ToleranceProblem& problem, const Tolerance& tolerance,
                                    const Analysis& pilot, const Context& context);
+
+// `analyze` of a tolerance, in the end by `method`, the direct sums of options.method.
+ToleranceAnalysis analyze_by(MethodFunction method, const StarChart& chart,
+                             const Tolerance& tolerance, const AnalyzeOptions& options,
+                             const Context& context);
 
 }  // namespace rholm

@@ -13,6 +13,7 @@
 #include "rholm/topology.h"
 #include "support/oracle.h"
 #include "support/random_data.h"
+#include "transform/analyze.h"
 
 namespace rholm {
 namespace {
@@ -297,7 +298,8 @@ TEST(synthesize, misses_the_mesh_by_the_truncation_error_known_from_its_norm) {
   });
   const Mesh sphere = directions_of(samples, {0, 0, 0});
   for (const int degree : {2, 4, 8, 16, 32, 64}) {
-    const Analysis analysis = analyze(chart, {.degree = degree, .precision = 1e-8});
+    const Analysis analysis =
+        analyze_by(edge_method, chart, {.degree = degree, .precision = 1e-8}, {});
     Expansion expansion = analysis.expansion;
     expansion.center = {0, 0, 0};
     const Mesh surface = synthesize(expansion, sphere);

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "paper/monte_carlo/edge_terms.h"
+#include "paper/monte_carlo/moments.h"
 #include "transform/geometry/star_geometry.h"
-#include "transform/monte_carlo/edge_terms.h"
-#include "transform/monte_carlo/moments.h"
 
 namespace rholm {
 

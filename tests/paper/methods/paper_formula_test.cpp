@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "harmonic/legendre/legendre_kernels.h"
+#include "paper/methods/curl_integrals.h"
 #include "support/oracle.h"
 #include "support/test_shapes.h"
-#include "transform/methods/curl_integrals.h"
 
 namespace rholm {
 namespace {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "paper/monte_carlo/edge_terms.h"
 #include "rholm/coefficients.h"
 #include "rholm/context.h"
-#include "transform/monte_carlo/edge_terms.h"
 
 namespace rholm {
 

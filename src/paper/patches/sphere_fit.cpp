@@ -1,4 +1,4 @@
-#include "chart/patches/sphere_fit.h"
+#include "paper/patches/sphere_fit.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "transform/monte_carlo/moments.h"
+#include "paper/monte_carlo/moments.h"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 //            = tau V / (1 + a.b + tau b.e),      c' = cos(t) a + sin(t) e,  tau = tan(t/2),
 // V = a.(b x e) (Van Oosterom and Strackee 1983, divided by 1 + cos t): linear in tau. Then the
 // point on the arc from b to c' has 1 - cos(distance from b) uniform.
-#include "transform/monte_carlo/spherical_triangle.h"
+#include "paper/monte_carlo/spherical_triangle.h"
 
 #include <algorithm>
 #include <cmath>

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "chart/patches/sphere_fit.h"
+#include "paper/patches/sphere_fit.h"
 #include "rholm/atlas.h"
 #include "rholm/coefficients.h"
 #include "rholm/context.h"

@@ -8,10 +8,10 @@
 #include "base/compensated_sum.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
+#include "paper/monte_carlo/moments.h"
+#include "paper/monte_carlo/samplers.h"
 #include "rholm/error.h"
 #include "transform/geometry/star_geometry.h"
-#include "transform/monte_carlo/moments.h"
-#include "transform/monte_carlo/samplers.h"
 #include "transform/norms/parseval.h"
 
 namespace rholm {

@@ -1,4 +1,4 @@
-#include "chart/patches/kd_partition.h"
+#include "paper/patches/kd_partition.h"
 
 #include <algorithm>
 #include <array>

@@ -12,7 +12,8 @@
 
 #include "base/parallel.h"
 #include "harmonic/legendre/order_sums.h"
-#include "transform/methods/curl_integrals.h"
+#include "paper/methods/curl_integrals.h"
+#include "paper/methods/paper_methods.h"
 #include "transform/methods/methods.h"
 #include "transform/methods/radius_cubature.h"
 #include "transform/methods/sources.h"

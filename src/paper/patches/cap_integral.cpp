@@ -1,6 +1,6 @@
 // r dOmega of flat triangles is d_T dS / |x|, and the dilation multiplies dOmega by the square
 // of its conformal factor d theta' / d theta = sin theta' / sin theta.
-#include "atlas/paper/cap_integral.h"
+#include "paper/patches/cap_integral.h"
 
 #include <algorithm>
 #include <array>

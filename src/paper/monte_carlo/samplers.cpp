@@ -1,11 +1,11 @@
-#include "transform/monte_carlo/samplers.h"
+#include "paper/monte_carlo/samplers.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "base/random.h"
-#include "transform/monte_carlo/spherical_triangle.h"
+#include "paper/monte_carlo/spherical_triangle.h"
 
 namespace rholm {
 namespace {

@@ -1,7 +1,7 @@
 // The Delaunay triangulation of points on the unit sphere is their convex hull: a facet's plane
 // cuts off a cap of the sphere, and no point lies in it. The origin is made one more point: facets
 // through it are those that close the hull of a patch on its inner side.
-#include "chart/patches/sphere_delaunay.h"
+#include "paper/patches/sphere_delaunay.h"
 
 #include <libqhull_r/qhull_ra.h>
 

@@ -1,5 +1,5 @@
 // Patches that do not fold, and their spheres.
-#include "chart/patches/kd_partition.h"
+#include "paper/patches/kd_partition.h"
 
 #include <gtest/gtest.h>
 

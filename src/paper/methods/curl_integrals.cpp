@@ -3,7 +3,7 @@
 // Its solutions without right side grow like lambda^m, lambda the larger root of
 // rho/2 x^2 + C x + rho/2: run forward while L ln|lambda| is small, else solved as a diagonally
 // dominant tridiagonal system.
-#include "transform/methods/curl_integrals.h"
+#include "paper/methods/curl_integrals.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,5 +1,5 @@
 // Delaunay triangulations of directions.
-#include "chart/patches/sphere_delaunay.h"
+#include "paper/patches/sphere_delaunay.h"
 
 #include <gtest/gtest.h>
 

@@ -8,14 +8,14 @@
 // face's width. The middle of the face's longitudes is near; where the parallel leaves the half
 // space of the face before it gets there, the nearest point to the foot of the normal is taken: it
 // lies between the foot and every point of the face.
-#include "transform/monte_carlo/edge_terms.h"
+#include "paper/monte_carlo/edge_terms.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
-#include "transform/methods/curl_integrals.h"
+#include "paper/methods/curl_integrals.h"
 
 namespace rholm {
 namespace {

@@ -8,14 +8,14 @@
 #include <vector>
 
 #include "harmonic/legendre/legendre_pairs.h"
+#include "paper/monte_carlo/moments.h"
+#include "paper/monte_carlo/samplers.h"
+#include "paper/monte_carlo/spherical_triangle.h"
 #include "rholm/error.h"
 #include "support/oracle.h"
 #include "support/random_data.h"
 #include "support/test_meshes.h"
 #include "support/test_shapes.h"
-#include "transform/monte_carlo/moments.h"
-#include "transform/monte_carlo/samplers.h"
-#include "transform/monte_carlo/spherical_triangle.h"
 
 namespace rholm {
 namespace {

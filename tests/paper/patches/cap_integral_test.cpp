@@ -1,5 +1,5 @@
 // Coefficients of patches by integrals, against closed forms and the transform of whole meshes.
-#include "atlas/paper/cap_integral.h"
+#include "paper/patches/cap_integral.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
-#include "chart/patches/kd_partition.h"
-#include "chart/patches/sphere_delaunay.h"
+#include "paper/patches/kd_partition.h"
+#include "paper/patches/sphere_delaunay.h"
 #include "rholm/analyze.h"
 #include "rholm/error.h"
 #include "rholm/harmonic.h"

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "chart/patches/sphere_fit.h"
+#include "paper/patches/sphere_fit.h"
 #include "rholm/context.h"
 
 namespace rholm {
