@@ -11,6 +11,7 @@
 
 #include "base/aligned_array.h"
 #include "harmonic/fft/fft.h"
+#include "harmonic/legendre/legendre_degrees.h"
 #include "harmonic/legendre/legendre_kernels.h"
 #include "harmonic/legendre/legendre_pairs.h"
 #include "harmonic/nonuniform/circle_kernels.h"
@@ -230,6 +231,36 @@ TEST(KernelSizes, sums_over_sources_are_those_of_single_ones) {
             EXPECT_NEAR(plain.c(l, m), expected.c(l, m), 1e-13) << target << " " << n;
             EXPECT_NEAR(sum.c(l, m), expected.c(l, m), precision * size) << target << " " << n;
             EXPECT_NEAR(sum.s(l, m), expected.s(l, m), precision * size) << target << " " << n;
+          }
+        }
+      }
+    }
+  });
+}
+
+// Each term by itself, at a pole and on both sides of the equator.
+TEST(KernelSizes, sums_by_degree_are_the_terms_of_their_definition) {
+  const int degree = 300;
+  const std::vector<double> mu = legendre_mu(degree);
+  test::for_each_target([&](const char* target) {
+    for (const std::size_t n : {kLegendreLanes, 2 * kLegendreLanes}) {
+      const std::vector<double> cosine = random_values(n, 1), sine = random_values(n, 2);
+      std::vector<double> x = random_values(n, 3), sin_theta;
+      x[0] = 1, x[1] = -1, x[2] = 0;
+      for (const double z : x) sin_theta.push_back(std::sqrt(1 - z * z));
+      for (const int m : {0, 1, 2, 150, 300}) {
+        const LegendreOrder order = legendre_order(m, degree, mu[static_cast<std::size_t>(m)]);
+        const auto rows = static_cast<std::size_t>(degree - m) + 1;
+        const std::vector<double> c = random_values(rows, 4), s = random_values(rows, 5);
+        std::vector<double> sums(rows * n, 1.0);
+        add_by_degree(order, x.data(), sin_theta.data(), cosine.data(), sine.data(), n, c.data(),
+                      s.data(), sums.data());
+        for (std::size_t j = 0; j < n; ++j) {
+          const std::vector<double> p = legendre_row(order, x[j], sin_theta[j]);
+          for (std::size_t l = 0; l < rows; ++l) {
+            const double expected = 1 + (c[l] * cosine[j] + s[l] * sine[j]) * p[l];
+            ASSERT_NEAR(sums[l * n + j], expected, 1e-14 * (1 + std::abs(p[l])))
+                << target << " " << m << " " << j << " " << l;
           }
         }
       }
