@@ -16,7 +16,7 @@ int run_program(const std::vector<std::string>& words);
 // The same of a program with other commands; who calls says what became of it.
 Outcome run_program(const ProgramText& program, const std::vector<Command>& commands,
                     const std::vector<std::string>& words);
-// The same of a program that is one command, without a name.
+// Runs a program that is one command without a name.
 Outcome run_program(const Command& command, const std::vector<std::string>& words);
 
 }  // namespace rholm::cli

@@ -10,7 +10,7 @@
 
 namespace rholm {
 
-// Of repeated runs, clock by clock.
+// Wall and processor time of repeated runs.
 struct Timing {
   StageTime median;
   StageTime minimum;

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "cli/commands/atlas_report.h"
 #include "cli/commands/commands.h"
-#include "cli/commands/synthesize_atlas.h"
 #include "cli/files/inputs.h"
 #include "cli/files/outputs.h"
 #include "cli/files/paths.h"
@@ -16,6 +16,7 @@
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/json_text.h"
 #include "cli/terminal/session.h"
+#include "rholm/compress.h"
 #include "rholm/primitives.h"
 #include "rholm/synthesize.h"
 
@@ -59,6 +60,35 @@ void check_options(const Options& options, bool several) {
   }
 }
 
+int write_surface(const AtlasModel& model, const AtlasSynthesisOptions& wanted, const Options& o,
+                  ShapeFormat format, Session& session) {
+  const Mesh surface = synthesize(model, wanted, session.context());
+  stop_if_interrupted();
+  if (model.rules && !model.rules->left_out.empty()) {
+    session.warn(fmt::format("{}: the surface had {}, which the model does not hold",
+                             display_name(o.input), left_out_text(*model.rules)));
+  }
+  write_shape_output(surface, o.output, {format, o.ascii}, session);
+  if (model.rules && model.rules->bricks) {
+    session.note(
+        fmt::format("{}: the surface was made in bricks: its vertices have another order "
+                    "there, and what closes holes may differ by some steps of the grid",
+                    display_name(o.input)));
+  }
+  if (o.json) {
+    Json json;
+    json["file"] = o.input;
+    json["output"] = o.output;
+    json["counts"] = {{"vertices", surface.vertices.size()}, {"faces", surface.triangles.size()}};
+    json["resolution"] = wanted.step > 0 ? wanted.step : model.step;
+    print_json(json);
+  } else {
+    session.note(fmt::format("{} and {}", counted(surface.vertices.size(), "vertex", "vertices"),
+                             counted(surface.triangles.size(), "face")));
+  }
+  return 0;
+}
+
 int run_atlas(const Options& o, ShapeFormat format, Session& session) {
   if (!o.degrees.empty() || o.subdivisions || !o.grid.empty() || !o.like.empty()) {
     throw UsageError(
@@ -71,9 +101,12 @@ int run_atlas(const Options& o, ShapeFormat format, Session& session) {
     simplify = parse_simplify("--simplify", o.simplify).value_or(SimplifyOptions{.share = 1});
   }
   check_writable(o.output);
-  return synthesize_atlas(
-      {o.input, o.output, format, o.ascii, o.json, o.resolution, o.degree_limit, simplify},
-      session);
+  const AtlasModel model = read_atlas(o.input);
+  AtlasSynthesisOptions wanted;
+  if (o.resolution) wanted.step = *o.resolution;
+  wanted.degree = o.degree_limit;
+  wanted.simplify = simplify;
+  return write_surface(model, wanted, o, format, session);
 }
 
 std::array<int, 2> parse_rings(const std::string& option, const std::string& text) {

@@ -1,4 +1,4 @@
-// What the name of an input says. Layer: cli.
+// Names of inputs: streams, extensions, and how messages show them. Layer: cli.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@ namespace rholm::cli {
 // Standard input, a pipe or the like: what can be read once only.
 bool is_stream(const std::string& path);
 
-// What a person calls it: "standard input" for "-".
+// The name in messages: "standard input" for "-".
 std::string display_name(const std::string& path);
 
 // Lower case, with the dot: ".ply"; empty without one.
