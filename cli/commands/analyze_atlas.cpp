@@ -105,7 +105,7 @@ Compressed compress_shape(const AnalyzeCommandOptions& o, ShapeFile file, Sessio
 AtlasModel integrate_shape(const AnalyzeCommandOptions& o, ShapeFile file, Session& session) {
   PatchAtlasOptions options;
   options.degree = *o.degree;
-  if (!o.extension.empty()) options.extension = parse_cap_extension(o.extension);
+  if (!o.extension.empty()) options.extension = parse_name<CapExtension>(o.extension);
   if (const auto* cloud = std::get_if<PointCloud>(&file.shape)) {
     return patch_atlas(*cloud, options, session.context()).model;
   }

@@ -15,9 +15,8 @@
 #include "cli/files/paths.h"
 #include "cli/files/points_input.h"
 #include "cli/grammar/parse.h"
-#include "cli/grammar/values.h"
+#include "cli/options/field_options.h"
 #include "cli/options/memory_options.h"
-#include "cli/options/simplify_option.h"
 #include "cli/terminal/freed_memory.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/json_text.h"
@@ -35,20 +34,11 @@ namespace {
 
 struct Options {
   std::string input;
-  std::optional<double> tolerance;
-  std::string noise = "auto";
-  std::string sensor;
-  std::string holes = "fill";
-  std::string blend = "smooth";
+  ReconstructOptions wanted;  // lengths as parts of the diagonal
   std::optional<int> resolution;
-  double min_component = 0.01;
-  std::string simplify = kNotSimplified;
   MemoryOptions memory;
   std::optional<int> brick_points;
   bool resume = false;
-  bool keep_outliers = false;
-  bool keep_scans = false;
-  bool confidence = false;
   std::string model;
   std::string columns;
   std::string output;
@@ -57,28 +47,12 @@ struct Options {
   bool json = false;
 };
 
-void check_noise(const std::string& option, const std::string& text) {
-  const std::optional<double> value = read_number(text);
-  if (text == "auto" || (value && *value >= 0 && *value < 1)) return;
-  throw UsageError(fmt::format(
-      "{} is '{}'; it must be auto or a part of the diagonal from 0 up to below 1", option, text));
-}
-
 ReconstructOptions library_options(const Options& o, const Bounds& box) {
-  ReconstructOptions options;
+  ReconstructOptions options = o.wanted;
+  scale_lengths(options, box.diagonal());
   const Vec3 size = box.max - box.min;
   if (o.resolution) options.step = std::max({size.x, size.y, size.z}) / *o.resolution;
-  if (o.tolerance) options.tolerance = *o.tolerance * box.diagonal();
-  if (o.noise != "auto") options.noise = *read_number(o.noise) * box.diagonal();
-  options.holes = parse_hole_policy(o.holes);
-  options.blend = parse_cap_blend(o.blend);
-  options.min_component = o.min_component;
-  options.remove_outliers = !o.keep_outliers;
-  options.align_scans = !o.keep_scans;
-  options.confidence = o.confidence;
-  options.simplify = parse_simplify("--simplify", o.simplify);
   options.max_memory = o.memory.limit();
-  if (!o.sensor.empty()) options.sensor = parse_vector("--sensor", o.sensor);
   return options;
 }
 
@@ -173,7 +147,7 @@ void run_in_bricks(const PointsInput& input, ShapeFormat format, const Options& 
         "makes other files of it");
   }
   // What is a part of the diagonal is known once the box is.
-  const bool relative = options.resolution || options.tolerance || options.noise != "auto";
+  const bool relative = options.resolution || has_lengths(options.wanted);
   Bounds box;
   if (relative) {
     box = input.cloud ? bounds(input.cloud->points)
@@ -218,7 +192,6 @@ void run_in_bricks(const PointsInput& input, ShapeFormat format, const Options& 
 }
 
 int run(const Options& options, const BrickWorkers& by, Session& session) {
-  if (!options.sensor.empty()) parse_vector("--sensor", options.sensor);  // before anything is read
   const ShapeFormat format = mesh_output(options.output, options.format, options.json);
   check_writable(options.output);
   if (!options.model.empty()) {
@@ -245,89 +218,51 @@ int run(const Options& options, const BrickWorkers& by, Session& session) {
 }
 
 std::vector<Option> option_list(Options& o) {
-  return {
+  std::vector<Option> options = {
       {.name = "POINTS",
        .help = "file of points, or - for standard input; normals are computed if there are "
                "none",
        .target = &o.input,
        .required = true,
-       .offer = Offer::kShapes},
-      {.name = "tolerance",
-       .value = "E",
-       .help = "larger caps and a coarser surface, within this rms distance of the points; a "
-               "part of the diagonal of the bounding box. By default as exact as the points",
-       .target = &o.tolerance,
-       .min = 0,
-       .max = 1},
-      {.name = "noise",
-       .value = "auto|SIGMA",
-       .help = "standard deviation of the points, a part of the diagonal; auto: estimated",
-       .target = &o.noise,
-       .check = check_noise},
-      {.name = "holes",
-       .help = "fill: close places without points; keep: leave them open",
-       .target = &o.holes,
-       .choices = {"fill", "keep"}},
-      {.name = "blend",
-       .help = "weights of caps that overlap: smooth; spline: the paper's quadratic B-spline",
-       .target = &o.blend,
-       .choices = {"smooth", "spline"}},
-      {.name = "resolution",
-       .value = "N",
-       .help = "cubes of the grid along the longest side; by default from the spacing",
-       .target = &o.resolution,
-       .min = 4,
-       .max = 65536},
-      simplify_option(o.simplify),
-      columns_option(o.columns),
-      {.name = "min-component",
-       .value = "SHARE",
-       .help = "parts with less of the largest one's area are dropped; 0.01 by default",
-       .target = &o.min_component,
-       .min = 0,
-       .max = 1},
-      {.name = "keep-outliers", .help = "do not look for outliers", .target = &o.keep_outliers},
-      {.name = "sensor",
-       .value = "X,Y,Z",
-       .help = "all points have been measured from here (without, attributes sensor_x, sensor_y, "
-               "sensor_z say where each was): computed normals point there, and holes are not "
-               "closed across what lines of sight go through",
-       .target = &o.sensor},
-      {.name = "keep-scans",
-       .help = "leave points with an attribute scan where they are; else the scans are brought "
-               "together first",
-       .target = &o.keep_scans},
-      {.name = "confidence",
-       .help = "give each vertex its confidence, 0 ... 1, as an attribute: less where signs are "
-               "unsure, far from data, and where the surface is thin",
-       .target = &o.confidence},
-      {.name = "brick-points",
-       .value = "N",
-       .help = "more points than that are cut into bricks of at most so many, worked on one after "
-               "the other; 1048576 by default, or as many as memory has room for",
-       .target = &o.brick_points,
-       .min = 1000,
-       .max = 1 << 28},
-      max_memory_option(o.memory),
-      {.name = "work-dir",
-       .value = "DIR",
-       .help =
-           "where bricks are kept meanwhile, and what of standard input does not fit in memory; "
-           "by default that of the system's temporary files",
-       .target = &o.memory.work_dir},
-      {.name = "resume",
-       .help = "keep what is done, in a folder of --work-dir with the output's name, if work in "
-               "bricks ends early, and take up what is there",
-       .target = &o.resume},
-      {.name = "model",
-       .value = "FILE",
-       .help = "write the caps to a model file, .h5, as well; rholm synthesize reads it",
-       .target = &o.model,
-       .offer = Offer::kAnyFile},
-      output_option(o.output, "mesh to write: .ply, .obj, .off, .stl; - for standard output"),
-      format_option(o.format, mesh_formats()),
-      {.name = "ascii", .help = "PLY and STL as text", .target = &o.ascii},
-      json_option(o.json)};
+       .offer = Offer::kShapes}};
+  append(options, field_options(o.wanted));
+  append(
+      options,
+      {{.name = "resolution",
+        .value = "N",
+        .help = "cubes of the grid along the longest side; by default from the spacing",
+        .target = &o.resolution,
+        .min = 4,
+        .max = 65536},
+       columns_option(o.columns),
+       {.name = "brick-points",
+        .value = "N",
+        .help = "more points than that are cut into bricks of at most so many, worked on one after "
+                "the other; 1048576 by default, or as many as memory has room for",
+        .target = &o.brick_points,
+        .min = 1000,
+        .max = 1 << 28},
+       max_memory_option(o.memory),
+       {.name = "work-dir",
+        .value = "DIR",
+        .help =
+            "where bricks are kept meanwhile, and what of standard input does not fit in memory; "
+            "by default that of the system's temporary files",
+        .target = &o.memory.work_dir},
+       {.name = "resume",
+        .help = "keep what is done, in a folder of --work-dir with the output's name, if work in "
+                "bricks ends early, and take up what is there",
+        .target = &o.resume},
+       {.name = "model",
+        .value = "FILE",
+        .help = "write the caps to a model file, .h5, as well; rholm synthesize reads it",
+        .target = &o.model,
+        .offer = Offer::kAnyFile},
+       output_option(o.output, "mesh to write: .ply, .obj, .off, .stl; - for standard output"),
+       format_option(o.format, mesh_formats()),
+       {.name = "ascii", .help = "PLY and STL as text", .target = &o.ascii},
+       json_option(o.json)});
+  return options;
 }
 
 }  // namespace

@@ -20,10 +20,12 @@ class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// Takes the text of an option's value (`option` as typed), or throws UsageError.
+using TakeText = std::function<void(const std::string& option, const std::string& text)>;
 // Where the value of an option goes. A bool is a switch.
 using Target =
     std::variant<std::monostate, bool*, int*, std::optional<int>*, double*, std::optional<double>*,
-                 std::uint64_t*, std::string*, std::vector<std::string>*>;
+                 std::uint64_t*, std::string*, std::vector<std::string>*, TakeText>;
 
 // What a shell offers for a value.
 enum class Offer { kNothing, kAnyFile, kShapes, kCoefficients, kShapesAndCoefficients };

@@ -76,35 +76,22 @@ Number whole_number(const Option& option, const std::string& text) {
   refuse(option, text, fmt::format("a whole number within {:.0f} ... {:.0f}", min, max));
 }
 
-double real_number(const Option& option, const std::string& text) {
-  const std::optional<double> number = read_number(text);
-  const double min = option.min.value_or(-std::numeric_limits<double>::max());
-  const double max = option.max.value_or(std::numeric_limits<double>::max());
-  const bool inside =
-      number && *number >= min && *number <= max && !(option.above && *number <= *option.above);
-  if (inside) return *number;
-  const std::string limits = option.above ? fmt::format("a finite number above {}", *option.above) +
-                                                (option.max ? fmt::format(", at most {}", max) : "")
-                             : option.max ? fmt::format("a number within {} ... {}", min, max)
-                             : option.min ? fmt::format("a finite number from {} up", min)
-                                          : std::string("a finite number");
-  refuse(option, text, limits);
-}
-
 void take(const Option& option, const std::string& text) {
   check_text(option, text);
   std::visit(
-      [&](auto target) {
-        using T = decltype(target);
+      [&](const auto& target) {
+        using T = std::decay_t<decltype(target)>;
         if constexpr (std::is_same_v<T, int*> || std::is_same_v<T, std::optional<int>*>) {
           *target = whole_number<int>(option, text);
         } else if constexpr (std::is_same_v<T, std::uint64_t*>) {
           *target = whole_number<std::uint64_t>(option, text);
         } else if constexpr (std::is_same_v<T, double*> ||
                              std::is_same_v<T, std::optional<double>*>) {
-          *target = real_number(option, text);
+          *target = number_within(option, text);
         } else if constexpr (std::is_same_v<T, std::string*>) {
           *target = option.meaning ? option.meaning(text) : text;
+        } else if constexpr (std::is_same_v<T, TakeText>) {
+          target(option.typed(), text);
         }
       },
       option.target);
@@ -153,6 +140,21 @@ void check_names(const std::vector<Option>& options, std::span<const std::string
 }
 
 }  // namespace
+
+double number_within(const Option& option, const std::string& text) {
+  const std::optional<double> number = read_number(text);
+  const double min = option.min.value_or(-std::numeric_limits<double>::max());
+  const double max = option.max.value_or(std::numeric_limits<double>::max());
+  const bool inside =
+      number && *number >= min && *number <= max && !(option.above && *number <= *option.above);
+  if (inside) return *number;
+  const std::string limits = option.above ? fmt::format("a finite number above {}", *option.above) +
+                                                (option.max ? fmt::format(", at most {}", max) : "")
+                             : option.max ? fmt::format("a number within {} ... {}", min, max)
+                             : option.min ? fmt::format("a finite number from {} up", min)
+                                          : std::string("a finite number");
+  refuse(option, text, limits);
+}
 
 void parse(const Command& command, std::span<const std::string> words, CommonOptions& common) {
   CLI::App app(command.summary, command.name);

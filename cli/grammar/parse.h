@@ -9,6 +9,9 @@
 
 namespace rholm::cli {
 
+// The value of an option that is a number within its bounds; throws UsageError.
+double number_within(const Option& option, const std::string& text);
+
 // Fills the targets of the command's options and of the common ones from `words` (without the
 // command's name). Throws UsageError.
 void parse(const Command& command, std::span<const std::string> words, CommonOptions& common);

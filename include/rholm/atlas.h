@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "rholm/cap_frame.h"
+#include "rholm/fields.h"
 #include "rholm/vec3.h"
 
 namespace rholm {
@@ -60,16 +61,14 @@ enum class CapBlend : std::uint8_t {
   kSmooth,  // (1 - s^2)^3
   kSpline   // the paper's quadratic B-spline of 3 s / 2 (P44)
 };
-const char* to_string(CapBlend blend);              // "smooth", "spline"
-CapBlend parse_cap_blend(const std::string& name);  // throws InvalidInput
+EnumNames names_of(CapBlend blend);  // "smooth", "spline"
 
 // What a cap that is found by integrals over its points is beyond them.
 enum class CapExtension : std::uint8_t {
   kZero,   // zero, as the paper has it
   kSphere  // the sphere it lies on, so that it jumps by its height over the sphere only
 };
-const char* to_string(CapExtension extension);              // "zero", "sphere"
-CapExtension parse_cap_extension(const std::string& name);  // throws InvalidInput
+EnumNames names_of(CapExtension extension);  // "zero", "sphere"
 
 // The caps of a surface. Lengths are in the unit of the points it was made of.
 struct Atlas {

@@ -9,6 +9,7 @@
 #include "rholm/atlas.h"
 #include "rholm/compress.h"
 #include "rholm/context.h"
+#include "rholm/fields.h"
 #include "rholm/mesh.h"
 #include "rholm/points.h"
 #include "rholm/simplify.h"
@@ -28,16 +29,18 @@ struct ReconstructOptions {
   CapBlend blend = CapBlend::kSmooth;    // kSpline: the paper's weights, for comparison
   // Parts of the surface with less than this share of the largest one's area are dropped.
   double min_component = 0.01;
-  // Points that belong to no surface: far from all others, at any distance, and where there are
-  // such those near the surface with normals or heights of their own.
-  bool remove_outliers = true;
+  // Points that belong to no surface stay; else those are removed that are far from all others, at
+  // any distance, and where there are such those near the surface with normals or heights of their
+  // own.
+  bool keep_outliers = false;
   // All points have been measured from here; without, attributes sensor_x, sensor_y, sensor_z of
   // the cloud say where each was, if there are all three, of finite values. Computed normals then
   // point to their sensors, and holes are not closed across what has been seen to be empty: what
   // lines of sight go through.
   std::optional<Vec3> sensor = {};
-  // With an attribute `scan` the scans are brought together first, by align_scans().
-  bool align_scans = true;
+  // Points with an attribute `scan` stay where they are; else the scans are brought together first,
+  // by align_scans().
+  bool keep_scans = false;
   // The vertices get an attribute `confidence`, 0 ... 1, instead of any of that name: how sure the
   // signs of the normals are that were computed, less where no points are near (0 from four
   // spacings on) and where an opposite sheet is nearer than three spacings.
@@ -45,6 +48,66 @@ struct ReconstructOptions {
   std::optional<SimplifyOptions> simplify = {};   // fewer triangles for the same surface
   std::size_t max_memory = std::size_t{8} << 30;  // bytes: refused if more is foreseen
 };
+
+template <typename Visitor>
+void visit_fields(FieldsOf<ReconstructOptions>, const Visitor& field) {
+  using O = ReconstructOptions;
+  field(&O::step, {.name = "step",
+                   .help = "edge of the grid's cubes; 0: from the spacing and the noise of the "
+                           "points",
+                   .value = "H",
+                   .least = 0,
+                   .unit = FieldUnit::kLength,
+                   .in_program = false});
+  field(&O::tolerance, {.name = "tolerance",
+                        .help = "larger caps and a coarser surface, within this rms distance of "
+                                "the points; 0: as exact as the points are",
+                        .value = "E",
+                        .least = 0,
+                        .unit = FieldUnit::kLength});
+  field(&O::noise, {.name = "noise",
+                    .help = "standard deviation of the points; estimated if not given",
+                    .value = "SIGMA",
+                    .least = 0,
+                    .unit = FieldUnit::kLength});
+  field(&O::holes, {.name = "holes",
+                    .help = "fill: close places without points smoothly; keep: cut them open"});
+  field(&O::blend,
+        {.name = "blend",
+         .help = "weights of caps that overlap; spline: the paper's quadratic B-spline"});
+  field(&O::min_component, {.name = "min_component",
+                            .help = "parts of the surface with less than this share of the "
+                                    "largest one's area are dropped",
+                            .value = "SHARE",
+                            .least = 0,
+                            .most = 1});
+  field(&O::keep_outliers, {.name = "keep_outliers",
+                            .help = "points that belong to no surface stay; else they are looked "
+                                    "for and removed"});
+  field(&O::sensor, {.name = "sensor",
+                     .help = "all points have been measured from here (without, attributes "
+                             "sensor_x, sensor_y, sensor_z say where each was): computed normals "
+                             "point there, and holes are not closed across what lines of sight go "
+                             "through",
+                     .value = "X,Y,Z"});
+  field(&O::keep_scans, {.name = "keep_scans",
+                         .help = "points with an attribute scan stay where they are; else the "
+                                 "scans are brought together first"});
+  field(&O::confidence, {.name = "confidence",
+                         .help = "the vertices get an attribute confidence, 0 ... 1: less where "
+                                 "signs of computed normals are unsure, far from data, and where "
+                                 "the surface is thin"});
+  field(&O::simplify, {.name = "simplify",
+                       .help = "fewer triangles for the same surface: so many, a share of them, "
+                               "or as few as hardly change it (auto); all by default",
+                       .value = "auto|N|P%|none"});
+  field(&O::max_memory, {.name = "max_memory",
+                         .help = "refused if more memory is foreseen",
+                         .value = "BYTES",
+                         .unit = FieldUnit::kBytes,
+                         .changes_result = false,
+                         .in_program = false});
+}
 
 // What was found in the points, and what became of them. Lengths are in their unit.
 struct ReconstructReport {

@@ -60,6 +60,37 @@ struct BrickOptions {
   std::function<void(const BrickForecast& forecast)> foreseen = {};
 };
 
+template <typename Visitor>
+void visit_fields(FieldsOf<BrickOptions>, const Visitor& field) {
+  using O = BrickOptions;
+  field(&O::points_per_brick, {.name = "points_per_brick",
+                               .help = "points of a brick at most; fewer take less memory, more "
+                                       "less time",
+                               .value = "N",
+                               .least = 1000,
+                               .most = 1 << 28,
+                               .in_program = false});
+  field(&O::work_dir, {.name = "work_dir",
+                       .help = "folder for what is known between the steps; none: in memory",
+                       .value = "DIR",
+                       .changes_result = false,
+                       .in_program = false});
+  field(&O::resume, {.name = "resume",
+                     .help = "leave the folder where it is if the run ends early, and take up what "
+                             "is there",
+                     .changes_result = false,
+                     .in_program = false});
+  field(&O::model, {.name = "model",
+                    .help = "model file of all caps to write",
+                    .value = "FILE",
+                    .changes_result = false,
+                    .in_program = false});
+  field(&O::columns, {.name = "columns",
+                      .help = "what the columns of a text table are",
+                      .value = "NAMES",
+                      .in_program = false});
+}
+
 // What was found, and how much was made.
 struct BrickReconstruction {
   ReconstructReport report;                   // its times are those of the stages in bricks
@@ -76,7 +107,7 @@ struct BrickReconstruction {
 // complete. Throws as reconstruct() and PointStream do; OutOfMemory if options.max_memory is too
 // little for a brick; Io if the folder's disk has not the room that is foreseen, or another process
 // works there; InvalidInput if the folder has other files, or pieces of a run with another input or
-// other options; Unsupported if there are several scans and options.align_scans.
+// other options; Unsupported if there are several scans, but for options.keep_scans.
 BrickReconstruction reconstruct_bricks(const std::filesystem::path& points,
                                        const std::filesystem::path& mesh,
                                        const ReconstructOptions& options = {},

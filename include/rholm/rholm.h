@@ -13,6 +13,7 @@
 #include "rholm/compress.h"
 #include "rholm/context.h"
 #include "rholm/error.h"
+#include "rholm/fields.h"
 #include "rholm/file.h"
 #include "rholm/filter.h"
 #include "rholm/grid.h"

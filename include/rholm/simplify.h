@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "rholm/context.h"
+#include "rholm/fields.h"
 #include "rholm/mesh.h"
 
 namespace rholm {
@@ -19,6 +20,26 @@ struct SimplifyOptions {
   // areas).
   double max_error = std::numeric_limits<double>::infinity();
 };
+
+template <typename Visitor>
+void visit_fields(FieldsOf<SimplifyOptions>, const Visitor& field) {
+  using O = SimplifyOptions;
+  field(&O::triangles, {.name = "triangles",
+                        .help = "no more triangles than these are left; 0: any number",
+                        .value = "N"});
+  field(&O::share, {.name = "share",
+                    .help = "no more than this share of the triangles is left; 0: any",
+                    .value = "SHARE",
+                    .least = 0,
+                    .most = 1});
+  field(&O::max_error, {.name = "max_error",
+                        .help = "no vertex goes whose place in the result would be farther than "
+                                "this from the planes of the triangles it stands for",
+                        .value = "E",
+                        .least = 0,
+                        .may_be_infinite = true,
+                        .unit = FieldUnit::kLength});
+}
 
 // The mesh with fewer triangles.
 struct Simplification {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "rholm/fields.h"
 #include "rholm/simplify.h"
 #include "rholm/vec3.h"
 
@@ -18,8 +19,7 @@ enum class HolePolicy {
   kFill,  // they are closed smoothly
   kKeep   // they are cut open
 };
-const char* to_string(HolePolicy policy);               // "fill", "keep"
-HolePolicy parse_hole_policy(const std::string& name);  // throws InvalidInput
+EnumNames names_of(HolePolicy policy);  // "fill", "keep"
 
 // Cubes of space that lines of sight to the points go through.
 struct SeenCubes {

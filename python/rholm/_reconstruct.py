@@ -6,17 +6,21 @@ import os
 import warnings
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import triple
 from ._atlas import Atlas
 from ._errors import InvalidInputError, UnsupportedError
+from ._options import options_of, takes
 from ._run import Progress, caller
 from ._shapes import Mesh, PointsLike, as_points, columns_text, shape_of_path
-from ._topology import simplify_options
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._keywords import ReconstructKeywords
 
 
 class Reconstruction(NamedTuple):
@@ -68,26 +72,16 @@ def _warn_of_normals(report: _core.ReconstructReport) -> None:
         )
 
 
+@takes(_core.ReconstructOptions)
 def reconstruct(
     points: PointsLike,
     normals: npt.ArrayLike | None = None,
     attributes: Any = None,
     *,
     columns: str | Sequence[str] | None = None,
-    holes: Literal["fill", "keep"] = "fill",
-    step: float = 0.0,
-    tolerance: float = 0.0,
-    noise: float | None = None,
-    blend: Literal["smooth", "spline"] = "smooth",
-    min_component: float = 0.01,
-    keep_outliers: bool = False,
-    sensor: npt.ArrayLike | None = None,
-    keep_scans: bool = False,
-    confidence: bool = False,
-    simplify: Any = None,
-    max_memory: int = 8 << 30,
     threads: int = 0,
     progress: Progress = None,
+    **options: Unpack[ReconstructKeywords],
 ) -> Reconstruction:
     """A surface from points.
 
@@ -103,35 +97,7 @@ def reconstruct(
         Of points, (N,) or (N, k) each: carried over to the mesh.
     columns : str or sequence of str, optional
         What the columns of a text table or of an array are, as in `read_shape`.
-    holes : {"fill", "keep"}
-        Whether places without points are closed smoothly, or cut open.
-    step : float
-        Edge of the grid's cubes, in the unit of the points; 0: from their spacing and noise.
-    tolerance : float
-        Caps grow while their points fit to within this; 0: as exact as the points are.
-    noise : float, optional
-        Standard deviation of the points; estimated if not given.
-    blend : {"smooth", "spline"}
-        Of caps; "spline": the paper's.
-    min_component : float
-        Parts of the surface with less than this share of the largest one's area are dropped.
-    keep_outliers : bool
-        Whether points that belong to no surface stay.
-    sensor : array_like, (3,), optional
-        All points have been measured from here; without, attributes sensor_x, sensor_y, sensor_z
-        say where each was. Computed normals point there, and holes are not closed across what
-        lines of sight go through.
-    keep_scans : bool
-        Whether points with an attribute ``scan`` stay where they are; else the scans are brought
-        together first, by `rholm.align_scans`.
-    confidence : bool
-        The vertices get an attribute `confidence`, 0 ... 1: less where signs of computed normals are
-        unsure, far from data, and where an opposite sheet is near.
-    simplify : "auto", int or dict, optional
-        Fewer triangles for the same surface: to 1/50 of a step, to so many triangles, or options of
-        `rholm.simplify`.
-    max_memory : int
-        Bytes: refused if more is foreseen.
+    {options}
     threads, progress
         See `rholm.caller`.
 
@@ -155,26 +121,14 @@ def reconstruct(
     """
     shape, dropped = shape_of_path(points, columns)
     cloud = as_points(shape, normals, attributes, columns)
-    options = _options(
-        holes=holes,
-        step=step,
-        tolerance=tolerance,
-        noise=noise,
-        blend=blend,
-        min_component=min_component,
-        keep_outliers=keep_outliers,
-        sensor=sensor,
-        keep_scans=keep_scans,
-        confidence=confidence,
-        simplify=simplify,
-        max_memory=max_memory,
-    )
+    wanted = options_of(_core.ReconstructOptions, {**options}, "reconstruct")
     with caller(threads, progress) as how:
-        mesh, model, report = _core.reconstruct(cloud._core, dropped, options, how)
+        mesh, model, report = _core.reconstruct(cloud._core, dropped, wanted, how)
     _warn_of_normals(report)
     return Reconstruction(Mesh._of(mesh), Atlas._of(model), report)
 
 
+@takes(_core.ReconstructOptions)
 def reconstruct_bricks(
     points: PointsLike,
     mesh_path: str | os.PathLike[str],
@@ -187,20 +141,9 @@ def reconstruct_bricks(
     resume: bool = False,
     model: str | os.PathLike[str] | None = None,
     foreseen: Callable[[_core.BrickForecast], Any] | None = None,
-    holes: Literal["fill", "keep"] = "fill",
-    step: float = 0.0,
-    tolerance: float = 0.0,
-    noise: float | None = None,
-    blend: Literal["smooth", "spline"] = "smooth",
-    min_component: float = 0.01,
-    keep_outliers: bool = False,
-    sensor: npt.ArrayLike | None = None,
-    keep_scans: bool = False,
-    confidence: bool = False,
-    simplify: Any = None,
-    max_memory: int = 8 << 30,
     threads: int = 0,
     progress: Progress = None,
+    **options: Unpack[ReconstructKeywords],
 ) -> _core.BrickReconstruction:
     """A surface from more points than fit into memory, brick by brick, to a file.
 
@@ -235,12 +178,7 @@ def reconstruct_bricks(
     foreseen : callable, optional
         Called as ``f(forecast)`` with a `BrickForecast` before the work, once the points have been
         counted; what it raises ends the run.
-    holes, step, tolerance, noise, blend, min_component, keep_outliers, sensor, confidence, simplify
-        As in `reconstruct`; lengths are in the unit of the points.
-    keep_scans : bool
-        As in `reconstruct`; several scans cannot be brought together in bricks.
-    max_memory : int
-        Bytes, without what is stored: refused if a brick needs more.
+    {options}
     threads, progress
         See `rholm.caller`.
 
@@ -269,20 +207,7 @@ def reconstruct_bricks(
         raise InvalidInputError("what is in memory cannot be resumed: give a work_dir")
     if foreseen is not None and not callable(foreseen):
         raise TypeError(f"foreseen is a callable or None, not {foreseen!r}")
-    options = _options(
-        holes=holes,
-        step=step,
-        tolerance=tolerance,
-        noise=noise,
-        blend=blend,
-        min_component=min_component,
-        keep_outliers=keep_outliers,
-        sensor=sensor,
-        keep_scans=keep_scans,
-        confidence=confidence,
-        simplify=simplify,
-        max_memory=max_memory,
-    )
+    wanted = options_of(_core.ReconstructOptions, {**options}, "reconstruct_bricks")
     bricks = _core.BrickOptions(
         points_per_brick=points_per_brick,
         work_dir=None if work_dir is None else Path(work_dir),
@@ -292,7 +217,7 @@ def reconstruct_bricks(
     )
     source, dropped = _brick_points(points, normals, attributes, columns)
     with caller(threads, progress) as how:
-        return _core.reconstruct_bricks(source, dropped, Path(mesh_path), options, bricks, foreseen, how)
+        return _core.reconstruct_bricks(source, dropped, Path(mesh_path), wanted, bricks, foreseen, how)
 
 
 def foresee_bricks(points: int, points_per_brick: int = _core.BRICK_POINTS) -> _core.BrickForecast:
@@ -329,14 +254,3 @@ def _brick_points(
     shape, dropped = shape_of_path(points, columns)
     return as_points(shape, normals, attributes, columns)._core, dropped
 
-
-def _options(
-    *, keep_outliers: bool, sensor: Any, keep_scans: bool, simplify: Any, **same: Any
-) -> _core.ReconstructOptions:
-    return _core.ReconstructOptions(
-        remove_outliers=not keep_outliers,
-        sensor=None if sensor is None else triple(sensor, "sensor"),
-        align_scans=not keep_scans,
-        simplify=simplify_options(simplify),
-        **same,
-    )

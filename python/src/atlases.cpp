@@ -103,7 +103,7 @@ Atlas atlas_of_state(const nb::object& state) {
     atlas.caps.push_back(cap);
   }
   atlas.coefficients = vector_of(coefficients);
-  atlas.blend = parse_cap_blend(blend);
+  atlas.blend = parse_name<CapBlend>(blend);
   atlas.spacing = spacing, atlas.noise = noise, atlas.diagonal = diagonal, atlas.band = band;
   return atlas;
 }
@@ -232,7 +232,7 @@ nb::tuple state_of_rules(const SurfaceRules& rules) {
 SurfaceRules rules_of_state(const nb::object& state) {
   const auto parts = nb::cast<nb::tuple>(state);
   SurfaceRules rules;
-  rules.holes = parse_hole_policy(nb::cast<std::string>(parts[0]));
+  rules.holes = parse_name<HolePolicy>(nb::cast<std::string>(parts[0]));
   rules.min_component = nb::cast<double>(parts[1]);
   if (!parts[2].is_none()) {
     const auto s = nb::cast<nb::tuple>(parts[2]);
@@ -422,7 +422,8 @@ void bind_compress(nb::module_& m) {
 void bind_patch_atlas(nb::module_& m) {
   Options<PatchAtlasOptions>(m, "PatchAtlasOptions", "The paper's parameters.")
       .field("degree", &PatchAtlasOptions::degree)
-      .choice("extension", &PatchAtlasOptions::extension, parse_cap_extension, to_string)
+      .choice("extension", &PatchAtlasOptions::extension, parse_name<CapExtension>,
+              to_string<CapExtension>)
       .field("min_cosine", &PatchAtlasOptions::min_cosine)
       .field("overlap", &PatchAtlasOptions::overlap);
   m.def("patch_atlas", [](const Shape& shape, const PatchAtlasOptions& options,

@@ -64,11 +64,7 @@ BrickReconstruction reconstruct_in_bricks(const Points& points, std::size_t drop
 void bind_bricks(nb::module_& m) {
   m.attr("BRICK_POINTS") = kBrickPoints;
   Options<BrickOptions>(m, "BrickOptions", "How points are cut into bricks, and what is kept.")
-      .field("points_per_brick", &BrickOptions::points_per_brick)
-      .field("work_dir", &BrickOptions::work_dir)
-      .field("resume", &BrickOptions::resume)
-      .field("model", &BrickOptions::model)
-      .field("columns", &BrickOptions::columns);
+      .fields();
   Record<BrickForecast>(m, "BrickForecast", "What a reconstruction in bricks will take, about.")
       .field("points", &BrickForecast::points, "That are finite, and no far strays.")
       .field("bricks", &BrickForecast::bricks, "That space is cut into.")
@@ -102,19 +98,7 @@ void bind_bricks(nb::module_& m) {
 }  // namespace
 
 void bind_reconstruction(nb::module_& m) {
-  Options<ReconstructOptions>(m, "ReconstructOptions", "What is wanted of the surface.")
-      .field("step", &ReconstructOptions::step)
-      .field("tolerance", &ReconstructOptions::tolerance)
-      .field("noise", &ReconstructOptions::noise)
-      .choice("holes", &ReconstructOptions::holes, parse_hole_policy, to_string)
-      .choice("blend", &ReconstructOptions::blend, parse_cap_blend, to_string)
-      .field("min_component", &ReconstructOptions::min_component)
-      .field("remove_outliers", &ReconstructOptions::remove_outliers)
-      .field("sensor", &ReconstructOptions::sensor)
-      .field("align_scans", &ReconstructOptions::align_scans)
-      .field("confidence", &ReconstructOptions::confidence)
-      .field("simplify", &ReconstructOptions::simplify)
-      .field("max_memory", &ReconstructOptions::max_memory);
+  Options<ReconstructOptions>(m, "ReconstructOptions", "What is wanted of the surface.").fields();
   Record<ReconstructReport>(m, "ReconstructReport",
                             "What was found in the points, and what became of them; lengths are in "
                             "their unit.")

@@ -54,6 +54,21 @@ StageTimes times_of(const nb::dict& times) {
   return result;
 }
 
+nb::dict field_dict(const FieldInfo& info, const nb::object& by_default, const std::string& kind,
+                    const std::vector<std::string>& choices) {
+  nb::dict field;
+  field["name"] = info.name;
+  field["help"] = info.help;
+  field["kind"] = kind;
+  field["choices"] = nb::tuple(nb::cast(choices));
+  field["default"] =
+      choices.empty() ? by_default : nb::cast(choices[nb::cast<std::size_t>(by_default)]);
+  field["unit"] = info.unit == FieldUnit::kLength  ? "length"
+                  : info.unit == FieldUnit::kBytes ? "bytes"
+                                                   : "";
+  return field;
+}
+
 nb::str record_text(nb::handle record) {
   std::string text = nb::cast<std::string>(record.type().attr("__name__")) + "(";
   bool first = true;

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -19,6 +20,7 @@
 
 #include "casters.h"
 #include "rholm/context.h"
+#include "rholm/fields.h"
 
 namespace rholm::python {
 
@@ -170,6 +172,44 @@ class Record {
   nb::class_<T> class_;
 };
 
+// What a field takes, for the documents: "bool", "number", "whole number", "point", "text", "path",
+// "choice", "options"; "optional " before it if it may be missing.
+template <class V>
+std::string kind_of() {
+  if constexpr (kIsOptional<V>) {
+    return "optional " + kind_of<typename V::value_type>();
+  } else if constexpr (std::is_same_v<V, bool>) {
+    return "bool";
+  } else if constexpr (NamedEnum<V>) {
+    return "choice";
+  } else if constexpr (HasFields<V>) {
+    return "options";
+  } else if constexpr (std::is_integral_v<V>) {
+    return "whole number";
+  } else if constexpr (std::is_floating_point_v<V>) {
+    return "number";
+  } else if constexpr (std::is_same_v<V, Vec3>) {
+    return "point";
+  } else if constexpr (std::is_same_v<V, std::filesystem::path>) {
+    return "path";
+  } else {
+    static_assert(std::is_same_v<V, std::string>);
+    return "text";
+  }
+}
+template <class V>
+std::vector<std::string> choices_of() {
+  if constexpr (NamedEnum<V>) {
+    const auto names = names_of(V{}).names;
+    return {names.begin(), names.end()};
+  } else {
+    return {};
+  }
+}
+// What a list says of a field.
+nb::dict field_dict(const FieldInfo& info, const nb::object& by_default, const std::string& kind,
+                    const std::vector<std::string>& choices);
+
 // Options: made of keywords, Options(degree=3).
 template <class T>
 class Options {
@@ -191,6 +231,23 @@ class Options {
     class_.def_prop_rw(
         name, [member](const T& t) -> const V& { return t.*member; },
         [member](T& t, const V& value) { t.*member = value; }, nb::for_setter(nb::arg().none()));
+    return *this;
+  }
+  // All fields of the struct's list. The class has what the list says of them in FIELDS.
+  Options& fields() {
+    nb::list described;
+    for_each_field<T>([&](auto member, const FieldInfo& info) {
+      using V = std::remove_reference_t<decltype(std::declval<T&>().*member)>;
+      if constexpr (NamedEnum<V>) {
+        class_.def_prop_rw(
+            info.name, [member](const T& t) { return to_string(t.*member); },
+            [member](T& t, const std::string& text) { t.*member = parse_name<V>(text); });
+      } else {
+        field(info.name, member);
+      }
+      described.append(field_dict(info, state_of(T{}.*member), kind_of<V>(), choices_of<V>()));
+    });
+    class_.attr("FIELDS") = nb::tuple(described);
     return *this;
   }
   // One of a closed list of names. `print` gives them back.

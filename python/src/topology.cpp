@@ -139,10 +139,7 @@ void bind_repair(nb::module_& m) {
     });
     return nb::make_tuple(std::move(repaired.mesh), repaired.report);
   });
-  Options<SimplifyOptions>(m, "SimplifyOptions", "Where simplify() stops.")
-      .field("triangles", &SimplifyOptions::triangles)
-      .field("share", &SimplifyOptions::share)
-      .field("max_error", &SimplifyOptions::max_error);
+  Options<SimplifyOptions>(m, "SimplifyOptions", "Where simplify() stops.").fields();
   m.def("simplify", [](const Mesh& mesh, const SimplifyOptions& options, const Caller& caller) {
     Simplification result =
         caller.run([&](const Context& context) { return simplify(mesh, options, context); });

@@ -149,6 +149,12 @@ def test_the_stub_is_that_of_the_module(tmp_path):
     assert made.read_text() == committed.read_text(), "run scripts/python-stub and commit what it wrote"
 
 
+@public
+def test_the_keywords_are_those_of_the_module():
+    committed = (ROOT / "python" / "rholm" / "_keywords.py").read_text()
+    assert rholm._options.keywords_module() == committed, "run scripts/python-stub and commit what it wrote"
+
+
 def test_nothing_optional_is_imported():
     code = (
         "import rholm, sys; rholm.expand(rholm.icosphere(2), 4).mesh(2);"

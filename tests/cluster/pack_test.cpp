@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "base/field_text.h"
+#include "cluster/pack_fields.h"
 #include "rholm/error.h"
+#include "support/made_up_options.h"
 
 namespace rholm {
 namespace {
@@ -23,6 +26,29 @@ TEST(pack, gives_back_what_was_packed) {
   EXPECT_EQ(packed.text(), zeros);
   EXPECT_EQ(packed.texts(), (std::vector<std::string>{"a", "", "bc"}));
   EXPECT_THROW(packed.number(), Error);
+}
+
+TEST(pack_fields, gives_back_every_field) {
+  using namespace test;
+  const Outer all{.size = 0.1,
+                  .share = 0.5,
+                  .count = -3,
+                  .flag = true,
+                  .colour = Colour::kRed,
+                  .place = Vec3{1, 2, 3},
+                  .inner = Inner{.depth = 4},
+                  .threads = 5};
+  for (const Outer& sent : {Outer{}, all}) {
+    Packer packer;
+    pack_fields(sent, packer);
+    const std::string bytes = packer.take();
+    Unpacker packed(bytes);
+    Outer got = all;  // what was not given is not left as it was
+    unpack_fields(packed, got);
+    EXPECT_EQ(text_of_fields(got), text_of_fields(sent));
+    EXPECT_EQ(got.threads, sent.threads);
+    EXPECT_TRUE(packed.rest().empty());
+  }
 }
 
 TEST(pack, never_reads_beyond_the_end) {

@@ -420,7 +420,7 @@ TEST(every_loop, gives_the_same_bits_for_scans_brought_together) {
     PointCloud cloud = sample_surface(
         body, {.points = 1500, .scans = 2, .misalignment = 0.01, .sensor = true}, context);
     align_scans(cloud, context);
-    const Reconstruction made = reconstruct(cloud, {.align_scans = false}, context);
+    const Reconstruction made = reconstruct(cloud, {.keep_scans = true}, context);
     return Bits().add(cloud.points).add(cloud.normals).add(made.mesh.vertices);
   });
 }

@@ -9,26 +9,14 @@
 
 namespace rholm {
 
-const char* to_string(CapBlend blend) { return blend == CapBlend::kSpline ? "spline" : "smooth"; }
-
-CapBlend parse_cap_blend(const std::string& name) {
-  for (const CapBlend blend : {CapBlend::kSmooth, CapBlend::kSpline}) {
-    if (name == to_string(blend)) return blend;
-  }
-  throw Error(ErrorCode::kInvalidInput,
-              "caps are blended by 'smooth' or 'spline', not '" + name + "'");
+EnumNames names_of(CapBlend) {
+  static constexpr std::array kNames = {"smooth", "spline"};
+  return {"blend of caps", kNames};
 }
 
-const char* to_string(CapExtension extension) {
-  return extension == CapExtension::kSphere ? "sphere" : "zero";
-}
-
-CapExtension parse_cap_extension(const std::string& name) {
-  for (const CapExtension extension : {CapExtension::kZero, CapExtension::kSphere}) {
-    if (name == to_string(extension)) return extension;
-  }
-  throw Error(ErrorCode::kInvalidInput,
-              "beyond its points a cap is 'zero' or its 'sphere', not '" + name + "'");
+EnumNames names_of(CapExtension) {
+  static constexpr std::array kNames = {"zero", "sphere"};
+  return {"extension of a cap", kNames};
 }
 
 std::size_t n_coefficients(CapBasis basis, int degree) {

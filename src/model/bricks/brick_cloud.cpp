@@ -41,7 +41,7 @@ BrickCloud::BrickCloud(PointSource& source, PieceStore& store, const Reconstruct
 
 void BrickCloud::prepare() {
   sort();
-  if (options_.remove_outliers) remove_strays();
+  if (!options_.keep_outliers) remove_strays();
   count_points();
   if (given_) look_at_shape();
   if (!given_) orient();
@@ -72,7 +72,7 @@ void BrickCloud::find_survey(std::uint64_t points_per_brick) {
   if (read_survey(store_)) return;
   write_survey(rholm::survey(source_,
                              {.points_per_brick = points_per_brick,
-                              .drop_far_strays = options_.remove_outliers},
+                              .drop_far_strays = !options_.keep_outliers},
                              stages_.context()),
                store_);
 }
@@ -81,7 +81,7 @@ void BrickCloud::sort() {
   stages_.once("distribute",
                [&] { distribute(source_, survey_, plan_, store_, {}, stages_.context()); });
   stages_.each("sort", n_, [&](std::size_t brick) { sort_points(store_, brick); });
-  if (options_.align_scans && has_column("scan")) {
+  if (!options_.keep_scans && has_column("scan")) {
     stages_.once("sort", [&] {
       if (store_.has("scans")) return;
       refuse_scans();

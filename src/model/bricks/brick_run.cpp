@@ -12,6 +12,7 @@
 
 #include "atlas/cover/cap_cover.h"
 #include "atlas/cover/cap_size.h"
+#include "base/check_fields.h"
 #include "base/log_histogram.h"
 #include "model/bricks/brick_caps.h"
 #include "model/bricks/brick_cloud.h"
@@ -51,7 +52,7 @@ std::vector<StageCost> costs(const ReconstructOptions& options) {
       {"sample", 0.3},  {"cap size", 0.3}, {"caps", 2.1},       {"bands", 0.1},
       {"grid", 2.2},    {"holes", 0.8},    {"crossings", 0.3},  {"surface", 3.0},
       {"handles", 0.3}, {"parts", 0.4},    {"walls", 0.2},      {"write", 1.2}};
-  if (options.remove_outliers) all.push_back({"strays", 0.9});
+  if (!options.keep_outliers) all.push_back({"strays", 0.9});
   if (options.confidence) all.push_back({"confidence", 2});
   if (options.simplify) all.push_back({"simplify", 5});
   return all;
@@ -98,7 +99,7 @@ class BrickRun {
   BrickCaps fit() {
     const auto n = static_cast<double>(cloud_.n_points()),
                strays = static_cast<double>(report_.outliers);
-    const bool asked = options_.remove_outliers && cloud_.normals_given();
+    const bool asked = !options_.keep_outliers && cloud_.normals_given();
     const double wrong = asked ? n * cloud_.sample().wrong : 0;
     if (!are_suspicious(n, strays, wrong)) return fit_round("");
     OutlierSearch search{.n_points = cloud_.n_points(),
@@ -448,7 +449,7 @@ class BrickRun {
 BrickReconstruction run_bricks(PointSource& source, PieceStore& store,
                                const std::filesystem::path& output, const BrickRunOptions& options,
                                BrickCrew& crew, const Context& context) {
-  check(options.reconstruct);
+  check_fields(options.reconstruct);
   return BrickRun(source, store, options, crew, context).run(output);
 }
 

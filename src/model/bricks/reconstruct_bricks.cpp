@@ -11,7 +11,9 @@
 
 #include <fmt/format.h>
 
+#include "base/check_fields.h"
 #include "base/crc32.h"
+#include "base/field_text.h"
 #include "model/bricks/brick_run.h"
 #include "model/bricks/shared_bricks.h"
 #include "rholm/error.h"
@@ -20,7 +22,6 @@
 namespace rholm {
 namespace {
 
-constexpr std::uint64_t kFewestOfBrick = 1000, kMostOfBrick = std::uint64_t{1} << 28;
 // Bytes for each point of a brick with its halo, on two threads: 1019 of a sphere in four bricks of
 // 250 000 points (scripts/memory-figures), more of rough bodies and of larger bricks
 // (bench/bricks). And for each point of all bricks, where handles are cut: measured on 100 million
@@ -32,21 +33,6 @@ constexpr double kForecastError = 1.25, kSeveralBricks = 2;
 // For each point with its normal: what is stored of it and of its part of the surface, most at a
 // time, and that part in the output (scripts/memory-figures).
 constexpr std::uint64_t kStoredOfPoint = 520, kWrittenOfPoint = 290;
-
-// All that changes the result.
-std::string text_of(const ReconstructOptions& o) {
-  std::string text = fmt::format(
-      "step {} tolerance {} holes {} blend {} min-component {} outliers {} scans {} confidence {}",
-      o.step, o.tolerance, to_string(o.holes), to_string(o.blend), o.min_component,
-      o.remove_outliers, o.align_scans, o.confidence);
-  if (o.noise) text += fmt::format(" noise {}", *o.noise);
-  if (o.sensor) text += fmt::format(" sensor {} {} {}", o.sensor->x, o.sensor->y, o.sensor->z);
-  if (o.simplify) {
-    text += fmt::format(" simplify {} {} {}", o.simplify->triangles, o.simplify->share,
-                        o.simplify->max_error);
-  }
-  return text;
-}
 
 // Of the disk where the surface will be; streams have none.
 void check_room(const std::filesystem::path& mesh, std::uint64_t bytes) {
@@ -96,9 +82,8 @@ std::string text_of(const PointCloud& cloud) {
 
 std::string manifest(const std::string& input, const ReconstructOptions& options,
                      const BrickOptions& bricks) {
-  const std::string columns = bricks.columns.empty() ? "" : "columns " + bricks.columns + "\n";
-  return fmt::format("rholm {}\npoints {}\n{}points per brick {}\n{}\n", kVersion, input, columns,
-                     bricks.points_per_brick, text_of(options));
+  return fmt::format("rholm {}\npoints {}\n{}\n{}\n", kVersion, input, text_of_fields(bricks),
+                     text_of_fields(options));
 }
 
 std::unique_ptr<PieceStore> open_store(const std::string& input, const ReconstructOptions& options,
@@ -114,13 +99,6 @@ std::unique_ptr<PieceStore> open_store(const std::string& input, const Reconstru
   }
   store->keep(bricks.resume);
   return store;
-}
-
-void check(std::uint64_t points_per_brick) {
-  if (points_per_brick >= kFewestOfBrick && points_per_brick <= kMostOfBrick) return;
-  throw Error(ErrorCode::kInvalidInput,
-              fmt::format("{} points in a brick; {} ... {} are possible", points_per_brick,
-                          kFewestOfBrick, kMostOfBrick));
 }
 
 constexpr double kGibibyte = 0x1p30;
@@ -166,7 +144,7 @@ BrickReconstruction reconstruct_source(const std::string& input, const Open& ope
                                        const ReconstructOptions& options,
                                        const BrickOptions& bricks, const SharedRun& run,
                                        const Context& context) {
-  check(bricks.points_per_brick);
+  check_fields(bricks);
   const std::unique_ptr<PieceStore> store = open_store(input, options, bricks);
   if (run.begun) run.begun();
   const std::unique_ptr<PointSource> source = open(*store);
@@ -197,7 +175,7 @@ BrickReconstruction reconstruct_source(const std::string& input, const Open& ope
 }  // namespace
 
 BrickForecast foresee_bricks(std::uint64_t points, std::uint64_t points_per_brick) {
-  check(points_per_brick);
+  check_fields(BrickOptions{.points_per_brick = points_per_brick});
   return {.points = points,
           .bricks = (points + points_per_brick - 1) / points_per_brick,
           .memory =
@@ -207,7 +185,7 @@ BrickForecast foresee_bricks(std::uint64_t points, std::uint64_t points_per_bric
 }
 
 std::uint64_t enough_for_bricks(std::uint64_t points, std::uint64_t points_per_brick) {
-  check(points_per_brick);
+  check_fields(BrickOptions{.points_per_brick = points_per_brick});
   const std::uint64_t of_brick = kMemoryOfPoint * std::min(points, points_per_brick);
   return static_cast<std::uint64_t>(kForecastError *
                                     (points > points_per_brick ? kSeveralBricks : 1) *

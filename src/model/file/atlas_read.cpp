@@ -125,7 +125,7 @@ class AtlasReader {
         blend != to_string(CapBlend::kSpline)) {
       refuse("its blend is '" + blend + "': smooth or spline are known", ErrorCode::kUnsupported);
     }
-    p.blend = blend.empty() ? CapBlend::kSmooth : parse_cap_blend(blend);
+    p.blend = blend.empty() ? CapBlend::kSmooth : parse_name<CapBlend>(blend);
     p.caps = table<float>(group, layout::kCaps, kPackedCap);
     if (hdf5::has_member(file_, group, layout::kEllipses)) {
       p.ellipses = table<float>(group, layout::kEllipses, 5);
@@ -169,7 +169,7 @@ class AtlasReader {
     if (holes != to_string(HolePolicy::kFill) && holes != to_string(HolePolicy::kKeep)) {
       refuse("its holes are '" + holes + "': fill or keep are known", ErrorCode::kUnsupported);
     }
-    rules.holes = parse_hole_policy(holes);
+    rules.holes = parse_name<HolePolicy>(holes);
     rules.min_component = numbers(group, layout::kMinComponent, 1)[0];
     if (rules.min_component > 1) {
       refuse(fmt::format("its least component is {}: the file is damaged", rules.min_component));

@@ -9,6 +9,7 @@
 
 #include "atlas/cover/cap_cover.h"
 #include "atlas/cover/cap_size.h"
+#include "base/check_fields.h"
 #include "base/stopwatch.h"
 #include "model/points/known_spacings.h"
 #include "model/points/reconstruct_points.h"
@@ -35,7 +36,7 @@ Cover fit_caps(WorkingPoints& points, const ReconstructOptions& options, CapSize
   const auto fit = [&] { return cover(points.ordered(), cover_options(options, size), context); };
   const auto n = static_cast<double>(points.size());
   const auto strays = static_cast<double>(report.outliers);
-  const double wrong = options.remove_outliers ? n * points.wrong_normals(context) : 0;
+  const double wrong = !options.keep_outliers ? n * points.wrong_normals(context) : 0;
   if (!are_suspicious(n, strays, wrong)) return fit();
   std::size_t found = points.remove_outliers(size.noise, most_outliers(strays, wrong), {}, context);
   Cover caps;
@@ -95,7 +96,7 @@ void add_dropped(std::size_t n, ReconstructReport& report) {
 
 Reconstruction reconstruct(PointCloud cloud, const ReconstructOptions& options,
                            const Context& context) {
-  check(options);
+  check_fields(options);
   Reconstruction result;
   ReconstructReport& report = result.report;
   StageTimes& times = report.times;

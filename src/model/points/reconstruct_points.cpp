@@ -65,7 +65,7 @@ WorkingPoints::WorkingPoints(PointCloud cloud, const ReconstructOptions& options
                              ReconstructReport& report, const Context& context)
     : cloud_(std::move(cloud)) {
   report.points = cloud_.points.size();
-  if (options.remove_outliers && lists_fit(cloud_)) {
+  if (!options.keep_outliers && lists_fit(cloud_)) {
     const std::vector<std::uint8_t> far = find_far_strays(cloud_.points);
     report.outliers = static_cast<std::size_t>(std::count(far.begin(), far.end(), 1));
     if (report.outliers > 0) keep_points(cloud_, [&](std::size_t i) { return far[i] == 0; });
@@ -76,10 +76,10 @@ WorkingPoints::WorkingPoints(PointCloud cloud, const ReconstructOptions& options
                               [](const Vec3& n) { return norm(n) > 0; });
   if (directed) drop_zero_normals(cloud_);
   if (!directed) cloud_.normals.clear();
-  if (options.align_scans) report.scans = align_scans(cloud_, context);
+  if (!options.keep_scans) report.scans = align_scans(cloud_, context);
   check_points();
   order_points(context);
-  if (options.remove_outliers) report.outliers += remove_strays(context);
+  if (!options.keep_outliers) report.outliers += remove_strays(context);
   if (options.confidence) {
     // Of normals that are given nothing is known; orient() says what it knows of its own.
     const std::vector<double> sure(cloud_.points.size(), 1.0);

@@ -38,29 +38,6 @@ std::size_t least_group(std::size_t n) {
   return std::max(kFewestPoints, static_cast<std::size_t>(kLeastGroup * static_cast<double>(n)));
 }
 
-void check(const ReconstructOptions& options) {
-  const auto refuse = [](const char* what, double value, const char* limit) {
-    throw Error(ErrorCode::kInvalidInput, fmt::format("{} is {}: {}", what, value, limit));
-  };
-  if (!(options.step >= 0) || !std::isfinite(options.step)) {
-    refuse("the step of the grid", options.step, "it must be positive, or 0 to choose it");
-  }
-  if (!(options.tolerance >= 0) || !std::isfinite(options.tolerance)) {
-    refuse("the tolerance", options.tolerance, "it must be positive, or 0 for none");
-  }
-  if (options.noise && !(*options.noise >= 0 && std::isfinite(*options.noise))) {
-    refuse("the noise", *options.noise, "it must be 0 or positive");
-  }
-  if (options.sensor && !is_finite(*options.sensor)) {
-    const Vec3& at = *options.sensor;
-    refuse("a coordinate of the sensor", std::isfinite(at.x) ? at.y + at.z : at.x,
-           "it must be finite");
-  }
-  if (!(options.min_component >= 0 && options.min_component <= 1)) {
-    refuse("the least component", options.min_component, "it must be 0 ... 1 of the largest");
-  }
-}
-
 void check_spread(std::size_t n, double diagonal) {
   if (n < kFewestPoints) {
     throw Error(

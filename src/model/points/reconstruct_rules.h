@@ -50,9 +50,6 @@ inline constexpr double kCubesOfSpacing = 2;
 // the surface's own band, and what a line passes close to the rim of a hole.
 inline constexpr double kEndOfSight = 4;
 
-// Throws InvalidInput for options out of range.
-void check(const ReconstructOptions& options);
-
 // Of the diagonal: points no farther from one line than this have no surface, whatever their
 // normals; far above what single precision does to a line.
 inline constexpr double kLine = 1e-5;

@@ -1,17 +1,12 @@
-#include <string>
+#include <array>
 
-#include "rholm/error.h"
 #include "rholm/surface_rules.h"
 
 namespace rholm {
 
-const char* to_string(HolePolicy policy) { return policy == HolePolicy::kFill ? "fill" : "keep"; }
-
-HolePolicy parse_hole_policy(const std::string& name) {
-  for (const HolePolicy policy : {HolePolicy::kFill, HolePolicy::kKeep}) {
-    if (name == to_string(policy)) return policy;
-  }
-  throw Error(ErrorCode::kInvalidInput, "unknown way with holes '" + name + "': fill or keep");
+EnumNames names_of(HolePolicy) {
+  static constexpr std::array kNames = {"fill", "keep"};
+  return {"hole policy", kNames};
 }
 
 }  // namespace rholm

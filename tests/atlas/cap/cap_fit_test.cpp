@@ -313,13 +313,13 @@ TEST(CapEval, behind_the_centre_and_below_it_there_is_nothing) {
 
 TEST(Cap, names_of_what_it_may_be_read_back) {
   for (const CapBlend blend : {CapBlend::kSmooth, CapBlend::kSpline}) {
-    EXPECT_EQ(parse_cap_blend(to_string(blend)), blend);
+    EXPECT_EQ(parse_name<CapBlend>(to_string(blend)), blend);
   }
   for (const CapExtension extension : {CapExtension::kZero, CapExtension::kSphere}) {
-    EXPECT_EQ(parse_cap_extension(to_string(extension)), extension);
+    EXPECT_EQ(parse_name<CapExtension>(to_string(extension)), extension);
   }
-  EXPECT_THROW(parse_cap_blend("rough"), Error);
-  EXPECT_THROW(parse_cap_extension(""), Error);
+  EXPECT_THROW(parse_name<CapBlend>("rough"), Error);
+  EXPECT_THROW(parse_name<CapExtension>(""), Error);
 }
 
 TEST(CapPole, is_the_surface_over_the_seed) {

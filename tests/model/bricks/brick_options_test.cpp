@@ -206,7 +206,7 @@ TEST_F(BrickReconstructOptions, refuses_scans_unless_they_may_stay_nightly) {
     EXPECT_EQ(error.code(), ErrorCode::kUnsupported);
     EXPECT_NE(std::string(error.what()).find("2 scans"), std::string::npos) << error.what();
   }
-  run(cloud, 2000, "two.ply", {.align_scans = false});
+  run(cloud, 2000, "two.ply", {.keep_scans = true});
   test::expect_closed_manifold(mesh("two.ply"));
 }
 

@@ -115,7 +115,7 @@ TEST(RandomReconstruct, every_surface_is_a_closed_manifold) {
     ReconstructOptions options;
     if (dice.once_in(4)) options.tolerance = dice.in(1e-3, 3e-2);
     if (dice.once_in(4)) options.min_component = dice.in(0, 0.3);
-    if (dice.once_in(5)) options.remove_outliers = false;
+    if (dice.once_in(5)) options.keep_outliers = true;
     if (dice.once_in(2)) options.simplify = SimplifyOptions{.share = dice.in(0, 0.5)};
     try {
       const Mesh mesh = reconstruct(cloud, options).mesh;

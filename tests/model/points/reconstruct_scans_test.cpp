@@ -27,7 +27,7 @@ TEST(Reconstruct, scans_that_are_off_make_one_sheet_nightly) {
   const Mesh body = bumpy_sphere(5);
   const PointCloud scans =
       sample_surface(body, {.points = 30000, .scans = 8, .misalignment = 0.02, .normals = false});
-  const Reconstruction made = reconstruct(scans), left = reconstruct(scans, {.align_scans = false});
+  const Reconstruction made = reconstruct(scans), left = reconstruct(scans, {.keep_scans = true});
   EXPECT_EQ(expect_closed_manifold(made.mesh).euler_characteristic, 2);
   EXPECT_EQ(made.report.scans.scans, 8U);
   EXPECT_EQ(left.report.scans.scans, 0U);

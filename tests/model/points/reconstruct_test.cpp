@@ -520,9 +520,9 @@ TEST(Reconstruct, options_out_of_range_are_refused_with_their_value) {
     }
   }
   EXPECT_NE(refusal(sphere_points(100), {.sensor = Vec3{0, nan, 0}}), "");
-  EXPECT_THROW(parse_hole_policy("shut"), Error);
-  EXPECT_EQ(parse_hole_policy(to_string(HolePolicy::kKeep)), HolePolicy::kKeep);
-  EXPECT_EQ(parse_hole_policy(to_string(HolePolicy::kFill)), HolePolicy::kFill);
+  EXPECT_THROW(parse_name<HolePolicy>("shut"), Error);
+  EXPECT_EQ(parse_name<HolePolicy>(to_string(HolePolicy::kKeep)), HolePolicy::kKeep);
+  EXPECT_EQ(parse_name<HolePolicy>(to_string(HolePolicy::kFill)), HolePolicy::kFill);
 }
 
 TEST(Reconstruct, arrays_that_do_not_fit_are_refused) {

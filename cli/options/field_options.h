@@ -1,0 +1,105 @@
+// Options of the program from the fields of a struct of the library. Layer: cli.
+#pragma once
+
+#include <concepts>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "cli/grammar/command.h"
+#include "cli/grammar/parse.h"
+#include "cli/grammar/values.h"
+#include "cli/options/simplify_option.h"
+#include "rholm/fields.h"
+#include "rholm/simplify.h"
+#include "rholm/vec3.h"
+
+namespace rholm::cli {
+
+// "min-component" of "min_component".
+std::string option_name(const FieldInfo& info);
+// Name, help and bounds, without a target. `by_default` is said at the end of the help.
+Option option_of(const FieldInfo& info, const std::string& by_default);
+// The default as help says it: nothing for 0, which the help of the field explains.
+std::string default_text(double value);
+
+template <typename V>
+Option field_option(const FieldInfo& info, V& value) {
+  if constexpr (std::is_same_v<V, bool>) {
+    Option option = option_of(info, "");
+    option.target = &value;
+    return option;
+  } else if constexpr (NamedEnum<V>) {
+    Option option = option_of(info, to_string(value));
+    const auto names = names_of(value).names;
+    option.choices.assign(names.begin(), names.end());
+    option.target = [&value](const std::string&, const std::string& text) {
+      value = parse_name<V>(text);
+    };
+    return option;
+  } else if constexpr (std::is_same_v<V, std::optional<double>>) {
+    Option option = option_of(info, "");
+    option.value = "auto|" + option.value;
+    option.target = [&value, limits = option](const std::string&, const std::string& text) {
+      value.reset();
+      if (text != "auto") value = number_within(limits, text);
+    };
+    return option;
+  } else if constexpr (std::is_same_v<V, std::optional<Vec3>>) {
+    Option option = option_of(info, "");
+    option.target = [&value](const std::string& name, const std::string& text) {
+      value = parse_vector(name, text);
+    };
+    return option;
+  } else if constexpr (std::is_same_v<V, std::optional<SimplifyOptions>>) {
+    Option option = option_of(info, "");
+    option.target = [&value](const std::string& name, const std::string& text) {
+      value = parse_simplify(name, text);
+    };
+    return option;
+  } else if constexpr (std::is_arithmetic_v<V>) {
+    Option option = option_of(info, default_text(static_cast<double>(value)));
+    option.target = &value;
+    return option;
+  } else {
+    throw std::logic_error(std::string("no option of the program: ") + info.name);
+  }
+}
+
+// Of all fields that the program has under their names; `values` outlives them.
+template <HasFields Options>
+std::vector<Option> field_options(Options& values) {
+  std::vector<Option> options;
+  for_each_field<Options>([&](auto member, const FieldInfo& info) {
+    if (info.in_program) options.push_back(field_option(info, values.*member));
+  });
+  return options;
+}
+
+// Lengths that were given as parts of the diagonal, in the unit of the shape.
+template <HasFields Options>
+void scale_lengths(Options& values, double diagonal) {
+  for_each_field<Options>([&](auto member, const FieldInfo& info) {
+    if (!info.in_program || info.unit != FieldUnit::kLength) return;
+    using V = std::remove_reference_t<decltype(values.*member)>;
+    if constexpr (std::is_same_v<V, double>) values.*member *= diagonal;
+    if constexpr (std::is_same_v<V, std::optional<double>>) {
+      if (values.*member) *(values.*member) *= diagonal;
+    }
+  });
+}
+// Whether a length was given.
+template <HasFields Options>
+bool has_lengths(const Options& values) {
+  bool has = false;
+  for_each_field<Options>([&](auto member, const FieldInfo& info) {
+    if (!info.in_program || info.unit != FieldUnit::kLength) return;
+    using V = std::remove_cvref_t<decltype(values.*member)>;
+    if constexpr (std::equality_comparable<V>) has = has || values.*member != Options{}.*member;
+  });
+  return has;
+}
+
+}  // namespace rholm::cli

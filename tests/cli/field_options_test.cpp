@@ -1,0 +1,85 @@
+#include "cli/options/field_options.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "base/field_text.h"
+#include "cli/grammar/help.h"
+#include "cli/terminal/session.h"
+#include "support/made_up_options.h"
+
+namespace rholm::cli {
+namespace {
+
+using test::Colour;
+using test::Outer;
+
+Outer parsed(const std::vector<std::string>& words) {
+  Outer values;
+  CommonOptions common;
+  parse({.name = "made-up", .options = field_options(values)}, words, common);
+  return values;
+}
+
+TEST(field_options, have_every_field_of_the_program_under_its_name) {
+  Outer values;
+  std::vector<std::string> names;
+  for (const Option& option : field_options(values)) names.push_back(option.typed());
+  EXPECT_EQ(names, (std::vector<std::string>{"--size", "--share-of-all", "--count", "--flag",
+                                             "--colour", "--place"}));
+}
+
+TEST(field_options, say_units_choices_and_defaults) {
+  Outer values;
+  const auto help = [&](const std::string& name) {
+    const std::vector<Option> all = field_options(values);
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const Option& o) { return o.name == name; });
+    return found == all.end() ? "" : option_heading(*found) + ": " + found->help;
+  };
+  EXPECT_EQ(help("size"),
+            "--size S: how large; a part of the diagonal of the bounding box; 2 by default");
+  EXPECT_EQ(help("share-of-all"), "--share-of-all auto|P: how much");
+  EXPECT_EQ(help("count"), "--count N: how many; 3 by default");
+  EXPECT_EQ(help("flag"), "--flag: whether");
+  EXPECT_EQ(help("colour"), "--colour red|green: which; green by default");
+}
+
+TEST(field_options, set_the_fields) {
+  const Outer values = parsed({"--size", "0.25", "--share-of-all", "0.5", "--count=4", "--flag",
+                               "--colour", "red", "--place", "1,2,3"});
+  EXPECT_EQ(text_of_fields(values),
+            "size 0.25 share_of_all 0.5 count 4 flag true colour red place 1,2,3 inner none");
+  EXPECT_EQ(text_of_fields(parsed({"--share-of-all", "auto"})), text_of_fields(Outer{}));
+}
+
+TEST(field_options, refuse_what_is_out_of_bounds) {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"--size", "0"},
+                                                {"--size", "1.5"},
+                                                {"--share-of-all", "2"},
+                                                {"--share-of-all", "much"},
+                                                {"--count", "0"},
+                                                {"--count", "2.5"},
+                                                {"--colour", "blue"},
+                                                {"--place", "1,2"},
+                                                {"--inner", "1"},
+                                                {"--threads", "-1"}}) {
+    EXPECT_THROW(parsed(words), UsageError) << words[0] << " " << words[1];
+  }
+}
+
+TEST(scale_lengths, turns_parts_of_the_diagonal_into_lengths) {
+  Outer values = parsed({});
+  EXPECT_FALSE(has_lengths(values));
+  values = parsed({"--size", "0.25", "--share-of-all", "0.5"});
+  EXPECT_TRUE(has_lengths(values));
+  scale_lengths(values, 8);
+  EXPECT_EQ(values.size, 2);
+  EXPECT_EQ(*values.share, 0.5);  // is no length
+}
+
+}  // namespace
+}  // namespace rholm::cli
