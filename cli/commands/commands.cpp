@@ -12,7 +12,7 @@ constexpr Command (*kMakers[])() = {
 #ifdef RHOLM_STUDIO
     studio_command,
 #endif
-    completion_command,  man_page_command};
+    completion_command,  man_page_command, reference_command};
 
 }  // namespace
 

@@ -38,6 +38,7 @@ Command studio_command();
 #endif
 Command completion_command();
 Command man_page_command();
+Command reference_command();
 // The same for another program, by its commands; and whose page is made with the date it bears.
 using ListCommands = std::function<std::vector<Command>()>;
 Command completion_command(const std::string& program, ListCommands commands);

@@ -1,6 +1,8 @@
 // rholm filter: a factor for each degree.
 #include <algorithm>
+#include <cctype>
 #include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -25,9 +27,8 @@ struct Options {
   std::optional<int> low_pass, high_pass;
   std::string band;
   std::string gain_file;
-  std::string window = "lanczos";
-  int order = WindowOptions{}.order;
-  std::optional<double> time;
+  WindowOptions window;  // its parameters
+  std::string window_name = to_string(WindowOptions{}.window);
   std::optional<double> sharpen;
   bool keep_mean = false;
   CoefficientsOutputOptions to;
@@ -44,22 +45,57 @@ struct Filter {
 };
 
 WindowOptions window_options(const Options& o) {
-  return {.window = parse_window(o.window), .order = o.order, .time = o.time};
+  WindowOptions window = o.window;
+  window.window = parse_window(o.window_name);
+  return window;
+}
+
+struct NamedParameter {
+  const WindowInfo& window;
+  const WindowParameter& parameter;
+};
+
+// The parameters that can be given in place of a degree.
+std::vector<NamedParameter> parameters_for_cutoff() {
+  std::vector<NamedParameter> list;
+  for (const WindowInfo& window : windows()) {
+    for (const WindowParameter& one : window.parameters) {
+      if (one.replaces_cutoff) list.push_back({window, one});
+    }
+  }
+  return list;
+}
+
+// The one of them that was given, if any.
+std::optional<NamedParameter> given_for_cutoff(const Options& o) {
+  for (const NamedParameter& one : parameters_for_cutoff()) {
+    if (one.parameter.value(o.window)) return one;
+  }
+  return std::nullopt;
 }
 
 void check_usage(const Options& o) {
-  const bool timed = o.time.has_value();
-  if (timed && o.window != "heat") throw UsageError("--time goes with --window heat");
-  if (timed && (o.low_pass || o.high_pass || !o.band.empty())) {
-    throw UsageError("--time says how strong the heat window is, a degree does too: give one");
-  }
-  const int wanted = timed + o.low_pass.has_value() + o.high_pass.has_value() + !o.band.empty() +
-                     !o.gain_file.empty();
-  if (wanted != 1) {
+  const std::optional<NamedParameter> given = given_for_cutoff(o);
+  if (given && o.window_name != given->window.name) {
     throw UsageError(
-        "one of --low-pass, --high-pass, --band, --gain, or --window heat --time, is needed");
+        fmt::format("--{} goes with --window {}", given->parameter.name, given->window.name));
   }
-  if (o.sharpen && !(timed || o.low_pass)) {
+  if (given && (o.low_pass || o.high_pass || !o.band.empty())) {
+    throw UsageError(
+        fmt::format("--{} says how strong the {} window is, a degree does too: give one",
+                    given->parameter.name, given->window.name));
+  }
+  const int wanted = given.has_value() + o.low_pass.has_value() + o.high_pass.has_value() +
+                     !o.band.empty() + !o.gain_file.empty();
+  if (wanted != 1) {
+    std::string ways;
+    for (const auto& [window, parameter] : parameters_for_cutoff()) {
+      ways += fmt::format(", or --window {} --{}", window.name, parameter.name);
+    }
+    throw UsageError(
+        fmt::format("one of --low-pass, --high-pass, --band, --gain{}, is needed", ways));
+  }
+  if (o.sharpen && !(given || o.low_pass)) {
     throw UsageError("--sharpen goes with --low-pass, which says from which degree on");
   }
 }
@@ -68,16 +104,18 @@ Filter filter_of(const Options& o, int degree) {
   const WindowOptions window = window_options(o);
   if (!o.gain_file.empty()) return {"own gains", read_gains(o.gain_file, degree), false};
   if (o.high_pass) {
-    return {fmt::format("high-pass {} {}", *o.high_pass, o.window),
+    return {fmt::format("high-pass {} {}", *o.high_pass, o.window_name),
             high_pass(*o.high_pass, degree, window), false};
   }
   if (!o.band.empty()) {
     const std::vector<int> ends = parse_band("--band", o.band);
-    return {fmt::format("band {}-{} {}", ends[0], ends[1], o.window),
+    return {fmt::format("band {}-{} {}", ends[0], ends[1], o.window_name),
             band_pass(ends[0], ends[1], degree, window), false};
   }
-  Filter filter = {o.time ? fmt::format("heat {}", *o.time)
-                          : fmt::format("low-pass {} {}", *o.low_pass, o.window),
+  const std::optional<NamedParameter> given = given_for_cutoff(o);
+  Filter filter = {given
+                       ? fmt::format("{} {}", given->window.name, *given->parameter.value(o.window))
+                       : fmt::format("low-pass {} {}", *o.low_pass, o.window_name),
                    low_pass(o.low_pass.value_or(0), degree, window), false};
   if (!o.sharpen) return filter;
   return {fmt::format("sharpened {} {}", *o.sharpen, filter.name),
@@ -164,8 +202,53 @@ int run(const Options& options, Session& session) {
   return 0;
 }
 
+// A parameter, of whatever windows have it.
+Option parameter_option(const WindowParameter& parameter, Options& o) {
+  std::string names, formulas;
+  for (const WindowInfo& info : windows()) {
+    for (const WindowParameter& one : info.parameters) {
+      if (one.name != std::string(parameter.name)) continue;
+      names += (names.empty() ? "" : " and ") + std::string(info.name);
+      formulas += (formulas.empty() ? "" : " and ") + std::string(info.formula);
+    }
+  }
+  const bool shared = names.find(" and ") != std::string::npos;
+  const std::optional<double> standard = parameter.value({});
+  std::string value = parameter.symbol;
+  for (char& c : value) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return {.name = parameter.name,
+          .value = value,
+          .help = fmt::format("of the {} window{}: {} in {}; {}{}", names, shared ? "s" : "",
+                              parameter.symbol, formulas, parameter.help,
+                              standard ? fmt::format("; {} by default", *standard) : ""),
+          .target =
+              std::visit([&](auto field) -> Target { return &(o.window.*field); }, parameter.field),
+          .min = parameter.min,
+          .max = parameter.max};
+}
+
+// --window, and the parameters of windows, each once.
+std::vector<Option> window_options_of(Options& o) {
+  Option window = {.name = "window",
+                   .value = "WINDOW",
+                   .help = fmt::format("how it falls from 1 to 0: {} (the default)", o.window_name),
+                   .target = &o.window_name};
+  std::vector<Option> list;
+  for (const WindowInfo& info : windows()) {
+    window.choices.emplace_back(info.name);
+    if (o.window_name != info.name) window.help += fmt::format(", {}", info.name);
+    for (const WindowParameter& one : info.parameters) {
+      const bool is_there = std::any_of(
+          list.begin(), list.end(), [&](const Option& known) { return known.name == one.name; });
+      if (!is_there) list.push_back(parameter_option(one, o));
+    }
+  }
+  list.insert(list.begin(), std::move(window));
+  return list;
+}
+
 std::vector<Option> filter_options(Options& o) {
-  return {
+  std::vector<Option> list = {
       {.name = "low-pass",
        .value = "L",
        .help = "keep degrees up to L",
@@ -187,34 +270,18 @@ std::vector<Option> filter_options(Options& o) {
        .value = "FILE",
        .help = "gains from a text file: lines with a degree and a number; other degrees stay",
        .target = &o.gain_file,
-       .offer = Offer::kAnyFile},
-      {.name = "window",
-       .value = "WINDOW",
-       .help = "how it falls from 1 to 0: lanczos (the default), ideal, lanczos2, gaussian, "
-               "heat, exponential, plateau",
-       .target = &o.window,
-       .choices = {"ideal", "lanczos", "lanczos2", "gaussian", "heat", "exponential", "plateau"}},
-      {.name = "order",
-       .value = "P",
-       .help = "of the exponential window: exp(-36 (l/(L+1))^P), 4 by default",
-       .target = &o.order,
-       .min = 1,
-       .max = 64},
-      {.name = "time",
-       .value = "T",
-       .help = "of the heat window: exp(-T l(l+1)), instead of a half at degree L",
-       .target = &o.time,
-       .min = 1e-12,
-       .max = 1e6},
-      {.name = "sharpen",
-       .value = "A",
-       .help = "add A times what the low-pass filter would take away",
-       .target = &o.sharpen,
-       .min = -1,
-       .max = 1000},
-      {.name = "keep-mean",
-       .help = "leave degree 0 as it is, so that details lie on a sphere",
-       .target = &o.keep_mean}};
+       .offer = Offer::kAnyFile}};
+  append(list, window_options_of(o));
+  append(list, {{.name = "sharpen",
+                 .value = "A",
+                 .help = "add A times what the low-pass filter would take away",
+                 .target = &o.sharpen,
+                 .min = -1,
+                 .max = 1000},
+                {.name = "keep-mean",
+                 .help = "leave degree 0 as it is, so that details lie on a sphere",
+                 .target = &o.keep_mean}});
+  return list;
 }
 
 std::vector<Option> option_list(Options& o) {
@@ -222,6 +289,17 @@ std::vector<Option> option_list(Options& o) {
   append(list, filter_options(o));
   append(list, coefficients_output_options(o.to, "file of coefficients to write"));
   return list;
+}
+
+// "ideal 8.8 %, ..., heat none".
+std::string overshoots() {
+  std::string text;
+  for (const WindowInfo& info : windows()) {
+    text +=
+        fmt::format("{}{} {}", text.empty() ? "" : ", ", info.name,
+                    info.overshoot > 0 ? fmt::format("{:.2g} %", 100 * info.overshoot) : "none");
+  }
+  return text;
 }
 
 }  // namespace
@@ -234,10 +312,11 @@ Command filter_command() {
               "Multiplies all coefficients of a degree by one factor, so that the result does not "
               "depend on how the shape is turned. Detail of wavelength 2 pi/l radians belongs to "
               "degree l.\n\nA sharp edge rings after a filter, the more the steeper the filter "
-              "falls. The report says by how much a step of the radius is overshot: 9 % by the "
-              "ideal window, 1.4 % by lanczos, 0.5 % by lanczos2, 0.3 % by gaussian; not by heat, "
-              "which also keeps a positive radius positive. What the model knew of its errors is "
-              "dropped.",
+              "falls. The report says by how much a step of the radius is overshot; at L = 64 it "
+              "is: " +
+              overshoots() +
+              ". The heat window also keeps a positive radius positive. What the model knew of its "
+              "errors is dropped.",
           .options = option_list(*options),
           .examples = {"rholm filter bumpy.h5 --low-pass 12 --window heat -o smooth.h5",
                        "rholm filter bumpy.h5 --low-pass 8 --sharpen 0.5 --json -o sharp.h5"},

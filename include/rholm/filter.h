@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "rholm/coefficients.h"
@@ -14,29 +15,66 @@
 namespace rholm {
 
 // How a low-pass filter falls from 1 at degree 0 to 0 above its degree L. Sharper is closer to the
-// shape and rings more at edges: overshoot() of each at L = 64, in parts of the step.
+// shape and rings more at edges. windows() has what each is.
 enum class Window {
-  kIdeal,        // 1 to L: 8.8 %
-  kLanczos,      // sigma, sin(x)/x with x = pi l/(L + 1): 1.4 %
-  kLanczos2,     // its square: 0.46 %
-  kGaussian,     // exp(-2.4 l(l+1) / (L(L+1))), cut off at L: 0.26 %
-  kHeat,         // exp(-t l(l+1)), the surface of heat after time t, not cut off: none
-  kExponential,  // exp(-36 (l/(L+1))^p), rounding noise at L + 1: 5.7 % for p = 4
-  kPlateau       // 1 to L/2, then an infinitely smooth step as of needlets: 8.6 %
+  // The row of that name in windows().
+  kIdeal,
+  kLanczos,
+  kLanczos2,
+  kGaussian,
+  kHeat,
+  kExponential,
+  kPlateau
 };
-const char* to_string(Window window);          // "ideal", "lanczos", "lanczos2", ...
-Window parse_window(const std::string& name);  // throws InvalidInput
 
-// A window, and its parameter if it has one.
+// A window, and the parameters of all windows. A window uses its own parameters only.
 struct WindowOptions {
   Window window = Window::kLanczos;  // how it falls
-  int order = 4;                     // p of kExponential, 1 ... 64
-  // t of kHeat, above 0. By default the gain at L is 1/2, t = ln 2 / (L(L+1)).
+  int order = 4;                     // p of kExponential
+  // t of kHeat. By default the gain at L is 1/2, t = ln 2 / (L(L+1)).
   std::optional<double> time = {};
 };
 
-// Gains of degrees 0 ... `degree`. cutoff is the L of the window, 0 ... kMaxDegree; for kHeat with
-// a time it is not used. Each throws InvalidInput for an order, time or degree out of range.
+// A parameter of a window.
+struct WindowParameter {
+  const char* name;    // of the field, of the option of the program, of the argument in Python
+  const char* symbol;  // in formulas
+  const char* help;    // one sentence without a full stop
+  std::variant<int WindowOptions::*, std::optional<double> WindowOptions::*> field;  // that it is
+  double min, max;               // the range, both ends allowed
+  bool replaces_cutoff = false;  // whether L is not used where the parameter is given
+
+  // Whether only whole numbers are values.
+  bool whole() const { return std::holds_alternative<int WindowOptions::*>(field); }
+  // The value in `options`; nothing where a window chooses it by L.
+  std::optional<double> value(const WindowOptions& options) const;
+  // Throws InvalidInput for a value out of range, and for a fraction where the field is whole.
+  void set(WindowOptions& options, double value) const;
+};
+
+// All that is known of a window. The program, Python, the studio and docs/reference.md have their
+// windows from here.
+struct WindowInfo {
+  Window window;        // its number
+  const char* name;     // "lanczos"
+  const char* formula;  // the gain of degree l up to L, in one line
+  const char* help;     // what the window is good for, one sentence without a full stop
+  // Of a step at L = 64 (see overshoot() below), in two digits; 0 for none.
+  double overshoot;
+  // The gain of degree l >= 0; above L it is used only where `cut_off` is false.
+  double (*gain)(double l, double cutoff, const WindowOptions& options);
+  std::span<const WindowParameter> parameters = {};  // that it uses
+  bool cut_off = true;                               // whether the gain is 0 above L
+};
+
+// All windows, each once, in the order of their numbers.
+std::span<const WindowInfo> windows();
+const WindowInfo& window_info(Window window);  // throws InvalidInput for a number without a window
+const char* to_string(Window window);          // "ideal", "lanczos", "lanczos2", ...
+Window parse_window(const std::string& name);  // throws InvalidInput
+
+// Gains of degrees 0 ... `degree`. cutoff is the L of the window, 0 ... kMaxDegree; a parameter may
+// replace it. Each throws InvalidInput for a parameter or degree out of range.
 //
 // low_pass keeps degrees up to cutoff; high_pass those from cutoff >= 1 on, 1 - low_pass(cutoff -
 // 1); band_pass those from `from` to `to` >= from, low_pass(to) - low_pass(from - 1).
@@ -72,6 +110,7 @@ struct Overshoot {
 // Of the function that is 1 within 60 degrees of the pole and 0 beyond, whose coefficients are
 // known in closed form, (P_{l-1}(1/2) - P_{l+1}(1/2)) / 2.
 Overshoot overshoot(std::span<const double> gains);
-Overshoot overshoot(Window window, int degree);  // of low_pass(degree), kHeat to 8 times the degree
+// Of low_pass(degree); of a window that is not cut off to 8 times the degree.
+Overshoot overshoot(Window window, int degree);
 
 }  // namespace rholm

@@ -4,21 +4,12 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include "base/refuse.h"
 
 namespace rholm {
 namespace {
-
-constexpr Window kWindows[] = {Window::kIdeal,    Window::kLanczos, Window::kLanczos2,
-                               Window::kGaussian, Window::kHeat,    Window::kExponential,
-                               Window::kPlateau};
-
-// Between the largest overshoot and the least blur of Gaussians cut off at L: chosen so that 0.09
-// is left at L.
-constexpr double kGaussianWidth = 2.4;
-
-// exp(-36) is 2^-52: nothing is left to be cut off (Gottlieb and Shu 1997).
-constexpr double kExponentialDepth = 36;
 
 // Texts of a model's file are at most 256 bytes.
 constexpr std::size_t kMaxMethodLength = 256;
@@ -30,84 +21,33 @@ void check(int cutoff, int degree, const WindowOptions& options) {
              std::to_string(kMaxDegree));
     }
   }
-  if (options.order < 1 || options.order > 64) {
-    refuse("order " + std::to_string(options.order) +
-           " of the exponential window is out of range: choose one from 1 to 64");
-  }
-  if (options.time && !(*options.time > 0 && std::isfinite(*options.time))) {
-    refuse("time " + std::to_string(*options.time) + " of the heat window must be above 0");
+  for (const WindowInfo& info : windows()) {
+    for (const WindowParameter& parameter : info.parameters) {
+      const std::optional<double> value = parameter.value(options);
+      if (value && !(*value >= parameter.min && *value <= parameter.max)) {
+        refuse(fmt::format("{} {} of the {} window is out of range: choose one from {} to {}",
+                           parameter.name, *value, info.name, parameter.min, parameter.max));
+      }
+    }
   }
 }
 
-double sinc(double x) { return x == 0 ? 1 : std::sin(x) / x; }
-
-// From 1 at x = 0 to 0 at 1, all derivatives 0 at both ends: e(1-x) / (e(1-x) + e(x)) with e(x) =
-// exp(-1/x).
-double smooth_step(double x) {
-  if (x <= 0) return 1;
-  if (x >= 1) return 0;
-  return 1 / (1 + std::exp(1 / (1 - x) - 1 / x));
-}
-
-double gain(const WindowOptions& options, double cutoff, double l) {
-  const double of_sphere = l * (l + 1);
-  if (options.window == Window::kHeat) {
-    const double decay = std::numbers::ln2 / std::max(cutoff * (cutoff + 1), 1.0);
-    return std::exp(-options.time.value_or(decay) * of_sphere);
-  }
-  if (l > cutoff) return 0;
-  const double part = l / (cutoff + 1);
-  switch (options.window) {
-    case Window::kLanczos:
-      return sinc(std::numbers::pi * part);
-    case Window::kLanczos2:
-      return std::pow(sinc(std::numbers::pi * part), 2);
-    case Window::kGaussian:
-      return std::exp(-kGaussianWidth * of_sphere / std::max(cutoff * (cutoff + 1), 1.0));
-    case Window::kExponential:
-      return std::exp(-kExponentialDepth * std::pow(part, options.order));
-    case Window::kPlateau:
-      return smooth_step(2 * part - 1);
-    default:
-      return 1;
-  }
+// Whether a parameter that is given stands in for the cutoff.
+bool cutoff_is_replaced(const WindowOptions& options) {
+  const auto parameters = window_info(options.window).parameters;
+  return std::any_of(parameters.begin(), parameters.end(), [&](const WindowParameter& one) {
+    return one.replaces_cutoff && one.value(options);
+  });
 }
 
 }  // namespace
 
-const char* to_string(Window window) {
-  switch (window) {
-    case Window::kIdeal:
-      return "ideal";
-    case Window::kLanczos:
-      return "lanczos";
-    case Window::kLanczos2:
-      return "lanczos2";
-    case Window::kGaussian:
-      return "gaussian";
-    case Window::kHeat:
-      return "heat";
-    case Window::kExponential:
-      return "exponential";
-    case Window::kPlateau:
-      return "plateau";
-  }
-  return "unknown";
-}
-
-Window parse_window(const std::string& name) {
-  for (const Window window : kWindows) {
-    if (name == to_string(window)) return window;
-  }
-  refuse(
-      "unknown window: it must be 'ideal', 'lanczos', 'lanczos2', 'gaussian', 'heat', "
-      "'exponential' or 'plateau'");
-}
-
 std::vector<double> low_pass(int cutoff, int degree, const WindowOptions& options) {
   check(cutoff, degree, options);
   std::vector<double> gains(static_cast<std::size_t>(degree) + 1);
-  for (int l = 0; l <= degree; ++l) gains[l] = gain(options, cutoff, l);
+  const WindowInfo& info = window_info(options.window);
+  const int last = info.cut_off ? std::min(cutoff, degree) : degree;
+  for (int l = 0; l <= last; ++l) gains[l] = info.gain(l, cutoff, options);
   return gains;
 }
 
@@ -123,8 +63,11 @@ std::vector<double> band_pass(int from, int to, int degree, const WindowOptions&
     refuse("a band from degree " + std::to_string(from) + " to " + std::to_string(to) +
            " is empty: give the lower degree first");
   }
-  if (options.window == Window::kHeat && options.time) {
-    refuse("a band has two ends: the time of the heat window is that of each, leave it out");
+  if (cutoff_is_replaced(options)) {
+    refuse(
+        fmt::format("a band has two ends: leave out the parameter of the {} window that stands in "
+                    "for its degree",
+                    to_string(options.window)));
   }
   std::vector<double> gains = low_pass(to, degree, options);
   if (from == 0) return gains;

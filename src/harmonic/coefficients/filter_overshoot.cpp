@@ -79,8 +79,8 @@ Overshoot overshoot(Window window, int degree) {
                                               " is out of range: choose one from 0 to " +
                                               std::to_string(kMaxDegree));
   }
-  // Heat goes on above its degree: 2^-64 is left at eight times it.
-  const int top = window == Window::kHeat ? std::min(8 * degree + 8, kMaxDegree) : degree;
+  // Of heat 2^-64 is left at eight times the degree.
+  const int top = window_info(window).cut_off ? degree : std::min(8 * degree + 8, kMaxDegree);
   return overshoot(low_pass(degree, top, {.window = window}));
 }
 

@@ -5,6 +5,12 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "rholm/error.h"
 #include "rholm/harmonic.h"
@@ -18,9 +24,12 @@ using test::random_directions;
 using test::relative_difference;
 
 constexpr double kPi = std::numbers::pi;
-constexpr Window kAll[] = {Window::kIdeal,    Window::kLanczos, Window::kLanczos2,
-                           Window::kGaussian, Window::kHeat,    Window::kExponential,
-                           Window::kPlateau};
+
+std::vector<Window> all_windows() {
+  std::vector<Window> all;
+  for (const WindowInfo& info : windows()) all.push_back(info.window);
+  return all;
+}
 
 template <typename Call>
 void expect_refused(Call call) {
@@ -76,6 +85,43 @@ TEST(filter, overshoot_of_a_spherical_step_is_the_known_one) {
   EXPECT_NEAR(overshoot(Window::kGaussian, 64).above, 0.0026, 0.0026 / 5);
 }
 
+TEST(windows, the_overshoot_in_the_table_is_that_of_a_filtered_step) {
+  for (const WindowInfo& info : windows()) {
+    EXPECT_EQ(fmt::format("{:.2g}", info.overshoot),
+              fmt::format("{:.2g}", overshoot(info.window, 64).above))
+        << info.name;
+  }
+}
+
+TEST(windows, each_has_a_name_of_its_own_that_is_read_back) {
+  std::set<std::string> names;
+  for (const WindowInfo& info : windows()) {
+    EXPECT_TRUE(names.insert(info.name).second) << info.name;
+    EXPECT_EQ(parse_window(info.name), info.window);
+    EXPECT_EQ(&window_info(info.window), &info);
+  }
+  EXPECT_TRUE(names.contains("plateau"));  // the last of the enumerators has a row, too
+}
+
+TEST(windows, both_ends_of_a_parameter_are_in_its_range_and_nothing_beyond) {
+  for (const WindowInfo& info : windows()) {
+    for (const WindowParameter& one : info.parameters) {
+      const auto with = [&](double value) {
+        WindowOptions options = {.window = info.window};
+        one.set(options, value);
+        return options;
+      };
+      for (const double end : {one.min, one.max}) {
+        EXPECT_EQ(one.value(with(end)), end) << one.name;
+        EXPECT_NO_THROW(low_pass(4, 4, with(end))) << one.name;
+      }
+      expect_refused([&] { with(one.min - 1); });
+      expect_refused([&] { with(one.max + 1); });
+      if (one.whole()) expect_refused([&] { with(one.min + 0.5); });
+    }
+  }
+}
+
 TEST(filter, heat_does_not_overshoot) {
   for (const int degree : {4, 64, 100}) {
     EXPECT_EQ(overshoot(Window::kHeat, degree).above, 0) << degree;
@@ -84,7 +130,7 @@ TEST(filter, heat_does_not_overshoot) {
 }
 
 TEST(filter, overshoot_is_that_of_the_filtered_values) {
-  for (const Window window : kAll) {
+  for (const Window window : all_windows()) {
     for (const int degree : {1, 8, 64}) {
       const std::vector<double> gains = low_pass(degree, 64, {.window = window});
       const Overshoot series = overshoot(gains), direct = direct_overshoot(gains);
@@ -96,7 +142,7 @@ TEST(filter, overshoot_is_that_of_the_filtered_values) {
 }
 
 TEST(filter, windows_fall_from_one_to_nothing_above_their_degree) {
-  for (const Window window : kAll) {
+  for (const Window window : all_windows()) {
     const std::vector<double> gains = low_pass(20, 40, {.window = window});
     ASSERT_EQ(gains.size(), 41u);
     EXPECT_EQ(gains[0], 1) << to_string(window);
@@ -126,7 +172,7 @@ TEST(filter, windows_have_their_closed_forms) {
 }
 
 TEST(filter, low_and_high_pass_add_up_to_the_whole) {
-  for (const Window window : kAll) {
+  for (const Window window : all_windows()) {
     const std::vector<double> low = low_pass(9, 30, {.window = window}),
                               high = high_pass(10, 30, {.window = window});
     for (int l = 0; l <= 30; ++l) EXPECT_EQ(low[l] + high[l], 1) << to_string(window) << l;
@@ -268,6 +314,8 @@ TEST(filter, what_is_out_of_range_is_refused) {
   expect_refused([&] { sharpened(low_pass(4, 4), nan); });
   expect_refused([&] { filter(Coefficients(2), std::vector<double>{1, nan}); });
   expect_refused([] { parse_window("round"); });
+  expect_refused([] { to_string(static_cast<Window>(1000)); });
+  expect_refused([] { low_pass(4, 4, {.window = static_cast<Window>(-1)}); });
 }
 
 }  // namespace
