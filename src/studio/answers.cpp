@@ -1,8 +1,10 @@
 #include "studio/answers.h"
 
 #include <algorithm>
+#include <charconv>
 
 #include "rholm/error.h"
+#include "rholm/filter.h"
 #include "studio/items/arrays.h"
 #include "studio/items/binary.h"
 
@@ -45,6 +47,29 @@ Response points_answer(const Item& item) {
   return binary.response();
 }
 
+Json parameter_json(const WindowParameter& parameter) {
+  const std::optional<double> standard = parameter.value({});
+  return {{"name", parameter.name},
+          {"symbol", parameter.symbol},
+          {"help", parameter.help},
+          {"whole", parameter.whole()},
+          {"min", parameter.min},
+          {"max", parameter.max},
+          {"default", standard ? Json(*standard) : Json(nullptr)},
+          {"replaces_cutoff", parameter.replaces_cutoff}};
+}
+
+template <typename Number>
+Number number_in(const std::string& name, const std::string& text) {
+  Number number = 0;
+  const char* end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc() || rest != end) {
+    throw bad_request(name + " is '" + text + "', which is no number");
+  }
+  return number;
+}
+
 }  // namespace
 
 Response json_response(const Json& json, int status) {
@@ -84,6 +109,36 @@ Response measures_answer(const Item& item) {
                         {"power", model.power},
                         {"rms", rms_json(model)},
                         {"max", list(model.max)}});
+}
+
+Response windows_answer() {
+  Json list = Json::array();
+  for (const WindowInfo& info : windows()) {
+    Json parameters = Json::array();
+    for (const WindowParameter& one : info.parameters) parameters.push_back(parameter_json(one));
+    list.push_back({{"name", info.name},
+                    {"formula", info.formula},
+                    {"help", info.help},
+                    {"overshoot", info.overshoot},
+                    {"parameters", parameters}});
+  }
+  return json_response({{"windows", list}, {"default", to_string(WindowOptions{}.window)}});
+}
+
+Response gains_answer(const std::map<std::string, std::string>& query) {
+  const auto needed = [&](const char* name) {
+    const auto found = query.find(name);
+    if (found == query.end()) throw bad_request(std::string("gains need a ") + name);
+    return found->second;
+  };
+  WindowOptions options = {.window = parse_window(needed("window"))};
+  for (const WindowParameter& one : window_info(options.window).parameters) {
+    const auto found = query.find(one.name);
+    if (found != query.end()) one.set(options, number_in<double>(one.name, found->second));
+  }
+  const int cutoff = number_in<int>("cutoff", needed("cutoff"));
+  const int degree = number_in<int>("degree", needed("degree"));
+  return json_response({{"gains", low_pass(cutoff, degree, options)}});
 }
 
 }  // namespace rholm::studio

@@ -1,6 +1,7 @@
-// What is asked of one item, answered. Layer: studio.
+// What is asked of one item and of filter windows, answered. Layer: studio.
 #pragma once
 
+#include <map>
 #include <string>
 
 #include "studio/items/fields.h"
@@ -22,5 +23,12 @@ Response measures_answer(const Item& item);
 // "WxH" if it is a picture. Throws Refusal 400 for a format that the item has not.
 Response save_answer(const Item& item, const Recipe& recipe, const std::string& format,
                      const std::string& size, Scratch& scratch, const Context& context);
+
+// All windows of filters, as the table of the library has them, and which is the default.
+Response windows_answer();
+// The gains of a low-pass filter for the degrees 0 ... `degree`: `query` names the `window`, its
+// `cutoff`, `degree`, and any of its parameters. Throws Refusal 400 for what is no number, and what
+// low_pass() throws.
+Response gains_answer(const std::map<std::string, std::string>& query);
 
 }  // namespace rholm::studio

@@ -115,6 +115,8 @@ StudioResponse Studio::State::answer_in(studio::Session& session, const StudioRe
       [&] { return !session.closed() && (!options.keep_going || options.keep_going()); });
   if (request.method == "GET") {
     if (path == "api/state") return studio::json_response(session.state());
+    if (path == "api/windows") return studio::windows_answer();
+    if (path == "api/gains") return studio::gains_answer(request.query);
     if (path == "api/session-file") return session.session_file();
     if (path == "api/save") {
       return session.save(number_in(value_of(request, "item")), value_of(request, "format"),

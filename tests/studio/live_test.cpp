@@ -251,5 +251,50 @@ TEST(Binary, IsAsItSays) {
   }
 }
 
+TEST(Windows, AreThoseOfTheLibrary) {
+  Client client;
+  const Json answer = Json::parse(client.ask("GET", "api/windows").body);
+  EXPECT_EQ(answer.at("default"), to_string(WindowOptions{}.window));
+  ASSERT_EQ(answer.at("windows").size(), windows().size());
+  for (std::size_t i = 0; i < windows().size(); ++i) {
+    EXPECT_EQ(answer.at("windows").at(i).at("name"), windows()[i].name);
+    EXPECT_EQ(answer.at("windows").at(i).at("parameters").size(), windows()[i].parameters.size());
+  }
+}
+
+TEST(Windows, GainsAreThoseOfTheLibraryToTheLastBit) {
+  Client client;
+  const auto gains = [&](std::map<std::string, std::string> query) {
+    const Response answer = client.ask("GET", "api/gains", {}, query);
+    EXPECT_EQ(answer.status, 200) << answer.body;
+    return Json::parse(answer.body).at("gains").get<std::vector<double>>();
+  };
+  for (const WindowInfo& info : windows()) {
+    EXPECT_EQ(gains({{"window", info.name}, {"cutoff", "13"}, {"degree", "40"}}),
+              low_pass(13, 40, {.window = info.window}))
+        << info.name;
+  }
+  EXPECT_EQ(gains({{"window", "heat"}, {"cutoff", "0"}, {"degree", "9"}, {"time", "0.01"}}),
+            low_pass(0, 9, {.window = Window::kHeat, .time = 0.01}));
+  EXPECT_EQ(gains({{"window", "exponential"}, {"cutoff", "7"}, {"degree", "9"}, {"order", "2"}}),
+            low_pass(7, 9, {.window = Window::kExponential, .order = 2}));
+}
+
+TEST(Windows, GainsThatCannotBeAreRefused) {
+  Client client;
+  const auto refusal = [&](std::map<std::string, std::string> query) {
+    return code_of(client.ask("GET", "api/gains", {}, query));
+  };
+  EXPECT_EQ(refusal({}), "bad_request");
+  EXPECT_EQ(refusal({{"window", "ideal"}, {"cutoff", "x"}, {"degree", "4"}}), "bad_request");
+  EXPECT_EQ(refusal({{"window", "round"}, {"cutoff", "4"}, {"degree", "4"}}), "invalid_input");
+  EXPECT_EQ(refusal({{"window", "ideal"}, {"cutoff", "4"}, {"degree", "-1"}}), "invalid_input");
+  EXPECT_EQ(refusal({{"window", "heat"}, {"cutoff", "4"}, {"degree", "4"}, {"time", "0"}}),
+            "invalid_input");
+  EXPECT_EQ(
+      refusal({{"window", "exponential"}, {"cutoff", "4"}, {"degree", "4"}, {"order", "2.5"}}),
+      "invalid_input");
+}
+
 }  // namespace
 }  // namespace rholm::studio

@@ -82,6 +82,31 @@ export interface State {
   job: Job | null;
 }
 
+// A parameter of a filter window. Where `default` is null the degree of the filter decides.
+export interface WindowParameter {
+  name: string;
+  symbol: string;
+  help: string;
+  whole: boolean;
+  min: number;
+  max: number;
+  default: number | null;
+  replaces_cutoff: boolean; // the degree of the filter is not used where the parameter is given
+}
+
+export interface FilterWindow {
+  name: string;
+  formula: string; // the gain of degree l
+  help: string;
+  overshoot: number; // of a step at degree 64, in parts of its height
+  parameters: WindowParameter[];
+}
+
+export interface FilterWindows {
+  windows: FilterWindow[];
+  default: string;
+}
+
 // A request of POST api/step or api/live: its fields are those of docs/studio.md.
 export type Fields = Record<string, unknown>;
 

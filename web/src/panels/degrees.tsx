@@ -2,12 +2,13 @@ import { useEffect } from "preact/hooks";
 import { step } from "../actions";
 import { Button } from "../button";
 import { percent, withUnit } from "../format";
-import { bandMeans, windows } from "../harmonics/windows";
+import { bandMeans } from "../harmonics/bands";
 import { Spectrum } from "../plots/spectrum";
 import type { Item } from "../protocol";
 import { coloring, hideOther, layout, showOther } from "../show";
 import { item, tab, theme } from "../state";
 import { MarkOffending } from "./figures";
+import { WindowChoice } from "./windows";
 import * as tool from "../tools/degrees";
 import { Check, Hint, Select, Slider } from "../widgets";
 import { signal } from "@preact/signals";
@@ -118,7 +119,7 @@ function Equalizer() {
 }
 
 function changeMode(mode: tool.Mode): void {
-  const gains = tool.wish.value.gains;
+  const gains = tool.wish.value?.gains;
   if (mode === "bands") {
     const all = Array.from({ length: tool.top.value + 1 }, (_, l) =>
       gains ? (gains[l] ?? 0) : Number(l <= tool.degree.value),
@@ -145,6 +146,7 @@ function Filter() {
           max={tool.top.value}
           step={1}
           scale="root"
+          disabled={tool.degreeIsReplaced.value}
           onInput={(value, since) => {
             tool.degree.value = value;
             live(since);
@@ -153,18 +155,7 @@ function Filter() {
         />
       )}
       <Select label="Degrees kept" value={mode} options={tool.modes} onChange={changeMode} />
-      {mode !== "cut" && mode !== "bands" && (
-        <Select
-          label="Window"
-          value={tool.window.value}
-          options={windows}
-          onChange={(value) => {
-            tool.window.value = value;
-            live(performance.now());
-            void tool.keepLook();
-          }}
-        />
-      )}
+      {tool.usesWindow.value && <WindowChoice />}
       {mode === "sharpen" && (
         <Slider
           label="Amount"

@@ -3,20 +3,13 @@ import { computed, effect, signal } from "@preact/signals";
 import { ask, fail, step } from "../actions";
 import { arrayOf, needArray, type Binary } from "../binary";
 import { isDiverging, rangeOf } from "../geometry/colors";
-import {
-  bandGains,
-  highPass,
-  lowPass,
-  octaves,
-  sharpen,
-  trimmed,
-  type Window,
-} from "../harmonics/windows";
+import { gainsOf, needGains, type LowPass } from "../gains";
+import { bandGains, highPass, octaves, sharpen, trimmed } from "../harmonics/bands";
 import { latestWins } from "../latest";
 import { liveChannel } from "../live";
-import type { Fields, Item } from "../protocol";
+import type { Fields, FilterWindow, Item } from "../protocol";
 import { coloring, paintValues, shown, theView } from "../show";
-import { item, notice, tab } from "../state";
+import { filterWindows, item, notice, tab } from "../state";
 
 export const modes = [
   ["cut", "Cut off"],
@@ -29,7 +22,8 @@ export type Mode = (typeof modes)[number][0];
 
 export const mode = signal<Mode>("cut");
 export const degree = signal(0);
-export const window = signal<Window>("lanczos");
+const chosenWindow = signal<string | null>(null);
+export const parameters = signal<Readonly<Record<string, number>>>({}); // of windows, where they were given
 export const amount = signal(1);
 export const bandValues = signal<number[]>([]);
 export const tolerance = signal(1e-2); // parts of the mean radius
@@ -42,28 +36,61 @@ export function meanRadius(one: Item): number {
 export const top = computed(() => item.value?.expansion?.degree ?? 0);
 export const bands = computed(() => octaves(top.value));
 
-// What is asked for: null gains where the series is only cut off.
-export const wish = computed<{ degree: number; gains: number[] | null }>(() => {
-  const last = top.value;
-  const at = Math.min(degree.value, last);
-  switch (mode.value) {
-    case "cut":
-      return { degree: at, gains: null };
-    case "low":
-      return trimmed(lowPass(at, last, window.value));
-    case "high":
-      return trimmed(highPass(Math.max(1, at), last, window.value));
-    case "sharpen":
-      return trimmed(sharpen(at, last, window.value, amount.value));
-    case "bands":
-      return trimmed(bandGains(bands.value, bandValues.value, last));
-  }
+export const window = computed<FilterWindow | undefined>(() => {
+  const { windows, default: standard } = filterWindows.value;
+  return windows.find(({ name }) => name === (chosenWindow.value ?? standard));
 });
+
+export function chooseWindow(name: string): void {
+  chosenWindow.value = name;
+}
+
+// The parameters that were given of the window in use.
+const given = computed(() => {
+  const own = (window.value?.parameters ?? []).flatMap(({ name }) => {
+    const value = parameters.value[name];
+    return value === undefined ? [] : [[name, value] as const];
+  });
+  return Object.fromEntries(own);
+});
+
+// Whether a parameter is given that stands in for the degree of the filter.
+export const degreeIsReplaced = computed(
+  () =>
+    usesWindow.value &&
+    (window.value?.parameters ?? []).some((one) => one.replaces_cutoff && one.name in given.value),
+);
+
+export const usesWindow = computed(() => mode.value !== "cut" && mode.value !== "bands");
+
+// The low pass that gains are made of; null where none is needed.
+const lowPass = computed<LowPass | null>(() => {
+  if (!usesWindow.value || !window.value) return null;
+  const at = Math.min(degree.value, top.value);
+  const cutoff = mode.value === "high" ? Math.max(1, at) - 1 : at;
+  return { window: window.value.name, cutoff, degree: top.value, parameters: given.value };
+});
+
+// What is asked for: null gains where the series is only cut off. Null as long as the gains are not known.
+export const wish = computed<{ degree: number; gains: number[] | null } | null>(() => {
+  const last = top.value;
+  if (mode.value === "cut") return { degree: Math.min(degree.value, last), gains: null };
+  if (mode.value === "bands") return trimmed(bandGains(bands.value, bandValues.value, last));
+  const low = lowPass.value && gainsOf(lowPass.value);
+  if (!low) return null;
+  if (mode.value === "high") return trimmed(highPass(low));
+  return trimmed(mode.value === "sharpen" ? sharpen(low, amount.value) : low);
+});
+
+async function needWish(): Promise<void> {
+  const low = lowPass.peek();
+  if (low) await needGains(low);
+}
 
 // What of its degrees is on the screen, for people: "degree 8 of 32".
 export function shownDegree(one: Item): string {
   const all = one.expansion?.degree ?? 0;
-  const look = one.id === item.value?.id ? wish.value : one.look;
+  const look = one.id === item.value?.id ? (wish.value ?? one.look) : one.look;
   if (look?.gains) return `degree ${all}, filtered`;
   return look && look.degree < all ? `degree ${look.degree} of ${all}` : `degree ${all}`;
 }
@@ -85,11 +112,16 @@ function paintError(error: Float32Array): void {
   else paintValues(error, "Error", range);
 }
 
-export function showLook(since: number): void {
+const shower = latestWins<number>(async (since) => {
+  await needWish();
   const one = item.peek();
-  if (!one?.expansion) return;
-  const error = coloring.peek() === "error";
-  live({ fields: { item: one.id, ...wish.value, error }, since });
+  const look = wish.peek();
+  if (!one?.expansion || !look) return;
+  live({ fields: { item: one.id, ...look, error: coloring.peek() === "error" }, since });
+}, fail);
+
+export function showLook(since: number): void {
+  shower(since);
 }
 
 type Look = { degree: number; gains: number[] | null } | null;
@@ -97,11 +129,14 @@ const textOf = (look: Look) => JSON.stringify([look?.degree, look?.gains ?? null
 let sent = ""; // the look that was asked for last: sliders do not follow its coming back
 
 const keeper = latestWins<null>(async () => {
+  await shower.idle();
   await live.idle();
+  await needWish();
   const one = item.peek();
-  if (!one?.expansion || textOf(one.look) === textOf(wish.value)) return;
-  sent = textOf(wish.value);
-  await step({ op: "look", item: one.id, ...wish.value }, "Keeping");
+  const look = wish.peek();
+  if (!one?.expansion || !look || textOf(one.look) === textOf(look)) return;
+  sent = textOf(look);
+  await step({ op: "look", item: one.id, ...look }, "Keeping");
 }, fail);
 
 // Keeps what is shown, as a step.
@@ -138,7 +173,9 @@ export function followItem(): void {
     const one = item.value;
     if (!one?.expansion) return;
     const { look } = one;
-    if (one.id === followed && (textOf(look) === sent || textOf(look) === textOf(wish.peek()))) return;
+    const wished = wish.peek();
+    const isWish = wished !== null && textOf(look) === textOf(wished);
+    if (one.id === followed && (textOf(look) === sent || isWish)) return;
     followed = one.id;
     sent = textOf(look);
     degree.value = look?.degree ?? one.expansion.degree;
@@ -146,7 +183,8 @@ export function followItem(): void {
   });
   effect(() => {
     if (!shown.value || tab.value !== "degrees") return;
-    const ahead = textOf(item.peek()?.look ?? null) !== textOf(wish.peek());
+    const wished = wish.peek();
+    const ahead = wished === null || textOf(item.peek()?.look ?? null) !== textOf(wished);
     if (coloring.value === "error" || ahead) showLook(performance.now());
   });
 }

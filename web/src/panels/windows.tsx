@@ -1,0 +1,79 @@
+// The window of a filter and its parameters, as the studio describes them.
+import { number, percent, typedNumber } from "../format";
+import type { WindowParameter } from "../protocol";
+import { filterWindows, notice } from "../state";
+import * as tool from "../tools/degrees";
+import { Hint, Select, Slider, TextField } from "../widgets";
+
+const titled = (name: string) => name.charAt(0).toUpperCase() + name.slice(1);
+
+function setParameter(name: string, value: number | undefined, since: number): void {
+  const others = Object.entries(tool.parameters.value).filter(([one]) => one !== name);
+  tool.parameters.value = Object.fromEntries(value === undefined ? others : [...others, [name, value]]);
+  tool.showLook(since);
+}
+
+// A slider; a field where the degree of the filter decides unless something is typed.
+function Parameter({ one }: { one: WindowParameter }) {
+  const { name, min, max } = one;
+  if (one.default === null) {
+    const take = (typed: string): Promise<boolean> => {
+      const value = typed.trim() === "" ? undefined : typedNumber(typed);
+      if (value !== undefined && !(value >= min && value <= max)) {
+        notice.value = { text: `${titled(name)} is a number from ${number(min)} to ${number(max)}.`, bad: true };
+        return Promise.resolve(false);
+      }
+      setParameter(name, value, performance.now());
+      void tool.keepLook();
+      return Promise.resolve(true);
+    };
+    const given = tool.parameters.value[name];
+    return (
+      <TextField
+        label={`${titled(name)} ${one.symbol}`}
+        value={given === undefined ? "" : String(given)}
+        placeholder="by the degree"
+        onChange={take}
+      />
+    );
+  }
+  return (
+    <Slider
+      label={`${titled(name)} ${one.symbol}`}
+      value={tool.parameters.value[name] ?? one.default}
+      min={min}
+      max={max}
+      step={one.whole ? 1 : undefined}
+      scale="log"
+      onInput={(value, since) => setParameter(name, value, since)}
+      onChange={() => void tool.keepLook()}
+    />
+  );
+}
+
+export function WindowChoice() {
+  const window = tool.window.value;
+  if (!window) return null;
+  const { windows } = filterWindows.value;
+  const overshoot = window.overshoot > 0 ? `${window.parameters.length > 0 ? "By default a" : "A"} step is overshot by ${percent(window.overshoot)}` : "A step is not overshot";
+  return (
+    <>
+      <Select
+        label="Window"
+        value={window.name}
+        options={windows.map(({ name }) => [name, titled(name)] as const)}
+        onChange={(value) => {
+          tool.chooseWindow(value);
+          tool.showLook(performance.now());
+          void tool.keepLook();
+        }}
+      />
+      {window.parameters.map((one) => (
+        <Parameter key={one.name} one={one} />
+      ))}
+      <Hint>
+        {window.formula}. {titled(window.help)}. {overshoot}.
+      </Hint>
+    </>
+  );
+}
