@@ -204,7 +204,9 @@ Command batch_command_by(const RunRows& run_rows_here) {
               "Runs a command for every shape of a manifest, and writes one row for each: its id, "
               "path and other columns of the manifest, the exit code and message, the time, and "
               "all that the command reports, names within names joined by dots. Where it makes "
-              "coefficients, they and their energy per degree are in the row as well. A shape that "
+              "coefficients, they, their energy per degree, and " +
+              descriptor_names() +
+              " of their surface are in the row as well. A shape that "
               "is missing or broken is a row with an exit code and a message, and the others go "
               "on; the exit code of the batch is 0 when all rows are done.\n\nRows that are done "
               "are kept in OUT.journal until all are: the same command after an interruption, or a "

@@ -19,6 +19,7 @@
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/json_text.h"
 #include "cli/terminal/session.h"
+#include "rholm/descriptors.h"
 #include "rholm/error.h"
 #include "rholm/large_mesh.h"
 #include "rholm/model.h"
@@ -396,9 +397,9 @@ int report_coefficients(const Options& options, const CoefficientsFile& file, Se
   if (gravity) text += line("relative to", text_of(*gravity));
   for (const std::string& what : file.passed_over) text += line("not used", what);
   if (measures && measures->volume && measures->area && measures->centroid) {
-    text += line("volume", text_of(*measures->volume));
-    text += line("area", text_of(*measures->area));
-    text += line("sphericity", text_of(*measures->sphericity()));
+    for (const Descriptor& one : descriptors()) {
+      if (const auto value = one.value(*measures)) text += line(one.name, text_of(*value));
+    }
     text += line("volume centroid", text_of(*measures->centroid));
   }
   if (expansion.signed_sum) {
@@ -451,7 +452,9 @@ Command info_command() {
               "Says what is in a file and whether it is fit for more: of a mesh whether it is "
               "closed, manifold and consistently oriented, its components, genus, area and "
               "volume; of points their number and whether they have normals; of coefficients "
-              "degree, centre and convention. The content decides what a file is, not its name."
+              "degree, centre, convention, and " +
+              descriptor_names() +
+              " of the surface. The content decides what a file is, not its name."
               "\n\nA binary PLY mesh that needs more than --max-memory is looked at where it lies, "
               "which says "
               "nothing of its topology but whether it is closed."

@@ -1,5 +1,6 @@
 #include "cli/commands/measures_report.h"
 
+#include "rholm/descriptors.h"
 #include "rholm/error.h"
 
 namespace rholm::cli {
@@ -26,11 +27,19 @@ MeasuresReport measures_of(const Expansion& expansion, const Context& context) {
 Json measures_json(const std::optional<SurfaceMeasures>& measures) {
   Json json;
   const SurfaceMeasures known = measures.value_or(SurfaceMeasures{});
-  json["volume"] = json_of(known.volume);
-  json["area"] = json_of(known.area);
-  json["sphericity"] = json_of(known.sphericity());
+  for (const Descriptor& one : descriptors()) json[one.name] = json_of(one.value(known));
   json["volume_centroid"] = known.centroid ? json_of(*known.centroid) : Json(nullptr);
   return json;
+}
+
+std::string descriptor_names() {
+  const std::span<const Descriptor> all = descriptors();
+  std::string text;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const char* joint = i == 0 ? "" : i + 1 == all.size() ? " and " : ", ";
+    text += joint + std::string(all[i].name);
+  }
+  return text;
 }
 
 }  // namespace rholm::cli

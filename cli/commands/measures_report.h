@@ -1,4 +1,4 @@
-// Volume, area and sphericity of an expansion, as rholm info and batches report them. Layer: cli.
+// Descriptors and centroid of an expansion, as rholm info and batches report them. Layer: cli.
 #pragma once
 
 #include <optional>
@@ -18,7 +18,10 @@ struct MeasuresReport {
 
 MeasuresReport measures_of(const Expansion& expansion, const Context& context);
 
-// "volume", "area", "sphericity" and "volume_centroid"; null where they are not known.
+// Each descriptor by its name, and "volume_centroid"; null where they are not known.
 Json measures_json(const std::optional<SurfaceMeasures>& measures);
+
+// "volume, area and sphericity", for help.
+std::string descriptor_names();
 
 }  // namespace rholm::cli

@@ -6,6 +6,7 @@
 #include "cli/commands/commands.h"
 #include "cli/terminal/exit_code.h"
 #include "cli/terminal/session.h"
+#include "rholm/descriptors.h"
 #include "rholm/filter.h"
 
 namespace rholm::cli {
@@ -41,7 +42,28 @@ std::string window_section() {
       markdown_table({"window", "gain of degree l", "overshoot", "parameter", "use"}, rows));
 }
 
-constexpr ReferenceSection kSections[] = {window_section};
+std::string unit_text(int length_power) {
+  if (length_power == 0) return "none";
+  return length_power == 1 ? "length" : fmt::format("length^{}", length_power);
+}
+
+std::string descriptor_section() {
+  std::vector<std::vector<std::string>> rows;
+  for (const Descriptor& one : descriptors()) {
+    rows.push_back({code(one.name), unit_text(one.length_power), one.definition, one.source});
+  }
+  return fmt::format(
+      "## Descriptors\n\n"
+      "A descriptor is a figure of the surface of an expansion that stays when the shape is moved "
+      "or "
+      "turned. `rholm info --json` has each as a key, a table of `rholm batch` as a column, and "
+      "`Expansion` and `SurfaceMeasures` in Python as a property of that name. Lengths are in the "
+      "unit of the expansion. A descriptor is null for what is no surface and for a signed sum. "
+      "`rholm info` and `rholm batch` also leave it null above degree 512.\n\n{}",
+      markdown_table({"descriptor", "unit", "definition", "source"}, rows));
+}
+
+constexpr ReferenceSection kSections[] = {window_section, descriptor_section};
 
 }  // namespace
 

@@ -12,6 +12,7 @@
 #include "rholm/compare.h"
 #include "rholm/compress.h"
 #include "rholm/context.h"
+#include "rholm/descriptors.h"
 #include "rholm/error.h"
 #include "rholm/fields.h"
 #include "rholm/file.h"

@@ -9,6 +9,7 @@
 
 #include "report/page/html.h"
 #include "report/page/report_markup.h"
+#include "rholm/descriptors.h"
 
 namespace rholm::report {
 namespace {
@@ -61,31 +62,41 @@ std::string beside(const std::optional<double>& model, const std::optional<doubl
   return two_lines(text, fmt::format("{}{}&nbsp;%", sign, html::number(std::abs(difference), 2)));
 }
 
+// The sign of a unit to a power, behind the unit.
+std::string exponent(int power) {
+  return power == 1   ? ""
+         : power == 2 ? "&#178;"
+         : power == 3 ? "&#179;"
+                      : fmt::format("<sup>{}</sup>", power);
+}
+
 void add_measures(const Data& data, const std::string& unit, std::vector<Row>& rows) {
-  std::optional<double> volume, area;
-  std::string shape_volume = kDash, shape_area = kDash, shape_centre = kDash;
+  SurfaceMeasures shape;
   if (data.shape) {
-    const Inspection& shape = data.shape->inspection;
-    shape_area = html::number(*(area = shape.area), 6);
-    if (shape.closed && shape.oriented) {
-      shape_volume = html::number(*(volume = shape.volume), 6);
-      shape_centre = point_text(shape.volume_centroid, data.diagonal);
+    const Inspection& found = data.shape->inspection;
+    shape.area = found.area;
+    if (found.closed && found.oriented) {
+      shape.volume = found.volume;
+      shape.centroid = found.volume_centroid;
     }
   }
-  const auto row = [&](const std::string& name, const std::string& shape,
-                       const std::string& model) {
-    rows.push_back({{name, shape, model}});
+  const auto row = [&](const std::string& name, const std::string& of_shape,
+                       const std::string& of_model) {
+    rows.push_back({{name, of_shape, of_model}});
   };
-  const std::string power = unit.empty() ? "" : html::escaped(unit);
-  const auto of_unit = [&](const char* name, const char* exponent) {
-    return power.empty() ? name : fmt::format("{}, {}{}", name, power, exponent);
+  const auto of_unit = [&](const std::string& name, int power) {
+    return unit.empty() ? name
+                        : fmt::format("{}, {}{}", name, html::escaped(unit), exponent(power));
   };
-  const bool model = data.model.has_value();
-  row(of_unit("volume", "&#179;"), shape_volume,
-      model ? beside(data.model->volume, volume) : kDash);
-  row(of_unit("area", "&#178;"), shape_area, model ? beside(data.model->area, area) : kDash);
-  row(of_unit("centre of the solid (<i>x</i>, <i>y</i>, <i>z</i>)", ""), shape_centre,
-      !model ? kDash
+  for (const Descriptor& one : descriptors()) {
+    if (one.length_power == 0) continue;  // the table is of figures with a unit
+    const std::optional<double> known = one.value(shape);
+    row(of_unit(one.name, one.length_power), known ? html::number(*known, 6) : kDash,
+        data.model ? beside(one.value(*data.model), known) : kDash);
+  }
+  row(of_unit("centre of the solid (<i>x</i>, <i>y</i>, <i>z</i>)", 1),
+      shape.centroid ? point_text(*shape.centroid, data.diagonal) : kDash,
+      !data.model ? kDash
       : data.model->centroid
           ? point_text(*data.model->centroid, std::max(data.diagonal, data.mean_radius))
           : kNotKnown);

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "rholm/analyze.h"
+#include "rholm/descriptors.h"
 #include "rholm/error.h"
 #include "rholm/harmonic.h"
 #include "rholm/primitives.h"
@@ -169,6 +170,22 @@ TEST(measure, sphere_expanded_off_its_centre_keeps_volume_area_and_centroid) {
 }
 
 // The ratio of Wadell (1935); it has no unit.
+TEST(descriptors, of_a_ball_are_the_known_ones_and_grow_by_their_power_of_the_unit) {
+  const std::map<std::string, double> known = {
+      {"volume", 4 * kPi / 3}, {"area", 4 * kPi}, {"sphericity", 1.0}};
+  for (const Descriptor& one : descriptors()) {
+    ASSERT_TRUE(known.contains(one.name)) << one.name << " has no known value here";
+    for (const double radius : {1.0, 0.25, 10.0}) {
+      Expansion ball;
+      ball.coefficients = Coefficients(0);
+      ball.coefficients.c(0, 0) = radius * std::sqrt(4 * kPi);
+      const double expected = known.at(one.name) * std::pow(radius, one.length_power);
+      EXPECT_NEAR(one.value(measure(ball)).value(), expected, 1e-12 * expected) << one.name;
+    }
+    EXPECT_FALSE(one.value({})) << one.name;
+  }
+}
+
 TEST(measure, sphericity_is_that_of_wadell_whatever_the_scale) {
   Expansion e = bulged_sphere();
   const SurfaceMeasures m = measure(e);
