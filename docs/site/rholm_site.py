@@ -88,6 +88,8 @@ class Api(Directive):
                 lines += [f".. {kind}:: {name}"]
                 if kind == "autoclass":
                     lines += ["   :members:"]
+                    if thing.__base__.__module__ == "rholm._tables":
+                        lines += ["   :inherited-members:"]
                 if issubclass(thing, tuple):  # made by the library only: no signature
                     lines += ["   :exclude-members: count, index"]
                 if "__call__" in vars(thing):

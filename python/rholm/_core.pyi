@@ -855,6 +855,8 @@ def scaled(arg0: Expansion, arg1: float, /) -> Expansion: ...
 
 def truncated(arg0: Expansion, arg1: int, /) -> Expansion: ...
 
+def windows() -> list: ...
+
 def low_pass(arg0: int, arg1: int, arg2: str, arg3: int, arg4: float | None, /) -> NDArray[numpy.float64]: ...
 
 def high_pass(arg0: int, arg1: int, arg2: str, arg3: int, arg4: float | None, /) -> NDArray[numpy.float64]: ...
@@ -1781,19 +1783,27 @@ class SurfaceMeasures:
 
     @property
     def volume(self) -> float | None:
-        """In the cubed unit. It is None for a signed sum, and so are the others."""
+        """
+        The volume of the solid that the surface bounds; exact for a radius, in the unit of length to the power 3. None for a signed sum.
+        """
 
     @property
     def area(self) -> float | None:
-        """Of the surface, in the squared unit."""
+        """
+        The area of the surface, to about 1e-12, in the unit of length to the power 2. None for a signed sum.
+        """
+
+    @property
+    def sphericity(self) -> float | None:
+        """
+        The area of the ball of the same volume over the area of the surface, at most 1 (Wadell 1935). None for a signed sum.
+        """
 
     @property
     def centroid(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)] | None:
         """Of the solid, (3,)."""
 
-    @property
-    def sphericity(self) -> float | None:
-        """The area of the ball of the same volume over the area, at most 1."""
+def descriptors() -> list: ...
 
 def measure(arg0: Expansion, arg1: Caller, /) -> SurfaceMeasures: ...
 

@@ -28,16 +28,17 @@ from ._primitives import directions_for
 from ._rotations import RotationLike, as_rotation
 from ._run import Progress, caller, named
 from ._shapes import Mesh, MeshLike
+from ._tables import Described
 
 if TYPE_CHECKING:
     import matplotlib.axes
     import pyshtools
     import xarray
 
-    from ._filters import Window
+    from ._tables import Window
 
 
-class Expansion:
+class Expansion(Described):
     """A surface x = center + r(u) u, u a direction, as coefficients of spherical harmonics.
 
     Made by `expand`, `load`, `from_array` and `from_pyshtools`; every operation gives a new one.
@@ -162,8 +163,8 @@ class Expansion:
     def signed_sum(self) -> bool:
         """Whether it is the signed sum of the radii of a surface that is not star-shaped.
 
-        Such an expansion does not give back the body: `volume`, `area`, `centroid`, `sphericity` and
-        `mean_radius` are None.
+        Such an expansion does not give back the body: its descriptors (`volume` and so on), `centroid`
+        and `mean_radius` are None.
         """
         return self._core.signed_sum
 
@@ -176,29 +177,12 @@ class Expansion:
         return 1 / mean if self.function == "gauge" else mean
 
     @property
-    def volume(self) -> float | None:
-        """Of the solid, in the cubed unit; exact for a radius. None for a signed sum."""
-        return self.measure().volume
-
-    @property
-    def area(self) -> float | None:
-        """Of the surface, in the squared unit; to about 1e-12. None for a signed sum."""
-        return self.measure().area
-
-    @property
     def centroid(self) -> FloatArray | None:
         """Of the solid, in the coordinates of the shape, (3,). None for a signed sum."""
         return self.measure().centroid
 
-    @property
-    def sphericity(self) -> float | None:
-        """The area of the ball of the same volume over the area (Wadell 1935), at most 1; None for a
-        signed sum.
-        """
-        return self.measure().sphericity
-
     def measure(self, *, threads: int = 0) -> _core.SurfaceMeasures:
-        """Volume, area and centroid in one go.
+        """All descriptors and the centroid in one go.
 
         Parameters
         ----------
@@ -475,8 +459,14 @@ class Expansion:
         expansion : Expansion
             Cut off at the cutoff; "heat" keeps all degrees. What was done is added to `method`.
         """
-        timed = window == "heat" and time is not None
-        name = f"heat {time:g}" if timed else f"low-pass {cutoff} {window}"
+        given = {"order": order, "time": time}
+        in_place_of_cutoff = [
+            given[one["name"]]
+            for row in _core.windows()
+            for one in row["parameters"]
+            if row["name"] == window and one["replaces_cutoff"] and given[one["name"]] is not None
+        ]
+        name = f"{window} {in_place_of_cutoff[0]:g}" if in_place_of_cutoff else f"low-pass {cutoff} {window}"
         return self.filter(_core.low_pass(cutoff, self.degree, window, order, time), name)
 
     def recenter(

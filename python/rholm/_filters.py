@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from collections.abc import Callable
+from typing import Any, TypeVar
 
 import numpy.typing as npt
 
@@ -10,11 +11,32 @@ from . import _core
 from ._arrays import FloatArray, floats
 from ._coefficients import array_of, core_of
 from ._expansion import CoefficientsLike, Expansion
+from ._tables import Window
 
-#: How a low-pass filter falls; see `low_pass`.
-Window = Literal["ideal", "lanczos", "lanczos2", "gaussian", "heat", "exponential", "plateau"]
+_Function = TypeVar("_Function", bound=Callable[..., Any])
 
 
+def _with_windows(function: _Function) -> _Function:
+    """The function, <windows> and <parameters> in its docstring replaced by what the library's table says."""
+    rows = _core.windows()
+    windows = "{" + ", ".join(f'"{row["name"]}"' for row in rows) + "}"
+    owners: dict[str, list[str]] = {}
+    parameters: dict[str, dict[str, Any]] = {}
+    for row in rows:
+        for parameter in row["parameters"]:
+            parameters[parameter["name"]] = parameter
+            owners.setdefault(parameter["name"], []).append(f'"{row["name"]}"')
+    lines = [
+        f"{name} : {'int' if one['whole'] else 'float, optional'}\n        {one['symbol']} of "
+        f"{' and '.join(owners[name])}, {one['min']:g} ... {one['max']:g}; {one['help']}."
+        for name, one in parameters.items()
+    ]
+    text = (function.__doc__ or "").replace("<windows>", windows)
+    function.__doc__ = text.replace("<parameters>", "\n    ".join(lines))
+    return function
+
+
+@_with_windows
 def low_pass(
     cutoff: int, degree: int, window: Window = "lanczos", *, order: int = 4, time: float | None = None
 ) -> FloatArray:
@@ -26,13 +48,10 @@ def low_pass(
         L: degrees above it go.
     degree : int
         The last degree of the gains.
-    window : {"ideal", "lanczos", "lanczos2", "gaussian", "heat", "exponential", "plateau"}
+    window : <windows>
         How gains fall from 1 at degree 0. Sharper is closer to the shape and rings more at edges:
         see `overshoot`.
-    order : int
-        p of "exponential", 1 ... 64.
-    time : float, optional
-        t of "heat"; by default the gain at L is 1/2.
+    <parameters>
     """
     return _core.low_pass(cutoff, degree, window, order, time)
 

@@ -434,9 +434,14 @@ def expansion_html(expansion: Expansion) -> str:
         figure = _figure(expansion)
         try:
             measures = expansion.measure()
-            for name, value, power in (("volume", measures.volume, "³"), ("area", measures.area, "²")):
-                text = "not known" if value is None else f"{value:.6g}{unit and unit + power}"
-                rows.append((name, text))
+            # Figures without a unit, such as sphericity, are left out: the table is short.
+            powers = {1: "", 2: "²", 3: "³"}
+            for row in _core.descriptors():
+                if row["length_power"] in powers:
+                    value = getattr(measures, row["name"])
+                    power = powers[row["length_power"]]
+                    text = "not known" if value is None else f"{value:.6g}{unit and unit + power}"
+                    rows.append((row["name"], text))
         except Error:
             pass  # a series that crosses its centre has neither
     errors = expansion.errors

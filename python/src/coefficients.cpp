@@ -232,7 +232,36 @@ WindowOptions window_of(const std::string& window, int order, std::optional<doub
   return {.window = parse_window(window), .order = order, .time = time};
 }
 
+// The rows of the table of windows, as Python's own values.
+nb::list window_rows() {
+  nb::list rows;
+  for (const WindowInfo& info : windows()) {
+    nb::list parameters;
+    for (const WindowParameter& one : info.parameters) {
+      nb::dict parameter;
+      parameter["name"] = one.name;
+      parameter["symbol"] = one.symbol;
+      parameter["help"] = one.help;
+      parameter["whole"] = one.whole();
+      parameter["min"] = one.min;
+      parameter["max"] = one.max;
+      parameter["default"] = one.value({});
+      parameter["replaces_cutoff"] = one.replaces_cutoff;
+      parameters.append(parameter);
+    }
+    nb::dict row;
+    row["name"] = info.name;
+    row["formula"] = info.formula;
+    row["help"] = info.help;
+    row["overshoot"] = info.overshoot;
+    row["parameters"] = parameters;
+    rows.append(row);
+  }
+  return rows;
+}
+
 void bind_filters(nb::module_& m) {
+  m.def("windows", &window_rows);
   m.def(
       "low_pass",
       [](int cutoff, int degree, const std::string& window, int order, std::optional<double> time) {

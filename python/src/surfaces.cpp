@@ -11,6 +11,7 @@
 #include "casters.h"
 #include "record.h"
 #include "rholm/compare.h"
+#include "rholm/descriptors.h"
 #include "rholm/synthesize.h"
 
 namespace rholm::python {
@@ -19,6 +20,17 @@ namespace rholm::python {
 template <>
 nb::object state_of(const std::optional<Vec3>& value) {
   return value ? state_of(*value) : nb::none();
+}
+
+// The definition of a descriptor, its unit and its source, as Python documents it.
+std::string doc_of(const Descriptor& one) {
+  std::string text = one.definition;
+  text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+  if (*one.source != 0) text += std::string(" (") + one.source + ")";
+  if (one.length_power == 1) text += ", in the unit of length";
+  if (one.length_power > 1)
+    text += ", in the unit of length to the power " + std::to_string(one.length_power);
+  return text + ". None for a signed sum.";
 }
 
 void bind_surfaces(nb::module_& m) {
@@ -31,22 +43,37 @@ void bind_surfaces(nb::module_& m) {
     return result;
   });
   m.def("directions_of", unlocked_function(&directions_of));
-  Record<SurfaceMeasures>(m, "SurfaceMeasures", "Of the solid bounded by a surface.")
-      .field("volume", &SurfaceMeasures::volume,
-             "In the cubed unit. It is None for a signed sum, and so are the others.")
-      .field("area", &SurfaceMeasures::area, "Of the surface, in the squared unit.")
+  Record<SurfaceMeasures> measures(m, "SurfaceMeasures", "Of the solid bounded by a surface.");
+  measures
+      .hidden("volume", [](SurfaceMeasures& all) -> std::optional<double>& { return all.volume; })
+      .hidden("area", [](SurfaceMeasures& all) -> std::optional<double>& { return all.area; })
       .hidden("centroid",
-              [](SurfaceMeasures& measures) -> std::optional<Vec3>& { return measures.centroid; })
-      .property(
-          "centroid",
-          [](const SurfaceMeasures& measures) -> std::optional<ReadOnlyDoubles> {
-            if (!measures.centroid) return std::nullopt;
-            return read_only(*measures.centroid);
-          },
-          "Of the solid, (3,).")
-      .property(
-          "sphericity", [](const SurfaceMeasures& measures) { return measures.sphericity(); },
-          "The area of the ball of the same volume over the area, at most 1.");
+              [](SurfaceMeasures& all) -> std::optional<Vec3>& { return all.centroid; });
+  for (const Descriptor& one : descriptors()) {
+    measures.property(
+        one.name, [value = one.value](const SurfaceMeasures& all) { return value(all); },
+        doc_of(one).c_str());
+  }
+  measures.property(
+      "centroid",
+      [](const SurfaceMeasures& all) -> std::optional<ReadOnlyDoubles> {
+        if (!all.centroid) return std::nullopt;
+        return read_only(*all.centroid);
+      },
+      "Of the solid, (3,).");
+  m.def("descriptors", [] {
+    nb::list rows;
+    for (const Descriptor& one : descriptors()) {
+      nb::dict row;
+      row["name"] = one.name;
+      row["length_power"] = one.length_power;
+      row["definition"] = one.definition;
+      row["source"] = one.source;
+      row["doc"] = doc_of(one);
+      rows.append(row);
+    }
+    return rows;
+  });
   m.def("measure", [](const Expansion& expansion, const Caller& caller) {
     return caller.run([&](const Context& context) { return measure(expansion, context); });
   });

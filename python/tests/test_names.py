@@ -155,6 +155,14 @@ def test_the_keywords_are_those_of_the_module():
     assert rholm._options.keywords_module() == committed, "run scripts/python-stub and commit what it wrote"
 
 
+@public
+def test_the_types_of_tables_are_those_of_the_library(tmp_path):
+    made = tmp_path / "_tables.pyi"
+    subprocess.run([sys.executable, ROOT / "scripts" / "tables-stub", made], check=True)
+    committed = ROOT / "python" / "rholm" / "_tables.pyi"
+    assert made.read_text() == committed.read_text(), "run scripts/python-stub and commit what it wrote"
+
+
 def test_nothing_optional_is_imported():
     code = (
         "import rholm, sys; rholm.expand(rholm.icosphere(2), 4).mesh(2);"

@@ -1,0 +1,27 @@
+"""The types of what is made of the library's tables. scripts/python-stub writes this file."""
+
+from typing import Literal
+
+Window = Literal[
+    "ideal",
+    "lanczos",
+    "lanczos2",
+    "gaussian",
+    "heat",
+    "exponential",
+    "plateau",
+]
+
+class Described:
+    @property
+    def volume(self) -> float | None:
+        """The volume of the solid that the surface bounds; exact for a radius, in the unit of
+        length to the power 3. None for a signed sum."""
+    @property
+    def area(self) -> float | None:
+        """The area of the surface, to about 1e-12, in the unit of length to the power 2. None for a
+        signed sum."""
+    @property
+    def sphericity(self) -> float | None:
+        """The area of the ball of the same volume over the area of the surface, at most 1 (Wadell
+        1935). None for a signed sum."""
