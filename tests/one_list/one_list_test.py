@@ -1,0 +1,74 @@
+"""A row that is added to a table of the library is found in everything that the program shows.
+
+The program of these tests is that of users, with one made-up row in each table (*.inc beside this file).
+"""
+
+import csv
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "cli"))
+from harness import STUDIO, CliTest
+from studio_program import Studio
+
+
+class OneList(CliTest):
+    def setUp(self):
+        super().setUp()
+        self.rholm("make", "bumpy", "--subdivisions", 3, "-o", "rock.ply")
+        self.rholm("analyze", "rock.ply", "--degree", 8, "-o", "rock.h5")
+
+    def words(self, *words):
+        """What is said, without the breaks of lines."""
+        return " ".join(self.rholm(*words).out.split())
+
+    def test_window_is_in_all_that_the_program_says_of_itself(self):
+        text = self.words("filter", "--help")
+        self.assertIn("plateau, wedge", text)
+        self.assertIn("wedge none", text)  # its overshoot
+        self.assertIn("of the exponential and wedge windows", text)  # its parameter
+        for shell in ("bash", "zsh", "fish"):
+            self.assertIn("wedge", self.rholm("completion", shell).out)
+        self.assertIn("wedge", self.rholm("man-page").out)
+        self.assertIn("| `wedge` | `(1 - l/(L+1))^p` | none |", self.rholm("reference").out)
+        refused = self.rholm("filter", "rock.h5", "--low-pass", 4, "--window", "wdge", "-o", "x.h5", code=2)
+        self.assertIn("wedge", refused.err)
+
+    def test_window_filters(self):
+        self.rholm("filter", "rock.h5", "--low-pass", 4, "--window", "wedge", "--order", 1, "-o", "low.h5")
+        before, after = (self.rholm("spectrum", f"{name}.h5", "--json").json()["energy"] for name in ("rock", "low"))
+        for l in range(5):
+            self.assertAlmostEqual(after[l], before[l] * (1 - l / 5) ** 2, delta=1e-12 * before[0])
+
+    @unittest.skipUnless(STUDIO, "built without the studio")
+    def test_window_is_in_the_studio(self):
+        studio = Studio(self)
+        studio.begin()
+        answer = studio.json("GET", "api/windows")
+        self.assertEqual(answer["default"], "lanczos")
+        wedge = answer["windows"][-1]
+        self.assertEqual((wedge["name"], wedge["formula"], wedge["overshoot"]), ("wedge", "(1 - l/(L+1))^p", 0))
+        self.assertEqual([(one["name"], one["default"], one["whole"]) for one in wedge["parameters"]], [("order", 4, True)])
+        gains = studio.json("GET", "api/gains?window=wedge&cutoff=3&degree=5&order=1")["gains"]
+        self.assertEqual(gains, [1, 0.75, 0.5, 0.25, 0, 0])
+
+    def test_descriptor_is_in_reports_and_tables(self):
+        report = self.rholm("info", "rock.h5", "--json").json()
+        self.assertEqual(report["thickness"], report["volume"] / report["area"])
+        self.assertRegex(self.rholm("info", "rock.h5").out, r"\n  thickness +[0-9.]+\n")
+        self.assertIn("volume, area, sphericity and thickness", self.words("info", "--help"))
+        self.assertIn("volume, area, sphericity and thickness", self.words("batch", "--help"))
+        self.assertIn("| `thickness` | length | the volume over the area | Nobody 1900 |",
+                      self.rholm("reference").out)
+        (self.folder / "list.csv").write_text("path\nrock.ply\n")
+        self.rholm("batch", "list.csv", "-o", "table.csv", "--", "--degree", 8)
+        with open(self.folder / "table.csv", newline="") as file:
+            row = next(csv.DictReader(file))
+        self.assertEqual(float(row["thickness"]), report["thickness"])
+        self.rholm("report", "rock.h5", "-o", "page.html")
+        self.assertIn("thickness", (self.folder / "page.html").read_text())
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
