@@ -13,6 +13,7 @@
 #include "io/file/output_buffer.h"
 #include "io/shapes/shape_writers.h"
 #include "rholm/error.h"
+#include "rholm/formats.h"
 #include "rholm/shape_io.h"
 
 namespace rholm::fuzzing {
@@ -23,7 +24,7 @@ inline void require(bool condition) {
 
 inline std::vector<char> formatted(const ShapeView& shape, ShapeFormat format) {
   OutputBuffer out(nullptr);
-  format_shape(shape, format, false, "fuzz", out);
+  format_shape(shape, format, {.name = "fuzz"}, out);
   return out.take();
 }
 
@@ -67,8 +68,9 @@ inline void check_reader(const std::uint8_t* data, std::size_t size, const std::
   const ShapeView shape = view_of(file);
   require(shape.points.size() <= size && shape.triangles.size() <= size);
   check_round_trip(shape, ShapeFormat::kPly);
-  // STL rounds to float and XYZ has no triangles: their own round trips are tests.
-  const bool exact = file.format != ShapeFormat::kStl && file.format != ShapeFormat::kXyz;
+  // Formats that round to float or have no triangles: their own round trips are tests.
+  const ShapeFormatInfo& format = shape_format_info(file.format);
+  const bool exact = format.faces && !format.single_precision;
   if (exact || !shape.is_mesh) check_round_trip(shape, file.format);
 }
 

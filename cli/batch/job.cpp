@@ -1,4 +1,5 @@
 #include "cli/batch/job.h"
+#include "cli/files/formats.h"
 
 #include <algorithm>
 
@@ -64,13 +65,6 @@ std::string chosen_format(const Command& command) {
   return {};
 }
 
-// What a file of that format is called.
-std::string extension_of_format(const std::string& format) {
-  if (format == "shtools") return "sh";
-  if (format == "icgem") return "gfc";
-  return format;
-}
-
 // Parses the options, then runs the command for no file: what it refuses before it opens one is
 // wrong for all.
 void check_command(BatchJob& job) {
@@ -94,8 +88,8 @@ void check_command(BatchJob& job) {
   CommonOptions common;
   try {
     parse(command, words(), common);
-    const std::string format = extension_of_format(chosen_format(command));
-    if (!format.empty() && !job.extension.empty()) job.extension = format;
+    const std::string format = chosen_format(command);
+    if (!format.empty() && !job.extension.empty()) job.extension = extension_of_format(format);
     const Capture silent;
     Session session(common);
     command.run(session);

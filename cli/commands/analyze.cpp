@@ -379,12 +379,12 @@ std::vector<Option> option_list(Options& o) {
         .max = std::numeric_limits<int>::max()}});
   append(list, transform_options(o));
   append(list, monte_carlo_options(o));
-  append(list, {rays_option(o.rays), weld_option(o.weld), length_unit_option(o.length_unit),
-                columns_option(o.columns),
-                output_option(o.output,
-                              "file of coefficients: .h5 (model file), .sh (SHTOOLS text), "
-                              ".gfc, .json, .npy; - for standard output"),
-                format_option(o.format, coefficients_formats())});
+  append(list,
+         {rays_option(o.rays), weld_option(o.weld), length_unit_option(o.length_unit),
+          columns_option(o.columns),
+          output_option(o.output, fmt::format("file of coefficients: {}; - for standard output",
+                                              coefficients_extensions())),
+          format_option(o.format, coefficients_format_names())});
   append(list, memory_options(o.memory));
   append(list, convention_options(o.convention));
   list.push_back(json_option(o.json));

@@ -45,18 +45,22 @@ struct Options {
 constexpr double kMemoryPerByte = 5;
 
 std::vector<std::string> all_formats() {
-  std::vector<std::string> formats = shape_formats();
-  for (const std::string& format : coefficients_formats()) formats.push_back(format);
+  std::vector<std::string> formats = shape_format_names();
+  for (const std::string& format : coefficients_format_names()) formats.push_back(format);
   return formats;
 }
 
 // What --format or the extension of the output names.
 std::string named_format(const Options& options) {
   if (!options.format.empty()) return options.format;
-  const std::string extension = extension_of(options.output);
-  if (extension == ".h5") return "h5";
-  if (const auto format = coefficients_format_of("x" + extension)) return to_string(*format);
-  return extension.empty() ? extension : extension.substr(1);
+  for (const CoefficientsFormatInfo& format : coefficients_formats()) {
+    if (extension_of(format.file, options.output) != nullptr) return format.file.name;
+  }
+  for (const ShapeFormatInfo& format : shape_formats()) {
+    const FileExtension* extension = extension_of(format.file, options.output);
+    if (extension != nullptr && !extension->read_only) return format.file.name;
+  }
+  return "";
 }
 
 bool is_one_of(const std::string& name, const std::vector<std::string>& formats) {
@@ -65,7 +69,8 @@ bool is_one_of(const std::string& name, const std::vector<std::string>& formats)
 
 void convert_shape(const Options& options, const ShapeFile& file, Session& session) {
   const std::string wanted = named_format(options);
-  if (is_one_of(wanted, coefficients_formats()) && extension_of(options.output) != ".txt") {
+  if (is_one_of(wanted, coefficients_format_names()) &&
+      (!options.format.empty() || !shape_format_of(options.output))) {
     throw UsageError(
         fmt::format("{} is a shape and {} a format of coefficients: 'rholm analyze {} "
                     "--degree L -o {}' finds them",
@@ -85,7 +90,8 @@ void convert_shape(const Options& options, const ShapeFile& file, Session& sessi
 // A mesh in a binary PLY is written from where it lies, in little memory; false if it is not
 // one, or no shape is wanted.
 bool convert_mapped(const Options& options, const std::string& path, Session& session) {
-  if (!options.columns.empty() || !is_one_of(named_format(options), shape_formats())) return false;
+  if (!options.columns.empty() || !is_one_of(named_format(options), shape_format_names()))
+    return false;
   const ShapeFormat format = shape_output(options.output, options.format);
   const std::optional<ConvertedMesh> mesh =
       convert_mesh(path, options.output, {format, options.ascii}, session.context());
@@ -111,7 +117,7 @@ Expansion expansion_of(const Options& options, const CoefficientsFile& file) {
 void convert_coefficients(const Options& options, const CoefficientsFile& file,
                           const Convention& convention, Session& session) {
   const std::string wanted = named_format(options);
-  if (is_one_of(wanted, shape_formats())) {
+  if (is_one_of(wanted, shape_format_names())) {
     throw UsageError(
         fmt::format("{} holds coefficients and {} is a format of shapes: 'rholm "
                     "synthesize {} -o {}' makes their surface",
@@ -126,10 +132,13 @@ void convert_coefficients(const Options& options, const CoefficientsFile& file,
 // (binary ones; text, which is read twice, takes half as long again).
 bool are_read_in_pieces(const Options& options, const std::string& path, bool large) {
   const std::string wanted = named_format(options);
-  if (wanted != "ply" && wanted != "xyz") return false;
-  const bool spooled = path != options.input;
-  if (!is_shape(path).value_or(spooled || !options.columns.empty() || extension_of(path) == ".csv"))
+  if (!is_one_of(wanted, shape_format_names()) ||
+      !shape_format_info(parse_shape_format(wanted)).in_pieces) {
     return false;
+  }
+  const bool spooled = path != options.input;
+  const bool is_table = shape_format_of(path) && !coefficients_format_of(path);
+  if (!is_shape(path).value_or(spooled || !options.columns.empty() || is_table)) return false;
   try {
     const PointStream stream(path, {.columns = options.columns});
     return !stream.has_faces() && (large || stream.is_all());
@@ -195,11 +204,12 @@ int run(const Options& options, Session& session) {
     throw UsageError("--gravity-constant and --reference-radius belong together: give both");
   }
   const std::string wanted = named_format(options);
-  if (options.gravity_constant && (wanted == "npy" || is_one_of(wanted, shape_formats()))) {
+  const bool has_room = is_one_of(wanted, coefficients_format_names()) && holds_meaning(wanted);
+  if (options.gravity_constant && !wanted.empty() && !has_room) {
     throw UsageError(
         fmt::format("--gravity-constant and --reference-radius are of coefficients, and "
-                    "'{}' has no room for them: write .gfc, .h5, .json or .sh",
-                    wanted));
+                    "'{}' has no room for them: write {}",
+                    wanted, meaningful_extensions("or")));
   }
   check_writable(options.output);
   options.memory.keep(session);
@@ -236,9 +246,11 @@ std::vector<Option> option_list(Options& o) {
                 format_option(o.format, all_formats()),
                 {.name = "gravity-constant",
                  .value = "GM",
-                 .help = "of the gravity field that the coefficients are of, in m^3/s^2: all "
-                         "formats but .npy keep it, and other programs read it in .gfc; by default "
-                         "that of the input, if it has one",
+                 .help = fmt::format(
+                     "of the gravity field that the coefficients are of, in m^3/s^2: {} keep it, "
+                     "and other programs read it in .gfc; by default that of the input, if it has "
+                     "one",
+                     meaningful_extensions("and")),
                  .target = &o.gravity_constant,
                  .above = 0},
                 {.name = "reference-radius",
@@ -246,7 +258,7 @@ std::vector<Option> option_list(Options& o) {
                  .help = "of the same field, in m; with --gravity-constant",
                  .target = &o.reference_radius,
                  .above = 0},
-                {.name = "ascii", .help = "PLY and STL as text", .target = &o.ascii},
+                ascii_option(o.ascii),
                 columns_option(o.columns)});
   append(list, memory_options(o.memory));
   return list;
@@ -258,18 +270,16 @@ Command convert_command() {
   auto options = std::make_shared<Options>();
   return {.name = "convert",
           .summary = "The same data in another format or convention",
-          .description =
-              "Coefficients become coefficients: model file (.h5), SHTOOLS text (.sh, .txt, "
-              ".shtools), ICGEM-like text (.gfc, .icgem), JSON (.json), NumPy (.npy). Shapes "
-              "become shapes: .ply, .obj, .off, .stl, .xyz, with the attributes the format has "
-              "room for; what is left out is said. A mesh in a binary PLY is written from "
-              "where it lies, and points of a binary PLY, and those that need more than "
-              "--max-memory, as they are read, to PLY "
-              "and XYZ.\n\nConventions are those of the text, JSON and "
-              "NumPy files; a model "
-              "file is always orthonormal without Condon-Shortley phase. Where an input does not "
-              "say its convention, it is taken to be that of --input-normalization and "
-              "--input-csphase (4pi and 1 by default), and what was assumed is said.",
+          .description = fmt::format(
+              "Coefficients become coefficients: {}. Shapes become shapes: {}, with the "
+              "attributes the format has room for; what is left out is said. A mesh in a binary "
+              "PLY is written from where it lies, and points of a binary PLY, and those that need "
+              "more than --max-memory, as they are read, to PLY and XYZ.\n\nConventions are "
+              "those of the text, JSON and NumPy files; a model file is always orthonormal without "
+              "Condon-Shortley phase. Where an input does not say its convention, it is taken to "
+              "be that of --input-normalization and --input-csphase (4pi and 1 by default), and "
+              "what was assumed is said.",
+              coefficients_list(), shape_extensions()),
           .options = option_list(*options),
           .examples = {"rholm convert bumpy.h5 bumpy.sh --normalization schmidt",
                        "rholm convert bumpy.ply bumpy.obj"},

@@ -21,6 +21,7 @@
 #include "cli/terminal/session.h"
 #include "rholm/descriptors.h"
 #include "rholm/error.h"
+#include "rholm/formats.h"
 #include "rholm/large_mesh.h"
 #include "rholm/model.h"
 #include "rholm/point_stream.h"
@@ -266,10 +267,9 @@ bool report_large_mesh(const Options& options, double needed, Session& session) 
 
 // Points of a file, a piece at a time.
 bool report_large_cloud(const Options& options, Session& session) {
-  const std::string extension = extension_of(options.input);
-  const bool may_be_points =
-      extension == ".ply" || extension == ".xyz" || extension == ".pwn" || extension == ".csv";
-  if (!may_be_points) return false;
+  const std::optional<ShapeFormat> named = shape_format_of(options.input);
+  if (!named || !shape_format_info(*named).in_pieces) return false;
+  if (coefficients_format_of(options.input)) return false;  // their lines look like points
   PointStream stream(options.input, {.columns = options.columns});
   if (stream.has_faces()) return false;
   constexpr std::size_t kPiece = std::size_t{1} << 18;  // chosen: some 10 MB

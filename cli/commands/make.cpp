@@ -175,10 +175,9 @@ std::vector<Option> option_list(Options& o) {
        .check = parse_vector}};
   for (Option& option : sample_options(o.sample)) options.push_back(std::move(option));
   options.push_back(output_option(
-      o.output,
-      "to write: .ply, .obj, .off, meshes as .stl, points as .xyz; - for standard output"));
-  options.push_back(format_option(o.format, shape_formats()));
-  options.push_back({.name = "ascii", .help = "PLY and STL as text", .target = &o.ascii});
+      o.output, fmt::format("to write: {}; - for standard output", extensions_by_holding())));
+  options.push_back(format_option(o.format, shape_format_names()));
+  options.push_back(ascii_option(o.ascii));
   return options;
 }
 

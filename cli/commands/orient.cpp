@@ -154,9 +154,10 @@ std::vector<Option> option_list(Options& o) {
            .help = "give each point its confidence, 0 ... 1, as an attribute",
            .target = &o.confidence},
           columns_option(o.columns),
-          output_option(o.output, "points to write: .ply, .xyz, .obj, .off; - for standard output"),
-          format_option(o.format, {"ply", "obj", "off", "xyz"}),
-          {.name = "ascii", .help = "PLY as text", .target = &o.ascii},
+          output_option(o.output, fmt::format("points to write: {}; - for standard output",
+                                              shape_extensions(Holding::kPoints))),
+          format_option(o.format, shape_format_names(Holding::kPoints)),
+          ascii_option(o.ascii, Holding::kPoints),
           json_option(o.json)};
 }
 

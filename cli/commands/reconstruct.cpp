@@ -257,11 +257,9 @@ std::vector<Option> option_list(Options& o) {
         .value = "FILE",
         .help = "write the caps to a model file, .h5, as well; rholm synthesize reads it",
         .target = &o.model,
-        .offer = Offer::kAnyFile},
-       output_option(o.output, "mesh to write: .ply, .obj, .off, .stl; - for standard output"),
-       format_option(o.format, mesh_formats()),
-       {.name = "ascii", .help = "PLY and STL as text", .target = &o.ascii},
-       json_option(o.json)});
+        .offer = Offer::kAnyFile}});
+  append(options, mesh_output_options(o.output, o.format, o.ascii));
+  options.push_back(json_option(o.json));
   return options;
 }
 

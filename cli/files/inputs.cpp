@@ -18,6 +18,7 @@
 #include "cli/terminal/json_text.h"
 #include "rholm/compress.h"
 #include "rholm/error.h"
+#include "rholm/formats.h"
 #include "rholm/model.h"
 
 namespace rholm::cli {
@@ -44,27 +45,14 @@ Bytes read_bytes(const std::string& path, std::size_t limit) {
   return bytes;
 }
 
-bool begins_with(std::span<const char> bytes, std::string_view text) {
-  return bytes.size() >= text.size() && std::equal(text.begin(), text.end(), bytes.begin());
-}
-
-Guess guess_by_extension(const std::string& extension) {
-  for (const char* shape : {".ply", ".obj", ".off", ".stl", ".xyz", ".pwn", ".pts"}) {
-    if (extension == shape) return Guess::kShape;
-  }
-  if (extension == ".h5") return Guess::kModel;
-  if (extension != ".txt" && coefficients_format_of("x" + extension)) return Guess::kCoefficients;
-  return Guess::kUnknown;
-}
-
 // By the first bytes; by the name where they do not tell.
 Guess guess(std::span<const char> head, const std::string& path) {
-  if (begins_with(head, "\x89HDF\r\n\x1a\n")) return Guess::kModel;
-  if (looks_like_coefficients(head)) return Guess::kCoefficients;
-  for (const char* mark : {"ply", "OFF", "solid"}) {
-    if (begins_with(head, mark)) return Guess::kShape;
+  if (std::string_view(head.data(), head.size()).starts_with("\x89HDF\r\n\x1a\n")) {
+    return Guess::kModel;
   }
-  return guess_by_extension(extension_of(path));
+  const std::optional<bool> shape = is_shape_file(head, path);
+  if (!shape) return Guess::kUnknown;
+  return *shape ? Guess::kShape : Guess::kCoefficients;
 }
 
 // "a gravity_field, no shape".

@@ -22,16 +22,14 @@
 namespace rholm::cli {
 namespace {
 
-constexpr const char* kModelFormat = "h5";
-
 [[noreturn]] void throw_unknown_format(const std::string& path, const std::string& known) {
   if (path == "-") throw UsageError("standard output has no extension: say --format");
   throw UsageError(fmt::format(
       "'{}' has no extension that names a format; known are {}, or say --format", path, known));
 }
 
-// All that a NumPy array does not hold, as words.
-std::string unsaid_by_npy(const Expansion& expansion, const Convention& convention) {
+// All that numbers alone do not say, as words.
+std::string meaning_of(const Expansion& expansion, const Convention& convention) {
   const Vec3& c = expansion.center;
   std::string text = fmt::format("{}; function {}; centre ({}, {}, {})", text_of(convention),
                                  to_string(expansion.function), c.x, c.y, c.z);
@@ -75,30 +73,27 @@ Option format_option(std::string& format, std::vector<std::string> choices) {
           .choices = std::move(choices)};
 }
 
-std::vector<std::string> shape_formats() { return {"ply", "obj", "off", "stl", "xyz"}; }
-
-std::vector<std::string> mesh_formats() { return {"ply", "obj", "off", "stl"}; }
+Option ascii_option(bool& ascii, Holding holding) {
+  return {.name = "ascii", .help = ascii_help(holding), .target = &ascii};
+}
 
 std::vector<Option> mesh_output_options(std::string& path, std::string& format, bool& ascii) {
-  return {output_option(path, "mesh to write: .ply, .obj, .off, .stl; - for standard output"),
-          format_option(format, mesh_formats()),
-          {.name = "ascii", .help = "PLY and STL as text", .target = &ascii}};
+  return {output_option(path, fmt::format("mesh to write: {}; - for standard output",
+                                          shape_extensions(Holding::kFaces))),
+          format_option(format, shape_format_names(Holding::kFaces)), ascii_option(ascii)};
 }
 
 std::vector<Option> coefficients_output_options(CoefficientsOutputOptions& target,
                                                 const std::string& what, bool required) {
   std::vector<Option> list = {
-      output_option(target.output, what + ": .h5, .sh, .gfc, .json, .npy; - for standard output",
+      output_option(target.output,
+                    fmt::format("{}: {}; - for standard output", what, coefficients_extensions()),
                     required),
-      format_option(target.format, coefficients_formats())};
+      format_option(target.format, coefficients_format_names())};
   append(list, convention_options(target.convention));
   append(list, input_convention_options(target.input_convention));
   list.push_back(json_option(target.json));
   return list;
-}
-
-std::vector<std::string> coefficients_formats() {
-  return {kModelFormat, "shtools", "icgem", "json", "npy"};
 }
 
 void check_not_shared(const std::string& path, bool json) {
@@ -109,45 +104,46 @@ void check_not_shared(const std::string& path, bool json) {
 
 ShapeFormat shape_output(const std::string& path, const std::string& format, bool json) {
   check_not_shared(path, json);
-  std::string name = format;
-  if (name.empty() && path != "-") {
-    const std::string extension = extension_of(path);
-    name =
-        extension == ".pwn" || extension == ".txt" ? "xyz" : extension.substr(!extension.empty());
+  for (const ShapeFormatInfo& known : shape_formats()) {
+    if (!known.file.written) continue;
+    if (!format.empty()) {
+      if (format == known.file.name) return known.format;
+    } else if (const FileExtension* extension = extension_of(known.file, path)) {
+      if (path != "-" && !extension->read_only) return known.format;
+    }
   }
-  for (const std::string& known : shape_formats()) {
-    if (name == known) return parse_shape_format(name);
-  }
-  throw_unknown_format(path, ".ply, .obj, .off, .stl, .xyz");
+  throw_unknown_format(path, shape_extensions());
 }
 
 ShapeFormat mesh_output(const std::string& path, const std::string& format, bool json) {
   const ShapeFormat found = shape_output(path, format, json);
-  if (found != ShapeFormat::kXyz) return found;
-  throw UsageError(
-      fmt::format("{} has no faces, and a mesh has them: take .ply, .obj, .off or .stl",
-                  format.empty() ? fmt::format("'{}' is a file of points, which", path)
-                                 : "--format " + format));
+  if (shape_format_info(found).faces) return found;
+  throw UsageError(fmt::format(
+      "{} has no faces, and a mesh has them: take {}",
+      format.empty() ? fmt::format("'{}' is a file of points, which", path) : "--format " + format,
+      shape_extensions(Holding::kFaces, "or")));
 }
 
 ShapeFormat points_output(const std::string& path, const std::string& format, bool json) {
   const ShapeFormat found = shape_output(path, format, json);
-  if (found != ShapeFormat::kStl) return found;
-  throw UsageError("STL has triangles only, no points: take .ply, .xyz, .obj or .off");
+  const ShapeFormatInfo& info = shape_format_info(found);
+  if (info.points) return found;
+  throw UsageError(fmt::format("{} has triangles only, no points: take {}", info.file.title,
+                               shape_extensions(Holding::kPoints, "or")));
 }
 
 CoefficientsOutput coefficients_output(const std::string& path, const std::string& format,
                                        bool json) {
   check_not_shared(path, json);
-  const bool by_name = format.empty() && path != "-";
-  if (format == kModelFormat || (by_name && extension_of(path) == ".h5")) {
-    check_rewindable(path);
-    return {path, std::nullopt};
+  for (const CoefficientsFormatInfo& known : coefficients_formats()) {
+    const bool is_meant = format.empty() ? path != "-" && extension_of(known.file, path) != nullptr
+                                         : format == known.file.name;
+    if (!is_meant) continue;
+    if (!known.format) check_rewindable(path);
+    return {path, known.format};
   }
-  if (!format.empty()) return {path, parse_coefficients_format(format)};
-  const auto known = by_name ? coefficients_format_of(path) : std::nullopt;
-  if (!known) throw_unknown_format(path, ".h5, .sh, .gfc, .json, .npy");
-  return {path, known};
+  if (!format.empty()) parse_coefficients_format(format);  // throws
+  throw_unknown_format(path, coefficients_extensions());
 }
 
 void check_rewindable(const std::string& path) {
@@ -214,10 +210,11 @@ void write_coefficients_output(const Expansion& expansion, const CoefficientsOut
   if (!output.format) return write_model(expansion, output.path);
   write_coefficients(expansion, output.path, {output.format, convention});
   const std::string name = output.path == "-" ? "standard output" : output.path;
-  if (output.format == CoefficientsFormat::kNpy) {
+  const CoefficientsFormatInfo& info = coefficients_format_info(*output.format);
+  if (!info.meaning) {
     session.note(fmt::format("{} has numbers alone and cannot say that they are of {}", name,
-                             unsaid_by_npy(expansion, convention)));
-  } else if (expansion.errors) {
+                             meaning_of(expansion, convention)));
+  } else if (expansion.errors && !info.errors) {
     session.note(
         fmt::format("{} has no room for the errors of the model: a model file (.h5) has", name));
   }

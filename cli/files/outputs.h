@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "cli/files/formats.h"
 #include "cli/grammar/command.h"
 #include "cli/options/convention.h"
 #include "cli/terminal/session.h"
@@ -18,6 +19,8 @@ namespace rholm::cli {
 // "-o, --output OUT", required or not, and "--format".
 Option output_option(std::string& path, const std::string& help, bool required = true);
 Option format_option(std::string& format, std::vector<std::string> choices);
+// "--ascii".
+Option ascii_option(bool& ascii, Holding holding = Holding::kAnything);
 // --output, --format and --ascii of commands that write a mesh.
 std::vector<Option> mesh_output_options(std::string& path, std::string& format, bool& ascii);
 
@@ -40,18 +43,13 @@ struct CoefficientsOutput {
   std::optional<CoefficientsFormat> format;  // none: the model file
 };
 
-// Names for --format.
-std::vector<std::string> shape_formats();         // ply, obj, off, stl, xyz
-std::vector<std::string> mesh_formats();          // the same without xyz, which has no faces
-std::vector<std::string> coefficients_formats();  // h5, shtools, icgem, json, npy
-
 // The format by `format` (an option's value, may be empty), else by the extension. Throws
 // UsageError if neither says it, or if "-" stands without a format. `json` is whether a report
 // wants standard output too.
 ShapeFormat shape_output(const std::string& path, const std::string& format, bool json = false);
-// The same for a mesh: xyz, which has no faces, is refused.
+// The same for a mesh: a format without faces is refused.
 ShapeFormat mesh_output(const std::string& path, const std::string& format, bool json = false);
-// The same for points: stl, which has triangles only, is refused.
+// The same for points: a format that holds triangles only is refused.
 ShapeFormat points_output(const std::string& path, const std::string& format, bool json = false);
 CoefficientsOutput coefficients_output(const std::string& path, const std::string& format,
                                        bool json = false);

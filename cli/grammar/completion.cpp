@@ -5,30 +5,26 @@
 #include <utility>
 
 #include "cli/terminal/session.h"
+#include "rholm/formats.h"
 
 namespace rholm::cli {
 
 std::vector<std::string> offered_extensions(Offer offer) {
-  std::vector<std::string> shapes = {"ply", "obj", "off", "stl", "xyz", "pwn", "pts", "csv", "txt"};
-  std::vector<std::string> coefficients = {"h5",  "sh",    "shtools", "gfc",
-                                           "txt", "icgem", "json",    "npy"};
-  switch (offer) {
-    case Offer::kShapes:
-      return shapes;
-    case Offer::kCoefficients:
-      return coefficients;
-    case Offer::kShapesAndCoefficients: {
-      std::vector<std::string> both = shapes;
-      for (const std::string& extension : coefficients) {
-        if (extension != "txt") both.push_back(extension);
+  std::vector<std::string> offered;
+  const auto add = [&](const auto& formats) {
+    for (const auto& format : formats) {
+      if (!format.file.read) continue;
+      for (const FileExtension& extension : format.file.extensions) {
+        const bool is_there =
+            std::find(offered.begin(), offered.end(), extension.name) != offered.end();
+        if (!is_there) offered.push_back(extension.name);
       }
-      return both;
     }
-    case Offer::kNothing:
-    case Offer::kAnyFile:
-      break;
-  }
-  return {};
+  };
+  const bool both = offer == Offer::kShapesAndCoefficients;
+  if (both || offer == Offer::kShapes) add(shape_formats());
+  if (both || offer == Offer::kCoefficients) add(coefficients_formats());
+  return offered;
 }
 
 std::vector<Command> offered_commands(std::span<const Command> commands) {

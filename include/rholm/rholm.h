@@ -17,6 +17,7 @@
 #include "rholm/fields.h"
 #include "rholm/file.h"
 #include "rholm/filter.h"
+#include "rholm/formats.h"
 #include "rholm/grid.h"
 #include "rholm/harmonic.h"
 #include "rholm/image.h"

@@ -103,4 +103,13 @@ std::string shell_word(const std::string& file) {
   return shell_text(file.starts_with('-') && file != "-" ? "./" + file : file);
 }
 
+std::string listed(const std::vector<std::string>& words, const std::string& last) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (i > 0) text += i + 1 == words.size() ? " " + last + " " : ", ";
+    text += words[i];
+  }
+  return text;
+}
+
 }  // namespace rholm

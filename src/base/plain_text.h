@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace rholm {
 
@@ -28,5 +29,8 @@ std::string escaped_line(std::string_view text);
 std::string shell_text(const std::string& text);
 // The same for the name of a file, which is never taken for an option: "./-x.ply". "-" stays.
 std::string shell_word(const std::string& file);
+
+// "ply, obj or xyz" with last = "or".
+std::string listed(const std::vector<std::string>& words, const std::string& last);
 
 }  // namespace rholm

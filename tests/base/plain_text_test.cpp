@@ -61,5 +61,12 @@ TEST(plain_text, names_of_files_are_no_options) {
   EXPECT_EQ(shell_word("-"), "-");
 }
 
+TEST(plain_text, lists_have_their_last_word_before_the_last_entry) {
+  EXPECT_EQ(listed({}, "or"), "");
+  EXPECT_EQ(listed({"a"}, "or"), "a");
+  EXPECT_EQ(listed({"a", "b"}, "or"), "a or b");
+  EXPECT_EQ(listed({"a", "b", "c"}, "and"), "a, b and c");
+}
+
 }  // namespace
 }  // namespace rholm

@@ -1,6 +1,7 @@
 // The formats of coefficients, one .cpp each, behind the same two signatures. Layer: io, private.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,19 +29,24 @@ struct ParsedCoefficients {
 
 // `bytes` is the whole file, `name` serves messages. Numbers are finite; throws InvalidInput,
 // Unsupported. Memory stays within a small multiple of the file's size, or 16 MiB.
-ParsedCoefficients parse_shtools(std::string_view bytes, const std::string& name);
-ParsedCoefficients parse_icgem(std::string_view bytes, const std::string& name);
-ParsedCoefficients parse_json(std::string_view bytes, const std::string& name);
-ParsedCoefficients parse_npy(std::string_view bytes, const std::string& name);
+using CoefficientsParser = ParsedCoefficients(std::string_view bytes, const std::string& name);
+CoefficientsParser parse_shtools, parse_icgem, parse_json, parse_npy;
+
+// Whether the bytes, without a byte order mark, are of that format, by their content alone.
+bool looks_like_icgem(std::string_view bytes);
+bool looks_like_json(std::string_view bytes);
+bool looks_like_npy(std::string_view bytes);
+// Whether such a file says that its numbers are coefficients, as those written here do.
+bool is_own_shtools(std::string_view bytes);
+bool is_own_json(std::string_view bytes);
+// How far the header of a text is looked for. Chosen: ICGEM files begin with free text, of a few
+// kilobytes in those published.
+constexpr std::size_t kHeaderBytes = 65536;
 
 // The whole file. `expansion` has passed check_expansion(); `external` are its coefficients in
 // `convention`.
-std::string format_shtools(const Expansion& expansion, const Coefficients& external,
-                           const Convention& convention);
-std::string format_icgem(const Expansion& expansion, const Coefficients& external,
-                         const Convention& convention);
-std::string format_json(const Expansion& expansion, const Coefficients& external,
-                        const Convention& convention);
-std::string format_npy(const Coefficients& external);
+using CoefficientsFormatter = std::string(const Expansion& expansion, const Coefficients& external,
+                                          const Convention& convention);
+CoefficientsFormatter format_shtools, format_icgem, format_json, format_npy;
 
 }  // namespace rholm

@@ -5,57 +5,39 @@
 #include <algorithm>
 #include <string_view>
 
-#include "io/coefficients/codec.h"
+#include "base/plain_text.h"
+#include "io/coefficients/coefficients_formats.h"
 #include "io/coefficients/expansion_check.h"
-#include "io/coefficients/text_table.h"
 #include "io/file/bytes.h"
+#include "io/file/number_text.h"
 #include "rholm/error.h"
 #include "rholm/file.h"
 
 namespace rholm {
 namespace {
 
-constexpr std::string_view kNpyMagic = "\x93NUMPY";
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-// How far the header of a text is looked for. Chosen: ICGEM files begin with free text, of a few
-// kilobytes in those published.
-constexpr std::size_t kHeaderBytes = 65536;
 
-// Some line at the beginning starts with a word that only ICGEM files have there.
-bool has_icgem_line(std::string_view bytes) {
-  bytes = bytes.substr(0, kHeaderBytes);
-  while (!bytes.empty()) {
-    const std::size_t length = std::min(bytes.find('\n'), bytes.size());
-    const std::string_view line = trimmed(bytes.substr(0, length));
-    for (const std::string_view word :
-         {"begin_of_head", "end_of_head", "product_type", "max_degree", "gfc ", "gfc\t"}) {
-      if (line.starts_with(word)) return true;
+// Bare text, which no format claims, is taken for the one that is told by nothing.
+const CoefficientsFormatLine& detect(std::string_view bytes) {
+  const std::vector<CoefficientsFormatLine>& table = coefficients_format_table();
+  for (const ToldBy by : {ToldBy::kSignature, ToldBy::kFirstWord, ToldBy::kLines}) {
+    for (const CoefficientsFormatLine& line : table) {
+      if (line.told_by == by && line.looks_like != nullptr && line.looks_like(bytes)) return line;
     }
-    bytes.remove_prefix(std::min(length + 1, bytes.size()));
   }
-  return false;
+  return *std::find_if(table.begin(), table.end(), [](const CoefficientsFormatLine& line) {
+    return line.told_by == ToldBy::kNothing && line.parse != nullptr;
+  });
 }
 
-CoefficientsFormat detect_format(std::string_view bytes) {
-  if (bytes.starts_with(kNpyMagic)) return CoefficientsFormat::kNpy;
-  const std::string_view text = trimmed(bytes.substr(0, kHeaderBytes));
-  if (text.starts_with('{') || text.starts_with('[')) return CoefficientsFormat::kJson;
-  return has_icgem_line(bytes) ? CoefficientsFormat::kIcgem : CoefficientsFormat::kShtools;
-}
-
-ParsedCoefficients parse_as(CoefficientsFormat format, std::string_view bytes,
-                            const std::string& name) {
-  switch (format) {
-    case CoefficientsFormat::kNpy:
-      return parse_npy(bytes, name);
-    case CoefficientsFormat::kJson:
-      return parse_json(bytes, name);
-    case CoefficientsFormat::kIcgem:
-      return parse_icgem(bytes, name);
-    case CoefficientsFormat::kShtools:
-      break;
+// The names of all formats but the model file.
+std::vector<std::string> format_names() {
+  std::vector<std::string> names;
+  for (const CoefficientsFormatInfo& format : coefficients_formats()) {
+    if (format.format) names.push_back(format.file.name);
   }
-  return parse_shtools(bytes, name);
+  return names;
 }
 
 // The convention of the numbers: what the file says, else the options; what is taken from the
@@ -80,55 +62,63 @@ Convention settle_convention(const ParsedCoefficients& parsed,
 
 }  // namespace
 
-const char* to_string(CoefficientsFormat format) {
-  switch (format) {
-    case CoefficientsFormat::kShtools:
-      return "shtools";
-    case CoefficientsFormat::kIcgem:
-      return "icgem";
-    case CoefficientsFormat::kJson:
-      return "json";
-    case CoefficientsFormat::kNpy:
-      return "npy";
-  }
-  return "unknown";
+const CoefficientsFormatLine& line_of(CoefficientsFormat format) {
+  const std::vector<CoefficientsFormatLine>& table = coefficients_format_table();
+  const auto found =
+      std::find_if(table.begin(), table.end(),
+                   [&](const CoefficientsFormatLine& line) { return line.info.format == format; });
+  if (found != table.end()) return *found;
+  throw Error(ErrorCode::kUnsupported,
+              fmt::format("no format of coefficients has the number {}", static_cast<int>(format)));
 }
 
+const std::vector<CoefficientsFormatInfo>& coefficients_formats() {
+  static const std::vector<CoefficientsFormatInfo> formats = [] {
+    std::vector<CoefficientsFormatInfo> all;
+    for (const CoefficientsFormatLine& line : coefficients_format_table()) {
+      all.push_back(line.info);
+    }
+    return all;
+  }();
+  return formats;
+}
+
+const CoefficientsFormatInfo& coefficients_format_info(CoefficientsFormat format) {
+  return line_of(format).info;
+}
+
+std::vector<std::string> held_by(const CoefficientsFormatInfo& format) {
+  return words_of({{"meaning", format.meaning}, {"errors", format.errors}});
+}
+
+const char* to_string(CoefficientsFormat format) { return line_of(format).info.file.name.c_str(); }
+
 CoefficientsFormat parse_coefficients_format(const std::string& name) {
-  for (const auto format : {CoefficientsFormat::kShtools, CoefficientsFormat::kIcgem,
-                            CoefficientsFormat::kJson, CoefficientsFormat::kNpy}) {
-    if (name == to_string(format)) return format;
+  for (const CoefficientsFormatInfo& format : coefficients_formats()) {
+    if (format.format && name == format.file.name) return *format.format;
   }
-  throw Error(ErrorCode::kUnsupported, "unknown format of coefficients " + in_quotes(name) +
-                                           ": shtools, icgem, json and npy are known");
+  throw Error(ErrorCode::kUnsupported, "unknown format of coefficients " + in_quotes(name) + ": " +
+                                           listed(format_names(), "and") + " are known");
 }
 
 std::optional<CoefficientsFormat> coefficients_format_of(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  if (extension == ".sh" || extension == ".txt" || extension == ".shtools") {
-    return CoefficientsFormat::kShtools;
+  for (const CoefficientsFormatInfo& format : coefficients_formats()) {
+    if (format.format && extension_of(format.file, path) != nullptr) return format.format;
   }
-  if (extension == ".gfc" || extension == ".icgem") return CoefficientsFormat::kIcgem;
-  if (extension == ".json") return CoefficientsFormat::kJson;
-  if (extension == ".npy") return CoefficientsFormat::kNpy;
   return std::nullopt;
+}
+
+bool is_model_name(const std::filesystem::path& path) {
+  return std::ranges::any_of(coefficients_formats(), [&](const CoefficientsFormatInfo& format) {
+    return !format.format && extension_of(format.file, path) != nullptr;
+  });
 }
 
 bool looks_like_coefficients(std::span<const char> bytes) {
   std::string_view text(bytes.data(), bytes.size());
-  if (text.starts_with(kNpyMagic)) return true;
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
-  switch (detect_format(text)) {
-    case CoefficientsFormat::kJson:
-      return text.find("\"rholm-coefficients\"") != std::string_view::npos;
-    case CoefficientsFormat::kShtools:
-      return trimmed(text.substr(0, kHeaderBytes)).starts_with("# format: rholm-coefficients");
-    case CoefficientsFormat::kIcgem:
-    case CoefficientsFormat::kNpy:
-      return true;
-  }
-  return false;
+  const CoefficientsFormatLine& line = detect(text);
+  return line.is_surely != nullptr && line.is_surely(text);
 }
 
 CoefficientsFile parse_coefficients(std::span<const char> bytes, const std::string& name,
@@ -138,8 +128,9 @@ CoefficientsFile parse_coefficients(std::span<const char> bytes, const std::stri
   if (text.empty()) throw Error(ErrorCode::kInvalidInput, name + ": the file is empty");
 
   CoefficientsFile file;
-  file.format = detect_format(text);
-  ParsedCoefficients parsed = parse_as(file.format, text, name);
+  const CoefficientsFormatLine& format = detect(text);
+  file.format = *format.info.format;
+  ParsedCoefficients parsed = format.parse(text, name);
   check_coefficients(parsed.external, name);
   file.convention = settle_convention(parsed, options, file.assumed);
   Expansion& expansion = file.expansion;
@@ -170,30 +161,19 @@ void write_coefficients(const Expansion& expansion, const std::filesystem::path&
   const std::optional<CoefficientsFormat> format =
       options.format ? options.format : coefficients_format_of(path);
   if (!format) {
+    std::vector<std::string> ends;
+    for (const CoefficientsFormatInfo& known : coefficients_formats()) {
+      ends.push_back("." + known.file.extensions.front().name +
+                     (known.format ? "" : " (a model file)"));
+    }
     throw Error(ErrorCode::kUnsupported,
-                name +
-                    ": its name says no format of coefficients: end it in .h5 (a model file), .sh, "
-                    ".gfc, .json or .npy, or give the format");
+                name + ": its name says no format of coefficients: end it in " +
+                    listed(ends, "or") + ", or give the format");
   }
   check_expansion(expansion, name);
   const Coefficients external = to_convention(expansion.coefficients, options.convention);
   check_coefficients(external, name);  // the largest numbers may overflow with a factor above 1
-  std::string bytes;
-  switch (*format) {
-    case CoefficientsFormat::kShtools:
-      bytes = format_shtools(expansion, external, options.convention);
-      break;
-    case CoefficientsFormat::kIcgem:
-      bytes = format_icgem(expansion, external, options.convention);
-      break;
-    case CoefficientsFormat::kJson:
-      bytes = format_json(expansion, external, options.convention);
-      break;
-    case CoefficientsFormat::kNpy:
-      bytes = format_npy(external);
-      break;
-  }
-  write_file(path, bytes);
+  write_file(path, line_of(*format).write(expansion, external, options.convention));
 }
 
 }  // namespace rholm

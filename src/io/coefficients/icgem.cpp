@@ -146,6 +146,21 @@ Header parse_header(TextCursor& text, const std::string& name) {
 
 }  // namespace
 
+// Some line at the beginning starts with a word that only ICGEM files have there.
+bool looks_like_icgem(std::string_view bytes) {
+  bytes = bytes.substr(0, kHeaderBytes);
+  while (!bytes.empty()) {
+    const std::size_t length = std::min(bytes.find('\n'), bytes.size());
+    const std::string_view line = trimmed(bytes.substr(0, length));
+    for (const std::string_view word :
+         {"begin_of_head", "end_of_head", "product_type", "max_degree", "gfc ", "gfc\t"}) {
+      if (line.starts_with(word)) return true;
+    }
+    bytes.remove_prefix(std::min(length + 1, bytes.size()));
+  }
+  return false;
+}
+
 ParsedCoefficients parse_icgem(std::string_view bytes, const std::string& name) {
   TextCursor text{bytes};
   Header header = parse_header(text, name);

@@ -285,6 +285,15 @@ void append_rows(std::string& text, const Coefficients& external, bool sine) {
 
 }  // namespace
 
+bool looks_like_json(std::string_view bytes) {
+  const std::string_view text = trimmed(bytes.substr(0, kHeaderBytes));
+  return text.starts_with('{') || text.starts_with('[');
+}
+
+bool is_own_json(std::string_view bytes) {
+  return bytes.find(fmt::format("\"{}\"", kFormat)) != std::string_view::npos;
+}
+
 ParsedCoefficients parse_json(std::string_view bytes, const std::string& name) {
   Handler handler(name);
   nlohmann::json::sax_parse(bytes.begin(), bytes.end(), &handler);

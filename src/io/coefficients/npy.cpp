@@ -198,6 +198,8 @@ int degree_of(const std::vector<std::size_t>& shape, const std::string& name) {
 
 }  // namespace
 
+bool looks_like_npy(std::string_view bytes) { return bytes.starts_with(kMagic); }
+
 ParsedCoefficients parse_npy(std::string_view bytes, const std::string& name) {
   const Header header = HeaderParser(take_header(bytes, name), name).parse();
   const NumberLayout layout = parse_descr(header.descr, name);
@@ -224,7 +226,7 @@ ParsedCoefficients parse_npy(std::string_view bytes, const std::string& name) {
   return parsed;
 }
 
-std::string format_npy(const Coefficients& external) {
+std::string format_npy(const Expansion&, const Coefficients& external, const Convention&) {
   const int side = external.degree() + 1;
   std::string header =
       fmt::format("{{'descr': '<f8', 'fortran_order': False, 'shape': (2, {}, {}), }}", side, side);

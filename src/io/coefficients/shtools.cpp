@@ -51,6 +51,10 @@ void take_comment(const TextLine& line, State& state) {
 
 }  // namespace
 
+bool is_own_shtools(std::string_view bytes) {
+  return trimmed(bytes.substr(0, kHeaderBytes)).starts_with("# format: rholm-coefficients");
+}
+
 ParsedCoefficients parse_shtools(std::string_view bytes, const std::string& name) {
   State state;
   TextCursor text{bytes};

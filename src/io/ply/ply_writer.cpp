@@ -231,16 +231,18 @@ void put_text_triangles(const TriangleRange& triangles, OutputBuffer& out) {
 
 }  // namespace
 
-void format_ply(const ShapeView& shape, bool ascii, OutputBuffer& out) {
+std::vector<std::string> format_ply(const ShapeView& shape, const ShapeWriting& how,
+                                    OutputBuffer& out) {
   const std::vector<OutputColumn> columns = columns_of(shape);
-  put_header({shape.points.size(), shape.triangles.size(), shape.is_mesh}, columns, ascii, out);
-  if (ascii) {
+  put_header({shape.points.size(), shape.triangles.size(), shape.is_mesh}, columns, how.ascii, out);
+  if (how.ascii) {
     put_text_rows(columns, shape.points, out);
     put_text_triangles(shape.triangles, out);
   } else {
     put_binary_rows(columns, shape.points, out);
     put_binary_triangles(shape.triangles, out);
   }
+  return {};
 }
 
 void PlyPoints::put(const PointCloud& piece) {

@@ -39,7 +39,8 @@ void put_corner(std::uint32_t vertex, bool texture, bool normal, OutputBuffer& o
 
 }  // namespace
 
-void format_obj(const ShapeView& shape, OutputBuffer& out) {
+std::vector<std::string> format_obj(const ShapeView& shape, const ShapeWriting&,
+                                    OutputBuffer& out) {
   put_positions(shape, out);
   const auto texture = find_texture<ScalarRange>(shape.attributes);
   if (texture) {
@@ -65,6 +66,7 @@ void format_obj(const ShapeView& shape, OutputBuffer& out) {
     out.text("\n");
     out.rows(1);
   });
+  return {};
 }
 
 }  // namespace rholm

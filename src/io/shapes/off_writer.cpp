@@ -3,7 +3,8 @@
 
 namespace rholm {
 
-void format_off(const ShapeView& shape, OutputBuffer& out) {
+std::vector<std::string> format_off(const ShapeView& shape, const ShapeWriting&,
+                                    OutputBuffer& out) {
   const NormalRange normals(shape);
   std::vector<const ScalarRange*> colors;
   if (const auto group =
@@ -34,6 +35,7 @@ void format_off(const ShapeView& shape, OutputBuffer& out) {
     out.number(t[2], '\n');
     out.rows(1);
   });
+  return {};
 }
 
 }  // namespace rholm

@@ -5,51 +5,15 @@
 #include <cmath>
 #include <string_view>
 
+#include "base/plain_text.h"
 #include "io/file/atomic_file.h"
 #include "io/file/bytes.h"
-#include "io/shapes/plate_table.h"
-#include "io/shapes/shape_source.h"
-#include "io/shapes/shape_writers.h"
+#include "io/shapes/shape_formats.h"
 #include "io/shapes/xyz_columns.h"
 #include "rholm/error.h"
 
 namespace rholm {
 namespace {
-
-struct FormatEntry {
-  ShapeFormat format;
-  const char* name;
-  ShapeFile (*read)(const ShapeSource&);
-};
-constexpr std::array<FormatEntry, 5> kFormats = {{{ShapeFormat::kPly, "ply", read_ply},
-                                                  {ShapeFormat::kObj, "obj", read_obj},
-                                                  {ShapeFormat::kOff, "off", read_off},
-                                                  {ShapeFormat::kStl, "stl", read_stl},
-                                                  {ShapeFormat::kXyz, "xyz", read_xyz}}};
-
-const FormatEntry& entry(ShapeFormat format) {
-  return *std::find_if(kFormats.begin(), kFormats.end(),
-                       [format](const FormatEntry& e) { return e.format == format; });
-}
-
-std::string lower_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return extension.empty() ? extension : extension.substr(1);
-}
-
-std::optional<ShapeFormat> format_of_extension(const std::filesystem::path& path) {
-  const std::string extension = lower_extension(path);
-  for (const FormatEntry& e : kFormats) {
-    if (extension == e.name) return e.format;
-  }
-  for (const char* points : {"pwn", "txt", "csv", "asc", "pts"}) {
-    if (extension == points) return ShapeFormat::kXyz;
-  }
-  return std::nullopt;
-}
 
 // Names of formats that are often met and not read, by their first bytes.
 const char* foreign_format(std::span<const char> bytes) {
@@ -71,25 +35,60 @@ const char* foreign_format(std::span<const char> bytes) {
   return nullptr;
 }
 
+// The first format of the table that the content is told by in that way.
+const ShapeFormatLine* told(const ShapeSource& source, ToldBy by) {
+  for (const ShapeFormatLine& line : shape_format_table()) {
+    if (line.told_by == by && line.looks_like != nullptr && line.looks_like(source.bytes)) {
+      return &line;
+    }
+  }
+  return nullptr;
+}
+
+// "PLY, OBJ and points as XYZ or PWN can be read".
+std::string what_can_be_read() {
+  std::vector<std::string> meshes, points, coefficients;
+  for (const ShapeFormatInfo& format : shape_formats()) {
+    if (!format.file.read) continue;
+    if (format.faces) {
+      meshes.push_back(format.file.title);
+      continue;
+    }
+    for (const FileExtension& extension : format.file.extensions) {
+      points.push_back("." + extension.name);
+    }
+  }
+  for (const CoefficientsFormatInfo& format : coefficients_formats()) {
+    coefficients.push_back(format.file.title);
+  }
+  return "of shapes " + listed(meshes, "and") + ", and points as " + listed(points, "or") +
+         ", can be read; of coefficients " + listed(coefficients, "and");
+}
+
+// "PLY, OBJ or OFF": the formats of which that is true.
+std::string titles_of(bool ShapeFormatInfo::*holds) {
+  std::vector<std::string> titles;
+  for (const ShapeFormatInfo& format : shape_formats()) {
+    if (format.file.written && format.*holds) titles.push_back(format.file.title);
+  }
+  return listed(titles, "or");
+}
+
 // What cannot be mistaken comes first, then the name, then rows of numbers, which may be much else.
-ShapeFormat detect(const ShapeSource& source) {
-  if (looks_like_ply(source.bytes)) return ShapeFormat::kPly;
-  if (looks_like_stl(source.bytes)) return ShapeFormat::kStl;
-  if (looks_like_off(source.bytes)) return ShapeFormat::kOff;
+const ShapeFormatLine& detect(const ShapeSource& source) {
+  for (const ToldBy by : {ToldBy::kSignature, ToldBy::kFirstWord}) {
+    if (const ShapeFormatLine* line = told(source, by)) return *line;
+  }
   if (const char* foreign = foreign_format(source.bytes)) {
     throw Error(ErrorCode::kUnsupported, source.name + " is " + foreign);
   }
-  if (looks_like_obj(source.bytes)) return ShapeFormat::kObj;
-  if (const auto format = format_of_extension(source.name)) return *format;
-  if (may_be_stl(source.bytes)) return ShapeFormat::kStl;
-  if (looks_like_plate_table(source.bytes) || looks_like_xyz(source.bytes))
-    return ShapeFormat::kXyz;
-  throw Error(
-      ErrorCode::kUnsupported,
-      source.name +
-          " is in no known format: of shapes PLY, OBJ, OFF, STL and points as XYZ, PWN, PTS, "
-          "TXT or CSV can be read; of coefficients models (.h5), SHTOOLS, ICGEM, JSON and "
-          "NumPy");
+  if (const ShapeFormatLine* line = told(source, ToldBy::kLines)) return *line;
+  if (const auto format = shape_format_of(source.name)) return line_of(*format);
+  for (const ShapeFormatLine& line : shape_format_table()) {
+    if (line.may_be != nullptr && line.may_be(source.bytes)) return line;
+  }
+  throw Error(ErrorCode::kUnsupported,
+              source.name + " is in no known format: " + what_can_be_read());
 }
 
 void note_values_not_finite(ShapeFile& file) {
@@ -117,7 +116,12 @@ ShapeFile parse(std::span<const char> bytes, const std::string& name,
   const ShapeSource source(bytes, name, options, context, progress_from);
   if (source.bytes.empty()) source.fail("is empty");
   check_columns(options.columns);
-  ShapeFile file = entry(detect(source)).read(source);
+  const ShapeFormatLine& format = detect(source);
+  if (format.read == nullptr) {
+    throw Error(ErrorCode::kUnsupported,
+                name + ": " + format.info.file.title + " can be written, not read");
+  }
+  ShapeFile file = format.read(source);
   if (!options.columns.empty() && file.table.columns.empty()) {
     source.fail("is no table of points, and its columns cannot be said");
   }
@@ -135,14 +139,74 @@ std::vector<std::string> write(const Shape& shape, const std::filesystem::path& 
 
 }  // namespace
 
-const char* to_string(ShapeFormat format) { return entry(format).name; }
+const ShapeFormatLine& line_of(ShapeFormat format) {
+  const std::vector<ShapeFormatLine>& table = shape_format_table();
+  const auto found = std::find_if(table.begin(), table.end(), [&](const ShapeFormatLine& line) {
+    return line.info.format == format;
+  });
+  if (found != table.end()) return *found;
+  throw Error(ErrorCode::kUnsupported,
+              "no format of shapes has the number " + std::to_string(static_cast<int>(format)));
+}
+
+const std::vector<ShapeFormatInfo>& shape_formats() {
+  static const std::vector<ShapeFormatInfo> formats = [] {
+    std::vector<ShapeFormatInfo> all;
+    for (const ShapeFormatLine& line : shape_format_table()) all.push_back(line.info);
+    return all;
+  }();
+  return formats;
+}
+
+const ShapeFormatInfo& shape_format_info(ShapeFormat format) { return line_of(format).info; }
+
+std::vector<std::string> held_by(const ShapeFormatInfo& format) {
+  return words_of({{"faces", format.faces},
+                   {"points", format.points},
+                   {"normals", format.normals},
+                   {"colors", format.colors},
+                   {"alpha", format.alpha},
+                   {"texture", format.texture},
+                   {"any attributes", format.any_attributes},
+                   {"double precision", !format.single_precision}});
+}
+
+const char* to_string(ShapeFormat format) { return line_of(format).info.file.name.c_str(); }
 
 ShapeFormat parse_shape_format(const std::string& name) {
-  for (const FormatEntry& e : kFormats) {
-    if (name == e.name) return e.format;
+  std::vector<std::string> names;
+  for (const ShapeFormatInfo& format : shape_formats()) {
+    if (name == format.file.name) return format.format;
+    names.push_back(format.file.name);
   }
   throw Error(ErrorCode::kUnsupported,
-              in_quotes(name) + " is not a format of shapes: ply, obj, off, stl or xyz");
+              in_quotes(name) + " is not a format of shapes: " + listed(names, "or"));
+}
+
+std::optional<ShapeFormat> shape_format_of(const std::filesystem::path& path) {
+  for (const ShapeFormatInfo& format : shape_formats()) {
+    if (extension_of(format.file, path) != nullptr) return format.format;
+  }
+  return std::nullopt;
+}
+
+std::optional<bool> is_shape_file(std::span<const char> beginning, const std::string& name) {
+  const std::string_view head(beginning.data(), beginning.size());
+  for (const ShapeFormatLine& line : shape_format_table()) {
+    if (!line.mark.empty() && head.starts_with(line.mark)) return true;
+  }
+  if (looks_like_coefficients(beginning)) return false;
+  const auto is_own = [&](const FileFormat& format) {
+    const FileExtension* extension = extension_of(format, name);
+    return extension != nullptr && !extension->shared;
+  };
+  for (const ShapeFormatInfo& format : shape_formats()) {
+    if (is_own(format.file)) return true;
+  }
+  for (const CoefficientsFormatInfo& format : coefficients_formats()) {
+    if (is_own(format.file)) return false;
+  }
+  return std::nullopt;
 }
 
 ShapeFile read_shape(const std::filesystem::path& path, const ShapeReadOptions& options,
@@ -159,18 +223,39 @@ ShapeFile parse_shape(std::span<const char> bytes, const std::string& name,
 }
 
 ShapeFormat written_format(const std::filesystem::path& path, const ShapeWriteOptions& options) {
-  const std::optional<ShapeFormat> format =
-      options.format ? options.format : format_of_extension(path);
+  const std::optional<ShapeFormat> format = options.format ? options.format : shape_format_of(path);
   if (!format && path == "-") {
     throw Error(ErrorCode::kInvalidInput, "standard output has no extension: name the format");
   }
   if (!format) {
-    throw Error(ErrorCode::kUnsupported,
-                path.string() +
-                    ": the extension names no format; ply, obj, off, stl and xyz can be "
-                    "written");
+    std::vector<std::string> names;
+    for (const ShapeFormatInfo& known : shape_formats()) {
+      if (known.file.written) names.push_back(known.file.name);
+    }
+    throw Error(ErrorCode::kUnsupported, path.string() + ": the extension names no format; " +
+                                             listed(names, "and") + " can be written");
   }
   return *format;
+}
+
+std::vector<std::string> format_shape(const ShapeView& shape, ShapeFormat format,
+                                      const ShapeWriting& how, OutputBuffer& out) {
+  const ShapeFormatLine& line = line_of(format);
+  const std::string& title = line.info.file.title;
+  if (line.write == nullptr) {
+    throw Error(ErrorCode::kUnsupported, how.name + ": " + title + " can be read, not written");
+  }
+  if (!line.info.points && !shape.is_mesh) {
+    throw Error(ErrorCode::kUnsupported, how.name + ": " + title +
+                                             " holds triangles, not points; write " +
+                                             titles_of(&ShapeFormatInfo::points));
+  }
+  if (!line.info.faces && shape.triangles.size() > 0) {
+    throw Error(ErrorCode::kUnsupported, how.name + ": " + title +
+                                             " holds points, not triangles; write " +
+                                             titles_of(&ShapeFormatInfo::faces));
+  }
+  return line.write(shape, how, out);
 }
 
 std::vector<std::string> write_view(const ShapeView& shape, const std::filesystem::path& path,
@@ -179,7 +264,7 @@ std::vector<std::string> write_view(const ShapeView& shape, const std::filesyste
   AtomicFile file(path, context);
   OutputBuffer out(&file, shape.points.size() + shape.triangles.size(), context);
   std::vector<std::string> warnings =
-      format_shape(shape, format, options.ascii, path.string(), out);
+      format_shape(shape, format, {options.ascii, path.string()}, out);
   out.flush();
   file.commit();
   return warnings;

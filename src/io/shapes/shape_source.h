@@ -50,9 +50,10 @@ bool looks_like_ply(std::span<const char> bytes);
 bool looks_like_obj(std::span<const char> bytes);
 bool looks_like_off(std::span<const char> bytes);
 bool looks_like_stl(std::span<const char> bytes);
-bool looks_like_xyz(std::span<const char> bytes);
-// Whether bytes that nothing else is known of are binary STL with something behind the facets.
+// Whether bytes that nothing else is known of are binary STL with something behind the facets, or
+// a table of points or of plates.
 bool may_be_stl(std::span<const char> bytes);
+bool may_be_xyz(std::span<const char> bytes);
 
 // Throws InvalidInput "vertex 7 has a coordinate that is not a finite number" if one of the first n
 // vectors has; `first_number` is the number of the first.

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "io/file/scalar_bytes.h"
-#include "rholm/error.h"
+#include "rholm/formats.h"
 
 namespace rholm {
 namespace {
@@ -13,18 +13,18 @@ void add_group(const AttributeGroup<kSize, Attribute>& group, std::vector<const 
   if (group) to.insert(to.end(), group->begin(), group->end());
 }
 
-// Those that a format other than PLY writes.
-std::vector<const Attribute*> written(std::span<const Attribute> attributes, ShapeFormat format) {
+// Those that a format writes which has no room for all.
+std::vector<const Attribute*> written(std::span<const Attribute> attributes,
+                                      const ShapeFormatInfo& format) {
   std::vector<const Attribute*> kept;
-  if (format == ShapeFormat::kStl) return kept;
-  add_group(find_group<3, Attribute>(attributes, {"nx", "ny", "nz"}), kept);
-  if (format == ShapeFormat::kXyz) return kept;
-  add_group(find_group<3, Attribute>(attributes, {"red", "green", "blue"}), kept);
-  if (format == ShapeFormat::kOff) {
-    add_group(find_group<4, Attribute>(attributes, {"red", "green", "blue", "alpha"}), kept);
-  } else {
-    add_group(find_texture<Attribute>(attributes), kept);
+  if (format.normals) add_group(find_group<3, Attribute>(attributes, {"nx", "ny", "nz"}), kept);
+  if (format.colors) {
+    add_group(find_group<3, Attribute>(attributes, {"red", "green", "blue"}), kept);
   }
+  if (format.alpha) {
+    add_group(find_group<4, Attribute>(attributes, {"red", "green", "blue", "alpha"}), kept);
+  }
+  if (format.texture) add_group(find_texture<Attribute>(attributes), kept);
   return kept;
 }
 
@@ -51,8 +51,9 @@ void ScalarRange::load(std::size_t begin, std::size_t n, double* to) const {
 std::vector<std::string> attributes_left_out(std::span<const Attribute> attributes,
                                              ShapeFormat format) {
   std::vector<std::string> names;
-  if (format == ShapeFormat::kPly) return names;
-  const std::vector<const Attribute*> kept = written(attributes, format);
+  const ShapeFormatInfo& info = shape_format_info(format);
+  if (info.any_attributes) return names;
+  const std::vector<const Attribute*> kept = written(attributes, info);
   for (const Attribute& a : attributes) {
     if (std::find(kept.begin(), kept.end(), &a) == kept.end()) names.push_back(a.name);
   }
@@ -77,35 +78,6 @@ ShapeView shape_view_of(const PointCloud& cloud) {
 
 NormalRange::NormalRange(const ShapeView& shape) : vectors_(shape.normals) {
   if (vectors_.empty()) scalars_ = find_group<3, ScalarRange>(shape.attributes, {"nx", "ny", "nz"});
-}
-
-std::vector<std::string> format_shape(const ShapeView& shape, ShapeFormat format, bool ascii,
-                                      const std::string& name, OutputBuffer& out) {
-  if (format == ShapeFormat::kStl && !shape.is_mesh) {
-    throw Error(ErrorCode::kUnsupported,
-                name + ": STL holds facets, not points; write PLY, OBJ, OFF or XYZ");
-  }
-  if (format == ShapeFormat::kXyz && shape.triangles.size() > 0) {
-    throw Error(ErrorCode::kUnsupported,
-                name + ": XYZ holds points, not triangles; write PLY, OBJ, OFF or STL");
-  }
-  switch (format) {
-    case ShapeFormat::kPly:
-      format_ply(shape, ascii, out);
-      break;
-    case ShapeFormat::kObj:
-      format_obj(shape, out);
-      break;
-    case ShapeFormat::kOff:
-      format_off(shape, out);
-      break;
-    case ShapeFormat::kStl:
-      return format_stl(shape, ascii, name, out);
-    case ShapeFormat::kXyz:
-      format_xyz(shape, out);
-      break;
-  }
-  return {};
 }
 
 }  // namespace rholm

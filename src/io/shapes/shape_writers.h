@@ -117,10 +117,19 @@ struct ShapeView {
 ShapeView shape_view_of(const Mesh& mesh);
 ShapeView shape_view_of(const PointCloud& cloud);
 
+// How a writer of shapes is asked.
+struct ShapeWriting {
+  bool ascii = false;     // text where the format has both
+  std::string name = {};  // of the file, for messages
+};
+// Writes a valid shape that the format can hold, and returns warnings as write_shape().
+using ShapeFormatter = std::vector<std::string>(const ShapeView& shape, const ShapeWriting& how,
+                                                OutputBuffer& out);
+
 // Writes a valid shape, and returns warnings as write_shape(). Throws Unsupported if the format
 // cannot hold it, InvalidInput if a coordinate does not fit; `name` serves messages.
-std::vector<std::string> format_shape(const ShapeView& shape, ShapeFormat format, bool ascii,
-                                      const std::string& name, OutputBuffer& out);
+std::vector<std::string> format_shape(const ShapeView& shape, ShapeFormat format,
+                                      const ShapeWriting& how, OutputBuffer& out);
 
 // What the options or the extension say. Throws InvalidInput for "-" without a format, Unsupported
 // for an extension that names none.
@@ -130,12 +139,7 @@ ShapeFormat written_format(const std::filesystem::path& path, const ShapeWriteOp
 std::vector<std::string> write_view(const ShapeView& shape, const std::filesystem::path& path,
                                     const ShapeWriteOptions& options, const Context& context);
 
-void format_ply(const ShapeView& shape, bool ascii, OutputBuffer& out);
-void format_obj(const ShapeView& shape, OutputBuffer& out);
-void format_off(const ShapeView& shape, OutputBuffer& out);
-std::vector<std::string> format_stl(const ShapeView& shape, bool ascii, const std::string& name,
-                                    OutputBuffer& out);
-void format_xyz(const ShapeView& shape, OutputBuffer& out);
+ShapeFormatter format_ply, format_obj, format_off, format_stl, format_xyz;
 
 // Points that come a piece at a time, all with normals or none, and with the same attributes, whose
 // types hold their values. What is written is what format_ply() writes of all of them.

@@ -90,14 +90,14 @@ void put_ascii(const ShapeView& shape, OutputBuffer& out) {
 
 }  // namespace
 
-std::vector<std::string> format_stl(const ShapeView& shape, bool ascii, const std::string& name,
+std::vector<std::string> format_stl(const ShapeView& shape, const ShapeWriting& how,
                                     OutputBuffer& out) {
-  if (!ascii) check_range(shape, name);
+  if (!how.ascii) check_range(shape, how.name);
   if (shape.triangles.size() > std::numeric_limits<std::uint32_t>::max()) {
-    throw Error(ErrorCode::kUnsupported, name + ": STL holds at most 4294967295 facets, not " +
+    throw Error(ErrorCode::kUnsupported, how.name + ": STL holds at most 4294967295 facets, not " +
                                              std::to_string(shape.triangles.size()));
   }
-  if (!ascii) return put_binary(shape, out);
+  if (!how.ascii) return put_binary(shape, out);
   put_ascii(shape, out);
   return {};
 }

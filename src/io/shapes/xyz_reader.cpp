@@ -164,7 +164,8 @@ ShapeFile read_xyz(const ShapeSource& source) {
   return file;
 }
 
-bool looks_like_xyz(std::span<const char> bytes) {
+bool may_be_xyz(std::span<const char> bytes) {
+  if (looks_like_plate_table(bytes)) return true;
   const TableHeader header = look_at_table(bytes, true);
   if (!header.names.empty() && !has_position(header.names)) return false;
   const TellingRows telling = telling_rows(bytes, true, header);

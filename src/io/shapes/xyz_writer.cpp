@@ -17,7 +17,8 @@ void put_xyz_rows(const ShapeView& shape, OutputBuffer& out) {
   });
 }
 
-void format_xyz(const ShapeView& shape, OutputBuffer& out) {
+std::vector<std::string> format_xyz(const ShapeView& shape, const ShapeWriting&,
+                                    OutputBuffer& out) {
   const NormalRange normals(shape);
   XyzNames names;
   if (!normals.empty()) {
@@ -25,6 +26,7 @@ void format_xyz(const ShapeView& shape, OutputBuffer& out) {
   }
   put_xyz_header(!normals.empty() && names.are_needed(), out);
   put_xyz_rows(shape, out);
+  return {};
 }
 
 }  // namespace rholm

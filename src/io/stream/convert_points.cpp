@@ -3,12 +3,14 @@
 #include <cmath>
 #include <utility>
 
+#include "base/plain_text.h"
 #include "io/file/atomic_file.h"
 #include "io/file/output_buffer.h"
 #include "io/shapes/shape_source.h"
 #include "io/shapes/shape_writers.h"
 #include "io/shapes/xyz_columns.h"
 #include "rholm/error.h"
+#include "rholm/formats.h"
 #include "rholm/point_stream.h"
 
 namespace rholm {
@@ -72,10 +74,14 @@ ConvertedPoints convert_points(const std::filesystem::path& from, const std::fil
                                const ShapeWriteOptions& options, const Context& context,
                                const std::string& columns) {
   const ShapeFormat format = written_format(to, options);
-  if (format != ShapeFormat::kPly && format != ShapeFormat::kXyz) {
-    throw Error(ErrorCode::kUnsupported,
-                std::string("points are written a piece at a time as ply and xyz only, not as ") +
-                    to_string(format));
+  if (!shape_format_info(format).in_pieces) {
+    std::vector<std::string> names;
+    for (const ShapeFormatInfo& known : shape_formats()) {
+      if (known.in_pieces) names.push_back(known.file.name);
+    }
+    throw Error(ErrorCode::kUnsupported, "points are written a piece at a time as " +
+                                             listed(names, "and") + " only, not as " +
+                                             to_string(format));
   }
   std::optional<Ahead> ahead;
   for (;;) {

@@ -10,6 +10,7 @@
 #include "io/ply/ply_header.h"
 #include "io/ply/ply_vertices.h"
 #include "io/shapes/plate_table.h"
+#include "io/shapes/shape_formats.h"
 #include "io/shapes/shape_source.h"
 #include "io/shapes/xyz_columns.h"
 #include "io/shapes/xyz_reader.h"
@@ -229,8 +230,11 @@ class PointStream::Reader {
     window_.at_least(kTellingBytes + kByteOrderMark, {});
     const ShapeSource whole = source(window_.bytes());
     // Other formats are told from this one as read_shape() does.
-    if (looks_like_stl(whole.bytes) || looks_like_off(whole.bytes) || looks_like_obj(whole.bytes) ||
-        looks_like_plate_table(whole.bytes)) {
+    const bool is_other =
+        std::ranges::any_of(shape_format_table(), [&](const ShapeFormatLine& line) {
+          return line.looks_like != nullptr && line.looks_like(whole.bytes);
+        });
+    if (is_other || looks_like_plate_table(whole.bytes)) {
       refuse(window_.name(),
              "only PLY and points as lines of numbers can be read a piece at a time");
     }

@@ -1,0 +1,35 @@
+// The table of formats of shapes. A new format is a source file with its reader and writer,
+// declared in shape_source.h and shape_writers.h, and a line of the table in shape_formats.cpp.
+// Layer: io.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/file/format_lists.h"
+#include "io/shapes/shape_source.h"
+#include "io/shapes/shape_writers.h"
+#include "rholm/formats.h"
+
+namespace rholm {
+
+// A line of the table.
+struct ShapeFormatLine {
+  ShapeFormatInfo info = {};
+  std::string mark = {};  // with which all its files begin, or most of them; may be empty
+  ToldBy told_by = ToldBy::kNothing;
+  bool (*looks_like)(std::span<const char> bytes) = nullptr;  // for all but kNothing
+  // Asked where neither the content of any format nor the name of the file told.
+  bool (*may_be)(std::span<const char> bytes) = nullptr;
+  ShapeFile (*read)(const ShapeSource& source) = nullptr;  // null: cannot be read
+  ShapeFormatter* write = nullptr;                         // null: cannot be written
+};
+
+// The lines as they are written down, in the order in which people see them.
+std::vector<ShapeFormatLine> shape_format_lines();
+// The same, made once; info.file.read and .written are set.
+const std::vector<ShapeFormatLine>& shape_format_table();
+const ShapeFormatLine& line_of(ShapeFormat format);
+
+}  // namespace rholm
