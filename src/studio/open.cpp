@@ -1,12 +1,11 @@
 #include "studio/open.h"
 
-#include <algorithm>
-#include <cctype>
 #include <functional>
 #include <optional>
 
 #include "rholm/coefficients_io.h"
 #include "rholm/error.h"
+#include "rholm/formats.h"
 #include "rholm/model.h"
 #include "rholm/shape_io.h"
 #include "studio/names.h"
@@ -15,12 +14,6 @@ namespace rholm::studio {
 namespace {
 
 constexpr std::size_t kHead = 4096;  // bytes; enough for every signature
-
-std::string ending_of(const std::string& name) {
-  std::string ending = std::filesystem::path(name).extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return ending;
-}
 
 // Throws what `read` throws, with the name that people know in place of the file's.
 void read_as(const std::string& name, const std::filesystem::path& path,
@@ -47,21 +40,6 @@ Item open_model(std::string_view bytes, const std::string& name, Scratch& scratc
   });
   if (item->atlas) item->atlas_file = std::make_shared<const std::string>(bytes);
   return *std::move(item);
-}
-
-// By the first bytes; by the name where they do not tell. Text that says nothing may be either:
-// none.
-std::optional<bool> is_shape(std::string_view bytes, const std::string& name) {
-  for (const char* mark : {"ply", "OFF", "solid"}) {
-    if (bytes.starts_with(mark)) return true;
-  }
-  if (looks_like_coefficients(bytes.substr(0, kHead))) return false;
-  const std::string ending = ending_of(name);
-  for (const char* shape : {".ply", ".obj", ".off", ".stl", ".xyz", ".pwn"}) {
-    if (ending == shape) return true;
-  }
-  if (ending != ".txt" && coefficients_format_of("x" + ending)) return false;
-  return std::nullopt;
 }
 
 TableColumns printable(TableColumns told) {
@@ -101,7 +79,7 @@ Item open_coefficients(std::string_view bytes, const std::string& name, const Co
 }
 
 Item open_text(std::string_view bytes, const std::string& name, const Context& context) {
-  const std::optional<bool> shape = is_shape(bytes, name);
+  const std::optional<bool> shape = is_shape_file(bytes.substr(0, kHead), name);
   if (shape) {
     return *shape ? open_shape(bytes, name, context) : open_coefficients(bytes, name, context);
   }

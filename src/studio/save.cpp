@@ -1,8 +1,9 @@
 // Items as files: the library writes them, as it does for the program.
-#include <algorithm>
 #include <charconv>
+#include <optional>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "rholm/coefficients_io.h"
 #include "rholm/file.h"
@@ -11,27 +12,33 @@
 #include "rholm/report.h"
 #include "rholm/shape_io.h"
 #include "studio/answers.h"
+#include "studio/items/saved_formats.h"
 
 namespace rholm::studio {
 namespace {
 
 constexpr const char* kBytes = "application/octet-stream";
 
-bool is_one_of(const std::string& format, const std::vector<std::string>& list) {
-  return std::find(list.begin(), list.end(), format) != list.end();
+// By its name, or by an extension of its files.
+struct Wanted {
+  SavedFormat format;
+  std::string ending;  // with the dot
+};
+std::optional<Wanted> wanted_format(const Item& item, const std::string& wanted) {
+  for (const SavedFormat& format : saved_formats(item)) {
+    const std::vector<FileExtension>& extensions = format.file->extensions;
+    if (wanted == format.file->name) return Wanted{format, "." + extensions.front().name};
+    for (const FileExtension& extension : extensions) {
+      if (wanted == extension.name && !extension.read_only) return Wanted{format, "." + wanted};
+    }
+  }
+  return std::nullopt;
 }
 
-// "shtools" is written as .sh, "icgem" as .gfc; the others are called as they end.
-std::string ending_of(const std::string& format) {
-  if (format == "shtools") return ".sh";
-  if (format == "icgem") return ".gfc";
-  return "." + format;
-}
-
-std::string shape_bytes(const Item& item, const std::string& format, Scratch& scratch,
+std::string shape_bytes(const Item& item, const Wanted& wanted, Scratch& scratch,
                         const Context& context) {
-  const ShapeWriteOptions options = {.format = parse_shape_format(format)};
-  return scratch.written("." + format, [&](const std::filesystem::path& path) {
+  const ShapeWriteOptions options = {.format = parse_shape_format(wanted.format.file->name)};
+  return scratch.written(wanted.ending, [&](const std::filesystem::path& path) {
     if (item.points) {
       write_shape(*item.points, path, options, context);
     } else {
@@ -40,14 +47,13 @@ std::string shape_bytes(const Item& item, const std::string& format, Scratch& sc
   });
 }
 
-std::string coefficients_bytes(const Item& item, const std::string& format, Scratch& scratch) {
+std::string coefficients_bytes(const Item& item, const Wanted& wanted, Scratch& scratch) {
   if (item.atlas) return *item.atlas_file;
-  return scratch.written(ending_of(format), [&](const std::filesystem::path& path) {
+  return scratch.written(wanted.ending, [&](const std::filesystem::path& path) {
     const Expansion expansion = expansion_of(*item.model, item.look);
-    if (format == "h5") return write_model(expansion, path);
-    const CoefficientsFormat written =
-        format == "txt" ? CoefficientsFormat::kShtools : parse_coefficients_format(format);
-    write_coefficients(expansion, path, {.format = written});
+    const std::string& format = wanted.format.file->name;
+    if (is_model_name(path)) return write_model(expansion, path);
+    write_coefficients(expansion, path, {.format = parse_coefficients_format(format)});
   });
 }
 
@@ -98,21 +104,23 @@ std::string download_name(const Item& item, const std::string& ending) {
 
 Response save_answer(const Item& item, const Recipe& recipe, const std::string& format,
                      const std::string& size, Scratch& scratch, const Context& context) {
-  Response response = {.type = kBytes, .download = download_name(item, ending_of(format))};
-  if (is_one_of(format, {"ply", "obj", "off"}) || format == (item.points ? "xyz" : "stl")) {
-    response.body = shape_bytes(item, format, scratch, context);
+  const std::optional<Wanted> wanted = wanted_format(item, format);
+  const std::string ending = wanted ? wanted->ending : "." + format;
+  Response response = {.type = kBytes, .download = download_name(item, ending)};
+  if (wanted) {
+    response.body = wanted->format.is_shape ? shape_bytes(item, *wanted, scratch, context)
+                                            : coefficients_bytes(item, *wanted, scratch);
   } else if (format == "png") {
     response.type = "image/png";
     response.body = picture_bytes(item, size, context);
   } else if (format == "html") {
     response.type = "text/html";
     response.body = report_bytes(item, recipe, context);
-  } else if ((item.atlas && format == "h5") ||
-             (item.model && is_one_of(format, {"h5", "json", "npy", "shtools", "icgem", "txt"}))) {
-    response.body = coefficients_bytes(item, format, scratch);
   } else {
-    throw bad_request(
-        fmt::format("{} ({}) is not saved as '{}'", item.name, to_string(item.kind), format));
+    std::vector<std::string> names;
+    for (const SavedFormat& known : saved_formats(item)) names.push_back(known.file->name);
+    throw bad_request(fmt::format("{} ({}) is not saved as '{}': {}, png or html", item.name,
+                                  to_string(item.kind), format, fmt::join(names, ", ")));
   }
   return response;
 }

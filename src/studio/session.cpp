@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "rholm/error.h"
+#include "rholm/formats.h"
 #include "rholm/version.h"
 #include "studio/answers.h"
 #include "studio/names.h"
@@ -23,6 +24,32 @@ constexpr std::size_t kMaxPastBytes = std::size_t{2} << 30;  // chosen: what a l
 Json recipe_json(const Recipe& recipe) {
   return {{"shell", fmt::format("{}", fmt::join(recipe.shell, "\n"))},
           {"python", "import rholm\n" + fmt::format("{}", fmt::join(recipe.python, "\n"))}};
+}
+
+// The formats of files that can be opened, and the kinds of items that come of them.
+Json opened_json() {
+  Json opened = Json::array();
+  const auto add = [&](const FileFormat& format, const std::vector<const char*>& kinds) {
+    if (!format.read) return;
+    Json extensions = Json::array();
+    for (const FileExtension& extension : format.extensions) extensions.push_back(extension.name);
+    opened.push_back({{"format", format.name},
+                      {"title", format.title},
+                      {"extensions", std::move(extensions)},
+                      {"kinds", kinds}});
+  };
+  for (const ShapeFormatInfo& format : shape_formats()) {
+    std::vector<const char*> kinds;
+    if (format.faces) kinds.push_back(to_string(Kind::kMesh));
+    if (format.points) kinds.push_back(to_string(Kind::kPoints));
+    add(format.file, kinds);
+  }
+  for (const CoefficientsFormatInfo& format : coefficients_formats()) {
+    std::vector<const char*> kinds = {to_string(Kind::kExpansion)};
+    if (!format.format) kinds.push_back(to_string(Kind::kAtlas));
+    add(format.file, kinds);
+  }
+  return opened;
 }
 
 // What a document has beyond another one, put into a third.
@@ -92,6 +119,7 @@ Json Session::state_locked() const {
   return {{"version", kVersion},
           {"session", id_},
           {"max_upload", max_upload_},
+          {"opens", opened_json()},
           {"items", std::move(items)},
           {"undo", past_.empty() ? Json(nullptr) : Json(past_.back().label)},
           {"redo", future_.empty() ? Json(nullptr) : Json(future_.back().label)},

@@ -59,6 +59,22 @@ export interface Item {
   placed?: string | null; // how it was laid on another one, for people
   atlas?: ItemAtlas | null;
   look: { degree: number; gains: number[] | null } | null;
+  saved_as: SavedFormat[];
+}
+
+// A format that an item can be saved in; its files end in `extension`.
+export interface SavedFormat {
+  format: string;
+  label: string;
+  extension: string;
+}
+
+// A format of files that can be opened, and what comes of them.
+export interface OpenedFormat {
+  format: string;
+  title: string;
+  extensions: string[];
+  kinds: Kind[];
 }
 
 export interface Job {
@@ -75,6 +91,7 @@ export interface State {
   version: string;
   session: string;
   max_upload: number; // bytes of a file
+  opens: OpenedFormat[];
   items: Item[];
   undo: string | null;
   redo: string | null;

@@ -3,6 +3,7 @@
 
 #include "studio/items/errors.h"
 #include "studio/items/item.h"
+#include "studio/items/saved_formats.h"
 
 namespace rholm::studio {
 namespace {
@@ -70,7 +71,36 @@ Json atlas_json(const Item& item) {
   return json;
 }
 
+Json saved_json(const Item& item) {
+  Json saved = Json::array();
+  for (const SavedFormat& format : saved_formats(item)) {
+    saved.push_back({{"format", format.file->name},
+                     {"label", format.label},
+                     {"extension", format.file->extensions.front().name}});
+  }
+  return saved;
+}
+
 }  // namespace
+
+std::vector<SavedFormat> saved_formats(const Item& item) {
+  std::vector<SavedFormat> shapes, coefficients;
+  for (const ShapeFormatInfo& format : shape_formats()) {
+    if (!format.file.written || !(item.points ? format.points : format.faces)) continue;
+    shapes.push_back({.file = &format.file,
+                      .label = (item.points ? "Points, " : "Mesh, ") + format.file.title,
+                      .is_shape = true});
+  }
+  for (const CoefficientsFormatInfo& format : coefficients_formats()) {
+    if (!format.file.written || !(item.model || (item.atlas && !format.format))) continue;
+    coefficients.push_back({.file = &format.file,
+                            .label = (format.format ? "Coefficients, " : "") + format.file.title});
+  }
+  std::vector<SavedFormat>& first = item.atlas ? coefficients : shapes;
+  const std::vector<SavedFormat>& second = item.atlas ? shapes : coefficients;
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
 
 Json json_of(const Item& item) {
   const std::vector<Vec3>& at = item.points ? item.points->points : item.shown->vertices;
@@ -95,6 +125,7 @@ Json json_of(const Item& item) {
                {"caps", item.caps},
                {"placed", item.placed.empty() ? Json(nullptr) : Json(item.placed)},
                {"atlas", item.atlas ? atlas_json(item) : Json(nullptr)},
+               {"saved_as", saved_json(item)},
                {"look", nullptr}};
   if (item.model) {
     json["look"] = {{"degree", item.look.degree},

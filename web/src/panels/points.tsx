@@ -2,7 +2,7 @@ import { signal } from "@preact/signals";
 import { step } from "../actions";
 import { Button } from "../button";
 import type { Item } from "../protocol";
-import { item, items } from "../state";
+import { item, items, studio } from "../state";
 import { Check, Hint, Select, Slider } from "../widgets";
 
 const holes = signal<"close" | "keep">("close");
@@ -108,12 +108,16 @@ export function PointsPanel() {
   const one = item.value;
   if (one?.kind === "points") return <Cloud one={one} />;
   const cloud = items.value.some(({ kind }) => kind === "points");
+  const extensions = (studio.value?.opens ?? [])
+    .filter(({ kinds }) => kinds.includes("points"))
+    .flatMap((known) => known.extensions.map((extension) => extension.toUpperCase()))
+    .join(", ");
   return (
     <>
       <Hint>
         {cloud
           ? "Choose the points in the list to make a surface of them."
-          : "Open points (PLY, XYZ, PWN, CSV) to make a surface of them."}
+          : `Open points (${extensions}) to make a surface of them.`}
       </Hint>
       {one && one.faces > 0 && <Simplify one={one} />}
     </>

@@ -2,38 +2,10 @@ import { signal, type Signal } from "@preact/signals";
 import { fail, offer, saveAs, saveSession } from "../actions";
 import { Button } from "../button";
 import { stem } from "../format";
-import type { Item, Kind } from "../protocol";
+import type { Item } from "../protocol";
 import { theView } from "../show";
 import { item, studio } from "../state";
 import { Copy, Hint, Select, Slider } from "../widgets";
-
-type Format = readonly [format: string, label: string];
-const meshes: readonly Format[] = [
-  ["ply", "Mesh, PLY"],
-  ["obj", "Mesh, OBJ"],
-  ["off", "Mesh, OFF"],
-  ["stl", "Mesh, STL"],
-];
-const coefficients: readonly Format[] = [
-  ["h5", "Model (HDF5)"],
-  ["json", "Coefficients, JSON"],
-  ["npy", "Coefficients, NumPy"],
-  ["shtools", "Coefficients, SHTOOLS"],
-  ["icgem", "Coefficients, ICGEM"],
-];
-// The ending of a file's name where it is not the format's.
-const endings: Record<string, string> = { shtools: "sh", icgem: "gfc" };
-
-export function formatsOf(kind: Kind, expanded: boolean): readonly Format[] {
-  if (kind === "points") {
-    return [
-      ["ply", "Points, PLY"],
-      ["xyz", "Points, XYZ"],
-    ];
-  }
-  const model: readonly Format[] = [["h5", "Model (HDF5)"]];
-  return kind === "atlas" ? [...model, ...meshes] : [...meshes, ...(expanded ? coefficients : [])];
-}
 
 const format = signal(""); // as chosen; else the first one that the item has
 const width = signal(1600);
@@ -41,13 +13,19 @@ const height = signal(1200);
 const mostPixels = 16_384; // chosen: what browsers take as a canvas
 
 function SaveShape({ one }: { one: Item }) {
-  const formats = formatsOf(one.kind, one.expansion !== null);
-  const chosen = formats.find(([key]) => key === format.value)?.[0] ?? formats[0]?.[0] ?? "ply";
-  const name = `${stem(one.name)}.${endings[chosen] ?? chosen}`;
+  const formats = one.saved_as;
+  const chosen = formats.find((known) => known.format === format.value) ?? formats[0];
+  if (!chosen) return null;
+  const name = `${stem(one.name)}.${chosen.extension}`;
   return (
     <>
-      <Select label="Format" value={chosen} options={formats} onChange={(value) => (format.value = value)} />
-      <Button main onClick={() => saveAs(`save?item=${one.id}&format=${chosen}`, name, [one])}>
+      <Select
+        label="Format"
+        value={chosen.format}
+        options={formats.map((known) => [known.format, known.label] as const)}
+        onChange={(value) => (format.value = value)}
+      />
+      <Button main onClick={() => saveAs(`save?item=${one.id}&format=${chosen.format}`, name, [one])}>
         Save {name}
       </Button>
     </>
