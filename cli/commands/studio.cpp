@@ -16,7 +16,7 @@
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/json_text.h"
 #include "cli/terminal/session.h"
-#include "rholm/error.h"
+#include "rholm/error_info.h"
 #include "rholm/studio.h"
 
 namespace rholm::cli {
@@ -36,12 +36,12 @@ struct Options {
   const Json error = Json::parse(answer.body).at("error");
   const std::string code = error.at("code").get<std::string>();
   const std::string message = error.at("message").get<std::string>();
-  throw Error(
-      code == "io"              ? ErrorCode::kIo
-      : code == "out_of_memory" ? ErrorCode::kOutOfMemory
-      : code == "unsupported"   ? ErrorCode::kUnsupported
-                                : ErrorCode::kInvalidInput,
-      message.find(path) == std::string::npos ? display_name(path) + ": " + message : message);
+  ErrorCode kind = ErrorCode::kInvalidInput;
+  for (const ErrorInfo& info : error_infos()) {
+    if (code == snake_case_name(info.code)) kind = info.code;
+  }
+  throw Error(kind, message.find(path) == std::string::npos ? display_name(path) + ": " + message
+                                                            : message);
 }
 
 // The first page begins with them.

@@ -11,26 +11,14 @@
 #include "cli/terminal/freed_memory.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/session.h"
-#include "rholm/error.h"
+#include "rholm/error_info.h"
 
 namespace rholm::cli {
 namespace {
 
 int exit_code_of(ErrorCode code) {
-  switch (code) {
-    case ErrorCode::kIo:
-    case ErrorCode::kOutOfMemory:
-      return kFailure;
-    case ErrorCode::kInvalidInput:
-    case ErrorCode::kUnsupported:
-    case ErrorCode::kNotStarShaped:
-      return kRefused;
-    case ErrorCode::kNotConverged:
-      return kNotConverged;
-    case ErrorCode::kCancelled:
-      return 128 + interrupting_signal();
-  }
-  return kFailure;
+  const int exit_code = error_info(code).exit_code;
+  return code == ErrorCode::kCancelled ? exit_code + interrupting_signal() : exit_code;
 }
 
 }  // namespace

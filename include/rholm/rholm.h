@@ -14,6 +14,7 @@
 #include "rholm/context.h"
 #include "rholm/descriptors.h"
 #include "rholm/error.h"
+#include "rholm/error_info.h"
 #include "rholm/fields.h"
 #include "rholm/file.h"
 #include "rholm/filter.h"

@@ -1,25 +1,50 @@
 #include "rholm/error.h"
 
-namespace rholm {
+#include <algorithm>
+#include <array>
 
-const char* to_string(ErrorCode code) {
-  switch (code) {
-    case ErrorCode::kInvalidInput:
-      return "InvalidInput";
-    case ErrorCode::kIo:
-      return "Io";
-    case ErrorCode::kUnsupported:
-      return "Unsupported";
-    case ErrorCode::kNotStarShaped:
-      return "NotStarShaped";
-    case ErrorCode::kOutOfMemory:
-      return "OutOfMemory";
-    case ErrorCode::kNotConverged:
-      return "NotConverged";
-    case ErrorCode::kCancelled:
-      return "Cancelled";
+#include "rholm/error_info.h"
+
+namespace rholm {
+namespace {
+
+constexpr std::array kErrors = {
+    ErrorInfo{ErrorCode::kInvalidInput, "InvalidInput", 3, "InvalidInputError", "ValueError",
+              "The data cannot mean what was asked: a malformed file, NaN, an open mesh, a number "
+              "out of range."},
+    ErrorInfo{ErrorCode::kIo, "Io", 1, "IoError", "OSError",
+              "The operating system refused to read or write."},
+    ErrorInfo{ErrorCode::kUnsupported, "Unsupported", 3, "UnsupportedError", "",
+              "Well-formed, but a variant that is not handled."},
+    ErrorInfo{ErrorCode::kNotStarShaped, "NotStarShaped", 3, "NotStarShapedError",
+              "InvalidInputError",
+              "The surface is not star-shaped from any, or the given, centre."},
+    ErrorInfo{ErrorCode::kOutOfMemory, "OutOfMemory", 1, "OutOfMemoryError", "MemoryError",
+              "More memory than allowed would be needed."},
+    ErrorInfo{ErrorCode::kNotConverged, "NotConverged", 4, "NotConvergedError", "ArithmeticError",
+              "A tolerance was not reached within the limits."},
+    ErrorInfo{ErrorCode::kCancelled, "Cancelled", 128, "CancelledError", "",
+              "The progress callback asked to stop."}};
+
+}  // namespace
+
+std::span<const ErrorInfo> error_infos() { return kErrors; }
+
+const ErrorInfo& error_info(ErrorCode code) {
+  const auto found = std::find_if(kErrors.begin(), kErrors.end(),
+                                  [&](const ErrorInfo& info) { return info.code == code; });
+  return found == kErrors.end() ? kErrors.front() : *found;
+}
+
+const char* to_string(ErrorCode code) { return error_info(code).name; }
+
+std::string snake_case_name(ErrorCode code) {
+  std::string name;
+  for (const char c : std::string(to_string(code))) {
+    if (c >= 'A' && c <= 'Z' && !name.empty()) name += '_';
+    name += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   }
-  return "Unknown";
+  return name;
 }
 
 }  // namespace rholm

@@ -8,7 +8,7 @@
 
 #include "base/large_vector.h"
 #include "rholm/context.h"
-#include "rholm/error.h"
+#include "rholm/error_info.h"
 #include "studio/answers.h"
 #include "studio/sessions.h"
 
@@ -47,16 +47,6 @@ namespace {
 
 StudioResponse error_response(int status, const std::string& code, const std::string& message) {
   return studio::json_response({{"error", {{"code", code}, {"message", message}}}}, status);
-}
-
-// "invalid_input" of "InvalidInput".
-std::string code_name(ErrorCode code) {
-  std::string name;
-  for (const char c : std::string(to_string(code))) {
-    if (c >= 'A' && c <= 'Z' && !name.empty()) name += '_';
-    name += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  }
-  return name;
 }
 
 int number_in(const std::string& text) {
@@ -156,7 +146,7 @@ StudioResponse Studio::handle(const StudioRequest& request) {
   } catch (const Refusal& refusal) {
     return error_response(refusal.status(), refusal.code(), refusal.what());
   } catch (const Error& error) {
-    return error_response(422, code_name(error.code()), error.what());
+    return error_response(422, snake_case_name(error.code()), error.what());
   } catch (const std::bad_alloc&) {
     return error_response(422, "out_of_memory", "there is not enough memory for this");
   } catch (const std::exception& error) {
