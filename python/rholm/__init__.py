@@ -129,6 +129,7 @@ from ._filters import (
     overshoot,
     sharpened,
 )
+from ._formats import FileFormat, coefficients_formats, shape_formats
 from ._model_files import (
     CoefficientsFile,
     coefficients_format_of,
@@ -291,6 +292,7 @@ __all__ = [
     "ErrorStrengths",
     "Expansion",
     "FastReport",
+    "FileFormat",
     "GravityField",
     "Inspection",
     "InvalidInputError",
@@ -367,6 +369,7 @@ __all__ = [
     "clean",
     "closing_tolerance",
     "coefficients_format_of",
+    "coefficients_formats",
     "compare",
     "compose",
     "compress",
@@ -448,6 +451,7 @@ __all__ = [
     "rotation_about",
     "rotation_of",
     "sample_surface",
+    "shape_formats",
     "scaled",
     "seen_center",
     "set_cap_colors",

@@ -16,7 +16,7 @@ MAX_DEGREE: int = 16384
 
 NO_CAP: int = 4294967295
 
-ERROR_CODES: tuple = ...
+ERRORS: tuple = ...
 
 class Caller:
     """Threads and progress of one call."""

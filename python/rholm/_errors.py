@@ -9,8 +9,7 @@ class Error(Exception):
     Attributes
     ----------
     code : str
-        The library's name of the kind of error: "InvalidInput", "Io", "Unsupported",
-        "NotStarShaped", "OutOfMemory", "NotConverged", "Cancelled".
+        The library's name of the kind of error, as "InvalidInput" of `InvalidInputError`.
     """
 
     code = "Error"
@@ -53,7 +52,7 @@ class NotConvergedError(Error, ArithmeticError):
 
 
 class CancelledError(Error):
-    """The progress callable returned False."""
+    """The progress callback asked to stop."""
 
     code = "Cancelled"
 

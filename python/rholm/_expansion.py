@@ -23,6 +23,7 @@ from ._coefficients import (
     power_spectrum,
 )
 from ._errors import InvalidInputError, UnsupportedError
+from ._formats import coefficients_formats
 from ._interop import to_pyshtools, to_xarray
 from ._primitives import directions_for
 from ._rotations import RotationLike, as_rotation
@@ -661,9 +662,9 @@ class Expansion(Described):
         Parameters
         ----------
         path : path
-            Its extension says the format: .h5, .hdf5; .sh, .txt, .shtools; .gfc, .icgem; .json; .npy.
-        format : {"hdf5", "shtools", "icgem", "json", "npy"}, optional
-            The format, whatever the extension.
+            Its extension says the format: one of `rholm.coefficients_formats`.
+        format : str, optional
+            The format, whatever the extension: a name of `rholm.coefficients_formats`, or "hdf5" for "h5".
         normalization, csphase
             Of the numbers, in formats other than the model file.
         gravity_constant, reference_radius : float, optional
@@ -676,10 +677,10 @@ class Expansion(Described):
             If it cannot be written; a file that was there is whole then.
         """
         target = os.fspath(path)
-        kind = format or ("hdf5" if target.lower().endswith((".h5", ".hdf5")) else None)
+        kind = format or ("h5" if _core.is_model_name(target) else None)
         core = self._with_gravity(target, kind, gravity_constant, reference_radius)
         with caller(0, False) as how:
-            if kind == "hdf5":
+            if kind in ("h5", "hdf5"):
                 _core.write_model(core, named(target, (".h5", ".hdf5"), "a model file"), how)
             else:
                 _core.write_coefficients(core, target, format, normalization, csphase, how)
@@ -763,10 +764,12 @@ class Expansion(Described):
             return self._core
         if constant is None or radius is None:
             raise InvalidInputError("gravity_constant and reference_radius belong together: give both")
-        if (format or _core.coefficients_format_of(target)) == "npy":
-            raise UnsupportedError(
-                f"{target}: NumPy files have no room for a gravity constant and a reference radius"
-            )
+        written = format or _core.coefficients_format_of(target)
+        for known in coefficients_formats():
+            if known.name == written and "meaning" not in known.holds:
+                raise UnsupportedError(
+                    f"{target}: {known.title} files have no room for a gravity constant and a reference radius"
+                )
         return self.with_gravity(constant, radius)._core
 
     def _require_surface(self) -> None:

@@ -22,7 +22,7 @@ class CoefficientsFile(NamedTuple):
     expansion: Expansion
     """The function, in the library's own convention."""
     format: str
-    """"shtools", "icgem", "json", "npy"; "shtools" for a model file."""
+    """A name of `rholm.coefficients_formats`; "shtools" for a model file."""
     normalization: str
     """In which the numbers stood."""
     csphase: int
@@ -40,17 +40,17 @@ def _file_of(read: tuple[Any, ...]) -> CoefficientsFile:
     return CoefficientsFile(Expansion._of(expansion), *rest)
 
 
-_SHAPE_MARKS = (b"ply", b"OFF", b"solid")  # the first bytes of files of meshes
+_BEGINNING = 4096  # bytes that tell what a file is of; as the program looks at
 
 
 def _not_a_shape(path: str | os.PathLike[str]) -> str:
     """The path, unless its name or its first bytes are those of a mesh or of points."""
     name = os.fspath(path)
-    marked = False
+    beginning = b""
     if os.path.isfile(name):
         with open(name, "rb") as file:
-            marked = file.read(8).startswith(_SHAPE_MARKS)
-    if marked or name.lower().endswith((".ply", ".obj", ".off", ".stl", ".xyz", ".pwn")):
+            beginning = file.read(_BEGINNING)
+    if _core.is_shape_file(beginning, name):
         raise InvalidInputError(
             f"{name} is a file of a shape, not of coefficients: expand() and compress() make them of it, "
             "read_shape() reads it"
@@ -138,7 +138,7 @@ def looks_like_coefficients(data: bytes) -> bool:
 
 
 def coefficients_format_of(path: str | os.PathLike[str]) -> str | None:
-    """The format of an extension: "shtools", "icgem", "json", "npy", or None.
+    """The format of an extension: a name of `coefficients_formats`, or None, as for a model file.
 
     Parameters
     ----------

@@ -21,7 +21,7 @@ class ShapeFile(NamedTuple):
     shape: Mesh | PointCloud
     """A `Mesh` if the file has faces, else a `PointCloud`."""
     format: str
-    """As its content showed: "ply", "obj", "off", "stl", "xyz"."""
+    """As its content showed: a name of `rholm.shape_formats`."""
     encoding: str
     """"ascii", "binary little endian" or "binary big endian"."""
     warnings: list[str]
@@ -50,7 +50,7 @@ def read_shape(
     columns: str | Sequence[str] | None = None,
     progress: Progress = None,
 ) -> ShapeFile:
-    """Reads a mesh or points: PLY, OBJ, OFF, STL, XYZ, PWN, TXT, CSV.
+    """Reads a mesh or points in any format of `rholm.shape_formats`.
 
     Parameters
     ----------
@@ -118,10 +118,10 @@ def write_shape(
         What is written; attributes as far as the format has room for them.
     path : path
         Its extension says the format, if `format` does not.
-    format : {"ply", "obj", "off", "stl", "xyz"}, optional
-        The format.
+    format : str, optional
+        The format: a name of `rholm.shape_formats`.
     ascii : bool
-        PLY and STL as text instead of binary.
+        Text instead of binary where the format has both.
 
     Raises
     ------
@@ -144,8 +144,8 @@ def attributes_left_out(shape: MeshLike | PointCloud, format: str) -> list[str]:
     ----------
     shape : mesh-like or PointCloud
         What would be written.
-    format : {"ply", "obj", "off", "stl", "xyz"}
-        In which.
+    format : str
+        A name of `rholm.shape_formats`.
     """
     return _core.attributes_left_out(list(as_shape(shape).attributes), format)
 

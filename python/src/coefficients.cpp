@@ -16,6 +16,7 @@
 #include "bindings.h"
 #include "caller.h"
 #include "casters.h"
+#include "formats.h"
 #include "record.h"
 #include "rholm/coefficients_io.h"
 #include "rholm/error.h"
@@ -334,6 +335,14 @@ void bind_files(nb::module_& m) {
     if (!format) return std::nullopt;
     return to_string(*format);
   });
+  m.def("coefficients_formats", [] {
+    nb::list formats;
+    for (const CoefficientsFormatInfo& format : coefficients_formats()) {
+      formats.append(tuple_of(format.file, held_by(format)));
+    }
+    return formats;
+  });
+  m.def("is_model_name", [](const std::string& path) { return is_model_name(path); });
   m.def("looks_like_coefficients", [](const nb::bytes& bytes) {
     return looks_like_coefficients({bytes.c_str(), bytes.size()});
   });

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "bindings.h"
-#include "rholm/error.h"
+#include "rholm/error_info.h"
 
 namespace rholm::python {
 namespace {
@@ -27,11 +27,11 @@ void translate(const std::exception_ptr& thrown, void*) {
 
 void bind_errors(nb::module_& m) {
   nb::register_exception_translator(&translate, nullptr);
-  nb::list codes;
-  for (int code = 0; code <= static_cast<int>(ErrorCode::kCancelled); ++code) {
-    codes.append(to_string(static_cast<ErrorCode>(code)));
+  nb::list kinds;  // code, class, base, meaning
+  for (const ErrorInfo& info : error_infos()) {
+    kinds.append(nb::make_tuple(info.name, info.python_class, info.python_base, info.meaning));
   }
-  m.attr("ERROR_CODES") = nb::tuple(codes);
+  m.attr("ERRORS") = nb::tuple(kinds);
 }
 
 }  // namespace rholm::python

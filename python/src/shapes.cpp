@@ -12,6 +12,7 @@
 #include "bindings.h"
 #include "caller.h"
 #include "casters.h"
+#include "formats.h"
 #include "record.h"
 #include "rholm/mapped_mesh.h"
 #include "rholm/mesh.h"
@@ -186,6 +187,16 @@ std::vector<std::string> columns_of(const TableColumns& table) {
 }
 
 void bind_files(nb::module_& m) {
+  m.def("shape_formats", [] {
+    nb::list formats;
+    for (const ShapeFormatInfo& format : shape_formats()) {
+      formats.append(tuple_of(format.file, held_by(format)));
+    }
+    return formats;
+  });
+  m.def("is_shape_file", [](const nb::bytes& beginning, const std::string& name) {
+    return is_shape_file({beginning.c_str(), beginning.size()}, name);
+  });
   const auto shape_file = [](ShapeFile&& file) {
     return nb::make_tuple(std::move(file.shape), to_string(file.format), file.encoding,
                           file.warnings, columns_of(file.table), file.table.note, file.table.unsure,

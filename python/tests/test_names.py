@@ -42,6 +42,16 @@ ELSEWHERE = {
     "attribute_warnings": "map_mesh",
     "described_attributes": "map_mesh",
     "in_place": "map_mesh",
+    "error_infos": "Error",
+    "error_info": "Error",
+    "snake_case_name": "Error.code",
+    "shape_format_info": "shape_formats",
+    "coefficients_format_info": "coefficients_formats",
+    "held_by": "FileFormat.holds",
+    "extension_of": "FileFormat.extensions",
+    "shape_format_of": "shape_formats",
+    "is_shape_file": "load",
+    "is_model_name": "coefficients_formats",
     "check_columns": "read_shape",  # refuses columns that do not fit
     "points_of_rows": "PointCloud",  # of an array with more than three columns
     "convert_mesh": "write_shape",  # of what was read; the program converts files larger than memory

@@ -1,0 +1,40 @@
+"""The formats of files, as the library's tables have them."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from . import _core
+
+
+class FileFormat(NamedTuple):
+    """A format of files."""
+
+    name: str
+    """The name that arguments take: "ply"."""
+    title: str
+    """The name for people: "PLY"."""
+    extensions: tuple[str, ...]
+    """Extensions of its files, without dot; a new file gets the first."""
+    text: bool
+    """Whether files of text are read or written."""
+    binary: bool
+    """Whether binary files are."""
+    read: bool
+    """Whether files of it can be read."""
+    written: bool
+    """Whether files of it can be written."""
+    holds: tuple[str, ...]
+    """What its files hold, as words: "faces", "points", "normals", "meaning", ..."""
+    help: str
+    """What it is, in one sentence."""
+
+
+def shape_formats() -> tuple[FileFormat, ...]:
+    """The formats of meshes and points."""
+    return tuple(FileFormat(*line) for line in _core.shape_formats())
+
+
+def coefficients_formats() -> tuple[FileFormat, ...]:
+    """The formats of coefficients, beginning with the model file."""
+    return tuple(FileFormat(*line) for line in _core.coefficients_formats())
