@@ -1,13 +1,27 @@
 // rholm reference: docs/reference.md, from the tables of the library.
 #include "cli/commands/reference.h"
 
+#include <cmath>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "cli/commands/commands.h"
+#include "cli/options/field_options.h"
 #include "cli/terminal/exit_code.h"
 #include "cli/terminal/session.h"
 #include "rholm/descriptors.h"
+#include "rholm/error_info.h"
+#include "rholm/fields.h"
 #include "rholm/filter.h"
+#include "rholm/formats.h"
+#include "rholm/reconstruct.h"
+#include "rholm/reconstruct_bricks.h"
+#include "rholm/simplify.h"
 
 namespace rholm::cli {
 namespace {
@@ -63,7 +77,129 @@ std::string descriptor_section() {
       markdown_table({"descriptor", "unit", "definition", "source"}, rows));
 }
 
-constexpr ReferenceSection kSections[] = {window_section, descriptor_section};
+std::string joined(const std::vector<std::string>& words) {
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+// Name, extensions, what can be done, what files hold, what it is.
+template <typename Info>
+std::string format_table(const std::vector<Info>& formats) {
+  std::vector<std::vector<std::string>> rows;
+  for (const Info& info : formats) {
+    std::vector<std::string> extensions;
+    for (const FileExtension& one : info.file.extensions) {
+      extensions.push_back(code("." + one.name) + (one.read_only ? " (read)" : ""));
+    }
+    std::vector<std::string> ways;
+    if (info.file.read) ways.emplace_back("read");
+    if (info.file.written) ways.emplace_back("written");
+    if (info.file.text) ways.emplace_back("text");
+    if (info.file.binary) ways.emplace_back("binary");
+    rows.push_back({code(info.file.name), joined(extensions), joined(ways), joined(held_by(info)),
+                    info.file.help});
+  }
+  return markdown_table({"format", "extensions", "is", "holds", "what it is"}, rows);
+}
+
+std::string shape_format_section() {
+  return "## Formats of shapes\n\n`--format` of the program and `format=` in Python take these "
+         "names; without, the extension of a file decides, and of what is read its content.\n\n" +
+         format_table(shape_formats());
+}
+
+std::string coefficients_format_section() {
+  return "## Formats of coefficients\n\nThe same of expansions.\n\n" +
+         format_table(coefficients_formats());
+}
+
+std::string error_section() {
+  std::vector<std::vector<std::string>> rows;
+  for (const ErrorInfo& one : error_infos()) {
+    rows.push_back({code(one.name), std::to_string(one.exit_code), code(one.python_class),
+                    one.python_base[0] == '\0' ? "" : code(one.python_base), one.meaning});
+  }
+  return "## Errors\n\nWhat an error is called in C++ (`ErrorCode`) and in JSON, what the program "
+         "ends with, and what Python raises. The program ends with 2 for a command line that "
+         "means nothing.\n\n" +
+         markdown_table({"error", "exit code", "in Python", "is a", "meaning"}, rows);
+}
+
+template <typename V>
+std::string choices_text() {
+  if constexpr (NamedEnum<V>) {
+    const auto names = names_of(V{}).names;
+    return fmt::format("{}", fmt::join(names, ", "));
+  } else {
+    return "";
+  }
+}
+
+template <typename V>
+std::string default_of(const V& value) {
+  if constexpr (NamedEnum<V>) {
+    return code(to_string(value));
+  } else if constexpr (std::is_same_v<V, bool>) {
+    return value ? "yes" : "no";
+  } else if constexpr (std::is_arithmetic_v<V>) {
+    return fmt::format("{}", value);
+  } else {
+    return "";
+  }
+}
+
+std::string range_text(const FieldInfo& info) {
+  std::string text = info.unit == FieldUnit::kLength  ? "length"
+                     : info.unit == FieldUnit::kBytes ? "bytes"
+                                                      : "";
+  const bool has_least = std::isfinite(info.least), has_most = std::isfinite(info.most);
+  if (!has_least && !has_most) return text;
+  if (!text.empty()) text += ", ";
+  if (!has_most) return text + fmt::format("{} {}", info.above ? "above" : "from", info.least);
+  return text + fmt::format("{} ... {}", info.least, info.most);
+}
+
+// The fields of a struct of options, with the option of the program that each is.
+template <HasFields Options>
+std::string field_section(const std::string& title, const std::string& text) {
+  std::vector<std::vector<std::string>> rows;
+  const Options standard;
+  for_each_field<Options>([&](auto member, const FieldInfo& info) {
+    using V = std::remove_cvref_t<decltype(standard.*member)>;
+    const std::string choices = choices_text<V>();
+    rows.push_back({code(info.name), info.in_program ? code("--" + option_name(info)) : "",
+                    default_of(standard.*member), choices.empty() ? range_text(info) : choices,
+                    info.help});
+  });
+  return fmt::format("## {}\n\n{}\n\n{}", title, text,
+                     markdown_table({"field", "option", "default", "values", "what it is"}, rows));
+}
+
+std::string reconstruct_section() {
+  return field_section<ReconstructOptions>(
+      "Options of reconstruct",
+      "`ReconstructOptions` in C++ and arguments of `rholm.reconstruct` in Python. Lengths are in "
+      "the unit of the points there; the program takes parts of the diagonal of their bounding "
+      "box.");
+}
+
+std::string brick_section() {
+  return field_section<BrickOptions>(
+      "Options of work in bricks",
+      "`BrickOptions` in C++ and arguments of `rholm.reconstruct_bricks` in Python; the program's "
+      "are `--brick-points`, `--work-dir`, `--resume`, `--model` and `--columns` of `rholm "
+      "reconstruct`.");
+}
+
+std::string simplify_section() {
+  return field_section<SimplifyOptions>(
+      "Options of simplify",
+      "`SimplifyOptions` in C++ and arguments of `rholm.simplify` in Python; `rholm simplify` has "
+      "`--faces` for the first two.");
+}
+
+constexpr ReferenceSection kSections[] = {
+    window_section, descriptor_section,  shape_format_section, coefficients_format_section,
+    error_section,  reconstruct_section, brick_section,        simplify_section};
 
 }  // namespace
 

@@ -10,7 +10,7 @@ namespace rholm {
 
 // A kind of error.
 struct ErrorInfo {
-  ErrorCode code;
+  ErrorCode code;            // which it is
   const char* name;          // in reports: "InvalidInput"
   int exit_code;             // of the program; a signal that cancelled is added to 128
   const char* python_class;  // of the Python package: "InvalidInputError"

@@ -24,9 +24,9 @@ namespace rholm {
 
 // What a number measures.
 enum class FieldUnit {
-  kNone,
+  kNone,    // nothing, or a part of something
   kLength,  // in the unit of the shape; the program takes a part of the bounding box's diagonal
-  kBytes
+  kBytes    // of memory
 };
 
 // What is known of a field beside its type and its default.
@@ -35,14 +35,15 @@ struct FieldInfo {
   // One sentence that begins with a small letter and has no full stop.
   const char* help;
   const char* value = "";  // what help writes for a value, "SHARE"; none for switches and choices
-  // Bounds of a number, inclusive; `above` excludes the least.
+  // Least value of a number.
   double least = -std::numeric_limits<double>::infinity();
+  // Largest value of a number.
   double most = std::numeric_limits<double>::infinity();
-  bool above = false;
-  bool may_be_infinite = false;
-  FieldUnit unit = FieldUnit::kNone;
-  bool changes_result = true;  // if not, work with another value may be taken up
-  bool in_program = true;      // if not, the program has another way to say it
+  bool above = false;                 // the least value itself is not allowed
+  bool may_be_infinite = false;       // as what stands for no limit
+  FieldUnit unit = FieldUnit::kNone;  // of a number
+  bool changes_result = true;         // if not, work with another value may be taken up
+  bool in_program = true;             // if not, the program has another way to say it
 };
 
 // Names the struct whose list is meant.
@@ -82,6 +83,7 @@ concept NamedEnum = std::is_enum_v<Enum> && requires(Enum value) {
   { names_of(value) } -> std::same_as<EnumNames>;
 };
 
+// The name of a value.
 template <NamedEnum Enum>
 const char* to_string(Enum value) {
   return names_of(value).names[static_cast<std::size_t>(value)];

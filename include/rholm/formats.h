@@ -35,8 +35,8 @@ const FileExtension* extension_of(const FileFormat& format, const std::filesyste
 
 // What a format of shapes is, and what of a shape its files hold when they are written.
 struct ShapeFormatInfo {
-  ShapeFormat format = ShapeFormat::kPly;
-  FileFormat file = {};
+  ShapeFormat format = ShapeFormat::kPly;  // which it is
+  FileFormat file = {};                    // names, extensions, what can be done
   bool faces = false;             // triangles between vertices
   bool points = false;            // points without faces
   bool normals = false;           // of points or vertices
@@ -62,7 +62,7 @@ std::optional<bool> is_shape_file(std::span<const char> beginning, const std::st
 // What a format of coefficients is, and what of an expansion its files hold beside the numbers.
 struct CoefficientsFormatInfo {
   std::optional<CoefficientsFormat> format = {};  // none: the model file, which is in model.h
-  FileFormat file = {};
+  FileFormat file = {};                           // names, extensions, what can be done
   bool meaning = false;  // convention, function, centre, unit, method, norm, gravity field
   bool errors = false;   // the measured errors of a model
 };

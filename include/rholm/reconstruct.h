@@ -49,6 +49,7 @@ struct ReconstructOptions {
   std::size_t max_memory = std::size_t{8} << 30;  // bytes: refused if more is foreseen
 };
 
+// Their list (fields.h).
 template <typename Visitor>
 void visit_fields(FieldsOf<ReconstructOptions>, const Visitor& field) {
   using O = ReconstructOptions;

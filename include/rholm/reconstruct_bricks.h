@@ -60,6 +60,7 @@ struct BrickOptions {
   std::function<void(const BrickForecast& forecast)> foreseen = {};
 };
 
+// Their list (fields.h).
 template <typename Visitor>
 void visit_fields(FieldsOf<BrickOptions>, const Visitor& field) {
   using O = BrickOptions;

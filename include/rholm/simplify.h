@@ -21,6 +21,7 @@ struct SimplifyOptions {
   double max_error = std::numeric_limits<double>::infinity();
 };
 
+// Their list (fields.h).
 template <typename Visitor>
 void visit_fields(FieldsOf<SimplifyOptions>, const Visitor& field) {
   using O = SimplifyOptions;

@@ -768,7 +768,8 @@ class Expansion(Described):
         for known in coefficients_formats():
             if known.name == written and "meaning" not in known.holds:
                 raise UnsupportedError(
-                    f"{target}: {known.title} files have no room for a gravity constant and a reference radius"
+                    f"{target}: {known.title} files have no room for a gravity constant and a reference "
+                    "radius"
                 )
         return self.with_gravity(constant, radius)._core
 

@@ -253,4 +253,3 @@ def _brick_points(
         return Path(points), 0
     shape, dropped = shape_of_path(points, columns)
     return as_points(shape, normals, attributes, columns)._core, dropped
-

@@ -42,7 +42,8 @@ def test_shapes_are_saved_in_every_format(tmp_path):
     sphere = rholm.icosphere(1)
     cloud = rholm.PointCloud(np.random.default_rng(1).normal(size=(30, 3)))
     for known in rholm.shape_formats():
-        assert known.read and known.written
+        assert known.read
+        assert known.written
         for shape, word in ((sphere, "faces"), (cloud, "points")):
             path = tmp_path / f"{word}.{known.extensions[0]}"
             if word not in known.holds:
@@ -58,7 +59,8 @@ def test_shapes_are_saved_in_every_format(tmp_path):
 def test_coefficients_are_saved_in_every_format(tmp_path):
     sphere = rholm.expand(rholm.icosphere(2), degree=3)
     for known in rholm.coefficients_formats():
-        assert known.read and known.written
+        assert known.read
+        assert known.written
         path = tmp_path / f"a.{known.extensions[0]}"
         sphere.save(path)
         assert rholm.load(path).degree == 3
