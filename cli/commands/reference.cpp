@@ -160,15 +160,16 @@ std::string range_text(const FieldInfo& info) {
 
 // The fields of a struct of options, with the option of the program that each is.
 template <HasFields Options>
-std::string field_section(const std::string& title, const std::string& text) {
+std::string field_section(const std::string& title, const std::string& text,
+                          bool in_program = true) {
   std::vector<std::vector<std::string>> rows;
   const Options standard;
   for_each_field<Options>([&](auto member, const FieldInfo& info) {
     using V = std::remove_cvref_t<decltype(standard.*member)>;
     const std::string choices = choices_text<V>();
-    rows.push_back({code(info.name), info.in_program ? code("--" + option_name(info)) : "",
-                    default_of(standard.*member), choices.empty() ? range_text(info) : choices,
-                    info.help});
+    rows.push_back(
+        {code(info.name), in_program && info.in_program ? code("--" + option_name(info)) : "",
+         default_of(standard.*member), choices.empty() ? range_text(info) : choices, info.help});
   });
   return fmt::format("## {}\n\n{}\n\n{}", title, text,
                      markdown_table({"field", "option", "default", "values", "what it is"}, rows));
@@ -194,7 +195,8 @@ std::string simplify_section() {
   return field_section<SimplifyOptions>(
       "Options of simplify",
       "`SimplifyOptions` in C++ and arguments of `rholm.simplify` in Python; `rholm simplify` has "
-      "`--faces` for the first two.");
+      "`--faces` for the first two, and `--max-error`.",
+      false);
 }
 
 constexpr ReferenceSection kSections[] = {

@@ -338,7 +338,7 @@ void bind_files(nb::module_& m) {
   m.def("coefficients_formats", [] {
     nb::list formats;
     for (const CoefficientsFormatInfo& format : coefficients_formats()) {
-      formats.append(tuple_of(format.file, held_by(format)));
+      formats.append(format_row(format.file, held_by(format)));
     }
     return formats;
   });

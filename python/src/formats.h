@@ -10,7 +10,7 @@
 
 namespace rholm::python {
 
-inline nanobind::tuple tuple_of(const FileFormat& format, const std::vector<std::string>& held) {
+inline nanobind::tuple format_row(const FileFormat& format, const std::vector<std::string>& held) {
   nanobind::list extensions, words;
   for (const FileExtension& extension : format.extensions) {
     extensions.append(extension.name.c_str());

@@ -190,7 +190,7 @@ void bind_files(nb::module_& m) {
   m.def("shape_formats", [] {
     nb::list formats;
     for (const ShapeFormatInfo& format : shape_formats()) {
-      formats.append(tuple_of(format.file, held_by(format)));
+      formats.append(format_row(format.file, held_by(format)));
     }
     return formats;
   });

@@ -173,6 +173,43 @@ def test_the_types_of_tables_are_those_of_the_library(tmp_path):
     assert made.read_text() == committed.read_text(), "run scripts/python-stub and commit what it wrote"
 
 
+@pytest.mark.parametrize(
+    ("kind", "function"),
+    [
+        (rholm._core.ReconstructOptions, rholm.reconstruct),
+        (rholm._core.ReconstructOptions, rholm.reconstruct_bricks),
+    ],
+)
+def test_options_are_arguments_with_their_defaults_and_documents(kind, function):
+    parameters = inspect.signature(function).parameters
+    for field in kind.FIELDS:
+        parameter = parameters[field["name"]]
+        assert parameter.kind is parameter.KEYWORD_ONLY
+        missing = field["kind"].startswith("optional ")
+        assert parameter.default == (None if missing else field["default"])
+        words = " ".join(inspect.getdoc(function).split())
+        assert field["help"][1:] in words
+
+
+@public
+def test_options_are_in_the_program_and_on_the_reference_page(program):
+    said = subprocess.run([program, "reconstruct", "--help"], check=True, capture_output=True, text=True)
+    words = " ".join(said.stdout.split())
+    page = (ROOT / "docs" / "reference.md").read_text()
+    elsewhere = {"step", "max_memory"}  # --resolution, --max-memory in GiB
+    for field in rholm._core.ReconstructOptions.FIELDS:
+        assert f"| `{field['name']}` |" in page
+        assert field["help"] in page
+        if field["name"] not in elsewhere:
+            assert f"--{field['name'].replace('_', '-')}" in words
+            assert field["help"] in words
+
+
+def test_an_option_that_there_is_not_is_refused_by_its_name():
+    with pytest.raises(TypeError, match=r"reconstruct\(\).*'tolerence'"):
+        rholm.reconstruct(rholm.bumpy_sphere(3).vertices, tolerence=1)
+
+
 def test_nothing_optional_is_imported():
     code = (
         "import rholm, sys; rholm.expand(rholm.icosphere(2), 4).mesh(2);"

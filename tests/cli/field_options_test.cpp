@@ -20,7 +20,10 @@ using test::Outer;
 Outer parsed(const std::vector<std::string>& words) {
   Outer values;
   CommonOptions common;
-  parse({.name = "made-up", .options = field_options(values)}, words, common);
+  Command command;
+  command.name = "made-up";
+  command.options = field_options(values);
+  parse(command, words, common);
   return values;
 }
 

@@ -11,6 +11,7 @@
 #include "rholm/rotate.h"
 #include "rholm/topology.h"
 #include "support/random_bodies.h"
+#include "transform/mesh_pass/pass.h"
 #include "transform/mesh_pass/plan/error_budget.h"
 #include "transform/mesh_pass/plan/plan.h"
 #include "transform/mesh_pass/run_pass.h"

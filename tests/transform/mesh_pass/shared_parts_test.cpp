@@ -17,7 +17,7 @@
 #include "support/random_data.h"
 #include "support/test_meshes.h"
 #include "support/test_shapes.h"
-#include "transform/mesh_pass/pass_result.h"
+#include "transform/mesh_pass/pass.h"
 
 namespace rholm {
 namespace {

@@ -1,0 +1,43 @@
+"""Keywords of functions, from the lists of the library; written by scripts/python-stub."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Literal, TypedDict
+
+import numpy.typing as npt
+
+
+class SimplifyKeywords(TypedDict, total=False):
+    """Where simplify() stops."""
+
+    triangles: int
+    share: float
+    max_error: float
+
+
+class ReconstructKeywords(TypedDict, total=False):
+    """What is wanted of the surface."""
+
+    step: float
+    tolerance: float
+    noise: float | None
+    holes: Literal["fill", "keep"]
+    blend: Literal["smooth", "spline"]
+    min_component: float
+    keep_outliers: bool
+    sensor: npt.ArrayLike | None
+    keep_scans: bool
+    confidence: bool
+    simplify: Any
+    max_memory: int
+
+
+class BrickKeywords(TypedDict, total=False):
+    """How points are cut into bricks, and what is kept."""
+
+    points_per_brick: int
+    work_dir: str | os.PathLike[str]
+    resume: bool
+    model: str | os.PathLike[str]
+    columns: str
