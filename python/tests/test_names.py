@@ -25,6 +25,11 @@ ELSEWHERE = {
     "triangulate_polygon": "as_mesh",  # of polygons of meshio
     "outward": "expand",  # and every other function that needs it
     "truncated": "Expansion.truncate",
+    "windows": "low_pass",  # its choices and its documentation
+    "window_info": "low_pass",
+    "descriptors": "Expansion.measure",  # a property each
+    "names_of": "",  # choices of options, which annotations list
+    "find_name": "",
     "check_gravity": "Expansion.with_gravity",
     "add_dropped": "reconstruct",
     "enough_for_bricks": "reconstruct_bricks",  # a refusal names it

@@ -31,7 +31,7 @@ class OneList(CliTest):
         for shell in ("bash", "zsh", "fish"):
             self.assertIn("wedge", self.rholm("completion", shell).out)
         self.assertIn("wedge", self.rholm("man-page").out)
-        self.assertIn("| `wedge` | `(1 - l/(L+1))^p` | none |", self.rholm("reference").out)
+        self.assertIn("| `wedge` | `(1 - l/(L+1))^p` | none |", self.run_rholm("reference").out)
         refused = self.rholm("filter", "rock.h5", "--low-pass", 4, "--window", "wdge", "-o", "x.h5", code=2)
         self.assertIn("wedge", refused.err)
 
@@ -60,7 +60,7 @@ class OneList(CliTest):
         self.assertIn("volume, area, sphericity and thickness", self.words("info", "--help"))
         self.assertIn("volume, area, sphericity and thickness", self.words("batch", "--help"))
         self.assertIn("| `thickness` | length | the volume over the area | Nobody 1900 |",
-                      self.rholm("reference").out)
+                      self.run_rholm("reference").out)
         (self.folder / "list.csv").write_text("path\nrock.ply\n")
         self.rholm("batch", "list.csv", "-o", "table.csv", "--", "--degree", 8)
         with open(self.folder / "table.csv", newline="") as file:
