@@ -1,6 +1,7 @@
 #include "rholm/fields.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -38,7 +39,7 @@ std::size_t find_name(const EnumNames& names, const std::string& name) {
 void check_number(const FieldInfo& info, double value) {
   const bool inside = value >= info.least && value <= info.most &&
                       !(info.above && value == info.least) &&
-                      (value < std::numeric_limits<double>::infinity() || info.may_be_infinite);
+                      (std::isfinite(value) || info.may_be_infinite);
   if (inside) return;
   throw Error(ErrorCode::kInvalidInput,
               fmt::format("{} is {}: it must be {}", info.name, value, limits_of(info)));

@@ -43,7 +43,7 @@ void surface_rules() {
   const rholm::SurfaceRules rules;
   expect(rules.holes == rholm::HolePolicy::kFill,
          "holes are filled unless somebody says otherwise");
-  expect(rholm::parse_name<HolePolicy>("keep") == rholm::HolePolicy::kKeep, "the name of a policy");
+  expect(rholm::parse_name<rholm::HolePolicy>("keep") == rholm::HolePolicy::kKeep, "the name of a policy");
 }
 
 void synthesize() {
