@@ -37,14 +37,14 @@ const FileExtension* extension_of(const FileFormat& format, const std::filesyste
 struct ShapeFormatInfo {
   ShapeFormat format = ShapeFormat::kPly;  // which it is
   FileFormat file = {};                    // names, extensions, what can be done
-  bool faces = false;             // triangles between vertices
-  bool points = false;            // points without faces
-  bool normals = false;           // of points or vertices
-  bool colors = false;            // red, green, blue of points or vertices
-  bool alpha = false;             // the opacity of these colours
-  bool texture = false;           // texture coordinates
-  bool any_attributes = false;    // attributes of any name and type
-  bool single_precision = false;  // coordinates in binary files are floats, not doubles
+  bool faces = false;                      // triangles between vertices
+  bool points = false;                     // points without faces
+  bool normals = false;                    // of points or vertices
+  bool colors = false;                     // red, green, blue of points or vertices
+  bool alpha = false;                      // the opacity of these colours
+  bool texture = false;                    // texture coordinates
+  bool any_attributes = false;             // attributes of any name and type
+  bool single_precision = false;           // coordinates in binary files are floats, not doubles
   bool in_pieces = false;  // points can be read and written a piece at a time (point_stream.h)
 };
 // All formats of shapes, in the order in which they are listed.

@@ -2,17 +2,12 @@
 // reader, a writer and a line of a table each. formats_test.py looks for both in every face of the
 // program.
 //
-// This program is linked without the sources of the two tables. They are taken in below, and a line
-// is added to each.
-#define shape_format_lines known_shape_format_lines
-#include "io/shapes/shape_formats.cpp"
-#undef shape_format_lines
-#define coefficients_format_lines known_coefficients_format_lines
-#include "io/coefficients/coefficients_formats.cpp"
-#undef coefficients_format_lines
-
+// This program is linked without the sources of the two tables. They are taken in below, with a
+// line more in each.
 #include "cli/program.h"
 #include "cli/terminal/interrupt.h"
+#include "io/coefficients/coefficients_formats.h"
+#include "io/shapes/shape_formats.h"
 
 namespace rholm {
 namespace {
@@ -54,42 +49,12 @@ std::string format_fancy(const Expansion& expansion, const Coefficients& externa
 
 }  // namespace
 
-std::vector<ShapeFormatLine> shape_format_lines() {
-  std::vector<ShapeFormatLine> lines = known_shape_format_lines();
-  lines.push_back({.info = {.format = static_cast<ShapeFormat>(100),
-                            .file = {.name = "made",
-                                     .title = "MADE",
-                                     .extensions = {{"mad"}, {"made"}},
-                                     .text = true,
-                                     .help = "A format of shapes that only this test has"},
-                            .faces = true,
-                            .normals = true},
-                   .mark = "MADE",
-                   .told_by = ToldBy::kFirstWord,
-                   .looks_like = looks_like_made,
-                   .read = read_made,
-                   .write = format_made});
-  return lines;
-}
-
-std::vector<CoefficientsFormatLine> coefficients_format_lines() {
-  std::vector<CoefficientsFormatLine> lines = known_coefficients_format_lines();
-  lines.push_back({.info = {.format = static_cast<CoefficientsFormat>(100),
-                            .file = {.name = "fancy",
-                                     .title = "FANCY",
-                                     .extensions = {{"fcy"}},
-                                     .text = true,
-                                     .help = "A format of coefficients that only this test has"},
-                            .meaning = true},
-                   .told_by = ToldBy::kFirstWord,
-                   .looks_like = looks_like_fancy,
-                   .is_surely = looks_like_fancy,
-                   .parse = parse_fancy,
-                   .write = format_fancy});
-  return lines;
-}
-
 }  // namespace rholm
+
+#define RHOLM_EXTRA_SHAPE_FORMATS "cli/made_up_shape_format.inc"
+#define RHOLM_EXTRA_COEFFICIENTS_FORMATS "cli/made_up_coefficients_format.inc"
+#include "io/coefficients/coefficients_formats.cpp"
+#include "io/shapes/shape_formats.cpp"
 
 int main(int argc, char** argv) {
   rholm::cli::install_signal_handlers();

@@ -1,6 +1,7 @@
 #include "io/coefficients/coefficients_formats.h"
 
 namespace rholm {
+namespace {
 
 std::vector<CoefficientsFormatLine> coefficients_format_lines() {
   return {
@@ -61,9 +62,16 @@ std::vector<CoefficientsFormatLine> coefficients_format_lines() {
        .write = format_npy}};
 }
 
+}  // namespace
+
 const std::vector<CoefficientsFormatLine>& coefficients_format_table() {
   static const std::vector<CoefficientsFormatLine> table = [] {
     std::vector<CoefficientsFormatLine> lines = coefficients_format_lines();
+#ifdef RHOLM_EXTRA_COEFFICIENTS_FORMATS  // a line of tests/cli/made_up_formats.cpp
+    lines.push_back(
+#include RHOLM_EXTRA_COEFFICIENTS_FORMATS
+    );
+#endif
     for (CoefficientsFormatLine& line : lines) {
       line.info.file.read |= line.parse != nullptr;
       line.info.file.written |= line.write != nullptr;

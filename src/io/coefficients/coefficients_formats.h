@@ -23,9 +23,7 @@ struct CoefficientsFormatLine {
   CoefficientsFormatter* write = nullptr;
 };
 
-// The lines as they are written down, in the order in which people see them.
-std::vector<CoefficientsFormatLine> coefficients_format_lines();
-// The same, made once; info.file.read and .written are set.
+// The lines in the order in which people see them; info.file.read and .written are set.
 const std::vector<CoefficientsFormatLine>& coefficients_format_table();
 const CoefficientsFormatLine& line_of(CoefficientsFormat format);
 

@@ -1,6 +1,7 @@
 #include "io/shapes/shape_formats.h"
 
 namespace rholm {
+namespace {
 
 std::vector<ShapeFormatLine> shape_format_lines() {
   return {{.info = {.format = ShapeFormat::kPly,
@@ -88,9 +89,16 @@ std::vector<ShapeFormatLine> shape_format_lines() {
            .write = format_xyz}};
 }
 
+}  // namespace
+
 const std::vector<ShapeFormatLine>& shape_format_table() {
   static const std::vector<ShapeFormatLine> table = [] {
     std::vector<ShapeFormatLine> lines = shape_format_lines();
+#ifdef RHOLM_EXTRA_SHAPE_FORMATS  // a line of tests/cli/made_up_formats.cpp
+    lines.push_back(
+#include RHOLM_EXTRA_SHAPE_FORMATS
+    );
+#endif
     for (ShapeFormatLine& line : lines) {
       line.info.file.read = line.read != nullptr;
       line.info.file.written = line.write != nullptr;

@@ -26,9 +26,7 @@ struct ShapeFormatLine {
   ShapeFormatter* write = nullptr;                         // null: cannot be written
 };
 
-// The lines as they are written down, in the order in which people see them.
-std::vector<ShapeFormatLine> shape_format_lines();
-// The same, made once; info.file.read and .written are set.
+// The lines in the order in which people see them; info.file.read and .written are set.
 const std::vector<ShapeFormatLine>& shape_format_table();
 const ShapeFormatLine& line_of(ShapeFormat format);
 
