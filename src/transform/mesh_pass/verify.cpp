@@ -39,6 +39,10 @@ constexpr double kMargin = 2;
 // A difference of two readings is believed where it is at most so many times what the model says of
 // the first, or so much less than the difference before (chosen).
 constexpr double kBelieved = 3;
+// Where rounding is so large a part of the norm, what degrees above 0 have is nothing but that:
+// they are zero by symmetry. Each reading is as far from zero as rounding leaves, both differ by
+// twice as much, which counts kMargin-fold, and as much again is doubt (chosen: 8 for 6).
+constexpr double kMostlyRounding = 0.1, kOfTwoReadings = 8;
 constexpr int kMostReadings = 4;  // chosen: the last is 10 000 times finer than the wish
 
 // Coordinates that are rounded once more turn the planes of needles, by more than this on prisms of
@@ -106,9 +110,10 @@ double measure(const MeshPassResult& finer, double precision, MeshPassResult& re
   const double wrong = modelled > 0 ? report.error / modelled : 1.0;
   report.error_doubt = finer.report.error * std::max(1.0, wrong);
   const double mean = std::abs(result.coefficients.c(0, 0));
-  report.reached =
-      kMargin * report.error + report.error_doubt <= std::max(precision, result.least_error) &&
-      std::abs(error.c(0, 0)) <= std::max(precision, kLumpRounding) * mean;
+  const double least =
+      result.least_error * (result.least_error > kMostlyRounding ? kOfTwoReadings : 1.0);
+  report.reached = kMargin * report.error + report.error_doubt <= std::max(precision, least) &&
+                   std::abs(error.c(0, 0)) <= std::max(precision, kLumpRounding) * mean;
   return wrong;
 }
 

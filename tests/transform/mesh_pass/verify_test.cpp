@@ -7,9 +7,12 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "rholm/analyze.h"
+#include "rholm/primitives.h"
+#include "rholm/rotate.h"
 #include "rholm/topology.h"
 #include "support/random_bodies.h"
 #include "transform/mesh_pass/plan/error_budget.h"
@@ -88,6 +91,33 @@ TEST(verify_pass, keeps_the_wish_on_random_bodies) {
               percentile(0.01), percentile(0.5), percentile(0.99));
   EXPECT_GT(percentile(0.01), 0.5);
   EXPECT_LT(percentile(0.99), 3);
+}
+
+// Degrees 1 and 2 of a tetrahedron are zero, and 1 to 3 of a cube: both readings have nothing but
+// rounding there, by which they differ as much as they are.
+TEST(verify_pass, of_degrees_that_are_zero_by_symmetry_leaves_what_rounding_does) {
+  Mesh tetrahedron;
+  tetrahedron.vertices = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+  tetrahedron.triangles = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
+  const Mesh cube = box({2, 2, 2});
+  for (int turn = 0; turn < 40; ++turn) {
+    const Vec3 axis = test::random_direction(7, static_cast<std::uint64_t>(turn));
+    const RotationMatrix rows = matrix_of(rotation_about(axis, 0.1 * turn));
+    for (const auto& [body, last] : {std::pair(tetrahedron, 2), std::pair(cube, 3)}) {
+      Mesh turned = body;
+      for (Vec3& v : turned.vertices) {
+        v = std::exp2(turn % 7) * Vec3{dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)};
+      }
+      for (int degree = 1; degree <= last; ++degree) {
+        const MeshPassOptions options{.degree = degree, .precision = 1e-8};
+        MeshPassResult found = mesh_pass(view_of(turned), options, {});
+        verify_pass(view_of(turned), options, {}, found);
+        EXPECT_TRUE(found.report.reached) << turn << ": degree " << degree << " of " << last;
+        EXPECT_LT(norm_of_degrees(found.coefficients, 1, degree),
+                  1e-14 * found.coefficients.c(0, 0));
+      }
+    }
+  }
 }
 
 TEST(verify_pass, leaves_meshes_alone_that_are_too_large) {
