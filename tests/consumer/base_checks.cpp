@@ -24,6 +24,19 @@ void error() {
   expect(false, "an icosphere of -1 subdivisions is refused");
 }
 
+void error_info() {
+  for (const rholm::ErrorInfo& kind : rholm::error_infos()) {
+    expect(kind.name == std::string(rholm::to_string(kind.code)), "kinds of errors have names");
+  }
+}
+
+void fields() {
+  std::string names;
+  rholm::for_each_field<rholm::SimplifyOptions>(
+      [&](auto, const rholm::FieldInfo& info) { names += std::string(info.name) + " "; });
+  expect(names == "triangles share max_error ", "options list their fields");
+}
+
 void context() {
   rholm::Context context{.threads = 1};
   context.progress = [](std::string_view, double) { return false; };
@@ -65,6 +78,7 @@ void rholm_h() {
 }  // namespace
 
 std::vector<HeaderCheck> base_checks() {
-  return {{"vec3.h", vec3},   {"error.h", error},     {"context.h", context},
-          {"image.h", image}, {"version.h", version}, {"rholm.h", rholm_h}};
+  return {{"vec3.h", vec3},       {"error.h", error},     {"error_info.h", error_info},
+          {"fields.h", fields},   {"context.h", context}, {"image.h", image},
+          {"version.h", version}, {"rholm.h", rholm_h}};
 }

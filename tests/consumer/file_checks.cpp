@@ -2,6 +2,7 @@
 #include <rholm/coefficients_io.h>
 #include <rholm/compare.h>
 #include <rholm/file.h>
+#include <rholm/formats.h>
 #include <rholm/large_mesh.h>
 #include <rholm/mapped_mesh.h>
 #include <rholm/point_stream.h>
@@ -34,6 +35,14 @@ void shape_io() {
   const auto& read = std::get<rholm::Mesh>(file.shape);
   expect(read.vertices == box.vertices && read.triangles == box.triangles,
          "what is written is read");
+}
+
+void formats() {
+  for (const rholm::ShapeFormatInfo& known : rholm::shape_formats()) {
+    expect(rholm::shape_format_of("a." + known.file.extensions.at(0).name) == known.format,
+           "extensions name their format");
+  }
+  expect(rholm::is_model_name("a.h5") && !rholm::is_model_name("a.ply"), "models have their own");
 }
 
 void point_stream() {
@@ -84,6 +93,7 @@ void large_mesh() {
 std::vector<HeaderCheck> file_checks() {
   return {{"file.h", file},
           {"shape_io.h", shape_io},
+          {"formats.h", formats},
           {"point_stream.h", point_stream},
           {"coefficients_io.h", coefficients_io},
           {"mapped_mesh.h", mapped_mesh},

@@ -2,6 +2,7 @@
 #include <rholm/atlas.h>
 #include <rholm/cap_frame.h>
 #include <rholm/compare.h>
+#include <rholm/descriptors.h>
 #include <rholm/primitives.h>
 #include <rholm/surface_rules.h>
 #include <rholm/synthesize.h>
@@ -43,7 +44,8 @@ void surface_rules() {
   const rholm::SurfaceRules rules;
   expect(rules.holes == rholm::HolePolicy::kFill,
          "holes are filled unless somebody says otherwise");
-  expect(rholm::parse_name<rholm::HolePolicy>("keep") == rholm::HolePolicy::kKeep, "the name of a policy");
+  expect(rholm::parse_name<rholm::HolePolicy>("keep") == rholm::HolePolicy::kKeep,
+         "the name of a policy");
 }
 
 void synthesize() {
@@ -57,12 +59,25 @@ void synthesize() {
   expect_near(rholm::norm(surface.vertices[7] - sphere.center), 2, 1e-12, "a vertex of a sphere");
 }
 
+void descriptors() {
+  rholm::Expansion sphere;
+  sphere.coefficients.c(0, 0) = std::sqrt(4 * std::numbers::pi);
+  const rholm::SurfaceMeasures measures = rholm::measure(sphere);
+  for (const rholm::Descriptor& one : rholm::descriptors()) {
+    if (one.name != std::string("sphericity")) continue;
+    expect_near(one.value(measures).value(), 1, 1e-12, "the sphericity of a sphere");
+    return;
+  }
+  expect(false, "the sphericity is a descriptor");
+}
+
 }  // namespace
 
 std::vector<HeaderCheck> surface_checks() {
   return {{"atlas.h", atlas},
           {"cap_frame.h", cap_frame},
           {"compare.h", compare},
+          {"descriptors.h", descriptors},
           {"surface_rules.h", surface_rules},
           {"synthesize.h", synthesize}};
 }
