@@ -87,6 +87,7 @@ std::string format_table(const std::vector<Info>& formats) {
   std::vector<std::vector<std::string>> rows;
   for (const Info& info : formats) {
     std::vector<std::string> extensions;
+    extensions.reserve(info.file.extensions.size());
     for (const FileExtension& one : info.file.extensions) {
       extensions.push_back(code("." + one.name) + (one.read_only ? " (read)" : ""));
     }
@@ -220,7 +221,7 @@ std::string markdown_table(const std::vector<std::string>& headings,
   };
   std::string text = line(headings) + "|";
   for (std::size_t i = 0; i < headings.size(); ++i) text += "---|";
-  text += "\n";
+  text += '\n';
   for (const auto& row : rows) text += line(row);
   return text;
 }

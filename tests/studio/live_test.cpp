@@ -264,7 +264,7 @@ TEST(Windows, AreThoseOfTheLibrary) {
 
 TEST(Windows, GainsAreThoseOfTheLibraryToTheLastBit) {
   Client client;
-  const auto gains = [&](std::map<std::string, std::string> query) {
+  const auto gains = [&](const std::map<std::string, std::string>& query) {
     const Response answer = client.ask("GET", "api/gains", {}, query);
     EXPECT_EQ(answer.status, 200) << answer.body;
     return Json::parse(answer.body).at("gains").get<std::vector<double>>();
@@ -282,7 +282,7 @@ TEST(Windows, GainsAreThoseOfTheLibraryToTheLastBit) {
 
 TEST(Windows, GainsThatCannotBeAreRefused) {
   Client client;
-  const auto refusal = [&](std::map<std::string, std::string> query) {
+  const auto refusal = [&](const std::map<std::string, std::string>& query) {
     return code_of(client.ask("GET", "api/gains", {}, query));
   };
   EXPECT_EQ(refusal({}), "bad_request");
