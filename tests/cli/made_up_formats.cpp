@@ -53,8 +53,10 @@ std::string format_fancy(const Expansion& expansion, const Coefficients& externa
 
 #define RHOLM_EXTRA_SHAPE_FORMATS "cli/made_up_shape_format.inc"
 #define RHOLM_EXTRA_COEFFICIENTS_FORMATS "cli/made_up_coefficients_format.inc"
+// NOLINTBEGIN(bugprone-suspicious-include): the tables themselves, with a line more
 #include "io/coefficients/coefficients_formats.cpp"
 #include "io/shapes/shape_formats.cpp"
+// NOLINTEND(bugprone-suspicious-include)
 
 int main(int argc, char** argv) {
   rholm::cli::install_signal_handlers();
