@@ -105,6 +105,7 @@ std::string ascii_help(Holding holding) {
 std::string coefficients_list() {
   const auto words = words_of(coefficients_formats(), kAll, [](const FileFormat& format) {
     std::vector<std::string> extensions;
+    extensions.reserve(format.extensions.size());
     for (const FileExtension& extension : format.extensions) {
       extensions.push_back("." + extension.name);
     }
