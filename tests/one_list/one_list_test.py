@@ -4,11 +4,14 @@ The program of these tests is that of users, with one made-up row in each table 
 """
 
 import csv
+import os
 import sys
 import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "cli"))
+# This program has a main() of its own, which does not look for an instruction set.
+os.environ.pop("RHOLM_TEST_TARGET", None)
 from harness import STUDIO, CliTest
 from studio_program import Studio
 
