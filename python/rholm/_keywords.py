@@ -1,4 +1,4 @@
-"""Keywords of functions, from the lists of the library; written by scripts/python-stub."""
+"""Keywords of functions, from the lists of the library. scripts/python-stub writes this file."""
 
 from __future__ import annotations
 

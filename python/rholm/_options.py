@@ -8,7 +8,6 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TypeVar
 
-from . import _core
 from ._arrays import triple
 from ._topology import simplify_options
 
@@ -40,42 +39,39 @@ def options_of(kind: Any, given: dict[str, Any], function: str) -> Any:
     return kind(**{name: _converted(fields[name], value) for name, value in given.items()})
 
 
+#: Of each kind of field: the type of the argument as it is written in Python, and in docstrings.
+_TYPES = {
+    "bool": ("bool", "bool"),
+    "whole number": ("int", "int"),
+    "number": ("float", "float"),
+    "point": ("npt.ArrayLike", "array_like, (3,)"),
+    "text": ("str", "str"),
+    "path": ("str | os.PathLike[str]", "path"),
+    "options": ("Any", '"auto", int or dict'),
+}
+
+
+def _types(field: dict[str, Any]) -> tuple[str, str]:
+    """The type of an argument as it is written in Python, and in docstrings."""
+    kind = field["kind"].removeprefix("optional ")
+    choices = ", ".join(f'"{name}"' for name in field["choices"])
+    written, shown = (f"Literal[{choices}]", f"{{{choices}}}") if choices else _TYPES[kind]
+    if field["kind"] != kind:
+        written += "" if written == "Any" else " | None"
+        shown += ", optional"
+    return written, shown
+
+
 def annotation(field: dict[str, Any]) -> str:
     """The type of an argument, as it is written in Python."""
-    kind = field["kind"].removeprefix("optional ")
-    text = {
-        "bool": "bool",
-        "whole number": "int",
-        "number": "float",
-        "point": "npt.ArrayLike",
-        "text": "str",
-        "path": "str | os.PathLike[str]",
-        "options": "Any",
-    }.get(kind)
-    if text is None:
-        text = "Literal[" + ", ".join(f'"{name}"' for name in field["choices"]) + "]"
-    optional = field["kind"] != kind and kind != "options"
-    return text + " | None" if optional else text
+    return _types(field)[0]
 
 
 def _documentation(field: dict[str, Any]) -> str:
     """The entry of an argument in a docstring."""
-    kind = field["kind"].removeprefix("optional ")
-    text = {
-        "whole number": "int",
-        "number": "float",
-        "point": "array_like, (3,)",
-        "text": "str",
-        "path": "path",
-        "options": '"auto", int or dict',
-    }.get(kind, kind)
-    if field["choices"]:
-        text = "{" + ", ".join(f'"{name}"' for name in field["choices"]) + "}"
-    if field["kind"] != kind:
-        text += ", optional"
     unit = {"length": " In the unit of the shape.", "bytes": " In bytes."}.get(field["unit"], "")
-    help_text = field["help"][0].upper() + field["help"][1:] + "." + unit
-    return f"{field['name']} : {text}\n" + textwrap.indent("\n".join(textwrap.wrap(help_text, 90)), "    ")
+    said = field["help"][0].upper() + field["help"][1:] + "." + unit
+    return f"{field['name']} : {_types(field)[1]}\n" + textwrap.indent(textwrap.fill(said, 90), "    ")
 
 
 def takes(kind: Any) -> Callable[[_Function], _Function]:
@@ -107,22 +103,3 @@ def takes(kind: Any) -> Callable[[_Function], _Function]:
         return function
 
     return decorate
-
-
-def keywords_module() -> str:
-    """The text of ``_keywords.py``, which type checkers read: scripts/python-stub writes it."""
-    kinds = [kind for kind in vars(_core).values() if hasattr(kind, "FIELDS")]
-    text = '''"""Keywords of functions, from the lists of the library; written by scripts/python-stub."""
-
-from __future__ import annotations
-
-import os
-from typing import Any, Literal, TypedDict
-
-import numpy.typing as npt
-'''
-    for kind in kinds:
-        text += f"\n\nclass {kind.__name__.removesuffix('Options')}Keywords(TypedDict, total=False):\n"
-        text += f'    """{kind.__doc__}"""\n\n'
-        text += "".join(f"    {field['name']}: {annotation(field)}\n" for field in kind.FIELDS)
-    return text
