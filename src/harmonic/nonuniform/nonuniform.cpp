@@ -83,6 +83,19 @@ void add_sources(const NonuniformPlan& plan, std::span<const SourceKind> kinds, 
   finish_adjoint<T>(plan, spreaders, sum, context, {"transform", 0.6, 1});
 }
 
+void add_kinds(const NonuniformPlan& plan, std::span<const SourceKind> kinds, Coefficients& sum,
+               const Context& context) {
+  if (!plan.single) return add_sources<double>(plan, kinds, 1, sum, context);
+  double largest = 0;
+  for (const SourceKind& kind : kinds) largest = std::max(largest, largest_of(kind.sources));
+  const double scale = scale_for(largest);
+  Coefficients scaled(sum.degree());
+  add_sources<float>(plan, kinds, scale, scaled, context);
+  for (std::size_t i = 0; i < sum.values().size(); ++i) {
+    sum.values()[i] += scaled.values()[i] / scale;
+  }
+}
+
 }  // namespace
 
 template <typename T>
@@ -149,23 +162,14 @@ template void finish_adjoint(const NonuniformPlan&, std::span<GridSpreader<doubl
 void nonuniform_add_adjoint(const NonuniformPlan& plan, const ScatteredSources& sources,
                             int derivatives, Coefficients& sum, const Context& context) {
   const SourceKind kinds[] = {{sources, derivatives}};
-  if (plan.single) {
-    const double scale = scale_for(largest_of(sources));
-    Coefficients scaled(sum.degree());
-    add_sources<float>(plan, kinds, scale, scaled, context);
-    for (std::size_t i = 0; i < sum.values().size(); ++i) {
-      sum.values()[i] += scaled.values()[i] / scale;
-    }
-  } else {
-    add_sources<double>(plan, kinds, 1, sum, context);
-  }
+  add_kinds(plan, kinds, sum, context);
 }
 
 void nonuniform_add_adjoint(const NonuniformPlan& plan, const ScatteredSources& values,
                             const ScatteredSources& hessians, Coefficients& sum,
                             const Context& context) {
   const SourceKind kinds[] = {{values, 0}, {hessians, 2}};
-  add_sources<double>(plan, kinds, 1, sum, context);
+  add_kinds(plan, kinds, sum, context);
 }
 
 template <typename T>

@@ -39,7 +39,7 @@ void finish_adjoint(const NonuniformPlan& plan, std::span<GridSpreader<T>> sprea
 
 void nonuniform_add_adjoint(const NonuniformPlan& plan, const ScatteredSources& sources,
                             int derivatives, Coefficients& sum, const Context& context);
-// Of two kinds in one grid: those without derivatives cost less. In double precision.
+// Of two kinds in one grid: those without derivatives cost less.
 void nonuniform_add_adjoint(const NonuniformPlan& plan, const ScatteredSources& values,
                             const ScatteredSources& hessians, Coefficients& sum,
                             const Context& context);

@@ -10,7 +10,7 @@
 #include "transform/mesh_pass/plan/error_budget.h"
 #include "transform/mesh_pass/plan/plan.h"
 #include "transform/mesh_pass/run_pass.h"
-#include "transform/mesh_pass/sampled_rules.h"
+#include "transform/mesh_pass/sampled_error.h"
 
 namespace rholm {
 namespace {
@@ -18,7 +18,7 @@ namespace {
 // Tries to keep the precision: a second is rare, a third needs no sample.
 constexpr int kMostTries = 3;
 
-// So many times what a sample says of rules, and its doubt, are to be within the wish (chosen).
+// So many times what a sample says, and its doubt, are to be within the wish (chosen).
 constexpr double kSampleMargin = 2;
 
 // A mesh with a sample of it; the triangles sorted if they were in random order, where every corner
@@ -69,8 +69,8 @@ double tightened(double error, double modelled, const MeshPlan& plan, double pre
   return 1.5 * slack * error / precision;
 }
 
-// Takes what rules leave from a sample of a large mesh. Returns what is to be within the wish,
-// relative as FastReport::error.
+// Takes what rules leave from a sample of a large mesh, and whether what windows leave adds up.
+// Returns what is to be within the wish, relative as FastReport::error.
 double measure(const PassInput& input, const MeshPlan& plan, const Context& context, double norm,
                MeshPassResult& result) {
   FastReport& report = result.report;
@@ -78,19 +78,25 @@ double measure(const PassInput& input, const MeshPlan& plan, const Context& cont
   if (!sampled || plan.divided.degree == 0 || !(norm > 0)) {
     return report.error;
   }
-  const auto sample = timed(result.times, "verify", [&] {
-    return sample_rules(input.mesh, input.options, plan, result.block_errors, context);
+  const SampledError sample = timed(result.times, "verify", [&] {
+    return sample_error(input.mesh, input.options, plan, result.transform, result.block_errors,
+                        context);
   });
   const double unscale = 1 / plan.block.scale;
   const int degree = plan.divided.degree;
   const double band = norm_of_degrees(result.coefficients, 3 * degree / 4 + 1, degree);
-  const double rules = unscale * sample.error, doubt = unscale * sample.doubt;
+  const double rules = unscale * sample.rules, doubt = unscale * sample.doubt;
+  const double windows = unscale * sample.windows;
+  const auto with_all_else = [&](double measured) {
+    return std::hypot(measured, result.error_beside) / norm;
+  };
   report.measured_share = sample.share;
-  report.error = std::hypot(rules, result.error_beside) / norm;
-  report.error_doubt = std::hypot(rules + doubt, result.error_beside) / norm - report.error;
+  report.error = with_all_else(std::hypot(rules, windows));
+  report.error_doubt = with_all_else(std::hypot(rules + doubt, windows)) - report.error;
   report.band_error =
       band > 0 ? std::hypot(unscale * sample.band, result.band_error_beside) / band : 0;
-  return std::hypot(std::max(kSampleMargin * rules, rules + doubt), result.error_beside) / norm;
+  return with_all_else(
+      std::hypot(std::max(kSampleMargin * rules, rules + doubt), kSampleMargin * windows));
 }
 
 }  // namespace

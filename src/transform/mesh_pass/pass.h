@@ -11,7 +11,7 @@
 namespace rholm {
 
 // Chosen: the error of closed meshes of up to so many triangles is measured by a second reading
-// (verify.h), that of larger ones by mesh_pass() itself, on a sample (sampled_rules.h).
+// (verify.h), that of larger ones by mesh_pass() itself, on a sample (sampled_error.h).
 inline constexpr std::size_t kMostVerified = 100'000;
 
 // Throws InvalidInput for coordinates that are not finite, indices out of range, `check` that

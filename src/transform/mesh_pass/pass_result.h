@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "harmonic/nonuniform/nonuniform_plan.h"
 #include "rholm/analyze.h"
 #include "rholm/coefficients.h"
 #include "rholm/context.h"
@@ -21,6 +22,7 @@ struct MeshPassResult {
   // But for what rules leave, l2 over 1 <= l <= L and over the degrees above 3L/4.
   double error_beside = 0, band_error_beside = 0;
   std::vector<float> block_errors;  // of kTrianglesPerBlock triangles, see MeshPart
+  NonuniformPlan transform;         // the windows that were used
   double least_error = 0;           // what rounding leaves at best, relative as FastReport::error
   StageTimes times;  // "triangles", "spread", "fourier"; "order" if triangles were sorted
 };

@@ -136,6 +136,7 @@ void PassSums<T>::set_error(const MeshView& mesh, double source2, double hessian
   };
   result.error_beside = error.whole_beside;
   result.band_error_beside = error.band_beside;
+  result.transform = transform;
   result.report.error = relative(error.whole, 1);
   result.report.band_error = relative(error.band, 3 * degree / 4 + 1);
 }

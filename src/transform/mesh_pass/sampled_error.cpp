@@ -1,0 +1,432 @@
+// A second reading of a large mesh would take as long as the first. What it leaves shows on a
+// sample. An element, an edge or a face, has an error: the adjoint of its sources by the rule of
+// the plan minus that of its sources by a much finer one. Runs of triangles are taken, run b of
+// error e_b with the chance c_b: half of them evenly, half by what the model says of each. An edge
+// or a vertex belongs to the run of the first triangle that has it, so that the runs of all
+// triangles add up to the whole error e. Every other run of the sample is summed into p, the others
+// into q, as e_b / sqrt(c_b). Then |p|^2 + |q|^2 has the mean sum |e_b|^2: what |e|^2 is where the
+// errors of runs know nothing of each other. What adds up over the mesh, as that of needles about
+// an axis, is in p and q alike, and p . q has the mean 1/4 of the sum of e_b . e_b' sqrt(c_b c_b')
+// over all pairs. That root is taken for its mean over errors, 1 / SampledRuns::common. Of what is
+// random p . q has the variance sum p_i^2 q_i^2, small beside |p|^2 |q|^2 where the error has many
+// coefficients: so something that adds up is seen although the sample is a hundredth.
+//
+// A source, a vertex with all that is lumped there or a node, has an error of its window: its
+// adjoint on the plan's grid minus that on a much finer one. What random ones leave is known from
+// the squares of all sources, and better than from a sample. That they add up, where sources crowd
+// in a few directions or stand in step with the grid, shows in the products of the sums of G groups
+// of runs, g_i . g_j, whose sum over i < j has the mean (1 - 1/G)/2 of that over all pairs of runs.
+// Such errors have few coefficients, or are alike but for their signs: the variance is the sum of
+// the squares of all g_i . g_j, if that is more.
+#include "transform/mesh_pass/sampled_error.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <numbers>
+#include <vector>
+
+#include "base/cancel.h"
+#include "harmonic/coefficients/laplacian.h"
+#include "harmonic/nonuniform/nonuniform.h"
+#include "harmonic/nonuniform/window_error.h"
+#include "rholm/harmonic.h"
+#include "transform/mesh_pass/own_nodes.h"
+#include "transform/mesh_pass/sampled_runs.h"
+#include "transform/rules/hermite_rules.h"
+
+namespace rholm {
+namespace {
+
+// Of what the plan's rules may leave, and of rounding, the finer ones leave that much (chosen).
+constexpr double kFinerRules = 0.1, kFinerRounding = 0.1;
+constexpr double kElements = 2.5;  // edges and faces per triangle
+constexpr double kLeastPrecision = 1e-14;
+// Nanoseconds that a triangle of the pass takes, one of its nodes, and a transform of few sources
+// for each coefficient; windows are measured by as many groups as take that part of the pass, if by
+// any (all chosen).
+constexpr double kTriangleCost = 50, kNodeCost = 100, kCoefficientCost = 52, kMostOfPass = 0.05;
+constexpr std::size_t kGroups[] = {8, 4, 2};
+// Chosen: that windows add up counts from so many standard deviations on.
+constexpr double kSignificant = 2;
+
+// What a vertex or a node gives: a weight and factors of the gradient and the Hessian.
+struct Source {
+  double weight = 0;
+  Vec3 gradient;
+  std::array<double, 6> hessian = {};
+
+  void add(const Source& other) {
+    weight += other.weight;
+    gradient += other.gradient;
+    for (std::size_t k = 0; k < hessian.size(); ++k) hessian[k] += other.hessian[k];
+  }
+};
+
+// Point sources, at points of any length; what is added counts `scale` times.
+class Sources : public NodeSink {
+ public:
+  void add(std::span<const Node> nodes) override {
+    for (const Node& node : nodes) {
+      at_.push_back(node.x / norm(node.x));
+      weights_.push_back(scale * node.weight);
+    }
+  }
+  void add_gradient(const GradientNode& node) override {
+    add(node.x, {.weight = 0, .gradient = node.weight});
+  }
+  void add_undivided(const Vec3& x, double weight) override {
+    undivided_at_.push_back(x / norm(x));
+    undivided_.push_back(scale * weight);
+  }
+  void add(const Vec3& x, const Source& source) {
+    const double over_r = 1 / norm(x);
+    curved_at_.push_back(over_r * x);
+    curved_weights_.push_back(scale * source.weight);
+    gradients_.push_back(scale * over_r * source.gradient);
+    hessians_.push_back(source.hessian);
+    for (double& h : hessians_.back()) h *= scale * over_r * over_r;
+  }
+
+  // Windows leave at most about `left`.
+  Coefficients sum(int degree, double left, const Context& context) const {
+    const double precision =
+        std::clamp(left / std::max(generic(degree), 1e-300), kLeastPrecision, 1e-3);
+    const NonuniformPlan plan = plan_nonuniform({.degree = degree,
+                                                 .allowed = precision,
+                                                 .sources = at_.size() + curved_at_.size(),
+                                                 .derivatives = 2,
+                                                 .forbid_single = true});
+    Coefficients sum = sum_by(plan, context);
+    if (!undivided_.empty()) {
+      add_adjoint({.directions = undivided_at_, .weights = undivided_}, sum,
+                  {.precision = precision}, context);
+    }
+    return sum;
+  }
+  // By that plan, without what is not divided.
+  Coefficients sum_by(const NonuniformPlan& plan, const Context& context) const {
+    Coefficients sum(plan.fourier.degree);
+    nonuniform_add_adjoint(plan, {.directions = at_, .weights = weights_},
+                           {.directions = curved_at_,
+                            .weights = curved_weights_,
+                            .gradients = gradients_,
+                            .hessians = hessians_},
+                           sum, context);
+    divide_by_eigenvalue(sum);
+    return sum;
+  }
+
+  double scale = 1;
+
+ private:
+  // The l2 norm over l > 0 that sums of these with random signs have, divided by l(l+1).
+  double generic(int degree) const {
+    const double slope2 = std::pow(gradient_as_weight(degree), 2), bend2 = std::pow(degree, 4);
+    double sum = 0;
+    for (const double weight : weights_) sum += weight * weight;
+    for (std::size_t i = 0; i < hessians_.size(); ++i) {
+      sum += std::pow(curved_weights_[i], 2) + slope2 * dot(gradients_[i], gradients_[i]);
+      for (const double h : hessians_[i]) sum += bend2 * h * h;
+    }
+    for (const double weight : undivided_) sum += std::pow(degree + 1.0, 4) * weight * weight;
+    return std::sqrt(sum / (4 * std::numbers::pi));
+  }
+
+  std::vector<Vec3> at_, curved_at_, gradients_, undivided_at_;
+  std::vector<double> weights_, curved_weights_, undivided_;
+  std::vector<std::array<double, 6>> hessians_;
+};
+
+// The same without what is not divided.
+class Divided : public NodeSink {
+ public:
+  explicit Divided(NodeSink& to) : to_(to) {}
+  void add(std::span<const Node> nodes) override { to_.add(nodes); }
+  void add_gradient(const GradientNode& node) override { to_.add_gradient(node); }
+  void add_undivided(const Vec3&, double) override {}
+
+ private:
+  NodeSink& to_;
+};
+
+// sum += factor (a b^T + b a^T) / 2.
+void add_product(const Vec3& a, const Vec3& b, double factor, std::array<double, 6>& sum) {
+  sum[0] += factor * a.x * b.x;
+  sum[1] += factor * (a.x * b.y + a.y * b.x) / 2;
+  sum[2] += factor * (a.x * b.z + a.z * b.x) / 2;
+  sum[3] += factor * a.y * b.y;
+  sum[4] += factor * (a.y * b.z + a.z * b.y) / 2;
+  sum[5] += factor * a.z * b.z;
+}
+
+// Hermite's rules, element by element: what lump_gradients() and lump_hessians() do with whole
+// triangles. Without Hessians VG, as constants of hermite_rules.h.
+constexpr HermiteEdge kGradientEdge = {1.0 / 2, 1.0 / 12, 0, 0, 0, 0, 4};
+constexpr HermiteFace kGradientFace = {1.0 / 3, 1.0 / 24, 0, 0, 0, {}, 0, 4};
+
+// corner(0, source at a), corner(1, source at b), node(x, weight).
+template <typename Corner, typename VisitNode>
+void visit_edge(const HermiteEdge& rule, const Vec3& a, const Vec3& b, double weight,
+                const Corner& corner, const VisitNode& node) {
+  const Vec3 e = b - a;
+  Source source{.weight = rule.value * weight, .gradient = rule.gradient * weight * e};
+  add_product(e, e, rule.hessian * weight, source.hessian);
+  corner(0, source);
+  source.gradient = -source.gradient;
+  corner(1, source);
+  for (int k = 1; k <= rule.nodes; ++k) {
+    node(a + static_cast<double>(k) / (rule.nodes + 1) * e, rule.node * weight);
+  }
+}
+
+template <typename Corner, typename VisitNode>
+void visit_face(const HermiteFace& rule, const std::array<Vec3, 3>& p, double weight,
+                const Corner& corner, const VisitNode& node) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 a = p[(i + 1) % 3] - p[i], b = p[(i + 2) % 3] - p[i];
+    Source source{.weight = rule.value * weight, .gradient = rule.gradient * weight * (a + b)};
+    add_product(a, a, rule.square * weight, source.hessian);
+    add_product(b, b, rule.square * weight, source.hessian);
+    add_product(a, b, 2 * rule.product * weight, source.hessian);
+    corner(i, source);
+  }
+  const auto add_node = [&](double u, double v, double part) {
+    node(u * p[0] + v * p[1] + (1 - u - v) * p[2], part * weight);
+  };
+  if (rule.center != 0) add_node(1.0 / 3, 1.0 / 3, rule.center);
+  for (const auto& [part, u, v] : rule.orbits) {
+    if (part == 0) continue;
+    const double w = 1 - u - v;
+    add_node(u, v, part), add_node(v, w, part), add_node(w, u, part);
+    if (u != v) add_node(v, u, part), add_node(w, v, part), add_node(u, w, part);
+  }
+}
+
+// z^2 of an edge, as the kernel has it.
+double extent2(const Vec3& a, const Vec3& b, double degree, double bend) {
+  const Vec3 across = cross(a, b), e = b - a;
+  const double over = 1 / std::min(dot(a, a), dot(b, b));
+  return degree * degree * over * over * dot(across, across) + bend * over * dot(e, e);
+}
+
+// What a lumped triangle gives, element by element: corner(element, i, source at corner i) and
+// node(element, x, weight); element 0 ... 2 is the edge from that corner, 3 the face.
+template <typename Corner, typename VisitNode>
+void visit_lumped(const SampledTriangle& t, const BlockParameters& b, const Corner& corner,
+                  const VisitNode& node) {
+  const double bend = b.hessians ? kHermiteBend : 16;
+  double most = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    const double z2 = extent2(t.p[i], t.p[j], b.degree, bend);
+    most = std::max(most, z2);
+    const HermiteEdge& rule =
+        b.hessians ? kHermiteEdges[hermite_rule(b.edge_reach2, z2)] : kGradientEdge;
+    visit_edge(
+        rule, t.p[i], t.p[j], t.weight[i],
+        [&](std::size_t end, const Source& source) { corner(i, end == 0 ? i : j, source); },
+        [&](const Vec3& x, double weight) { node(i, x, weight); });
+  }
+  visit_face(
+      b.hessians ? kHermiteFaces[hermite_rule(b.face_reach2, most)] : kGradientFace, t.p,
+      t.face_weight, [&](std::size_t i, const Source& source) { corner(3, i, source); },
+      [&](const Vec3& x, double weight) { node(3, x, weight); });
+}
+
+class Sampler {
+ public:
+  Sampler(const MeshView& mesh, const MeshPassOptions& options, const MeshPlan& plan)
+      : vertices_{.mesh = mesh,
+                  .center = plan.block.scale * plan.block.center,
+                  .scale = plan.block.scale},
+        plan_(plan) {
+    const double elements = kElements * static_cast<double>(mesh.n_triangles);
+    left_ = std::max(kFinerRules * plan.allowed.rules,
+                     kFinerRounding * plan.allowed.rounding * plan.block.scale);
+    finer_.divided = {
+        .degree = options.degree, .allowed = left_ / std::sqrt(elements), .divided = true};
+    finer_.undivided = finer_.divided;
+    finer_.undivided.divided = false;
+  }
+
+  SampledError run(const SampledRuns& sample, const NonuniformPlan& transform,
+                   const Context& context) const {
+    const int degree = transform.fourier.degree;
+    Sources halves[2];
+    std::vector<Sources> groups(sample.share == 1 ? 2 : group_count(degree));
+    // Rules, whose sources are many more, by every other run.
+    const std::size_t step = sample.share == 1 ? 1 : 2;
+    const double part = 1 / static_cast<double>(step);
+    for (std::size_t k = 0; k < sample.runs.size(); ++k) {
+      ask_cancel();
+      const SampledRun& run = sample.runs[k];
+      if (k % step == 0) add_rules(run, run.chance * part, halves[k / step % 2]);
+      if (!groups.empty()) add_own(run, groups[k % groups.size()]);
+    }
+    SampledError found{.share = part * sample.share};
+    const double left = left_ * std::sqrt(found.share);
+    set_rules({halves[0].sum(degree, left, context), halves[1].sum(degree, left, context)},
+              sample.common / part, sample.runs.size() / step, found);
+    std::vector<Coefficients> windows;
+    for (const Sources& group : groups) {
+      Coefficients& error = windows.emplace_back(group.sum_by(transform, context));
+      const Coefficients fine = group.sum(degree, left, context);
+      for (std::size_t i = 0; i < error.values().size(); ++i) error.values()[i] -= fine.values()[i];
+    }
+    if (!windows.empty()) found.windows = windows_of(windows, sample);
+    return found;
+  }
+
+ private:
+  std::size_t group_count(int degree) const {
+    const double transforms = 2 * kCoefficientCost * std::pow(degree + 1.0, 2);
+    const double pass =
+        (kTriangleCost + kNodeCost * plan_.nodes) * static_cast<double>(vertices_.mesh.n_triangles);
+    for (const std::size_t groups : kGroups) {
+      if (static_cast<double>(groups) * transforms < kMostOfPass * pass) return groups;
+    }
+    return 0;
+  }
+
+  // Sources whose sum is the error of the rules.
+  void add_rules(const SampledRun& run, double chance, Sources& to) const {
+    to.scale = 1 / std::sqrt(chance);
+    std::map<std::uint32_t, Lump> lumps;
+    NodeWriter nodes({plan_.divided, plan_.undivided}, vertices_, to);
+    for (const SampledTriangle& t : run.triangles) {
+      const auto belongs = [&](std::size_t element) {
+        return element == 3 ? t.face : t.edges[element];
+      };
+      add_sources(
+          t, nodes, to, belongs, [&](std::size_t element, std::size_t) { return belongs(element); },
+          lumps);
+    }
+    nodes.flush();
+    for (const auto& [vertex, lump] : lumps) to.add(lump.at, lump.source);
+    to.scale = -to.scale;
+    NodeWriter finer(finer_, vertices_, to);
+    for (const SampledTriangle& t : run.triangles) {
+      finer.add_triangle(t.p, t.vertices, t.edges, t.face);
+    }
+    finer.flush();
+  }
+
+  // Sources that the pass has: nodes and whole vertices. What is not divided has windows of its
+  // own, which keep a bound.
+  void add_own(const SampledRun& run, Sources& to) const {
+    to.scale = 1 / std::sqrt(run.chance);
+    std::map<std::uint32_t, Lump> lumps;
+    Divided divided(to);
+    NodeWriter nodes({plan_.divided, plan_.undivided}, vertices_, divided);
+    for (const SampledTriangle& t : run.triangles) {
+      add_sources(
+          t, nodes, to,
+          [&](std::size_t element) { return element == 3 ? t.face : t.edges[element]; },
+          [&](std::size_t, std::size_t corner) { return t.corners[corner]; }, lumps);
+    }
+    nodes.flush();
+    for (const auto& [vertex, lump] : lumps) to.add(lump.at, lump.source);
+  }
+
+  // What is lumped at a vertex.
+  struct Lump {
+    Vec3 at;
+    Source source;
+  };
+  // A triangle's: nodes of the elements that are asked for, by `nodes` if it is not lumped; what
+  // elements give corners where `lumped` says so.
+  template <typename Belongs, typename Lumped>
+  void add_sources(const SampledTriangle& t, NodeWriter& nodes, Sources& to, const Belongs& belongs,
+                   const Lumped& lumped, std::map<std::uint32_t, Lump>& lumps) const {
+    if (!t.lumped) return nodes.add_triangle(t.p, t.vertices, t.edges, t.face);
+    visit_lumped(
+        t, plan_.block,
+        [&](std::size_t element, std::size_t corner, const Source& source) {
+          if (!lumped(element, corner)) return;
+          Lump& lump = lumps[t.vertices[corner]];
+          lump.at = t.p[corner];
+          lump.source.add(source);
+        },
+        [&](std::size_t element, const Vec3& x, double weight) {
+          const Node node = {x, weight};
+          if (belongs(element)) to.add({&node, 1});
+        });
+  }
+
+  static void set_rules(const std::array<Coefficients, 2>& halves, double counted, std::size_t n,
+                        SampledError& found) {
+    const auto from = [&](int first) {
+      const double own = product(halves[0], halves[0], first).sum;
+      const double other = product(halves[1], halves[1], first).sum;
+      const Product common = product(halves[0], halves[1], first);
+      const double whole = 4 * counted - 2, both = own + other;
+      const auto runs = static_cast<double>(n);
+      const double apart = both > 0 ? std::hypot(std::sqrt(2 / runs), (own - other) / both) : 0;
+      const double error2 = both + std::max(0.0, whole * common.sum);
+      return std::array{std::sqrt(error2), std::sqrt(error2 + 2 * apart * both +
+                                                     2 * whole * std::sqrt(common.squares))};
+    };
+    const auto [error, most] = from(1);
+    found.rules = error;
+    found.doubt = most - error;
+    found.band = from(3 * halves[0].degree() / 4 + 1)[0];
+  }
+
+  // What adds up; of all runs the whole.
+  static double windows_of(const std::vector<Coefficients>& groups, const SampledRuns& sample) {
+    double own = 0, pairs = 0, squares = 0, by_coefficients = 0;
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+      own += product(groups[i], groups[i], 1).sum;
+      for (std::size_t j = i + 1; j < groups.size(); ++j) {
+        const Product one = product(groups[i], groups[j], 1);
+        pairs += one.sum;
+        squares += one.sum * one.sum;
+        by_coefficients += one.squares;
+      }
+    }
+    if (sample.share == 1) return std::sqrt(std::max(0.0, own + 2 * pairs));
+    // One pair alone says nothing of a variance.
+    const double variance =
+        groups.size() > 2 ? std::max(squares, by_coefficients) : by_coefficients;
+    if (!(pairs > kSignificant * std::sqrt(variance))) return 0;
+    const auto n = static_cast<double>(groups.size());
+    return std::sqrt(sample.common * 2 * n / (n - 1) * pairs);
+  }
+
+  // Over the degrees from `first` on: the sum of products of coefficients, and of their squares.
+  struct Product {
+    double sum = 0, squares = 0;
+  };
+  static Product product(const Coefficients& a, const Coefficients& b, int first) {
+    Product all;
+    for (int l = first; l <= a.degree(); ++l) {
+      for (int m = 0; m <= l; ++m) {
+        const double c = a.c(l, m) * b.c(l, m), s = a.s(l, m) * b.s(l, m);
+        all.sum += c + s;
+        all.squares += c * c + s * s;
+      }
+    }
+    return all;
+  }
+
+  ScaledVertices vertices_;
+  const MeshPlan& plan_;
+  NodeOptions finer_;
+  double left_ = 0;  // by the finer rules
+};
+
+}  // namespace
+
+SampledError sample_error(const MeshView& mesh, const MeshPassOptions& options,
+                          const MeshPlan& plan, const NonuniformPlan& transform,
+                          std::span<const float> block_errors, const Context& context,
+                          double share) {
+  const Context silent{.threads = context.threads};
+  const SampledRuns sample = sample_runs(mesh, options, plan.block, block_errors, share, silent);
+  return Sampler(mesh, options, plan).run(sample, transform, silent);
+}
+
+}  // namespace rholm
