@@ -14,11 +14,13 @@
 #include "cli/options/field_options.h"
 #include "cli/terminal/exit_code.h"
 #include "cli/terminal/session.h"
+#include "rholm/compare.h"
 #include "rholm/descriptors.h"
 #include "rholm/error_info.h"
 #include "rholm/fields.h"
 #include "rholm/filter.h"
 #include "rholm/formats.h"
+#include "rholm/points.h"
 #include "rholm/reconstruct.h"
 #include "rholm/reconstruct_bricks.h"
 #include "rholm/simplify.h"
@@ -200,9 +202,27 @@ std::string simplify_section() {
       false);
 }
 
-constexpr ReferenceSection kSections[] = {
-    window_section, descriptor_section,  shape_format_section, coefficients_format_section,
-    error_section,  reconstruct_section, brick_section,        simplify_section};
+// Of a function of Python whose name is the command's.
+template <HasFields Options, const char* kName>
+std::string command_section() {
+  std::string struct_name = kName;
+  struct_name[0] = static_cast<char>(struct_name[0] - 'a' + 'A');
+  return field_section<Options>(
+      fmt::format("Options of {}", kName),
+      fmt::format("`{}Options` in C++ and arguments of `rholm.{}` in Python.", struct_name, kName));
+}
+constexpr char kCompareName[] = "compare", kOrientName[] = "orient";
+
+constexpr ReferenceSection kSections[] = {window_section,
+                                          descriptor_section,
+                                          shape_format_section,
+                                          coefficients_format_section,
+                                          error_section,
+                                          reconstruct_section,
+                                          brick_section,
+                                          simplify_section,
+                                          command_section<CompareOptions, kCompareName>,
+                                          command_section<OrientOptions, kOrientName>};
 
 }  // namespace
 

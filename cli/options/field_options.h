@@ -82,8 +82,9 @@ std::vector<Option> field_options(Options& values) {
 template <HasFields Options>
 void scale_lengths(Options& values, double diagonal) {
   for_each_field<Options>([&](auto member, const FieldInfo& info) {
-    if (!info.in_program || info.unit != FieldUnit::kLength) return;
     using V = std::remove_reference_t<decltype(values.*member)>;
+    if constexpr (HasFields<V>) scale_lengths(values.*member, diagonal);
+    if (!info.in_program || info.unit != FieldUnit::kLength) return;
     if constexpr (std::is_same_v<V, double>) values.*member *= diagonal;
     if constexpr (std::is_same_v<V, std::optional<double>>) {
       if (values.*member) *(values.*member) *= diagonal;

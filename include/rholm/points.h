@@ -7,6 +7,7 @@
 #include <string>
 
 #include "rholm/context.h"
+#include "rholm/fields.h"
 #include "rholm/mesh.h"
 
 namespace rholm {
@@ -124,9 +125,34 @@ struct OrientOptions {
   // do, if there are all three, of finite values: the place that each point was measured from.
   std::optional<Vec3> sensor = {};
   // Points far from all others are not looked for; with a centre or a sensor they never are.
-  bool keep_strays = false;
+  bool keep_outliers = false;
   bool confidence = false;  // the cloud gets an attribute `confidence`, instead of any of that name
 };
+
+// Their list (fields.h).
+template <typename Visitor>
+void visit_fields(FieldsOf<OrientOptions>, const Visitor& field) {
+  using O = OrientOptions;
+  field(&O::neighbors, {.name = "neighbors",
+                        .help = "points that a normal is fitted to; 0: chosen from the data",
+                        .value = "N",
+                        .least = 3,
+                        .most = 1000,
+                        .may_be_zero = true});
+  field(&O::keep_directions, {.name = "keep_directions",
+                              .help = "believe the normals that are given up to their signs"});
+  field(
+      &O::center,
+      {.name = "center", .help = "normals point away from here, a point inside", .value = "X,Y,Z"});
+  field(&O::sensor, {.name = "sensor",
+                     .help = "normals point to here, where the points were measured from",
+                     .value = "X,Y,Z"});
+  field(&O::keep_outliers, {.name = "keep_outliers",
+                            .help = "do not look for points far from all others, which take the "
+                                    "normal of the nearest"});
+  field(&O::confidence,
+        {.name = "confidence", .help = "give each point its confidence, 0 ... 1, as an attribute"});
+}
 
 // What orient() did, and how sure it is.
 struct OrientReport {
@@ -138,7 +164,7 @@ struct OrientReport {
   std::size_t flipped = 0;     // normals that point to the other side now than they did
   // Points far from all others, outliers: they take the normal of the nearest one that is none,
   // with a confidence of 0.
-  std::size_t strays = 0;
+  std::size_t outliers = 0;
   std::size_t undetermined = 0;  // points whose neighbours lie on a line: their normals are zero
   // Of a point, 0 ... 1: its sign is right with the probability (1 + confidence) / 2, or a larger
   // one. From how far its neighbours' normals agree with its own, and how nearly the winding number
@@ -147,6 +173,30 @@ struct OrientReport {
   double mean_confidence = 0;
   double unsure = 0;  // share of the points with a confidence below 0.5
 };
+
+// Its list.
+template <typename Visitor>
+void visit_fields(FieldsOf<OrientReport>, const Visitor& field) {
+  using R = OrientReport;
+  field(&R::points, {.name = "points", .help = "points given"});
+  field(&R::duplicates, {.name = "duplicates",
+                         .help = "points at the place of an earlier one, whose normal they share"});
+  field(&R::neighbors, {.name = "neighbors", .help = "points of a fit"});
+  field(&R::components, {.name = "components",
+                         .help = "parts of the graph of neighbours; 0 with a centre or a sensor"});
+  field(&R::computed, {.name = "computed", .help = "normals whose direction is new"});
+  field(&R::flipped, {.name = "flipped", .help = "normals that were turned round"});
+  field(&R::outliers, {.name = "outliers",
+                       .help = "points far from all others, which took the normal of the nearest"});
+  field(&R::undetermined,
+        {.name = "undetermined",
+         .help = "points whose neighbours lie on a line: their normals are zero"});
+  field(
+      &R::mean_confidence,
+      {.name = "mean_confidence",
+       .help = "mean over the points: a sign is right with the probability (1 + confidence) / 2"});
+  field(&R::unsure, {.name = "unsure", .help = "share of the points with a confidence below 0.5"});
+}
 
 // Share of unsure points from which normals, and a surface made with them, should not be trusted.
 inline constexpr double kTooUnsure = 0.2;  // chosen: a fifth of the shape inside out is no shape

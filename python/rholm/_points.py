@@ -3,14 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy.typing as npt
 
 from . import _core
 from ._arrays import triple
+from ._options import options_of, takes
 from ._run import Progress, caller
 from ._shapes import MeshLike, PointCloud, PointsLike, as_mesh, as_points, finite_points
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._keywords import OrientKeywords
 
 
 def sample_surface(
@@ -184,19 +190,15 @@ class Oriented(NamedTuple):
     """What was done, and how sure it is."""
 
 
+@takes(_core.OrientOptions)
 def orient(
     points: PointsLike,
     normals: npt.ArrayLike | None = None,
     *,
     columns: str | Sequence[str] | None = None,
-    neighbors: int = 0,
-    keep_directions: bool = False,
-    center: npt.ArrayLike | None = None,
-    sensor: npt.ArrayLike | None = None,
-    keep_outliers: bool = False,
-    confidence: bool = False,
     threads: int = 0,
     progress: Progress = None,
+    **options: Unpack[OrientKeywords],
 ) -> Oriented:
     """Gives points unit normals that point out of the solid they bound.
 
@@ -208,18 +210,7 @@ def orient(
         With `keep_directions`, of which only the signs are chosen.
     columns : str or sequence of str, optional
         What the columns of a text table or of an array are, as in `read_shape`.
-    neighbors : int
-        Points of a fit, 3 ... 1000; 0: chosen from the data.
-    keep_directions : bool
-        Keeps the directions of the normals there are.
-    center : array_like, (3,), optional
-        The surface is seen from here from inside.
-    sensor : array_like, (3,), optional
-        It has been measured from here.
-    keep_outliers : bool
-        Points far from all others are not looked for; else they take the normal of the nearest.
-    confidence : bool
-        The cloud gets an attribute `confidence`, 0 ... 1, instead of any of that name.
+    {options}
     threads, progress
         See `rholm.caller`.
 
@@ -227,15 +218,8 @@ def orient(
     ----------
     H. Hoppe et al., Surface reconstruction from unorganized points, 1992.
     """
-    options = _core.OrientOptions(
-        neighbors=neighbors,
-        keep_directions=keep_directions,
-        center=None if center is None else triple(center, "center"),
-        sensor=None if sensor is None else triple(sensor, "sensor"),
-        keep_strays=keep_outliers,
-        confidence=confidence,
-    )
+    wanted = options_of(_core.OrientOptions, {**options}, "orient")
     given = finite_points(as_points(points, normals, columns=columns))[0]
     with caller(threads, progress) as how:
-        cloud, report = _core.orient(given._core, options, how)
+        cloud, report = _core.orient(given._core, wanted, how)
     return Oriented(PointCloud._of(cloud), report)

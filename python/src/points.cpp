@@ -65,29 +65,8 @@ void bind_points(nb::module_& m) {
   });
 
   Options<OrientOptions>(m, "OrientOptions", "How normals are found and which side is outside.")
-      .field("neighbors", &OrientOptions::neighbors)
-      .field("keep_directions", &OrientOptions::keep_directions)
-      .field("center", &OrientOptions::center)
-      .field("sensor", &OrientOptions::sensor)
-      .field("keep_strays", &OrientOptions::keep_strays)
-      .field("confidence", &OrientOptions::confidence);
-  Record<OrientReport>(m, "OrientReport", "What orient() did, and how sure it is.")
-      .field("points", &OrientReport::points, "Number of points given.")
-      .field("duplicates", &OrientReport::duplicates,
-             "Points at the place of an earlier one; they share its normal.")
-      .field("neighbors", &OrientReport::neighbors, "Points of a fit.")
-      .field("components", &OrientReport::components,
-             "Of the graph of neighbours; 0 with a centre or a sensor.")
-      .field("computed", &OrientReport::computed, "Normals whose direction is new.")
-      .field("flipped", &OrientReport::flipped,
-             "Normals that point to the other side now than they did.")
-      .field("strays", &OrientReport::strays,
-             "Points far from all others; they take the normal of the nearest, with confidence 0.")
-      .field("undetermined", &OrientReport::undetermined,
-             "Points whose neighbours lie on a line: their normals are zero.")
-      .field("mean_confidence", &OrientReport::mean_confidence,
-             "0 ... 1: how far neighbours and winding numbers agree with the normals.")
-      .field("unsure", &OrientReport::unsure, "Share of the points with a confidence below 0.5.");
+      .fields();
+  Record<OrientReport>(m, "OrientReport", "What orient() did, and how sure it is.").fields();
   m.def("orient", [](PointCloud cloud, const OrientOptions& options, const Caller& caller) {
     const OrientReport report =
         caller.run([&](const Context& context) { return orient(cloud, options, context); });

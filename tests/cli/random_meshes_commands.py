@@ -80,7 +80,7 @@ def points(trial):
     trial.do("orient MESH", "orient", m, out="oriented.ply", codes=ANY)
     if trial.has("hard.xyz"):
         trial.do("orient", "hard.xyz", "--json", *trial.one_of(
-            (), ("--k", "6"), ("--center", "0,0,0"), ("--sensor", "9,9,9"), ("--confidence",)),
+            (), ("--neighbors", "6"), ("--center", "0,0,0"), ("--sensor", "9,9,9"), ("--confidence",)),
             out="signed.off", codes=ANY)
         trial.do("reconstruct (hard)", "reconstruct", "hard.xyz", *quick, *trial.one_of(
             (), ("--holes", "keep"), ("--tolerance", "0.01"), ("--blend", "spline"),
