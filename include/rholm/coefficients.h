@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "rholm/fields.h"
 #include "rholm/vec3.h"
 
 namespace rholm {
@@ -54,8 +55,7 @@ enum class RadialFunction {
   kGauge,   // q = 1/r
   kOther    // no surface at all: a gravity field, a temperature
 };
-const char* to_string(RadialFunction function);                 // "radius", "gauge", "other"
-RadialFunction parse_radial_function(const std::string& name);  // throws InvalidInput
+EnumNames names_of(RadialFunction function);  // "radius", "gauge", "other"
 
 // How far the surface of an expansion is from the shape it was made of, in the unit of lengths;
 // empty where it is not known. Radial errors are |r - r_L| along directions from the centre,
@@ -85,6 +85,15 @@ struct GravityField {
   double reference_radius = 0;  // of the sphere about the centre, in m; finite and above 0
   friend bool operator==(const GravityField&, const GravityField&) = default;  // equal numbers
 };
+
+// Its list.
+template <typename Visitor>
+void visit_fields(FieldsOf<GravityField>, const Visitor& field) {
+  using G = GravityField;
+  field(&G::gravity_constant, {.name = "gravity_constant", .help = "g M in m^3/s^2"});
+  field(&G::reference_radius,
+        {.name = "reference_radius", .help = "of the sphere about the centre, in m"});
+}
 
 // A surface as coefficients: what a model file holds.
 struct Expansion {
@@ -130,8 +139,7 @@ enum class Normalization {
   kFourPi,       // 1
   kSchmidt       // 1/(2l+1): semi-normalised
 };
-const char* to_string(Normalization normalization);          // "orthonormal", "4pi", "schmidt"
-Normalization parse_normalization(const std::string& name);  // throws InvalidInput
+EnumNames names_of(Normalization normalization);  // "orthonormal", "4pi", "schmidt"
 
 // What the numbers of a file multiply. The default is that of SHTOOLS.
 struct Convention {

@@ -27,9 +27,7 @@ enum class SamplePattern {
   kGrid,    // where lines meet it that face it: a grid along the axis, and two across it
 };
 // "random", "slices", "rings", "lines", "grid".
-const char* to_string(SamplePattern pattern);
-// The pattern of such a name. Throws InvalidInput for a name that is none.
-SamplePattern parse_sample_pattern(const std::string& name);
+EnumNames names_of(SamplePattern pattern);  // "random", "slices", "rings", "lines", "grid"
 
 // What is measured of a surface, and how badly. Lengths are fractions of the diagonal of the
 // mesh's bounding box.
@@ -69,6 +67,85 @@ struct SampleOptions {
   std::uint64_t seed = 1;  // of all random numbers
 };
 
+// Their list (fields.h).
+template <typename Visitor>
+void visit_fields(FieldsOf<SampleOptions>, const Visitor& field) {
+  using O = SampleOptions;
+  field(&O::points, {.name = "points",
+                     .help = "how many, before holes; with a pattern about as many",
+                     .value = "N",
+                     .least = 1,
+                     .most = kMaxPoints});
+  field(&O::noise,
+        {.name = "noise",
+         .help = "standard deviation of each point along x, y and z, a part of the diagonal",
+         .value = "F",
+         .least = 0,
+         .most = 1});
+  field(&O::normal_noise,
+        {.name = "normal_noise",
+         .help = "standard deviation of the angle each normal is turned by, degrees",
+         .value = "DEG",
+         .least = 0,
+         .most = 180});
+  field(&O::outliers, {.name = "outliers",
+                       .help = "share of the points that is anywhere in the box, grown by 10 %",
+                       .value = "F",
+                       .least = 0,
+                       .most = 1});
+  field(&O::holes, {.name = "holes",
+                    .help = "balls about random points of the surface, in which points are removed",
+                    .value = "K",
+                    .least = 0,
+                    .in_program = false});
+  field(&O::hole_radius, {.name = "hole_radius",
+                          .help = "radius of these balls, a part of the diagonal",
+                          .value = "R",
+                          .least = 0,
+                          .most = 1,
+                          .in_program = false});
+  field(&O::density_ratio, {.name = "density_ratio",
+                            .help = "density falls by this along the longest axis, exponentially",
+                            .value = "Q",
+                            .least = 1,
+                            .most = kMaxDensityRatio});
+  field(&O::pattern,
+        {.name = "pattern",
+         .help = "where points lie: random; slices across an axis; rings, planes through it; grid, "
+                 "lines along it and across; lines, rays of scanners in rows"});
+  field(&O::pattern_ratio, {.name = "pattern_ratio",
+                            .help = "steps between the rows of a pattern over those along them",
+                            .value = "R",
+                            .least = 1,
+                            .most = kMaxPatternRatio});
+  field(&O::pattern_axis,
+        {.name = "pattern_axis", .help = "axis of the pattern", .value = "X,Y,Z"});
+  field(&O::scans,
+        {.name = "scans",
+         .help = "scanners all around, each with its part of the points, of what it sees",
+         .value = "K",
+         .least = 0,
+         .most = kMaxScans});
+  field(&O::misalignment, {.name = "misalignment",
+                           .help = "root mean square distance by which scans are moved, each as a "
+                                   "rigid body, a part of the diagonal",
+                           .value = "F",
+                           .least = 0,
+                           .most = 1});
+  field(&O::scan_noise,
+        {.name = "scan_noise",
+         .help = "the last scan has so much more noise than the first, others between",
+         .value = "F",
+         .least = 0});
+  field(&O::sensor,
+        {.name = "sensor",
+         .help = "with the place of its scanner at each point: sensor_x, sensor_y, sensor_z"});
+  field(&O::normals,
+        {.name = "normals", .help = "whether points have normals", .in_program = false});
+  field(&O::seed,
+        {.name = "seed", .help = "of all random numbers", .value = "S", .in_program = false});
+}
+
 // Points on the surface, independent random ones, uniform by area (unless the density falls), or in
 // a pattern, with the exact normals of their faces. Attributes but normals are interpolated
 // linearly between the corners of the face, before noise; whole numbers are rounded; outliers have
@@ -87,6 +164,21 @@ struct CleanReport {
   std::size_t zero_normals = 0;      // of the points that stay, if there are normals
 };
 
+// Its list.
+template <typename Visitor>
+void visit_fields(FieldsOf<CleanReport>, const Visitor& field) {
+  using C = CleanReport;
+  field(&C::points, {.name = "points", .help = "number of points before"});
+  field(&C::not_finite,
+        {.name = "not_finite", .help = "points dropped: a coordinate was NaN or infinite"});
+  field(&C::duplicates,
+        {.name = "duplicates", .help = "points dropped: at the place of an earlier one"});
+  field(&C::opposite_normals,
+        {.name = "opposite_normals", .help = "of these, with a normal against the earlier one's"});
+  field(&C::zero_normals,
+        {.name = "zero_normals", .help = "of the points that stay, those with a zero normal"});
+}
+
 // Makes a list of points fit for work: drops what is not finite, and merges points at one
 // place (to 2^-23 of the diagonal of their bounding box) into the first one, which keeps its
 // attributes. Its normal becomes the mean direction of all their normals, but for those at more
@@ -103,6 +195,21 @@ struct ScanAlignment {
   double distance_before = 0, distance = 0;
   double moved = 0;  // root mean square way of all points
 };
+
+// Its list.
+template <typename Visitor>
+void visit_fields(FieldsOf<ScanAlignment>, const Visitor& field) {
+  using S = ScanAlignment;
+  field(&S::scans, {.name = "scans", .help = "different values of the attribute; 0 without one"});
+  field(&S::pairs,
+        {.name = "pairs", .help = "points of one scan that were compared with those of another"});
+  field(
+      &S::distance_before,
+      {.name = "distance_before",
+       .help = "of these pairs along the normal, as a standard deviation, before anything moved"});
+  field(&S::distance, {.name = "distance", .help = "the same after"});
+  field(&S::moved, {.name = "moved", .help = "root mean square way of all points"});
+}
 
 // Brings scans of one surface together, each moved as a rigid body: points with the attribute
 // `scan`, whole numbers, at most kMaxScans different ones. Pairs of near points of two scans that

@@ -16,72 +16,25 @@ from ._shapes import MeshLike, PointCloud, PointsLike, as_mesh, as_points, finit
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ._keywords import OrientKeywords
+    from ._keywords import OrientKeywords, SampleKeywords
 
 
+@takes(_core.SampleOptions)
 def sample_surface(
     mesh: MeshLike,
     points: int = 100_000,
     *,
-    noise: float = 0.0,
-    normal_noise: float = 0.0,
-    outliers: float = 0.0,
-    holes: int = 0,
-    hole_radius: float = 0.0,
-    density_ratio: float = 1.0,
-    pattern: Literal["random", "slices", "rings", "lines", "grid"] = "random",
-    pattern_ratio: float = 1.0,
-    pattern_axis: npt.ArrayLike = (0.0, 0.0, 1.0),
-    scans: int = 0,
-    misalignment: float = 0.0,
-    scan_noise: float = 0.0,
-    sensor: bool = False,
-    normals: bool = True,
-    seed: int = 1,
     threads: int = 0,
     progress: Progress = None,
+    **options: Unpack[SampleKeywords],
 ) -> PointCloud:
     """Points on a surface: random ones, uniform by area, or in a pattern.
 
     Parameters
     ----------
     mesh : mesh-like
-        The surface. Lengths below are fractions of the diagonal of its bounding box.
-    points : int
-        How many; with a pattern about as many.
-    noise : float
-        Standard deviation of a Gaussian displacement along each of x, y and z.
-    normal_noise : float
-        Standard deviation of the angle that normals are turned by, degrees.
-    outliers : float
-        Share of the points that is replaced by points anywhere in the box.
-    holes : int
-        Balls about random points of the surface, in which points are removed.
-    hole_radius : float
-        Of these.
-    density_ratio : float
-        The density falls along the longest axis to the inverse of this.
-    pattern : str
-        Where points lie: ``"random"``; ``"slices"``, planes across the axis; ``"rings"``, planes through
-        it; ``"grid"``, lines along it and across it, each where the surface faces them; ``"lines"``,
-        rays of scanners, row by row.
-    pattern_ratio : float
-        Steps from row to row over those along the rows.
-    pattern_axis : array_like, (3,)
-        Of the pattern.
-    scans : int
-        Scanners all around, each with its part of the points, of what it sees; the cloud has the
-        attribute ``scan``. For random points and lines.
-    misalignment : float
-        Root mean square distance by which scans are moved, each as a rigid body.
-    scan_noise : float
-        By so much more than the first scan the last is noisy; others lie between.
-    sensor : bool
-        Whether points have the place of their scanner: ``sensor_x``, ``sensor_y``, ``sensor_z``.
-    normals : bool
-        Whether points have them.
-    seed : int
-        Of all random numbers.
+        The surface. Lengths below are parts of the diagonal of its bounding box.
+    {options}
     threads, progress
         See `rholm.caller`.
 
@@ -97,26 +50,9 @@ def sample_surface(
     InvalidInputError
         For a mesh without area, options out of range, holes that leave no point.
     """
-    options = _core.SampleOptions(
-        points=points,
-        noise=noise,
-        normal_noise=normal_noise,
-        outliers=outliers,
-        holes=holes,
-        hole_radius=hole_radius,
-        density_ratio=density_ratio,
-        pattern=pattern,
-        pattern_ratio=pattern_ratio,
-        pattern_axis=triple(pattern_axis, "pattern_axis"),
-        scans=scans,
-        misalignment=misalignment,
-        scan_noise=scan_noise,
-        sensor=sensor,
-        normals=normals,
-        seed=seed,
-    )
+    wanted = options_of(_core.SampleOptions, {"points": points, **options}, "sample_surface")
     with caller(threads, progress) as how:
-        return PointCloud._of(_core.sample_surface(as_mesh(mesh)._core, options, how))
+        return PointCloud._of(_core.sample_surface(as_mesh(mesh)._core, wanted, how))
 
 
 class Cleaned(NamedTuple):

@@ -30,7 +30,7 @@ namespace {
 using Planes = nb::ndarray<const double, nb::shape<2, -1, -1>, nb::c_contig, nb::device::cpu>;
 
 Convention convention_of(const std::string& normalization, int csphase) {
-  return {parse_normalization(normalization), csphase};
+  return {parse_name<Normalization>(normalization), csphase};
 }
 
 NumpyDoubles values_of(nb::handle self) {
@@ -142,9 +142,7 @@ void bind_expansion(nb::module_& m) {
              "Of the shape's bounding box; 0 if not known.");
   Record<GravityField>(m, "GravityField",
                        "What the coefficients of a gravity field are relative to.")
-      .field("gravity_constant", &GravityField::gravity_constant, "G M in m^3/s^2.")
-      .field("reference_radius", &GravityField::reference_radius,
-             "Of the sphere about the centre, in m.");
+      .fields();
   nb::class_<Expansion> type(m, "Expansion", "A surface as coefficients.");
   bind_state(
       type,
@@ -185,7 +183,7 @@ void bind_expansion(nb::module_& m) {
               throw Error(ErrorCode::kInvalidInput, "the centre is not finite");
             }
             if (!unit.empty()) check_unit(unit);
-            new (self) Expansion{coefficients,  parse_radial_function(function),
+            new (self) Expansion{coefficients,  parse_name<RadialFunction>(function),
                                  center,        unit,
                                  method,        norm_squared,
                                  tail_strength, errors,
@@ -292,8 +290,7 @@ void bind_filters(nb::module_& m) {
   });
   Record<Overshoot>(m, "Overshoot",
                     "How far a filtered step leaves 0 ... 1, in parts of its height.")
-      .field("above", &Overshoot::above, "Largest value - 1.")
-      .field("below", &Overshoot::below, "Minus the smallest value.");
+      .fields();
   m.def("overshoot", [](const Doubles& gains) { return overshoot(span_of(gains)); });
   m.def("overshoot", [](const std::string& window, int degree) {
     return overshoot(parse_window(window), degree);

@@ -174,7 +174,7 @@ def star_model(trial):
              codes=DONE)
     if trial.do("rotate", s, "--axis", "1,2,3", "--angle", "50", out="turned.h5", codes=DONE):
         trial.do("align", s, "turned.h5", "--json", out="aligned.h5", codes=DONE)
-        trial.do("align axes", "align", "turned.h5", s, "--method", "axes", "--mirror", "--json",
+        trial.do("align axes", "align", "turned.h5", s, "--start", "principal-axes", "--mirror", "--json",
                  codes=DONE)
 
 
