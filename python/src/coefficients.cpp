@@ -116,30 +116,10 @@ void bind_numbers(nb::module_& m) {
 }
 
 void bind_expansion(nb::module_& m) {
-  Record<TruncationErrors> record(m, "TruncationErrors",
-                                  "How far a surface is from the shape it was made of, in the unit "
-                                  "of lengths; None where it is not known.");
-  record.field("rms", &TruncationErrors::rms, "Radial, root mean square over solid angle.")
-      .field("rms_is_exact", &TruncationErrors::rms_is_exact,
-             "Whether rms is by Parseval's identity, not measured.")
-      .field("predicted_max", &TruncationErrors::predicted_max,
-             "Largest radial error at the vertices, in closed form.")
-      .field("predicted_max_distance", &TruncationErrors::predicted_max_distance,
-             "The same as a distance.")
-      .field("measured_max", &TruncationErrors::measured_max,
-             "Largest radial error at `points` points of the shape.")
-      .field("max_bound", &TruncationErrors::max_bound,
-             "No radial error is larger, by branch and bound; None for a gauge, or beyond the "
-             "diagonal.")
-      .field("measured_max_distance", &TruncationErrors::measured_max_distance,
-             "The same as a distance.")
-      .field("distance_rms", &TruncationErrors::distance_rms,
-             "Root mean square of distances over area, the larger of both ways.")
-      .field("distances_are_closest", &TruncationErrors::distances_are_closest,
-             "Whether distances are by closest points.")
-      .field("points", &TruncationErrors::points, "At which was measured.")
-      .field("diagonal", &TruncationErrors::diagonal,
-             "Of the shape's bounding box; 0 if not known.");
+  Record<TruncationErrors>(m, "TruncationErrors",
+                           "How far a surface is from the shape it was made of, in the unit of "
+                           "lengths; None where it is not known.")
+      .fields();
   Record<GravityField>(m, "GravityField",
                        "What the coefficients of a gravity field are relative to.")
       .fields();
