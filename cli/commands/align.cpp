@@ -13,6 +13,7 @@
 #include "cli/files/outputs.h"
 #include "cli/files/paths.h"
 #include "cli/grammar/parse.h"
+#include "cli/options/field_options.h"
 #include "cli/terminal/json_text.h"
 #include "cli/terminal/session.h"
 #include "rholm/error.h"
@@ -22,20 +23,10 @@ namespace {
 
 struct Options {
   std::string a, b;
-  std::string method = "correlation";
-  int bandwidth = AlignOptions{}.bandwidth;
-  double margin = AlignOptions{}.margin;
-  bool mirror = false;
-  std::string center = "auto";
+  AlignOptions align;
+  AlignCenters centers = AlignCenters::kAuto;
   CoefficientsOutputOptions to;
 };
-
-AlignOptions library_options(const Options& o) {
-  return {.start = o.method == "axes" ? AlignStart::kPrincipalAxes : AlignStart::kCorrelation,
-          .bandwidth = o.bandwidth,
-          .margin = o.margin,
-          .allow_mirror = o.mirror};
-}
 
 Json json_of_aligned(const AlignedRotation& r) {
   Json json = json_of(r.rotation);
@@ -46,8 +37,7 @@ Json json_of_aligned(const AlignedRotation& r) {
 }
 
 Placement placement_of(const Options& o, const Expansion& a, const Expansion& b, Session& session) {
-  Placement placement =
-      align(a, b, parse_align_centers(o.center), library_options(o), session.context());
+  Placement placement = align(a, b, o.centers, o.align, session.context());
   if (!placement.why_own.empty()) {
     session.warn(fmt::format("the models' own centres are taken: {}", placement.why_own));
   }
@@ -59,7 +49,7 @@ Json report_json(const Options& o, const Placement& placement, const Expansion& 
   const Alignment& found = placement.alignment;
   Json json;
   json["files"] = {o.a, o.b};
-  json["method"] = o.method;
+  json["start"] = to_string(o.align.start);
   json.update(json_of_aligned(found.best));
   json["unaligned_distance"] = found.unaligned_distance;
   json["descriptor_distance"] = descriptor_distance(a.coefficients, b.coefficients);
@@ -135,7 +125,7 @@ int run(const Options& options, Session& session) {
   return 0;
 }
 
-std::vector<Option> search_options(Options& o) {
+std::vector<Option> models(Options& o) {
   return {{.name = "A",
            .help = "file of coefficients to turn, or - for standard input",
            .target = &o.a,
@@ -145,39 +135,18 @@ std::vector<Option> search_options(Options& o) {
            .help = "file of coefficients to turn it onto",
            .target = &o.b,
            .required = true,
-           .offer = Offer::kCoefficients},
-          {.name = "method",
-           .help = "where to start: correlation (the default) over all rotations; axes, the four "
-                   "ways to lay principal axes on principal axes, faster and blind where two are "
-                   "equal",
-           .target = &o.method,
-           .choices = {"correlation", "axes"}},
-          {.name = "bandwidth",
-           .value = "L",
-           .help = "degrees used by the search over all rotations, 20 by default",
-           .target = &o.bandwidth,
-           .min = 1,
-           .max = 64},
-          {.name = "margin",
-           .value = "C",
-           .help = "report other rotations with a correlation at most C below; 0.01 by default",
-           .target = &o.margin,
-           .min = 0,
-           .max = 2},
-          {.name = "center",
-           .help = "points laid on each other: volume, the centroids of the solids; own, the "
-                   "centres of the expansions; auto (the default), the centroids if both surfaces "
-                   "are seen whole from there, else their own centres, with a warning",
-           .target = &o.center,
-           .choices = {"auto", "volume", "own"}},
-          {.name = "mirror",
-           .help = "try the mirror image of A too: reflected in the plane through its centre, "
-                   "across the x axis, before it is turned",
-           .target = &o.mirror}};
+           .offer = Offer::kCoefficients}};
 }
 
 std::vector<Option> option_list(Options& o) {
-  std::vector<Option> list = search_options(o);
+  std::vector<Option> list = models(o);
+  append(list, field_options(o.align));
+  list.push_back(field_option({.name = "centers",
+                               .help = "points laid on each other: volume, the centroids of the "
+                                       "solids; own, the centres of the expansions; auto, the "
+                                       "centroids if both surfaces are seen whole from there, "
+                                       "else their own centres, with a warning"},
+                              o.centers));
   append(list, coefficients_output_options(o.to, "A laid on B, to be written", false));
   return list;
 }

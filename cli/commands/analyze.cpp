@@ -31,9 +31,9 @@ using Run = AnalyzeRun;
 
 EncodeOptions encode_options(const Options& options) {
   EncodeOptions wanted;
-  wanted.analyze.method = parse_method(options.method);
+  wanted.analyze.method = parse_name<Method>(options.method);
   if (options.degree) wanted.analyze.degree = *options.degree;
-  if (!options.engine.empty()) wanted.analyze.engine = parse_engine(options.engine);
+  if (!options.engine.empty()) wanted.analyze.engine = parse_name<Engine>(options.engine);
   if (options.precision) wanted.analyze.precision = *options.precision;
   wanted.tolerance = options.tolerance.parsed();
   wanted.errors = !options.no_errors;
@@ -107,7 +107,7 @@ Context within_memory(const MappedMesh& mesh, const Options& options, const Sess
 
 // Whether the pass that a mapped mesh goes through may do for a mesh: it must be closed as it is.
 bool may_stay(const Options& options) {
-  return options.weld == 0 && parse_method(options.method) == Method::kEdge;
+  return options.weld == 0 && parse_name<Method>(options.method) == Method::kEdge;
 }
 bool may_stay(double vertices, double faces, const Options& options) {
   return may_stay(options) && vertices < faces;

@@ -30,7 +30,7 @@ void check_options(const AnalyzeCommandOptions& o) {
           "--fit integral needs the degree of the caps, --degree L, and no --tolerance");
     }
     if (*o.degree > 24) throw UsageError("--degree of a cap is 0 ... 24");
-    refuse(o.tolerance.max_degree.has_value(), "--max-degree and --fit integral");
+    refuse(o.tolerance.rest.has("max_degree"), "--max-degree and --fit integral");
     refuse(o.max_numbers.has_value(), "--max-numbers and --fit integral");
   } else {
     if (!o.tolerance.tolerance) throw UsageError("--atlas needs --tolerance E");
@@ -42,11 +42,14 @@ void check_options(const AnalyzeCommandOptions& o) {
   refuse(o.center != "auto", "--center");
   refuse(o.allow_signed, "--signed");
   refuse(o.precision.has_value(), "--precision");
-  refuse(o.tolerance.norm == "max", "--norm max");
-  refuse(o.tolerance.measure == "radius", "--measure radius");
-  refuse(o.tolerance.unit == "radius", "--unit radius");
+  const Given<Tolerance>& tolerance = o.tolerance.rest;
+  refuse(tolerance.values.norm == ErrorNorm::kMax, "--norm max");
+  refuse(tolerance.has("measure") && tolerance.values.measure == ErrorMeasure::kRadius,
+         "--measure radius");
+  refuse(tolerance.values.unit == ToleranceUnit::kRadius, "--unit radius");
   refuse(o.samples || o.deviation || o.most_samples, "Monte Carlo");
-  if (o.tolerance.max_degree && (*o.tolerance.max_degree < 2 || *o.tolerance.max_degree > 24)) {
+  const int max_degree = tolerance.values.max_degree;
+  if (tolerance.has("max_degree") && (max_degree < 2 || max_degree > 24)) {
     throw UsageError("--max-degree of a cap is 2 ... 24");
   }
 }
@@ -69,9 +72,10 @@ Compressed compress_shape(const AnalyzeCommandOptions& o, ShapeFile file, Sessio
   CompressOptions options;
   options.tolerance = *o.tolerance.tolerance;
   options.seed = o.seed;
-  if (o.tolerance.max_degree) options.max_degree = *o.tolerance.max_degree;
+  const Given<Tolerance>& tolerance = o.tolerance.rest;
+  if (tolerance.has("max_degree")) options.max_degree = tolerance.values.max_degree;
   options.max_numbers = static_cast<std::size_t>(o.max_numbers.value_or(0));
-  const bool relative = o.tolerance.unit == "diagonal";
+  const bool relative = tolerance.values.unit == ToleranceUnit::kDiagonal;
   if (const auto* cloud = std::get_if<PointCloud>(&file.shape)) {
     if (relative) options.tolerance *= bounds(cloud->points).diagonal();
     Compressed found = compress(*cloud, options, session.context());

@@ -13,7 +13,9 @@
 #include "cli/files/memory_needed.h"
 #include "cli/files/paths.h"
 #include "cli/files/surfaces.h"
+#include "cli/options/field_options.h"
 #include "cli/options/memory_options.h"
+#include "cli/terminal/field_json.h"
 #include "cli/terminal/json_text.h"
 #include "cli/terminal/session.h"
 #include "rholm/large_mesh.h"
@@ -42,32 +44,14 @@ double memory_of(const Mesh& mesh) {
   return kCompared.of(mesh.vertices.size(), mesh.triangles.size());
 }
 
-Json json_of(const Distances& distances, double unit) {
-  return {{"rms", distances.rms / unit},
-          {"mean", distances.mean / unit},
-          {"max", distances.max / unit}};
-}
-
 Json report_json(const Options& options, const Comparison& c) {
-  Json json;
-  json["a"] = options.a;
-  json["b"] = options.b;
-  json["samples"] = c.samples;
-  json["seed"] = c.seed;
-  json["diagonal"] = c.diagonal;
-  json["a_to_b"] = json_of(c.a_to_b, 1);
-  json["b_to_a"] = json_of(c.b_to_a, 1);
-  json["hausdorff"] = c.hausdorff;
-  json["threshold"] = c.threshold;
-  json["precision"] = c.precision;
-  json["recall"] = c.recall;
-  json["f_score"] = c.f_score;
-  json["normal_median_degrees"] = c.normal_median_degrees;
-  json["normal_mean_degrees"] = c.normal_mean_degrees;
-  json["relative"] = {{"a_to_b", json_of(c.a_to_b, c.diagonal)},
-                      {"b_to_a", json_of(c.b_to_a, c.diagonal)},
-                      {"hausdorff", c.hausdorff / c.diagonal},
-                      {"threshold", c.threshold / c.diagonal}};
+  Json json = {{"a", options.a}, {"b", options.b}};
+  json.update(json_of_fields(c));
+  Comparison relative = c;
+  scale_lengths(relative, 1 / c.diagonal);
+  for (const char* part : {"a_to_b", "b_to_a", "hausdorff", "threshold"}) {
+    json["relative"][part] = json_of_fields(relative)[part];
+  }
   return json;
 }
 
@@ -197,30 +181,16 @@ std::vector<Option> option_list(Options& o, bool in_place) {
   };
   std::vector<Option> list = {
       surface("A", "the surface to measure against: a mesh, or coefficients", o.a),
-      surface("B", "the other surface", o.b),
-      {.name = "samples",
-       .value = "N",
-       .help = "points on each surface; 200000 by default",
-       .target = &o.compare.samples,
-       .min = 1,
-       .max = 1e9},
-      {.name = "seed",
-       .value = "S",
-       .help = "of the random points; 1 by default",
-       .target = &o.compare.seed},
-      {.name = "threshold",
-       .value = "T",
-       .help = "of the F-score, as a fraction of A's diagonal; 0.01 by default",
-       .target = &o.compare.threshold,
-       .min = 1e-12,
-       .max = 1e3},
-      {.name = "subdivisions",
-       .value = "N",
-       .help = "icosphere on which coefficients are sampled; by default the smallest N of 5 "
-               "... 8 with 16 (L+1)^2 vertices",
-       .target = &o.subdivisions,
-       .min = 0,
-       .max = 12}};
+      surface("B", "the other surface", o.b)};
+  append(list, field_options(o.compare));
+  list.push_back({.name = "subdivisions",
+                  .value = "N",
+                  .help =
+                      "icosphere on which coefficients are sampled; by default the smallest N of 5 "
+                      "... 8 with 16 (L+1)^2 vertices",
+                  .target = &o.subdivisions,
+                  .min = 0,
+                  .max = 12});
   if (in_place) list.push_back(max_memory_option(o.memory));
   append(list, input_convention_options(o.convention));
   list.push_back(json_option(o.json));

@@ -201,7 +201,7 @@ Command make_command() {
       .examples = {"rholm make bumpy -o bumpy.ply",
                    "rholm make ellipsoid --axes 3,2,1 --subdivisions 6 -o ellipsoid.ply",
                    "rholm make sample bumpy.ply --points 20000 --noise 0.002 -o points.ply",
-                   "rholm make sample bumpy.ply --pattern slices --ratio 5 -o slices.ply",
+                   "rholm make sample bumpy.ply --pattern slices --pattern-ratio 5 -o slices.ply",
                    "rholm make sample bumpy.ply --scans 8 --sensor -o scans.ply"},
       .run = [options](Session& session) { return run(*options, session); }};
 }

@@ -2,31 +2,21 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/grammar/command.h"
+#include "cli/options/field_options.h"
 #include "cli/terminal/session.h"
 #include "rholm/mesh.h"
+#include "rholm/points.h"
 
 namespace rholm::cli {
 
 struct SampleArguments {
   std::string mesh;
-  std::optional<int> points;
-  std::optional<double> noise;
-  std::optional<double> normal_noise;
-  std::optional<double> outliers;
+  Given<SampleOptions> options;  // but holes, normals and seed
   std::string holes;
-  std::optional<double> density_ratio;
-  std::string pattern;
-  std::optional<double> ratio;
-  std::string axis;
-  std::optional<int> scans;
-  std::optional<double> misalign;
-  std::optional<double> noise_per_scan;
-  bool sensor = false;
   bool largest_component = false;
   bool no_normals = false;
 };

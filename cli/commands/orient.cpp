@@ -9,6 +9,8 @@
 #include "cli/files/paths.h"
 #include "cli/grammar/parse.h"
 #include "cli/grammar/values.h"
+#include "cli/options/field_options.h"
+#include "cli/terminal/field_json.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/json_text.h"
 #include "cli/terminal/session.h"
@@ -20,32 +22,13 @@ namespace {
 
 struct Options {
   std::string input;
-  std::optional<int> neighbors;
-  std::string center;
-  std::string sensor;
+  OrientOptions orient;
   std::string columns;
-  bool keep_directions = false;
-  bool keep_outliers = false;
-  bool confidence = false;
   std::string output;
   std::string format;
   bool ascii = false;
   bool json = false;
 };
-
-OrientOptions library_options(const Options& o) {
-  if (!o.center.empty() && !o.sensor.empty()) {
-    throw UsageError("--center and --sensor exclude each other");
-  }
-  OrientOptions options;
-  options.neighbors = o.neighbors.value_or(0);
-  options.keep_directions = o.keep_directions;
-  options.keep_strays = o.keep_outliers;
-  options.confidence = o.confidence;
-  if (!o.center.empty()) options.center = parse_vector("--center", o.center);
-  if (!o.sensor.empty()) options.sensor = parse_vector("--sensor", o.sensor);
-  return options;
-}
 
 // A mesh's vertices are points too; what faces knew of their sides is not asked.
 PointCloud points_of(ShapeFile file, const std::string& path, Session& session) {
@@ -61,19 +44,6 @@ PointCloud points_of(ShapeFile file, const std::string& path, Session& session) 
       .points = std::move(mesh.vertices), .normals = {}, .attributes = std::move(mesh.attributes)};
 }
 
-Json json_of(const OrientReport& report) {
-  return {{"points", report.points},
-          {"duplicates", report.duplicates},
-          {"neighbors", report.neighbors},
-          {"components", report.components},
-          {"computed", report.computed},
-          {"flipped", report.flipped},
-          {"strays", report.strays},
-          {"undetermined", report.undetermined},
-          {"mean_confidence", report.mean_confidence},
-          {"unsure", report.unsure}};
-}
-
 std::string report_text(const OrientReport& report, bool by_sight, bool had_normals) {
   std::string text = line("points", fmt::format("{}", report.points));
   if (report.duplicates > 0) {
@@ -83,9 +53,9 @@ std::string report_text(const OrientReport& report, bool by_sight, bool had_norm
   if (!by_sight) text += line("components", fmt::format("{}", report.components));
   text += line("computed", counted(report.computed, "normal"));
   if (had_normals) text += line("turned round", counted(report.flipped, "normal"));
-  if (report.strays > 0) {
-    text += line("strays", fmt::format("{} far from all others, with the normals of the nearest",
-                                       counted(report.strays, "point")));
+  if (report.outliers > 0) {
+    text += line("outliers", fmt::format("{} far from all others, with the normals of the nearest",
+                                         counted(report.outliers, "point")));
   }
   if (report.undetermined > 0) {
     text += line("without a plane", counted(report.undetermined, "point"));
@@ -95,7 +65,8 @@ std::string report_text(const OrientReport& report, bool by_sight, bool had_norm
 }
 
 int run(const Options& options, Session& session) {
-  const OrientOptions wanted = library_options(options);
+  const OrientOptions& wanted = options.orient;
+  if (wanted.center && wanted.sensor) throw UsageError("--center and --sensor exclude each other");
   const ShapeFormat format = points_output(options.output, options.format, options.json);
   check_writable(options.output);
   PointCloud cloud =
@@ -107,7 +78,7 @@ int run(const Options& options, Session& session) {
   if (options.json) {
     Json json;
     json["file"] = options.input;
-    json.update(json_of(report));
+    json.update(json_of_fields(report));
     print_json(json);
   } else if (options.output != "-") {
     session.report(fmt::format("{}: oriented\n", display_name(options.input)) +
@@ -123,42 +94,18 @@ int run(const Options& options, Session& session) {
 }
 
 std::vector<Option> option_list(Options& o) {
-  return {{.name = "POINTS",
-           .help = "file of points, or - for standard input",
-           .target = &o.input,
-           .required = true,
-           .offer = Offer::kShapes},
-          {.name = "k",
-           .value = "N",
-           .help = "neighbours that a normal is fitted to; chosen from the data by default",
-           .target = &o.neighbors,
-           .min = 3,
-           .max = 1000},
-          {.name = "center",
-           .value = "X,Y,Z",
-           .help = "normals point away from here, a point inside",
-           .target = &o.center,
-           .check = parse_vector},
-          {.name = "sensor",
-           .value = "X,Y,Z",
-           .help = "normals point to here, where the points were measured from",
-           .target = &o.sensor,
-           .check = parse_vector},
-          {.name = "keep-directions",
-           .help = "believe the normals of the file up to their signs",
-           .target = &o.keep_directions},
-          {.name = "keep-outliers",
-           .help = "do not look for points far from all others",
-           .target = &o.keep_outliers},
-          {.name = "confidence",
-           .help = "give each point its confidence, 0 ... 1, as an attribute",
-           .target = &o.confidence},
-          columns_option(o.columns),
-          output_option(o.output, fmt::format("points to write: {}; - for standard output",
-                                              shape_extensions(Holding::kPoints))),
-          format_option(o.format, shape_format_names(Holding::kPoints)),
-          ascii_option(o.ascii, Holding::kPoints),
-          json_option(o.json)};
+  std::vector<Option> list = {{.name = "POINTS",
+                               .help = "file of points, or - for standard input",
+                               .target = &o.input,
+                               .required = true,
+                               .offer = Offer::kShapes}};
+  append(list, field_options(o.orient));
+  append(list, {columns_option(o.columns),
+                output_option(o.output, fmt::format("points to write: {}; - for standard output",
+                                                    shape_extensions(Holding::kPoints))),
+                format_option(o.format, shape_format_names(Holding::kPoints)),
+                ascii_option(o.ascii, Holding::kPoints), json_option(o.json)});
+  return list;
 }
 
 }  // namespace

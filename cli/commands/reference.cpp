@@ -14,14 +14,21 @@
 #include "cli/options/field_options.h"
 #include "cli/terminal/exit_code.h"
 #include "cli/terminal/session.h"
+#include "rholm/align.h"
+#include "rholm/analyze.h"
+#include "rholm/compare.h"
 #include "rholm/descriptors.h"
 #include "rholm/error_info.h"
 #include "rholm/fields.h"
 #include "rholm/filter.h"
 #include "rholm/formats.h"
+#include "rholm/model.h"
+#include "rholm/points.h"
 #include "rholm/reconstruct.h"
 #include "rholm/reconstruct_bricks.h"
 #include "rholm/simplify.h"
+#include "rholm/star.h"
+#include "rholm/truncation.h"
 
 namespace rholm::cli {
 namespace {
@@ -200,9 +207,82 @@ std::string simplify_section() {
       false);
 }
 
-constexpr ReferenceSection kSections[] = {
-    window_section, descriptor_section,  shape_format_section, coefficients_format_section,
-    error_section,  reconstruct_section, brick_section,        simplify_section};
+// Of a function of Python whose name is the command's.
+template <HasFields Options, const char* kName>
+std::string command_section() {
+  std::string struct_name = kName;
+  struct_name[0] = static_cast<char>(struct_name[0] - 'a' + 'A');
+  return field_section<Options>(
+      fmt::format("Options of {}", kName),
+      fmt::format("`{}Options` in C++ and arguments of `rholm.{}` in Python.", struct_name, kName));
+}
+constexpr char kCompareName[] = "compare", kOrientName[] = "orient", kAlignName[] = "align";
+
+std::string sample_section() {
+  return field_section<SampleOptions>(
+      "Options of samples",
+      "`SampleOptions` in C++ and arguments of `rholm.sample_surface` in Python; the program has "
+      "them in `rholm make sample`. Lengths are parts of the diagonal of the bounding box.");
+}
+
+std::string analyze_section() {
+  return field_section<AnalyzeOptions>(
+      "Options of a transform",
+      "`AnalyzeOptions` in C++ and arguments of `rholm.expand` in Python; options of `rholm "
+      "analyze`, whose `--method` has the Monte Carlo methods, too.");
+}
+
+std::string tolerance_section() {
+  return field_section<Tolerance>(
+      "Tolerances",
+      "`Tolerance` in C++ and arguments of `rholm.expand` in Python, where `error` is `tolerance`; "
+      "the program has `--tolerance` in `rholm analyze` and `rholm report`.");
+}
+
+// The fields of a result, as rows with its name.
+template <HasFields Result>
+void add_result(const char* name, std::vector<std::vector<std::string>>& rows) {
+  for_each_field<Result>([&](auto, const FieldInfo& info) {
+    rows.push_back({code(name), code(info.name), info.help});
+  });
+}
+
+std::string result_section() {
+  std::vector<std::vector<std::string>> rows;
+  add_result<StarReport>("StarReport", rows);
+  add_result<FastReport>("FastReport", rows);
+  add_result<TruncationErrors>("TruncationErrors", rows);
+  add_result<ToleranceReport>("ToleranceReport", rows);
+  add_result<Comparison>("Comparison", rows);
+  add_result<Distances>("Distances", rows);
+  add_result<Alignment>("Alignment", rows);
+  add_result<AlignedRotation>("AlignedRotation", rows);
+  add_result<OrientReport>("OrientReport", rows);
+  add_result<CleanReport>("CleanReport", rows);
+  add_result<ScanAlignment>("ScanAlignment", rows);
+  add_result<Overshoot>("Overshoot", rows);
+  add_result<GravityField>("GravityField", rows);
+  return "## Results\n\nStructs in C++, classes of the same names in Python. Lengths are in the "
+         "unit "
+         "of the shape.\n\n" +
+         markdown_table({"result", "field", "what it is"}, rows);
+}
+
+constexpr ReferenceSection kSections[] = {window_section,
+                                          descriptor_section,
+                                          shape_format_section,
+                                          coefficients_format_section,
+                                          error_section,
+                                          reconstruct_section,
+                                          brick_section,
+                                          simplify_section,
+                                          command_section<CompareOptions, kCompareName>,
+                                          command_section<OrientOptions, kOrientName>,
+                                          command_section<AlignOptions, kAlignName>,
+                                          sample_section,
+                                          analyze_section,
+                                          tolerance_section,
+                                          result_section};
 
 }  // namespace
 

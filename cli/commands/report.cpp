@@ -86,12 +86,7 @@ std::string option_text(const std::string& name, const std::string& value) {
 }
 
 std::string tolerance_text(const ToleranceOptions& options) {
-  std::string text = option_text("tolerance", fmt::format("{}", *options.tolerance));
-  if (!options.norm.empty()) text += option_text("norm", options.norm);
-  if (!options.measure.empty()) text += option_text("measure", options.measure);
-  if (!options.unit.empty()) text += option_text("unit", options.unit);
-  if (options.max_degree) text += option_text("max-degree", std::to_string(*options.max_degree));
-  return text;
+  return option_text("tolerance", fmt::format("{}", *options.tolerance)) + given_text(options.rest);
 }
 
 // The options with which a shape becomes coefficients, as analyze has them too.

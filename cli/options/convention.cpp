@@ -13,7 +13,7 @@ int phase_of(const std::string& text) { return text == "-1" ? -1 : 1; }
 }  // namespace
 
 Convention ConventionOptions::output_convention() const {
-  return {parse_normalization(normalization), phase_of(csphase)};
+  return {parse_name<Normalization>(normalization), phase_of(csphase)};
 }
 
 std::vector<Option> convention_options(ConventionOptions& target) {
@@ -30,7 +30,8 @@ std::vector<Option> convention_options(ConventionOptions& target) {
 
 CoefficientsReadOptions InputConvention::reading() const {
   CoefficientsReadOptions options;
-  if (!normalization.empty()) options.convention.normalization = parse_normalization(normalization);
+  if (!normalization.empty())
+    options.convention.normalization = parse_name<Normalization>(normalization);
   options.convention.csphase = phase_of(csphase);
   options.override_file = override_file;
   return options;

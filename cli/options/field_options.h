@@ -3,10 +3,14 @@
 
 #include <concepts>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "cli/grammar/command.h"
 #include "cli/grammar/parse.h"
@@ -47,7 +51,7 @@ Option field_option(const FieldInfo& info, V& value) {
       if (text != "auto") value = number_within(limits, text);
     };
     return option;
-  } else if constexpr (std::is_same_v<V, std::optional<Vec3>>) {
+  } else if constexpr (std::is_same_v<V, std::optional<Vec3>> || std::is_same_v<V, Vec3>) {
     Option option = option_of(info, "");
     option.target = [&value](const std::string& name, const std::string& text) {
       value = parse_vector(name, text);
@@ -78,12 +82,56 @@ std::vector<Option> field_options(Options& values) {
   return options;
 }
 
+// Values, and which of them the command line gave; a switch that is on was given.
+template <HasFields Options>
+struct Given {
+  Options values = {};
+  std::set<std::string> names = {};  // of fields that are no switches
+
+  bool has(const std::string& field) const { return names.contains(field); }
+};
+
+// The same for values of which it counts whether they were given; `given` outlives the options.
+template <HasFields Options>
+std::vector<Option> field_options(Given<Options>& given) {
+  std::vector<Option> options;
+  for_each_field<Options>([&](auto member, const FieldInfo& info) {
+    if (!info.in_program) return;
+    Option option = field_option(info, given.values.*member);
+    const std::string name = info.name;
+    if (!option.is_switch()) {
+      option.check = [&given, name](const std::string&, const std::string&) {
+        given.names.insert(name);
+      };
+    }
+    options.push_back(std::move(option));
+  });
+  return options;
+}
+
+// " --norm max --max-degree 80": names and numbers that were given, as they may be typed again.
+template <HasFields Options>
+std::string given_text(const Given<Options>& given) {
+  std::string text;
+  for_each_field<Options>([&](auto member, const FieldInfo& info) {
+    if (!given.has(info.name)) return;
+    using V = std::remove_cvref_t<decltype(given.values.*member)>;
+    if constexpr (NamedEnum<V>) {
+      text += " --" + option_name(info) + " " + to_string(given.values.*member);
+    } else if constexpr (Number<V>) {
+      text += fmt::format(" --{} {}", option_name(info), given.values.*member);
+    }
+  });
+  return text;
+}
+
 // Lengths that were given as parts of the diagonal, in the unit of the shape.
 template <HasFields Options>
 void scale_lengths(Options& values, double diagonal) {
   for_each_field<Options>([&](auto member, const FieldInfo& info) {
-    if (!info.in_program || info.unit != FieldUnit::kLength) return;
     using V = std::remove_reference_t<decltype(values.*member)>;
+    if constexpr (HasFields<V>) scale_lengths(values.*member, diagonal);
+    if (!info.in_program || info.unit != FieldUnit::kLength) return;
     if constexpr (std::is_same_v<V, double>) values.*member *= diagonal;
     if constexpr (std::is_same_v<V, std::optional<double>>) {
       if (values.*member) *(values.*member) *= diagonal;

@@ -2,24 +2,23 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "cli/grammar/command.h"
+#include "cli/options/field_options.h"
 #include "rholm/truncation.h"
 
 namespace rholm::cli {
 
 struct ToleranceOptions {
   std::optional<double> tolerance;
-  std::string norm, measure, unit;  // empty: the default
-  std::optional<int> max_degree;
+  Given<Tolerance> rest;  // but the error itself
 
   // None without --tolerance. Throws UsageError for options that do not go together.
   std::optional<Tolerance> parsed() const;
 };
 
-// --tolerance, --norm, --measure, --unit, --max-degree.
+// --tolerance, --unit, --norm, --measure, --max-degree.
 std::vector<Option> tolerance_options(ToleranceOptions& options);
 
 }  // namespace rholm::cli

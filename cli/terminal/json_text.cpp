@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "base/plain_text.h"
+#include "cli/terminal/field_json.h"
 #include "cli/terminal/session.h"
 
 namespace rholm::cli {
@@ -51,24 +52,16 @@ Json json_of(const std::vector<Attribute>& attributes) {
 }
 
 Json json_of(const TruncationErrors& errors) {
-  return {{"rms", json_of(errors.rms)},
-          {"rms_is_exact", errors.rms_is_exact},
-          {"predicted_max", json_of(errors.predicted_max)},
-          {"predicted_max_distance", json_of(errors.predicted_max_distance)},
-          {"measured_max", json_of(errors.measured_max)},
-          {"max_bound", json_of(errors.max_bound)},
-          {"measured_max_distance", json_of(errors.measured_max_distance)},
-          {"distance_rms", json_of(errors.distance_rms)},
-          {"distances_are_closest", errors.distances_are_closest},
-          {"points", errors.points},
-          {"kinds",
-           {{"rms", errors.rms_is_exact ? "exact" : "measured"},
-            {"predicted_max", "estimate"},
-            {"predicted_max_distance", "estimate"},
-            {"measured_max", "measured"},
-            {"max_bound", "bound"},
-            {"measured_max_distance", "measured"},
-            {"distance_rms", "measured"}}}};
+  Json json = json_of_fields(errors);
+  json.erase("diagonal");
+  json["kinds"] = {{"rms", errors.rms_is_exact ? "exact" : "measured"},
+                   {"predicted_max", "estimate"},
+                   {"predicted_max_distance", "estimate"},
+                   {"measured_max", "measured"},
+                   {"max_bound", "bound"},
+                   {"measured_max_distance", "measured"},
+                   {"distance_rms", "measured"}};
+  return json;
 }
 
 Json json_of(const FastReport& fast) {

@@ -13,6 +13,7 @@
 
 #include "rholm/coefficients.h"
 #include "rholm/context.h"
+#include "rholm/fields.h"
 #include "rholm/rotate.h"
 
 namespace rholm {
@@ -41,6 +42,8 @@ enum class AlignStart {
   kPrincipalAxes  // the four ways to lay axes on axes: faster, wrong where two are nearly equal
 };
 
+EnumNames names_of(AlignStart start);  // "correlation", "principal-axes"
+
 // How the rotation is sought, and what counts as equal.
 struct AlignOptions {
   AlignStart start = AlignStart::kCorrelation;  // of the search
@@ -48,11 +51,49 @@ struct AlignOptions {
   int refine_degree = 64;  // degrees used by Newton's iteration
   // Other rotations are reported if their correlation (-1 ... 1) is at most this below the best.
   double margin = 0.01;
-  bool allow_mirror = false;  // also try the mirror image of a (x -> -x, then rotated)
+  bool mirror = false;  // also try the mirror image of a (x -> -x, then rotated)
   // Root mean square over the sphere of what is not known of a and b. A function that is constant
   // but for this, or for 1e-10 of its mean, has nothing to turn: three free axes, no rotation.
   double unknown_a = 0, unknown_b = 0;
 };
+
+// Their list (fields.h).
+template <typename Visitor>
+void visit_fields(FieldsOf<AlignOptions>, const Visitor& field) {
+  using O = AlignOptions;
+  field(&O::start,
+        {.name = "start",
+         .help =
+             "where the search begins: correlation, over all rotations; principal-axes, the four "
+             "ways to lay principal axes on principal axes, faster and blind where two are equal"});
+  field(&O::bandwidth, {.name = "bandwidth",
+                        .help = "degrees used by the search over all rotations",
+                        .value = "L",
+                        .least = 1,
+                        .most = 64});
+  field(&O::refine_degree, {.name = "refine_degree",
+                            .help = "degrees used by the iteration that refines what was found",
+                            .value = "L",
+                            .least = 1,
+                            .most = kMaxDegree});
+  field(&O::margin,
+        {.name = "margin",
+         .help = "report other rotations with a correlation at most this below the best",
+         .value = "C",
+         .least = 0,
+         .most = 2});
+  field(&O::mirror, {.name = "mirror",
+                     .help = "try the mirror image of A, too: reflected in the plane through its "
+                             "centre, across the x axis, before it is turned"});
+  field(&O::unknown_a, {.name = "unknown_a",
+                        .help = "root mean square over the sphere of what is not known of A",
+                        .least = 0,
+                        .in_program = false});
+  field(&O::unknown_b, {.name = "unknown_b",
+                        .help = "root mean square over the sphere of what is not known of B",
+                        .least = 0,
+                        .in_program = false});
+}
 
 // A rotation of a, and how well it lays a on b.
 struct AlignedRotation {
@@ -61,6 +102,19 @@ struct AlignedRotation {
   double correlation = 0;  // of degrees 1 ... refine_degree, normalised: 1 is equal up to a factor
   double distance = 0;     // root mean square of R a - b over the sphere, all degrees
 };
+
+// Its list.
+template <typename Visitor>
+void visit_fields(FieldsOf<AlignedRotation>, const Visitor& field) {
+  using A = AlignedRotation;
+  field(&A::rotation, {.name = "rotation", .help = "of the mirror image, if mirrored"});
+  field(&A::mirrored,
+        {.name = "mirrored", .help = "whether the reflection x -> -x comes first; y and z stay"});
+  field(&A::correlation, {.name = "correlation",
+                          .help = "of degrees from 1 on, normalised: 1 is equal up to a factor"});
+  field(&A::distance,
+        {.name = "distance", .help = "root mean square of R a - b over the sphere, all degrees"});
+}
 
 // The best rotation, and those that are nearly as good.
 struct Alignment {
@@ -73,6 +127,21 @@ struct Alignment {
   double unaligned_distance = 0;  // before any rotation
 };
 
+// Its list.
+template <typename Visitor>
+void visit_fields(FieldsOf<Alignment>, const Visitor& field) {
+  using A = Alignment;
+  field(&A::best, {.name = "best", .help = "of several that are equal the smallest turn"});
+  field(
+      &A::ambiguities,
+      {.name = "ambiguities",
+       .help = "others that are nearly as good, best first, at most 32: symmetries of the shape"});
+  field(&A::free_axes,
+        {.name = "free_axes",
+         .help = "axes in the frame of b about which turning changes nothing, (n, 3)"});
+  field(&A::unaligned_distance, {.name = "unaligned_distance", .help = "before any rotation"});
+}
+
 // Turns a onto b. Throws InvalidInput for options out of range or coefficients that are not finite;
 // Cancelled.
 Alignment align(const Coefficients& a, const Coefficients& b, const AlignOptions& options = {},
@@ -84,8 +153,7 @@ enum class AlignCenters {
   kVolume,  // centroids of the solids: they move with the shape and hardly feel noise
   kOwn      // the centres of the expansions
 };
-const char* to_string(AlignCenters centers);                // "auto", "volume", "own"
-AlignCenters parse_align_centers(const std::string& name);  // throws InvalidInput
+EnumNames names_of(AlignCenters centers);  // "auto", "volume", "own"
 
 // The point p becomes R (p - from) + to; mirrored, R M (p - from) + to, with M = diag(-1, 1, 1):
 // the reflection in the plane through `from` across the x axis.

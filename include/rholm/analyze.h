@@ -10,6 +10,7 @@
 
 #include "rholm/coefficients.h"
 #include "rholm/context.h"
+#include "rholm/fields.h"
 #include "rholm/harmonic.h"
 #include "rholm/mesh_view.h"
 #include "rholm/star.h"
@@ -23,8 +24,7 @@ enum class Method {
   kCurl,   // r by the paper's field, made right, (M1)-(M3): slow, edges only
   kArea    // r by cubature of r dOmega over the faces
 };
-const char* to_string(Method method);          // "edge", "gauge", "curl", "area"
-Method parse_method(const std::string& name);  // throws InvalidInput
+EnumNames names_of(Method method);  // "edge", "gauge", "curl", "area"
 
 // How the fast engine did it.
 struct FastReport {
@@ -48,6 +48,34 @@ struct FastReport {
   bool reached = true;
 };
 
+// Its list.
+template <typename Visitor>
+void visit_fields(FieldsOf<FastReport>, const Visitor& field) {
+  using F = FastReport;
+  field(&F::single, {.name = "single", .help = "whether sources were spread in single precision"});
+  field(&F::width, {.name = "width", .help = "grid points of the window"});
+  field(&F::oversampling, {.name = "oversampling", .help = "of the grid"});
+  field(&F::lumped_triangles, {.name = "lumped_triangles",
+                               .help = "triangles whose sources are those of their vertices"});
+  field(&F::nodes, {.name = "nodes", .help = "sources of their own"});
+  field(&F::vertices, {.name = "vertices", .help = "sources at vertices"});
+  field(&F::error,
+        {.name = "error",
+         .help =
+             "of the coefficients, l2 over degrees from 1 on, relative to the norm without mean"});
+  field(&F::band_error,
+        {.name = "band_error", .help = "of the degrees above 3L/4 relative to their own norm"});
+  field(&F::measured_share,
+        {.name = "measured_share",
+         .help = "part of the triangles that errors were measured on: 1 by a second, finer "
+                 "reading, less on a sample; 0 where they are estimates"});
+  field(&F::error_doubt,
+        {.name = "error_doubt", .help = "by how much more a measured error may be off"});
+  field(&F::passes,
+        {.name = "passes", .help = "over the triangles until the coefficients were found"});
+  field(&F::reached, {.name = "reached", .help = "whether the error is within the precision"});
+}
+
 // What is wanted of analyze(), and how.
 struct AnalyzeOptions {
   int degree = 64;                // L, 0 ... kMaxDegree
@@ -60,6 +88,28 @@ struct AnalyzeOptions {
   // times the largest r / d_T.
   double precision = 1e-8;
 };
+
+// Their list (fields.h).
+template <typename Visitor>
+void visit_fields(FieldsOf<AnalyzeOptions>, const Visitor& field) {
+  using O = AnalyzeOptions;
+  field(&O::degree, {.name = "degree",
+                     .help = "of the coefficients",
+                     .value = "L",
+                     .least = 0,
+                     .most = kMaxDegree});
+  field(&O::method,
+        {.name = "method",
+         .help = "which function is expanded (gauge: 1/r, the others r), and by which integrals"});
+  field(&O::engine, {.name = "engine",
+                     .help = "how sums are done: fast, to the precision; direct, term by term"});
+  field(&O::precision, {.name = "precision",
+                        .help = "wanted error of the coefficients, l2 relative to the norm of the "
+                                "function without its mean",
+                        .value = "E",
+                        .least = 1e-14,
+                        .most = 0.1});
+}
 
 // Coefficients, and how they were found.
 struct Analysis {
@@ -112,6 +162,15 @@ struct ErrorStrengths {
   // obliquely a vertex is not rounded off evenly: 16 % too small for a box with cos gamma = 0.6.
   double distance = 0;
 };
+
+// Its list.
+template <typename Visitor>
+void visit_fields(FieldsOf<ErrorStrengths>, const Visitor& field) {
+  using E = ErrorStrengths;
+  field(&E::radius, {.name = "radius", .help = "of the radius, in the mesh's unit"});
+  field(&E::gauge, {.name = "gauge", .help = "of 1/r, in 1/unit"});
+  field(&E::distance, {.name = "distance", .help = "of the distance between the surfaces"});
+}
 // Of a closed mesh where it lies: identical vertices count as one. Throws InvalidInput as
 // validate() does. 12 bytes of memory per vertex for places, 32 for sums.
 ErrorStrengths vertex_error_strengths(const MeshView& mesh, const Vec3& center);

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "rholm/fields.h"
 #include "rholm/vec3.h"
 
 namespace rholm {
@@ -54,8 +55,7 @@ enum class RadialFunction {
   kGauge,   // q = 1/r
   kOther    // no surface at all: a gravity field, a temperature
 };
-const char* to_string(RadialFunction function);                 // "radius", "gauge", "other"
-RadialFunction parse_radial_function(const std::string& name);  // throws InvalidInput
+EnumNames names_of(RadialFunction function);  // "radius", "gauge", "other"
 
 // How far the surface of an expansion is from the shape it was made of, in the unit of lengths;
 // empty where it is not known. Radial errors are |r - r_L| along directions from the centre,
@@ -79,12 +79,48 @@ struct TruncationErrors {
   double diagonal = 0;                 // of the shape's bounding box; 0 if unknown
 };
 
+// Its list.
+template <typename Visitor>
+void visit_fields(FieldsOf<TruncationErrors>, const Visitor& field) {
+  using T = TruncationErrors;
+  field(&T::rms, {.name = "rms", .help = "radial, root mean square over solid angle"});
+  field(&T::rms_is_exact,
+        {.name = "rms_is_exact", .help = "whether rms is by Parseval's identity, not measured"});
+  field(&T::predicted_max,
+        {.name = "predicted_max", .help = "largest radial error at the vertices, in closed form"});
+  field(&T::predicted_max_distance,
+        {.name = "predicted_max_distance", .help = "the same as a distance"});
+  field(&T::measured_max,
+        {.name = "measured_max", .help = "largest radial error at `points` points of the shape"});
+  field(&T::max_bound, {.name = "max_bound",
+                        .help = "no radial error is larger, by branch and bound; None for a gauge, "
+                                "or beyond the diagonal"});
+  field(&T::measured_max_distance,
+        {.name = "measured_max_distance", .help = "the same as a distance"});
+  field(&T::distance_rms,
+        {.name = "distance_rms",
+         .help = "root mean square of distances over area, the larger of both ways"});
+  field(&T::distances_are_closest,
+        {.name = "distances_are_closest", .help = "whether distances are by closest points"});
+  field(&T::points, {.name = "points", .help = "at which was measured"});
+  field(&T::diagonal, {.name = "diagonal", .help = "of the shape's bounding box; 0 if not known"});
+}
+
 // What the coefficients of a gravity field are relative to.
 struct GravityField {
   double gravity_constant = 0;  // G M in m^3/s^2; finite and above 0
   double reference_radius = 0;  // of the sphere about the centre, in m; finite and above 0
   friend bool operator==(const GravityField&, const GravityField&) = default;  // equal numbers
 };
+
+// Its list.
+template <typename Visitor>
+void visit_fields(FieldsOf<GravityField>, const Visitor& field) {
+  using G = GravityField;
+  field(&G::gravity_constant, {.name = "gravity_constant", .help = "G M in m^3/s^2"});
+  field(&G::reference_radius,
+        {.name = "reference_radius", .help = "of the sphere about the centre, in m"});
+}
 
 // A surface as coefficients: what a model file holds.
 struct Expansion {
@@ -130,8 +166,7 @@ enum class Normalization {
   kFourPi,       // 1
   kSchmidt       // 1/(2l+1): semi-normalised
 };
-const char* to_string(Normalization normalization);          // "orthonormal", "4pi", "schmidt"
-Normalization parse_normalization(const std::string& name);  // throws InvalidInput
+EnumNames names_of(Normalization normalization);  // "orthonormal", "4pi", "schmidt"
 
 // What the numbers of a file multiply. The default is that of SHTOOLS.
 struct Convention {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "rholm/context.h"
+#include "rholm/fields.h"
 #include "rholm/mesh.h"
 #include "rholm/mesh_view.h"
 
@@ -20,10 +21,36 @@ struct CompareOptions {
   double threshold = 0.01;       // of the F-score, as a fraction of A's bounding-box diagonal
 };
 
+// Their list (fields.h).
+template <typename Visitor>
+void visit_fields(FieldsOf<CompareOptions>, const Visitor& field) {
+  using O = CompareOptions;
+  field(&O::samples, {.name = "samples",
+                      .help = "points on each surface, evenly spread over its area",
+                      .value = "N",
+                      .least = 1,
+                      .most = kMaxSamples});
+  field(&O::seed, {.name = "seed", .help = "of the random points", .value = "S"});
+  field(&O::threshold, {.name = "threshold",
+                        .help = "of the F-score, as a part of the diagonal of A's bounding box",
+                        .value = "T",
+                        .least = 0,
+                        .above = true});
+}
+
 // Of all samples: root mean square, mean and largest distance, in the shape's unit.
 struct Distances {
   double rms = 0, mean = 0, max = 0;  // >= 0
 };
+
+// Their list.
+template <typename Visitor>
+void visit_fields(FieldsOf<Distances>, const Visitor& field) {
+  using D = Distances;
+  field(&D::rms, {.name = "rms", .help = "root mean square", .unit = FieldUnit::kLength});
+  field(&D::mean, {.name = "mean", .help = "mean", .unit = FieldUnit::kLength});
+  field(&D::max, {.name = "max", .help = "largest", .unit = FieldUnit::kLength});
+}
 
 // How far two surfaces lie apart. Lengths are in the shape's unit.
 struct Comparison {
@@ -41,6 +68,32 @@ struct Comparison {
   // point, both directions together, degrees 0 ... 180.
   double normal_median_degrees = 0, normal_mean_degrees = 0;
 };
+
+// Their list.
+template <typename Visitor>
+void visit_fields(FieldsOf<Comparison>, const Visitor& field) {
+  using C = Comparison;
+  field(&C::samples, {.name = "samples", .help = "points on each surface"});
+  field(&C::seed, {.name = "seed", .help = "that they were drawn with"});
+  field(&C::diagonal,
+        {.name = "diagonal", .help = "of A's bounding box", .unit = FieldUnit::kLength});
+  field(&C::a_to_b, {.name = "a_to_b", .help = "from samples of A to their closest points on B"});
+  field(&C::b_to_a, {.name = "b_to_a", .help = "from samples of B to their closest points on A"});
+  field(&C::hausdorff, {.name = "hausdorff",
+                        .help = "larger of the two largest distances: a lower bound of the "
+                                "Hausdorff distance",
+                        .unit = FieldUnit::kLength});
+  field(&C::threshold, {.name = "threshold", .help = "of the F-score", .unit = FieldUnit::kLength});
+  field(&C::precision,
+        {.name = "precision", .help = "share of B's samples within the threshold of A"});
+  field(&C::recall, {.name = "recall", .help = "share of A's samples within the threshold of B"});
+  field(&C::f_score, {.name = "f_score", .help = "harmonic mean of precision and recall"});
+  field(&C::normal_median_degrees,
+        {.name = "normal_median_degrees",
+         .help = "median of the angle between the normal at a sample and that at its closest "
+                 "point, 0 ... 180"});
+  field(&C::normal_mean_degrees, {.name = "normal_mean_degrees", .help = "mean of that angle"});
+}
 
 // Closest points are exact (double precision) on the triangles of the other mesh. Throws
 // InvalidInput for a mesh without area, samples out of range or a threshold that is not positive.

@@ -41,6 +41,7 @@ struct FieldInfo {
   double most = std::numeric_limits<double>::infinity();
   bool above = false;                 // the least value itself is not allowed
   bool may_be_infinite = false;       // as what stands for no limit
+  bool may_be_zero = false;           // as what stands for a choice by the data
   FieldUnit unit = FieldUnit::kNone;  // of a number
   bool changes_result = true;         // if not, work with another value may be taken up
   bool in_program = true;             // if not, the program has another way to say it

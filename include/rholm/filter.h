@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "rholm/coefficients.h"
+#include "rholm/fields.h"
 
 namespace rholm {
 
@@ -107,6 +108,14 @@ struct Overshoot {
   double above = 0;  // largest value - 1
   double below = 0;  // - smallest value
 };
+
+// Its list.
+template <typename Visitor>
+void visit_fields(FieldsOf<Overshoot>, const Visitor& field) {
+  using O = Overshoot;
+  field(&O::above, {.name = "above", .help = "largest value - 1"});
+  field(&O::below, {.name = "below", .help = "minus the smallest value"});
+}
 // Of the function that is 1 within 60 degrees of the pole and 0 beyond, whose coefficients are
 // known in closed form, (P_{l-1}(1/2) - P_{l+1}(1/2)) / 2.
 Overshoot overshoot(std::span<const double> gains);

@@ -15,6 +15,7 @@
 
 #include "rholm/coefficients.h"
 #include "rholm/context.h"
+#include "rholm/fields.h"
 #include "rholm/vec3.h"
 
 namespace rholm {
@@ -24,8 +25,7 @@ enum class Engine {
   kFast,   // on a grid, to a wanted precision
   kDirect  // term by term: the oracle
 };
-const char* to_string(Engine engine);          // "fast", "direct"
-Engine parse_engine(const std::string& name);  // throws InvalidInput
+EnumNames names_of(Engine engine);  // "fast", "direct"
 
 // How sums are done, and how exactly.
 struct SumOptions {
@@ -36,6 +36,19 @@ struct SumOptions {
   // L times as much, Hessians to L^2 times.
   double precision = 1e-12;
 };
+
+// Their list (fields.h).
+template <typename Visitor>
+void visit_fields(FieldsOf<SumOptions>, const Visitor& field) {
+  using O = SumOptions;
+  field(&O::engine, {.name = "engine",
+                     .help = "how sums are done: fast, to the precision; direct, term by term"});
+  field(&O::precision, {.name = "precision",
+                        .help = "of the fast engine, relative to sums with random signs",
+                        .value = "E",
+                        .least = 1e-14,
+                        .most = 0.1});
+}
 
 // f(u_j) for every direction.
 std::vector<double> evaluate(const Coefficients& coefficients, std::span<const Vec3> directions,

@@ -12,6 +12,7 @@
 #include "rholm/coefficients.h"
 #include "rholm/coefficients_io.h"
 #include "rholm/context.h"
+#include "rholm/fields.h"
 #include "rholm/mapped_mesh.h"
 #include "rholm/mesh.h"
 #include "rholm/mesh_view.h"
@@ -37,6 +38,17 @@ struct ToleranceReport {
   bool met = false;                 // the tolerance
   std::vector<int> degrees;  // that were tried; the model's is the last one, or cut off from it
 };
+
+// Its list.
+template <typename Visitor>
+void visit_fields(FieldsOf<ToleranceReport>, const Visitor& field) {
+  using T = ToleranceReport;
+  field(&T::allowed, {.name = "allowed", .help = "error, in the mesh's unit"});
+  field(&T::reached, {.name = "reached", .help = "error, in the mesh's unit"});
+  field(&T::met, {.name = "met", .help = "whether reached is at most allowed"});
+  field(&T::degrees, {.name = "degrees",
+                      .help = "that were tried; the model's is the last one, or cut off from it"});
+}
 
 // A mesh as coefficients, and what was found out on the way.
 struct Encoded {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "rholm/context.h"
+#include "rholm/fields.h"
 #include "rholm/mesh.h"
 
 namespace rholm {
@@ -26,9 +27,7 @@ enum class SamplePattern {
   kGrid,    // where lines meet it that face it: a grid along the axis, and two across it
 };
 // "random", "slices", "rings", "lines", "grid".
-const char* to_string(SamplePattern pattern);
-// The pattern of such a name. Throws InvalidInput for a name that is none.
-SamplePattern parse_sample_pattern(const std::string& name);
+EnumNames names_of(SamplePattern pattern);  // "random", "slices", "rings", "lines", "grid"
 
 // What is measured of a surface, and how badly. Lengths are fractions of the diagonal of the
 // mesh's bounding box.
@@ -68,6 +67,85 @@ struct SampleOptions {
   std::uint64_t seed = 1;  // of all random numbers
 };
 
+// Their list (fields.h).
+template <typename Visitor>
+void visit_fields(FieldsOf<SampleOptions>, const Visitor& field) {
+  using O = SampleOptions;
+  field(&O::points, {.name = "points",
+                     .help = "how many, before holes; with a pattern about as many",
+                     .value = "N",
+                     .least = 1,
+                     .most = kMaxPoints});
+  field(&O::noise,
+        {.name = "noise",
+         .help = "standard deviation of each point along x, y and z, a part of the diagonal",
+         .value = "F",
+         .least = 0,
+         .most = 1});
+  field(&O::normal_noise,
+        {.name = "normal_noise",
+         .help = "standard deviation of the angle each normal is turned by, degrees",
+         .value = "DEG",
+         .least = 0,
+         .most = 180});
+  field(&O::outliers, {.name = "outliers",
+                       .help = "share of the points that is anywhere in the box, grown by 10 %",
+                       .value = "F",
+                       .least = 0,
+                       .most = 1});
+  field(&O::holes, {.name = "holes",
+                    .help = "balls about random points of the surface, in which points are removed",
+                    .value = "K",
+                    .least = 0,
+                    .in_program = false});
+  field(&O::hole_radius, {.name = "hole_radius",
+                          .help = "radius of these balls, a part of the diagonal",
+                          .value = "R",
+                          .least = 0,
+                          .most = 1,
+                          .in_program = false});
+  field(&O::density_ratio, {.name = "density_ratio",
+                            .help = "density falls by this along the longest axis, exponentially",
+                            .value = "Q",
+                            .least = 1,
+                            .most = kMaxDensityRatio});
+  field(&O::pattern,
+        {.name = "pattern",
+         .help = "where points lie: random; slices across an axis; rings, planes through it; grid, "
+                 "lines along it and across; lines, rays of scanners in rows"});
+  field(&O::pattern_ratio, {.name = "pattern_ratio",
+                            .help = "steps between the rows of a pattern over those along them",
+                            .value = "R",
+                            .least = 1,
+                            .most = kMaxPatternRatio});
+  field(&O::pattern_axis,
+        {.name = "pattern_axis", .help = "axis of the pattern", .value = "X,Y,Z"});
+  field(&O::scans,
+        {.name = "scans",
+         .help = "scanners all around, each with its part of the points, of what it sees",
+         .value = "K",
+         .least = 0,
+         .most = kMaxScans});
+  field(&O::misalignment, {.name = "misalignment",
+                           .help = "root mean square distance by which scans are moved, each as a "
+                                   "rigid body, a part of the diagonal",
+                           .value = "F",
+                           .least = 0,
+                           .most = 1});
+  field(&O::scan_noise,
+        {.name = "scan_noise",
+         .help = "the last scan has so much more noise than the first, others between",
+         .value = "F",
+         .least = 0});
+  field(&O::sensor,
+        {.name = "sensor",
+         .help = "with the place of its scanner at each point: sensor_x, sensor_y, sensor_z"});
+  field(&O::normals,
+        {.name = "normals", .help = "whether points have normals", .in_program = false});
+  field(&O::seed,
+        {.name = "seed", .help = "of all random numbers", .value = "S", .in_program = false});
+}
+
 // Points on the surface, independent random ones, uniform by area (unless the density falls), or in
 // a pattern, with the exact normals of their faces. Attributes but normals are interpolated
 // linearly between the corners of the face, before noise; whole numbers are rounded; outliers have
@@ -86,6 +164,21 @@ struct CleanReport {
   std::size_t zero_normals = 0;      // of the points that stay, if there are normals
 };
 
+// Its list.
+template <typename Visitor>
+void visit_fields(FieldsOf<CleanReport>, const Visitor& field) {
+  using C = CleanReport;
+  field(&C::points, {.name = "points", .help = "number of points before"});
+  field(&C::not_finite,
+        {.name = "not_finite", .help = "points dropped: a coordinate was NaN or infinite"});
+  field(&C::duplicates,
+        {.name = "duplicates", .help = "points dropped: at the place of an earlier one"});
+  field(&C::opposite_normals,
+        {.name = "opposite_normals", .help = "of these, with a normal against the earlier one's"});
+  field(&C::zero_normals,
+        {.name = "zero_normals", .help = "of the points that stay, those with a zero normal"});
+}
+
 // Makes a list of points fit for work: drops what is not finite, and merges points at one
 // place (to 2^-23 of the diagonal of their bounding box) into the first one, which keeps its
 // attributes. Its normal becomes the mean direction of all their normals, but for those at more
@@ -102,6 +195,21 @@ struct ScanAlignment {
   double distance_before = 0, distance = 0;
   double moved = 0;  // root mean square way of all points
 };
+
+// Its list.
+template <typename Visitor>
+void visit_fields(FieldsOf<ScanAlignment>, const Visitor& field) {
+  using S = ScanAlignment;
+  field(&S::scans, {.name = "scans", .help = "different values of the attribute; 0 without one"});
+  field(&S::pairs,
+        {.name = "pairs", .help = "points of one scan that were compared with those of another"});
+  field(
+      &S::distance_before,
+      {.name = "distance_before",
+       .help = "of these pairs along the normal, as a standard deviation, before anything moved"});
+  field(&S::distance, {.name = "distance", .help = "the same after"});
+  field(&S::moved, {.name = "moved", .help = "root mean square way of all points"});
+}
 
 // Brings scans of one surface together, each moved as a rigid body: points with the attribute
 // `scan`, whole numbers, at most kMaxScans different ones. Pairs of near points of two scans that
@@ -124,9 +232,34 @@ struct OrientOptions {
   // do, if there are all three, of finite values: the place that each point was measured from.
   std::optional<Vec3> sensor = {};
   // Points far from all others are not looked for; with a centre or a sensor they never are.
-  bool keep_strays = false;
+  bool keep_outliers = false;
   bool confidence = false;  // the cloud gets an attribute `confidence`, instead of any of that name
 };
+
+// Their list (fields.h).
+template <typename Visitor>
+void visit_fields(FieldsOf<OrientOptions>, const Visitor& field) {
+  using O = OrientOptions;
+  field(&O::neighbors, {.name = "neighbors",
+                        .help = "points that a normal is fitted to; 0: chosen from the data",
+                        .value = "N",
+                        .least = 3,
+                        .most = 1000,
+                        .may_be_zero = true});
+  field(&O::keep_directions, {.name = "keep_directions",
+                              .help = "believe the normals that are given up to their signs"});
+  field(
+      &O::center,
+      {.name = "center", .help = "normals point away from here, a point inside", .value = "X,Y,Z"});
+  field(&O::sensor, {.name = "sensor",
+                     .help = "normals point to here, where the points were measured from",
+                     .value = "X,Y,Z"});
+  field(&O::keep_outliers, {.name = "keep_outliers",
+                            .help = "do not look for points far from all others, which take the "
+                                    "normal of the nearest"});
+  field(&O::confidence,
+        {.name = "confidence", .help = "give each point its confidence, 0 ... 1, as an attribute"});
+}
 
 // What orient() did, and how sure it is.
 struct OrientReport {
@@ -138,7 +271,7 @@ struct OrientReport {
   std::size_t flipped = 0;     // normals that point to the other side now than they did
   // Points far from all others, outliers: they take the normal of the nearest one that is none,
   // with a confidence of 0.
-  std::size_t strays = 0;
+  std::size_t outliers = 0;
   std::size_t undetermined = 0;  // points whose neighbours lie on a line: their normals are zero
   // Of a point, 0 ... 1: its sign is right with the probability (1 + confidence) / 2, or a larger
   // one. From how far its neighbours' normals agree with its own, and how nearly the winding number
@@ -147,6 +280,30 @@ struct OrientReport {
   double mean_confidence = 0;
   double unsure = 0;  // share of the points with a confidence below 0.5
 };
+
+// Its list.
+template <typename Visitor>
+void visit_fields(FieldsOf<OrientReport>, const Visitor& field) {
+  using R = OrientReport;
+  field(&R::points, {.name = "points", .help = "points given"});
+  field(&R::duplicates, {.name = "duplicates",
+                         .help = "points at the place of an earlier one, whose normal they share"});
+  field(&R::neighbors, {.name = "neighbors", .help = "points of a fit"});
+  field(&R::components, {.name = "components",
+                         .help = "parts of the graph of neighbours; 0 with a centre or a sensor"});
+  field(&R::computed, {.name = "computed", .help = "normals whose direction is new"});
+  field(&R::flipped, {.name = "flipped", .help = "normals that were turned round"});
+  field(&R::outliers, {.name = "outliers",
+                       .help = "points far from all others, which took the normal of the nearest"});
+  field(&R::undetermined,
+        {.name = "undetermined",
+         .help = "points whose neighbours lie on a line: their normals are zero"});
+  field(
+      &R::mean_confidence,
+      {.name = "mean_confidence",
+       .help = "mean over the points: a sign is right with the probability (1 + confidence) / 2"});
+  field(&R::unsure, {.name = "unsure", .help = "share of the points with a confidence below 0.5"});
+}
 
 // Share of unsure points from which normals, and a surface made with them, should not be trusted.
 inline constexpr double kTooUnsure = 0.2;  // chosen: a fifth of the shape inside out is no shape

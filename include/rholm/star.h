@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "rholm/context.h"
+#include "rholm/fields.h"
 #include "rholm/mesh.h"
 #include "rholm/mesh_view.h"
 #include "rholm/topology.h"
@@ -53,6 +54,27 @@ struct StarReport {
   bool center_fell_back = false;  // of kinds that seek it, the kernel is empty: the centre is the
                                   // better of the LP's point and the volume centroid, by once_share
 };
+
+// Its list.
+template <typename Visitor>
+void visit_fields(FieldsOf<StarReport>, const Visitor& field) {
+  using S = StarReport;
+  field(&S::center, {.name = "center", .help = "in the coordinates of the mesh, (3,)"});
+  field(&S::min_d,
+        {.name = "min_d",
+         .help = "distance of the nearest face plane; negative if a face turns its back"});
+  field(&S::min_cos_gamma, {.name = "min_cos_gamma", .help = "over all corners of all triangles"});
+  field(&S::bad_triangles, {.name = "bad_triangles", .help = "triangles that turn their backs"});
+  field(&S::star_shaped,
+        {.name = "star_shaped", .help = "no such triangle, and every direction covered once"});
+  field(&S::rays, {.name = "rays", .help = "directions tried"});
+  field(&S::once_share, {.name = "once_share", .help = "part of them that meet the surface once"});
+  field(&S::multiple_share, {.name = "multiple_share", .help = "part that meet it more than once"});
+  field(&S::missed_share, {.name = "missed_share", .help = "part that never meet it"});
+  field(&S::center_fell_back,
+        {.name = "center_fell_back",
+         .help = "whether no point sees all faces, and the centre is the best guess"});
+}
 
 // Finds the centre and checks. `mesh` welded, closed, outward; triangles thinner than rounding
 // are passed over. Throws InvalidInput for a mesh without a triangle of positive area.

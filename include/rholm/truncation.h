@@ -13,6 +13,7 @@
 #include "rholm/analyze.h"
 #include "rholm/coefficients.h"
 #include "rholm/context.h"
+#include "rholm/fields.h"
 #include "rholm/mesh_view.h"
 #include "rholm/star.h"
 
@@ -45,10 +46,8 @@ enum class ErrorMeasure {
   kRadius,   // rms over solid angle: exact, by Parseval
   kDistance  // rms over area, the larger of both ways
 };
-const char* to_string(ErrorNorm norm);                      // "rms", "max"
-const char* to_string(ErrorMeasure measure);                // "radius", "distance"
-ErrorNorm parse_error_norm(const std::string& name);        // throws InvalidInput
-ErrorMeasure parse_error_measure(const std::string& name);  // throws InvalidInput
+EnumNames names_of(ErrorNorm norm);        // "rms", "max"
+EnumNames names_of(ErrorMeasure measure);  // "radius", "distance"
 
 // What an error is given in.
 enum class ToleranceUnit {
@@ -56,8 +55,7 @@ enum class ToleranceUnit {
   kDiagonal,  // of the bounding box
   kRadius     // mean over directions
 };
-const char* to_string(ToleranceUnit unit);                    // "absolute", "diagonal", "radius"
-ToleranceUnit parse_tolerance_unit(const std::string& name);  // throws InvalidInput
+EnumNames names_of(ToleranceUnit unit);  // "absolute", "diagonal", "radius"
 
 // The largest error that is allowed.
 struct Tolerance {
@@ -67,6 +65,32 @@ struct Tolerance {
   ErrorMeasure measure = ErrorMeasure::kRadius;   // of each
   int max_degree = 1024;                          // 0 ... kMaxDegree
 };
+
+// Their list (fields.h).
+template <typename Visitor>
+void visit_fields(FieldsOf<Tolerance>, const Visitor& field) {
+  using O = Tolerance;
+  field(&O::error, {.name = "error",
+                    .help = "the largest error that is allowed",
+                    .value = "E",
+                    .least = 0,
+                    .above = true,
+                    .in_program = false});
+  field(&O::unit, {.name = "unit",
+                   .help = "of the tolerance: absolute, the shape's own; diagonal, of its bounding "
+                           "box; radius, its mean over directions"});
+  field(&O::norm, {.name = "norm",
+                   .help = "of the tolerance: rms, the root mean square; max, the largest error"});
+  field(&O::measure,
+        {.name = "measure",
+         .help = "of the tolerance: radius, along rays from the centre; distance, between the "
+                 "surfaces, which unit diagonal takes where nothing is said"});
+  field(&O::max_degree, {.name = "max_degree",
+                         .help = "the largest degree that is tried for a tolerance",
+                         .value = "L",
+                         .least = 0,
+                         .most = kMaxDegree});
+}
 
 // The degree for a tolerance, with its coefficients.
 struct ToleranceAnalysis {

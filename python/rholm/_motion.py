@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -13,9 +13,15 @@ from ._coefficients import array_of, core_of
 from ._encode import as_expansion
 from ._errors import InvalidInputError
 from ._expansion import CoefficientsLike, Expansion
+from ._options import options_of, takes
 from ._rotations import RotationLike, as_rotation
 from ._run import Progress, caller
 from ._shapes import warn
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._keywords import AlignKeywords
 
 
 def rotate(
@@ -135,19 +141,15 @@ def volume_centroid(expansion: Expansion, *, threads: int = 0) -> FloatArray:
         return _core.volume_centroid(as_expansion(expansion)._core, how)
 
 
+@takes(_core.AlignOptions)
 def align(
     a: Expansion | CoefficientsLike,
     b: Expansion | CoefficientsLike,
     *,
     centers: Literal["auto", "volume", "own"] = "auto",
-    start: Literal["correlation", "principal-axes"] = "correlation",
-    bandwidth: int = 20,
-    refine_degree: int = 64,
-    margin: float = 0.01,
-    mirror: bool = False,
-    unknown: tuple[float, float] = (0.0, 0.0),
     threads: int = 0,
     progress: Progress = None,
+    **options: Unpack[AlignKeywords],
 ) -> _core.Placement | _core.Alignment:
     """Turns a onto b: the rotation of the largest correlation.
 
@@ -159,18 +161,7 @@ def align(
         Which points of surfaces are laid on each other first: centroids of the solids, or the
         centres of the expansions. "auto": the centroids if both surfaces are seen whole from there,
         else the expansions' own centres, with a warning.
-    start : {"correlation", "principal-axes"}
-        Where the search begins: all rotations, or the four ways to lay axes on axes.
-    bandwidth : int
-        Degrees used by the search, 1 ... 64.
-    refine_degree : int
-        Degrees used by Newton's iteration.
-    margin : float
-        Other rotations are reported if their correlation is at most this below the best.
-    mirror : bool
-        Whether the mirror image of a is tried, too.
-    unknown : (float, float)
-        Root mean square over the sphere of what is not known of a and b.
+    {options}
     threads, progress
         See `rholm.caller`.
 
@@ -179,22 +170,14 @@ def align(
     placement : Placement
         Of two expansions; `placed` moves a by it. An `Alignment` of two functions.
     """
-    options = _core.AlignOptions(
-        start=start,
-        bandwidth=bandwidth,
-        refine_degree=refine_degree,
-        margin=margin,
-        allow_mirror=mirror,
-        unknown_a=unknown[0],
-        unknown_b=unknown[1],
-    )
+    wanted = options_of(_core.AlignOptions, {**options}, "align")
     with caller(threads, progress) as how:
         if isinstance(a, Expansion) and isinstance(b, Expansion):
-            placement = _core.align(a._core, b._core, centers, options, how)
+            placement = _core.align(a._core, b._core, centers, wanted, how)
             if placement.why_own:
                 warn(f"the expansions' own centres are taken: {placement.why_own}")
             return placement
-        return _core.align(core_of(a), core_of(b), options, how)
+        return _core.align(core_of(a), core_of(b), wanted, how)
 
 
 def placed(

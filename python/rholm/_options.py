@@ -95,8 +95,10 @@ def takes(kind: Any) -> Callable[[_Function], _Function]:
                 annotation=annotation(field),
             )
             for field in kind.FIELDS
+            if field["name"] not in signature.parameters
         ]
         parameters = [p for p in own if p not in last] + added + last
+        function.__takes__ = kind  # type: ignore[attr-defined]
         function.__signature__ = signature.replace(parameters=parameters)  # type: ignore[attr-defined]
         text = "\n".join(_documentation(field) for field in kind.FIELDS)
         function.__doc__ = inspect.cleandoc(function.__doc__ or "").replace(_PLACE, text)

@@ -3,79 +3,38 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy.typing as npt
 
 from . import _core
 from ._arrays import triple
+from ._options import options_of, takes
 from ._run import Progress, caller
 from ._shapes import MeshLike, PointCloud, PointsLike, as_mesh, as_points, finite_points
 
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
+    from ._keywords import OrientKeywords, SampleKeywords
+
+
+@takes(_core.SampleOptions)
 def sample_surface(
     mesh: MeshLike,
     points: int = 100_000,
     *,
-    noise: float = 0.0,
-    normal_noise: float = 0.0,
-    outliers: float = 0.0,
-    holes: int = 0,
-    hole_radius: float = 0.0,
-    density_ratio: float = 1.0,
-    pattern: Literal["random", "slices", "rings", "lines", "grid"] = "random",
-    pattern_ratio: float = 1.0,
-    pattern_axis: npt.ArrayLike = (0.0, 0.0, 1.0),
-    scans: int = 0,
-    misalignment: float = 0.0,
-    scan_noise: float = 0.0,
-    sensor: bool = False,
-    normals: bool = True,
-    seed: int = 1,
     threads: int = 0,
     progress: Progress = None,
+    **options: Unpack[SampleKeywords],
 ) -> PointCloud:
     """Points on a surface: random ones, uniform by area, or in a pattern.
 
     Parameters
     ----------
     mesh : mesh-like
-        The surface. Lengths below are fractions of the diagonal of its bounding box.
-    points : int
-        How many; with a pattern about as many.
-    noise : float
-        Standard deviation of a Gaussian displacement along each of x, y and z.
-    normal_noise : float
-        Standard deviation of the angle that normals are turned by, degrees.
-    outliers : float
-        Share of the points that is replaced by points anywhere in the box.
-    holes : int
-        Balls about random points of the surface, in which points are removed.
-    hole_radius : float
-        Of these.
-    density_ratio : float
-        The density falls along the longest axis to the inverse of this.
-    pattern : str
-        Where points lie: ``"random"``; ``"slices"``, planes across the axis; ``"rings"``, planes through
-        it; ``"grid"``, lines along it and across it, each where the surface faces them; ``"lines"``,
-        rays of scanners, row by row.
-    pattern_ratio : float
-        Steps from row to row over those along the rows.
-    pattern_axis : array_like, (3,)
-        Of the pattern.
-    scans : int
-        Scanners all around, each with its part of the points, of what it sees; the cloud has the
-        attribute ``scan``. For random points and lines.
-    misalignment : float
-        Root mean square distance by which scans are moved, each as a rigid body.
-    scan_noise : float
-        By so much more than the first scan the last is noisy; others lie between.
-    sensor : bool
-        Whether points have the place of their scanner: ``sensor_x``, ``sensor_y``, ``sensor_z``.
-    normals : bool
-        Whether points have them.
-    seed : int
-        Of all random numbers.
+        The surface. Lengths below are parts of the diagonal of its bounding box.
+    {options}
     threads, progress
         See `rholm.caller`.
 
@@ -91,26 +50,9 @@ def sample_surface(
     InvalidInputError
         For a mesh without area, options out of range, holes that leave no point.
     """
-    options = _core.SampleOptions(
-        points=points,
-        noise=noise,
-        normal_noise=normal_noise,
-        outliers=outliers,
-        holes=holes,
-        hole_radius=hole_radius,
-        density_ratio=density_ratio,
-        pattern=pattern,
-        pattern_ratio=pattern_ratio,
-        pattern_axis=triple(pattern_axis, "pattern_axis"),
-        scans=scans,
-        misalignment=misalignment,
-        scan_noise=scan_noise,
-        sensor=sensor,
-        normals=normals,
-        seed=seed,
-    )
+    wanted = options_of(_core.SampleOptions, {"points": points, **options}, "sample_surface")
     with caller(threads, progress) as how:
-        return PointCloud._of(_core.sample_surface(as_mesh(mesh)._core, options, how))
+        return PointCloud._of(_core.sample_surface(as_mesh(mesh)._core, wanted, how))
 
 
 class Cleaned(NamedTuple):
@@ -184,19 +126,15 @@ class Oriented(NamedTuple):
     """What was done, and how sure it is."""
 
 
+@takes(_core.OrientOptions)
 def orient(
     points: PointsLike,
     normals: npt.ArrayLike | None = None,
     *,
     columns: str | Sequence[str] | None = None,
-    neighbors: int = 0,
-    keep_directions: bool = False,
-    center: npt.ArrayLike | None = None,
-    sensor: npt.ArrayLike | None = None,
-    keep_outliers: bool = False,
-    confidence: bool = False,
     threads: int = 0,
     progress: Progress = None,
+    **options: Unpack[OrientKeywords],
 ) -> Oriented:
     """Gives points unit normals that point out of the solid they bound.
 
@@ -208,18 +146,7 @@ def orient(
         With `keep_directions`, of which only the signs are chosen.
     columns : str or sequence of str, optional
         What the columns of a text table or of an array are, as in `read_shape`.
-    neighbors : int
-        Points of a fit, 3 ... 1000; 0: chosen from the data.
-    keep_directions : bool
-        Keeps the directions of the normals there are.
-    center : array_like, (3,), optional
-        The surface is seen from here from inside.
-    sensor : array_like, (3,), optional
-        It has been measured from here.
-    keep_outliers : bool
-        Points far from all others are not looked for; else they take the normal of the nearest.
-    confidence : bool
-        The cloud gets an attribute `confidence`, 0 ... 1, instead of any of that name.
+    {options}
     threads, progress
         See `rholm.caller`.
 
@@ -227,15 +154,8 @@ def orient(
     ----------
     H. Hoppe et al., Surface reconstruction from unorganized points, 1992.
     """
-    options = _core.OrientOptions(
-        neighbors=neighbors,
-        keep_directions=keep_directions,
-        center=None if center is None else triple(center, "center"),
-        sensor=None if sensor is None else triple(sensor, "sensor"),
-        keep_strays=keep_outliers,
-        confidence=confidence,
-    )
+    wanted = options_of(_core.OrientOptions, {**options}, "orient")
     given = finite_points(as_points(points, normals, columns=columns))[0]
     with caller(threads, progress) as how:
-        cloud, report = _core.orient(given._core, options, how)
+        cloud, report = _core.orient(given._core, wanted, how)
     return Oriented(PointCloud._of(cloud), report)

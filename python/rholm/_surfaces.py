@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy.typing as npt
 
@@ -13,8 +13,14 @@ from ._atlas import Atlas
 from ._encode import as_expansion
 from ._expansion import Expansion
 from ._model_files import load
+from ._options import options_of, takes
 from ._run import Progress, caller
 from ._shapes import Mesh, MeshLike, as_mesh, as_shape
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._keywords import CompareKeywords
 
 
 def distances_to_surface(
@@ -97,15 +103,14 @@ def surface_of(shape: Any, threads: int = 0, progress: Progress = None, points: 
     return as_shape(shape) if points else as_mesh(shape)
 
 
+@takes(_core.CompareOptions)
 def compare(
     a: Any,
     b: Any,
     *,
-    samples: int = 200_000,
-    seed: int = 1,
-    threshold: float = 0.01,
     threads: int = 0,
     progress: Progress = None,
+    **options: Unpack[CompareKeywords],
 ) -> _core.Comparison:
     """Two-sided distance between surfaces, by exact closest points of random samples.
 
@@ -113,19 +118,14 @@ def compare(
     ----------
     a, b : mesh-like, Expansion, Atlas or Reconstruction
         Two surfaces.
-    samples : int
-        On each surface, area-weighted.
-    seed : int
-        Of the samples.
-    threshold : float
-        Of the F-score, as a fraction of the diagonal of a's bounding box.
+    {options}
     threads, progress
         See `rholm.caller`.
     """
-    options = _core.CompareOptions(samples=samples, seed=seed, threshold=threshold)
+    wanted = options_of(_core.CompareOptions, {**options}, "compare")
     first, second = (surface_of(s, threads, progress) for s in (a, b))
     with caller(threads, progress) as how:
-        return _core.compare(first._core, second._core, options, how)
+        return _core.compare(first._core, second._core, wanted, how)
 
 
 def synthesize(model: Any, **options: Any) -> Mesh:

@@ -63,20 +63,7 @@ CenterOptions center_of(const std::string& text, const std::optional<Vec3>& poin
 }
 
 void bind_star(nb::module_& m) {
-  Record<StarReport>(m, "StarReport", "How a mesh is seen from a centre.")
-      .field("center", &StarReport::center, "In the coordinates of the mesh, (3,).")
-      .field("min_d", &StarReport::min_d,
-             "Distance of the nearest face plane; negative if a face turns its back.")
-      .field("min_cos_gamma", &StarReport::min_cos_gamma, "Over all corners of all triangles.")
-      .field("bad_triangles", &StarReport::bad_triangles, "Triangles that turn their backs.")
-      .field("star_shaped", &StarReport::star_shaped,
-             "No such triangle, and every direction covered once.")
-      .field("rays", &StarReport::rays, "Directions tried.")
-      .field("once_share", &StarReport::once_share, "Part of them that meet the surface once.")
-      .field("multiple_share", &StarReport::multiple_share, "Part that meet it more than once.")
-      .field("missed_share", &StarReport::missed_share, "Part that never meet it.")
-      .field("center_fell_back", &StarReport::center_fell_back,
-             "Whether no point sees all faces, and the centre is the best guess.");
+  Record<StarReport>(m, "StarReport", "How a mesh is seen from a centre.").fields();
   m.def(
       "find_center",
       [](const Mesh& mesh, const std::string& center, const std::optional<Vec3>& point, int rays,
@@ -111,17 +98,8 @@ void bind_star(nb::module_& m) {
 }
 
 void bind_options(nb::module_& m) {
-  Options<AnalyzeOptions>(m, "AnalyzeOptions", "Which function is expanded, and how.")
-      .field("degree", &AnalyzeOptions::degree)
-      .choice("method", &AnalyzeOptions::method, parse_method, to_string)
-      .choice("engine", &AnalyzeOptions::engine, parse_engine, to_string)
-      .field("precision", &AnalyzeOptions::precision);
-  Options<Tolerance>(m, "Tolerance", "The largest error that is allowed.")
-      .field("error", &Tolerance::error)
-      .choice("unit", &Tolerance::unit, parse_tolerance_unit, to_string)
-      .choice("norm", &Tolerance::norm, parse_error_norm, to_string)
-      .choice("measure", &Tolerance::measure, parse_error_measure, to_string)
-      .field("max_degree", &Tolerance::max_degree);
+  Options<AnalyzeOptions>(m, "AnalyzeOptions", "Which function is expanded, and how.").fields();
+  Options<Tolerance>(m, "Tolerance", "The largest error that is allowed.").fields();
   Options<EncodeOptions>(m, "EncodeOptions", "What is wanted of a model.")
       .field("analyze", &EncodeOptions::analyze)
       .field("tolerance", &EncodeOptions::tolerance)
@@ -138,25 +116,7 @@ void bind_options(nb::module_& m) {
 }
 
 void bind_results(nb::module_& m) {
-  Record<FastReport>(m, "FastReport", "How the fast engine did it.")
-      .field("single", &FastReport::single, "Whether sources were spread in single precision.")
-      .field("width", &FastReport::width, "Grid points of the window.")
-      .field("oversampling", &FastReport::oversampling, "Of the grid.")
-      .field("lumped_triangles", &FastReport::lumped_triangles,
-             "Triangles whose sources are those of their vertices.")
-      .field("nodes", &FastReport::nodes, "Sources of their own.")
-      .field("vertices", &FastReport::vertices, "Sources at vertices.")
-      .field("error", &FastReport::error,
-             "Of the coefficients, l2 over degrees from 1 on, relative to the norm without mean.")
-      .field("band_error", &FastReport::band_error,
-             "Of the degrees above 3L/4 relative to their own norm.")
-      .field("measured_share", &FastReport::measured_share,
-             "Part of the triangles that errors were measured on: 1 by a second, finer reading, "
-             "less on a sample; 0 where they are estimates.")
-      .field("error_doubt", &FastReport::error_doubt,
-             "By how much more a measured error may be off.")
-      .field("passes", &FastReport::passes, "Over the triangles until the coefficients were found.")
-      .field("reached", &FastReport::reached, "Whether the error is within the precision.");
+  Record<FastReport>(m, "FastReport", "How the fast engine did it.").fields();
   Record<Analysis>(m, "Analysis", "How coefficients were found.")
       .field("edge_nodes", &Analysis::edge_nodes, "Quadrature nodes on edges.")
       .field("face_nodes", &Analysis::face_nodes, "Quadrature nodes on faces.")
@@ -172,12 +132,7 @@ void bind_results(nb::module_& m) {
       .hidden("expansion", [](Analysis& a) -> Expansion& { return a.expansion; })
       .type()
       .def_prop_ro("expansion", [](const Analysis& a) { return a.expansion; });
-  Record<ToleranceReport>(m, "ToleranceReport", "How a tolerance was kept.")
-      .field("allowed", &ToleranceReport::allowed, "Error, in the mesh's unit.")
-      .field("reached", &ToleranceReport::reached, "Error, in the mesh's unit.")
-      .field("met", &ToleranceReport::met, "Whether reached is at most allowed.")
-      .field("degrees", &ToleranceReport::degrees,
-             "That were tried; the model's is the last one, or cut off from it.");
+  Record<ToleranceReport>(m, "ToleranceReport", "How a tolerance was kept.").fields();
   Record<Encoded>(m, "Encoded", "What was found out on the way from a mesh to an expansion.")
       .field("analysis", &Encoded::analysis, "How the coefficients were found.")
       .field("tolerance", &Encoded::tolerance, "How the tolerance was kept, or None.")
@@ -228,16 +183,15 @@ void bind_norms(nb::module_& m) {
   });
   m.def("gauge_norm_squared", unlocked_function(&gauge_norm_squared));
   m.def("tail_strength", [](const StarChart& chart, const std::string& function) {
-    return unlocked([&] { return tail_strength(chart, parse_radial_function(function)); });
+    return unlocked([&] { return tail_strength(chart, parse_name<RadialFunction>(function)); });
   });
   m.def("vertex_error_strength", [](const StarChart& chart, const std::string& function) {
-    return unlocked([&] { return vertex_error_strength(chart, parse_radial_function(function)); });
+    return unlocked(
+        [&] { return vertex_error_strength(chart, parse_name<RadialFunction>(function)); });
   });
   Record<ErrorStrengths>(m, "ErrorStrengths",
                          "The largest truncation errors at vertices, times 2 pi (L + 1).")
-      .field("radius", &ErrorStrengths::radius, "Of the radius, in the mesh's unit.")
-      .field("gauge", &ErrorStrengths::gauge, "Of 1/r, in 1/unit.")
-      .field("distance", &ErrorStrengths::distance, "Of the distance between the surfaces.");
+      .fields();
   m.def("vertex_error_strengths", [](const Mesh& mesh, const Vec3& center) {
     return unlocked([&] { return vertex_error_strengths(view_of(mesh), center); });
   });

@@ -30,7 +30,7 @@ namespace {
 using Planes = nb::ndarray<const double, nb::shape<2, -1, -1>, nb::c_contig, nb::device::cpu>;
 
 Convention convention_of(const std::string& normalization, int csphase) {
-  return {parse_normalization(normalization), csphase};
+  return {parse_name<Normalization>(normalization), csphase};
 }
 
 NumpyDoubles values_of(nb::handle self) {
@@ -116,35 +116,13 @@ void bind_numbers(nb::module_& m) {
 }
 
 void bind_expansion(nb::module_& m) {
-  Record<TruncationErrors> record(m, "TruncationErrors",
-                                  "How far a surface is from the shape it was made of, in the unit "
-                                  "of lengths; None where it is not known.");
-  record.field("rms", &TruncationErrors::rms, "Radial, root mean square over solid angle.")
-      .field("rms_is_exact", &TruncationErrors::rms_is_exact,
-             "Whether rms is by Parseval's identity, not measured.")
-      .field("predicted_max", &TruncationErrors::predicted_max,
-             "Largest radial error at the vertices, in closed form.")
-      .field("predicted_max_distance", &TruncationErrors::predicted_max_distance,
-             "The same as a distance.")
-      .field("measured_max", &TruncationErrors::measured_max,
-             "Largest radial error at `points` points of the shape.")
-      .field("max_bound", &TruncationErrors::max_bound,
-             "No radial error is larger, by branch and bound; None for a gauge, or beyond the "
-             "diagonal.")
-      .field("measured_max_distance", &TruncationErrors::measured_max_distance,
-             "The same as a distance.")
-      .field("distance_rms", &TruncationErrors::distance_rms,
-             "Root mean square of distances over area, the larger of both ways.")
-      .field("distances_are_closest", &TruncationErrors::distances_are_closest,
-             "Whether distances are by closest points.")
-      .field("points", &TruncationErrors::points, "At which was measured.")
-      .field("diagonal", &TruncationErrors::diagonal,
-             "Of the shape's bounding box; 0 if not known.");
+  Record<TruncationErrors>(m, "TruncationErrors",
+                           "How far a surface is from the shape it was made of, in the unit of "
+                           "lengths; None where it is not known.")
+      .fields();
   Record<GravityField>(m, "GravityField",
                        "What the coefficients of a gravity field are relative to.")
-      .field("gravity_constant", &GravityField::gravity_constant, "G M in m^3/s^2.")
-      .field("reference_radius", &GravityField::reference_radius,
-             "Of the sphere about the centre, in m.");
+      .fields();
   nb::class_<Expansion> type(m, "Expansion", "A surface as coefficients.");
   bind_state(
       type,
@@ -185,7 +163,7 @@ void bind_expansion(nb::module_& m) {
               throw Error(ErrorCode::kInvalidInput, "the centre is not finite");
             }
             if (!unit.empty()) check_unit(unit);
-            new (self) Expansion{coefficients,  parse_radial_function(function),
+            new (self) Expansion{coefficients,  parse_name<RadialFunction>(function),
                                  center,        unit,
                                  method,        norm_squared,
                                  tail_strength, errors,
@@ -292,8 +270,7 @@ void bind_filters(nb::module_& m) {
   });
   Record<Overshoot>(m, "Overshoot",
                     "How far a filtered step leaves 0 ... 1, in parts of its height.")
-      .field("above", &Overshoot::above, "Largest value - 1.")
-      .field("below", &Overshoot::below, "Minus the smallest value.");
+      .fields();
   m.def("overshoot", [](const Doubles& gains) { return overshoot(span_of(gains)); });
   m.def("overshoot", [](const std::string& window, int degree) {
     return overshoot(parse_window(window), degree);

@@ -25,7 +25,7 @@ using Matrices = nb::ndarray<const double, nb::shape<-1, 6>, nb::c_contig, nb::d
 void bind_sums(nb::module_& m) {
   m.def("evaluate", [](const Coefficients& c, const Rows& directions, const std::string& engine,
                        double precision, const Caller& caller) {
-    const SumOptions options{parse_engine(engine), precision};
+    const SumOptions options{parse_name<Engine>(engine), precision};
     const std::vector<Vec3> at = vector_of(directions);
     return array_of(
         caller.run([&](const Context& context) { return evaluate(c, at, options, context); }));
@@ -33,7 +33,7 @@ void bind_sums(nb::module_& m) {
   m.def("evaluate_with_gradient", [](const Coefficients& c, const Rows& directions,
                                      const std::string& engine, double precision,
                                      const Caller& caller) {
-    const SumOptions options{parse_engine(engine), precision};
+    const SumOptions options{parse_name<Engine>(engine), precision};
     const std::vector<Vec3> at = vector_of(directions);
     ValuesAndGradients sums = caller.run(
         [&](const Context& context) { return evaluate_with_gradient(c, at, options, context); });
@@ -44,7 +44,7 @@ void bind_sums(nb::module_& m) {
       [](int degree, const Rows& directions, const std::optional<Doubles>& weights,
          const std::optional<Rows>& gradients, const std::optional<Matrices>& hessians,
          const std::string& engine, double precision, const Caller& caller) {
-        const SumOptions options{parse_engine(engine), precision};
+        const SumOptions options{parse_name<Engine>(engine), precision};
         const std::vector<Vec3> at = vector_of(directions);
         const std::vector<double> w = weights ? vector_of(*weights) : std::vector<double>();
         const std::vector<Vec3> g = gradients ? vector_of(*gradients) : std::vector<Vec3>();

@@ -25,17 +25,6 @@ Axis parse_axis(const std::string& name) {
   throw Error(ErrorCode::kInvalidInput, "no axis is called '" + name + "'; there are x, y and z");
 }
 
-AlignStart parse_start(const std::string& name) {
-  if (name == "correlation") return AlignStart::kCorrelation;
-  if (name == "principal-axes") return AlignStart::kPrincipalAxes;
-  throw Error(ErrorCode::kInvalidInput, "no start of a search is called '" + name +
-                                            "'; there are correlation and principal-axes");
-}
-
-const char* name_of(AlignStart start) {
-  return start == AlignStart::kCorrelation ? "correlation" : "principal-axes";
-}
-
 // An argument as a number: in the words of the functions that are written in Python.
 double number_of(const char* name, nb::handle value) {
   return nb::cast<double>(nb::module_::import_("rholm._arguments")
@@ -122,32 +111,14 @@ void bind_alignment(nb::module_& m) {
       .hidden("axes", [](PrincipalAxes& p) -> std::array<Vec3, 3>& { return p.axes; })
       .hidden("values", [](PrincipalAxes& p) -> std::array<double, 3>& { return p.values; });
   m.def("principal_axes", [](const Coefficients& c, const std::string& function) {
-    return principal_axes(c, parse_radial_function(function));
+    return principal_axes(c, parse_name<RadialFunction>(function));
   });
 
-  Options<AlignOptions>(m, "AlignOptions", "How a rotation is sought.")
-      .choice("start", &AlignOptions::start, parse_start, name_of)
-      .field("bandwidth", &AlignOptions::bandwidth)
-      .field("refine_degree", &AlignOptions::refine_degree)
-      .field("margin", &AlignOptions::margin)
-      .field("allow_mirror", &AlignOptions::allow_mirror)
-      .field("unknown_a", &AlignOptions::unknown_a)
-      .field("unknown_b", &AlignOptions::unknown_b);
+  Options<AlignOptions>(m, "AlignOptions", "How a rotation is sought.").fields();
   Record<AlignedRotation>(m, "AlignedRotation", "A rotation of a, and how well it lays a on b.")
-      .field("rotation", &AlignedRotation::rotation, "Of the mirror image, if mirrored.")
-      .field("mirrored", &AlignedRotation::mirrored,
-             "Whether the reflection x -> -x comes first; y and z stay.")
-      .field("correlation", &AlignedRotation::correlation,
-             "Of degrees from 1 on, normalised: 1 is equal up to a factor.")
-      .field("distance", &AlignedRotation::distance,
-             "Root mean square of R a - b over the sphere, all degrees.");
+      .fields();
   Record<Alignment>(m, "Alignment", "The best rotation, and those that are nearly as good.")
-      .field("best", &Alignment::best, "Of several that are equal the smallest turn.")
-      .field("ambiguities", &Alignment::ambiguities,
-             "Others that are nearly as good, best first, at most 32: symmetries of the shape.")
-      .field("free_axes", &Alignment::free_axes,
-             "Axes in the frame of b about which turning changes nothing, (n, 3).")
-      .field("unaligned_distance", &Alignment::unaligned_distance, "Before any rotation.");
+      .fields();
   Record<Placement>(m, "Placement",
                     "The point p becomes R (p - from_point) + to_point, of the mirror image if "
                     "mirrored.")
@@ -165,7 +136,7 @@ void bind_alignment(nb::module_& m) {
   });
   m.def("align", [](const Expansion& a, const Expansion& b, const std::string& centers,
                     const AlignOptions& options, const Caller& caller) {
-    const AlignCenters which = parse_align_centers(centers);
+    const AlignCenters which = parse_name<AlignCenters>(centers);
     return caller.run([&](const Context& context) { return align(a, b, which, options, context); });
   });
   m.def("placed", [](const Expansion& a, const Placement& placement, const Caller& caller) {

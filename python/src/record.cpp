@@ -69,6 +69,12 @@ nb::dict field_dict(const FieldInfo& info, const nb::object& by_default, const s
   return field;
 }
 
+std::string sentence_of(const FieldInfo& info) {
+  std::string text = info.help;
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 32);
+  return text + ".";
+}
+
 nb::str record_text(nb::handle record) {
   std::string text = nb::cast<std::string>(record.type().attr("__name__")) + "(";
   bool first = true;

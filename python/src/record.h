@@ -35,6 +35,9 @@ nb::dict record_dict(nb::handle record);
 // Sets what the keywords say; None leaves the default. TypeError for a name that is no field.
 void set_fields(nb::handle record, const nb::kwargs& fields);
 
+// What a list says of a field, as a sentence of a docstring.
+std::string sentence_of(const FieldInfo& info);
+
 // A member as a plain value of Python, which can be compared and pickled: no arrays.
 template <class V>
 nb::object state_of(const V& value) {
@@ -151,6 +154,13 @@ class Record {
     } else {
       class_.def_ro(name, member, doc);
     }
+    return *this;
+  }
+  // All fields of the struct's list.
+  Record& fields() {
+    for_each_field<T>([&](auto member, const FieldInfo& info) {
+      field(info.name, member, sentence_of(info).c_str());
+    });
     return *this;
   }
   // A member without a field of its own, which copies and pickles have all the same.

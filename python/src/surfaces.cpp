@@ -84,30 +84,10 @@ void bind_surfaces(nb::module_& m) {
     return array_of(std::vector<Vec3>(rows.begin(), rows.end()));
   });
 
-  Options<CompareOptions>(m, "CompareOptions", "Where distances are measured.")
-      .field("samples", &CompareOptions::samples)
-      .field("seed", &CompareOptions::seed)
-      .field("threshold", &CompareOptions::threshold);
-  Record<Distances>(m, "Distances", "Of all samples, in the shape's unit.")
-      .field("rms", &Distances::rms, "Root mean square.")
-      .field("mean", &Distances::mean, "Mean.")
-      .field("max", &Distances::max, "Largest.");
+  Options<CompareOptions>(m, "CompareOptions", "Where distances are measured.").fields();
+  Record<Distances>(m, "Distances", "Of all samples, in the shape's unit.").fields();
   Record<Comparison>(m, "Comparison", "How far two surfaces lie apart, in the shape's unit.")
-      .field("samples", &Comparison::samples, "On each surface.")
-      .field("seed", &Comparison::seed, "They were drawn with.")
-      .field("diagonal", &Comparison::diagonal, "Of the bounding box of a.")
-      .field("a_to_b", &Comparison::a_to_b, "From samples of a to their closest points on b.")
-      .field("b_to_a", &Comparison::b_to_a, "And the other way.")
-      .field("hausdorff", &Comparison::hausdorff,
-             "The larger of the two largest: a lower bound of the Hausdorff distance.")
-      .field("threshold", &Comparison::threshold, "Of the F-score.")
-      .field("precision", &Comparison::precision, "Share of b's samples within it of a.")
-      .field("recall", &Comparison::recall, "Share of a's samples within it of b.")
-      .field("f_score", &Comparison::f_score, "Harmonic mean of the two.")
-      .field("normal_median_degrees", &Comparison::normal_median_degrees,
-             "Median angle between normals, degrees.")
-      .field("normal_mean_degrees", &Comparison::normal_mean_degrees,
-             "Mean angle between normals, degrees.");
+      .fields();
   m.def("compare", [](const Mesh& a, const Mesh& b, const CompareOptions& options,
                       const Caller& caller) {
     return caller.run([&](const Context& context) { return compare(a, b, options, context); });

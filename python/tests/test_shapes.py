@@ -148,11 +148,11 @@ def test_confidence_of_points_and_of_surfaces(ring):
     points = rholm.sample_surface(ring, 4000).points
     far = np.concatenate([points, [[1e6, 0, 0]]])
     oriented = rholm.orient(far, confidence=True)
-    assert oriented.report.strays == 1
+    assert oriented.report.outliers == 1
     confidence = oriented.cloud.attributes["confidence"]
     assert confidence[-1] == 0
     assert confidence[:-1].min() > 0.9
-    assert rholm.orient(far, keep_outliers=True).report.strays == 0
+    assert rholm.orient(far, keep_outliers=True).report.outliers == 0
     whole = rholm.reconstruct(points, confidence=True)
     part = rholm.reconstruct(points[points[:, 0] > -1], confidence=True)
     assert whole.report.unseen_area == 0

@@ -13,7 +13,7 @@ namespace rholm {
 namespace {
 
 // "above 0", "0 or more", "0 ... 1", "finite".
-std::string limits_of(const FieldInfo& info) {
+std::string bounds_of(const FieldInfo& info) {
   const bool has_least = info.least > -std::numeric_limits<double>::infinity();
   const bool has_most = info.most < std::numeric_limits<double>::infinity();
   if (!has_least && !has_most) return "finite";
@@ -23,6 +23,11 @@ std::string limits_of(const FieldInfo& info) {
   if (!has_least) return fmt::format("at most {}", info.most);
   return info.above ? fmt::format("above {}, at most {}", info.least, info.most)
                     : fmt::format("{} ... {}", info.least, info.most);
+}
+
+// The same with "or 0".
+std::string limits_of(const FieldInfo& info) {
+  return bounds_of(info) + (info.may_be_zero ? ", or 0" : "");
 }
 
 }  // namespace
@@ -40,7 +45,7 @@ void check_number(const FieldInfo& info, double value) {
   const bool inside = value >= info.least && value <= info.most &&
                       !(info.above && value == info.least) &&
                       (std::isfinite(value) || info.may_be_infinite);
-  if (inside) return;
+  if (inside || (info.may_be_zero && value == 0)) return;
   throw Error(ErrorCode::kInvalidInput,
               fmt::format("{} is {}: it must be {}", info.name, value, limits_of(info)));
 }

@@ -151,7 +151,7 @@ Step align_items(const Json& request, const Document& now, Shared& shared) {
   return {"Align " + a->name, true, [=, &shared](Document& document, const Context& context) {
             const Expansion& before = a->model->expansion;
             const Placement placement = align(before, b->model->expansion, AlignCenters::kAuto,
-                                              {.allow_mirror = mirror}, context);
+                                              {.mirror = mirror}, context);
             Expansion moved = placed(before, placement, context);
             std::shared_ptr<const Mesh> mesh;
             if (a->original) {

@@ -225,7 +225,7 @@ void blend(Reading& r) {
   const std::vector<double> center = numbers_of(r.step, "center");
   const std::string function = string_of(r.step, "function");
   if (center.size() != 3) throw bad_request("a step blends about no centre");
-  parse_radial_function(function);
+  parse_name<RadialFunction>(function);
   const auto call = [&](const std::string& a, const std::string& b) {
     return fmt::format(
         "rholm.Expansion({} * {}.truncate({degree}).coeffs + {} * {}.truncate({degree}).coeffs, "

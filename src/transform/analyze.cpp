@@ -58,25 +58,9 @@ void set_truncation_rms(double norm_squared, Analysis& analysis) {
 
 }  // namespace
 
-const char* to_string(Method method) {
-  switch (method) {
-    case Method::kEdge:
-      return "edge";
-    case Method::kGauge:
-      return "gauge";
-    case Method::kCurl:
-      return "curl";
-    case Method::kArea:
-      return "area";
-  }
-  return "unknown";
-}
-
-Method parse_method(const std::string& name) {
-  for (const Method method : {Method::kEdge, Method::kGauge, Method::kCurl, Method::kArea}) {
-    if (name == to_string(method)) return method;
-  }
-  throw Error(ErrorCode::kInvalidInput, "unknown method '" + name + "': edge, gauge, curl or area");
+EnumNames names_of(Method) {
+  static constexpr const char* kNames[] = {"edge", "gauge", "curl", "area"};
+  return {"method", kNames};
 }
 
 namespace {

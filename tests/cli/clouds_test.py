@@ -215,7 +215,7 @@ class Clouds(CliTest):
             points = np.concatenate([clouds.sphere(np.random.default_rng(6), 300)[0],
                                      [[0.1, 0.2, far]]])
             self.write("far.xyz", clouds.text(points))
-            self.assertEqual(self.rholm("orient", "far.xyz", "-o", "o.ply", "--json").json()["strays"], 1)
+            self.assertEqual(self.rholm("orient", "far.xyz", "-o", "o.ply", "--json").json()["outliers"], 1)
 
 
 def many_normals(count):

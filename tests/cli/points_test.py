@@ -82,8 +82,8 @@ class Sample(CliTest):
                               (["sample", "a.off", "--holes", "1.5,.1"], "--holes"),
                               (["sample", "a.off", "--density-ratio", ".5"], "--density-ratio"),
                               (["sample", "a.off", "--pattern", "spiral"], "--pattern"),
-                              (["sample", "a.off", "--ratio", "3"], "--pattern"),
-                              (["sample", "a.off", "--pattern", "rings", "--axis", "0,0,0"], "--axis"),
+                              (["sample", "a.off", "--pattern-ratio", "3"], "--pattern"),
+                              (["sample", "a.off", "--pattern", "rings", "--pattern-axis", "0,0,0"], "axis"),
                               (["sample", "a.off", "--pattern", "lines"], "--scans"),
                               (["sample", "a.off", "--sensor"], "--scans"),
                               (["sample", "a.off", "--pattern", "grid", "--scans", "2"], "grid"),
@@ -172,9 +172,9 @@ class Orient(CliTest):
                                     ([str(x) for x in r] for r in rows(self.folder / "true.xyz")))
                    + "1e6 0 0\n")
         found = self.rholm("orient", "s.xyz", "--json", "-o", "o.xyz").json()
-        self.assertEqual(found["strays"], 1)
+        self.assertEqual(found["outliers"], 1)
         kept = self.rholm("orient", "s.xyz", "--keep-outliers", "--json", "-o", "o.xyz").json()
-        self.assertEqual(kept["strays"], 0)
+        self.assertEqual(kept["outliers"], 0)
 
     def test_unsure_signs_are_said_and_shown(self):
         self.write("plane.xyz", "".join(f"{i / 30} {j / 30} 0\n" for i in range(30)
@@ -220,7 +220,7 @@ class Orient(CliTest):
 
     def test_wrong_words_and_points_that_have_no_plane_are_refused(self):
         for words, saying in ((["--center", "0,0,0", "--sensor", "1,1,1"], "exclude"),
-                              (["--center", "up"], "--center"), (["--k", "2"], "3 ... 1000")):
+                              (["--center", "up"], "--center"), (["--neighbors", "2"], "3 ... 1000")):
             self.assertIn(saying, self.rholm("orient", "p.ply", *words, "-o", "o.ply",
                                              code=2).err)
         self.rholm("orient", "p.ply", "-o", "o.stl", code=2)

@@ -80,7 +80,7 @@ def points(trial):
     trial.do("orient MESH", "orient", m, out="oriented.ply", codes=ANY)
     if trial.has("hard.xyz"):
         trial.do("orient", "hard.xyz", "--json", *trial.one_of(
-            (), ("--k", "6"), ("--center", "0,0,0"), ("--sensor", "9,9,9"), ("--confidence",)),
+            (), ("--neighbors", "6"), ("--center", "0,0,0"), ("--sensor", "9,9,9"), ("--confidence",)),
             out="signed.off", codes=ANY)
         trial.do("reconstruct (hard)", "reconstruct", "hard.xyz", *quick, *trial.one_of(
             (), ("--holes", "keep"), ("--tolerance", "0.01"), ("--blend", "spline"),
@@ -174,7 +174,7 @@ def star_model(trial):
              codes=DONE)
     if trial.do("rotate", s, "--axis", "1,2,3", "--angle", "50", out="turned.h5", codes=DONE):
         trial.do("align", s, "turned.h5", "--json", out="aligned.h5", codes=DONE)
-        trial.do("align axes", "align", "turned.h5", s, "--method", "axes", "--mirror", "--json",
+        trial.do("align axes", "align", "turned.h5", s, "--start", "principal-axes", "--mirror", "--json",
                  codes=DONE)
 
 

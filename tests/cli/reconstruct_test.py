@@ -90,7 +90,7 @@ class Reconstruct(CliTest):
             self.assertNotEqual((self.folder / "s.ply").read_bytes(), plain, words)
 
     def test_scans_are_brought_together_or_kept(self):
-        self.rholm("make", "sample", "t.ply", "--points", "4000", "--scans", "4", "--misalign", ".01",
+        self.rholm("make", "sample", "t.ply", "--points", "4000", "--scans", "4", "--misalignment", ".01",
                    "-o", "scans.ply")
         report = self.reconstruct("scans.ply")["scans"]
         self.assertEqual(report["scans"], 4)
@@ -150,7 +150,7 @@ class Reconstruct(CliTest):
         self.assertAlmostEqual(found["area"] - found["closed_area"], found["points_area"],
                                delta=0.12 * found["points_area"])
         # Scans that are off by four spacings, and left so: most caps see two walls.
-        self.rholm("make", "sample", "t.ply", "--points", "20000", "--scans", "6", "--misalign",
+        self.rholm("make", "sample", "t.ply", "--points", "20000", "--scans", "6", "--misalignment",
                    ".02", "-o", "scans.ply")
         self.reconstruct("scans.ply")
         done = self.rholm("reconstruct", "scans.ply", "--keep-scans", "-o", "d.ply", code=4)

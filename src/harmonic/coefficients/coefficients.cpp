@@ -46,24 +46,9 @@ Coefficients Coefficients::resized(int degree) const {
   return result;
 }
 
-const char* to_string(RadialFunction function) {
-  switch (function) {
-    case RadialFunction::kRadius:
-      return "radius";
-    case RadialFunction::kGauge:
-      return "gauge";
-    case RadialFunction::kOther:
-      return "other";
-  }
-  return "unknown";
-}
-
-RadialFunction parse_radial_function(const std::string& name) {
-  if (name == "radius") return RadialFunction::kRadius;
-  if (name == "gauge") return RadialFunction::kGauge;
-  if (name == "other") return RadialFunction::kOther;
-  throw Error(ErrorCode::kInvalidInput,
-              "unknown function " + in_quotes(name) + ": it must be 'radius', 'gauge' or 'other'");
+EnumNames names_of(RadialFunction) {
+  static constexpr const char* kNames[] = {"radius", "gauge", "other"};
+  return {"function", kNames};
 }
 
 void require_surface(const Expansion& expansion) {
@@ -100,24 +85,9 @@ void check_gravity(const Expansion& expansion, const std::string& name) {
                   to_string(expansion.function)));
 }
 
-const char* to_string(Normalization normalization) {
-  switch (normalization) {
-    case Normalization::kOrthonormal:
-      return "orthonormal";
-    case Normalization::kFourPi:
-      return "4pi";
-    case Normalization::kSchmidt:
-      return "schmidt";
-  }
-  return "unknown";
-}
-
-Normalization parse_normalization(const std::string& name) {
-  if (name == "orthonormal") return Normalization::kOrthonormal;
-  if (name == "4pi") return Normalization::kFourPi;
-  if (name == "schmidt") return Normalization::kSchmidt;
-  throw Error(ErrorCode::kInvalidInput, "unknown normalization " + in_quotes(name) +
-                                            ": it must be '4pi', 'orthonormal' or 'schmidt'");
+EnumNames names_of(Normalization) {
+  static constexpr const char* kNames[] = {"orthonormal", "4pi", "schmidt"};
+  return {"normalization", kNames};
 }
 
 }  // namespace rholm

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "base/check_fields.h"
 #include "base/parallel.h"
 #include "base/refuse.h"
 #include "harmonic/motion/align_newton.h"
@@ -34,22 +35,7 @@ constexpr double kNothing = 1e-10;
 constexpr int kMaxCenteredDegree = 256;
 
 void check(const Coefficients& a, const Coefficients& b, const AlignOptions& options) {
-  if (options.bandwidth < 1 || options.bandwidth > 64) {
-    refuse("bandwidth " + std::to_string(options.bandwidth) +
-           " of the search is out of range: choose one from 1 to 64");
-  }
-  if (options.refine_degree < 1 || options.refine_degree > kMaxDegree) {
-    refuse("degree " + std::to_string(options.refine_degree) +
-           " of the refinement is out of range: choose one from 1 to " +
-           std::to_string(kMaxDegree));
-  }
-  if (!(options.margin >= 0 && options.margin <= 2)) {
-    refuse("margin " + std::to_string(options.margin) +
-           " of the correlation is out of range: choose one from 0 to 2");
-  }
-  for (const double unknown : {options.unknown_a, options.unknown_b}) {
-    if (!(unknown >= 0)) refuse("what is not known of a function must be 0 or more");
-  }
+  check_fields(options);
   for (const Coefficients* f : {&a, &b}) {
     for (const double value : f->values()) {
       if (!std::isfinite(value)) refuse("a coefficient to align is not finite");
@@ -254,9 +240,9 @@ double descriptor_distance(const Coefficients& a, const Coefficients& b) {
 Alignment align(const Coefficients& a, const Coefficients& b, const AlignOptions& options,
                 const Context& context) {
   check(a, b, options);
-  const Coefficients image = options.allow_mirror ? mirror(a, Axis::kX) : Coefficients();
+  const Coefficients image = options.mirror ? mirror(a, Axis::kX) : Coefficients();
   Found found = find_rotations(a, b, false, options, context);
-  if (options.allow_mirror) {
+  if (options.mirror) {
     const Found other = find_rotations(image, b, true, options, context);
     const double gain = other.rotations[0].correlation - found.rotations[0].correlation;
     if (gain > kSameCorrelation) found.free_axes = other.free_axes;
@@ -312,24 +298,14 @@ Placement align(const Expansion& a, const Expansion& b, AlignCenters centers,
   return turn(*x, *y);
 }
 
-const char* to_string(AlignCenters centers) {
-  switch (centers) {
-    case AlignCenters::kAuto:
-      return "auto";
-    case AlignCenters::kVolume:
-      return "volume";
-    case AlignCenters::kOwn:
-      return "own";
-  }
-  return "unknown";
+EnumNames names_of(AlignStart) {
+  static constexpr std::array kNames = {"correlation", "principal-axes"};
+  return {"start of the search", kNames};
 }
 
-AlignCenters parse_align_centers(const std::string& name) {
-  for (const auto centers : {AlignCenters::kAuto, AlignCenters::kVolume, AlignCenters::kOwn}) {
-    if (name == to_string(centers)) return centers;
-  }
-  throw Error(ErrorCode::kInvalidInput,
-              "no choice of centres is called '" + name + "'; there are auto, volume and own");
+EnumNames names_of(AlignCenters) {
+  static constexpr const char* kNames[] = {"auto", "volume", "own"};
+  return {"choice of centres", kNames};
 }
 
 Expansion placed(const Expansion& a, const Placement& placement, const Context& context) {

@@ -42,13 +42,9 @@ std::optional<NonuniformPlan> fast_plan(int degree, std::size_t sources, int der
 
 }  // namespace
 
-const char* to_string(Engine engine) { return engine == Engine::kFast ? "fast" : "direct"; }
-
-Engine parse_engine(const std::string& name) {
-  for (const Engine engine : {Engine::kFast, Engine::kDirect}) {
-    if (name == to_string(engine)) return engine;
-  }
-  throw Error(ErrorCode::kInvalidInput, "unknown engine '" + name + "': fast or direct");
+EnumNames names_of(Engine) {
+  static constexpr const char* kNames[] = {"fast", "direct"};
+  return {"engine", kNames};
 }
 
 DirectionSums::DirectionSums(const Coefficients& coefficients, std::size_t directions,

@@ -218,9 +218,9 @@ bool Handler::string(string_t& value) {
     }
     has_format_ = true;
   } else if (key_ == "normalization") {
-    parsed_.normalization = parse_normalization(value);
+    parsed_.normalization = parse_name<Normalization>(value);
   } else if (key_ == "function") {
-    parsed_.function = parse_radial_function(value);
+    parsed_.function = parse_name<RadialFunction>(value);
   } else if (key_ == "unit") {
     parsed_.unit = value;
   } else if (key_ == "method") {

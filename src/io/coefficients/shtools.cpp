@@ -43,7 +43,7 @@ void take_comment(const TextLine& line, State& state) {
       refuse_line(line, "normalization is " + in_quotes(value) +
                             ": it must be 4pi, orthonormal or schmidt");
     }
-    set_once(state.parsed.normalization, parse_normalization(std::string(value)), key, line);
+    set_once(state.parsed.normalization, parse_name<Normalization>(std::string(value)), key, line);
   } else {
     take_description(key, value, line, state.parsed);
   }

@@ -197,7 +197,7 @@ bool take_description(std::string_view key, std::string_view value, const TextLi
     if (value != "radius" && value != "gauge" && value != "other") {
       refuse_line(line, "function is " + in_quotes(value) + ": it must be radius, gauge or other");
     }
-    set_once(parsed.function, parse_radial_function(std::string(value)), key, line);
+    set_once(parsed.function, parse_name<RadialFunction>(std::string(value)), key, line);
   } else if (key == "center") {
     set_once(parsed.center, parse_center_value(value, line), key, line);
   } else if (key == "unit") {

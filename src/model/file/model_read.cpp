@@ -149,7 +149,7 @@ class ModelReader {
       refuse(fmt::format("it says degree {} and has coefficients up to {}", degree,
                          expansion.coefficients.degree()));
     }
-    expansion.function = parse_radial_function(text(group, layout::kFunction));
+    expansion.function = parse_name<RadialFunction>(text(group, layout::kFunction));
     const std::vector<double> center = numbers(group, layout::kCenter, 3);
     expansion.center = {center[0], center[1], center[2]};
     expansion.unit = optional_text(group, layout::kUnit);

@@ -108,7 +108,7 @@ void WorkingPoints::compute_normals(const ReconstructOptions& options, Reconstru
   cloud_.normals.clear();
   neighbors_ = {};  // of gaps by places alone
   // Strays are gone, if they shall.
-  const OrientOptions wanted{.keep_strays = true, .confidence = options.confidence};
+  const OrientOptions wanted{.keep_outliers = true, .confidence = options.confidence};
   report.unsure = orient(cloud_, wanted, context).unsure;
   report.computed_normals = computed_ = true;
   const std::size_t before = size();

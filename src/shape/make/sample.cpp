@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/cancel.h"
+#include "base/check_fields.h"
 #include "base/parallel.h"
 #include "base/resize_asking.h"
 #include "rholm/error.h"
@@ -105,37 +106,12 @@ class Source {
   std::size_t size_ = 0;
 };
 
-void require(bool good, const std::string& what, double value, const std::string& limits) {
-  if (good) return;
-  throw Error(ErrorCode::kInvalidInput,
-              what + " is " + std::to_string(value) + "; it must be " + limits);
-}
-
 void check(const SampleOptions& o) {
-  const auto within = [](double x, double low, double high) { return x >= low && x <= high; };
-  require(o.points >= 1 && o.points <= kMaxPoints, "the number of points",
-          static_cast<double>(o.points), "1 ... " + std::to_string(kMaxPoints));
-  require(within(o.noise, 0, 1), "the noise", o.noise, "0 ... 1 of the diagonal");
-  require(within(o.normal_noise, 0, 180), "the noise of normals", o.normal_noise,
-          "0 ... 180 degrees");
-  require(within(o.outliers, 0, 1), "the share of outliers", o.outliers, "0 ... 1");
-  require(o.holes >= 0 && o.holes <= 1000, "the number of holes", o.holes, "0 ... 1000");
-  require(within(o.hole_radius, 0, 1), "the radius of holes", o.hole_radius,
-          "0 ... 1 of the diagonal");
-  require(within(o.density_ratio, 1, kMaxDensityRatio), "the density ratio", o.density_ratio,
-          "1 ... " + std::to_string(static_cast<int>(kMaxDensityRatio)));
-  require(within(o.pattern_ratio, 1, kMaxPatternRatio), "the ratio of the pattern", o.pattern_ratio,
-          "1 ... " + std::to_string(static_cast<int>(kMaxPatternRatio)));
+  check_fields(o);
   const Vec3& axis = o.pattern_axis;
   if (!is_finite(axis) || !(norm(axis) > 1e-100 && norm(axis) < 1e100)) {
     throw Error(ErrorCode::kInvalidInput, "the axis of the pattern has no direction");
   }
-  require(o.scans >= 0 && o.scans <= kMaxScans, "the number of scans", o.scans,
-          "0 ... " + std::to_string(kMaxScans));
-  require(within(o.misalignment, 0, 1), "the misalignment", o.misalignment,
-          "0 ... 1 of the diagonal");
-  require(within(o.scan_noise, 0, 1), "the noise per scan", o.scan_noise,
-          "0 ... 1 of the diagonal");
   const bool scanned = o.misalignment > 0 || o.scan_noise > 0 || o.sensor;
   if (o.scans == 0 && (scanned || o.pattern == SamplePattern::kLines)) {
     throw Error(ErrorCode::kInvalidInput,
@@ -274,19 +250,9 @@ PointCloud sample_surface(const Mesh& mesh, const SampleOptions& options, const 
   return cloud;
 }
 
-const char* to_string(SamplePattern pattern) {
-  constexpr const char* kNames[] = {"random", "slices", "rings", "lines", "grid"};
-  return kNames[static_cast<int>(pattern)];
-}
-
-SamplePattern parse_sample_pattern(const std::string& name) {
-  for (const SamplePattern pattern :
-       {SamplePattern::kRandom, SamplePattern::kSlices, SamplePattern::kRings,
-        SamplePattern::kLines, SamplePattern::kGrid}) {
-    if (name == to_string(pattern)) return pattern;
-  }
-  throw Error(ErrorCode::kInvalidInput,
-              "unknown pattern '" + name + "': random, slices, rings, lines or grid");
+EnumNames names_of(SamplePattern) {
+  static constexpr const char* kNames[] = {"random", "slices", "rings", "lines", "grid"};
+  return {"pattern", kNames};
 }
 
 }  // namespace rholm

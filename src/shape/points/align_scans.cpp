@@ -294,7 +294,7 @@ void find_sides(Scans& scans, const Context& context) {
     }
   }
   if (some.points.empty()) return;
-  orient(some, {.keep_directions = true, .keep_strays = true, .confidence = true}, context);
+  orient(some, {.keep_directions = true, .keep_outliers = true, .confidence = true}, context);
   const std::vector<double>& sure = find_attribute(some.attributes, "confidence")->values;
   std::size_t first = 0;
   for (Scan& scan : scans.scans) {

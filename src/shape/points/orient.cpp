@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/check_fields.h"
 #include "base/refuse.h"
 #include "rholm/points.h"
 #include "shape/points/normals.h"
@@ -23,15 +24,9 @@ void check(const PointCloud& cloud, const OrientOptions& options) {
     refuse("there are " + std::to_string(cloud.points.size()) + " points, at most " +
            std::to_string(kMaxPoints) + " can be oriented; thin them out first");
   }
-  if (options.neighbors != 0 && (options.neighbors < 3 || options.neighbors > 1000)) {
-    refuse("the number of neighbours is " + std::to_string(options.neighbors) +
-           "; it must be 3 ... 1000, or 0 to have it chosen");
-  }
+  check_fields(options);
   if (options.center && options.sensor) {
     refuse("a centre and a sensor exclude each other; give one of them");
-  }
-  for (const std::optional<Vec3>& place : {options.center, options.sensor}) {
-    if (place && !is_finite(*place)) refuse("the centre or sensor is not a finite point");
   }
 }
 
@@ -76,7 +71,7 @@ void hand_back(const OrientScene& scene, const OrientSigns& signs, const OrientO
     report.computed += !had || !options.keep_directions;
     report.flipped += had && dot(old[i], normal) < 0;
     report.undetermined += normal == Vec3{};
-    report.strays += scene.stray[i];
+    report.outliers += scene.stray[i];
     confidence[i] = scene.stray[i] != 0 ? 0.0 : confidence_of(signs.agreement[place]);
     report.mean_confidence += confidence[i] / static_cast<double>(n);
     unsure += confidence[i] < 0.5;
@@ -94,7 +89,7 @@ OrientReport orient(PointCloud& cloud, const OrientOptions& options, const Conte
   check(cloud, options);
   OrientReport report{.points = cloud.points.size()};
   const bool by_sight = options.center || options.sensor;
-  const OrientScene scene = make_orient_scene(cloud, !by_sight && !options.keep_strays, context);
+  const OrientScene scene = make_orient_scene(cloud, !by_sight && !options.keep_outliers, context);
   std::vector<Vec3> given;
   if (options.keep_directions && !cloud.normals.empty()) given = given_directions(cloud, scene);
   LocalFits fits =

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/check_fields.h"
 #include "base/compensated_sum.h"
 #include "base/parallel.h"
 #include "base/progress.h"
@@ -114,7 +115,7 @@ Comparison compare(const MeshInPlace& a, const MeshInPlace& b, std::size_t memor
 
 Comparison compare_in_portions(const MeshInPlace& a, const MeshInPlace& b, std::size_t triangles,
                                const CompareOptions& options, const Context& context) {
-  check(options);
+  check_fields(options);
   const Bounds of_a = bounds_of("A", a, context), of_b = bounds_of("B", b, context);
   const double scale = common_scale(of_a, of_b);
   const SurveyedMesh surveyed_a(MeshPortions(a, of_a, scale, triangles));

@@ -6,6 +6,7 @@
 
 #include "base/bytes.h"
 #include "base/cancel.h"
+#include "base/check_fields.h"
 #include "rholm/error.h"
 #include "rholm/topology.h"
 #include "shape/face.h"
@@ -40,17 +41,6 @@ class LastNormal {
 
 }  // namespace
 
-void check(const CompareOptions& options) {
-  if (options.samples == 0 || options.samples > kMaxSamples) {
-    throw Error(ErrorCode::kInvalidInput, "samples is " + std::to_string(options.samples) +
-                                              ", it must be 1 ... " + std::to_string(kMaxSamples));
-  }
-  if (!(options.threshold > 0) || !std::isfinite(options.threshold)) {
-    throw Error(ErrorCode::kInvalidInput, "threshold is " + std::to_string(options.threshold) +
-                                              ", it must be a positive fraction of the diagonal");
-  }
-}
-
 double common_scale(const Bounds& a, const Bounds& b) {
   return unit_frame(bounds({a.min, a.max, b.min, b.max})).scale;
 }
@@ -67,7 +57,7 @@ double angle_between(const Vec3& here, const Vec3& there) {
 
 CompareSamples::CompareSamples(const Mesh& a, const Mesh& b, const CompareOptions& options)
     : options_(options) {
-  check(options);
+  check_fields(options);
   validate(a);
   validate(b);
   scale_ = common_scale(bounds(a.vertices), bounds(b.vertices));

@@ -28,8 +28,6 @@ struct SampleDistances {
   explicit SampleDistances(std::size_t n = 0) : distances(n), angles(n) {}
 };
 
-// Throws InvalidInput for what is out of range.
-void check(const CompareOptions& options);
 // The power of two that brings shapes with these bounds to the order of 1, so that squares can be
 // formed.
 double common_scale(const Bounds& a, const Bounds& b);

@@ -72,45 +72,19 @@ TransformTarget first_pilot(const ToleranceProblem& problem, const Tolerance& to
           .precision = precisions_for(problem, tolerance).pilot};
 }
 
-const char* to_string(ErrorNorm norm) { return norm == ErrorNorm::kRms ? "rms" : "max"; }
-
-const char* to_string(ErrorMeasure measure) {
-  return measure == ErrorMeasure::kRadius ? "radius" : "distance";
+EnumNames names_of(ErrorNorm) {
+  static constexpr const char* kNames[] = {"rms", "max"};
+  return {"norm of errors", kNames};
 }
 
-const char* to_string(ToleranceUnit unit) {
-  switch (unit) {
-    case ToleranceUnit::kAbsolute:
-      return "absolute";
-    case ToleranceUnit::kDiagonal:
-      return "diagonal";
-    case ToleranceUnit::kRadius:
-      return "radius";
-  }
-  return "unknown";
+EnumNames names_of(ErrorMeasure) {
+  static constexpr const char* kNames[] = {"radius", "distance"};
+  return {"measure of errors", kNames};
 }
 
-ToleranceUnit parse_tolerance_unit(const std::string& name) {
-  for (const ToleranceUnit unit :
-       {ToleranceUnit::kAbsolute, ToleranceUnit::kDiagonal, ToleranceUnit::kRadius}) {
-    if (name == to_string(unit)) return unit;
-  }
-  throw Error(ErrorCode::kInvalidInput,
-              "unknown unit '" + name + "': absolute, diagonal or radius");
-}
-
-ErrorNorm parse_error_norm(const std::string& name) {
-  for (const ErrorNorm norm : {ErrorNorm::kRms, ErrorNorm::kMax}) {
-    if (name == to_string(norm)) return norm;
-  }
-  throw Error(ErrorCode::kInvalidInput, "unknown norm '" + name + "': rms or max");
-}
-
-ErrorMeasure parse_error_measure(const std::string& name) {
-  for (const ErrorMeasure measure : {ErrorMeasure::kRadius, ErrorMeasure::kDistance}) {
-    if (name == to_string(measure)) return measure;
-  }
-  throw Error(ErrorCode::kInvalidInput, "unknown measure '" + name + "': radius or distance");
+EnumNames names_of(ToleranceUnit) {
+  static constexpr const char* kNames[] = {"absolute", "diagonal", "radius"};
+  return {"unit of a tolerance", kNames};
 }
 
 }  // namespace rholm

@@ -167,13 +167,13 @@ TEST(conventions, other_phases_are_refused) {
 TEST(conventions, names_read_back) {
   for (const auto normalization :
        {Normalization::kOrthonormal, Normalization::kFourPi, Normalization::kSchmidt}) {
-    EXPECT_EQ(parse_normalization(to_string(normalization)), normalization);
+    EXPECT_EQ(parse_name<Normalization>(to_string(normalization)), normalization);
   }
   for (const auto function : {RadialFunction::kRadius, RadialFunction::kGauge}) {
-    EXPECT_EQ(parse_radial_function(to_string(function)), function);
+    EXPECT_EQ(parse_name<RadialFunction>(to_string(function)), function);
   }
-  EXPECT_EQ(code_of([] { parse_normalization("4PI "); }), ErrorCode::kInvalidInput);
-  EXPECT_EQ(code_of([] { parse_radial_function(""); }), ErrorCode::kInvalidInput);
+  EXPECT_EQ(code_of([] { parse_name<Normalization>("4PI "); }), ErrorCode::kInvalidInput);
+  EXPECT_EQ(code_of([] { parse_name<RadialFunction>(""); }), ErrorCode::kInvalidInput);
 }
 
 TEST(power_spectrum, is_the_energy_of_each_degree) {

@@ -217,7 +217,7 @@ TEST(align, of_equally_good_rotations_the_smallest_is_best) {
   cubic.c(4, 4) = std::sqrt(5. / 12);
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const Coefficients f = rotate(cubic, random_rotation(seed));
-    const Alignment still = align(f, f, {.allow_mirror = seed % 2 == 0});
+    const Alignment still = align(f, f, {.mirror = seed % 2 == 0});
     EXPECT_LT(angle_between(still.best.rotation, {}), 1e-6) << seed;
     EXPECT_FALSE(still.best.mirrored);
     EXPECT_GE(still.ambiguities.size(), 23u);
@@ -256,13 +256,13 @@ TEST(align, a_mirror_image_is_another_body) {
     const Alignment strict = align(a, image);
     EXPECT_LT(strict.best.correlation, 0.99);
     EXPECT_GT(strict.best.distance, 0.01);
-    const Alignment both = align(a, image, {.allow_mirror = true});
+    const Alignment both = align(a, image, {.mirror = true});
     EXPECT_TRUE(both.best.mirrored);
     EXPECT_LT(both.best.distance, 1e-7);
     const Coefficients laid = rotate(mirror(a, Axis::kX), both.best.rotation);
     EXPECT_LT(relative_difference(laid, image), 1e-7);
     // Where a rotation does it no image is reported.
-    const Alignment plain = align(a, rotate(a, random_rotation(seed)), {.allow_mirror = true});
+    const Alignment plain = align(a, rotate(a, random_rotation(seed)), {.mirror = true});
     EXPECT_FALSE(plain.best.mirrored);
     EXPECT_TRUE(plain.ambiguities.empty());
   }
@@ -395,7 +395,7 @@ TEST(align, laid_on_the_other_by_their_own_centres) {
   const Rotation truth = random_rotation(3);
   const Expansion a = expansion_of(body(10, 1), {5, 0, 0});
   const Expansion b = expansion_of(rotate(mirror(a.coefficients, Axis::kZ), truth), {1, 2, 3});
-  const Placement found = align(a, b, AlignCenters::kOwn, {.allow_mirror = true});
+  const Placement found = align(a, b, AlignCenters::kOwn, {.mirror = true});
   const Expansion laid = placed(a, found);
   EXPECT_LT(norm(laid.center - b.center), 1e-14);
   EXPECT_LT(relative_difference(laid.coefficients, b.coefficients), 1e-7);

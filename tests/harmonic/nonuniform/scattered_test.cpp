@@ -263,9 +263,9 @@ TEST(transforms, refuse_precisions_and_engines_that_there_are_not) {
     EXPECT_THROW(evaluate(Coefficients(3), directions, {.precision = precision}), Error);
   }
   for (const Engine engine : {Engine::kFast, Engine::kDirect}) {
-    EXPECT_EQ(parse_engine(to_string(engine)), engine);
+    EXPECT_EQ(parse_name<Engine>(to_string(engine)), engine);
   }
-  EXPECT_THROW(parse_engine("slow"), Error);
+  EXPECT_THROW(parse_name<Engine>("slow"), Error);
 }
 
 }  // namespace

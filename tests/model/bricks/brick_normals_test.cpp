@@ -85,7 +85,7 @@ TEST(brick_normals, of_one_brick_are_those_of_all_points) {
   const Oriented made(without_normals(given), 10000);
   ASSERT_EQ(made.n(), 1u);
   PointCloud whole = without_normals(given);
-  const OrientReport report = orient(whole, {.keep_strays = true, .confidence = true});
+  const OrientReport report = orient(whole, {.keep_outliers = true, .confidence = true});
   EXPECT_EQ(made.report.components, report.components);
   EXPECT_EQ(made.report.neighbors, static_cast<std::uint64_t>(report.neighbors));
   EXPECT_EQ(made.report.points, given.points.size());
@@ -118,7 +118,7 @@ TEST(brick_normals, have_the_directions_of_all_points) {
         sample_surface(torus(1, 0.4, 96, 48), {.points = 12000, .noise = noise});
     const Oriented made(without_normals(given), 1500);
     PointCloud whole = without_normals(given);
-    orient(whole, {.neighbors = static_cast<int>(made.report.neighbors), .keep_strays = true});
+    orient(whole, {.neighbors = static_cast<int>(made.report.neighbors), .keep_outliers = true});
     std::size_t others = 0;
     for_each_normal(made, whole, [&](std::size_t i, const BrickNormal& found) {
       others += norm(whole.normals[i] - found.normal()) > 1e-3 ? 1 : 0;
@@ -154,7 +154,7 @@ TEST(brick_normals, are_those_of_a_field_where_the_graph_is_in_doubt_nightly) {
                      {.points = 5000, .pattern = SamplePattern::kSlices, .pattern_ratio = 6});
   for (const PointCloud& given : {crossing_balls(), rows}) {
     PointCloud whole = without_normals(given);
-    orient(whole, {.keep_strays = true});
+    orient(whole, {.keep_outliers = true});
     for (const std::uint64_t points_per_brick : {20000, 1500}) {
       const std::uint64_t samples = points_per_brick == 1500 ? 1000 : 200000;
       const Oriented made(without_normals(given), points_per_brick, {.samples = samples});
@@ -175,7 +175,7 @@ TEST(brick_normals, of_a_plate_that_samples_do_not_show_are_sure_nightly) {
   const PointCloud given = sample_surface(box({1, 1, 0.05}), {.points = 15000});
   const Oriented made(without_normals(given), 2500, {.samples = 300});
   PointCloud whole = without_normals(given);
-  orient(whole, {.keep_strays = true});
+  orient(whole, {.keep_outliers = true});
   double same = 0;
   for_each_normal(made, whole, [&](std::size_t i, const BrickNormal& found) {
     same += dot(whole.normals[i], found.normal()) > 0;

@@ -206,7 +206,7 @@ TEST(analyze, refuses_degrees_precisions_and_centres_out_of_range) {
   EXPECT_THROW(analyze(chart, {.degree = kMaxDegree + 1}), Error);
   EXPECT_THROW(analyze(chart, {.degree = 4, .precision = 0}), Error);
   EXPECT_THROW(analyze(chart, {.degree = 4, .precision = NAN}), Error);
-  EXPECT_THROW(parse_method("edges"), Error);
+  EXPECT_THROW(parse_name<Method>("edges"), Error);
   ChartOptions on_a_vertex{.center = {.kind = CenterKind::kGiven, .point = {1, 1, 1}, .rays = 0},
                            .allow_signed = true};
   const StarChart bad = make_star_chart(box({2, 2, 2}), on_a_vertex);

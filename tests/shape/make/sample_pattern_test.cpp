@@ -263,11 +263,11 @@ TEST(sample_pattern, refuses_what_does_not_go_together) {
   refused({.scan_noise = 0.1});
   refused({.sensor = true});
   refused({.scans = 2, .misalignment = -1});
-  EXPECT_THROW(parse_sample_pattern("spiral"), Error);
+  EXPECT_THROW(parse_name<SamplePattern>("spiral"), Error);
   for (const SamplePattern pattern :
        {SamplePattern::kRandom, SamplePattern::kSlices, SamplePattern::kRings,
         SamplePattern::kLines, SamplePattern::kGrid}) {
-    EXPECT_EQ(parse_sample_pattern(to_string(pattern)), pattern);
+    EXPECT_EQ(parse_name<SamplePattern>(to_string(pattern)), pattern);
   }
 }
 

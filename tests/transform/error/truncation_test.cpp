@@ -194,18 +194,18 @@ TEST(analyze_to_a_tolerance, can_be_cancelled) {
 
 TEST(tolerance_names, are_read_as_they_are_written) {
   for (const ErrorNorm norm : {ErrorNorm::kRms, ErrorNorm::kMax}) {
-    EXPECT_EQ(parse_error_norm(to_string(norm)), norm);
+    EXPECT_EQ(parse_name<ErrorNorm>(to_string(norm)), norm);
   }
   for (const ErrorMeasure measure : {ErrorMeasure::kRadius, ErrorMeasure::kDistance}) {
-    EXPECT_EQ(parse_error_measure(to_string(measure)), measure);
+    EXPECT_EQ(parse_name<ErrorMeasure>(to_string(measure)), measure);
   }
   for (const ToleranceUnit unit :
        {ToleranceUnit::kAbsolute, ToleranceUnit::kDiagonal, ToleranceUnit::kRadius}) {
-    EXPECT_EQ(parse_tolerance_unit(to_string(unit)), unit);
+    EXPECT_EQ(parse_name<ToleranceUnit>(to_string(unit)), unit);
   }
-  EXPECT_THROW(parse_error_norm("l1"), Error);
-  EXPECT_THROW(parse_error_measure("radius "), Error);
-  EXPECT_THROW(parse_tolerance_unit(""), Error);
+  EXPECT_THROW(parse_name<ErrorNorm>("l1"), Error);
+  EXPECT_THROW(parse_name<ErrorMeasure>("radius "), Error);
+  EXPECT_THROW(parse_name<ToleranceUnit>(""), Error);
 }
 
 }  // namespace
