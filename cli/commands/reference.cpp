@@ -23,6 +23,7 @@
 #include "rholm/points.h"
 #include "rholm/reconstruct.h"
 #include "rholm/reconstruct_bricks.h"
+#include "rholm/repair.h"
 #include "rholm/simplify.h"
 
 namespace rholm::cli {
@@ -211,7 +212,7 @@ std::string command_section() {
       fmt::format("Options of {}", kName),
       fmt::format("`{}Options` in C++ and arguments of `rholm.{}` in Python.", struct_name, kName));
 }
-constexpr char kCompareName[] = "compare", kOrientName[] = "orient";
+constexpr char kCompareName[] = "compare", kOrientName[] = "orient", kRepairName[] = "repair";
 
 constexpr ReferenceSection kSections[] = {window_section,
                                           descriptor_section,
@@ -222,7 +223,8 @@ constexpr ReferenceSection kSections[] = {window_section,
                                           brick_section,
                                           simplify_section,
                                           command_section<CompareOptions, kCompareName>,
-                                          command_section<OrientOptions, kOrientName>};
+                                          command_section<OrientOptions, kOrientName>,
+                                          command_section<RepairOptions, kRepairName>};
 
 }  // namespace
 

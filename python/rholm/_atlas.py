@@ -12,9 +12,9 @@ from . import _core
 from ._arrays import FloatArray, IndexArray, float_rows, plain_array
 from ._core import AtlasErrors, AtlasModel, AtlasSize, Cap, CompressReport, SurfaceRules
 from ._errors import InvalidInputError
+from ._options import simplify_options
 from ._run import Progress, caller, named
 from ._shapes import Mesh, MeshLike, PointCloud, as_mesh, as_shape, finite_points, name_of
-from ._topology import simplify_options
 
 NO_CAP = _core.NO_CAP
 """The number that `Atlas.dominant_caps` gives where there is no cap."""

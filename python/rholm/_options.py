@@ -8,12 +8,29 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TypeVar
 
+from . import _core
+from ._arguments import whole
 from ._arrays import triple
-from ._topology import simplify_options
+from ._errors import InvalidInputError
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 #: Where the documentation of the options goes in the docstring of a function.
 _PLACE = "{options}"
+
+
+def simplify_options(simplify: Any) -> _core.SimplifyOptions | None:
+    """Where to stop: None, "auto", a number of triangles (from 1 on), or a dict of options."""
+    if simplify is None or simplify is False:
+        return None
+    if simplify is True or simplify == "auto":
+        return _core.SimplifyOptions()
+    if isinstance(simplify, dict):
+        return _core.SimplifyOptions(**simplify)
+    if isinstance(simplify, str):
+        raise InvalidInputError(
+            f"simplify is {simplify!r}; it must be 'auto', a number of triangles or a dict"
+        )
+    return _core.SimplifyOptions(triangles=whole(simplify, "simplify"))
 
 
 def _converted(field: dict[str, Any], value: Any) -> Any:

@@ -177,6 +177,7 @@ def test_the_types_of_tables_are_those_of_the_library(tmp_path):
     [
         (rholm._core.ReconstructOptions, rholm.reconstruct),
         (rholm._core.ReconstructOptions, rholm.reconstruct_bricks),
+        (rholm._core.RepairOptions, rholm.repair),
     ],
 )
 def test_options_are_arguments_with_their_defaults_and_documents(kind, function):
