@@ -15,11 +15,13 @@
 #include "cli/terminal/exit_code.h"
 #include "cli/terminal/session.h"
 #include "rholm/compare.h"
+#include "rholm/compress.h"
 #include "rholm/descriptors.h"
 #include "rholm/error_info.h"
 #include "rholm/fields.h"
 #include "rholm/filter.h"
 #include "rholm/formats.h"
+#include "rholm/patch_atlas.h"
 #include "rholm/points.h"
 #include "rholm/reconstruct.h"
 #include "rholm/reconstruct_bricks.h"
@@ -203,6 +205,27 @@ std::string simplify_section() {
       false);
 }
 
+std::string compress_section() {
+  return field_section<CompressOptions>(
+      "Options of compress",
+      "`CompressOptions` in C++ and arguments of `rholm.compress` in Python; the program has them "
+      "in `rholm analyze --atlas`, with `--tolerance`.");
+}
+
+std::string patch_atlas_section() {
+  return field_section<PatchAtlasOptions>(
+      "Options of patch_atlas",
+      "`PatchAtlasOptions` in C++ and arguments of `rholm.patch_atlas` in Python; the program has "
+      "them in `rholm analyze --atlas --fit integral` and `rholm partition`.");
+}
+
+std::string atlas_mesh_section() {
+  return field_section<AtlasSynthesisOptions>(
+      "Options of the surface of an atlas",
+      "`AtlasSynthesisOptions` in C++ and arguments of `rholm.Atlas.mesh` in Python; the program's "
+      "are `--resolution`, `--degree-limit` and `--simplify` of `rholm synthesize`.");
+}
+
 // Of a function of Python whose name is the command's.
 template <HasFields Options, const char* kName>
 std::string command_section() {
@@ -224,7 +247,10 @@ constexpr ReferenceSection kSections[] = {window_section,
                                           simplify_section,
                                           command_section<CompareOptions, kCompareName>,
                                           command_section<OrientOptions, kOrientName>,
-                                          command_section<RepairOptions, kRepairName>};
+                                          command_section<RepairOptions, kRepairName>,
+                                          compress_section,
+                                          patch_atlas_section,
+                                          atlas_mesh_section};
 
 }  // namespace
 

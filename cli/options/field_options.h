@@ -78,6 +78,17 @@ std::vector<Option> field_options(Options& values) {
   return options;
 }
 
+// Of one field, for commands that take some of the options of a struct.
+template <HasFields Options>
+Option field_option_of(Options& values, const std::string& name) {
+  std::optional<Option> found;
+  for_each_field<Options>([&](auto member, const FieldInfo& info) {
+    if (info.name == name) found = field_option(info, values.*member);
+  });
+  if (!found) throw std::logic_error("no field: " + name);
+  return *found;
+}
+
 // Lengths that were given as parts of the diagonal, in the unit of the shape.
 template <HasFields Options>
 void scale_lengths(Options& values, double diagonal) {

@@ -47,13 +47,22 @@ def _converted(field: dict[str, Any], value: Any) -> Any:
     return value
 
 
-def options_of(kind: Any, given: dict[str, Any], function: str) -> Any:
-    """Options of that class from the keyword arguments of a function; TypeError for one it has not."""
-    fields = {field["name"]: field for field in kind.FIELDS}
+def keywords_of(kind: Any) -> list[dict[str, Any]]:
+    """What the list says of the fields that functions have as keyword arguments."""
+    return [field for field in kind.FIELDS if field["keyword"]]
+
+
+def options_of(kind: Any, given: dict[str, Any], function: str, **own: Any) -> Any:
+    """Options of that class from the keyword arguments of a function; TypeError for one it has not.
+
+    `own` are fields that the function has in a way of its own.
+    """
+    keywords = [field["name"] for field in keywords_of(kind)]
     for name in given:
-        if name not in fields:
+        if name not in keywords:
             raise TypeError(f"{function}() got an unexpected keyword argument {name!r}")
-    return kind(**{name: _converted(fields[name], value) for name, value in given.items()})
+    fields = {field["name"]: field for field in kind.FIELDS}
+    return kind(**{name: _converted(fields[name], value) for name, value in {**given, **own}.items()})
 
 
 #: Of each kind of field: the type of the argument as it is written in Python, and in docstrings.
@@ -91,14 +100,15 @@ def _documentation(field: dict[str, Any]) -> str:
     return f"{field['name']} : {_types(field)[1]}\n" + textwrap.indent(textwrap.fill(said, 90), "    ")
 
 
-def takes(kind: Any) -> Callable[[_Function], _Function]:
-    """Shows and documents ``**options`` of a function as the arguments that a class of options has.
+def takes(*kinds: Any) -> Callable[[_Function], _Function]:
+    """Shows and documents ``**options`` of a function as the arguments that classes of options have.
 
     Parameters
     ----------
-    kind : class of options
-        It has the list in ``FIELDS``.
+    *kinds : classes of options
+        They have their lists in ``FIELDS``.
     """
+    fields = [field for kind in kinds for field in keywords_of(kind)]
 
     def decorate(function: _Function) -> _Function:
         signature = inspect.signature(function)
@@ -111,11 +121,11 @@ def takes(kind: Any) -> Callable[[_Function], _Function]:
                 default=None if field["kind"].startswith("optional ") else field["default"],
                 annotation=annotation(field),
             )
-            for field in kind.FIELDS
+            for field in fields
         ]
         parameters = [p for p in own if p not in last] + added + last
         function.__signature__ = signature.replace(parameters=parameters)  # type: ignore[attr-defined]
-        text = "\n".join(_documentation(field) for field in kind.FIELDS)
+        text = "\n".join(_documentation(field) for field in fields)
         function.__doc__ = inspect.cleandoc(function.__doc__ or "").replace(_PLACE, text)
         return function
 

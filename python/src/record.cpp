@@ -63,6 +63,7 @@ nb::dict field_dict(const FieldInfo& info, const nb::object& by_default, const s
   field["choices"] = nb::tuple(nb::cast(choices));
   field["default"] =
       choices.empty() ? by_default : nb::cast(choices[nb::cast<std::size_t>(by_default)]);
+  field["keyword"] = info.in_python;
   field["unit"] = info.unit == FieldUnit::kLength  ? "length"
                   : info.unit == FieldUnit::kBytes ? "bytes"
                                                    : "";
