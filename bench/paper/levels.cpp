@@ -41,7 +41,7 @@ void draw(const Scene& scene, const View& view, const std::string& file, const S
   RenderOptions options;
   options.width = view.width;
   options.height = view.height;
-  options.view_direction = view.direction;
+  options.view = view.direction;
   options.up = view.up;
   options.occlusion_rays = settings.quick ? 2 : 16;  // smooth shades, and smaller files
   write_png(settings.images / file, render(scene.panels, options));

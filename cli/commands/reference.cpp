@@ -25,8 +25,11 @@
 #include "rholm/points.h"
 #include "rholm/reconstruct.h"
 #include "rholm/reconstruct_bricks.h"
+#include "rholm/render.h"
 #include "rholm/repair.h"
+#include "rholm/report.h"
 #include "rholm/simplify.h"
+#include "rholm/studio.h"
 
 namespace rholm::cli {
 namespace {
@@ -226,6 +229,19 @@ std::string atlas_mesh_section() {
       "are `--resolution`, `--degree-limit` and `--simplify` of `rholm synthesize`.");
 }
 
+std::string report_section() {
+  return field_section<ReportOptions>(
+      "Options of report_html",
+      "`ReportOptions` in C++ and arguments of `rholm.report_html` in Python; `rholm report` has "
+      "`--size` and what it knows of its input.",
+      false);
+}
+
+std::string studio_section() {
+  return field_section<StudioOptions>("Options of studio",
+                                      "`StudioOptions` in C++ and options of `rholm studio`.");
+}
+
 // Of a function of Python whose name is the command's.
 template <HasFields Options, const char* kName>
 std::string command_section() {
@@ -235,7 +251,8 @@ std::string command_section() {
       fmt::format("Options of {}", kName),
       fmt::format("`{}Options` in C++ and arguments of `rholm.{}` in Python.", struct_name, kName));
 }
-constexpr char kCompareName[] = "compare", kOrientName[] = "orient", kRepairName[] = "repair";
+constexpr char kCompareName[] = "compare", kOrientName[] = "orient", kRepairName[] = "repair",
+               kRenderName[] = "render";
 
 constexpr ReferenceSection kSections[] = {window_section,
                                           descriptor_section,
@@ -250,7 +267,10 @@ constexpr ReferenceSection kSections[] = {window_section,
                                           command_section<RepairOptions, kRepairName>,
                                           compress_section,
                                           patch_atlas_section,
-                                          atlas_mesh_section};
+                                          atlas_mesh_section,
+                                          command_section<RenderOptions, kRenderName>,
+                                          report_section,
+                                          studio_section};
 
 }  // namespace
 

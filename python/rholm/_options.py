@@ -42,6 +42,8 @@ def _converted(field: dict[str, Any], value: Any) -> Any:
         return triple(value, field["name"])
     if kind == "path":
         return Path(value)
+    if kind == "texts":
+        return list(value)
     if kind == "options":
         return simplify_options(value)
     return value
@@ -72,6 +74,7 @@ _TYPES = {
     "number": ("float", "float"),
     "point": ("npt.ArrayLike", "array_like, (3,)"),
     "text": ("str", "str"),
+    "texts": ("Sequence[str]", "sequence of str"),
     "path": ("str | os.PathLike[str]", "path"),
     "options": ("Any", '"auto", int or dict'),
 }

@@ -181,6 +181,8 @@ def test_the_types_of_tables_are_those_of_the_library(tmp_path):
         (rholm._core.CompressOptions, rholm.compress),
         (rholm._core.PatchAtlasOptions, rholm.patch_atlas),
         (rholm._core.AtlasSynthesisOptions, rholm.Atlas.mesh),
+        (rholm._core.RenderOptions, rholm.render),
+        (rholm._core.ReportOptions, rholm.report_html),
     ],
 )
 def test_options_are_arguments_with_their_defaults_and_documents(kind, function):
