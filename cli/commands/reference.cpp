@@ -21,6 +21,7 @@
 #include "rholm/fields.h"
 #include "rholm/filter.h"
 #include "rholm/formats.h"
+#include "rholm/monte_carlo.h"
 #include "rholm/patch_atlas.h"
 #include "rholm/points.h"
 #include "rholm/reconstruct.h"
@@ -229,6 +230,14 @@ std::string atlas_mesh_section() {
       "are `--resolution`, `--degree-limit` and `--simplify` of `rholm synthesize`.");
 }
 
+std::string monte_carlo_section() {
+  return field_section<MonteCarloOptions>(
+      "Options of monte_carlo",
+      "`MonteCarloOptions` in C++ and arguments of `rholm.monte_carlo` in Python; the program has "
+      "them in `rholm analyze`, with the places in `--method monte-carlo-edge` and "
+      "`monte-carlo-triangle`.");
+}
+
 std::string report_section() {
   return field_section<ReportOptions>(
       "Options of report_html",
@@ -268,6 +277,7 @@ constexpr ReferenceSection kSections[] = {window_section,
                                           compress_section,
                                           patch_atlas_section,
                                           atlas_mesh_section,
+                                          monte_carlo_section,
                                           command_section<RenderOptions, kRenderName>,
                                           report_section,
                                           studio_section};

@@ -181,6 +181,7 @@ def test_the_types_of_tables_are_those_of_the_library(tmp_path):
         (rholm._core.CompressOptions, rholm.compress),
         (rholm._core.PatchAtlasOptions, rholm.patch_atlas),
         (rholm._core.AtlasSynthesisOptions, rholm.Atlas.mesh),
+        (rholm._core.MonteCarloOptions, rholm.monte_carlo),
         (rholm._core.RenderOptions, rholm.render),
         (rholm._core.ReportOptions, rholm.report_html),
     ],
