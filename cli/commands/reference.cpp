@@ -30,7 +30,9 @@
 #include "rholm/repair.h"
 #include "rholm/report.h"
 #include "rholm/simplify.h"
+#include "rholm/smooth.h"
 #include "rholm/studio.h"
+#include "rholm/transfer.h"
 
 namespace rholm::cli {
 namespace {
@@ -230,6 +232,20 @@ std::string atlas_mesh_section() {
       "are `--resolution`, `--degree-limit` and `--simplify` of `rholm synthesize`.");
 }
 
+std::string patch_section() {
+  return field_section<PatchOptions>(
+      "Options of smooth",
+      "`PatchOptions` in C++ and arguments of `rholm.smooth` in Python; options of `rholm "
+      "smooth`.");
+}
+
+std::string transfer_update_section() {
+  return field_section<TransferUpdate>(
+      "How detail is laid",
+      "`TransferUpdate` in C++ and arguments of `rholm.transfer` in Python; options of `rholm "
+      "transfer`, with `--rotate DEG` for the angle.");
+}
+
 std::string monte_carlo_section() {
   return field_section<MonteCarloOptions>(
       "Options of monte_carlo",
@@ -261,7 +277,7 @@ std::string command_section() {
       fmt::format("`{}Options` in C++ and arguments of `rholm.{}` in Python.", struct_name, kName));
 }
 constexpr char kCompareName[] = "compare", kOrientName[] = "orient", kRepairName[] = "repair",
-               kRenderName[] = "render";
+               kRenderName[] = "render", kTransferName[] = "transfer";
 
 constexpr ReferenceSection kSections[] = {window_section,
                                           descriptor_section,
@@ -277,6 +293,9 @@ constexpr ReferenceSection kSections[] = {window_section,
                                           compress_section,
                                           patch_atlas_section,
                                           atlas_mesh_section,
+                                          patch_section,
+                                          command_section<TransferOptions, kTransferName>,
+                                          transfer_update_section,
                                           monte_carlo_section,
                                           command_section<RenderOptions, kRenderName>,
                                           report_section,
