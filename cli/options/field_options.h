@@ -47,7 +47,7 @@ Option field_option(const FieldInfo& info, V& value) {
       if (text != "auto") value = number_within(limits, text);
     };
     return option;
-  } else if constexpr (std::is_same_v<V, std::optional<Vec3>>) {
+  } else if constexpr (std::is_same_v<V, std::optional<Vec3>> || std::is_same_v<V, Vec3>) {
     Option option = option_of(info, "");
     option.target = [&value](const std::string& name, const std::string& text) {
       value = parse_vector(name, text);
@@ -58,6 +58,10 @@ Option field_option(const FieldInfo& info, V& value) {
     option.target = [&value](const std::string& name, const std::string& text) {
       value = parse_simplify(name, text);
     };
+    return option;
+  } else if constexpr (std::is_same_v<V, std::string>) {
+    Option option = option_of(info, value);
+    option.target = &value;
     return option;
   } else if constexpr (std::is_arithmetic_v<V>) {
     Option option = option_of(info, default_text(static_cast<double>(value)));

@@ -10,7 +10,15 @@ import numpy.typing as npt
 
 from . import _core
 from ._arrays import FloatArray, IndexArray, float_rows, plain_array
-from ._core import AtlasErrors, AtlasModel, AtlasSize, Cap, CompressReport, SurfaceRules
+from ._core import (
+    AtlasErrors,
+    AtlasModel,
+    AtlasSize,
+    AtlasSynthesisOptions,
+    Cap,
+    CompressReport,
+    SurfaceRules,
+)
 from ._errors import InvalidInputError
 from ._options import options_of, takes
 from ._run import Progress, caller, named
@@ -150,7 +158,7 @@ class Atlas:
         )
         return distance, gradient, valid.astype(bool)
 
-    @takes(_core.AtlasSynthesisOptions)
+    @takes(AtlasSynthesisOptions)
     def mesh(
         self, *, threads: int = 0, progress: Progress = None, **options: Unpack[AtlasSynthesisKeywords]
     ) -> Mesh:
@@ -165,7 +173,7 @@ class Atlas:
         threads, progress
             See `rholm.caller`.
         """
-        wanted = options_of(_core.AtlasSynthesisOptions, {**options}, "mesh")
+        wanted = options_of(AtlasSynthesisOptions, {**options}, "mesh")
         with caller(threads, progress) as how:
             return Mesh._of(_core.synthesize_atlas(self._core, wanted, how))
 

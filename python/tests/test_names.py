@@ -219,6 +219,13 @@ def test_options_are_in_the_program_and_on_the_reference_page(program):
 def test_an_option_that_there_is_not_is_refused_by_its_name():
     with pytest.raises(TypeError, match=r"reconstruct\(\).*'tolerence'"):
         rholm.reconstruct(rholm.bumpy_sphere(3).vertices, tolerence=1)
+    with pytest.raises(TypeError, match=r"transfer\(\).*'hight'"):
+        rholm.transfer(rholm.bumpy_sphere(3), None, rholm.bumpy_sphere(3), None, hight=1)
+
+
+def test_a_field_that_a_function_says_another_way_is_no_argument_of_it():
+    with pytest.raises(TypeError, match=r"render\(\).*'width'"):
+        rholm.render(rholm.icosphere(1), width=16)
 
 
 def test_nothing_optional_is_imported():
