@@ -96,10 +96,18 @@ def annotation(field: dict[str, Any]) -> str:
     return _types(field)[0]
 
 
+def _bounds(field: dict[str, Any]) -> str:
+    """A sentence about the least and the largest value, if there are both."""
+    if not field["bounds"]:
+        return ""
+    least, most = (str(int(bound)) if bound == int(bound) else repr(bound) for bound in field["bounds"])
+    return f" Within {least} ... {most}" + (", or 0." if field["may_be_zero"] else ".")
+
+
 def _documentation(field: dict[str, Any]) -> str:
     """The entry of an argument in a docstring."""
     unit = {"length": " In the unit of the shape.", "bytes": " In bytes."}.get(field["unit"], "")
-    said = field["help"][0].upper() + field["help"][1:] + "." + unit
+    said = field["help"][0].upper() + field["help"][1:] + "." + _bounds(field) + unit
     return f"{field['name']} : {_types(field)[1]}\n" + textwrap.indent(textwrap.fill(said, 90), "    ")
 
 

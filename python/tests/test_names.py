@@ -202,6 +202,13 @@ def test_options_are_arguments_with_their_defaults_and_documents(kind, function)
         assert field["help"][1:] in words
 
 
+def test_bounds_of_options_are_in_the_documents():
+    words = " ".join(inspect.getdoc(rholm.compress).split())
+    assert "Within 2 ... 24." in words
+    assert "Within 1000 ... 100000000, or 0." in words
+    assert "Within 1e-08 ... 1." in " ".join(inspect.getdoc(rholm.monte_carlo).split())
+
+
 @public
 def test_options_are_in_the_program_and_on_the_reference_page(program):
     said = subprocess.run([program, "reconstruct", "--help"], check=True, capture_output=True, text=True)
