@@ -41,7 +41,7 @@ void draw(const Scene& scene, const View& view, const std::string& file, const S
   RenderOptions options;
   options.width = view.width;
   options.height = view.height;
-  options.view_direction = view.direction;
+  options.view = view.direction;
   options.up = view.up;
   options.occlusion_rays = settings.quick ? 2 : 16;  // smooth shades, and smaller files
   write_png(settings.images / file, render(scene.panels, options));
@@ -104,7 +104,7 @@ Json vase_picture(const std::string& file, const View& view, const Settings& set
     const MonteCarlo run = monte_carlo(
         shape.chart, {.degree = degree, .places = places, .samples = triangles ? 24u : 16u});
     const double error = radius_error(run.expansion.coefficients, exact);
-    errors[to_string(places)] = error;
+    errors[std::string("monte-carlo-") + to_string(places)] = error;
     errors["samples"] = run.places * run.samples;
     scene.add(synthesize(without_center(run.expansion), sphere),
               fmt::format("{}: {:.2g} %", triangles ? "points on triangles" : "points on edges",

@@ -3,6 +3,8 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -228,6 +230,8 @@ void check_reached(const Options& options, const Encoded& encoded) {
                           text_of(fast->error)));
 }
 
+constexpr std::string_view kMonteCarlo = "monte-carlo-";  // before the places of the points
+
 int run(const Options& options, const AnalyzeBy& by, Session& session) {
   by.check_input(options.input);
   options.memory.keep(session);
@@ -242,8 +246,9 @@ int run(const Options& options, const AnalyzeBy& by, Session& session) {
   if (!options.degree && !options.tolerance.tolerance) {
     throw UsageError("--degree L or --tolerance E: one of the two is needed");
   }
-  if (const auto places = parse_sample_places(options.method)) {
-    return analyze_by_monte_carlo(options, *places, session);
+  if (options.method.starts_with(kMonteCarlo)) {
+    const std::string places = options.method.substr(kMonteCarlo.size());
+    return analyze_by_monte_carlo(options, parse_name<SamplePlaces>(places), session);
   }
   if (options.samples || options.most_samples || options.deviation) {
     throw UsageError(

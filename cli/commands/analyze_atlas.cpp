@@ -10,6 +10,7 @@
 #include "cli/files/paths.h"
 #include "cli/files/prepare.h"
 #include "cli/grammar/parse.h"
+#include "cli/terminal/field_json.h"
 #include "rholm/error.h"
 #include "rholm/outward.h"
 #include "rholm/patch_atlas.h"
@@ -29,7 +30,9 @@ void check_options(const AnalyzeCommandOptions& o) {
       throw UsageError(
           "--fit integral needs the degree of the caps, --degree L, and no --tolerance");
     }
-    if (*o.degree > 24) throw UsageError("--degree of a cap is 0 ... 24");
+    if (*o.degree > kMaxCapDegree) {
+      throw UsageError(fmt::format("--degree of a cap is 0 ... {}", kMaxCapDegree));
+    }
     refuse(o.tolerance.rest.has("max_degree"), "--max-degree and --fit integral");
     refuse(o.max_numbers.has_value(), "--max-numbers and --fit integral");
   } else {
@@ -49,8 +52,8 @@ void check_options(const AnalyzeCommandOptions& o) {
   refuse(tolerance.values.unit == ToleranceUnit::kRadius, "--unit radius");
   refuse(o.samples || o.deviation || o.most_samples, "Monte Carlo");
   const int max_degree = tolerance.values.max_degree;
-  if (tolerance.has("max_degree") && (max_degree < 2 || max_degree > 24)) {
-    throw UsageError("--max-degree of a cap is 2 ... 24");
+  if (tolerance.has("max_degree") && (max_degree < 2 || max_degree > kMaxCapDegree)) {
+    throw UsageError(fmt::format("--max-degree of a cap is 2 ... {}", kMaxCapDegree));
   }
 }
 
@@ -129,23 +132,8 @@ void report(const AnalyzeCommandOptions& options, const AtlasModel& model,
   json["file"] = options.input;
   json["output"] = options.output;
   json["bytes"] = bytes ? Json(*bytes) : Json(nullptr);
-  if (found != nullptr) {
-    json["met"] = found->met;
-    json["samples"] = found->samples;
-    json["hidden"] = found->hidden;
-    json["gap"] = std::isfinite(found->gap) ? Json(found->gap) : Json(nullptr);
-    json["aimed"] = found->aimed;
-    json["uncovered"] = found->uncovered;
-    json["components"] = found->components;
-    json["genus"] = found->genus;
-    json["topology_kept"] = found->topology_kept;
-  }
+  if (found != nullptr) json.update(json_of_fields(*found));
   json.update(atlas_json(model));
-  if (found != nullptr) {
-    for (const auto& [stage, time] : found->times) {
-      json["times"][stage] = {{"wall", time.wall}, {"cpu", time.cpu}};
-    }
-  }
   print_json(json);
 }
 

@@ -9,6 +9,7 @@
 #include "cli/files/inputs.h"
 #include "cli/files/outputs.h"
 #include "cli/files/paths.h"
+#include "cli/terminal/field_json.h"
 
 namespace rholm::cli {
 namespace {
@@ -59,12 +60,9 @@ std::string rules_text(const SurfaceRules& rules) {
 
 Json atlas_json(const AtlasModel& model) {
   const AtlasSize size = size_of(model.atlas);
-  Json json;
-  json["caps"] = size.caps;
-  json["highest_degree"] = highest_degree(model.atlas);
-  json["coefficients"] = size.coefficients;
-  json["frame_numbers"] = size.frame_numbers;
+  Json json = json_of_fields(size);
   json["numbers"] = size.numbers();
+  json["highest_degree"] = highest_degree(model.atlas);
   json["input_numbers"] = model.input_numbers;
   json["numbers_per_input_number"] =
       model.input_numbers > 0 ? Json(share_of(model)) : Json(nullptr);

@@ -10,6 +10,7 @@
 #include "cli/files/outputs.h"
 #include "cli/files/prepare.h"
 #include "cli/grammar/parse.h"
+#include "cli/options/field_options.h"
 #include "cli/terminal/json_text.h"
 #include "cli/terminal/session.h"
 #include "rholm/compress.h"
@@ -24,7 +25,7 @@ struct Options {
   std::string input, output, format, columns;
   std::string show = "caps";
   double tolerance = 1e-3;
-  double min_cosine = 0.5;
+  PatchAtlasOptions patches;
   bool json = false;
 };
 
@@ -65,10 +66,8 @@ void show_caps(const Options& options, ShapeFormat format, Shape& shape,
 template <typename Shape>
 void show_patches(const Options& options, ShapeFormat format, const Shape& shape, Session& session,
                   Json& json) {
-  PatchAtlasOptions wanted;
-  wanted.min_cosine = options.min_cosine;
   const PatchPicture picture =
-      patch_picture(shape, parse_patch_view(options.show), wanted, session.context());
+      patch_picture(shape, parse_name<PatchView>(options.show), options.patches, session.context());
   write_shape_output(picture.mesh, options.output, {format, false}, session);
   json["patches"] = picture.patches;
   if (!options.json) {
@@ -135,13 +134,7 @@ Command partition_command() {
                        .help = "rms distance of the caps, of the diagonal; 0.001 by default",
                        .target = &o.tolerance,
                        .above = 0},
-                      {.name = "min-cosine",
-                       .value = "C",
-                       .help = "of patches: the least cosine between a normal and their mean; 0.5 "
-                               "by default",
-                       .target = &o.min_cosine,
-                       .min = 0,
-                       .max = 1},
+                      field_option_of(o.patches, "min_cosine"),
                       output_option(o.output, "shape to write: .ply; - for standard output"),
                       format_option(o.format, {"ply"}),
                       json_option(o.json)},

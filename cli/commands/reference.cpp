@@ -17,17 +17,26 @@
 #include "rholm/align.h"
 #include "rholm/analyze.h"
 #include "rholm/compare.h"
+#include "rholm/compress.h"
 #include "rholm/descriptors.h"
 #include "rholm/error_info.h"
 #include "rholm/fields.h"
 #include "rholm/filter.h"
 #include "rholm/formats.h"
 #include "rholm/model.h"
+#include "rholm/monte_carlo.h"
+#include "rholm/patch_atlas.h"
 #include "rholm/points.h"
 #include "rholm/reconstruct.h"
 #include "rholm/reconstruct_bricks.h"
+#include "rholm/render.h"
+#include "rholm/repair.h"
+#include "rholm/report.h"
 #include "rholm/simplify.h"
+#include "rholm/smooth.h"
 #include "rholm/star.h"
+#include "rholm/studio.h"
+#include "rholm/transfer.h"
 #include "rholm/truncation.h"
 
 namespace rholm::cli {
@@ -207,6 +216,62 @@ std::string simplify_section() {
       false);
 }
 
+std::string compress_section() {
+  return field_section<CompressOptions>(
+      "Options of compress",
+      "`CompressOptions` in C++ and arguments of `rholm.compress` in Python; the program has them "
+      "in `rholm analyze --atlas`, with `--tolerance`.");
+}
+
+std::string patch_atlas_section() {
+  return field_section<PatchAtlasOptions>(
+      "Options of patch_atlas",
+      "`PatchAtlasOptions` in C++ and arguments of `rholm.patch_atlas` in Python; the program has "
+      "them in `rholm analyze --atlas --fit integral` and `rholm partition`.");
+}
+
+std::string atlas_mesh_section() {
+  return field_section<AtlasSynthesisOptions>(
+      "Options of the surface of an atlas",
+      "`AtlasSynthesisOptions` in C++ and arguments of `rholm.Atlas.mesh` in Python; the program's "
+      "are `--resolution`, `--degree-limit` and `--simplify` of `rholm synthesize`.");
+}
+
+std::string patch_section() {
+  return field_section<PatchOptions>(
+      "Options of smooth",
+      "`PatchOptions` in C++ and arguments of `rholm.smooth` in Python; options of `rholm "
+      "smooth`.");
+}
+
+std::string transfer_update_section() {
+  return field_section<TransferUpdate>(
+      "How detail is laid",
+      "`TransferUpdate` in C++ and arguments of `rholm.transfer` in Python; options of `rholm "
+      "transfer`, with `--rotate DEG` for the angle.");
+}
+
+std::string monte_carlo_section() {
+  return field_section<MonteCarloOptions>(
+      "Options of monte_carlo",
+      "`MonteCarloOptions` in C++ and arguments of `rholm.monte_carlo` in Python; the program has "
+      "them in `rholm analyze`, with the places in `--method monte-carlo-edge` and "
+      "`monte-carlo-triangle`.");
+}
+
+std::string report_section() {
+  return field_section<ReportOptions>(
+      "Options of report_html",
+      "`ReportOptions` in C++ and arguments of `rholm.report_html` in Python; `rholm report` has "
+      "`--size` and what it knows of its input.",
+      false);
+}
+
+std::string studio_section() {
+  return field_section<StudioOptions>("Options of studio",
+                                      "`StudioOptions` in C++ and options of `rholm studio`.");
+}
+
 // Of a function of Python whose name is the command's.
 template <HasFields Options, const char* kName>
 std::string command_section() {
@@ -216,7 +281,8 @@ std::string command_section() {
       fmt::format("Options of {}", kName),
       fmt::format("`{}Options` in C++ and arguments of `rholm.{}` in Python.", struct_name, kName));
 }
-constexpr char kCompareName[] = "compare", kOrientName[] = "orient", kAlignName[] = "align";
+constexpr char kCompareName[] = "compare", kOrientName[] = "orient", kAlignName[] = "align",
+               kRepairName[] = "repair", kRenderName[] = "render", kTransferName[] = "transfer";
 
 std::string sample_section() {
   return field_section<SampleOptions>(
@@ -260,6 +326,13 @@ std::string result_section() {
   add_result<OrientReport>("OrientReport", rows);
   add_result<CleanReport>("CleanReport", rows);
   add_result<ScanAlignment>("ScanAlignment", rows);
+  add_result<Inspection>("Inspection", rows);
+  add_result<RepairReport>("RepairReport", rows);
+  add_result<CompressReport>("CompressReport", rows);
+  add_result<AtlasErrors>("AtlasErrors", rows);
+  add_result<AtlasSize>("AtlasSize", rows);
+  add_result<TransferReport>("TransferReport", rows);
+  add_result<MonteCarlo>("MonteCarlo", rows);
   add_result<Overshoot>("Overshoot", rows);
   add_result<GravityField>("GravityField", rows);
   return "## Results\n\nStructs in C++, classes of the same names in Python. Lengths are in the "
@@ -282,6 +355,17 @@ constexpr ReferenceSection kSections[] = {window_section,
                                           sample_section,
                                           analyze_section,
                                           tolerance_section,
+                                          command_section<RepairOptions, kRepairName>,
+                                          compress_section,
+                                          patch_atlas_section,
+                                          atlas_mesh_section,
+                                          patch_section,
+                                          command_section<TransferOptions, kTransferName>,
+                                          transfer_update_section,
+                                          monte_carlo_section,
+                                          command_section<RenderOptions, kRenderName>,
+                                          report_section,
+                                          studio_section,
                                           result_section};
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "cli/files/surfaces.h"
 #include "cli/grammar/parse.h"
 #include "cli/grammar/values.h"
+#include "cli/options/field_options.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/session.h"
 #include "rholm/compare.h"
@@ -33,8 +34,7 @@ struct Options {
   std::string color;
   std::string against;
   std::optional<double> scale_max;
-  bool perspective = false;
-  bool fine = false;
+  RenderOptions render;
   bool flat = false;
   std::string fit = "scale";
   std::string view;
@@ -87,7 +87,7 @@ void check_options(const Options& options) {
 constexpr double kLeastAngle = 1e-6;
 
 RenderOptions render_options(const Options& options, std::size_t panels) {
-  RenderOptions wanted;
+  RenderOptions wanted = options.render;
   const int n = static_cast<int>(std::min<std::size_t>(panels, 40));
   wanted.width = n == 1 ? kSingleWidth : kPanelWidth * n;
   wanted.height = n == 1 ? kSingleHeight : kPanelHeight;
@@ -97,12 +97,10 @@ RenderOptions render_options(const Options& options, std::size_t panels) {
     wanted.height = size[1];
   }
   if (double(wanted.width) * wanted.height > kManyPixels) wanted.samples = kFewSamples;
-  wanted.perspective = options.perspective;
-  wanted.fine = options.fine;
   wanted.fit_each = options.fit == "each";
-  if (!options.view.empty()) wanted.view_direction = parse_direction("--view", options.view);
+  if (!options.view.empty()) wanted.view = parse_direction("--view", options.view);
   const auto along_view = [&](const Vec3& up) {
-    return norm(cross(normalized(wanted.view_direction), normalized(up))) < kLeastAngle;
+    return norm(cross(normalized(wanted.view), normalized(up))) < kLeastAngle;
   };
   if (!options.up.empty()) {
     wanted.up = parse_direction("--up", options.up);
@@ -284,12 +282,8 @@ std::vector<Option> picture_options(Options& o) {
       {.name = "flat",
        .help = "show the faces of a mesh, even where its file has normals, which make it smooth",
        .target = &o.flat},
-      {.name = "perspective",
-       .help = "as a camera sees it, instead of parallel lines of sight",
-       .target = &o.perspective},
-      {.name = "fine",
-       .help = "all rays of light for every sample of every pixel: seven times as long",
-       .target = &o.fine},
+      field_option_of(o.render, "perspective"),
+      field_option_of(o.render, "fine"),
       {.name = "subdivisions",
        .value = "N",
        .help = "icosphere on which coefficients are sampled; by default the smallest N of 5 "

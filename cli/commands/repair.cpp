@@ -11,6 +11,7 @@
 #include "cli/files/paths.h"
 #include "cli/files/prepare.h"
 #include "cli/grammar/parse.h"
+#include "cli/options/field_options.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/json_text.h"
 #include "cli/terminal/session.h"
@@ -21,8 +22,7 @@ namespace {
 
 struct Options {
   std::string input;
-  double weld = 0;
-  int max_hole = static_cast<int>(RepairOptions{}.max_hole);
+  RepairOptions repair;
   std::string output;
   std::string format;
   bool ascii = false;
@@ -51,7 +51,7 @@ Json state_json(const Inspection& i) {
 Json report_json(const RepairReport& r, const Options& options) {
   Json json;
   json["file"] = options.input;
-  json["weld"] = {{"tolerance", options.weld},
+  json["weld"] = {{"tolerance", options.repair.weld},
                   {"merged_vertices", r.merged_vertices},
                   {"collapsed_faces", r.collapsed_triangles}};
   json["dropped"] = {{"isolated_vertices", r.isolated_vertices},
@@ -62,8 +62,9 @@ Json report_json(const RepairReport& r, const Options& options) {
   json["turned_faces"] = r.flipped_triangles;
   json["turned_parts"] = r.inside_out_parts;
   json["cavities"] = r.cavities;
-  json["holes"] = {
-      {"max_edges", options.max_hole}, {"closed", r.closed_holes}, {"new_faces", r.hole_triangles}};
+  json["holes"] = {{"max_edges", options.repair.max_hole},
+                   {"closed", r.closed_holes},
+                   {"new_faces", r.hole_triangles}};
   json["left"] = {{"large_holes", r.large_holes},
                   {"largest_hole_edges", r.largest_hole},
                   {"open_sheets", r.sheets},
@@ -138,7 +139,8 @@ std::string report_text(const RepairReport& r) {
 void warn_of_rest(const RepairReport& r, const Options& options, Session& session) {
   if (r.large_holes > 0) {
     session.warn(fmt::format("{} left open: more than --max-hole {} edges, the largest has {}",
-                             counted(r.large_holes, "hole"), options.max_hole, r.largest_hole));
+                             counted(r.large_holes, "hole"), options.repair.max_hole,
+                             r.largest_hole));
   }
   if (r.sheets > 0) {
     session.warn(
@@ -171,9 +173,7 @@ int run(const Options& options, Session& session) {
   const ShapeFormat format = mesh_output(options.output, options.format, options.json);
   check_writable(options.output);
   const Mesh mesh = read_mesh(options.input, session);
-  const Repaired result =
-      repair(mesh, {.weld = options.weld, .max_hole = static_cast<std::size_t>(options.max_hole)},
-             session.context());
+  const Repaired result = repair(mesh, options.repair, session.context());
   stop_if_interrupted();
   if (result.mesh.triangles.empty()) {
     throw Error(ErrorCode::kInvalidInput,
@@ -192,15 +192,8 @@ int run(const Options& options, Session& session) {
 }
 
 std::vector<Option> option_list(Options& o) {
-  std::vector<Option> list = {
-      mesh_operand(o.input),
-      weld_option(o.weld),
-      {.name = "max-hole",
-       .value = "N",
-       .help = "close holes with at most N edges, 100 by default; 0 closes none",
-       .target = &o.max_hole,
-       .min = 0,
-       .max = 500}};
+  std::vector<Option> list = {mesh_operand(o.input), weld_option(o.repair.weld)};
+  append(list, field_options(o.repair));
   append(list, mesh_output_options(o.output, o.format, o.ascii));
   list.push_back(json_option(o.json));
   return list;

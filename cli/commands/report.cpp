@@ -13,6 +13,7 @@
 #include "cli/files/paths.h"
 #include "cli/files/prepare.h"
 #include "cli/grammar/parse.h"
+#include "cli/options/field_options.h"
 #include "cli/options/tolerance_options.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/json_text.h"
@@ -35,7 +36,7 @@ struct Options {
   std::string center;
   double weld = 0;
   std::string length_unit;
-  int size = ReportOptions{}.picture_size;
+  ReportOptions page;  // the size of its pictures
   bool interactive = false;
   std::string output;
   std::string format;
@@ -103,8 +104,9 @@ std::string analysis_text(const Options& options) {
 
 std::string page_command(const Options& options, const std::string& choices) {
   std::string text = "rholm report " + quoted(options.input) + choices;
-  if (options.size != ReportOptions{}.picture_size) {
-    text += option_text("size", std::to_string(options.size));
+  const int size = options.page.picture_size;
+  if (size != ReportOptions{}.picture_size) {
+    text += option_text("size", std::to_string(size));
   }
   if (options.interactive) text += " --interactive";
   if (!options.format.empty()) text += option_text("format", options.format);
@@ -260,7 +262,7 @@ std::string page_of_atlas(const Options& options, Session& session) {
   const AtlasModel model = read_atlas(options.input);
   std::optional<Mesh> shape;
   ReportOptions page{.title = name_of(options.input), .shape_name = {}};
-  page.picture_size = options.size;
+  page.picture_size = options.page.picture_size;
   page.file_bytes = file_size_of(options.input);
   std::string choices;
   if (!options.shape.empty()) {
@@ -287,7 +289,7 @@ int run(const Options& options, Session& session) {
   Subject subject = subject_of(options, session);
   subject.page.title = name_of(options.input);
   subject.page.weld_tolerance = options.weld;
-  subject.page.picture_size = options.size;
+  subject.page.picture_size = options.page.picture_size;
   subject.page.viewer = viewer;
   const std::string page = report_html(subject.expansion, subject.shape ? &*subject.shape : nullptr,
                                        subject.page, session.context());
@@ -320,16 +322,13 @@ std::vector<Option> input_options(Options& o) {
 }
 
 std::vector<Option> shape_and_page_options(Options& o) {
+  Option size = field_option_of(o.page, "picture_size");
+  size.name = "size";
   return {
       center_option(o.center),
       weld_option(o.weld),
       length_unit_option(o.length_unit),
-      {.name = "size",
-       .value = "N",
-       .help = "pixels of the side of each picture, 16 ... 4096; 480 by default",
-       .target = &o.size,
-       .min = 16,
-       .max = 4096},
+      size,
       {.name = "interactive",
        .help = "the surface of an expansion can be turned in the page, and cut off at any degree",
        .target = &o.interactive},

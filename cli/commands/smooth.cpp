@@ -11,6 +11,7 @@
 #include "cli/files/paths.h"
 #include "cli/files/surfaces.h"
 #include "cli/grammar/parse.h"
+#include "cli/options/field_options.h"
 #include "cli/options/region_option.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/json_text.h"
@@ -23,22 +24,12 @@ namespace {
 struct Options {
   std::string input;
   std::vector<std::string> regions;
-  std::optional<double> wavelength, transition;
+  PatchOptions patch;
   double strength = 1;
-  std::string fit = "robust";
-  bool repair = false;
   std::string output, format;
   InputConvention convention;
   bool ascii = false, json = false;
 };
-
-PatchFitting fitting_of(const Options& o) {
-  if (o.fit == "mean") {
-    if (o.repair) throw UsageError("--repair needs a fit that knows what stands out, not mean");
-    return PatchFitting::kMean;
-  }
-  return o.fit == "around" ? PatchFitting::kAround : PatchFitting::kRobust;
-}
 
 // How far vertices have moved.
 struct Moved {
@@ -64,8 +55,8 @@ void print_report(const Options& options, const Patch& patch, const Moved& moved
                 {"output", options.output},
                 {"wavelength", patch.wavelength},
                 {"strength", options.strength},
-                {"fit", options.fit},
-                {"repair", options.repair},
+                {"fitting", to_string(options.patch.fitting)},
+                {"repair", options.patch.repair},
                 {"vertices", patch.vertices.size()},
                 {"caps", patch.caps},
                 {"unreached", patch.unreached},
@@ -84,18 +75,15 @@ void print_report(const Options& options, const Patch& patch, const Moved& moved
 }
 
 int run(const Options& options, Session& session) {
-  const PatchFitting fitting = fitting_of(options);
+  if (options.patch.repair && options.patch.fitting == PatchFitting::kMean) {
+    throw UsageError("--repair needs a fitting that knows what stands out, not mean");
+  }
   const std::vector<Region> regions = parse_regions(options.regions);
   const ShapeFormat format = mesh_output(options.output, options.format, options.json);
   check_writable(options.output);
   Mesh mesh = read_surface(options.input, session, options.convention);
   const double diagonal = bounds(mesh.vertices).diagonal();
-  const Patch patch = analyze_patch(mesh, regions,
-                                    {.wavelength = *options.wavelength,
-                                     .transition = options.transition.value_or(-1),
-                                     .fitting = fitting,
-                                     .repair = options.repair},
-                                    session.context());
+  const Patch patch = analyze_patch(mesh, regions, options.patch, session.context());
   const std::vector<Vec3> positions = update(patch, {.strength = options.strength});
   apply(patch, positions, mesh);
   stop_if_interrupted();
@@ -104,13 +92,15 @@ int run(const Options& options, Session& session) {
     session.warn(fmt::format("{} of the region were left: no cap sees them",
                              counted(patch.unreached, "vertex", "vertices")));
   }
-  if (options.repair && patch.vertices.empty())
+  if (options.patch.repair && patch.vertices.empty())
     session.note("nothing stands out: nothing was moved");
   print_report(options, patch, moved_by(patch, positions), diagonal, session);
   return 0;
 }
 
 std::vector<Option> edit_options(Options& o) {
+  Option wavelength = field_option_of(o.patch, "wavelength");
+  wavelength.required = true;
   return {
       {.name = "SHAPE",
        .help = "file of a mesh, or of a model, whose surface is taken; - for standard input",
@@ -118,31 +108,16 @@ std::vector<Option> edit_options(Options& o) {
        .required = true,
        .offer = Offer::kShapesAndCoefficients},
       region_option("region", "where: ball, vertex, box, property or color, see above", o.regions),
-      {.name = "wavelength",
-       .value = "W",
-       .help = "detail finer than this goes, in the unit of the file",
-       .target = &o.wavelength,
-       .required = true,
-       .above = 0},
+      wavelength,
       {.name = "strength",
        .value = "S",
        .help = "1 (default) takes the detail away, 0.5 half of it, -1 doubles it",
        .target = &o.strength,
        .min = -10,
        .max = 1},
-      {.name = "fit",
-       .help = "robust (default): without what stands out; mean: to all; around: to what is "
-               "outside the region",
-       .target = &o.fit,
-       .choices = {"robust", "mean", "around"}},
-      {.name = "repair",
-       .help = "move only what stands out, scratches and spikes; texture stays",
-       .target = &o.repair},
-      {.name = "transition",
-       .value = "T",
-       .help = "width over which the edit fades outside the region; W by default",
-       .target = &o.transition,
-       .min = 0}};
+      field_option_of(o.patch, "fitting"),
+      field_option_of(o.patch, "repair"),
+      field_option_of(o.patch, "transition")};
 }
 
 std::vector<Option> option_list(Options& o) {
@@ -166,7 +141,7 @@ Command smooth_command() {
                   "less and less in the transition around the region. Other vertices, triangles, "
                   "colours stay as they are, to the last bit.\n\nScratches, cracks, spikes: "
                   "--repair with a wavelength of two to three times their width. Where they are "
-                  "painted, --fit around bridges them. Scan noise, pores: a wavelength above "
+                  "painted, --fitting around bridges them. Scan noise, pores: a wavelength above "
                   "theirs.\n\n") +
               kRegionHelp,
           .options = option_list(*options),

@@ -8,6 +8,7 @@
 #include "cli/commands/commands.h"
 #include "cli/files/inputs.h"
 #include "cli/files/paths.h"
+#include "cli/options/field_options.h"
 #include "cli/options/memory_options.h"
 #include "cli/studio/browser.h"
 #include "cli/studio/page.h"
@@ -27,7 +28,7 @@ struct Options {
   std::string columns;
   std::optional<int> port;
   bool no_open = false;
-  std::uint64_t max_upload = StudioOptions{}.max_upload;
+  StudioOptions studio;
   std::string page;
 };
 
@@ -63,13 +64,14 @@ void open_files(const Options& options, Studio& studio) {
 
 int run(const Options& options, Session& session) {
   const std::string folder = MemoryOptions{}.folder();
-  Studio studio({.folder = folder,
-                 .threads = session.context().threads,
-                 .max_upload = options.max_upload,
-                 .keep_going = keep_going});
+  StudioOptions wanted = options.studio;
+  wanted.folder = folder;
+  wanted.threads = session.context().threads;
+  wanted.keep_going = keep_going;
+  Studio studio(wanted);
   open_files(options, studio);
   StudioServer server(studio, options.page.empty() ? own_page() : read_page(options.page),
-                      {.port = options.port.value_or(0), .max_upload = options.max_upload});
+                      {.port = options.port.value_or(0), .max_upload = wanted.max_upload});
   print_note(fmt::format("the studio is at {}", server.address()));
   std::optional<Browser> browser;
   if (!options.no_open) {
@@ -94,11 +96,7 @@ std::vector<Option> option_list(Options& o) {
            .min = 1,
            .max = 65535},
           {.name = "no-open", .help = "do not open the browser", .target = &o.no_open},
-          {.name = "max-upload",
-           .value = "BYTES",
-           .help = "largest file that the page may send; 2147483647 by default",
-           .target = &o.max_upload,
-           .min = 1},
+          field_option_of(o.studio, "max_upload"),
           {.name = "page",
            .value = "DIR",
            .help = "folder with the page, instead of the one that is installed",

@@ -13,7 +13,9 @@
 #include "cli/files/surfaces.h"
 #include "cli/grammar/parse.h"
 #include "cli/grammar/values.h"
+#include "cli/options/field_options.h"
 #include "cli/options/region_option.h"
+#include "cli/terminal/field_json.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/json_text.h"
 #include "cli/terminal/session.h"
@@ -24,11 +26,9 @@ namespace {
 struct Options {
   std::string from, to;
   std::vector<std::string> from_regions, to_regions;
-  int from_degree = 8;
-  double scale = 1, height = 1;
-  std::optional<double> transition;
-  std::string rotate = "auto", mode = "displacement";
-  bool repeat = false, refine = false, remove_own = false;
+  TransferOptions transfer;
+  TransferUpdate update;
+  std::string rotate = "auto";
   std::string output, format;
   InputConvention convention;
   bool ascii = false, json = false;
@@ -45,13 +45,10 @@ void check_angle(const std::string& option, const std::string& text) {
 }
 
 TransferUpdate update_of(const Options& o) {
-  TransferUpdate wanted{.height = o.height, .repeat = o.repeat, .remove_own = o.remove_own};
+  TransferUpdate wanted = o.update;
   if (o.rotate != "auto") wanted.angle = parse_numbers("--rotate", o.rotate, 1)[0] * kDegree;
-  if (o.mode == "coefficients") {
-    if (o.repeat || o.remove_own) {
-      throw UsageError("--mode coefficients knows neither --repeat nor --remove-own");
-    }
-    wanted.mode = TransferMode::kCoefficients;
+  if (wanted.mode == TransferMode::kCoefficients && (wanted.repeat || wanted.remove_own)) {
+    throw UsageError("--mode coefficients knows neither --repeat nor --remove-own");
   }
   return wanted;
 }
@@ -65,25 +62,17 @@ std::size_t moved_vertices(const Patch& patch, const std::vector<Vec3>& position
 void print_report(const Options& options, const TransferReport& report, double angle,
                   std::size_t moved, Session& session) {
   if (options.json) {
-    print_json({{"from", options.from},
-                {"to", options.to},
-                {"output", options.output},
-                {"mode", options.mode},
-                {"from_degree", options.from_degree},
-                {"source_radius", report.source_radius},
-                {"target_radius", report.target_radius},
-                {"scale", report.scale},
-                {"source_wavelength", report.source_wavelength},
-                {"target_wavelength", report.target_wavelength},
-                {"source_edge", report.source_edge},
-                {"target_edge", report.target_edge},
-                {"source_rms", report.source_rms},
-                {"height", options.height},
-                {"angle", angle / kDegree},
-                {"best_angle", report.angle / kDegree},
-                {"correlation", report.correlation},
-                {"vertices", moved},
-                {"new_vertices", report.new_vertices}});
+    Json json = {{"from", options.from},
+                 {"to", options.to},
+                 {"output", options.output},
+                 {"mode", to_string(options.update.mode)},
+                 {"from_degree", options.transfer.from_degree}};
+    json.update(json_of_fields(report));
+    json["angle"] = angle / kDegree;
+    json["best_angle"] = report.angle / kDegree;
+    json["height"] = options.update.height;
+    json["vertices"] = moved;
+    print_json(json);
     return;
   }
   if (options.output == "-") return;
@@ -109,19 +98,15 @@ int run(const Options& options, Session& session) {
   const Mesh source = read_surface(options.from, session, options.convention);
   const Mesh target =
       options.to == options.from ? source : read_surface(options.to, session, options.convention);
-  TransferAnalysis analysis = analyze_transfer(source, from, target, to,
-                                               {.from_degree = options.from_degree,
-                                                .scale = options.scale,
-                                                .refine = options.refine,
-                                                .transition = options.transition.value_or(-1)},
-                                               session.context());
+  TransferAnalysis analysis =
+      analyze_transfer(source, from, target, to, options.transfer, session.context());
   const TransferReport& report = analysis.report;
   const std::vector<Vec3> positions = update(analysis, wanted);
   apply(analysis.patch, positions, analysis.mesh);
   stop_if_interrupted();
   write_shape_output(analysis.mesh, options.output, {format, options.ascii}, session);
   const double coarse = report.target_edge / (report.source_edge * report.scale);
-  if (!options.refine && coarse > kCoarse) {
+  if (!options.transfer.refine && coarse > kCoarse) {
     session.note(fmt::format(
         "edges of the target are {:.2g} times as long as those of the texture on it; --refine "
         "splits them",
@@ -133,65 +118,31 @@ int run(const Options& options, Session& session) {
 }
 
 std::vector<Option> edit_options(Options& o) {
-  return {{.name = "from",
-           .value = "SOURCE",
-           .help = "mesh or model with the detail, or - for standard input",
-           .target = &o.from,
-           .required = true,
-           .offer = Offer::kShapesAndCoefficients},
-          region_option("from-region", "where the detail is: ball, vertex, box, property, color",
-                        o.from_regions),
-          {.name = "to",
-           .value = "TARGET",
-           .help = "mesh or model that gets it, or - for standard input",
-           .target = &o.to,
-           .required = true,
-           .offer = Offer::kShapesAndCoefficients},
-          region_option("to-region", "where it is laid", o.to_regions),
-          {.name = "from-degree",
-           .value = "L0",
-           .help = "detail is what harmonics up to L0 over the source region leave: waves shorter "
-                   "than 4/L0 of its radius; default 8",
-           .target = &o.from_degree,
-           .min = 2,
-           .max = kMaxTransferDegree},
-          {.name = "scale",
-           .value = "S",
-           .help = "size of the source region laid on the target, by that of the target region; "
-                   "1 (default) fills it",
-           .target = &o.scale,
-           .min = 1e-6,
-           .max = 1e6},
-          {.name = "height",
-           .value = "H",
-           .help = "further factor of the heights, 1 by default; -1 turns bumps into pits",
-           .target = &o.height},
-          {.name = "rotate",
-           .value = "DEG",
-           .help = "turn of the detail, counter-clockwise from outside; auto (default) is where it "
-                   "is most like the target's own",
-           .target = &o.rotate,
-           .check = check_angle},
-          {.name = "repeat",
-           .help = "lay the detail again and again, for scales below 1",
-           .target = &o.repeat},
-          {.name = "refine",
-           .help = "split edges of the target where the detail is finer",
-           .target = &o.refine},
-          {.name = "remove-own",
-           .help = "take the target's own detail of the same waves away first",
-           .target = &o.remove_own},
-          {.name = "transition",
-           .value = "T",
-           .help = "width over which the detail fades outside the region; by default the length "
-                   "of the waves of L0 there, at most a quarter of its radius",
-           .target = &o.transition,
-           .min = 0},
-          {.name = "mode",
-           .help = "displacement (default): along the normals of the target's base; coefficients: "
-                   "put the harmonics above L0 of one cap into the other, raw, for comparison",
-           .target = &o.mode,
-           .choices = {"displacement", "coefficients"}}};
+  std::vector<Option> list = {
+      {.name = "from",
+       .value = "SOURCE",
+       .help = "mesh or model with the detail, or - for standard input",
+       .target = &o.from,
+       .required = true,
+       .offer = Offer::kShapesAndCoefficients},
+      region_option("from-region", "where the detail is: ball, vertex, box, property, color",
+                    o.from_regions),
+      {.name = "to",
+       .value = "TARGET",
+       .help = "mesh or model that gets it, or - for standard input",
+       .target = &o.to,
+       .required = true,
+       .offer = Offer::kShapesAndCoefficients},
+      region_option("to-region", "where it is laid", o.to_regions),
+      {.name = "rotate",
+       .value = "DEG",
+       .help = "turn of the detail, counter-clockwise from outside; auto (default) is where it "
+               "is most like the target's own",
+       .target = &o.rotate,
+       .check = check_angle}};
+  append(list, field_options(o.transfer));
+  append(list, field_options(o.update));
+  return list;
 }
 
 std::vector<Option> option_list(Options& o) {

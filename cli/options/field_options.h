@@ -63,6 +63,10 @@ Option field_option(const FieldInfo& info, V& value) {
       value = parse_simplify(name, text);
     };
     return option;
+  } else if constexpr (std::is_same_v<V, std::string>) {
+    Option option = option_of(info, value);
+    option.target = &value;
+    return option;
   } else if constexpr (std::is_arithmetic_v<V>) {
     Option option = option_of(info, default_text(static_cast<double>(value)));
     option.target = &value;
@@ -123,6 +127,17 @@ std::string given_text(const Given<Options>& given) {
     }
   });
   return text;
+}
+
+// Of one field, for commands that take some of the options of a struct.
+template <HasFields Options>
+Option field_option_of(Options& values, const std::string& name) {
+  std::optional<Option> found;
+  for_each_field<Options>([&](auto member, const FieldInfo& info) {
+    if (info.name == name) found = field_option(info, values.*member);
+  });
+  if (!found) throw std::logic_error("no field: " + name);
+  return *found;
 }
 
 // Lengths that were given as parts of the diagonal, in the unit of the shape.

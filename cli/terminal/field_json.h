@@ -1,10 +1,13 @@
 // JSON of results by their fields. Layer: cli.
 #pragma once
 
+#include <cmath>
+#include <string>
 #include <type_traits>
 #include <vector>
 
 #include "cli/terminal/json_text.h"
+#include "rholm/context.h"
 #include "rholm/fields.h"
 
 namespace rholm::cli {
@@ -23,6 +26,12 @@ Json json_of_value(const V& value) {
     return to_string(value);
   } else if constexpr (std::is_same_v<V, Vec3>) {
     return json_of(value);
+  } else if constexpr (std::is_same_v<V, StageTimes>) {
+    Json json = Json::object();
+    for (const auto& [stage, time] : value) json[stage] = {{"wall", time.wall}, {"cpu", time.cpu}};
+    return json;
+  } else if constexpr (std::is_floating_point_v<V>) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
   } else if constexpr (requires { typename V::value_type; } && !std::is_same_v<V, std::string>) {
     Json list = Json::array();
     for (const auto& one : value) list.push_back(json_of_value(one));

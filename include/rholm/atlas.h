@@ -35,6 +35,8 @@ enum class CapBasis : std::uint8_t {
   kEven   // those with l + m even, (L+1)(L+2)/2: complete on a hemisphere (method 7.8)
 };
 
+EnumNames names_of(CapBasis basis);  // "full", "even"
+
 // The number of coefficients of a cap.
 std::size_t n_coefficients(CapBasis basis, int degree);
 
@@ -52,6 +54,24 @@ struct Cap {
   double weight = 1;     // of its potential, a factor of its blend weight
   double deviation = 0;  // largest distance of its surface from the tangent plane of the seed
 };
+
+// Its list (fields.h), without its sphere and its support.
+template <typename Visitor>
+void visit_fields(FieldsOf<Cap>, const Visitor& field) {
+  using C = Cap;
+  field(&C::basis, {.name = "basis", .help = "which harmonics it uses"});
+  field(&C::degree, {.name = "degree", .help = "its highest degree"});
+  field(&C::first, {.name = "first", .help = "where its coefficients start"});
+  field(&C::error, {.name = "error",
+                    .help = "root mean square distance of the fitted points to it",
+                    .unit = FieldUnit::kLength});
+  field(&C::area, {.name = "area", .help = "of the surface that it was made for"});
+  field(&C::weight, {.name = "weight", .help = "a factor of its blend weight"});
+  field(&C::deviation,
+        {.name = "deviation",
+         .help = "largest distance of its surface from the tangent plane of the seed",
+         .unit = FieldUnit::kLength});
+}
 
 // The blend weight of a cap at s^2 < 1 of CapSupport. Either is multiplied by (1 - g^2 / T^2)^2 of
 // its potential g, T the band, and where points are noisy by 1 / (1 + |grad r|^2 / r^2), the

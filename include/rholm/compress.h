@@ -9,23 +9,59 @@
 #include <vector>
 
 #include "rholm/atlas.h"
+#include "rholm/compare.h"
 #include "rholm/context.h"
+#include "rholm/fields.h"
 #include "rholm/mesh.h"
 #include "rholm/simplify.h"
 #include "rholm/surface_rules.h"
 
 namespace rholm {
 
+inline constexpr int kMaxCapDegree = 24;  // chosen: beyond, sums over scattered points are slow
+
 // What a model is to keep, and how it is sought.
 struct CompressOptions {
   double tolerance = 0;  // rms distance between the surfaces, both ways, in the shape's unit; > 0
   std::size_t samples = 0;  // that caps are fitted to; 0: by the tolerance
-  int max_degree = 14;      // of a cap, 2 ... 24
+  int max_degree = 14;      // of a cap, 2 ... kMaxCapDegree
   std::uint64_t seed = 1;   // of samples and of the search
   // Numbers that the model may take (size_of()); 0: as many as the shape has coordinates, three per
   // vertex or point. A shape that would take more is refused.
   std::size_t max_numbers = 0;
 };
+
+// Their list (fields.h).
+template <typename Visitor>
+void visit_fields(FieldsOf<CompressOptions>, const Visitor& field) {
+  using O = CompressOptions;
+  field(&O::tolerance, {.name = "tolerance",
+                        .help = "root mean square distance between the surfaces, both ways",
+                        .value = "E",
+                        .least = 0,
+                        .above = true,
+                        .unit = FieldUnit::kLength,
+                        .in_program = false,
+                        .in_python = false});
+  field(&O::samples, {.name = "samples",
+                      .help = "points that caps are fitted to; 0: by the tolerance",
+                      .value = "N",
+                      .least = 1000,
+                      .most = kMaxSamples,
+                      .may_be_zero = true,
+                      .in_program = false});
+  field(&O::max_degree, {.name = "max_degree",
+                         .help = "highest degree of a cap",
+                         .value = "L",
+                         .least = 2,
+                         .most = kMaxCapDegree});
+  field(&O::seed, {.name = "seed", .help = "of samples and of the search", .value = "S"});
+  field(&O::max_numbers, {.name = "max_numbers",
+                          .help = "numbers that the model may take, coefficients and nine for each "
+                                  "cap; 0: as many as the shape has coordinates",
+                          .value = "N",
+                          .least = 0});
+}
 
 // What a model is measured by. Lengths in the shape's unit.
 struct AtlasErrors {
@@ -37,6 +73,25 @@ struct AtlasErrors {
   // Whether both ways were measured.
   bool two_sided() const { return max_to > 0; }
 };
+
+// Their list.
+template <typename Visitor>
+void visit_fields(FieldsOf<AtlasErrors>, const Visitor& field) {
+  using E = AtlasErrors;
+  field(&E::rms_from, {.name = "rms_from",
+                       .help = "root mean square distance from the shape to the model's surface",
+                       .unit = FieldUnit::kLength});
+  field(&E::max_from,
+        {.name = "max_from", .help = "largest of these distances", .unit = FieldUnit::kLength});
+  field(&E::rms_to,
+        {.name = "rms_to",
+         .help =
+             "root mean square distance from the model's surface to the shape; 0 if that is points",
+         .unit = FieldUnit::kLength});
+  field(&E::max_to, {.name = "max_to",
+                     .help = "largest of these distances; 0 if the shape is points",
+                     .unit = FieldUnit::kLength});
+}
 
 // An atlas and what its file says of it.
 struct AtlasModel {
@@ -56,6 +111,16 @@ struct AtlasSize {
   std::size_t caps = 0, coefficients = 0, frame_numbers = 0;            // how many of each
   std::size_t numbers() const { return coefficients + frame_numbers; }  // of the whole model
 };
+
+// Its list.
+template <typename Visitor>
+void visit_fields(FieldsOf<AtlasSize>, const Visitor& field) {
+  using S = AtlasSize;
+  field(&S::caps, {.name = "caps", .help = "number of caps"});
+  field(&S::coefficients, {.name = "coefficients", .help = "coefficients that are not zero"});
+  field(&S::frame_numbers, {.name = "frame_numbers", .help = "numbers of the caps' frames"});
+}
+
 // Counts them.
 AtlasSize size_of(const Atlas& atlas);
 
@@ -75,6 +140,32 @@ struct CompressReport {
   bool topology_kept = false;
   StageTimes times = {};  // "samples", "caps", "fit", "surface"
 };
+
+// Its list.
+template <typename Visitor>
+void visit_fields(FieldsOf<CompressReport>, const Visitor& field) {
+  using R = CompressReport;
+  field(&R::samples, {.name = "samples", .help = "points that caps were fitted to"});
+  field(&R::turned_normals,
+        {.name = "turned_normals",
+         .help = "whether all normals of points pointed into the solid, and were turned"});
+  field(&R::hidden, {.name = "hidden",
+                     .help = "share of a mesh that lies inside of its solid, and was left out"});
+  field(&R::gap, {.name = "gap",
+                  .help = "distance between sheets that face each other",
+                  .unit = FieldUnit::kLength});
+  field(&R::aimed,
+        {.name = "aimed", .help = "tolerance that was aimed at", .unit = FieldUnit::kLength});
+  field(&R::uncovered,
+        {.name = "uncovered", .help = "share of the samples that no cap met by 4 tolerances"});
+  field(&R::components, {.name = "components", .help = "parts of the extracted surface"});
+  field(&R::genus, {.name = "genus", .help = "handles of the extracted surface"});
+  field(&R::met, {.name = "met", .help = "whether the tolerance is kept"});
+  field(&R::topology_kept,
+        {.name = "topology_kept",
+         .help = "whether the surface has as many parts and handles as the shape"});
+  field(&R::times, {.name = "times", .help = "seconds of each stage"});
+}
 
 // A shape as few caps.
 struct Compressed {
@@ -107,6 +198,34 @@ struct AtlasSynthesisOptions {
   std::optional<SimplifyOptions> simplify = {};
   std::size_t max_memory = std::size_t{8} << 30;  // bytes: refused if more is foreseen
 };
+
+// Their list.
+template <typename Visitor>
+void visit_fields(FieldsOf<AtlasSynthesisOptions>, const Visitor& field) {
+  using O = AtlasSynthesisOptions;
+  field(&O::step, {.name = "step",
+                   .help = "edge of the grid's cubes; 0: the model's",
+                   .value = "H",
+                   .least = 0,
+                   .unit = FieldUnit::kLength,
+                   .in_program = false});
+  field(&O::degree, {.name = "degree",
+                     .help = "caps have no higher degrees",
+                     .value = "L",
+                     .least = 0,
+                     .in_program = false});
+  field(&O::simplify, {.name = "simplify",
+                       .help = "fewer triangles for the same surface: to 1/50 of a step, so many, "
+                               "or as options say; by default as a reconstruction was simplified",
+                       .in_program = false});
+  field(&O::max_memory, {.name = "max_memory",
+                         .help = "refused if more memory is foreseen",
+                         .value = "BYTES",
+                         .unit = FieldUnit::kBytes,
+                         .changes_result = false,
+                         .in_program = false});
+}
+
 // The surface of a model, from it alone: closed, oriented outwards, with normals nx, ny, nz. Of a
 // reconstruction it is the surface that reconstruct() made, to the bit where `step` and `degree`
 // are not given: open where that is open, and simplified as that is, unless `simplify` is given.

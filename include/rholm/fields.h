@@ -45,6 +45,7 @@ struct FieldInfo {
   FieldUnit unit = FieldUnit::kNone;  // of a number
   bool changes_result = true;         // if not, work with another value may be taken up
   bool in_program = true;             // if not, the program has another way to say it
+  bool in_python = true;              // if not, functions of Python have another way to say it
 };
 
 // Names the struct whose list is meant.

@@ -28,6 +28,7 @@
 #include "rholm/analyze.h"
 #include "rholm/coefficients.h"
 #include "rholm/context.h"
+#include "rholm/fields.h"
 #include "rholm/star.h"
 
 namespace rholm {
@@ -37,8 +38,9 @@ enum class SamplePlaces {
   kEdges,     // on the flat edges
   kTriangles  // on the spherical triangles
 };
-const char* to_string(SamplePlaces places);  // "monte-carlo-edge", "monte-carlo-triangle"
-std::optional<SamplePlaces> parse_sample_places(const std::string& method);  // none: another method
+EnumNames names_of(SamplePlaces places);  // "edge", "triangle"
+
+inline constexpr std::size_t kMostSamples = std::size_t{1} << 30;  // chosen: a sanity limit
 
 // How much is wanted, and when to stop.
 struct MonteCarloOptions {
@@ -53,7 +55,38 @@ struct MonteCarloOptions {
   // Where to stop without having reached it: points on each place, 2 ... kMostSamples.
   std::size_t most_samples = 4096;
 };
-inline constexpr std::size_t kMostSamples = std::size_t{1} << 30;  // chosen: a sanity limit
+// Their list (fields.h).
+template <typename Visitor>
+void visit_fields(FieldsOf<MonteCarloOptions>, const Visitor& field) {
+  using O = MonteCarloOptions;
+  field(&O::degree, {.name = "degree",
+                     .help = "highest degree L",
+                     .value = "L",
+                     .least = 0,
+                     .most = kMaxDegree,
+                     .in_python = false});
+  field(&O::places, {.name = "places",
+                     .help = "where the random points are: on edges, or on spherical triangles",
+                     .in_program = false});
+  field(&O::seed, {.name = "seed", .help = "of the random points", .value = "S"});
+  field(&O::samples, {.name = "samples",
+                      .help = "points on each edge or triangle, an even number; by default points "
+                              "are added until the deviation is reached",
+                      .value = "N",
+                      .least = 2,
+                      .most = kMostSamples});
+  field(&O::deviation, {.name = "deviation",
+                        .help = "wanted relative deviation of the coefficients",
+                        .value = "S",
+                        .least = 1e-8,
+                        .most = 1});
+  field(&O::most_samples,
+        {.name = "most_samples",
+         .help = "points on each edge or triangle at which to stop without the wanted deviation",
+         .value = "N",
+         .least = 2,
+         .most = kMostSamples});
+}
 
 // Coefficients, and how far they may be off.
 struct MonteCarlo {
@@ -75,6 +108,27 @@ struct MonteCarlo {
   std::optional<double> truncation_rms, truncation_rms_doubt;
   StageTimes times;  // "samples", "sums", "norms"
 };
+
+// Its list, without the coefficients.
+template <typename Visitor>
+void visit_fields(FieldsOf<MonteCarlo>, const Visitor& field) {
+  using M = MonteCarlo;
+  field(&M::places, {.name = "places", .help = "edges or triangles that were sampled"});
+  field(&M::samples, {.name = "samples", .help = "points on each of them"});
+  field(&M::rounds, {.name = "rounds", .help = "rounds in which they were added"});
+  field(&M::relative_deviation, {.name = "relative_deviation",
+                                 .help = "standard error relative to the coefficients without the "
+                                         "mean; none if too few points tell"});
+  field(&M::reached, {.name = "reached", .help = "whether the wanted deviation is reached"});
+  field(&M::degree_deviation,
+        {.name = "degree_deviation",
+         .help = "for each degree the standard error of its coefficients together"});
+  field(&M::truncation_rms,
+        {.name = "truncation_rms", .help = "root mean square of what degrees above L would add"});
+  field(&M::truncation_rms_doubt,
+        {.name = "truncation_rms_doubt", .help = "how far that may be off, by 3 deviations"});
+  field(&M::times, {.name = "times", .help = "seconds of each stage"});
+}
 
 // Same chart, options and seed give the same bits for every number of threads. Throws InvalidInput
 // for options out of range, a surface that no direction sees, or one that comes too near to the

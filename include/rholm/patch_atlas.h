@@ -4,23 +4,51 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
 
 #include "rholm/compress.h"
 #include "rholm/context.h"
+#include "rholm/fields.h"
 #include "rholm/mesh.h"
 
 namespace rholm {
 
 // The paper's parameters.
 struct PatchAtlasOptions {
-  int degree = 16;                               // of every cap, 0 ... 24
+  int degree = 16;                               // of every cap, 0 ... kMaxCapDegree
   CapExtension extension = CapExtension::kZero;  // of caps beyond their points
   double min_cosine = 0.5;  // of normals to the mean normal of their patch (P36), 0 ... 1
   // A patch is widened by the points around it: the radius of its cell over that of its own points,
   // 1 ... 4. Caps have no weight at the rims of their cells, where their series are wrong.
   double overlap = 1.5;
 };
+
+// Their list (fields.h).
+template <typename Visitor>
+void visit_fields(FieldsOf<PatchAtlasOptions>, const Visitor& field) {
+  using O = PatchAtlasOptions;
+  field(&O::degree, {.name = "degree",
+                     .help = "degree of every cap",
+                     .value = "L",
+                     .least = 0,
+                     .most = kMaxCapDegree,
+                     .in_python = false});
+  field(
+      &O::extension,
+      {.name = "extension",
+       .help =
+           "what a cap is beyond its points: zero, as the paper has it, or the sphere it lies on"});
+  field(&O::min_cosine, {.name = "min_cosine",
+                         .help = "least cosine between a normal and the mean normal of its patch",
+                         .value = "C",
+                         .least = 0,
+                         .most = 1});
+  field(&O::overlap, {.name = "overlap",
+                      .help = "radius of the cell of a patch over that of its own points",
+                      .value = "F",
+                      .least = 1,
+                      .most = 4,
+                      .in_program = false});
+}
 
 // The caps, and the surface they make.
 struct PatchAtlas {
@@ -43,8 +71,7 @@ enum class PatchView {
   kTriangles,  // the same, each triangle by itself and smaller, so that gaps show them
   kSpheres     // the same on the sphere of each patch: what the series begin from
 };
-const char* to_string(PatchView view);                // "patches", "triangles", "spheres"
-PatchView parse_patch_view(const std::string& name);  // throws InvalidInput
+EnumNames names_of(PatchView view);  // "patches", "triangles", "spheres"
 
 // Patches to look at.
 struct PatchPicture {

@@ -75,7 +75,8 @@ void visit_fields(FieldsOf<SampleOptions>, const Visitor& field) {
                      .help = "how many, before holes; with a pattern about as many",
                      .value = "N",
                      .least = 1,
-                     .most = kMaxPoints});
+                     .most = kMaxPoints,
+                     .in_python = false});
   field(&O::noise,
         {.name = "noise",
          .help = "standard deviation of each point along x, y and z, a part of the diagonal",

@@ -9,6 +9,7 @@
 
 #include "rholm/coefficients.h"
 #include "rholm/context.h"
+#include "rholm/fields.h"
 #include "rholm/image.h"
 #include "rholm/mesh.h"
 
@@ -39,11 +40,11 @@ std::vector<std::array<float, 3>> vertex_colors(const PointCloud& cloud);
 
 // Size, point of view, light and colours of a picture.
 struct RenderOptions {
-  int width = 1024, height = 768;  // of the whole picture, pixels, 16 ... 16384
-  bool perspective = false;        // otherwise parallel lines stay parallel
-  bool fit_each = false;           // every panel is filled; otherwise all have the same scale
-  Vec3 view_direction = {-0.55, 0.75, -0.4};  // from the eye into the scene
-  Vec3 up = {0, 0, 1};                        // upwards in the picture, as far as the view allows
+  int width = 1024, height = 768;   // of the whole picture, pixels, 16 ... 16384
+  bool perspective = false;         // otherwise parallel lines stay parallel
+  bool fit_each = false;            // every panel is filled; otherwise all have the same scale
+  Vec3 view = {-0.55, 0.75, -0.4};  // from the eye into the scene
+  Vec3 up = {0, 0, 1};              // upwards in the picture, as far as the view allows
   int samples = 3;         // per pixel side: samples^2 rays a pixel that is an edge, 1 ... 16
   int occlusion_rays = 4;  // per sample, 0 ... 256; 0 switches ambient occlusion off
   // Every pixel has all of its samples, and these all of their rays to the lights. Otherwise only
@@ -54,6 +55,68 @@ struct RenderOptions {
   bool scale_bar = true;         // drawn below the panels, with its label
   std::string scale_label = {};  // what the scalars are
 };
+
+// Their list (fields.h).
+template <typename Visitor>
+void visit_fields(FieldsOf<RenderOptions>, const Visitor& field) {
+  using O = RenderOptions;
+  field(&O::width, {.name = "width",
+                    .help = "width of the whole picture, pixels",
+                    .value = "W",
+                    .least = 16,
+                    .most = 16384,
+                    .in_program = false,
+                    .in_python = false});
+  field(&O::height, {.name = "height",
+                     .help = "height of the whole picture, pixels",
+                     .value = "H",
+                     .least = 16,
+                     .most = 16384,
+                     .in_program = false,
+                     .in_python = false});
+  field(&O::perspective,
+        {.name = "perspective", .help = "as a camera sees it, instead of parallel lines of sight"});
+  field(&O::fit_each, {.name = "fit_each",
+                       .help = "every panel is filled; otherwise all have the same scale",
+                       .in_program = false});
+  field(&O::view, {.name = "view",
+                   .help = "direction of sight, from the eye into the scene",
+                   .value = "X,Y,Z"});
+  field(&O::up, {.name = "up",
+                 .help = "direction that points up in the picture, as far as the view allows",
+                 .value = "X,Y,Z"});
+  field(&O::samples, {.name = "samples",
+                      .help = "samples along the side of a pixel that is an edge",
+                      .value = "N",
+                      .least = 1,
+                      .most = 16,
+                      .in_program = false});
+  field(&O::occlusion_rays, {.name = "occlusion_rays",
+                             .help = "rays per sample for ambient occlusion; 0 switches it off",
+                             .value = "N",
+                             .least = 0,
+                             .most = 256,
+                             .in_program = false});
+  field(&O::fine,
+        {.name = "fine",
+         .help = "all rays of light for every sample of every pixel: seven times as long"});
+  field(&O::scale_min, {.name = "scale_min",
+                        .help = "lower end of the colour map; by default the least scalar",
+                        .value = "D",
+                        .in_program = false,
+                        .in_python = false});
+  field(&O::scale_max, {.name = "scale_max",
+                        .help = "upper end of the colour map; by default the largest scalar",
+                        .value = "D",
+                        .in_python = false});
+  field(
+      &O::scale_bar,
+      {.name = "scale_bar", .help = "a scale bar is drawn below the panels", .in_program = false});
+  field(&O::scale_label, {.name = "scale_label",
+                          .help = "what the scalars are",
+                          .value = "TEXT",
+                          .in_program = false});
+}
 
 // All panels side by side, their labels below. Throws InvalidInput for no panel, a panel without a
 // triangle or point, or with both, more than kMaxPointsInPicture points, sizes out of range.

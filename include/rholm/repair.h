@@ -5,10 +5,14 @@
 #include <optional>
 
 #include "rholm/context.h"
+#include "rholm/fields.h"
 #include "rholm/mesh.h"
 #include "rholm/topology.h"
 
 namespace rholm {
+
+// Edges of a hole that can be closed. Chosen: closing one takes some seconds.
+inline constexpr std::size_t kMostHoleEdges = 500;
 
 // What may be done to a mesh.
 struct RepairOptions {
@@ -17,6 +21,23 @@ struct RepairOptions {
   // leave open by mistake is smaller, the open end of a bust is larger.
   std::size_t max_hole = 100;
 };
+
+// Their list (fields.h).
+template <typename Visitor>
+void visit_fields(FieldsOf<RepairOptions>, const Visitor& field) {
+  using O = RepairOptions;
+  field(&O::weld, {.name = "weld",
+                   .help = "vertices become one whose distance is at most this; 0: identical ones",
+                   .value = "T",
+                   .least = 0,
+                   .unit = FieldUnit::kLength,
+                   .in_program = false});
+  field(&O::max_hole, {.name = "max_hole",
+                       .help = "holes with at most so many edges are closed; 0 closes none",
+                       .value = "N",
+                       .least = 0,
+                       .most = kMostHoleEdges});
+}
 
 // What has been done, and what could not be.
 struct RepairReport {
@@ -40,6 +61,43 @@ struct RepairReport {
   std::optional<double> closes_at{};     // what closing_tolerance() says of what is left open
   Inspection after;                      // of the result, welded exactly
 };
+
+// Its list.
+template <typename Visitor>
+void visit_fields(FieldsOf<RepairReport>, const Visitor& field) {
+  using R = RepairReport;
+  field(&R::before, {.name = "before", .help = "state of the mesh welded exactly"});
+  field(&R::merged_vertices, {.name = "merged_vertices", .help = "vertices merged by welding"});
+  field(&R::collapsed_triangles,
+        {.name = "collapsed_triangles", .help = "triangles of which welding made two corners one"});
+  field(&R::isolated_vertices,
+        {.name = "isolated_vertices", .help = "vertices dropped: in no triangle"});
+  field(&R::duplicate_triangles, {.name = "duplicate_triangles",
+                                  .help = "triangles dropped: same vertices as an earlier one"});
+  field(&R::degenerate_triangles, {.name = "degenerate_triangles",
+                                   .help = "triangles thinner than rounding, dropped or swapped"});
+  field(&R::junctions, {.name = "junctions",
+                        .help = "vertices on edges of others' triangles (T-junctions), joined"});
+  field(&R::flipped_triangles, {.name = "flipped_triangles", .help = "triangles that were turned"});
+  field(&R::inside_out_parts,
+        {.name = "inside_out_parts", .help = "closed parts that were turned as a whole"});
+  field(&R::cavities,
+        {.name = "cavities", .help = "closed parts within another: they face inwards"});
+  field(&R::split_vertices,
+        {.name = "split_vertices", .help = "new vertices where sheets met in one"});
+  field(&R::closed_holes, {.name = "closed_holes", .help = "holes closed by new triangles"});
+  field(&R::hole_triangles, {.name = "hole_triangles", .help = "triangles put into them"});
+  field(&R::large_holes, {.name = "large_holes", .help = "holes left: more edges than allowed"});
+  field(&R::largest_hole, {.name = "largest_hole", .help = "edges of the largest of these"});
+  field(&R::sheets, {.name = "sheets", .help = "holes left: borders of open sheets"});
+  field(&R::one_sided_parts,
+        {.name = "one_sided_parts", .help = "parts left without an orientation (Moebius strips)"});
+  field(&R::closes_at,
+        {.name = "closes_at",
+         .help = "tolerance of welding that would join the borders left; none if none would",
+         .unit = FieldUnit::kLength});
+  field(&R::after, {.name = "after", .help = "state of the result, welded exactly"});
+}
 
 // The mesh as far as it could be mended.
 struct Repaired {

@@ -9,6 +9,7 @@
 #include "rholm/coefficients.h"
 #include "rholm/compress.h"
 #include "rholm/context.h"
+#include "rholm/fields.h"
 #include "rholm/mesh.h"
 
 namespace rholm {
@@ -33,6 +34,53 @@ struct ReportOptions {
   // surface of an expansion can be turned, and any degree of it looked at. Not of an atlas.
   std::string viewer = {};
 };
+
+// Their list (fields.h), without the commands.
+template <typename Visitor>
+void visit_fields(FieldsOf<ReportOptions>, const Visitor& field) {
+  using O = ReportOptions;
+  field(&O::title, {.name = "title",
+                    .help = "what the page is of, as a rule a file's name",
+                    .value = "TEXT",
+                    .in_program = false});
+  field(&O::shape_name, {.name = "shape_name",
+                         .help = "name of the shape, as a rule a file's name",
+                         .value = "TEXT",
+                         .in_program = false});
+  field(&O::notes, {.name = "notes",
+                    .help = "what must be known of the input, a sentence each",
+                    .in_program = false});
+  field(&O::tolerance,
+        {.name = "tolerance",
+         .help = "wanted root mean square error of the function: a line in the plots",
+         .value = "E",
+         .least = 0,
+         .above = true,
+         .in_program = false});
+  field(&O::weld_tolerance,
+        {.name = "weld_tolerance",
+         .help = "vertices of the shape become one whose distance is at most this",
+         .value = "T",
+         .least = 0,
+         .unit = FieldUnit::kLength,
+         .in_program = false,
+         .in_python = false});
+  field(&O::picture_size, {.name = "picture_size",
+                           .help = "pixels of each picture's side",
+                           .value = "N",
+                           .least = 16,
+                           .most = 4096,
+                           .in_program = false});
+  field(&O::file_bytes, {.name = "file_bytes",
+                         .help = "of an atlas: how large its file is",
+                         .in_program = false,
+                         .in_python = false});
+  field(&O::viewer,
+        {.name = "viewer",
+         .help = "JavaScript of the viewer, with which the surface of an expansion can be turned",
+         .in_program = false,
+         .in_python = false});
+}
 
 // A page of HTML (UTF-8) that needs no other file and runs no script but the viewer, if there is
 // one: pictures of the shape and of the model at a few degrees, where they differ, the spectrum, a

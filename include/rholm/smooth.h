@@ -8,10 +8,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "rholm/context.h"
+#include "rholm/fields.h"
 #include "rholm/mesh.h"
 #include "rholm/region.h"
 
@@ -24,6 +26,7 @@ enum class PatchFitting : std::uint8_t {
   kAround   // what is not in the region, robustly: the region is bridged, with the detail of its
             // rim carried in; it may be half a wavelength wide, and nothing else moves
 };
+EnumNames names_of(PatchFitting fitting);  // "mean", "robust", "around"
 
 // What is to go from a region.
 struct PatchOptions {
@@ -31,12 +34,35 @@ struct PatchOptions {
   // of 0.6 nothing (docs/editing.md has the curve). In the unit of the vertices, > 0.
   double wavelength = 0;
   // Width of the region's transition; by default the wavelength. kAround needs none.
-  double transition = -1;
+  std::optional<double> transition = {};
   PatchFitting fitting = PatchFitting::kRobust;  // of the caps
   // Moves only what stands out from a robust fit, and fades a quarter of a wavelength beyond:
   // scratches go, the texture around them stays.
   bool repair = false;
 };
+
+// Their list (fields.h).
+template <typename Visitor>
+void visit_fields(FieldsOf<PatchOptions>, const Visitor& field) {
+  using O = PatchOptions;
+  field(&O::wavelength, {.name = "wavelength",
+                         .help = "detail finer than this goes, in the unit of the shape",
+                         .value = "W",
+                         .least = 0,
+                         .above = true,
+                         .in_python = false});
+  field(&O::transition, {.name = "transition",
+                         .help = "width over which the edit fades outside the region, in the unit "
+                                 "of the shape; by default the wavelength",
+                         .value = "T",
+                         .least = 0});
+  field(&O::fitting,
+        {.name = "fitting",
+         .help = "what the smooth surface is fitted to; robust: all but what stands out; mean: "
+                 "all; around: what is outside the region, which is bridged"});
+  field(&O::repair, {.name = "repair",
+                     .help = "move only what stands out, scratches and spikes; texture stays"});
+}
 
 // What an analysis knows: the vertices that may move, and where fits of each degree want them.
 struct Patch {

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "rholm/fields.h"
+
 namespace rholm {
 
 // Bytes of a body of JSON. Chosen: a million points.
@@ -50,6 +52,31 @@ struct StudioOptions {
   // How long a session waits for a page that has closed its event stream.
   std::chrono::milliseconds patience = std::chrono::seconds(60);
 };
+
+// Their list (fields.h), without the function and the time.
+template <typename Visitor>
+void visit_fields(FieldsOf<StudioOptions>, const Visitor& field) {
+  using O = StudioOptions;
+  field(&O::folder, {.name = "folder",
+                     .help = "folder for temporary files; by default /tmp",
+                     .in_program = false});
+  field(&O::threads, {.name = "threads",
+                      .help = "threads of the library; 0: one per processor",
+                      .value = "N",
+                      .least = 0,
+                      .changes_result = false,
+                      .in_program = false});
+  field(&O::max_upload, {.name = "max_upload",
+                         .help = "largest file that a page may send",
+                         .value = "BYTES",
+                         .least = 1,
+                         .unit = FieldUnit::kBytes});
+  field(&O::max_sessions, {.name = "max_sessions",
+                           .help = "pages at a time",
+                           .value = "N",
+                           .least = 1,
+                           .in_program = false});
+}
 
 // Who listens to a session. While one does, the session is not dropped. Must not outlive the
 // studio.

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "rholm/fields.h"
 #include "rholm/mesh.h"
 
 namespace rholm {
@@ -47,6 +48,14 @@ struct Bounds {
     return plain > 1e-150 && plain < 1e150 ? plain : std::hypot(std::hypot(size.x, size.y), size.z);
   }
 };
+// Its list (fields.h).
+template <typename Visitor>
+void visit_fields(FieldsOf<Bounds>, const Visitor& field) {
+  using B = Bounds;
+  field(&B::min, {.name = "min", .help = "the corner with the smallest coordinates"});
+  field(&B::max, {.name = "max", .help = "the corner with the largest coordinates"});
+}
+
 Bounds bounds(const std::vector<Vec3>& points);  // {0,0,0} twice for no points
 
 // What a mesh is. Counts are those of the mesh given: weld first to close seams.
@@ -73,6 +82,47 @@ struct Inspection {
   Vec3 vertex_centroid;     // mean of the used vertices
   Vec3 volume_centroid;     // of the solid; meaningful if closed and the volume is not zero
 };
+// Its list.
+template <typename Visitor>
+void visit_fields(FieldsOf<Inspection>, const Visitor& field) {
+  using I = Inspection;
+  field(&I::vertices, {.name = "vertices", .help = "number of vertices, used or not"});
+  field(&I::triangles, {.name = "triangles", .help = "number of triangles, with an area or not"});
+  field(&I::edges, {.name = "edges", .help = "pairs of vertices that a triangle joins"});
+  field(&I::boundary_edges, {.name = "boundary_edges", .help = "edges in one triangle only"});
+  field(&I::non_manifold_edges,
+        {.name = "non_manifold_edges", .help = "edges in three triangles or more"});
+  field(&I::misoriented_edges,
+        {.name = "misoriented_edges",
+         .help = "edges in two triangles that run through them in the same sense"});
+  field(&I::non_manifold_vertices,
+        {.name = "non_manifold_vertices", .help = "vertices whose triangles do not form one fan"});
+  field(&I::isolated_vertices, {.name = "isolated_vertices", .help = "vertices in no triangle"});
+  field(&I::degenerate_triangles,
+        {.name = "degenerate_triangles",
+         .help = "triangles thinner than the rounding of their coordinates"});
+  field(&I::duplicate_triangles, {.name = "duplicate_triangles",
+                                  .help = "triangles with the three vertices of an earlier one"});
+  field(&I::components, {.name = "components", .help = "parts connected through edges"});
+  field(&I::euler_characteristic,
+        {.name = "euler_characteristic", .help = "used vertices - edges + triangles"});
+  field(&I::genus,
+        {.name = "genus", .help = "handles, of all parts together; of closed manifold meshes"});
+  field(&I::closed, {.name = "closed", .help = "no boundary edge, at least one triangle"});
+  field(&I::manifold, {.name = "manifold", .help = "no non-manifold edge or vertex"});
+  field(&I::oriented, {.name = "oriented", .help = "no misoriented edge"});
+  field(&I::inside_out,
+        {.name = "inside_out", .help = "closed and oriented, but the enclosed volume is negative"});
+  field(&I::bounds, {.name = "bounds", .help = "box around all vertices"});
+  field(&I::area,
+        {.name = "area", .help = "of all triangles, in the squared unit of the vertices"});
+  field(&I::volume,
+        {.name = "volume", .help = "signed, of closed oriented meshes, in the cubed unit"});
+  field(&I::vertex_centroid, {.name = "vertex_centroid", .help = "mean of the used vertices"});
+  field(&I::volume_centroid, {.name = "volume_centroid",
+                              .help = "of the solid, if it is closed and its volume is not zero"});
+}
+
 // Counts and measures. Throws InvalidInput as validate() does.
 Inspection inspect(const Mesh& mesh);
 

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "rholm/context.h"
+#include "rholm/fields.h"
 #include "rholm/mesh.h"
 #include "rholm/region.h"
 #include "rholm/smooth.h"
@@ -28,6 +29,7 @@ enum class TransferMode : std::uint8_t {
   kCoefficients   // the coefficients above from_degree of one cap are put into the other's, raw:
                   // frame and size come along and the rim of the cap is a step. For comparison
 };
+EnumNames names_of(TransferMode mode);  // "displacement", "coefficients"
 
 inline constexpr int kMaxTransferDegree = 64;  // from_degree of kDisplacement
 inline constexpr int kMaxSwapDegree = 24;      // degree of a cap with kCoefficients
@@ -38,7 +40,7 @@ struct TransferOptions {
   // wavelengths below 4 radii / from_degree. 2 ... kMaxTransferDegree.
   int from_degree = 8;
   // Lengths on the target by lengths on the source, in units of the regions' radii: 1 lays one
-  // region on the other. > 0.
+  // region on the other. > 0, at most 1e6.
   double scale = 1;
   // Splits the target's edges until they are as short as the source's are there. Coinciding
   // vertices become one, and new ones come after the old.
@@ -47,8 +49,44 @@ struct TransferOptions {
   // half of the analysis. Without it the report's angle and correlation are 0.
   bool find_angle = true;
   // Of the target region; by default the wavelength of its base, at most a quarter of its radius.
-  double transition = -1;
+  std::optional<double> transition = {};
 };
+
+// Their list (fields.h).
+template <typename Visitor>
+void visit_fields(FieldsOf<TransferOptions>, const Visitor& field) {
+  using O = TransferOptions;
+  field(&O::from_degree,
+        {.name = "from_degree",
+         .help = "detail is what harmonics up to this degree over the source region leave: waves "
+                 "shorter than 4 radii of the region by the degree",
+         .value = "L0",
+         .least = 2,
+         .most = kMaxTransferDegree});
+  field(
+      &O::scale,
+      {.name = "scale",
+       .help =
+           "size of the source region laid on the target, by that of the target region; 1 fills it",
+       .value = "S",
+       .least = 0,
+       .most = 1e6,
+       .above = true});
+  field(&O::refine,
+        {.name = "refine", .help = "split edges of the target where the detail is finer"});
+  field(&O::find_angle, {.name = "find_angle",
+                         .help = "look for the angle at which the detail is most like the target's "
+                                 "own, which is half of the analysis",
+                         .in_program = false,
+                         .in_python = false});
+  field(&O::transition,
+        {.name = "transition",
+         .help =
+             "width over which the detail fades outside the region, in the unit of the target; by "
+             "default the length of the waves of the base there, at most a quarter of its radius",
+         .value = "T",
+         .least = 0});
+}
 
 // What a slider moves.
 struct TransferUpdate {
@@ -64,6 +102,29 @@ struct TransferUpdate {
   TransferMode mode = TransferMode::kDisplacement;  // kCoefficients is there to compare with
 };
 
+// Its list.
+template <typename Visitor>
+void visit_fields(FieldsOf<TransferUpdate>, const Visitor& field) {
+  using U = TransferUpdate;
+  field(
+      &U::height,
+      {.name = "height", .help = "factor of the heights; -1 turns bumps into pits", .value = "H"});
+  field(&U::angle, {.name = "angle",
+                    .help = "turn of the detail, radians, counter-clockwise from outside; by "
+                            "default where it is most like the target's own",
+                    .value = "A",
+                    .in_program = false});
+  field(&U::repeat,
+        {.name = "repeat", .help = "lay the detail again and again, for scales below 1"});
+  field(&U::remove_own, {.name = "remove_own",
+                         .help = "take the target's own detail of the same waves away first"});
+  field(
+      &U::mode,
+      {.name = "mode",
+       .help = "displacement: along the normals of the target's base; coefficients: the harmonics "
+               "above the degree of one cap are put into the other, raw, for comparison"});
+}
+
 // What the analysis found. Lengths are in the units of the two meshes.
 struct TransferReport {
   double source_radius = 0, target_radius = 0;  // of discs with the areas of the bases
@@ -75,6 +136,36 @@ struct TransferReport {
   double correlation = 0;                   // with the target's own detail there, -1 ... 1
   std::size_t new_vertices = 0;             // by refinement
 };
+
+// Its list.
+template <typename Visitor>
+void visit_fields(FieldsOf<TransferReport>, const Visitor& field) {
+  using R = TransferReport;
+  field(&R::source_radius, {.name = "source_radius",
+                            .help = "radius of a disc with the area of the source's base",
+                            .unit = FieldUnit::kLength});
+  field(&R::target_radius, {.name = "target_radius",
+                            .help = "radius of a disc with the area of the target's base",
+                            .unit = FieldUnit::kLength});
+  field(&R::scale, {.name = "scale", .help = "lengths on the target per length on the source"});
+  field(&R::source_wavelength,
+        {.name = "source_wavelength", .help = "of the source's base", .unit = FieldUnit::kLength});
+  field(&R::target_wavelength,
+        {.name = "target_wavelength", .help = "of the target's base", .unit = FieldUnit::kLength});
+  field(&R::source_edge, {.name = "source_edge",
+                          .help = "median length of an edge of the source",
+                          .unit = FieldUnit::kLength});
+  field(&R::target_edge, {.name = "target_edge",
+                          .help = "median length of an edge of the target, after refinement",
+                          .unit = FieldUnit::kLength});
+  field(&R::source_rms, {.name = "source_rms",
+                         .help = "height of the texture in its region",
+                         .unit = FieldUnit::kLength});
+  field(&R::angle, {.name = "angle", .help = "turn of best correlation, radians"});
+  field(&R::correlation,
+        {.name = "correlation", .help = "with the target's own detail there, -1 ... 1"});
+  field(&R::new_vertices, {.name = "new_vertices", .help = "vertices made by refinement"});
+}
 
 struct TransferSourceState;
 struct TransferState;

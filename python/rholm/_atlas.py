@@ -3,18 +3,31 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _core
 from ._arrays import FloatArray, IndexArray, float_rows, plain_array
-from ._core import AtlasErrors, AtlasModel, AtlasSize, Cap, CompressReport, SurfaceRules
+from ._core import (
+    AtlasErrors,
+    AtlasModel,
+    AtlasSize,
+    AtlasSynthesisOptions,
+    Cap,
+    CompressReport,
+    SurfaceRules,
+)
 from ._errors import InvalidInputError
+from ._options import options_of, takes
 from ._run import Progress, caller, named
 from ._shapes import Mesh, MeshLike, PointCloud, as_mesh, as_shape, finite_points, name_of
-from ._topology import simplify_options
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._keywords import AtlasSynthesisKeywords, CompressKeywords, PatchAtlasKeywords
 
 NO_CAP = _core.NO_CAP
 """The number that `Atlas.dominant_caps` gives where there is no cap."""
@@ -145,41 +158,24 @@ class Atlas:
         )
         return distance, gradient, valid.astype(bool)
 
+    @takes(AtlasSynthesisOptions)
     def mesh(
-        self,
-        *,
-        step: float = 0.0,
-        degree: int | None = None,
-        simplify: Any = None,
-        max_memory: int = 8 << 30,
-        threads: int = 0,
-        progress: Progress = None,
+        self, *, threads: int = 0, progress: Progress = None, **options: Unpack[AtlasSynthesisKeywords]
     ) -> Mesh:
         """The surface: closed, oriented outwards, with normals.
 
         Of a reconstruction it is the mesh of `reconstruct`, to the bit at its own step: open where
-        that is, and as simplified.
+        that is, and as simplified. ``simplify={"share": 1}`` leaves all of its triangles.
 
         Parameters
         ----------
-        step : float
-            Edge of the grid's cubes, in the unit of the shape; 0: the model's.
-        degree : int, optional
-            Caps have no higher degrees.
-        simplify : "auto", int or dict, optional
-            Fewer triangles for the same surface: to 1/50 of a step, to so many triangles, or
-            options of `rholm.simplify`. By default as a reconstruction was simplified;
-            ``{"share": 1}`` leaves all of its triangles.
-        max_memory : int
-            Bytes: refused if more is foreseen.
+        {options}
         threads, progress
             See `rholm.caller`.
         """
-        options = _core.AtlasSynthesisOptions(
-            step=step, degree=degree, simplify=simplify_options(simplify), max_memory=max_memory
-        )
+        wanted = options_of(AtlasSynthesisOptions, {**options}, "mesh")
         with caller(threads, progress) as how:
-            return Mesh._of(_core.synthesize_atlas(self._core, options, how))
+            return Mesh._of(_core.synthesize_atlas(self._core, wanted, how))
 
     def dominant_caps(
         self, points: npt.ArrayLike, *, threads: int = 0, progress: Progress = None
@@ -376,18 +372,16 @@ def n_coefficients(basis: Literal["full", "even"], degree: int) -> int:
     return _core.n_coefficients(basis, degree)
 
 
+@takes(_core.CompressOptions)
 def compress(
     shape: MeshLike | PointCloud,
     tolerance: float,
     *,
     unit: Literal["absolute", "diagonal"] = "absolute",
-    samples: int = 0,
-    max_degree: int = 14,
-    max_numbers: int = 0,
-    seed: int = 1,
     length_unit: str = "",
     threads: int = 0,
     progress: Progress = None,
+    **options: Unpack[CompressKeywords],
 ) -> Atlas:
     """A surface of any genus as few caps: a model smaller than its data.
 
@@ -400,16 +394,9 @@ def compress(
         Root mean square distance between the surfaces, both ways.
     unit : {"absolute", "diagonal"}
         Of the tolerance: the shape's own, or its bounding box's diagonal.
-    samples : int
-        That caps are fitted to; 0: by the tolerance.
-    max_degree : int
-        Of a cap, 2 ... 24.
-    max_numbers : int
-        Numbers that the model may take (`Atlas.size`); 0: as many as the shape has coordinates.
-    seed : int
-        Of samples and of the search.
     length_unit : str
         Of the vertices: "km", "mm", ...
+    {options}
     threads, progress
         See `rholm.caller`.
 
@@ -429,15 +416,9 @@ def compress(
     if unit not in ("diagonal", "absolute"):
         raise InvalidInputError(f"unit is 'absolute' or 'diagonal', not {unit!r}")
     factor = whole.bounds.diagonal if unit == "diagonal" else 1.0
-    options = _core.CompressOptions(
-        tolerance=tolerance * factor,
-        samples=samples,
-        max_degree=max_degree,
-        seed=seed,
-        max_numbers=max_numbers,
-    )
+    wanted = options_of(_core.CompressOptions, {**options}, "compress", tolerance=tolerance * factor)
     with caller(threads, progress) as how:
-        model, report = _core.compress(whole._core, options, how)
+        model, report = _core.compress(whole._core, wanted, how)
     atlas = Atlas._of(model, report, whole if isinstance(whole, Mesh) else None, name_of(shape))
     return atlas.with_unit(length_unit) if length_unit else atlas
 
@@ -453,15 +434,14 @@ class PatchAtlas(NamedTuple):
     """Of all points of the cells to the series of their caps."""
 
 
+@takes(_core.PatchAtlasOptions)
 def patch_atlas(
     shape: MeshLike | PointCloud,
     degree: int = 16,
     *,
-    extension: Literal["zero", "sphere"] = "zero",
-    min_cosine: float = 0.5,
-    overlap: float = 1.5,
     threads: int = 0,
     progress: Progress = None,
+    **options: Unpack[PatchAtlasKeywords],
 ) -> PatchAtlas:
     """The paper's atlas, kept to compare with; `compress` is better in every way.
 
@@ -471,21 +451,14 @@ def patch_atlas(
         The shape.
     degree : int
         Of every cap, 0 ... 24.
-    extension : {"zero", "sphere"}
-        Of caps beyond their points.
-    min_cosine : float
-        Of normals to the mean normal of their patch, 0 ... 1.
-    overlap : float
-        The radius of a cell over that of its own points, 1 ... 4.
+    {options}
     threads, progress
         See `rholm.caller`.
     """
     core = finite_points(as_shape(shape))[0]._core
-    options = _core.PatchAtlasOptions(
-        degree=degree, extension=extension, min_cosine=min_cosine, overlap=overlap
-    )
+    wanted = options_of(_core.PatchAtlasOptions, {**options}, "patch_atlas", degree=degree)
     with caller(threads, progress) as how:
-        model, surface, rms = _core.patch_atlas(core, options, how)
+        model, surface, rms = _core.patch_atlas(core, wanted, how)
     return PatchAtlas(Atlas._of(model), Mesh._of(surface), rms)
 
 

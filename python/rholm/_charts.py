@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -13,8 +13,14 @@ from ._coefficients import Function, array_of
 from ._encode import Method, Unit, _center_of, as_expansion, tolerance_of
 from ._errors import InvalidInputError
 from ._expansion import Expansion
+from ._options import options_of, takes
 from ._run import Progress, caller
 from ._shapes import Mesh, MeshLike, outward_mesh
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._keywords import MonteCarloKeywords
 
 
 def _chart_core(chart: Any) -> _core.StarChart:
@@ -252,17 +258,14 @@ class MonteCarlo(NamedTuple):
     """How many samples, and how exact."""
 
 
+@takes(_core.MonteCarloOptions)
 def monte_carlo(
     chart: StarChart,
     degree: int = 64,
     *,
-    places: Literal["edge", "triangle"] = "edge",
-    seed: int = 1,
-    samples: int | None = None,
-    deviation: float = 1e-2,
-    most_samples: int = 4096,
     threads: int = 0,
     progress: Progress = None,
+    **options: Unpack[MonteCarloKeywords],
 ) -> MonteCarlo:
     """Coefficients by random points, as the paper has it, with an honest deviation.
 
@@ -272,27 +275,11 @@ def monte_carlo(
         Of `make_star_chart`.
     degree : int
         L.
-    places : {"edge", "triangle"}
-        Where the points are.
-    seed : int
-        Of the random numbers.
-    samples : int, optional
-        Points on each edge or triangle; by default rounds are added until `deviation` is reached.
-    deviation : float
-        Wanted relative deviation, 1e-8 ... 1.
-    most_samples : int
-        Where to stop without having reached it.
+    {options}
     threads, progress
         See `rholm.caller`.
     """
-    options = _core.MonteCarloOptions(
-        degree=degree,
-        places=places,
-        seed=seed,
-        samples=samples,
-        deviation=deviation,
-        most_samples=most_samples,
-    )
+    wanted = options_of(_core.MonteCarloOptions, {**options}, "monte_carlo", degree=degree)
     with caller(threads, progress) as how:
-        found = _core.monte_carlo(_chart_core(chart), options, how)
+        found = _core.monte_carlo(_chart_core(chart), wanted, how)
     return MonteCarlo(Expansion._of(found.expansion), np.abs(array_of(found.deviation)), found)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal, Union
+from typing import TYPE_CHECKING, Any, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -10,10 +10,14 @@ import numpy.typing as npt
 from . import _core
 from ._arrays import FloatArray, IndexArray, float_rows, plain_array, read_only
 from ._errors import InvalidInputError
+from ._options import options_of, takes
 from ._run import Progress, caller
 from ._shapes import Mesh, MeshLike, as_mesh
 
 if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._keywords import PatchKeywords
     from ._transfer import TransferEditor
 
 #: What stands for a region of a mesh: text as the program has it ("ball:X,Y,Z,R",
@@ -164,48 +168,55 @@ class SmoothEditor:
         return self.mesh._repr_png_()
 
 
+@takes(_core.PatchOptions)
 def analyze_patch(
     mesh: MeshLike,
     region: RegionLike,
     wavelength: float,
     *,
-    transition: float | None = None,
-    fitting: Literal["robust", "mean", "around"] = "robust",
-    repair: bool = False,
     threads: int = 0,
     progress: Progress = None,
+    **options: Unpack[PatchKeywords],
 ) -> SmoothEditor:
     """Covers a region with caps and fits them: the slow part of `smooth`.
 
     Parameters
     ----------
-    mesh, region, wavelength, transition, fitting, repair, threads, progress
+    mesh, region, wavelength
         As in `smooth`.
+    {options}
+    threads, progress
+        See `rholm.caller`.
 
     Returns
     -------
     editor : SmoothEditor
         Whose `SmoothEditor.strength` is 0 and moves the mesh when it is set.
     """
+    wanted = options_of(_core.PatchOptions, {**options}, "analyze_patch", wavelength=wavelength)
+    return _editor(mesh, region, wanted, threads, progress)
+
+
+def _editor(
+    mesh: MeshLike, region: RegionLike, wanted: _core.PatchOptions, threads: int, progress: Progress
+) -> SmoothEditor:
     whole = as_mesh(mesh)
     marked, regions = _with_region(whole, region)
-    options = _core.PatchOptions(wavelength=wavelength, transition=transition, fitting=fitting, repair=repair)
     with caller(threads, progress) as how:
-        patch = _core.analyze_patch(marked._core, regions, options, how)
+        patch = _core.analyze_patch(marked._core, regions, wanted, how)
     return SmoothEditor(patch, _core.copy_mesh(whole._core))
 
 
+@takes(_core.PatchOptions)
 def smooth(
     mesh: MeshLike,
     region: RegionLike,
     wavelength: float,
     *,
     strength: float = 1.0,
-    transition: float | None = None,
-    fitting: Literal["robust", "mean", "around"] = "robust",
-    repair: bool = False,
     threads: int = 0,
     progress: Progress = None,
+    **options: Unpack[PatchKeywords],
 ) -> Mesh:
     """Takes detail finer than a wavelength from a region; the rest stays, to the last bit.
 
@@ -220,13 +231,7 @@ def smooth(
         The finest detail that may stay, in the mesh's unit.
     strength : float
         0 leaves all as it is, 1 takes the detail away, -1 doubles it.
-    transition : float, optional
-        Width in which the edit fades; by default the wavelength.
-    fitting : {"robust", "mean", "around"}
-        What the smooth surface is fitted to: all but what stands out, all points, or what lies
-        around the region, which is bridged.
-    repair : bool
-        Moves only what stands out: scratches go, the texture around them stays.
+    {options}
     threads, progress
         See `rholm.caller`.
 
@@ -236,16 +241,8 @@ def smooth(
         For a region without a vertex, "around" where nothing is around it (the whole mesh), a
         wavelength shorter than the mesh's edges can show.
     """
-    editor = analyze_patch(
-        mesh,
-        region,
-        wavelength,
-        transition=transition,
-        fitting=fitting,
-        repair=repair,
-        threads=threads,
-        progress=progress,
-    )
+    wanted = options_of(_core.PatchOptions, {**options}, "smooth", wavelength=wavelength)
+    editor = _editor(mesh, region, wanted, threads, progress)
     editor.strength = strength
     return editor.mesh
 

@@ -8,12 +8,29 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TypeVar
 
+from . import _core
+from ._arguments import whole
 from ._arrays import triple
-from ._topology import simplify_options
+from ._errors import InvalidInputError
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 #: Where the documentation of the options goes in the docstring of a function.
 _PLACE = "{options}"
+
+
+def simplify_options(simplify: Any) -> _core.SimplifyOptions | None:
+    """Where to stop: None, "auto", a number of triangles (from 1 on), or a dict of options."""
+    if simplify is None or simplify is False:
+        return None
+    if simplify is True or simplify == "auto":
+        return _core.SimplifyOptions()
+    if isinstance(simplify, dict):
+        return _core.SimplifyOptions(**simplify)
+    if isinstance(simplify, str):
+        raise InvalidInputError(
+            f"simplify is {simplify!r}; it must be 'auto', a number of triangles or a dict"
+        )
+    return _core.SimplifyOptions(triangles=whole(simplify, "simplify"))
 
 
 def _converted(field: dict[str, Any], value: Any) -> Any:
@@ -25,18 +42,29 @@ def _converted(field: dict[str, Any], value: Any) -> Any:
         return triple(value, field["name"])
     if kind == "path":
         return Path(value)
+    if kind == "texts":
+        return list(value)
     if kind == "options":
         return simplify_options(value)
     return value
 
 
-def options_of(kind: Any, given: dict[str, Any], function: str) -> Any:
-    """Options of that class from the keyword arguments of a function; TypeError for one it has not."""
-    fields = {field["name"]: field for field in kind.FIELDS}
+def keywords_of(kind: Any) -> list[dict[str, Any]]:
+    """What the list says of the fields that functions have as keyword arguments."""
+    return [field for field in kind.FIELDS if field["keyword"]]
+
+
+def options_of(kind: Any, given: dict[str, Any], function: str, **own: Any) -> Any:
+    """Options of that class from the keyword arguments of a function; TypeError for one it has not.
+
+    `own` are fields that the function has in a way of its own.
+    """
+    keywords = [field["name"] for field in keywords_of(kind)]
     for name in given:
-        if name not in fields:
+        if name not in keywords:
             raise TypeError(f"{function}() got an unexpected keyword argument {name!r}")
-    return kind(**{name: _converted(fields[name], value) for name, value in given.items()})
+    fields = {field["name"]: field for field in kind.FIELDS}
+    return kind(**{name: _converted(fields[name], value) for name, value in {**given, **own}.items()})
 
 
 #: Of each kind of field: the type of the argument as it is written in Python, and in docstrings.
@@ -46,6 +74,7 @@ _TYPES = {
     "number": ("float", "float"),
     "point": ("npt.ArrayLike", "array_like, (3,)"),
     "text": ("str", "str"),
+    "texts": ("Sequence[str]", "sequence of str"),
     "path": ("str | os.PathLike[str]", "path"),
     "options": ("Any", '"auto", int or dict'),
 }
@@ -67,21 +96,30 @@ def annotation(field: dict[str, Any]) -> str:
     return _types(field)[0]
 
 
+def _bounds(field: dict[str, Any]) -> str:
+    """A sentence about the least and the largest value, if there are both."""
+    if not field["bounds"]:
+        return ""
+    least, most = (str(int(bound)) if bound == int(bound) else repr(bound) for bound in field["bounds"])
+    return f" Within {least} ... {most}" + (", or 0." if field["may_be_zero"] else ".")
+
+
 def _documentation(field: dict[str, Any]) -> str:
     """The entry of an argument in a docstring."""
     unit = {"length": " In the unit of the shape.", "bytes": " In bytes."}.get(field["unit"], "")
-    said = field["help"][0].upper() + field["help"][1:] + "." + unit
+    said = field["help"][0].upper() + field["help"][1:] + "." + _bounds(field) + unit
     return f"{field['name']} : {_types(field)[1]}\n" + textwrap.indent(textwrap.fill(said, 90), "    ")
 
 
-def takes(kind: Any) -> Callable[[_Function], _Function]:
-    """Shows and documents ``**options`` of a function as the arguments that a class of options has.
+def takes(*kinds: Any) -> Callable[[_Function], _Function]:
+    """Shows and documents ``**options`` of a function as the arguments that classes of options have.
 
     Parameters
     ----------
-    kind : class of options
-        It has the list in ``FIELDS``.
+    *kinds : classes of options
+        They have their lists in ``FIELDS``.
     """
+    fields = [field for kind in kinds for field in keywords_of(kind)]
 
     def decorate(function: _Function) -> _Function:
         signature = inspect.signature(function)
@@ -94,13 +132,11 @@ def takes(kind: Any) -> Callable[[_Function], _Function]:
                 default=None if field["kind"].startswith("optional ") else field["default"],
                 annotation=annotation(field),
             )
-            for field in kind.FIELDS
-            if field["name"] not in signature.parameters
+            for field in fields
         ]
         parameters = [p for p in own if p not in last] + added + last
-        function.__takes__ = kind  # type: ignore[attr-defined]
         function.__signature__ = signature.replace(parameters=parameters)  # type: ignore[attr-defined]
-        text = "\n".join(_documentation(field) for field in kind.FIELDS)
+        text = "\n".join(_documentation(field) for field in fields)
         function.__doc__ = inspect.cleandoc(function.__doc__ or "").replace(_PLACE, text)
         return function
 

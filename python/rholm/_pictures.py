@@ -12,17 +12,21 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import float_rows, floats, plain_array, triple
+from ._arrays import float_rows, floats, plain_array
 from ._encode import as_expansion
 from ._errors import Error, InvalidInputError
 from ._expansion import Expansion
 from ._interop import required
+from ._options import options_of, takes
 from ._run import Progress, caller, named
 from ._shapes import Mesh, PointCloud, finite_points, outward_mesh
 from ._surfaces import surface_of
 
 if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
     from ._atlas import Atlas
+    from ._keywords import RenderKeywords, ReportKeywords
 
 Pixels = npt.NDArray[np.uint8]
 
@@ -132,6 +136,7 @@ def _positive(radius: float) -> float:
     return float(radius)
 
 
+@takes(_core.RenderOptions)
 def render(
     shape: Any,
     size: tuple[int, int] = (1024, 768),
@@ -140,19 +145,11 @@ def render(
     colors: npt.ArrayLike | None = None,
     label: str = "",
     point_radius: float | None = None,
-    view: npt.ArrayLike = (-0.55, 0.75, -0.4),
-    up: npt.ArrayLike = (0.0, 0.0, 1.0),
-    perspective: bool = False,
-    fit_each: bool = False,
-    samples: int = 3,
-    occlusion_rays: int = 4,
-    fine: bool = False,
     scale: tuple[float | None, float | None] = (None, None),
-    scale_bar: bool = True,
-    scale_label: str = "",
     path: str | os.PathLike[str] | None = None,
     threads: int = 0,
     progress: Progress = None,
+    **options: Unpack[RenderKeywords],
 ) -> Picture:
     """A picture of one or several shapes, side by side.
 
@@ -170,29 +167,11 @@ def render(
         Of one shape, below it.
     point_radius : float, optional
         Of points, which are balls: as in `Panel`.
-    view : array_like, (3,)
-        From the eye into the scene.
-    up : array_like, (3,)
-        Upwards in the picture, as far as the view allows.
-    perspective : bool
-        Otherwise parallel lines stay parallel.
-    fit_each : bool
-        Every panel is filled; otherwise all have the same scale.
-    samples : int
-        Per pixel side, 1 ... 16, of pixels that are edges.
-    occlusion_rays : int
-        Per sample, 0 ... 256; 0 switches ambient occlusion off.
-    fine : bool
-        Every pixel has all of its samples, and these all of their rays to the lights; otherwise pixels of one
-        surface share theirs, in a seventh of the time.
     scale : (lowest, highest)
         Of the colour map; None: that of all scalars.
-    scale_bar : bool
-        Drawn below the panels.
-    scale_label : str
-        What the scalars are.
     path : path, optional
         Where a PNG file is written, too.
+    {options}
     threads, progress
         See `rholm.caller`.
 
@@ -221,23 +200,17 @@ def render(
         else Panel(s, label, scalars=scalars, colors=colors, point_radius=point_radius)
         for s in (shape if several else [shape])
     ]
-    options = _core.RenderOptions(
+    wanted = options_of(
+        _core.RenderOptions,
+        {**options},
+        "render",
         width=size[0],
         height=size[1],
-        perspective=perspective,
-        fit_each=fit_each,
-        view_direction=triple(view, "view"),
-        up=triple(up, "up"),
-        samples=samples,
-        occlusion_rays=occlusion_rays,
-        fine=fine,
         scale_min=scale[0],
         scale_max=scale[1],
-        scale_bar=scale_bar,
-        scale_label=scale_label,
     )
     with caller(threads, progress) as how:
-        picture = _core.render([panel._core for panel in panels], options, how).view(Picture)
+        picture = _core.render([panel._core for panel in panels], wanted, how).view(Picture)
     if path is not None:
         write_png(path, picture)
     return picture
@@ -319,20 +292,17 @@ def plot_spectrum(expansion: Expansion, ax: Any = None, **options: Any) -> Any:
     return ax
 
 
+@takes(_core.ReportOptions)
 def report_html(
     model: Expansion | Atlas,
     path: str | os.PathLike[str] | None = None,
     *,
     shape: Any = None,
-    title: str = "",
-    shape_name: str = "",
-    notes: Sequence[str] = (),
     commands: Sequence[tuple[str, str]] = (),
-    tolerance: float | None = None,
-    picture_size: int = 480,
     interactive: bool = False,
     threads: int = 0,
     progress: Progress = None,
+    **options: Unpack[ReportKeywords],
 ) -> str:
     """All that is known of a model on one page of HTML that needs no other file.
 
@@ -344,19 +314,12 @@ def report_html(
         Where it is written, too.
     shape : mesh-like, optional
         The mesh that the model is of; by default that of `expand` or `compress`, if it is known.
-    title, shape_name : str
-        What they are called.
-    notes : sequence of str
-        What must be known of the input.
     commands : sequence of (what, command)
         Shown as they are.
-    tolerance : float, optional
-        A wanted rms error: a line in the plots.
-    picture_size : int
-        Pixels of each picture's side, 16 ... 4096.
     interactive : bool
         Of an expansion: the surface is there to be turned, and cut off at any degree; no network is
         needed.
+    {options}
     threads, progress
         See `rholm.caller`.
 
@@ -378,17 +341,14 @@ def report_html(
         model = as_expansion(model)
     known = model._shape if shape is None else shape
     mesh = None if known is None else outward_mesh(known)
-    options = _core.ReportOptions(
-        title=title or model._name or "model",
-        shape_name=shape_name or model._name,
-        notes=list(notes),
-        tolerance=tolerance,
-        picture_size=picture_size,
-        viewer=viewer_script() if interactive else "",
-    )
-    options.set_commands([(what, command) for what, command in commands])
+    given = {**options}
+    given["title"] = given.get("title") or model._name or "model"
+    given["shape_name"] = given.get("shape_name") or model._name
+    viewer = viewer_script() if interactive else ""
+    wanted = options_of(_core.ReportOptions, given, "report_html", viewer=viewer)
+    wanted.set_commands([(what, command) for what, command in commands])
     with caller(threads, progress) as how:
-        page = _core.report_html(model._core, None if mesh is None else mesh._core, options, how)
+        page = _core.report_html(model._core, None if mesh is None else mesh._core, wanted, how)
     if path is not None:
         write_file(path, page.encode())
     return page

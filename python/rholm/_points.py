@@ -50,7 +50,7 @@ def sample_surface(
     InvalidInputError
         For a mesh without area, options out of range, holes that leave no point.
     """
-    wanted = options_of(_core.SampleOptions, {"points": points, **options}, "sample_surface")
+    wanted = options_of(_core.SampleOptions, {**options}, "sample_surface", points=points)
     with caller(threads, progress) as how:
         return PointCloud._of(_core.sample_surface(as_mesh(mesh)._core, wanted, how))
 

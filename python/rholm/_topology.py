@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy.typing as npt
 
 from . import _core
-from ._arguments import whole
 from ._arrays import FloatArray, IndexArray, float_rows
-from ._errors import InvalidInputError
+from ._options import options_of, takes
 from ._run import Progress, caller
 from ._shapes import Mesh, MeshLike, as_mesh
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._keywords import RepairKeywords
 
 
 class Welded(NamedTuple):
@@ -152,8 +156,9 @@ class Repaired(NamedTuple):
     """What was wrong, and what still is."""
 
 
+@takes(_core.RepairOptions)
 def repair(
-    mesh: MeshLike, *, weld: float = 0.0, max_hole: int = 100, threads: int = 0, progress: Progress = None
+    mesh: MeshLike, *, threads: int = 0, progress: Progress = None, **options: Unpack[RepairKeywords]
 ) -> Repaired:
     """Welds, drops duplicate and degenerate faces, separates sheets, orients, closes small holes.
 
@@ -161,31 +166,14 @@ def repair(
     ----------
     mesh : mesh-like
         The mesh; its vertices keep their order and attributes, new ones come last.
-    weld : float
-        Tolerance of welding, in the mesh's unit; 0 joins identical vertices.
-    max_hole : int
-        Holes with at most so many edges are closed, 0 ... 500.
+    {options}
     threads, progress
         See `rholm.caller`.
     """
+    wanted = options_of(_core.RepairOptions, {**options}, "repair")
     with caller(threads, progress) as how:
-        core, report = _core.repair(as_mesh(mesh)._core, weld, max_hole, how)
+        core, report = _core.repair(as_mesh(mesh)._core, wanted, how)
     return Repaired(Mesh._of(core), report)
-
-
-def simplify_options(simplify: Any) -> _core.SimplifyOptions | None:
-    """Where to stop: None, "auto", a number of triangles (from 1 on), or a dict of options."""
-    if simplify is None or simplify is False:
-        return None
-    if simplify is True or simplify == "auto":
-        return _core.SimplifyOptions()
-    if isinstance(simplify, dict):
-        return _core.SimplifyOptions(**simplify)
-    if isinstance(simplify, str):
-        raise InvalidInputError(
-            f"simplify is {simplify!r}; it must be 'auto', a number of triangles or a dict"
-        )
-    return _core.SimplifyOptions(triangles=whole(simplify, "simplify"))
 
 
 class Simplification(NamedTuple):

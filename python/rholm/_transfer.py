@@ -2,13 +2,22 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any
 
 from . import _core
 from ._arrays import FloatArray, IndexArray, read_only
 from ._edit import RegionLike, _with_region, _without_region
+from ._options import options_of, takes
 from ._run import Progress, caller
 from ._shapes import Mesh, MeshLike, as_mesh
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._keywords import TransferKeywords, TransferUpdateKeywords
+
+    class _Keywords(TransferKeywords, TransferUpdateKeywords, total=False):
+        pass
 
 
 class TransferEditor:
@@ -23,13 +32,9 @@ class TransferEditor:
         self._analysis = analysis
         self._patch = analysis.patch
         self._mesh = _core.copy_mesh(analysis.mesh)
-        self._wanted: dict[str, Any] = {
-            "height": 0.0,
-            "angle": None,
-            "repeat": False,
-            "remove_own": False,
-            "mode": "displacement",
-        }
+        sliders = _core.TransferUpdate.FIELDS
+        self._wanted: dict[str, Any] = {field["name"]: field["default"] for field in sliders}
+        self._wanted["height"] = 0.0
 
     @property
     def mesh(self) -> Mesh:
@@ -80,7 +85,7 @@ class TransferEditor:
             _core.apply_in_place(self._patch, self._patch.wavelength, 0.0, self._mesh)
         else:
             with caller(0, False) as how:
-                _core.apply_transfer_in_place(self._analysis, *_sliders(new), self._mesh, how)
+                _core.apply_transfer_in_place(self._analysis, _core.TransferUpdate(**new), self._mesh, how)
         self._wanted = new
 
     def positions(self, **wanted: Any) -> FloatArray:
@@ -91,8 +96,9 @@ class TransferEditor:
         **wanted
             As in `set`; by default as they are.
         """
+        update = _core.TransferUpdate(**self._merged(wanted))
         with caller(0, False) as how:
-            return _core.update_transfer(self._analysis, *_sliders(self._merged(wanted)), how)
+            return _core.update_transfer(self._analysis, update, how)
 
     def __copy__(self) -> TransferEditor:
         twin = TransferEditor(self._analysis)
@@ -116,10 +122,6 @@ class TransferEditor:
 
     def _repr_png_(self) -> bytes | None:
         return self.mesh._repr_png_()
-
-
-def _sliders(wanted: dict[str, Any]) -> tuple[float, float | None, bool, bool, str]:
-    return wanted["height"], wanted["angle"], wanted["repeat"], wanted["remove_own"], wanted["mode"]
 
 
 class TransferSource:
@@ -190,16 +192,26 @@ class TransferSource:
         editor : TransferEditor
             Whose `TransferEditor.height` is 0 and moves the target when it is set.
         """
-        laid, to = _with_region(as_mesh(target), target_region)
-        options = _core.TransferOptions(
+        wanted = _core.TransferOptions(
             from_degree=self.from_degree,
             scale=scale,
             refine=refine,
             transition=transition,
             find_angle=find_angle,
         )
+        return self._onto(target, target_region, wanted, threads, progress)
+
+    def _onto(
+        self,
+        target: MeshLike,
+        target_region: RegionLike,
+        wanted: _core.TransferOptions,
+        threads: int,
+        progress: Progress,
+    ) -> TransferEditor:
+        laid, to = _with_region(as_mesh(target), target_region)
         with caller(threads, progress) as how:
-            return TransferEditor(_core.analyze_transfer(self._source, laid._core, to, options, how))
+            return TransferEditor(_core.analyze_transfer(self._source, laid._core, to, wanted, how))
 
 
 def analyze_source(
@@ -229,29 +241,43 @@ def analyze_source(
         return TransferSource(_core.analyze_source(taken._core, from_, from_degree, how))
 
 
+def _analyzed(
+    source: MeshLike,
+    source_region: RegionLike,
+    target: MeshLike,
+    target_region: RegionLike,
+    wanted: _core.TransferOptions,
+    threads: int,
+    progress: Progress,
+) -> TransferEditor:
+    texture = analyze_source(
+        source, source_region, from_degree=wanted.from_degree, threads=threads, progress=progress
+    )
+    return texture._onto(target, target_region, wanted, threads, progress)
+
+
+@takes(_core.TransferOptions)
 def analyze_transfer(
     source: MeshLike,
     source_region: RegionLike,
     target: MeshLike,
     target_region: RegionLike,
     *,
-    from_degree: int = 8,
-    scale: float = 1.0,
-    refine: bool = False,
-    transition: float | None = None,
     find_angle: bool = True,
     threads: int = 0,
     progress: Progress = None,
+    **options: Unpack[TransferKeywords],
 ) -> TransferEditor:
     """Takes the detail of one region and looks at another: the slow part of `transfer`.
 
     Parameters
     ----------
-    source, source_region, target, target_region, from_degree, scale, refine, transition
+    source, source_region, target, target_region
         As in `transfer`.
     find_angle : bool
         Whether the angle at which the detail is most like the target's own is looked for, which is
         half of the work; without it that angle is 0.
+    {options}
     threads, progress
         See `rholm.caller`.
 
@@ -260,38 +286,20 @@ def analyze_transfer(
     editor : TransferEditor
         Whose `TransferEditor.height` is 0 and moves the target when it is set.
     """
-    texture = analyze_source(
-        source, source_region, from_degree=from_degree, threads=threads, progress=progress
-    )
-    return texture.onto(
-        target,
-        target_region,
-        scale=scale,
-        refine=refine,
-        transition=transition,
-        find_angle=find_angle,
-        threads=threads,
-        progress=progress,
-    )
+    wanted = options_of(_core.TransferOptions, {**options}, "analyze_transfer", find_angle=find_angle)
+    return _analyzed(source, source_region, target, target_region, wanted, threads, progress)
 
 
+@takes(_core.TransferUpdate, _core.TransferOptions)
 def transfer(
     source: MeshLike,
     source_region: RegionLike,
     target: MeshLike,
     target_region: RegionLike,
     *,
-    height: float = 1.0,
-    angle: float | None = None,
-    repeat: bool = False,
-    remove_own: bool = False,
-    mode: Literal["displacement", "coefficients"] = "displacement",
-    from_degree: int = 8,
-    scale: float = 1.0,
-    refine: bool = False,
-    transition: float | None = None,
     threads: int = 0,
     progress: Progress = None,
+    **options: Unpack[_Keywords],
 ) -> Mesh:
     """The detail of a region of one surface laid on a region of another.
 
@@ -301,39 +309,14 @@ def transfer(
         Where the detail is taken, and where it is laid.
     source_region, target_region : region-like
         As in `smooth`.
-    height : float
-        Of the texture.
-    angle : float, optional
-        Its turn, radians; by default where it is most like the target's own detail.
-    repeat : bool
-        Lays it side by side over a region that is larger than the texture.
-    remove_own : bool
-        The target's own detail of the same wavelengths goes first.
-    mode : {"displacement", "coefficients"}
-        Along the target's normals, or the raw coefficients, to compare with.
-    from_degree : int
-        What harmonics up to this degree leave of the source is the texture.
-    scale : float
-        Lengths on the target by lengths on the source, in units of the regions' radii.
-    refine : bool
-        Splits the target's edges until they are as short as the source's.
-    transition : float, optional
-        Width in which the texture fades.
+    {options}
     threads, progress
         See `rholm.caller`.
     """
-    editor = analyze_transfer(
-        source,
-        source_region,
-        target,
-        target_region,
-        from_degree=from_degree,
-        scale=scale,
-        refine=refine,
-        transition=transition,
-        find_angle=angle is None,
-        threads=threads,
-        progress=progress,
-    )
-    editor.set(height=height, angle=angle, repeat=repeat, remove_own=remove_own, mode=mode)
+    sliders = {field["name"] for field in _core.TransferUpdate.FIELDS}
+    moved = {name: value for name, value in options.items() if name in sliders}
+    kept = {name: value for name, value in options.items() if name not in sliders}
+    wanted = options_of(_core.TransferOptions, kept, "transfer", find_angle=moved.get("angle") is None)
+    editor = _analyzed(source, source_region, target, target_region, wanted, threads, progress)
+    editor.set(**{"height": 1.0, **moved})
     return _without_region(editor.mesh)

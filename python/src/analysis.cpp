@@ -215,32 +215,11 @@ void bind_norms(nb::module_& m) {
       nb::arg(), nb::arg(), nb::arg().none(), nb::arg(), nb::arg());
 }
 
-SamplePlaces places_of(const std::string& name) {
-  if (const auto places = parse_sample_places("monte-carlo-" + name)) return *places;
-  throw Error(ErrorCode::kInvalidInput,
-              "no places of samples are called '" + name + "'; there are edge and triangle");
-}
-
 void bind_monte_carlo(nb::module_& m) {
   Options<MonteCarloOptions>(m, "MonteCarloOptions", "How much is wanted, and when to stop.")
-      .field("degree", &MonteCarloOptions::degree)
-      .choice("places", &MonteCarloOptions::places, places_of, to_string)
-      .field("seed", &MonteCarloOptions::seed)
-      .field("samples", &MonteCarloOptions::samples)
-      .field("deviation", &MonteCarloOptions::deviation)
-      .field("most_samples", &MonteCarloOptions::most_samples);
+      .fields();
   Record<MonteCarlo>(m, "MonteCarlo", "Coefficients by random points, and how far they may be off.")
-      .field("places", &MonteCarlo::places, "Edges or triangles that were sampled.")
-      .field("samples", &MonteCarlo::samples, "Points on each of them.")
-      .field("rounds", &MonteCarlo::rounds, "In which they were added.")
-      .field("relative_deviation", &MonteCarlo::relative_deviation,
-             "Standard error relative to the coefficients without the mean, or None.")
-      .field("reached", &MonteCarlo::reached, "Whether it is the wanted one.")
-      .field("degree_deviation", &MonteCarlo::degree_deviation,
-             "For each degree the standard error of its coefficients together, (L + 1,).")
-      .field("truncation_rms", &MonteCarlo::truncation_rms, "As in Analysis.")
-      .field("truncation_rms_doubt", &MonteCarlo::truncation_rms_doubt, "By 3 deviations.")
-      .field("times", &MonteCarlo::times, "Stages: (wall, cpu) in seconds.")
+      .fields()
       .hidden("expansion", [](MonteCarlo& found) -> Expansion& { return found.expansion; })
       .hidden("deviation", [](MonteCarlo& found) -> Coefficients& { return found.deviation; })
       .type()

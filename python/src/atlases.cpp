@@ -30,8 +30,6 @@ namespace {
 
 using Shape = std::variant<const Mesh*, const PointCloud*>;
 
-const char* name_of(CapBasis basis) { return basis == CapBasis::kFull ? "full" : "even"; }
-
 // The numbers of a cap in a row: what is pickled of atlases of many thousands of caps.
 constexpr std::size_t kCapNumbers = 27;
 
@@ -136,15 +134,7 @@ void bind_caps(nb::module_& m) {
             return nb::make_tuple(c.where.px, c.where.py, c.where.xx, c.where.xy, c.where.yy);
           },
           "Of its support: middle (px, py) and form (xx, xy, yy).")
-      .property(
-          "basis", [](const Cap& c) { return name_of(c.basis); }, "'full' or 'even'.")
-      .field("degree", &Cap::degree, "Its highest degree.")
-      .field("first", &Cap::first, "Where its coefficients start.")
-      .field("error", &Cap::error, "Root mean square distance of the fitted points to it.")
-      .field("area", &Cap::area, "Of the surface that it was made for.")
-      .field("weight", &Cap::weight, "A factor of its blend weight.")
-      .field("deviation", &Cap::deviation,
-             "Largest distance of its surface from the tangent plane of the seed.")
+      .fields()
       .hidden("frame_center", [](Cap& c) -> Vec3& { return c.frame.center; })
       .hidden("frame_x", [](Cap& c) -> Vec3& { return c.frame.x; })
       .hidden("frame_y", [](Cap& c) -> Vec3& { return c.frame.y; })
@@ -156,8 +146,7 @@ void bind_caps(nb::module_& m) {
       .hidden("py", [](Cap& c) -> double& { return c.where.py; })
       .hidden("xx", [](Cap& c) -> double& { return c.where.xx; })
       .hidden("xy", [](Cap& c) -> double& { return c.where.xy; })
-      .hidden("yy", [](Cap& c) -> double& { return c.where.yy; })
-      .hidden("basis", [](Cap& c) -> CapBasis& { return c.basis; });
+      .hidden("yy", [](Cap& c) -> double& { return c.where.yy; });
   nb::class_<Atlas> atlas_type(m, "Atlas", "A surface of any genus as overlapping caps.");
   bind_state(atlas_type, &state_of_atlas, &atlas_of_state);
   atlas_type.def_prop_ro("n_caps", [](const Atlas& atlas) { return atlas.caps.size(); })
@@ -179,11 +168,7 @@ void bind_caps(nb::module_& m) {
       .def_ro("band", &Atlas::band);
   m.def("highest_degree", &highest_degree);
   m.def("n_coefficients", [](const std::string& basis, int degree) {
-    if (basis != "full" && basis != "even") {
-      throw Error(ErrorCode::kInvalidInput,
-                  "no basis is called '" + basis + "'; there are full and even");
-    }
-    return n_coefficients(basis == "full" ? CapBasis::kFull : CapBasis::kEven, degree);
+    return n_coefficients(parse_name<CapBasis>(basis), degree);
   });
   m.def("evaluate_cap", [](const Atlas& atlas, std::size_t i, const Rows& points) {
     if (i >= atlas.caps.size()) throw nb::index_error("no such cap");
@@ -300,10 +285,7 @@ void bind_rules(nb::module_& m) {
 void bind_models(nb::module_& m) {
   bind_rules(m);
   Record<AtlasErrors>(m, "AtlasErrors", "What a model is measured by, in the shape's unit.")
-      .field("rms_from", &AtlasErrors::rms_from, "From the shape to the model's surface.")
-      .field("max_from", &AtlasErrors::max_from, "The largest of these distances.")
-      .field("rms_to", &AtlasErrors::rms_to, "From the model's surface; 0 if the shape is points.")
-      .field("max_to", &AtlasErrors::max_to, "The largest of these.")
+      .fields()
       .property(
           "rms", [](const AtlasErrors& e) { return e.rms(); }, "The larger of both ways.")
       .property(
@@ -312,9 +294,7 @@ void bind_models(nb::module_& m) {
           "two_sided", [](const AtlasErrors& e) { return e.two_sided(); },
           "Whether both ways were measured.");
   Record<AtlasSize>(m, "AtlasSize", "How large a model is.")
-      .field("caps", &AtlasSize::caps, "Number of caps.")
-      .field("coefficients", &AtlasSize::coefficients, "Coefficients that are not zero.")
-      .field("frame_numbers", &AtlasSize::frame_numbers, "Numbers of the caps' frames.")
+      .fields()
       .property(
           "numbers", [](const AtlasSize& s) { return s.numbers(); }, "Of the whole model.");
   nb::class_<AtlasModel> model_type(m, "AtlasModel", "An atlas and what its file says of it.");
@@ -360,27 +340,9 @@ void bind_models(nb::module_& m) {
 }
 
 void bind_compress(nb::module_& m) {
-  Options<CompressOptions>(m, "CompressOptions", "What a model is to keep.")
-      .field("tolerance", &CompressOptions::tolerance)
-      .field("samples", &CompressOptions::samples)
-      .field("max_degree", &CompressOptions::max_degree)
-      .field("seed", &CompressOptions::seed)
-      .field("max_numbers", &CompressOptions::max_numbers);
+  Options<CompressOptions>(m, "CompressOptions", "What a model is to keep.").fields();
   Record<CompressReport>(m, "CompressReport", "How a model came about, and what it keeps.")
-      .field("samples", &CompressReport::samples, "That caps were fitted to.")
-      .field("turned_normals", &CompressReport::turned_normals,
-             "Whether all normals of points pointed into the solid, and were turned.")
-      .field("hidden", &CompressReport::hidden, "Share of a mesh inside of its solid, left out.")
-      .field("gap", &CompressReport::gap, "Between sheets that face each other.")
-      .field("aimed", &CompressReport::aimed, "The tolerance that was aimed at.")
-      .field("uncovered", &CompressReport::uncovered,
-             "Share of the samples that no cap met by 4 tolerances.")
-      .field("components", &CompressReport::components, "Of the extracted surface.")
-      .field("genus", &CompressReport::genus, "Of the extracted surface.")
-      .field("met", &CompressReport::met, "Whether the tolerance is kept.")
-      .field("topology_kept", &CompressReport::topology_kept,
-             "Whether the surface has as many parts and handles as the shape.")
-      .field("times", &CompressReport::times, "Stages: (wall, cpu) in seconds.");
+      .fields();
   m.def("compress", [](const Shape& shape, const CompressOptions& options, const Caller& caller) {
     Compressed result = caller.run([&](const Context& context) {
       return std::visit([&](const auto* s) { return compress(*s, options, context); }, shape);
@@ -388,10 +350,7 @@ void bind_compress(nb::module_& m) {
     return nb::make_tuple(std::move(result.model), std::move(result.report));
   });
   Options<AtlasSynthesisOptions>(m, "AtlasSynthesisOptions", "How a surface is extracted.")
-      .field("step", &AtlasSynthesisOptions::step)
-      .field("degree", &AtlasSynthesisOptions::degree)
-      .field("simplify", &AtlasSynthesisOptions::simplify)
-      .field("max_memory", &AtlasSynthesisOptions::max_memory);
+      .fields();
   m.def("synthesize_atlas", [](const AtlasModel& model, const AtlasSynthesisOptions& options,
                                const Caller& caller) {
     return caller.run([&](const Context& context) { return synthesize(model, options, context); });
@@ -420,12 +379,7 @@ void bind_compress(nb::module_& m) {
 }
 
 void bind_patch_atlas(nb::module_& m) {
-  Options<PatchAtlasOptions>(m, "PatchAtlasOptions", "The paper's parameters.")
-      .field("degree", &PatchAtlasOptions::degree)
-      .choice("extension", &PatchAtlasOptions::extension, parse_name<CapExtension>,
-              to_string<CapExtension>)
-      .field("min_cosine", &PatchAtlasOptions::min_cosine)
-      .field("overlap", &PatchAtlasOptions::overlap);
+  Options<PatchAtlasOptions>(m, "PatchAtlasOptions", "The paper's parameters.").fields();
   m.def("patch_atlas", [](const Shape& shape, const PatchAtlasOptions& options,
                           const Caller& caller) {
     PatchAtlas result = caller.run([&](const Context& context) {
@@ -436,7 +390,7 @@ void bind_patch_atlas(nb::module_& m) {
   });
   m.def("patch_picture", [](const Shape& shape, const std::string& view,
                             const PatchAtlasOptions& options, const Caller& caller) {
-    const PatchView wanted = parse_patch_view(view);
+    const PatchView wanted = parse_name<PatchView>(view);
     PatchPicture picture = caller.run([&](const Context& context) {
       return std::visit([&](const auto* s) { return patch_picture(*s, wanted, options, context); },
                         shape);

@@ -27,44 +27,13 @@ std::vector<Region> regions_of(const std::vector<std::string>& texts) {
   return regions;
 }
 
-PatchFitting parse_fitting(const std::string& name) {
-  if (name == "mean") return PatchFitting::kMean;
-  if (name == "robust") return PatchFitting::kRobust;
-  if (name == "around") return PatchFitting::kAround;
-  throw Error(ErrorCode::kInvalidInput,
-              "no fitting is called '" + name + "'; there are mean, robust and around");
-}
-
-const char* name_of(PatchFitting fitting) {
-  switch (fitting) {
-    case PatchFitting::kMean:
-      return "mean";
-    case PatchFitting::kAround:
-      return "around";
-    case PatchFitting::kRobust:
-      break;
-  }
-  return "robust";
-}
-
-TransferMode parse_mode(const std::string& name) {
-  if (name == "displacement") return TransferMode::kDisplacement;
-  if (name == "coefficients") return TransferMode::kCoefficients;
-  throw Error(ErrorCode::kInvalidInput,
-              "no mode is called '" + name + "'; there are displacement and coefficients");
-}
-
 void bind_smooth(nb::module_& m) {
   m.def("region_weights",
         [](const Mesh& mesh, const std::vector<std::string>& regions, double transition) {
           return array_of(
               unlocked([&] { return region_weights(mesh, regions_of(regions), transition); }));
         });
-  Options<PatchOptions>(m, "PatchOptions", "What is to go from a region.")
-      .field("wavelength", &PatchOptions::wavelength)
-      .field("transition", &PatchOptions::transition)
-      .choice("fitting", &PatchOptions::fitting, parse_fitting, name_of)
-      .field("repair", &PatchOptions::repair);
+  Options<PatchOptions>(m, "PatchOptions", "What is to go from a region.").fields();
   nb::class_<Patch> patch_type(m, "Patch", "The vertices that may move, and where fits want them.");
   bind_state(
       patch_type,
@@ -132,33 +101,13 @@ void bind_smooth(nb::module_& m) {
   m.def("copy_mesh", [](const Mesh& mesh) { return mesh; });
 }
 
-TransferUpdate update_of(double height, std::optional<double> angle, bool repeat, bool remove_own,
-                         const std::string& mode) {
-  return {height, angle, repeat, remove_own, parse_mode(mode)};
-}
-
 void bind_transfer(nb::module_& m) {
   Options<TransferOptions>(m, "TransferOptions", "What counts as detail, and how large it is laid.")
-      .field("from_degree", &TransferOptions::from_degree)
-      .field("scale", &TransferOptions::scale)
-      .field("refine", &TransferOptions::refine)
-      .field("find_angle", &TransferOptions::find_angle)
-      .field("transition", &TransferOptions::transition);
+      .fields();
+  Options<TransferUpdate>(m, "TransferUpdate", "What a slider moves.").fields();
   Record<TransferReport>(m, "TransferReport",
                          "What the analysis found; lengths are in the units of the two meshes.")
-      .field("source_radius", &TransferReport::source_radius,
-             "Of a disc with the area of the source's base.")
-      .field("target_radius", &TransferReport::target_radius, "Likewise of the target's.")
-      .field("scale", &TransferReport::scale, "Lengths on the target per length on the source.")
-      .field("source_wavelength", &TransferReport::source_wavelength, "Of the source's base.")
-      .field("target_wavelength", &TransferReport::target_wavelength, "Of the target's base.")
-      .field("source_edge", &TransferReport::source_edge, "Median length of an edge.")
-      .field("target_edge", &TransferReport::target_edge, "The same after refinement.")
-      .field("source_rms", &TransferReport::source_rms, "Height of the texture in its region.")
-      .field("angle", &TransferReport::angle, "Of best correlation, radians.")
-      .field("correlation", &TransferReport::correlation,
-             "With the target's own detail there, -1 ... 1.")
-      .field("new_vertices", &TransferReport::new_vertices, "By refinement.");
+      .fields();
   nb::class_<TransferSource>(m, "TransferSource", "A texture taken from its source.")
       .def_ro("from_degree", &TransferSource::from_degree)
       .def_ro("radius", &TransferSource::radius)
@@ -184,23 +133,15 @@ void bind_transfer(nb::module_& m) {
             return analyze_transfer(source, target, laid, options, context);
           });
         });
+  m.def("update_transfer",
+        [](const TransferAnalysis& analysis, const TransferUpdate& wanted, const Caller& caller) {
+          return array_of(caller.run([&](const Context&) { return update(analysis, wanted); }));
+        });
   m.def(
-      "update_transfer",
-      [](const TransferAnalysis& analysis, double height, std::optional<double> angle, bool repeat,
-         bool remove_own, const std::string& mode, const Caller& caller) {
-        const TransferUpdate wanted = update_of(height, angle, repeat, remove_own, mode);
-        return array_of(caller.run([&](const Context&) { return update(analysis, wanted); }));
-      },
-      nb::arg(), nb::arg(), nb::arg().none(), nb::arg(), nb::arg(), nb::arg(), nb::arg());
-  m.def(
-      "apply_transfer_in_place",
-      [](const TransferAnalysis& analysis, double height, std::optional<double> angle, bool repeat,
-         bool remove_own, const std::string& mode, Mesh& mesh, const Caller& caller) {
-        const TransferUpdate wanted = update_of(height, angle, repeat, remove_own, mode);
+      "apply_transfer_in_place", [](const TransferAnalysis& analysis, const TransferUpdate& wanted,
+                                    Mesh& mesh, const Caller& caller) {
         caller.run([&](const Context&) { apply(analysis.patch, update(analysis, wanted), mesh); });
-      },
-      nb::arg(), nb::arg(), nb::arg().none(), nb::arg(), nb::arg(), nb::arg(), nb::arg(),
-      nb::arg());
+      });
 }
 
 }  // namespace

@@ -63,20 +63,7 @@ void bind_render(nb::module_& m) {
           },
           nb::arg(), nb::arg(), nb::arg(), nb::arg().none(), nb::arg().none(),
           nb::keep_alive<1, 2>());
-  Options<RenderOptions>(m, "RenderOptions", "Size, point of view, light and colours.")
-      .field("width", &RenderOptions::width)
-      .field("height", &RenderOptions::height)
-      .field("perspective", &RenderOptions::perspective)
-      .field("fit_each", &RenderOptions::fit_each)
-      .field("view_direction", &RenderOptions::view_direction)
-      .field("up", &RenderOptions::up)
-      .field("samples", &RenderOptions::samples)
-      .field("occlusion_rays", &RenderOptions::occlusion_rays)
-      .field("fine", &RenderOptions::fine)
-      .field("scale_min", &RenderOptions::scale_min)
-      .field("scale_max", &RenderOptions::scale_max)
-      .field("scale_bar", &RenderOptions::scale_bar)
-      .field("scale_label", &RenderOptions::scale_label);
+  Options<RenderOptions>(m, "RenderOptions", "Size, point of view, light and colours.").fields();
   m.def("render", [](const std::vector<const Panel*>& panels, const RenderOptions& options,
                      const Caller& caller) {
     std::vector<Panel> all;
@@ -109,14 +96,7 @@ void bind_render(nb::module_& m) {
 
 void bind_pages(nb::module_& m) {
   Options<ReportOptions>(m, "ReportOptions", "What a page says beside its figures.")
-      .field("title", &ReportOptions::title)
-      .field("shape_name", &ReportOptions::shape_name)
-      .field("notes", &ReportOptions::notes)
-      .field("tolerance", &ReportOptions::tolerance)
-      .field("weld_tolerance", &ReportOptions::weld_tolerance)
-      .field("picture_size", &ReportOptions::picture_size)
-      .field("file_bytes", &ReportOptions::file_bytes)
-      .field("viewer", &ReportOptions::viewer)
+      .fields()
       .type()
       .def("set_commands", [](ReportOptions& options,
                               const std::vector<std::pair<std::string, std::string>>& commands) {

@@ -2,6 +2,7 @@
 
 #include <nanobind/stl/pair.h>
 
+#include <cmath>
 #include <utility>
 
 #include "rholm/error.h"
@@ -63,6 +64,10 @@ nb::dict field_dict(const FieldInfo& info, const nb::object& by_default, const s
   field["choices"] = nb::tuple(nb::cast(choices));
   field["default"] =
       choices.empty() ? by_default : nb::cast(choices[nb::cast<std::size_t>(by_default)]);
+  field["keyword"] = info.in_python;
+  const bool bounded = std::isfinite(info.least) && std::isfinite(info.most);
+  field["bounds"] = bounded ? nb::make_tuple(info.least, info.most) : nb::tuple();
+  field["may_be_zero"] = info.may_be_zero;
   field["unit"] = info.unit == FieldUnit::kLength  ? "length"
                   : info.unit == FieldUnit::kBytes ? "bytes"
                                                    : "";

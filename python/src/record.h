@@ -183,7 +183,7 @@ class Record {
 };
 
 // What a field takes, for the documents: "bool", "number", "whole number", "point", "text", "path",
-// "choice", "options"; "optional " before it if it may be missing.
+// "texts", "choice", "options"; "optional " before it if it may be missing.
 template <class V>
 std::string kind_of() {
   if constexpr (kIsOptional<V>) {
@@ -202,6 +202,8 @@ std::string kind_of() {
     return "point";
   } else if constexpr (std::is_same_v<V, std::filesystem::path>) {
     return "path";
+  } else if constexpr (std::is_same_v<V, std::vector<std::string>>) {
+    return "texts";
   } else {
     static_assert(std::is_same_v<V, std::string>);
     return "text";

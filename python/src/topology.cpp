@@ -25,72 +25,15 @@ using Polygons = nb::ndarray<const std::uint32_t, nb::ndim<2>, nb::c_contig, nb:
 
 void bind_records(nb::module_& m) {
   Record<Bounds>(m, "Bounds", "A box along the axes.")
-      .field("min", &Bounds::min, "The corner with the smallest coordinates, (3,) float64.")
-      .field("max", &Bounds::max, "The corner with the largest, (3,) float64.")
+      .fields()
       .property(
           "diagonal", [](const Bounds& b) { return b.diagonal(); }, "Its length.");
   Record<Inspection>(
       m, "Inspection",
       "What a mesh is. Counts are those of the mesh given: weld first to close seams.")
-      .field("vertices", &Inspection::vertices, "Number of vertices, used or not.")
-      .field("triangles", &Inspection::triangles, "Number of triangles, with an area or not.")
-      .field("edges", &Inspection::edges, "Pairs of vertices that a triangle joins.")
-      .field("boundary_edges", &Inspection::boundary_edges, "Edges in one triangle only.")
-      .field("non_manifold_edges", &Inspection::non_manifold_edges,
-             "Edges in three triangles or more.")
-      .field("misoriented_edges", &Inspection::misoriented_edges,
-             "Edges in two triangles that run through them in the same sense.")
-      .field("non_manifold_vertices", &Inspection::non_manifold_vertices,
-             "Vertices whose triangles do not form one fan.")
-      .field("isolated_vertices", &Inspection::isolated_vertices, "Vertices in no triangle.")
-      .field("degenerate_triangles", &Inspection::degenerate_triangles,
-             "Triangles thinner than the rounding of their coordinates.")
-      .field("duplicate_triangles", &Inspection::duplicate_triangles,
-             "Triangles with the three vertices of an earlier one.")
-      .field("components", &Inspection::components, "Parts connected through edges.")
-      .field("euler_characteristic", &Inspection::euler_characteristic,
-             "Used vertices - edges + triangles.")
-      .field("genus", &Inspection::genus,
-             "Handles, of all parts together; of closed manifold meshes.")
-      .field("closed", &Inspection::closed, "No boundary edge, at least one triangle.")
-      .field("manifold", &Inspection::manifold, "No non-manifold edge or vertex.")
-      .field("oriented", &Inspection::oriented, "No misoriented edge.")
-      .field("inside_out", &Inspection::inside_out,
-             "Closed and oriented, but the enclosed volume is negative.")
-      .field("bounds", &Inspection::bounds, "Of all vertices.")
-      .field("area", &Inspection::area, "Of all triangles, in the squared unit of the vertices.")
-      .field("volume", &Inspection::volume, "Signed, of closed oriented meshes, in the cubed unit.")
-      .field("vertex_centroid", &Inspection::vertex_centroid, "Mean of the used vertices, (3,).")
-      .field("volume_centroid", &Inspection::volume_centroid, "Of the solid, (3,).");
+      .fields();
   Record<RepairReport>(m, "RepairReport", "What was done to a mesh, and what could not be.")
-      .field("before", &RepairReport::before, "Inspection of the mesh welded exactly.")
-      .field("merged_vertices", &RepairReport::merged_vertices, "Vertices merged by welding.")
-      .field("collapsed_triangles", &RepairReport::collapsed_triangles,
-             "Triangles of which welding made two corners one.")
-      .field("isolated_vertices", &RepairReport::isolated_vertices,
-             "Vertices dropped: in no triangle.")
-      .field("duplicate_triangles", &RepairReport::duplicate_triangles,
-             "Triangles dropped: same vertices as an earlier one.")
-      .field("degenerate_triangles", &RepairReport::degenerate_triangles,
-             "Triangles thinner than rounding, dropped or swapped.")
-      .field("junctions", &RepairReport::junctions,
-             "Vertices on edges of others' triangles (T-junctions), joined.")
-      .field("flipped_triangles", &RepairReport::flipped_triangles, "Triangles that were turned.")
-      .field("inside_out_parts", &RepairReport::inside_out_parts,
-             "Closed parts that were turned as a whole.")
-      .field("cavities", &RepairReport::cavities, "Closed parts within another: they face inwards.")
-      .field("split_vertices", &RepairReport::split_vertices,
-             "New vertices where sheets met in one.")
-      .field("closed_holes", &RepairReport::closed_holes, "Holes closed by new triangles.")
-      .field("hole_triangles", &RepairReport::hole_triangles, "Triangles put into them.")
-      .field("large_holes", &RepairReport::large_holes, "Holes left: more edges than allowed.")
-      .field("largest_hole", &RepairReport::largest_hole, "Edges of the largest of these.")
-      .field("sheets", &RepairReport::sheets, "Holes left: borders of open sheets.")
-      .field("one_sided_parts", &RepairReport::one_sided_parts,
-             "Parts left without an orientation (Moebius strips).")
-      .field("closes_at", &RepairReport::closes_at,
-             "The tolerance of welding that would join the borders left, or None.")
-      .field("after", &RepairReport::after, "Inspection of the result.");
+      .fields();
 }
 
 void bind_edges(nb::module_& m) {
@@ -133,10 +76,10 @@ void bind_edges(nb::module_& m) {
 }
 
 void bind_repair(nb::module_& m) {
-  m.def("repair", [](const Mesh& mesh, double weld, std::size_t max_hole, const Caller& caller) {
-    Repaired repaired = caller.run([&](const Context& context) {
-      return repair(mesh, {.weld = weld, .max_hole = max_hole}, context);
-    });
+  Options<RepairOptions>(m, "RepairOptions", "What may be done to a mesh.").fields();
+  m.def("repair", [](const Mesh& mesh, const RepairOptions& options, const Caller& caller) {
+    Repaired repaired =
+        caller.run([&](const Context& context) { return repair(mesh, options, context); });
     return nb::make_tuple(std::move(repaired.mesh), repaired.report);
   });
   Options<SimplifyOptions>(m, "SimplifyOptions", "Where simplify() stops.").fields();

@@ -177,17 +177,36 @@ def test_the_types_of_tables_are_those_of_the_library(tmp_path):
     [
         (rholm._core.ReconstructOptions, rholm.reconstruct),
         (rholm._core.ReconstructOptions, rholm.reconstruct_bricks),
+        (rholm._core.RepairOptions, rholm.repair),
+        (rholm._core.CompressOptions, rholm.compress),
+        (rholm._core.PatchAtlasOptions, rholm.patch_atlas),
+        (rholm._core.AtlasSynthesisOptions, rholm.Atlas.mesh),
+        (rholm._core.MonteCarloOptions, rholm.monte_carlo),
+        (rholm._core.PatchOptions, rholm.smooth),
+        (rholm._core.PatchOptions, rholm.analyze_patch),
+        (rholm._core.TransferOptions, rholm.analyze_transfer),
+        (rholm._core.TransferOptions, rholm.transfer),
+        (rholm._core.TransferUpdate, rholm.transfer),
+        (rholm._core.RenderOptions, rholm.render),
+        (rholm._core.ReportOptions, rholm.report_html),
     ],
 )
 def test_options_are_arguments_with_their_defaults_and_documents(kind, function):
     parameters = inspect.signature(function).parameters
-    for field in kind.FIELDS:
+    for field in (field for field in kind.FIELDS if field["keyword"]):
         parameter = parameters[field["name"]]
         assert parameter.kind is parameter.KEYWORD_ONLY
         missing = field["kind"].startswith("optional ")
         assert parameter.default == (None if missing else field["default"])
         words = " ".join(inspect.getdoc(function).split())
         assert field["help"][1:] in words
+
+
+def test_bounds_of_options_are_in_the_documents():
+    words = " ".join(inspect.getdoc(rholm.compress).split())
+    assert "Within 2 ... 24." in words
+    assert "Within 1000 ... 100000000, or 0." in words
+    assert "Within 1e-08 ... 1." in " ".join(inspect.getdoc(rholm.monte_carlo).split())
 
 
 @public
@@ -207,6 +226,13 @@ def test_options_are_in_the_program_and_on_the_reference_page(program):
 def test_an_option_that_there_is_not_is_refused_by_its_name():
     with pytest.raises(TypeError, match=r"reconstruct\(\).*'tolerence'"):
         rholm.reconstruct(rholm.bumpy_sphere(3).vertices, tolerence=1)
+    with pytest.raises(TypeError, match=r"transfer\(\).*'hight'"):
+        rholm.transfer(rholm.bumpy_sphere(3), None, rholm.bumpy_sphere(3), None, hight=1)
+
+
+def test_a_field_that_a_function_says_another_way_is_no_argument_of_it():
+    with pytest.raises(TypeError, match=r"render\(\).*'width'"):
+        rholm.render(rholm.icosphere(1), width=16)
 
 
 def test_nothing_optional_is_imported():

@@ -1,11 +1,13 @@
 #include "rholm/smooth.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
 
+#include "base/check_fields.h"
 #include "base/refuse.h"
 #include "edit/patch/patch_blend.h"
 #include "edit/patch/rim_detail.h"
@@ -60,9 +62,6 @@ Bounds bounds_of_weights(const Mesh& mesh, std::span<const double> weights) {
 
 void check_mesh(const Mesh& mesh, double wavelength) {
   validate(mesh);
-  if (!(wavelength > 0) || !std::isfinite(wavelength)) {
-    refuse(fmt::format("the wavelength must be positive, not {:g}", wavelength));
-  }
   const Bounds box = bounds(mesh.vertices);
   const double diagonal = box.diagonal();
   if (!(diagonal < kLargest) || !(wavelength > 1 / kLargest) || !(wavelength < kLargest)) {
@@ -88,7 +87,7 @@ void ignore_regions(const Mesh& mesh, std::span<const Region> regions, double ri
 }
 
 Site make_site(const Mesh& mesh, std::span<const Region> regions, const PatchOptions& options) {
-  const double transition = options.transition < 0 ? options.wavelength : options.transition;
+  const double transition = options.transition.value_or(options.wavelength);
   const std::vector<double> weights = region_weights(mesh, regions, transition);
   Bounds box = bounds_of_weights(mesh, weights);
   const double reach = kPatchRadius * options.wavelength;
@@ -137,8 +136,14 @@ void check_bridged(const Site& site, double wavelength) {
 
 }  // namespace
 
+EnumNames names_of(PatchFitting) {
+  static constexpr std::array kNames = {"mean", "robust", "around"};
+  return {"fitting", kNames};
+}
+
 Patch analyze_patch(const Mesh& mesh, std::span<const Region> regions, const PatchOptions& options,
                     const Context& context) {
+  check_fields(options);
   check_mesh(mesh, options.wavelength);
   if (regions.empty()) refuse("there is no region to work on; give one");
   Site site = make_site(mesh, regions, options);

@@ -1,12 +1,14 @@
 #include "rholm/transfer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <mutex>
 #include <numbers>
 
 #include <fmt/format.h>
 
+#include "base/check_fields.h"
 #include "base/refuse.h"
 #include "edit/texture/cap_swap.h"
 #include "edit/texture/refine.h"
@@ -27,20 +29,6 @@ constexpr double kTransition = 0.25;
 // half an edge apart, and heights between them cubic.
 constexpr double kRefined = 1;
 
-void check_from_degree(int degree) {
-  if (degree < 2 || degree > kMaxTransferDegree) {
-    refuse(fmt::format("the degree above which the detail begins is {}; it must be within 2 ... {}",
-                       degree, kMaxTransferDegree));
-  }
-}
-
-void check_options(const TransferOptions& o) {
-  check_from_degree(o.from_degree);
-  if (!(o.scale > 0) || !(o.scale < 1e6)) {
-    refuse(fmt::format("the scale must be within 0 ... 1e6, not {:g}", o.scale));
-  }
-}
-
 void check_update(const TransferUpdate& u, int from_degree) {
   if (u.mode == TransferMode::kCoefficients && from_degree >= kMaxSwapDegree) {
     refuse(
@@ -48,9 +36,7 @@ void check_update(const TransferUpdate& u, int from_degree) {
                     "take a degree below {}",
                     kMaxSwapDegree, from_degree, kMaxSwapDegree));
   }
-  if (!std::isfinite(u.height) || (u.angle && !std::isfinite(*u.angle))) {
-    refuse("height and angle must be finite");
-  }
+  check_fields(u);
 }
 
 double median_edge(const TexturedPatch& textured) {
@@ -165,9 +151,14 @@ struct TransferState {
   TransferOptions options;
 };
 
+EnumNames names_of(TransferMode) {
+  static constexpr std::array kNames = {"displacement", "coefficients"};
+  return {"mode of transfer", kNames};
+}
+
 TransferSource analyze_source(const Mesh& source, std::span<const Region> from, int from_degree,
                               const Context& context) {
-  check_from_degree(from_degree);
+  check_fields(TransferOptions{.from_degree = from_degree});
   validate(source);
   if (from.empty()) refuse("a source region is needed");
   if (const auto turned = turned_outwards(source)) {
@@ -191,7 +182,7 @@ TransferSource analyze_source(const Mesh& source, std::span<const Region> from, 
 TransferAnalysis analyze_transfer(const TransferSource& source, const Mesh& target,
                                   std::span<const Region> to, const TransferOptions& options,
                                   const Context& context) {
-  check_options(options);
+  check_fields(options);
   validate(target);
   if (!source.state) refuse("the source has no texture: analyze_source() takes one");
   if (options.from_degree != source.from_degree) {
@@ -216,7 +207,7 @@ TransferAnalysis analyze_transfer(const TransferSource& source, const Mesh& targ
   const double wanted = report.source_wavelength * about;
   std::vector<Region> regions(to.begin(), to.end());
   const double transition =
-      options.transition < 0 ? std::min(wanted, kTransition * target_radius) : options.transition;
+      options.transition.value_or(std::min(wanted, kTransition * target_radius));
   Mesh& mesh = analysis.mesh;
   if (options.refine) {
     report.new_vertices =
@@ -250,7 +241,7 @@ TransferAnalysis analyze_transfer(const TransferSource& source, const Mesh& targ
 TransferAnalysis analyze_transfer(const Mesh& source, std::span<const Region> from,
                                   const Mesh& target, std::span<const Region> to,
                                   const TransferOptions& options, const Context& context) {
-  check_options(options);  // before the work
+  check_fields(options);  // before the work
   return analyze_transfer(analyze_source(source, from, options.from_degree, context), target, to,
                           options, context);
 }

@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "rholm/error.h"
 #include "studio/step.h"
 
 namespace rholm::studio {
@@ -18,15 +19,12 @@ SmoothWish smooth_in(const Json& request) {
   wish.options.wavelength = number_of(request, "wavelength");
   wish.options.repair = flag_of(request, "repair");
   wish.strength = number_or(request, "strength", 1);
-  wish.fitting = string_or(request, "fitting", "robust");
-  if (wish.fitting == "mean") {
-    wish.options.fitting = PatchFitting::kMean;
-  } else if (wish.fitting == "around") {
-    wish.options.fitting = PatchFitting::kAround;
-  } else if (wish.fitting != "robust") {
-    throw bad_request("the field 'fitting' must be robust, mean or around");
+  try {
+    wish.options.fitting = parse_name<PatchFitting>(string_or(request, "fitting", "robust"));
+  } catch (const Error& error) {
+    throw bad_request(error.what());
   }
-  if (wish.options.repair && wish.fitting == "mean") {
+  if (wish.options.repair && wish.options.fitting == PatchFitting::kMean) {
     throw bad_request("'repair' needs a fitting that knows what stands out, not mean");
   }
   return wish;

@@ -14,7 +14,6 @@ namespace rholm::studio {
 struct SmoothWish {
   std::vector<std::string> regions;
   PatchOptions options;
-  std::string fitting;  // "robust", "mean", "around"
   double strength = 1;
 };
 // Throws Refusal 400.

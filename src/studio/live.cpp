@@ -109,8 +109,8 @@ Response Live::brush(const Json& request, const Document& document) const {
 Response Live::smooth(const Json& request, const Document& document) {
   const ItemPtr item = item_with_mesh(request, "item", document);
   const SmoothWish wish = smooth_in(request);
-  const std::string key =
-      fmt::format("{} {} {}", fmt::join(wish.regions, " "), wish.fitting, wish.options.repair);
+  const std::string key = fmt::format("{} {} {}", fmt::join(wish.regions, " "),
+                                      to_string(wish.options.fitting), wish.options.repair);
   const double wavelength = wish.options.wavelength;
   const bool usable = patch_.analysis && patch_.key == key && patch_.of[0] == item->shown &&
                       wavelength >= patch_.analysis->wavelength &&

@@ -263,17 +263,18 @@ std::string region_options(const char* name, const std::vector<std::string>& reg
 void smooth(Reading& r) {
   const Named from = r.used("from"), made = r.made();
   const SmoothWish wish = smooth_in(r.step);
-  const bool robust = wish.fitting == "robust", full = wish.strength == 1;
+  const bool robust = wish.options.fitting == PatchFitting::kRobust, full = wish.strength == 1;
+  const std::string fitting = to_string(wish.options.fitting);
   const bool repair = wish.options.repair;
   r.say(made,
         fmt::format("rholm smooth {}{} --wavelength {}{}{}{}", shell_word(from.file),
                     region_options("region", wish.regions), digits(wish.options.wavelength),
                     full ? "" : fmt::format(" --strength={}", wish.strength),
-                    robust ? "" : " --fit " + wish.fitting, repair ? " --repair" : ""),
+                    robust ? "" : " --fitting " + fitting, repair ? " --repair" : ""),
         fmt::format("rholm.smooth({}, {}, {}{}{}{})", from.variable, python_list(wish.regions),
                     digits(wish.options.wavelength),
                     full ? "" : fmt::format(", strength={}", wish.strength),
-                    robust ? "" : ", fitting=" + python_text(wish.fitting),
+                    robust ? "" : ", fitting=" + python_text(fitting),
                     repair ? ", repair=True" : ""));
 }
 

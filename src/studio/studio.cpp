@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/check_fields.h"
 #include "base/large_vector.h"
 #include "rholm/context.h"
 #include "rholm/error_info.h"
@@ -137,7 +138,10 @@ StudioResponse Studio::State::answer_in(studio::Session& session, const StudioRe
   throw unknown_path(request);
 }
 
-Studio::Studio(StudioOptions options) : state_(std::make_unique<State>(std::move(options))) {}
+Studio::Studio(StudioOptions options) {
+  check_fields(options);
+  state_ = std::make_unique<State>(std::move(options));
+}
 Studio::~Studio() { close(); }
 
 StudioResponse Studio::handle(const StudioRequest& request) {

@@ -194,7 +194,7 @@ class Degenerate(CliTest):
                 for fit in self.variants(name, "robust", "mean", "around"):
                     with self.subTest(f"{name} {region} {fit}"):
                         self.check(EITHER, "smooth", name, "--region", region, "--wavelength", "2",
-                                   "--fit", fit, output="out.ply")
+                                   "--fitting", fit, output="out.ply")
 
     def test_transfer(self):
         for name in SHAPES:

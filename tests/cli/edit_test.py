@@ -56,7 +56,7 @@ class Smooth(CliTest):
             lines[start + i] = " ".join(map(repr, xyz)) + (" 255 0 0" if spike else " 9 9 9")
         self.write("spike.ply", "\n".join(lines) + "\n")
         self.rholm("make", "sphere", "-o", "s.ply")
-        for words in (["--region", "color:ff0000", "--fit", "around"],
+        for words in (["--region", "color:ff0000", "--fitting", "around"],
                       ["--region", "vertex:100,0.3", "--repair"]):
             self.rholm("smooth", "spike.ply", *words, "--wavelength", "0.3", "-o", "mended.ply")
             compared = self.rholm("compare", "mended.ply", "s.ply", "--json").json()
@@ -76,7 +76,7 @@ class Smooth(CliTest):
                 (["--region", "ball:0,0,9,1", "--wavelength", "1"], 3, "nearest"),
                 (["--region", "ball:0,0,1,1", "--wavelength", "1e-3"], 3, "wavelength"),
                 (["--region", "property:w", "--wavelength", "1"], 3, "'w'"),
-                ([*self.region, "--fit", "mean", "--repair"], 2, "--repair"),
+                ([*self.region, "--fitting", "mean", "--repair"], 2, "--repair"),
                 ([*self.region, "--format", "xyz"], 2, "--format")):
             result = self.rholm("smooth", "a.ply", *words, "-o", "b.ply", code=code)
             self.assertIn(saying, result.err)

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -72,6 +73,19 @@ TEST(field_options, refuse_what_is_out_of_bounds) {
                                                 {"--threads", "-1"}}) {
     EXPECT_THROW(parsed(words), UsageError) << words[0] << " " << words[1];
   }
+}
+
+TEST(field_option_of, has_the_bounds_of_its_field) {
+  Outer values;
+  Command command;
+  command.options = {field_option_of(values, "count")};
+  CommonOptions common;
+  const auto take = [&](const std::vector<std::string>& words) { parse(command, words, common); };
+  take({"--count", "7"});
+  EXPECT_EQ(values.count, 7);
+  EXPECT_THROW(take({"--count", "10"}), UsageError);
+  EXPECT_THROW(take({"--flag"}), UsageError);
+  EXPECT_THROW(field_option_of(values, "counts"), std::logic_error);
 }
 
 TEST(scale_lengths, turns_parts_of_the_diagonal_into_lengths) {

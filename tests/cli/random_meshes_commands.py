@@ -103,9 +103,9 @@ def edited(trial):
     trial.do("smooth --repair", "smooth", m, "--region", near, *wavelength, "--repair", "--json",
              out="repaired.ply")
     all_of_it = f"ball:0,0,0,{2 * trial.farthest!r}"
-    trial.do("smooth all", "smooth", m, "--region", all_of_it, *wavelength, "--fit", "mean",
+    trial.do("smooth all", "smooth", m, "--region", all_of_it, *wavelength, "--fitting", "mean",
              "--strength", trial.one_of("0.5", "-1"), out="all.off")
-    trial.do("smooth around", "smooth", m, "--region", far, *wavelength, "--fit", "around",
+    trial.do("smooth around", "smooth", m, "--region", far, *wavelength, "--fitting", "around",
              out="around.off")
     regions = ("--from", m, "--from-region", near, "--to", m, "--to-region", far,
                "--from-degree", "3")

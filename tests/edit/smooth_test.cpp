@@ -287,6 +287,7 @@ TEST(Smooth, what_cannot_be_done_is_refused) {
     EXPECT_THROW(patch_of(mesh, ball, {.wavelength = wavelength}), Error) << wavelength;
   }
   EXPECT_THROW(analyze_patch(mesh, {}, {.wavelength = 1}), Error);
+  EXPECT_THROW(patch_of(mesh, ball, {.wavelength = 1, .transition = -1}), Error);
   EXPECT_THROW(patch_of({}, ball, {.wavelength = 1}), Error);
   EXPECT_THROW(patch_of(mesh, ball, {.wavelength = 0.5, .fitting = PatchFitting::kAround}), Error);
   Mesh faint = mesh;

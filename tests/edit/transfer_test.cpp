@@ -352,7 +352,8 @@ TEST(Transfer, what_cannot_be_done_is_refused) {
   for (const TransferOptions& options :
        {TransferOptions{.from_degree = 1}, TransferOptions{.from_degree = 1000},
         TransferOptions{.from_degree = 60},  // finer than the mesh
-        TransferOptions{.scale = 0}, TransferOptions{.scale = std::nan("")}}) {
+        TransferOptions{.scale = 0}, TransferOptions{.scale = std::nan("")},
+        TransferOptions{.transition = -1}}) {
     EXPECT_THROW(transfer(mesh, disc, mesh, disc, options), Error);
   }
   for (const TransferUpdate& wanted :

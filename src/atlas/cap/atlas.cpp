@@ -9,6 +9,11 @@
 
 namespace rholm {
 
+EnumNames names_of(CapBasis) {
+  static constexpr std::array kNames = {"full", "even"};
+  return {"basis of a cap", kNames};
+}
+
 EnumNames names_of(CapBlend) {
   static constexpr std::array kNames = {"smooth", "spline"};
   return {"blend of caps", kNames};

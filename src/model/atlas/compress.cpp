@@ -11,6 +11,7 @@
 
 #include "atlas/compress/cap_greedy.h"
 #include "atlas/compress/cap_prune.h"
+#include "base/check_fields.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "harmonic/legendre/low_harmonics.h"
@@ -61,27 +62,12 @@ constexpr Overlap kOverlaps[] = {{1.15, 1, false}, {1, 3, true}};
 // tolerance. One of more than this times the numbers allowed is given up before it is fitted.
 constexpr std::size_t kDropped = 2;
 
+static_assert(kMaxCapDegree == kMaxLowDegree);
+
 // A level has as many faces as its error needs: faces may leave this part of what the degrees left
 // out make. The fit of a level leaves half of that or more (compress_test), so faces add 2 % at
 // most.
 constexpr double kLevelError = 0.1;
-
-void check(const CompressOptions& options) {
-  const auto refuse = [](const char* what, double value, const std::string& limit) {
-    throw Error(ErrorCode::kInvalidInput,
-                fmt::format("{} is {}: it must be {}", what, value, limit));
-  };
-  if (!(options.tolerance > 0) || !std::isfinite(options.tolerance)) {
-    refuse("the tolerance", options.tolerance, "positive");
-  }
-  if (options.max_degree < 2 || options.max_degree > kMaxLowDegree) {
-    refuse("the highest degree", options.max_degree, fmt::format("2 ... {}", kMaxLowDegree));
-  }
-  if (options.samples != 0 && (options.samples < 1000 || options.samples > kMaxSamples)) {
-    refuse("the number of samples", static_cast<double>(options.samples),
-           fmt::format("1000 ... {}", kMaxSamples));
-  }
-}
 
 // What a shape is to compress().
 struct Subject {
@@ -268,7 +254,7 @@ AtlasSize size_of(const Atlas& atlas) {
 }
 
 Compressed compress(const Mesh& mesh, const CompressOptions& options, const Context& context) {
-  check(options);
+  check_fields(options);
   validate(mesh);
   check_span(bounds(mesh.vertices).diagonal());
   const Outward shape = outward(mesh);
@@ -301,7 +287,7 @@ Compressed compress(const Mesh& mesh, const CompressOptions& options, const Cont
 
 Compressed compress(const PointCloud& cloud, const CompressOptions& options,
                     const Context& context) {
-  check(options);
+  check_fields(options);
   check_oriented(cloud);
   check_span(bounds(cloud.points).diagonal());
   OrientedPoints samples = oriented_points(cloud.points, cloud.normals);
@@ -325,6 +311,7 @@ Compressed compress(const PointCloud& cloud, const CompressOptions& options,
 
 Mesh synthesize(const AtlasModel& model, const AtlasSynthesisOptions& options,
                 const Context& context) {
+  check_fields(options);
   const double step = options.step > 0 ? options.step : model.step;
   if (!(step > 0) || !std::isfinite(step)) {
     throw Error(ErrorCode::kInvalidInput,
@@ -340,8 +327,7 @@ Mesh synthesize(const AtlasModel& model, const AtlasSynthesisOptions& options,
   if (options.degree && *options.degree < highest_degree(atlas)) {
     const Mesh whole = extract_atlas(atlas, own, context).mesh;
     if (!whole.triangles.empty()) {
-      const AtlasLevel level =
-          LevelMaker(atlas, whole, context).usable_at(std::max(0, *options.degree));
+      const AtlasLevel level = LevelMaker(atlas, whole, context).usable_at(*options.degree);
       const bool as_it_needs = !options.simplify && options.step == 0 && level.lost > 0;
       if (as_it_needs) wanted.simplify = SimplifyOptions{.max_error = kLevelError * level.lost};
       surface = level_surface(level.atlas, whole, wanted, context);

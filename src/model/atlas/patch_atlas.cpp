@@ -1,6 +1,7 @@
 #include "rholm/patch_atlas.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -9,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "atlas/cap/cap_support.h"
+#include "base/check_fields.h"
 #include "base/parallel.h"
-#include "harmonic/legendre/low_harmonics.h"
 #include "model/atlas/atlas_errors.h"
 #include "model/file/atlas_pack.h"
 #include "model/points/oriented_points.h"
@@ -32,17 +33,6 @@ constexpr double kPrecision = 1e-8;
 constexpr double kLeastCosine = 0.1;
 // The edge of the grid's cubes over the distance between points.
 constexpr double kStepSpacings = 1;
-
-void check(const PatchAtlasOptions& options) {
-  const auto check = [](const char* what, double value, double low, double high) {
-    if (value >= low && value <= high) return;
-    throw Error(ErrorCode::kInvalidInput,
-                fmt::format("{} is {}: it must be {} ... {}", what, value, low, high));
-  };
-  check("the degree of a cap", options.degree, 0, kMaxLowDegree);
-  check("the least cosine of a patch", options.min_cosine, 0, 1);
-  check("the overlap of cells", options.overlap, 1, 4);
-}
 
 // In local units: moduli of about 1, normals of length 1.
 struct Points {
@@ -305,29 +295,14 @@ PatchPicture picture_of(const std::vector<Vec3>& points, const std::vector<Vec3>
 
 }  // namespace
 
-const char* to_string(PatchView view) {
-  switch (view) {
-    case PatchView::kPatches:
-      return "patches";
-    case PatchView::kTriangles:
-      return "triangles";
-    case PatchView::kSpheres:
-      return "spheres";
-  }
-  return "unknown";
-}
-
-PatchView parse_patch_view(const std::string& name) {
-  for (const PatchView view : {PatchView::kPatches, PatchView::kTriangles, PatchView::kSpheres}) {
-    if (name == to_string(view)) return view;
-  }
-  throw Error(ErrorCode::kInvalidInput,
-              "unknown view '" + name + "': patches, triangles or spheres");
+EnumNames names_of(PatchView) {
+  static constexpr std::array kNames = {"patches", "triangles", "spheres"};
+  return {"view of patches", kNames};
 }
 
 PatchPicture patch_picture(const Mesh& mesh, PatchView view, const PatchAtlasOptions& options,
                            const Context& context) {
-  check(options);
+  check_fields(options);
   validate(mesh);
   check_span(bounds(mesh.vertices).diagonal());
   const Mesh welded = outward(mesh).welded.mesh;
@@ -337,14 +312,14 @@ PatchPicture patch_picture(const Mesh& mesh, PatchView view, const PatchAtlasOpt
 
 PatchPicture patch_picture(const PointCloud& cloud, PatchView view,
                            const PatchAtlasOptions& options, const Context& context) {
-  check(options);
+  check_fields(options);
   check_oriented(cloud);
   check_span(bounds(cloud.points).diagonal());
   return picture_of(cloud.points, cloud.normals, view, options, context);
 }
 
 PatchAtlas patch_atlas(const Mesh& mesh, const PatchAtlasOptions& options, const Context& context) {
-  check(options);
+  check_fields(options);
   validate(mesh);
   check_span(bounds(mesh.vertices).diagonal());
   const Mesh welded = outward(mesh).welded.mesh;
@@ -356,7 +331,7 @@ PatchAtlas patch_atlas(const Mesh& mesh, const PatchAtlasOptions& options, const
 
 PatchAtlas patch_atlas(const PointCloud& cloud, const PatchAtlasOptions& options,
                        const Context& context) {
-  check(options);
+  check_fields(options);
   check_oriented(cloud);
   check_span(bounds(cloud.points).diagonal());
   PatchAtlas made = make_all(cloud.points, cloud.normals, options, context);

@@ -1,10 +1,11 @@
 #include "rholm/monte_carlo.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
 
+#include "base/check_fields.h"
 #include "base/compensated_sum.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
@@ -16,31 +17,6 @@
 
 namespace rholm {
 namespace {
-
-void check_samples(const char* what, std::size_t samples) {
-  if (samples < 2 || samples > kMostSamples) {
-    throw Error(ErrorCode::kInvalidInput,
-                fmt::format("{} must be between 2 and {}, not {}: the deviation needs two", what,
-                            kMostSamples, samples));
-  }
-}
-
-void check(const MonteCarloOptions& options) {
-  if (options.degree < 0 || options.degree > kMaxDegree) {
-    throw Error(ErrorCode::kInvalidInput, fmt::format("the degree must be between 0 and {}, not {}",
-                                                      kMaxDegree, options.degree));
-  }
-  if (options.samples) {
-    check_samples("the number of samples", *options.samples);
-    return;
-  }
-  check_samples("the largest number of samples", options.most_samples);
-  if (!(options.deviation >= 1e-8 && options.deviation <= 1)) {
-    throw Error(ErrorCode::kInvalidInput,
-                fmt::format("the wanted deviation must be between 1e-8 and 1, not {:g}",
-                            options.deviation));
-  }
-}
 
 double sum_of_squares(const Coefficients& f, int first_degree) {
   const std::vector<double> spectrum = power_spectrum(f);
@@ -149,20 +125,14 @@ void set_norms(const StarChart& chart, MonteCarlo& result) {
 
 }  // namespace
 
-const char* to_string(SamplePlaces places) {
-  return places == SamplePlaces::kEdges ? "monte-carlo-edge" : "monte-carlo-triangle";
-}
-
-std::optional<SamplePlaces> parse_sample_places(const std::string& method) {
-  for (const SamplePlaces places : {SamplePlaces::kEdges, SamplePlaces::kTriangles}) {
-    if (method == to_string(places)) return places;
-  }
-  return std::nullopt;
+EnumNames names_of(SamplePlaces) {
+  static constexpr std::array kNames = {"edge", "triangle"};
+  return {"places of random points", kNames};
 }
 
 MonteCarlo monte_carlo(const StarChart& chart, const MonteCarloOptions& options,
                        const Context& context) {
-  check(options);
+  check_fields(options);
   report_progress(context, "sampling", 0);
   const StarGeometry geometry = star_geometry(chart);
   const Sampler sampler = options.places == SamplePlaces::kEdges
@@ -183,7 +153,7 @@ MonteCarlo monte_carlo(const StarChart& chart, const MonteCarloOptions& options,
   result.degree_deviation = norms_of_degrees(scaled(standard_error_of(moments), unscale));
   result.expansion.coefficients = scaled(mean_of(moments), unscale);
   result.expansion.center = chart.report.center;
-  result.expansion.method = to_string(options.places);
+  result.expansion.method = std::string("monte-carlo-") + to_string(options.places);
   result.expansion.signed_sum = !chart.report.star_shaped;
   if (chart.report.star_shaped) set_norms(chart, result);
   return result;

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/check_fields.h"
 #include "base/parallel.h"
 #include "rholm/analyze.h"
 #include "rholm/error.h"
@@ -65,16 +66,7 @@ DegreeRow row_of(int degree, const Expansion& expansion, const Data& data,
 }  // namespace
 
 void check(const Mesh* shape, const ReportOptions& options) {
-  constexpr int kMin = 16, kMax = 4096;
-  if (options.picture_size < kMin || options.picture_size > kMax) {
-    throw Error(ErrorCode::kInvalidInput,
-                fmt::format("the size of the pictures is {}, it must be {} ... {} pixels",
-                            options.picture_size, kMin, kMax));
-  }
-  if (options.tolerance && !(*options.tolerance > 0)) {
-    throw Error(ErrorCode::kInvalidInput,
-                fmt::format("the tolerance is {}, it must be above 0", *options.tolerance));
-  }
+  check_fields(options);
   if (shape != nullptr && shape->triangles.empty()) {
     throw Error(ErrorCode::kInvalidInput, "the shape has no triangle: there is nothing to draw");
   }

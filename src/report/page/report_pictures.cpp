@@ -141,7 +141,7 @@ std::vector<Picture> draw_sides(const Panel& panel, int size, std::optional<Colo
     options.scale_min = scale->min;
     options.scale_max = scale->max;
   }
-  const std::array<Vec3, 2> directions = {options.view_direction, -options.view_direction};
+  const std::array<Vec3, 2> directions = {options.view, -options.view};
   std::vector<Image> sides = render_views({&panel, 1}, options, directions, context);
   for (Image& side : sides) side = cut_apart(side, 1).front();
   return pictures_of(sides, context);

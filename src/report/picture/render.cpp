@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/check_fields.h"
 #include "base/parallel.h"
 #include "base/refuse.h"
 #include "report/picture/balls.h"
@@ -27,12 +28,6 @@ constexpr double kMost = std::numeric_limits<double>::max();
 constexpr double kSmallestBall = 1e-6;
 const Color kPaper = {1, 1, 1};
 const Color kInk = {0.03f, 0.03f, 0.035f};
-
-void require_between(int value, int low, int high, const char* what) {
-  if (value >= low && value <= high) return;
-  refuse(std::string(what) + " is " + std::to_string(value) + ", it must be " +
-         std::to_string(low) + " ... " + std::to_string(high));
-}
 
 // Vertices, or points.
 const std::vector<Vec3>& places(const Panel& panel) {
@@ -75,10 +70,7 @@ void check_values(const Panel& panel) {
 }
 
 void check(std::span<const Panel> panels, const RenderOptions& options) {
-  require_between(options.width, 16, 16384, "the picture's width");
-  require_between(options.height, 16, 16384, "the picture's height");
-  require_between(options.samples, 1, 16, "the number of samples along a pixel's side");
-  require_between(options.occlusion_rays, 0, 256, "the number of occlusion rays");
+  check_fields(options);
   if (panels.empty()) refuse("a picture needs at least 1 panel");
   if (panels.size() > static_cast<std::size_t>(options.width) / 16) {
     refuse(std::to_string(panels.size()) + " panels do not fit into a width of " +
@@ -323,9 +315,9 @@ std::vector<Image> render_views(std::span<const Panel> panels, const RenderOptio
   const std::vector<Subject> subjects = make_subjects(panels, options.fit_each, context);
   std::vector<std::vector<Sight>> sights;  // by direction
   for (const Vec3& direction : directions) {
-    RenderOptions view = options;
-    view.view_direction = direction;
-    sights.push_back(make_sights(subjects, view, layout));
+    RenderOptions turned = options;
+    turned.view = direction;
+    sights.push_back(make_sights(subjects, turned, layout));
   }
 
   std::vector<Canvas> canvases(directions.size(),
@@ -368,7 +360,7 @@ std::vector<Image> render_views(std::span<const Panel> panels, const RenderOptio
 }
 
 Image render(std::span<const Panel> panels, const RenderOptions& options, const Context& context) {
-  return render_views(panels, options, {&options.view_direction, 1}, context).front();
+  return render_views(panels, options, {&options.view, 1}, context).front();
 }
 
 }  // namespace rholm

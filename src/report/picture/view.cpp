@@ -42,7 +42,7 @@ Vec3 across(const Vec3& axis) {
 
 View make_view(const RenderOptions& options, double radius) {
   View view;
-  view.forward = unit_direction(options.view_direction, "the view direction");
+  view.forward = unit_direction(options.view, "the view direction");
   const Vec3 side = cross(view.forward, unit_direction(options.up, "the upward direction"));
   // Looking along `up` there is no upright picture: any will do. 1e-9 is far above rounding.
   view.right = norm(side) > 1e-9 ? normalized(side) : across(view.forward);

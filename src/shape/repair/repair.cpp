@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "base/cancel.h"
+#include "base/check_fields.h"
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"
-#include "base/refuse.h"
 #include "shape/coordinate_error.h"
 #include "shape/face.h"
 #include "shape/normal_attributes.h"
@@ -27,7 +27,6 @@
 namespace rholm {
 namespace {
 
-constexpr std::size_t kMostHoleEdges = 500;  // chosen: closing one takes some seconds
 // Of the diagonal: copies of a vertex move so far apart. Chosen: readers that weld do not see them
 // as one, eyes do.
 constexpr double kApart = 1e-6;
@@ -280,10 +279,7 @@ class Repairer {
 }  // namespace
 
 Repaired repair(const Mesh& mesh, const RepairOptions& options, const Context& context) {
-  if (options.max_hole > kMostHoleEdges) {
-    refuse("holes of " + std::to_string(options.max_hole) + " edges are too large to be closed; " +
-           std::to_string(kMostHoleEdges) + " at most");
-  }
+  check_fields(options);
   const Welded exact = weld(mesh);
   const Welded welded = options.weld > 0 ? weld(mesh, options.weld) : exact;
   ask_cancel();

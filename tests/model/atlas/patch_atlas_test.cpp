@@ -72,7 +72,7 @@ TEST(patch_atlas, pictures_of_the_steps_lie_on_the_sphere) {
     ASSERT_EQ(picture.mesh.attributes.size(), 3U);
     EXPECT_EQ(picture.mesh.attributes[0].values.size(), picture.mesh.vertices.size());
     EXPECT_EQ(picture.mesh.vertices.size() == 3 * picture.mesh.triangles.size(), apart);
-    EXPECT_EQ(parse_patch_view(to_string(view)), view);
+    EXPECT_EQ(parse_name<PatchView>(to_string(view)), view);
   }
 }
 

@@ -438,9 +438,8 @@ TEST(monte_carlo, refuses_options_out_of_range) {
       EXPECT_EQ(error.code(), ErrorCode::kInvalidInput);
     }
   }
-  EXPECT_EQ(parse_sample_places("monte-carlo-edge"), SamplePlaces::kEdges);
-  EXPECT_EQ(parse_sample_places("monte-carlo-triangle"), SamplePlaces::kTriangles);
-  EXPECT_EQ(parse_sample_places("edge"), std::nullopt);
+  EXPECT_EQ(parse_name<SamplePlaces>("edge"), SamplePlaces::kEdges);
+  EXPECT_EQ(parse_name<SamplePlaces>("triangle"), SamplePlaces::kTriangles);
 }
 
 // Near the poles s^m is far below the smallest double: 0.4^1000 = 1e-398.

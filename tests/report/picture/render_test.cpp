@@ -28,7 +28,7 @@ RenderOptions front() {
   RenderOptions options;
   options.width = 96;
   options.height = 80;
-  options.view_direction = {0, 1, 0};
+  options.view = {0, 1, 0};
   options.samples = 2;
   options.occlusion_rays = 2;
   return options;
@@ -112,7 +112,7 @@ TEST(render, darkens_corners_by_occlusion) {
   mesh.vertices = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {1, 1, 2}, {-1, 1, 2}};
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {3, 2, 4}, {3, 4, 5}};
   RenderOptions options = front();
-  options.view_direction = {0, 1, -1};
+  options.view = {0, 1, -1};
   options.occlusion_rays = 8;
   const Image with = render_one(mesh, options);
   options.occlusion_rays = 0;
@@ -181,7 +181,7 @@ TEST(render, of_a_plate_has_the_light_of_its_direction) {
   plate.triangles = {{0, 1, 2}, {0, 2, 3}};
   RenderOptions options = front();
   for (const Vec3& from : {Vec3{0, 1, 0}, Vec3{0.5, 1, -0.2}, Vec3{-1, 0.4, 0.7}}) {
-    options.view_direction = from;
+    options.view = from;
     const View view = make_view(options, 1);
     Place place;
     place.face = place.normal = {0, -1, 0};
@@ -380,7 +380,7 @@ TEST(render, draws_degenerate_shapes) {
     }
   }
   RenderOptions above = front();
-  above.view_direction = {0, 0, -1};  // along `up`
+  above.view = {0, 0, -1};  // along `up`
   EXPECT_NE(pixel(render_one(icosphere(2), above), 48, 40), kWhite);
   RenderOptions least = front();
   least.width = least.height = 16;
@@ -430,7 +430,7 @@ TEST(render, refuses_what_it_cannot_draw) {
   EXPECT_TRUE(with([](RenderOptions& o) { o.samples = 0; }));
   EXPECT_TRUE(with([](RenderOptions& o) { o.samples = 17; }));
   EXPECT_TRUE(with([](RenderOptions& o) { o.occlusion_rays = -1; }));
-  EXPECT_TRUE(with([](RenderOptions& o) { o.view_direction = {}; }));
+  EXPECT_TRUE(with([](RenderOptions& o) { o.view = {}; }));
   EXPECT_TRUE(with([](RenderOptions& o) { o.up = {0, std::nan(""), 1}; }));
   EXPECT_TRUE(with([](RenderOptions& o) { o.scale_min = o.scale_max = 2; }));
   EXPECT_TRUE(with([](RenderOptions& o) { o.scale_max = double{INFINITY}; }));

@@ -312,6 +312,7 @@ TEST(repair, carries_attributes_and_turns_normals_with_their_faces) {
 
 TEST(repair, refuses_holes_that_cost_too_much) {
   EXPECT_THROW(repair(icosphere(1), {.max_hole = 501}), Error);
+  EXPECT_THROW(repair(icosphere(1), {.weld = -1}), Error);
   EXPECT_NO_THROW(repair(Mesh{}));
 }
 
