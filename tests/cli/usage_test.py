@@ -14,7 +14,7 @@ COMMANDS = ["info", "center", "analyze", "synthesize", "spectrum", "compare", "c
             "report", "make", "filter", "rotate", "align", "smooth", "transfer", "orient", "reconstruct",
             "completion", *(["studio"] if STUDIO else [])]
 
-PARTS = ("oneTBB", "Embree", "libpng", "Qhull")
+PARTS = ("oneTBB", "Embree", "libpng", "HDF5", "Qhull")
 
 
 class Help(CliTest):
