@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -69,7 +70,12 @@ std::string wrap(const std::string& text, std::size_t indent, std::size_t width)
 }
 
 std::string version_text(const ProgramText& program) {
-  return fmt::format("{} {}\n", program.name, kVersion);
+  // Libraries that a build can do without, as CMakeLists.txt lists them.
+  constexpr std::string_view kUsed = RHOLM_USED_LIBRARIES, kLeftOut = RHOLM_LEFT_OUT_LIBRARIES;
+  std::string text = fmt::format("{} {}\n", program.name, kVersion);
+  if (!kUsed.empty()) text += fmt::format("with {}\n", kUsed);
+  if (!kLeftOut.empty()) text += fmt::format("without {}\n", kLeftOut);
+  return text;
 }
 
 std::string option_heading(const Option& option) {

@@ -1,6 +1,6 @@
-// Chunks of a parallel loop on several threads, in one of two ways: by oneTBB (chunks_tbb.cpp), and
-// on plain threads (chunks_threads.cpp) for ThreadSanitizer, which has to see how threads wait for
-// each other, and does not see it in a library that was compiled without it.
+// Chunks of a parallel loop on several threads: by oneTBB (chunks_tbb.cpp), or on plain threads
+// (chunks_threads.cpp). ThreadSanitizer needs plain threads: it does not see how threads wait for
+// each other in a library that was compiled without it.
 #pragma once
 
 #include <chrono>
@@ -18,8 +18,8 @@ struct CallSite {
 // Calls run(chunk) once for each chunk of [0, chunks), on this and up to `threads` - 1 other
 // threads, `threads` at least 2. Where `run` returns false, chunks that have not begun are left
 // out. While this thread waits for the others it calls `wait` every few milliseconds. Neither may
-// throw. May be called by `run` itself, and by several threads at once. The plain threads note
-// `where` the loop stands.
+// throw. May be called by `run` itself, and by several threads at once. For
+// ThreadSanitizer it is noted `where` the loop stands.
 void run_chunks(std::size_t chunks, int threads, const std::function<bool(std::size_t chunk)>& run,
                 const std::function<void()>& wait, CallSite where);
 

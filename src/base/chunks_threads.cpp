@@ -1,30 +1,51 @@
-// Plain threads, for ThreadSanitizer (RHOLM_SANITIZE_THREAD): they wait for each other at the
-// beginning and at the end of a loop, and nowhere between, so that any two chunks that touch the
-// same memory are a race that is seen, whichever runs first.
+// Plain threads, without oneTBB (RHOLM_TBB=OFF), and for ThreadSanitizer (RHOLM_SANITIZE_THREAD):
+// they wait for each other at the beginning and at the end of a loop, and nowhere between.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cstdlib>
+#include <functional>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
+#include "base/at_work.h"
 #include "base/chunks.h"
 
 namespace rholm {
 namespace {
 
+// For ThreadSanitizer any two chunks that touch the same memory are to be a race that is seen,
+// whichever runs first: which thread runs a chunk is settled beforehand there.
+#ifdef RHOLM_SANITIZE_THREAD
+constexpr bool kShowsRaces = true;
+#else
+constexpr bool kShowsRaces = false;
+#endif
+
 // As few as show every race of two chunks, and of three that two would hide; chosen. Threads that
 // were not asked for change no result: chunks do not depend on them.
 constexpr std::size_t kLeastThreads = 4;
 
+// The threads that all loops of this process have started.
+std::atomic<std::size_t> extra_threads = 0;
+
+// How many threads a loop starts. Loops in loops would have the square of their number: chosen,
+// twice the number at most.
+std::size_t threads_to_start(std::size_t chunks, std::size_t threads) {
+  if (kShowsRaces) return std::min(chunks, std::max(threads, kLeastThreads)) - 1;
+  const std::size_t running = extra_threads.load(std::memory_order_relaxed);
+  return std::min({chunks - 1, threads - 1, 2 * threads - std::min(2 * threads, running)});
+}
+
 // Adds the place of a loop to the file that RHOLM_LOOPS names (scripts/check_loops), each time:
 // what knows which are there already would put loops in an order, as a lock does, and hide races.
 void note(CallSite where) {
+  if (!kShowsRaces) return;
   static const char* const name = std::getenv("RHOLM_LOOPS");
   if (name == nullptr) return;
   static const int file = open(name, O_WRONLY | O_APPEND | O_CREAT, 0666);
@@ -41,30 +62,39 @@ int default_threads() { return std::max(1, static_cast<int>(std::thread::hardwar
 void run_chunks(std::size_t chunks, int threads, const std::function<bool(std::size_t)>& run,
                 const std::function<void()>& wait, CallSite where) {
   note(where);
-  const std::size_t n = std::min(chunks, std::max<std::size_t>(threads, kLeastThreads));
+  const std::size_t n = 1 + threads_to_start(chunks, static_cast<std::size_t>(threads));
   // Relaxed: what a chunk has written is not for the others to see.
   std::atomic<bool> go_on = true;
-  std::atomic<std::size_t> at_work = n - 1;
-  const auto run_every_nth = [&](std::size_t begin) {
-    for (std::size_t c = begin; c < chunks && go_on.load(std::memory_order_relaxed); c += n) {
+  std::atomic<std::size_t> next = 0;
+  const auto take = [&](std::size_t settled) {
+    return kShowsRaces ? settled : next.fetch_add(1, std::memory_order_relaxed);
+  };
+  const auto run_some = [&](std::size_t thread) {
+    for (std::size_t c = take(thread); c < chunks && go_on.load(std::memory_order_relaxed);
+         c = take(c + n)) {
       if (!run(c)) go_on.store(false, std::memory_order_relaxed);
     }
   };
+  AtWork others(static_cast<int>(n - 1));
   std::vector<std::jthread> workers;
-  for (std::size_t begin = 1; begin < n; ++begin) {
-    workers.emplace_back([&, begin] {
-      run_every_nth(begin);
-      at_work.fetch_sub(1, std::memory_order_relaxed);
-    });
+  workers.reserve(n - 1);
+  extra_threads.fetch_add(n - 1, std::memory_order_relaxed);
+  for (std::size_t thread = 1; thread < n; ++thread) {
+    try {
+      workers.emplace_back([&, thread] {
+        run_some(thread);
+        others.end();
+      });
+    } catch (const std::system_error&) {
+      // The system has no more: the threads that it has take all chunks.
+      if (kShowsRaces) throw;
+      others.end();
+    }
   }
-  run_every_nth(0);
-  for (auto due = std::chrono::steady_clock::now() + kWaitInterval;
-       at_work.load(std::memory_order_relaxed) > 0; std::this_thread::yield()) {
-    if (std::chrono::steady_clock::now() < due) continue;
-    wait();
-    due += kWaitInterval;
-  }
+  run_some(0);
+  others.wait(wait);
   workers.clear();  // waits for them
+  extra_threads.fetch_sub(n - 1, std::memory_order_relaxed);
 }
 
 }  // namespace rholm

@@ -5,9 +5,10 @@ import re
 import shutil
 import sys
 import tempfile
+import unittest
 
 sys.path.insert(0, os.path.dirname(__file__))
-from harness import CliTest, OCTAHEDRON, main, nightly, off
+from harness import QHULL, CliTest, OCTAHEDRON, main, nightly, off
 
 V, F = OCTAHEDRON
 
@@ -88,6 +89,7 @@ class Atlas(CliTest):
         self.assertIn("go with --atlas", self.rholm(
             "analyze", "few.off", "--degree", "4", "--max-numbers", "1000", "-o", "m.h5", code=2).err)
 
+    @unittest.skipUnless(QHULL, "built without Qhull")
     def test_the_paper_s_way_is_there_to_compare_with(self):
         found = {}
         for extension in ("zero", "sphere"):
@@ -163,6 +165,7 @@ class Atlas(CliTest):
         info = self.rholm("info", "c.ply", "--json").json()
         self.assertEqual([a["name"] for a in info["attributes"][-3:]], ["red", "green", "blue"])
 
+    @unittest.skipUnless(QHULL, "built without Qhull")
     def test_partition_shows_degrees_and_the_steps_of_the_paper(self):
         report = self.rholm("partition", "t.ply", "--tolerance", "5e-3", "--show", "degrees", "-o",
                             "d.ply", "--json").json()

@@ -30,6 +30,8 @@ SOURCE = Path(__file__).resolve().parents[2]
 
 # Whether the program was built with `rholm studio` (RHOLM_BUILD_STUDIO).
 STUDIO = os.environ.get("RHOLM_TEST_STUDIO", "1") == "1"
+# Whether it has the paper's patches (RHOLM_QHULL).
+QHULL = os.environ.get("RHOLM_TEST_QHULL", "1") == "1"
 
 # What hangs is ended after this time. Nothing else depends on it: machines and builds that are slow say how slow
 # they are.

@@ -14,12 +14,18 @@ COMMANDS = ["info", "center", "analyze", "synthesize", "spectrum", "compare", "c
             "report", "make", "filter", "rotate", "align", "smooth", "transfer", "orient", "reconstruct",
             "completion", *(["studio"] if STUDIO else [])]
 
+PARTS = ("oneTBB", "Embree", "libpng", "HDF5", "Qhull")
+
 
 class Help(CliTest):
     def test_version_is_that_of_the_header(self):
         header = (SOURCE / "include/rholm/version.h").read_text()
         version = re.search(r'kVersion = "([^"]+)"', header)[1]
-        self.assertEqual(self.rholm("--version").out, f"rholm {version}\n")
+        said = self.rholm("--version").out.splitlines()
+        self.assertEqual(said[0], f"rholm {version}")
+        # Each library that can be left out is named once, as used or as left out.
+        parts = [part for line in said[1:] for part in re.split(r"^with(?:out)? |, ", line)[1:]]
+        self.assertEqual(sorted(parts), sorted(PARTS))
         # And that of the files that people cite and read.
         citation = (SOURCE / "CITATION.cff").read_text()
         self.assertEqual(re.search(r"^version: (.+)$", citation, re.M)[1], version)

@@ -63,6 +63,15 @@ void reconstruct_bricks() {
 
 void patch_atlas() {
   const rholm::Mesh sphere = rholm::icosphere(4);
+#ifndef RHOLM_HAS_QHULL
+  try {
+    rholm::patch_picture(sphere, rholm::PatchView::kPatches);
+  } catch (const rholm::Error& refused) {
+    expect(refused.code() == rholm::ErrorCode::kUnsupported, "patches need Qhull");
+    return;
+  }
+  expect(false, "patches are refused without Qhull");
+#endif
   const rholm::PatchPicture picture = rholm::patch_picture(sphere, rholm::PatchView::kPatches);
   expect(picture.patches > 1, "a sphere has several sides");
   // The points of each patch lie on the sphere that fits it; triangles between them with edges e <

@@ -532,6 +532,7 @@ TEST(every_loop, gives_the_same_bits_for_gaps_between_sheets) {
   });
 }
 
+#ifdef RHOLM_HAS_QHULL
 TEST(every_loop, gives_the_same_bits_for_the_papers_caps) {
   const PointCloud cloud = test::sphere_points(400);
   expect_same_bits([&](const Context& context) {
@@ -539,6 +540,7 @@ TEST(every_loop, gives_the_same_bits_for_the_papers_caps) {
     return Bits().add(found.model.atlas.coefficients).add(found.surface);
   });
 }
+#endif
 
 // ---- Editing and pictures ----
 

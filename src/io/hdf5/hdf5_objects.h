@@ -1,10 +1,10 @@
 // The part of HDF5 that a model file uses, read from memory: superblock, object headers and groups,
 // where things are; values are in hdf5_values.h. Layer: io, private.
 //
-// Models are written by the HDF5 library but not read by it: on files that are damaged or made to
-// harm it reads outside its buffers and loops (seen with 1.10.8, most in the global heap that
-// holds strings and in the older metadata, which have no checksums). Here every access is checked
-// against the file, and nothing is allocated that the file does not hold.
+// Models may be written by the HDF5 library but are not read by it: on files that are damaged or
+// made to harm it reads outside its buffers and loops (seen with 1.10.8, most in the global heap
+// that holds strings and in the older metadata, which have no checksums). Here every access is
+// checked against the file, and nothing is allocated that the file does not hold.
 //
 // Source: HDF5 File Format Specification, version 3.0. Read are: superblocks 0 to 3; object headers
 // 1 and 2; groups as symbol tables or compact links; compact attributes; contiguous and compact

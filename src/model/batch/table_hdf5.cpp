@@ -16,24 +16,22 @@
 namespace rholm {
 namespace {
 
-using hdf5::Handle;
 using hdf5::Writer;
 
-void write_column(const Writer& writer, hid_t file, const BatchColumn& column, std::size_t rows) {
+void write_column(Writer& writer, const BatchColumn& column, std::size_t rows) {
   const char* name = column.name.c_str();
-  const std::array<hsize_t, 2> extents = {rows, column.width};
-  const std::span<const hsize_t> shape(extents.data(), column.width == 0 ? 1 : 2);
+  const std::array<std::uint64_t, 2> extents = {rows, column.width};
+  const std::span<const std::uint64_t> shape(extents.data(), column.width == 0 ? 1 : 2);
   if (const auto* texts = std::get_if<std::vector<std::string>>(&column.values)) {
-    writer.write_texts(file, name, *texts);
+    writer.write_texts(Writer::kRoot, name, *texts);
   } else if (const auto* booleans = std::get_if<std::vector<std::int8_t>>(&column.values)) {
-    writer.write_dataset(file, name, shape, H5T_STD_I8LE, H5T_NATIVE_INT8, booleans->data());
-    const Handle dataset(writer.checked(H5Dopen2(file, name, H5P_DEFAULT), "open a dataset"),
-                         H5Dclose);
+    const Writer::Object dataset =
+        writer.write_dataset(Writer::kRoot, name, shape, booleans->data());
     writer.write_attribute(dataset, kBooleanMark, 1);
   } else if (const auto* wholes = std::get_if<std::vector<std::int64_t>>(&column.values)) {
-    writer.write_dataset(file, name, shape, H5T_STD_I64LE, H5T_NATIVE_INT64, wholes->data());
+    writer.write_dataset(Writer::kRoot, name, shape, wholes->data());
   } else {
-    writer.write_dataset(file, name, shape, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE,
+    writer.write_dataset(Writer::kRoot, name, shape,
                          std::get<std::vector<double>>(column.values).data());
   }
 }
@@ -165,30 +163,25 @@ void write_table_hdf5(const BatchTable& table, const std::filesystem::path& path
     throw Error(ErrorCode::kUnsupported,
                 name + ": HDF5 needs a file that can be rewound, not a pipe: write .csv instead");
   }
-  const hdf5::QuietErrors quiet;
-  const Writer writer(name);
-  Handle file = writer.create_file(output.temporary_path().string(), table.columns.size() + 2);
-  {
-    const Handle root(writer.checked(H5Gopen2(file, "/", H5P_DEFAULT), "open the root"), H5Gclose);
-    writer.write_attribute(root, "format", std::string(kBatchFormat));
-    writer.write_attribute(root, "version_major", kBatchMajor);
-    writer.write_attribute(root, "version_minor", kBatchMinor);
-    writer.write_attribute(root, "program", std::string("rholm ") + kVersion);
-    writer.write_attribute(root, kBatchRows, static_cast<int>(table.rows));
-    writer.write_attribute(root, kBatchLeading, static_cast<int>(table.leading));
-    std::vector<std::string> names, about;
-    for (const BatchColumn& column : table.columns) {
-      check_name(column.name, name);
-      names.push_back(column.name);
-    }
-    for (const auto& [key, value] : table.about) about.push_back(key + "=" + value);
-    writer.write_texts(root, kColumnNames, names);
-    writer.write_texts(root, kBatchAbout, about);
-    for (const BatchColumn& column : table.columns) {
-      write_column(writer, root, column, table.rows);
-    }
+  Writer writer(name, output.temporary_path().string(), table.columns.size() + 2);
+  writer.write_attribute(Writer::kRoot, "format", std::string(kBatchFormat));
+  writer.write_attribute(Writer::kRoot, "version_major", kBatchMajor);
+  writer.write_attribute(Writer::kRoot, "version_minor", kBatchMinor);
+  writer.write_attribute(Writer::kRoot, "program", std::string("rholm ") + kVersion);
+  writer.write_attribute(Writer::kRoot, kBatchRows, static_cast<int>(table.rows));
+  writer.write_attribute(Writer::kRoot, kBatchLeading, static_cast<int>(table.leading));
+  std::vector<std::string> names, about;
+  for (const BatchColumn& column : table.columns) {
+    check_name(column.name, name);
+    names.push_back(column.name);
   }
-  if (!file.close()) writer.checked(-1, "close the file");
+  for (const auto& [key, value] : table.about) about.push_back(key + "=" + value);
+  writer.write_texts(Writer::kRoot, kColumnNames, names);
+  writer.write_texts(Writer::kRoot, kBatchAbout, about);
+  for (const BatchColumn& column : table.columns) {
+    write_column(writer, column, table.rows);
+  }
+  writer.close();
   output.commit();
 }
 

@@ -2,6 +2,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -12,38 +13,38 @@
 #include "model/file/atlas_rules.h"
 #include "model/file/model_layout.h"
 #include "rholm/compress.h"
+#include "rholm/error.h"
 #include "rholm/version.h"
 
 namespace rholm {
 namespace {
 
-using hdf5::Handle;
 using hdf5::Writer;
 
 template <class T>
-void write_table(const Writer& writer, hid_t group, const char* name, const std::vector<T>& values,
-                 std::size_t columns, hid_t file_type, hid_t memory_type) {
+void write_table(Writer& writer, Writer::Object group, const char* name,
+                 const std::vector<T>& values, std::size_t columns) {
   if (columns == 1) {
-    const std::array<hsize_t, 1> extents = {values.size()};
-    writer.write_dataset(group, name, extents, file_type, memory_type, values.data());
+    const std::array<std::uint64_t, 1> extents = {values.size()};
+    writer.write_dataset(group, name, extents, values.data());
     return;
   }
-  const std::array<hsize_t, 2> extents = {values.size() / columns, columns};
-  writer.write_dataset(group, name, extents, file_type, memory_type, values.data());
+  const std::array<std::uint64_t, 2> extents = {values.size() / columns, columns};
+  writer.write_dataset(group, name, extents, values.data());
 }
 
-void write_group(const Writer& writer, hid_t group, const AtlasModel& model) {
+void write_group(Writer& writer, Writer::Object group, const AtlasModel& model) {
   const PackedAtlas packed = pack(model.atlas);
   const auto floats = [&](const char* name, const std::vector<float>& values, std::size_t columns) {
     if (values.empty()) return;
-    write_table(writer, group, name, values, columns, H5T_IEEE_F32LE, H5T_NATIVE_FLOAT);
+    write_table(writer, group, name, values, columns);
   };
   floats(layout::kCaps, packed.caps, kPackedCap);
   floats(layout::kEllipses, packed.ellipses, 5);
   floats(layout::kWeights, packed.weights, 1);
-  write_table(writer, group, layout::kDegrees, packed.degrees, 1, H5T_STD_U8LE, H5T_NATIVE_UINT8);
-  write_table(writer, group, layout::kKept, packed.kept, 1, H5T_STD_U8LE, H5T_NATIVE_UINT8);
-  write_table(writer, group, layout::kValues, packed.values, 1, H5T_STD_I16LE, H5T_NATIVE_INT16);
+  write_table(writer, group, layout::kDegrees, packed.degrees, 1);
+  write_table(writer, group, layout::kKept, packed.kept, 1);
+  write_table(writer, group, layout::kValues, packed.values, 1);
   writer.write_fixed_text(group, layout::kBasis, packed.basis == CapBasis::kEven ? "even" : "full");
   if (packed.blend != CapBlend::kSmooth) {
     writer.write_fixed_text(group, layout::kBlend, to_string(packed.blend));
@@ -66,19 +67,20 @@ void write_group(const Writer& writer, hid_t group, const AtlasModel& model) {
   writer.write_attribute(group, layout::kCrc32, atlas_crc32(packed));
 }
 
-void write_rules(const Writer& writer, hid_t group, const Atlas& atlas, const SurfaceRules& rules) {
+void write_rules(Writer& writer, Writer::Object group, const Atlas& atlas,
+                 const SurfaceRules& rules) {
   const PackedRules packed = pack_rules(atlas, rules);
   const auto doubles = [&](const char* name, const std::vector<double>& values,
                            std::size_t columns) {
     if (values.empty()) return;
-    write_table(writer, group, name, values, columns, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE);
+    write_table(writer, group, name, values, columns);
   };
   doubles(layout::kCaps, packed.caps, kExactCap);
   doubles(layout::kCoefficients, packed.coefficients, 1);
   doubles(layout::kSpacings, packed.spacings, kSpacingNumbers);
   if (rules.seen) {
     const SeenCubes& s = *rules.seen;
-    write_table(writer, group, layout::kSeen, packed.seen, 1, H5T_STD_U8LE, H5T_NATIVE_UINT8);
+    write_table(writer, group, layout::kSeen, packed.seen, 1);
     const std::array<double, layout::kSeenNumbers> frame = {s.origin.x,
                                                             s.origin.y,
                                                             s.origin.z,
@@ -113,22 +115,17 @@ void write_atlas(const AtlasModel& model, const std::filesystem::path& path) {
     throw Error(ErrorCode::kUnsupported,
                 name + ": a model file needs a file that can be rewound, not a pipe");
   }
-  const hdf5::QuietErrors quiet;
-  const Writer writer(name);
-  Handle file = writer.create_file(output.temporary_path().string());
-  {
-    const Handle root(writer.checked(H5Gopen2(file, "/", H5P_DEFAULT), "open the root"), H5Gclose);
-    writer.write_fixed_text(root, layout::kFormat, layout::kFormatName);
-    writer.write_attribute(root, layout::kVersionMajor, layout::kMajor);
-    writer.write_attribute(root, layout::kVersionMinor, layout::kMinor);
-    writer.write_fixed_text(root, layout::kProgram, std::string("rholm ") + kVersion);
-    write_group(writer, writer.create_group(file, layout::kAtlas), model);
-    if (model.rules) {
-      write_rules(writer, writer.create_group(file, layout::kReconstruction), model.atlas,
-                  *model.rules);
-    }
+  Writer writer(name, output.temporary_path().string());
+  writer.write_fixed_text(Writer::kRoot, layout::kFormat, layout::kFormatName);
+  writer.write_attribute(Writer::kRoot, layout::kVersionMajor, layout::kMajor);
+  writer.write_attribute(Writer::kRoot, layout::kVersionMinor, layout::kMinor);
+  writer.write_fixed_text(Writer::kRoot, layout::kProgram, std::string("rholm ") + kVersion);
+  write_group(writer, writer.create_group(Writer::kRoot, layout::kAtlas), model);
+  if (model.rules) {
+    write_rules(writer, writer.create_group(Writer::kRoot, layout::kReconstruction), model.atlas,
+                *model.rules);
   }
-  if (!file.close()) writer.checked(-1, "close the file");
+  writer.close();
   output.commit();
 }
 

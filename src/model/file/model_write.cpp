@@ -14,13 +14,13 @@
 #include "io/file/atomic_file.h"
 #include "io/hdf5/hdf5_writer.h"
 #include "model/file/model_layout.h"
+#include "rholm/error.h"
 #include "rholm/model.h"
 #include "rholm/version.h"
 
 namespace rholm {
 namespace {
 
-using hdf5::Handle;
 using hdf5::Writer;
 
 // Over the coefficients as they stand in the file, unit and method: what HDF5 itself leaves
@@ -32,7 +32,7 @@ std::uint32_t model_crc32(const Expansion& expansion) {
   return crc32(expansion.method, crc32(expansion.unit, crc32(bytes)));
 }
 
-void write_errors(const Writer& writer, hid_t group, const TruncationErrors& errors) {
+void write_errors(Writer& writer, Writer::Object group, const TruncationErrors& errors) {
   const auto write = [&](const char* name, const std::optional<double>& value) {
     if (value) writer.write_attribute(group, name, *value);
   };
@@ -49,10 +49,10 @@ void write_errors(const Writer& writer, hid_t group, const TruncationErrors& err
   writer.write_attribute(group, layout::kDiagonal, errors.diagonal);
 }
 
-void write_expansion(const Writer& writer, hid_t group, const Expansion& expansion) {
-  const hsize_t side = static_cast<hsize_t>(expansion.coefficients.degree()) + 1;
-  const std::array<hsize_t, 3> extents = {2, side, side};
-  writer.write_dataset(group, layout::kCoefficients, extents, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE,
+void write_expansion(Writer& writer, Writer::Object group, const Expansion& expansion) {
+  const std::uint64_t side = static_cast<std::uint64_t>(expansion.coefficients.degree()) + 1;
+  const std::array<std::uint64_t, 3> extents = {2, side, side};
+  writer.write_dataset(group, layout::kCoefficients, extents,
                        expansion.coefficients.values().data());
   writer.write_attribute(group, layout::kDegree, expansion.coefficients.degree());
   writer.write_attribute(group, layout::kNormalization, to_string(Normalization::kOrthonormal));
@@ -82,18 +82,13 @@ void write_model(const Expansion& expansion, const std::filesystem::path& path) 
                                              ": a model file needs a file that can be "
                                              "rewound, not a pipe: write .json instead");
   }
-  const hdf5::QuietErrors quiet;
-  const Writer writer(name);
-  Handle file = writer.create_file(output.temporary_path().string());
-  {
-    const Handle root(writer.checked(H5Gopen2(file, "/", H5P_DEFAULT), "open the root"), H5Gclose);
-    writer.write_attribute(root, layout::kFormat, layout::kFormatName);
-    writer.write_attribute(root, layout::kVersionMajor, layout::kMajor);
-    writer.write_attribute(root, layout::kVersionMinor, layout::kMinor);
-    writer.write_attribute(root, layout::kProgram, std::string("rholm ") + kVersion);
-    write_expansion(writer, writer.create_group(file, layout::kExpansion), expansion);
-  }
-  if (!file.close()) writer.checked(-1, "close the file");
+  Writer writer(name, output.temporary_path().string());
+  writer.write_attribute(Writer::kRoot, layout::kFormat, layout::kFormatName);
+  writer.write_attribute(Writer::kRoot, layout::kVersionMajor, layout::kMajor);
+  writer.write_attribute(Writer::kRoot, layout::kVersionMinor, layout::kMinor);
+  writer.write_attribute(Writer::kRoot, layout::kProgram, std::string("rholm ") + kVersion);
+  write_expansion(writer, writer.create_group(Writer::kRoot, layout::kExpansion), expansion);
+  writer.close();
   output.commit();
 }
 

@@ -1,6 +1,7 @@
-// Rays on a triangle mesh, or on balls: the one user of Embree.
+// Rays on a triangle mesh, or on balls: by Embree (ray_embree.cpp), or by our own tree of triangles
+// (ray_tree.cpp) where rholm is built without it.
 //
-// All in float, in coordinates shifted to the mesh's centre.
+// Good to the rounding of float, in coordinates shifted to the mesh's centre.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +11,7 @@
 
 #include "rholm/context.h"
 #include "rholm/mesh.h"
+#include "shape/face.h"
 
 namespace rholm {
 
@@ -33,6 +35,13 @@ struct RayCrossing {
 
 // How the tree is built: tight boxes, or in a third of the time.
 enum class RayTree { kTight, kQuick };
+
+// The frame of a mesh, or of balls of that radius about its vertices.
+inline UnitFrame ray_frame(const Mesh& mesh, double ball_radius) {
+  const Bounds box = bounds(mesh.vertices);
+  const Vec3 margin{ball_radius, ball_radius, ball_radius};
+  return unit_frame({box.min - margin, box.max + margin});
+}
 
 // Keeps a reference to `mesh`, which must outlive it. All queries may be called from several
 // threads at once.
@@ -61,7 +70,12 @@ class RayScene {
   int count_hits(const Vec3& origin, const Vec3& direction) const;
 
  private:
+  // The triangles of crossings(), in any order.
+  std::vector<std::uint32_t> triangles_met(const Vec3& origin, const Vec3& direction) const;
+
   struct Impl;
+  const Mesh& mesh_;
+  UnitFrame frame_;
   std::unique_ptr<Impl> impl_;
 };
 

@@ -69,6 +69,11 @@ class TriangleTree {
   // The same of each: faster where neighbours in the list are near each other.
   std::vector<ClosestPoint> closest(std::span<const Vec3> points) const;
 
+  // For walks of other kinds: boxes in the frame, good to the rounding of float, of which the leaf
+  // k has triangles order()[8 k] ... order()[8 k + 7]; the last leaf may have its last one again.
+  const TriangleTreeNodes& nodes() const { return nodes_; }
+  std::span<const std::uint32_t> order() const { return order_; }
+
  private:
   ClosestPoint closest_within(const Vec3& point, double at_most) const;
   void sort_triangles(const Context& context);

@@ -51,7 +51,7 @@ Mesh moved(Mesh mesh, double scale, const Vec3& offset) {
   return mesh;
 }
 
-// Also while Embree builds, which comes last: at its last question.
+// Also while the tree is built, which comes last: at its last question.
 TEST(RayScene, ends_where_the_scope_of_the_thread_says_so) {
   const Mesh mesh = octasphere(100);
   int asked = 0, go_on = 1 << 30;
@@ -195,6 +195,104 @@ TEST(rays, meet_balls_about_vertices) {
     EXPECT_NEAR(hit.distance, nearest, 1e-4);
     EXPECT_LT(norm(origin + nearest * direction - mesh.vertices[hit.triangle]), kRadius + 1e-4);
   }
+}
+
+// What a slow search in extended precision finds: each triangle whose plane is met in front of the
+// origin, inside of its three edges; `margin` says how near to an edge (or the origin) it was.
+struct SlowCrossing {
+  std::uint32_t triangle;
+  long double distance;
+};
+std::vector<SlowCrossing> slow_crossings(const Mesh& mesh, const Vec3& o, const Vec3& d,
+                                         long double& margin) {
+  using Real = long double;
+  using Row = std::array<Real, 3>;
+  const auto row = [](const Vec3& a) { return Row{a.x, a.y, a.z}; };
+  const auto minus = [](const Row& a, const Row& b) {
+    return Row{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+  };
+  const auto product = [](const Row& a, const Row& b, const Row& c) {
+    return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+           a[2] * (b[0] * c[1] - b[1] * c[0]);
+  };
+  std::vector<SlowCrossing> found;
+  for (std::uint32_t k = 0; k < mesh.triangles.size(); ++k) {
+    const auto& [a, b, c] = mesh.triangles[k];
+    const Row p = minus(row(mesh.vertices[a]), row(o)), q = minus(row(mesh.vertices[b]), row(o)),
+              r = minus(row(mesh.vertices[c]), row(o)), along = row(d);
+    const Real u = product(along, q, r), v = product(along, r, p), w = product(along, p, q);
+    const Real sum = u + v + w;
+    const Real t = product(p, q, r) / sum;
+    const Real least = std::min({u / sum, v / sum, w / sum});
+    if (t > -1e-2L && least > -1e-2L) margin = std::min({margin, std::abs(least), std::abs(t)});
+    if (t > 0 && least > 0) found.push_back({k, t});
+  }
+  std::sort(found.begin(), found.end(),
+            [](const SlowCrossing& x, const SlowCrossing& y) { return x.distance < y.distance; });
+  return found;
+}
+
+TEST(rays, meet_what_a_search_of_all_triangles_finds) {
+  int compared = 0, met = 0;
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const Mesh mesh = soup(seed, 400);
+    const RayScene scene(mesh);
+    for (int k = 0; k < 700; ++k) {
+      // From inside, near by and farther away.
+      const Vec3 origin = std::array{1.0, 2.0, 4.0}[k % 3] * random_point(20 + seed, k);
+      const Vec3 direction = normalized(random_point(30 + seed, k) - origin);
+      long double margin = 1;
+      const std::vector<SlowCrossing> slow = slow_crossings(mesh, origin, direction, margin);
+      if (margin < 1e-2L) continue;  // so near to an edge that float decides
+      ++compared, met += !slow.empty();
+      const std::vector<RayCrossing> found = scene.crossings(origin, direction);
+      ASSERT_EQ(found.size(), slow.size()) << seed << " " << k;
+      for (std::size_t i = 0; i < slow.size(); ++i) {
+        EXPECT_NEAR(found[i].distance, static_cast<double>(slow[i].distance), 1e-9 * norm(origin));
+      }
+      const RayHit hit = scene.first_hit(origin, direction, 0, kInfinity);
+      ASSERT_EQ(hit.hit, !slow.empty());
+      EXPECT_EQ(scene.occluded(origin, direction, 0, kInfinity), hit.hit);
+      if (!hit.hit) continue;
+      // A float of 4, and a triangle that may be met at a small angle.
+      EXPECT_NEAR(hit.distance, static_cast<double>(slow[0].distance), 1e-4);
+      if (slow.size() == 1 || slow[1].distance - slow[0].distance > 2e-4L) {
+        EXPECT_EQ(hit.triangle, slow[0].triangle);
+      }
+      const auto just_before = static_cast<double>(slow[0].distance) - 1e-4;
+      EXPECT_FALSE(scene.occluded(origin, direction, 0, just_before));
+    }
+  }
+  EXPECT_GT(compared, 1000);
+  EXPECT_GT(met, 500);
+}
+
+// From within a closed mesh, wherever they are aimed at. Embree lets some rays pass between
+// triangles.
+#ifdef RHOLM_HAS_EMBREE
+constexpr int kMostSlips = 20;  // of 20 000
+#else
+constexpr int kMostSlips = 0;
+#endif
+TEST(rays, do_not_slip_through_edges_and_vertices) {
+  const Mesh mesh = octasphere(30);
+  const RayScene scene(mesh);
+  int slips = 0;
+  for (int k = 0; k < 20000; ++k) {
+    const Triangle& t = mesh.triangles[(7919U * static_cast<unsigned>(k)) % mesh.triangles.size()];
+    const Vec3 origin = 0.5 * random_point(41, k / 100);
+    const double share = k % 4 == 0 ? 0 : random_uniform(42, k);
+    const Vec3 target = (1 - share) * mesh.vertices[t[0]] + share * mesh.vertices[t[1]];
+    const Vec3 direction = normalized(target - origin);
+    const RayHit hit = scene.first_hit(origin, direction, 0, kInfinity);
+    EXPECT_EQ(scene.occluded(origin, direction, 0, kInfinity), hit.hit);
+    if (!hit.hit) {
+      ++slips;
+      continue;
+    }
+    EXPECT_NEAR(hit.distance, norm(target - origin), 1e-4);
+  }
+  EXPECT_LE(slips, kMostSlips);
 }
 
 // Many rays at once, or one after the other; of a tree built in either way.

@@ -1,0 +1,16 @@
+// Convex hulls of points, by Qhull (hull_qhull.cpp); a build without it refuses them
+// (hull_none.cpp). Layer: paper, private.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "rholm/mesh.h"
+
+namespace rholm {
+
+// The triangles of the hull of points x, y, z, x, y, z ..., oriented in any way; none if the points
+// lie in a plane. Throws InvalidInput where Qhull fails, Unsupported without it.
+std::vector<Triangle> hull_facets(std::span<double> coordinates);
+
+}  // namespace rholm
