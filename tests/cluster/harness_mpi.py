@@ -6,8 +6,10 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import unittest
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "cli"))
@@ -122,8 +124,29 @@ class MpiTest(unittest.TestCase):
     """Each test has an empty folder, self.folder, in which ranks run."""
 
     def setUp(self):
-        self.folder = Path(os.path.realpath(tempfile.mkdtemp(prefix="rholm-mpi-test-")))
-        self.addCleanup(shutil.rmtree, self.folder)
+        self.all = Path(os.path.realpath(tempfile.mkdtemp(prefix="rholm-mpi-test-")))
+        self.addCleanup(shutil.rmtree, self.all)
+        self.own = threading.local()  # the folder of each thread
+        self.own.folder = self.all / "test"
+        self.folder.mkdir()
+
+    @property
+    def folder(self):
+        return self.own.folder
+
+    def at_once(self, check, *cases):
+        """check(*case) of every case, all at the same time, each in a copy of the folder: for runs that mostly
+        wait."""
+        given = self.folder
+
+        def one(number, case):
+            self.own.folder = self.all / f"case-{number}"
+            shutil.copytree(given, self.folder)
+            check(*case)
+
+        with ThreadPoolExecutor(len(cases)) as pool:
+            for done in [pool.submit(one, *numbered) for numbered in enumerate(cases)]:
+                done.result()
 
     def start(self, *words, ranks, **options):
         return RanksRun(words, ranks, self.folder, **options)
