@@ -18,19 +18,20 @@ import times  # noqa: E402
 
 @pytest.hookimpl(hookwrapper=True)
 def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
-    """Notes the processor time of each test, with its fixtures."""
+    """Notes the times of each test, with its fixtures."""
     before = times.spent()
     yield
-    seconds = times.spent() - before
+    seconds = times.minus(times.spent(), before)
     session = item.session
-    session.noted = getattr(session, "noted", 0.0) + seconds  # type: ignore[attr-defined]
+    noted = getattr(session, "noted", (0.0, 0.0))
+    session.noted = times.plus(noted, seconds)  # type: ignore[attr-defined]
     times.note(seconds, f"python/{item.path.stem}", item.name)
 
 
 def pytest_sessionfinish(session: pytest.Session) -> None:
     """Notes what the process took besides: to start Python and to read the tests."""
     if session.items:
-        seconds = times.spent() - getattr(session, "noted", 0.0)
+        seconds = times.minus(times.spent(), getattr(session, "noted", (0.0, 0.0)))
         times.note(seconds, f"python/{session.items[0].path.stem}", "(start)")
 
 

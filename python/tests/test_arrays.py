@@ -32,16 +32,24 @@ def layouts(array: np.ndarray) -> dict[str, np.ndarray]:
     }
 
 
-@pytest.mark.parametrize("floats", ["f4", "f8"])
-@pytest.mark.parametrize("ints", ["i4", "u4", "i8", "u8", "i2"])
+FLOATS, INTS = ("f4", "f8"), ("i4", "u4", "i8", "u8", "i2")
+
+
+@pytest.mark.parametrize("floats", FLOATS)
+@pytest.mark.parametrize("ints", INTS)
 def test_every_layout_gives_the_same_bits(bumpy, floats, ints):
     vertices = bumpy.vertices.astype(floats)
     triangles = bumpy.triangles.astype(ints)
     how = {"degree": 12, "errors": False, "rays": 0}  # the quickest way to coefficients
     expected = rholm.expand((vertices, triangles), **how).coeffs
     assert expected.any()
-    for (name, v), t in itertools.product(layouts(vertices).items(), layouts(triangles).values()):
-        assert np.array_equal(rholm.expand((v, t), **how).coeffs, expected), name
+    # Each layout meets each type here, and over all types each layout of the other array.
+    shift = len(INTS) * FLOATS.index(floats) + INTS.index(ints)
+    of_triangles = list(layouts(triangles).items())
+    assert len(FLOATS) * len(INTS) >= len(of_triangles)
+    for i, (name, v) in enumerate(layouts(vertices).items()):
+        other, t = of_triangles[(i + shift) % len(of_triangles)]
+        assert np.array_equal(rholm.expand((v, t), **how).coeffs, expected), (name, other)
 
 
 def test_arrays_that_can_be_used_as_they_lie_are_not_copied(bumpy):
@@ -114,7 +122,7 @@ def test_what_is_no_array_is_refused(shape):
 
 
 def test_what_is_masked_is_not_known(bumpy, ring, tmp_path):
-    points = np.array(rholm.sample_surface(ring, 4000).points)
+    points = np.array(rholm.sample_surface(ring, 2000).points)
     bad = np.arange(len(points)) % 10 == 0
     beneath = points.copy()
     beneath[bad] *= 0.7
@@ -159,7 +167,7 @@ def test_what_is_masked_is_not_known(bumpy, ring, tmp_path):
 
 
 def test_points_without_a_place_are_dropped_and_counted(ring):
-    cloud = rholm.sample_surface(ring, 3000)
+    cloud = rholm.sample_surface(ring, 1500)
     n = len(cloud.points)
     bad = np.arange(n) % 7 == 0
     points = np.array(cloud.points)
@@ -171,7 +179,7 @@ def test_points_without_a_place_are_dropped_and_counted(ring):
     calls = {
         "orient": lambda p, m, s, v: rholm.orient(p, m).cloud,
         "align_scans": lambda p, m, s, v: rholm.align_scans((p, m), s).cloud,
-        "compress": lambda p, m, s, v: rholm.compress((p, m), tolerance=0.02).mesh(),
+        "compress": lambda p, m, s, v: rholm.compress((p, m), tolerance=0.05).mesh(),
         "patch_atlas": lambda p, m, s, v: rholm.patch_atlas((p, m), 4).atlas.mesh(),
         "patch_picture": lambda p, m, s, v: rholm.patch_picture((p, m)),
         "render": lambda p, m, s, v: rholm.render((p, m), size=(64, 64)),

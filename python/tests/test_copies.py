@@ -13,7 +13,8 @@ import pytest
 import rholm
 
 
-def all_of(bumpy, ring):
+@pytest.fixture(scope="module")
+def things(bumpy, ring):
     """One object of every public class, and of every class of a field of one."""
     s = rholm.expand(bumpy, 6, length_unit="km")
     toleranced = rholm.expand(bumpy, tolerance=0.2, norm="max")
@@ -66,8 +67,7 @@ def same(a, b):
     return a == b
 
 
-def test_everything_can_be_pickled_and_copied(bumpy, ring):
-    things = all_of(bumpy, ring)
+def test_everything_can_be_pickled_and_copied(things):
     for thing in things:
         for twin in (pickle.loads(pickle.dumps(thing)), copy.copy(thing), copy.deepcopy(thing)):
             assert type(twin) is type(thing)
@@ -132,8 +132,8 @@ def test_shapes_and_records_are_equal_by_value(bumpy):
     assert rholm.Rotation() != bumpy.bounds
 
 
-def test_records_are_shown_in_a_line(bumpy, ring):
-    for thing in all_of(bumpy, ring):
+def test_records_are_shown_in_a_line(things):
+    for thing in things:
         if hasattr(thing, "to_dict"):
             assert len(repr(thing)) < 200, repr(thing)
             assert repr(thing).startswith(type(thing).__name__ + "(")

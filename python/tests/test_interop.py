@@ -169,10 +169,10 @@ def test_every_function_takes_every_kind_of_mesh_and_mends_it(tmp_path):
 
 
 def test_pairs_of_arrays_are_meshes_or_points_by_their_numbers(ring):
-    cloud = rholm.sample_surface(ring, 2000)
+    cloud = rholm.sample_surface(ring, 1000)
     points, normals = np.array(cloud.points), np.array(cloud.normals)
     for pair in ((points, normals), [points, normals], (points.tolist(), normals.tolist())):
-        assert len(rholm.compress(pair, 0.1)) > 0
+        assert len(rholm.compress(pair, 0.2)) > 0
         assert np.array_equal(rholm.as_points(pair).normals, normals)
     two = [[0.0, 0, 0], [1, 0, 0]]  # a list of points, not a pair
     assert len(rholm.as_points(two)) == 2

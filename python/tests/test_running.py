@@ -142,7 +142,7 @@ def test_other_threads_run_meanwhile():
 
 
 def test_four_threads_at_once_are_right(bumpy, ring, tmp_path):
-    cloud = rholm.sample_surface(ring, 3000)
+    cloud = rholm.sample_surface(ring, 1000)
 
     def work(i: int):
         s = rholm.expand(bumpy, 20 + i % 3)

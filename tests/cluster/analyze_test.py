@@ -33,7 +33,7 @@ class Analyze(ProgramTest):
 
 class SameBytes(Analyze):
     def test_of_a_mesh_where_it_lies(self):
-        self.make("mesh.ply", "bumpy", "--subdivisions", 7)
+        self.make("mesh.ply", "bumpy", "--subdivisions", 6)
         for words in (("--degree", 24), ("--degree", 24, "--precision", 1e-3), ("--tolerance", 1e-3)):
             self.check_same("mesh.ply", *words)
         self.assertGreater(self.exchanged("analyze", "mesh.ply", "--degree", 24, "-o", "all.h5"), 2e4)
@@ -148,8 +148,10 @@ class Stopped(Analyze):
     def setUp(self):
         super().setUp()
         self.make("mesh.ply", "bumpy", "--subdivisions", 8)
-        self.mark = self.folder.with_suffix(".mark")
-        self.addCleanup(self.mark.unlink, missing_ok=True)
+
+    @property
+    def mark(self):
+        return self.folder.with_suffix(".mark")
 
     def start_working(self, ranks):
         """Every triangle has nodes of its own: some seconds of a processor. A run that is done before it is ended
@@ -193,10 +195,12 @@ class Stopped(Analyze):
         self.assertRegex("\n".join(self.errors(run)), "rank 2")
 
     def test_ctrl_c_ends_the_run(self):
-        for ranks in (1, 3):
+        def check(ranks):
             run = self.start_working(ranks)
             os.kill(run.process.pid, signal.SIGINT)
             self.check_ended(run, by_mpiexec=True)
+
+        self.at_once(check, (1,), (3,))
 
 
 if __name__ == "__main__":

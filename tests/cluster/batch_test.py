@@ -2,6 +2,7 @@
 
 import csv
 import io
+import itertools
 import os
 import signal
 import subprocess
@@ -50,14 +51,16 @@ class SameBytes(Batch):
         rows = self.make_shapes(10)
         for out in ("one.h5", "one.csv"):
             self.rholm(*self.words(out))
-        for ranks in RANKS:
-            for threads in (1, 2) if self.every_way else (1 + ranks % 2,):
-                for out in ("all.h5", "all.csv"):
-                    run = self.finished(RHOLM_MPI, *self.words(out, "--threads", threads), ranks=ranks)
-                    self.assertEqual(run.code, 0, run)
-                    self.assertEqual(self.errors(run), [], run)
-                    self.assertEqual(run.stderr.count(f"{len(rows)} rows, 3 failed"), 1, run)
-                    self.assertEqual(self.bytes(out), self.bytes(out.replace("all", "one")), run)
+        # Formats and numbers of threads meet each other; a format is what rank 0 makes of its rows.
+        ways = ((1, 1, "all.h5"), (2, 2, "all.csv"), (3, 2, "all.h5"), (4, 1, "all.csv"))
+        if self.every_way:
+            ways = itertools.product(RANKS, (1, 2), ("all.h5", "all.csv"))
+        for ranks, threads, out in ways:
+            run = self.finished(RHOLM_MPI, *self.words(out, "--threads", threads), ranks=ranks)
+            self.assertEqual(run.code, 0, run)
+            self.assertEqual(self.errors(run), [], run)
+            self.assertEqual(run.stderr.count(f"{len(rows)} rows, 3 failed"), 1, run)
+            self.assertEqual(self.bytes(out), self.bytes(out.replace("all", "one")), run)
         self.check_no_litter("one.h5", "one.csv", "all.h5", "all.csv")
 
     def test_outputs_are_written_by_all_ranks(self):
@@ -190,13 +193,15 @@ class Stopped(Batch):
         self.check_went_on(before, run.stderr)
 
     def test_a_killed_rank_costs_the_rows_that_were_not_done(self):
-        for share, ranks, killed in ((0.3, 3, 2), (0.6, 2, 0), (0.9, 4, 1)):
+        def check(share, ranks, killed):
             run = self.stopped_at(share, ranks, lambda run: os.kill(run.pids()[killed], signal.SIGKILL))
             self.check_stopped(run)
             if killed == 0:
                 self.check_goes_on_without_ranks()
             else:
                 self.check_goes_on_over_ranks(2)
+
+        self.at_once(check, (0.3, 3, 2), (0.6, 2, 0), (0.9, 4, 1))
 
     def test_a_rank_that_is_stopped_ends_the_run(self):
         self.check_stopped_ranks([1])

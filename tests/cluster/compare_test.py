@@ -93,7 +93,7 @@ class Failures(Compare):
             self.check_fails(run, code, rf": error: rank 1 on \S+: .*{says}")
 
     def test_a_rank_that_dies_and_ctrl_c_end_the_run(self):
-        for ranks, victim, what in ((3, 1, signal.SIGKILL), (2, 0, signal.SIGKILL), (3, None, signal.SIGINT)):
+        def check(ranks, victim, what):
             run = self.start(RHOLM_MPI, "compare", "a.ply", "a.h5", "--samples", 100000000, ranks=ranks)
             run.until(lambda: len(run.pids()) == ranks, "all ranks are there")
             begin = run.seconds_worked(0)
@@ -104,6 +104,8 @@ class Failures(Compare):
                 self.assertNotEqual(run.code, 0, run)
             self.assertNotIn("Hausdorff", run.stdout, run)  # mpiexec of MPICH writes there, too
             self.assertEqual(run.pids(), {})
+
+        self.at_once(check, (3, 1, signal.SIGKILL), (2, 0, signal.SIGKILL), (3, None, signal.SIGINT))
 
 
 if __name__ == "__main__":

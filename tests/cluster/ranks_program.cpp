@@ -1,5 +1,6 @@
-// Ranks put to work: ranks_program CASE [RANK]. Each leaves the code that it ends with in
-// code.RANK; a check that does not hold is an error of that rank. Run by ranks_test.py.
+// Ranks put to work: ranks_program CASE[,CASE...] [RANK]. Rank 0 prints each case when it begins.
+// Each rank leaves the code that it ends with in code.RANK; a check that does not hold is an error
+// of that rank. Run by ranks_test.py.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -11,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <sstream>
 #include <thread>
 
 #include "cluster/collect.h"
@@ -237,7 +239,19 @@ Ending ending_of(const std::exception_ptr& what) {
   }
 }
 
-int run(const std::string& name, int chosen) {
+// All cases in one run; every case but the last ends with a barrier.
+void run_cases(Ranks& ranks, const std::string& names, int chosen) {
+  std::stringstream list(names);
+  for (std::string name; std::getline(list, name, ',');) {
+    if (ranks.rank() == 0) {
+      fmt::print("{}\n", name);
+      std::fflush(stdout);
+    }
+    run_case(ranks, name, chosen);
+  }
+}
+
+int run(const std::string& names, int chosen) {
   Ranks ranks({.progress = [] { return progress.load(); },
                .interrupted = [] { return stop_signal.load(); },
                .stop = [](int code) { stop_signal = code == 0 ? 0 : SIGTERM; },
@@ -245,15 +259,15 @@ int run(const std::string& name, int chosen) {
                .ended = [](const RankTotals& t) { fmt::print("{} ranks\n", t.ranks); },
                .discard = {},
                .ending_of = ending_of},
-              name == "large" ? std::size_t{1} << 30 : kPiece);
+              names == "large" ? std::size_t{1} << 30 : kPiece);
   ranks.set_hint([] { return std::string("go on so"); });
   const int code = ranks.run(
       [&](Ranks& all) {
-        run_case(all, name, chosen);
+        run_cases(all, names, chosen);
         return Ending{};
       },
       [&](Ranks& all) {
-        run_case(all, name, chosen);
+        run_cases(all, names, chosen);
         all.receive(Tag::kTest);  // until rank 0 has ended
       });
   std::ofstream(fmt::format("code.{}", ranks.rank())) << code;

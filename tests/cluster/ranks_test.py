@@ -28,26 +28,12 @@ class Ranks(MpiTest):
             self.assertEqual(codes, {f"code.{i}": str(code) for i in range(ranks)}, what)
         return run, errors
 
-    def test_bytes_of_any_size_go_to_all_and_come_from_all(self):
+    def test_messages_arrive_tasks_are_done_and_ranks_without_work_end_with_rank_0(self):
+        # One start of the ranks for all: what does not hold is in the error. A case says when it has begun.
+        cases = ("collect", "order", "tasks", "ordered", "leaves")
         for ranks in RANKS:
-            self.case("collect", ranks=ranks)
-
-    def test_messages_arrive_in_their_order(self):
-        for ranks in RANKS:
-            self.case("order", ranks=ranks)
-
-    def test_every_task_is_done_once(self):
-        for ranks in RANKS:
-            self.case("tasks", ranks=ranks)
-
-    def test_results_of_ordered_tasks_are_taken_in_their_order_until_one_is_the_last(self):
-        for ranks in RANKS:
-            self.case("ordered", ranks=ranks)
-
-    def test_ranks_without_work_end_with_rank_0(self):
-        for ranks in RANKS:
-            run, _ = self.case("leaves", ranks=ranks)
-            self.assertIn(f"{ranks} ranks\n", run.stdout)
+            run, _ = self.case(",".join(cases), ranks=ranks)
+            self.assertEqual(run.stdout.splitlines(), [*cases, f"{ranks} ranks"])
 
     def test_a_rank_that_throws_ends_all_with_its_code_and_one_message(self):
         for ranks in RANKS:
@@ -66,10 +52,12 @@ class Ranks(MpiTest):
             self.assertRegex(errors[0], r"^error: rank 0 on \S+: the disk is full; go on so$")
 
     def test_a_task_without_progress_ends_the_run(self):
-        for ranks, chosen in ((1, 0), (3, 0), (3, 2)):
+        def check(ranks, chosen):
             _, errors = self.case("stuck", chosen, ranks=ranks, code=1, graceful=False)
             self.assertRegex(errors[0], rf"^error: rank {chosen} on \S+: has made no progress for 3 s "
                                         r"\(--patience\), and is ended; go on so$")
+
+        self.at_once(check, (1, 0), (3, 0), (3, 2))
 
 
 class Signals(MpiTest):
@@ -86,13 +74,15 @@ class Signals(MpiTest):
         self.assertNotEqual(run.code, 0, run)
 
     def test_a_rank_that_is_killed_ends_the_run(self):
-        for ranks, killed in ((1, 0), (2, 1), (4, 0), (4, 3)):
+        def check(ranks, killed):
             run, pids = self.started(ranks)
             os.kill(pids[killed], signal.SIGKILL)
             self.check_ended(run)
 
+        self.at_once(check, (1, 0), (2, 1), (4, 0), (4, 3))
+
     def test_a_rank_that_is_stopped_ends_the_run(self):
-        for ranks, stopped in ((2, 0), (3, 2)):
+        def check(ranks, stopped):
             run, pids = self.started(ranks)
             os.kill(pids[stopped], signal.SIGSTOP)
             self.check_ended(run)
@@ -100,21 +90,27 @@ class Signals(MpiTest):
             self.assertEqual(len(errors), 1, run)
             self.assertRegex(errors[0], rf"^error: rank {stopped}\b.* has not been heard of")
 
+        self.at_once(check, (2, 0), (3, 2))
+
     def test_ctrl_c_ends_the_run(self):
-        for ranks in (1, 3):
+        def check(ranks):
             run, _ = self.started(ranks)
             os.kill(run.process.pid, signal.SIGINT)
             run.wait()  # mpiexec of MPICH ends with 0
             codes = {p.read_text() for p in self.folder.glob("code.*")}
             self.assertLessEqual(codes, {str(128 + signal.SIGINT), str(128 + signal.SIGTERM)}, run)
 
+        self.at_once(check, (1,), (3,))
+
     def test_a_rank_that_is_told_to_end_ends_the_run(self):
-        for ranks, told in ((1, 0), (3, 2)):
+        def check(ranks, told):
             run, pids = self.started(ranks)
             os.kill(pids[told], signal.SIGTERM)
             self.check_ended(run)
             errors = [line for line in run.stderr.splitlines() if line.startswith("error: ")]
             self.assertEqual(errors, ["error: interrupted; go on so"], run)
+
+        self.at_once(check, (1, 0), (3, 2))
 
 
 if __name__ == "__main__":

@@ -1,11 +1,11 @@
-// The program of the tests of a layer: googletest's own, which instruction set runs, and processor
-// time.
+// The program of the tests of a layer: googletest's own, which instruction set runs, and times.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -23,8 +23,8 @@ class SayTarget : public testing::Environment {
   }
 };
 
-// Notes the processor time of each test in the file that RHOLM_TEST_TIMES names, if it names one
-// (scripts/test-times; support/times.py does it for tests in Python).
+// Notes the processor time and the duration of each test in the file that RHOLM_TEST_TIMES names,
+// if it names one (scripts/test-times; support/times.py does it for tests in Python).
 class NoteTimes : public testing::EmptyTestEventListener {
  public:
   NoteTimes(const char* file, const char* program)
@@ -33,16 +33,29 @@ class NoteTimes : public testing::EmptyTestEventListener {
   void OnTestStart(const testing::TestInfo&) override { before_ = spent(); }
 
   void OnTestEnd(const testing::TestInfo& test) override {
-    const double seconds = spent() - before_;
-    noted_ += seconds;
-    note(seconds, std::string(test.test_suite_name()) + "." + test.name());
+    const Times times = spent() - before_;
+    noted_ = noted_ + times;
+    note(times, std::string(test.test_suite_name()) + "." + test.name());
   }
 
   void OnTestProgramEnd(const testing::UnitTest&) override { note(spent() - noted_, "(start)"); }
 
  private:
-  // Of this process, its threads, and the processes that it has waited for.
-  static double spent() {
+  // In seconds.
+  struct Times {
+    double processor, duration;
+
+    friend Times operator+(Times a, Times b) {
+      return {a.processor + b.processor, a.duration + b.duration};
+    }
+    friend Times operator-(Times a, Times b) {
+      return {a.processor - b.processor, a.duration - b.duration};
+    }
+  };
+
+  // Of this process, its threads, and the processes that it has waited for; since the listener was
+  // made.
+  [[nodiscard]] Times spent() const {
     double seconds = 0;
     for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
       rusage used{};
@@ -51,14 +64,15 @@ class NoteTimes : public testing::EmptyTestEventListener {
         seconds += static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
       }
     }
-    return seconds;
+    const std::chrono::duration<double> duration = std::chrono::steady_clock::now() - made_;
+    return {seconds, duration.count()};
   }
 
   // Many processes write at once: one line is one call, at the end of the file.
-  void note(double seconds, const std::string& name) const {
-    std::array<char, 32> number{};
-    std::snprintf(number.data(), number.size(), "%.4f", seconds);
-    const std::string line = std::string(number.data()) + "\t" + group_ + "\t" + name + "\n";
+  void note(Times times, const std::string& name) const {
+    std::array<char, 64> numbers{};
+    std::snprintf(numbers.data(), numbers.size(), "%.4f\t%.4f", times.processor, times.duration);
+    const std::string line = std::string(numbers.data()) + "\t" + group_ + "\t" + name + "\n";
     const int file = open(file_.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0644);
     if (file < 0 || write(file, line.data(), line.size()) < 0) {
       std::perror(file_.c_str());
@@ -70,8 +84,9 @@ class NoteTimes : public testing::EmptyTestEventListener {
 
   std::string file_;
   std::string group_;
-  double before_ = 0;
-  double noted_ = 0;
+  std::chrono::steady_clock::time_point made_ = std::chrono::steady_clock::now();
+  Times before_{};
+  Times noted_{};
 };
 
 }  // namespace

@@ -1,26 +1,42 @@
-"""Processor time of tests, for scripts/test-times: each test adds a line to the file that RHOLM_TEST_TIMES names, if
-it names one. A line has the seconds, the group of the test and its name, between tabs; main.cpp writes the same."""
+"""Processor time and duration of tests, for scripts/test-times: each test adds a line to the file that
+RHOLM_TEST_TIMES names, if it names one. A line has the two times in seconds, the group of the test and its name,
+between tabs; main.cpp writes the same."""
 
 import os
 import resource
 import sys
+import time
 import unittest
 from pathlib import Path
 
 TESTS = Path(__file__).resolve().parents[1]
 
 
+STARTED = time.monotonic()
+
+
 def spent():
-    """Processor time of this process, its threads and the processes that it has waited for."""
-    return sum(sum(resource.getrusage(who)[:2]) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
+    """Processor time of this process, its threads and the processes that it has waited for; time since this file was
+    read. Both in seconds."""
+    used = sum(sum(resource.getrusage(who)[:2]) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
+    return used, time.monotonic() - STARTED
+
+
+def minus(a, b):
+    return tuple(x - y for x, y in zip(a, b))
+
+
+def plus(a, b):
+    return tuple(x + y for x, y in zip(a, b))
 
 
 def note(seconds, group, name):
+    """`seconds`: a difference of two results of spent()."""
     if "RHOLM_TEST_TIMES" in os.environ:
         # Many processes write at once: one line is one call, at the end of the file.
         file = os.open(os.environ["RHOLM_TEST_TIMES"], os.O_WRONLY | os.O_APPEND | os.O_CREAT, 0o644)
         try:
-            os.write(file, f"{seconds:.4f}\t{group}\t{name}\n".encode())
+            os.write(file, "{:.4f}\t{:.4f}\t{}\t{}\n".format(*seconds, group, name).encode())
         finally:
             os.close(file)
 
@@ -28,7 +44,7 @@ def note(seconds, group, name):
 class Result(unittest.TextTestResult):
     """Notes each test, and what a process takes besides: the start of Python and what classes share."""
 
-    noted = 0.0
+    noted = (0.0, 0.0)
 
     def startTest(self, test):
         self.before = spent()
@@ -36,13 +52,13 @@ class Result(unittest.TextTestResult):
 
     def stopTest(self, test):
         super().stopTest(test)
-        seconds = spent() - self.before
-        self.noted += seconds
+        seconds = minus(spent(), self.before)
+        self.noted = plus(self.noted, seconds)
         note(seconds, group(), test.id().removeprefix("__main__."))
 
     def stopTestRun(self):
         super().stopTestRun()
-        note(spent() - self.noted, group(), "(start)")
+        note(minus(spent(), self.noted), group(), "(start)")
 
 
 def group():

@@ -28,7 +28,7 @@ using namespace testing;
 class BrickReconstruct : public BrickFiles {};
 
 TEST_F(BrickReconstruct, is_as_good_as_one_piece) {
-  const PointCloud cloud = torus_points(60000);
+  const PointCloud cloud = torus_points(30000);
   const ReconstructReport report = run(cloud, 5000, "bricks.ply");
   const Mesh bricks = mesh("bricks.ply");
   const Inspection found = test::expect_closed_manifold(bricks);

@@ -18,33 +18,39 @@ namespace {
 
 using test::relative_error;
 
-double error_of_pass(const Mesh& mesh, int degree, double precision) {
+// One direct sum of the highest degree, the last, has the coefficients of all.
+void check_error_of_pass(const Mesh& mesh, const std::vector<int>& degrees, double precision) {
   const StarChart chart{.mesh = mesh, .edges = pair_edges(mesh), .report = {}};
   const Coefficients exact =
-      analyze(chart, {.degree = degree, .engine = Engine::kDirect, .precision = 1e-2 * precision})
+      analyze(chart,
+              {.degree = degrees.back(), .engine = Engine::kDirect, .precision = 1e-2 * precision})
           .expansion.coefficients;
-  const MeshPassOptions options{.degree = degree, .precision = precision};
-  return relative_error(mesh_pass(view_of(mesh), options, {}).coefficients, exact);
+  for (const int degree : degrees) {
+    const MeshPassOptions options{.degree = degree, .precision = precision};
+    const Coefficients found = mesh_pass(view_of(mesh), options, {}).coefficients;
+    EXPECT_LT(relative_error(found, exact.resized(degree)), 0.5 * precision) << "L " << degree;
+  }
 }
 
 // Walls of 1e-4 rad seen edge on, as many as teeth. On a grid of n longitudes errors of order L add
 // up where n - L is a multiple of the teeth.
 TEST(mesh_pass, keeps_the_precision_of_gears_with_walls_seen_edge_on) {
   struct Case {
-    int teeth, layers, degree;
+    int teeth, layers;
+    std::vector<int> degrees;
   };
-  for (const auto& [teeth, layers, degree] :
-       {Case{8, 1, 32}, Case{8, 1, 64}, Case{8, 1, 128}, Case{48, 3, 64}}) {
+  for (const auto& [teeth, layers, degrees] : {Case{8, 1, {32, 64, 128}}, Case{48, 3, {64}}}) {
+    SCOPED_TRACE(teeth);
     const double tooth = 2 * std::numbers::pi / teeth;
     const Mesh gear = test::random_bodies::gear(teeth, layers, 0.5, 0.2, 1e-4 / tooth);
-    EXPECT_LT(error_of_pass(gear, degree, 1e-6), 0.5e-6) << teeth << " teeth, L " << degree;
+    check_error_of_pass(gear, degrees, 1e-6);
   }
 }
 
 TEST(mesh_pass, keeps_the_precision_of_a_thin_box_off_centre) {
   Mesh thin = box({2, 1.5, 0.1}, 4);
   for (Vec3& x : thin.vertices) x += Vec3{0.3, 0.2, 0.02};
-  for (const int degree : {32, 64, 128}) EXPECT_LT(error_of_pass(thin, degree, 1e-6), 0.5e-6);
+  check_error_of_pass(thin, {32, 64, 128}, 1e-6);
 }
 
 // Turned by a generic rotation it leaves as much; neither is zero to rounding.
