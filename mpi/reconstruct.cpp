@@ -78,9 +78,9 @@ cli::Command reconstruct_command(Ranks* ranks) {
       },
       [ranks] { return ranks->size() > 1; });
   command.description +=
-      "\n\nBricks are worked on by all ranks, which leave what they find in a folder of --work-dir "
+      "\n\nTiles are worked on by all ranks, which leave what they find in a folder of --work-dir "
       "that all of them see; the points are read and holes are closed by rank 0, which also "
-      "reconstructs alone what is no more than one brick. The bytes are those of rholm "
+      "reconstructs alone what is no more than one tile. The bytes are those of rholm "
       "reconstruct, and either goes on with --resume where the other ended.";
   command.examples = {
       "mpirun -n 16 rholm-mpi reconstruct points.ply --work-dir /scratch -o s.ply",

@@ -37,7 +37,7 @@ struct Options {
   ReconstructOptions wanted;  // lengths as parts of the diagonal
   std::optional<int> resolution;
   MemoryOptions memory;
-  std::optional<int> brick_points;
+  std::optional<int> tile_points;
   bool resume = false;
   std::string model;
   std::string columns;
@@ -61,8 +61,8 @@ ReconstructOptions library_options(const Options& o, const Bounds& box) {
 std::uint64_t points_per_brick(const Options& options) {
   constexpr std::uint64_t kSmall = 1 << 14;  // chosen: smaller ones are little but halo
   std::uint64_t points = kBrickPoints;
-  if (options.brick_points) {
-    points = static_cast<std::uint64_t>(*options.brick_points);
+  if (options.tile_points) {
+    points = static_cast<std::uint64_t>(*options.tile_points);
   } else {
     const std::size_t limit = options.memory.limit();
     while (points > kSmall && enough_for_bricks(points, points) > limit) points /= 2;
@@ -85,11 +85,11 @@ class BrickFolder {
   explicit BrickFolder(const Options& options) {
     const std::filesystem::path base = options.memory.folder();
     if (options.resume) {
-      path_ = base / (std::filesystem::path(options.output).filename().string() + ".bricks");
+      path_ = base / (std::filesystem::path(options.output).filename().string() + ".tiles");
       return;
     }
-    own_.emplace(base, "rholm-bricks-");
-    path_ = own_->path() / "bricks";
+    own_.emplace(base, "rholm-tiles-");
+    path_ = own_->path() / "tiles";
   }
   const std::filesystem::path& path() const { return path_; }
 
@@ -143,7 +143,7 @@ void run_in_bricks(const PointsInput& input, ShapeFormat format, const Options& 
                    const BrickWorkers& by, Session& session) {
   if (format != ShapeFormat::kPly || options.ascii) {
     throw UsageError(
-        "so many points are reconstructed in bricks, to a binary PLY: -o NAME.ply; rholm convert "
+        "so many points are reconstructed in tiles, to a binary PLY: -o NAME.ply; rholm convert "
         "makes other files of it");
   }
   // What is a part of the diagonal is known once the box is.
@@ -169,7 +169,7 @@ void run_in_bricks(const PointsInput& input, ShapeFormat format, const Options& 
   bricks.foreseen = [&](const BrickForecast& forecast) {
     constexpr double kGigabyte = 1e9;
     session.note(fmt::format(
-        "{} points in {} bricks: some {:.1f} GB of memory, {:.1f} GB {}, {:.1f} GB of surface",
+        "{} points in {} tiles: some {:.1f} GB of memory, {:.1f} GB {}, {:.1f} GB of surface",
         forecast.points, forecast.bricks, static_cast<double>(forecast.memory) / kGigabyte,
         static_cast<double>(forecast.stored) / kGigabyte,
         bricks.work_dir.empty() ? "more" : "in " + bricks.work_dir.string(),
@@ -235,23 +235,23 @@ std::vector<Option> option_list(Options& o) {
         .min = 4,
         .max = 65536},
        columns_option(o.columns),
-       {.name = "brick-points",
+       {.name = "tile-points",
         .value = "N",
-        .help = "more points than that are cut into bricks of at most so many, worked on one after "
+        .help = "more points than that are cut into tiles of at most so many, worked on one after "
                 "the other; 1048576 by default, or as many as memory has room for",
-        .target = &o.brick_points,
+        .target = &o.tile_points,
         .min = 1000,
         .max = 1 << 28},
        max_memory_option(o.memory),
        {.name = "work-dir",
         .value = "DIR",
         .help =
-            "where bricks are kept meanwhile, and what of standard input does not fit in memory; "
+            "where tiles are kept meanwhile, and what of standard input does not fit in memory; "
             "by default that of the system's temporary files",
         .target = &o.memory.work_dir},
        {.name = "resume",
         .help = "keep what is done, in a folder of --work-dir with the output's name, if work in "
-                "bricks ends early, and take up what is there",
+                "tiles ends early, and take up what is there",
         .target = &o.resume},
        {.name = "model",
         .value = "FILE",

@@ -125,7 +125,7 @@ Json json_of(const Reconstructed& made, bool confidence) {
                {"diagonal", made.diagonal},
                {"foreseen_memory", r.memory}};
   if (made.bricks > 0) {
-    json["bricks"] = made.bricks;
+    json["tiles"] = made.bricks;
     json["stored_bytes"] = made.stored;
   }
   if (r.scans.scans > 1) {
@@ -157,7 +157,7 @@ std::string report_text(const Reconstructed& made, const ReconstructOptions& opt
                  fmt::format("{} (not finite, doubled, or without a normal)", r.dropped_points));
   }
   if (made.bricks > 0) {
-    text += line("bricks", fmt::format("{}, {} beside them", made.bricks, size_text(made.stored)));
+    text += line("tiles", fmt::format("{}, {} beside them", made.bricks, size_text(made.stored)));
   }
   if (r.outliers > 0) text += line("outliers", fmt::format("{}, left out", r.outliers));
   if (r.scans.scans > 1) {

@@ -188,7 +188,7 @@ std::string brick_section() {
   return field_section<BrickOptions>(
       "Options of work in bricks",
       "`BrickOptions` in C++ and arguments of `rholm.reconstruct_bricks` in Python; the program's "
-      "are `--brick-points`, `--work-dir`, `--resume`, `--model` and `--columns` of `rholm "
+      "are `--tile-points`, `--work-dir`, `--resume`, `--model` and `--columns` of `rholm "
       "reconstruct`.");
 }
 

@@ -27,7 +27,7 @@ def known(cloud, tmp_path_factory):
 def test_bricks_are_those_of_the_program(cloud, known, program, tmp_path):
     cloud.save(tmp_path / "p.ply")
     subprocess.run(
-        [program, "reconstruct", "p.ply", "--brick-points", str(PER_BRICK), "-o", "s.ply", "--quiet"],
+        [program, "reconstruct", "p.ply", "--tile-points", str(PER_BRICK), "-o", "s.ply", "--quiet"],
         cwd=tmp_path,
         check=True,
     )
@@ -38,7 +38,7 @@ def test_options_and_meshes_are_those_of_the_program(program, tmp_path):
     rholm.torus(2, 0.7, 100, 60).save(tmp_path / "t.ply")
     words = ("--holes", "keep", "--simplify", "20%", "--min-component", "0", "--confidence")
     subprocess.run(
-        [program, "reconstruct", "t.ply", "--brick-points", str(PER_BRICK), *words, "-o", "s.ply", "--quiet"],
+        [program, "reconstruct", "t.ply", "--tile-points", str(PER_BRICK), *words, "-o", "s.ply", "--quiet"],
         cwd=tmp_path,
         check=True,
     )
@@ -145,7 +145,7 @@ def test_what_cannot_be_done_in_bricks_is_refused(cloud, tmp_path):
     refused(rholm.UnsupportedError, "binary PLY", name="s.obj")
     refused(rholm.InvalidInputError, "work_dir", resume=True)
     refused(rholm.InvalidInputError, "1000", points_per_brick=999)
-    refused(rholm.OutOfMemoryError, "smaller bricks", max_memory=1 << 20)
+    refused(rholm.OutOfMemoryError, "smaller tiles", max_memory=1 << 20)
     refused(rholm.InvalidInputError, "points", points=cloud.points[:5])
     refused(rholm.InvalidInputError, "dig", holes="dig")
     refused(rholm.IoError, "none.xyz", points=tmp_path / "none.xyz")

@@ -31,7 +31,7 @@ def anonymous(pid):
 OF_MESHES = ("info {}", "convert {} out.ply", "convert {} out.obj", "compare {} {} --samples 1000",
              "analyze {} --degree 8 -o out.h5", "analyze {} --degree 8 --weld 1e-9 -o out.h5")
 OF_POINTS = ("info {}", "convert {} out.xyz", "convert {} out.off", "reconstruct {} -o out.ply",
-             "reconstruct {} -o out.ply --brick-points 10000")
+             "reconstruct {} -o out.ply --tile-points 10000")
 
 
 @unittest.skipIf(os.environ.get("RHOLM_TEST_SANITIZED") == "1",
@@ -138,7 +138,7 @@ class Limits(CliTest):
     def test_bricks_are_refused_with_a_limit_that_is_enough(self):
         self.rholm("make", "sphere", "--subdivisions", "5", "-o", "mesh.ply")
         self.rholm("make", "sample", "mesh.ply", "--points", "60000", "-o", "points.ply")
-        line = "reconstruct points.ply -o out.ply --brick-points 10000"
+        line = "reconstruct points.ply -o out.ply --tile-points 10000"
         refused = self.peak(line.split(), 0.01)
         self.assertRegex(refused[1], r"need some [\d.]+ GiB")
         self.assertFalse(self.check(line, 0.01))  # which tries the limit that is named

@@ -117,8 +117,8 @@ void check_memory(std::uint64_t points, const ReconstructOptions& options,
   const std::uint64_t enough = enough_for_bricks(points, bricks.points_per_brick);
   throw Error(
       ErrorCode::kOutOfMemory,
-      fmt::format("bricks of {} points need some {:.2g} GiB, and {:.2g} are allowed: take "
-                  "smaller bricks (--brick-points)",
+      fmt::format("tiles of {} points need some {:.2g} GiB, and {:.2g} are allowed: take "
+                  "smaller tiles (--tile-points)",
                   bricks.points_per_brick, rounded_up(static_cast<double>(enough) / kGibibyte),
                   static_cast<double>(options.max_memory) / kGibibyte));
 }
