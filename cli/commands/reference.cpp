@@ -20,7 +20,6 @@
 #include "rholm/filter.h"
 #include "rholm/formats.h"
 #include "rholm/reconstruct.h"
-#include "rholm/reconstruct_bricks.h"
 #include "rholm/simplify.h"
 
 namespace rholm::cli {
@@ -184,14 +183,6 @@ std::string reconstruct_section() {
       "box.");
 }
 
-std::string brick_section() {
-  return field_section<BrickOptions>(
-      "Options of work in bricks",
-      "`BrickOptions` in C++ and arguments of `rholm.reconstruct_bricks` in Python; the program's "
-      "are `--tile-points`, `--work-dir`, `--resume`, `--model` and `--columns` of `rholm "
-      "reconstruct`.");
-}
-
 std::string simplify_section() {
   return field_section<SimplifyOptions>(
       "Options of simplify",
@@ -202,7 +193,7 @@ std::string simplify_section() {
 
 constexpr ReferenceSection kSections[] = {
     window_section, descriptor_section,  shape_format_section, coefficients_format_section,
-    error_section,  reconstruct_section, brick_section,        simplify_section};
+    error_section,  reconstruct_section, simplify_section};
 
 }  // namespace
 

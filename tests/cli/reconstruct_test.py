@@ -356,12 +356,22 @@ class Bricks(CliTest):
         self.bricks("p.xyz", output="other.ply")
         self.assertEqual(self.bytes("other.ply"), self.bytes("s.ply"))
 
-    def test_little_memory_makes_bricks(self):
+    def test_little_memory_is_refused_with_tiles_that_fit(self):
         self.rholm("make", "sample", "t.ply", "--points", "40000", "-o", "p.ply")
-        said = self.rholm("reconstruct", "p.ply", "-o", "s.ply", "--max-memory", "0.03")
-        self.assertIn("40000 points in", said.err)
-        self.assertEqual(self.rholm("info", "s.ply", "--json").json()["genus"], 1)
-        self.assertIn("--tile-points", self.bricks("p.ply", "--max-memory", "0.01", n=30000, code=1).err)
+        self.rholm("reconstruct", "p.ply", "-o", "one.ply")
+        # Enough changes nothing.
+        self.rholm("reconstruct", "p.ply", "-o", "s.ply", "--max-memory", "0.1")
+        self.assertEqual(self.bytes("s.ply"), self.bytes("one.ply"))
+        for limit in ("0.006", "0.012", "0.025"):
+            for words in ((), ("--tile-points", "30000")):
+                refused = self.rholm("reconstruct", "p.ply", "-o", "s.ply", "--max-memory", limit, *words, code=1)
+                fits = re.search(r"--tile-points (\d+)", refused.err)[1]
+                made = self.rholm("reconstruct", "p.ply", "-o", "s.ply", "--max-memory", limit, "--tile-points", fits)
+                self.assertIn("40000 points in", made.err)
+                self.assertEqual(self.rholm("info", "s.ply", "--json").json()["genus"], 1)
+                # Memory does not change what these tiles give.
+                self.rholm("reconstruct", "p.ply", "-o", "wide.ply", "--tile-points", fits)
+                self.assertEqual(self.bytes("s.ply"), self.bytes("wide.ply"))
 
     def test_the_old_name_of_tile_points_is_understood(self):
         said = self.rholm("reconstruct", "p.ply", "--brick-points", "3000", "-o", "old.ply")
