@@ -21,66 +21,58 @@ namespace {
 
 // What another rank needs.
 struct Part {
-  std::filesystem::path mesh;
+  std::filesystem::path folder;
   ReconstructOptions options;
-  BrickOptions bricks;
   int threads = 0;
 };
 
 std::string bytes_of(const Part& part) {
   Packer packer;
-  packer.text(part.mesh.string()).number(static_cast<std::uint64_t>(part.threads));
+  packer.text(part.folder.string()).number(static_cast<std::uint64_t>(part.threads));
   pack_fields(part.options, packer);
-  pack_fields(part.bricks, packer);
   return packer.take();
 }
 
 Part part_of(const std::string& bytes) {
   Unpacker packed(bytes);
   Part part;
-  part.mesh = std::string(packed.text());
+  part.folder = std::string(packed.text());
   part.threads = static_cast<int>(packed.number());
   unpack_fields(packed, part.options);
-  unpack_fields(packed, part.bricks);
   return part;
 }
 
-BrickReconstruction run(Ranks& ranks, const cli::PointsInput& points,
-                        const std::filesystem::path& mesh, const ReconstructOptions& options,
-                        const BrickOptions& bricks, cli::Session& session) {
+Reconstruction run(Ranks& ranks, const cli::PointsInput& points, const ReconstructOptions& options,
+                   cli::Session& session) {
   Context context = session.context();
   const int wanted = context.threads;
   context.threads = threads_here(ranks, wanted);
   RankCrew crew(ranks, context.threads);
-  const auto begun = [&] {
-    call(ranks, kReconstructService, bytes_of({mesh, options, bricks, wanted}));
-    if (!bricks.resume) return;
-    ranks.set_hint([folder = bricks.work_dir.string()] {
+  const auto begun = [&](const std::filesystem::path& folder) {
+    call(ranks, kReconstructService, bytes_of({folder, options, wanted}));
+    if (!options.resume) return;
+    ranks.set_hint([folder = folder.string()] {
       return fmt::format("what is done is kept in {}: the same command goes on from there", folder);
     });
   };
   const SharedRun shared{.crew = crew,
                          .begun = begun,
                          .failed = [&](const std::exception_ptr& what) { ranks.fail(what); }};
-  return points.cloud ? reconstruct_shared(*points.cloud, mesh, options, bricks, shared, context)
-                      : reconstruct_shared(std::filesystem::path(points.file), mesh, options,
-                                           bricks, shared, context);
+  return points.cloud ? reconstruct_tiles(*points.cloud, 0, options, shared, context)
+                      : reconstruct_tiles(points.file, points.columns, options, shared, context);
 }
 
 }  // namespace
 
 cli::Command reconstruct_command(Ranks* ranks) {
   cli::Command command = cli::reconstruct_command_by(
-      [ranks](const cli::PointsInput& points, const std::filesystem::path& mesh,
-              const ReconstructOptions& options, const BrickOptions& bricks,
-              cli::Session& session) {
-        return run(*ranks, points, mesh, options, bricks, session);
-      },
+      [ranks](const cli::PointsInput& points, const ReconstructOptions& options,
+              cli::Session& session) { return run(*ranks, points, options, session); },
       [ranks] { return ranks->size() > 1; });
   command.description +=
-      "\n\nBricks are worked on by all ranks, which leave what they find in a folder of --work-dir "
+      "\n\nTiles are worked on by all ranks, which leave what they find in a folder of --work-dir "
       "that all of them see; the points are read and holes are closed by rank 0, which also "
-      "reconstructs alone what is no more than one brick. The bytes are those of rholm "
+      "reconstructs alone what is no more than one tile. The bytes are those of rholm "
       "reconstruct, and either goes on with --resume where the other ended.";
   command.examples = {
       "mpirun -n 16 rholm-mpi reconstruct points.ply --work-dir /scratch -o s.ply",
@@ -95,7 +87,7 @@ void serve_reconstruct(Ranks& ranks, const std::string& bytes) {
   context.progress = [](std::string_view, double) { return cli::keep_going(); };
   cli::keep_large_freed_memory();
   RankCrew crew(ranks, context.threads);
-  help_reconstruct(part.mesh, part.options, part.bricks, crew, context);
+  help_reconstruct(part.folder, part.options, crew, context);
 }
 
 }  // namespace rholm::mpi

@@ -38,14 +38,14 @@ def reconstruct(folder: Path, n: int, *more: str) -> dict:
 with tempfile.TemporaryDirectory(dir=".") as name:
     folder = Path(name)
     million = 1_000_000
-    one = reconstruct(folder, million, "--brick-points", str(2 * million))
+    one = reconstruct(folder, million, "--tile-points", str(2 * million))
     per_point = 1e6 * one["cpu"] / million
     print(f"one piece, {million} points: {per_point:.2f} us a point, {one['memory'] / 1e9:.2f} GB")
     many = reconstruct(
-        folder, points, "--brick-points", str(per_brick), "--max-memory", "3", "--work-dir", str(folder)
+        folder, points, "--tile-points", str(per_brick), "--max-memory", "3", "--work-dir", str(folder)
     )
     print(
-        f"{many['bricks']} bricks, {points} points: {1e6 * many['cpu'] / points:.2f} us a point, "
+        f"{many['tiles']} bricks, {points} points: {1e6 * many['cpu'] / points:.2f} us a point, "
         f"{many['memory'] / 1e9:.2f} GB, {many['stored_bytes'] / points:.0f} bytes a point stored"
     )
     print(f"ratio {many['cpu'] / points / (one['cpu'] / million):.2f}")

@@ -10,6 +10,7 @@
 #include "cli/files/inputs.h"
 #include "cli/files/outputs.h"
 #include "cli/files/paths.h"
+#include "cli/grammar/old_names.h"
 #include "cli/grammar/parse.h"
 #include "cli/grammar/run.h"
 #include "cli/grammar/values.h"
@@ -87,7 +88,9 @@ void check_command(BatchJob& job) {
   };
   CommonOptions common;
   try {
-    parse(command, words(), common);
+    std::vector<std::string> today = words();
+    replace_old_names(command, today);
+    parse(command, today, common);
     const std::string format = chosen_format(command);
     if (!format.empty() && !job.extension.empty()) job.extension = extension_of_format(format);
     const Capture silent;

@@ -89,8 +89,7 @@ void judge_normals(const ReconstructReport& r) {
 
 }  // namespace
 
-Json json_of(const Reconstructed& made, bool confidence) {
-  const ReconstructReport& r = made.report;
+Json json_of(const ReconstructReport& r, bool confidence) {
   Json json = {{"points", r.points},
                {"dropped_points", r.dropped_points},
                {"outliers", r.outliers},
@@ -108,25 +107,25 @@ Json json_of(const Reconstructed& made, bool confidence) {
                {"normal_noise_degrees", r.normal_noise_degrees},
                {"neighbours", r.neighbours},
                {"caps", r.caps},
-               {"coefficients", made.coefficients},
+               {"coefficients", r.coefficients},
                {"step", r.step},
                {"holes", r.holes},
                {"smooth_holes", r.smooth_holes},
                {"cut_handles", r.cut_handles},
                {"dropped_components", r.dropped_components},
-               {"vertices", made.vertices},
-               {"faces", made.triangles},
+               {"vertices", r.vertices},
+               {"faces", r.triangles},
                {"full_faces", r.faces},
                {"simplify_error", r.simplify_error},
                {"area", r.area},
                {"closed_area", r.closed_area},
                {"points_area", r.points_area},
                {"volume", r.volume},
-               {"diagonal", made.diagonal},
+               {"diagonal", r.bounds.diagonal()},
                {"foreseen_memory", r.memory}};
-  if (made.bricks > 0) {
-    json["bricks"] = made.bricks;
-    json["stored_bytes"] = made.stored;
+  if (r.tiles > 1) {
+    json["tiles"] = r.tiles;
+    json["stored_bytes"] = r.stored;
   }
   if (r.scans.scans > 1) {
     json["scans"] = {{"scans", r.scans.scans},
@@ -146,18 +145,18 @@ Json json_of(const Reconstructed& made, bool confidence) {
   return json;
 }
 
-std::string report_text(const Reconstructed& made, const ReconstructOptions& options) {
-  const ReconstructReport& r = made.report;
+std::string report_text(const ReconstructReport& r, const ReconstructOptions& options) {
   const auto relative = [&](double length) {
-    return fmt::format("{} ({:.3g} of the diagonal)", text_of(length), length / made.diagonal);
+    return fmt::format("{} ({:.3g} of the diagonal)", text_of(length),
+                       length / r.bounds.diagonal());
   };
   std::string text = line("points", fmt::format("{}", r.points));
   if (r.dropped_points > 0) {
     text += line("dropped",
                  fmt::format("{} (not finite, doubled, or without a normal)", r.dropped_points));
   }
-  if (made.bricks > 0) {
-    text += line("bricks", fmt::format("{}, {} beside them", made.bricks, size_text(made.stored)));
+  if (r.tiles > 1) {
+    text += line("tiles", fmt::format("{}, {} beside them", r.tiles, size_text(r.stored)));
   }
   if (r.outliers > 0) text += line("outliers", fmt::format("{}, left out", r.outliers));
   if (r.scans.scans > 1) {
@@ -187,7 +186,7 @@ std::string report_text(const Reconstructed& made, const ReconstructOptions& opt
   if (r.cut_handles > 0) text += line("small handles", fmt::format("{} cut", r.cut_handles));
   if (r.dropped_components > 0)
     text += line("small parts", fmt::format("{} dropped", r.dropped_components));
-  if (made.triangles < r.faces) {
+  if (r.triangles < r.faces) {
     text += line("simplified", fmt::format("from {} faces, moved by at most {}", r.faces,
                                            relative(r.simplify_error)));
   }
@@ -197,8 +196,8 @@ std::string report_text(const Reconstructed& made, const ReconstructOptions& opt
                              "% below a confidence of 1/2",
                              100 * r.unseen_area, 100 * r.thin_area, 100 * r.unsure_area));
   }
-  return text + line("surface", fmt::format("{}, {}", counted(made.vertices, "vertex", "vertices"),
-                                            counted(made.triangles, "face")));
+  return text + line("surface", fmt::format("{}, {}", counted(r.vertices, "vertex", "vertices"),
+                                            counted(r.triangles, "face")));
 }
 
 void judge(const ReconstructReport& report, bool filled, Session& session) {

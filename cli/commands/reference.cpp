@@ -28,7 +28,6 @@
 #include "rholm/patch_atlas.h"
 #include "rholm/points.h"
 #include "rholm/reconstruct.h"
-#include "rholm/reconstruct_bricks.h"
 #include "rholm/render.h"
 #include "rholm/repair.h"
 #include "rholm/report.h"
@@ -200,14 +199,6 @@ std::string reconstruct_section() {
       "box.");
 }
 
-std::string brick_section() {
-  return field_section<BrickOptions>(
-      "Options of work in bricks",
-      "`BrickOptions` in C++ and arguments of `rholm.reconstruct_bricks` in Python; the program's "
-      "are `--brick-points`, `--work-dir`, `--resume`, `--model` and `--columns` of `rholm "
-      "reconstruct`.");
-}
-
 std::string simplify_section() {
   return field_section<SimplifyOptions>(
       "Options of simplify",
@@ -347,7 +338,6 @@ constexpr ReferenceSection kSections[] = {window_section,
                                           coefficients_format_section,
                                           error_section,
                                           reconstruct_section,
-                                          brick_section,
                                           simplify_section,
                                           command_section<CompareOptions, kCompareName>,
                                           command_section<OrientOptions, kOrientName>,

@@ -71,7 +71,7 @@ int write_surface(const AtlasModel& model, const AtlasSynthesisOptions& wanted, 
   write_shape_output(surface, o.output, {format, o.ascii}, session);
   if (model.rules && model.rules->bricks) {
     session.note(
-        fmt::format("{}: the surface was made in bricks: its vertices have another order "
+        fmt::format("{}: the surface was made in tiles: its vertices have another order "
                     "there, and what closes holes may differ by some steps of the grid",
                     display_name(o.input)));
   }

@@ -9,6 +9,7 @@
 #include "cli/files/outputs.h"
 #include "cli/files/paths.h"
 #include "cli/terminal/interrupt.h"
+#include "model/points/mesh_points.h"
 #include "rholm/error.h"
 #include "rholm/point_stream.h"
 #include "rholm/topology.h"
@@ -20,25 +21,13 @@ namespace {
 constexpr std::uintmax_t kShortestLine = 6;
 constexpr std::size_t kAtATime = std::size_t{1} << 14;
 
-// Of a mesh the vertices, with the mean normals of their faces.
-PointCloud points_of(Mesh mesh) {
-  PointCloud cloud;
-  cloud.normals = area_normals(mesh.vertices, mesh.triangles);
-  std::erase_if(mesh.attributes, [](const Attribute& a) {
-    return a.name == "nx" || a.name == "ny" || a.name == "nz";
-  });
-  cloud.points = std::move(mesh.vertices);
-  cloud.attributes = std::move(mesh.attributes);
-  return cloud;
-}
-
 PointCloud points_of(ShapeFile file, const std::string& path, Session& session) {
   say_what_was_read(file, path, session);
   if (auto* cloud = std::get_if<PointCloud>(&file.shape)) return std::move(*cloud);
   Mesh& mesh = std::get<Mesh>(file.shape);
   session.note(fmt::format("{} is a mesh: its {} vertices are taken as points", display_name(path),
                            mesh.vertices.size()));
-  return points_of(std::move(mesh));
+  return points_of_mesh(std::move(mesh));
 }
 
 // Whether a file has more points than that, and they can be read one after the other; how many, if
@@ -51,10 +40,12 @@ bool has_more(const std::string& path, const std::string& columns, std::uint64_t
     if (stream.has_faces()) return false;
     n = stream.size();
     PointCloud some;
-    while (!n && stream.read_so_far() <= most && stream.read(kAtATime, some, session.context())) {
+    if (n && *n <= most) return false;
+    // Only finite points count.
+    while (stream.read_so_far() <= most && stream.read(kAtATime, some, session.context())) {
       stop_if_interrupted();
     }
-    const bool more = n.value_or(stream.read_so_far()) > most;
+    const bool more = stream.read_so_far() > most;
     if (more) say_what_was_read(stream.table(), {}, path, session);
     return more;
   } catch (const Error& error) {
@@ -68,7 +59,7 @@ bool has_more(const std::string& path, const std::string& columns, std::uint64_t
 PointsInput read_points_input(const std::string& path, std::uint64_t most,
                               const std::string& columns, const MemoryOptions& memory,
                               Session& session) {
-  PointsInput input;
+  PointsInput input{.columns = columns};
   const auto take = [&](ShapeFile file) {
     input.dropped = file.dropped;
     input.cloud = points_of(std::move(file), path, session);

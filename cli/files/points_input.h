@@ -18,6 +18,7 @@ struct PointsInput {
   std::optional<PointCloud> cloud = {};  // none: more than were wanted, in a file
   std::uint64_t dropped = 0;             // points of the file beside the cloud: not finite
   std::string file = {};                 // its name; PointStream reads it
+  std::string columns = {};              // of it, as in ShapeReadOptions
   std::optional<std::uint64_t> n = {};   // points, if they have been counted or the file says it
   std::unique_ptr<SpooledInput> spooled = {};  // has the file, where points came from a stream
 };

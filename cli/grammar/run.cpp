@@ -2,10 +2,13 @@
 
 #include <filesystem>
 #include <new>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "cli/grammar/help.h"
+#include "cli/grammar/old_names.h"
 #include "cli/grammar/parse.h"
 #include "cli/terminal/exit_code.h"
 #include "cli/terminal/freed_memory.h"
@@ -46,8 +49,11 @@ Outcome outcome_of(const std::function<int()>& work) {
 int run_command(const Command& command, std::span<const std::string> words) {
   CommonOptions common;
   try {
-    parse(command, words, common);
+    std::vector<std::string> today(words.begin(), words.end());
+    const std::vector<std::string> notes = replace_old_names(command, today);
+    parse(command, today, common);
     Session session(common);
+    for (const std::string& note : notes) session.note(note);
     return command.run(session);
   } catch (const UsageError& error) {
     throw UsageError(fmt::format("{}\nTry '{} --help'.", error.what(), typed_name(command)));

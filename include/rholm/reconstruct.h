@@ -1,7 +1,17 @@
 // Surfaces from points: the whole way. Layer: model.
+//
+// Up to ReconstructOptions::tile_points points are worked on in one piece. More are cut into tiles
+// of space by a tree that depends on the points alone. Each tile is reconstructed with the points
+// around it, and the parts are one surface, without seams. The surface depends on the points and
+// the options only: its bytes are the same for any number of threads, any memory, any folder, and,
+// in several tiles, any order of the points (of points at one place the first one's attributes
+// count).
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,8 +24,25 @@
 #include "rholm/points.h"
 #include "rholm/simplify.h"
 #include "rholm/surface_rules.h"
+#include "rholm/topology.h"
 
 namespace rholm {
+
+// Points of a tile at most, by default: some 1.8 GB of memory on two threads.
+inline constexpr std::uint64_t kTilePoints = std::uint64_t{1} << 20;
+
+// What a reconstruction in tiles will take, bytes.
+struct TileForecast {
+  std::uint64_t points = 0;   // that are finite, and no far strays
+  std::uint64_t tiles = 0;    // that space is cut into
+  std::uint64_t memory = 0;   // beside what is stored: of a tile, or, if more, of a rough body's
+                              // handles in all
+  std::uint64_t stored = 0;   // between the steps, in a folder or in memory
+  std::uint64_t written = 0;  // the surface as a file
+};
+// About; attributes of the points are not counted. Throws InvalidInput for tile_points that
+// ReconstructOptions cannot have.
+TileForecast foresee_tiles(std::uint64_t points, std::uint64_t tile_points = kTilePoints);
 
 // What is wanted of the surface; by default the data decide.
 struct ReconstructOptions {
@@ -45,8 +72,27 @@ struct ReconstructOptions {
   // signs of the normals are that were computed, less where no points are near (0 from four
   // spacings on) and where an opposite sheet is nearer than three spacings.
   bool confidence = false;
-  std::optional<SimplifyOptions> simplify = {};   // fewer triangles for the same surface
-  std::size_t max_memory = std::size_t{8} << 30;  // bytes: refused if more is foreseen
+  std::optional<SimplifyOptions> simplify = {};  // fewer triangles for the same surface
+  // More points than that are cut into tiles of at most so many, 1000 ... 2^28: fewer take less
+  // memory and more time. The surface of other tiles is another one, as good.
+  std::uint64_t tile_points = kTilePoints;
+  // Bytes: what needs more is refused, with the tile_points or the step that would do. It never
+  // changes the surface.
+  std::size_t max_memory = std::size_t{8} << 30;
+  // A binary PLY to write the surface to, which appears when it is complete. Then neither the
+  // surface nor its caps have to fit into memory, and Reconstruction has its report only.
+  std::filesystem::path output = {};
+  // A model file of all caps to write as well, as write_atlas() makes it; they must fit into
+  // memory.
+  std::filesystem::path model = {};
+  // Folder in which tiles are kept meanwhile, if memory has no room for them; by default that of
+  // the system's temporary files.
+  std::filesystem::path work_dir = {};
+  // What is done in several tiles is kept in the folder OUTPUT.tiles of work_dir until the surface
+  // is complete: the same call goes on from there after a run that ended early. Needs `output`.
+  bool resume = false;
+  // Called before the work on several tiles, once the points have been counted.
+  std::function<void(const TileForecast& forecast)> foreseen = {};
 };
 
 // Their list (fields.h).
@@ -102,12 +148,42 @@ void visit_fields(FieldsOf<ReconstructOptions>, const Visitor& field) {
                        .help = "fewer triangles for the same surface: so many, a share of them, "
                                "or as few as hardly change it (auto); all by default",
                        .value = "auto|N|P%|none"});
+  field(&O::tile_points, {.name = "tile_points",
+                          .help = "more points than that are cut into tiles of at most so many, "
+                                  "worked on one after the other; fewer take less memory and more "
+                                  "time",
+                          .value = "N",
+                          .least = 1000,
+                          .most = 1 << 28});
   field(&O::max_memory, {.name = "max_memory",
-                         .help = "refused if more memory is foreseen",
+                         .help = "what needs more memory is refused, with the tile_points or the "
+                                 "step that would do; it never changes the surface",
                          .value = "BYTES",
                          .unit = FieldUnit::kBytes,
                          .changes_result = false,
                          .in_program = false});
+  field(&O::output, {.name = "output",
+                     .help = "binary PLY to write the surface to, which then need not fit into "
+                             "memory",
+                     .value = "FILE",
+                     .changes_result = false,
+                     .in_program = false});
+  field(&O::model, {.name = "model",
+                    .help = "model file of all caps to write as well",
+                    .value = "FILE",
+                    .changes_result = false,
+                    .in_program = false});
+  field(&O::work_dir,
+        {.name = "work_dir",
+         .help = "folder in which tiles are kept meanwhile, if memory has no room for "
+                 "them; by default that of the system's temporary files",
+         .value = "DIR",
+         .changes_result = false,
+         .in_program = false});
+  field(&O::resume, {.name = "resume",
+                     .help = "keep what is done of several tiles, in a folder with the name of the "
+                             "output, if the work ends early, and take up what is there",
+                     .changes_result = false});
 }
 
 // What was found in the points, and what became of them. Lengths are in their unit.
@@ -163,8 +239,14 @@ struct ReconstructReport {
   // With the option `confidence`, shares of the surface's area: without data nearer than three
   // spacings, thinner than one and a half, and with a confidence below 1/2.
   double unseen_area = 0, thin_area = 0, unsure_area = 0;
-  std::size_t memory = 0;  // foreseen for points, grid and surface, bytes
-  StageTimes times;        // "points", "caps", "surface", "attributes"
+  std::size_t memory = 0;    // foreseen for points, grid and surface, bytes
+  StageTimes times;          // "points", "caps", "surface", "attributes"; of tiles "survey", ...
+  Bounds bounds = {};        // of the points that are finite; of several tiles without far strays
+  std::uint64_t tiles = 1;   // that space was cut into
+  std::uint64_t stored = 0;  // bytes between the steps of tiles, at most at a time
+  std::uint64_t vertices = 0, triangles = 0;  // of the surface
+  std::uint64_t coefficients = 0;             // of all caps
+  std::vector<std::string> warnings = {};     // of the file that the points were read from
 };
 
 // Adds n points to a report that the reader of their file dropped before (ShapeFile::dropped).
@@ -194,6 +276,7 @@ inline constexpr double kMostArea = 1.6;
 
 // A surface, its caps, and how they were found.
 struct Reconstruction {
+  // With ReconstructOptions::output the mesh and the model are left empty.
   Mesh mesh;  // closed and oriented outwards (open with HolePolicy::kKeep), with normals nx, ny, nz
   // The caps that the mesh was extracted from. synthesize() makes the same mesh of it, without the
   // attributes of the points (SurfaceRules::left_out).
@@ -206,10 +289,23 @@ struct Reconstruction {
 // turned. If some contradict those around them, these are turned. The report says what was done.
 // Attributes of the points are carried over, averaged over the nearest ones that have a finite
 // value and rounded to their type; not a number where none has. Throws InvalidInput for fewer than
-// 16 different points, options out of range and points that no closed surface goes with,
-// OutOfMemory if more than allowed would be needed (with the step that would do). Same input, same
-// bits for any number of threads.
-Reconstruction reconstruct(PointCloud cloud, const ReconstructOptions& options = {},
+// 16 different points, options out of range, points that no closed surface goes with, and a folder
+// to resume from that has other files, or what a run with another input or other options has left;
+// OutOfMemory if more than allowed would be needed (with the tile_points or the step that would
+// do); Io if the output cannot be written, a disk has not the room that is foreseen, or another
+// process works in the folder; Unsupported for an output that is named as another format, and for
+// several scans in several tiles, but for options.keep_scans: only one piece brings scans together.
+Reconstruction reconstruct(const PointCloud& cloud, const ReconstructOptions& options = {},
                            const Context& context = {});
+// The same, without a copy of the points.
+Reconstruction reconstruct(PointCloud&& cloud, const ReconstructOptions& options = {},
+                           const Context& context = {});
+// The same of the points of a file. Those that PointStream reads, binary and text PLY and lines of
+// numbers, are read in portions if they are more than a tile; a mesh and any other format as a
+// whole, and of a mesh the vertices, with the mean normals of their faces. `columns` is as in
+// ShapeReadOptions. Throws as read_shape() and PointStream do, too.
+Reconstruction reconstruct(const std::filesystem::path& points,
+                           const ReconstructOptions& options = {}, const Context& context = {},
+                           const std::string& columns = {});
 
 }  // namespace rholm

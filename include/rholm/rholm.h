@@ -37,7 +37,6 @@
 #include "rholm/primitives.h"
 #include "rholm/recenter.h"
 #include "rholm/reconstruct.h"
-#include "rholm/reconstruct_bricks.h"
 #include "rholm/region.h"
 #include "rholm/render.h"
 #include "rholm/repair.h"

@@ -18,7 +18,9 @@ stops them.
 
 from __future__ import annotations
 
-from . import _arguments
+from typing import TYPE_CHECKING
+
+from . import _arguments, _reconstruct
 from ._atlas import (
     NO_CAP,
     Atlas,
@@ -70,8 +72,6 @@ from ._core import (
     AtlasErrors,
     AtlasSize,
     Bounds,
-    BrickForecast,
-    BrickReconstruction,
     Cap,
     CleanReport,
     Comparison,
@@ -92,6 +92,7 @@ from ._core import (
     StarReport,
     SurfaceMeasures,
     SurfaceRules,
+    TileForecast,
     ToleranceReport,
     TransferReport,
     TruncationErrors,
@@ -185,9 +186,8 @@ from ._primitives import (
 )
 from ._reconstruct import (
     Reconstruction,
-    foresee_bricks,
+    foresee_tiles,
     reconstruct,
-    reconstruct_bricks,
 )
 from ._rotations import (
     Rotation,
@@ -276,8 +276,6 @@ __all__ = [
     "AtlasSize",
     "BatchTable",
     "Bounds",
-    "BrickForecast",
-    "BrickReconstruction",
     "CancelledError",
     "Cap",
     "CleanReport",
@@ -333,6 +331,7 @@ __all__ = [
     "Studio",
     "SurfaceMeasures",
     "SurfaceRules",
+    "TileForecast",
     "ToleranceReport",
     "TransferEditor",
     "TransferReport",
@@ -391,7 +390,7 @@ __all__ = [
     "filter",
     "find_center",
     "flip",
-    "foresee_bricks",
+    "foresee_tiles",
     "from_array",
     "from_convention",
     "from_pyshtools",
@@ -439,7 +438,6 @@ __all__ = [
     "read_shape",
     "recentered",
     "reconstruct",
-    "reconstruct_bricks",
     "region_weights",
     "render",
     "repair",
@@ -489,3 +487,8 @@ __all__ = [
 ]
 
 _arguments.check_all(__name__, __all__)
+
+if not TYPE_CHECKING:  # else every name would be one of the package
+
+    def __getattr__(name: str) -> object:
+        return _reconstruct.old_thing(name)

@@ -2080,9 +2080,9 @@ class SurfaceRules:
         """Whether the surface has fewer triangles than its grid gave."""
 
     @property
-    def bricks(self) -> bool:
+    def tiles(self) -> bool:
         """
-        Whether it was made in bricks: `Atlas.mesh` has another order of vertices and faces, and what closes holes may differ by some steps of the grid.
+        Whether it was made in several tiles: `Atlas.mesh` has another order of vertices and faces, and what closes holes may differ by some steps of the grid.
         """
 
     @property
@@ -2455,10 +2455,40 @@ class ReconstructOptions:
     def simplify(self, arg: SimplifyOptions | None, /) -> None: ...
 
     @property
+    def tile_points(self) -> int: ...
+
+    @tile_points.setter
+    def tile_points(self, arg: int | None, /) -> None: ...
+
+    @property
     def max_memory(self) -> int: ...
 
     @max_memory.setter
     def max_memory(self, arg: int | None, /) -> None: ...
+
+    @property
+    def output(self) -> pathlib.Path: ...
+
+    @output.setter
+    def output(self, arg: str | os.PathLike | None, /) -> None: ...
+
+    @property
+    def model(self) -> pathlib.Path: ...
+
+    @model.setter
+    def model(self, arg: str | os.PathLike | None, /) -> None: ...
+
+    @property
+    def work_dir(self) -> pathlib.Path: ...
+
+    @work_dir.setter
+    def work_dir(self, arg: str | os.PathLike | None, /) -> None: ...
+
+    @property
+    def resume(self) -> bool: ...
+
+    @resume.setter
+    def resume(self, arg: bool | None, /) -> None: ...
 
     FIELDS: tuple = ...
 
@@ -2646,51 +2676,40 @@ class ReconstructReport:
     def times(self) -> dict:
         """Stages: (wall, cpu) in seconds."""
 
-def reconstruct(arg0: PointCloud, arg1: int, arg2: ReconstructOptions, arg3: Caller, /) -> tuple: ...
-
-BRICK_POINTS: int = 1048576
-
-class BrickOptions:
-    """How points are cut into bricks, and what is kept."""
-
-    def __init__(self, **fields: Any) -> None: ...
-
-    def __repr__(self) -> str: ...
+    @property
+    def bounds(self) -> Bounds:
+        """
+        The box of the points that are finite; of several tiles without far strays.
+        """
 
     @property
-    def points_per_brick(self) -> int: ...
-
-    @points_per_brick.setter
-    def points_per_brick(self, arg: int | None, /) -> None: ...
+    def tiles(self) -> int:
+        """Number that space was cut into."""
 
     @property
-    def work_dir(self) -> pathlib.Path: ...
-
-    @work_dir.setter
-    def work_dir(self, arg: str | os.PathLike | None, /) -> None: ...
+    def stored(self) -> int:
+        """Bytes between the steps of several tiles, at most at a time."""
 
     @property
-    def resume(self) -> bool: ...
-
-    @resume.setter
-    def resume(self, arg: bool | None, /) -> None: ...
+    def vertices(self) -> int:
+        """Number of them, of the surface."""
 
     @property
-    def model(self) -> pathlib.Path: ...
-
-    @model.setter
-    def model(self, arg: str | os.PathLike | None, /) -> None: ...
+    def triangles(self) -> int:
+        """Number of them, of the surface."""
 
     @property
-    def columns(self) -> str: ...
+    def coefficients(self) -> int:
+        """Number of those of all caps."""
 
-    @columns.setter
-    def columns(self, arg: str | None, /) -> None: ...
+    @property
+    def warnings(self) -> list[str]:
+        """Of the file that the points were read from, list of str."""
 
-    FIELDS: tuple = ...
+def reconstruct(points: PointCloud | str | os.PathLike, dropped: int, columns: str, options: ReconstructOptions, foreseen: object | None, caller: Caller) -> tuple: ...
 
-class BrickForecast:
-    """What a reconstruction in bricks will take, about."""
+class TileForecast:
+    """What a reconstruction in tiles will take, about."""
 
     def __repr__(self) -> str: ...
 
@@ -2710,7 +2729,7 @@ class BrickForecast:
         """That are finite, and no far strays."""
 
     @property
-    def bricks(self) -> int:
+    def tiles(self) -> int:
         """That space is cut into."""
 
     @property
@@ -2719,71 +2738,15 @@ class BrickForecast:
 
     @property
     def stored(self) -> int:
-        """Bytes in the folder, or in memory if there is none."""
+        """
+        Bytes between the steps, in a folder, or in memory if there is room for them.
+        """
 
     @property
     def written(self) -> int:
-        """Bytes of the surface's file."""
+        """Bytes of the surface as a file."""
 
-class BrickReconstruction:
-    """
-    What was found in points that were worked on in bricks, and how much was made of them; lengths are in their unit.
-    """
-
-    def __repr__(self) -> str: ...
-
-    def __getstate__(self) -> dict: ...
-
-    def __setstate__(self, arg: object, /) -> None: ...
-
-    def __eq__(self, arg: object, /) -> bool: ...
-
-    def __hash__(self) -> int: ...
-
-    def to_dict(self) -> dict:
-        """All fields by name; records within it are dicts, too."""
-
-    @property
-    def report(self) -> ReconstructReport:
-        """
-        What was found in the points, and what became of them, with the times of the stages in bricks.
-        """
-
-    @property
-    def bounds(self) -> Bounds:
-        """The box of the points, without far strays."""
-
-    @property
-    def bricks(self) -> int:
-        """Number that space was cut into."""
-
-    @property
-    def vertices(self) -> int:
-        """Number of them, of the surface."""
-
-    @property
-    def triangles(self) -> int:
-        """Number of them, of the surface."""
-
-    @property
-    def coefficients(self) -> int:
-        """Number of those of all caps."""
-
-    @property
-    def stored(self) -> int:
-        """
-        Bytes between the steps, at most at a time, in the folder or in memory.
-        """
-
-    @property
-    def warnings(self) -> list[str]:
-        """Of the file of points, list of str."""
-
-def is_streamed(arg: str | os.PathLike, /) -> bool: ...
-
-def foresee_bricks(arg0: int, arg1: int, /) -> BrickForecast: ...
-
-def reconstruct_bricks(points: PointCloud | str | os.PathLike, dropped: int, mesh: str | os.PathLike, options: ReconstructOptions, bricks: BrickOptions, foreseen: object | None, caller: Caller) -> BrickReconstruction: ...
+def foresee_tiles(arg0: int, arg1: int, /) -> TileForecast: ...
 
 def region_weights(arg0: Mesh, arg1: Sequence[str], arg2: float, /) -> NDArray[numpy.float64]: ...
 

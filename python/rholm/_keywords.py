@@ -30,14 +30,9 @@ class ReconstructKeywords(TypedDict, total=False):
     keep_scans: bool
     confidence: bool
     simplify: Any
+    tile_points: int
     max_memory: int
-
-
-class BrickKeywords(TypedDict, total=False):
-    """How points are cut into bricks, and what is kept."""
-
-    points_per_brick: int
-    work_dir: str | os.PathLike[str]
+    output: str | os.PathLike[str] | None
+    model: str | os.PathLike[str] | None
+    work_dir: str | os.PathLike[str] | None
     resume: bool
-    model: str | os.PathLike[str]
-    columns: str

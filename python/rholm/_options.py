@@ -80,12 +80,18 @@ _TYPES = {
 }
 
 
+def _may_be_none(field: dict[str, Any]) -> bool:
+    """Whether None stands for no value: an empty path is none."""
+    kind: str = field["kind"]
+    return kind.startswith("optional ") or kind == "path"
+
+
 def _types(field: dict[str, Any]) -> tuple[str, str]:
     """The type of an argument as it is written in Python, and in docstrings."""
     kind = field["kind"].removeprefix("optional ")
     choices = ", ".join(f'"{name}"' for name in field["choices"])
     written, shown = (f"Literal[{choices}]", f"{{{choices}}}") if choices else _TYPES[kind]
-    if field["kind"] != kind:
+    if _may_be_none(field):
         written += "" if written == "Any" else " | None"
         shown += ", optional"
     return written, shown
@@ -129,7 +135,7 @@ def takes(*kinds: Any) -> Callable[[_Function], _Function]:
             inspect.Parameter(
                 field["name"],
                 inspect.Parameter.KEYWORD_ONLY,
-                default=None if field["kind"].startswith("optional ") else field["default"],
+                default=None if _may_be_none(field) else field["default"],
                 annotation=annotation(field),
             )
             for field in fields

@@ -210,8 +210,8 @@ nb::tuple state_of_rules(const SurfaceRules& rules) {
                           s.size[2], bytes_of(s.bits));
   }
   return nb::make_tuple(to_string(rules.holes), rules.min_component, simplify,
-                        bytes_of(rules.spacing_places), bytes_of(rules.spacings), seen,
-                        rules.bricks, rules.left_out);
+                        bytes_of(rules.spacing_places), bytes_of(rules.spacings), seen, rules.bricks,
+                        rules.left_out);
 }
 
 SurfaceRules rules_of_state(const nb::object& state) {
@@ -274,10 +274,10 @@ void bind_rules(nb::module_& m) {
       .def_prop_ro(
           "simplified", [](const SurfaceRules& r) { return r.simplify.has_value(); },
           "Whether the surface has fewer triangles than its grid gave.")
-      .def_ro(
-          "bricks", &SurfaceRules::bricks,
-          "Whether it was made in bricks: `Atlas.mesh` has another order of vertices and faces, "
-          "and what closes holes may differ by some steps of the grid.")
+      .def_ro("tiles", &SurfaceRules::bricks,
+              "Whether it was made in several tiles: `Atlas.mesh` has another order of vertices "
+              "and faces, "
+              "and what closes holes may differ by some steps of the grid.")
       .def_ro("left_out", &SurfaceRules::left_out,
               "Attributes of the surface from the points, which the atlas does not hold.");
 }

@@ -7,7 +7,6 @@
 #include <nanobind/stl/variant.h>
 
 #include <filesystem>
-#include <system_error>
 #include <utility>
 #include <variant>
 
@@ -15,84 +14,46 @@
 #include "caller.h"
 #include "casters.h"
 #include "record.h"
-#include "rholm/error.h"
-#include "rholm/point_stream.h"
-#include "rholm/reconstruct_bricks.h"
 
 namespace rholm::python {
 namespace {
 
 using Points = std::variant<const PointCloud*, std::filesystem::path>;
 
-// Whether the points of a file are read a piece at a time: not where faces have to be asked for
-// normals. Pipes are not opened to find out, as they are read once.
-bool is_streamed(const std::filesystem::path& path) {
-  std::error_code error;
-  if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error)) {
-    return true;
-  }
-  try {
-    return !PointStream(path).has_faces();
-  } catch (const Error& refused) {
-    if (refused.code() == ErrorCode::kUnsupported) return false;
-    throw;
-  }
-}
-
 // `dropped` points were by the reader of points in memory.
-BrickReconstruction reconstruct_in_bricks(const Points& points, std::size_t dropped,
-                                          const std::filesystem::path& mesh,
-                                          const ReconstructOptions& options, BrickOptions bricks,
-                                          const nb::object& foreseen, const Caller& caller) {
+nb::tuple reconstruct_any(const Points& points, std::size_t dropped, const std::string& columns,
+                          ReconstructOptions options, const nb::object& foreseen,
+                          const Caller& caller) {
   if (!foreseen.is_none()) {
-    bricks.foreseen = [&foreseen](const BrickForecast& forecast) {
+    options.foreseen = [&foreseen](const TileForecast& forecast) {
       const nb::gil_scoped_acquire acquired;
       foreseen(forecast);
     };
   }
-  return caller.run([&](const Context& context) {
+  Reconstruction made = caller.run([&](const Context& context) {
     if (const auto* path = std::get_if<std::filesystem::path>(&points)) {
-      return reconstruct_bricks(*path, mesh, options, bricks, context);
+      return reconstruct(*path, options, context, columns);
     }
-    BrickReconstruction made =
-        reconstruct_bricks(*std::get<const PointCloud*>(points), mesh, options, bricks, context);
-    add_dropped(dropped, made.report);
-    return made;
+    return reconstruct(*std::get<const PointCloud*>(points), options, context);
   });
+  if (dropped > 0) {
+    add_dropped(dropped, made.report);
+    made.model.input_numbers = 3 * made.report.points;
+  }
+  if (!options.output.empty())
+    return nb::make_tuple(nb::none(), nb::none(), std::move(made.report));
+  return nb::make_tuple(std::move(made.mesh), std::move(made.model), std::move(made.report));
 }
 
-void bind_bricks(nb::module_& m) {
-  m.attr("BRICK_POINTS") = kBrickPoints;
-  Options<BrickOptions>(m, "BrickOptions", "How points are cut into bricks, and what is kept.")
-      .fields();
-  Record<BrickForecast>(m, "BrickForecast", "What a reconstruction in bricks will take, about.")
-      .field("points", &BrickForecast::points, "That are finite, and no far strays.")
-      .field("bricks", &BrickForecast::bricks, "That space is cut into.")
-      .field("memory", &BrickForecast::memory, "Bytes, beside what is stored.")
-      .field("stored", &BrickForecast::stored,
-             "Bytes in the folder, or in memory if there is none.")
-      .field("written", &BrickForecast::written, "Bytes of the surface's file.");
-  Record<BrickReconstruction>(m, "BrickReconstruction",
-                              "What was found in points that were worked on in bricks, and how "
-                              "much was made of them; lengths are in their unit.")
-      .field("report", &BrickReconstruction::report,
-             "What was found in the points, and what became of them, with the times of the stages "
-             "in bricks.")
-      .field("bounds", &BrickReconstruction::bounds, "The box of the points, without far strays.")
-      .field("bricks", &BrickReconstruction::bricks, "Number that space was cut into.")
-      .field("vertices", &BrickReconstruction::vertices, "Number of them, of the surface.")
-      .field("triangles", &BrickReconstruction::triangles, "Number of them, of the surface.")
-      .field("coefficients", &BrickReconstruction::coefficients, "Number of those of all caps.")
-      .field("stored", &BrickReconstruction::stored,
-             "Bytes between the steps, at most at a time, in the folder or in memory.")
-      .field("warnings", &BrickReconstruction::warnings, "Of the file of points, list of str.");
-  m.def("is_streamed", [](const std::filesystem::path& path) {
-    return unlocked([&] { return is_streamed(path); });
-  });
-  m.def("foresee_bricks", &foresee_bricks);
-  m.def("reconstruct_bricks", &reconstruct_in_bricks, nb::arg("points"), nb::arg("dropped"),
-        nb::arg("mesh"), nb::arg("options"), nb::arg("bricks"), nb::arg("foreseen").none(),
-        nb::arg("caller"));
+void bind_tiles(nb::module_& m) {
+  Record<TileForecast>(m, "TileForecast", "What a reconstruction in tiles will take, about.")
+      .field("points", &TileForecast::points, "That are finite, and no far strays.")
+      .field("tiles", &TileForecast::tiles, "That space is cut into.")
+      .field("memory", &TileForecast::memory, "Bytes, beside what is stored.")
+      .field("stored", &TileForecast::stored,
+             "Bytes between the steps, in a folder, or in memory if there is room for them.")
+      .field("written", &TileForecast::written, "Bytes of the surface as a file.");
+  m.def("foresee_tiles", &foresee_tiles);
 }
 
 }  // namespace
@@ -171,17 +132,20 @@ void bind_reconstruction(nb::module_& m) {
              "Of the surface, if confidence is asked for: share of the area with a confidence "
              "below 1/2.")
       .field("memory", &ReconstructReport::memory, "Foreseen, bytes.")
-      .field("times", &ReconstructReport::times, "Stages: (wall, cpu) in seconds.");
-  m.def("reconstruct", [](PointCloud cloud, std::size_t dropped, const ReconstructOptions& options,
-                          const Caller& caller) {
-    Reconstruction result = caller.run(
-        [&](const Context& context) { return reconstruct(std::move(cloud), options, context); });
-    add_dropped(dropped, result.report);
-    result.model.input_numbers = 3 * result.report.points;  // with those that the reader dropped
-    return nb::make_tuple(std::move(result.mesh), std::move(result.model),
-                          std::move(result.report));
-  });
-  bind_bricks(m);
+      .field("times", &ReconstructReport::times, "Stages: (wall, cpu) in seconds.")
+      .field("bounds", &ReconstructReport::bounds,
+             "The box of the points that are finite; of several tiles without far strays.")
+      .field("tiles", &ReconstructReport::tiles, "Number that space was cut into.")
+      .field("stored", &ReconstructReport::stored,
+             "Bytes between the steps of several tiles, at most at a time.")
+      .field("vertices", &ReconstructReport::vertices, "Number of them, of the surface.")
+      .field("triangles", &ReconstructReport::triangles, "Number of them, of the surface.")
+      .field("coefficients", &ReconstructReport::coefficients, "Number of those of all caps.")
+      .field("warnings", &ReconstructReport::warnings,
+             "Of the file that the points were read from, list of str.");
+  m.def("reconstruct", &reconstruct_any, nb::arg("points"), nb::arg("dropped"), nb::arg("columns"),
+        nb::arg("options"), nb::arg("foreseen").none(), nb::arg("caller"));
+  bind_tiles(m);
 }
 
 }  // namespace rholm::python

@@ -175,7 +175,7 @@ FUNCTIONS = [
         {"points": CLOUD},
         {"normals": rows(), "step": number(0.1, 1), "noise": number(0, 0.1)},
     ),
-    (rholm.foresee_bricks, {"points": count(0, 10**12)}, {"points_per_brick": count(0, 1 << 20)}),
+    (rholm.foresee_tiles, {"points": count(0, 10**12)}, {"tile_points": count(0, 1 << 20)}),
     (rholm.orient, {"points": CLOUD}, {"center": POINT, "neighbors": count(3, 20), "sensor": POINT}),
     (rholm.clean, {"points": CLOUD}, {}),
     (rholm.inspect, {"mesh": MESH}, {}),

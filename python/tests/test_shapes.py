@@ -216,8 +216,9 @@ def test_the_atlas_of_open_points_gives_their_surface_again(tmp_path, holes, sim
             assert np.array_equal(again.triangles, r.mesh.triangles)
             assert atlas.rules == r.atlas.rules
         assert len(r.atlas.mesh(simplify={"share": 1}).triangles) >= len(r.mesh.triangles)
-    rholm.reconstruct_bricks(half, tmp_path / "b.ply", model=tmp_path / "b.h5", points_per_brick=1000)
-    assert rholm.load(tmp_path / "b.h5").rules.bricks
+    tiled = rholm.reconstruct(half, tile_points=1000)
+    tiled.atlas.save(tmp_path / "b.h5")
+    assert rholm.load(tmp_path / "b.h5").rules.tiles
 
 
 def test_compression_keeps_its_tolerance(ring, tmp_path):

@@ -121,7 +121,7 @@ class Clouds(CliTest):
     def test_bricks_refuse_points_that_fill_thin_bodies(self):
         for name in ("thin_slab", "wall_of_shell"):
             points = getattr(clouds, name)(np.random.default_rng(14), 4000)
-            done, _ = self.reconstruct(points, None, "--brick-points", "1000")
+            done, _ = self.reconstruct(points, None, "--tile-points", "1000")
             self.assertEqual(done.code, 4, done)
             self.assertIn("they fill a volume", done.err)
 
@@ -144,7 +144,7 @@ class Clouds(CliTest):
             done, _ = self.reconstruct(points)
             self.assertEqual(done.code, 4, done)
             self.assertRegex(done.err, r"sheets of the points cross each other, near( \(.*\);){2} \(.*\):")
-        bricks, _ = self.reconstruct(points, None, "--brick-points", "1000")
+        bricks, _ = self.reconstruct(points, None, "--tile-points", "1000")
         self.assertEqual((bricks.code, bricks.err.splitlines()[-1]), (4, done.err.splitlines()[-1]))
 
     def test_sheets_that_bend_end_or_touch_do_not_cross(self):
@@ -166,17 +166,17 @@ class Clouds(CliTest):
     def test_bricks_mend_as_one_piece_does(self):
         for body, way, share in (("sphere", "random", 0.5), ("torus", "patch", 0.1), ("two_balls", "half", 0.3)):
             points, normals, turned = spoiled(body, way, share, 4000)
-            done, shape = self.reconstruct(points, normals, "--brick-points", "1000")
+            done, shape = self.reconstruct(points, normals, "--tile-points", "1000")
             self.assertEqual((done.code, self.fault(body, done, shape)), (0, ""), done)
             self.assertIn("were turned", done.err)
-            self.assertGreater(done.json()["bricks"], 3)
+            self.assertGreater(done.json()["tiles"], 3)
             one = self.reconstruct(points, normals)[0].json()
             self.assertEqual((done.json()["mended_normals"], done.json()["contradicting_normals"]),
                              (one["mended_normals"], one["contradicting_normals"]), body)
 
     def test_bricks_name_what_they_cannot_mend(self):
         points, normals, _ = spoiled("bowl", "half", 0.45, 4000)
-        done, _ = self.reconstruct(points, normals, "--brick-points", "1000")
+        done, _ = self.reconstruct(points, normals, "--tile-points", "1000")
         self.assertEqual(done.code, 4, done)
         self.assertRegex(done.err, r"contradict those around them, first at( \(.*\);){2} \(.*\):")
 
@@ -184,7 +184,7 @@ class Clouds(CliTest):
     def test_bricks_compute_directions_at_random_anew(self):
         rng = np.random.default_rng(1)
         points, _ = clouds.torus(rng, 4000)
-        done, shape = self.reconstruct(points, clouds.directions(rng, 4000), "--brick-points", "1000")
+        done, shape = self.reconstruct(points, clouds.directions(rng, 4000), "--tile-points", "1000")
         self.assertEqual((done.code, self.fault("torus", done, shape)), (0, ""), done)
         self.assertIn("off the surface", done.err)
         self.assertTrue(done.json()["computed_normals"])
@@ -193,7 +193,7 @@ class Clouds(CliTest):
     def test_bricks_cut_handles_beside_what_was_cut_before(self):
         points, normals = clouds.joined(clouds.sphere(np.random.default_rng(8), 2000),
                                         clouds.sphere(np.random.default_rng(9), 2000, 1, (0.8, 0, 0)))
-        done, _ = self.reconstruct(points, normals, "--brick-points", "1000")
+        done, _ = self.reconstruct(points, normals, "--tile-points", "1000")
         self.assertEqual(done.code, 4, done)
         self.assertIn("sheets of the points cross each other", done.err)
 

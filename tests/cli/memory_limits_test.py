@@ -31,7 +31,7 @@ def anonymous(pid):
 OF_MESHES = ("info {}", "convert {} out.ply", "convert {} out.obj", "compare {} {} --samples 1000",
              "analyze {} --degree 8 -o out.h5", "analyze {} --degree 8 --weld 1e-9 -o out.h5")
 OF_POINTS = ("info {}", "convert {} out.xyz", "convert {} out.off", "reconstruct {} -o out.ply",
-             "reconstruct {} -o out.ply --brick-points 10000")
+             "reconstruct {} -o out.ply --tile-points 10000")
 
 
 @unittest.skipIf(os.environ.get("RHOLM_TEST_SANITIZED") == "1",
@@ -71,8 +71,16 @@ class Limits(CliTest):
                     code, said, most = self.peak(line.split(), enough)
                 self.assertEqual(code, 0, (line, enough, said))
                 self.assertLessEqual(most, enough * GIB + BESIDE)
-            elif wanted := re.search(r"need some ([\d.e+-]+) GiB", said):  # of bricks
-                self.assertEqual(self.peak(line.split(), float(wanted[1]))[0], 0, (line, said))
+            elif fits := re.search(r"--tile-points (\d+)", said):
+                if wanted := re.search(r"need some ([\d.e+-]+) GiB", said):  # of tiles
+                    self.assertEqual(self.peak(line.split(), float(wanted[1]))[0], 0, (line, said))
+                # The tiles that are named fit, into the limit that is named with them if there is one.
+                words = re.sub(r" --tile-points \d+", "", line).split() + ["--tile-points", fits[1]]
+                wanted = re.search(r"([\d.e+-]+) GiB would do for tiles", said)
+                enough = float(wanted[1]) if wanted else limit
+                code, said, most = self.peak(words, enough)
+                self.assertEqual(code, 0, (words, enough, said))
+                self.assertLessEqual(most, enough * GIB + BESIDE)
             else:
                 self.assertRegex(said, "GiB|step")
         return False
@@ -143,13 +151,17 @@ class Limits(CliTest):
                 self.assertLessEqual(used, limit * GIB + BESIDE)
 
     @unittest.skipIf(LARGE, "the large ones")
-    def test_bricks_are_refused_with_a_limit_that_is_enough(self):
+    def test_tiles_are_refused_with_a_limit_and_a_size_that_are_enough(self):
         self.rholm("make", "sphere", "--subdivisions", "5", "-o", "mesh.ply")
         self.rholm("make", "sample", "mesh.ply", "--points", "20000", "-o", "points.ply")
-        line = "reconstruct points.ply -o out.ply --brick-points 10000"
-        refused = self.peak(line.split(), 0.005)
+        line = "reconstruct points.ply -o out.ply --tile-points 10000"
+        refused = self.peak(line.split(), 0.01)
         self.assertRegex(refused[1], r"need some [\d.]+ GiB")
-        self.assertFalse(self.check(line, 0.005))  # which tries the limit that is named
+        for limit in (0.006, 0.01, 0.015):
+            self.assertFalse(self.check(line, limit))  # which tries what is named
+        for limit in (0.003, 0.006, 0.01, 0.02, 0.04):
+            self.assertFalse(self.check("reconstruct points.ply -o out.ply", limit))
+        self.assertTrue(self.check("reconstruct points.ply -o out.ply", 0.1))
 
     @unittest.skipIf(LARGE, "the large ones")
     def test_nothing_is_refused_where_no_limit_was_said(self):

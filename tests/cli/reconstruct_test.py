@@ -51,7 +51,7 @@ class Reconstruct(CliTest):
         for row, word in ((5, "nan"), (700, "inf"), (2000, "-inf")):
             lines.insert(row, " ".join([word] + lines[row].split()[1:]))
         self.write("odd.xyz", "\n".join(lines) + "\n")
-        for words in (["odd.xyz"], ["odd.xyz", "--brick-points", "3000"]):
+        for words in (["odd.xyz"], ["odd.xyz", "--tile-points", "3000"]):
             report = self.reconstruct(*words)
             with self.subTest(words):
                 self.assertEqual((report["points"], report["dropped_points"]), (4003, 3))
@@ -298,7 +298,7 @@ class Reconstruct(CliTest):
 
 
 class Bricks(CliTest):
-    """More points than --brick-points: the surface of all is made of parts."""
+    """More points than --tile-points: the surface of all is made of parts."""
 
     def setUp(self):
         super().setUp()
@@ -306,16 +306,16 @@ class Bricks(CliTest):
         self.rholm("make", "sample", "t.ply", "--points", "12000", "-o", "p.ply")
 
     def bricks(self, *words, output="s.ply", n=3000, **options):
-        return self.rholm("reconstruct", *words, "--brick-points", n, "-o", output, **options)
+        return self.rholm("reconstruct", *words, "--tile-points", n, "-o", output, **options)
 
     def bytes(self, name):
         return (self.folder / name).read_bytes()
 
     def test_the_model_gives_the_surface_of_bricks_in_another_order(self):
         said = self.bricks("p.ply", "--model", "m.h5")
-        self.assertRegex(said.out, r"(?m)^  bricks +4, ")
-        self.assertTrue(self.rholm("info", "m.h5", "--json").json()["reconstruction"]["bricks"])
-        self.assertIn("made in bricks", self.rholm("synthesize", "m.h5", "-o", "again.ply").err)
+        self.assertRegex(said.out, r"(?m)^  tiles +4, ")
+        self.assertTrue(self.rholm("info", "m.h5", "--json").json()["reconstruction"]["tiles"])
+        self.assertIn("made in tiles", self.rholm("synthesize", "m.h5", "-o", "again.ply").err)
         counts = [self.rholm("info", name, "--json").json()["counts"] for name in ("s.ply", "again.ply")]
         self.assertEqual(*counts)
         relative = self.rholm("compare", "s.ply", "again.ply", "--json").json()["relative"]
@@ -327,15 +327,15 @@ class Bricks(CliTest):
     def test_a_torus_in_bricks_is_that_in_one_piece(self):
         self.rholm("make", "sample", "t.ply", "--points", "6000", "-o", "p.ply")
         said = self.bricks("p.ply", "--json", n=1500)
-        self.assertRegex(said.err, r"6000 points in 4 bricks: some [\d.]+ GB of memory")
+        self.assertRegex(said.err, r"6000 points in 4 tiles: some [\d.]+ GB of memory")
         report = json.loads(said.out)
-        self.assertEqual((report["points"], report["bricks"]), (6000, 4))
+        self.assertEqual((report["points"], report["tiles"]), (6000, 4))
         shape = self.rholm("info", "s.ply", "--json").json()
         self.assertEqual((shape["components"], shape["genus"], shape["closed"]), (1, 1, True))
         self.assertEqual((shape["counts"]["vertices"], shape["counts"]["faces"]),
                          (report["vertices"], report["faces"]))
         one = self.rholm("reconstruct", "p.ply", "-o", "one.ply", "--json").json()
-        self.assertNotIn("bricks", one)
+        self.assertNotIn("tiles", one)
         self.assertAlmostEqual(report["area"] / one["area"], 1, delta=1e-3)
         self.assertAlmostEqual(report["diagonal"], one["diagonal"], delta=1e-6)
         # As many as there are make no bricks.
@@ -357,18 +357,37 @@ class Bricks(CliTest):
         self.bricks("p.xyz", output="other.ply")
         self.assertEqual(self.bytes("other.ply"), self.bytes("s.ply"))
 
-    def test_little_memory_makes_bricks(self):
+    def test_little_memory_is_refused_with_tiles_that_fit(self):
         self.rholm("make", "sample", "t.ply", "--points", "40000", "-o", "p.ply")
-        said = self.rholm("reconstruct", "p.ply", "-o", "s.ply", "--max-memory", "0.03")
-        self.assertIn("40000 points in", said.err)
-        self.assertEqual(self.rholm("info", "s.ply", "--json").json()["genus"], 1)
-        self.assertIn("--brick-points", self.bricks("p.ply", "--max-memory", "0.01", n=30000, code=1).err)
+        self.rholm("reconstruct", "p.ply", "-o", "one.ply")
+        # Enough changes nothing.
+        self.rholm("reconstruct", "p.ply", "-o", "s.ply", "--max-memory", "0.1")
+        self.assertEqual(self.bytes("s.ply"), self.bytes("one.ply"))
+        for limit in ("0.006", "0.012", "0.025"):
+            for words in ((), ("--tile-points", "30000")):
+                refused = self.rholm("reconstruct", "p.ply", "-o", "s.ply", "--max-memory", limit, *words, code=1)
+                fits = re.search(r"--tile-points (\d+)", refused.err)[1]
+                made = self.rholm("reconstruct", "p.ply", "-o", "s.ply", "--max-memory", limit, "--tile-points", fits)
+                self.assertIn("40000 points in", made.err)
+                self.assertEqual(self.rholm("info", "s.ply", "--json").json()["genus"], 1)
+                # Memory does not change what these tiles give.
+                self.rholm("reconstruct", "p.ply", "-o", "wide.ply", "--tile-points", fits)
+                self.assertEqual(self.bytes("s.ply"), self.bytes("wide.ply"))
+
+    def test_the_old_name_of_tile_points_is_understood(self):
+        said = self.rholm("reconstruct", "p.ply", "--brick-points", "3000", "-o", "old.ply")
+        self.assertIn("--brick-points is --tile-points now", said.err)
+        self.assertNotIn("is --tile-points now", self.bricks("p.ply").err)
+        self.assertEqual(self.bytes("old.ply"), self.bytes("s.ply"))
+        self.assertIn("--brick-points is", self.rholm("reconstruct", "p.ply", "--brick-points=3000", "-o", "old.ply").err)
+        for words in (["reconstruct", "--help"], ["completion", "bash"]):
+            self.assertNotIn("brick", self.rholm(*words).out)
 
     def test_a_run_that_was_killed_is_taken_up(self):
         self.bricks("p.ply")
         words = ("p.ply", "--resume", "--work-dir", "work")
         (self.folder / "work").mkdir()
-        folder = self.folder / "work" / "r.ply.bricks"
+        folder = self.folder / "work" / "r.ply.tiles"
         for stage in ("caps", "mesh", "output"):  # the last one is a file
             def begun():
                 piece = folder / "pieces" / stage
@@ -376,7 +395,7 @@ class Bricks(CliTest):
             # It waits where the second file of the stage, or the result, is to get its name.
             letters, after = ("r.ply$", 0) if stage == "output" else (f"pieces/{stage}/", 1)
             mark = self.folder / "mark"
-            with subprocess.Popen([RHOLM, "reconstruct", *words, "--brick-points", "3000", "-o", "r.ply",
+            with subprocess.Popen([RHOLM, "reconstruct", *words, "--tile-points", "3000", "-o", "r.ply",
                                    "--threads", "1"], cwd=self.folder, stdout=subprocess.DEVNULL,
                                   stderr=subprocess.DEVNULL,
                                   env={**os.environ, **held(mark, letters, after)}) as run:
@@ -397,7 +416,7 @@ class Bricks(CliTest):
         self.assertIn("--resume", self.bricks("-", "--resume", stdin=b"", code=2).err)
         self.assertIn("--resume", self.bricks("p.ply", "--resume", "--format", "ply", output="-", code=2).err)
         self.assertIn("nowhere", self.bricks("p.ply", "--max-memory", "0.012", "--work-dir", "nowhere", code=1).err)
-        self.assertIn("--brick-points", self.bricks("p.ply", n=10, code=2).err)
+        self.assertIn("--tile-points", self.bricks("p.ply", n=10, code=2).err)
         self.write("short.ply", self.bytes("p.ply")[:-7])
         self.bricks("short.ply", "--work-dir", ".", "--max-memory", "0.012", code=3)
         self.assertEqual(self.files(), ["p.ply", "short.ply", "t.ply"])

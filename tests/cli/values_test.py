@@ -41,7 +41,7 @@ BEYOND = {
     "threads": ["-1", "4097"], "seed": ["-1", "99999999999999999999"], "weld": ["-1e-9"],
     "analyze --degree": ["-1", "16385", "1.5", "0x10"], "report --degree": ["-1", "16385"],
     "synthesize --degree": ["-1", "4,16385", "4,,5"], "tolerance": ["0", "-1"],
-    "reconstruct --tolerance": ["-1", "1.1"], "brick-points": ["999", "268435457"],
+    "reconstruct --tolerance": ["-1", "1.1"], "tile-points": ["999", "268435457"],
     "max-degree": ["-1", "16385"], "precision": ["0", "1"], "rays": ["-1", "1e3"],
     "samples": ["0", "-1"], "deviation": ["0", "2"], "most-samples": ["1"],
     "center": ["1,2", "1,2,nan"], "length-unit": ["x" * 300, "a\nb", " km", "\udcff"],

@@ -19,7 +19,7 @@ class Reconstruct(ProgramTest):
         self.rholm("make", "sample", "t.ply", "--points", n, "-o", name, "--quiet")
 
     def words(self, out, *more, points="p.ply", n=2000):
-        return ("reconstruct", points, "--brick-points", n, "-o", out, "--work-dir", "work", "--quiet", *more)
+        return ("reconstruct", points, "--tile-points", n, "-o", out, "--work-dir", "work", "--quiet", *more)
 
     def errors(self, run):
         return [line for line in run.stderr.splitlines() if line.startswith("rholm") and ": error:" in line]
@@ -108,7 +108,7 @@ class Reconstruct(ProgramTest):
     def test_a_killed_rank_costs_its_bricks_only(self):
         self.sample("p.ply", 12000)  # eight bricks
         self.rholm(*self.words("one.ply"))
-        pieces = self.folder / "work" / "all.ply.bricks" / "pieces"
+        pieces = self.folder / "work" / "all.ply.tiles" / "pieces"
         for stage, ranks, killed in (("caps", 3, 2), ("grid", 2, 0), ("mesh", 4, 1)):
             run = self.killed(ranks, killed, stage)
             self.assertNotEqual(run.code, 0, run)
@@ -123,8 +123,8 @@ class Reconstruct(ProgramTest):
         for words, code, says in (
                 (self.words("a.ply", points="short.ply"), 3, "short.ply"),
                 (self.words("a.ply", points="none.ply"), 1, "none.ply"),
-                (self.words("a.ply", "--max-memory", "1e-5"), 1, "--brick-points"),
-                (("reconstruct", "p.ply", "--brick-points", 2000, "-o", "a.ply"), 2, "--work-dir"),
+                (self.words("a.ply", "--max-memory", "1e-5"), 1, "--tile-points"),
+                (("reconstruct", "p.ply", "--tile-points", 2000, "-o", "a.ply"), 2, "--work-dir"),
                 (self.words("none/a.ply"), 1, "none/a.ply")):
             run = self.finished(RHOLM_MPI, *words, ranks=3)
             self.assertEqual(run.code, code, run)

@@ -6,7 +6,6 @@
 #include <rholm/points.h>
 #include <rholm/primitives.h>
 #include <rholm/reconstruct.h>
-#include <rholm/reconstruct_bricks.h>
 #include <rholm/synthesize.h>
 #include <rholm/topology.h>
 
@@ -50,15 +49,11 @@ void reconstruct() {
   expect(found.closed && found.manifold && found.genus == 1, "points of a torus are a torus");
   expect_near(found.volume, 2 * kPi * kPi * 0.16, 0.02 * 2 * kPi * kPi * 0.16,
               "the volume of a torus");
-}
-
-void reconstruct_bricks() {
-  const rholm::Mesh torus = rholm::torus(1, 0.4, 60, 30);
-  const std::filesystem::path out = std::filesystem::temp_directory_path() / "consumer-bricks.ply";
-  const rholm::BrickReconstruction made = rholm::reconstruct_bricks(
-      rholm::sample_surface(torus, {.points = 5000}), out, {}, {.points_per_brick = 2000});
-  std::filesystem::remove(out);
-  expect(made.bricks == 4 && made.triangles > 5000, "a torus is made in four bricks");
+  const rholm::Reconstruction tiled =
+      rholm::reconstruct(rholm::sample_surface(torus, {.points = 5000}), {.tile_points = 2000});
+  expect(tiled.report.tiles == 4 && rholm::inspect(tiled.mesh).genus == 1,
+         "a torus is made in four tiles");
+  expect(rholm::foresee_tiles(5000, 2000).tiles == 3, "at least three of them");
 }
 
 void patch_atlas() {
@@ -103,7 +98,6 @@ std::vector<HeaderCheck> model_checks() {
   return {{"model.h", model},
           {"compress.h", compress},
           {"reconstruct.h", reconstruct},
-          {"reconstruct_bricks.h", reconstruct_bricks},
           {"patch_atlas.h", patch_atlas},
           {"batch.h", batch}};
 }

@@ -405,9 +405,10 @@ TEST(every_loop, gives_the_same_bits_for_surfaces_in_bricks) {
     const BrickRunOptions wanted{.reconstruct = {.step = 0.02,
                                                  .holes = HolePolicy::kKeep,
                                                  .confidence = true,
-                                                 .simplify = SimplifyOptions{.share = 0.3}},
-                                 .points_per_brick = 9000};
-    run_bricks(*source, store, file, wanted, alone, context);
+                                                 .simplify = SimplifyOptions{.share = 0.3},
+                                                 .tile_points = 9000,
+                                                 .output = file}};
+    run_bricks(*source, store, wanted, alone, context);
     const Mesh made = std::get<Mesh>(read_shape(file).shape);
     std::filesystem::remove(file);
     return Bits{}.add(made.vertices).add(made.triangles).add(made.attributes.back().values);

@@ -125,7 +125,7 @@ void BrickCloud::refuse_scans() const {
   if (different.size() < 2) return;
   throw Error(ErrorCode::kUnsupported,
               fmt::format("the points are {} scans, which are brought together in one piece only "
-                          "(without bricks); --keep-scans takes them as they are",
+                          "(of at most --tile-points); --keep-scans takes them as they are",
                           different.size()));
 }
 

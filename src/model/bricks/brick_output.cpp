@@ -1,11 +1,16 @@
 #include "model/bricks/brick_output.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 
+#include <fmt/format.h>
+
 #include "io/ply/ply_parts.h"
 #include "model/points/carry_attributes.h"
+#include "rholm/error.h"
 #include "shape/points/sensors.h"
 
 namespace rholm {
@@ -55,6 +60,35 @@ void BrickOutput::write(const BrickParts& parts, const BrickParts::Whole& whole,
     file->commit();
     store_.remove("output");
   });
+}
+
+Mesh BrickOutput::collect(const BrickParts& parts, const BrickParts::Whole& whole) const {
+  if (whole.vertices > std::numeric_limits<std::uint32_t>::max()) {
+    throw Error(ErrorCode::kUnsupported,
+                fmt::format("a mesh in memory cannot have {} vertices", whole.vertices));
+  }
+  Mesh mesh;
+  mesh.vertices.resize(whole.vertices), mesh.triangles.resize(whole.triangles);
+  mesh.attributes = attributes();
+  for (Attribute& attribute : mesh.attributes) attribute.values.resize(whole.vertices);
+  stages_.each("write", n_bricks_, [&](std::size_t brick) {
+    PlyPart part = parts.part(brick);
+    carry(brick, part.vertices);
+    const auto at = static_cast<std::ptrdiff_t>(part.first_vertex);
+    std::copy(part.vertices.vertices.begin(), part.vertices.vertices.end(),
+              mesh.vertices.begin() + at);
+    for (std::size_t k = 0; k < mesh.attributes.size(); ++k) {
+      const std::vector<double>& values = part.vertices.attributes[k].values;
+      std::copy(values.begin(), values.end(), mesh.attributes[k].values.begin() + at);
+    }
+    std::transform(part.triangles.begin(), part.triangles.end(),
+                   mesh.triangles.begin() + static_cast<std::ptrdiff_t>(part.first_triangle),
+                   [](const WideTriangle& t) -> Triangle {
+                     return {static_cast<std::uint32_t>(t[0]), static_cast<std::uint32_t>(t[1]),
+                             static_cast<std::uint32_t>(t[2])};
+                   });
+  });
+  return mesh;
 }
 
 std::vector<Attribute> BrickOutput::attributes() const {

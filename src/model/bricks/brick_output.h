@@ -37,6 +37,9 @@ class BrickOutput {
   // In place, by all of the crew; one part after the other where the output is no regular file.
   void write(const BrickParts& parts, const BrickParts::Whole& whole,
              const std::filesystem::path& output) const;
+  // In memory, with the values that write() would round to the file's. Throws Unsupported for more
+  // vertices than a Mesh can number.
+  Mesh collect(const BrickParts& parts, const BrickParts::Whole& whole) const;
   std::vector<Attribute> attributes() const;  // names and types of those of the surface
 
  private:

@@ -67,31 +67,30 @@ class BrickRun {
         options_(options.reconstruct),
         stages_(crew, costs(options_), report_.times, context),
         context_(stages_.context()),
-        cloud_(source, store, options_, options.points_per_brick, stages_, report_),
+        cloud_(source, store, options_, options_.tile_points, stages_, report_),
         n_(cloud_.n_bricks()) {
     if (options.foreseen) options.foreseen(cloud_.survey(), n_);
-    model_ = options.model, open_blocks_ = options.open_blocks;
+    open_blocks_ = options.open_blocks;
     rules_ = kept_rules(options_);
     rules_.bricks = true;
   }
 
-  BrickReconstruction run(const std::filesystem::path& output) {
+  Reconstruction run() {
     cloud_.prepare();
     BrickCaps caps = fit();
     set_scene(caps);
     BrickWinding winding(caps, n_, kTrees);
     BrickSurface surface(store_, cloud_.plan(), caps, winding, origin_);
     make_surface(surface, winding);
-    join_and_write(surface, output);
-    if (!model_.empty()) stages_.once("model", [&] { write_model_of(caps); });
-    return {.report = std::move(report_),
-            .bounds = cloud_.survey().bounds,
-            .bricks = n_,
-            .vertices = whole_.vertices,
-            .triangles = whole_.triangles,
-            .coefficients = coefficients_,
-            .stored = store_.most_bytes(),
-            .warnings = source_.warnings()};
+    Reconstruction made;
+    made.mesh = join_and_write(surface);
+    if (keeps_model()) stages_.once("model", [&] { made.model = model_of(caps); });
+    report_.bounds = cloud_.survey().bounds;
+    report_.tiles = n_, report_.stored = store_.most_bytes();
+    report_.vertices = whole_.vertices, report_.triangles = whole_.triangles;
+    report_.coefficients = coefficients_, report_.warnings = source_.warnings();
+    made.report = std::move(report_);
+    return made;
   }
 
  private:
@@ -263,7 +262,7 @@ class BrickRun {
     forget_caps(filled);
     stages_.once("handles", [&] { handles.cut(context_); });
     report_.cut_handles = surface.take_round(kCutRound);
-    if (!model_.empty()) {
+    if (keeps_model()) {
       stages_.all("handles", [&] {
         keep_spacings(handles.spacings(), rules_);
         const std::optional<SeenSpace> whole = sight ? sight->join(context_) : std::nullopt;
@@ -300,7 +299,7 @@ class BrickRun {
           store_.remove(std::string(what) + "/" + std::to_string(brick));
         };
         for (const char* what : {"grid", "rim", "open", "closed"}) forget(what);
-        if (!model_.empty()) continue;
+        if (keeps_model()) continue;
         for (const char* what : {"crossings", "crossings-again", "caps", "caps-again", "patches",
                                  "patches-again", "bands", "bands-again"}) {
           forget(what);
@@ -310,6 +309,8 @@ class BrickRun {
   }
 
   bool is_open() const { return options_.holes == HolePolicy::kKeep; }
+  // Whether a model is made: without an output it is part of the result.
+  bool keeps_model() const { return options_.output.empty() || !options_.model.empty(); }
 
   void cut_open(BrickSurface& surface) {
     BrickOpening opening(store_, surface, n_);
@@ -329,21 +330,19 @@ class BrickRun {
     return whole;
   }
 
-  void join_and_write(BrickSurface& surface, const std::filesystem::path& output) {
+  // The mesh, unless it goes to a file.
+  Mesh join_and_write(BrickSurface& surface) {
     BrickParts parts(store_, surface, n_);
     const BrickParts::Whole whole = join_parts(parts, options_.min_component);
     report_.dropped_components = whole.dropped;
     report_.faces = whole.triangles;
     set_sizes(whole, whole);
     check_points(parts);
-    if (!options_.simplify) {
-      write(parts, output);
-      return;
-    }
+    if (!options_.simplify) return write(parts);
     simplify(surface, parts);
     BrickParts simple(store_, surface, n_, "-simple");
     set_sizes(join_parts(simple, 0), whole);
-    write(simple, output);
+    return write(simple);
   }
 
   // Whether the points lie on the surface, from the vertices near some of them.
@@ -363,12 +362,14 @@ class BrickRun {
                 [&] { note_walls(check_walls(patches_, near, report_.step, context_), report_); });
   }
 
-  void write(const BrickParts& parts, const std::filesystem::path& output) {
+  Mesh write(const BrickParts& parts) {
     const BrickOutput out(store_, stages_, options_, cloud_.survey().layout, n_,
                           [&](std::size_t brick) { return cloud_.load(brick, kTried); });
     if (options_.confidence) put_areas(out.measure_confidence(parts), report_);
     rules_.left_out = carried_names(out.attributes());
-    out.write(parts, whole_, output);
+    if (options_.output.empty()) return out.collect(parts, whole_);
+    out.write(parts, whole_, options_.output);
+    return {};
   }
 
   // What closes holes has the share of the area that it had before it was simplified.
@@ -407,7 +408,7 @@ class BrickRun {
     report_.simplify_error = less.error();
   }
 
-  void write_model_of(const BrickCaps& caps) const {
+  AtlasModel model_of(const BrickCaps& caps) const {
     // As an atlas, and twice as the file has them.
     const std::uint64_t bytes = 3 * (report_.caps * sizeof(Cap) + coefficients_ * sizeof(double));
     if (bytes > options_.max_memory) {
@@ -415,15 +416,17 @@ class BrickRun {
                   fmt::format("a model of {} caps needs {:.2g} GiB", report_.caps,
                               static_cast<double>(bytes) / 0x1p30));
     }
-    write_atlas({.atlas = caps.all(),
-                 .step = report_.step,
-                 .tolerance = options_.tolerance,
-                 .errors = {},
-                 .input_numbers = 3 * report_.points,
-                 .unit = {},
-                 .method = "reconstruct",
-                 .rules = rules_},
-                model_);
+    AtlasModel model{.atlas = caps.all(),
+                     .step = report_.step,
+                     .tolerance = options_.tolerance,
+                     .errors = {},
+                     .input_numbers = 3 * report_.points,
+                     .unit = {},
+                     .method = "reconstruct",
+                     .rules = rules_};
+    if (!options_.model.empty()) write_atlas(model, options_.model);
+    if (!options_.output.empty()) return {};
+    return model;
   }
 
   PointSource& source_;
@@ -440,17 +443,15 @@ class BrickRun {
   WallPatches patches_;             // of all bricks
   std::uint64_t coefficients_ = 0;  // of all caps
   BrickParts::Whole whole_;
-  std::filesystem::path model_;
   std::size_t open_blocks_ = 0;
 };
 
 }  // namespace
 
-BrickReconstruction run_bricks(PointSource& source, PieceStore& store,
-                               const std::filesystem::path& output, const BrickRunOptions& options,
-                               BrickCrew& crew, const Context& context) {
+Reconstruction run_bricks(PointSource& source, PieceStore& store, const BrickRunOptions& options,
+                          BrickCrew& crew, const Context& context) {
   check_fields(options.reconstruct);
-  return BrickRun(source, store, options, crew, context).run(output);
+  return BrickRun(source, store, options, crew, context).run();
 }
 
 }  // namespace rholm

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 
 #include "io/spill/piece_store.h"
@@ -11,14 +10,12 @@
 #include "model/bricks/point_source.h"
 #include "model/bricks/point_survey.h"
 #include "rholm/context.h"
-#include "rholm/reconstruct_bricks.h"
+#include "rholm/reconstruct.h"
 
 namespace rholm {
 
 struct BrickRunOptions {
   ReconstructOptions reconstruct = {};
-  std::uint64_t points_per_brick = kBrickPoints;
-  std::filesystem::path model = {};  // as in BrickOptions
   // Blocks with open cubes that are closed together, but for those of one hole. Chosen: of few
   // bricks, whose winding trees are in memory; with the blocks around them 100 MB.
   std::size_t open_blocks = 1024;
@@ -26,11 +23,10 @@ struct BrickRunOptions {
   std::function<void(const Survey& survey, std::size_t bricks)> foreseen = {};
 };
 
-// Reconstructs the source's points and writes the mesh as binary PLY. What is not in memory is in
-// the store; a store that has pieces of the same run from before is taken up where that one ended.
+// Reconstructs the source's points in tiles, also if they are few. What is not in memory is in the
+// store; a store that has pieces of the same run from before is taken up where that one ended.
 // All of the crew call it, with the same arguments but their own source.
-BrickReconstruction run_bricks(PointSource& source, PieceStore& store,
-                               const std::filesystem::path& output, const BrickRunOptions& options,
-                               BrickCrew& crew, const Context& context);
+Reconstruction run_bricks(PointSource& source, PieceStore& store, const BrickRunOptions& options,
+                          BrickCrew& crew, const Context& context);
 
 }  // namespace rholm

@@ -106,7 +106,7 @@ class KeptSource final : public PointSource {
 
 class MemorySource final : public PointSource {
  public:
-  explicit MemorySource(const PointCloud& cloud) : cloud_(cloud) {}
+  MemorySource(const PointCloud& cloud, std::uint64_t dropped) : cloud_(cloud), dropped_(dropped) {}
   void rewind() override { at_ = 0; }
   bool next(PointCloud& piece, const Context&) override {
     const std::size_t n = std::min(kAtATime, cloud_.points.size() - at_);
@@ -132,9 +132,11 @@ class MemorySource final : public PointSource {
     if (cloud_.points.empty()) return 1;
     return static_cast<double>(at_) / static_cast<double>(cloud_.points.size());
   }
+  std::uint64_t dropped() const override { return dropped_; }
 
  private:
   const PointCloud& cloud_;
+  std::uint64_t dropped_;
   std::size_t at_ = 0;
 };
 
@@ -150,8 +152,8 @@ std::unique_ptr<PointSource> open_points(const std::filesystem::path& path,
   return std::make_unique<KeptSource>(std::make_unique<FileSource>(path, options), store);
 }
 
-std::unique_ptr<PointSource> points_in_memory(const PointCloud& cloud) {
-  return std::make_unique<MemorySource>(cloud);
+std::unique_ptr<PointSource> points_in_memory(const PointCloud& cloud, std::uint64_t dropped) {
+  return std::make_unique<MemorySource>(cloud, dropped);
 }
 
 }  // namespace rholm

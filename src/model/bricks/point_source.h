@@ -36,7 +36,8 @@ class PointSource {
 std::unique_ptr<PointSource> open_points(const std::filesystem::path& path,
                                          const ShapeReadOptions& options, PieceStore& store);
 
-// Of points in memory, which are not copied and must stay.
-std::unique_ptr<PointSource> points_in_memory(const PointCloud& cloud);
+// Of points in memory, which are not copied and must stay. `dropped` is what the source says of
+// points that their reader has left out.
+std::unique_ptr<PointSource> points_in_memory(const PointCloud& cloud, std::uint64_t dropped = 0);
 
 }  // namespace rholm

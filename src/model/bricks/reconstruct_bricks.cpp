@@ -1,11 +1,11 @@
-#include "rholm/reconstruct_bricks.h"
+#include "model/bricks/shared_bricks.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <memory>
-#include <optional>
 #include <span>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -14,9 +14,11 @@
 #include "base/check_fields.h"
 #include "base/crc32.h"
 #include "base/field_text.h"
+#include "base/refuse.h"
+#include "io/file/temporary_folder.h"
 #include "model/bricks/brick_run.h"
-#include "model/bricks/shared_bricks.h"
 #include "rholm/error.h"
+#include "rholm/point_stream.h"
 #include "rholm/version.h"
 
 namespace rholm {
@@ -33,6 +35,9 @@ constexpr double kForecastError = 1.25, kSeveralBricks = 2;
 // For each point with its normal: what is stored of it and of its part of the surface, most at a
 // time, and that part in the output (scripts/memory-figures).
 constexpr std::uint64_t kStoredOfPoint = 520, kWrittenOfPoint = 290;
+// The surface and its caps in memory: a vertex with its normal and two triangles has 72 bytes where
+// the output has 50, and caps have some 80 a point.
+constexpr std::uint64_t kKeptOfPoint = kWrittenOfPoint * 72 / 50 + 80;
 
 // Of the disk where the surface will be; streams have none.
 void check_room(const std::filesystem::path& mesh, std::uint64_t bytes) {
@@ -80,26 +85,45 @@ std::string text_of(const PointCloud& cloud) {
                      cloud.normals.size(), names.empty() ? " none" : names, sum);
 }
 
-std::string manifest(const std::string& input, const ReconstructOptions& options,
-                     const BrickOptions& bricks) {
-  return fmt::format("rholm {}\npoints {}\n{}\n{}\n", kVersion, input, text_of_fields(bricks),
-                     text_of_fields(options));
+// Whether what lies between the steps fits into memory with the rest.
+bool fits_in_memory(std::uint64_t points, const ReconstructOptions& options) {
+  const TileForecast forecast = foresee_tiles(points, options.tile_points);
+  const std::uint64_t kept = options.output.empty() ? kKeptOfPoint * points : 0;
+  return forecast.memory + forecast.stored + kept < options.max_memory / 2;
 }
 
-std::unique_ptr<PieceStore> open_store(const std::string& input, const ReconstructOptions& options,
-                                       const BrickOptions& bricks) {
-  if (bricks.work_dir.empty()) return std::make_unique<PieceStore>();
-  auto store = std::make_unique<PieceStore>(bricks.work_dir, manifest(input, options, bricks));
-  if (!bricks.resume && store->was_there()) {
-    store->keep(true);
-    throw Error(ErrorCode::kInvalidInput,
-                fmt::format("the folder {} has what an earlier run has left: resume that "
-                            "(--resume), or delete it",
-                            bricks.work_dir.string()));
+// What is known between the steps: in a folder that the next run finds again, or in one that goes
+// with it, or in memory.
+class TileStore {
+ public:
+  // `n` points, if that is known. `input` gives what a folder to resume from remembers of them.
+  TileStore(std::optional<std::uint64_t> n, const ReconstructOptions& options, bool is_shared,
+            const std::function<std::string()>& input) {
+    const std::filesystem::path base =
+        options.work_dir.empty() ? std::filesystem::temp_directory_path() : options.work_dir;
+    if (options.resume) {
+      folder_ = base / (options.output.filename().string() + ".tiles");
+      store_ = std::make_unique<PieceStore>(
+          folder_,
+          fmt::format("rholm {}\npoints {}\n{}\n", kVersion, input(), text_of_fields(options)));
+      store_->keep(true);
+    } else if (is_shared || !n || !fits_in_memory(*n, options)) {
+      own_.emplace(base, "rholm-tiles-");
+      folder_ = own_->path() / "tiles";
+      store_ = std::make_unique<PieceStore>(folder_);
+    } else {
+      store_ = std::make_unique<PieceStore>();
+    }
   }
-  store->keep(bricks.resume);
-  return store;
-}
+  const std::filesystem::path& folder() const { return folder_; }  // empty: in memory
+  PieceStore& operator*() const { return *store_; }
+  PieceStore* operator->() const { return store_.get(); }
+
+ private:
+  std::optional<TemporaryFolder> own_;
+  std::filesystem::path folder_;
+  std::unique_ptr<PieceStore> store_;  // is gone before its folder
+};
 
 constexpr double kGibibyte = 0x1p30;
 
@@ -109,23 +133,35 @@ double rounded_up(double value) {
   return unit * std::ceil(value / unit);
 }
 
-// What the points themselves decide is not known before.
-void check_memory(std::uint64_t points, const ReconstructOptions& options,
-                  const BrickOptions& bricks) {
-  const std::uint64_t needed = kMemoryOfPoint * std::min(points, bricks.points_per_brick);
-  if (needed <= options.max_memory) return;
-  const std::uint64_t enough = enough_for_bricks(points, bricks.points_per_brick);
-  throw Error(
-      ErrorCode::kOutOfMemory,
-      fmt::format("bricks of {} points need some {:.2g} GiB, and {:.2g} are allowed: take "
-                  "smaller bricks (--brick-points)",
-                  bricks.points_per_brick, rounded_up(static_cast<double>(enough) / kGibibyte),
-                  static_cast<double>(options.max_memory) / kGibibyte));
+// The least size of tiles that options may have.
+double least_tile() {
+  double least = 0;
+  for_each_field<ReconstructOptions>([&](auto, const FieldInfo& info) {
+    if (info.name == std::string_view("tile_points")) least = info.least;
+  });
+  return least;
 }
 
-BrickRunOptions run_options(const ReconstructOptions& options, const BrickOptions& bricks) {
-  return {
-      .reconstruct = options, .points_per_brick = bricks.points_per_brick, .model = bricks.model};
+// What the points themselves decide is not known before.
+void check_memory(std::uint64_t points, const ReconstructOptions& options) {
+  const auto allowed = static_cast<double>(options.max_memory) / kGibibyte;
+  const std::uint64_t of_tile = kMemoryOfPoint * std::min(points, options.tile_points);
+  if (of_tile > options.max_memory) {
+    const std::uint64_t enough = enough_for_tiles(points, options.tile_points);
+    throw Error(
+        ErrorCode::kOutOfMemory,
+        fmt::format("tiles of {} points need some {:.2g} GiB, and {:.2g} are allowed: {}",
+                    options.tile_points, rounded_up(static_cast<double>(enough) / kGibibyte),
+                    allowed, advice_of_tiles(options.max_memory)));
+  }
+  const std::uint64_t kept = options.output.empty() ? kKeptOfPoint * points : 0;
+  if (of_tile + kept > options.max_memory) {
+    throw Error(
+        ErrorCode::kOutOfMemory,
+        fmt::format("the surface of {} points needs some {:.2g} GiB in memory, and {:.2g} "
+                    "are allowed: let it be written to a file (output)",
+                    points, rounded_up(static_cast<double>(of_tile + kept) / kGibibyte), allowed));
+  }
 }
 
 // Of a process that reads none.
@@ -138,34 +174,32 @@ class NoPoints final : public PointSource {
 };
 
 // `open` gives the source of the points, once there is a store.
-template <class Open>
-BrickReconstruction reconstruct_source(const std::string& input, const Open& open,
-                                       const std::filesystem::path& mesh,
-                                       const ReconstructOptions& options,
-                                       const BrickOptions& bricks, const SharedRun& run,
-                                       const Context& context) {
-  check_fields(bricks);
-  const std::unique_ptr<PieceStore> store = open_store(input, options, bricks);
-  if (run.begun) run.begun();
-  const std::unique_ptr<PointSource> source = open(*store);
+Reconstruction reconstruct_source(const TileStore& store,
+                                  const std::function<std::unique_ptr<PointSource>()>& open,
+                                  const ReconstructOptions& options, const SharedRun& run,
+                                  const Context& context) {
+  if (run.begun) run.begun(store.folder());
+  const std::unique_ptr<PointSource> source = open();
   std::uint64_t memory = 0;
   const auto foreseen = [&](const Survey& survey, std::size_t n_bricks) {
-    BrickForecast forecast = foresee_bricks(survey.points, bricks.points_per_brick);
-    forecast.bricks = n_bricks;
+    TileForecast forecast = foresee_tiles(survey.points, options.tile_points);
+    forecast.tiles = n_bricks;
     memory = forecast.memory;
-    check_memory(survey.points, options, bricks);
+    check_memory(survey.points, options);
     const std::uint64_t there = store->bytes();
     if (!store->in_memory() && forecast.stored > there) store->check_room(forecast.stored - there);
-    check_room(mesh, forecast.written);
-    if (bricks.foreseen) bricks.foreseen(forecast);
+    if (!options.output.empty()) check_room(options.output, forecast.written);
+    if (options.foreseen) options.foreseen(forecast);
   };
-  BrickRunOptions wanted = run_options(options, bricks);
-  wanted.foreseen = foreseen;
   try {
-    BrickReconstruction made = run_bricks(*source, *store, mesh, wanted, run.crew, context);
+    std::optional<Reconstruction> made = run.instead ? run.instead(*source) : std::nullopt;
+    if (!made) {
+      made = run_bricks(*source, *store, {.reconstruct = options, .foreseen = foreseen}, run.crew,
+                        context);
+      made->report.memory = memory;
+    }
     store->keep(false);
-    made.report.memory = memory;
-    return made;
+    return std::move(*made);
   } catch (...) {
     if (run.failed) run.failed(std::current_exception());
     throw;
@@ -174,65 +208,73 @@ BrickReconstruction reconstruct_source(const std::string& input, const Open& ope
 
 }  // namespace
 
-BrickForecast foresee_bricks(std::uint64_t points, std::uint64_t points_per_brick) {
-  check_fields(BrickOptions{.points_per_brick = points_per_brick});
+TileForecast foresee_tiles(std::uint64_t points, std::uint64_t tile_points) {
+  check_fields(ReconstructOptions{.tile_points = tile_points});
   return {.points = points,
-          .bricks = (points + points_per_brick - 1) / points_per_brick,
-          .memory =
-              std::max(kMemoryOfPoint * std::min(points, points_per_brick), kMemoryOfAny * points),
+          .tiles = (points + tile_points - 1) / tile_points,
+          .memory = std::max(kMemoryOfPoint * std::min(points, tile_points), kMemoryOfAny * points),
           .stored = kStoredOfPoint * points,
           .written = kWrittenOfPoint * points};
 }
 
-std::uint64_t enough_for_bricks(std::uint64_t points, std::uint64_t points_per_brick) {
-  check_fields(BrickOptions{.points_per_brick = points_per_brick});
-  const std::uint64_t of_brick = kMemoryOfPoint * std::min(points, points_per_brick);
-  return static_cast<std::uint64_t>(kForecastError *
-                                    (points > points_per_brick ? kSeveralBricks : 1) *
-                                    static_cast<double>(of_brick));
+std::uint64_t enough_for_tiles(std::uint64_t points, std::uint64_t tile_points) {
+  const std::uint64_t of_tile = kMemoryOfPoint * std::min(points, tile_points);
+  return static_cast<std::uint64_t>(kForecastError * (points > tile_points ? kSeveralBricks : 1) *
+                                    static_cast<double>(of_tile));
 }
 
-BrickReconstruction reconstruct_shared(const std::filesystem::path& points,
-                                       const std::filesystem::path& mesh,
-                                       const ReconstructOptions& options,
-                                       const BrickOptions& bricks, const SharedRun& run,
-                                       const Context& context) {
+std::string advice_of_tiles(std::uint64_t max_memory) {
+  constexpr double kOfPoint = kForecastError * kSeveralBricks * static_cast<double>(kMemoryOfPoint);
+  const double most = static_cast<double>(max_memory) / kOfPoint;
+  if (most < least_tile()) {
+    return fmt::format("{:.2g} GiB would do for tiles of {:.0f} points (--tile-points {:.0f})",
+                       rounded_up(least_tile() * kOfPoint / kGibibyte), least_tile(), least_tile());
+  }
+  const double unit = std::pow(10, std::floor(std::log10(most)) - 1);
+  return fmt::format("take smaller tiles (--tile-points {:.0f})", unit * std::floor(most / unit));
+}
+
+Reconstruction reconstruct_tiles(const std::filesystem::path& points, const std::string& columns,
+                                 const ReconstructOptions& options, const SharedRun& run,
+                                 const Context& context) {
+  check_fields(options);
+  std::error_code error;
+  std::optional<std::uint64_t> n;
+  if (std::filesystem::is_regular_file(points, error)) {
+    n = PointStream(points, {.columns = columns}).size();
+  }
+  const TileStore store(n, options, run.crew.is_shared(),
+                        [&] { return fmt::format("{}, columns '{}'", text_of(points), columns); });
   return reconstruct_source(
-      text_of(points),
-      [&](PieceStore& store) { return open_points(points, {.columns = bricks.columns}, store); },
-      mesh, options, bricks, run, context);
+      store, [&] { return open_points(points, {.columns = columns}, *store); }, options, run,
+      context);
 }
 
-BrickReconstruction reconstruct_shared(const PointCloud& points, const std::filesystem::path& mesh,
-                                       const ReconstructOptions& options,
-                                       const BrickOptions& bricks, const SharedRun& run,
-                                       const Context& context) {
-  validate(points);
+Reconstruction reconstruct_tiles(const PointCloud& points, std::uint64_t dropped,
+                                 const ReconstructOptions& options, const SharedRun& run,
+                                 const Context& context) {
+  check_fields(options);
+  const auto fits = [&](std::size_t n) { return n == points.points.size(); };
+  if (!points.normals.empty() && !fits(points.normals.size())) {
+    refuse(fmt::format("there are {} normals for {} points", points.normals.size(),
+                       points.points.size()));
+  }
+  for (const Attribute& attribute : points.attributes) {
+    if (fits(attribute.values.size())) continue;
+    refuse(fmt::format("the attribute {} has {} values for {} points", attribute.name,
+                       attribute.values.size(), points.points.size()));
+  }
+  const TileStore store(points.points.size(), options, run.crew.is_shared(),
+                        [&] { return text_of(points); });
   return reconstruct_source(
-      bricks.work_dir.empty() ? std::string() : text_of(points),
-      [&](PieceStore&) { return points_in_memory(points); }, mesh, options, bricks, run, context);
+      store, [&] { return points_in_memory(points, dropped); }, options, run, context);
 }
 
-void help_reconstruct(const std::filesystem::path& mesh, const ReconstructOptions& options,
-                      const BrickOptions& bricks, BrickCrew& crew, const Context& context) {
-  const std::unique_ptr<PieceStore> store = PieceStore::joined(bricks.work_dir);
+void help_reconstruct(const std::filesystem::path& folder, const ReconstructOptions& options,
+                      BrickCrew& crew, const Context& context) {
+  const std::unique_ptr<PieceStore> store = PieceStore::joined(folder);
   NoPoints none;
-  run_bricks(none, *store, mesh, run_options(options, bricks), crew, context);
-}
-
-BrickReconstruction reconstruct_bricks(const std::filesystem::path& points,
-                                       const std::filesystem::path& mesh,
-                                       const ReconstructOptions& options,
-                                       const BrickOptions& bricks, const Context& context) {
-  OneProcess alone;
-  return reconstruct_shared(points, mesh, options, bricks, {.crew = alone}, context);
-}
-
-BrickReconstruction reconstruct_bricks(const PointCloud& points, const std::filesystem::path& mesh,
-                                       const ReconstructOptions& options,
-                                       const BrickOptions& bricks, const Context& context) {
-  OneProcess alone;
-  return reconstruct_shared(points, mesh, options, bricks, {.crew = alone}, context);
+  run_bricks(none, *store, {.reconstruct = options}, crew, context);
 }
 
 }  // namespace rholm

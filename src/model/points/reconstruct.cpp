@@ -1,4 +1,4 @@
-#include "rholm/reconstruct.h"
+#include "model/points/reconstruct_piece.h"
 
 #include <algorithm>
 #include <cmath>
@@ -50,6 +50,22 @@ Cover fit_caps(WorkingPoints& points, const ReconstructOptions& options, CapSize
   return fit();
 }
 
+// The box of the points that are finite.
+Bounds finite_bounds(const std::vector<Vec3>& points) {
+  Bounds box;
+  bool any = false;
+  for (const Vec3& p : points) {
+    if (!is_finite(p)) continue;
+    if (!any) box = {.min = p, .max = p};
+    any = true;
+    for (double Vec3::*axis : {&Vec3::x, &Vec3::y, &Vec3::z}) {
+      box.min.*axis = std::min(box.min.*axis, p.*axis);
+      box.max.*axis = std::max(box.max.*axis, p.*axis);
+    }
+  }
+  return box;
+}
+
 // The supports of most caps are at least this.
 double typical_support(const Atlas& atlas) {
   std::vector<double> supports;
@@ -89,17 +105,22 @@ double error_of_sparse(const Atlas& atlas) {
 
 }  // namespace
 
-void add_dropped(std::size_t n, ReconstructReport& report) {
-  report.points += n;
-  report.dropped_points += n;
-}
-
-Reconstruction reconstruct(PointCloud cloud, const ReconstructOptions& options,
-                           const Context& context) {
+Reconstruction reconstruct_piece(PointCloud cloud, const ReconstructOptions& options,
+                                 const Context& context) {
   check_fields(options);
+  const std::size_t least = kMemoryOfPoint * cloud.points.size();
+  if (least > options.max_memory) {
+    constexpr double kGibibyte = 0x1p30;
+    throw Error(ErrorCode::kOutOfMemory,
+                fmt::format("{} points in one piece need more than {:.2g} GiB, and {:.2g} are "
+                            "allowed: allow more memory",
+                            cloud.points.size(), static_cast<double>(least) / kGibibyte,
+                            static_cast<double>(options.max_memory) / kGibibyte));
+  }
   Reconstruction result;
   ReconstructReport& report = result.report;
   StageTimes& times = report.times;
+  report.bounds = finite_bounds(cloud.points);
   WorkingPoints points = timed(
       times, "points", [&] { return WorkingPoints(std::move(cloud), options, report, context); });
   CapSize size;
@@ -170,6 +191,9 @@ Reconstruction reconstruct(PointCloud cloud, const ReconstructOptions& options,
   report.dropped_components = surface.dropped_components;
   report.faces = surface.faces, report.simplify_error = surface.simplify_error;
   report.memory = surface.memory;
+  report.vertices = result.mesh.vertices.size();
+  report.triangles = result.mesh.triangles.size();
+  report.coefficients = atlas.coefficients.size();
   const Sizes sums =
       measure_sizes(view_of(result.mesh), unit_frame(bounds(result.mesh.vertices)), context);
   report.volume = sums.volume, report.area = sums.area, report.points_area = spacing.area;

@@ -1,4 +1,4 @@
-#include "rholm/reconstruct_bricks.h"
+#include "rholm/reconstruct.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "rholm/reconstruct_bricks.h"
+#include "rholm/reconstruct.h"
 
 #include <gtest/gtest.h>
 
@@ -230,9 +230,9 @@ TEST_F(BrickReconstruct, closes_gaps_around_islands_whatever_the_portions_nightl
     PieceStore store(path(name + ".work"));
     store.keep(true);
     OneProcess alone;
-    const BrickReconstruction made =
-        run_bricks(*points_in_memory(cloud), store, path(name),
-                   {.points_per_brick = 4000, .open_blocks = open_blocks}, alone, {});
+    const BrickRunOptions wanted{.reconstruct = {.tile_points = 4000, .output = path(name)},
+                                 .open_blocks = open_blocks};
+    const Reconstruction made = run_bricks(*points_in_memory(cloud), store, wanted, alone, {});
     // A second round, of what was in several portions.
     EXPECT_EQ(store.has("filling-1/0"), open_blocks == 1);
     return made.report;

@@ -1,4 +1,4 @@
-#include "rholm/reconstruct_bricks.h"
+#include "rholm/reconstruct.h"
 
 #include <gtest/gtest.h>
 
@@ -43,7 +43,10 @@ TEST_F(BrickReconstructWork, is_taken_up_where_it_ended_nightly) {
   const ReconstructOptions options{.holes = HolePolicy::kKeep,
                                    .simplify = SimplifyOptions{.share = 0.1}};
   run(cloud, 3000, "whole.ply", options);
-  const BrickOptions bricks{.points_per_brick = 3000, .work_dir = path("work"), .resume = true};
+  ReconstructOptions resumed = options;
+  resumed.tile_points = 3000, resumed.output = path("parts.ply");
+  resumed.work_dir = path(""), resumed.resume = true;
+  const std::filesystem::path kept = path("parts.ply.tiles");
   std::size_t runs = 0;
   std::vector<std::string> ended;  // stages
   for (bool done = false; !done && runs < 100; ++runs) {
@@ -59,98 +62,154 @@ TEST_F(BrickReconstructWork, is_taken_up_where_it_ended_nightly) {
       return first.empty();
     };
     try {
-      const BrickReconstruction made =
-          reconstruct_bricks(cloud, path("parts.ply"), options, bricks, context);
-      EXPECT_EQ(made.bricks, 4U);
-      EXPECT_EQ(made.report.points, 12200U);
-      EXPECT_EQ(made.triangles, made.report.faces / 10);
+      const ReconstructReport report = reconstruct(cloud, resumed, context).report;
+      EXPECT_EQ(report.tiles, 4U);
+      EXPECT_EQ(report.points, 12200U);
+      EXPECT_EQ(report.triangles, report.faces / 10);
       done = true;
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ErrorCode::kCancelled);
       EXPECT_FALSE(std::filesystem::exists(path("parts.ply")));
-      EXPECT_TRUE(std::filesystem::exists(path("work")));
+      EXPECT_TRUE(std::filesystem::exists(kept));
     }
   }
   EXPECT_GE(runs, 8U);
   EXPECT_TRUE(bytes("parts.ply") == bytes("whole.ply"));
-  EXPECT_FALSE(std::filesystem::exists(path("work")));
+  EXPECT_FALSE(std::filesystem::exists(kept));
 }
 
 TEST_F(BrickReconstructWork, leaves_no_folder_unless_it_is_to_be_taken_up) {
   const PointCloud cloud = torus_points(6000);
-  BrickOptions bricks{.points_per_brick = 3000, .work_dir = path("work")};
+  ReconstructOptions wanted{.tile_points = 3000,
+                            .max_memory = 12 << 20,  // too little to keep tiles in memory
+                            .output = path("a.ply"),
+                            .work_dir = path("")};
+  const auto is_empty = [&] { return std::filesystem::is_empty(path("")); };
   Context stops;
   stops.progress = [&](std::string_view stage, double) { return stage != "surface"; };
-  EXPECT_THROW(reconstruct_bricks(cloud, path("a.ply"), {}, bricks, stops), Error);
-  EXPECT_FALSE(std::filesystem::exists(path("work")));
-  bricks.resume = true;
-  EXPECT_THROW(reconstruct_bricks(cloud, path("a.ply"), {}, bricks, stops), Error);
+  EXPECT_THROW(reconstruct(cloud, wanted, stops), Error);
+  EXPECT_TRUE(is_empty());
+  wanted.resume = true;
+  EXPECT_THROW(reconstruct(cloud, wanted, stops), Error);
+  EXPECT_FALSE(is_empty());
   PointCloud given = cloud;
   const auto refused = [&](const ReconstructOptions& options, const char* says) {
     try {
-      reconstruct_bricks(given, path("a.ply"), options, bricks);
+      reconstruct(given, options);
       ADD_FAILURE() << "it was not refused";
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ErrorCode::kInvalidInput);
       EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
     }
   };
-  refused({.tolerance = 0.01}, "another run");
+  ReconstructOptions other = wanted;
+  other.tolerance = 0.01;
+  refused(other, "another run");
+  other = wanted;
+  other.tile_points = 2000;
+  refused(other, "another run");
+  other.tile_points = 10;
+  refused(other, "1000");
   given.points.back().x += 1e-3;
-  refused({}, "another run");
-  given = cloud;
-  bricks.resume = false;
-  refused({}, "earlier run");
-  bricks.resume = true;
-  bricks.points_per_brick = 10;
-  refused({}, "1000");
-  bricks.points_per_brick = 3000;
-  reconstruct_bricks(cloud, path("a.ply"), {}, bricks);
-  EXPECT_FALSE(std::filesystem::exists(path("work")));
+  refused(wanted, "another run");
+  // What does not change the surface may be another.
+  wanted.max_memory = std::size_t{1} << 30;
+  reconstruct(cloud, wanted);
+  std::filesystem::remove(path("a.ply"));
+  EXPECT_TRUE(is_empty());
 }
 
-TEST_F(BrickReconstructWork, foresees_nothing_for_bricks_that_there_are_none_of) {
+TEST_F(BrickReconstructWork, foresees_nothing_for_tiles_that_there_are_none_of) {
   for (const std::uint64_t points :
        {std::uint64_t{0}, std::uint64_t{999}, std::uint64_t{1} << 29}) {
-    EXPECT_THROW(foresee_bricks(1000000, points), Error);
+    EXPECT_THROW(foresee_tiles(1000000, points), Error);
   }
 }
 
 TEST_F(BrickReconstructWork, foresees_what_it_takes) {
   const PointCloud cloud = torus_points(20000);
-  BrickForecast told;
-  const BrickOptions bricks{.points_per_brick = 5000,
-                            .work_dir = path("work"),
-                            .foreseen = [&](const BrickForecast& forecast) { told = forecast; }};
-  const BrickReconstruction made = reconstruct_bricks(cloud, path("a.ply"), {}, bricks);
+  TileForecast told;
+  ReconstructOptions wanted{.tile_points = 5000,
+                            .output = path("a.ply"),
+                            .work_dir = path(""),
+                            .foreseen = [&](const TileForecast& forecast) { told = forecast; }};
+  const ReconstructReport report = reconstruct(cloud, wanted).report;
   EXPECT_EQ(told.points, 20000U);
-  EXPECT_EQ(told.bricks, made.bricks);
-  EXPECT_GT(made.stored, told.stored / 2);
-  EXPECT_LT(made.stored, 2 * told.stored);
+  EXPECT_EQ(told.tiles, report.tiles);
+  EXPECT_GT(report.stored, told.stored / 2);
+  EXPECT_LT(report.stored, 2 * told.stored);
+  wanted.max_memory = 1 << 20, wanted.output = path("b.ply");
   try {
-    reconstruct_bricks(cloud, path("b.ply"), {.max_memory = 1 << 20}, bricks);
+    reconstruct(cloud, wanted);
     ADD_FAILURE() << "it was not refused";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::kOutOfMemory);
   }
-  EXPECT_FALSE(std::filesystem::exists(path("work")));
+  std::filesystem::remove(path("a.ply"));
+  EXPECT_TRUE(std::filesystem::is_empty(path("")));
 }
 
-TEST_F(BrickReconstructWork, reads_a_file_and_writes_a_model_of_its_caps) {
+// Of one tile and of several: what is refused names tiles that are not, and nothing else changes.
+TEST_F(BrickReconstructWork, memory_refuses_or_changes_nothing) {
+  const PointCloud cloud = torus_points(20000);
+  for (const std::uint64_t tile_points : {std::uint64_t{8000}, kTilePoints}) {
+    const Mesh known = reconstruct(cloud, {.tile_points = tile_points}).mesh;
+    for (const std::size_t mebibytes : {6, 24}) {
+      ReconstructOptions wanted{
+          .tile_points = tile_points, .max_memory = mebibytes << 20, .output = path("s.ply")};
+      try {
+        reconstruct(cloud, wanted);
+        const Mesh made = mesh("s.ply");
+        EXPECT_EQ(made.triangles, known.triangles);
+        write_shape(known, path("known.ply"));
+        EXPECT_TRUE(bytes("s.ply") == bytes("known.ply"));
+      } catch (const Error& error) {
+        EXPECT_EQ(mebibytes, 6U);
+        ASSERT_EQ(error.code(), ErrorCode::kOutOfMemory);
+        const std::string said = error.what(), option = "--tile-points ";
+        const std::size_t at = said.find(option);
+        ASSERT_NE(at, std::string::npos) << said;
+        wanted.tile_points = std::stoull(said.substr(at + option.size()));
+        EXPECT_LT(wanted.tile_points, tile_points);
+        EXPECT_GT(reconstruct(cloud, wanted).report.tiles, 1U);
+      }
+    }
+  }
+}
+
+TEST_F(BrickReconstructWork, gives_the_same_in_memory_and_in_files) {
   const PointCloud cloud = torus_points(10000);
   write_shape(cloud, path("points.ply"));
-  const BrickOptions bricks{.points_per_brick = 3000, .model = path("model.h5")};
-  const BrickReconstruction made =
-      reconstruct_bricks(path("points.ply"), path("file.ply"), {}, bricks);
   const PointCloud read = std::get<PointCloud>(read_shape(path("points.ply")).shape);
-  run(read, 3000, "memory.ply");
+  const ReconstructReport report =
+      reconstruct(path("points.ply"),
+                  {.tile_points = 3000, .output = path("file.ply"), .model = path("model.h5")})
+          .report;
+  const Reconstruction kept = reconstruct(read, {.tile_points = 3000});
+  write_shape(kept.mesh, path("memory.ply"));
   EXPECT_TRUE(bytes("file.ply") == bytes("memory.ply"));
+  EXPECT_EQ(kept.mesh.vertices.size(), report.vertices);
+  EXPECT_EQ(kept.report.area, report.area);
+  write_atlas(kept.model, path("kept.h5"));
+  EXPECT_TRUE(bytes("model.h5") == bytes("kept.h5"));
   const AtlasModel model = read_atlas(path("model.h5"));
-  EXPECT_EQ(model.atlas.caps.size(), made.report.caps);
-  EXPECT_EQ(model.atlas.coefficients.size(), made.coefficients);
+  EXPECT_EQ(model.atlas.caps.size(), report.caps);
+  EXPECT_EQ(model.atlas.coefficients.size(), report.coefficients);
   const Mesh again = synthesize(model);
   EXPECT_EQ(test::expect_closed_manifold(again).genus, 1);
   EXPECT_LT(rms_of(again), 1.05 * rms_of(mesh("file.ply")));
+}
+
+// Of a mesh the vertices, with the mean normals of their faces.
+TEST_F(BrickReconstructWork, reads_meshes_as_a_whole) {
+  write_shape(torus(kRing, kTube, 60, 40), path("torus.obj"));
+  for (const std::uint64_t tile_points : {std::uint64_t{1000}, kTilePoints}) {
+    const Reconstruction made = reconstruct(path("torus.obj"), {.tile_points = tile_points});
+    EXPECT_EQ(made.report.points, 2400U);
+    EXPECT_EQ(made.report.tiles > 1, tile_points < 2400);
+    EXPECT_FALSE(made.report.computed_normals);
+    EXPECT_EQ(test::expect_closed_manifold(made.mesh).genus, 1);
+  }
 }
 
 }  // namespace

@@ -15,9 +15,10 @@
 #include <vector>
 
 #include "base/random.h"
+#include "model/bricks/shared_bricks.h"
 #include "rholm/points.h"
 #include "rholm/primitives.h"
-#include "rholm/reconstruct_bricks.h"
+#include "rholm/reconstruct.h"
 #include "rholm/shape_io.h"
 
 namespace rholm::testing {
@@ -74,12 +75,22 @@ class BrickFiles : public ::testing::Test {
  protected:
   std::filesystem::path path(const std::string& name) const { return folder_ / name; }
 
-  ReconstructReport run(const PointCloud& cloud, std::uint64_t points_per_brick,
-                        const std::string& name, const ReconstructOptions& options = {},
-                        int threads = 2, const std::string& work = "") const {
-    const BrickOptions bricks{.points_per_brick = points_per_brick,
-                              .work_dir = work.empty() ? std::filesystem::path() : path(work)};
-    return reconstruct_bricks(cloud, path(name), options, bricks, {.threads = threads}).report;
+  // In tiles, also if one is enough; with `work` what lies between the steps is in that folder,
+  // which is gone if nothing is left in it.
+  ReconstructReport run(const PointCloud& cloud, std::uint64_t tile_points, const std::string& name,
+                        const ReconstructOptions& options = {}, int threads = 2,
+                        const std::string& work = "") const {
+    ReconstructOptions wanted = options;
+    wanted.tile_points = tile_points, wanted.output = path(name);
+    if (!work.empty()) {
+      wanted.work_dir = path(work), wanted.resume = true;
+      std::filesystem::create_directory(path(work));
+    }
+    OneProcess alone;
+    const Reconstruction made =
+        reconstruct_tiles(cloud, 0, wanted, {.crew = alone}, {.threads = threads});
+    if (!work.empty()) std::filesystem::remove(path(work));
+    return made.report;
   }
   Mesh mesh(const std::string& name) const { return std::get<Mesh>(read_shape(path(name)).shape); }
   std::string bytes(const std::string& name) const {
