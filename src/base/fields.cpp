@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "base/check_fields.h"
+#include "base/plain_text.h"
 #include "rholm/error.h"
 
 namespace rholm {
@@ -37,8 +38,8 @@ std::size_t find_name(const EnumNames& names, const std::string& name) {
   if (found != names.names.end()) {
     return static_cast<std::size_t>(found - names.names.begin());
   }
-  throw Error(ErrorCode::kInvalidInput, fmt::format("no such {}: '{}'; there are {}", names.what,
-                                                    name, fmt::join(names.names, ", ")));
+  throw Error(ErrorCode::kInvalidInput, fmt::format("no such {}: {}; there are {}", names.what,
+                                                    in_quotes(name), fmt::join(names.names, ", ")));
 }
 
 void check_number(const FieldInfo& info, double value) {

@@ -112,4 +112,12 @@ std::string listed(const std::vector<std::string>& words, const std::string& las
   return text;
 }
 
+std::string in_quotes(std::string_view text) {
+  constexpr std::size_t kLongest = 40;
+  std::string shown = "'";
+  for (const char c : text.substr(0, kLongest)) shown += c < 0x20 || c > 0x7e ? '?' : c;
+  shown += text.size() > kLongest ? "...'" : "'";
+  return shown;
+}
+
 }  // namespace rholm

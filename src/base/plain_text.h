@@ -33,4 +33,8 @@ std::string shell_word(const std::string& file);
 // "ply, obj or xyz" with last = "or".
 std::string listed(const std::vector<std::string>& words, const std::string& last);
 
+// Text from a file as a message may show it: in quotes, cut to 40 bytes, ? for what is not
+// printable ASCII.
+std::string in_quotes(std::string_view text);
+
 }  // namespace rholm

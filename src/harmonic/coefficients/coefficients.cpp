@@ -21,15 +21,6 @@ std::size_t array_size(int degree) {
   return 2 * side * side;
 }
 
-// For messages: names may come from a file, with any bytes and of any length.
-std::string in_quotes(const std::string& name) {
-  std::string shown = name.substr(0, 40);
-  for (char& c : shown) {
-    if (c < 0x20 || c > 0x7e) c = '?';
-  }
-  return "'" + shown + "'";
-}
-
 }  // namespace
 
 Coefficients::Coefficients(int degree) : degree_(degree), values_(array_size(degree)) {}

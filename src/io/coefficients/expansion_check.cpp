@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/cancel.h"
+#include "base/plain_text.h"
 #include "io/file/number_text.h"
 #include "rholm/coefficients_io.h"
 #include "rholm/error.h"

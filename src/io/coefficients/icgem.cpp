@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "base/cancel.h"
+#include "base/plain_text.h"
 #include "io/coefficients/codec.h"
 #include "io/coefficients/expansion_check.h"
 #include "io/coefficients/text_table.h"

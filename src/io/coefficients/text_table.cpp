@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/plain_text.h"
 #include "rholm/error.h"
 
 namespace rholm {

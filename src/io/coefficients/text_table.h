@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/cancel.h"
+#include "base/plain_text.h"
 #include "io/coefficients/codec.h"
 #include "io/file/number_text.h"
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/plain_text.h"
 #include "rholm/error.h"
 
 namespace rholm {
@@ -13,14 +14,6 @@ std::size_t line_number(const TextCursor& text) {
     if (ends) ++line;
   }
   return line;
-}
-
-std::string in_quotes(std::string_view text) {
-  constexpr std::size_t kLongest = 40;
-  std::string shown = "'";
-  for (const char c : text.substr(0, kLongest)) shown += c < 0x20 || c > 0x7e ? '?' : c;
-  shown += text.size() > kLongest ? "...'" : "'";
-  return shown;
 }
 
 std::string quoted_word(const TextCursor& text) {

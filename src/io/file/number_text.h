@@ -25,9 +25,6 @@ struct TextCursor {
 // The number of the line, from 1, that `at` stands in. Lines end in \n, \r\n or \r.
 std::size_t line_number(const TextCursor& text);
 
-// Text from a file as a message may show it: in quotes, cut to 40 bytes, ? for what is not
-// printable ASCII.
-std::string in_quotes(std::string_view text);
 // The word that begins here, quoted; "the end" if there is none.
 std::string quoted_word(const TextCursor& text);
 

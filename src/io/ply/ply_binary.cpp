@@ -2,6 +2,7 @@
 #include <array>
 #include <bit>
 
+#include "base/plain_text.h"
 #include "io/file/scalar_bytes.h"
 #include "io/ply/ply_body.h"
 

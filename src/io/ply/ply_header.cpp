@@ -6,6 +6,7 @@
 #include <string_view>
 #include <unordered_set>
 
+#include "base/plain_text.h"
 #include "io/file/number_text.h"
 
 namespace rholm {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/plain_text.h"
 #include "io/ply/ply_body.h"
 #include "io/ply/ply_header.h"
 #include "io/ply/ply_vertices.h"

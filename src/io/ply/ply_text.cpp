@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "base/plain_text.h"
 #include "io/ply/ply_body.h"
 
 namespace rholm {

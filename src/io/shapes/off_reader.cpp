@@ -6,6 +6,7 @@
 #include <array>
 #include <limits>
 
+#include "base/plain_text.h"
 #include "io/file/number_text.h"
 #include "io/shapes/face_list.h"
 #include "io/shapes/shape_source.h"

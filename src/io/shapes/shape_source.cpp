@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/parallel.h"
+#include "base/plain_text.h"
 #include "io/file/scalar_bytes.h"
 #include "rholm/error.h"
 

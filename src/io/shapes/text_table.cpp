@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "base/plain_text.h"
 #include "io/shapes/column_names.h"
 
 namespace rholm {

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "base/plain_text.h"
 #include "io/file/number_text.h"
 #include "io/shapes/shape_source.h"
 #include "rholm/error.h"

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/plain_text.h"
 #include "io/file/number_text.h"
 #include "io/shapes/plate_table.h"
 #include "io/shapes/shape_source.h"

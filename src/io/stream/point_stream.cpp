@@ -1,4 +1,5 @@
 #include "rholm/point_stream.h"
+#include "base/plain_text.h"
 
 #include <algorithm>
 #include <array>

@@ -5,6 +5,7 @@
 #include <optional>
 #include <unordered_map>
 
+#include "base/plain_text.h"
 #include "io/file/number_text.h"
 #include "model/batch/csv.h"
 #include "model/batch/table_names.h"

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/plain_text.h"
 #include "io/file/number_text.h"
 #include "model/batch/cell_text.h"
 #include "model/batch/csv.h"

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/crc32.h"
+#include "base/plain_text.h"
 #include "io/coefficients/expansion_check.h"
 #include "io/coefficients/known_numbers.h"
 #include "io/coefficients/text_table.h"
