@@ -153,7 +153,7 @@ class Limits(CliTest):
     @unittest.skipIf(LARGE, "the large ones")
     def test_tiles_are_refused_with_a_limit_and_a_size_that_are_enough(self):
         self.rholm("make", "sphere", "--subdivisions", "5", "-o", "mesh.ply")
-        self.rholm("make", "sample", "mesh.ply", "--points", "20000", "-o", "points.ply")
+        self.rholm("make", "sample", "mesh.ply", "--points", "60000", "-o", "points.ply")
         line = "reconstruct points.ply -o out.ply --tile-points 10000"
         refused = self.peak(line.split(), 0.01)
         self.assertRegex(refused[1], r"need some [\d.]+ GiB")
