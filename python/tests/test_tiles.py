@@ -199,7 +199,7 @@ def test_what_the_forecast_raises_ends_the_run(cloud, tmp_path):
 def test_memory_is_refused_with_tiles_that_fit_and_never_changes_the_surface(cloud):
     expected = rholm.reconstruct(cloud)
     assert rholm.reconstruct(cloud, max_memory=16 << 20).mesh == expected.mesh
-    with pytest.raises(rholm.OutOfMemoryError, match="--tile-points 1000"):
+    with pytest.raises(rholm.OutOfMemoryError, match="--tile-points 3100"):
         rholm.reconstruct(cloud, max_memory=3 << 20)
 
 

@@ -363,7 +363,9 @@ class Bricks(CliTest):
         # Enough changes nothing.
         self.rholm("reconstruct", "p.ply", "-o", "s.ply", "--max-memory", "0.1")
         self.assertEqual(self.bytes("s.ply"), self.bytes("one.ply"))
-        for limit in ("0.006", "0.012", "0.025"):
+        refused = self.rholm("reconstruct", "p.ply", "-o", "s.ply", "--max-memory", "0.006", code=1)
+        self.assertIn("0.013 GiB would do for tiles of 3100 points (--tile-points 3100)", refused.err)
+        for limit in ("0.013", "0.025"):
             for words in ((), ("--tile-points", "30000")):
                 refused = self.rholm("reconstruct", "p.ply", "-o", "s.ply", "--max-memory", limit, *words, code=1)
                 fits = re.search(r"--tile-points (\d+)", refused.err)[1]

@@ -93,6 +93,10 @@ Reconstruction of_whole_file(const std::filesystem::path& points, const std::str
                             ? in_tiles(cloud, file.dropped, options, context)
                             : in_one_piece(std::move(cloud), file.dropped, options, context);
   if (file.table.unsure) made.report.warnings.push_back(file.table.note);
+  if (file.dropped > 0) {
+    made.report.warnings.push_back(
+        fmt::format("{} points with a coordinate that is not finite dropped", file.dropped));
+  }
   return made;
 }
 
