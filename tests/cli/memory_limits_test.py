@@ -145,11 +145,11 @@ class Limits(CliTest):
     @unittest.skipIf(LARGE, "the large ones")
     def test_bricks_are_refused_with_a_limit_that_is_enough(self):
         self.rholm("make", "sphere", "--subdivisions", "5", "-o", "mesh.ply")
-        self.rholm("make", "sample", "mesh.ply", "--points", "20000", "-o", "points.ply")
+        self.rholm("make", "sample", "mesh.ply", "--points", "60000", "-o", "points.ply")
         line = "reconstruct points.ply -o out.ply --brick-points 10000"
-        refused = self.peak(line.split(), 0.005)
+        refused = self.peak(line.split(), 0.01)
         self.assertRegex(refused[1], r"need some [\d.]+ GiB")
-        self.assertFalse(self.check(line, 0.005))  # which tries the limit that is named
+        self.assertFalse(self.check(line, 0.01))  # which tries the limit that is named
 
     @unittest.skipIf(LARGE, "the large ones")
     def test_nothing_is_refused_where_no_limit_was_said(self):
