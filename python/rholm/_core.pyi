@@ -123,11 +123,11 @@ class Bounds:
 
     @property
     def min(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """The corner with the smallest coordinates, (3,) float64."""
+        """The corner with the smallest coordinates."""
 
     @property
     def max(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """The corner with the largest, (3,) float64."""
+        """The corner with the largest coordinates."""
 
     @property
     def diagonal(self) -> float:
@@ -221,7 +221,7 @@ class Inspection:
 
     @property
     def bounds(self) -> Bounds:
-        """Of all vertices."""
+        """Box around all vertices."""
 
     @property
     def area(self) -> float:
@@ -233,11 +233,11 @@ class Inspection:
 
     @property
     def vertex_centroid(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """Mean of the used vertices, (3,)."""
+        """Mean of the used vertices."""
 
     @property
     def volume_centroid(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """Of the solid, (3,)."""
+        """Of the solid, if it is closed and its volume is not zero."""
 
 class RepairReport:
     """What was done to a mesh, and what could not be."""
@@ -257,7 +257,7 @@ class RepairReport:
 
     @property
     def before(self) -> Inspection:
-        """Inspection of the mesh welded exactly."""
+        """State of the mesh welded exactly."""
 
     @property
     def merged_vertices(self) -> int:
@@ -325,11 +325,13 @@ class RepairReport:
 
     @property
     def closes_at(self) -> float | None:
-        """The tolerance of welding that would join the borders left, or None."""
+        """
+        Tolerance of welding that would join the borders left; none if none would.
+        """
 
     @property
     def after(self) -> Inspection:
-        """Inspection of the result."""
+        """State of the result, welded exactly."""
 
 def weld(arg0: Mesh, arg1: float, /) -> tuple: ...
 
@@ -355,7 +357,28 @@ def surface_area(arg: Mesh, /) -> float: ...
 
 def enclosed_volume(arg: Mesh, /) -> float: ...
 
-def repair(arg0: Mesh, arg1: float, arg2: int, arg3: Caller, /) -> tuple: ...
+class RepairOptions:
+    """What may be done to a mesh."""
+
+    def __init__(self, **fields: Any) -> None: ...
+
+    def __repr__(self) -> str: ...
+
+    @property
+    def weld(self) -> float: ...
+
+    @weld.setter
+    def weld(self, arg: float | None, /) -> None: ...
+
+    @property
+    def max_hole(self) -> int: ...
+
+    @max_hole.setter
+    def max_hole(self, arg: int | None, /) -> None: ...
+
+    FIELDS: tuple = ...
+
+def repair(arg0: Mesh, arg1: RepairOptions, arg2: Caller, /) -> tuple: ...
 
 class SimplifyOptions:
     """Where simplify() stops."""
@@ -501,6 +524,8 @@ class SampleOptions:
     @seed.setter
     def seed(self, arg: int | None, /) -> None: ...
 
+    FIELDS: tuple = ...
+
 def sample_surface(arg0: Mesh, arg1: SampleOptions, arg2: Caller, /) -> PointCloud: ...
 
 class CleanReport:
@@ -613,16 +638,18 @@ class OrientOptions:
     def sensor(self, arg: Sequence[float] | numpy.typing.NDArray[numpy.float64] | None, /) -> None: ...
 
     @property
-    def keep_strays(self) -> bool: ...
+    def keep_outliers(self) -> bool: ...
 
-    @keep_strays.setter
-    def keep_strays(self, arg: bool | None, /) -> None: ...
+    @keep_outliers.setter
+    def keep_outliers(self, arg: bool | None, /) -> None: ...
 
     @property
     def confidence(self) -> bool: ...
 
     @confidence.setter
     def confidence(self, arg: bool | None, /) -> None: ...
+
+    FIELDS: tuple = ...
 
 class OrientReport:
     """What orient() did, and how sure it is."""
@@ -642,11 +669,11 @@ class OrientReport:
 
     @property
     def points(self) -> int:
-        """Number of points given."""
+        """Points given."""
 
     @property
     def duplicates(self) -> int:
-        """Points at the place of an earlier one; they share its normal."""
+        """Points at the place of an earlier one, whose normal they share."""
 
     @property
     def neighbors(self) -> int:
@@ -654,7 +681,7 @@ class OrientReport:
 
     @property
     def components(self) -> int:
-        """Of the graph of neighbours; 0 with a centre or a sensor."""
+        """Parts of the graph of neighbours; 0 with a centre or a sensor."""
 
     @property
     def computed(self) -> int:
@@ -662,13 +689,11 @@ class OrientReport:
 
     @property
     def flipped(self) -> int:
-        """Normals that point to the other side now than they did."""
+        """Normals that were turned round."""
 
     @property
-    def strays(self) -> int:
-        """
-        Points far from all others; they take the normal of the nearest, with confidence 0.
-        """
+    def outliers(self) -> int:
+        """Points far from all others, which took the normal of the nearest."""
 
     @property
     def undetermined(self) -> int:
@@ -677,7 +702,7 @@ class OrientReport:
     @property
     def mean_confidence(self) -> float:
         """
-        0 ... 1: how far neighbours and winding numbers agree with the normals.
+        Mean over the points: a sign is right with the probability (1 + confidence) / 2.
         """
 
     @property
@@ -1082,10 +1107,10 @@ class AlignOptions:
     def margin(self, arg: float | None, /) -> None: ...
 
     @property
-    def allow_mirror(self) -> bool: ...
+    def mirror(self) -> bool: ...
 
-    @allow_mirror.setter
-    def allow_mirror(self, arg: bool | None, /) -> None: ...
+    @mirror.setter
+    def mirror(self, arg: bool | None, /) -> None: ...
 
     @property
     def unknown_a(self) -> float: ...
@@ -1098,6 +1123,8 @@ class AlignOptions:
 
     @unknown_b.setter
     def unknown_b(self, arg: float | None, /) -> None: ...
+
+    FIELDS: tuple = ...
 
 class AlignedRotation:
     """A rotation of a, and how well it lays a on b."""
@@ -1331,6 +1358,8 @@ class AnalyzeOptions:
     @precision.setter
     def precision(self, arg: float | None, /) -> None: ...
 
+    FIELDS: tuple = ...
+
 class Tolerance:
     """The largest error that is allowed."""
 
@@ -1367,6 +1396,8 @@ class Tolerance:
 
     @max_degree.setter
     def max_degree(self, arg: int | None, /) -> None: ...
+
+    FIELDS: tuple = ...
 
 class EncodeOptions:
     """What is wanted of a model."""
@@ -1709,6 +1740,8 @@ class MonteCarloOptions:
     @most_samples.setter
     def most_samples(self, arg: int | None, /) -> None: ...
 
+    FIELDS: tuple = ...
+
 class MonteCarlo:
     """Coefficients by random points, and how far they may be off."""
 
@@ -1735,33 +1768,33 @@ class MonteCarlo:
 
     @property
     def rounds(self) -> int:
-        """In which they were added."""
+        """Rounds in which they were added."""
 
     @property
     def relative_deviation(self) -> float | None:
-        """Standard error relative to the coefficients without the mean, or None."""
+        """
+        Standard error relative to the coefficients without the mean; none if too few points tell.
+        """
 
     @property
     def reached(self) -> bool:
-        """Whether it is the wanted one."""
+        """Whether the wanted deviation is reached."""
 
     @property
     def degree_deviation(self) -> Annotated[NDArray[numpy.float64], dict(writable=False)]:
-        """
-        For each degree the standard error of its coefficients together, (L + 1,).
-        """
+        """For each degree the standard error of its coefficients together."""
 
     @property
     def truncation_rms(self) -> float | None:
-        """As in Analysis."""
+        """Root mean square of what degrees above L would add."""
 
     @property
     def truncation_rms_doubt(self) -> float | None:
-        """By 3 deviations."""
+        """How far that may be off, by 3 deviations."""
 
     @property
     def times(self) -> dict:
-        """Stages: (wall, cpu) in seconds."""
+        """Seconds of each stage."""
 
     @property
     def expansion(self) -> Expansion: ...
@@ -1844,6 +1877,8 @@ class CompareOptions:
     @threshold.setter
     def threshold(self, arg: float | None, /) -> None: ...
 
+    FIELDS: tuple = ...
+
 class Distances:
     """Of all samples, in the shape's unit."""
 
@@ -1890,28 +1925,28 @@ class Comparison:
 
     @property
     def samples(self) -> int:
-        """On each surface."""
+        """Points on each surface."""
 
     @property
     def seed(self) -> int:
-        """They were drawn with."""
+        """That they were drawn with."""
 
     @property
     def diagonal(self) -> float:
-        """Of the bounding box of a."""
+        """Of A's bounding box."""
 
     @property
     def a_to_b(self) -> Distances:
-        """From samples of a to their closest points on b."""
+        """From samples of A to their closest points on B."""
 
     @property
     def b_to_a(self) -> Distances:
-        """And the other way."""
+        """From samples of B to their closest points on A."""
 
     @property
     def hausdorff(self) -> float:
         """
-        The larger of the two largest: a lower bound of the Hausdorff distance.
+        Larger of the two largest distances: a lower bound of the Hausdorff distance.
         """
 
     @property
@@ -1920,23 +1955,25 @@ class Comparison:
 
     @property
     def precision(self) -> float:
-        """Share of b's samples within it of a."""
+        """Share of B's samples within the threshold of A."""
 
     @property
     def recall(self) -> float:
-        """Share of a's samples within it of b."""
+        """Share of A's samples within the threshold of B."""
 
     @property
     def f_score(self) -> float:
-        """Harmonic mean of the two."""
+        """Harmonic mean of precision and recall."""
 
     @property
     def normal_median_degrees(self) -> float:
-        """Median angle between normals, degrees."""
+        """
+        Median of the angle between the normal at a sample and that at its closest point, 0 ... 180.
+        """
 
     @property
     def normal_mean_degrees(self) -> float:
-        """Mean angle between normals, degrees."""
+        """Mean of that angle."""
 
 def compare(arg0: Mesh, arg1: Mesh, arg2: CompareOptions, arg3: Caller, /) -> Comparison: ...
 
@@ -1988,7 +2025,7 @@ class Cap:
 
     @property
     def basis(self) -> str:
-        """'full' or 'even'."""
+        """Which harmonics it uses."""
 
     @property
     def degree(self) -> int:
@@ -2109,19 +2146,21 @@ class AtlasErrors:
 
     @property
     def rms_from(self) -> float:
-        """From the shape to the model's surface."""
+        """Root mean square distance from the shape to the model's surface."""
 
     @property
     def max_from(self) -> float:
-        """The largest of these distances."""
+        """Largest of these distances."""
 
     @property
     def rms_to(self) -> float:
-        """From the model's surface; 0 if the shape is points."""
+        """
+        Root mean square distance from the model's surface to the shape; 0 if that is points.
+        """
 
     @property
     def max_to(self) -> float:
-        """The largest of these."""
+        """Largest of these distances; 0 if the shape is points."""
 
     @property
     def rms(self) -> float:
@@ -2245,6 +2284,8 @@ class CompressOptions:
     @max_numbers.setter
     def max_numbers(self, arg: int | None, /) -> None: ...
 
+    FIELDS: tuple = ...
+
 class CompressReport:
     """How a model came about, and what it keeps."""
 
@@ -2263,7 +2304,7 @@ class CompressReport:
 
     @property
     def samples(self) -> int:
-        """That caps were fitted to."""
+        """Points that caps were fitted to."""
 
     @property
     def turned_normals(self) -> bool:
@@ -2271,15 +2312,15 @@ class CompressReport:
 
     @property
     def hidden(self) -> float:
-        """Share of a mesh inside of its solid, left out."""
+        """Share of a mesh that lies inside of its solid, and was left out."""
 
     @property
     def gap(self) -> float:
-        """Between sheets that face each other."""
+        """Distance between sheets that face each other."""
 
     @property
     def aimed(self) -> float:
-        """The tolerance that was aimed at."""
+        """Tolerance that was aimed at."""
 
     @property
     def uncovered(self) -> float:
@@ -2287,11 +2328,11 @@ class CompressReport:
 
     @property
     def components(self) -> int:
-        """Of the extracted surface."""
+        """Parts of the extracted surface."""
 
     @property
     def genus(self) -> int:
-        """Of the extracted surface."""
+        """Handles of the extracted surface."""
 
     @property
     def met(self) -> bool:
@@ -2303,7 +2344,7 @@ class CompressReport:
 
     @property
     def times(self) -> dict:
-        """Stages: (wall, cpu) in seconds."""
+        """Seconds of each stage."""
 
 def compress(arg0: Mesh | PointCloud, arg1: CompressOptions, arg2: Caller, /) -> tuple: ...
 
@@ -2337,6 +2378,8 @@ class AtlasSynthesisOptions:
 
     @max_memory.setter
     def max_memory(self, arg: int | None, /) -> None: ...
+
+    FIELDS: tuple = ...
 
 def synthesize_atlas(arg0: AtlasModel, arg1: AtlasSynthesisOptions, arg2: Caller, /) -> Mesh: ...
 
@@ -2376,6 +2419,8 @@ class PatchAtlasOptions:
 
     @overlap.setter
     def overlap(self, arg: float | None, /) -> None: ...
+
+    FIELDS: tuple = ...
 
 def patch_atlas(arg0: Mesh | PointCloud, arg1: PatchAtlasOptions, arg2: Caller, /) -> tuple: ...
 
@@ -2764,7 +2809,7 @@ class PatchOptions:
     def wavelength(self, arg: float | None, /) -> None: ...
 
     @property
-    def transition(self) -> float: ...
+    def transition(self) -> float | None: ...
 
     @transition.setter
     def transition(self, arg: float | None, /) -> None: ...
@@ -2780,6 +2825,8 @@ class PatchOptions:
 
     @repair.setter
     def repair(self, arg: bool | None, /) -> None: ...
+
+    FIELDS: tuple = ...
 
 class Patch:
     """The vertices that may move, and where fits want them."""
@@ -2853,10 +2900,51 @@ class TransferOptions:
     def find_angle(self, arg: bool | None, /) -> None: ...
 
     @property
-    def transition(self) -> float: ...
+    def transition(self) -> float | None: ...
 
     @transition.setter
     def transition(self, arg: float | None, /) -> None: ...
+
+    FIELDS: tuple = ...
+
+class TransferUpdate:
+    """What a slider moves."""
+
+    def __init__(self, **fields: Any) -> None: ...
+
+    def __repr__(self) -> str: ...
+
+    @property
+    def height(self) -> float: ...
+
+    @height.setter
+    def height(self, arg: float | None, /) -> None: ...
+
+    @property
+    def angle(self) -> float | None: ...
+
+    @angle.setter
+    def angle(self, arg: float | None, /) -> None: ...
+
+    @property
+    def repeat(self) -> bool: ...
+
+    @repeat.setter
+    def repeat(self, arg: bool | None, /) -> None: ...
+
+    @property
+    def remove_own(self) -> bool: ...
+
+    @remove_own.setter
+    def remove_own(self, arg: bool | None, /) -> None: ...
+
+    @property
+    def mode(self) -> str: ...
+
+    @mode.setter
+    def mode(self, arg: str, /) -> None: ...
+
+    FIELDS: tuple = ...
 
 class TransferReport:
     """What the analysis found; lengths are in the units of the two meshes."""
@@ -2876,11 +2964,11 @@ class TransferReport:
 
     @property
     def source_radius(self) -> float:
-        """Of a disc with the area of the source's base."""
+        """Radius of a disc with the area of the source's base."""
 
     @property
     def target_radius(self) -> float:
-        """Likewise of the target's."""
+        """Radius of a disc with the area of the target's base."""
 
     @property
     def scale(self) -> float:
@@ -2896,11 +2984,11 @@ class TransferReport:
 
     @property
     def source_edge(self) -> float:
-        """Median length of an edge."""
+        """Median length of an edge of the source."""
 
     @property
     def target_edge(self) -> float:
-        """The same after refinement."""
+        """Median length of an edge of the target, after refinement."""
 
     @property
     def source_rms(self) -> float:
@@ -2908,7 +2996,7 @@ class TransferReport:
 
     @property
     def angle(self) -> float:
-        """Of best correlation, radians."""
+        """Turn of best correlation, radians."""
 
     @property
     def correlation(self) -> float:
@@ -2916,7 +3004,7 @@ class TransferReport:
 
     @property
     def new_vertices(self) -> int:
-        """By refinement."""
+        """Vertices made by refinement."""
 
 class TransferSource:
     """A texture taken from its source."""
@@ -2952,9 +3040,9 @@ def analyze_source(arg0: Mesh, arg1: Sequence[str], arg2: int, arg3: Caller, /) 
 
 def analyze_transfer(arg0: TransferSource, arg1: Mesh, arg2: Sequence[str], arg3: TransferOptions, arg4: Caller, /) -> TransferAnalysis: ...
 
-def update_transfer(arg0: TransferAnalysis, arg1: float, arg2: float | None, arg3: bool, arg4: bool, arg5: str, arg6: Caller, /) -> NDArray[numpy.float64]: ...
+def update_transfer(arg0: TransferAnalysis, arg1: TransferUpdate, arg2: Caller, /) -> NDArray[numpy.float64]: ...
 
-def apply_transfer_in_place(arg0: TransferAnalysis, arg1: float, arg2: float | None, arg3: bool, arg4: bool, arg5: str, arg6: Mesh, arg7: Caller, /) -> None: ...
+def apply_transfer_in_place(arg0: TransferAnalysis, arg1: TransferUpdate, arg2: Mesh, arg3: Caller, /) -> None: ...
 
 class Panel:
     """One thing in a picture; the mesh, or the points, must be kept."""
@@ -2997,10 +3085,10 @@ class RenderOptions:
     def fit_each(self, arg: bool | None, /) -> None: ...
 
     @property
-    def view_direction(self) -> numpy.typing.NDArray[numpy.float64]: ...
+    def view(self) -> numpy.typing.NDArray[numpy.float64]: ...
 
-    @view_direction.setter
-    def view_direction(self, arg: Sequence[float] | numpy.typing.NDArray[numpy.float64] | None, /) -> None: ...
+    @view.setter
+    def view(self, arg: Sequence[float] | numpy.typing.NDArray[numpy.float64] | None, /) -> None: ...
 
     @property
     def up(self) -> numpy.typing.NDArray[numpy.float64]: ...
@@ -3049,6 +3137,8 @@ class RenderOptions:
 
     @scale_label.setter
     def scale_label(self, arg: str | None, /) -> None: ...
+
+    FIELDS: tuple = ...
 
 def render(arg0: Sequence[Panel], arg1: RenderOptions, arg2: Caller, /) -> NDArray[numpy.uint8]: ...
 
@@ -3120,6 +3210,8 @@ class ReportOptions:
 
     @viewer.setter
     def viewer(self, arg: str | None, /) -> None: ...
+
+    FIELDS: tuple = ...
 
     def set_commands(self, arg: Sequence[tuple[str, str]], /) -> None: ...
 

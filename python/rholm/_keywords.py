@@ -3,9 +3,17 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from typing import Any, Literal, TypedDict
 
 import numpy.typing as npt
+
+
+class RepairKeywords(TypedDict, total=False):
+    """What may be done to a mesh."""
+
+    weld: float
+    max_hole: int
 
 
 class SimplifyKeywords(TypedDict, total=False):
@@ -14,6 +22,112 @@ class SimplifyKeywords(TypedDict, total=False):
     triangles: int
     share: float
     max_error: float
+
+
+class SampleKeywords(TypedDict, total=False):
+    """What is measured of a surface."""
+
+    noise: float
+    normal_noise: float
+    outliers: float
+    holes: int
+    hole_radius: float
+    density_ratio: float
+    pattern: Literal["random", "slices", "rings", "lines", "grid"]
+    pattern_ratio: float
+    pattern_axis: npt.ArrayLike
+    scans: int
+    misalignment: float
+    scan_noise: float
+    sensor: bool
+    normals: bool
+    seed: int
+
+
+class OrientKeywords(TypedDict, total=False):
+    """How normals are found and which side is outside."""
+
+    neighbors: int
+    keep_directions: bool
+    center: npt.ArrayLike | None
+    sensor: npt.ArrayLike | None
+    keep_outliers: bool
+    confidence: bool
+
+
+class AlignKeywords(TypedDict, total=False):
+    """How a rotation is sought."""
+
+    start: Literal["correlation", "principal-axes"]
+    bandwidth: int
+    refine_degree: int
+    margin: float
+    mirror: bool
+    unknown_a: float
+    unknown_b: float
+
+
+class AnalyzeKeywords(TypedDict, total=False):
+    """Which function is expanded, and how."""
+
+    degree: int
+    method: Literal["edge", "gauge", "curl", "area"]
+    engine: Literal["fast", "direct"]
+    precision: float
+
+
+class ToleranceKeywords(TypedDict, total=False):
+    """The largest error that is allowed."""
+
+    error: float
+    unit: Literal["absolute", "diagonal", "radius"]
+    norm: Literal["rms", "max"]
+    measure: Literal["radius", "distance"]
+    max_degree: int
+
+
+class MonteCarloKeywords(TypedDict, total=False):
+    """How much is wanted, and when to stop."""
+
+    places: Literal["edge", "triangle"]
+    seed: int
+    samples: int | None
+    deviation: float
+    most_samples: int
+
+
+class CompareKeywords(TypedDict, total=False):
+    """Where distances are measured."""
+
+    samples: int
+    seed: int
+    threshold: float
+
+
+class CompressKeywords(TypedDict, total=False):
+    """What a model is to keep."""
+
+    samples: int
+    max_degree: int
+    seed: int
+    max_numbers: int
+
+
+class AtlasSynthesisKeywords(TypedDict, total=False):
+    """How a surface is extracted."""
+
+    step: float
+    degree: int | None
+    simplify: Any
+    max_memory: int
+
+
+class PatchAtlasKeywords(TypedDict, total=False):
+    """The paper's parameters."""
+
+    extension: Literal["zero", "sphere"]
+    min_cosine: float
+    overlap: float
 
 
 class ReconstructKeywords(TypedDict, total=False):
@@ -36,3 +150,54 @@ class ReconstructKeywords(TypedDict, total=False):
     model: str | os.PathLike[str] | None
     work_dir: str | os.PathLike[str] | None
     resume: bool
+
+
+class PatchKeywords(TypedDict, total=False):
+    """What is to go from a region."""
+
+    transition: float | None
+    fitting: Literal["mean", "robust", "around"]
+    repair: bool
+
+
+class TransferKeywords(TypedDict, total=False):
+    """What counts as detail, and how large it is laid."""
+
+    from_degree: int
+    scale: float
+    refine: bool
+    transition: float | None
+
+
+class TransferUpdateKeywords(TypedDict, total=False):
+    """What a slider moves."""
+
+    height: float
+    angle: float | None
+    repeat: bool
+    remove_own: bool
+    mode: Literal["displacement", "coefficients"]
+
+
+class RenderKeywords(TypedDict, total=False):
+    """Size, point of view, light and colours."""
+
+    perspective: bool
+    fit_each: bool
+    view: npt.ArrayLike
+    up: npt.ArrayLike
+    samples: int
+    occlusion_rays: int
+    fine: bool
+    scale_bar: bool
+    scale_label: str
+
+
+class ReportKeywords(TypedDict, total=False):
+    """What a page says beside its figures."""
+
+    title: str
+    shape_name: str
+    notes: Sequence[str]
+    tolerance: float | None
+    picture_size: int

@@ -43,6 +43,8 @@ template <class V>
 nb::object state_of(const V& value) {
   if constexpr (std::is_same_v<V, StageTimes>) {
     return dict_of(value);
+  } else if constexpr (kIsOptional<V>) {
+    return value ? state_of(*value) : nb::object(nb::none());
   } else if constexpr (std::is_enum_v<V>) {
     return nb::int_(static_cast<int>(value));
   } else if constexpr (std::is_same_v<V, Vec3>) {

@@ -68,5 +68,13 @@ TEST(plain_text, lists_have_their_last_word_before_the_last_entry) {
   EXPECT_EQ(listed({"a", "b", "c"}, "and"), "a, b and c");
 }
 
+TEST(plain_text, shows_only_what_a_terminal_can_bear) {
+  EXPECT_EQ(in_quotes("word"), "'word'");
+  EXPECT_EQ(in_quotes("\x1b[31m\n"), "'?[31m?'");
+  std::string expected(40, 'x');
+  expected.insert(0, 1, '\'');
+  EXPECT_EQ(in_quotes(std::string(100, 'x')), expected + "...'");
+}
+
 }  // namespace
 }  // namespace rholm

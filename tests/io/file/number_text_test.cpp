@@ -129,13 +129,5 @@ TEST(line_number, counts_lines_of_every_kind) {
   EXPECT_EQ(line_of("a\n\n\nb", 4), 4u);
 }
 
-TEST(in_quotes, shows_only_what_a_terminal_can_bear) {
-  EXPECT_EQ(in_quotes("word"), "'word'");
-  EXPECT_EQ(in_quotes("\x1b[31m\n"), "'?[31m?'");
-  std::string expected(40, 'x');
-  expected.insert(0, 1, '\'');
-  EXPECT_EQ(in_quotes(std::string(100, 'x')), expected + "...'");
-}
-
 }  // namespace
 }  // namespace rholm
