@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "cli/terminal/json_text.h"
+#include "cli/terminal/json.h"
 #include "rholm/context.h"
 #include "rholm/fields.h"
 

@@ -36,8 +36,6 @@ std::string percent(double share) { return fmt::format("{:.4g} %", 100 * share);
 
 }  // namespace
 
-Json json_of(const Vec3& v) { return {v.x, v.y, v.z}; }
-
 Json json_of(const Bounds& bounds) {
   return {
       {"min", json_of(bounds.min)}, {"max", json_of(bounds.max)}, {"diagonal", bounds.diagonal()}};

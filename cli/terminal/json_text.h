@@ -1,11 +1,10 @@
-// What the reports of several commands share: JSON of our types, tables of text. The one user of
-// the JSON library in the program. Layer: cli.
+// What the reports of several commands share: JSON of our types, tables of text. Layer: cli.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
+#include "cli/terminal/json.h"
 #include "rholm/analyze.h"
 #include "rholm/coefficients.h"
 #include "rholm/mesh.h"
@@ -14,10 +13,6 @@
 
 namespace rholm::cli {
 
-// Keys in the order they are added. A number that is not finite is written as null.
-using Json = nlohmann::ordered_json;
-
-Json json_of(const Vec3& v);  // [x, y, z]
 Json json_of(const Bounds& bounds);
 Json json_of(const std::vector<Attribute>& attributes);
 // Both with "kinds", what each figure of an error is worth: "exact" but for rounding, "measured"

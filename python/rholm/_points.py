@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import triple
 from ._options import options_of, takes
 from ._run import Progress, caller
 from ._shapes import MeshLike, PointCloud, PointsLike, as_mesh, as_points, finite_points

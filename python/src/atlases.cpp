@@ -210,8 +210,8 @@ nb::tuple state_of_rules(const SurfaceRules& rules) {
                           s.size[2], bytes_of(s.bits));
   }
   return nb::make_tuple(to_string(rules.holes), rules.min_component, simplify,
-                        bytes_of(rules.spacing_places), bytes_of(rules.spacings), seen, rules.bricks,
-                        rules.left_out);
+                        bytes_of(rules.spacing_places), bytes_of(rules.spacings), seen,
+                        rules.bricks, rules.left_out);
 }
 
 SurfaceRules rules_of_state(const nb::object& state) {
