@@ -69,6 +69,7 @@ PointCloud make_sample(const SampleArguments& a, std::uint64_t seed, Session& se
   options.normals = !a.no_normals;
   options.seed = seed;
   const bool rows = options.pattern != SamplePattern::kRandom;
+  if (!(norm(options.pattern_axis) > 0)) throw UsageError("--pattern-axis has no direction");
   if (!rows && (a.options.has("pattern_ratio") || a.options.has("pattern_axis"))) {
     throw UsageError("--pattern-ratio and --pattern-axis are those of a --pattern");
   }
