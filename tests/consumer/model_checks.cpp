@@ -1,6 +1,7 @@
 // Whole pipelines.
 #include <rholm/batch.h>
 #include <rholm/compress.h>
+#include <rholm/error.h>
 #include <rholm/model.h>
 #include <rholm/patch_atlas.h>
 #include <rholm/points.h>

@@ -279,7 +279,8 @@ TEST(rays, do_not_slip_through_edges_and_vertices) {
   const RayScene scene(mesh);
   int slips = 0;
   for (int k = 0; k < 20000; ++k) {
-    const Triangle& t = mesh.triangles[(7919U * static_cast<unsigned>(k)) % mesh.triangles.size()];
+    const Triangle& t =
+        mesh.triangles[std::size_t{7919} * static_cast<std::size_t>(k) % mesh.triangles.size()];
     const Vec3 origin = 0.5 * random_point(41, k / 100);
     const double share = k % 4 == 0 ? 0 : random_uniform(42, k);
     const Vec3 target = (1 - share) * mesh.vertices[t[0]] + share * mesh.vertices[t[1]];
