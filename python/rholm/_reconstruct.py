@@ -32,7 +32,7 @@ class _Parts(NamedTuple):
 class Reconstruction(_Parts):
     """What `reconstruct` made of points: ``mesh, atlas, report = r``.
 
-    With an `output` the first two of these are None; ``r.mesh`` and ``r.atlas`` read the files when they
+    With an ``output`` the first two of these are None; ``r.mesh`` and ``r.atlas`` read the files when they
     are first asked for.
     """
 
