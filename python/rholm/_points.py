@@ -33,6 +33,8 @@ def sample_surface(
     ----------
     mesh : mesh-like
         The surface. Lengths below are parts of the diagonal of its bounding box.
+    points : int
+        How many, before holes; with a pattern about as many.
     {options}
     threads, progress
         See `rholm.caller`.
