@@ -252,13 +252,24 @@ class Sampler {
     finer_.undivided.divided = false;
   }
 
-  SampledError run(const SampledRuns& sample, const NonuniformPlan& transform,
+  // Of runs, that windows are measured by; 0: they are not measured.
+  std::size_t group_count(int degree) const {
+    const double transforms = 2 * kCoefficientCost * std::pow(degree + 1.0, 2);
+    const double pass =
+        (kTriangleCost + kNodeCost * plan_.nodes) * static_cast<double>(vertices_.mesh.n_triangles);
+    for (const std::size_t groups : kGroups) {
+      if (static_cast<double>(groups) * transforms < kMostOfPass * pass) return groups;
+    }
+    return 0;
+  }
+
+  SampledError run(const SampledRuns& sample, std::size_t n_groups, const NonuniformPlan& transform,
                    const Context& context) const {
     const int degree = transform.fourier.degree;
     Sources halves[2];
-    std::vector<Sources> groups(sample.share == 1 ? 2 : group_count(degree));
+    std::vector<Sources> groups(n_groups);
     // Rules, whose sources are many more, by every other run.
-    const std::size_t step = sample.share == 1 ? 1 : 2;
+    const std::size_t step = sample.share == 1 || groups.empty() ? 1 : 2;
     const double part = 1 / static_cast<double>(step);
     for (std::size_t k = 0; k < sample.runs.size(); ++k) {
       ask_cancel();
@@ -281,16 +292,6 @@ class Sampler {
   }
 
  private:
-  std::size_t group_count(int degree) const {
-    const double transforms = 2 * kCoefficientCost * std::pow(degree + 1.0, 2);
-    const double pass =
-        (kTriangleCost + kNodeCost * plan_.nodes) * static_cast<double>(vertices_.mesh.n_triangles);
-    for (const std::size_t groups : kGroups) {
-      if (static_cast<double>(groups) * transforms < kMostOfPass * pass) return groups;
-    }
-    return 0;
-  }
-
   // Sources whose sum is the error of the rules.
   void add_rules(const SampledRun& run, double chance, Sources& to) const {
     to.scale = 1 / std::sqrt(chance);
@@ -425,8 +426,13 @@ SampledError sample_error(const MeshView& mesh, const MeshPassOptions& options,
                           std::span<const float> block_errors, const Context& context,
                           double share) {
   const Context silent{.threads = context.threads};
-  const SampledRuns sample = sample_runs(mesh, options, plan.block, block_errors, share, silent);
-  return Sampler(mesh, options, plan).run(sample, transform, silent);
+  const Sampler sampler(mesh, options, plan);
+  const std::size_t groups = share == 1 ? 2 : sampler.group_count(options.degree);
+  // Twice as many for windows.
+  const RunCount one, number = groups == 0 ? one : RunCount{2 * one.fewest, 2 * one.most};
+  const SampledRuns sample =
+      sample_runs(mesh, options, plan.block, block_errors, share, number, silent);
+  return sampler.run(sample, groups, transform, silent);
 }
 
 }  // namespace rholm

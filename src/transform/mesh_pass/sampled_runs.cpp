@@ -13,7 +13,6 @@
 namespace rholm {
 namespace {
 
-constexpr double kFewestRuns = 96, kMostRuns = 160;
 constexpr std::size_t kScanGrain = std::size_t{1} << 15;  // triangles, some 50 us (chosen)
 
 struct Chosen {
@@ -340,9 +339,9 @@ class RunReader {
 
 SampledRuns sample_runs(const MeshView& mesh, const MeshPassOptions& options,
                         const BlockParameters& block, std::span<const float> errors, double share,
-                        const Context& context) {
+                        const RunCount& number, const Context& context) {
   const auto blocks = static_cast<double>(errors.size());
-  const double count = std::clamp(share * blocks, kFewestRuns, kMostRuns), even = 1 / blocks;
+  const double count = std::clamp(share * blocks, number.fewest, number.most), even = 1 / blocks;
   double sum = 0;
   for (const double error : errors) sum += error;
   std::vector<Chosen> chosen;

@@ -43,10 +43,15 @@ struct SampledRuns {
   double common = 1;
 };
 
+// Chosen: how many runs there are at least and at most.
+struct RunCount {
+  double fewest = 48, most = 80;
+};
+
 // About `share` of the blocks of kTrianglesPerBlock triangles, each a run: half of them evenly,
 // half by `errors`, what the model says that each leaves. `block` as of the pass.
 SampledRuns sample_runs(const MeshView& mesh, const MeshPassOptions& options,
                         const BlockParameters& block, std::span<const float> errors, double share,
-                        const Context& context);
+                        const RunCount& number, const Context& context);
 
 }  // namespace rholm
