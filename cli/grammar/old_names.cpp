@@ -10,7 +10,15 @@ namespace {
 struct OldName {
   std::string_view command, old_name, name;
 };
-constexpr OldName kOldNames[] = {{"reconstruct", "--brick-points", "--tile-points"}};
+constexpr OldName kOldNames[] = {{"align", "--center", "--centers"},
+                                 {"align", "--method", "--start"},
+                                 {"make", "--axis", "--pattern-axis"},
+                                 {"make", "--misalign", "--misalignment"},
+                                 {"make", "--noise-per-scan", "--scan-noise"},
+                                 {"make", "--ratio", "--pattern-ratio"},
+                                 {"orient", "--k", "--neighbors"},
+                                 {"reconstruct", "--brick-points", "--tile-points"},
+                                 {"smooth", "--fit", "--fitting"}};
 
 }  // namespace
 

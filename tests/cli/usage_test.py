@@ -235,6 +235,18 @@ class Failures(CliTest):
 
 
 class Talk(CliTest):
+    def test_names_of_the_version_before_are_understood(self):
+        for line, name in (("align no.h5 no.h5 --method=correlation", "--start"), ("align no.h5 no.h5 --center own", "--centers"),
+                           ("make sample no.ply --ratio 2 --pattern rings -o o.ply", "--pattern-ratio"),
+                           ("make sample no.ply --axis 1,0,0 --pattern rings -o o.ply", "--pattern-axis"),
+                           ("make sample no.ply --scans 2 --misalign 0.1 -o o.ply", "--misalignment"),
+                           ("make sample no.ply --scans 2 --noise-per-scan 0.1 -o o.ply", "--scan-noise"),
+                           ("orient no.ply --k 8 -o o.ply", "--neighbors"),
+                           ("smooth no.ply --region ball:0,0,0,1 --wavelength 1 --fit=mean -o o.ply", "--fitting")):
+            said = self.rholm(*line.split(), code=1).err
+            self.assertIn(f" is {name} now; the next version refuses the old name", said)
+            self.assertIn("no.", said.splitlines()[-1])  # the file that is missing, not the option
+
     def test_quiet_says_nothing(self):
         self.rholm("make", "sphere", "--subdivisions", "2", "-o", "s.ply")
         result = self.rholm("analyze", "s.ply", "--degree", "2", "-o", "s.h5", "--quiet")
