@@ -186,7 +186,7 @@ it("a texture is taken, laid, turned by its handle, and kept", async () => {
 
 it.each([
   ["repair", "--repair"],
-  ["bridge", "--fit around"],
+  ["bridge", "--fitting around"],
 ])("to %s is another way of smoothing", async (action, option) => {
   const { page } = now;
   await openTab(page, "Smooth");
