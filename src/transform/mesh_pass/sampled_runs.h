@@ -45,7 +45,7 @@ struct SampledRuns {
 
 // Chosen: how many runs there are at least and at most.
 struct RunCount {
-  double fewest = 56, most = 80;
+  double fewest = 64, most = 80;
 };
 
 // About `share` of the blocks of kTrianglesPerBlock triangles, each a run: half of them evenly,
