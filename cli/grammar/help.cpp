@@ -69,13 +69,18 @@ std::string wrap(const std::string& text, std::size_t indent, std::size_t width)
   return result;
 }
 
+namespace {
+// "with oneTBB, HDF5\n", nothing for an empty list.
+std::string libraries_line(std::string_view word, std::string_view list) {
+  return list.empty() ? "" : fmt::format("{} {}\n", word, list);
+}
+}  // namespace
+
 std::string version_text(const ProgramText& program) {
   // Libraries that a build can do without, as CMakeLists.txt lists them.
-  constexpr std::string_view kUsed = RHOLM_USED_LIBRARIES, kLeftOut = RHOLM_LEFT_OUT_LIBRARIES;
-  std::string text = fmt::format("{} {}\n", program.name, kVersion);
-  if (!kUsed.empty()) text += fmt::format("with {}\n", kUsed);
-  if (!kLeftOut.empty()) text += fmt::format("without {}\n", kLeftOut);
-  return text;
+  return fmt::format("{} {}\n", program.name, kVersion) +
+         libraries_line("with", RHOLM_USED_LIBRARIES) +
+         libraries_line("without", RHOLM_LEFT_OUT_LIBRARIES);
 }
 
 std::string option_heading(const Option& option) {
