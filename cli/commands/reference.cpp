@@ -327,8 +327,7 @@ std::string result_section() {
   add_result<Overshoot>("Overshoot", rows);
   add_result<GravityField>("GravityField", rows);
   return "## Results\n\nStructs in C++, classes of the same names in Python. Lengths are in the "
-         "unit "
-         "of the shape.\n\n" +
+         "unit of the shape.\n\n" +
          markdown_table({"result", "field", "what it is"}, rows);
 }
 

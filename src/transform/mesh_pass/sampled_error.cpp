@@ -395,10 +395,7 @@ class Sampler {
       }
     }
     if (sample.share == 1) return std::sqrt(std::max(0.0, own + 2 * pairs));
-    // One pair alone says nothing of a variance.
-    const double variance =
-        groups.size() > 2 ? std::max(squares, by_coefficients) : by_coefficients;
-    if (!(pairs > kSignificant * std::sqrt(variance))) return 0;
+    if (!(pairs > kSignificant * std::sqrt(std::max(squares, by_coefficients)))) return 0;
     const auto n = static_cast<double>(groups.size());
     return std::sqrt(sample.common * 2 * n / (n - 1) * pairs);
   }

@@ -20,7 +20,7 @@ struct SampledError {
   double share = 0;    // of the faces that `rules` are measured on
 };
 
-// Chosen: of 1.2 to 2 million triangles; see RunCount.
+// Chosen: of 1.6 to 2 million triangles; see RunCount.
 inline constexpr double kSampleShare = 0.005;
 
 // Of runs of triangles from all over the mesh, about `share` of it, with their edges and vertices:
