@@ -14,6 +14,12 @@
 #include "io/shapes/test_support.h"
 #include "rholm/error.h"
 
+// LeakSanitizer's, in builds that have it.
+// NOLINTBEGIN(bugprone-reserved-identifier)
+extern "C" __attribute__((weak)) void __lsan_disable();
+extern "C" __attribute__((weak)) void __lsan_enable();
+// NOLINTEND(bugprone-reserved-identifier)
+
 namespace rholm::hdf5 {
 namespace {
 
@@ -161,6 +167,19 @@ void expect_refused(ErrorCode code, const std::function<void()>& write) {
   }
 }
 
+// HDF5 1.10 loses 152 bytes where it cannot close a file (a full disk). LeakSanitizer leaves out
+// what is allocated while this lives.
+struct LeaksLeftOut {
+  LeaksLeftOut() {
+    if (__lsan_disable != nullptr) __lsan_disable();
+  }
+  ~LeaksLeftOut() {
+    if (__lsan_enable != nullptr) __lsan_enable();
+  }
+  LeaksLeftOut(const LeaksLeftOut&) = delete;
+  LeaksLeftOut& operator=(const LeaksLeftOut&) = delete;
+};
+
 TEST(Hdf5Writer, says_what_cannot_be_written) {
   const TemporaryFolder folder;
   const std::string path = (folder / "a.h5").string();
@@ -172,6 +191,7 @@ TEST(Hdf5Writer, says_what_cannot_be_written) {
     writer.create_group(Writer::kRoot, "twice");
   });
   expect_refused(ErrorCode::kIo, [&] {
+    const LeaksLeftOut left_out;
     Writer writer("test", "/dev/full");
     const std::vector<double> values(100000, 1);
     writer.write_dataset(Writer::kRoot, "values", Extents{values.size()}, values.data());
