@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "model/file/atlas_read.h"
+#include "reconstruct/file/atlas_read.h"
 #include "rholm/error.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

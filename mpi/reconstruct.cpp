@@ -13,8 +13,8 @@
 #include "cluster/collect.h"
 #include "cluster/pack_fields.h"
 #include "cluster/rank_crew.h"
-#include "model/bricks/shared_bricks.h"
 #include "mpi/share.h"
+#include "reconstruct/shared_tiles.h"
 
 namespace rholm::mpi {
 namespace {

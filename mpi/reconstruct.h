@@ -1,4 +1,4 @@
-// "rholm-mpi reconstruct": bricks over ranks. Layer: mpi.
+// "rholm-mpi reconstruct": tiles over ranks. Layer: mpi.
 #pragma once
 
 #include <string>

@@ -43,14 +43,14 @@ Json rules_json(const SurfaceRules& rules) {
           {"simplified", rules.simplify.has_value()},
           {"spacings", rules.spacings.size()},
           {"seen_space", rules.seen.has_value()},
-          {"tiles", rules.bricks},
+          {"tiles", rules.tiles},
           {"left_out", rules.left_out}};
 }
 
 std::string rules_text(const SurfaceRules& rules) {
   std::string made = rules.holes == HolePolicy::kFill ? "holes closed" : "holes open";
   if (rules.simplify) made += ", simplified";
-  if (rules.bricks) made += ", in tiles: what closes holes may differ by some steps of the grid";
+  if (rules.tiles) made += ", in tiles: what closes holes may differ by some steps of the grid";
   std::string text = line("surface", made);
   if (!rules.left_out.empty()) text += line("not held", left_out_text(rules));
   return text;

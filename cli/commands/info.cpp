@@ -19,6 +19,7 @@
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/json_text.h"
 #include "cli/terminal/session.h"
+#include "rholm/atlas_model.h"
 #include "rholm/descriptors.h"
 #include "rholm/error.h"
 #include "rholm/formats.h"

@@ -141,7 +141,7 @@ int run(const Options& options, const TileWorkers& by, Session& session) {
   }
   options.memory.keep(session);
   const std::uint64_t most = options.wanted.tile_points;
-  // Several tiles have taken up to 2.5 times what is foreseen of one (reconstruct_bricks.cpp).
+  // Several tiles have taken up to 2.5 times what is foreseen of one (reconstruct_tiles.cpp).
   note_enough_memory(2.5 * static_cast<double>(foresee_tiles(most, most).memory));
   PointsInput input =
       read_points_input(options.input, most, options.columns, options.memory, session);

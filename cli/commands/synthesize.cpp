@@ -69,7 +69,7 @@ int write_surface(const AtlasModel& model, const AtlasSynthesisOptions& wanted, 
                              display_name(o.input), left_out_text(*model.rules)));
   }
   write_shape_output(surface, o.output, {format, o.ascii}, session);
-  if (model.rules && model.rules->bricks) {
+  if (model.rules && model.rules->tiles) {
     session.note(
         fmt::format("{}: the surface was made in tiles: its vertices have another order "
                     "there, and what closes holes may differ by some steps of the grid",

@@ -9,7 +9,7 @@
 #include "cli/files/outputs.h"
 #include "cli/files/paths.h"
 #include "cli/terminal/interrupt.h"
-#include "model/points/mesh_points.h"
+#include "reconstruct/points/mesh_points.h"
 #include "rholm/error.h"
 #include "rholm/point_stream.h"
 #include "rholm/topology.h"

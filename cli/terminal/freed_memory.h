@@ -18,7 +18,7 @@ void keep_freed_memory();
 // take 3 to 8 % less time with 1 to 2 MB more. After keep_freed_memory(), or it is given back.
 void start_on_huge_pages();
 
-// All of it, up to a gibibyte: for work in bricks, which has arrays of the same sizes again and
+// All of it, up to a gibibyte: for work in tiles, which has arrays of the same sizes again and
 // again, and little else. Of 4 million points on one thread 8.8 s in the kernel instead of 19.7,
 // with 8 % more memory.
 void keep_large_freed_memory();

@@ -3,18 +3,16 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "rholm/atlas.h"
+#include "rholm/atlas_model.h"
 #include "rholm/compare.h"
 #include "rholm/context.h"
 #include "rholm/fields.h"
 #include "rholm/mesh.h"
 #include "rholm/simplify.h"
-#include "rholm/surface_rules.h"
 
 namespace rholm {
 
@@ -62,49 +60,6 @@ void visit_fields(FieldsOf<CompressOptions>, const Visitor& field) {
                           .value = "N",
                           .least = 0});
 }
-
-// What a model is measured by. Lengths in the shape's unit.
-struct AtlasErrors {
-  double rms_from = 0, max_from = 0;  // from the shape to the model's surface
-  double rms_to = 0, max_to = 0;      // from the model's surface to the shape; 0 if that is points
-  // The larger of both ways.
-  double rms() const { return rms_from > rms_to ? rms_from : rms_to; }
-  double max() const { return max_from > max_to ? max_from : max_to; }
-  // Whether both ways were measured.
-  bool two_sided() const { return max_to > 0; }
-};
-
-// Their list.
-template <typename Visitor>
-void visit_fields(FieldsOf<AtlasErrors>, const Visitor& field) {
-  using E = AtlasErrors;
-  field(&E::rms_from, {.name = "rms_from",
-                       .help = "root mean square distance from the shape to the model's surface",
-                       .unit = FieldUnit::kLength});
-  field(&E::max_from,
-        {.name = "max_from", .help = "largest of these distances", .unit = FieldUnit::kLength});
-  field(&E::rms_to,
-        {.name = "rms_to",
-         .help =
-             "root mean square distance from the model's surface to the shape; 0 if that is points",
-         .unit = FieldUnit::kLength});
-  field(&E::max_to, {.name = "max_to",
-                     .help = "largest of these distances; 0 if the shape is points",
-                     .unit = FieldUnit::kLength});
-}
-
-// An atlas and what its file says of it.
-struct AtlasModel {
-  Atlas atlas;                             // the caps
-  double step = 0;                         // of the grid its surface was measured at
-  double tolerance = 0;                    // that was asked for; 0: none
-  std::optional<AtlasErrors> errors = {};  // as measured on the extracted surface
-  std::size_t input_numbers = 0;           // coordinates of the shape: 3 per vertex; 0: not known
-  std::string unit, method;                // may be empty
-  // Of a reconstruction: how its surface is made of the caps, which the file then holds to the bit.
-  // None: holes are closed, and parts below 1/100 of the largest one's area are dropped.
-  std::optional<SurfaceRules> rules = {};
-};
 
 // How large a model is: coefficients that are not zero, and the numbers of the caps' frames.
 struct AtlasSize {
@@ -247,10 +202,5 @@ void set_cap_colors(std::vector<Attribute>& attributes, const Atlas& atlas,
 // highest.
 void set_degree_colors(std::vector<Attribute>& attributes, const Atlas& atlas,
                        const std::vector<std::uint32_t>& caps);
-
-// The model file with an atlas in it: docs/model-file.md. Throws as write_model() and read_model().
-void write_atlas(const AtlasModel& model, const std::filesystem::path& path);
-AtlasModel read_atlas(const std::filesystem::path& path);
-bool is_atlas_file(const std::filesystem::path& path);  // a model file that holds an atlas
 
 }  // namespace rholm

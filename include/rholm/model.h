@@ -93,7 +93,6 @@ Encoded encode_file(const std::filesystem::path& path, const EncodeOptions& opti
 // Unsupported (a newer major version).
 void write_model(const Expansion& expansion, const std::filesystem::path& path);
 Expansion read_model(const std::filesystem::path& path);
-bool is_model_file(const std::filesystem::path& path);  // by its first bytes
 
 // Any file of coefficients: a model file, or what read_coefficients() reads.
 CoefficientsFile read_any_coefficients(const std::filesystem::path& path,

@@ -1,4 +1,4 @@
-// Surfaces from points: the whole way. Layer: model.
+// Surfaces from points: the whole way. Layer: reconstruct.
 //
 // Up to ReconstructOptions::tile_points points are worked on in one piece. More are cut into tiles
 // of space by a tree that depends on the points alone. Each tile is reconstructed with the points
@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "rholm/atlas.h"
-#include "rholm/compress.h"
+#include "rholm/atlas_model.h"
 #include "rholm/context.h"
 #include "rholm/fields.h"
 #include "rholm/mesh.h"

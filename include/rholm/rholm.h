@@ -5,6 +5,7 @@
 #include "rholm/align.h"
 #include "rholm/analyze.h"
 #include "rholm/atlas.h"
+#include "rholm/atlas_model.h"
 #include "rholm/batch.h"
 #include "rholm/cap_frame.h"
 #include "rholm/coefficients.h"

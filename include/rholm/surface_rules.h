@@ -32,7 +32,7 @@ struct SeenCubes {
 };
 
 // How reconstruct() made the surface of its caps. With these rules synthesize() makes the same
-// surface again: to the bit at the grid's own step, if it was not made in bricks.
+// surface again: to the bit at the grid's own step, if it was not made in tiles.
 struct SurfaceRules {
   HolePolicy holes = HolePolicy::kFill;          // as ReconstructOptions::holes
   double min_component = 0.01;                   // as ReconstructOptions::min_component
@@ -42,9 +42,9 @@ struct SurfaceRules {
   std::vector<Vec3> spacing_places = {};
   std::vector<double> spacings = {};   // one per place
   std::optional<SeenCubes> seen = {};  // holes are not closed across them (method 7.13)
-  // The surface was made in bricks. synthesize() gives its vertices and faces in another order, and
+  // The surface was made in tiles. synthesize() gives its vertices and faces in another order, and
   // what closes holes may differ by some steps of the grid.
-  bool bricks = false;
+  bool tiles = false;
   // Attributes of the surface that came from the points. A model does not hold them.
   std::vector<std::string> left_out = {};
 };

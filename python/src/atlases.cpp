@@ -210,8 +210,8 @@ nb::tuple state_of_rules(const SurfaceRules& rules) {
                           s.size[2], bytes_of(s.bits));
   }
   return nb::make_tuple(to_string(rules.holes), rules.min_component, simplify,
-                        bytes_of(rules.spacing_places), bytes_of(rules.spacings), seen,
-                        rules.bricks, rules.left_out);
+                        bytes_of(rules.spacing_places), bytes_of(rules.spacings), seen, rules.tiles,
+                        rules.left_out);
 }
 
 SurfaceRules rules_of_state(const nb::object& state) {
@@ -240,7 +240,7 @@ SurfaceRules rules_of_state(const nb::object& state) {
   if (rules.spacings.size() != rules.spacing_places.size()) {
     throw Error(ErrorCode::kInvalidInput, "pickled spacings have no places");
   }
-  rules.bricks = nb::cast<bool>(parts[6]);
+  rules.tiles = nb::cast<bool>(parts[6]);
   rules.left_out = nb::cast<std::vector<std::string>>(parts[7]);
   return rules;
 }
@@ -274,7 +274,7 @@ void bind_rules(nb::module_& m) {
       .def_prop_ro(
           "simplified", [](const SurfaceRules& r) { return r.simplify.has_value(); },
           "Whether the surface has fewer triangles than its grid gave.")
-      .def_ro("tiles", &SurfaceRules::bricks,
+      .def_ro("tiles", &SurfaceRules::tiles,
               "Whether it was made in several tiles: `Atlas.mesh` has another order of vertices "
               "and faces, "
               "and what closes holes may differ by some steps of the grid.")

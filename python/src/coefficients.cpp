@@ -18,6 +18,7 @@
 #include "casters.h"
 #include "formats.h"
 #include "record.h"
+#include "rholm/atlas_model.h"
 #include "rholm/coefficients_io.h"
 #include "rholm/error.h"
 #include "rholm/filter.h"

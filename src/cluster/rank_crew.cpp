@@ -10,8 +10,8 @@
 namespace rholm {
 
 void RankCrew::each(std::size_t n, const Body& body, const Done& done) {
-  const DoTask work = [&](std::uint64_t brick, int) {
-    body(static_cast<std::size_t>(brick));
+  const DoTask work = [&](std::uint64_t tile, int) {
+    body(static_cast<std::size_t>(tile));
     return std::string();
   };
   if (ranks_.rank() == 0) {

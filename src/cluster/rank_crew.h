@@ -1,17 +1,17 @@
-// Ranks as a crew that works on bricks. Layer: cluster, private.
+// Ranks as a crew that works on tiles. Layer: cluster, private.
 #pragma once
 
 #include <cstddef>
 #include <functional>
 
 #include "cluster/ranks.h"
-#include "model/bricks/brick_crew.h"
+#include "reconstruct/points/tile_crew.h"
 
 namespace rholm {
 
-// Rank 0 hands bricks out, one at a time, to all threads of a rank. The end of each stage is a
+// Rank 0 hands tiles out, one at a time, to all threads of a rank. The end of each stage is a
 // barrier: what one rank has left in the store all see.
-class RankCrew final : public BrickCrew {
+class RankCrew final : public TileCrew {
  public:
   RankCrew(Ranks& ranks, int threads) : ranks_(ranks), threads_(threads) {}
 

@@ -118,7 +118,7 @@ class Clouds(CliTest):
             self.assertRegex(done.err, r"lie off the surface.* first at( \(.*\);){2} \(.*\): they fill a volume")
 
     @nightly
-    def test_bricks_refuse_points_that_fill_thin_bodies(self):
+    def test_tiles_refuse_points_that_fill_thin_bodies(self):
         for name in ("thin_slab", "wall_of_shell"):
             points = getattr(clouds, name)(np.random.default_rng(14), 4000)
             done, _ = self.reconstruct(points, None, "--tile-points", "1000")
@@ -144,8 +144,8 @@ class Clouds(CliTest):
             done, _ = self.reconstruct(points)
             self.assertEqual(done.code, 4, done)
             self.assertRegex(done.err, r"sheets of the points cross each other, near( \(.*\);){2} \(.*\):")
-        bricks, _ = self.reconstruct(points, None, "--tile-points", "1000")
-        self.assertEqual((bricks.code, bricks.err.splitlines()[-1]), (4, done.err.splitlines()[-1]))
+        tiles, _ = self.reconstruct(points, None, "--tile-points", "1000")
+        self.assertEqual((tiles.code, tiles.err.splitlines()[-1]), (4, done.err.splitlines()[-1]))
 
     def test_sheets_that_bend_end_or_touch_do_not_cross(self):
         for make in (clouds.tee, clouds.touching, lambda rng, n: clouds.box(rng, n)[0]):
@@ -163,7 +163,7 @@ class Clouds(CliTest):
             self.assertEqual((done.code, self.fault("sphere", done, shape)), (0, ""), done)
 
     @nightly
-    def test_bricks_mend_as_one_piece_does(self):
+    def test_tiles_mend_as_one_piece_does(self):
         for body, way, share in (("sphere", "random", 0.5), ("torus", "patch", 0.1), ("two_balls", "half", 0.3)):
             points, normals, turned = spoiled(body, way, share, 4000)
             done, shape = self.reconstruct(points, normals, "--tile-points", "1000")
@@ -174,14 +174,14 @@ class Clouds(CliTest):
             self.assertEqual((done.json()["mended_normals"], done.json()["contradicting_normals"]),
                              (one["mended_normals"], one["contradicting_normals"]), body)
 
-    def test_bricks_name_what_they_cannot_mend(self):
+    def test_tiles_name_what_they_cannot_mend(self):
         points, normals, _ = spoiled("bowl", "half", 0.45, 4000)
         done, _ = self.reconstruct(points, normals, "--tile-points", "1000")
         self.assertEqual(done.code, 4, done)
         self.assertRegex(done.err, r"contradict those around them, first at( \(.*\);){2} \(.*\):")
 
     @nightly
-    def test_bricks_compute_directions_at_random_anew(self):
+    def test_tiles_compute_directions_at_random_anew(self):
         rng = np.random.default_rng(1)
         points, _ = clouds.torus(rng, 4000)
         done, shape = self.reconstruct(points, clouds.directions(rng, 4000), "--tile-points", "1000")
@@ -190,7 +190,7 @@ class Clouds(CliTest):
         self.assertTrue(done.json()["computed_normals"])
 
     @nightly
-    def test_bricks_cut_handles_beside_what_was_cut_before(self):
+    def test_tiles_cut_handles_beside_what_was_cut_before(self):
         points, normals = clouds.joined(clouds.sphere(np.random.default_rng(8), 2000),
                                         clouds.sphere(np.random.default_rng(9), 2000, 1, (0.8, 0, 0)))
         done, _ = self.reconstruct(points, normals, "--tile-points", "1000")

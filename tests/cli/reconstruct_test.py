@@ -297,7 +297,7 @@ class Reconstruct(CliTest):
         self.rholm("reconstruct", "p.xyz", "--model", "-", "-o", "s.ply", code=2)
 
 
-class Bricks(CliTest):
+class Tiles(CliTest):
     """More points than --tile-points: the surface of all is made of parts."""
 
     def setUp(self):
@@ -305,28 +305,28 @@ class Bricks(CliTest):
         self.rholm("make", "torus", "-o", "t.ply")
         self.rholm("make", "sample", "t.ply", "--points", "12000", "-o", "p.ply")
 
-    def bricks(self, *words, output="s.ply", n=3000, **options):
+    def tiles(self, *words, output="s.ply", n=3000, **options):
         return self.rholm("reconstruct", *words, "--tile-points", n, "-o", output, **options)
 
     def bytes(self, name):
         return (self.folder / name).read_bytes()
 
-    def test_the_model_gives_the_surface_of_bricks_in_another_order(self):
-        said = self.bricks("p.ply", "--model", "m.h5")
+    def test_the_model_gives_the_surface_of_tiles_in_another_order(self):
+        said = self.tiles("p.ply", "--model", "m.h5")
         self.assertRegex(said.out, r"(?m)^  tiles +4, ")
         self.assertTrue(self.rholm("info", "m.h5", "--json").json()["reconstruction"]["tiles"])
         self.assertIn("made in tiles", self.rholm("synthesize", "m.h5", "-o", "again.ply").err)
         counts = [self.rholm("info", name, "--json").json()["counts"] for name in ("s.ply", "again.ply")]
         self.assertEqual(*counts)
         relative = self.rholm("compare", "s.ply", "again.ply", "--json").json()["relative"]
-        # Bricks sum winding numbers in another order, which close small gaps between caps. Far below
+        # Tiles sum winding numbers in another order, which close small gaps between caps. Far below
         # a step, 1e-2 (chosen).
         for way in ("a_to_b", "b_to_a"):
             self.assertLess(relative[way]["max"], 1e-5)
 
-    def test_a_torus_in_bricks_is_that_in_one_piece(self):
+    def test_a_torus_in_tiles_is_that_in_one_piece(self):
         self.rholm("make", "sample", "t.ply", "--points", "6000", "-o", "p.ply")
-        said = self.bricks("p.ply", "--json", n=1500)
+        said = self.tiles("p.ply", "--json", n=1500)
         self.assertRegex(said.err, r"6000 points in 4 tiles: some [\d.]+ GB of memory")
         report = json.loads(said.out)
         self.assertEqual((report["points"], report["tiles"]), (6000, 4))
@@ -338,23 +338,23 @@ class Bricks(CliTest):
         self.assertNotIn("tiles", one)
         self.assertAlmostEqual(report["area"] / one["area"], 1, delta=1e-3)
         self.assertAlmostEqual(report["diagonal"], one["diagonal"], delta=1e-6)
-        # As many as there are make no bricks.
-        self.bricks("p.ply", n=6000, output="same.ply")
+        # As many as there are make no tiles.
+        self.tiles("p.ply", n=6000, output="same.ply")
         self.assertEqual(self.bytes("same.ply"), self.bytes("one.ply"))
 
     @nightly
     def test_neither_memory_nor_threads_nor_the_way_of_reading_changes_a_byte(self):
-        self.bricks("p.ply")
+        self.tiles("p.ply")
         content = self.bytes("p.ply")
         (self.folder / "work").mkdir()
         for words, options in ((["p.ply", "--threads", "1", "--max-memory", "0.012"], {}),
                                (["-"], {"stdin": content}),
                                (["-", "--max-memory", "0.012"], {"stdin": content})):
-            self.bricks(*words, "--work-dir", "work", output="other.ply", **options)
+            self.tiles(*words, "--work-dir", "work", output="other.ply", **options)
             self.assertEqual(self.bytes("other.ply"), self.bytes("s.ply"), words)
             self.assertEqual(os.listdir(self.folder / "work"), [])
         self.rholm("convert", "p.ply", "p.xyz")
-        self.bricks("p.xyz", output="other.ply")
+        self.tiles("p.xyz", output="other.ply")
         self.assertEqual(self.bytes("other.ply"), self.bytes("s.ply"))
 
     def test_little_memory_is_refused_with_tiles_that_fit(self):
@@ -379,14 +379,14 @@ class Bricks(CliTest):
     def test_the_old_name_of_tile_points_is_understood(self):
         said = self.rholm("reconstruct", "p.ply", "--brick-points", "3000", "-o", "old.ply")
         self.assertIn("--brick-points is --tile-points now", said.err)
-        self.assertNotIn("is --tile-points now", self.bricks("p.ply").err)
+        self.assertNotIn("is --tile-points now", self.tiles("p.ply").err)
         self.assertEqual(self.bytes("old.ply"), self.bytes("s.ply"))
         self.assertIn("--brick-points is", self.rholm("reconstruct", "p.ply", "--brick-points=3000", "-o", "old.ply").err)
         for words in (["reconstruct", "--help"], ["completion", "bash"]):
             self.assertNotIn("brick", self.rholm(*words).out)
 
     def test_a_run_that_was_killed_is_taken_up(self):
-        self.bricks("p.ply")
+        self.tiles("p.ply")
         words = ("p.ply", "--resume", "--work-dir", "work")
         (self.folder / "work").mkdir()
         folder = self.folder / "work" / "r.ply.tiles"
@@ -406,21 +406,21 @@ class Bricks(CliTest):
             mark.unlink()
             self.assertFalse((self.folder / "r.ply").exists())
             self.assertTrue(begun())
-        self.assertIn("another run", self.bricks(*words, "--noise", "0", output="r.ply", code=3).err)
-        self.bricks(*words, output="r.ply")
+        self.assertIn("another run", self.tiles(*words, "--noise", "0", output="r.ply", code=3).err)
+        self.tiles(*words, output="r.ply")
         self.assertEqual(self.bytes("r.ply"), self.bytes("s.ply"))
         self.assertEqual(os.listdir(self.folder / "work"), [])
         self.assertEqual(self.files(), ["p.ply", "r.ply", "s.ply", "t.ply", "work"])
 
-    def test_what_cannot_be_done_in_bricks_is_said_before_the_work(self):
-        self.assertIn("rholm convert", self.bricks("p.ply", output="s.obj", code=2).err)
-        self.assertIn("rholm convert", self.bricks("p.ply", "--ascii", code=2).err)
-        self.assertIn("--resume", self.bricks("-", "--resume", stdin=b"", code=2).err)
-        self.assertIn("--resume", self.bricks("p.ply", "--resume", "--format", "ply", output="-", code=2).err)
-        self.assertIn("nowhere", self.bricks("p.ply", "--max-memory", "0.012", "--work-dir", "nowhere", code=1).err)
-        self.assertIn("--tile-points", self.bricks("p.ply", n=10, code=2).err)
+    def test_what_cannot_be_done_in_tiles_is_said_before_the_work(self):
+        self.assertIn("rholm convert", self.tiles("p.ply", output="s.obj", code=2).err)
+        self.assertIn("rholm convert", self.tiles("p.ply", "--ascii", code=2).err)
+        self.assertIn("--resume", self.tiles("-", "--resume", stdin=b"", code=2).err)
+        self.assertIn("--resume", self.tiles("p.ply", "--resume", "--format", "ply", output="-", code=2).err)
+        self.assertIn("nowhere", self.tiles("p.ply", "--max-memory", "0.012", "--work-dir", "nowhere", code=1).err)
+        self.assertIn("--tile-points", self.tiles("p.ply", n=10, code=2).err)
         self.write("short.ply", self.bytes("p.ply")[:-7])
-        self.bricks("short.ply", "--work-dir", ".", "--max-memory", "0.012", code=3)
+        self.tiles("short.ply", "--work-dir", ".", "--max-memory", "0.012", code=3)
         self.assertEqual(self.files(), ["p.ply", "short.ply", "t.ply"])
 
 

@@ -12,7 +12,7 @@ class Reconstruct(ProgramTest):
     def setUp(self):
         super().setUp()
         self.make("t.ply", "torus")
-        self.sample("p.ply", 6000)  # four bricks for at most four ranks
+        self.sample("p.ply", 6000)  # four tiles for at most four ranks
         (self.folder / "work").mkdir()
 
     def sample(self, name, n):
@@ -105,8 +105,8 @@ class Reconstruct(ProgramTest):
         self.assertEqual(run.code, 0, run)
         self.assertEqual(self.bytes("all.ply"), self.bytes("one.ply"))
 
-    def test_a_killed_rank_costs_its_bricks_only(self):
-        self.sample("p.ply", 12000)  # eight bricks
+    def test_a_killed_rank_costs_its_tiles_only(self):
+        self.sample("p.ply", 12000)  # eight tiles
         self.rholm(*self.words("one.ply"))
         pieces = self.folder / "work" / "all.ply.tiles" / "pieces"
         for stage, ranks, killed in (("caps", 3, 2), ("grid", 2, 0), ("mesh", 4, 1)):

@@ -17,10 +17,11 @@
 #include <vector>
 
 #include "atlas/cover/cap_cover.h"
-#include "model/bricks/brick_fit.h"
-#include "model/bricks/brick_normals.h"
-#include "model/bricks/brick_run.h"
-#include "model/points/reconstruct_points.h"
+#include "reconstruct/field/tile_grid.h"
+#include "reconstruct/normals/tile_fit.h"
+#include "reconstruct/normals/tile_normals.h"
+#include "reconstruct/reconstruct_points.h"
+#include "reconstruct/tile_run.h"
 #include "rholm/rholm.h"
 #include "shape/queries/sheet_gaps.h"
 #include "shape/queries/winding_tree.h"
@@ -29,7 +30,6 @@
 #include "support/test_meshes.h"
 #include "support/test_points.h"
 #include "support/test_shapes.h"
-#include "surface/bricks/brick_grid.h"
 #include "surface/grid/block_grid.h"
 #include "surface/level_set/components.h"
 #include "surface/level_set/cut_handles.h"
@@ -348,29 +348,29 @@ TEST(every_loop, gives_the_same_bits_for_normals_of_thin_and_rowed_points) {
   });
 }
 
-TEST(every_loop, gives_the_same_bits_for_normals_in_bricks) {
+TEST(every_loop, gives_the_same_bits_for_normals_in_tiles) {
   PointCloud bare = test::sphere_points(6000);
   bare.normals.clear();
   expect_same_bits([&](const Context& context) {
     PieceStore store;
     const auto source = points_in_memory(bare);
-    const Survey found = survey(*source, {.points_per_brick = 3000}, context);
-    const BrickPlan plan = make_plan(found, 3000);
+    const Survey found = survey(*source, {.points_per_tile = 3000}, context);
+    const TilePlan plan = make_plan(found, 3000);
     distribute(*source, found, plan, store, {}, context);
-    for (std::size_t brick = 0; brick < plan.n_bricks(); ++brick) sort_points(store, brick);
+    for (std::size_t tile = 0; tile < plan.n_tiles(); ++tile) sort_points(store, tile);
     OneProcess alone;
     StageTimes times;
-    BrickStages stages(alone, {}, times, context);
-    orient_bricks(store, plan, spacings_of_sample(found, plan, found.n_different), {}, stages);
+    TileStages stages(alone, {}, times, context);
+    orient_tiles(store, plan, spacings_of_sample(found, plan, found.n_different), {}, stages);
     Bits bits;
-    for (std::size_t brick = 0; brick < plan.n_bricks(); ++brick) {
-      bits.add(std::span<const BrickNormal>(read_normals(store, brick)));
+    for (std::size_t tile = 0; tile < plan.n_tiles(); ++tile) {
+      bits.add(std::span<const TileNormal>(read_normals(store, tile)));
     }
     return bits;
   });
 }
 
-TEST(every_loop, gives_the_same_bits_for_blocks_of_a_brick) {
+TEST(every_loop, gives_the_same_bits_for_blocks_of_a_tile) {
   const GridFrame frame{
       {}, 1.0, [](const Vec3& x) { return static_cast<std::uint32_t>(x.x < 120 ? 0 : 1); }};
   std::vector<BlockCoordinates> all;
@@ -389,7 +389,7 @@ TEST(every_loop, gives_the_same_bits_for_blocks_of_a_brick) {
 }
 
 // A wavy sheet: its borders are cut open, and behind them its surface turns around.
-TEST(every_loop, gives_the_same_bits_for_surfaces_in_bricks) {
+TEST(every_loop, gives_the_same_bits_for_surfaces_in_tiles) {
   PointCloud sheet;
   for (std::size_t i = 0; i < 18000; ++i) {
     const double x = test::random_in(-1, 1, 5, 2 * i), y = test::random_in(-1, 1, 5, 2 * i + 1);
@@ -401,14 +401,14 @@ TEST(every_loop, gives_the_same_bits_for_surfaces_in_bricks) {
     const auto source = points_in_memory(sheet);
     OneProcess alone;
     const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) /
-                                       ("bricks_of_loops_" + std::to_string(::getpid()) + ".ply");
-    const BrickRunOptions wanted{.reconstruct = {.step = 0.02,
-                                                 .holes = HolePolicy::kKeep,
-                                                 .confidence = true,
-                                                 .simplify = SimplifyOptions{.share = 0.3},
-                                                 .tile_points = 9000,
-                                                 .output = file}};
-    run_bricks(*source, store, wanted, alone, context);
+                                       ("tiles_of_loops_" + std::to_string(::getpid()) + ".ply");
+    const TileRunOptions wanted{.reconstruct = {.step = 0.02,
+                                                .holes = HolePolicy::kKeep,
+                                                .confidence = true,
+                                                .simplify = SimplifyOptions{.share = 0.3},
+                                                .tile_points = 9000,
+                                                .output = file}};
+    run_tiles(*source, store, wanted, alone, context);
     const Mesh made = std::get<Mesh>(read_shape(file).shape);
     std::filesystem::remove(file);
     return Bits{}.add(made.vertices).add(made.triangles).add(made.attributes.back().values);

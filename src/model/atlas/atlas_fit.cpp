@@ -14,7 +14,7 @@
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "model/atlas/atlas_aims.h"
-#include "model/file/atlas_pack.h"
+#include "reconstruct/file/atlas_pack.h"
 #include "rholm/error.h"
 
 namespace rholm {

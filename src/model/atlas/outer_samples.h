@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "model/points/oriented_points.h"
+#include "reconstruct/points/oriented_points.h"
 #include "rholm/context.h"
 #include "rholm/mesh.h"
 #include "shape/queries/ray_scene.h"

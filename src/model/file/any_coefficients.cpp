@@ -2,6 +2,7 @@
 
 #include "io/file/bytes.h"
 #include "model/file/model_read.h"
+#include "reconstruct/file/model_file.h"
 #include "rholm/model.h"
 
 namespace rholm {

@@ -13,7 +13,7 @@
 #include "io/coefficients/known_numbers.h"
 #include "io/file/atomic_file.h"
 #include "io/hdf5/hdf5_writer.h"
-#include "model/file/model_layout.h"
+#include "reconstruct/file/model_file.h"
 #include "rholm/error.h"
 #include "rholm/model.h"
 #include "rholm/version.h"

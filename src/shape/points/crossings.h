@@ -2,7 +2,7 @@
 //
 // Around a point near a crossing two paraboloids explain the points, and each of them has points on
 // both sides of the other. At an edge, or where one sheet ends at another one, a side is empty.
-// Points are chosen by their coordinates, so that any order and any bricks look at the same ones.
+// Points are chosen by their coordinates, so that any order and any tiles look at the same ones.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // Random numbers of points by their coordinates: points chosen by them are the same in any order,
-// and in any bricks. Layer: shape.
+// and in any tiles. Layer: shape.
 #pragma once
 
 #include <bit>

@@ -1,7 +1,7 @@
 // Points whose signs hold together, and what such pieces say of each other. Layer: shape.
 //
 // Edges that agree (sign_graph.h) hold pieces together; a piece is turned as a whole. Points may
-// come in parts, as the bricks of a large cloud: each part looks at the edges that begin at its own
+// come in parts, as the tiles of a large cloud: each part looks at the edges that begin at its own
 // points, and what is found for all parts together is what one part of all points would find.
 #pragma once
 

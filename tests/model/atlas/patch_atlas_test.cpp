@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "model/points/oriented_points.h"
+#include "reconstruct/points/oriented_points.h"
 #include "rholm/compress.h"
 #include "rholm/error.h"
 #include "rholm/primitives.h"

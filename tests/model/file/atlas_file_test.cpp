@@ -6,9 +6,9 @@
 
 #include "base/random.h"
 #include "io/shapes/test_support.h"
-#include "model/file/atlas_pack.h"
-#include "model/file/atlas_read.h"
 #include "model/file/model_read.h"
+#include "reconstruct/file/atlas_pack.h"
+#include "reconstruct/file/atlas_read.h"
 #include "rholm/compress.h"
 #include "rholm/error.h"
 #include "rholm/model.h"

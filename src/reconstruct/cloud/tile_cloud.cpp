@@ -1,0 +1,248 @@
+#include "reconstruct/cloud/tile_cloud.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "reconstruct/cloud/load_tile.h"
+#include "reconstruct/cloud/tile_removal.h"
+#include "reconstruct/normals/tile_mending.h"
+#include "reconstruct/normals/tile_normals.h"
+#include "reconstruct/points/reconstruct_rules.h"
+#include "reconstruct/points/tile_points.h"
+#include "rholm/error.h"
+#include "shape/points/local_shape.h"
+#include "shape/points/normals.h"
+#include "shape/points/scan_labels.h"
+
+namespace rholm {
+namespace {
+
+// Points that speak for all; at least so many of each tile.
+constexpr std::size_t kSamples = 2000, kSamplesOfTile = 16;
+// Tiles in which the size of caps is looked for: the median counts.
+constexpr std::size_t kPilots = 5;
+
+}  // namespace
+
+TileCloud::TileCloud(PointSource& source, PieceStore& store, const ReconstructOptions& options,
+                     std::uint64_t points_per_tile, TileStages& stages, ReconstructReport& report)
+    : source_(source), store_(store), options_(options), stages_(stages), report_(report) {
+  stages_.once("survey", [&] { find_survey(points_per_tile); });
+  survey_ = read_survey(store_).value();
+  plan_ = make_plan(survey_, points_per_tile);
+  n_ = plan_.n_tiles();
+  given_ = survey_.layout.normals;
+  if (!given_) stages_.add(costs_of_normals());
+}
+
+void TileCloud::prepare() {
+  sort();
+  if (!options_.keep_outliers) remove_strays();
+  count_points();
+  if (given_) look_at_shape();
+  if (!given_) orient();
+  if (around_ == 0) look_at_shape();
+  mend();
+  take_sample("sample");
+  if (options_.holes == HolePolicy::kFill) check_sides(sample_.sides, points_);
+  choose_size("size");
+}
+
+void TileCloud::measure_again() {
+  take_sample("sample-again");
+  choose_size("size-again");
+}
+
+bool TileCloud::has_column(const char* name) const {
+  const auto& columns = survey_.layout.columns;
+  return std::any_of(columns.begin(), columns.end(),
+                     [&](const ColumnLayout& column) { return column.name == name; });
+}
+
+TileScene TileCloud::load(std::size_t tile, std::size_t neighbours, double least) const {
+  const double halo = std::max(least, spacings_[tile] * reach_of(neighbours));
+  return load_tile(store_, plan_, tile, halo, stages_.context());
+}
+
+void TileCloud::find_survey(std::uint64_t points_per_tile) {
+  if (read_survey(store_)) return;
+  write_survey(
+      rholm::survey(
+          source_, {.points_per_tile = points_per_tile, .drop_far_strays = !options_.keep_outliers},
+          stages_.context()),
+      store_);
+}
+
+void TileCloud::sort() {
+  stages_.once("distribute",
+               [&] { distribute(source_, survey_, plan_, store_, {}, stages_.context()); });
+  stages_.each("sort", n_, [&](std::size_t tile) { sort_points(store_, tile); });
+  if (!options_.keep_scans && has_column("scan")) {
+    stages_.once("sort", [&] {
+      if (store_.has("scans")) return;
+      refuse_scans();
+      write_values(store_, "scans", std::vector<std::uint8_t>{1});
+    });
+  }
+  report_.points = survey_.points + survey_.not_finite + survey_.dropped + survey_.far_strays;
+  report_.outliers = survey_.far_strays;
+  spacings_ = spacings_of_sample(survey_, plan_, survey_.n_different);
+}
+
+// Before outliers near the surface are removed, also where a run before has done it.
+void TileCloud::count_points() {
+  stages_.once("count", [&] {
+    if (store_.has("counted")) return;
+    std::uint64_t n = 0;
+    for (std::size_t tile = 0; tile < n_; ++tile) n += read_index(store_, tile).counts.points;
+    const std::vector<double> box = {bounds_of_tiles(store_, plan_).diagonal(),
+                                     lie_on_line(store_, plan_, kLine) ? 1.0 : 0.0};
+    const std::span<const std::byte> sections[] = {bytes_of(std::span<const std::uint64_t>(&n, 1)),
+                                                   bytes_of(box)};
+    store_.write("counted", sections);
+  });
+  const PieceReader counted = store_.open("counted");
+  points_ = counted.values<std::uint64_t>(0).at(0);
+  report_.dropped_points = report_.points - report_.outliers - points_;
+  const std::vector<double> box = counted.values<double>(1);
+  diagonal_ = box.at(0);
+  check_spread(points_, diagonal_);
+  if (box.at(1) != 0) refuse_one_line(points_);
+}
+
+// Scans are brought together by all their points.
+void TileCloud::refuse_scans() const {
+  std::vector<double> different;
+  for (std::size_t tile = 0; tile < n_; ++tile) {
+    PointCloud cloud = read_points(store_, tile);
+    std::erase_if(cloud.attributes, [](const Attribute& a) { return a.name != "scan"; });
+    if (!add_scans(cloud.attributes.front().values, different)) return;
+  }
+  if (different.size() < 2) return;
+  throw Error(ErrorCode::kUnsupported,
+              fmt::format("the points are {} scans, which are brought together in one piece only "
+                          "(of at most --tile-points); --keep-scans takes them as they are",
+                          different.size()));
+}
+
+void TileCloud::remove_strays() {
+  TileRemoval strays(store_, plan_, "strays");
+  stages_.each("strays", n_, [&](std::size_t tile) {
+    if (strays.has_found(tile)) return;
+    const double halo = spacings_[tile] * reach_of(kTried);
+    strays.put(tile, find_tile_strays(store_, plan_, tile, halo, stages_.context()));
+  });
+  stages_.each("strays", n_, [&](std::size_t tile) { strays.remove(tile); });
+  report_.outliers += strays.count();
+}
+
+// Points that have no normals get them.
+void TileCloud::orient() {
+  const TileNormalsReport normals =
+      orient_tiles(store_, plan_, spacings_, {.sensor = options_.sensor}, stages_);
+  report_.computed_normals = true;
+  report_.unsure = static_cast<double>(normals.unsure) / static_cast<double>(normals.points);
+  TileRemoval undetermined(store_, plan_, "undetermined");
+  stages_.each("turn", n_, [&](std::size_t tile) {
+    if (undetermined.has_found(tile)) return;
+    std::vector<std::uint8_t> flags;
+    for (const TileNormal& normal : read_normals(store_, tile)) {
+      flags.push_back(normal.normal() == Vec3{} ? 1 : 0);
+    }
+    undetermined.put(tile, flags);
+  });
+  stages_.each("turn", n_, [&](std::size_t tile) { undetermined.remove(tile); });
+}
+
+// In some tiles, which are parts of one surface. Given normals that are off it are computed anew.
+void TileCloud::look_at_shape() {
+  const std::string round = given_ ? "shape-given/" : "shape/";
+  const std::size_t pilots = std::min(n_, kPilots);
+  stages_.each("cap size", pilots, [&](std::size_t pilot) {
+    const std::string name = round + std::to_string(pilot);
+    if (store_.has(name)) return;
+    const TileScene scene = load(pilot * n_ / pilots, kTried);
+    const LocalShape shape =
+        rholm::look_at_shape(*scene.tree, scene.points, scene.normals, stages_.context());
+    check_shape(shape, scene.points.size());
+    write_values(store_, name, std::vector{shape});
+  });
+  std::vector<std::size_t> neighbors;
+  double crooked = 0;
+  for (std::size_t pilot = 0; pilot < pilots; ++pilot) {
+    const auto shape = read_values<LocalShape>(store_, round + std::to_string(pilot)).at(0);
+    neighbors.push_back(shape.neighbors);
+    crooked += shape.crooked / static_cast<double>(pilots);
+  }
+  std::sort(neighbors.begin(), neighbors.end());
+  around_ = area_neighbors(neighbors[pilots / 2]);
+  if (!given_) return;
+  report_.crooked_normals = crooked;
+  if (!(crooked > kMostCrooked)) return;
+  given_ = false, around_ = 0;
+  stages_.add(costs_of_normals());
+}
+
+void TileCloud::mend() {
+  std::uint64_t points = 0;
+  for (std::size_t tile = 0; tile < n_; ++tile) {
+    points += read_index(store_, tile).counts.points;
+  }
+  const std::size_t halo = std::max<std::size_t>(2 * kGraphNeighbors, around_);
+  const TileMendingReport mended =
+      mend_tiles(store_, plan_,
+                 {.mend = given_,
+                  .closed = options_.holes == HolePolicy::kFill,
+                  .load = [&](std::size_t tile) { return load(tile, halo); },
+                  .points = points,
+                  .samples = kSamples,
+                  .around = around_,
+                  .max_memory = options_.max_memory},
+                 stages_);
+  report_.contradicting_normals = mended.contradicting;
+  report_.contradictions.assign(mended.first.begin(), mended.first.begin() + mended.named);
+  report_.turned_normals = mended.all_inward != 0;
+  report_.mended_normals = mended.all_inward != 0 ? 0 : mended.turned;
+  report_.inward_normals = mended.inward;
+}
+
+void TileCloud::take_sample(const std::string& round) {
+  const auto name_of = [&](std::size_t tile) { return round + "/" + std::to_string(tile); };
+  stages_.each("sample", n_, [&](std::size_t tile) {
+    if (store_.has(name_of(tile))) return;
+    const TileScene scene = load(tile, std::max(2 * kCircle, around_));
+    const double share = static_cast<double>(scene.n_own) / static_cast<double>(points_);
+    const auto wanted = static_cast<std::size_t>(std::ceil(share * kSamples));
+    write_values(store_, name_of(tile),
+                 sample_tile(scene, std::max(wanted, kSamplesOfTile), around_, stages_.context()));
+  });
+  std::vector<SamplePoint> all;
+  for (std::size_t tile = 0; tile < n_; ++tile) {
+    const auto own = read_values<SamplePoint>(store_, name_of(tile));
+    all.insert(all.end(), own.begin(), own.end());
+  }
+  sample_ = join(all);
+}
+
+void TileCloud::choose_size(const std::string& round) {
+  const std::size_t pilots = std::min(n_, kPilots);
+  const auto name_of = [&](std::size_t pilot) { return round + "/" + std::to_string(pilot); };
+  stages_.each("cap size", pilots, [&](std::size_t pilot) {
+    if (store_.has(name_of(pilot))) return;
+    const TileScene scene = load(pilot * n_ / pilots, kTried);
+    write_values(store_, name_of(pilot),
+                 std::vector{choose_cap_size(scene.ordered(), kDegree, stages_.context())});
+  });
+  std::vector<CapSize> sizes;
+  sizes.reserve(pilots);
+  for (std::size_t pilot = 0; pilot < pilots; ++pilot) {
+    sizes.push_back(read_values<CapSize>(store_, name_of(pilot)).at(0));
+  }
+  size_ = median_of(sizes);
+  if (options_.noise) size_.noise = *options_.noise;
+}
+
+}  // namespace rholm

@@ -1,0 +1,83 @@
+// The points of a reconstruction in tiles: sorted, cleaned, with normals. Layer: reconstruct,
+// private.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "atlas/cover/cap_size.h"
+#include "io/spill/piece_store.h"
+#include "reconstruct/normals/tile_fit.h"
+#include "reconstruct/points/point_source.h"
+#include "reconstruct/points/point_survey.h"
+#include "reconstruct/points/tile_plan.h"
+#include "reconstruct/points/tile_scene.h"
+#include "reconstruct/points/tile_stages.h"
+#include "rholm/reconstruct.h"
+
+namespace rholm {
+
+// Caps are tried with up to so many neighbours before the halo of a tile ends.
+inline constexpr std::size_t kTried = 128;
+
+class TileCloud {
+ public:
+  // Surveys the points and plans the tiles.
+  TileCloud(PointSource& source, PieceStore& store, const ReconstructOptions& options,
+            std::uint64_t points_per_tile, TileStages& stages, ReconstructReport& report);
+
+  // Sorts the points into tiles and removes those far from all others; computes their normals or
+  // mends those given; measures what sample() and size() tell. The report says what was done.
+  void prepare();
+  // Measures again, after points have been removed.
+  void measure_again();
+
+  const Survey& survey() const { return survey_; }
+  const TilePlan& plan() const { return plan_; }
+  std::size_t n_tiles() const { return n_; }
+  // Points that differ, before outliers near the surface are removed.
+  std::uint64_t n_points() const { return points_; }
+  // Whether normals are those of the source.
+  bool normals_given() const { return given_; }
+  const WholeSample& sample() const { return sample_; }
+  const CapSize& size() const { return size_; }
+  // Neighbours of a flat neighbourhood, or fewer.
+  std::size_t around() const { return around_; }
+  bool has_column(const char* name) const;
+  // Diagonal of the points, before outliers near the surface are removed.
+  double diagonal() const { return diagonal_; }
+  // A tile with the halo that caps of so many neighbours need, and no less than `least`.
+  TileScene load(std::size_t tile, std::size_t neighbours, double least = 0) const;
+
+ private:
+  void find_survey(std::uint64_t points_per_tile);
+  void sort();
+  void refuse_scans() const;
+  void remove_strays();
+  void look_at_shape();
+  void orient();
+  void mend();
+  void count_points();
+  void take_sample(const std::string& round);
+  void choose_size(const std::string& round);
+
+  PointSource& source_;
+  PieceStore& store_;
+  const ReconstructOptions& options_;
+  TileStages& stages_;
+  ReconstructReport& report_;
+  Survey survey_;
+  TilePlan plan_;
+  std::size_t n_ = 0;  // tiles
+  std::uint64_t points_ = 0;
+  double diagonal_ = 0;
+  bool given_ = false;
+  std::size_t around_ = 0;        // neighbours that tell the area of a point
+  std::vector<double> spacings_;  // in each tile
+  WholeSample sample_;
+  CapSize size_;
+};
+
+}  // namespace rholm

@@ -1,0 +1,58 @@
+// Outliers near the surface, in tiles. Layer: reconstruct, private.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "io/spill/piece_store.h"
+#include "reconstruct/points/tile_plan.h"
+#include "reconstruct/points/tile_scene.h"
+#include "reconstruct/points/tile_stages.h"
+#include "rholm/context.h"
+
+namespace rholm {
+
+// The groups of points of find_small_groups(), through all tiles.
+class TileGroups {
+ public:
+  TileGroups(PieceStore& store, std::size_t n_tiles) : store_(store), n_tiles_(n_tiles) {}
+
+  // The groups of a tile's own points, and which points of others are of them: "groups/TILE".
+  void find(std::size_t tile, const TileScene& scene, const Context& context);
+  bool has(std::size_t tile) const;
+  // Once all are there.
+  void join(std::uint64_t least);
+  // After join(), one flag per point of the tile: 1 for those of groups of fewer than `least`.
+  std::vector<std::uint8_t> small(std::size_t tile) const;
+  void remove(std::size_t tile);
+
+ private:
+  struct Link {
+    std::uint32_t tile = 0, point = 0, group = 0;  // a point of that tile, a group of this one
+    auto operator<=>(const Link&) const = default;
+  };
+
+  PieceStore& store_;
+  std::size_t n_tiles_;
+  std::vector<std::vector<std::uint8_t>> small_ = {};  // of each tile's groups
+};
+
+struct OutlierSearch {
+  std::uint64_t n_points = 0;  // of all tiles
+  std::uint64_t most = 0;
+  double noise = 0;
+  // A tile with those around it, as they are.
+  std::function<TileScene(std::size_t tile)> load;
+  // Points of a tile that no cap fits, by their places there; none before there are caps.
+  std::function<std::vector<std::uint32_t>(std::size_t tile)> suspects = {};
+};
+
+// As WorkingPoints::remove_outliers(), which has the rule; returns how many were removed. Steps
+// that were done by a run before cost nothing: n_points is that of before.
+std::uint64_t remove_tile_outliers(PieceStore& store, const TilePlan& plan,
+                                   const OutlierSearch& search, TileStages& stages);
+
+}  // namespace rholm

@@ -1,0 +1,107 @@
+#include "reconstruct/cloud/tile_removal.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "reconstruct/normals/tile_mending.h"
+#include "reconstruct/normals/tile_normals.h"
+#include "reconstruct/points/tile_halo.h"
+#include "reconstruct/points/tile_points.h"
+#include "rholm/error.h"
+#include "shape/points/point_tree.h"
+#include "shape/points/sampling_gaps.h"
+#include "shape/points/strays.h"
+
+namespace rholm {
+
+TileRemoval::TileRemoval(PieceStore& store, const TilePlan& plan, std::string name)
+    : store_(store), plan_(plan), name_(std::move(name)) {}
+
+std::string TileRemoval::found(std::size_t tile) const {
+  return "found-" + name_ + "/" + std::to_string(tile);
+}
+
+std::string TileRemoval::done(std::size_t tile) const {
+  return "removed-" + name_ + "/" + std::to_string(tile);
+}
+
+bool TileRemoval::has_found(std::size_t tile) const {
+  return store_.has(found(tile)) || store_.has(done(tile));
+}
+
+std::vector<std::uint8_t> TileRemoval::flags(std::size_t tile) const {
+  return store_.open(found(tile)).values<std::uint8_t>(1);
+}
+
+void TileRemoval::put(std::size_t tile, const std::vector<std::uint8_t>& flags) {
+  const auto n = static_cast<std::uint64_t>(std::count(flags.begin(), flags.end(), 1));
+  const std::span<const std::byte> sections[] = {bytes_of(std::span(&n, 1)), bytes_of(flags)};
+  store_.write(found(tile), sections);
+}
+
+// Others of the crew may remove points at the same time.
+PieceReader TileRemoval::head(std::size_t tile) const {
+  if (store_.has(done(tile))) return store_.open(done(tile));
+  try {
+    return store_.open(found(tile));
+  } catch (const Error&) {
+    if (!store_.has(done(tile))) throw;
+  }
+  return store_.open(done(tile));
+}
+
+std::uint64_t TileRemoval::count() const {
+  std::uint64_t sum = 0;
+  for (std::size_t tile = 0; tile < plan_.n_tiles(); ++tile) {
+    sum += head(tile).values<std::uint64_t>(0).at(0);
+  }
+  return sum;
+}
+
+void TileRemoval::remove(std::size_t tile) {
+  if (store_.has(done(tile))) return;
+  const PieceReader piece = store_.open(found(tile));
+  const std::vector<std::byte> n = piece.read(0);
+  if (vector_of<std::uint64_t>(n).at(0) > 0) {
+    // A run that was stopped may have done a part of it.
+    const std::vector<std::uint8_t> gone = piece.values<std::uint8_t>(1);
+    if (have_normals(store_) && read_normals(store_, tile).size() == gone.size()) {
+      remove_normals(store_, tile, gone);
+    }
+    if (have_turned(store_) && read_turned(store_, tile).size() == gone.size()) {
+      remove_turned(store_, tile, gone);
+    }
+    if (read_index(store_, tile).counts.points == gone.size()) remove_points(store_, tile, gone);
+  }
+  store_.write(done(tile), {n});
+  store_.remove(found(tile));
+}
+
+std::vector<std::uint8_t> find_tile_strays(const PieceStore& store, const TilePlan& plan,
+                                           std::size_t tile, double halo, const Context& context) {
+  const TileAndHalo read = read_with_halo(store, plan, tile, halo);
+  std::vector<std::uint8_t> flags(read.n_own, 0);
+  std::vector<std::uint32_t> left(read.cloud.points.size());  // of the cloud, after each look
+  std::iota(left.begin(), left.end(), 0U);
+  for (int pass = 0; pass < kStrayPasses && !left.empty(); ++pass) {
+    std::vector<Vec3> places, points;
+    for (const std::uint32_t i : left) places.push_back(read.cloud.points[i]);
+    const PointTree tree(places, context);
+    for (const std::uint32_t i : tree.order()) points.push_back(places[i]);
+    const SamplingGaps gaps = find_gaps(tree, points, {}, context);
+    const std::vector<std::uint8_t> found = find_strays(tree, points, gaps, context);
+    if (std::find(found.begin(), found.end(), 1) == found.end()) break;
+    std::vector<std::uint8_t> gone(left.size(), 0);
+    for (std::size_t i = 0; i < found.size(); ++i) gone[tree.order()[i]] = found[i];
+    std::vector<std::uint32_t> rest;
+    for (std::size_t k = 0; k < left.size(); ++k) {
+      if (gone[k] == 0) rest.push_back(left[k]);
+      if (gone[k] != 0 && left[k] < read.n_own) flags[left[k]] = 1;
+    }
+    left = std::move(rest);
+  }
+  return flags;
+}
+
+}  // namespace rholm

@@ -1,0 +1,47 @@
+// Points that belong to no surface, removed from tiles. Layer: reconstruct, private.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "io/spill/piece_store.h"
+#include "reconstruct/points/tile_plan.h"
+#include "rholm/context.h"
+
+namespace rholm {
+
+// One removal from all tiles: each is looked at with its halo as it was before, then all lose what
+// was found. Either step is done already where the store has it from a run before.
+class TileRemoval {
+ public:
+  // `name` tells it from others of the same run.
+  TileRemoval(PieceStore& store, const TilePlan& plan, std::string name);
+
+  bool has_found(std::size_t tile) const;
+  // One flag per point of the tile, in their order: 1 of those to remove.
+  void put(std::size_t tile, const std::vector<std::uint8_t>& flags);
+  // What was put, before it is removed.
+  std::vector<std::uint8_t> flags(std::size_t tile) const;
+  // How many, of all tiles, once they are all looked at.
+  std::uint64_t count() const;
+  // Removes them from "points/TILE", and their computed normals.
+  void remove(std::size_t tile);
+
+ private:
+  std::string found(std::size_t tile) const;
+  std::string done(std::size_t tile) const;
+  PieceReader head(std::size_t tile) const;
+
+  PieceStore& store_;
+  const TilePlan& plan_;
+  std::string name_;
+};
+
+// Those far from all others, alone or in small groups: find_strays(), with points of other tiles
+// in a box that is wider by `halo`.
+std::vector<std::uint8_t> find_tile_strays(const PieceStore& store, const TilePlan& plan,
+                                           std::size_t tile, double halo, const Context& context);
+
+}  // namespace rholm

@@ -1,0 +1,43 @@
+// An atlas in few bytes: what the model file keeps of it. Layer: reconstruct, private.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "rholm/atlas.h"
+
+namespace rholm {
+
+// Numbers of a cap: seed relative to the origin, rotation vector of the axes, radius, dilation,
+// support; then what is no part of the frame: the step (a coefficient is its integer times it) and
+// the error.
+inline constexpr std::size_t kPackedCap = 11;
+
+struct PackedAtlas {
+  Vec3 origin;
+  double spacing = 0, noise = 0, diagonal = 0, band = 0;
+  CapBasis basis = CapBasis::kFull;
+  CapBlend blend = CapBlend::kSmooth;
+  double weight_power = 0;      // weights are (largest support / support)^power ...
+  std::vector<float> caps;      // [caps][kPackedCap]
+  std::vector<float> ellipses;  // [caps][5] as CapSupport; empty: all are the circle of support
+  std::vector<float> weights;   // ... unless they are here: [caps], or empty
+  std::vector<std::uint8_t> degrees;  // [caps]
+  std::vector<std::uint8_t> kept;     // one bit per coefficient, lowest bit first; 0: it is zero
+  std::vector<std::int16_t> values;   // of the kept ones
+};
+
+// Rounds to 24 bits of the frames, and to 1/32767 of the largest coefficient of a cap: below 1e-4
+// of the cap's fit in all that has been measured. Throws InvalidInput for caps of different bases.
+PackedAtlas pack(const Atlas& atlas);
+
+// Throws InvalidInput (`name` is the file) for what no atlas can be: sizes that disagree, numbers
+// that are not finite, degrees too high.
+// Without `deviations` those of the caps are 0: they take most of the time.
+Atlas unpack(const PackedAtlas& packed, const std::string& name, bool deviations = true);
+
+// Least distance that holds a cap's surface within its support from the seed's tangent plane.
+double deviation_of(const Cap& cap, std::span<const double> coefficients);
+
+}  // namespace rholm

@@ -1,0 +1,14 @@
+// The model file of an atlas from bytes in memory. Layer: reconstruct, private.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "rholm/atlas_model.h"
+
+namespace rholm {
+
+// What read_atlas() does with the file's bytes; `name` serves messages.
+AtlasModel parse_atlas(std::span<const char> bytes, const std::string& name);
+
+}  // namespace rholm

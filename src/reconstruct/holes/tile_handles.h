@@ -1,0 +1,58 @@
+// Handles smaller than the points can tell, cut in the surface of all tiles. Layer: reconstruct,
+// private.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "io/spill/piece_store.h"
+#include "reconstruct/points/known_spacings.h"
+#include "reconstruct/surface/tile_surface.h"
+#include "rholm/context.h"
+#include "rholm/vec3.h"
+
+namespace rholm {
+
+// The spacing of a tile's points at each of some places near it.
+using SpacingsAt =
+    std::function<std::vector<double>(std::size_t tile, const std::vector<Vec3>& places)>;
+
+// See TileSurface::begin_round().
+inline constexpr const char* kCutRound = "cut";
+
+class TileHandles {
+ public:
+  TileHandles(PieceStore& store, TileSurface& surface, std::size_t n_tiles, double typical,
+              SpacingsAt spacings)
+      : store_(store),
+        surface_(surface),
+        n_tiles_(n_tiles),
+        typical_(typical),
+        spacings_(std::move(spacings)) {}
+
+  // Where the surface turns around and something may be cut, of a tile's mesh as it was extracted:
+  // "tight/TILE". What is near its border is left for all together.
+  void find(std::size_t tile, TileMesh part, const Context& context);
+  bool has(std::size_t tile) const;
+
+  // Once all are there: cuts handles as cut_handles() does in the whole surface, and writes the
+  // tiles that have changed anew. What is near those places is gathered in memory. Returns how
+  // many.
+  std::size_t cut(const Context& context);
+
+  // The spacings that both have asked for: "spacings/TILE", and "spacings/all" of cut().
+  std::vector<PlaceAndSpacing> spacings() const;
+
+ private:
+  Bounds decided(std::size_t tile) const;
+
+  PieceStore& store_;
+  TileSurface& surface_;
+  std::size_t n_tiles_;
+  double typical_;
+  SpacingsAt spacings_;
+};
+
+}  // namespace rholm

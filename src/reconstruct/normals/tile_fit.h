@@ -1,0 +1,54 @@
+// Caps for the points of one tile. Layer: reconstruct, private.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "atlas/cover/cap_size.h"
+#include "reconstruct/points/point_survey.h"
+#include "reconstruct/points/tile_plan.h"
+#include "reconstruct/points/tile_scene.h"
+#include "rholm/context.h"
+#include "rholm/vec3.h"
+#include "shape/points/side_balance.h"
+
+namespace rholm {
+
+// What some own points of a tile, evenly spread, tell of all.
+struct SamplePoint {
+  double spacing = 0;     // to its neighbours: spacing_of_circle()
+  double area = 0;        // that a point stands for, by those around
+  double disc = 0;        // as balance_sides() has it
+  double points = 0;      // for so many it speaks
+  std::size_t place = 0;  // in the order of the tree
+  Vec3 at, normal;        // no normal: zero
+  double wrong = 0;       // 1: has_wrong_normal()
+};
+// `around`: neighbours that tell the area.
+std::vector<SamplePoint> sample_tile(const TileScene& scene, std::size_t n, std::size_t around,
+                                     const Context& context);
+
+// Around each place, between its nearest points or between their rows: see
+// WorkingPoints::spacing_at().
+std::vector<double> spacings_at(const TileScene& scene, const std::vector<Vec3>& places);
+
+// Of all tiles together.
+struct WholeSample {
+  double median = 0;  // spacing
+  double fine = 0;    // only a tenth of the points lie clearly closer
+  double area = 0;
+  double wrong = 0;  // share of normals
+  SideBalance sides;
+};
+WholeSample join(const std::vector<SamplePoint>& samples);
+
+// The spacing in each tile by the sample of the survey: the points are as much denser as they are
+// more; nine of ten of the tile's points lie closer.
+std::vector<double> spacings_of_sample(const Survey& survey, const TilePlan& plan, double points);
+// Spacings to the farthest of k neighbours, and as far again: of one point in thousands it is more.
+double reach_of(std::size_t k);
+
+// The median of each.
+CapSize median_of(const std::vector<CapSize>& sizes);
+
+}  // namespace rholm

@@ -1,0 +1,86 @@
+// Signs of normals within a tile, and what tiles say of each other's. Layer: reconstruct, private.
+//
+// Pieces of a tile, of its points and its halo's, are what edges without doubt hold together (see
+// orient_graph.h); their signs to each other are open. A point that two tiles have, as one of
+// their own and one of the halo, is a vote for the pieces it belongs to: they agree, or one is to
+// be turned.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "io/spill/piece_store.h"
+#include "reconstruct/normals/tile_directions.h"
+#include "rholm/vec3.h"
+#include "shape/points/normals.h"
+#include "shape/points/orient_graph.h"
+#include "shape/points/point_tree.h"
+#include "shape/points/sampling_gaps.h"
+
+namespace rholm {
+
+// A point's piece, and whether its normal there is against its direction.
+class PieceCode {
+ public:
+  PieceCode() = default;
+  PieceCode(std::uint32_t piece, bool opposite) : code_(2 * piece + (opposite ? 1 : 0)) {}
+  std::uint32_t piece() const { return code_ / 2; }
+  bool opposite() const { return code_ % 2 != 0; }
+
+ private:
+  std::uint32_t code_ = 0;
+};
+
+// Stands for points of one piece around it.
+struct SideSample {
+  Vec3 point;
+  Vec3 normal;  // its sign is that of the piece
+  double area = 0, spacing = 0;
+  std::uint64_t piece = 0;
+  std::uint64_t place = 0;  // among the own points of its tile
+};
+
+struct TileSigns {
+  struct Across {
+    std::uint32_t point = 0, other = 0;
+    float agreement = 0;
+  };
+  // Points of the halo that another tile has.
+  struct Shared {
+    std::uint64_t tile = 0, n = 0;
+  };
+  std::uint64_t n_pieces = 0;
+  bool in_rows = false;
+  std::vector<PieceCode> codes = {};       // of own points
+  std::vector<float> within = {};          // see PieceAgreement
+  std::vector<std::uint8_t> edges = {};    // likewise
+  std::vector<Across> across = {};         // likewise, of own points
+  std::vector<Shared> shared = {};         // by tiles
+  std::vector<std::uint32_t> places = {};  // of shared points among those of their tiles
+  std::vector<PieceCode> halo = {};        // of shared points, here
+  std::vector<PieceVotes> votes = {};
+  std::vector<SideSample> samples = {};  // by pieces
+};
+
+// With the fits of all its points. One sample for so many points, more of small pieces.
+TileSigns find_tile_signs(const BareTile& graph, std::size_t points_per_sample);
+
+std::string signs_name(std::size_t tile);
+void write_signs(PieceStore& store, std::size_t tile, const TileSigns& signs);
+// All of it, what join_sides() needs, or codes alone.
+TileSigns read_signs(const PieceStore& store, std::size_t tile);
+TileSigns read_pieces(const PieceStore& store, std::size_t tile);
+std::vector<PieceCode> read_codes(const PieceStore& store, std::size_t tile);
+
+// Votes of the points that a tile shares with others: of the pieces of both.
+struct SharedVotes {
+  std::uint64_t tile = 0;  // the other
+  std::uint32_t own = 0, other = 0;
+  std::int64_t sum = 0, n = 0;  // points that agree less those that do not; all
+};
+std::vector<SharedVotes> match_signs(const PieceStore& store, std::size_t tile);
+std::string votes_name(std::size_t tile);
+
+}  // namespace rholm

@@ -1,0 +1,144 @@
+#include "reconstruct/output/tile_output.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "io/ply/ply_parts.h"
+#include "reconstruct/output/carry_attributes.h"
+#include "rholm/error.h"
+#include "shape/points/sensors.h"
+
+namespace rholm {
+namespace {
+
+// What is known of the signs of normals: of given ones nothing.
+void put_confidence(TileScene& scene) {
+  std::vector<double> sure(scene.cloud.points.size(), 1.0);
+  for (std::size_t i = 0; i < scene.confidence.size(); ++i) {
+    sure[scene.tree->order()[i]] = static_cast<double>(scene.confidence[i]);
+  }
+  set_attribute(scene.cloud.attributes, {"confidence", ScalarType::kFloat32, std::move(sure)});
+}
+
+}  // namespace
+
+void TileOutput::write(const TileParts& parts, const TileParts::Whole& whole,
+                       const std::filesystem::path& output) const {
+  const PlyLayout layout(whole.vertices, whole.triangles, attributes());
+  std::optional<PlyParts> file;
+  stages_.once("write", [&] {
+    file.emplace(
+        output, layout, stages_.context(),
+        stages_.is_shared() ? AtomicFile::Writers::kSeveral : AtomicFile::Writers::kThisProcess);
+    const std::string name = file->file().string();
+    const std::span<const std::byte> sections[] = {std::as_bytes(std::span(name))};
+    store_.write("output", sections);
+  });
+  const std::vector<char> name = store_.open("output").values<char>(0);
+  const std::filesystem::path path(std::string(name.begin(), name.end()));
+  const auto part = [&](std::size_t tile) {
+    PlyPart made = parts.part(tile);
+    carry(tile, made.vertices);
+    return made;
+  };
+  if (!path.empty()) {
+    stages_.each("write", n_tiles_,
+                 [&](std::size_t tile) { PlyParts::put(path, layout, part(tile)); });
+  }
+  stages_.once("write", [&] {
+    for (std::size_t tile = 0; path.empty() && tile < n_tiles_; ++tile) {
+      file->append(ply_vertices(part(tile).vertices));
+    }
+    for (std::size_t tile = 0; path.empty() && tile < n_tiles_; ++tile) {
+      file->append(ply_triangles(parts.part(tile).triangles));
+    }
+    file->commit();
+    store_.remove("output");
+  });
+}
+
+Mesh TileOutput::collect(const TileParts& parts, const TileParts::Whole& whole) const {
+  if (whole.vertices > std::numeric_limits<std::uint32_t>::max()) {
+    throw Error(ErrorCode::kUnsupported,
+                fmt::format("a mesh in memory cannot have {} vertices", whole.vertices));
+  }
+  Mesh mesh;
+  mesh.vertices.resize(whole.vertices), mesh.triangles.resize(whole.triangles);
+  mesh.attributes = attributes();
+  for (Attribute& attribute : mesh.attributes) attribute.values.resize(whole.vertices);
+  stages_.each("write", n_tiles_, [&](std::size_t tile) {
+    PlyPart part = parts.part(tile);
+    carry(tile, part.vertices);
+    const auto at = static_cast<std::ptrdiff_t>(part.first_vertex);
+    std::copy(part.vertices.vertices.begin(), part.vertices.vertices.end(),
+              mesh.vertices.begin() + at);
+    for (std::size_t k = 0; k < mesh.attributes.size(); ++k) {
+      const std::vector<double>& values = part.vertices.attributes[k].values;
+      std::copy(values.begin(), values.end(), mesh.attributes[k].values.begin() + at);
+    }
+    std::transform(part.triangles.begin(), part.triangles.end(),
+                   mesh.triangles.begin() + static_cast<std::ptrdiff_t>(part.first_triangle),
+                   [](const WideTriangle& t) -> Triangle {
+                     return {static_cast<std::uint32_t>(t[0]), static_cast<std::uint32_t>(t[1]),
+                             static_cast<std::uint32_t>(t[2])};
+                   });
+  });
+  return mesh;
+}
+
+std::vector<Attribute> TileOutput::attributes() const {
+  std::vector<Attribute> attributes;
+  for (const char* axis : {"nx", "ny", "nz"}) {
+    attributes.push_back({axis, ScalarType::kFloat32, {}});
+  }
+  for (const ColumnLayout& column : layout_.columns) {
+    if (!is_left_out(column.name)) attributes.push_back({column.name, column.type, {}});
+  }
+  if (options_.confidence) set_attribute(attributes, {"confidence", ScalarType::kFloat32, {}});
+  return attributes;
+}
+
+// Of one sensor for all, surfaces need not know.
+bool TileOutput::is_left_out(const std::string& attribute) const {
+  return options_.sensor &&
+         std::find(kSensorAxes.begin(), kSensorAxes.end(), attribute) != kSensorAxes.end();
+}
+
+// What the points of a tile tell of its vertices.
+void TileOutput::carry(std::size_t tile, Mesh& vertices) const {
+  if (layout_.columns.empty() && !options_.confidence) return;
+  TileScene scene = load_(tile);
+  if (options_.confidence) put_confidence(scene);
+  std::erase_if(scene.cloud.attributes, [&](const Attribute& a) { return is_left_out(a.name); });
+  carry_attributes(*scene.tree, scene.cloud.attributes, vertices, stages_.context());
+  if (options_.confidence) add_confidence(scene.ordered(), vertices, stages_.context());
+}
+
+// Of the triangles of each tile.
+ConfidenceAreas TileOutput::measure_confidence(const TileParts& parts) const {
+  const auto name_of = [](std::size_t tile) { return "confidence/" + std::to_string(tile); };
+  stages_.each("confidence", n_tiles_, [&](std::size_t tile) {
+    if (store_.has(name_of(tile))) return;
+    TileScene scene = load_(tile);
+    put_confidence(scene);
+    std::erase_if(scene.cloud.attributes,
+                  [](const Attribute& a) { return a.name != "confidence"; });
+    Mesh mesh = parts.kept_mesh(tile).mesh;
+    carry_attributes(*scene.tree, scene.cloud.attributes, mesh, stages_.context());
+    const ConfidenceAreas areas = add_confidence(scene.ordered(), mesh, stages_.context());
+    const std::span<const std::byte> sections[] = {bytes_of(std::span(&areas, 1))};
+    store_.write(name_of(tile), sections);
+  });
+  ConfidenceAreas sum;
+  for (std::size_t tile = 0; tile < n_tiles_; ++tile) {
+    sum += store_.open(name_of(tile)).values<ConfidenceAreas>(0).at(0);
+  }
+  return sum;
+}
+
+}  // namespace rholm

@@ -1,0 +1,43 @@
+// Points that can be gone through several times, a piece at a time. Layer: reconstruct, private.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/spill/piece_store.h"
+#include "rholm/context.h"
+#include "rholm/mesh.h"
+#include "rholm/shape_io.h"
+
+namespace rholm {
+
+class PointSource {
+ public:
+  virtual ~PointSource() = default;
+  // Back to the first point.
+  virtual void rewind() = 0;
+  // The next points, at least one, instead of what `piece` holds; false at the end. All pieces have
+  // the same attributes, and normals or none.
+  virtual bool next(PointCloud& piece, const Context& context) = 0;
+  virtual std::optional<std::uint64_t> size() const = 0;  // points, where that is known
+  virtual double part_read() const = 0;                   // since the last rewind(), 0 ... 1
+  // Points since the last rewind() that are not finite and in no piece.
+  virtual std::uint64_t dropped() const { return 0; }
+  virtual std::vector<std::string> warnings() const { return {}; }  // of the file
+};
+
+// Of a file, as PointStream reads it. What can be read only once ("-", a pipe) goes to the store's
+// piece "input/0" meanwhile, and is read from there the next time. Throws as PointStream does.
+std::unique_ptr<PointSource> open_points(const std::filesystem::path& path,
+                                         const ShapeReadOptions& options, PieceStore& store);
+
+// Of points in memory, which are not copied and must stay. `dropped` is what the source says of
+// points that their reader has left out.
+std::unique_ptr<PointSource> points_in_memory(const PointCloud& cloud, std::uint64_t dropped = 0);
+
+}  // namespace rholm

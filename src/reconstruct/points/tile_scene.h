@@ -1,0 +1,32 @@
+// A tile's points with normals, and those around them. Layer: reconstruct, private.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "atlas/cover/ordered_points.h"
+#include "reconstruct/points/tile_halo.h"
+#include "rholm/mesh.h"
+#include "shape/points/point_tree.h"
+#include "shape/points/sampling_gaps.h"
+
+namespace rholm {
+
+// The points of a tile and those of others near it, its halo, in the order of a tree.
+struct TileScene {
+  PointCloud cloud;  // the tile's own first
+  std::size_t n_own = 0;
+  std::vector<TileAndHalo::Part> halo = {};  // where the others are from, unless some were left out
+  std::unique_ptr<PointTree> tree;
+  std::vector<Vec3> points, normals;  // in the order of the tree; unit normals, or none
+  std::vector<std::uint8_t> foreign;  // likewise: 1 of the halo
+  std::vector<float> confidence;      // likewise, of computed normals: see OrientReport
+  SamplingGaps gaps;
+  bool computed_normals = false;
+
+  OrderedPoints ordered() const { return {*tree, points, normals, &gaps, computed_normals}; }
+};
+
+}  // namespace rholm

@@ -1,0 +1,117 @@
+#include "reconstruct/points/tile_stages.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/parallel.h"
+#include "base/stopwatch.h"
+
+namespace rholm {
+namespace {
+
+// What takes less was done before: a piece that is there is only looked for.
+constexpr double kDoneBefore = 0.002;  // seconds for each step
+// Before so many seconds nothing is said of the rest: the first stages tell little of the others.
+constexpr double kSilent = 10;
+
+}  // namespace
+
+TimeLeft::TimeLeft(const std::vector<StageCost>& stages) { add(stages); }
+
+void TimeLeft::add(const std::vector<StageCost>& stages) {
+  stages_.reserve(stages_.size() + stages.size());
+  for (const StageCost& stage : stages) stages_.push_back({stage});
+}
+
+void TimeLeft::done(std::string_view stage, double part, double seconds) {
+  const auto at = std::find_if(stages_.begin(), stages_.end(),
+                               [&](const Stage& one) { return one.of.name == stage; });
+  const double spent = seconds - last_;
+  last_ = seconds;
+  if (at == stages_.end() || part <= at->done) {
+    seconds_ += spent;
+    return;
+  }
+  if (spent > kDoneBefore) {
+    worked_ += at->of.cost * (part - at->done);
+    seconds_ += spent;
+  }
+  at->done = part;
+}
+
+bool TimeLeft::is_known() const { return worked_ > 0 && seconds_ > kSilent; }
+
+double TimeLeft::seconds() const {
+  double left = 0;
+  for (const Stage& stage : stages_) left += stage.of.cost * (1 - stage.done);
+  return worked_ > 0 ? seconds_ * left / worked_ : 0;
+}
+
+std::string text_of_seconds(double seconds) {
+  if (seconds < 55) return fmt::format("{:.0f} s", std::max(5.0, 5 * std::round(seconds / 5)));
+  const auto minutes = static_cast<long>(std::round(seconds / 60));
+  if (minutes < 60) return fmt::format("{} min", minutes);
+  return fmt::format("{} h {} min", minutes / 60, minutes % 60);
+}
+
+TileStages::TileStages(TileCrew& crew, const std::vector<StageCost>& costs, StageTimes& times,
+                       const Context& context)
+    : crew_(crew), times_(times), outer_(context), inner_(context), left_(costs) {
+  if (!outer_.progress) return;
+  inner_.progress = [this](std::string_view stage, double) {
+    const std::lock_guard lock(mutex_);
+    return stage.empty() ? outer_.progress(stage, 0) : tell();
+  };
+}
+
+double TileStages::now() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+}
+
+bool TileStages::tell() {
+  const double part = n_ > 0 ? static_cast<double>(done_) / static_cast<double>(n_) : 0;
+  if (!left_.is_known()) return outer_.progress(stage_, part);
+  return outer_.progress(fmt::format("{}, {} left", stage_, text_of_seconds(left_.seconds())),
+                         part);
+}
+
+template <class Body>
+void TileStages::run(std::string_view stage, std::size_t n, const Body& body) {
+  {
+    const std::lock_guard lock(mutex_);
+    stage_ = stage;
+    done_ = 0, n_ = n;
+  }
+  report_progress(inner_, stage, 0);
+  timed(times_, std::string(stage), [&] {
+    body();
+    return 0;
+  });
+  const std::lock_guard lock(mutex_);
+  left_.done(stage, 1, now());
+}
+
+void TileStages::each(std::string_view stage, std::size_t n, const TileCrew::Body& body) {
+  run(stage, n, [&] {
+    crew_.each(n, body, [&](std::size_t tiles) {
+      {
+        const std::lock_guard lock(mutex_);
+        done_ = tiles;
+        left_.done(stage, static_cast<double>(tiles) / static_cast<double>(n), now());
+      }
+      report_progress(inner_, stage, 0);
+    });
+  });
+}
+
+void TileStages::once(std::string_view stage, const std::function<void()>& body) {
+  run(stage, 0, [&] { crew_.once(body); });
+}
+
+void TileStages::all(std::string_view stage, const std::function<void()>& body) {
+  run(stage, 0, body);
+}
+
+}  // namespace rholm

@@ -1,0 +1,54 @@
+// Reconstruction in one piece, in tiles, and in tiles by several processes with one folder. Layer:
+// model, private.
+#pragma once
+
+#include <cstdint>
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "reconstruct/points/point_source.h"
+#include "reconstruct/points/tile_crew.h"
+#include "rholm/context.h"
+#include "rholm/mesh.h"
+#include "rholm/reconstruct.h"
+
+namespace rholm {
+
+// Who works on tiles. `begun` is called with the folder of a shared run once it is there: then all
+// others of the crew have to call help_reconstruct().
+struct SharedRun {
+  TileCrew& crew;
+  std::function<void(const std::filesystem::path& folder)> begun = {};
+  // Called with what is thrown, before the folder goes: others may find nothing there then.
+  std::function<void(const std::exception_ptr&)> failed = {};
+  // Asked before the work on tiles; what it makes of the points, if anything, is the result.
+  std::function<std::optional<Reconstruction>(PointSource& source)> instead = {};
+};
+
+// As reconstruct() of more points than options.tile_points, of a file that PointStream reads. The
+// output may have any name.
+Reconstruction reconstruct_tiles(const std::filesystem::path& points, const std::string& columns,
+                                 const ReconstructOptions& options, const SharedRun& run,
+                                 const Context& context);
+// The same of points in memory, which must not change meanwhile. `dropped` more were left out by
+// their reader.
+Reconstruction reconstruct_tiles(const PointCloud& points, std::uint64_t dropped,
+                                 const ReconstructOptions& options, const SharedRun& run,
+                                 const Context& context);
+
+// The part of any other process of the crew, with the same options. Throws Io if it does not see
+// the folder.
+void help_reconstruct(const std::filesystem::path& folder, const ReconstructOptions& options,
+                      TileCrew& crew, const Context& context);
+
+// Bytes of ReconstructOptions::max_memory that are enough for the work on tiles, beside what is
+// stored in memory: with what runs have taken beyond their forecast.
+std::uint64_t enough_for_tiles(std::uint64_t points, std::uint64_t tile_points);
+// "take smaller tiles (--tile-points 4900)", which fit into so much memory; where none do, how much
+// memory would be enough.
+std::string advice_of_tiles(std::uint64_t max_memory);
+
+}  // namespace rholm

@@ -1,0 +1,455 @@
+#include "reconstruct/tile_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "atlas/cover/cap_cover.h"
+#include "atlas/cover/cap_size.h"
+#include "base/check_fields.h"
+#include "base/log_histogram.h"
+#include "reconstruct/caps/tile_caps.h"
+#include "reconstruct/cloud/tile_cloud.h"
+#include "reconstruct/cloud/tile_outliers.h"
+#include "reconstruct/field/tile_winding.h"
+#include "reconstruct/holes/tile_handles.h"
+#include "reconstruct/holes/tile_holes.h"
+#include "reconstruct/holes/tile_opening.h"
+#include "reconstruct/normals/tile_fit.h"
+#include "reconstruct/output/surface_confidence.h"
+#include "reconstruct/output/tile_output.h"
+#include "reconstruct/points/known_spacings.h"
+#include "reconstruct/points/reconstruct_rules.h"
+#include "reconstruct/points/tile_points.h"
+#include "reconstruct/points/tile_seen.h"
+#include "reconstruct/surface/tile_parts.h"
+#include "reconstruct/surface/tile_simplify.h"
+#include "reconstruct/surface/tile_surface.h"
+#include "rholm/atlas_model.h"
+#include "rholm/error.h"
+#include "shape/points/crossings.h"
+#include "shape/points/sensors.h"
+#include "shape/points/wall_check.h"
+#include "surface/atlas_surface.h"
+#include "surface/level_set/cut_handles.h"
+
+namespace rholm {
+namespace {
+
+// Winding trees in memory at a time: those around one tile.
+constexpr std::size_t kTrees = 24;
+// What the stages cost, us a point on one thread: measured on 4 million points (bench/tiles), but
+// for confidence and simplify, which are chosen.
+std::vector<StageCost> costs(const ReconstructOptions& options) {
+  std::vector<StageCost> all = {
+      {"survey", 0.05}, {"signs", 0.8},    {"distribute", 0.1}, {"sort", 0.2},
+      {"sample", 0.3},  {"cap size", 0.3}, {"caps", 2.1},       {"bands", 0.1},
+      {"grid", 2.2},    {"holes", 0.8},    {"crossings", 0.3},  {"surface", 3.0},
+      {"handles", 0.3}, {"parts", 0.4},    {"walls", 0.2},      {"write", 1.2}};
+  if (!options.keep_outliers) all.push_back({"strays", 0.9});
+  if (options.confidence) all.push_back({"confidence", 2});
+  if (options.simplify) all.push_back({"simplify", 5});
+  return all;
+}
+
+class TileRun {
+ public:
+  TileRun(PointSource& source, PieceStore& store, const TileRunOptions& options, TileCrew& crew,
+          const Context& context)
+      : source_(source),
+        store_(store),
+        options_(options.reconstruct),
+        stages_(crew, costs(options_), report_.times, context),
+        context_(stages_.context()),
+        cloud_(source, store, options_, options_.tile_points, stages_, report_),
+        n_(cloud_.n_tiles()) {
+    if (options.foreseen) options.foreseen(cloud_.survey(), n_);
+    open_blocks_ = options.open_blocks;
+    rules_ = kept_rules(options_);
+    rules_.tiles = true;
+  }
+
+  Reconstruction run() {
+    cloud_.prepare();
+    TileCaps caps = fit();
+    set_scene(caps);
+    TileWinding winding(caps, n_, kTrees);
+    TileSurface surface(store_, cloud_.plan(), caps, winding, origin_);
+    make_surface(surface, winding);
+    Reconstruction made;
+    made.mesh = join_and_write(surface);
+    if (keeps_model()) stages_.once("model", [&] { made.model = model_of(caps); });
+    report_.bounds = cloud_.survey().bounds;
+    report_.tiles = n_, report_.stored = store_.most_bytes();
+    report_.vertices = whole_.vertices, report_.triangles = whole_.triangles;
+    report_.coefficients = coefficients_, report_.warnings = source_.warnings();
+    made.report = std::move(report_);
+    return made;
+  }
+
+ private:
+  // Caps for the points, without those near the surface that belong to none.
+  TileCaps fit() {
+    const auto n = static_cast<double>(cloud_.n_points()),
+               strays = static_cast<double>(report_.outliers);
+    const bool asked = !options_.keep_outliers && cloud_.normals_given();
+    const double wrong = asked ? n * cloud_.sample().wrong : 0;
+    if (!are_suspicious(n, strays, wrong)) return fit_round("");
+    OutlierSearch search{.n_points = cloud_.n_points(),
+                         .most = most_outliers(strays, wrong),
+                         .noise = cloud_.size().noise,
+                         .load = [&](std::size_t tile) { return cloud_.load(tile, kTried); }};
+    const auto remove = [&] {
+      return remove_tile_outliers(store_, cloud_.plan(), search, stages_);
+    };
+    std::uint64_t found = remove();
+    const bool at_once = found > 0;
+    if (!at_once) {
+      TileCaps caps = fit_round("");
+      std::uint64_t rejected = 0, n_caps = 0;
+      for (std::size_t tile = 0; tile < n_; ++tile) {
+        rejected += caps.rejected(tile).size();
+        n_caps += caps.extent(tile).n;
+      }
+      search.most = 2 * rejected;
+      search.suspects = [&](std::size_t tile) { return caps.rejected(tile); };
+      found = remove();
+      if (found == 0 && n_caps > 0) return caps;
+    }
+    report_.outliers += found;
+    cloud_.measure_again();
+    return fit_round(at_once ? "" : "-again");
+  }
+
+  static std::string piece_of(const std::string& what, std::size_t tile) {
+    return what + "/" + std::to_string(tile);
+  }
+
+  TileCaps fit_round(const std::string& round) {
+    TileCaps caps(store_, n_, round);
+    const CrossingSearch search{.n = report_.points - report_.dropped_points - report_.outliers,
+                                .diagonal = cloud_.diagonal(),
+                                .noise = cloud_.size().noise};
+    const auto crossings_in = [&](std::size_t tile) { return piece_of("crossings" + round, tile); };
+    // With a halo of its own: caps depend on what they see.
+    const std::size_t halo = std::max({kCrossingNeighbors, kPatch, cloud_.around()});
+    stages_.each("crossings", n_, [&](std::size_t tile) {
+      if (store_.has(crossings_in(tile))) return;
+      const TileScene scene = cloud_.load(tile, halo, search.reach());
+      const WallPatches patches = choose_patches(*scene.tree, scene.points, scene.foreign, search.n,
+                                                 cloud_.around(), context_);
+      write_values(store_, piece_of("patch-points" + round, tile), patches.points);
+      write_values(store_, piece_of("patch-areas" + round, tile), patches.areas);
+      const Crossings found =
+          find_crossings(*scene.tree, scene.points, scene.gaps, scene.foreign, search, context_);
+      write_values(store_, crossings_in(tile), std::vector{found});
+    });
+    stages_.each("caps", n_, [&](std::size_t tile) {
+      if (caps.has(tile)) return;
+      const TileScene scene = cloud_.load(tile, cloud_.size().neighbours);
+      CoverOptions wanted = cover_options(options_, cloud_.size());
+      wanted.foreign = scene.foreign;
+      const Cover found = cover(scene.ordered(), wanted, context_);
+      std::vector<std::uint32_t> rejected;
+      for (const std::uint32_t i : found.rejected) {
+        if (scene.foreign[i] == 0) rejected.push_back(scene.tree->order()[i]);
+      }
+      std::sort(rejected.begin(), rejected.end());
+      caps.write_rejected(tile, rejected);
+      caps.write(tile, found, context_);
+    });
+    caps.read_extents();
+    Crossings all;
+    for (std::size_t tile = 0; tile < n_; ++tile) {
+      all.add(read_values<Crossings>(store_, crossings_in(tile)).at(0));
+    }
+    note_crossings(all, cloud_.diagonal(), report_);
+    patches_ = {};
+    for (std::size_t tile = 0; tile < n_; ++tile) {
+      const auto append = [&](auto& to, const auto& from) {
+        to.insert(to.end(), from.begin(), from.end());
+      };
+      append(patches_.points, read_values<Vec3>(store_, piece_of("patch-points" + round, tile)));
+      append(patches_.areas, read_values<double>(store_, piece_of("patch-areas" + round, tile)));
+    }
+    return caps;
+  }
+
+  void set_scene(TileCaps& caps) {
+    report_.spacing = cloud_.sample().median;
+    report_.points_area = cloud_.sample().area;
+    report_.noise = cloud_.size().noise;
+    report_.normal_noise_degrees = cloud_.size().normal_noise * 180 / std::numbers::pi;
+    report_.neighbours = cloud_.size().neighbours;
+    LogHistogram errors, supports;
+    Bounds middles;
+    for (std::size_t tile = 0; tile < n_; ++tile) {
+      const CapExtent& extent = caps.extent(tile);
+      if (extent.n == 0) continue;
+      middles = report_.caps == 0 ? extent.middles : joined(middles, extent.middles);
+      report_.caps += extent.n;
+      coefficients_ += extent.coefficients;
+      for (const CapPatch& patch : caps.patches(tile)) {
+        errors.add(patch.error, patch.area);
+        supports.add(patch.support);
+      }
+    }
+    if (report_.caps == 0) {
+      throw Error(ErrorCode::kInvalidInput,
+                  fmt::format("no surface goes with these {} points: no cap fits any of them; are "
+                              "their normals right (rholm orient)?",
+                              cloud_.n_points()));
+    }
+    median_support_ = supports.quantile(0.5);
+    origin_ = middles.min;
+    const bool even = is_even(cloud_.size(), options_);
+    report_.step =
+        options_.step > 0
+            ? options_.step
+            : choose_step(cloud_.sample().fine,
+                          even ? errors.quantile(1 - kSparseShare) : supports.quantile(0.2), even);
+    Atlas scene;
+    scene.spacing = cloud_.sample().median, scene.noise = cloud_.size().noise;
+    scene.diagonal = cloud_.survey().bounds.diagonal(), scene.blend = options_.blend;
+    scene.band = kBandOfNoise * cloud_.size().noise;
+    caps.set_scene(scene, report_.step);
+    if (!caps.have_bands()) return;
+    stages_.each("bands", n_, [&](std::size_t tile) {
+      if (!caps.has_bands(tile)) caps.find_bands(tile, context_);
+    });
+  }
+
+  void make_surface(TileSurface& surface, const TileWinding& winding) {
+    stages_.each("grid", n_, [&](std::size_t tile) {
+      if (!surface.has_values(tile)) surface.find_values(tile, context_);
+    });
+    std::optional<TileSeen> sight = look();
+    TileHoles filled(store_, surface, winding, n_, open_blocks_);
+    std::optional<SeenSpace> seen;
+    do {
+      stages_.each("holes", filled.n_portions(), [&](std::size_t portion) {
+        if (filled.is_closed(portion)) return;
+        if (sight && !seen) seen = sight->join(context_);
+        filled.close(portion, options_.max_memory / block_grid_bytes(1), seen ? &*seen : nullptr,
+                     context_);
+      });
+      stages_.once("holes", [&] { filled.find_conflicts(); });
+    } while (filled.take_next_round());
+    stages_.once("holes", [&] {
+      if (store_.has("holes")) return;
+      const HoleFilling filling = filled.join();
+      write_values(store_, "holes", std::vector<std::uint64_t>{filling.holes, filling.smooth});
+    });
+    const std::vector<std::uint64_t> holes = read_values<std::uint64_t>(store_, "holes");
+    report_.holes = holes.at(0), report_.smooth_holes = holes.at(1);
+    const double typical = std::max(cloud_.sample().median, report_.step);
+    TileHandles handles(store_, surface, n_, typical,
+                        [&](std::size_t tile, const std::vector<Vec3>& places) {
+                          return spacings_at(cloud_.load(tile, kTried), places);
+                        });
+    stages_.each("surface", n_, [&](std::size_t tile) {
+      if (handles.has(tile)) return;
+      handles.find(tile, surface.extract(tile, is_open(), context_), context_);
+    });
+    forget_caps(filled);
+    stages_.once("handles", [&] { handles.cut(context_); });
+    report_.cut_handles = surface.take_round(kCutRound);
+    if (keeps_model()) {
+      stages_.all("handles", [&] {
+        keep_spacings(handles.spacings(), rules_);
+        const std::optional<SeenSpace> whole = sight ? sight->join(context_) : std::nullopt;
+        if (whole) rules_.seen = whole->kept();
+      });
+    }
+    if (is_open()) cut_open(surface);
+  }
+
+  // Along the lines of sight to all points, where it is known from where they were measured.
+  std::optional<TileSeen> look() {
+    const bool known = std::all_of(kSensorAxes.begin(), kSensorAxes.end(),
+                                   [&](const char* axis) { return cloud_.has_column(axis); });
+    if (is_open() || !(known || options_.sensor)) return std::nullopt;
+    TileSeen seen(store_, n_,
+                  {.box = bounds_of_tiles(store_, cloud_.plan()),
+                   .edge = kCubesOfSpacing * cloud_.sample().median,
+                   .margin = kEndOfSight * std::max(cloud_.sample().median, cloud_.size().noise),
+                   .sensor = options_.sensor});
+    stages_.each("sight", n_, [&](std::size_t tile) {
+      if (!seen.has(tile)) seen.find(tile, context_);
+    });
+    return seen;
+  }
+
+  // What no later step needs, unless a run after this one may begin again before them. Ranks that
+  // have joined a store keep it: its owner decides.
+  void forget_caps(TileHoles& filled) {
+    stages_.once("surface", [&] {
+      if (store_.is_kept()) return;
+      filled.forget();
+      for (std::size_t tile = 0; tile < n_; ++tile) {
+        const auto forget = [&](const char* what) {
+          store_.remove(std::string(what) + "/" + std::to_string(tile));
+        };
+        for (const char* what : {"grid", "rim", "open", "closed"}) forget(what);
+        if (keeps_model()) continue;
+        for (const char* what : {"crossings", "crossings-again", "caps", "caps-again", "patches",
+                                 "patches-again", "bands", "bands-again"}) {
+          forget(what);
+        }
+      }
+    });
+  }
+
+  bool is_open() const { return options_.holes == HolePolicy::kKeep; }
+  // Whether a model is made: without an output it is part of the result.
+  bool keeps_model() const { return options_.output.empty() || !options_.model.empty(); }
+
+  void cut_open(TileSurface& surface) {
+    TileOpening opening(store_, surface, n_);
+    stages_.each("open", n_, [&](std::size_t tile) {
+      if (!opening.has(tile)) opening.find(tile);
+    });
+    stages_.once("open", [&] { opening.cut(least_hole(median_support_), context_); });
+    surface.take_round(kOpenRound);
+  }
+
+  TileParts::Whole join_parts(TileParts& parts, double least_share) {
+    stages_.each("parts", n_, [&](std::size_t tile) {
+      if (!parts.has(tile)) parts.find(tile, context_);
+    });
+    TileParts::Whole whole;
+    stages_.all("parts", [&] { whole = parts.join(least_share); });
+    return whole;
+  }
+
+  // The mesh, unless it goes to a file.
+  Mesh join_and_write(TileSurface& surface) {
+    TileParts parts(store_, surface, n_);
+    const TileParts::Whole whole = join_parts(parts, options_.min_component);
+    report_.dropped_components = whole.dropped;
+    report_.faces = whole.triangles;
+    set_sizes(whole, whole);
+    check_points(parts);
+    if (!options_.simplify) return write(parts);
+    simplify(surface, parts);
+    TileParts simple(store_, surface, n_, "-simple");
+    set_sizes(join_parts(simple, 0), whole);
+    return write(simple);
+  }
+
+  // Whether the points lie on the surface, from the vertices near some of them.
+  void check_points(const TileParts& parts) {
+    stages_.each("walls", n_, [&](std::size_t tile) {
+      if (store_.has(piece_of("walls", tile))) return;
+      TileMesh part = parts.kept_mesh(tile);
+      write_values(store_, piece_of("walls", tile),
+                   vertices_near(patches_, report_.step, part.mesh, part.n_own));
+    });
+    std::vector<WallVertex> near;
+    for (std::size_t tile = 0; tile < n_; ++tile) {
+      const auto own = read_values<WallVertex>(store_, piece_of("walls", tile));
+      near.insert(near.end(), own.begin(), own.end());
+    }
+    stages_.all("walls",
+                [&] { note_walls(check_walls(patches_, near, report_.step, context_), report_); });
+  }
+
+  Mesh write(const TileParts& parts) {
+    const TileOutput out(store_, stages_, options_, cloud_.survey().layout, n_,
+                         [&](std::size_t tile) { return cloud_.load(tile, kTried); });
+    if (options_.confidence) put_areas(out.measure_confidence(parts), report_);
+    rules_.left_out = carried_names(out.attributes());
+    if (options_.output.empty()) return out.collect(parts, whole_);
+    out.write(parts, whole_, options_.output);
+    return {};
+  }
+
+  // What closes holes has the share of the area that it had before it was simplified.
+  void set_sizes(const TileParts::Whole& whole, const TileParts::Whole& before) {
+    whole_ = whole;
+    report_.area = whole.area, report_.volume = whole.volume;
+    // About the middle: the same of any place where it is closed.
+    if (is_open()) {
+      const Vec3 middle = 0.5 * cloud_.survey().bounds.min + 0.5 * cloud_.survey().bounds.max;
+      report_.volume -= dot(middle - origin_, whole.area_vector) / 3;
+    }
+    if (!is_open() && before.area > 0) {
+      report_.closed_area = before.closed_area / before.area * whole.area;
+    }
+  }
+
+  void simplify(TileSurface& surface, const TileParts& parts) {
+    TileSimplify less(store_, surface, parts, n_,
+                      {.stops = simplify_stops(*options_.simplify, report_.step),
+                       .triangles = report_.faces,
+                       .step = report_.step});
+    if (less.wants_curves()) {
+      stages_.each("simplify", n_, [&](std::size_t tile) {
+        if (!less.has_curve(tile)) less.find_curve(tile, context_);
+      });
+    }
+    stages_.all("simplify", [&] { less.choose(); });
+    for (std::size_t level = 0; level < less.n_levels(); ++level) {
+      stages_.all("simplify", [&] { less.begin(level); });
+      stages_.each("simplify", less.n_groups(), [&](std::size_t group) {
+        if (!less.has(group)) less.work(group, context_);
+      });
+      stages_.once("simplify", [&] { less.end(); });
+      less.take();
+    }
+    report_.simplify_error = less.error();
+  }
+
+  AtlasModel model_of(const TileCaps& caps) const {
+    // As an atlas, and twice as the file has them.
+    const std::uint64_t bytes = 3 * (report_.caps * sizeof(Cap) + coefficients_ * sizeof(double));
+    if (bytes > options_.max_memory) {
+      throw Error(ErrorCode::kOutOfMemory,
+                  fmt::format("a model of {} caps needs {:.2g} GiB", report_.caps,
+                              static_cast<double>(bytes) / 0x1p30));
+    }
+    AtlasModel model{.atlas = caps.all(),
+                     .step = report_.step,
+                     .tolerance = options_.tolerance,
+                     .errors = {},
+                     .input_numbers = 3 * report_.points,
+                     .unit = {},
+                     .method = "reconstruct",
+                     .rules = rules_};
+    if (!options_.model.empty()) write_atlas(model, options_.model);
+    if (!options_.output.empty()) return {};
+    return model;
+  }
+
+  PointSource& source_;
+  PieceStore& store_;
+  const ReconstructOptions& options_;
+  ReconstructReport report_;
+  TileStages stages_;
+  const Context& context_;  // of the stage that runs
+  TileCloud cloud_;
+  std::size_t n_ = 0;               // tiles
+  double median_support_ = 0;       // of caps
+  Vec3 origin_;                     // of the grid
+  SurfaceRules rules_;              // of the surface, for the model
+  WallPatches patches_;             // of all tiles
+  std::uint64_t coefficients_ = 0;  // of all caps
+  TileParts::Whole whole_;
+  std::size_t open_blocks_ = 0;
+};
+
+}  // namespace
+
+Reconstruction run_tiles(PointSource& source, PieceStore& store, const TileRunOptions& options,
+                         TileCrew& crew, const Context& context) {
+  check_fields(options.reconstruct);
+  return TileRun(source, store, options, crew, context).run();
+}
+
+}  // namespace rholm

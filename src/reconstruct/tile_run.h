@@ -1,0 +1,32 @@
+// Surfaces from points, tile by tile. Layer: reconstruct, private.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+
+#include "io/spill/piece_store.h"
+#include "reconstruct/points/point_source.h"
+#include "reconstruct/points/point_survey.h"
+#include "reconstruct/points/tile_crew.h"
+#include "rholm/context.h"
+#include "rholm/reconstruct.h"
+
+namespace rholm {
+
+struct TileRunOptions {
+  ReconstructOptions reconstruct = {};
+  // Blocks with open cubes that are closed together, but for those of one hole. Chosen: of few
+  // tiles, whose winding trees are in memory; with the blocks around them 100 MB.
+  std::size_t open_blocks = 1024;
+  // Called once points are surveyed and cut into so many tiles, before the work.
+  std::function<void(const Survey& survey, std::size_t tiles)> foreseen = {};
+};
+
+// Reconstructs the source's points in tiles, also if they are few. What is not in memory is in the
+// store; a store that has pieces of the same run from before is taken up where that one ended.
+// All of the crew call it, with the same arguments but their own source.
+Reconstruction run_tiles(PointSource& source, PieceStore& store, const TileRunOptions& options,
+                         TileCrew& crew, const Context& context);
+
+}  // namespace rholm
