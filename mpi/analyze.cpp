@@ -6,7 +6,7 @@
 
 #include "cli/commands/analyze.h"
 #include "cli/terminal/interrupt.h"
-#include "model/encode/shared_encode.h"
+#include "model/encode/encode.h"
 #include "mpi/share.h"
 
 namespace rholm::mpi {

@@ -1,21 +1,120 @@
-#include <functional>
-#include <optional>
+#include "model/encode/encode.h"
+
 #include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
-#include "model/encode/as_it_lies.h"
-#include "model/encode/by_chart.h"
-#include "model/encode/shared_encode.h"
+#include "base/bytes.h"
+#include "base/stopwatch.h"
+#include "model/encode/expand.h"
+#include "model/encode/prepare.h"
 #include "rholm/error.h"
-#include "rholm/mapped_mesh.h"
-#include "rholm/model.h"
+#include "rholm/large_mesh.h"
 #include "rholm/shape_io.h"
+#include "shape/fingerprint.h"
+#include "transform/norms/exact_norms.h"
 
 namespace rholm {
+namespace {
+
+enum class Place : std::uint32_t { kMapped, kRead };
+
+std::string bytes_of(Place place, const std::filesystem::path& path, const MeshView& mesh) {
+  ByteWriter writer;
+  writer.value(place);
+  writer.text(path.string());
+  writer.value(fingerprint(mesh));
+  return writer.take();
+}
+
+// Continues where a mesh cannot be expanded in place: prepares it and expands it on a chart.
+Encoded encode_prepared(const Mesh& mesh, const EncodeOptions& options, const Context& context) {
+  StageTimes times;
+  report_progress(context, "topology", 0);
+  PreparedMesh prepared =
+      timed(times, "topology", [&] { return prepare(mesh, options.weld_tolerance); });
+  Encoded encoded = expand_by_chart(prepared, options, context);
+  encoded.times.merge(times);
+  encoded.diagonal = bounds(mesh.vertices).diagonal();
+  encoded.merged_vertices = prepared.shape.welded.merged_vertices;
+  encoded.collapsed_triangles = prepared.shape.welded.collapsed_triangles;
+  encoded.flipped = prepared.shape.flipped;
+  return encoded;
+}
+
+}  // namespace
+
+MeshPassOptions hooks_of(const MappedMesh& mesh) {
+  MeshPassOptions hooks;
+  hooks.check = [&](std::size_t first, std::size_t n) { return mesh.counts_are_three(first, n); };
+  hooks.release = [&](std::size_t first, std::size_t n) { mesh.release(first, n); };
+  hooks.release_vertices = [&](std::size_t first, std::size_t n) {
+    release_vertices(mesh, first, n);
+  };
+  return hooks;
+}
+
+Encoded encode_file(const std::filesystem::path& path, const EncodeOptions& options,
+                    const Context& context, const std::function<Mesh()>& read,
+                    const ShareOfMesh& share) {
+  StageTimes times;
+  const auto in_place = [&](MeshPassOptions hooks, Place place, const MeshView& mesh) {
+    if (share) hooks.share = share(bytes_of(place, path, mesh));
+    return expand_in_place(mesh, options, hooks, context);
+  };
+  // What the reader hands on of faces that no pass can use, a pass may be able to use.
+  std::variant<Encoded, NotInPlace> result = NotInPlace::kUnusable;
+  if (const auto mapped = timed(times, "read", [&] { return map_mesh(path, context); })) {
+    result = in_place(hooks_of(*mapped), Place::kMapped, mapped->view());
+  }
+  if (!std::holds_alternative<Encoded>(result)) {
+    const Mesh mesh = timed(times, "read", read);
+    validate(mesh);
+    if (std::get<NotInPlace>(result) == NotInPlace::kUnusable) {
+      result = in_place({}, Place::kRead, view_of(mesh));
+    }
+    if (!std::holds_alternative<Encoded>(result)) result = encode_prepared(mesh, options, context);
+  }
+  Encoded& encoded = std::get<Encoded>(result);
+  encoded.times.merge(times);
+  return std::move(encoded);
+}
+
+SharedMesh::SharedMesh(std::string_view mesh, const Context& context) {
+  ByteReader reader(mesh);
+  Place place = {};
+  reader.value(place);
+  const std::filesystem::path path(reader.text());
+  std::uint64_t expected = 0;
+  reader.value(expected);
+  reader.finish();
+  if (place == Place::kMapped) mapped_ = map_mesh(path, context);
+  if (mapped_) {
+    view_ = mapped_->view();
+    hooks_ = hooks_of(*mapped_);
+  } else {
+    ShapeFile file = read_shape(path, {}, context);
+    if (Mesh* found = std::get_if<Mesh>(&file.shape)) mesh_ = std::move(*found);
+    view_ = view_of(mesh_);
+    validate(view_);
+  }
+  if (fingerprint(view_) != expected) {
+    throw Error(ErrorCode::kInvalidInput,
+                path.string() + " is not the file of that name that the first process has");
+  }
+  helper_.emplace(view_, hooks_);
+}
+
+DoSharedTask SharedMesh::tasks_of(std::string_view job) {
+  if (job.starts_with(kPassTag)) return helper_->tasks_of(job.substr(1));
+  if (job.starts_with(kNormsTag)) return norms_tasks(view_, job.substr(1));
+  ByteReader::refuse();
+}
+
 std::optional<Encoded> encode_mapped(const MappedMesh& mesh, const EncodeOptions& options,
                                      const Context& context) {
-  auto result = encode_as_it_lies(mesh.view(), options, hooks_of(mesh), context);
+  auto result = expand_in_place(mesh.view(), options, hooks_of(mesh), context);
   if (Encoded* encoded = std::get_if<Encoded>(&result)) return std::move(*encoded);
   return std::nullopt;
 }
@@ -40,16 +139,16 @@ Encoded encode_file(const std::filesystem::path& path, const EncodeOptions& opti
 
 Encoded encode(const Mesh& mesh, const EncodeOptions& options, const Context& context) {
   validate(mesh);
-  auto result = encode_as_it_lies(view_of(mesh), options, {}, context);
+  auto result = expand_in_place(view_of(mesh), options, {}, context);
   if (Encoded* encoded = std::get_if<Encoded>(&result)) return std::move(*encoded);
-  return encode_by_chart(mesh, options, context);
+  return encode_prepared(mesh, options, context);
 }
 
 Encoded encode(const MeshView& mesh, const EncodeOptions& options, const Context& context) {
   validate(mesh);
-  auto result = encode_as_it_lies(mesh, options, {}, context);
+  auto result = expand_in_place(mesh, options, {}, context);
   if (Encoded* encoded = std::get_if<Encoded>(&result)) return std::move(*encoded);
-  return encode_by_chart(mesh_of(mesh), options, context);
+  return encode_prepared(mesh_of(mesh), options, context);
 }
 
 }  // namespace rholm

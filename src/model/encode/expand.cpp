@@ -1,15 +1,17 @@
-#include "model/encode/as_it_lies.h"
+#include "model/encode/expand.h"
 
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "chart/center/view_center.h"
-#include "model/encode/encoded_parts.h"
 #include "rholm/error.h"
+#include "rholm/star.h"
 #include "shape/vertex_range.h"
 #include "transform/analyze.h"
+#include "transform/error/error_sites.h"
 #include "transform/mesh_pass/verify.h"
 #include "transform/norms/exact_norms.h"
 #include "transform/tolerance/search.h"
@@ -34,18 +36,44 @@ bool may_fold(const EncodeOptions& options) {
 }
 
 // What a pass finds wrong with the mesh.
-std::optional<NotAsItLies> fault_in(const MeshPassResult& pass, const EncodeOptions& options) {
-  if (!pass.closed) return NotAsItLies::kNotClosed;
-  if (!(pass.volume > 0)) return NotAsItLies::kInsideOut;
-  if (pass.bad_triangles > 0 && !may_fold(options)) return NotAsItLies::kFolded;
+std::optional<NotInPlace> fault_in(const MeshPassResult& pass, const EncodeOptions& options) {
+  if (!pass.closed) return NotInPlace::kNotClosed;
+  if (!(pass.volume > 0)) return NotInPlace::kInsideOut;
+  if (pass.bad_triangles > 0 && !may_fold(options)) return NotInPlace::kFolded;
   return std::nullopt;
 }
 
-// One mesh on its way.
-class AsItLies {
+// What a search for a degree has found; `encoded` keeps the times it has.
+void set_found(ToleranceAnalysis found, const EncodeOptions& options, Encoded& encoded) {
+  encoded.tolerance = ToleranceReport{.allowed = found.allowed,
+                                      .reached = found.reached,
+                                      .met = found.met,
+                                      .degrees = std::move(found.degrees)};
+  const StageTimes times = std::move(encoded.analysis.times);
+  encoded.analysis = std::move(found.analysis);
+  encoded.analysis.times.insert(times.begin(), times.end());
+  if (!options.errors) encoded.analysis.expansion.errors.reset();
+}
+
+// Measures the errors of the surface, unless they are not wanted or a search has done so.
+// `sites`: of the mesh about the centre of its expansion; `predict`: the largest errors are
+// predicted from the edges as well.
+void add_errors(ErrorSites& sites, bool predict, const EncodeOptions& options,
+                const Context& context, Encoded& encoded) {
+  Analysis& analysis = encoded.analysis;
+  if (!options.errors || analysis.expansion.errors) return;
+  const double precision = known_error(analysis);
+  analysis.expansion.errors = timed(encoded.times, "errors", [&] {
+    return truncation_errors(analysis.expansion, {.precision = precision, .predict = predict},
+                             sites, context);
+  });
+}
+
+// One mesh, from its centre to the errors of its coefficients.
+class Expand {
  public:
-  AsItLies(const MeshView& mesh, const EncodeOptions& options, const MeshPassOptions& hooks,
-           const Context& context)
+  Expand(const MeshView& mesh, const EncodeOptions& options, const MeshPassOptions& hooks,
+         const Context& context)
       : mesh_(mesh),
         options_(options),
         pass_options_(hooks),
@@ -54,18 +82,18 @@ class AsItLies {
     pass_options_.share = with_tag(share_, kPassTag);
   }
 
-  std::variant<Encoded, NotAsItLies> run() {
-    if (!find_center()) return NotAsItLies::kNoCenter;
+  std::variant<Encoded, NotInPlace> run() {
+    if (!find_center()) return NotInPlace::kNoCenter;
     const std::optional<ToleranceProblem> problem = tolerance_problem();
     const TransformTarget first =
         problem ? first_pilot(*problem, *options_.tolerance)
                 : TransformTarget{options_.analyze.degree, options_.analyze.precision};
     MeshPassResult pass = timed(encoded_.times, "transform", [&] { return pass_to(first); });
-    if (const std::optional<NotAsItLies> fault = fault_in(pass, options_)) return *fault;
+    if (const std::optional<NotInPlace> fault = fault_in(pass, options_)) return *fault;
     // Faces that all turn outwards cover every direction equally often: a second sheet may have
     // few.
     const bool star_shaped = pass.bad_triangles == 0;
-    if (star_shaped && !covers_once(norms())) return NotAsItLies::kCoveredTwice;
+    if (star_shaped && !covers_once(norms())) return NotInPlace::kCoveredTwice;
     if (!problem) {
       timed(encoded_.times, "transform",
             [&] { verify_pass(mesh_, pass_options_, context_, pass); });
@@ -193,6 +221,20 @@ class AsItLies {
   Encoded encoded_;
 };
 
+// Says that the mesh was turned even where it is refused afterwards.
+StarChart chart_of(PreparedMesh& mesh, const ChartOptions& options, const Context& context) {
+  try {
+    return make_star_chart(mesh.shape.welded.mesh, std::move(mesh.edges), options, context);
+  } catch (const Error& error) {
+    const bool is_of_mesh =
+        error.code() == ErrorCode::kInvalidInput || error.code() == ErrorCode::kNotStarShaped;
+    if (!mesh.shape.flipped || !is_of_mesh) throw;
+    throw Error(error.code(), std::string("the mesh was inside out and has been turned right side "
+                                          "out; then: ") +
+                                  error.what());
+  }
+}
+
 }  // namespace
 
 ShareTasks with_tag(const ShareTasks& share, char tag) {
@@ -205,22 +247,46 @@ ShareTasks with_tag(const ShareTasks& share, char tag) {
   };
 }
 
-std::variant<Encoded, NotAsItLies> encode_as_it_lies(const MeshView& mesh,
-                                                     const EncodeOptions& options,
-                                                     const MeshPassOptions& hooks,
-                                                     const Context& context) {
+std::variant<Encoded, NotInPlace> expand_in_place(const MeshView& mesh,
+                                                  const EncodeOptions& options,
+                                                  const MeshPassOptions& hooks,
+                                                  const Context& context) {
   check(options.analyze);
   if (options.tolerance) check(*options.tolerance);
-  if (!uses_mesh_pass(options.analyze) || options.weld_tolerance != 0) return NotAsItLies::kOptions;
-  if (mesh.n_triangles == 0) return NotAsItLies::kUnusable;
+  if (!uses_mesh_pass(options.analyze) || options.weld_tolerance != 0) return NotInPlace::kOptions;
+  if (mesh.n_triangles == 0) return NotInPlace::kUnusable;
   try {
-    return AsItLies(mesh, options, hooks, context).run();
+    return Expand(mesh, options, hooks, context).run();
   } catch (const Error& error) {
     // The loops over triangles cannot go on where one makes no sense, and end by an exception in
     // whatever thread it is. With all checks of options done, that is what InvalidInput means here.
     if (error.code() != ErrorCode::kInvalidInput) throw;
-    return NotAsItLies::kUnusable;
+    return NotInPlace::kUnusable;
   }
+}
+
+Encoded expand_by_chart(PreparedMesh& mesh, const EncodeOptions& options, const Context& context) {
+  Encoded encoded;
+  report_progress(context, "center", 0);
+  const StarChart chart =
+      timed(encoded.times, "center", [&] { return chart_of(mesh, options.chart, context); });
+  encoded.star = chart.report;
+  encoded.vertices = chart.mesh.vertices.size();
+  encoded.faces = chart.mesh.triangles.size();
+  encoded.edges = chart.edges.size();
+  timed(encoded.times, "transform", [&] {
+    if (options.tolerance) {
+      set_found(analyze(chart, *options.tolerance, options.analyze, context), options, encoded);
+    } else {
+      encoded.analysis = analyze(chart, options.analyze, context);
+    }
+  });
+  if (chart.report.star_shaped) {
+    ErrorSites sites(view_of(mesh.shape.welded.mesh), encoded.analysis.expansion.center,
+                     context.threads);
+    add_errors(sites, true, options, context, encoded);
+  }
+  return encoded;
 }
 
 }  // namespace rholm

@@ -1,5 +1,5 @@
-// Why a mesh cannot be taken as it lies, and what becomes of it then.
-#include "model/encode/as_it_lies.h"
+// Why a mesh cannot be expanded in place, and what becomes of it then.
+#include "model/encode/expand.h"
 
 #include <gtest/gtest.h>
 
@@ -38,10 +38,10 @@ struct Stages {
   }
 };
 
-NotAsItLies reason_of(const Mesh& mesh, const EncodeOptions& options = kOptions) {
-  const auto result = encode_as_it_lies(view_of(mesh), options, {}, {});
-  if (const NotAsItLies* reason = std::get_if<NotAsItLies>(&result)) return *reason;
-  ADD_FAILURE() << "taken as it lies";
+NotInPlace reason_of(const Mesh& mesh, const EncodeOptions& options = kOptions) {
+  const auto result = expand_in_place(view_of(mesh), options, {}, {});
+  if (const NotInPlace* reason = std::get_if<NotInPlace>(&result)) return *reason;
+  ADD_FAILURE() << "expanded in place";
   return {};
 }
 
@@ -55,87 +55,87 @@ ErrorCode code_of(const Mesh& mesh, const EncodeOptions& options = kOptions) {
   return {};
 }
 
-TEST(encode_as_it_lies, leaves_what_only_a_chart_can_do_to_the_chart) {
+TEST(expand_in_place, leaves_what_only_a_chart_can_do_to_the_chart) {
   const Mesh mesh = bumpy_sphere(2);
   EncodeOptions welding = kOptions, direct = kOptions, gauge = kOptions;
   welding.weld_tolerance = 1e-9;
   direct.analyze.engine = Engine::kDirect;
   gauge.analyze.method = Method::kGauge;
   for (const EncodeOptions& options : {welding, direct, gauge}) {
-    EXPECT_EQ(reason_of(mesh, options), NotAsItLies::kOptions);
+    EXPECT_EQ(reason_of(mesh, options), NotInPlace::kOptions);
     Stages stages;
     EXPECT_TRUE(encode(mesh, options, stages.context()).star.star_shaped);
     EXPECT_EQ(stages.topology, 1);
   }
 }
 
-TEST(encode_as_it_lies, has_no_use_for_what_is_no_surface) {
+TEST(expand_in_place, has_no_use_for_what_is_no_surface) {
   Mesh none = bumpy_sphere(2), far = none, unnumbered = none, flat = none;
   none.triangles.clear();
   far.triangles[7][1] = static_cast<std::uint32_t>(far.vertices.size());
   unnumbered.vertices[7].y = std::numeric_limits<double>::quiet_NaN();
   for (Vec3& v : flat.vertices) v = {1, 2, 3};
   for (const Mesh& mesh : {none, far, unnumbered, flat}) {
-    EXPECT_EQ(reason_of(mesh), NotAsItLies::kUnusable);
+    EXPECT_EQ(reason_of(mesh), NotInPlace::kUnusable);
     EXPECT_EQ(code_of(mesh), ErrorCode::kInvalidInput);
   }
   // The passes alone, without the search for a centre.
   for (const Mesh& mesh : {none, far, unnumbered}) {
-    EXPECT_EQ(reason_of(mesh, about({})), NotAsItLies::kUnusable);
+    EXPECT_EQ(reason_of(mesh, about({})), NotInPlace::kUnusable);
   }
 }
 
-TEST(encode_as_it_lies, has_no_use_for_faces_that_a_hook_refuses) {
+TEST(expand_in_place, has_no_use_for_faces_that_a_hook_refuses) {
   const Mesh mesh = bumpy_sphere(2);
   MeshPassOptions hooks;
   hooks.check = [](std::size_t, std::size_t) -> bool {
     throw Error(ErrorCode::kInvalidInput, "a face is not a triangle");
   };
-  const auto result = encode_as_it_lies(view_of(mesh), kOptions, hooks, {});
-  EXPECT_EQ(std::get<NotAsItLies>(result), NotAsItLies::kUnusable);
+  const auto result = expand_in_place(view_of(mesh), kOptions, hooks, {});
+  EXPECT_EQ(std::get<NotInPlace>(result), NotInPlace::kUnusable);
 }
 
-TEST(encode_as_it_lies, needs_a_point_that_sees_all_faces) {
+TEST(expand_in_place, needs_a_point_that_sees_all_faces) {
   const Mesh mesh = torus(1, 0.3, 24, 12);
-  EXPECT_EQ(reason_of(mesh), NotAsItLies::kNoCenter);
+  EXPECT_EQ(reason_of(mesh), NotInPlace::kNoCenter);
   EXPECT_EQ(code_of(mesh), ErrorCode::kNotStarShaped);
 }
 
-TEST(encode_as_it_lies, needs_a_closed_surface_that_is_oriented_alike) {
+TEST(expand_in_place, needs_a_closed_surface_that_is_oriented_alike) {
   Mesh open = bumpy_sphere(3), misoriented = open;
   open.triangles.pop_back();
   std::swap(misoriented.triangles[5][0], misoriented.triangles[5][1]);
-  EXPECT_EQ(reason_of(open), NotAsItLies::kNotClosed);
+  EXPECT_EQ(reason_of(open), NotInPlace::kNotClosed);
   EXPECT_EQ(code_of(open), ErrorCode::kInvalidInput);
-  EXPECT_EQ(reason_of(misoriented, about({})), NotAsItLies::kNotClosed);
+  EXPECT_EQ(reason_of(misoriented, about({})), NotInPlace::kNotClosed);
   EXPECT_EQ(code_of(misoriented, about({})), ErrorCode::kInvalidInput);
 }
 
-TEST(encode_as_it_lies, leaves_turning_to_the_chart) {
+TEST(expand_in_place, leaves_turning_to_the_chart) {
   Mesh mesh = bumpy_sphere(3);
   flip(mesh);
-  EXPECT_EQ(reason_of(mesh, about({})), NotAsItLies::kInsideOut);
+  EXPECT_EQ(reason_of(mesh, about({})), NotInPlace::kInsideOut);
   EXPECT_TRUE(encode(mesh, about({})).flipped);
 }
 
-TEST(encode_as_it_lies, takes_folds_where_they_are_allowed) {
+TEST(expand_in_place, takes_folds_where_they_are_allowed) {
   const Mesh prism = test::l_prism(1);
   EncodeOptions options = about({2, 0.5, 0.1});
-  EXPECT_EQ(reason_of(prism, options), NotAsItLies::kFolded);
+  EXPECT_EQ(reason_of(prism, options), NotInPlace::kFolded);
   EXPECT_EQ(code_of(prism, options), ErrorCode::kNotStarShaped);
   options.chart.allow_signed = true;
-  EXPECT_TRUE(std::holds_alternative<Encoded>(encode_as_it_lies(view_of(prism), options, {}, {})));
+  EXPECT_TRUE(std::holds_alternative<Encoded>(expand_in_place(view_of(prism), options, {}, {})));
   // Of an alternating sum there is no error to be kept within a tolerance.
   options.tolerance = Tolerance{.error = 0.1};
-  EXPECT_EQ(reason_of(prism, options), NotAsItLies::kFolded);
+  EXPECT_EQ(reason_of(prism, options), NotInPlace::kFolded);
   EXPECT_EQ(code_of(prism, options), ErrorCode::kInvalidInput);
 }
 
-TEST(encode_as_it_lies, sees_a_second_sheet) {
+TEST(expand_in_place, sees_a_second_sheet) {
   Mesh around = icosphere(0);
   for (Vec3& v : around.vertices) v *= 3;
   const Mesh mesh = test::joined(bumpy_sphere(4), around);
-  EXPECT_EQ(reason_of(mesh, about({})), NotAsItLies::kCoveredTwice);
+  EXPECT_EQ(reason_of(mesh, about({})), NotInPlace::kCoveredTwice);
   EXPECT_EQ(code_of(mesh, about({})), ErrorCode::kNotStarShaped);
 }
 
@@ -144,13 +144,13 @@ constexpr ErrorCode kNotOfTheMesh[] = {ErrorCode::kIo, ErrorCode::kOutOfMemory,
                                        ErrorCode::kCancelled};
 
 // A file that can no longer be read, memory that is refused: nothing is tried again.
-TEST(encode_as_it_lies, passes_on_at_once_what_is_no_fault_of_the_mesh) {
+TEST(expand_in_place, passes_on_at_once_what_is_no_fault_of_the_mesh) {
   const Mesh mesh = bumpy_sphere(3);
   for (const ErrorCode code : kNotOfTheMesh) {
     MeshPassOptions hooks;
     hooks.check = [&](std::size_t, std::size_t) -> bool { throw Error(code, "of the hook"); };
     try {
-      encode_as_it_lies(view_of(mesh), kOptions, hooks, {});
+      expand_in_place(view_of(mesh), kOptions, hooks, {});
       ADD_FAILURE() << to_string(code);
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), code);

@@ -35,7 +35,7 @@ class SharedMesh {
   SharedMesh(const SharedMesh&) = delete;
   SharedMesh& operator=(const SharedMesh&) = delete;
 
-  // Of a job of encode_as_it_lies(): good until the next. Throws Io for bytes that are none.
+  // Of a job of expand_in_place(): good until the next. Throws Io for bytes that are none.
   DoSharedTask tasks_of(std::string_view job);
 
  private:

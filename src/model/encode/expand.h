@@ -1,0 +1,43 @@
+// From a mesh to coefficients and their errors. Layer: model.
+#pragma once
+
+#include <variant>
+
+#include "base/shared_tasks.h"
+#include "model/encode/prepare.h"
+#include "rholm/mesh_view.h"
+#include "rholm/model.h"
+#include "transform/mesh_pass/pass.h"
+
+namespace rholm {
+
+// Why a mesh cannot be expanded in place. prepare() may change it so that it can; a chart has other
+// methods, and says best what is wrong.
+enum class NotInPlace {
+  kOptions,       // vertices to be welded, a method or an engine that the mesh pass is not
+  kUnusable,      // numbers, indices or faces that no pass can work with
+  kNoCenter,      // no point sees the front of all faces
+  kNotClosed,     // or not oriented alike
+  kInsideOut,     // the enclosed volume is not above 0
+  kFolded,        // faces turn their backs, and a surface that does is not wanted
+  kCoveredTwice,  // no face turns its back, and directions meet more than one
+};
+
+// What jobs of other processes that have the mesh begin with: which tasks they are of.
+inline constexpr char kPassTag = 'p';   // PassHelper::tasks_of()
+inline constexpr char kNormsTag = 'n';  // norms_tasks()
+ShareTasks with_tag(const ShareTasks& share, char tag);
+
+// Expands a mesh without a copy of it, by the mesh pass. `hooks`: `check` and `release` of it, and
+// `share`. Throws InvalidInput for options out of range, and what is no fault of the mesh: Io,
+// OutOfMemory, Cancelled, and whatever else a hook or the progress callback throws.
+std::variant<Encoded, NotInPlace> expand_in_place(const MeshView& mesh,
+                                                  const EncodeOptions& options,
+                                                  const MeshPassOptions& hooks,
+                                                  const Context& context);
+
+// Expands a prepared mesh by any method, on a chart. Takes the edges of the mesh. Throws
+// InvalidInput and NotStarShaped for meshes that no method can expand.
+Encoded expand_by_chart(PreparedMesh& mesh, const EncodeOptions& options, const Context& context);
+
+}  // namespace rholm
