@@ -16,7 +16,11 @@ namespace {
 // Elements longer than half their distance are halved: beyond, x/|x| bends so much that rules
 // for plane waves say little.
 constexpr double kLongest = 0.5;
-constexpr int kMaxDepth = 100;  // after so many halvings doubles resolve nothing
+// Weights of faces that come near the centre are large and cancel. Where their rounding, divided by
+// sqrt(4 pi), is above what an element may leave, the bounded terms are taken up to this slope.
+constexpr double kWeightRounding = 1e-15 / 3.5;
+constexpr double kGrazingOfLarge = 0.25;  // as of direct sums
+constexpr int kMaxDepth = 100;            // after so many halvings doubles resolve nothing
 
 [[noreturn]] void throw_on_surface() {
   throw Error(ErrorCode::kInvalidInput,
@@ -144,7 +148,11 @@ void NodeWriter::add_triangle(const std::array<Vec3, 3>& corners,
   const Vec3& nearest = *std::min_element(
       p.begin(), p.end(), [](const Vec3& a, const Vec3& b) { return dot(a, a) < dot(b, b); });
   const double d2 = dot(n, nearest);
-  const bool grazing = std::abs(d2) < grazing_ * norm(n) * norm(nearest);
+  const double slope = std::abs(d2) / (norm(n) * norm(nearest));
+  const bool all = face && edges[0] && edges[1] && edges[2];
+  const bool rounded = all && slope < kGrazingOfLarge &&
+                       kWeightRounding * dot(n, n) > options_.divided.allowed * std::abs(d2);
+  const bool grazing = slope < grazing_ || rounded;
   const double distance = distance_of(p);
   const Crowd crowd = crowd_of(p, d2, distance, options_.divided.degree);
   for (int i = 0; i < 3; ++i) {

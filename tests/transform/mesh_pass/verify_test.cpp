@@ -67,6 +67,27 @@ TEST(verify_pass, of_a_cube_seen_from_before_a_face_keeps_the_wish) {
   expect_is_kept(judge(cube, 64, 1e-8), 1e-8);
 }
 
+// The largest faces nearly pass through the centre. Their weights are 1e8 times what they add up
+// to, and rounding of these is the same in every reading: none differs by what it leaves.
+TEST(verify_pass, of_a_prism_seen_from_beside_a_corner_keeps_the_wish) {
+  std::vector<std::vector<Vec3>> rings;
+  for (int k = 0; k <= 5; ++k) {
+    rings.push_back(test::random_bodies::ring(18, 0.0253, 1 - 2.0 * k / 5));
+  }
+  const Mesh prism = test::random_bodies::of_rings(rings, 1, -1);
+  const Rotation rotation = rotation_of(EulerAngles{1, 2, 3});
+  for (const double inwards : {3e-8, 1e-7, 6e-7, 5e-6}) {
+    for (const double below : {9e-6, 1e-4}) {
+      SCOPED_TRACE(testing::Message() << inwards << " " << below);
+      const Vec3 corner = rings[0][0], center{corner.x - inwards, corner.y, corner.z - below};
+      Mesh seen = prism;
+      for (Vec3& v : seen.vertices) v = rotate(v - center, rotation);
+      const Judged judged = judge(seen, 13, 1e-9);
+      expect_is_kept(judged, 1e-9);
+    }
+  }
+}
+
 // The error is measured, too: of 98 in 100 to within these times.
 TEST(verify_pass, keeps_the_wish_on_random_bodies) {
   std::vector<double> ratios;
