@@ -1,4 +1,4 @@
-// An atlas as it is kept: its surface, and what was measured of it (method 7.8). Layer: reconstruct.
+// An atlas as it is kept, and what was measured of it (method 7.8). Layer: reconstruct.
 #pragma once
 
 #include <cstddef>
