@@ -1,4 +1,5 @@
 // Whole pipelines.
+#include <rholm/atlas_model.h>
 #include <rholm/batch.h>
 #include <rholm/compress.h>
 #include <rholm/error.h>
@@ -31,6 +32,18 @@ void model() {
   rholm::write_model(expansion, "ellipsoid.h5");
   expect(rholm::read_model("ellipsoid.h5").coefficients.c(2, 2) == expansion.coefficients.c(2, 2),
          "what is written is read");
+}
+
+void atlas_model() {
+  rholm::AtlasModel few;
+  few.atlas.caps.resize(1);  // all coefficients zero: a sphere of radius 1
+  few.atlas.caps[0].frame = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 1, 1, 1};
+  few.atlas.caps[0].where = {0, 0, 1, 0, 1};  // a disc of radius 1
+  few.atlas.coefficients = {0};
+  few.step = 0.1;
+  rholm::write_atlas(few, "cap.h5");
+  expect(rholm::is_model_file("cap.h5") && rholm::is_atlas_file("cap.h5"), "an atlas is a model");
+  expect(rholm::read_atlas("cap.h5").step == few.step, "what is written is read");
 }
 
 void compress() {
@@ -97,6 +110,7 @@ void batch() {
 
 std::vector<HeaderCheck> model_checks() {
   return {{"model.h", model},
+          {"atlas_model.h", atlas_model},
           {"compress.h", compress},
           {"reconstruct.h", reconstruct},
           {"patch_atlas.h", patch_atlas},
