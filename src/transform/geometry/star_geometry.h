@@ -38,6 +38,9 @@ StarGeometry star_geometry(const StarChart& chart);
 // Solid angle of a triangle seen from the origin (Van Oosterom and Strackee 1983), signed.
 double solid_angle(const std::array<Vec3, 3>& corners);
 
+// Where d_T / r is below this, terms of (M6) may be large and cancel (method 3c).
+inline constexpr double kGrazingSlope = 0.25;
+
 // Below this d_T / r a triangle is taken out of (M6) and summed by bounded terms (method 3e). Those
 // have gradients, which count gradient_as_weight() times as much in the error of the windows of the
 // fast sums: that much larger the terms of (M6), about r / d_T, may well be.

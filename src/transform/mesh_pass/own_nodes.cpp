@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/rounding.h"
 #include "rholm/error.h"
 #include "shape/face.h"
 #include "transform/geometry/star_geometry.h"
@@ -16,11 +17,9 @@ namespace {
 // Elements longer than half their distance are halved: beyond, x/|x| bends so much that rules
 // for plane waves say little.
 constexpr double kLongest = 0.5;
-// Weights of faces that come near the centre are large and cancel. Where their rounding, divided by
-// sqrt(4 pi), is above what an element may leave, the bounded terms are taken up to this slope.
-constexpr double kWeightRounding = 1e-15 / 3.5;
-constexpr double kGrazingOfLarge = 0.25;  // as of direct sums
-constexpr int kMaxDepth = 100;            // after so many halvings doubles resolve nothing
+// What double precision leaves of a coefficient that a weight of 1 goes into.
+constexpr double kWeightRounding = rounding_of_sum(8) / (2 / std::numbers::inv_sqrtpi);
+constexpr int kMaxDepth = 100;  // after so many halvings doubles resolve nothing
 
 [[noreturn]] void throw_on_surface() {
   throw Error(ErrorCode::kInvalidInput,
@@ -149,10 +148,11 @@ void NodeWriter::add_triangle(const std::array<Vec3, 3>& corners,
       p.begin(), p.end(), [](const Vec3& a, const Vec3& b) { return dot(a, a) < dot(b, b); });
   const double d2 = dot(n, nearest);
   const double slope = std::abs(d2) / (norm(n) * norm(nearest));
-  const bool all = face && edges[0] && edges[1] && edges[2];
-  const bool rounded = all && slope < kGrazingOfLarge &&
-                       kWeightRounding * dot(n, n) > options_.divided.allowed * std::abs(d2);
-  const bool grazing = slope < grazing_ || rounded;
+  // Bounded terms need all edges of a face. Beside what grazes, they are for weights whose rounding
+  // is more than a face may leave.
+  const bool whole = face && edges[0] && edges[1] && edges[2];
+  const bool cancels = kWeightRounding * dot(n, n) > options_.divided.allowed * std::abs(d2);
+  const bool grazing = slope < grazing_ || (whole && cancels && slope < kGrazingSlope);
   const double distance = distance_of(p);
   const Crowd crowd = crowd_of(p, d2, distance, options_.divided.degree);
   for (int i = 0; i < 3; ++i) {

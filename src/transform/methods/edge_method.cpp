@@ -11,16 +11,13 @@
 #include <numbers>
 
 #include "harmonic/coefficients/laplacian.h"
+#include "transform/geometry/star_geometry.h"
 #include "transform/methods/methods.h"
 #include "transform/methods/radius_cubature.h"
 #include "transform/methods/sources.h"
 
 namespace rholm {
 namespace {
-
-// Faces with |d_T| below this part of their nearest corner are summed the other way: the choice of
-// method 3e, where the large terms cost two bits.
-constexpr double kGrazingSlope = 0.25;
 
 enum class FaceKind { kNone, kFlat, kGrazing };
 
