@@ -25,7 +25,9 @@ double solid_angle(const std::array<Vec3, 3>& corners) {
   return 2 * std::atan2(dot(p, cross(q, r)), 1 + dot(p, q) + dot(q, r) + dot(r, p));
 }
 
-double grazing_slope(int degree) { return std::min(kGrazingSlope, 1.0 / (8 * std::max(degree, 1))); }
+double grazing_slope(int degree) {
+  return std::min(kGrazingSlope, 1.0 / (8 * std::max(degree, 1)));
+}
 
 Vec3 second_moment(const std::array<Vec3, 3>& corners, double omega, const Vec3& v) {
   Vec3 result = (omega / 3) * v;
