@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <numbers>
 #include <vector>
 
+#include "base/rounding.h"
 #include "rholm/coefficients.h"
 #include "rholm/star.h"
 
@@ -40,6 +42,10 @@ double solid_angle(const std::array<Vec3, 3>& corners);
 
 // Where d_T / r is below this, terms of (M6) may be large and cancel (method 3c).
 inline constexpr double kGrazingSlope = 0.25;
+
+// What double precision leaves of a coefficient, for each unit of 2 |T| / d_T: in (M6) a face and
+// its edges are four terms of up to that size, which cancel where the face is large and near.
+inline constexpr double kWeightRounding = 4 * rounding_of_sum(8) / (2 / std::numbers::inv_sqrtpi);
 
 // Below this d_T / r a triangle is taken out of (M6) and summed by bounded terms (method 3e). Those
 // have gradients, which count gradient_as_weight() times as much in the error of the windows of the

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/rounding.h"
 #include "rholm/error.h"
 #include "shape/face.h"
 #include "transform/geometry/star_geometry.h"
@@ -17,8 +16,6 @@ namespace {
 // Elements longer than half their distance are halved: beyond, x/|x| bends so much that rules
 // for plane waves say little.
 constexpr double kLongest = 0.5;
-// What double precision leaves of a coefficient that a weight of 1 goes into.
-constexpr double kWeightRounding = rounding_of_sum(8) / (2 / std::numbers::inv_sqrtpi);
 constexpr int kMaxDepth = 100;  // after so many halvings doubles resolve nothing
 
 [[noreturn]] void throw_on_surface() {
@@ -152,7 +149,7 @@ void NodeWriter::add_triangle(const std::array<Vec3, 3>& corners,
   // is more than a face may leave.
   const bool whole = face && edges[0] && edges[1] && edges[2];
   const bool cancels = kWeightRounding * dot(n, n) > options_.divided.allowed * std::abs(d2);
-  const bool grazing = slope < grazing_ || (whole && cancels && slope < kGrazingSlope);
+  const bool grazing = slope < grazing_ || (whole && cancels);
   const double distance = distance_of(p);
   const Crowd crowd = crowd_of(p, d2, distance, options_.divided.degree);
   for (int i = 0; i < 3; ++i) {

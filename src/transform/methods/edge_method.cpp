@@ -1,7 +1,8 @@
 // The radius by edges and faces, (M6), face by face as in (M8):
 //   l(l+1) c_lm = sum_e W_e <conj Y>_e + sum_T F_T <conj Y>_T,   <> = flat mean,
 //   W_e = (a x b) . (n_left/d_left - n_right/d_right),   F_T = -2 |T| / d_T.
-// Faces seen at a grazing angle have large W and F that cancel. They are taken out of the sum:
+// Faces seen at a grazing angle have large W and F that cancel, and so have large faces near the
+// centre. They are taken out of the sum:
 // their int r conj(Y) dOmega is added undivided by l(l+1), and the terms of Green's formula that
 // neighbours would have cancelled,
 //   - int_0^1 (a x b) . grad conj(Y)(x/|x|) dt  per half-edge a -> b,
@@ -21,9 +22,13 @@ namespace {
 
 enum class FaceKind { kNone, kFlat, kGrazing };
 
-FaceKind kind_of(const StarGeometry& geometry, std::size_t t) {
+// `allowed`: what rounding may leave of a face.
+FaceKind kind_of(const StarGeometry& geometry, std::size_t t, double allowed) {
   const FaceGeometry& face = geometry.faces[t];
   if (face.degenerate) return FaceKind::kNone;
+  if (kWeightRounding * norm(face.twice_area) > allowed * std::abs(face.d)) {
+    return FaceKind::kGrazing;
+  }
   double nearest = INFINITY;
   for (const Vec3& corner : geometry.corners(t)) nearest = std::min(nearest, norm(corner));
   return std::abs(face.d) < kGrazingSlope * nearest ? FaceKind::kGrazing : FaceKind::kFlat;
@@ -38,15 +43,16 @@ struct Weights {
   double total = 0;                 // of the moduli, as they enter the error
 };
 
-Weights weights_of(const StarGeometry& geometry) {
+Weights weights_of(const StarGeometry& geometry, double allowed) {
   Weights w;
   const auto& edges = geometry.chart->edges;
+  const auto n_faces = static_cast<double>(geometry.faces.size());
   w.kind.resize(geometry.faces.size());
   w.of_face.assign(geometry.faces.size(), 0.0);
   w.of_edge.assign(edges.size(), 0.0);
   w.of_gradient.assign(edges.size(), 0.0);
   for (std::size_t t = 0; t < geometry.faces.size(); ++t) {
-    w.kind[t] = kind_of(geometry, t);
+    w.kind[t] = kind_of(geometry, t, allowed / std::sqrt(n_faces));
     if (w.kind[t] == FaceKind::kFlat) {
       w.of_face[t] = -norm(geometry.faces[t].twice_area) / geometry.faces[t].d;
     }
@@ -145,7 +151,7 @@ Coefficients grazing_faces(const StarGeometry& geometry, const Weights& w,
 
 MethodResult edge_method(const StarGeometry& geometry, const MethodOptions& options,
                          const Context& context) {
-  const Weights w = weights_of(geometry);
+  const Weights w = weights_of(geometry, options.allowed / 2);
   const Allowance allowance = divided_allowance(options.allowed / 2, w.total, options.degree);
   const auto& edges = geometry.chart->edges;
   const double work = static_cast<double>(edges.size() + geometry.faces.size());
