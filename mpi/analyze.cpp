@@ -6,8 +6,11 @@
 
 #include "cli/commands/analyze.h"
 #include "cli/terminal/interrupt.h"
+#include "cluster/collect.h"
+#include "cluster/pack.h"
+#include "cluster/rank_executor.h"
 #include "model/encode/encode.h"
-#include "mpi/share.h"
+#include "mpi/rank_options.h"
 
 namespace rholm::mpi {
 namespace {
@@ -41,7 +44,17 @@ cli::Command analyze_command(Ranks* ranks) {
                    const std::function<Mesh()>& read) {
              if (ranks->size() == 1) return encode_file(path, options, context, read);
              return encode_file(path, options, context, read, [&](const std::string& mesh) {
-               return share_over(*ranks, kAnalyzeService, mesh, context.threads);
+               return std::make_unique<RankExecutor>(
+                   *ranks, context.threads,
+                   [ranks, mesh, threads = context.threads](const Parts& parts) {
+                     call(*ranks, kAnalyzeService,
+                          Packer()
+                              .number(static_cast<std::uint64_t>(threads))
+                              .text(mesh)
+                              .text(parts.job)
+                              .text(parts.input)
+                              .take());
+                   });
              });
            },
        .check_input = [ranks](const std::string& path) { check_input(*ranks, path); }});
@@ -63,18 +76,20 @@ cli::Command analyze_command(Ranks* ranks) {
 
 std::function<void(Ranks& ranks, const std::string& bytes)> analyze_service() {
   struct Opened {
-    std::string subject;
+    std::string name;
     std::unique_ptr<SharedMesh> mesh;
   };
   return [opened = std::make_shared<Opened>()](Ranks& ranks, const std::string& bytes) {
-    const SharedCall call = shared_call(bytes);
-    if (opened->subject != call.subject || !opened->mesh) {
+    Unpacker packed(bytes);
+    const int threads = static_cast<int>(packed.number());
+    const std::string_view mesh = packed.text(), job = packed.text(), input = packed.text();
+    if (opened->name != mesh || !opened->mesh) {
       const CancelScope scope(cli::keep_going);
       opened->mesh.reset();
-      opened->mesh = std::make_unique<SharedMesh>(call.subject, Context{.threads = call.threads});
-      opened->subject = call.subject;
+      opened->mesh = std::make_unique<SharedMesh>(mesh, Context{.threads = threads});
+      opened->name = mesh;
     }
-    serve_shared(ranks, call.threads, opened->mesh->tasks_of(call.job));
+    RankExecutor(ranks, threads).run({}, opened->mesh->work_of(job, input), {});
   };
 }
 

@@ -8,22 +8,20 @@
 
 #include "cli/batch/job.h"
 #include "cli/batch/outputs_folder.h"
-#include "cli/batch/row.h"
 #include "cli/batch/workers.h"
 #include "cli/commands/batch.h"
 #include "cli/terminal/interrupt.h"
 #include "cluster/collect.h"
 #include "cluster/pack.h"
-#include "cluster/tasks.h"
+#include "cluster/rank_executor.h"
 #include "model/batch/row_bytes.h"
-#include "mpi/share.h"
 #include "rholm/error.h"
 
 namespace rholm::mpi {
 namespace {
 
 // What another rank needs to make the job anew.
-std::string bytes_of(const cli::BatchJob& job, int threads) {
+std::string bytes_of(const cli::BatchJob& job, const std::string& rows, int threads) {
   const cli::BatchOptions& o = job.options;
   return Packer()
       .number(static_cast<std::uint64_t>(threads))
@@ -31,11 +29,13 @@ std::string bytes_of(const cli::BatchJob& job, int threads) {
       .texts(o.words)
       .number(o.no_times ? 1 : 0)
       .text({job.manifest_text.data(), job.manifest_text.size()})
+      .text(rows)
       .take();
 }
 
 struct Part {
   cli::BatchJob job;
+  std::vector<std::size_t> rows;
   int threads = 0;
 };
 
@@ -51,17 +51,10 @@ Part part_of(const std::string& bytes) {
   o.no_times = packed.number() != 0;
   const std::string_view text = packed.text();
   part.job = make_job(o, cli::commands_for_batches(), {text.begin(), text.end()});
+  for (std::string_view rows = packed.text(); !rows.empty(); rows.remove_prefix(8)) {
+    part.rows.push_back(get_u64(rows));
+  }
   return part;
-}
-
-// Makes rows, on any thread; files that are not kept go to `scratch`.
-DoTask row_maker(const cli::BatchJob& job, const TemporaryFolder& scratch) {
-  return [&job, &scratch](std::uint64_t row, int threads) {
-    const CancelScope scope(cli::keep_going);
-    const std::optional<BatchRow> cells = cli::run_row(job, row, threads, scratch.path());
-    if (!cells) throw Error(ErrorCode::kCancelled, "interrupted");
-    return row_bytes(*cells);
-  };
 }
 
 // How to go on, for as long as there is a journal.
@@ -90,19 +83,12 @@ bool run_rows(Ranks& ranks, const cli::BatchJob& job, BatchJournal& journal,
   progress->all = job.rows.size();
   progress->done = journal.done();
   ranks.set_hint([progress] { return progress->hint(); });
-  const cli::RowsToDo to_do = rows_to_do(job, journal);
-  const TaskList tasks = {.wide = {to_do.large.begin(), to_do.large.end()},
-                          .narrow = {to_do.small.begin(), to_do.small.end()}};
   const int threads = session.context().threads;
-  call(ranks, kBatchService, bytes_of(job, threads));
-  const TemporaryFolder scratch = cli::scratch_folder();
-  lead_tasks(ranks, tasks, threads_here(ranks, threads), row_maker(job, scratch),
-             [&](std::uint64_t row, const std::string& bytes) {
-               const std::optional<BatchRow> cells = parse_row(bytes);
-               if (!cells) throw Error(ErrorCode::kIo, "a row came damaged from another rank");
-               journal.append(row, *cells);
-               progress->set_done(journal.done());
-             });
+  RankExecutor executor(ranks, threads, [&](const Parts& parts) {
+    call(ranks, kBatchService, bytes_of(job, parts.input, threads));
+  });
+  cli::work_rows(job, rows_to_do(job, journal), journal, executor, session,
+                 [&] { progress->set_done(journal.done()); });
   return true;
 }
 
@@ -125,7 +111,7 @@ cli::Command batch_command(Ranks* ranks) {
 void serve_batch(Ranks& ranks, const std::string& bytes) {
   const Part part = part_of(bytes);
   const TemporaryFolder scratch = cli::scratch_folder();
-  serve_tasks(ranks, threads_here(ranks, part.threads), row_maker(part.job, scratch));
+  RankExecutor(ranks, part.threads).run({}, row_work(part.job, part.rows, scratch), {});
 }
 
 }  // namespace rholm::mpi

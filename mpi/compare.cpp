@@ -9,7 +9,7 @@
 #include "cli/terminal/interrupt.h"
 #include "cluster/collect.h"
 #include "cluster/pack.h"
-#include "mpi/share.h"
+#include "cluster/rank_executor.h"
 #include "rholm/error.h"
 #include "shape/fingerprint.h"
 #include "surface/star/shared_compare.h"
@@ -43,7 +43,8 @@ cli::Command compare_command(Ranks* ranks, const std::shared_ptr<RankOptions>& o
          if (ranks->size() == 1) return compare(a, b, wanted, context);
          broadcast(*ranks, fingerprints(a, b));
          CompareSamples samples(a, b, wanted);
-         return compare(samples, wanted, context, share_with_all(*ranks, context.threads));
+         RankExecutor executor(*ranks, context.threads);
+         return compare(samples, wanted, context, executor);
        }});
   command.description +=
       "\n\nEach rank reads both files, whose paths mean the same on all machines, and measures a "
@@ -64,7 +65,8 @@ void serve_compare(Ranks& ranks, const std::string& bytes) {
                        "a file is not the one of that name that rank 0 has");
          }
          CompareSamples samples(a, b, wanted);
-         serve_shared(ranks, context.threads, [&](std::size_t part) { return samples.work(part); });
+         RankExecutor executor(ranks, context.threads);
+         executor.run({}, [&](std::size_t part, int) { return samples.work(part); }, {});
          return std::nullopt;
        }});
   append(command.options, rank_options(ignored));

@@ -36,6 +36,7 @@ void tell_totals(const RankTotals& totals) {
 
 RanksProgram program(const RankOptions& options) {
   return {.progress = cli::questions_asked,
+          .keep_going = cli::keep_going,
           .interrupted = cli::interrupting_signal,
           .stop =
               [](int code) {

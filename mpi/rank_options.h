@@ -1,10 +1,11 @@
-// Options that all commands of rholm-mpi share. Layer: mpi.
+// Options and inputs that all commands of rholm-mpi share. Layer: mpi.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "cli/grammar/command.h"
+#include "cluster/ranks.h"
 
 namespace rholm::mpi {
 
@@ -16,5 +17,9 @@ struct RankOptions {
 };
 // --threads is of each rank.
 std::vector<cli::Option> rank_options(RankOptions& options);
+
+// A file that every rank can open, where there are several: throws UsageError for standard input
+// and pipes.
+void check_input(const Ranks& ranks, const std::string& path);
 
 }  // namespace rholm::mpi

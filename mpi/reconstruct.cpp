@@ -12,8 +12,7 @@
 #include "cli/terminal/interrupt.h"
 #include "cluster/collect.h"
 #include "cluster/pack_fields.h"
-#include "cluster/rank_crew.h"
-#include "mpi/share.h"
+#include "cluster/rank_executor.h"
 #include "reconstruct/shared_tiles.h"
 
 namespace rholm::mpi {
@@ -46,8 +45,8 @@ Reconstruction run(Ranks& ranks, const cli::PointsInput& points, const Reconstru
                    cli::Session& session) {
   Context context = session.context();
   const int wanted = context.threads;
-  context.threads = threads_here(ranks, wanted);
-  RankCrew crew(ranks, context.threads);
+  RankExecutor executor(ranks, wanted);
+  context.threads = executor.threads();
   const auto begun = [&](const std::filesystem::path& folder) {
     call(ranks, kReconstructService, bytes_of({folder, options, wanted}));
     if (!options.resume) return;
@@ -55,7 +54,7 @@ Reconstruction run(Ranks& ranks, const cli::PointsInput& points, const Reconstru
       return fmt::format("what is done is kept in {}: the same command goes on from there", folder);
     });
   };
-  const SharedRun shared{.crew = crew,
+  const SharedRun shared{.executor = executor,
                          .begun = begun,
                          .failed = [&](const std::exception_ptr& what) { ranks.fail(what); }};
   return points.cloud ? reconstruct_tiles(*points.cloud, 0, options, shared, context)
@@ -83,11 +82,11 @@ cli::Command reconstruct_command(Ranks* ranks) {
 void serve_reconstruct(Ranks& ranks, const std::string& bytes) {
   const Part part = part_of(bytes);
   Context context;
-  context.threads = threads_here(ranks, part.threads);
+  RankExecutor executor(ranks, part.threads);
+  context.threads = executor.threads();
   context.progress = [](std::string_view, double) { return cli::keep_going(); };
   cli::keep_large_freed_memory();
-  RankCrew crew(ranks, context.threads);
-  help_reconstruct(part.folder, part.options, crew, context);
+  help_reconstruct(part.folder, part.options, executor, context);
 }
 
 }  // namespace rholm::mpi

@@ -1,23 +1,20 @@
 #include "cli/batch/workers.h"
 
-#include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <condition_variable>
-#include <exception>
-#include <mutex>
-#include <thread>
+#include <optional>
+#include <string>
 
 #include <fmt/format.h>
 
 #include "cli/batch/outputs_folder.h"
 #include "cli/batch/row.h"
 #include "cli/terminal/interrupt.h"
+#include "model/batch/row_bytes.h"
+#include "parts/threads.h"
+#include "rholm/error.h"
 
 namespace rholm::cli {
 namespace {
-
-using namespace std::chrono_literals;
 
 // Bytes of a file from which on its shape has all threads (chosen). Small ones go one on each: two
 // at once take half the time of one after the other, while two threads on one gain less than a
@@ -31,110 +28,40 @@ std::string text_of_time(double seconds) {
                         : fmt::format("{:.1f} h", seconds / 3600);
 }
 
-class Workers {
+// How far a batch is, and when it will be done.
+class RowProgress {
  public:
-  Workers(const BatchJob& job, BatchJournal& journal, Session& session)
-      : job_(job),
-        journal_(journal),
-        session_(session),
-        to_do_(rows_to_do(job, journal)),
-        done_(job.rows.size() - to_do_.large.size() - to_do_.small.size()),
-        first_done_(done_),
-        failed_(to_do_.failed) {}
+  RowProgress(std::size_t all, const RowsToDo& to_do, Session& session)
+      : all_(all), done_(all - to_do.rows.size()), failed_(to_do.failed), session_(session) {}
 
-  bool run() {
-    const int threads = n_threads();
-    for (const std::size_t row : to_do_.large) {
-      if (!one(row, threads)) return false;
-      show();
+  void add(bool has_failed) {
+    ++done_, ++added_;
+    failed_ += has_failed ? 1 : 0;
+    show();
+  }
+  void show() const {
+    const std::chrono::duration<double> past = std::chrono::steady_clock::now() - begin_;
+    std::string left;
+    if (added_ > 0) {
+      const double each = past.count() / static_cast<double>(added_);
+      left = fmt::format(", {} left", text_of_time(each * static_cast<double>(all_ - done_)));
     }
-    run_small(std::min<std::size_t>(static_cast<std::size_t>(threads), to_do_.small.size()));
-    if (failure_) std::rethrow_exception(failure_);
-    return interrupting_signal() == 0;
+    session_.context().progress(
+        fmt::format("{} of {}, {} failed{}", done_, all_, failed_, left),
+        all_ == 0 ? 1 : static_cast<double>(done_) / static_cast<double>(all_));
   }
 
  private:
-  int n_threads() const {
-    if (session_.context().threads > 0) return session_.context().threads;
-    return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  }
-
-  bool one(std::size_t row, int threads) {
-    const CancelScope scope(keep_going);
-    const std::optional<BatchRow> cells = run_row(job_, row, threads, scratch_.path());
-    if (!cells) return false;
-    journal_.append(row, *cells);
-    const std::lock_guard lock(mutex_);
-    ++done_;
-    failed_ += has_failed(*cells) ? 1 : 0;
-    return true;
-  }
-
-  // Until there are no more rows, or somebody has failed.
-  void work() {
-    try {
-      for (std::size_t i = next_++; i < to_do_.small.size() && !stopped_; i = next_++) {
-        if (!one(to_do_.small[i], 1)) stopped_ = true;
-      }
-    } catch (...) {
-      const std::lock_guard lock(mutex_);
-      if (!failure_) failure_ = std::current_exception();
-      stopped_ = true;
-    }
-    const std::lock_guard lock(mutex_);
-    ++idle_;
-    changed_.notify_one();
-  }
-
-  // This thread only looks, so that signals and the bar do not wait for a row.
-  void run_small(std::size_t n) {
-    std::vector<std::jthread> threads;
-    threads.reserve(n);
-    for (std::size_t i = 0; i < n; ++i) threads.emplace_back([this] { work(); });
-    std::unique_lock lock(mutex_);
-    while (!changed_.wait_for(lock, 100ms, [&] { return idle_ == n; })) {
-      lock.unlock();
-      show();
-      lock.lock();
-    }
-  }
-
-  void show() {
-    std::size_t done = 0, failed = 0;
-    {
-      const std::lock_guard lock(mutex_);
-      done = done_, failed = failed_;
-    }
-    const std::size_t all = job_.rows.size();
-    const std::chrono::duration<double> past = std::chrono::steady_clock::now() - begin_;
-    std::string left;
-    if (done > first_done_) {
-      const double each = past.count() / static_cast<double>(done - first_done_);
-      left = fmt::format(", {} left", text_of_time(each * static_cast<double>(all - done)));
-    }
-    session_.context().progress(
-        fmt::format("{} of {}, {} failed{}", done, all, failed, left),
-        all == 0 ? 1 : static_cast<double>(done) / static_cast<double>(all));
-  }
-
-  const BatchJob& job_;
-  BatchJournal& journal_;
+  std::size_t all_, done_, failed_, added_ = 0;
   Session& session_;
-  const TemporaryFolder scratch_ = scratch_folder();
-  const RowsToDo to_do_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-  std::atomic<std::size_t> next_ = 0;  // of the small ones
-  std::atomic<bool> stopped_ = false;
-  std::mutex mutex_;  // of what follows
-  std::condition_variable changed_;
-  std::size_t done_, first_done_, failed_, idle_ = 0;
-  std::exception_ptr failure_;
 };
 
 }  // namespace
 
 RowsToDo rows_to_do(const BatchJob& job, const BatchJournal& journal) {
   RowsToDo to_do;
+  std::vector<std::size_t> small;
   for (const std::size_t row : job.rows) {
     if (journal.has(row)) {
       to_do.failed += has_failed(journal.read(row)) ? 1 : 0;
@@ -142,13 +69,55 @@ RowsToDo rows_to_do(const BatchJob& job, const BatchJournal& journal) {
     }
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(path_of(job, row), error);
-    (!error && size >= kLargeFile ? to_do.large : to_do.small).push_back(row);
+    (!error && size >= kLargeFile ? to_do.rows : small).push_back(row);
   }
+  to_do.n_large = to_do.rows.size();
+  to_do.rows.insert(to_do.rows.end(), small.begin(), small.end());
   return to_do;
 }
 
+Executor::Work row_work(const BatchJob& job, const std::vector<std::size_t>& rows,
+                        const TemporaryFolder& scratch) {
+  return [&](std::size_t part, int threads) {
+    const CancelScope scope(keep_going);
+    const std::optional<BatchRow> cells = run_row(job, rows.at(part), threads, scratch.path());
+    if (!cells) throw Error(ErrorCode::kCancelled, "interrupted");
+    return row_bytes(*cells);
+  };
+}
+
+void work_rows(const BatchJob& job, const RowsToDo& to_do, BatchJournal& journal,
+               Executor& executor, Session& session, const std::function<void()>& added) {
+  std::string input;
+  for (const std::size_t row : to_do.rows) put_u64(input, row);
+  const TemporaryFolder scratch = scratch_folder();
+  RowProgress progress(job.rows.size(), to_do, session);
+  // Signals and the bar do not wait for a row.
+  const CancelScope scope([&] {
+    progress.show();
+    return keep_going();
+  });
+  executor.run({.count = to_do.rows.size(),
+                .wide = to_do.n_large,
+                .in_order = false,
+                .input = std::move(input)},
+               row_work(job, to_do.rows, scratch), [&](std::size_t part, const std::string& bytes) {
+                 const std::optional<BatchRow> cells = parse_row(bytes);
+                 if (!cells) throw Error(ErrorCode::kIo, "a row came damaged from another process");
+                 journal.append(to_do.rows[part], *cells);
+                 progress.add(has_failed(*cells));
+                 added();
+               });
+}
+
 bool run_rows(const BatchJob& job, BatchJournal& journal, Session& session) {
-  return Workers(job, journal, session).run();
+  Threads threads(session.context().threads);
+  try {
+    work_rows(job, rows_to_do(job, journal), journal, threads, session, [] {});
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::kCancelled) throw;
+  }
+  return interrupting_signal() == 0;
 }
 
 }  // namespace rholm::cli

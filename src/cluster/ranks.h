@@ -51,6 +51,7 @@ struct RankTotals {
 // What ranks ask of the program around them. All may be called from the thread that speaks MPI.
 struct RanksProgram {
   std::function<std::uint64_t()> progress;        // grows while something is computed
+  std::function<bool()> keep_going;               // asked while parts are worked; none: yes
   std::function<int()> interrupted;               // the signal that asked to stop, or 0
   std::function<void(int code)> stop;             // work is to end soon
   std::function<void(const std::string&)> error;  // prints it
@@ -82,6 +83,7 @@ class Ranks {
   // Throws Stopped.
   Packet receive(Tag tag, std::optional<int> from = {});
   bool is_stopping() const { return stopping_; }
+  bool keep_going() const { return !stopping_ && (!program_.keep_going || program_.keep_going()); }
   // What was thrown on a thread of this rank ends the run, from now on: the first one counts.
   // Stopped is none. Any thread.
   void fail(const std::exception_ptr& what);
@@ -143,12 +145,12 @@ class Ranks {
 };
 
 // Tells that something is worked on for as long as it lives.
-class AtWork {
+class RankAtWork {
  public:
-  explicit AtWork(Ranks& ranks) : ranks_(ranks) { ranks_.begin_work(); }
-  ~AtWork() { ranks_.end_work(); }
-  AtWork(const AtWork&) = delete;
-  AtWork& operator=(const AtWork&) = delete;
+  explicit RankAtWork(Ranks& ranks) : ranks_(ranks) { ranks_.begin_work(); }
+  ~RankAtWork() { ranks_.end_work(); }
+  RankAtWork(const RankAtWork&) = delete;
+  RankAtWork& operator=(const RankAtWork&) = delete;
 
  private:
   Ranks& ranks_;

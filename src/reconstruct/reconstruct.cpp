@@ -11,6 +11,7 @@
 #include "base/cancel.h"
 #include "base/check_fields.h"
 #include "base/refuse.h"
+#include "parts/threads.h"
 #include "reconstruct/points/mesh_points.h"
 #include "reconstruct/points/point_rows.h"
 #include "reconstruct/reconstruct_piece.h"
@@ -78,8 +79,8 @@ Reconstruction in_one_piece(PointCloud cloud, std::uint64_t dropped,
 
 Reconstruction in_tiles(const PointCloud& cloud, std::uint64_t dropped,
                         const ReconstructOptions& options, const Context& context) {
-  OneProcess alone;
-  return reconstruct_tiles(cloud, dropped, options, {.crew = alone}, context);
+  Threads alone;
+  return reconstruct_tiles(cloud, dropped, options, {.executor = alone}, context);
 }
 
 // A mesh, and what cannot be read in portions.
@@ -169,8 +170,8 @@ Reconstruction reconstruct(PointCloud&& cloud, const ReconstructOptions& options
 Reconstruction reconstruct(const std::filesystem::path& points, const ReconstructOptions& options,
                            const Context& context, const std::string& columns) {
   check_call(options);
-  OneProcess alone;
-  SharedRun run{.crew = alone};
+  Threads alone;
+  SharedRun run{.executor = alone};
   if (is_once(points)) {
     run.instead = [&](PointSource& source) -> std::optional<Reconstruction> {
       std::optional<PointCloud> few = those_of(source, options.tile_points, context);

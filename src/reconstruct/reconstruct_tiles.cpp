@@ -187,8 +187,8 @@ Reconstruction reconstruct_source(const TileStore& store,
   try {
     std::optional<Reconstruction> made = run.instead ? run.instead(*source) : std::nullopt;
     if (!made) {
-      made = run_tiles(*source, *store, {.reconstruct = options, .foreseen = foreseen}, run.crew,
-                       context);
+      made = run_tiles(*source, *store, {.reconstruct = options, .foreseen = foreseen},
+                       run.executor, context);
       made->report.memory = memory;
     }
     store->keep(false);
@@ -236,7 +236,7 @@ Reconstruction reconstruct_tiles(const std::filesystem::path& points, const std:
   if (std::filesystem::is_regular_file(points, error)) {
     n = PointStream(points, {.columns = columns}).size();
   }
-  const TileStore store(n, options, run.crew.is_shared(),
+  const TileStore store(n, options, run.executor.is_shared(),
                         [&] { return fmt::format("{}, columns '{}'", text_of(points), columns); });
   return reconstruct_source(
       store, [&] { return open_points(points, {.columns = columns}, *store); }, options, run,
@@ -257,17 +257,17 @@ Reconstruction reconstruct_tiles(const PointCloud& points, std::uint64_t dropped
     refuse(fmt::format("the attribute {} has {} values for {} points", attribute.name,
                        attribute.values.size(), points.points.size()));
   }
-  const TileStore store(points.points.size(), options, run.crew.is_shared(),
+  const TileStore store(points.points.size(), options, run.executor.is_shared(),
                         [&] { return text_of(points); });
   return reconstruct_source(
       store, [&] { return points_in_memory(points, dropped); }, options, run, context);
 }
 
 void help_reconstruct(const std::filesystem::path& folder, const ReconstructOptions& options,
-                      TileCrew& crew, const Context& context) {
+                      Executor& executor, const Context& context) {
   const std::unique_ptr<PieceStore> store = PieceStore::joined(folder);
   NoPoints none;
-  run_tiles(none, *store, {.reconstruct = options}, crew, context);
+  run_tiles(none, *store, {.reconstruct = options}, executor, context);
 }
 
 }  // namespace rholm

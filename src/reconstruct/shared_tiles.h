@@ -9,8 +9,8 @@
 #include <optional>
 #include <string>
 
+#include "parts/executor.h"
 #include "reconstruct/points/point_source.h"
-#include "reconstruct/points/tile_crew.h"
 #include "rholm/context.h"
 #include "rholm/mesh.h"
 #include "rholm/reconstruct.h"
@@ -18,9 +18,9 @@
 namespace rholm {
 
 // Who works on tiles. `begun` is called with the folder of a shared run once it is there: then all
-// others of the crew have to call help_reconstruct().
+// other processes have to call help_reconstruct().
 struct SharedRun {
-  TileCrew& crew;
+  Executor& executor;
   std::function<void(const std::filesystem::path& folder)> begun = {};
   // Called with what is thrown, before the folder goes: others may find nothing there then.
   std::function<void(const std::exception_ptr&)> failed = {};
@@ -39,10 +39,10 @@ Reconstruction reconstruct_tiles(const PointCloud& points, std::uint64_t dropped
                                  const ReconstructOptions& options, const SharedRun& run,
                                  const Context& context);
 
-// The part of any other process of the crew, with the same options. Throws Io if it does not see
+// The part of any other process, with the same options. Throws Io if it does not see
 // the folder.
 void help_reconstruct(const std::filesystem::path& folder, const ReconstructOptions& options,
-                      TileCrew& crew, const Context& context);
+                      Executor& executor, const Context& context);
 
 // Bytes of ReconstructOptions::max_memory that are enough for the work on tiles, beside what is
 // stored in memory: with what runs have taken beyond their forecast.

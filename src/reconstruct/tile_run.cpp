@@ -60,12 +60,12 @@ std::vector<StageCost> costs(const ReconstructOptions& options) {
 
 class TileRun {
  public:
-  TileRun(PointSource& source, PieceStore& store, const TileRunOptions& options, TileCrew& crew,
+  TileRun(PointSource& source, PieceStore& store, const TileRunOptions& options, Executor& executor,
           const Context& context)
       : source_(source),
         store_(store),
         options_(options.reconstruct),
-        stages_(crew, costs(options_), report_.times, context),
+        stages_(executor, costs(options_), report_.times, context),
         context_(stages_.context()),
         cloud_(source, store, options_, options_.tile_points, stages_, report_),
         n_(cloud_.n_tiles()) {
@@ -447,9 +447,9 @@ class TileRun {
 }  // namespace
 
 Reconstruction run_tiles(PointSource& source, PieceStore& store, const TileRunOptions& options,
-                         TileCrew& crew, const Context& context) {
+                         Executor& executor, const Context& context) {
   check_fields(options.reconstruct);
-  return TileRun(source, store, options, crew, context).run();
+  return TileRun(source, store, options, executor, context).run();
 }
 
 }  // namespace rholm

@@ -6,9 +6,9 @@
 #include <functional>
 
 #include "io/spill/piece_store.h"
+#include "parts/executor.h"
 #include "reconstruct/points/point_source.h"
 #include "reconstruct/points/point_survey.h"
-#include "reconstruct/points/tile_crew.h"
 #include "rholm/context.h"
 #include "rholm/reconstruct.h"
 
@@ -25,8 +25,8 @@ struct TileRunOptions {
 
 // Reconstructs the source's points in tiles, also if they are few. What is not in memory is in the
 // store; a store that has pieces of the same run from before is taken up where that one ended.
-// All of the crew call it, with the same arguments but their own source.
+// All processes of the executor call it, with the same arguments but their own source.
 Reconstruction run_tiles(PointSource& source, PieceStore& store, const TileRunOptions& options,
-                         TileCrew& crew, const Context& context);
+                         Executor& executor, const Context& context);
 
 }  // namespace rholm

@@ -16,8 +16,8 @@
 #include <thread>
 
 #include "cluster/collect.h"
+#include "cluster/rank_executor.h"
 #include "cluster/ranks.h"
-#include "cluster/tasks.h"
 #include "rholm/error.h"
 
 namespace rholm {
@@ -83,62 +83,109 @@ void large(Ranks& ranks) {
   barrier(ranks);
 }
 
-constexpr std::uint64_t kTasks = 300, kWide = 5;
+constexpr std::size_t kParts = 300, kWide = 5;
 
-// A task and what it is done on.
-using Work = std::function<void(Ranks& ranks, std::uint64_t task)>;
-
-void tasks(Ranks& ranks, const Work& extra, const std::function<void(std::uint64_t)>& on_take) {
-  const DoTask work = [&](std::uint64_t task, int threads) {
-    expect(threads == (task < kWide ? 2 : 1), "wide tasks have all threads");
-    extra(ranks, task);
-    ++progress;
-    return bytes_of(task * 31 % 6000, static_cast<int>(task));
-  };
-  if (ranks.rank() != 0) return serve_tasks(ranks, 2, work);
-  TaskList list;
-  for (std::uint64_t i = 0; i < kTasks; ++i) (i < kWide ? list.wide : list.narrow).push_back(i);
-  std::map<std::uint64_t, int> times;
-  lead_tasks(ranks, list, 2, work, [&](std::uint64_t task, const std::string& bytes) {
-    expect(bytes == bytes_of(task * 31 % 6000, static_cast<int>(task)), "what the task gave");
-    ++times[task];
-    on_take(task);
-  });
-  expect(times.size() == kTasks, "all tasks are done");
-  for (const auto& [task, n] : times) expect(n == 1, fmt::format("task {} once", task));
+std::string result_of(std::size_t part) {
+  return bytes_of(part * 31 % 6000, static_cast<int>(part));
 }
 
-// Results come in their order, of the rank that had to do the task if they are dealt, and no task
-// is begun far ahead of them; nothing is taken after `last`.
-void ordered(Ranks& ranks, bool dealt, std::uint64_t last) {
+// A part and what it is worked on.
+using Work = std::function<void(Ranks& ranks, std::size_t part)>;
+
+void parts(Ranks& ranks, const Work& extra, const std::function<void(std::size_t)>& on_take) {
+  std::map<std::size_t, int> times;
+  RankExecutor(ranks, 2).run(
+      {.count = kParts, .wide = kWide, .in_order = false},
+      [&](std::size_t part, int threads) {
+        expect(threads == (part < kWide ? 2 : 1), "wide parts have all threads");
+        extra(ranks, part);
+        ++progress;
+        return result_of(part);
+      },
+      [&](std::size_t part, const std::string& bytes) {
+        expect(ranks.rank() == 0, "rank 0 takes");
+        expect(bytes == result_of(part), "what the part gave");
+        ++times[part];
+        on_take(part);
+      });
+  expect(times.size() == (ranks.rank() == 0 ? kParts : 0), "all parts are worked");
+  for (const auto& [part, n] : times) expect(n == 1, fmt::format("part {} once", part));
+}
+
+// Results come in their order, of the rank that had to work the part if they are dealt, and no part
+// is begun far ahead of them. Invalid input from part `wrong` on is thrown on rank 0, once, and
+// nothing is taken from there on.
+void ordered(Ranks& ranks, bool dealt, std::size_t count, std::size_t wrong) {
   constexpr int kThreads = 2;
-  const auto size = static_cast<std::uint64_t>(ranks.size());
-  std::atomic<std::uint64_t> next = 0;  // on rank 0
-  const DoTask work = [&](std::uint64_t task, int threads) {
-    expect(threads == 1, "one thread a task");
-    expect(ranks.rank() != 0 || dealt || task < next + 2 * kThreads * size, "not far ahead");
-    if (task % 50 == 7) std::this_thread::sleep_for(20ms);  // the others get ahead of it
-    ++progress;
-    const auto size_of_it = static_cast<std::size_t>(task * 31 % 6000);
-    return std::to_string(ranks.rank()) + ":" + bytes_of(size_of_it, static_cast<int>(task));
-  };
-  if (ranks.rank() != 0) return serve_tasks(ranks, kThreads, work);
-  const OrderedTasks tasks{.count = kTasks, .dealt = dealt};
-  lead_tasks(ranks, tasks, kThreads, work, [&](std::uint64_t task, const std::string& bytes) {
-    expect(task == next && task <= last, "the next result");
-    ++next;
-    const auto colon = bytes.find(':');
-    const auto rank = std::stoull(bytes.substr(0, colon));
-    expect(!dealt || (task >= rank * kTasks / size && task < (rank + 1) * kTasks / size), "dealt");
-    expect(bytes.substr(colon + 1) ==
-               bytes_of(static_cast<std::size_t>(task * 31 % 6000), static_cast<int>(task)),
-           "what the task gave");
-    return task != last;
-  });
-  expect(next == std::min(kTasks, last + 1), "all results are taken");
+  const auto size = static_cast<std::size_t>(ranks.size());
+  std::atomic<std::size_t> next = 0;  // on rank 0
+  std::string called;
+  RankExecutor executor(ranks, kThreads, [&](const Parts& all) { called = all.job + all.input; });
+  std::string thrown;
+  try {
+    executor.run(
+        {.count = count, .dealt = dealt, .job = "a job", .input = " of it"},
+        [&](std::size_t part, int threads) {
+          expect(threads == 1, "one thread a part");
+          expect(ranks.rank() != 0 || dealt || part < next + 2 * kThreads * size, "not far ahead");
+          if (part % 50 == 7) std::this_thread::sleep_for(20ms);  // the others get ahead of it
+          ++progress;
+          if (part >= wrong) {
+            throw Error(ErrorCode::kInvalidInput, fmt::format("part {} is wrong", part));
+          }
+          return std::to_string(ranks.rank()) + ":" + result_of(part);
+        },
+        [&](std::size_t part, const std::string& bytes) {
+          expect(part == next && part < wrong, "the next result");
+          ++next;
+          const auto colon = bytes.find(':');
+          const auto rank = std::stoull(bytes.substr(0, colon));
+          expect(!dealt || (part >= rank * count / size && part < (rank + 1) * count / size),
+                 "dealt");
+          expect(bytes.substr(colon + 1) == result_of(part), "what the part gave");
+        });
+  } catch (const Error& error) {
+    expect(error.code() == ErrorCode::kInvalidInput, error.what());
+    thrown = error.what();
+  }
+  const bool is_first = ranks.rank() == 0;
+  expect(next == (is_first ? std::min(count, wrong) : 0), "all results are taken");
+  expect(called == (is_first ? "a job of it" : ""), "rank 0 calls the others");
+  expect(thrown == (is_first && wrong < count ? fmt::format("part {} is wrong", wrong) : ""),
+         "what was thrown: " + thrown);
 }
 
-void nothing(std::uint64_t) {}
+// A stage ends on all ranks at once.
+void stages(Ranks& ranks) {
+  RankExecutor executor(ranks, 2);
+  const auto files = [&](std::size_t stage) {
+    std::size_t n = 0;
+    for (std::size_t part = 0; part < 20; ++part) {
+      n += std::filesystem::exists(fmt::format("stage.{}.{}", stage, part)) ? 1 : 0;
+    }
+    return n;
+  };
+  for (std::size_t stage = 0; stage < 5; ++stage) {
+    executor.run(
+        {.count = 20, .wide = 20, .in_order = false},
+        [&](std::size_t part, int) {
+          ++progress;
+          expect(stage == 0 || files(stage - 1) == 0, "what once() did");
+          std::ofstream(fmt::format("stage.{}.{}", stage, part)) << "done";
+          return std::string();
+        },
+        [](std::size_t, const std::string&) {});
+    expect(files(stage) == 20, "all files of the stage");
+    executor.once([&] {
+      expect(ranks.rank() == 0, "on rank 0");
+      for (std::size_t part = 0; part < 20; ++part) {
+        std::filesystem::remove(fmt::format("stage.{}.{}", stage, part));
+      }
+    });
+  }
+}
+
+void nothing(std::size_t) {}
 
 // Work that gets on, and ends when the rank is told to.
 void until_stopped() {
@@ -159,10 +206,10 @@ void write_whole(const std::string& name, const std::string& text) {
 
 void run_case(Ranks& ranks, const std::string& name, int chosen) {
   const auto is_chosen = [&](const Ranks& here) { return here.rank() == chosen; };
-  // On a busy machine the others would do all tasks before the chosen rank asks for one: from some
-  // task on they wait for it.
-  const auto wait_for_chosen = [&](const Ranks& here, std::uint64_t task) {
-    while (!is_chosen(here) && task > 20 && !std::filesystem::exists("met")) {
+  // On a busy machine the others would work all parts before the chosen rank asks for one: from
+  // some part on they wait for it.
+  const auto wait_for_chosen = [&](const Ranks& here, std::size_t part) {
+    while (!is_chosen(here) && part > 20 && !std::filesystem::exists("met")) {
       ++progress;
       std::this_thread::sleep_for(1ms);
     }
@@ -173,55 +220,56 @@ void run_case(Ranks& ranks, const std::string& name, int chosen) {
     order(ranks);
   } else if (name == "large") {
     large(ranks);
-  } else if (name == "tasks") {
+  } else if (name == "parts") {
     for (int round = 0; round < 3; ++round) {
-      tasks(
-          ranks, [](Ranks&, std::uint64_t) {}, nothing);
-      barrier(ranks);  // nobody asks for the next tasks before these have ended
+      parts(
+          ranks, [](Ranks&, std::size_t) {}, nothing);
     }
   } else if (name == "ordered") {
     for (const bool dealt : {false, true}) {
-      for (const std::uint64_t last : {kTasks, kTasks / 3, std::uint64_t{0}}) {
-        ordered(ranks, dealt, last);
-        barrier(ranks);  // nobody asks for the next tasks before these have ended
+      for (const std::size_t wrong : {kParts, kParts / 3, std::size_t{0}}) {
+        ordered(ranks, dealt, kParts, wrong);
       }
+      for (const std::size_t few : {0, 1}) ordered(ranks, dealt, few, kParts);
     }
-  } else if (name == "throws") {  // in a task, while others have some
+  } else if (name == "stages") {
+    stages(ranks);
+  } else if (name == "throws") {  // in a part, while others have some
     std::atomic<int> n = 0;
-    const Work work = [&](const Ranks& here, std::uint64_t task) {
-      wait_for_chosen(here, task);
+    const Work work = [&](const Ranks& here, std::size_t part) {
+      wait_for_chosen(here, part);
       if (is_chosen(here) && ++n == 3) {
         write_whole("met", {});
-        throw Error(ErrorCode::kInvalidInput, "a bad file");
+        throw Error(ErrorCode::kNotStarShaped, "a bad file");
       }
       std::this_thread::sleep_for(1ms);
     };
-    tasks(ranks, work, nothing);
+    parts(ranks, work, nothing);
   } else if (name == "throws-at-once") {  // all ranks, each its own error
     throw Error(ErrorCode::kInvalidInput, fmt::format("bad file {}", ranks.rank()));
   } else if (name == "does-not-take") {
-    const Work slow = [](Ranks&, std::uint64_t task) {
-      if (task > 20) until_stopped();
+    const Work slow = [](Ranks&, std::size_t part) {
+      if (part > 20) until_stopped();
     };
-    tasks(ranks, slow, [](std::uint64_t task) {
-      if (task == 20) throw Error(ErrorCode::kIo, "the disk is full");
+    parts(ranks, slow, [](std::size_t part) {
+      if (part == 20) throw Error(ErrorCode::kIo, "the disk is full");
     });
-  } else if (name == "stuck") {  // alive, but its task does not end
+  } else if (name == "stuck") {  // alive, but its part does not end
     ranks.set_patience(3);
-    const Work work = [&](const Ranks& here, std::uint64_t task) {
-      wait_for_chosen(here, task);
+    const Work work = [&](const Ranks& here, std::size_t part) {
+      wait_for_chosen(here, part);
       if (!is_chosen(here)) return;
       write_whole("met", {});
       while (true) std::this_thread::sleep_for(10ms);
     };
-    tasks(ranks, work, nothing);
+    parts(ranks, work, nothing);
   } else if (name == "slow") {  // as long as need be
     const Work work = [](const Ranks& here, std::uint64_t) {
       write_whole(fmt::format("works.{}", here.rank()), std::to_string(getpid()));
       until_stopped();
     };
     ranks.set_patience(5);
-    tasks(ranks, work, nothing);
+    parts(ranks, work, nothing);
   } else if (name == "leaves") {  // rank 0 has nothing for the others
     if (ranks.rank() != 0) ranks.receive(Tag::kTest);
   } else {
@@ -233,7 +281,9 @@ Ending ending_of(const std::exception_ptr& what) {
   try {
     std::rethrow_exception(what);
   } catch (const Error& error) {
-    return {error.code() == ErrorCode::kInvalidInput ? 3 : 1, error.what()};
+    const bool is_of_input =
+        error.code() == ErrorCode::kInvalidInput || error.code() == ErrorCode::kNotStarShaped;
+    return {is_of_input ? 3 : 1, error.what()};
   } catch (const std::exception& error) {
     return {1, error.what()};
   }
@@ -253,6 +303,7 @@ void run_cases(Ranks& ranks, const std::string& names, int chosen) {
 
 int run(const std::string& names, int chosen) {
   Ranks ranks({.progress = [] { return progress.load(); },
+               .keep_going = {},
                .interrupted = [] { return stop_signal.load(); },
                .stop = [](int code) { stop_signal = code == 0 ? 0 : SIGTERM; },
                .error = [](const std::string& text) { fmt::print(stderr, "error: {}\n", text); },

@@ -1,4 +1,4 @@
-"""The layer cluster on 1 ... 4 ranks: messages, tasks, and how runs end."""
+"""The layer cluster on 1 ... 4 ranks: messages, parts, and how runs end."""
 
 import os
 import signal
@@ -28,9 +28,9 @@ class Ranks(MpiTest):
             self.assertEqual(codes, {f"code.{i}": str(code) for i in range(ranks)}, what)
         return run, errors
 
-    def test_messages_arrive_tasks_are_done_and_ranks_without_work_end_with_rank_0(self):
+    def test_messages_arrive_parts_are_worked_and_ranks_without_work_end_with_rank_0(self):
         # One start of the ranks for all: what does not hold is in the error. A case says when it has begun.
-        cases = ("collect", "order", "tasks", "ordered", "leaves")
+        cases = ("collect", "order", "parts", "ordered", "stages", "leaves")
         for ranks in RANKS:
             run, _ = self.case(",".join(cases), ranks=ranks)
             self.assertEqual(run.stdout.splitlines(), [*cases, f"{ranks} ranks"])
@@ -51,7 +51,7 @@ class Ranks(MpiTest):
             _, errors = self.case("does-not-take", ranks=ranks, code=1)
             self.assertRegex(errors[0], r"^error: rank 0 on \S+: the disk is full; go on so$")
 
-    def test_a_task_without_progress_ends_the_run(self):
+    def test_a_part_without_progress_ends_the_run(self):
         def check(ranks, chosen):
             _, errors = self.case("stuck", chosen, ranks=ranks, code=1, graceful=False)
             self.assertRegex(errors[0], rf"^error: rank {chosen} on \S+: has made no progress for 3 s "

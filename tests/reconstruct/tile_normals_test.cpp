@@ -9,6 +9,7 @@
 #include <string>
 #include <tuple>
 
+#include "parts/threads.h"
 #include "reconstruct/cloud/load_tile.h"
 #include "reconstruct/normals/tile_fit.h"
 #include "reconstruct/test_support.h"
@@ -33,7 +34,7 @@ struct Oriented {
   Oriented(const PointCloud& cloud, std::uint64_t points_per_tile,
            const TileNormalsOptions& options = {}, const Context& context = {})
       : tiles(*points_in_memory(cloud), store, points_per_tile) {
-    OneProcess alone;
+    Threads alone;
     TileStages stages(alone, {}, times, context);
     report = orient_tiles(store, tiles.plan, spacings(), options, stages);
   }
@@ -263,7 +264,7 @@ TEST(tile_normals, are_the_same_after_an_interruption) {
     for (std::size_t tile = 0; tile < whole.n(); ++tile) begun.find_directions(tile, {});
     for (const std::size_t tile : {3, 1}) begun.find_signs(tile, {});
   }
-  OneProcess alone;
+  Threads alone;
   StageTimes times;
   TileStages stages(alone, {}, times, {});
   const TileNormalsReport report = orient_tiles(store, tiles.plan, spacings, {}, stages);
@@ -304,7 +305,7 @@ TEST(tile_normals, of_points_on_a_line_are_refused) {
   for (int i = 0; i < 100000; ++i) line.points.push_back({i / 1024.0, i / 512.0, 0});
   PieceStore store;
   const Tiles tiles(*points_in_memory(line), store, 20000);
-  OneProcess alone;
+  Threads alone;
   StageTimes times;
   TileStages stages(alone, {}, times, {});
   const std::vector<double> spacings =

@@ -9,9 +9,9 @@
 
 #include "base/random.h"
 #include "io/spill/piece_store.h"
+#include "parts/threads.h"
 #include "reconstruct/points/point_source.h"
 #include "reconstruct/points/point_survey.h"
-#include "reconstruct/points/tile_crew.h"
 #include "reconstruct/points/tile_plan.h"
 #include "reconstruct/tile_run.h"
 #include "reconstruct/torus_in_tiles.h"
@@ -229,7 +229,7 @@ TEST_F(TileReconstruct, closes_gaps_around_islands_whatever_the_portions_nightly
   const auto run_portions = [&](std::size_t open_blocks, const std::string& name) {
     PieceStore store(path(name + ".work"));
     store.keep(true);
-    OneProcess alone;
+    Threads alone;
     const TileRunOptions wanted{.reconstruct = {.tile_points = 4000, .output = path(name)},
                                 .open_blocks = open_blocks};
     const Reconstruction made = run_tiles(*points_in_memory(cloud), store, wanted, alone, {});

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "parts/threads.h"
 #include "rholm/error.h"
 
 namespace rholm {
@@ -55,7 +56,7 @@ TEST(tile_stages, tell_of_tiles_and_ask_whether_to_go_on) {
       told.push_back(std::string(stage) + " " + std::to_string(part).substr(0, 4));
     return asked < 100;
   };
-  OneProcess alone;
+  Threads alone;
   StageTimes times;
   TileStages stages(alone, {{"first", 1}}, times, context);
   std::vector<std::size_t> tiles;

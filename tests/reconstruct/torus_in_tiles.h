@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/random.h"
+#include "parts/threads.h"
 #include "reconstruct/shared_tiles.h"
 #include "rholm/points.h"
 #include "rholm/primitives.h"
@@ -86,9 +87,9 @@ class TileFiles : public ::testing::Test {
       wanted.work_dir = path(work), wanted.resume = true;
       std::filesystem::create_directory(path(work));
     }
-    OneProcess alone;
+    Threads alone;
     const Reconstruction made =
-        reconstruct_tiles(cloud, 0, wanted, {.crew = alone}, {.threads = threads});
+        reconstruct_tiles(cloud, 0, wanted, {.executor = alone}, {.threads = threads});
     if (!work.empty()) std::filesystem::remove(path(work));
     return made.report;
   }

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "atlas/cover/cap_cover.h"
+#include "parts/threads.h"
 #include "reconstruct/field/tile_grid.h"
 #include "reconstruct/normals/tile_fit.h"
 #include "reconstruct/normals/tile_normals.h"
@@ -358,7 +359,7 @@ TEST(every_loop, gives_the_same_bits_for_normals_in_tiles) {
     const TilePlan plan = make_plan(found, 3000);
     distribute(*source, found, plan, store, {}, context);
     for (std::size_t tile = 0; tile < plan.n_tiles(); ++tile) sort_points(store, tile);
-    OneProcess alone;
+    Threads alone;
     StageTimes times;
     TileStages stages(alone, {}, times, context);
     orient_tiles(store, plan, spacings_of_sample(found, plan, found.n_different), {}, stages);
@@ -399,7 +400,7 @@ TEST(every_loop, gives_the_same_bits_for_surfaces_in_tiles) {
   expect_same_bits([&](const Context& context) {
     PieceStore store;
     const auto source = points_in_memory(sheet);
-    OneProcess alone;
+    Threads alone;
     const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) /
                                        ("tiles_of_loops_" + std::to_string(::getpid()) + ".ply");
     const TileRunOptions wanted{.reconstruct = {.step = 0.02,

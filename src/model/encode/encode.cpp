@@ -57,10 +57,12 @@ MeshPassOptions hooks_of(const MappedMesh& mesh) {
 
 Encoded encode_file(const std::filesystem::path& path, const EncodeOptions& options,
                     const Context& context, const std::function<Mesh()>& read,
-                    const ShareOfMesh& share) {
+                    const ExecutorOfMesh& executor_of) {
   StageTimes times;
   const auto in_place = [&](MeshPassOptions hooks, Place place, const MeshView& mesh) {
-    if (share) hooks.share = share(bytes_of(place, path, mesh));
+    const std::unique_ptr<Executor> executor =
+        executor_of ? executor_of(bytes_of(place, path, mesh)) : nullptr;
+    hooks.executor = executor.get();
     return expand_in_place(mesh, options, hooks, context);
   };
   // What the reader hands on of faces that no pass can use, a pass may be able to use.
@@ -106,9 +108,9 @@ SharedMesh::SharedMesh(std::string_view mesh, const Context& context) {
   helper_.emplace(view_, hooks_);
 }
 
-DoSharedTask SharedMesh::tasks_of(std::string_view job) {
-  if (job.starts_with(kPassTag)) return helper_->tasks_of(job.substr(1));
-  if (job.starts_with(kNormsTag)) return norms_tasks(view_, job.substr(1));
+Executor::Work SharedMesh::work_of(std::string_view job, std::string_view input) {
+  if (job == kPassJob) return helper_->work_of(input);
+  if (job == kNormsJob) return norms_work(view_, input);
   ByteReader::refuse();
 }
 

@@ -4,11 +4,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 
-#include "base/shared_tasks.h"
+#include "parts/executor.h"
 #include "rholm/context.h"
 #include "rholm/mapped_mesh.h"
 #include "rholm/mesh.h"
@@ -18,14 +19,14 @@
 
 namespace rholm {
 
-// How tasks about a mesh are shared, which the others open by those bytes; or no function.
-using ShareOfMesh = std::function<ShareTasks(const std::string& mesh)>;
+// Makes an executor whose other processes open a mesh by those bytes; or no function.
+using ExecutorOfMesh = std::function<std::unique_ptr<Executor>(const std::string& mesh)>;
 
 // As encode_file() of model.h, with the mesh pass and the norms shared where it goes over the mesh
-// as it is in the file. A task of another process may throw as the pass itself.
+// as it is in the file. What another process works may throw as the pass itself.
 Encoded encode_file(const std::filesystem::path& path, const EncodeOptions& options,
                     const Context& context, const std::function<Mesh()>& read,
-                    const ShareOfMesh& share);
+                    const ExecutorOfMesh& executor_of);
 
 // In one of these processes: the mesh, mapped or read as the first one has it.
 class SharedMesh {
@@ -35,8 +36,8 @@ class SharedMesh {
   SharedMesh(const SharedMesh&) = delete;
   SharedMesh& operator=(const SharedMesh&) = delete;
 
-  // Of a job of expand_in_place(): good until the next. Throws Io for bytes that are none.
-  DoSharedTask tasks_of(std::string_view job);
+  // What expand_in_place() has other processes do: good until the next. Throws Io for what is none.
+  Executor::Work work_of(std::string_view job, std::string_view input);
 
  private:
   std::optional<MappedMesh> mapped_;

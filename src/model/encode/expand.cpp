@@ -74,13 +74,7 @@ class Expand {
  public:
   Expand(const MeshView& mesh, const EncodeOptions& options, const MeshPassOptions& hooks,
          const Context& context)
-      : mesh_(mesh),
-        options_(options),
-        pass_options_(hooks),
-        share_(hooks.share),
-        context_(context) {
-    pass_options_.share = with_tag(share_, kPassTag);
-  }
+      : mesh_(mesh), options_(options), pass_options_(hooks), context_(context) {}
 
   std::variant<Encoded, NotInPlace> run() {
     if (!find_center()) return NotInPlace::kNoCenter;
@@ -142,7 +136,7 @@ class Expand {
     if (!norms_) {
       norms_ = timed(analysis().times, "norms", [&] {
         return exact_norms(mesh_, center(), context_, options_.errors ? &sizes_ : nullptr,
-                           with_tag(share_, kNormsTag));
+                           pass_options_.executor);
       });
     }
     return *norms_;
@@ -213,7 +207,6 @@ class Expand {
   const MeshView& mesh_;
   const EncodeOptions& options_;
   MeshPassOptions pass_options_;  // with the centre, once it is found
-  ShareTasks share_;
   const Context& context_;
   std::optional<StarReport> folded_;  // of a surface without a kernel
   std::optional<ExactNorms> norms_;
@@ -236,16 +229,6 @@ StarChart chart_of(PreparedMesh& mesh, const ChartOptions& options, const Contex
 }
 
 }  // namespace
-
-ShareTasks with_tag(const ShareTasks& share, char tag) {
-  if (!share) return {};
-  return [share, tag](const SharedTasks& tasks, const DoSharedTask& here,
-                      const TakeSharedResult& take) {
-    SharedTasks tagged = tasks;
-    tagged.job.insert(tagged.job.begin(), tag);
-    share(tagged, here, take);
-  };
-}
 
 std::variant<Encoded, NotInPlace> expand_in_place(const MeshView& mesh,
                                                   const EncodeOptions& options,

@@ -3,7 +3,6 @@
 
 #include <variant>
 
-#include "base/shared_tasks.h"
 #include "model/encode/prepare.h"
 #include "rholm/mesh_view.h"
 #include "rholm/model.h"
@@ -23,13 +22,8 @@ enum class NotInPlace {
   kCoveredTwice,  // no face turns its back, and directions meet more than one
 };
 
-// What jobs of other processes that have the mesh begin with: which tasks they are of.
-inline constexpr char kPassTag = 'p';   // PassHelper::tasks_of()
-inline constexpr char kNormsTag = 'n';  // norms_tasks()
-ShareTasks with_tag(const ShareTasks& share, char tag);
-
 // Expands a mesh without a copy of it, by the mesh pass. `hooks`: `check` and `release` of it, and
-// `share`. Throws InvalidInput for options out of range, and what is no fault of the mesh: Io,
+// `executor`. Throws InvalidInput for options out of range, and what is no fault of the mesh: Io,
 // OutOfMemory, Cancelled, and whatever else a hook or the progress callback throws.
 std::variant<Encoded, NotInPlace> expand_in_place(const MeshView& mesh,
                                                   const EncodeOptions& options,

@@ -40,7 +40,7 @@ void TileRemoval::put(std::size_t tile, const std::vector<std::uint8_t>& flags) 
   store_.write(found(tile), sections);
 }
 
-// Others of the crew may remove points at the same time.
+// Other processes may remove points at the same time.
 PieceReader TileRemoval::head(std::size_t tile) const {
   if (store_.has(done(tile))) return store_.open(done(tile));
   try {

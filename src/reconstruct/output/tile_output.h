@@ -35,7 +35,7 @@ class TileOutput {
 
   // As add_confidence() measures them, of all triangles.
   ConfidenceAreas measure_confidence(const TileParts& parts) const;
-  // In place, by all of the crew; one part after the other where the output is no regular file.
+  // In place, by all processes; one part after the other where the output is no regular file.
   void write(const TileParts& parts, const TileParts::Whole& whole,
              const std::filesystem::path& output) const;
   // In memory, with the values that write() would round to the file's. Throws Unsupported for more

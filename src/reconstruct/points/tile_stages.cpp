@@ -56,9 +56,9 @@ std::string text_of_seconds(double seconds) {
   return fmt::format("{} h {} min", minutes / 60, minutes % 60);
 }
 
-TileStages::TileStages(TileCrew& crew, const std::vector<StageCost>& costs, StageTimes& times,
+TileStages::TileStages(Executor& executor, const std::vector<StageCost>& costs, StageTimes& times,
                        const Context& context)
-    : crew_(crew), times_(times), outer_(context), inner_(context), left_(costs) {
+    : executor_(executor), times_(times), outer_(context), inner_(context), left_(costs) {
   if (!outer_.progress) return;
   inner_.progress = [this](std::string_view stage, double) {
     const std::lock_guard lock(mutex_);
@@ -77,8 +77,7 @@ bool TileStages::tell() {
                          part);
 }
 
-template <class Body>
-void TileStages::run(std::string_view stage, std::size_t n, const Body& body) {
+void TileStages::run(std::string_view stage, std::size_t n, const std::function<void()>& body) {
   {
     const std::lock_guard lock(mutex_);
     stage_ = stage;
@@ -93,21 +92,26 @@ void TileStages::run(std::string_view stage, std::size_t n, const Body& body) {
   left_.done(stage, 1, now());
 }
 
-void TileStages::each(std::string_view stage, std::size_t n, const TileCrew::Body& body) {
+void TileStages::each(std::string_view stage, std::size_t n, const Body& body) {
   run(stage, n, [&] {
-    crew_.each(n, body, [&](std::size_t tiles) {
-      {
-        const std::lock_guard lock(mutex_);
-        done_ = tiles;
-        left_.done(stage, static_cast<double>(tiles) / static_cast<double>(n), now());
-      }
-      report_progress(inner_, stage, 0);
-    });
+    const auto work = [&](std::size_t tile, int) {
+      body(tile);
+      return std::string();
+    };
+    executor_.run({.count = n, .wide = n, .in_order = false}, work,
+                  [&](std::size_t, const std::string&) {
+                    {
+                      const std::lock_guard lock(mutex_);
+                      const double part = static_cast<double>(++done_) / static_cast<double>(n);
+                      left_.done(stage, part, now());
+                    }
+                    report_progress(inner_, stage, 0);
+                  });
   });
 }
 
 void TileStages::once(std::string_view stage, const std::function<void()>& body) {
-  run(stage, 0, [&] { crew_.once(body); });
+  run(stage, 0, [&] { executor_.once(body); });
 }
 
 void TileStages::all(std::string_view stage, const std::function<void()>& body) {

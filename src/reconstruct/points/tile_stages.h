@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "reconstruct/points/tile_crew.h"
+#include "parts/executor.h"
 #include "rholm/context.h"
 
 namespace rholm {
@@ -50,8 +50,10 @@ std::string text_of_seconds(double seconds);
 
 class TileStages {
  public:
+  using Body = std::function<void(std::size_t tile)>;
+
   // The whole of it is `costs`; `context` is told of each stage, with the time that is left.
-  TileStages(TileCrew& crew, const std::vector<StageCost>& costs, StageTimes& times,
+  TileStages(Executor& executor, const std::vector<StageCost>& costs, StageTimes& times,
              const Context& context);
   TileStages(const TileStages&) = delete;
   TileStages& operator=(const TileStages&) = delete;
@@ -59,31 +61,31 @@ class TileStages {
   // More that is to come.
   void add(const std::vector<StageCost>& costs) { left_.add(costs); }
 
-  // For all tiles, by the crew.
-  void each(std::string_view stage, std::size_t n, const TileCrew::Body& body);
-  // By one process of it.
+  // For all tiles, one at a time on all threads of a process. A body leaves what it finds in the
+  // store, where all processes see it once the stage has ended.
+  void each(std::string_view stage, std::size_t n, const Body& body);
+  // By the process that leads.
   void once(std::string_view stage, const std::function<void()>& body);
   // By each process for itself.
   void all(std::string_view stage, const std::function<void()>& body);
 
-  bool is_shared() const { return crew_.is_shared(); }
+  bool is_shared() const { return executor_.is_shared(); }
 
   // For what bodies call: progress of theirs is that of the stage.
   const Context& context() const { return inner_; }
   StageTimes& times() { return times_; }
 
  private:
-  template <class Body>
-  void run(std::string_view stage, std::size_t n, const Body& body);
+  void run(std::string_view stage, std::size_t n, const std::function<void()>& body);
   bool tell();
   double now() const;
 
-  TileCrew& crew_;
+  Executor& executor_;
   StageTimes& times_;
   Context outer_, inner_;
   TimeLeft left_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-  std::mutex mutex_;  // of what follows, and of left_: a crew may tell while a body does
+  std::mutex mutex_;  // of what follows, and of left_: an executor may tell while a body does
   std::string_view stage_;
   std::size_t done_ = 0, n_ = 0;  // tiles of the stage
 };

@@ -128,13 +128,13 @@ Comparison compare_in_portions(const MeshInPlace& a, const MeshInPlace& b, std::
 }
 
 Comparison compare(CompareSamples& samples, const CompareOptions& options, const Context& context,
-                   const ShareTasks& share) {
+                   Executor& executor) {
   SampleDistances forth(options.samples), back(options.samples);
   const std::size_t n = samples.n_parts();
   SharedProgress progress(context, "compare", 0, 1, static_cast<double>(n));
   // Dealt: who has samples of one way only needs one of the two trees.
-  share(
-      {.job = {}, .count = n, .dealt = true}, [&](std::size_t part) { return samples.work(part); },
+  executor.run(
+      {.count = n, .dealt = true}, [&](std::size_t part, int) { return samples.work(part); },
       [&](std::size_t part, const std::string& bytes) {
         samples.take(part, bytes, forth, back);
         progress.add(1);

@@ -1,16 +1,16 @@
 // A comparison shared by several processes that have both surfaces.
 #pragma once
 
-#include "base/shared_tasks.h"
+#include "parts/executor.h"
 #include "rholm/compare.h"
 #include "rholm/context.h"
 #include "surface/star/compare_samples.h"
 
 namespace rholm {
 
-// As compare() of the surfaces that the samples are of; tasks are their parts, which another
+// As compare() of the surfaces that the samples are of; parts are theirs, which another
 // process measures by work() of its own samples of the same surfaces and options.
 Comparison compare(CompareSamples& samples, const CompareOptions& options, const Context& context,
-                   const ShareTasks& share);
+                   Executor& executor);
 
 }  // namespace rholm

@@ -48,7 +48,7 @@ PassInput pass_input(const MeshView& mesh, const MeshPassOptions& options, const
     input.mesh = input.ordered->view;
     input.options.check = {};
     input.options.release = {};
-    input.options.share = {};
+    input.options.executor = nullptr;
     input.sample = sample_mesh(input.mesh, options.center, options.degree);
   };
   const auto in_order = [&] { return input.sample.edge_share > 0; };

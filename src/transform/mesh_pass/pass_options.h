@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <functional>
 
-#include "base/shared_tasks.h"
+#include "parts/executor.h"
 #include "rholm/error.h"
 #include "rholm/vec3.h"
 #include "transform/mesh_pass/division.h"
@@ -24,9 +24,9 @@ struct MeshPassOptions {
   std::function<void(std::size_t first, std::size_t n)> release_vertices = {};
   std::size_t most_held = kMostHeld;  // triangles, see division.h; another for tests
   std::size_t streamed_parts = 0;     // beyond them; 0: as division.h says
-  // Other processes that work parts, by a PassHelper of the same mesh (shared_parts.h); none: this
+  // Has other processes work parts, by a PassHelper of the same mesh (shared_parts.h); none: this
   // one works all. Not for triangles that have to be ordered first.
-  ShareTasks share = {};
+  Executor* executor = nullptr;
 };
 
 // Throws InvalidInput if `options.check` says that these are no triangles.

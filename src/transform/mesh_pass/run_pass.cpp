@@ -62,7 +62,7 @@ class Pass {
         parts_overlap(mesh_, division_)) {
       common_.emplace(mesh_.n_vertices, lumps_per_vertex(plan_.block.hessians));
     }
-    if (options_.share) groups_ = group_count();
+    if (options_.executor != nullptr) groups_ = group_count();
     if (groups_ > 1) shared_.emplace(mesh_, options_, plan_, division_);
     {
       const StageTimer timer(result.times, "triangles");
@@ -139,9 +139,9 @@ class Pass {
   void find_ranges() {
     std::vector<IndexRange> ranges(division_.count);
     if (shared_) {
-      options_.share(
-          {ranges_job(plan_, division_), ranges.size()},
-          [&](std::size_t p) { return shared_->range_of(p); },
+      options_.executor->run(
+          {.count = ranges.size(), .job = kPassJob, .input = ranges_job(plan_, division_)},
+          [&](std::size_t p, int) { return shared_->range_of(p); },
           [&](std::size_t p, const std::string& bytes) { ByteReader(bytes).value(ranges[p]); });
       shared_->set_ranges(ranges, groups_, common_.has_value());
       if (upfront_) shared_->set_transform(transform_);
@@ -256,11 +256,13 @@ class Pass {
   void share_parts() {
     SharedProgress progress(context_, "triangles", 0, before_spread(),
                             static_cast<double>(mesh_.n_triangles));
-    options_.share(
-        {parts_job(worker_->ranges(), groups_, common_.has_value(),
-                   upfront_ ? &transform_ : nullptr),
-         groups_, !upfront_ && !common_},
-        [&](std::size_t group) { return shared_->work(group); },
+    options_.executor->run(
+        {.count = groups_,
+         .dealt = !upfront_ && !common_,
+         .job = kPassJob,
+         .input = parts_job(worker_->ranges(), groups_, common_.has_value(),
+                            upfront_ ? &transform_ : nullptr)},
+        [&](std::size_t group, int) { return shared_->work(group); },
         [&](std::size_t group, const std::string& bytes) {
           ByteReader reader(bytes);
           const std::size_t first = shared_->first(group, groups_);
@@ -318,8 +320,9 @@ class Pass {
                             static_cast<double>(parts));
     if (shared_ && !common_) {
       shared_->set_transform(transform_);
-      return options_.share(
-          {grids_job(n, transform_), n, true}, [&](std::size_t g) { return shared_->spread(g, n); },
+      return options_.executor->run(
+          {.count = n, .dealt = true, .job = kPassJob, .input = grids_job(n, transform_)},
+          [&](std::size_t g, int) { return shared_->spread(g, n); },
           [&](std::size_t g, const std::string& bytes) {
             ByteReader reader(bytes);
             grids_[g]->add_written(reader);

@@ -153,8 +153,8 @@ std::string grids_job(std::size_t n, const NonuniformPlan& transform) {
   return writer.take();
 }
 
-DoSharedTask PassHelper::tasks_of(std::string_view job) {
-  ByteReader reader(job);
+Executor::Work PassHelper::work_of(std::string_view input) {
+  ByteReader reader(input);
   std::uint32_t round = 0;
   reader.value(round);
   if (round == kRanges) {
@@ -170,21 +170,21 @@ DoSharedTask PassHelper::tasks_of(std::string_view job) {
       double_ = std::make_unique<SharedParts<double>>(mesh_, hooks_, plan, division);
     }
   }
-  if (single_) return tasks_of(single_, reader, round);
-  if (double_) return tasks_of(double_, reader, round);
+  if (single_) return work_of(single_, reader, round);
+  if (double_) return work_of(double_, reader, round);
   ByteReader::refuse();
 }
 
 template <typename T>
-DoSharedTask PassHelper::tasks_of(std::unique_ptr<SharedParts<T>>& parts, ByteReader& reader,
-                                  std::uint32_t round) {
+Executor::Work PassHelper::work_of(std::unique_ptr<SharedParts<T>>& parts, ByteReader& reader,
+                                   std::uint32_t round) {
   SharedParts<T>& all = *parts;
   std::uint64_t n = 0;
   NonuniformPlan transform;
   switch (round) {
     case kRanges:
       reader.finish();
-      return [&all](std::size_t part) { return all.range_of(part); };
+      return [&all](std::size_t part, int) { return all.range_of(part); };
     case kParts: {
       std::vector<IndexRange> ranges;
       bool in_common = false, has_transform = false;
@@ -198,14 +198,14 @@ DoSharedTask PassHelper::tasks_of(std::unique_ptr<SharedParts<T>>& parts, ByteRe
       }
       reader.finish();
       all.set_ranges(std::move(ranges), n, in_common);
-      return [&all](std::size_t group) { return all.work(group); };
+      return [&all](std::size_t group, int) { return all.work(group); };
     }
     case kGrids:
       reader.value(n);
       reader.value(transform);
       reader.finish();
       all.set_transform(transform);
-      return [&all, n](std::size_t grid) { return all.spread(grid, n); };
+      return [&all, n](std::size_t grid, int) { return all.spread(grid, n); };
     default:
       ByteReader::refuse();
   }

@@ -18,8 +18,8 @@
 #include <variant>
 #include <vector>
 
-#include "base/shared_tasks.h"
 #include "harmonic/nonuniform/nonuniform_plan.h"
+#include "parts/executor.h"
 #include "rholm/mesh_view.h"
 #include "transform/mesh_pass/division.h"
 #include "transform/mesh_pass/part_worker.h"
@@ -67,7 +67,8 @@ class SharedParts {
   std::map<std::size_t, WorkedPart<T>> held_;
 };
 
-// What the other processes are told.
+// The name of this work, and the inputs of its three rounds.
+inline constexpr const char* kPassJob = "mesh pass";
 std::string ranges_job(const MeshPlan& plan, const Division& division);
 std::string parts_job(const std::vector<IndexRange>& ranges, std::size_t groups, bool in_common,
                       const NonuniformPlan* transform);
@@ -78,13 +79,14 @@ std::string grids_job(std::size_t n, const NonuniformPlan& transform);
 class PassHelper {
  public:
   PassHelper(const MeshView& mesh, const MeshPassOptions& hooks) : mesh_(mesh), hooks_(hooks) {}
-  // The tasks of a job, as long as this and until the next job. Throws Io for bytes that are none.
-  DoSharedTask tasks_of(std::string_view job);
+  // The work of a round, as long as this and until the next one. Throws Io for bytes that are no
+  // input.
+  Executor::Work work_of(std::string_view input);
 
  private:
   template <typename T>
-  DoSharedTask tasks_of(std::unique_ptr<SharedParts<T>>& parts, ByteReader& reader,
-                        std::uint32_t round);
+  Executor::Work work_of(std::unique_ptr<SharedParts<T>>& parts, ByteReader& reader,
+                         std::uint32_t round);
 
   const MeshView& mesh_;
   const MeshPassOptions& hooks_;

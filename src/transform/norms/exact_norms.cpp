@@ -466,19 +466,19 @@ void take(std::size_t task, const std::string& bytes, std::vector<NormSums>& par
 }  // namespace
 
 ExactNorms exact_norms(const MeshView& mesh, const Vec3& center, const Context& context,
-                       FaceSizes* sizes, const ShareTasks& share) {
+                       FaceSizes* sizes, Executor* executor) {
   const double scale = unit_scale(mesh, center, context);
   if (sizes != nullptr) make_room(mesh.n_triangles, scale, *sizes);
   const NormsJob job = {.center = center, .scale = scale, .with_sizes = sizes != nullptr};
   std::vector<NormSums> parts((mesh.n_triangles + kGrain - 1) / kGrain);
   const std::size_t tasks = (mesh.n_triangles + kTask - 1) / kTask;
-  if (share && tasks > 1) {
+  if (executor != nullptr && tasks > 1) {
     ByteWriter writer;
     writer.value(job);
     SharedProgress progress(context, "norms", 0, 1, static_cast<double>(tasks));
-    share(
-        {.job = writer.take(), .count = tasks},
-        [&](std::size_t task) { return work(mesh, job, task); },
+    executor->run(
+        {.count = tasks, .job = kNormsJob, .input = writer.take()},
+        [&](std::size_t task, int) { return work(mesh, job, task); },
         [&](std::size_t task, const std::string& bytes) {
           take(task, bytes, parts, sizes);
           progress.add(1);
@@ -492,12 +492,12 @@ ExactNorms exact_norms(const MeshView& mesh, const Vec3& center, const Context& 
   return norms_of(parts, scale);
 }
 
-DoSharedTask norms_tasks(const MeshView& mesh, std::string_view job) {
+Executor::Work norms_work(const MeshView& mesh, std::string_view input) {
   NormsJob wanted;
-  ByteReader reader(job);
+  ByteReader reader(input);
   reader.value(wanted);
   reader.finish();
-  return [&mesh, wanted](std::size_t task) { return work(mesh, wanted, task); };
+  return [&mesh, wanted](std::size_t task, int) { return work(mesh, wanted, task); };
 }
 
 bool covers_once(const ExactNorms& norms) {

@@ -18,7 +18,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/shared_tasks.h"
+#include "parts/executor.h"
 #include "rholm/context.h"
 #include "rholm/mesh_view.h"
 
@@ -50,11 +50,13 @@ struct FaceSizes {
 
 // Signs are those of d_T. Same bits for any number of threads. Throws InvalidInput for an index out
 // of range, a coordinate that is not finite, and a size from the centre outside 1e-150 ... 1e150.
-// With `share` other processes that have the mesh sum ranges of it, by norms_tasks().
+// With an executor its processes, which have the mesh, sum ranges of it, by norms_work().
 ExactNorms exact_norms(const MeshView& mesh, const Vec3& center, const Context& context = {},
-                       FaceSizes* sizes = nullptr, const ShareTasks& share = {});
-// Of a mesh that outlives them. Throws Io for bytes that are no job.
-DoSharedTask norms_tasks(const MeshView& mesh, std::string_view job);
+                       FaceSizes* sizes = nullptr, Executor* executor = nullptr);
+// The name of that work, and what another process does of it for the input of such parts. The mesh
+// outlives it. Throws Io for bytes that are no input.
+inline constexpr const char* kNormsJob = "norms";
+Executor::Work norms_work(const MeshView& mesh, std::string_view input);
 
 // Whether a closed surface whose triangles all have d_T > 0 meets every direction once.
 bool covers_once(const ExactNorms& norms);

@@ -11,6 +11,7 @@
 #include "rholm/error.h"
 #include "rholm/primitives.h"
 #include "rholm/topology.h"
+#include "support/executor_by.h"
 #include "surface/star/area_samples.h"
 #include "surface/star/shared_compare.h"
 
@@ -236,15 +237,14 @@ TEST(compare, gives_the_same_bits_where_other_processes_measure_parts) {
     processes.reserve(3);
     for (int i = 0; i < 3; ++i)
       processes.push_back(std::make_unique<CompareSamples>(a, b, options));
-    const ShareTasks share = [&](const SharedTasks& tasks, const DoSharedTask& here,
-                                 const TakeSharedResult& take) {
+    test::ExecutorBy executor([&](const Parts& parts, const auto& here, const auto& take) {
       EXPECT_THROW(take(0, "nonsense"), Error);
-      for (std::size_t p = 0; p < tasks.count; ++p) {
-        const std::size_t who = p * 3 / tasks.count;
-        take(p, who == 0 ? here(p) : processes[who]->work(p));
+      for (std::size_t p = 0; p < parts.count; ++p) {
+        const std::size_t who = p * 3 / parts.count;
+        take(p, who == 0 ? here(p, 1) : processes[who]->work(p));
       }
-    };
-    const Comparison shared = compare(*processes[0], options, {}, share);
+    });
+    const Comparison shared = compare(*processes[0], options, {}, executor);
     for (const auto member : {&Comparison::a_to_b, &Comparison::b_to_a}) {
       EXPECT_EQ((shared.*member).rms, (alone.*member).rms);
       EXPECT_EQ((shared.*member).mean, (alone.*member).mean);

@@ -14,6 +14,7 @@
 
 #include "rholm/error.h"
 #include "rholm/primitives.h"
+#include "support/executor_by.h"
 #include "support/packed_mesh.h"
 #include "support/random_data.h"
 #include "support/test_meshes.h"
@@ -41,29 +42,31 @@ class Processes {
     for (std::size_t i = 1; i < n; ++i) others_.push_back(std::make_unique<Other>(mesh));
   }
 
-  ShareTasks share() {
-    return [this](const SharedTasks& tasks, const DoSharedTask& here,
-                  const TakeSharedResult& take) {
-      std::vector<DoSharedTask> work = {here};
-      for (const auto& other : others_) work.push_back(other->helper.tasks_of(tasks.job));
-      ++rounds;
-      std::vector<std::string> results(tasks.count);
-      for (std::size_t i = 0; i < tasks.count; ++i) {
-        const std::size_t task = tasks.count - 1 - i;  // any order is good
-        const std::size_t who = tasks.dealt && !is_dealt_badly ? task * work.size() / tasks.count
-                                                               : (7 * task + rounds) % work.size();
-        results[task] = work[who](task);
-        bytes += who == 0 ? 0 : results[task].size();
-      }
-      for (std::size_t task = 0; task < tasks.count; ++task) take(task, results[task]);
-    };
-  }
+  Executor* executor() { return &executor_; }
 
   bool is_dealt_badly = false;  // grids to others than those that hold their parts
   std::size_t rounds = 0, bytes = 0;
 
  private:
+  void run(const Parts& parts, const Executor::Work& here, const Executor::Take& take) {
+    EXPECT_EQ(parts.job, kPassJob);
+    std::vector<Executor::Work> work = {here};
+    for (const auto& other : others_) work.push_back(other->helper.work_of(parts.input));
+    ++rounds;
+    std::vector<std::string> results(parts.count);
+    for (std::size_t i = 0; i < parts.count; ++i) {
+      const std::size_t part = parts.count - 1 - i;  // any order is good
+      const std::size_t who = parts.dealt && !is_dealt_badly ? part * work.size() / parts.count
+                                                             : (7 * part + rounds) % work.size();
+      results[part] = work[who](part, 1);
+      bytes += who == 0 ? 0 : results[part].size();
+    }
+    for (std::size_t part = 0; part < parts.count; ++part) take(part, results[part]);
+  }
+
   std::vector<std::unique_ptr<Other>> others_;
+  test::ExecutorBy executor_{
+      [this](const auto& parts, const auto& here, const auto& take) { run(parts, here, take); }};
 };
 
 void expect_same_bits(const MeshPassResult& a, const MeshPassResult& b) {
@@ -119,7 +122,7 @@ void check_bits_of_one_process(bool all) {
         const MeshPassResult alone = mesh_pass(view_of(*mesh), options, {});
         for (const std::size_t n : {1u, 3u}) {
           Processes processes(*mesh, n);
-          options.share = processes.share();
+          options.executor = processes.executor();
           expect_same_bits(mesh_pass(view_of(*mesh), options, {.threads = 2}), alone);
           ASSERT_EQ(processes.rounds % static_cast<std::size_t>(alone.report.passes), 0u);
           rounds.insert(processes.rounds / static_cast<std::size_t>(alone.report.passes));
@@ -141,7 +144,7 @@ TEST(shared_parts, that_are_not_where_they_are_spread_are_worked_again) {
   const MeshPassResult alone = mesh_pass(view_of(mesh), options, {});
   Processes processes(mesh, 3);
   processes.is_dealt_badly = true;
-  options.share = processes.share();
+  options.executor = processes.executor();
   expect_same_bits(mesh_pass(view_of(mesh), options, {}), alone);
   EXPECT_EQ(processes.rounds, 3u);
 }
@@ -153,7 +156,7 @@ TEST(shared_parts, triangles_in_random_order_are_not_shared) {
   MeshPassOptions options{.degree = 12, .precision = 1e-6};
   const MeshPassResult alone = mesh_pass(view_of(mesh), options, {});
   Processes processes(mesh, 3);
-  options.share = processes.share();
+  options.executor = processes.executor();
   expect_same_bits(mesh_pass(view_of(mesh), options, {}), alone);
   EXPECT_EQ(processes.rounds, 0u);
 }
@@ -163,7 +166,7 @@ TEST(shared_parts, send_what_is_in_a_grid) {
   const Mesh mesh = latitude_longitude_sphere(256, 512);
   MeshPassOptions options{.degree = 100, .precision = 1e-4, .most_held = 100, .streamed_parts = 64};
   Processes processes(mesh, 2);
-  options.share = processes.share();
+  options.executor = processes.executor();
   const MeshPassResult result = mesh_pass(view_of(mesh), options, {});
   const auto passes = static_cast<std::size_t>(result.report.passes);
   const std::size_t whole = std::size_t{4} * 100 * 2 * 100 * sizeof(double);  // or more
@@ -171,14 +174,14 @@ TEST(shared_parts, send_what_is_in_a_grid) {
   EXPECT_LT(processes.bytes / (32 * passes), whole / 3);
 }
 
-TEST(shared_parts, bytes_that_are_no_job_are_refused) {
+TEST(shared_parts, bytes_that_are_no_input_are_refused) {
   Other other(icosphere(2));
-  EXPECT_THROW(other.helper.tasks_of(""), Error);
-  EXPECT_THROW(other.helper.tasks_of("nonsense"), Error);
-  EXPECT_THROW(other.helper.tasks_of(grids_job(1, {})), Error);  // of a pass that did not begin
-  const std::string job = ranges_job({}, divide_triangles(other.mesh.triangles.size(), 2));
-  EXPECT_THROW(other.helper.tasks_of(job.substr(0, job.size() - 1)), Error);
-  EXPECT_EQ(other.helper.tasks_of(job)(1).size(), sizeof(IndexRange));
+  EXPECT_THROW(other.helper.work_of(""), Error);
+  EXPECT_THROW(other.helper.work_of("nonsense"), Error);
+  EXPECT_THROW(other.helper.work_of(grids_job(1, {})), Error);  // of a pass that did not begin
+  const std::string input = ranges_job({}, divide_triangles(other.mesh.triangles.size(), 2));
+  EXPECT_THROW(other.helper.work_of(input.substr(0, input.size() - 1)), Error);
+  EXPECT_EQ(other.helper.work_of(input)(1, 1).size(), sizeof(IndexRange));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "rholm/analyze.h"
 #include "rholm/error.h"
 #include "rholm/primitives.h"
+#include "support/executor_by.h"
 #include "support/packed_mesh.h"
 #include "support/random_data.h"
 #include "support/targets.h"
@@ -184,17 +185,17 @@ TEST(exact_norms, have_the_same_bits_where_another_process_sums_ranges) {
     const ExactNorms alone =
         exact_norms(file.view, center, {}, with_sizes ? &alone_sizes : nullptr);
     std::size_t n = 0;
-    const ShareTasks share = [&](const SharedTasks& tasks, const DoSharedTask& here,
-                                 const TakeSharedResult& take) {
-      n = tasks.count;
-      const DoSharedTask there = norms_tasks(file.view, tasks.job);
+    test::ExecutorBy executor([&](const Parts& parts, const auto& here, const auto& take) {
+      n = parts.count;
+      EXPECT_EQ(parts.job, kNormsJob);
+      const Executor::Work there = norms_work(file.view, parts.input);
       EXPECT_THROW(take(0, "nonsense"), Error);
-      for (std::size_t task = 0; task < n; ++task) {
-        take(task, task % 2 == 0 ? there(task) : here(task));
+      for (std::size_t part = 0; part < n; ++part) {
+        take(part, part % 2 == 0 ? there(part, 1) : here(part, 1));
       }
-    };
+    });
     const ExactNorms shared =
-        exact_norms(file.view, center, {}, with_sizes ? &shared_sizes : nullptr, share);
+        exact_norms(file.view, center, {}, with_sizes ? &shared_sizes : nullptr, &executor);
     EXPECT_EQ(n, 2u);
     EXPECT_EQ(shared.radius_squared, alone.radius_squared);
     EXPECT_EQ(shared.solid_angle, alone.solid_angle);
@@ -205,7 +206,7 @@ TEST(exact_norms, have_the_same_bits_where_another_process_sums_ranges) {
     EXPECT_EQ(shared_sizes.flat, alone_sizes.flat);
     EXPECT_EQ(alone_sizes.angles2.empty(), !with_sizes);
   }
-  EXPECT_THROW(norms_tasks(file.view, "nonsense"), Error);
+  EXPECT_THROW(norms_work(file.view, "nonsense"), Error);
 }
 
 // <1/|x|> and <1/|x|^3> of single triangles at distance 1: every rule up to its reach, and the

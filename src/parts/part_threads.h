@@ -1,0 +1,88 @@
+// What executors are made of: threads that work parts, and results in their order. Layer: parts,
+// private.
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <exception>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "base/chunks.h"
+#include "parts/executor.h"
+
+namespace rholm {
+
+// Threads that work parts of a queue. After the first failure no part is begun.
+class PartThreads {
+ public:
+  // `meanwhile` is called every few milliseconds where the owner waits, and may throw.
+  PartThreads(int threads, std::function<void(std::size_t part)> work,
+              std::function<void()> meanwhile);
+  // Drops the queue, and waits for parts that are being worked.
+  ~PartThreads();
+  PartThreads(const PartThreads&) = delete;
+  PartThreads& operator=(const PartThreads&) = delete;
+
+  // Adds parts `first` ... `first` + `n` - 1 to the queue.
+  void add(std::size_t first, std::size_t n);
+  // Waits until no more than so many parts are in the queue.
+  void wait_for_queue(std::size_t most) {
+    wait([&] { return queue_.size() <= most; });
+  }
+  // Waits until all parts are worked.
+  void wait_for_all() {
+    wait([&] { return queue_.empty() && busy_ == 0; });
+  }
+  // Waits until the condition holds, which is asked after each part. Throws the first failure.
+  template <typename Condition>
+  void wait(const Condition& condition) {
+    std::unique_lock lock(mutex_);
+    while (!changed_.wait_for(lock, kWaitInterval, [&] { return failure_ || condition(); })) {
+      lock.unlock();
+      meanwhile_();
+      lock.lock();
+    }
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  void work_on();
+
+  const std::function<void(std::size_t)> work_;
+  const std::function<void()> meanwhile_;
+  std::mutex mutex_;  // of what follows
+  std::condition_variable changed_;
+  std::deque<std::size_t> queue_;
+  int busy_ = 0;
+  bool ended_ = false;
+  std::exception_ptr failure_;
+  std::vector<std::jthread> threads_;
+};
+
+// Results on their way to who takes them.
+class PartResults {
+ public:
+  PartResults(const Parts& parts, const Executor::Take& take) : parts_(parts), take_(take) {}
+
+  // Takes a result, and those that have waited for it; or keeps it until those before it are there.
+  void put(std::size_t part, std::string bytes);
+  // Parts from here on wait until more results are taken, where `threads` work.
+  std::size_t end_of_window(std::size_t threads) const {
+    return parts_.in_order ? taken_ + 2 * threads : parts_.count;
+  }
+  std::size_t taken() const { return taken_; }
+
+ private:
+  const Parts& parts_;
+  const Executor::Take& take_;
+  std::size_t taken_ = 0;
+  std::map<std::size_t, std::string> waiting_;
+};
+
+}  // namespace rholm

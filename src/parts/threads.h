@@ -1,0 +1,23 @@
+// Threads of this process as an executor. Layer: parts, private.
+#pragma once
+
+#include <functional>
+
+#include "parts/executor.h"
+
+namespace rholm {
+
+// 0 threads: as many as this process is good for.
+class Threads final : public Executor {
+ public:
+  explicit Threads(int threads = 0);
+
+  void run(const Parts& parts, const Work& work, const Take& take) override;
+  void once(const std::function<void()>& body) override { body(); }
+  bool is_shared() const override { return false; }
+
+ private:
+  int threads_;
+};
+
+}  // namespace rholm
