@@ -12,7 +12,7 @@
 #include "cluster/rank_executor.h"
 #include "rholm/error.h"
 #include "shape/fingerprint.h"
-#include "surface/star/shared_compare.h"
+#include "surface/star/compare_samples.h"
 
 namespace rholm::mpi {
 namespace {
@@ -44,7 +44,7 @@ cli::Command compare_command(Ranks* ranks, const std::shared_ptr<RankOptions>& o
          broadcast(*ranks, fingerprints(a, b));
          CompareSamples samples(a, b, wanted);
          RankExecutor executor(*ranks, context.threads);
-         return compare(samples, wanted, context, executor);
+         return compare(samples, context, &executor);
        }});
   command.description +=
       "\n\nEach rank reads both files, whose paths mean the same on all machines, and measures a "
@@ -66,7 +66,7 @@ void serve_compare(Ranks& ranks, const std::string& bytes) {
          }
          CompareSamples samples(a, b, wanted);
          RankExecutor executor(ranks, context.threads);
-         executor.run({}, [&](std::size_t part, int) { return samples.work(part); }, {});
+          executor.run({}, [&](std::size_t part, int) { return samples.work(part); }, {});
          return std::nullopt;
        }});
   append(command.options, rank_options(ignored));

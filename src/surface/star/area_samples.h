@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/compensated_sum.h"
@@ -10,28 +11,19 @@
 
 namespace rholm {
 
-// Twice the area of triangles, one after the other; those without a direction count as 0, so that
-// every sample has a normal.
+// Twice the area of the triangles of a mesh, which may come in parts. Triangles without a normal
+// count as 0, so that every sample has one.
 class AreaSum {
  public:
   explicit AreaSum(double scale) : scale_(scale) {}  // of coordinates: areas of any unit in range
-  // What the sum is with one more: never less than before.
-  double add(const Mesh& mesh, const Triangle& t);
+  // Adds the triangles of the next part: the sums up to and with each, which never fall.
+  std::vector<double> add(const Mesh& part);
+  double value() const { return largest_; }
 
  private:
   double scale_;
   CompensatedSum sum_;
   double largest_ = 0;
-};
-
-// How samples are drawn: sample k lies on the first triangle up to which the area is more than
-// target(k), and there at place().
-struct AreaSampling {
-  double share = 0;  // of twice the area
-  std::uint64_t seed = 0;
-
-  double target(std::size_t k) const;
-  Vec3 place(std::size_t k, const Mesh& mesh, const Triangle& t) const;
 };
 
 // Throws InvalidInput for a surface of that area.
@@ -42,24 +34,21 @@ struct AreaSamples {
   std::vector<std::uint32_t> triangles;  // on which each lies
 };
 
-// `n` points, one in each of n equal shares of the area laid out in the order of the triangles;
-// sample k uses the random numbers 3k, 3k + 1, 3k + 2 of `seed`. Coordinates below about 1e70 in
-// modulus. Throws InvalidInput for a mesh without area.
-AreaSamples sample_by_area(const Mesh& mesh, std::size_t n, std::uint64_t seed);
+// One sample in each of `n` equal shares of the area, laid out in the order of the triangles;
+// sample k uses the random numbers 3k, 3k + 1, 3k + 2 of `seed`.
+struct AreaSampling {
+  double twice_area = 0;
+  std::size_t n = 0;
+  std::uint64_t seed = 0;
 
-// The same samples, any range of them by itself. Keeps a reference to the mesh; any thread may ask.
-class AreaSampler {
- public:
-  // Throws as sample_by_area().
-  AreaSampler(const Mesh& mesh, std::size_t n, std::uint64_t seed);
-  // Samples first ... first + count - 1.
-  AreaSamples range(std::size_t first, std::size_t count) const;
-
- private:
-  const Mesh& mesh_;
-  std::size_t n_;
-  std::uint64_t seed_;
-  std::vector<double> sums_;  // of twice the areas, up to and with each triangle
+  // Samples first, first + 1 ... of a part with these sums of AreaSum: at most `count`, and no
+  // longer than they lie on its triangles. The first must not lie on a part before.
+  AreaSamples draw(const Mesh& part, std::span<const double> sums, std::size_t first,
+                   std::size_t count) const;
 };
+
+// All samples of a mesh. Coordinates below about 1e70 in modulus. Throws InvalidInput for a mesh
+// without area.
+AreaSamples sample_by_area(const Mesh& mesh, std::size_t n, std::uint64_t seed);
 
 }  // namespace rholm

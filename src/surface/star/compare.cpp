@@ -2,33 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "base/check_fields.h"
 #include "base/compensated_sum.h"
-#include "base/parallel.h"
 #include "base/progress.h"
-#include "rholm/error.h"
 #include "shape/queries/triangle_tree.h"
-#include "surface/star/portion_compare.h"
-#include "surface/star/shared_compare.h"
+#include "surface/star/compare_samples.h"
 
 namespace rholm {
 namespace {
-
-// All samples of one way, on the threads of this process.
-SampleDistances measure_way(CompareSamples& samples, Way way, std::size_t n, const Context& context,
-                            const ParallelStage& stage) {
-  samples.prepare(way, context);
-  SampleDistances all(n);
-  parallel_for(n, kQueriesOfChunk, context, stage, [&](std::size_t begin, std::size_t end) {
-    samples.measure(way, begin, std::span(all.distances).subspan(begin, end - begin),
-                    std::span(all.angles).subspan(begin, end - begin));
-  });
-  return all;
-}
 
 Distances summarize(const std::vector<double>& distances, double unit) {
   CompensatedSum sum, squares;
@@ -68,9 +51,10 @@ void summarize_angles(std::vector<double> angles, const std::vector<double>& mor
   result.normal_median_degrees = median(angles);
 }
 
-// Lengths are scaled, the diagonal of A too.
-Comparison summary_of(double scale, double diagonal, const CompareOptions& options,
-                      const SampleDistances& forth, const SampleDistances& back) {
+Comparison summary_of(const CompareSamples& samples, const SampleDistances& forth,
+                      const SampleDistances& back) {
+  const CompareOptions& options = samples.options();
+  const double scale = samples.scale(), diagonal = samples.diagonal();
   Comparison result;
   result.samples = options.samples;
   result.seed = options.seed;
@@ -87,59 +71,38 @@ Comparison summary_of(double scale, double diagonal, const CompareOptions& optio
   return result;
 }
 
-Bounds bounds_of(const std::string& name, const MeshInPlace& mesh, const Context& context) {
-  try {
-    return checked_bounds(mesh, context);
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::kInvalidInput) throw;
-    throw Error(error.code(), name + ": " + error.what());
-  }
-}
-
 }  // namespace
 
-Comparison compare(const Mesh& a, const Mesh& b, const CompareOptions& options,
-                   const Context& context) {
-  CompareSamples samples(a, b, options);
-  const std::size_t n = options.samples;
-  const SampleDistances forth = measure_way(samples, Way::kForth, n, context, {"compare", 0, 0.5});
-  const SampleDistances back = measure_way(samples, Way::kBack, n, context, {"compare", 0.5, 1});
-  return summary_of(samples.scale(), samples.diagonal(), options, forth, back);
-}
-
-Comparison compare(const MeshInPlace& a, const MeshInPlace& b, std::size_t memory,
-                   const CompareOptions& options, const Context& context) {
-  const std::size_t n_vertices = std::max(a.mesh.n_vertices, b.mesh.n_vertices);
-  return compare_in_portions(a, b, triangles_of_portion(n_vertices, memory), options, context);
-}
-
-Comparison compare_in_portions(const MeshInPlace& a, const MeshInPlace& b, std::size_t triangles,
-                               const CompareOptions& options, const Context& context) {
-  check_fields(options);
-  const Bounds of_a = bounds_of("A", a, context), of_b = bounds_of("B", b, context);
-  const double scale = common_scale(of_a, of_b);
-  const SurveyedMesh surveyed_a(MeshPortions(a, of_a, scale, triangles));
-  const SurveyedMesh surveyed_b(MeshPortions(b, of_b, scale, triangles));
-  const SampleDistances forth =
-      measure_in_portions(surveyed_a, surveyed_b, options, {"compare", 0, 0.5}, context);
-  const SampleDistances back =
-      measure_in_portions(surveyed_b, surveyed_a, options, {"compare", 0.5, 1}, context);
-  return summary_of(scale, surveyed_a.portions.bounds().diagonal(), options, forth, back);
-}
-
-Comparison compare(CompareSamples& samples, const CompareOptions& options, const Context& context,
-                   Executor& executor) {
-  SampleDistances forth(options.samples), back(options.samples);
+Comparison compare(CompareSamples& samples, const Context& context, Executor* executor) {
+  if (executor == nullptr) {
+    const SampleDistances forth = samples.measure(Way::kForth, context, {"compare", 0, 0.5});
+    const SampleDistances back = samples.measure(Way::kBack, context, {"compare", 0.5, 1});
+    return summary_of(samples, forth, back);
+  }
+  SampleDistances forth(samples.options().samples), back(samples.options().samples);
   const std::size_t n = samples.n_parts();
   SharedProgress progress(context, "compare", 0, 1, static_cast<double>(n));
-  // Dealt: who has samples of one way only needs one of the two trees.
-  executor.run(
+  // Dealt: a process that has samples of one way only needs one of the two trees.
+  executor->run(
       {.count = n, .dealt = true}, [&](std::size_t part, int) { return samples.work(part); },
       [&](std::size_t part, const std::string& bytes) {
         samples.take(part, bytes, forth, back);
         progress.add(1);
       });
-  return summary_of(samples.scale(), samples.diagonal(), options, forth, back);
+  return summary_of(samples, forth, back);
+}
+
+Comparison compare(const Mesh& a, const Mesh& b, const CompareOptions& options,
+                   const Context& context) {
+  CompareSamples samples(a, b, options);
+  return compare(samples, context);
+}
+
+Comparison compare(const MeshInPlace& a, const MeshInPlace& b, std::size_t memory,
+                   const CompareOptions& options, const Context& context) {
+  const std::size_t n_vertices = std::max(a.mesh.n_vertices, b.mesh.n_vertices);
+  CompareSamples samples(a, b, triangles_of_portion(n_vertices, memory), options, context);
+  return compare(samples, context);
 }
 
 std::vector<double> distances_to_surface(const std::vector<Vec3>& points, const Mesh& surface,

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
+#include <vector>
 
 #include "base/cancel.h"
 #include "base/parallel.h"
@@ -82,13 +84,8 @@ Bounds checked_bounds(const MeshInPlace& mesh, const Context& context) {
           .max = {range.max[0], range.max[1], range.max[2]}};
 }
 
-MeshPortions::MeshPortions(const MeshInPlace& mesh, const Bounds& bounds, double scale,
-                           std::size_t triangles)
-    : mesh_(mesh),
-      scale_(scale),
-      triangles_(std::max<std::size_t>(1, triangles)),
-      bounds_{.min = scale * bounds.min, .max = scale * bounds.max},
-      frame_(unit_frame(bounds_)) {}
+MeshPortions::MeshPortions(const MeshInPlace& mesh, double scale, std::size_t triangles)
+    : mesh_(mesh), scale_(scale), triangles_(std::max<std::size_t>(1, triangles)) {}
 
 MeshPortion MeshPortions::load(std::size_t p) const {
   const std::size_t first = p * triangles_;

@@ -3,14 +3,11 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
-#include <vector>
 
 #include "rholm/context.h"
 #include "rholm/mesh.h"
 #include "rholm/mesh_view.h"
 #include "rholm/topology.h"
-#include "shape/face.h"
 #include "shape/queries/triangle_tree.h"
 
 namespace rholm {
@@ -25,9 +22,9 @@ struct MeshPortion {
 
 class MeshPortions {
  public:
-  // Of a valid mesh with these bounds, whose coordinates are taken times `scale`, in portions of
-  // at most so many triangles. Keeps a reference to the mesh.
-  MeshPortions(const MeshInPlace& mesh, const Bounds& bounds, double scale, std::size_t triangles);
+  // Of a valid mesh whose coordinates are taken times `scale`, in portions of at most so many
+  // triangles. Keeps a reference to the mesh.
+  MeshPortions(const MeshInPlace& mesh, double scale, std::size_t triangles);
 
   std::size_t size() const { return (n_triangles() + triangles_ - 1) / triangles_; }
   std::size_t n_triangles() const { return mesh_.mesh.n_triangles; }
@@ -35,17 +32,12 @@ class MeshPortions {
   // Triangles from all over the mesh, no more than of a portion, and 2^16.
   MeshPortion scouts() const;
 
-  const Bounds& bounds() const { return bounds_; }   // scaled
-  const UnitFrame& frame() const { return frame_; }  // of them
-
  private:
   MeshPortion gather(const PortionNumbers& numbers, std::size_t n) const;
 
   const MeshInPlace& mesh_;
   double scale_;
   std::size_t triangles_;
-  Bounds bounds_;
-  UnitFrame frame_;
 };
 
 }  // namespace rholm

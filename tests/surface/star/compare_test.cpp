@@ -13,7 +13,7 @@
 #include "rholm/topology.h"
 #include "support/executor_by.h"
 #include "surface/star/area_samples.h"
-#include "surface/star/shared_compare.h"
+#include "surface/star/compare_samples.h"
 
 namespace rholm {
 namespace {
@@ -78,16 +78,18 @@ TEST(sample_by_area, passes_over_triangles_without_area) {
   }
 }
 
-TEST(sample_by_area, gives_any_range_of_the_samples_by_itself) {
+TEST(AreaSampling, gives_any_range_of_the_samples_by_itself) {
   Mesh mesh = bumpy_sphere(2, 0.5);
   for (std::size_t t = 0; t < 40; ++t) mesh.triangles[t] = {0, 0, 1};  // without area
   for (const std::size_t n : {1u, 5u, 3000u}) {
     const AreaSamples all = sample_by_area(mesh, n, 3);
-    const AreaSampler sampler(mesh, n, 3);
+    AreaSum sum(unit_frame(bounds(mesh.vertices)).scale);
+    const std::vector<double> sums = sum.add(mesh);
+    const AreaSampling sampling{sum.value(), n, 3};
     for (const std::size_t count : {1u, 7u, 1000u}) {
       for (std::size_t first = 0; first < n; first += count) {
         const std::size_t here = std::min(count, n - first);
-        const AreaSamples range = sampler.range(first, here);
+        const AreaSamples range = sampling.draw(mesh, sums, first, here);
         ASSERT_EQ(range.points.size(), here);
         for (std::size_t k = 0; k < here; ++k) {
           EXPECT_EQ(range.points[k], all.points[first + k]);
@@ -244,7 +246,7 @@ TEST(compare, gives_the_same_bits_where_other_processes_measure_parts) {
         take(p, who == 0 ? here(p, 1) : processes[who]->work(p));
       }
     });
-    const Comparison shared = compare(*processes[0], options, {}, executor);
+    const Comparison shared = compare(*processes[0], {}, &executor);
     for (const auto member : {&Comparison::a_to_b, &Comparison::b_to_a}) {
       EXPECT_EQ((shared.*member).rms, (alone.*member).rms);
       EXPECT_EQ((shared.*member).mean, (alone.*member).mean);

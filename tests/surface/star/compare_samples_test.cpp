@@ -1,4 +1,4 @@
-#include "surface/star/portion_compare.h"
+#include "surface/star/compare_samples.h"
 
 #include <gtest/gtest.h>
 
@@ -15,6 +15,12 @@
 
 namespace rholm {
 namespace {
+
+Comparison compare_in_portions(const MeshInPlace& a, const MeshInPlace& b, std::size_t triangles,
+                               const CompareOptions& options, const Context& context) {
+  CompareSamples samples(a, b, triangles, options, context);
+  return compare(samples, context);
+}
 
 void expect_same(const Distances& a, const Distances& b) {
   EXPECT_EQ(a.rms, b.rms);
