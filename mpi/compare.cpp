@@ -66,7 +66,7 @@ void serve_compare(Ranks& ranks, const std::string& bytes) {
          }
          CompareSamples samples(a, b, wanted);
          RankExecutor executor(ranks, context.threads);
-          executor.run({}, [&](std::size_t part, int) { return samples.work(part); }, {});
+         executor.run({}, [&](std::size_t part, int) { return samples.work(part); }, {});
          return std::nullopt;
        }});
   append(command.options, rank_options(ignored));

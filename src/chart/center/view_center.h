@@ -25,6 +25,10 @@ FoundCenter search_center(const LocalView& view, const CenterOptions& options,
 StarReport better_center(const LocalView& view, const StarReport& program, int rays,
                          const Context& context);
 
+// The first half of a star chart, for a mesh whose edges are paired: seeks the centre and checks.
+// Throws NotStarShaped as the whole does.
+StarReport seen_surface(const Mesh& mesh, const ChartOptions& options, const Context& context);
+
 // check_star() of rholm/star.h.
 StarReport check_star(const LocalView& view, const Vec3& center, int rays, const Context& context);
 

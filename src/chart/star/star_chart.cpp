@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "chart/center/view_center.h"
 #include "rholm/error.h"
 #include "rholm/star.h"
 
@@ -52,6 +53,16 @@ void refuse(const Mesh& mesh, const StarReport& report, bool allow_signed) {
 
 }  // namespace
 
+StarReport seen_surface(const Mesh& mesh, const ChartOptions& options, const Context& context) {
+  StarReport report = find_center(mesh, options.center, context);
+  if (report.star_shaped) {
+    report.rays = 0;  // however many were tried, all directions meet it once
+  } else {
+    refuse(mesh, report, options.allow_signed);
+  }
+  return report;
+}
+
 StarChart make_star_chart(const Mesh& mesh, const ChartOptions& options, const Context& context) {
   validate(mesh);
   return make_star_chart(mesh, pair_edges(mesh), options, context);
@@ -61,12 +72,7 @@ StarChart make_star_chart(const Mesh& mesh, std::vector<Edge> edges, const Chart
                           const Context& context) {
   StarChart chart;
   chart.edges = std::move(edges);
-  chart.report = find_center(mesh, options.center, context);
-  if (chart.report.star_shaped) {
-    chart.report.rays = 0;  // however many were tried, all directions meet it once
-  } else {
-    refuse(mesh, chart.report, options.allow_signed);
-  }
+  chart.report = seen_surface(mesh, options, context);
   chart.mesh.triangles = mesh.triangles;
   chart.mesh.vertices.reserve(mesh.vertices.size());
   for (const Vec3& v : mesh.vertices) chart.mesh.vertices.push_back(v - chart.report.center);

@@ -8,7 +8,6 @@
 #include "base/bytes.h"
 #include "base/stopwatch.h"
 #include "model/encode/expand.h"
-#include "model/encode/prepare.h"
 #include "rholm/error.h"
 #include "rholm/large_mesh.h"
 #include "rholm/shape_io.h"
@@ -28,13 +27,13 @@ std::string bytes_of(Place place, const std::filesystem::path& path, const MeshV
   return writer.take();
 }
 
-// Continues where a mesh cannot be expanded in place: prepares it and expands it on a chart.
+// Continues where a mesh cannot be expanded in place.
 Encoded encode_prepared(const Mesh& mesh, const EncodeOptions& options, const Context& context) {
   StageTimes times;
   report_progress(context, "topology", 0);
   PreparedMesh prepared =
       timed(times, "topology", [&] { return prepare(mesh, options.weld_tolerance); });
-  Encoded encoded = expand_by_chart(prepared, options, context);
+  Encoded encoded = expand(prepared, options, context);
   encoded.times.merge(times);
   encoded.diagonal = bounds(mesh.vertices).diagonal();
   encoded.merged_vertices = prepared.shape.welded.merged_vertices;

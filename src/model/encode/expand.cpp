@@ -9,6 +9,7 @@
 #include "chart/center/view_center.h"
 #include "rholm/error.h"
 #include "rholm/star.h"
+#include "shape/repair/thin_faces.h"
 #include "shape/vertex_range.h"
 #include "transform/analyze.h"
 #include "transform/error/error_sites.h"
@@ -69,31 +70,46 @@ void add_errors(ErrorSites& sites, bool predict, const EncodeOptions& options,
   });
 }
 
-// One mesh, from its centre to the errors of its coefficients.
+// One mesh, from its centre to the errors of its coefficients. `prepared`: the centre of a mesh
+// that is closed and outward, and how well it sees the surface. Without it a pass checks all of
+// this.
 class Expand {
  public:
   Expand(const MeshView& mesh, const EncodeOptions& options, const MeshPassOptions& hooks,
-         const Context& context)
-      : mesh_(mesh), options_(options), pass_options_(hooks), context_(context) {}
+         const Context& context, const std::optional<StarReport>& prepared = {})
+      : mesh_(mesh),
+        options_(options),
+        pass_options_(hooks),
+        context_(context),
+        prepared_(prepared.has_value()),
+        seen_(prepared) {
+    if (seen_) pass_options_.center = seen_->center;
+  }
 
   std::variant<Encoded, NotInPlace> run() {
-    if (!find_center()) return NotInPlace::kNoCenter;
+    if (!prepared_ && !find_center()) return NotInPlace::kNoCenter;
     const std::optional<ToleranceProblem> problem = tolerance_problem();
     const TransformTarget first =
         problem ? first_pilot(*problem, *options_.tolerance)
                 : TransformTarget{options_.analyze.degree, options_.analyze.precision};
     MeshPassResult pass = timed(encoded_.times, "transform", [&] { return pass_to(first); });
-    if (const std::optional<NotInPlace> fault = fault_in(pass, options_)) return *fault;
-    // Faces that all turn outwards cover every direction equally often: a second sheet may have
-    // few.
-    const bool star_shaped = pass.bad_triangles == 0;
-    if (star_shaped && !covers_once(norms())) return NotInPlace::kCoveredTwice;
+    const bool star_shaped = prepared_ ? seen_->star_shaped : pass.bad_triangles == 0;
+    if (!prepared_) {
+      if (const std::optional<NotInPlace> fault = fault_in(pass, options_)) return *fault;
+      // Faces that all turn outwards cover every direction equally often: a second sheet may have
+      // few.
+      if (star_shaped && !covers_once(norms())) return NotInPlace::kCoveredTwice;
+    }
     if (!problem) {
       timed(encoded_.times, "transform",
             [&] { verify_pass(mesh_, pass_options_, context_, pass); });
     }
-    encoded_.star = star_report(pass, center());
-    encoded_.star.center_fell_back = folded_.has_value();
+    if (seen_ && (prepared_ || !star_shaped)) {
+      encoded_.star = *seen_;
+    } else {
+      encoded_.star = star_report(pass, center());
+      encoded_.star.center_fell_back = seen_.has_value();
+    }
     set_pass(pass, analysis());
     analysis().precision = first.precision;
     if (problem) search(*problem);
@@ -126,8 +142,8 @@ class Expand {
     if (!found.kernel_empty) return true;
     if (!may_fold(options_) || !view.closed()) return false;
     const StarReport program = check_star(view, found.point, wanted.rays, context_);
-    folded_ = better_center(view, program, wanted.rays, context_);
-    pass_options_.center = folded_->center;
+    seen_ = better_center(view, program, wanted.rays, context_);
+    pass_options_.center = seen_->center;
     return true;
   }
 
@@ -187,9 +203,7 @@ class Expand {
   // how many directions meet it more than once.
   void finish_signed() {
     const int rays = options_.chart.center.rays;
-    if (folded_) {
-      encoded_.star = *folded_;
-    } else if (rays > 0) {
+    if (!seen_ && rays > 0) {
       encoded_.star = timed(encoded_.times, "rays",
                             [&] { return check_star(mesh_, center(), rays, context_); });
     }
@@ -208,16 +222,18 @@ class Expand {
   const EncodeOptions& options_;
   MeshPassOptions pass_options_;  // with the centre, once it is found
   const Context& context_;
-  std::optional<StarReport> folded_;  // of a surface without a kernel
+  const bool prepared_;
+  std::optional<StarReport> seen_;  // of a prepared mesh, or one without a kernel
   std::optional<ExactNorms> norms_;
   FaceSizes sizes_;  // with the norms, if errors are wanted
   Encoded encoded_;
 };
 
-// Says that the mesh was turned even where it is refused afterwards.
-StarChart chart_of(PreparedMesh& mesh, const ChartOptions& options, const Context& context) {
+// Says that the mesh was turned even where no centre sees it.
+template <typename Seek>
+auto timed_center(const PreparedMesh& mesh, StageTimes& times, const Seek& seek) {
   try {
-    return make_star_chart(mesh.shape.welded.mesh, std::move(mesh.edges), options, context);
+    return timed(times, "center", seek);
   } catch (const Error& error) {
     const bool is_of_mesh =
         error.code() == ErrorCode::kInvalidInput || error.code() == ErrorCode::kNotStarShaped;
@@ -226,6 +242,31 @@ StarChart chart_of(PreparedMesh& mesh, const ChartOptions& options, const Contex
                                           "out; then: ") +
                                   error.what());
   }
+}
+
+// By a method that the mesh pass is not: the gauge, and the oracles.
+Encoded expand_by_chart(PreparedMesh& mesh, const EncodeOptions& options, const Context& context) {
+  Encoded encoded;
+  const Mesh& welded = mesh.shape.welded.mesh;
+  const StarChart chart = timed_center(mesh, encoded.times, [&] {
+    return make_star_chart(welded, std::move(mesh.edges), options.chart, context);
+  });
+  encoded.star = chart.report;
+  encoded.vertices = chart.mesh.vertices.size();
+  encoded.faces = chart.mesh.triangles.size();
+  encoded.edges = chart.edges.size();
+  timed(encoded.times, "transform", [&] {
+    if (options.tolerance) {
+      set_found(analyze(chart, *options.tolerance, options.analyze, context), options, encoded);
+    } else {
+      encoded.analysis = analyze(chart, options.analyze, context);
+    }
+  });
+  if (chart.report.star_shaped) {
+    ErrorSites sites(view_of(welded), encoded.analysis.expansion.center, context.threads);
+    add_errors(sites, true, options, context, encoded);
+  }
+  return encoded;
 }
 
 }  // namespace
@@ -248,27 +289,27 @@ std::variant<Encoded, NotInPlace> expand_in_place(const MeshView& mesh,
   }
 }
 
-Encoded expand_by_chart(PreparedMesh& mesh, const EncodeOptions& options, const Context& context) {
-  Encoded encoded;
+PreparedMesh prepare(const Mesh& mesh, double weld_tolerance) {
+  PreparedMesh prepared{.shape = outward(mesh, weld_tolerance), .edges = {}};
+  Mesh& welded = prepared.shape.welded.mesh;
+  welded.attributes.clear();
+  // Thin faces have random planes, which would distort slopes and errors.
+  swap_thin_faces(welded);
+  prepared.edges = pair_edges(welded);
+  return prepared;
+}
+
+Encoded expand(PreparedMesh& mesh, const EncodeOptions& options, const Context& context) {
   report_progress(context, "center", 0);
-  const StarChart chart =
-      timed(encoded.times, "center", [&] { return chart_of(mesh, options.chart, context); });
-  encoded.star = chart.report;
-  encoded.vertices = chart.mesh.vertices.size();
-  encoded.faces = chart.mesh.triangles.size();
-  encoded.edges = chart.edges.size();
-  timed(encoded.times, "transform", [&] {
-    if (options.tolerance) {
-      set_found(analyze(chart, *options.tolerance, options.analyze, context), options, encoded);
-    } else {
-      encoded.analysis = analyze(chart, options.analyze, context);
-    }
-  });
-  if (chart.report.star_shaped) {
-    ErrorSites sites(view_of(mesh.shape.welded.mesh), encoded.analysis.expansion.center,
-                     context.threads);
-    add_errors(sites, true, options, context, encoded);
-  }
+  if (!uses_mesh_pass(options.analyze)) return expand_by_chart(mesh, options, context);
+  // The star check is sharper than what a pass sees: it knows the rounding of each face.
+  const Mesh& welded = mesh.shape.welded.mesh;
+  StageTimes times;
+  const StarReport star =
+      timed_center(mesh, times, [&] { return seen_surface(welded, options.chart, context); });
+  if (options.tolerance) require_one_sheet(star);
+  Encoded encoded = std::get<Encoded>(Expand(view_of(welded), options, {}, context, star).run());
+  encoded.times.merge(times);
   return encoded;
 }
 

@@ -2,16 +2,17 @@
 #pragma once
 
 #include <variant>
+#include <vector>
 
-#include "model/encode/prepare.h"
 #include "rholm/mesh_view.h"
 #include "rholm/model.h"
+#include "rholm/outward.h"
 #include "transform/mesh_pass/pass.h"
 
 namespace rholm {
 
-// Why a mesh cannot be expanded in place. prepare() may change it so that it can; a chart has other
-// methods, and says best what is wrong.
+// Why a mesh cannot be expanded in place. prepare() may change it so that it can; expand() says
+// what is wrong if not.
 enum class NotInPlace {
   kOptions,       // vertices to be welded, a method or an engine that the mesh pass is not
   kUnusable,      // numbers, indices or faces that no pass can work with
@@ -30,8 +31,17 @@ std::variant<Encoded, NotInPlace> expand_in_place(const MeshView& mesh,
                                                   const MeshPassOptions& hooks,
                                                   const Context& context);
 
-// Expands a prepared mesh by any method, on a chart. Takes the edges of the mesh. Throws
-// InvalidInput and NotStarShaped for meshes that no method can expand.
-Encoded expand_by_chart(PreparedMesh& mesh, const EncodeOptions& options, const Context& context);
+// A mesh made fit for expansion: welded, turned outwards, its edges paired.
+struct PreparedMesh {
+  Outward shape;            // without attributes and thin faces
+  std::vector<Edge> edges;  // of the welded mesh
+};
+// The mesh must be valid. Throws InvalidInput if it is not closed and oriented alike, as
+// pair_edges().
+PreparedMesh prepare(const Mesh& mesh, double weld_tolerance);
+
+// Expands a prepared mesh in the same way, or by another method on a chart, which takes the edges
+// of the mesh. Throws InvalidInput and NotStarShaped for meshes that no method can expand.
+Encoded expand(PreparedMesh& mesh, const EncodeOptions& options, const Context& context);
 
 }  // namespace rholm

@@ -249,10 +249,7 @@ ToleranceAnalysis analyze_by(MethodFunction method, const StarChart& chart,
     throw Error(ErrorCode::kInvalidInput,
                 "a tolerance is one of the radius: the method gauge expands its inverse");
   }
-  if (!chart.report.star_shaped) {
-    throw Error(ErrorCode::kInvalidInput,
-                "a tolerance needs a surface that every direction meets once: give a degree");
-  }
+  require_one_sheet(chart.report);
   const MeshView mesh = view_of(chart.mesh);
   ToleranceProblem problem =
       tolerance_problem(mesh, {}, exact_norms(mesh, {}, context), options.precision, context);

@@ -22,6 +22,12 @@ void check(const Tolerance& tolerance) {
   }
 }
 
+void require_one_sheet(const StarReport& star) {
+  if (star.star_shaped) return;
+  throw Error(ErrorCode::kInvalidInput,
+              "a tolerance needs a surface that every direction meets once: give a degree");
+}
+
 int first_degree(std::size_t n_triangles, const Tolerance& tolerance) {
   // The edges' angle times this is about 0.6: most triangles are lumped (performance.md). Within 12
   // and 96 (chosen: lower ones are no cheaper, higher ones seldom needed).

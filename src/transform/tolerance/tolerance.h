@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "rholm/mesh_view.h"
+#include "rholm/star.h"
 #include "rholm/truncation.h"
 #include "transform/norms/exact_norms.h"
 
@@ -37,6 +38,8 @@ ToleranceProblem tolerance_problem(const MeshView& mesh, const Vec3& center,
 
 // Throws InvalidInput for values out of range.
 void check(const Tolerance& tolerance);
+// Throws InvalidInput for a surface that is not star-shaped: no tolerance can be kept.
+void require_one_sheet(const StarReport& star);
 
 // The degree to begin with: coefficients are as cheap as the pass over the faces.
 int first_degree(std::size_t n_triangles, const Tolerance& tolerance);

@@ -3,15 +3,20 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "io/shapes/test_support.h"
 #include "rholm/error.h"
+#include "rholm/outward.h"
 #include "rholm/primitives.h"
 #include "rholm/shape_io.h"
 #include "rholm/topology.h"
+#include "support/oracle.h"
 #include "support/test_meshes.h"
 #include "support/test_shapes.h"
 
@@ -55,7 +60,7 @@ ErrorCode code_of(const Mesh& mesh, const EncodeOptions& options = kOptions) {
   return {};
 }
 
-TEST(expand_in_place, leaves_what_only_a_chart_can_do_to_the_chart) {
+TEST(expand_in_place, leaves_welding_and_other_methods) {
   const Mesh mesh = bumpy_sphere(2);
   EncodeOptions welding = kOptions, direct = kOptions, gauge = kOptions;
   welding.weld_tolerance = 1e-9;
@@ -111,7 +116,7 @@ TEST(expand_in_place, needs_a_closed_surface_that_is_oriented_alike) {
   EXPECT_EQ(code_of(misoriented, about({})), ErrorCode::kInvalidInput);
 }
 
-TEST(expand_in_place, leaves_turning_to_the_chart) {
+TEST(expand_in_place, leaves_turning_to_prepare) {
   Mesh mesh = bumpy_sphere(3);
   flip(mesh);
   EXPECT_EQ(reason_of(mesh, about({})), NotInPlace::kInsideOut);
@@ -137,6 +142,90 @@ TEST(expand_in_place, sees_a_second_sheet) {
   const Mesh mesh = test::joined(bumpy_sphere(4), around);
   EXPECT_EQ(reason_of(mesh, about({})), NotInPlace::kCoveredTwice);
   EXPECT_EQ(code_of(mesh, about({})), ErrorCode::kNotStarShaped);
+}
+
+void expect_same_bits(const Encoded& a, const Encoded& b) {
+  const Expansion &x = a.analysis.expansion, &y = b.analysis.expansion;
+  EXPECT_TRUE(std::ranges::equal(x.coefficients.values(), y.coefficients.values()));
+  EXPECT_EQ(x.center, y.center);
+  EXPECT_EQ(x.norm_squared, y.norm_squared);
+  EXPECT_EQ(x.tail_strength, y.tail_strength);
+  EXPECT_EQ(x.precision, y.precision);
+  EXPECT_EQ(x.signed_sum, y.signed_sum);
+  ASSERT_EQ(x.errors.has_value(), y.errors.has_value());
+  if (x.errors) {
+    EXPECT_EQ(x.errors->rms, y.errors->rms);
+    EXPECT_EQ(x.errors->measured_max, y.errors->measured_max);
+    EXPECT_EQ(x.errors->predicted_max, y.errors->predicted_max);
+  }
+  EXPECT_EQ(a.vertices, b.vertices);
+  EXPECT_EQ(a.faces, b.faces);
+  EXPECT_EQ(a.edges, b.edges);
+  EXPECT_EQ(a.star.star_shaped, b.star.star_shaped);
+  EXPECT_EQ(a.star.multiple_share, b.star.multiple_share);
+}
+
+// With its centre sought, given, and a degree that is sought.
+std::vector<EncodeOptions> several_ways() {
+  EncodeOptions volume = kOptions, tolerance = kOptions;
+  volume.chart.center.kind = CenterKind::kVolume;
+  tolerance.tolerance = Tolerance{.error = 0.02, .norm = ErrorNorm::kMax};
+  return {kOptions, about({0.01, 0.02, 0}), volume, tolerance};
+}
+
+TEST(expand, a_turned_mesh_gives_the_bits_of_one_that_is_outward) {
+  const Mesh mesh = test::rotated(bumpy_sphere(3));
+  Mesh inward = mesh;
+  flip(inward);
+  for (const EncodeOptions& options : several_ways()) {
+    const Encoded turned = encode(inward, options);
+    EXPECT_TRUE(turned.flipped);
+    expect_same_bits(turned, encode(mesh, options));
+  }
+}
+
+TEST(expand, a_welded_mesh_gives_the_bits_of_one_without_seams) {
+  const Mesh mesh = test::rotated(bumpy_sphere(3));
+  Mesh soup;
+  for (const Triangle& t : mesh.triangles) {
+    const auto first = static_cast<std::uint32_t>(soup.vertices.size());
+    for (const std::uint32_t i : t) {
+      const auto apart = static_cast<double>(soup.vertices.size() % 5);
+      soup.vertices.push_back((1 + 1e-12 * apart) * mesh.vertices[i]);
+    }
+    soup.triangles.push_back({first, first + 1, first + 2});
+  }
+  constexpr double kWeld = 1e-9;
+  for (EncodeOptions options : several_ways()) {
+    options.weld_tolerance = 0;
+    EXPECT_THROW(encode(soup, options), Error);
+    const Encoded expected = encode(outward(soup, kWeld).welded.mesh, options);
+    options.weld_tolerance = kWeld;
+    const Encoded welded = encode(soup, options);
+    EXPECT_EQ(welded.merged_vertices, soup.vertices.size() - mesh.vertices.size());
+    expect_same_bits(welded, expected);
+  }
+}
+
+// Against direct sums on a chart.
+TEST(expand, a_turned_surface_that_folds_has_the_wanted_precision) {
+  const std::pair<Mesh, EncodeOptions> cases[] = {
+      {test::l_prism(1), about({2, 0.5, 0.1})},
+      {test::rotated(torus(2, 0.5, 40, 20)), kOptions}};  // without a kernel
+  for (auto [mesh, options] : cases) {
+    Mesh inward = mesh;
+    flip(inward);
+    options.chart.allow_signed = true;
+    options.chart.center.rays = 2000;
+    const Encoded turned = encode(inward, options);
+    EXPECT_TRUE(turned.flipped);
+    EXPECT_TRUE(turned.analysis.expansion.signed_sum);
+    expect_same_bits(turned, encode(mesh, options));
+    options.analyze.engine = Engine::kDirect;
+    EXPECT_LT(test::relative_error(turned.analysis.expansion.coefficients,
+                                   encode(inward, options).analysis.expansion.coefficients),
+              2 * options.analyze.precision);
+  }
 }
 
 constexpr ErrorCode kNotOfTheMesh[] = {ErrorCode::kIo, ErrorCode::kOutOfMemory,
@@ -192,7 +281,7 @@ TEST(encode, refuses_options_out_of_range_before_all_work) {
   }
 }
 
-// What is wrong with the mesh in the file is wrong with it in memory: it goes to the chart.
+// What is wrong with the mesh in the file is wrong with it in memory: it is prepared at once.
 TEST(encode_file, does_not_try_a_second_time_what_the_mesh_cannot) {
   Mesh open = bumpy_sphere(3);
   open.triangles.pop_back();
